@@ -1,0 +1,48 @@
+"""One camera, two renderers: everything under the window, usable from notebooks and tests.
+
+Names are imported when first used, so that `import renderer` costs nothing and a program that
+only rasterizes never loads the tracer's compiler.
+"""
+
+from __future__ import annotations
+
+from importlib import import_module
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from renderer.camera import Camera
+    from renderer.errors import LucidaError
+    from renderer.frame import Frame
+    from renderer.raster import Rasterizer
+    from renderer.scene import Scene, View, load_scene, load_view
+    from renderer.trace import Tracer
+
+_HOME = {
+    "Camera": "renderer.camera",
+    "Frame": "renderer.frame",
+    "LucidaError": "renderer.errors",
+    "Rasterizer": "renderer.raster",
+    "Scene": "renderer.scene",
+    "Tracer": "renderer.trace",
+    "View": "renderer.scene",
+    "load_scene": "renderer.scene",
+    "load_view": "renderer.scene",
+}
+
+__all__ = [
+    "Camera",
+    "Frame",
+    "LucidaError",
+    "Rasterizer",
+    "Scene",
+    "Tracer",
+    "View",
+    "load_scene",
+    "load_view",
+]
+
+
+def __getattr__(name: str) -> Any:
+    if name in _HOME:
+        return getattr(import_module(_HOME[name]), name)
+    raise AttributeError(f"module 'renderer' has no attribute {name!r}")

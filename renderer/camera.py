@@ -1,0 +1,353 @@
+"""The camera: how a pixel becomes a ray, and how the same rays become a rasterizer's matrices.
+
+Owns the camera's mathematics. Knows nothing of scenes, renderers, files or windows.
+
+Pixels are (i, j) = (row, column), 0-based, row 0 at the top. Sizes are (width, height).
+Matrices are float64 (4, 4) for column vectors, named destination_from_source.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable
+from dataclasses import dataclass, replace
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+from pyrr import matrix44
+
+from renderer.errors import LucidaError
+
+Vector = tuple[float, float, float]
+Floats = NDArray[np.float64]
+Size = tuple[int, int]
+
+PROJECTIONS = ("perspective", "parallel")
+SINGULAR = 1e-9  # a basis of unit vectors that spans less volume than this has no usable inverse
+SMALLEST, LARGEST = 1e-12, 1e12  # lengths and coordinates that float32 can still square
+
+
+class Ray(NamedTuple):
+    """Half a line: r(t) = origin + t * direction, t > 0. The direction is not normalised."""
+
+    origin: Floats
+    direction: Floats
+
+
+class Projected(NamedTuple):
+    """Where points land in the image; see Camera.project."""
+
+    row: Floats
+    column: Floats
+    parameter: Floats
+
+
+@dataclass(frozen=True, slots=True)
+class Camera:
+    """An eye, a basis, a viewport and a projection (the contract: README, "The camera").
+
+    eye: position, world units. u, v, w: right, up and back; any three independent vectors.
+    distance: from the eye to the viewport along -w, in units of w. viewport: (left, right,
+    bottom, top) in units of u and v. near, far: clip planes along -w in units of w; None: unclipped.
+    Raises LucidaError naming the field, its value and the remedy.
+    """
+
+    eye: Vector = (0.0, 0.0, 0.0)
+    u: Vector = (1.0, 0.0, 0.0)
+    v: Vector = (0.0, 1.0, 0.0)
+    w: Vector = (0.0, 0.0, 1.0)
+    distance: float = 1.0
+    viewport: tuple[float, float, float, float] = (-0.5, 0.5, -0.5, 0.5)
+    projection: str = "perspective"
+    near: float | None = None
+    far: float | None = None
+
+    def __post_init__(self) -> None:
+        for name in ("eye", "u", "v", "w"):
+            object.__setattr__(self, name, _numbers(name, getattr(self, name), 3))
+        object.__setattr__(self, "viewport", _numbers("viewport", self.viewport, 4))
+        object.__setattr__(self, "distance", _number("distance", self.distance))
+        for name in ("near", "far"):
+            if getattr(self, name) is not None:
+                object.__setattr__(self, name, _number(name, getattr(self, name)))
+        _check_projection(self.projection)
+        _check_basis(self.u, self.v, self.w)
+        if not SMALLEST <= self.distance:
+            raise LucidaError("distance", f"{self.distance:g} is not above 0", "give e.g. 1.0")
+        _check_viewport(self.viewport)
+        _check_clip(self.near, self.far)
+
+    @classmethod
+    def canonical(cls) -> Camera:
+        """The lecture's camera: eye at the origin, looking down -z, a 1 x 1 viewport at d = 1."""
+        return cls()
+
+    @classmethod
+    def look_at(
+        cls,
+        eye: Iterable[float],
+        target: Iterable[float],
+        up: Iterable[float] = (0.0, 1.0, 0.0),
+        fov_y_deg: float | None = None,
+        distance: float | None = None,
+        aspect: float = 1.0,
+        projection: str = "perspective",
+    ) -> Camera:
+        """An orthonormal camera at `eye`, looking at `target`, with `up` upwards in the image.
+
+        Give the vertical field of view, or the distance of a viewport 1 high; neither: distance 1.
+        aspect: the viewport's width over its height.
+        Source: Marschner and Shirley, Fundamentals of Computer Graphics, "Constructing a basis".
+        """
+        eye, target, up = (
+            _numbers(name, value, 3)
+            for name, value in (("eye", eye), ("target", target), ("up", up))
+        )
+        back = np.subtract(eye, target)
+        if not np.linalg.norm(back) >= SMALLEST:
+            raise LucidaError("target", f"{target} is the eye itself", "look at another point")
+        if not np.linalg.norm(up) >= SMALLEST:
+            raise LucidaError("up", f"{up} has no direction", "give a vector such as (0, 1, 0)")
+        w = back / np.linalg.norm(back)
+        right = np.cross(up / np.linalg.norm(up), w)
+        if not np.linalg.norm(right) > 1e-8:
+            raise LucidaError("up", f"{up} is along the view direction", "choose another up")
+        u = right / np.linalg.norm(right)
+        if fov_y_deg is not None:
+            if distance is not None:
+                raise LucidaError("fov_y_deg", "is given beside distance", "give one of the two")
+            fov = _number("fov_y_deg", fov_y_deg)
+            if not 0 < fov < 180:
+                raise LucidaError("fov_y_deg", f"{fov:g} is not between 0 and 180", "give e.g. 40")
+            distance = 0.5 / math.tan(math.radians(fov) / 2)
+        if not _number("aspect", aspect) > 0:
+            raise LucidaError("aspect", f"{aspect:g} is not above 0", "give width / height")
+        return cls(
+            eye,
+            tuple(u.tolist()),
+            tuple(np.cross(w, u).tolist()),
+            tuple(w.tolist()),
+            1.0 if distance is None else distance,
+            (-aspect / 2, aspect / 2, -0.5, 0.5),
+            projection,
+        )
+
+    @property
+    def is_parallel(self) -> bool:
+        return self.projection == "parallel"
+
+    @property
+    def basis(self) -> Floats:
+        """The matrix with columns u, v, w; (3, 3)."""
+        return np.column_stack([self.u, self.v, self.w])
+
+    @property
+    def determinant(self) -> float:
+        """The basis's volume: negative for a left-handed basis."""
+        return float(np.linalg.det(self.basis))
+
+    @property
+    def fov_y_deg(self) -> float:
+        """Vertical field of view in degrees, between the viewport's lower and upper edge."""
+        v, dw = np.asarray(self.v), self.distance * np.asarray(self.w)
+        low, high = (self.viewport[2] * v - dw, self.viewport[3] * v - dw)
+        cross, dot = np.linalg.norm(np.cross(low, high)), low @ high
+        return math.degrees(math.atan2(float(cross), float(dot)))
+
+    @property
+    def t_range(self) -> tuple[float, float]:
+        """(t_min, t_max): near and far as ray parameters; (0, inf) where they are not set."""
+        unit = 1.0 if self.is_parallel else self.distance
+        near = 0.0 if self.near is None else self.near / unit
+        return near, math.inf if self.far is None else self.far / unit
+
+    # Pixels to rays.
+
+    def image_point(self, i: ArrayLike, j: ArrayLike, size: Size) -> tuple[Floats, Floats]:
+        """(x, y) on the image plane, in units of u and v, of pixel (i, j)'s centre.
+
+        i, j: row and column, any shape, not necessarily whole. size: (width, height).
+        """
+        width, height = size
+        left, right, bottom, top = self.viewport
+        x = left + (np.asarray(j, float) + 0.5) / width * (right - left)
+        y = top - (np.asarray(i, float) + 0.5) / height * (top - bottom)
+        return x, y
+
+    def ray(self, i: ArrayLike, j: ArrayLike, size: Size) -> Ray:
+        """The viewing ray of pixel (i, j); for arrays of pixels, arrays (..., 3)."""
+        x, y = np.broadcast_arrays(*self.image_point(i, j, size))
+        across = x[..., None] * np.asarray(self.u) + y[..., None] * np.asarray(self.v)
+        if self.is_parallel:
+            origin = np.asarray(self.eye) + across
+            return Ray(origin, np.broadcast_to(-np.asarray(self.w), origin.shape))
+        direction = across - self.distance * np.asarray(self.w)
+        return Ray(np.broadcast_to(np.asarray(self.eye), direction.shape), direction)
+
+    def rays(self, size: Size) -> Ray:
+        """The rays of all pixels: origin and direction float64 (height, width, 3)."""
+        return self.ray(np.arange(size[1])[:, None], np.arange(size[0]), size)
+
+    # Points to pixels.
+
+    def project(self, points: ArrayLike, size: Size) -> Projected:
+        """Pixel coordinates and ray parameters of world points (..., 3): rays run backwards.
+
+        row and column are 0-based with the pixels' centres at whole numbers. In perspective they
+        are NaN for points that are not in front of the eye (parameter <= 0).
+        """
+        matrix = self.camera_from_world
+        x, y, z = np.moveaxis(np.asarray(points, float) @ matrix[:3, :3].T + matrix[:3, 3], -1, 0)
+        if self.is_parallel:
+            parameter = -z
+        else:
+            parameter = -z / self.distance
+            ahead = np.where(parameter > 0, parameter, np.nan)
+            x, y = x / ahead, y / ahead
+        left, right, bottom, top = self.viewport
+        column = (x - left) / (right - left) * size[0] - 0.5
+        row = (top - y) / (top - bottom) * size[1] - 0.5
+        return Projected(row, column, parameter)
+
+    # Matrices for the rasterizer.
+
+    @property
+    def world_from_camera(self) -> Floats:
+        """The affine matrix with columns u, v, w, eye."""
+        matrix = np.eye(4)
+        matrix[:3] = np.column_stack([self.u, self.v, self.w, self.eye])
+        return matrix
+
+    @property
+    def camera_from_world(self) -> Floats:
+        """Its inverse (not the transpose: the basis may be skewed)."""
+        linear = np.linalg.inv(self.basis)
+        matrix = np.eye(4)
+        matrix[:3, :3] = linear
+        matrix[:3, 3] = -linear @ np.asarray(self.eye)
+        return matrix
+
+    def clip_from_camera(self, near: float, far: float) -> Floats:
+        """The frustum (perspective) or box (parallel) of the viewport: near to -1, far to +1.
+
+        near, far: distances along -w in units of w; 0 < near < far in perspective.
+        """
+        # pyrr multiplies row vectors from the left: transposed here, at the border.
+        if self.is_parallel:
+            return matrix44.create_orthogonal_projection(*self.viewport, near, far).T
+        edges = (edge * near / self.distance for edge in self.viewport)
+        return matrix44.create_perspective_projection_from_bounds(*edges, near, far).T
+
+    # Other cameras made from this one.
+
+    def orthonormalized(self) -> Camera:
+        """The nearest orthonormal basis by Gram-Schmidt: w keeps its direction, the basis its
+        handedness."""
+        w = np.asarray(self.w) / np.linalg.norm(self.w)
+        v = np.asarray(self.v) - (w @ self.v) * w
+        v /= np.linalg.norm(v)
+        u = np.asarray(self.u) - (w @ self.u) * w
+        u -= (v @ u) * v
+        u /= np.linalg.norm(u)
+        u, v, w = (tuple(vector.tolist()) for vector in (u, v, w))
+        return replace(self, u=u, v=v, w=w)
+
+    def fitted(self, size: Size) -> Camera:
+        """This camera with its viewport widened or heightened about its centre to the image's
+        aspect ratio, so that nothing inside the old viewport is lost. size: (width, height)."""
+        left, right, bottom, top = self.viewport
+        half_width, half_height = (right - left) / 2, (top - bottom) / 2
+        aspect = size[0] / size[1]
+        half_width, half_height = (
+            max(half_width, half_height * aspect),
+            max(half_height, half_width / aspect),
+        )
+        x, y = (left + right) / 2, (bottom + top) / 2
+        viewport = (x - half_width, x + half_width, y - half_height, y + half_height)
+        return replace(self, viewport=viewport)
+
+    def shifted(self, rows: float, columns: float, size: Size) -> Camera:
+        """This camera seeing, at pixel (i, j), what it saw at (i + rows, j + columns): for
+        several samples a pixel."""
+        left, right, bottom, top = self.viewport
+        dx, dy = columns / size[0] * (right - left), -rows / size[1] * (top - bottom)
+        return replace(self, viewport=(left + dx, right + dx, bottom + dy, top + dy))
+
+
+def _number(name: str, value: object) -> float:
+    try:
+        number = float(value)  # type: ignore[arg-type]
+    except (TypeError, ValueError):
+        raise LucidaError(name, f"{value!r} is not a number", "give a finite number") from None
+    if not math.isfinite(number):
+        raise LucidaError(name, f"{number} is not finite", "give a finite number")
+    if abs(number) > LARGEST:
+        raise LucidaError(name, f"{number:g} is too large", f"stay within {LARGEST:g}")
+    return number
+
+
+def _numbers(name: str, value: object, count: int) -> tuple[float, ...]:
+    try:
+        items = tuple(value)  # type: ignore[arg-type]
+    except TypeError:
+        items = ()
+    if isinstance(value, str) or len(items) != count:
+        raise LucidaError(name, f"{value!r} is not {count} numbers", f"give {count} numbers")
+    return tuple(_number(name, item) for item in items)
+
+
+def _text(vector: Iterable[float]) -> str:
+    return "(" + ", ".join(f"{x:g}" for x in vector) + ")"
+
+
+def _check_projection(projection: object) -> None:
+    if projection not in PROJECTIONS:
+        raise LucidaError(
+            "projection", f"{projection!r} is unknown", "give 'perspective' or 'parallel'"
+        )
+
+
+def _check_basis(u: Vector, v: Vector, w: Vector) -> None:
+    vectors = {"u": np.asarray(u), "v": np.asarray(v), "w": np.asarray(w)}
+    for name, vector in vectors.items():
+        others = " and ".join(other for other in vectors if other != name)
+        if not np.linalg.norm(vector) >= SMALLEST:
+            raise LucidaError(
+                name,
+                f"{_text(vector)} is not independent of {others}",
+                f"give {name} a part outside their plane",
+            )
+    unit = {name: vector / np.linalg.norm(vector) for name, vector in vectors.items()}
+    if abs(np.linalg.det(np.column_stack(list(unit.values())))) > SINGULAR:
+        return
+    for first, second in (("u", "v"), ("u", "w"), ("v", "w")):
+        if np.linalg.norm(np.cross(unit[first], unit[second])) <= math.sqrt(SINGULAR):
+            raise LucidaError(
+                second,
+                f"{_text(vectors[second])} is parallel to {first} = {_text(vectors[first])}",
+                f"turn {second} away from {first}",
+            )
+    raise LucidaError(
+        "w",
+        f"{_text(w)} lies in the plane of u = {_text(u)} and v = {_text(v)}",
+        "give w a part outside their plane",
+    )
+
+
+def _check_viewport(viewport: tuple[float, float, float, float]) -> None:
+    left, right, bottom, top = viewport
+    smallest = 1e-9 * max(SMALLEST, *map(abs, viewport))
+    for low, high, names in ((left, right, "left < right"), (bottom, top, "bottom < top")):
+        if not high - low > smallest:
+            raise LucidaError(
+                "viewport", f"{_text(viewport)} is empty", f"give left, right, bottom, top, {names}"
+            )
+
+
+def _check_clip(near: float | None, far: float | None) -> None:
+    if near is not None and not near >= SMALLEST:
+        raise LucidaError("near", f"{near:g} is not above 0", "give e.g. 0.1, or leave it out")
+    if far is not None and not far > (near or 0.0):
+        limit = "0" if near is None else f"near = {near:g}"
+        raise LucidaError("far", f"{far:g} is not above {limit}", "give a larger far")

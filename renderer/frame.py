@@ -1,0 +1,68 @@
+"""A rendered image: the channels that both renderers give, in one shape.
+
+Owns the names and the meaning of channels. Knows nothing of how they are made.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from renderer.errors import LucidaError
+
+CHANNELS = ("color", "depth", "normal", "id", "primitive")
+LARGEST_SIDE = 16384
+LARGEST_PIXELS = 1 << 26
+
+
+@dataclass(frozen=True, eq=False)
+class Frame:
+    """Channels of one image, row 0 at the top; None where a channel was not asked for.
+
+    color: float32 (height, width, 3), linear light. depth: float32 (height, width), the ray
+    parameter, inf where nothing is hit. normal: float32 (height, width, 3), world space, unit,
+    facing the viewer, 0 where nothing is hit. id: int32 (height, width), the object's index in the
+    scene, -1 where nothing is hit. primitive: int32 (height, width), the triangle's or sphere's
+    number in the flat scene, -1 where nothing is hit. time_s: how long the renderer took.
+    complete: False where rendering was cancelled; the unfinished pixels then hold no hit.
+    """
+
+    size: tuple[int, int]
+    color: NDArray[np.float32] | None = None
+    depth: NDArray[np.float32] | None = None
+    normal: NDArray[np.float32] | None = None
+    id: NDArray[np.int32] | None = None
+    primitive: NDArray[np.int32] | None = None
+    time_s: float = 0.0
+    complete: bool = True
+
+
+def check_channels(channels: Iterable[str]) -> tuple[str, ...]:
+    """The channels as a tuple; raises LucidaError for an unknown name."""
+    channels = (channels,) if isinstance(channels, str) else tuple(channels)
+    for name in channels:
+        if name not in CHANNELS:
+            raise LucidaError(
+                "channel", f"{name!r} is unknown", f"give one of {', '.join(CHANNELS)}"
+            )
+    return channels
+
+
+def check_size(size: Iterable[int]) -> tuple[int, int]:
+    """(width, height) as ints; raises LucidaError where an image cannot be that size."""
+    try:
+        width, height = (int(side) for side in size)
+    except (TypeError, ValueError):
+        raise LucidaError("size", f"{size!r} is not two numbers", "give e.g. (1280, 720)") from None
+    if min(width, height) < 1:
+        raise LucidaError("size", f"{width}x{height} has no pixels", "give at least 1x1")
+    if max(width, height) > LARGEST_SIDE or width * height > LARGEST_PIXELS:
+        raise LucidaError(
+            "size",
+            f"{width}x{height} is too large",
+            f"stay within {LARGEST_SIDE} a side and {LARGEST_PIXELS} pixels",
+        )
+    return width, height

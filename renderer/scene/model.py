@@ -1,0 +1,224 @@
+"""What a scene is: objects with a shape and a material, lights, and a camera to begin with.
+
+Owns the structures and their validation. Knows nothing of files, renderers or pixels.
+World space is right-handed with y up; colours are linear light.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable
+from dataclasses import dataclass, field
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from renderer.camera import LARGEST, Camera
+from renderer.errors import LucidaError
+
+Color = tuple[float, float, float]
+Floats32 = NDArray[np.float32]
+
+BRIGHTEST = 1e6
+
+
+@dataclass(frozen=True)
+class Checker:
+    """A solid pattern of cubes in object space: every other cell takes `diffuse`.
+
+    size: a cell's side, in the object's units; one cell is centred on the object's origin.
+    """
+
+    diffuse: Color = (0.05, 0.05, 0.05)
+    size: float = 1.0
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "diffuse", color("diffuse", self.diffuse))
+        if not 1e-6 <= self.size <= LARGEST:
+            raise LucidaError("size", f"{self.size:g} is not above 0", "give a cell's side, e.g. 1")
+
+
+@dataclass(frozen=True)
+class Material:
+    """Blinn and Phong's shading: diffuse and specular reflectance, and the highlight's exponent."""
+
+    diffuse: Color = (0.7, 0.7, 0.7)
+    specular: Color = (0.0, 0.0, 0.0)
+    shininess: float = 50.0
+    checker: Checker | None = None
+
+    def __post_init__(self) -> None:
+        for name in ("diffuse", "specular"):
+            object.__setattr__(self, name, color(name, getattr(self, name)))
+        if not 1 <= self.shininess <= 1000:
+            raise LucidaError(
+                "shininess", f"{self.shininess:g} is outside 1 to 1000", "give e.g. 50"
+            )
+
+
+@dataclass(frozen=True)
+class PointLight:
+    """Shines from a point, equally far and near (no fall-off: the lecture's model)."""
+
+    position: tuple[float, float, float]
+    color: Color = (1.0, 1.0, 1.0)
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "position", vector("position", self.position))
+        object.__setattr__(self, "color", color("color", self.color))
+
+
+@dataclass(frozen=True)
+class DirectionalLight:
+    """Shines along `direction` (from the light to the scene), from infinitely far."""
+
+    direction: tuple[float, float, float]
+    color: Color = (1.0, 1.0, 1.0)
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "direction", vector("direction", self.direction))
+        object.__setattr__(self, "color", color("color", self.color))
+        if not np.linalg.norm(self.direction) > 1e-12:
+            raise LucidaError("direction", "(0, 0, 0) has no direction", "give e.g. (0, -1, 0)")
+
+
+@dataclass(frozen=True)
+class Sphere:
+    """Exact in both renderers, never triangles. In world space."""
+
+    center: tuple[float, float, float] = (0.0, 0.0, 0.0)
+    radius: float = 1.0
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "center", vector("center", self.center))
+        if not 1e-9 <= self.radius <= LARGEST:
+            raise LucidaError("radius", f"{self.radius:g} is not above 0", "give e.g. 1.0")
+
+
+@dataclass(frozen=True, eq=False)
+class Mesh:
+    """Triangles. vertices: float32 (n, 3). faces: int32 (m, 3), indices of vertices, m >= 1.
+
+    normals: float32 (n, 3), unit, per vertex, or None for flat faces; a row of 0 makes the faces
+    at that vertex flat there. colors: float32 (n, 3), linear, multiply the material's diffuse.
+    transform: float64 (4, 4), world_from_object, affine and invertible. Arrays are read-only.
+    """
+
+    vertices: Floats32
+    faces: NDArray[np.int32]
+    normals: Floats32 | None = None
+    colors: Floats32 | None = None
+    transform: NDArray[np.float64] = field(default_factory=lambda: np.eye(4))
+
+    def __post_init__(self) -> None:
+        vertices = _array("vertices", self.vertices, np.float32, (None, 3))
+        if not len(vertices):
+            raise LucidaError("vertices", "is empty", "give a mesh with at least one triangle")
+        if not (np.abs(vertices) <= LARGEST).all():  # False for NaN too
+            raise LucidaError("vertices", "holds NaN or infinity", "repair the mesh")
+        faces = np.asarray(self.faces)
+        if faces.ndim == 2 and len(faces) and (faces.min() < 0 or faces.max() >= len(vertices)):
+            raise LucidaError("faces", "names a vertex that does not exist", "repair the mesh")
+        faces = _array("faces", faces, np.int32, (None, 3))
+        if not len(faces):
+            raise LucidaError("faces", "is empty", "give a mesh with at least one triangle")
+        object.__setattr__(self, "vertices", vertices)
+        object.__setattr__(self, "faces", faces)
+        for name in ("normals", "colors"):
+            value = getattr(self, name)
+            if value is not None:
+                value = _array(name, value, np.float32, (len(vertices), 3))
+                if not np.isfinite(value).all():
+                    raise LucidaError(name, "holds NaN or infinity", "repair the mesh")
+                object.__setattr__(self, name, value)
+        transform = _array("transform", self.transform, np.float64, (4, 4))
+        linear = transform[:3, :3]
+        lengths = np.linalg.norm(linear, axis=0)
+        sound = np.isfinite(transform).all() and (transform[3] == (0, 0, 0, 1)).all()
+        if not (
+            sound
+            and (lengths > 1e-12).all()
+            and (np.abs(transform) <= LARGEST).all()
+            and abs(np.linalg.det(linear / lengths)) > 1e-9
+        ):
+            raise LucidaError("transform", "is not invertible", "give scales other than 0")
+        object.__setattr__(self, "transform", transform)
+
+
+Shape = Sphere | Mesh
+
+
+@dataclass(frozen=True, eq=False)
+class SceneObject:
+    """One entry of the `id` channel: a named shape with a material."""
+
+    shape: Shape
+    material: Material = Material()
+    name: str = ""
+
+
+@dataclass(frozen=True)
+class View:
+    """A camera, and whether its viewport follows the image's aspect ratio."""
+
+    camera: Camera
+    fit: bool = False
+
+    def for_size(self, size: tuple[int, int]) -> Camera:
+        """The camera to draw an image of (width, height) with."""
+        return self.camera.fitted(size) if self.fit else self.camera
+
+
+@dataclass(frozen=True, eq=False)
+class Scene:
+    """Objects in the order of their ids, lights, and a view to begin with."""
+
+    objects: tuple[SceneObject, ...]
+    lights: tuple[PointLight | DirectionalLight, ...] = ()
+    ambient: Color = (0.1, 0.1, 0.1)
+    background: Color = (0.0, 0.0, 0.0)
+    view: View = View(Camera.canonical(), fit=True)
+    name: str = ""
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "objects", tuple(self.objects))
+        object.__setattr__(self, "lights", tuple(self.lights))
+        for name in ("ambient", "background"):
+            object.__setattr__(self, name, color(name, getattr(self, name)))
+
+
+def vector(name: str, value: Iterable[float]) -> tuple[float, float, float]:
+    """Three finite numbers as a tuple, or a LucidaError that names them."""
+    try:
+        x, y, z = (float(component) for component in value)
+    except (TypeError, ValueError):
+        raise LucidaError(name, f"{value!r} is not 3 numbers", "give e.g. [0, 1, 0]") from None
+    for component in (x, y, z):
+        if not math.isfinite(component) or abs(component) > LARGEST:
+            raise LucidaError(name, f"{component} is not a usable number", "give finite numbers")
+    return x, y, z
+
+
+def color(name: str, value: Iterable[float]) -> Color:
+    """Three finite numbers >= 0 as a tuple, or a LucidaError that names them."""
+    rgb = vector(name, value)
+    for component in rgb:
+        if not 0 <= component <= BRIGHTEST:
+            raise LucidaError(
+                name, f"{component:g} is outside 0 to {BRIGHTEST:g}", "give red, green, blue >= 0"
+            )
+    return rgb
+
+
+def _array(name: str, value: ArrayLike, dtype: type, shape: tuple[int | None, int]) -> np.ndarray:
+    try:
+        array = np.array(value, dtype, order="C")
+    except (TypeError, ValueError, OverflowError):
+        raise LucidaError(name, "is not an array of numbers", f"give {dtype.__name__}") from None
+    if array.ndim != 2 or any(
+        want not in (None, have) for want, have in zip(shape, array.shape, strict=True)
+    ):
+        wanted = " x ".join("n" if n is None else str(n) for n in shape)
+        raise LucidaError(name, f"has shape {array.shape}", f"give {wanted} numbers")
+    array.setflags(write=False)
+    return array
