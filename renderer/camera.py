@@ -49,7 +49,7 @@ class Camera:
 
     eye: position, world units. u, v, w: right, up and back; any three independent vectors.
     distance: from the eye to the viewport along -w, in units of w. viewport: (left, right,
-    bottom, top) in units of u and v. near, far: clip planes along -w in units of w; None: unclipped.
+    bottom, top) in units of u and v. near, far: clip planes along -w in units of w, or None.
     Raises LucidaError naming the field, its value and the remedy.
     """
 
@@ -73,7 +73,7 @@ class Camera:
                 object.__setattr__(self, name, _number(name, getattr(self, name)))
         _check_projection(self.projection)
         _check_basis(self.u, self.v, self.w)
-        if not SMALLEST <= self.distance:
+        if not self.distance >= SMALLEST:
             raise LucidaError("distance", f"{self.distance:g} is not above 0", "give e.g. 1.0")
         _check_viewport(self.viewport)
         _check_clip(self.near, self.far)
@@ -100,19 +100,22 @@ class Camera:
         aspect: the viewport's width over its height.
         Source: Marschner and Shirley, Fundamentals of Computer Graphics, "Constructing a basis".
         """
-        eye, target, up = (
-            _numbers(name, value, 3)
+        position, toward, upward = (
+            np.array(_numbers(name, value, 3))
             for name, value in (("eye", eye), ("target", target), ("up", up))
         )
-        back = np.subtract(eye, target)
+        back = position - toward
         if not np.linalg.norm(back) >= SMALLEST:
-            raise LucidaError("target", f"{target} is the eye itself", "look at another point")
-        if not np.linalg.norm(up) >= SMALLEST:
-            raise LucidaError("up", f"{up} has no direction", "give a vector such as (0, 1, 0)")
+            problem = f"{_text(toward)} is the eye itself"
+            raise LucidaError("target", problem, "look at another point")
+        if not np.linalg.norm(upward) >= SMALLEST:
+            problem = f"{_text(upward)} has no direction"
+            raise LucidaError("up", problem, "give a vector such as (0, 1, 0)")
         w = back / np.linalg.norm(back)
-        right = np.cross(up / np.linalg.norm(up), w)
+        right = np.cross(upward / np.linalg.norm(upward), w)
         if not np.linalg.norm(right) > 1e-8:
-            raise LucidaError("up", f"{up} is along the view direction", "choose another up")
+            problem = f"{_text(upward)} is along the view direction"
+            raise LucidaError("up", problem, "choose another up")
         u = right / np.linalg.norm(right)
         if fov_y_deg is not None:
             if distance is not None:
@@ -124,10 +127,10 @@ class Camera:
         if not _number("aspect", aspect) > 0:
             raise LucidaError("aspect", f"{aspect:g} is not above 0", "give width / height")
         return cls(
-            eye,
-            tuple(u.tolist()),
-            tuple(np.cross(w, u).tolist()),
-            tuple(w.tolist()),
+            _vector(position),
+            _vector(u),
+            _vector(np.cross(w, u)),
+            _vector(w),
             1.0 if distance is None else distance,
             (-aspect / 2, aspect / 2, -0.5, 0.5),
             projection,
@@ -250,8 +253,7 @@ class Camera:
         u = np.asarray(self.u) - (w @ self.u) * w
         u -= (v @ u) * v
         u /= np.linalg.norm(u)
-        u, v, w = (tuple(vector.tolist()) for vector in (u, v, w))
-        return replace(self, u=u, v=v, w=w)
+        return replace(self, u=_vector(u), v=_vector(v), w=_vector(w))
 
     def fitted(self, size: Size) -> Camera:
         """This camera with its viewport widened or heightened about its centre to the image's
@@ -288,6 +290,7 @@ def _number(name: str, value: object) -> float:
 
 
 def _numbers(name: str, value: object, count: int) -> tuple[float, ...]:
+    items: tuple[object, ...]
     try:
         items = tuple(value)  # type: ignore[arg-type]
     except TypeError:
@@ -295,6 +298,11 @@ def _numbers(name: str, value: object, count: int) -> tuple[float, ...]:
     if isinstance(value, str) or len(items) != count:
         raise LucidaError(name, f"{value!r} is not {count} numbers", f"give {count} numbers")
     return tuple(_number(name, item) for item in items)
+
+
+def _vector(array: Floats) -> Vector:
+    x, y, z = array.tolist()
+    return x, y, z
 
 
 def _text(vector: Iterable[float]) -> str:

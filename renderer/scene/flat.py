@@ -60,15 +60,20 @@ class FlatScene(NamedTuple):
 def flatten(scene: Scene) -> FlatScene:
     """The scene's arrays. Raises LucidaError where a transformed mesh leaves float32's range."""
     count = len(scene.objects)
-    vertices, normals, colors, faces, face_object = [], [], [], [], []
-    spheres, sphere_object = [], []
+    vertices: list[F32] = []
+    normals: list[F32] = []
+    colors: list[F32] = []
+    faces: list[I32] = []
+    face_object: list[I32] = []
+    spheres: list[tuple[float, float, float, float]] = []
+    sphere_object: list[int] = []
     object_faces = np.zeros((count, 2), np.int32)
     object_sphere = np.full(count, -1, np.int32)
     materials = np.zeros((count, 6, 4), np.float32)
     first_vertex = first_face = 0
     for number, entry in enumerate(scene.objects):
         shape = entry.shape
-        transform = np.eye(4)
+        transform: NDArray[np.float64] = np.eye(4)
         object_faces[number] = first_face, 0
         if isinstance(shape, Sphere):
             transform[:3, 3] = shape.center

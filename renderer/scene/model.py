@@ -22,6 +22,43 @@ Floats32 = NDArray[np.float32]
 BRIGHTEST = 1e6
 
 
+def vector(name: str, value: Iterable[float]) -> tuple[float, float, float]:
+    """Three finite numbers as a tuple, or a LucidaError that names them."""
+    try:
+        x, y, z = (float(component) for component in value)
+    except (TypeError, ValueError):
+        raise LucidaError(name, f"{value!r} is not 3 numbers", "give e.g. [0, 1, 0]") from None
+    for component in (x, y, z):
+        if not math.isfinite(component) or abs(component) > LARGEST:
+            raise LucidaError(name, f"{component} is not a usable number", "give finite numbers")
+    return x, y, z
+
+
+def color(name: str, value: Iterable[float]) -> Color:
+    """Three finite numbers >= 0 as a tuple, or a LucidaError that names them."""
+    rgb = vector(name, value)
+    for component in rgb:
+        if not 0 <= component <= BRIGHTEST:
+            raise LucidaError(
+                name, f"{component:g} is outside 0 to {BRIGHTEST:g}", "give red, green, blue >= 0"
+            )
+    return rgb
+
+
+def _array(name: str, value: ArrayLike, dtype: type, shape: tuple[int | None, int]) -> np.ndarray:
+    try:
+        array: np.ndarray = np.array(value, dtype, order="C")
+    except (TypeError, ValueError, OverflowError):
+        raise LucidaError(name, "is not an array of numbers", f"give {dtype.__name__}") from None
+    if array.ndim != 2 or any(
+        want not in (None, have) for want, have in zip(shape, array.shape, strict=True)
+    ):
+        wanted = " x ".join("n" if n is None else str(n) for n in shape)
+        raise LucidaError(name, f"has shape {array.shape}", f"give {wanted} numbers")
+    array.setflags(write=False)
+    return array
+
+
 @dataclass(frozen=True)
 class Checker:
     """A solid pattern of cubes in object space: every other cell takes `diffuse`.
@@ -185,40 +222,3 @@ class Scene:
         object.__setattr__(self, "lights", tuple(self.lights))
         for name in ("ambient", "background"):
             object.__setattr__(self, name, color(name, getattr(self, name)))
-
-
-def vector(name: str, value: Iterable[float]) -> tuple[float, float, float]:
-    """Three finite numbers as a tuple, or a LucidaError that names them."""
-    try:
-        x, y, z = (float(component) for component in value)
-    except (TypeError, ValueError):
-        raise LucidaError(name, f"{value!r} is not 3 numbers", "give e.g. [0, 1, 0]") from None
-    for component in (x, y, z):
-        if not math.isfinite(component) or abs(component) > LARGEST:
-            raise LucidaError(name, f"{component} is not a usable number", "give finite numbers")
-    return x, y, z
-
-
-def color(name: str, value: Iterable[float]) -> Color:
-    """Three finite numbers >= 0 as a tuple, or a LucidaError that names them."""
-    rgb = vector(name, value)
-    for component in rgb:
-        if not 0 <= component <= BRIGHTEST:
-            raise LucidaError(
-                name, f"{component:g} is outside 0 to {BRIGHTEST:g}", "give red, green, blue >= 0"
-            )
-    return rgb
-
-
-def _array(name: str, value: ArrayLike, dtype: type, shape: tuple[int | None, int]) -> np.ndarray:
-    try:
-        array = np.array(value, dtype, order="C")
-    except (TypeError, ValueError, OverflowError):
-        raise LucidaError(name, "is not an array of numbers", f"give {dtype.__name__}") from None
-    if array.ndim != 2 or any(
-        want not in (None, have) for want, have in zip(shape, array.shape, strict=True)
-    ):
-        wanted = " x ".join("n" if n is None else str(n) for n in shape)
-        raise LucidaError(name, f"has shape {array.shape}", f"give {wanted} numbers")
-    array.setflags(write=False)
-    return array

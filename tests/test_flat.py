@@ -1,0 +1,113 @@
+"""The flat scene: world-space arrays, primitive numbers, materials."""
+
+import numpy as np
+import pytest
+
+from renderer.errors import LucidaError
+from renderer.scene.flat import CELL_X, flatten
+from renderer.scene.model import (
+    Checker,
+    DirectionalLight,
+    Material,
+    Mesh,
+    PointLight,
+    Scene,
+    SceneObject,
+    Sphere,
+)
+
+TRIANGLE = [[0, 0, 0], [1, 0, 0], [0, 1, 0]]
+
+
+def mesh(**changes):
+    return Mesh(**{"vertices": TRIANGLE, "faces": [[0, 1, 2]], **changes})
+
+
+def test_objects_keep_their_order_and_primitives_their_numbers():
+    ball = SceneObject(Sphere((1, 2, 3), 0.5))
+    two = mesh(faces=[[0, 1, 2], [2, 1, 0]])
+    flat = flatten(Scene((SceneObject(mesh()), ball, SceneObject(two))))
+    np.testing.assert_array_equal(flat.object_faces, [[0, 1], [1, 0], [1, 2]])
+    np.testing.assert_array_equal(flat.object_sphere, [-1, 0, -1])
+    np.testing.assert_array_equal(flat.face_object, [0, 2, 2])
+    np.testing.assert_array_equal(flat.faces, [[0, 1, 2], [3, 4, 5], [5, 4, 3]])
+    np.testing.assert_array_equal(flat.spheres, [[1, 2, 3, 0.5]])
+    np.testing.assert_array_equal(flat.bounds, [[0, 0, 0], [1.5, 2.5, 3.5]])
+    assert not any(array.flags.writeable for array in flat)
+
+
+def test_vertices_and_normals_are_in_world_space():
+    transform = np.diag([2.0, 1.0, -4.0, 1.0])
+    transform[:3, 3] = 10, 0, 0
+    tilted = np.tile(np.array([1.0, 0.0, 1.0]) / np.sqrt(2), (3, 1))
+    flat = flatten(Scene((SceneObject(mesh(normals=tilted, transform=transform)),)))
+    np.testing.assert_allclose(flat.vertices, [[10, 0, 0], [12, 0, 0], [10, 1, 0]])
+    expected = np.array([0.5, 0, -0.25]) / np.linalg.norm([0.5, 0, -0.25])
+    np.testing.assert_allclose(flat.normals, np.tile(expected, (3, 1)), rtol=1e-6)
+
+
+def test_a_mesh_without_normals_or_colours_is_flat_and_white():
+    flat = flatten(Scene((SceneObject(mesh()),)))
+    np.testing.assert_array_equal(flat.normals, 0)
+    np.testing.assert_array_equal(flat.colors, 1)
+
+
+def test_checker_cells_are_centred_on_the_objects_origin():
+    checkered = Material(checker=Checker(size=2.0))
+    flat = flatten(Scene((SceneObject(Sphere((10, 0, 0)), checkered),)))
+    cell = flat.materials[0, CELL_X:] @ np.array([[10, 0, 0, 1], [11.1, 0, 0, 1]]).T
+    np.testing.assert_allclose(cell, [[0.5, 1.05], [0.5, 0.5], [0.5, 0.5]], atol=1e-5)
+    np.testing.assert_array_equal(flat.materials[0, 1, 3], 1)
+
+
+def test_lights_are_rows():
+    lights = (PointLight((1, 2, 3), (0.5, 0.5, 0.5)), DirectionalLight((0, -2, 0)))
+    flat = flatten(Scene((), lights))
+    np.testing.assert_allclose(flat.lights[:, 0], [[1, 2, 3, 1], [0, 1, 0, 0]])
+    np.testing.assert_allclose(flat.lights[:, 1], [[0.5, 0.5, 0.5, 0], [1, 1, 1, 0]])
+
+
+def test_an_empty_scene_is_legal():
+    flat = flatten(Scene(()))
+    assert flat.faces.shape == (0, 3)
+    assert flat.spheres.shape == (0, 4)
+    np.testing.assert_array_equal(flat.bounds, 0)
+
+
+def test_a_mesh_that_leaves_the_range_of_float32_is_refused():
+    far = Mesh(
+        [[1e12, 0, 0], [0, 1, 0], [0, 0, 1]], [[0, 1, 2]], transform=np.diag([1e12, 1, 1, 1])
+    )
+    with pytest.raises(LucidaError, match="too large"):
+        flatten(Scene((SceneObject(far, name="far"),)))
+
+
+@pytest.mark.parametrize(
+    ("make", "field"),
+    [
+        (lambda: mesh(faces=[[0, 1, 3]]), "faces"),
+        (lambda: mesh(faces=[[0, 1, -1]]), "faces"),
+        (lambda: mesh(faces=np.zeros((0, 3))), "faces"),
+        (lambda: mesh(vertices=[[0, 0, np.nan]] * 3), "vertices"),
+        (lambda: mesh(vertices=[[0, 0]] * 3), "vertices"),
+        (lambda: mesh(normals=[[0, 0, 1]]), "normals"),
+        (lambda: mesh(colors=[[0, np.inf, 1]] * 3), "colors"),
+        (lambda: mesh(transform=np.diag([1.0, 0, 1, 1])), "transform"),
+        (lambda: mesh(transform=np.ones((4, 4))), "transform"),
+        (lambda: Sphere(radius=0), "radius"),
+        (lambda: Sphere(radius=float("nan")), "radius"),
+        (lambda: Sphere(center=(0, 0)), "center"),
+        (lambda: Material(diffuse=(-1, 0, 0)), "diffuse"),
+        (lambda: Material(specular=(0, float("nan"), 0)), "specular"),
+        (lambda: Material(shininess=0), "shininess"),
+        (lambda: Checker(size=0), "size"),
+        (lambda: DirectionalLight((0, 0, 0)), "direction"),
+        (lambda: PointLight("abc"), "position"),
+        (lambda: Scene((), ambient=(0, 0)), "ambient"),
+    ],
+)
+def test_what_cannot_be_drawn_is_refused_by_name(make, field):
+    with pytest.raises(LucidaError) as error:
+        make()
+    assert error.value.field == field
+    assert error.value.remedy
