@@ -1,0 +1,19 @@
+"""Images: the display transform, pictures of channels, and files by their ending.
+
+Knows nothing of renderers, cameras or windows: it is given frames and arrays.
+"""
+
+from renderer.images.display import encode_srgb, from_srgb, gray_picture, picture, to_srgb8
+from renderer.images.files import ENDINGS, check_image_path, write_image, write_picture
+
+__all__ = [
+    "ENDINGS",
+    "check_image_path",
+    "encode_srgb",
+    "from_srgb",
+    "gray_picture",
+    "picture",
+    "to_srgb8",
+    "write_image",
+    "write_picture",
+]

@@ -1,0 +1,159 @@
+"""From a frame's channels to pictures: the display transform, and how data are shown as colours.
+
+Owns sRGB, exposure and the false colours. Knows nothing of files or of GL; the window's shader
+(shaders/) computes the same display transform.
+"""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from renderer.errors import LucidaError
+from renderer.frame import CHANNELS, Frame
+
+Bytes = NDArray[np.uint8]
+Floats32 = NDArray[np.float32]
+
+EXPOSURE_LIMIT_EV = 32.0
+LUMINANCE = np.array([0.2126, 0.7152, 0.0722], np.float32)  # Rec. 709, of linear red, green, blue
+FARTHEST_GRAY = 0.2  # the farthest hit stays apart from the misses' black
+
+# Object i has colour i modulo 9. All of them are lighter than middle gray, so that a bitmap of
+# the ids is the mask of what was hit. Source: Paul Tol, Colour Schemes (2021), "light".
+ID_PALETTE = np.array(
+    [
+        (119, 170, 221),
+        (238, 136, 102),
+        (68, 187, 153),
+        (238, 221, 136),
+        (255, 170, 187),
+        (153, 221, 255),
+        (170, 170, 0),
+        (221, 221, 221),
+        (187, 204, 51),
+    ],
+    np.uint8,
+)
+
+_BLOCK = 1 << 20  # numbers converted at a time, which bounds the memory beyond the result
+
+
+def to_srgb8(color: ArrayLike, exposure_ev: float = 0.0) -> Bytes:
+    """The display transform: uint8, of the same shape as `color` (linear light, any shape).
+
+    2^exposure_ev times the colour, clamped to 0..1, through the sRGB curve, rounded to 8 bits.
+    NaN becomes 0. Raises LucidaError where the exposure is not a usable number.
+    """
+    gain = _gain(exposure_ev)
+    linear = np.asarray(color, np.float32)
+    result = np.empty(linear.shape, np.uint8)
+    flat, out = linear.reshape(-1), result.reshape(-1)
+    for start in range(0, flat.size, _BLOCK):
+        block = slice(start, start + _BLOCK)
+        with np.errstate(over="ignore"):  # what overflows is white
+            exposed = flat[block] * gain
+        out[block] = encode_srgb(exposed) * np.float32(255) + np.float32(0.5)
+    return result
+
+
+def encode_srgb(linear: ArrayLike) -> Floats32:
+    """sRGB's curve: linear light to display values, float32; both clamped to 0..1, NaN to 0.
+
+    Source: IEC 61966-2-1.
+    """
+    values = np.asarray(linear, np.float32)
+    values = np.clip(np.where(np.isnan(values), np.float32(0), values), 0, 1)
+    curve = np.float32(1.055) * values ** np.float32(1 / 2.4) - np.float32(0.055)
+    return np.where(values <= np.float32(0.0031308), np.float32(12.92) * values, curve)
+
+
+def from_srgb(values: ArrayLike) -> Floats32:
+    """The inverse of sRGB's curve: uint8, or floats in 0..1, to linear light, float32.
+
+    Source: IEC 61966-2-1.
+    """
+    array = np.asarray(values)
+    shown = array.astype(np.float32)
+    if array.dtype == np.uint8:
+        shown /= np.float32(255)
+    shown = np.clip(np.where(np.isnan(shown), np.float32(0), shown), 0, 1)
+    curve = ((shown + np.float32(0.055)) / np.float32(1.055)) ** np.float32(2.4)
+    return np.where(shown <= np.float32(0.04045), shown / np.float32(12.92), curve)
+
+
+def luminance(color: ArrayLike) -> Floats32:
+    """Rec. 709 luminance of linear colours (..., 3): float32 (...)."""
+    return np.asarray(color, np.float32) @ LUMINANCE
+
+
+def picture(frame: Frame, channel: str = "color", exposure_ev: float = 0.0) -> Bytes:
+    """A channel as colours to look at: uint8 (height, width, 3), sRGB.
+
+    color: the display transform. depth: gray, linear in the ray parameter, the nearest hit white,
+    misses black. normal: 0.5 + 0.5 n as red, green, blue; misses black. id, primitive: a palette
+    of nine colours that colour-blind viewers tell apart, repeated; misses black.
+    Raises LucidaError where the frame lacks the channel.
+    """
+    data = channel_of(frame, channel)
+    if channel == "color":
+        return to_srgb8(data, exposure_ev)
+    if channel == "depth":
+        return np.repeat(depth_gray(data)[..., None], 3, axis=2)
+    if channel == "normal":
+        hit = (data != 0).any(axis=-1, keepdims=True)
+        shown = np.clip(np.nan_to_num(data) * np.float32(0.5) + np.float32(0.5), 0, 1)
+        return (np.where(hit, shown, 0) * 255 + 0.5).astype(np.uint8)
+    colors = ID_PALETTE[np.maximum(data, 0) % len(ID_PALETTE)]
+    return np.where((data >= 0)[..., None], colors, np.uint8(0))
+
+
+def gray_picture(frame: Frame, channel: str = "color", exposure_ev: float = 0.0) -> Bytes:
+    """A channel in gray: uint8 (height, width), sRGB.
+
+    color: the luminance of the exposed linear light, encoded. depth: as in picture().
+    Other channels: the luminance of picture().
+    """
+    data = channel_of(frame, channel)
+    if channel == "color":
+        return to_srgb8(luminance(data), exposure_ev)
+    if channel == "depth":
+        return depth_gray(data)
+    return gray_of(picture(frame, channel))
+
+
+def gray_of(shown: Bytes) -> Bytes:
+    """Gray of an sRGB picture (height, width, 3): its luminance in linear light, encoded again."""
+    linear_of_byte = from_srgb(np.arange(256, dtype=np.uint8))
+    return to_srgb8(luminance(linear_of_byte[shown]))
+
+
+def depth_gray(depth: Floats32) -> Bytes:
+    """Ray parameters (height, width) as gray: the nearest hit 255, the farthest 51, misses 0."""
+    hit = np.isfinite(depth)
+    if not hit.any():
+        return np.zeros(depth.shape, np.uint8)
+    nearest, farthest = (float(value) for value in (depth[hit].min(), depth[hit].max()))
+    span = farthest - nearest
+    behind = (np.where(hit, depth, nearest) - nearest) / span if span > 0 else np.zeros(depth.shape)
+    gray = 1 - (1 - FARTHEST_GRAY) * behind
+    return np.where(hit, np.rint(gray * 255), 0).astype(np.uint8)
+
+
+def channel_of(frame: Frame, channel: str) -> NDArray:
+    """The frame's array of that channel; raises LucidaError where it has none."""
+    data = getattr(frame, channel, None) if channel in CHANNELS else None
+    if data is None:
+        raise LucidaError("channel", f"{channel!r} is not in this frame", "render it first")
+    return data
+
+
+def _gain(exposure_ev: float) -> np.float32:
+    if not (math.isfinite(exposure_ev) and abs(exposure_ev) <= EXPOSURE_LIMIT_EV):
+        limit = f"{EXPOSURE_LIMIT_EV:g}"
+        raise LucidaError(
+            "exposure", f"{exposure_ev:g} is not usable", f"give -{limit} to {limit} EV"
+        )
+    return np.float32(2.0**exposure_ev)

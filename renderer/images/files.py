@@ -1,0 +1,138 @@
+"""Image files by their ending: .png .ppm .pgm .pbm .pfm .exr .npy.
+
+Owns the formats. Knows nothing of how frames come about. Row 0 of an array is the image's top row
+in every file, in whatever order the format stores its rows.
+
+PNG, PPM, PGM and PBM hold pictures: 8-bit sRGB colours (PNG, PPM), their gray (PGM), or that
+cut at half (PBM, one bit a pixel); renderer/images/display.py says how each channel is shown.
+PFM, EXR and NPY hold the numbers, unexposed: linear light, ray parameters, world normals, indices.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import Path
+from typing import BinaryIO
+
+import numpy as np
+from numpy.typing import NDArray
+
+from renderer.atomic import atomic_write, check_writable
+from renderer.errors import LucidaError
+from renderer.frame import Frame
+from renderer.images.display import Bytes, channel_of, gray_of, gray_picture, picture
+
+# EXR's names of channels, by the convention of layers: "N.X" is the X of layer N.
+EXR_CHANNELS = {
+    "color": ("R", "G", "B"),
+    "depth": ("Z",),
+    "normal": ("N.X", "N.Y", "N.Z"),
+    "id": ("id",),
+    "primitive": ("primitive",),
+}
+HALF = 128  # the darkest gray that a bitmap shows white
+
+
+def check_image_path(path: str | Path, pictures_only: bool = False) -> str:
+    """The ending of `path`, in small letters, if an image can be written there.
+
+    pictures_only: accept the 8-bit formats alone. Raises LucidaError for an unknown ending or a
+    place that cannot be written to: ask before a long rendering, not after.
+    """
+    endings = PICTURES if pictures_only else ENDINGS
+    ending = Path(path).suffix.lower()
+    if ending not in endings:
+        problem = f"the ending {ending!r} is unknown" if ending else "has no ending"
+        if ending in ENDINGS:
+            problem = f"{ending} cannot hold this picture"
+        raise LucidaError("", problem, f"give one of {' '.join(endings)}", str(path))
+    check_writable(path)
+    return ending
+
+
+def write_image(
+    path: str | Path, frame: Frame, channel: str = "color", exposure_ev: float = 0.0
+) -> None:
+    """Write one channel of a frame in the format of the path's ending, replacing a file whole.
+
+    exposure_ev brightens the colour of the 8-bit formats by 2^exposure_ev; the others keep the
+    numbers: PFM float32 (PF for three numbers a pixel, Pf for one), EXR float32 channels R G B,
+    Z, N.X N.Y N.Z, or uint32 id (4294967295: nothing hit), NPY the frame's array as it is.
+    Raises LucidaError for an ending, a place or a channel that will not do.
+    """
+    ending = check_image_path(path)
+    if ending in DATA:
+        data = channel_of(frame, channel)
+        with atomic_write(path) as file:
+            DATA[ending](file, data, channel)
+        return
+    gray = ending in GRAYS
+    shown = (gray_picture if gray else picture)(frame, channel, exposure_ev)
+    with atomic_write(path) as file:
+        PICTURES[ending](file, shown)
+
+
+def write_picture(path: str | Path, shown: Bytes) -> None:
+    """Write an sRGB picture, uint8 (height, width, 3), as .png .ppm .pgm or .pbm."""
+    ending = check_image_path(path, pictures_only=True)
+    content = gray_of(shown) if ending in GRAYS else shown
+    with atomic_write(path) as file:
+        PICTURES[ending](file, content)
+
+
+def _write_png(file: BinaryIO, shown: Bytes) -> None:
+    from PIL import Image
+
+    Image.fromarray(shown).save(file, format="PNG")
+
+
+def _write_netpbm(file: BinaryIO, shown: Bytes) -> None:
+    """P6 for colours (height, width, 3), P5 for gray (height, width)."""
+    from PIL import Image
+
+    Image.fromarray(shown).save(file, format="PPM")
+
+
+def _write_pbm(file: BinaryIO, gray: Bytes) -> None:
+    """P4: one bit a pixel, black where the gray is below half."""
+    from PIL import Image
+
+    Image.fromarray(gray >= HALF).save(file, format="PPM")
+
+
+def _write_pfm(file: BinaryIO, data: NDArray, channel: str) -> None:
+    """Little-endian float32 (the scale's minus sign says so), the bottom row first."""
+    magic = b"PF" if data.ndim == 3 else b"Pf"
+    file.write(b"%s\n%d %d\n-1.0\n" % (magic, data.shape[1], data.shape[0]))
+    file.write(np.ascontiguousarray(data[::-1], dtype="<f4").data)
+
+
+def _write_exr(file: BinaryIO, data: NDArray, channel: str) -> None:
+    import OpenEXR
+
+    names = EXR_CHANNELS[channel]
+    planes = data.reshape(*data.shape[:2], len(names))
+    if data.dtype == np.int32:
+        planes = planes.view(np.uint32)
+    header = {"type": OpenEXR.scanlineimage, "compression": OpenEXR.ZIP_COMPRESSION}
+    channels = {name: np.ascontiguousarray(planes[..., k]) for k, name in enumerate(names)}
+    OpenEXR.File(header, channels).write(file)
+
+
+def _write_npy(file: BinaryIO, data: NDArray, channel: str) -> None:
+    np.lib.format.write_array(file, np.ascontiguousarray(data), allow_pickle=False)
+
+
+GRAYS = (".pgm", ".pbm")
+PICTURES: dict[str, Callable[[BinaryIO, NDArray], None]] = {
+    ".png": _write_png,
+    ".ppm": _write_netpbm,
+    ".pgm": _write_netpbm,
+    ".pbm": _write_pbm,
+}
+DATA: dict[str, Callable[[BinaryIO, NDArray, str], None]] = {
+    ".pfm": _write_pfm,
+    ".exr": _write_exr,
+    ".npy": _write_npy,
+}
+ENDINGS = (*PICTURES, *DATA)
