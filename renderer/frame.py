@@ -39,6 +39,13 @@ class Frame:
     time_s: float = 0.0
     complete: bool = True
 
+    def channel(self, name: str) -> NDArray:
+        """The array of a channel; raises LucidaError where it was not rendered."""
+        array = getattr(self, check_channels(name)[0])
+        if array is None:
+            raise LucidaError("channel", f"{name!r} was not rendered", "ask the renderer for it")
+        return array
+
 
 def check_channels(channels: Iterable[str]) -> tuple[str, ...]:
     """The channels as a tuple; raises LucidaError for an unknown name."""

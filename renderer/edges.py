@@ -1,0 +1,214 @@
+"""How far, in pixels, a pixel's centre is from the lines where the image is allowed to jump.
+
+Owns the exact (float64) geometry behind `lucida compare`: outlines of primitives, lines where two
+surfaces meet, clip lines, borders of checker cells. Knows nothing of how images are made.
+
+A rasterizer snaps vertices to a fraction of a pixel, so that a centre that lies on such a line, or
+closer to it than the snapping, may fall on either side. Everywhere else both renderers must agree.
+
+All functions take arrays of pixels: i, j (n,) rows and columns, primitive (n,) numbers of the flat
+scene (-1: none, which is infinitely far from everything).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from renderer.camera import Camera, Floats
+from renderer.scene.flat import CELL_X, SPECULAR_CHECKERED, FlatScene
+
+Ints = NDArray[np.integer]
+Numbers = NDArray[np.integer] | NDArray[np.floating]
+Function = Callable[[float, float], Floats]  # of an offset (rows, columns) in pixels
+
+STEP_PX = 1 / 256  # of the central differences: well inside the tolerance, far above rounding
+BEHIND = 1e-9  # outlines are clipped where the ray parameter falls below this part of its largest
+
+
+@dataclass(frozen=True)
+class Lines:
+    """The lines of one scene as seen by one camera in an image of (width, height)."""
+
+    flat: FlatScene
+    camera: Camera
+    size: tuple[int, int]
+
+    def outline_px(self, primitive: Ints, i: Ints, j: Ints) -> Floats:
+        """Distance of each pixel's centre from the outline of its primitive, in pixels."""
+        distance = np.full(len(primitive), np.inf)
+        triangle, sphere = self._kinds(primitive)
+        distance[triangle] = self._triangle_px(primitive[triangle], i[triangle], j[triangle])
+        distance[sphere] = self._sphere_px(primitive[sphere], i[sphere], j[sphere])
+        return distance
+
+    def meeting_px(self, first: Ints, second: Ints, i: Ints, j: Ints, t: Floats) -> Floats:
+        """Distance from the line where the surfaces of two primitives meet; t: the hits' depth.
+
+        The surfaces are extended beyond their outlines. Surfaces that coincide meet everywhere.
+        """
+        pair = (first >= 0) & (second >= 0) & (first != second)
+
+        def gap(di: float, dj: float) -> Floats:
+            return self.parameter(first, i + di, j + dj, t) - self.parameter(
+                second, i + di, j + dj, t
+            )
+
+        distance = _zero_px(gap)
+        distance[np.abs(gap(0, 0)) <= 4e-6 * np.abs(t)] = 0  # the depth buffer's last place
+        return np.where(pair, distance, np.inf)
+
+    def clip_px(self, primitive: Ints, i: Ints, j: Ints, t: Floats) -> Floats:
+        """Distance from the lines where near and far (or the eye's plane) cut the primitive."""
+        distance = np.full(len(primitive), np.inf)
+        for limit in self.camera.t_range:
+            if np.isfinite(limit):
+                cut = _zero_px(lambda di, dj: self.parameter(primitive, i + di, j + dj, t) - limit)  # noqa: B023
+                here = self.parameter(primitive, i, j, t)
+                cut[np.abs(here - limit) <= 1e-6 * limit] = 0
+                distance = np.fmin(distance, cut)
+        return np.where(primitive >= 0, distance, np.inf)
+
+    def checker_px(self, primitive: Ints, i: Ints, j: Ints, t: Floats) -> Floats:
+        """Distance from the nearest border of a checker cell; inf where nothing is checkered."""
+        distance = np.full(len(primitive), np.inf)
+        hit = primitive >= 0
+        if not hit.any():
+            return distance
+        owners = np.concatenate([self.flat.face_object, self.flat.sphere_object])
+        material = self.flat.materials[owners[np.where(hit, primitive, 0)]]
+        checkered = hit & (material[:, SPECULAR_CHECKERED, 3] != 0)
+        rows = material[:, CELL_X:].astype(float)
+
+        def cell(axis: int, di: float, dj: float) -> Floats:
+            at = self.parameter(primitive, i + di, j + dj, t)
+            origin, direction = self.camera.ray(i + di, j + dj, self.size)
+            point = origin + at[:, None] * direction
+            return np.einsum("nk,nk->n", rows[:, axis, :3], point) + rows[:, axis, 3]
+
+        for axis in range(3):
+            border = np.round(cell(axis, 0, 0))
+            to_border = _zero_px(lambda di, dj: cell(axis, di, dj) - border)  # noqa: B023
+            distance = np.fmin(distance, to_border)
+        return np.where(checkered, distance, np.inf)
+
+    def slope(self, primitive: Ints, i: Ints, j: Ints, t: Floats) -> Floats:
+        """How much the ray parameter changes a pixel, on the primitive's surface."""
+        return _gradient(lambda di, dj: self.parameter(primitive, i + di, j + dj, t))[0]
+
+    def parameter(self, primitive: Ints, i: Numbers, j: Numbers, t: Floats) -> Floats:
+        """The ray parameter where the ray of (i, j) meets the primitive's extended surface.
+
+        A triangle's surface is its plane; of a sphere's two hits, the one nearer to t. NaN: none.
+        """
+        result = np.full(len(primitive), np.nan)
+        triangle, sphere = self._kinds(primitive)
+        origin, direction = self.camera.ray(i, j, self.size)
+        a, b, c = self._corners(primitive[triangle])
+        normal = np.cross(b - a, c - a)
+        with np.errstate(divide="ignore", invalid="ignore"):
+            ahead = np.einsum("nk,nk->n", normal, direction[triangle])
+            result[triangle] = np.einsum("nk,nk->n", normal, a - origin[triangle]) / ahead
+            discriminant, middle, square = self._sphere_terms(
+                primitive[sphere], origin[sphere], direction[sphere]
+            )
+            half = np.sqrt(discriminant) / square
+        near, far = middle - half, middle + half
+        with np.errstate(invalid="ignore"):
+            is_near = np.abs(near - t[sphere]) <= np.abs(far - t[sphere])
+        result[sphere] = np.where(is_near, near, far)
+        return result
+
+    def _kinds(self, primitive: Ints) -> tuple[NDArray[np.bool_], NDArray[np.bool_]]:
+        triangles = len(self.flat.faces)
+        return (primitive >= 0) & (primitive < triangles), primitive >= triangles
+
+    def _corners(self, triangle: Ints) -> tuple[Floats, Floats, Floats]:
+        a, b, c = self.flat.vertices[self.flat.faces[triangle].T].astype(float)
+        return a, b, c
+
+    def _sphere_terms(
+        self, primitive: Ints, origin: Floats, direction: Floats
+    ) -> tuple[Floats, Floats, Floats]:
+        """Discriminant (negative: missed), the parameter nearest to the centre, |direction|^2."""
+        sphere = self.flat.spheres[primitive - len(self.flat.faces)].astype(float)
+        to_center = sphere[:, :3] - origin
+        square = np.einsum("nk,nk->n", direction, direction)
+        middle = np.einsum("nk,nk->n", to_center, direction) / square
+        off = to_center - middle[:, None] * direction
+        return square * (sphere[:, 3] ** 2 - np.einsum("nk,nk->n", off, off)), middle, square
+
+    def _sphere_px(self, primitive: Ints, i: Ints, j: Ints) -> Floats:
+        """Distance from the curve where the discriminant is 0."""
+
+        def discriminant(di: float, dj: float) -> Floats:
+            origin, direction = self.camera.ray(i + di, j + dj, self.size)
+            terms, _, square = self._sphere_terms(primitive, origin, direction)
+            return terms / square
+
+        return _zero_px(discriminant)
+
+    def _triangle_px(self, triangle: Ints, i: Ints, j: Ints) -> Floats:
+        """Distance from the nearest of the three projected edges, clipped in front of the eye."""
+        matrix = self.camera.camera_from_world
+        corners = []
+        for corner in self._corners(triangle):
+            x, y, z = (corner @ matrix[:3, :3].T + matrix[:3, 3]).T
+            # Homogeneous image point (x, y, h): in perspective h is the ray parameter.
+            h = np.ones_like(z) if self.camera.is_parallel else -z / self.camera.distance
+            corners.append(np.stack([x, y, h], axis=1))
+        pixel = np.stack([np.asarray(j, float), np.asarray(i, float)], axis=1)
+        distance = np.full(len(triangle), np.inf)
+        for first, second in ((0, 1), (1, 2), (2, 0)):
+            p, q = self._clipped(corners[first], corners[second])
+            distance = np.fmin(distance, _segment_px(pixel, self._pixel(p), self._pixel(q)))
+        return distance
+
+    def _clipped(self, p: Floats, q: Floats) -> tuple[Floats, Floats]:
+        """The part of the edge in front of the eye; NaN where there is none."""
+        least = BEHIND * np.maximum(np.abs(p[:, 2]), np.abs(q[:, 2]))
+        with np.errstate(divide="ignore", invalid="ignore"):
+            part = ((least - p[:, 2]) / (q[:, 2] - p[:, 2]))[:, None]
+            crossing = p + part * (q - p)
+        behind_p, behind_q = (p[:, 2] < least)[:, None], (q[:, 2] < least)[:, None]
+        gone = behind_p & behind_q
+        start, end = np.where(behind_p, crossing, p), np.where(behind_q, crossing, q)
+        return np.where(gone, np.nan, start), np.where(gone, np.nan, end)
+
+    def _pixel(self, homogeneous: Floats) -> Floats:
+        """(column, row), centres at whole numbers."""
+        left, right, bottom, top = self.camera.viewport
+        with np.errstate(divide="ignore", invalid="ignore"):
+            x, y = (homogeneous[:, :2] / homogeneous[:, 2:]).T
+        column = (x - left) / (right - left) * self.size[0] - 0.5
+        row = (top - y) / (top - bottom) * self.size[1] - 0.5
+        return np.stack([column, row], axis=1)
+
+
+def _segment_px(point: Floats, start: Floats, end: Floats) -> Floats:
+    """Distance of points from segments in the plane; inf where a segment is NaN."""
+    along = end - start
+    with np.errstate(divide="ignore", invalid="ignore"):
+        part = np.einsum("nk,nk->n", point - start, along) / np.einsum("nk,nk->n", along, along)
+    part = np.clip(np.nan_to_num(part), 0, 1)[:, None]
+    distance = np.linalg.norm(point - (start + part * along), axis=1)
+    return np.where(np.isnan(distance), np.inf, distance)
+
+
+def _gradient(function: Function) -> tuple[Floats, Floats]:
+    """|gradient| of a function of the pixel's position, and its value; (n,) each."""
+    with np.errstate(invalid="ignore", over="ignore"):
+        across = (function(0, STEP_PX) - function(0, -STEP_PX)) / (2 * STEP_PX)
+        down = (function(STEP_PX, 0) - function(-STEP_PX, 0)) / (2 * STEP_PX)
+        return np.hypot(across, down), function(0, 0)
+
+
+def _zero_px(function: Function) -> Floats:
+    """Distance to where the function is 0, to first order, in pixels; inf where it is undefined."""
+    slope, value = _gradient(function)
+    with np.errstate(divide="ignore", invalid="ignore"):
+        distance = np.abs(value) / slope
+    return np.where(np.isnan(distance), np.inf, distance)

@@ -1,0 +1,165 @@
+"""Which disagreements are explained, and which are not: on images with known flaws."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from renderer import Camera, Frame
+from renderer.compare import CAUSES, compare_frames
+from renderer.edges import Lines
+from renderer.scene.flat import flatten
+from renderer.scene.model import Checker, Material, Mesh, Scene, SceneObject, Sphere
+
+SIZE = (32, 24)
+CAMERA = Camera(viewport=(-0.5, 0.5, -0.375, 0.375))  # one pixel is 1/32 of a unit at t = 1
+
+
+def wall(z, left=-10.0, right=10.0, tilt=0.0, **material):
+    """A rectangle across the view at depth -z; tilt adds to its depth per unit of x."""
+    corners = [(x, y, z + tilt * x) for x, y in ((left, -9), (right, -9), (right, 9), (left, 9))]
+    return SceneObject(Mesh(corners, [[0, 1, 2], [0, 2, 3]]), Material(**material))
+
+
+def image(t, object_id, primitive, size=SIZE):
+    """A frame of one flat colour where everything is hit at t."""
+    shape = size[::-1]
+    return Frame(
+        size=size,
+        color=np.full((*shape, 3), 0.5, np.float32),
+        depth=np.broadcast_to(np.float32(t), shape).copy(),
+        normal=np.broadcast_to(np.float32([0, 0, 1]), (*shape, 3)).copy(),
+        id=np.full(shape, object_id, np.int32),
+        primitive=np.full(shape, primitive, np.int32),
+    )
+
+
+def changed(frame, where, **values):
+    """A copy of the frame with other values at pixels `where`."""
+    arrays = {}
+    for name, value in values.items():
+        arrays[name] = frame.channel(name).copy()
+        arrays[name][where] = value
+    return replace(frame, **arrays)
+
+
+def counts(comparison):
+    return {name: n for name, n in comparison.explained.items() if n} | (
+        {"unexplained": comparison.unexplained} if comparison.unexplained else {}
+    )
+
+
+def test_equal_images_agree_everywhere():
+    flat = flatten(Scene((wall(-2),)))
+    frame = image(2, 0, 0)
+    comparison = compare_frames(flat, CAMERA, SIZE, frame, frame)
+    assert comparison.agree == comparison.pixels == 32 * 24
+    assert counts(comparison) == {}
+    assert comparison.summary_short() == "agree: all pixels"
+
+
+@pytest.mark.parametrize(
+    "values",
+    [
+        {"id": 3},
+        {"depth": 2.001},
+        {"depth": np.nan},
+        {"normal": (0, 0.01, 1)},
+        {"normal": np.nan},
+        {"color": 0.55},
+        {"color": np.nan},
+        {"depth": np.inf, "id": -1, "primitive": -1},
+    ],
+)
+def test_a_wrong_value_in_the_middle_of_a_surface_is_unexplained(values):
+    flat = flatten(Scene((wall(-2),)))
+    frame = image(2, 0, 0)
+    wrong = changed(frame, (12, 20), **values)
+    for first, second in ((wrong, frame), (frame, wrong)):
+        comparison = compare_frames(flat, CAMERA, SIZE, first, second)
+        assert counts(comparison) == {"unexplained": 1}
+        assert comparison.labels[12, 20] == 255
+        assert comparison.summary_short() == "disagree: 1 pixels"
+
+
+def test_differences_within_the_tolerances_agree():
+    flat = flatten(Scene((wall(-2),)))
+    frame = image(2, 0, 0)
+    near = replace(frame, depth=frame.depth * np.float32(1 + 5e-5), color=frame.color + 0.003)
+    comparison = compare_frames(flat, CAMERA, SIZE, near, frame)
+    assert counts(comparison) == {}
+    assert comparison.max_depth_error == pytest.approx(5e-5, rel=0.01)
+
+
+@pytest.mark.parametrize(("offset_px", "explained"), [(0.9 / 128, True), (1.2 / 128, False)])
+def test_an_outline_explains_pixels_within_one_128th(offset_px, explained):
+    """The wall's right edge passes offset_px to the left of the centres of column 20."""
+    at = CAMERA.image_point(0, 20 - offset_px, SIZE)[0] * 2
+    flat = flatten(Scene((wall(-2, right=float(at)), wall(-3))))
+    exact = changed(image(2, 0, 0), np.s_[:, 20:], depth=3, id=1, primitive=2)
+    snapped = changed(exact, np.s_[:, 20], depth=2, id=0, primitive=0)
+    comparison = compare_frames(flat, CAMERA, SIZE, snapped, exact)
+    assert counts(comparison) == {"outline" if explained else "unexplained": 24}
+
+
+def test_a_hidden_edge_explains_nothing():
+    """An edge behind the wall passes through the very centres that are wrong."""
+    at = CAMERA.image_point(0, 20, SIZE)[0] * 3
+    flat = flatten(Scene((wall(-2), wall(-3, right=float(at)), wall(-1.5, 8, 9))))
+    frame = image(2, 0, 0)
+    wrong = changed(frame, np.s_[:, 20], depth=1.5, id=2, primitive=4)
+    assert counts(compare_frames(flat, CAMERA, SIZE, wrong, frame)) == {"unexplained": 24}
+
+
+def test_a_spheres_silhouette():
+    flat = flatten(Scene((SceneObject(Sphere((0, 0, -3), 1.0)),)))
+    lines = Lines(flat, CAMERA, (3200, 2400))
+    # The silhouette's radius in the image plane is tan(asin(1 / 3)).
+    column = (np.tan(np.arcsin(1 / 3)) + 0.5) * 3200 - 0.5
+    i, primitive = np.full(3, 1199.5), np.zeros(3, int)
+    distance = lines.outline_px(primitive, i, column + np.array([0.0, 0.3, -0.2]))
+    np.testing.assert_allclose(distance, [0, 0.3, 0.2], atol=1e-3)
+
+
+def test_surfaces_that_meet():
+    """Two tilted walls cross at x = 0, half a pixel from the centres around it."""
+    flat = flatten(Scene((wall(-2, tilt=1.0), wall(-2, tilt=-1.0))))
+    lines = Lines(flat, CAMERA, SIZE)
+    j = np.array([15, 16, 17])
+    distance = lines.meeting_px(np.zeros(3, int), np.full(3, 2), np.full(3, 5), j, np.full(3, 2.0))
+    np.testing.assert_allclose(distance, [0.5, 0.5, 1.5], rtol=0.05)
+
+
+def test_near_and_far_cut_along_clip_lines():
+    camera = replace(CAMERA, near=2.0)
+    flat = flatten(Scene((wall(-2, tilt=1.0),)))
+    lines = Lines(flat, camera, SIZE)
+    distance = lines.clip_px(np.zeros(2, int), np.full(2, 5), np.array([15, 16]), np.full(2, 2.0))
+    np.testing.assert_allclose(distance, [0.5, 0.5], rtol=0.05)
+
+
+def test_checker_borders_explain_colours_only_where_there_are_checkers():
+    at = CAMERA.image_point(0, 20 + 0.5 / 128, SIZE)[0] * 2
+    frame = image(2, 0, 0)
+    wrong = changed(frame, np.s_[:, 20], color=0.1)
+    # Cells are centred on the object's origin: a border lies at half a cell.
+    for material, cause in (
+        ({"checker": Checker(size=2 * float(at))}, "checker"),
+        ({}, "unexplained"),
+    ):
+        flat = flatten(Scene((wall(-2, **material),)))
+        assert counts(compare_frames(flat, CAMERA, SIZE, wrong, frame)) == {cause: 24}
+
+
+def test_the_difference_image_and_the_report_show_the_causes():
+    flat = flatten(Scene((wall(-2),)))
+    frame = image(2, 0, 0)
+    comparison = compare_frames(flat, CAMERA, SIZE, changed(frame, (3, 4), id=7), frame)
+    picture = comparison.difference_image()
+    assert picture.shape == (24, 32, 3)
+    assert picture.dtype == np.uint8
+    assert tuple(picture[3, 4]) == (255, 94, 0)
+    report = comparison.to_dict()
+    assert report["unexplained"] == 1
+    assert set(report["explained"]) == set(CAUSES)
+    assert "unexplained: 1" in comparison.summary()
