@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from renderer.errors import LucidaError
-from renderer.frame import CHANNELS, Frame
+from renderer.frame import Frame
 
 Bytes = NDArray[np.uint8]
 Floats32 = NDArray[np.float32]
@@ -97,7 +97,7 @@ def picture(frame: Frame, channel: str = "color", exposure_ev: float = 0.0) -> B
     of nine colours that colour-blind viewers tell apart, repeated; misses black.
     Raises LucidaError where the frame lacks the channel.
     """
-    data = channel_of(frame, channel)
+    data = frame.channel(channel)
     if channel == "color":
         return to_srgb8(data, exposure_ev)
     if channel == "depth":
@@ -116,7 +116,7 @@ def gray_picture(frame: Frame, channel: str = "color", exposure_ev: float = 0.0)
     color: the luminance of the exposed linear light, encoded. depth: as in picture().
     Other channels: the luminance of picture().
     """
-    data = channel_of(frame, channel)
+    data = frame.channel(channel)
     if channel == "color":
         return to_srgb8(luminance(data), exposure_ev)
     if channel == "depth":
@@ -140,14 +140,6 @@ def depth_gray(depth: Floats32) -> Bytes:
     behind = (np.where(hit, depth, nearest) - nearest) / span if span > 0 else np.zeros(depth.shape)
     gray = 1 - (1 - FARTHEST_GRAY) * behind
     return np.where(hit, np.rint(gray * 255), 0).astype(np.uint8)
-
-
-def channel_of(frame: Frame, channel: str) -> NDArray:
-    """The frame's array of that channel; raises LucidaError where it has none."""
-    data = getattr(frame, channel, None) if channel in CHANNELS else None
-    if data is None:
-        raise LucidaError("channel", f"{channel!r} is not in this frame", "render it first")
-    return data
 
 
 def _gain(exposure_ev: float) -> np.float32:

@@ -20,7 +20,7 @@ from numpy.typing import NDArray
 from renderer.atomic import atomic_write, check_writable
 from renderer.errors import LucidaError
 from renderer.frame import Frame
-from renderer.images.display import Bytes, channel_of, gray_of, gray_picture, picture
+from renderer.images.display import Bytes, gray_of, gray_picture, picture
 
 # EXR's names of channels, by the convention of layers: "N.X" is the X of layer N.
 EXR_CHANNELS = {
@@ -62,7 +62,7 @@ def write_image(
     """
     ending = check_image_path(path)
     if ending in DATA:
-        data = channel_of(frame, channel)
+        data = frame.channel(channel)
         with atomic_write(path) as file:
             DATA[ending](file, data, channel)
         return

@@ -1,0 +1,86 @@
+"""The command line: which command was meant, and how its end is told.
+
+Owns the choice of the command, the exit status and the one line of an error. Knows nothing of what
+the commands do (app/commands/). Heavy modules are imported by the command that needs them, so that
+`--help` and `--version` answer at once.
+"""
+
+from __future__ import annotations
+
+import os
+import signal
+import sys
+import traceback
+from collections.abc import Sequence
+
+from app.commands import COMMANDS, view
+from app.commands.arguments import TRACEBACK_VARIABLE, Parser
+from renderer.errors import LucidaError
+
+FAILED = 2
+INTERRUPTED = 128 + signal.SIGINT
+BROKEN_PIPE = 128 + 13  # SIGPIPE, which Windows does not have
+
+
+def main(argv: Sequence[str] | None = None) -> int:
+    """Run `lucida` with these arguments (default: the process's); gives the exit status.
+
+    0: done. 1: the command's answer is no (compare: the renderers disagree; doctor: nothing
+    works). 2: a mistake in the arguments or files, or a failure. 130: interrupted by Ctrl-C.
+    """
+    arguments = list(sys.argv[1:] if argv is None else argv)
+    try:
+        status = _dispatch(arguments)
+        sys.stdout.flush()
+        return status
+    except SystemExit as end:  # argparse: --help, --version, or a mistake that it has told
+        return end.code if isinstance(end.code, int) else FAILED
+    except KeyboardInterrupt:
+        _say("interrupted")
+        return INTERRUPTED
+    except BrokenPipeError:
+        _discard_output()  # the reader left, as `head` does
+        return BROKEN_PIPE
+    except LucidaError as error:
+        return _failed(str(error))
+    except MemoryError:
+        return _failed("not enough memory; try a smaller image or model")
+    except OSError as error:
+        _discard_output()
+        where = f"{error.filename}: " if error.filename else ""
+        return _failed(f"{where}{error.strerror or error}")
+    except Exception as error:
+        text = " ".join(str(error).split())
+        return _failed(
+            f"internal error: {type(error).__name__}: {text}; "
+            f"set {TRACEBACK_VARIABLE}=1 to see where, and report it"
+        )
+
+
+def _dispatch(arguments: list[str]) -> int:
+    command = next((c for c in COMMANDS if arguments[:1] == [c.NAME]), view)
+    prog = "lucida" if command is view else f"lucida {command.NAME}"
+    parser = Parser(prog=prog)
+    command.configure(parser)
+    return command.run(parser.parse_args(arguments if command is view else arguments[1:]))
+
+
+def _failed(message: str) -> int:
+    if os.environ.get(TRACEBACK_VARIABLE):
+        traceback.print_exc()
+    _say(message)
+    return FAILED
+
+
+def _say(message: str) -> None:
+    print(f"lucida: {message}", file=sys.stderr)
+
+
+def _discard_output() -> None:
+    """Let Python's own flush at exit find nothing to complain about."""
+    try:
+        null = os.open(os.devnull, os.O_WRONLY)
+        os.dup2(null, sys.stdout.fileno())
+        os.close(null)
+    except (OSError, ValueError):
+        pass  # stdout is no file, as in a test

@@ -1,0 +1,8 @@
+"""The commands of `lucida`, a module each: NAME, SUMMARY, configure(parser), run(arguments).
+
+Without a command's name, `lucida` is app/commands/view.py: the window.
+"""
+
+from app.commands import compare, doctor, render, scenes
+
+COMMANDS = (render, compare, scenes, doctor)

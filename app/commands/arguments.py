@@ -1,0 +1,108 @@
+"""What the commands share: the parser, the types of arguments, the camera, the progress bar.
+
+Knows nothing of single commands. Light to import: heavy modules are imported inside functions.
+"""
+
+from __future__ import annotations
+
+import argparse
+import contextlib
+import math
+import sys
+from collections.abc import Callable, Iterator
+from typing import TYPE_CHECKING, NoReturn
+
+from renderer.errors import LucidaError
+
+if TYPE_CHECKING:
+    from renderer.camera import Camera
+    from renderer.scene.model import Scene
+
+DEFAULT_SIZE = (1280, 720)
+BACKENDS = ("auto", "egl", "osmesa")
+SAMPLES = tuple(k * k for k in range(1, 9))
+TRACEBACK_VARIABLE = "LUCIDA_TRACEBACK"
+
+SCENE_HELP = """\
+a scene file (.toml), a model (.obj .ply .stl .off .glb .gltf), or the name
+of a built-in scene (`lucida scenes` lists them)"""
+VIEW_HELP = "take the camera from this file, not the scene's own"
+SIZE_HELP = f"width and height in pixels (default: {DEFAULT_SIZE[0]}x{DEFAULT_SIZE[1]})"
+BACKEND_HELP = "the rasterizer's GL platform; auto: EGL, then OSMesa (default: auto)"
+
+
+class Parser(argparse.ArgumentParser):
+    """argparse whose mistakes are one line, and whose texts keep their line breaks."""
+
+    def __init__(self, prog: str) -> None:
+        super().__init__(
+            prog=prog, formatter_class=argparse.RawTextHelpFormatter, allow_abbrev=False
+        )
+
+    def error(self, message: str) -> NoReturn:
+        self.exit(2, f"{self.prog}: {' '.join(message.split())}; see '{self.prog} --help'\n")
+
+
+def size(text: str) -> tuple[int, int]:
+    """`1280x720` as (width, height)."""
+    from renderer.frame import check_size
+
+    width, cross, height = text.lower().partition("x")
+    if not (cross and _is_whole(width) and _is_whole(height)):
+        raise argparse.ArgumentTypeError(f"{text!r} is not a size; give e.g. 1280x720")
+    try:
+        return check_size((int(width), int(height)))
+    except LucidaError as error:
+        raise argparse.ArgumentTypeError(f"{error.problem}; {error.remedy}") from None
+
+
+def samples(text: str) -> int:
+    """A square number of samples a pixel."""
+    if not (_is_whole(text) and int(text) in SAMPLES):
+        allowed = ", ".join(map(str, SAMPLES))
+        raise argparse.ArgumentTypeError(f"{text!r} is not possible; give one of {allowed}")
+    return int(text)
+
+
+def threads(text: str) -> int:
+    """A number of threads, 1 to 1024."""
+    if not (_is_whole(text) and 1 <= int(text) <= 1024):
+        raise argparse.ArgumentTypeError(f"{text!r} is not a number of threads; give 1 to 1024")
+    return int(text)
+
+
+def exposure_ev(text: str) -> float:
+    """An exposure in stops, -32 to 32."""
+    try:
+        value = float(text)
+    except ValueError:
+        value = math.nan
+    if not -32 <= value <= 32:
+        raise argparse.ArgumentTypeError(f"{text!r} is not an exposure; give -32 to 32 stops")
+    return value
+
+
+def scene_and_camera(source: str, view: str | None, size: tuple[int, int]) -> tuple[Scene, Camera]:
+    """The scene, and the camera of the view file or else of the scene, for that (width, height)."""
+    from renderer.scene import load_scene, load_view
+
+    own_view = load_view(view) if view is not None else None  # the quick mistakes first
+    scene = load_scene(source)
+    return scene, (own_view or scene.view).for_size(size)
+
+
+@contextlib.contextmanager
+def progress_bar(label: str) -> Iterator[Callable[[float], None]]:
+    """A function that takes fractions 0 to 1 and draws a bar on a terminal, from 1 s on."""
+    from tqdm import tqdm
+
+    layout = "{desc} {percentage:3.0f} % |{bar}| {elapsed}, {remaining} left"
+    hidden = not sys.stderr.isatty()
+    with tqdm(
+        total=1.0, desc=label, bar_format=layout, delay=1, leave=False, disable=hidden
+    ) as bar:
+        yield lambda fraction: (bar.update(fraction - bar.n), None)[1]
+
+
+def _is_whole(text: str) -> bool:
+    return text.isascii() and text.isdigit() and len(text) < 10

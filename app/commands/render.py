@@ -1,0 +1,124 @@
+"""`lucida render`: one channel of one image into a file.
+
+Knows nothing of the formats (renderer/images/) or of how images are made.
+"""
+
+from __future__ import annotations
+
+import argparse
+from typing import TYPE_CHECKING
+
+from app.commands import arguments as common
+
+if TYPE_CHECKING:
+    from renderer.camera import Camera
+    from renderer.frame import Frame
+    from renderer.scene.model import Scene
+
+NAME = "render"
+
+DESCRIPTION = "Draw a scene with one of the two renderers and write one channel into a file."
+
+EPILOG = """\
+formats, by OUT's ending:
+  .png .ppm   picture: 8-bit sRGB colours
+  .pgm .pbm   picture: its gray (luminance), or that cut at half, one bit a pixel
+  .pfm        numbers: float32, linear light, one or three a pixel
+  .exr        numbers: float32 R G B, Z (depth), N.X N.Y N.Z (normal); uint32 id,
+              4294967295 where nothing is hit
+  .npy        numbers: NumPy arrays, row 0 at the top, as in `channels`
+
+channels:
+  color       (H, W, 3) float32, linear light
+  depth       (H, W) float32, the ray parameter: 1 on the image plane in perspective;
+              inf where nothing is hit. Picture: the nearest hit white, misses black
+  normal      (H, W, 3) float32, world space, unit, facing the viewer; 0 where nothing
+              is hit. Picture: 0.5 + 0.5 n as red, green, blue
+  id          (H, W) int32, the object's index in the scene, -1 where nothing is hit.
+              Picture: nine colours for colour-blind eyes, repeated; misses black
+
+examples:
+  lucida render spheres -o spheres.png
+  lucida render bunny.obj -o bunny.exr --renderer ray --samples 16
+  lucida render bunny.obj -o depth.npy --channel depth --size 640x480 --view corner.toml"""
+
+
+def configure(parser: argparse.ArgumentParser) -> None:
+    parser.description, parser.epilog = DESCRIPTION, EPILOG
+    parser.add_argument("scene", metavar="SCENE", help=common.SCENE_HELP)
+    parser.add_argument("-o", "--output", metavar="OUT", required=True, help="the file to write")
+    parser.add_argument(
+        "--renderer",
+        choices=("raster", "ray"),
+        default="raster",
+        help="object order (OpenGL) or image order (CPU) (default: raster)",
+    )
+    parser.add_argument(
+        "--channel",
+        choices=("color", "depth", "normal", "id"),
+        default="color",
+        help="what of each pixel to write (default: color)",
+    )
+    parser.add_argument(
+        "--size",
+        type=common.size,
+        default=common.DEFAULT_SIZE,
+        metavar="WxH",
+        help=common.SIZE_HELP,
+    )
+    parser.add_argument(
+        "--samples",
+        type=common.samples,
+        default=1,
+        metavar="N",
+        help="colour samples a pixel: 1, 4, 9, 16, 25, 36, 49 or 64 (default: 1)",
+    )
+    parser.add_argument("--view", metavar="VIEW.toml", help=common.VIEW_HELP)
+    parser.add_argument(
+        "--exposure",
+        type=common.exposure_ev,
+        default=0.0,
+        metavar="EV",
+        help="brighten a picture's colours by 2^EV (default: 0)",
+    )
+    parser.add_argument(
+        "--backend", choices=common.BACKENDS, default="auto", help=common.BACKEND_HELP
+    )
+    parser.add_argument(
+        "--threads",
+        type=common.threads,
+        metavar="N",
+        help="the ray tracer's threads (default: one a core)",
+    )
+
+
+def run(arguments: argparse.Namespace) -> int:
+    from renderer.images import check_image_path, write_image
+
+    check_image_path(arguments.output)
+    scene, camera = common.scene_and_camera(arguments.scene, arguments.view, arguments.size)
+    frame = draw(scene, camera, arguments)
+    if not frame.complete:
+        raise KeyboardInterrupt
+    write_image(arguments.output, frame, arguments.channel, arguments.exposure)
+    width, height = frame.size
+    print(
+        f"{arguments.output}: {arguments.channel}, {arguments.renderer}, "
+        f"{width}x{height}, {1e3 * frame.time_s:.1f} ms"
+    )
+    return 0
+
+
+def draw(scene: Scene, camera: Camera, arguments: argparse.Namespace) -> Frame:
+    """The frame of the renderer that was asked for, behind a progress bar."""
+    size, channels, samples = arguments.size, (arguments.channel,), arguments.samples
+    with common.progress_bar(arguments.renderer) as progress:
+        if arguments.renderer == "raster":
+            from renderer.raster import Rasterizer
+
+            with Rasterizer(scene, backend=arguments.backend) as rasterizer:
+                return rasterizer.render(camera, size, channels, samples, progress)
+        from renderer.trace import Tracer
+
+        with Tracer(scene, threads=arguments.threads) as tracer:
+            return tracer.render(camera, size, channels, samples, progress)

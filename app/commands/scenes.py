@@ -1,0 +1,19 @@
+"""`lucida scenes`: the names of the built-in scenes."""
+
+from __future__ import annotations
+
+import argparse
+
+NAME = "scenes"
+
+
+def configure(parser: argparse.ArgumentParser) -> None:
+    parser.description = "List the built-in scenes, the default one first."
+    parser.epilog = "example:\n  lucida render spheres -o spheres.png"
+
+
+def run(arguments: argparse.Namespace) -> int:
+    from renderer.scene import BUILTIN_SCENES
+
+    print("\n".join(BUILTIN_SCENES))
+    return 0

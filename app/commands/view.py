@@ -1,0 +1,59 @@
+"""`lucida [SCENE]`: the window with both renderers side by side.
+
+Knows nothing of how the window is made (app/viewer.py).
+"""
+
+from __future__ import annotations
+
+import argparse
+
+from app import __version__
+from app.commands.arguments import SCENE_HELP, VIEW_HELP, size
+
+NAME = "view"
+
+DESCRIPTION = """\
+One camera, two renderers: a rasterizer (object order) and a ray tracer (image order)
+draw the same scene from the same camera, side by side, while you drag the camera's numbers.
+
+commands:
+  lucida render SCENE -o OUT     draw one image into a file
+  lucida compare SCENE           raster against ray: counts, errors, causes
+  lucida scenes                  the built-in scenes
+  lucida doctor                  which GL platforms work here, and what to install
+`lucida COMMAND --help` says more. A scene file named like a command: ./render"""
+
+EPILOG = """\
+examples:
+  lucida                                  the built-in scene
+  lucida bunny.obj                        a model, lit and framed
+  lucida spheres --view corner.toml       a built-in scene, seen by another camera
+  lucida --screenshot window.png          draw the window once, save it, leave
+
+With no display, lucida draws the window once, saves the picture and says where.
+exit status: 0 done, 2 a mistake or a failure (one line says which), 130 interrupted"""
+
+
+def configure(parser: argparse.ArgumentParser) -> None:
+    parser.description, parser.epilog = DESCRIPTION, EPILOG
+    parser.add_argument("scene", nargs="?", metavar="SCENE", help=SCENE_HELP)
+    parser.add_argument(
+        "--screenshot", metavar="OUT.png", help="draw the whole window once, save it, leave"
+    )
+    parser.add_argument("--view", metavar="VIEW.toml", help=VIEW_HELP)
+    parser.add_argument("--size", type=size, metavar="WxH", help="the window's size in pixels")
+    parser.add_argument("--version", action="version", version=f"lucida {__version__}")
+
+
+def run(arguments: argparse.Namespace) -> int:
+    from pathlib import Path
+
+    from app.viewer import run_viewer
+
+    screenshot = None
+    if arguments.screenshot is not None:
+        from renderer.images import check_image_path
+
+        check_image_path(arguments.screenshot, pictures_only=True)
+        screenshot = Path(arguments.screenshot)
+    return run_viewer(arguments.scene, screenshot, size=arguments.size, view=arguments.view)
