@@ -1,0 +1,54 @@
+"""Scenes: what they are made of, and how they are read from files.
+
+    model       the structures: objects, materials, lights, Scene, View
+    shapes      procedural meshes
+    load        load_scene: a built-in scene, a scene file, or a model file
+    files       scene files (.toml); their format: schema
+    models      model files (.obj .ply .stl .off .glb .gltf)
+    views       view files: a camera written down
+    flat        a scene as flat arrays, the form that both renderers read
+
+Knows nothing of renderers, pixels or windows.
+"""
+
+from renderer.scene import shapes
+from renderer.scene.flat import FlatScene, flatten
+from renderer.scene.load import BUILTIN_SCENES, SCENE_ENDINGS, load_scene
+from renderer.scene.model import (
+    Checker,
+    Color,
+    DirectionalLight,
+    Material,
+    Mesh,
+    PointLight,
+    Scene,
+    SceneObject,
+    Shape,
+    Sphere,
+    View,
+)
+from renderer.scene.views import load_view, save_view, view_from_toml, view_to_toml
+
+__all__ = [
+    "BUILTIN_SCENES",
+    "SCENE_ENDINGS",
+    "Checker",
+    "Color",
+    "DirectionalLight",
+    "FlatScene",
+    "Material",
+    "Mesh",
+    "PointLight",
+    "Scene",
+    "SceneObject",
+    "Shape",
+    "Sphere",
+    "View",
+    "flatten",
+    "load_scene",
+    "load_view",
+    "save_view",
+    "shapes",
+    "view_from_toml",
+    "view_to_toml",
+]

@@ -1,0 +1,218 @@
+"""Scene files: TOML into a Scene.
+
+Owns the way from the tables of schema.py to a scene, and the paths of fields in errors. Knows
+nothing of model files beyond that they become objects.
+"""
+
+from __future__ import annotations
+
+import contextlib
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+from renderer.errors import LucidaError
+from renderer.scene import framing, shapes
+from renderer.scene.colors import parse_color
+from renderer.scene.limits import LIGHTS, OBJECTS, TOML_BYTES, TRIANGLES
+from renderer.scene.model import (
+    Checker,
+    DirectionalLight,
+    Material,
+    Mesh,
+    PointLight,
+    Scene,
+    SceneObject,
+    Sphere,
+)
+from renderer.scene.models import load_model
+from renderer.scene.reading import decode_text, read_file, suggestion
+from renderer.scene.schema import (
+    AnyLight,
+    AnyObject,
+    BoxTable,
+    ConeTable,
+    CylinderTable,
+    DiskTable,
+    MaterialTable,
+    MeshTable,
+    ModelTable,
+    PointLightTable,
+    RectangleTable,
+    SceneFile,
+    SphereTable,
+    TorusTable,
+)
+from renderer.scene.tables import parse_toml, to_struct
+from renderer.scene.views import view_from_table
+
+Materials = dict[str, Material]
+Models = dict[Path, tuple[SceneObject, ...]]
+
+
+def read_scene_file(path: Path) -> Scene:
+    """The scene in a file. Raises LucidaError naming the file, the field and the remedy."""
+    text = decode_text(read_file(path, TOML_BYTES), str(path))
+    return scene_from_toml(text, path.parent, str(path), path.stem)
+
+
+def scene_from_toml(text: str, folder: Path, source: str = "", name: str = "") -> Scene:
+    """The scene in a text. folder: where its models' paths begin. source: the file, for errors.
+
+    name: the scene's, where the file gives none.
+    """
+    try:
+        return _scene(to_struct(parse_toml(text), SceneFile), folder, name)
+    except LucidaError as error:
+        raise error.in_file(source) from None
+
+
+def _scene(tables: SceneFile, folder: Path, name: str) -> Scene:
+    materials = {
+        key: _material(table, f"materials.{key}") for key, table in tables.materials.items()
+    }
+    objects = _objects(tables.objects, materials, folder)
+    if tables.lights is None:
+        lights = framing.LIGHTS
+    else:
+        _check_count("lights", len(tables.lights), LIGHTS)
+        lights = tuple(_light(table, f"lights[{i}]") for i, table in enumerate(tables.lights))
+    ambient, background = (
+        default if value is None else parse_color(field, value)
+        for field, value, default in (
+            ("ambient", tables.ambient, framing.AMBIENT),
+            ("background", tables.background, framing.BACKGROUND),
+        )
+    )
+    if tables.camera is None:
+        view = framing.framing_view(objects)
+    else:
+        view = view_from_table(tables.camera)
+    return Scene(tuple(objects), lights, ambient, background, view, tables.name or name)
+
+
+def _objects(tables: list[Any], materials: Materials, folder: Path) -> list[SceneObject]:
+    _check_count("objects", len(tables), OBJECTS)
+    objects: list[SceneObject] = []
+    models: Models = {}
+    triangles = 0
+    for number, table in enumerate(tables):
+        field = f"objects[{number}]"
+        entry = to_struct(table, AnyObject, field)  # type: ignore[arg-type]
+        with _under(field):
+            parts = _parts(entry, materials, folder, models)
+        objects += parts
+        # Counted as they come: what is too much is never built to the end.
+        triangles += sum(len(p.shape.faces) for p in parts if isinstance(p.shape, Mesh))
+        _check_count("objects", len(objects), OBJECTS)
+        _check_count("objects", triangles, TRIANGLES, "triangles")
+    return objects
+
+
+def _parts(
+    table: SphereTable | MeshTable, materials: Materials, folder: Path, models: Models
+) -> list[SceneObject]:
+    """The scene's objects for one table: one, or as many as a model has parts."""
+    material = _material_of(table.material, materials)
+    if isinstance(table, SphereTable):
+        return [SceneObject(Sphere(table.center, table.radius), material or Material(), table.name)]
+    matrix = shapes.placement(table.translate, table.rotate_deg, table.scale)
+    if not isinstance(table, ModelTable):
+        mesh = shapes.transformed(_mesh(table), matrix)
+        return [SceneObject(mesh, material or Material(), table.name)]
+    parts = []
+    for part in _model(table.file, folder, models):
+        assert isinstance(part.shape, Mesh)
+        name = f"{table.name}/{part.name}" if table.name and part.name else table.name or part.name
+        mesh = shapes.transformed(part.shape, matrix)
+        parts.append(SceneObject(mesh, material or part.material, name))
+    if table.name and len(parts) == 1:
+        parts = [SceneObject(parts[0].shape, parts[0].material, table.name)]
+    return parts
+
+
+def _mesh(table: MeshTable) -> Mesh:
+    match table:
+        case BoxTable():
+            return shapes.box(table.size)
+        case RectangleTable():
+            return shapes.rectangle(table.width, table.depth)
+        case DiskTable():
+            return shapes.disk(table.radius, table.segments)
+        case CylinderTable():
+            return shapes.cylinder(table.radius, table.height, table.segments, table.smooth)
+        case ConeTable():
+            return shapes.cone(table.radius, table.height, table.segments, table.smooth)
+        case TorusTable():
+            return shapes.torus(
+                table.radius, table.tube_radius, table.segments, table.sides, table.smooth
+            )
+    raise AssertionError(f"no mesh for {table!r}")
+
+
+def _model(file: str, folder: Path, models: Models) -> tuple[SceneObject, ...]:
+    """A model's parts; each file is read once a scene."""
+    path = folder / file
+    if path not in models:
+        try:
+            models[path] = load_model(path)
+        except LucidaError as error:
+            where = ": ".join(part for part in (str(path), error.field) if part)
+            raise LucidaError("file", f"{where}: {error.problem}", error.remedy) from None
+    return models[path]
+
+
+def _material_of(value: str | MaterialTable | None, materials: Materials) -> Material | None:
+    if value is None:
+        return None
+    if isinstance(value, MaterialTable):
+        with _under("material"):
+            return _built_material(value)
+    if value not in materials:
+        remedy = suggestion(value, materials) if materials else "define it under [materials]"
+        raise LucidaError("material", f"{value[:40]!r} is unknown", remedy)
+    return materials[value]
+
+
+def _material(table: Any, field: str) -> Material:
+    fields = to_struct(table, MaterialTable, field)
+    with _under(field):
+        return _built_material(fields)
+
+
+def _built_material(table: MaterialTable) -> Material:
+    checker = None
+    if (given := table.checker) is not None:
+        with _under("checker"):
+            checker = Checker(parse_color("diffuse", given.diffuse), given.size)
+    return Material(
+        parse_color("diffuse", table.diffuse),
+        parse_color("specular", table.specular),
+        table.shininess,
+        checker,
+    )
+
+
+def _light(table: Any, field: str) -> PointLight | DirectionalLight:
+    fields = to_struct(table, AnyLight, field)  # type: ignore[arg-type]
+    with _under(field):
+        rgb = parse_color("color", fields.color)
+        if isinstance(fields, PointLightTable):
+            return PointLight(fields.position, rgb)
+        return DirectionalLight(fields.direction, rgb)
+
+
+@contextlib.contextmanager
+def _under(field: str) -> Iterator[None]:
+    """Errors inside get their field under `field`."""
+    try:
+        yield
+    except LucidaError as error:
+        raise error.within(field) from None
+
+
+def _check_count(field: str, count: int, most: int, what: str = "") -> None:
+    if count > most:
+        raise LucidaError(
+            field, f"holds {count} {what or field}", f"give at most {most}, or split the scene"
+        )

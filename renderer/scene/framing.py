@@ -1,0 +1,65 @@
+"""What a scene without a camera or lights of its own is seen and lit by.
+
+Owns the default view, lights and colours of models. Knows nothing of files.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+
+import numpy as np
+from numpy.typing import NDArray
+
+from renderer.camera import Camera
+from renderer.errors import LucidaError
+from renderer.scene.model import DirectionalLight, Material, SceneObject, Sphere, View
+
+MATERIAL = Material(diffuse=(0.7, 0.7, 0.7), specular=(0.12, 0.12, 0.12), shininess=40.0)
+AMBIENT = (0.15, 0.15, 0.15)
+BACKGROUND = (0.021, 0.023, 0.027)  # a dark neutral, #272829 on the screen
+LIGHTS = (
+    DirectionalLight((0.5, -0.8, -0.6), (0.78, 0.77, 0.74)),  # the key, from the upper left
+    DirectionalLight((-0.9, -0.1, -0.3), (0.2, 0.22, 0.26)),  # the fill, from the right
+)
+
+DIRECTION = (0.5, 0.35, 1.0)  # from the scene's centre to the eye: its front, from the right
+FOV_Y_DEG = 35.0
+MARGIN = 1.08
+
+SMALLEST_RADIUS, LARGEST_RADIUS = 1e-9, 1e11
+
+
+def framing_view(objects: Sequence[SceneObject]) -> View:
+    """A perspective view that has every object in the picture, fitted to any aspect ratio.
+
+    The eye is in front of the centre of their bounds, a little to the right and above. Raises
+    LucidaError where the objects are too small or too large to put a camera there.
+    """
+    if not objects:
+        return View(Camera.canonical(), fit=True)
+    points = np.concatenate([_outline(entry) for entry in objects])
+    low, high = points.min(axis=0), points.max(axis=0)
+    center = (low + high) / 2
+    points = points - center
+    radius = float(np.linalg.norm(high - low)) / 2
+    if not SMALLEST_RADIUS <= radius <= LARGEST_RADIUS:
+        size = "small" if radius < SMALLEST_RADIUS else "large"
+        raise LucidaError("", f"is too {size}, {2 * radius:g} across", "scale it")
+    w = np.asarray(DIRECTION) / np.linalg.norm(DIRECTION)
+    u = np.cross((0.0, 1.0, 0.0), w)
+    u /= np.linalg.norm(u)
+    across = np.abs(points @ np.column_stack([u, np.cross(w, u)])).max(axis=1)
+    # A point at depth z below the eye's plane is seen where across <= z tan(fov / 2).
+    needed = points @ w + MARGIN * across / math.tan(math.radians(FOV_Y_DEG) / 2)
+    eye = center + max(float(needed.max()), 1.5 * radius) * w
+    return View(Camera.look_at(eye, center, fov_y_deg=FOV_Y_DEG), fit=True)
+
+
+def _outline(entry: SceneObject) -> NDArray[np.float64]:
+    """Points (n, 3) in world space whose hull holds the object: vertices, or a sphere's box."""
+    shape = entry.shape
+    if isinstance(shape, Sphere):
+        signs = np.array(np.meshgrid(*[(-1.0, 1.0)] * 3)).reshape(3, -1).T
+        return np.asarray(shape.center) + shape.radius * signs
+    return shape.vertices @ shape.transform[:3, :3].T + shape.transform[:3, 3]

@@ -1,0 +1,58 @@
+"""From what a user types, a built-in scene's name or a file, to a Scene.
+
+Owns the choice between them, by name and by ending. Knows nothing of what is in the files.
+"""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from renderer.errors import LucidaError
+from renderer.scene.files import read_scene_file
+from renderer.scene.models import MODEL_ENDINGS, model_scene
+from renderer.scene.model import Scene
+from renderer.scene.reading import neighbours, suggestion
+
+BUILTIN_SCENES = ("still-life", "canonical", "columns", "spheres", "primitives")  # the default first
+SCENE_ENDINGS = (".toml", *MODEL_ENDINGS)
+
+_BUILTIN_FOLDER = Path(__file__).parent / "builtin"
+
+
+def load_scene(source: str | Path) -> Scene:
+    """The scene of a built-in name, a scene file (.toml) or a model file.
+
+    A name wins over a file of the same name; write ./name for the file. A model file alone gets
+    the default lights and a view that has all of it in the picture. Raises LucidaError naming the
+    file, the field and the remedy.
+    """
+    if source in BUILTIN_SCENES:
+        return read_scene_file(_BUILTIN_FOLDER / f"{source}.toml")
+    if not str(source):
+        raise LucidaError("scene", "'' is empty", suggestion("", BUILTIN_SCENES))
+    path = Path(source)
+    ending = path.suffix.lower()
+    if ending == ".toml":
+        return read_scene_file(path)
+    if ending in MODEL_ENDINGS:
+        return model_scene(path)
+    endings = f"files ending in {' '.join(SCENE_ENDINGS)}"
+    if _exists(path):
+        raise LucidaError(
+            "", f"ends in {ending!r}" if ending else "has no ending", f"give {endings}", str(path)
+        )
+    if ending or path.parent != Path():
+        raise LucidaError("", "does not exist", f"{neighbours(path)}; scenes are {endings}", str(path))
+    raise LucidaError(
+        "scene",
+        f"{str(source)[:80]!r} is neither a built-in scene nor a file",
+        f"{suggestion(str(source), BUILTIN_SCENES)}; built-in: {', '.join(BUILTIN_SCENES)}; "
+        f"or give a file ending in {' '.join(SCENE_ENDINGS)}",
+    )
+
+
+def _exists(path: Path) -> bool:
+    try:
+        return path.exists()
+    except (OSError, ValueError):
+        return False

@@ -1,0 +1,95 @@
+"""Reading a user's file, whole, within bounds, or saying in one line why not.
+
+Knows nothing of what is in the file.
+"""
+
+from __future__ import annotations
+
+import difflib
+import os
+import stat
+from collections.abc import Iterable
+from pathlib import Path
+
+from renderer.errors import LucidaError
+
+
+def read_file(path: Path, most_bytes: int) -> bytes:
+    """The bytes of an ordinary file of at most `most_bytes`; otherwise LucidaError naming it."""
+    source = str(path)
+    try:
+        status = path.stat()
+        if stat.S_ISDIR(status.st_mode):
+            raise LucidaError("", "is a folder", "give the name of a file", source)
+        # A pipe or a device may have no end.
+        if not stat.S_ISREG(status.st_mode):
+            raise LucidaError("", "is not an ordinary file", "copy it into one", source)
+        check_bytes(status.st_size, most_bytes, source)
+        with path.open("rb") as file:
+            data = file.read(most_bytes + 1)
+        check_bytes(len(data), most_bytes, source)
+    except FileNotFoundError:
+        raise LucidaError("", "does not exist", neighbours(path), source) from None
+    except LucidaError:
+        raise
+    except (OSError, ValueError) as error:
+        reason = error.strerror if isinstance(error, OSError) and error.strerror else str(error)
+        reason = reason[:1].lower() + reason[1:]
+        raise LucidaError(
+            "", f"cannot be read: {reason}", "check its name and rights", source
+        ) from None
+    if not data:
+        raise LucidaError("", "is empty", "give a file with something in it", source)
+    return data
+
+
+def check_bytes(size_bytes: int, most_bytes: int, source: str) -> None:
+    """Raises LucidaError where a file is larger than its kind may be."""
+    if size_bytes > most_bytes:
+        raise LucidaError(
+            "",
+            f"is too large, {size_text(size_bytes)}",
+            f"stay within {size_text(most_bytes)} for a file of this kind",
+            source,
+        )
+
+
+def decode_text(data: bytes, source: str) -> str:
+    """UTF-8 text, with or without a byte order mark; otherwise LucidaError."""
+    try:
+        return data.decode("utf-8-sig")
+    except UnicodeDecodeError as error:
+        line = data.count(b"\n", 0, error.start) + 1
+        raise LucidaError(
+            f"line {line}", "is not text in UTF-8", "save the file as UTF-8 text", source
+        ) from None
+
+
+def suggestion(given: str, known: Iterable[str]) -> str:
+    """`did you mean 'x'?` where a known name is close to the given one, else a list of all."""
+    known = list(known)
+    close = difflib.get_close_matches(given[:100], known, 1)
+    return f"did you mean {close[0]!r}?" if close else f"give one of {', '.join(known)}"
+
+
+def neighbours(path: Path) -> str:
+    """The remedy for a file that is not there: one of a similar name beside it, if any."""
+    try:
+        with os.scandir(path.parent) as entries:
+            names = [entry.name for entry, _ in zip(entries, range(10_000), strict=False)]
+    except (OSError, ValueError):
+        return "check its name and folder"
+    close = difflib.get_close_matches(path.name[:255], names, 1)
+    return f"did you mean {str(path.with_name(close[0]))!r}?" if close else "check its name"
+
+
+def size_text(size_bytes: int) -> str:
+    """A size as people say it: 512 bytes, 4 MiB, 2.5 GiB."""
+    if size_bytes < 1024:
+        return f"{size_bytes} bytes"
+    size = float(size_bytes)
+    for unit in ("KiB", "MiB"):
+        size /= 1024
+        if size < 1024:
+            return f"{size:.3g} {unit}"
+    return f"{size / 1024:.3g} GiB"

@@ -1,0 +1,201 @@
+"""The tables of scene files and view files, as msgspec structures.
+
+Owns the fields' names, types and defaults; the documentation of the format is this file. What the
+values must fulfil beyond their type is checked by the structures that they become.
+
+A colour is [red, green, blue] in linear light, or "#rrggbb" in sRGB, as colour pickers give it.
+Lengths are in world units, angles in degrees, y is up.
+"""
+
+from __future__ import annotations
+
+from typing import Any, Literal
+
+import msgspec
+
+Numbers3 = tuple[float, float, float]
+ColorValue = Numbers3 | str
+
+
+class Table(msgspec.Struct, kw_only=True, forbid_unknown_fields=True):
+    """A table in which an unknown field is an error."""
+
+
+class CameraFields(Table):
+    """[camera] of a view file: the camera as it is, every field by default the canonical one's.
+
+    fit: widen the viewport to each image's aspect ratio.
+    """
+
+    eye: Numbers3 = (0.0, 0.0, 0.0)
+    u: Numbers3 = (1.0, 0.0, 0.0)
+    v: Numbers3 = (0.0, 1.0, 0.0)
+    w: Numbers3 = (0.0, 0.0, 1.0)
+    distance: float = 1.0
+    viewport: tuple[float, float, float, float] = (-0.5, 0.5, -0.5, 0.5)
+    projection: Literal["perspective", "parallel"] = "perspective"
+    near: float | None = None
+    far: float | None = None
+    fit: bool | None = None
+
+
+class LookAtFields(Table):
+    """[camera] of a scene file, by what it looks at: given away by `target`.
+
+    Give fov_y_deg, or the distance of a viewport 1 high. fit: as above, by default true.
+    """
+
+    eye: Numbers3
+    target: Numbers3
+    up: Numbers3 = (0.0, 1.0, 0.0)
+    fov_y_deg: float | None = None
+    distance: float | None = None
+    projection: Literal["perspective", "parallel"] = "perspective"
+    near: float | None = None
+    far: float | None = None
+    fit: bool | None = None
+
+
+class ViewFile(Table):
+    """A view file: `lucida = 1`, if given, and [camera]."""
+
+    camera: CameraFields
+
+
+class CheckerTable(Table):
+    """checker = { diffuse, size }: every other cell of a pattern of cubes takes this colour."""
+
+    diffuse: ColorValue = (0.05, 0.05, 0.05)
+    size: float = 1.0
+
+
+class MaterialTable(Table):
+    """[materials.NAME], or a table in an object's `material`."""
+
+    diffuse: ColorValue = (0.7, 0.7, 0.7)
+    specular: ColorValue = (0.0, 0.0, 0.0)
+    shininess: float = 50.0
+    checker: CheckerTable | None = None
+
+
+class ObjectTable(Table, tag_field="type"):
+    """What all [[objects]] have. material: a name from [materials], or a table."""
+
+    name: str = ""
+    material: str | MaterialTable | None = None
+
+
+class SphereTable(ObjectTable, tag="sphere"):
+    """An exact sphere."""
+
+    center: Numbers3 = (0.0, 0.0, 0.0)
+    radius: float = 1.0
+
+
+class MeshTable(ObjectTable):
+    """What all objects made of triangles have: scaled first, then rotated, then translated.
+
+    rotate_deg: about the world's x axis, then y, then z. scale: one factor or three.
+    """
+
+    translate: Numbers3 = (0.0, 0.0, 0.0)
+    rotate_deg: Numbers3 = (0.0, 0.0, 0.0)
+    scale: float | Numbers3 = 1.0
+
+
+class BoxTable(MeshTable, tag="box"):
+    """size: the sides along x, y and z, or one number for a cube. Centred on its origin."""
+
+    size: float | Numbers3 = 1.0
+
+
+class RectangleTable(MeshTable, tag="rectangle"):
+    """In the plane y = 0, facing up."""
+
+    width: float = 1.0
+    depth: float = 1.0
+
+
+class DiskTable(MeshTable, tag="disk"):
+    """In the plane y = 0, facing up."""
+
+    radius: float = 0.5
+    segments: int = 64
+
+
+class CylinderTable(MeshTable, tag="cylinder"):
+    """About the y axis, closed."""
+
+    radius: float = 0.5
+    height: float = 1.0
+    segments: int = 64
+    smooth: bool = True
+
+
+class ConeTable(MeshTable, tag="cone"):
+    """About the y axis, its tip up, closed."""
+
+    radius: float = 0.5
+    height: float = 1.0
+    segments: int = 64
+    smooth: bool = True
+
+
+class TorusTable(MeshTable, tag="torus"):
+    """About the y axis: a tube of tube_radius around a circle of radius."""
+
+    radius: float = 0.5
+    tube_radius: float = 0.2
+    segments: int = 96
+    sides: int = 48
+    smooth: bool = True
+
+
+class ModelTable(MeshTable, tag="model"):
+    """A model file, its path relative to the scene file. material: replaces the file's own."""
+
+    file: str
+
+
+AnyObject = (
+    SphereTable
+    | BoxTable
+    | RectangleTable
+    | DiskTable
+    | CylinderTable
+    | ConeTable
+    | TorusTable
+    | ModelTable
+)
+
+
+class PointLightTable(Table, tag_field="type", tag="point"):
+    """Shines from `position`, equally far and near."""
+
+    position: Numbers3
+    color: ColorValue = (1.0, 1.0, 1.0)
+
+
+class DirectionalLightTable(Table, tag_field="type", tag="directional"):
+    """Shines along `direction`, from infinitely far."""
+
+    direction: Numbers3
+    color: ColorValue = (1.0, 1.0, 1.0)
+
+
+AnyLight = PointLightTable | DirectionalLightTable
+
+
+class SceneFile(Table):
+    """A scene file. Without lights it gets the default ones, without camera one that sees it all.
+
+    The tables inside are read one by one, each by its own structure above.
+    """
+
+    name: str = ""
+    ambient: ColorValue | None = None
+    background: ColorValue | None = None
+    camera: dict[str, Any] | None = None
+    materials: dict[str, Any] = {}
+    objects: list[Any]
+    lights: list[Any] | None = None

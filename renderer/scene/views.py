@@ -1,0 +1,100 @@
+"""View files: a camera written down, exactly.
+
+Owns the format of VIEW.toml and [camera] tables. Knows nothing of scenes' other parts.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import replace
+from pathlib import Path
+from typing import Any
+
+from renderer.atomic import atomic_write
+from renderer.camera import Camera
+from renderer.errors import LucidaError
+from renderer.scene.limits import TOML_BYTES
+from renderer.scene.model import View
+from renderer.scene.reading import decode_text, read_file
+from renderer.scene.schema import CameraFields, LookAtFields, ViewFile
+from renderer.scene.tables import VERSION, parse_toml, to_struct
+
+_CAMERA = ("eye", "u", "v", "w", "distance", "viewport", "projection", "near", "far")
+
+
+def load_view(path: str | Path) -> View:
+    """The view in a file. Raises LucidaError naming the file, the field and the remedy."""
+    data = read_file(Path(path), TOML_BYTES)
+    return view_from_toml(decode_text(data, str(path)), str(path))
+
+
+def save_view(path: str | Path, view: View) -> None:
+    """Writes a view file: whole or not at all. load_view gives back exactly this view."""
+    with atomic_write(path) as file:
+        file.write(view_to_toml(view).encode())
+
+
+def view_to_toml(view: View) -> str:
+    """The text of a view file."""
+    camera = view.camera
+    lines = [f"lucida = {VERSION}", "", "[camera]"]
+    lines += [f"{name} = {_numbers(getattr(camera, name))}" for name in ("eye", "u", "v", "w")]
+    lines.append(f"distance = {camera.distance!r}")
+    lines.append(f"viewport = {_numbers(camera.viewport)}")
+    lines.append(f'projection = "{camera.projection}"')
+    for name in ("near", "far"):
+        if (value := getattr(camera, name)) is not None:
+            lines.append(f"{name} = {value!r}")
+    if view.fit:
+        lines.append("fit = true")
+    return "\n".join(lines) + "\n"
+
+
+def view_from_toml(text: str, source: str = "") -> View:
+    """The view in the text of a view file. source: the file's name, for errors."""
+    try:
+        fields = to_struct(parse_toml(text), ViewFile).camera
+        try:
+            return View(_camera(fields), bool(fields.fit))
+        except LucidaError as error:
+            raise error.within("camera") from None
+    except LucidaError as error:
+        raise error.in_file(source) from None
+
+
+def view_from_table(table: dict[str, Any]) -> View:
+    """The view of a scene file's [camera]: a view file's fields, or eye and target.
+
+    It fits each image's aspect ratio unless it says `fit = false` or gives a viewport.
+    """
+    try:
+        if not {"target", "up", "fov_y_deg"} & table.keys():
+            fields = to_struct(table, CameraFields)
+            fit = "viewport" not in table if fields.fit is None else fields.fit
+            return View(_camera(fields), fit)
+        for name in ("u", "v", "w", "viewport"):
+            if name in table:
+                raise LucidaError(
+                    name, "is given beside target, up or fov_y_deg", "give one or the others"
+                )
+        look = to_struct(table, LookAtFields)
+        camera = Camera.look_at(
+            look.eye,
+            look.target,
+            look.up,
+            look.fov_y_deg,
+            look.distance,
+            projection=look.projection,
+        )
+        camera = replace(camera, near=look.near, far=look.far)
+        return View(camera, look.fit is not False)
+    except LucidaError as error:
+        raise error.within("camera") from None
+
+
+def _camera(fields: CameraFields) -> Camera:
+    return Camera(**{name: getattr(fields, name) for name in _CAMERA})
+
+
+def _numbers(values: Iterable[float]) -> str:
+    return "[" + ", ".join(repr(float(value)) for value in values) + "]"
