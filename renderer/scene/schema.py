@@ -151,7 +151,7 @@ class TorusTable(MeshTable, tag="torus"):
     smooth: bool = True
 
 
-class ModelTable(MeshTable, tag="model"):
+class ModelTable(MeshTable, tag="model", kw_only=True):
     """A model file, its path relative to the scene file. material: replaces the file's own."""
 
     file: str
@@ -186,7 +186,7 @@ class DirectionalLightTable(Table, tag_field="type", tag="directional"):
 AnyLight = PointLightTable | DirectionalLightTable
 
 
-class SceneFile(Table):
+class SceneFile(Table, kw_only=True):
     """A scene file. Without lights it gets the default ones, without camera one that sees it all.
 
     The tables inside are read one by one, each by its own structure above.
