@@ -1,0 +1,35 @@
+# Everything is prepared by scripts/setup.sh, which does nothing where nothing has changed.
+
+PYTHON_IN_VENV := .venv/bin/python
+ARGS :=
+
+.DEFAULT_GOAL := help
+.PHONY: help setup run test lint requirements clean
+
+help:
+	@echo 'make setup          prepare .venv and the system libraries'
+	@echo 'make run            open the window           make run ARGS="spheres"'
+	@echo 'make test           run the tests             make test ARGS="-k camera"'
+	@echo 'make lint           ruff and mypy'
+	@echo 'make requirements   pin the packages anew     make requirements ARGS="--upgrade"'
+	@echo 'make clean          remove .venv and everything else that was made'
+
+setup:
+	@sh scripts/setup.sh
+
+run: setup
+	@$(PYTHON_IN_VENV) -m app $(ARGS)
+
+# Nothing may follow: pytest's closing line is the last.
+test: setup
+	@$(PYTHON_IN_VENV) -m pytest $(ARGS)
+
+lint: setup
+	@sh scripts/lint.sh
+
+requirements: setup
+	@sh scripts/requirements.sh $(ARGS)
+
+clean:
+	rm -rf .venv build dist out .pytest_cache .mypy_cache .ruff_cache .hypothesis
+	find app renderer shaders tests -name __pycache__ -type d -prune -exec rm -rf {} +

@@ -1,0 +1,9 @@
+#!/bin/sh
+# All linters, each to its end; the status is 0 if all of them are content.
+set -u
+cd "$(dirname "$0")/.." || exit
+status=0
+.venv/bin/python -m ruff check . || status=1
+.venv/bin/python -m ruff format --check . || status=1
+.venv/bin/python -m mypy || status=1
+exit $status
