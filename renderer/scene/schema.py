@@ -42,7 +42,8 @@ class CameraFields(Table):
 class LookAtFields(Table):
     """[camera] of a scene file, by what it looks at: given away by `target`.
 
-    Give fov_y_deg, or the distance of a viewport 1 high. fit: as above, by default true.
+    Give fov_y_deg, or the distance of a viewport 1 high. aspect: the viewport's width over its
+    height; all of it is in the picture when it is fitted. fit: as above, by default true.
     """
 
     eye: Numbers3
@@ -50,6 +51,7 @@ class LookAtFields(Table):
     up: Numbers3 = (0.0, 1.0, 0.0)
     fov_y_deg: float | None = None
     distance: float | None = None
+    aspect: float = 1.0
     projection: Literal["perspective", "parallel"] = "perspective"
     near: float | None = None
     far: float | None = None

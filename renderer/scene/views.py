@@ -68,14 +68,14 @@ def view_from_table(table: dict[str, Any]) -> View:
     It fits each image's aspect ratio unless it says `fit = false` or gives a viewport.
     """
     try:
-        if not {"target", "up", "fov_y_deg"} & table.keys():
+        if not {"target", "up", "fov_y_deg", "aspect"} & table.keys():
             fields = to_struct(table, CameraFields)
             fit = "viewport" not in table if fields.fit is None else fields.fit
             return View(_camera(fields), fit)
         for name in ("u", "v", "w", "viewport"):
             if name in table:
                 raise LucidaError(
-                    name, "is given beside target, up or fov_y_deg", "give one or the others"
+                    name, "is given beside target, up, fov_y_deg or aspect", "give one or the others"
                 )
         look = to_struct(table, LookAtFields)
         camera = Camera.look_at(
@@ -84,6 +84,7 @@ def view_from_table(table: dict[str, Any]) -> View:
             look.up,
             look.fov_y_deg,
             look.distance,
+            look.aspect,
             projection=look.projection,
         )
         camera = replace(camera, near=look.near, far=look.far)
