@@ -1,0 +1,9 @@
+"""The tracer (image order): for each pixel, the viewing ray, the closest object, its colour.
+
+Importing this package is quick: numba and the compiled kernels are loaded by a Tracer's own thread.
+"""
+
+from renderer.trace.jobs import TraceJob
+from renderer.trace.tracer import Tracer
+
+__all__ = ["TraceJob", "Tracer"]

@@ -1,0 +1,221 @@
+"""The builder of the bounding volume hierarchy: a binary tree over all triangles and spheres.
+
+Owns the tree's construction by a team of threads. Knows nothing of rays; split.py chooses the
+splits, traverse.py owns the layout that is walked.
+"""
+
+from __future__ import annotations
+
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from renderer.scene.flat import FlatScene
+from renderer.trace.atomic import take_next
+from renderer.trace.compiled import inlined, kernel
+from renderer.trace.control import new_control
+from renderer.trace.split import BINS, NUMBER, best_split, measure, partition
+from renderer.trace.team import Team
+from renderer.trace.traverse import Tree
+
+LEAF_SIZE = 4  # primitives
+MAX_DEPTH = 48  # deeper nodes are halved by count, whatever their shape: depth stays bounded
+PIECE = 4096  # primitives, at least, of the subtrees that threads take
+CHUNK = 4096  # primitives that a thread takes at a time
+
+
+class Bvh(NamedTuple):
+    """A binary tree over numbered primitives.
+
+    bounds: float32 (nodes, 6), low x, y, z, high x, y, z. Node 0 is the root; a child's box lies
+        inside its parent's.
+    links: int32 (nodes, 2): (first child, 0), the second child being the next node; or, for a
+        leaf, (start, count): its primitives are order[start : start + count], count > 0.
+    order: int32 (n,), each primitive's number once.
+    depth: nodes on the longest way from the root to a leaf, both counted.
+    """
+
+    bounds: np.ndarray
+    links: np.ndarray
+    order: np.ndarray
+    depth: int
+
+
+def build(flat: FlatScene, team: Team, leaf_size: int = LEAF_SIZE) -> Bvh:
+    """The tree over a scene's primitives, leaves of at most leaf_size; no nodes for no primitives.
+
+    The calling thread splits the top of the tree until the pieces are small enough to go round;
+    then the team's threads take the pieces.
+    """
+    count = len(flat.faces) + len(flat.spheres)
+    # A tree of n leaves has 2 n - 1 nodes; the pages of those that stay unused cost nothing.
+    bounds, links = np.empty((2 * count, 6), np.float32), np.empty((2 * count, 2), np.int32)
+    levels = np.empty(2 * count, np.uint8)
+    if not count:
+        return Bvh(bounds, links, np.empty(0, np.int32), 0)
+    records = np.empty((count, 8), np.float32)
+    numbers = records.view(np.int32)
+    _share(team, count, _fill_records, flat.vertices, flat.faces, flat.spheres, records, numbers)
+
+    piece = max(PIECE, count // (16 * team.size), leaf_size)
+    jobs = np.array([[0, 0, count, 1, 1, 1]], np.int64)
+    _grow_pieces(records, bounds, links, levels, jobs, piece, new_control())
+    used = int(jobs[0, _USED])
+    jobs = _jobs(links, levels, used, leaf_size)
+    team.run(
+        _grow_pieces, records, bounds, links, levels, jobs, leaf_size, new_control(),
+        size=len(jobs),
+    )  # fmt: skip
+    used = _close_gaps(bounds, links, levels, jobs, used)
+    depth = int(levels[:used].max())
+    return Bvh(bounds[:used].copy(), links[:used].copy(), numbers[:, NUMBER].copy(), depth)
+
+
+def packed(bvh: Bvh, flat: FlatScene, team: Team) -> Tree:
+    """The tree with its shapes, in the order of the leaves, as closest_hit walks it."""
+    shapes = np.empty((len(bvh.order), 9), np.float32)
+    _share(
+        team, len(shapes), _fill_shapes, flat.vertices, flat.faces, flat.spheres, bvh.order, shapes
+    )
+    # One node waits at each level, and a last one is pushed before it is taken.
+    return Tree(
+        bvh.bounds,
+        bvh.links,
+        bvh.order,
+        shapes,
+        len(flat.faces),
+        bvh.depth + 1,
+        float(np.abs(bvh.bounds[:1]).max(initial=0.0)),
+    )
+
+
+def _share(team: Team, count: int, fill: Any, *arrays: np.ndarray) -> None:
+    """Runs a kernel that takes chunks of `count` primitives."""
+    team.run(fill, *arrays, new_control(), size=-(-count // CHUNK))
+
+
+# Columns of a job: the records and the node to build from, at which level, the first node number
+# that it may use; and, once done, the one after the last that it used.
+_NODE, _START, _END, _LEVEL, _FREE, _USED = range(6)
+
+
+def _jobs(links: np.ndarray, levels: np.ndarray, used: int, leaf_size: int) -> np.ndarray:
+    """A job for each leaf that is too large, with room for the nodes it may need."""
+    node = np.flatnonzero(links[:used, 1] > leaf_size)
+    start, size = links[node].astype(np.int64).T
+    free = used + np.cumsum(2 * size - 2) - (2 * size - 2)
+    return np.stack([node, start, start + size, levels[node], free, free], axis=1)
+
+
+def _close_gaps(
+    bounds: np.ndarray, links: np.ndarray, levels: np.ndarray, jobs: np.ndarray, used: int
+) -> int:
+    """Moves the subtrees' nodes together; gives the number of nodes."""
+    for job in jobs:
+        first, last = int(job[_FREE]), int(job[_USED])
+        shift = first - used
+        nodes = slice(used, used + last - first)
+        for array in (bounds, links, levels):
+            array[nodes] = array[first:last]
+        for part in (links[nodes], links[job[_NODE] : job[_NODE] + 1]):
+            part[part[:, 1] == 0, 0] -= shift
+        used = nodes.stop
+    return used
+
+
+@kernel
+def _fill_records(vertices, faces, spheres, records, numbers, control):
+    """The boxes that split.py sorts."""
+    triangles, count = len(faces), len(records)
+    while True:
+        start = take_next(control) * CHUNK
+        if start >= count:
+            return
+        for i in range(start, min(start + CHUNK, count)):
+            numbers[i, NUMBER] = i
+            for axis in range(3):
+                if i < triangles:
+                    a = vertices[faces[i, 0], axis]
+                    b = vertices[faces[i, 1], axis]
+                    c = vertices[faces[i, 2], axis]
+                    records[i, axis] = min(min(a, b), c)
+                    records[i, 3 + axis] = max(max(a, b), c)
+                else:
+                    s = i - triangles
+                    low = spheres[s, axis] - spheres[s, 3]
+                    high = spheres[s, axis] + spheres[s, 3]
+                    # Outwards, by more than the rounding of the line above.
+                    records[i, axis] = low - abs(low) * np.float32(1.2e-7)
+                    records[i, 3 + axis] = high + abs(high) * np.float32(1.2e-7)
+
+
+@kernel
+def _fill_shapes(vertices, faces, spheres, order, shapes, control):
+    """The corners of triangles, the centres and radii of spheres, in the order of the leaves."""
+    triangles, count = len(faces), len(order)
+    while True:
+        start = take_next(control) * CHUNK
+        if start >= count:
+            return
+        for i in range(start, min(start + CHUNK, count)):
+            number = order[i]
+            for k in range(9):
+                if number < triangles:
+                    shapes[i, k] = vertices[faces[number, k // 3], k % 3]
+                else:
+                    shapes[i, k] = spheres[number - triangles, k] if k < 4 else np.float32(0)
+
+
+@kernel
+def _grow_pieces(records, bounds, links, levels, jobs, leaf_size, control):
+    """Takes jobs and builds each one's subtree."""
+    counts, bins = np.empty((3, BINS), np.int64), np.empty((3, BINS, 6), np.float32)
+    while True:
+        j = take_next(control)
+        if j >= len(jobs):
+            return
+        job = jobs[j]
+        job[_USED] = _grow(records, bounds, links, levels, job, leaf_size, counts, bins)
+
+
+@inlined
+def _grow(records, bounds, links, levels, job, leaf_size, counts, bins):
+    """Builds a job's subtree, leaves of at most leaf_size; gives the node after its last."""
+    # The smaller half is built first, so each node that waits is less than half of the one before.
+    waiting = np.empty((72, 4), np.int64)
+    centres = np.empty(6, np.float32)
+    free = job[_FREE]
+    for k in range(4):
+        waiting[0, k] = job[k]
+    top = 1
+    while top > 0:
+        top -= 1
+        node, start, end = waiting[top, _NODE], waiting[top, _START], waiting[top, _END]
+        level = waiting[top, _LEVEL]
+        measure(records, start, end, bounds[node], centres)
+        levels[node] = level
+        if end - start <= leaf_size:
+            links[node, 0], links[node, 1] = start, end - start
+            continue
+        links[node, 0], links[node, 1] = free, 0
+
+        # Split by the least cost; by count where no cost says how.
+        middle = start
+        if level < MAX_DEPTH:
+            axis, last_bin = best_split(records, start, end, centres, counts, bins)
+            if axis >= 0:
+                middle = partition(records, start, end, centres, axis, last_bin)
+        if middle in (start, end):
+            middle = (start + end) // 2
+
+        # The larger half waits below the smaller.
+        left_is_larger = middle - start > end - middle
+        for turn in range(2):
+            is_left = left_is_larger == (turn == 0)
+            waiting[top, _NODE] = free if is_left else free + 1
+            waiting[top, _START] = start if is_left else middle
+            waiting[top, _END] = middle if is_left else end
+            waiting[top, _LEVEL] = level + 1
+            top += 1
+        free += 2
+    return free

@@ -1,0 +1,137 @@
+"""How kernels are compiled, and where their machine code is kept between runs.
+
+Owns the two decorators of the tracer's code and its cache folder. Knows nothing of rays.
+
+numba's own cache looks at one file only: after an edit of intersect.py it would go on using the
+kernel.py compiled before it. Here the cache folder is named by a hash of all the sources that
+kernels are made of and of the versions that compile them, so stale code is never found.
+
+The folder lies in NUMBA_CACHE_DIR if that is set, else in the user's cache folder, else beside
+this package. Where none of these can be written, kernels are compiled anew in each process.
+"""
+
+from __future__ import annotations
+
+import hashlib
+import os
+import shutil
+import sys
+import tempfile
+import threading
+import time
+from collections.abc import Callable, Iterator
+from functools import cache
+from pathlib import Path
+from typing import Any
+
+import llvmlite
+import numba
+import numpy
+import platformdirs
+from numba.core import config
+from numba.core.caching import FunctionCache
+
+import renderer.scene.flat
+
+KEPT = 4  # folders of other sources or versions that stay
+KEPT_FOR_S = 3600.0  # younger ones stay too: another process may be filling them
+
+_cache_dir_lock = threading.Lock()
+
+
+def inlined(function: Callable[..., Any]) -> Any:
+    """Decorator of the small functions that kernels consist of; compiled as part of a kernel.
+
+    No fast-math: nothing is reassociated or fused, which watertight intersection relies on.
+    """
+    return numba.njit(error_model="numpy", forceinline=True)(function)
+
+
+def kernel(function: Callable[..., Any]) -> Any:
+    """Decorator of a function called from Python: compiled at its first call, without the GIL.
+
+    Must be used at module level, or the cache cannot find the function again.
+    """
+    compiled = numba.njit(nogil=True, error_model="numpy")(function)
+    folder = cache_folder()
+    if folder is not None:
+        # numba takes a cache's folder from its configuration, at the cache's creation.
+        with _cache_dir_lock:
+            users = config.CACHE_DIR
+            config.CACHE_DIR = str(folder)
+            try:
+                compiled._cache = _Cache(function)
+            except RuntimeError:  # the folder can no longer be written
+                pass
+            finally:
+                config.CACHE_DIR = users
+    return compiled
+
+
+@cache
+def cache_folder() -> Path | None:
+    """The folder for these sources and versions, made if need be; None: nowhere to write."""
+    for base in _bases():
+        folder = base / source_hash()
+        if _writable(folder):
+            _prune(base, folder)
+            return folder
+    return None
+
+
+def source_hash() -> str:
+    """Names the code that is compiled: the tracer's sources, the scene's layout, the versions."""
+    sources = sorted(Path(__file__).parent.glob("*.py"))
+    digest = hashlib.sha256()
+    for path in (*sources, Path(renderer.scene.flat.__file__)):
+        digest.update(path.name.encode() + b"\0" + path.read_bytes() + b"\0")
+    for version in (sys.version, numba.__version__, llvmlite.__version__, numpy.__version__):
+        digest.update(version.encode() + b"\0")
+    return digest.hexdigest()[:20]
+
+
+def _bases() -> Iterator[Path]:
+    # A folder of our own inside each: what is pruned must be ours.
+    if config.CACHE_DIR:
+        yield Path(config.CACHE_DIR) / "lucida-kernels"
+    yield Path(platformdirs.user_cache_dir("lucida", appauthor=False)) / "kernels"
+    yield Path(__file__).parent / "__pycache__" / "kernels"
+
+
+def _writable(folder: Path) -> bool:
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+        with tempfile.TemporaryFile(dir=folder):
+            pass
+        os.utime(folder)  # the last use, for pruning
+    except OSError:
+        return False
+    return True
+
+
+def _prune(base: Path, used: Path) -> None:
+    """Removes folders of other sources, but the last few used."""
+    try:
+        others = [path for path in base.iterdir() if path.is_dir() and path != used]
+        others.sort(key=lambda path: path.stat().st_mtime, reverse=True)
+        for path in others[KEPT:]:
+            if path.stat().st_mtime < time.time() - KEPT_FOR_S:
+                shutil.rmtree(path, ignore_errors=True)
+    except OSError:  # another process prunes too
+        return
+
+
+class _Cache(FunctionCache):
+    """numba's cache of one function; a damaged or full disk costs compiling again, not an error."""
+
+    def load_overload(self, sig: Any, target_context: Any) -> Any:
+        try:
+            return super().load_overload(sig, target_context)
+        except Exception:  # whatever unpickling a damaged file may raise
+            return None
+
+    def save_overload(self, sig: Any, data: Any) -> None:
+        try:
+            super().save_overload(sig, data)
+        except Exception:  # the disk is full, or the index that is to be extended is damaged
+            return

@@ -1,0 +1,30 @@
+"""A scene prepared for tracing: flat arrays and BVH, and the kernel run on them.
+
+The one door between the tracer's threads and the compiled code: importing this module imports
+numba, so only a Tracer's own thread does. Other kernels, and the choice between them, belong here.
+"""
+
+from __future__ import annotations
+
+from renderer.scene.flat import flatten
+from renderer.scene.model import Scene
+from renderer.trace.bvh import build, packed
+from renderer.trace.control import Control
+from renderer.trace.image import Image
+from renderer.trace.kernel import trace_image
+from renderer.trace.team import Team
+from renderer.trace.view import View
+
+
+class Engine:
+    """Traces images of one scene by a team of threads. Raises LucidaError (see flatten)."""
+
+    def __init__(self, scene: Scene, team: Team) -> None:
+        self._team = team
+        self._flat = flatten(scene)
+        self._tree = packed(build(self._flat, team), self._flat, team)
+
+    def trace(self, view: View, image: Image, control: Control) -> None:
+        """Fills the image; returns early if cancelled. Blocks without a finished mark are open."""
+        blocks = image.finished.size
+        self._team.run(trace_image, view, self._flat, self._tree, image, control, size=blocks)

@@ -1,0 +1,159 @@
+"""The colour at a hit: the surface's normal, its albedo, and Blinn and Phong's shading.
+
+Owns the shading model, which shaders/ computes alike. Linear light; arithmetic in float64.
+Knows nothing of how hits are found.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from renderer.scene.flat import (
+    CELL_X,
+    CELL_Y,
+    CELL_Z,
+    CHECKER_DIFFUSE,
+    DIFFUSE_SHININESS,
+    SPECULAR_CHECKERED,
+)
+from renderer.trace.compiled import inlined
+from renderer.trace.vectors import (
+    blend,
+    cross,
+    dot,
+    each_times,
+    length,
+    minus,
+    normalized,
+    plus,
+    row,
+    times,
+)
+
+CELL_NUDGE = 1e-3  # cells: keeps a face that lies in a cell's border inside one cell
+GRAZING = 1e-3  # the cosine that shading normals keep, at least, towards the viewer
+
+
+@inlined
+def object_of(scene, primitive):
+    """The object that a primitive belongs to."""
+    triangles = len(scene.faces)
+    if primitive < triangles:
+        return scene.face_object[primitive]
+    return scene.sphere_object[primitive - triangles]
+
+
+@inlined
+def normals_at(scene, direction, point, primitive, b1, b2):
+    """(geometric, shading) unit normals at a hit, both on the viewer's side."""
+    triangles = len(scene.faces)
+    if primitive >= triangles:
+        centre = row(scene.spheres, primitive - triangles, 0)
+        facing = _facing(normalized(minus(point, centre)), direction)
+        return facing, _not_grazing(facing, direction)
+    i, j, k = scene.faces[primitive, 0], scene.faces[primitive, 1], scene.faces[primitive, 2]
+    a, b, c = row(scene.vertices, i, 0), row(scene.vertices, j, 0), row(scene.vertices, k, 0)
+    geometric = normalized(cross(minus(b, a), minus(c, a)))
+    facing = _facing(geometric, direction)
+    shading = facing
+    n0, n1, n2 = row(scene.normals, i, 0), row(scene.normals, j, 0), row(scene.normals, k, 0)
+    if _is_set(n0) and _is_set(n1) and _is_set(n2):
+        smooth = blend(1.0 - b1 - b2, n0, b1, n1, b2, n2)
+        size = length(smooth)
+        if size >= 1e-6:
+            # Normals that disagree with the winding are turned, for the whole triangle alike.
+            turn = 1.0 if dot(plus(n0, plus(n1, n2)), geometric) >= 0.0 else -1.0
+            if dot(geometric, direction) >= 0.0:
+                turn = -turn
+            shading = times(turn / size, smooth)
+    return facing, _not_grazing(shading, direction)
+
+
+@inlined
+def _facing(normal, direction):
+    return normal if dot(normal, direction) < 0.0 else times(-1.0, normal)
+
+
+@inlined
+def _is_set(normal):
+    return normal[0] != 0.0 or normal[1] != 0.0 or normal[2] != 0.0
+
+
+@inlined
+def _not_grazing(normal, direction):
+    """The normal, bent just enough to face the viewer."""
+    along = normalized(direction)
+    cosine = dot(normal, along)
+    if cosine > -GRAZING:
+        return normalized(minus(normal, times(cosine + GRAZING, along)))
+    return normal
+
+
+@inlined
+def albedo_at(scene, material, point, geometric, primitive, b1, b2):
+    """The diffuse reflectance: the material's, or its checker's, times the vertices' colours."""
+    albedo = row(material, DIFFUSE_SHININESS, 0)
+    if material[SPECULAR_CHECKERED, 3] != 0.0 and _is_other_cell(material, point, geometric):
+        albedo = row(material, CHECKER_DIFFUSE, 0)
+    if primitive < len(scene.faces):
+        i, j, k = scene.faces[primitive, 0], scene.faces[primitive, 1], scene.faces[primitive, 2]
+        colors = scene.colors
+        tint = blend(1.0 - b1 - b2, row(colors, i, 0), b1, row(colors, j, 0), b2, row(colors, k, 0))
+        albedo = each_times(albedo, tint)
+    return albedo
+
+
+@inlined
+def _is_other_cell(material, point, geometric):
+    """Whether the point lies in a cell of odd number, just below the surface."""
+    x, y, z = row(material, CELL_X, 0), row(material, CELL_Y, 0), row(material, CELL_Z, 0)
+    across = normalized((dot(x, geometric), dot(y, geometric), dot(z, geometric)))
+    cells = (
+        np.floor(dot(x, point) + material[CELL_X, 3] - CELL_NUDGE * across[0])
+        + np.floor(dot(y, point) + material[CELL_Y, 3] - CELL_NUDGE * across[1])
+        + np.floor(dot(z, point) + material[CELL_Z, 3] - CELL_NUDGE * across[2])
+    )
+    return cells - 2.0 * np.floor(0.5 * cells) != 0.0
+
+
+@inlined
+def color_at(scene, direction, point, geometric, shading, primitive, b1, b2):
+    """The light that a hit sends to the viewer.
+
+    Highlights are not cut off where the surface turns away from the light.
+    Source: Marschner and Shirley, Fundamentals of Computer Graphics, ch. 4 (Blinn and Phong).
+    """
+    material = scene.materials[object_of(scene, primitive)]
+    albedo = albedo_at(scene, material, point, geometric, primitive, b1, b2)
+    specular = row(material, SPECULAR_CHECKERED, 0)
+    shininess = np.float64(material[DIFFUSE_SHININESS, 3])
+    along = normalized(direction)
+    ambient = scene.ambient
+    light = (np.float64(ambient[0]), np.float64(ambient[1]), np.float64(ambient[2]))
+    color = each_times(light, albedo)
+    for number in range(len(scene.lights)):
+        lamp = scene.lights[number]
+        to_light = row(lamp, 0, 0)
+        if lamp[0, 3] != 0.0:
+            to_light = minus(to_light, point)
+            far = length(to_light)
+            if far < 1e-12:
+                continue
+            to_light = times(1.0 / far, to_light)
+        reflected = times(max(0.0, dot(shading, to_light)), albedo)
+        half = minus(to_light, along)
+        size = length(half)
+        if size >= 1e-6:
+            highlight = max(0.0, dot(shading, half) / size) ** shininess
+            reflected = plus(reflected, times(highlight, specular))
+        color = plus(color, each_times(row(lamp, 1, 0), reflected))
+    return color
+
+
+@inlined
+def point_on(origin, direction, t):
+    return (
+        origin[0] + t * direction[0],
+        origin[1] + t * direction[1],
+        origin[2] + t * direction[2],
+    )

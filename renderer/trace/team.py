@@ -1,0 +1,92 @@
+"""A team of threads that run one kernel together.
+
+Owns the threads. Knows nothing of what kernels do, and needs no numba: a kernel is any function,
+worth it if it releases the GIL and shares its work by a control array (control.py).
+"""
+
+from __future__ import annotations
+
+import os
+import queue
+import threading
+from collections.abc import Callable
+from typing import Any
+
+from renderer.errors import LucidaError
+
+MOST_THREADS = 1024
+
+
+def default_threads() -> int:
+    """The number of processors that this process may use."""
+    if hasattr(os, "process_cpu_count"):  # Python 3.13
+        return os.process_cpu_count() or 1
+    if hasattr(os, "sched_getaffinity"):
+        return len(os.sched_getaffinity(0))
+    return os.cpu_count() or 1
+
+
+def check_threads(threads: int | None) -> int:
+    """The number of threads; None: the default. Raises LucidaError."""
+    if threads is None:
+        return min(default_threads(), MOST_THREADS)
+    if isinstance(threads, bool) or not isinstance(threads, int):
+        raise LucidaError("threads", f"{threads!r} is not a whole number", "give e.g. 2, or None")
+    if not 1 <= threads <= MOST_THREADS:
+        raise LucidaError("threads", f"{threads} is not in 1 to {MOST_THREADS}", "give e.g. 2")
+    return threads
+
+
+class Team:
+    """The calling thread and size - 1 helpers, which start when they are first needed.
+
+    Used by one thread at a time, the team's owner. Helpers are daemons: the owner calls close().
+    """
+
+    def __init__(self, size: int) -> None:
+        self.size = size
+        self._helpers: list[threading.Thread] = []
+        self._calls: queue.SimpleQueue[tuple[Callable[..., Any], tuple] | None] = (
+            queue.SimpleQueue()
+        )
+        self._outcomes: queue.SimpleQueue[BaseException | None] = queue.SimpleQueue()
+
+    def run(self, kernel: Callable[..., Any], *args: Any, size: int | None = None) -> None:
+        """Calls kernel(*args) in each thread, or in `size` of them; returns when all have.
+
+        Raises what a call raised, once all are over.
+        """
+        helpers = min(self.size, self.size if size is None else max(size, 1)) - 1
+        while len(self._helpers) < helpers:
+            name = f"lucida-trace-{len(self._helpers) + 1}"
+            helper = threading.Thread(target=self._help, name=name, daemon=True)
+            helper.start()
+            self._helpers.append(helper)
+        for _ in range(helpers):
+            self._calls.put((kernel, args))
+        errors = [_outcome(kernel, args)]
+        errors += [self._outcomes.get() for _ in range(helpers)]
+        for error in errors:
+            if error is not None:
+                raise error
+
+    def close(self) -> None:
+        """Ends the helpers, and waits for them."""
+        for _ in self._helpers:
+            self._calls.put(None)
+        for helper in self._helpers:
+            helper.join()
+        self._helpers.clear()
+
+    def _help(self) -> None:
+        while (call := self._calls.get()) is not None:
+            self._outcomes.put(_outcome(*call))
+            del call  # the arrays in it, while waiting for the next
+
+
+def _outcome(kernel: Callable[..., Any], args: tuple) -> BaseException | None:
+    try:
+        kernel(*args)
+    except BaseException as error:
+        return error
+    return None

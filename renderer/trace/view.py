@@ -1,0 +1,47 @@
+"""The camera as the kernel takes it: plain numbers.
+
+Owns their layout. Knows nothing of kernels; renderer/camera.py owns the formulas.
+"""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+from renderer.camera import Camera, Vector
+
+
+class View(NamedTuple):
+    """Float64 throughout, so that a kernel's rays are those of Camera.ray to the last bit.
+
+    back: distance * w in perspective, w in parallel projection. t_min, t_max: near and far as
+    ray parameters.
+    """
+
+    eye: Vector
+    u: Vector
+    v: Vector
+    back: Vector
+    left: float
+    right: float
+    bottom: float
+    top: float
+    parallel: bool
+    t_min: float
+    t_max: float
+
+    @classmethod
+    def of(cls, camera: Camera) -> View:
+        """The numbers of a camera."""
+        scale = 1.0 if camera.is_parallel else camera.distance
+        x, y, z = camera.w
+        t_min, t_max = camera.t_range
+        return cls(
+            camera.eye,
+            camera.u,
+            camera.v,
+            (scale * x, scale * y, scale * z),
+            *(float(edge) for edge in camera.viewport),
+            camera.is_parallel,
+            float(t_min),
+            float(t_max),
+        )
