@@ -10,6 +10,7 @@ PFM, EXR and NPY hold the numbers, unexposed: linear light, ray parameters, worl
 
 from __future__ import annotations
 
+import io
 from collections.abc import Callable
 from pathlib import Path
 from typing import BinaryIO
@@ -81,23 +82,26 @@ def write_picture(path: str | Path, shown: Bytes) -> None:
 
 
 def _write_png(file: BinaryIO, shown: Bytes) -> None:
-    from PIL import Image
-
-    Image.fromarray(shown).save(file, format="PNG")
+    _write_by_pillow(file, shown, "PNG")
 
 
 def _write_netpbm(file: BinaryIO, shown: Bytes) -> None:
     """P6 for colours (height, width, 3), P5 for gray (height, width)."""
-    from PIL import Image
-
-    Image.fromarray(shown).save(file, format="PPM")
+    _write_by_pillow(file, shown, "PPM")
 
 
 def _write_pbm(file: BinaryIO, gray: Bytes) -> None:
     """P4: one bit a pixel, black where the gray is below half."""
+    _write_by_pillow(file, gray >= HALF, "PPM")
+
+
+def _write_by_pillow(file: BinaryIO, array: NDArray, name: str) -> None:
     from PIL import Image
 
-    Image.fromarray(gray >= HALF).save(file, format="PPM")
+    # Not into the file itself: Pillow then overlooks that a full disk took only a part.
+    content = io.BytesIO()
+    Image.fromarray(array).save(content, format=name)
+    file.write(content.getbuffer())
 
 
 def _write_pfm(file: BinaryIO, data: NDArray, channel: str) -> None:
