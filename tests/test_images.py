@@ -259,9 +259,13 @@ class TestAtomicWrite:
         path = tmp_path / "a"
         path.write_bytes(b"old")
 
-        with pytest.raises(KeyboardInterrupt), atomic_write(path) as file:
-            file.write(b"new")
-            raise KeyboardInterrupt
+        def half() -> None:
+            with atomic_write(path) as file:
+                file.write(b"new")
+                raise KeyboardInterrupt
+
+        with pytest.raises(KeyboardInterrupt):
+            half()
         assert path.read_bytes() == b"old"
         assert [entry.name for entry in tmp_path.iterdir()] == ["a"]
 
