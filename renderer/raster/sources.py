@@ -1,0 +1,119 @@
+"""Shader sources: included chunks, programs, and a driver's complaints in terms of our files.
+
+Owns the `#include "chunks/name.glsl"` of shaders/ and the way back from a driver's message to
+file and line. Knows nothing of what the shaders compute.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable
+from importlib.resources import files
+
+import moderngl
+
+from renderer.errors import LucidaError
+
+_INCLUDE = re.compile(r'\s*#\s*include\s+"([^"]+)"\s*$')
+# Mesa: 0:14(5): error; NVIDIA: 0(14) : error; macOS, AMD, Intel: ERROR: 0:14: 'x'
+_PLACE = re.compile(r"\b0(?::(\d+)(?:\(\d+\))?|\((\d+)\))")
+
+
+def read_shader(name: str) -> str:
+    """The text of shaders/`name`, from the checkout or from the installed package."""
+    try:
+        return files("shaders").joinpath(*name.split("/")).read_text(encoding="utf-8")
+    except (OSError, ModuleNotFoundError):
+        raise LucidaError(f"shaders/{name}", "does not exist", "install lucida again") from None
+
+
+class Source:
+    """One stage's text with its chunks put in, each once, and where each of its lines comes from.
+
+    name: a file under shaders/. read: gives a file's text by name. places: (file, line) of each line
+    of the text: drivers count lines of the text, and some lose the string number of a #line.
+    Raises LucidaError for a chunk that is missing or that includes itself.
+    """
+
+    def __init__(self, name: str, read: Callable[[str], str] = read_shader) -> None:
+        self.name = name
+        self.places: list[tuple[str, int]] = []
+        self._read = read
+        self._taken: set[str] = set()
+        self._lines: list[str] = []
+        self._expand(name, read(name), ())
+        self.text = "\n".join(self._lines) + "\n"
+
+    def _expand(self, name: str, text: str, chain: tuple[str, ...]) -> None:
+        chain = (*chain, name)
+        self._taken.add(name)
+        in_comment = False
+        for number, line in enumerate(text.splitlines(), 1):
+            found = None if in_comment else _INCLUDE.match(line)
+            in_comment = _ends_in_comment(line, in_comment)
+            if found is None:
+                self._lines.append(line)
+                self.places.append((name, number))
+                continue
+            chunk, here = found.group(1), f"shaders/{name}:{number}"
+            if chunk in chain:
+                raise LucidaError(here, f"a cycle of includes: {' -> '.join((*chain, chunk))}")
+            if chunk not in self._taken:
+                try:
+                    inner = self._read(chunk)
+                except LucidaError:
+                    raise LucidaError(here, f'the chunk "{chunk}" does not exist') from None
+                self._expand(chunk, inner, chain)
+
+    def explain(self, message: str) -> str:
+        """A driver's message with each place in the text as file:line."""
+
+        def place(match: re.Match[str]) -> str:
+            number = int(match[1] or match[2])
+            if not 1 <= number <= len(self.places):
+                return match[0]
+            return "{}:{}".format(*self.places[number - 1])
+
+        return _PLACE.sub(place, message)
+
+
+def link(
+    context: moderngl.Context,
+    vertex: str,
+    fragment: str,
+    read: Callable[[str], str] = read_shader,
+) -> moderngl.Program:
+    """The program of two stages under shaders/.
+
+    Raises LucidaError naming the file and line where the driver does not accept one.
+    """
+    stages = {"vertex_shader": Source(vertex, read), "fragment_shader": Source(fragment, read)}
+    try:
+        return context.program(**{stage: source.text for stage, source in stages.items()})
+    except moderngl.Error as error:
+        message = str(error)
+        stage = next((stage for stage in stages if stage in message), None)
+        if stage is None:
+            raise LucidaError(f"shaders/{vertex}, {fragment}", message, _REMEDY) from None
+        body = message.split("===", 1)[-1].lstrip("=\n ")
+        raise LucidaError(
+            f"shaders/{stages[stage].name}", stages[stage].explain(body), _REMEDY
+        ) from None
+
+
+_REMEDY = "update the graphics driver, or draw with --backend osmesa"
+
+
+def _ends_in_comment(line: str, in_comment: bool) -> bool:
+    """Whether a /* comment is open after this line."""
+    position = 0
+    while True:
+        if in_comment:
+            position = line.find("*/", position)
+            if position < 0:
+                return True
+            position, in_comment = position + 2, False
+        start, single = line.find("/*", position), line.find("//", position)
+        if start < 0 or 0 <= single < start:
+            return False
+        position, in_comment = start + 2, True

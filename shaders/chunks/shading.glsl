@@ -1,0 +1,98 @@
+// The one shading model, in linear light: ambient, Lambert's diffuse and Blinn's specular term.
+// Source: Marschner and Shirley, Fundamentals of Computer Graphics, chapter 4 (5 from the 5th edition).
+
+#include "chunks/camera.glsl"
+#include "chunks/tables.glsl"
+
+uniform sampler2D objects;  // object_rows() in setup.py
+uniform sampler2D lights;   // position or direction, 1 if a point | rgb
+
+struct Hit {
+    float t;
+    int object;
+    vec3 point;          // relative to the object's anchor
+    vec3 normal;         // of the surface, unit
+    vec3 smooth_normal;  // interpolated, unit; 0 where the surface is flat
+    vec3 vertex_color;
+    vec3 to_viewer;      // unit
+};
+
+vec4 object_texel(int object, int row) {
+    return texelFetch(objects, texel(8 * object + row), 0);
+}
+
+vec3 object_anchor(int object) {
+    return object_texel(object, 0).xyz;
+}
+
+vec3 object_anchor_world(int object) {
+    return object_texel(object, 1).xyz;
+}
+
+// Interpolated vertex normal on the winding's side of the triangle, 0 where a vertex has none.
+vec3 smooth_normal(mat3 normals, vec3 weights, vec3 normal) {
+    if (normals[0] == vec3(0.0) || normals[1] == vec3(0.0) || normals[2] == vec3(0.0)) {
+        return vec3(0.0);
+    }
+    vec3 mean = normals * weights;
+    float size = length(mean);
+    float side = sign(dot(normals[0] + normals[1] + normals[2], normal));
+    return size < 1e-6 ? vec3(0.0) : side * mean / size;
+}
+
+// Turns both normals to the side that is seen; the smooth one never looks away from the viewer.
+void face_viewer(inout Hit hit) {
+    float side = dot(hit.normal, hit.to_viewer) > 0.0 ? 1.0 : -1.0;
+    hit.normal *= side;
+    vec3 n = hit.smooth_normal == vec3(0.0) ? hit.normal : side * hit.smooth_normal;
+    float away = -dot(n, hit.to_viewer) + 1e-3;
+    if (away > 0.0) {
+        n = normalize(n + away * hit.to_viewer);
+    }
+    hit.smooth_normal = n;
+}
+
+// Diffuse reflectance: a checker is a solid pattern of cells, and a face on a border takes the cell inside.
+vec3 albedo(Hit hit) {
+    vec4 diffuse = object_texel(hit.object, 2);
+    if (object_texel(hit.object, 3).w == 0.0) {
+        return diffuse.rgb * hit.vertex_color;
+    }
+    vec4 x = object_texel(hit.object, 5);
+    vec4 y = object_texel(hit.object, 6);
+    vec4 z = object_texel(hit.object, 7);
+    mat3 cell_from_world = transpose(mat3(x.xyz, y.xyz, z.xyz));
+    vec3 cell = cell_from_world * hit.point + vec3(x.w, y.w, z.w);
+    cell = floor(cell - 1e-3 * normalize(cell_from_world * hit.normal));
+    bool other = mod(cell.x + cell.y + cell.z, 2.0) > 0.5;
+    return (other ? object_texel(hit.object, 4).rgb : diffuse.rgb) * hit.vertex_color;
+}
+
+vec3 shaded(Hit hit) {
+    vec3 n = hit.smooth_normal;
+    vec3 diffuse = albedo(hit);
+    vec3 specular = object_texel(hit.object, 3).rgb;
+    float shininess = object_texel(hit.object, 2).w;
+    vec3 anchor_world = object_anchor_world(hit.object);
+    vec3 sum = ambient * diffuse;
+    for (int number = 0; number < light_count; ++number) {
+        vec4 light = texelFetch(lights, texel(2 * number), 0);
+        vec3 rgb = texelFetch(lights, texel(2 * number + 1), 0).rgb;
+        vec3 l = light.xyz;
+        if (light.w > 0.5) {
+            l = l - anchor_world - hit.point;
+            float away = length(l);
+            if (away < 1e-12) {
+                continue;
+            }
+            l /= away;
+        }
+        sum += rgb * diffuse * max(dot(n, l), 0.0);
+        vec3 h = l + hit.to_viewer;
+        float size = length(h);
+        if (size >= 1e-6) {
+            sum += rgb * specular * pow(max(dot(n, h) / size, 0.0), shininess);
+        }
+    }
+    return sum;
+}

@@ -1,0 +1,68 @@
+#version 330 core
+// Once a pixel: from the number of the primitive that is seen to the hit and its colour.
+
+#include "chunks/triangle.glsl"
+#include "chunks/sphere.glsl"
+#include "chunks/shading.glsl"
+
+uniform isampler2D primitives;
+uniform sampler2D triangle_rows;
+uniform isampler2D faces;     // three vertices, object
+uniform sampler2D vertices;   // position, normal, colour of each
+uniform int triangle_count;
+
+layout(location = 0) out vec4 color;
+layout(location = 1) out vec4 surface;  // normal, t
+layout(location = 2) out int object;
+
+void main() {
+    int primitive = texelFetch(primitives, ivec2(gl_FragCoord.xy), 0).x;
+    if (primitive < 0) {
+        color = vec4(background, 1.0);
+        surface = vec4(0.0, 0.0, 0.0, uintBitsToFloat(0x7f800000u));  // infinity
+        object = -1;
+        return;
+    }
+    vec2 xy = image_position(gl_FragCoord.xy);
+    vec3 d = ray_direction(xy);
+    Hit hit;
+    hit.to_viewer = -normalize(d);
+    if (primitive < triangle_count) {
+        ivec4 face = texelFetch(faces, texel(primitive), 0);
+        hit.object = face.w;
+        hit.t = triangle_t(texelFetch(triangle_rows, texel(primitive), 0).xyz, xy);
+        vec3 anchor = object_anchor(hit.object);
+        vec3 anchor_world = object_anchor_world(hit.object);
+        vec3 a = texelFetch(vertices, texel(3 * face.x), 0).xyz - anchor_world;
+        vec3 b = texelFetch(vertices, texel(3 * face.y), 0).xyz - anchor_world;
+        vec3 c = texelFetch(vertices, texel(3 * face.z), 0).xyz - anchor_world;
+        vec3 weights = barycentrics(
+            anchor + image_from_world * a,
+            anchor + image_from_world * b,
+            anchor + image_from_world * c, xy);
+        hit.point = to_ray(anchor, xy) + (hit.t - anchor.z) * d;
+        hit.normal = normalize(cross(b - a, c - a));
+        mat3 normals = mat3(
+            texelFetch(vertices, texel(3 * face.x + 1), 0).xyz,
+            texelFetch(vertices, texel(3 * face.y + 1), 0).xyz,
+            texelFetch(vertices, texel(3 * face.z + 1), 0).xyz);
+        hit.smooth_normal = smooth_normal(normals, weights, hit.normal);
+        hit.vertex_color = mat3(
+            texelFetch(vertices, texel(3 * face.x + 2), 0).xyz,
+            texelFetch(vertices, texel(3 * face.y + 2), 0).xyz,
+            texelFetch(vertices, texel(3 * face.z + 2), 0).xyz) * weights;
+    } else {
+        Sphere sphere = sphere_at(primitive - triangle_count);
+        hit.object = sphere.object;
+        hit.t = sphere_t(sphere, xy);
+        vec3 anchor = object_anchor(hit.object);
+        hit.point = to_ray(anchor, xy) + (hit.t - anchor.z) * d;
+        hit.normal = normalize(to_ray(sphere.center, xy) + (hit.t - sphere.center.z) * d);
+        hit.smooth_normal = vec3(0.0);
+        hit.vertex_color = vec3(1.0);
+    }
+    face_viewer(hit);
+    color = vec4(shaded(hit), 1.0);
+    surface = vec4(hit.smooth_normal, hit.t);
+    object = hit.object;
+}
