@@ -50,11 +50,8 @@ def main(argv: Sequence[str] | None = None) -> int:
         where = f"{error.filename}: " if error.filename else ""
         return _failed(f"{where}{error.strerror or error}")
     except Exception as error:
-        text = " ".join(str(error).split())
-        return _failed(
-            f"internal error: {type(error).__name__}: {text}; "
-            f"set {TRACEBACK_VARIABLE}=1 to see where, and report it"
-        )
+        what = " ".join(f"{type(error).__name__} {error}".split())
+        return _failed(f"internal error: {what}; {TRACEBACK_VARIABLE}=1 shows where, for a report")
 
 
 def _dispatch(arguments: list[str]) -> int:

@@ -6,6 +6,7 @@ Knows nothing of how the window is made (app/viewer.py).
 from __future__ import annotations
 
 import argparse
+from pathlib import Path
 
 from app import __version__
 from app.commands.arguments import SCENE_HELP, VIEW_HELP, size
@@ -46,14 +47,12 @@ def configure(parser: argparse.ArgumentParser) -> None:
 
 
 def run(arguments: argparse.Namespace) -> int:
-    from pathlib import Path
-
-    from app.viewer import run_viewer
+    from renderer.images import check_image_path
 
     screenshot = None
     if arguments.screenshot is not None:
-        from renderer.images import check_image_path
-
         check_image_path(arguments.screenshot, pictures_only=True)
         screenshot = Path(arguments.screenshot)
+    from app.viewer import run_viewer  # after the quick mistakes: it loads the whole window
+
     return run_viewer(arguments.scene, screenshot, size=arguments.size, view=arguments.view)
