@@ -17,6 +17,7 @@ from renderer.trace.control import new_control
 from renderer.trace.split import BINS, NUMBER, best_split, measure, partition
 from renderer.trace.team import Team
 from renderer.trace.traverse import Tree
+from renderer.trace.vectors import cross, minus, row
 
 LEAF_SIZE = 4  # primitives
 MAX_DEPTH = 48  # deeper nodes are halved by count, whatever their shape: depth stays bounded
@@ -52,7 +53,7 @@ def build(flat: FlatScene, team: Team, leaf_size: int = LEAF_SIZE) -> Bvh:
     bounds, links = np.empty((2 * count, 6), np.float32), np.empty((2 * count, 2), np.int32)
     levels = np.empty(2 * count, np.uint8)
     if not count:
-        return Bvh(bounds, links, np.empty(0, np.int32), 0)
+        return _read_only(Bvh(bounds, links, np.empty(0, np.int32), 0))
     records = np.empty((count, 8), np.float32)
     numbers = records.view(np.int32)
     _share(team, count, _fill_records, flat.vertices, flat.faces, flat.spheres, records, numbers)
@@ -68,25 +69,29 @@ def build(flat: FlatScene, team: Team, leaf_size: int = LEAF_SIZE) -> Bvh:
     )  # fmt: skip
     used = _close_gaps(bounds, links, levels, jobs, used)
     depth = int(levels[:used].max())
-    return Bvh(bounds[:used].copy(), links[:used].copy(), numbers[:, NUMBER].copy(), depth)
+    bvh = Bvh(bounds[:used].copy(), links[:used].copy(), numbers[:, NUMBER].copy(), depth)
+    return _read_only(bvh)
 
 
 def packed(bvh: Bvh, flat: FlatScene, team: Team) -> Tree:
     """The tree with its shapes, in the order of the leaves, as closest_hit walks it."""
-    shapes = np.empty((len(bvh.order), 9), np.float32)
+    shapes = np.zeros((len(bvh.order), 9), np.float32)
     _share(
         team, len(shapes), _fill_shapes, flat.vertices, flat.faces, flat.spheres, bvh.order, shapes
     )
     # One node waits at each level, and a last one is pushed before it is taken.
-    return Tree(
-        bvh.bounds,
-        bvh.links,
-        bvh.order,
-        shapes,
-        len(flat.faces),
-        bvh.depth + 1,
-        float(np.abs(bvh.bounds[:1]).max(initial=0.0)),
+    extent = float(np.abs(bvh.bounds[:1]).max(initial=0.0))
+    return _read_only(
+        Tree(bvh.bounds, bvh.links, bvh.order, shapes, len(flat.faces), bvh.depth + 1, extent)
     )
+
+
+def _read_only(tree: Any) -> Any:
+    """The tree with its arrays write-protected, as the scene's are: one type for the compiler."""
+    for item in tree:
+        if isinstance(item, np.ndarray):
+            item.setflags(write=False)
+    return tree
 
 
 def _share(team: Team, count: int, fill: Any, *arrays: np.ndarray) -> None:
@@ -159,11 +164,22 @@ def _fill_shapes(vertices, faces, spheres, order, shapes, control):
             return
         for i in range(start, min(start + CHUNK, count)):
             number = order[i]
-            for k in range(9):
-                if number < triangles:
-                    shapes[i, k] = vertices[faces[number, k // 3], k % 3]
-                else:
-                    shapes[i, k] = spheres[number - triangles, k] if k < 4 else np.float32(0)
+            if number >= triangles:
+                for k in range(4):
+                    shapes[i, k] = spheres[number - triangles, k]
+                continue
+            a, b, c = (
+                row(vertices, np.int64(faces[number, 0])),
+                row(vertices, np.int64(faces[number, 1])),
+                row(vertices, np.int64(faces[number, 2])),
+            )
+            # Without an area there is no normal: such a triangle must not be hit.
+            x, y, z = cross(minus(b, a), minus(c, a))
+            empty = x == 0.0 and y == 0.0 and z == 0.0
+            for k in range(3):
+                shapes[i, k] = np.nan if empty else a[k]
+                shapes[i, 3 + k] = np.nan if empty else b[k]
+                shapes[i, 6 + k] = np.nan if empty else c[k]
 
 
 @kernel

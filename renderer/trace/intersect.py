@@ -11,7 +11,7 @@ from typing import NamedTuple
 import numpy as np
 
 from renderer.trace.compiled import inlined
-from renderer.trace.vectors import cross, dot, minus, plus, row, times
+from renderer.trace.vectors import dot, minus, plus, row, times
 
 HUGE = 1e290  # stands for 1 / 0: finite, because 0 * inf would be NaN
 ROUNDING = 1e-15  # of the coordinates: more than a few float64 roundings add up to
@@ -90,7 +90,8 @@ def sheared_ray(origin, direction):
 def hit_triangle(shapes, i, ray):
     """(t, b1, b2) where the ray's line meets triangle i; t is NaN where it does not.
 
-    shapes: float32 (n, 9), corners a, b, c. b1, b2: barycentrics of b and c.
+    shapes: float32 (n, 9), corners a, b, c, or NaN for a triangle that is never hit. b1, b2:
+    barycentrics of b and c.
 
     In sheared coordinates the ray is the z axis, and the question is whether the origin lies in a
     triangle of the plane. Two triangles at a common edge compute exactly opposite numbers for it
@@ -117,10 +118,6 @@ def hit_triangle(shapes, i, ray):
     area = e0 + e1 + e2
     if area == 0.0:  # seen edge-on
         return np.nan, 0.0, 0.0
-    a, b, c = row(shapes, i, 0), row(shapes, i, 3), row(shapes, i, 6)
-    nx, ny, nz = cross(minus(b, a), minus(c, a))
-    if nx == 0.0 and ny == 0.0 and nz == 0.0:  # degenerate: no area, no normal
-        return np.nan, 0.0, 0.0
 
     # t is a mean of the corners', weighted by the edge functions: never outside them.
     t = (e0 * az + e1 * bz + e2 * cz) * sz / area
@@ -136,7 +133,7 @@ def hit_sphere(shapes, i, origin, direction, t_min, t_max):
     Intersection", Ray Tracing Gems 2019, ch. 7.
     """
     radius = np.float64(shapes[i, 3])
-    f = minus(origin, row(shapes, i, 0))
+    f = minus(origin, row(shapes, i))
     a = dot(direction, direction)
     b = -dot(f, direction)
     # The ray's point nearest to the centre tells whether it passes through.

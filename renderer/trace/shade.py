@@ -8,14 +8,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from renderer.scene.flat import (
-    CELL_X,
-    CELL_Y,
-    CELL_Z,
-    CHECKER_DIFFUSE,
-    DIFFUSE_SHININESS,
-    SPECULAR_CHECKERED,
-)
+from renderer.scene import flat
 from renderer.trace.compiled import inlined
 from renderer.trace.vectors import (
     blend,
@@ -30,6 +23,19 @@ from renderer.trace.vectors import (
     times,
 )
 
+# Rows of a material, of a type that row() is compiled for.
+DIFFUSE_SHININESS, SPECULAR_CHECKERED, CHECKER_DIFFUSE, CELL_X, CELL_Y, CELL_Z = (
+    np.int64(number)
+    for number in (
+        flat.DIFFUSE_SHININESS,
+        flat.SPECULAR_CHECKERED,
+        flat.CHECKER_DIFFUSE,
+        flat.CELL_X,
+        flat.CELL_Y,
+        flat.CELL_Z,
+    )
+)
+FIRST, SECOND = np.int64(0), np.int64(1)
 CELL_NUDGE = 1e-3  # cells: keeps a face that lies in a cell's border inside one cell
 GRAZING = 1e-3  # the cosine that shading normals keep, at least, towards the viewer
 
@@ -44,19 +50,25 @@ def object_of(scene, primitive):
 
 
 @inlined
+def corners_of(faces, triangle):
+    """The numbers of a triangle's vertices."""
+    return np.int64(faces[triangle, 0]), np.int64(faces[triangle, 1]), np.int64(faces[triangle, 2])
+
+
+@inlined
 def normals_at(scene, direction, point, primitive, b1, b2):
     """(geometric, shading) unit normals at a hit, both on the viewer's side."""
     triangles = len(scene.faces)
     if primitive >= triangles:
-        centre = row(scene.spheres, primitive - triangles, 0)
+        centre = row(scene.spheres, primitive - triangles)
         facing = _facing(normalized(minus(point, centre)), direction)
         return facing, _not_grazing(facing, direction)
-    i, j, k = scene.faces[primitive, 0], scene.faces[primitive, 1], scene.faces[primitive, 2]
-    a, b, c = row(scene.vertices, i, 0), row(scene.vertices, j, 0), row(scene.vertices, k, 0)
+    i, j, k = corners_of(scene.faces, primitive)
+    a, b, c = row(scene.vertices, i), row(scene.vertices, j), row(scene.vertices, k)
     geometric = normalized(cross(minus(b, a), minus(c, a)))
     facing = _facing(geometric, direction)
     shading = facing
-    n0, n1, n2 = row(scene.normals, i, 0), row(scene.normals, j, 0), row(scene.normals, k, 0)
+    n0, n1, n2 = row(scene.normals, i), row(scene.normals, j), row(scene.normals, k)
     if _is_set(n0) and _is_set(n1) and _is_set(n2):
         smooth = blend(1.0 - b1 - b2, n0, b1, n1, b2, n2)
         size = length(smooth)
@@ -92,13 +104,13 @@ def _not_grazing(normal, direction):
 @inlined
 def albedo_at(scene, material, point, geometric, primitive, b1, b2):
     """The diffuse reflectance: the material's, or its checker's, times the vertices' colours."""
-    albedo = row(material, DIFFUSE_SHININESS, 0)
+    albedo = row(material, DIFFUSE_SHININESS)
     if material[SPECULAR_CHECKERED, 3] != 0.0 and _is_other_cell(material, point, geometric):
-        albedo = row(material, CHECKER_DIFFUSE, 0)
+        albedo = row(material, CHECKER_DIFFUSE)
     if primitive < len(scene.faces):
-        i, j, k = scene.faces[primitive, 0], scene.faces[primitive, 1], scene.faces[primitive, 2]
+        i, j, k = corners_of(scene.faces, primitive)
         colors = scene.colors
-        tint = blend(1.0 - b1 - b2, row(colors, i, 0), b1, row(colors, j, 0), b2, row(colors, k, 0))
+        tint = blend(1.0 - b1 - b2, row(colors, i), b1, row(colors, j), b2, row(colors, k))
         albedo = each_times(albedo, tint)
     return albedo
 
@@ -106,14 +118,12 @@ def albedo_at(scene, material, point, geometric, primitive, b1, b2):
 @inlined
 def _is_other_cell(material, point, geometric):
     """Whether the point lies in a cell of odd number, just below the surface."""
-    x, y, z = row(material, CELL_X, 0), row(material, CELL_Y, 0), row(material, CELL_Z, 0)
+    x, y, z = row(material, CELL_X), row(material, CELL_Y), row(material, CELL_Z)
     across = normalized((dot(x, geometric), dot(y, geometric), dot(z, geometric)))
-    cells = (
-        np.floor(dot(x, point) + material[CELL_X, 3] - CELL_NUDGE * across[0])
-        + np.floor(dot(y, point) + material[CELL_Y, 3] - CELL_NUDGE * across[1])
-        + np.floor(dot(z, point) + material[CELL_Z, 3] - CELL_NUDGE * across[2])
-    )
-    return cells - 2.0 * np.floor(0.5 * cells) != 0.0
+    u = dot(x, point) + material[CELL_X, 3] - CELL_NUDGE * across[0]
+    v = dot(y, point) + material[CELL_Y, 3] - CELL_NUDGE * across[1]
+    w = dot(z, point) + material[CELL_Z, 3] - CELL_NUDGE * across[2]
+    return (u % 2.0 >= 1.0) ^ (v % 2.0 >= 1.0) ^ (w % 2.0 >= 1.0)
 
 
 @inlined
@@ -125,7 +135,7 @@ def color_at(scene, direction, point, geometric, shading, primitive, b1, b2):
     """
     material = scene.materials[object_of(scene, primitive)]
     albedo = albedo_at(scene, material, point, geometric, primitive, b1, b2)
-    specular = row(material, SPECULAR_CHECKERED, 0)
+    specular = row(material, SPECULAR_CHECKERED)
     shininess = np.float64(material[DIFFUSE_SHININESS, 3])
     along = normalized(direction)
     ambient = scene.ambient
@@ -133,7 +143,7 @@ def color_at(scene, direction, point, geometric, shading, primitive, b1, b2):
     color = each_times(light, albedo)
     for number in range(len(scene.lights)):
         lamp = scene.lights[number]
-        to_light = row(lamp, 0, 0)
+        to_light = row(lamp, FIRST)
         if lamp[0, 3] != 0.0:
             to_light = minus(to_light, point)
             far = length(to_light)
@@ -146,7 +156,7 @@ def color_at(scene, direction, point, geometric, shading, primitive, b1, b2):
         if size >= 1e-6:
             highlight = max(0.0, dot(shading, half) / size) ** shininess
             reflected = plus(reflected, times(highlight, specular))
-        color = plus(color, each_times(row(lamp, 1, 0), reflected))
+        color = plus(color, each_times(row(lamp, SECOND), reflected))
     return color
 
 

@@ -34,9 +34,9 @@ def measure(records, start, end, box, centres):
 
 
 @inlined
-def bin_scale(centres, axis):
+def bin_scale(low, high):
     """Bins per unit of (doubled) centre."""
-    extent = centres[3 + axis] - centres[axis]
+    extent = high - low
     return np.float32(BINS * 0.9999) / extent if extent > np.float32(1e-30) else np.float32(0)
 
 
@@ -46,22 +46,26 @@ def bin_of(low, high, origin, scale):
 
 
 @inlined
-def half_area(box):
-    x, y, z = box[3] - box[0], box[4] - box[1], box[5] - box[2]
+def _half_area(low, high):
+    x, y, z = high[0] - low[0], high[1] - low[1], high[2] - low[2]
     return x * y + y * z + z * x
 
 
 @inlined
-def _clear(box):
-    for axis in range(3):
-        box[axis], box[3 + axis] = FAR, -FAR
-
-
-@inlined
-def _extend(box, other):
-    for axis in range(3):
-        box[axis] = min(box[axis], other[axis])
-        box[3 + axis] = max(box[3 + axis], other[3 + axis])
+def _extended(low, high, bins, axis, b):
+    """The box (low, high) made to hold bin b's."""
+    return (
+        (
+            min(low[0], bins[axis, b, 0]),
+            min(low[1], bins[axis, b, 1]),
+            min(low[2], bins[axis, b, 2]),
+        ),
+        (
+            max(high[0], bins[axis, b, 3]),
+            max(high[1], bins[axis, b, 4]),
+            max(high[2], bins[axis, b, 5]),
+        ),
+    )
 
 
 @inlined
@@ -70,13 +74,18 @@ def best_split(records, start, end, centres, counts, bins):
 
     counts (3, BINS) and bins (3, BINS, 6) are scratch.
     """
-    counts[:] = 0
     for axis in range(3):
         for b in range(BINS):
-            _clear(bins[axis, b])
+            counts[axis, b] = 0
+            for k in range(3):
+                bins[axis, b, k], bins[axis, b, 3 + k] = FAR, -FAR
 
     # Sort the centres into bins along each axis.
-    scales = bin_scale(centres, 0), bin_scale(centres, 1), bin_scale(centres, 2)
+    scales = (
+        bin_scale(centres[0], centres[3]),
+        bin_scale(centres[1], centres[4]),
+        bin_scale(centres[2], centres[5]),
+    )
     for i in range(start, end):
         x0, y0, z0 = records[i, 0], records[i, 1], records[i, 2]
         x1, y1, z1 = records[i, 3], records[i, 4], records[i, 5]
@@ -86,31 +95,31 @@ def best_split(records, start, end, centres, counts, bins):
             scale = scales[0] if axis == 0 else (scales[1] if axis == 1 else scales[2])
             b = bin_of(low, high, centres[axis], scale)
             counts[axis, b] += 1
-            box = bins[axis, b]
-            box[0], box[1], box[2] = min(box[0], x0), min(box[1], y0), min(box[2], z0)
-            box[3], box[4], box[5] = max(box[3], x1), max(box[4], y1), max(box[5], z1)
+            bins[axis, b, 0] = min(bins[axis, b, 0], x0)
+            bins[axis, b, 1] = min(bins[axis, b, 1], y0)
+            bins[axis, b, 2] = min(bins[axis, b, 2], z0)
+            bins[axis, b, 3] = max(bins[axis, b, 3], x1)
+            bins[axis, b, 4] = max(bins[axis, b, 4], y1)
+            bins[axis, b, 5] = max(bins[axis, b, 5], z1)
 
     # The cost of a split: for each side, its area times its primitives.
     best, best_axis, best_bin = FAR, -1, -1
     right = np.empty(BINS, np.float32)
-    box = np.empty(6, np.float32)
     for axis in range(3):
         if centres[3 + axis] <= centres[axis]:
             continue
         # Sweep from the right for each right side, then from the left for the sum.
-        _clear(box)
-        n = 0
+        low, high, n = (FAR, FAR, FAR), (-FAR, -FAR, -FAR), 0
         for b in range(BINS - 1, 0, -1):
             n += counts[axis, b]
-            _extend(box, bins[axis, b])
-            right[b] = half_area(box) * np.float32(n) if n > 0 else np.float32(0)
-        _clear(box)
-        n = 0
+            low, high = _extended(low, high, bins, axis, b)
+            right[b] = _half_area(low, high) * np.float32(n) if n > 0 else np.float32(0)
+        low, high, n = (FAR, FAR, FAR), (-FAR, -FAR, -FAR), 0
         for b in range(BINS - 1):
             n += counts[axis, b]
-            _extend(box, bins[axis, b])
+            low, high = _extended(low, high, bins, axis, b)
             if 0 < n < end - start:
-                cost = half_area(box) * np.float32(n) + right[b + 1]
+                cost = _half_area(low, high) * np.float32(n) + right[b + 1]
                 if cost < best:
                     best, best_axis, best_bin = cost, axis, b
     return best_axis, best_bin
@@ -119,7 +128,7 @@ def best_split(records, start, end, centres, counts, bins):
 @inlined
 def partition(records, start, end, centres, axis, last_bin):
     """Moves the records in bins up to last_bin to the front; gives the first of the others."""
-    scale, origin = bin_scale(centres, axis), centres[axis]
+    scale, origin = bin_scale(centres[axis], centres[3 + axis]), centres[axis]
     i, j = start, end - 1
     while True:
         while i <= j and bin_of(records[i, axis], records[i, 3 + axis], origin, scale) <= last_bin:

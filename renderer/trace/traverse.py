@@ -63,7 +63,7 @@ def closest_hit(tree, stack, origin, direction, t_min, t_max):
         count = links[node, 1]
         if count == 0:
             # Enter the nearer child; the other waits.
-            near = links[node, 0]
+            near = np.int64(links[node, 0])
             far = near + 1
             t_near = enter_box(bounds, near, to_boxes, t_min, closest)
             t_far = enter_box(bounds, far, to_boxes, t_min, closest)
@@ -77,9 +77,9 @@ def closest_hit(tree, stack, origin, direction, t_min, t_max):
                 continue
         else:
             # Try each shape of the leaf.
-            first = links[node, 0]
+            first = np.int64(links[node, 0])
             for i in range(first, first + count):
-                number = order[i]
+                number = np.int64(order[i])
                 c1, c2 = 0.0, 0.0
                 if number < tree.triangles:
                     t, c1, c2 = hit_triangle(tree.shapes, i, to_triangles)
@@ -94,7 +94,7 @@ def closest_hit(tree, stack, origin, direction, t_min, t_max):
             top -= 1
             if entered[top] <= closest:
                 break
-        node = waiting[top]
+        node = np.int64(waiting[top])
 
 
 @inlined
@@ -114,7 +114,7 @@ def any_hit(tree, stack, origin, direction, t_min, t_max):
     while top > 0:
         # Take a waiting node, and skip it if the ray does.
         top -= 1
-        node = waiting[top]
+        node = np.int64(waiting[top])
         if enter_box(bounds, node, to_boxes, t_min, t_max) == np.inf:
             continue
         first, count = links[node, 0], links[node, 1]

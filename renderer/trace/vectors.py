@@ -13,13 +13,9 @@ from renderer.trace.compiled import inlined
 
 
 @inlined
-def row(array, i, first):
-    """array[i, first : first + 3], exactly, as float64."""
-    return (
-        np.float64(array[i, first]),
-        np.float64(array[i, first + 1]),
-        np.float64(array[i, first + 2]),
-    )
+def row(array, i):
+    """array[i, :3], exactly, as float64. i: int64 (a literal would compile another version)."""
+    return np.float64(array[i, 0]), np.float64(array[i, 1]), np.float64(array[i, 2])
 
 
 @inlined
