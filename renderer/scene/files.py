@@ -33,6 +33,7 @@ from renderer.scene.schema import (
     BoxTable,
     ConeTable,
     CylinderTable,
+    DirectionalLightTable,
     DiskTable,
     MaterialTable,
     MeshTable,
@@ -72,9 +73,8 @@ def _scene(tables: SceneFile, folder: Path, name: str) -> Scene:
         key: _material(table, f"materials.{key}") for key, table in tables.materials.items()
     }
     objects = _objects(tables.objects, materials, folder)
-    if tables.lights is None:
-        lights = framing.LIGHTS
-    else:
+    lights: tuple[PointLight | DirectionalLight, ...] = framing.LIGHTS
+    if tables.lights is not None:
         _check_count("lights", len(tables.lights), LIGHTS)
         lights = tuple(_light(table, f"lights[{i}]") for i, table in enumerate(tables.lights))
     ambient, background = (
@@ -98,7 +98,7 @@ def _objects(tables: list[Any], materials: Materials, folder: Path) -> list[Scen
     triangles = 0
     for number, table in enumerate(tables):
         field = f"objects[{number}]"
-        entry = to_struct(table, AnyObject, field)  # type: ignore[arg-type]
+        entry: SphereTable | MeshTable = to_struct(table, AnyObject, field)
         with _under(field):
             parts = _parts(entry, materials, folder, models)
         objects += parts
@@ -194,7 +194,7 @@ def _built_material(table: MaterialTable) -> Material:
 
 
 def _light(table: Any, field: str) -> PointLight | DirectionalLight:
-    fields = to_struct(table, AnyLight, field)  # type: ignore[arg-type]
+    fields: PointLightTable | DirectionalLightTable = to_struct(table, AnyLight, field)
     with _under(field):
         rgb = parse_color("color", fields.color)
         if isinstance(fields, PointLightTable):

@@ -15,8 +15,8 @@ from renderer.camera import Camera
 from renderer.errors import LucidaError
 from renderer.scene.model import DirectionalLight, Material, SceneObject, Sphere, View
 
-MATERIAL = Material(diffuse=(0.7, 0.7, 0.7), specular=(0.12, 0.12, 0.12), shininess=40.0)
-AMBIENT = (0.15, 0.15, 0.15)
+MATERIAL = Material(diffuse=(0.62, 0.62, 0.62), specular=(0.1, 0.1, 0.1), shininess=40.0)
+AMBIENT = (0.1, 0.1, 0.1)
 BACKGROUND = (0.021, 0.023, 0.027)  # a dark neutral, #272829 on the screen
 LIGHTS = (
     DirectionalLight((0.5, -0.8, -0.6), (0.78, 0.77, 0.74)),  # the key, from the upper left
@@ -27,7 +27,7 @@ DIRECTION = (0.5, 0.35, 1.0)  # from the scene's centre to the eye: its front, f
 FOV_Y_DEG = 35.0
 MARGIN = 1.08
 
-SMALLEST_RADIUS, LARGEST_RADIUS = 1e-9, 1e11
+SMALLEST_RADIUS, LARGEST_RADIUS = 1e-6, 1e11
 
 
 def framing_view(objects: Sequence[SceneObject]) -> View:

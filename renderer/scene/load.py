@@ -9,11 +9,17 @@ from pathlib import Path
 
 from renderer.errors import LucidaError
 from renderer.scene.files import read_scene_file
-from renderer.scene.models import MODEL_ENDINGS, model_scene
 from renderer.scene.model import Scene
+from renderer.scene.models import MODEL_ENDINGS, model_scene
 from renderer.scene.reading import neighbours, suggestion
 
-BUILTIN_SCENES = ("still-life", "canonical", "columns", "spheres", "primitives")  # the default first
+BUILTIN_SCENES = (
+    "still-life",
+    "canonical",
+    "columns",
+    "spheres",
+    "primitives",
+)  # the default first
 SCENE_ENDINGS = (".toml", *MODEL_ENDINGS)
 
 _BUILTIN_FOLDER = Path(__file__).parent / "builtin"
@@ -42,7 +48,9 @@ def load_scene(source: str | Path) -> Scene:
             "", f"ends in {ending!r}" if ending else "has no ending", f"give {endings}", str(path)
         )
     if ending or path.parent != Path():
-        raise LucidaError("", "does not exist", f"{neighbours(path)}; scenes are {endings}", str(path))
+        raise LucidaError(
+            "", "does not exist", f"{neighbours(path)}; scenes are {endings}", str(path)
+        )
     raise LucidaError(
         "scene",
         f"{str(source)[:80]!r} is neither a built-in scene nor a file",

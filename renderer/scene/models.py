@@ -1,6 +1,122 @@
-"""placeholder until the readers are in"""
+"""Model files: .obj .ply .stl .off .glb .gltf into a scene's objects, or into a scene.
+
+Owns the choice of reader and the objects' names, materials and places. Knows nothing of how a
+format is written.
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
 from pathlib import Path
-from renderer.scene.model import SceneObject, Scene
+
+import numpy as np
+
+from renderer.errors import LucidaError
+from renderer.scene import framing
+from renderer.scene.limits import OBJECTS, TRIANGLES
+from renderer.scene.model import Material, Mesh, Scene, SceneObject
+from renderer.scene.parts import Part, build_mesh
+
 MODEL_ENDINGS = (".obj", ".ply", ".stl", ".off", ".glb", ".gltf")
-def load_model(path: Path) -> tuple[SceneObject, ...]: raise NotImplementedError
-def model_scene(path: Path) -> Scene: raise NotImplementedError
+
+
+def load_model(path: str | Path) -> tuple[SceneObject, ...]:
+    """The objects of a model file, one for each of its geometries (glTF: each instance).
+
+    Units and axes are the file's own. Materials: the file's base colours; textures are not read.
+    Vertex colours are read as sRGB, except in glTF, where they are linear. Raises LucidaError
+    naming the file where it is not such a file, is damaged, holds no triangle, or too many.
+    """
+    path = Path(path)
+    ending = path.suffix.lower()
+    if ending not in MODEL_ENDINGS:
+        what = "is a scene file" if ending == ".toml" else f"ends in {ending!r}"
+        raise LucidaError("", what, f"give one of {' '.join(MODEL_ENDINGS)}", str(path))
+    try:
+        objects = _gltf_objects(path) if ending in (".glb", ".gltf") else _objects(path, ending)
+        if not objects:
+            raise LucidaError("", "holds no triangle with an area", "give a model with a surface")
+        triangles = sum(len(e.shape.faces) for e in objects if isinstance(e.shape, Mesh))
+        for count, most, what in (
+            (len(objects), OBJECTS, "objects"),
+            (triangles, TRIANGLES, "triangles"),
+        ):
+            if count > most:
+                raise LucidaError("", f"has {count} {what}", f"stay within {most}")
+    except LucidaError as error:
+        raise error if error.source else error.in_file(str(path)) from None
+    except MemoryError:
+        raise LucidaError(
+            "", "does not fit into memory", "give a smaller model", str(path)
+        ) from None
+    return tuple(objects)
+
+
+def model_scene(path: str | Path) -> Scene:
+    """A scene of one model file, with the default lights, in front of a camera that sees it all."""
+    objects = load_model(path)
+    try:
+        view = framing.framing_view(objects)
+    except LucidaError as error:
+        raise error.in_file(str(path)) from None
+    return Scene(
+        objects,
+        framing.LIGHTS,
+        framing.AMBIENT,
+        framing.BACKGROUND,
+        view,
+        Path(path).stem,
+    )
+
+
+def _objects(path: Path, ending: str) -> list[SceneObject]:
+    # Imported here: scenes without models need none of it.
+    from renderer.scene import readers
+
+    read = {
+        ".obj": readers.read_obj,
+        ".ply": readers.read_ply,
+        ".stl": readers.read_stl,
+        ".off": readers.read_off,
+    }[ending]
+    parts = read(path)
+    objects = []
+    for part in parts:
+        mesh = build_mesh(part)
+        if mesh is not None:
+            name = part.name if len(parts) > 1 else path.stem
+            objects.append(SceneObject(mesh, part.material or _material(part), name))
+    return objects
+
+
+def _gltf_objects(path: Path) -> list[SceneObject]:
+    from renderer.scene.gltf import read_gltf
+
+    file = read_gltf(path)
+    meshes = {key: build_mesh(part) for key, part in file.parts.items()}
+    objects = []
+    for instance in file.instances:
+        key = instance.mesh, instance.primitive
+        mesh = meshes[key]
+        if mesh is None or _is_flat(instance.matrix):
+            continue
+        material = instance.material or _material(file.parts[key])
+        name = instance.name or path.stem
+        try:
+            placed = replace(mesh, transform=instance.matrix)
+        except LucidaError as error:
+            raise error.within(f"node {name!r}"[:80]) from None
+        objects.append(SceneObject(placed, material, name))
+    return objects
+
+
+def _is_flat(matrix: np.ndarray) -> bool:
+    """Scaled by 0, the way files hide a node."""
+    return bool((np.linalg.norm(matrix[:3, :3], axis=0) == 0).any())
+
+
+def _material(part: Part) -> Material:
+    """The default; white below colours of the file's own, which it multiplies."""
+    if part.vertex_colors is None and part.face_colors is None:
+        return framing.MATERIAL
+    return replace(framing.MATERIAL, diffuse=(1.0, 1.0, 1.0))

@@ -21,6 +21,7 @@ from renderer.scene.limits import SEGMENTS
 from renderer.scene.model import Mesh, vector
 
 Floats = NDArray[np.float64]
+Ints = NDArray[np.int64]
 
 
 def box(size: float | Iterable[float] = 1.0) -> Mesh:
@@ -39,21 +40,21 @@ def box(size: float | Iterable[float] = 1.0) -> Mesh:
                 corners.append(corner * half)
     quads = np.arange(24).reshape(6, 4)
     faces = np.concatenate([quads[:, [0, 1, 2]], quads[:, [0, 2, 3]]], axis=1).reshape(-1, 3)
-    return Mesh(np.array(corners), faces)
+    return _built(np.array(corners), faces)
 
 
 def rectangle(width: float = 1.0, depth: float = 1.0) -> Mesh:
     """A rectangle in the plane y = 0, `width` along x and `depth` along z, facing +y."""
     x, z = _length("width", width) / 2, _length("depth", depth) / 2
     vertices = np.array([[-x, 0, z], [x, 0, z], [x, 0, -z], [-x, 0, -z]])
-    return Mesh(vertices, np.array([[0, 1, 2], [0, 2, 3]]))
+    return _built(vertices, np.array([[0, 1, 2], [0, 2, 3]]))
 
 
 def disk(radius: float = 0.5, segments: int = 64) -> Mesh:
     """A disk in the plane y = 0, facing +y, as a regular polygon with `segments` corners."""
     rim = _length("radius", radius) * _circle(_count("segments", segments))
     vertices, faces = _cap(rim, 0.0, up=True)
-    return Mesh(vertices, faces)
+    return _built(vertices, faces)
 
 
 def cylinder(
@@ -105,9 +106,7 @@ def torus(
     ring = _circle(_count("segments", segments))[:, None]
     tube = _circle(_count("sides", sides))[None]
     normals = np.stack(
-        np.broadcast_arrays(
-            ring[..., 0] * tube[..., 0], tube[..., 1], ring[..., 1] * tube[..., 0]
-        ),
+        np.broadcast_arrays(ring[..., 0] * tube[..., 0], tube[..., 1], ring[..., 1] * tube[..., 0]),
         axis=-1,
     )
     middle = np.insert(radius * ring, 1, 0.0, axis=-1)
@@ -154,7 +153,7 @@ def placement(
 
 
 def transformed(mesh: Mesh, matrix: Floats) -> Mesh:
-    """The mesh moved by `matrix` (4, 4) in world space; its arrays are shared."""
+    """The mesh moved by `matrix` (4, 4) in world space."""
     return replace(mesh, transform=matrix @ mesh.transform)
 
 
@@ -182,7 +181,7 @@ def _circle(segments: int, first: float = 0.0) -> Floats:
     return np.stack([np.cos(angle), -np.sin(angle)], axis=1)
 
 
-def _strip(segments: int) -> NDArray[np.int64]:
+def _strip(segments: int) -> Ints:
     """Faces between a lower ring, vertices 0 to segments - 1, and the upper ring after it."""
     here = np.arange(segments)
     there = (here + 1) % segments
@@ -190,7 +189,7 @@ def _strip(segments: int) -> NDArray[np.int64]:
     return np.stack([a, b, c, a, c, d], axis=1).reshape(-1, 3)
 
 
-def _cap(rim: Floats, y: float, up: bool) -> tuple[Floats, NDArray[np.int64]]:
+def _cap(rim: Floats, y: float, up: bool) -> tuple[Floats, Ints]:
     """A fan about its centre, the last vertex, at height y, facing +y or -y."""
     count = len(rim)
     vertices = np.insert(np.concatenate([rim, np.zeros((1, 2))]), 1, y, axis=1)
@@ -200,7 +199,9 @@ def _cap(rim: Floats, y: float, up: bool) -> tuple[Floats, NDArray[np.int64]]:
     return vertices, np.stack([*ends, np.full(count, count)], axis=1)
 
 
-def _assemble(side: Floats, faces: np.ndarray, normals: Floats, caps: list, smooth: bool) -> Mesh:
+def _assemble(
+    side: Floats, faces: Ints, normals: Floats, caps: list[tuple[Floats, Ints]], smooth: bool
+) -> Mesh:
     """One mesh of a smooth side and its flat caps."""
     vertices, all_faces, first = [side], [faces], len(side)
     for cap_vertices, cap_faces in caps:
@@ -209,7 +210,15 @@ def _assemble(side: Floats, faces: np.ndarray, normals: Floats, caps: list, smoo
         first += len(cap_vertices)
     padded = np.zeros((first, 3))
     padded[: len(side)] = normals
-    return Mesh(np.concatenate(vertices), np.concatenate(all_faces), padded if smooth else None)
+    return _built(np.concatenate(vertices), np.concatenate(all_faces), padded if smooth else None)
+
+
+def _built(vertices: Floats, faces: Ints, normals: Floats | None = None) -> Mesh:
+    return Mesh(
+        vertices.astype(np.float32),
+        faces.astype(np.int32),
+        None if normals is None else normals.astype(np.float32),
+    )
 
 
 # Checks.

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import re
 import tomllib
-from typing import Any, TypeVar
+from typing import Any
 
 import msgspec
 
@@ -17,8 +17,6 @@ from renderer.scene.limits import KEY_PARTS
 from renderer.scene.reading import suggestion
 
 VERSION = 1  # of the formats of scene and view files: their key `lucida`
-
-T = TypeVar("T")
 
 _KEY_PART = r"""(?:[\w-]+|"[^"\n]*"|'[^'\n]*')"""
 _LONG_KEY = re.compile(rf"(?<![\w-]){_KEY_PART}(?:[ \t]*\.[ \t]*{_KEY_PART}){{{KEY_PARTS},}}")
@@ -63,8 +61,8 @@ def parse_toml(text: str) -> dict[str, Any]:
     return tables
 
 
-def to_struct(value: Any, kind: type[T], prefix: str = "") -> T:
-    """The value as a msgspec structure; LucidaError with the field's path under `prefix`."""
+def to_struct(value: Any, kind: Any, prefix: str = "") -> Any:
+    """The value as a msgspec structure or a union of them; LucidaError with the field's path under `prefix`."""
     try:
         return msgspec.convert(value, kind)
     except msgspec.ValidationError as error:

@@ -53,7 +53,7 @@ def view_to_toml(view: View) -> str:
 def view_from_toml(text: str, source: str = "") -> View:
     """The view in the text of a view file. source: the file's name, for errors."""
     try:
-        fields = to_struct(parse_toml(text), ViewFile).camera
+        fields: CameraFields = to_struct(parse_toml(text), ViewFile).camera
         try:
             return View(_camera(fields), bool(fields.fit))
         except LucidaError as error:
@@ -69,15 +69,17 @@ def view_from_table(table: dict[str, Any]) -> View:
     """
     try:
         if not {"target", "up", "fov_y_deg", "aspect"} & table.keys():
-            fields = to_struct(table, CameraFields)
+            fields: CameraFields = to_struct(table, CameraFields)
             fit = "viewport" not in table if fields.fit is None else fields.fit
             return View(_camera(fields), fit)
         for name in ("u", "v", "w", "viewport"):
             if name in table:
                 raise LucidaError(
-                    name, "is given beside target, up, fov_y_deg or aspect", "give one or the others"
+                    name,
+                    "is given beside target, up, fov_y_deg or aspect",
+                    "give one or the others",
                 )
-        look = to_struct(table, LookAtFields)
+        look: LookAtFields = to_struct(table, LookAtFields)
         camera = Camera.look_at(
             look.eye,
             look.target,

@@ -1,0 +1,305 @@
+"""glTF 2.0 files, .gltf and .glb: the tree checked here, the numbers decoded by trimesh.
+
+Owns the tree: which meshes are where, with which material, and whether every range it names lies
+inside the file. Knows nothing of files' containers or of meshes' repair. Textures, skins,
+animations and cameras are not read.
+Source: Khronos, glTF 2.0 Specification.
+"""
+
+from __future__ import annotations
+
+import io
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import msgspec
+import numpy as np
+from numpy.typing import NDArray
+
+from renderer.errors import LucidaError
+from renderer.scene.gltf_file import (
+    TRIANGLE_FAN,
+    TRIANGLE_LIST,
+    TRIANGLE_STRIP,
+    Gltf,
+    Node,
+    Pbr,
+    open_gltf,
+    read_buffer,
+)
+from renderer.scene.guard import guarded
+from renderer.scene.limits import BINARY_MODEL_BYTES, NODE_DEPTH, OBJECTS, TRIANGLES
+from renderer.scene.model import Material
+from renderer.scene.parts import Part, linear_colors
+from renderer.scene.reading import size_text
+
+COMPONENT_BYTES = {5120: 1, 5121: 1, 5122: 2, 5123: 2, 5125: 4, 5126: 4}
+COMPONENTS = {"SCALAR": 1, "VEC2": 2, "VEC3": 3, "VEC4": 4}
+
+
+@dataclass(frozen=True, eq=False)
+class Instance:
+    """A primitive of a mesh in the place of a node: indices, name, and world_from_object."""
+
+    mesh: int
+    primitive: int
+    name: str
+    matrix: NDArray[np.float64]
+    material: Material | None
+
+
+@dataclass(frozen=True, eq=False)
+class GltfFile:
+    """instances, and the parts (mesh, primitive) that they show."""
+
+    instances: list[Instance]
+    parts: dict[tuple[int, int], Part]
+
+
+def read_gltf(path: Path) -> GltfFile:
+    """The instances and parts of a .gltf or .glb file. Raises LucidaError naming the file."""
+    try:
+        tree, binary = open_gltf(path)
+        instances = _instances(tree)
+        keys = sorted({(entry.mesh, entry.primitive) for entry in instances})
+        _check_triangles(tree, instances)
+        smaller, used_buffers = _smaller_tree(tree, keys)
+        buffers = {
+            str(number): read_buffer(tree.buffers[number], number, binary, path)
+            for number in used_buffers
+        }
+    except LucidaError as error:
+        raise error if error.source else error.in_file(str(path)) from None
+    with guarded(path, "glTF"):
+        from trimesh.exchange.gltf import load_gltf
+
+        _check_views(smaller, buffers)
+        found = load_gltf(io.BytesIO(msgspec.json.encode(smaller)), buffers, skip_materials=True)
+    parts = {}
+    for number, (mesh, primitive) in enumerate(keys):
+        fields = found["geometry"].get(str(number), {})
+        attributes = tree.meshes[mesh].primitives[primitive].attributes
+        position = tree.accessors[attributes["POSITION"]]
+        vertices = fields.get("vertices")
+        if vertices is not None and position.normalized and vertices.dtype.kind in "ui":
+            vertices = vertices / np.iinfo(vertices.dtype).max
+        parts[mesh, primitive] = Part(
+            tree.meshes[mesh].name,
+            vertices,
+            fields.get("faces"),
+            fields.get("vertex_normals"),
+            linear_colors(fields.get("vertex_colors"), linear=True),
+        )
+    return GltfFile(instances, parts)
+
+
+# The tree.
+
+
+def _instances(tree: Gltf) -> list[Instance]:
+    """Every triangle primitive at every node of the scene, depth first, in the file's order."""
+    if tree.scenes:
+        roots = _at(tree.scenes, tree.scene, "scene").nodes
+    else:
+        children = {child for node in tree.nodes for child in node.children}
+        roots = [number for number in range(len(tree.nodes)) if number not in children]
+    instances: list[Instance] = []
+    seen: set[int] = set()
+    stack = [(number, np.eye(4), 0) for number in reversed(roots)]
+    while stack:
+        number, parent, depth = stack.pop()
+        field = f"nodes[{number}]"
+        node = _at(tree.nodes, number, "nodes")
+        if number in seen:
+            raise LucidaError(
+                field, "has two parents, or is its own ancestor", "give each node one parent"
+            )
+        seen.add(number)
+        if depth > NODE_DEPTH:
+            raise LucidaError(field, f"is deeper than {NODE_DEPTH} levels", "flatten the tree")
+        with np.errstate(all="ignore"):
+            matrix = parent @ _node_matrix(node, field)
+        if node.mesh is not None:
+            instances += _mesh_instances(tree, node, matrix, field)
+        if len(instances) > OBJECTS:
+            raise LucidaError("nodes", f"make more than {OBJECTS} objects", "split the model")
+        stack += [(child, matrix, depth + 1) for child in reversed(node.children)]
+    return instances
+
+
+def _mesh_instances(
+    tree: Gltf, node: Node, matrix: NDArray[np.float64], field: str
+) -> list[Instance]:
+    assert node.mesh is not None
+    mesh = _at(tree.meshes, node.mesh, f"{field}.mesh")
+    instances = []
+    for number, primitive in enumerate(mesh.primitives):
+        where = f"meshes[{node.mesh}].primitives[{number}]"
+        if primitive.mode == TRIANGLE_FAN:
+            raise LucidaError(f"{where}.mode", "is a triangle fan", "export plain triangles")
+        if primitive.mode not in (TRIANGLE_LIST, TRIANGLE_STRIP):
+            continue  # points and lines have no surface
+        if "POSITION" not in primitive.attributes:
+            raise LucidaError(where, "has no POSITION", "export it again")
+        material = None
+        if primitive.material is not None:
+            given = _at(tree.materials, primitive.material, f"{where}.material")
+            material = _material(given.pbr_metallic_roughness)
+        name = node.name or mesh.name
+        instances.append(Instance(node.mesh, number, name, matrix, material))
+    return instances
+
+
+def _node_matrix(node: Node, field: str) -> NDArray[np.float64]:
+    """parent_from_node: `matrix` (column-major), or translation * rotation * scale."""
+    if node.matrix is not None:
+        if len(node.matrix) != 16:
+            raise LucidaError(f"{field}.matrix", "is not 16 numbers", "export it again")
+        matrix = np.array(node.matrix).reshape(4, 4).T
+        matrix[3] = 0, 0, 0, 1
+        return matrix
+    x, y, z, w = np.asarray(node.rotation) / (np.linalg.norm(node.rotation) or 1.0)
+    matrix = np.eye(4)
+    matrix[:3, :3] = [
+        [1 - 2 * (y * y + z * z), 2 * (x * y - z * w), 2 * (x * z + y * w)],
+        [2 * (x * y + z * w), 1 - 2 * (x * x + z * z), 2 * (y * z - x * w)],
+        [2 * (x * z - y * w), 2 * (y * z + x * w), 1 - 2 * (x * x + y * y)],
+    ]
+    matrix[:3, :3] *= node.scale
+    matrix[:3, 3] = node.translation
+    return matrix
+
+
+def _material(pbr: Pbr) -> Material:
+    """The nearest of this project's materials: base colour, and a highlight by roughness.
+
+    The exponent is 2 / roughness^4 - 2, after Karis 2013, "Specular BRDF reference"; dielectrics
+    reflect 4 %, metals their base colour.
+    """
+    base = np.clip(np.nan_to_num(pbr.base_color_factor[:3]), 0, 1)
+    metallic = min(max(pbr.metallic_factor, 0.0), 1.0)
+    roughness = min(max(pbr.roughness_factor, 0.05), 1.0)
+    specular = 0.04 + (base - 0.04) * metallic
+    shininess = min(max(2 / roughness**4 - 2, 1.0), 1000.0)
+    return Material(tuple(base.tolist()), tuple(specular.tolist()), shininess)
+
+
+# The ranges.
+
+
+def _check_triangles(tree: Gltf, instances: list[Instance]) -> None:
+    total = 0
+    for entry in instances:
+        primitive = tree.meshes[entry.mesh].primitives[entry.primitive]
+        source = primitive.indices
+        if source is None:
+            source = primitive.attributes["POSITION"]
+        count = _at(tree.accessors, source, "accessors").count
+        total += count // 3 if primitive.mode == TRIANGLE_LIST else max(count - 2, 0)
+    if total > TRIANGLES:
+        raise LucidaError("", f"has {total} triangles", f"stay within {TRIANGLES}")
+
+
+def _smaller_tree(tree: Gltf, keys: list[tuple[int, int]]) -> tuple[dict[str, Any], list[int]]:
+    """A tree of only what the primitives `keys` need, one mesh each, and the buffers it uses."""
+    accessors: dict[int, int] = {}
+    views: dict[int, int] = {}
+    meshes = []
+    for number, (mesh, index) in enumerate(keys):
+        primitive = tree.meshes[mesh].primitives[index]
+        where = f"meshes[{mesh}].primitives[{index}]"
+        wanted = {
+            name: primitive.attributes[name]
+            for name in ("POSITION", "NORMAL", "COLOR_0")
+            if name in primitive.attributes
+        }
+        smaller: dict[str, Any] = {"attributes": {}, "mode": primitive.mode}
+        for name, source in wanted.items():
+            types = ("VEC3", "VEC4") if name == "COLOR_0" else ("VEC3",)
+            _check_accessor(tree, source, types, f"{where}.attributes.{name}")
+            smaller["attributes"][name] = accessors.setdefault(source, len(accessors))
+        if primitive.indices is not None:
+            _check_accessor(tree, primitive.indices, ("SCALAR",), f"{where}.indices")
+            smaller["indices"] = accessors.setdefault(primitive.indices, len(accessors))
+        meshes.append({"name": str(number), "primitives": [smaller]})
+    for source in accessors:
+        view = tree.accessors[source].buffer_view
+        assert view is not None
+        views.setdefault(view, len(views))
+    buffers = sorted({tree.buffer_views[view].buffer for view in views})
+    new_accessors = []
+    for accessor in (tree.accessors[source] for source in accessors):
+        assert accessor.buffer_view is not None
+        new_accessors.append(
+            {
+                "bufferView": views[accessor.buffer_view],
+                "byteOffset": accessor.byte_offset,
+                "componentType": accessor.component_type,
+                "count": accessor.count,
+                "type": accessor.type,
+            }
+        )
+    new_views = []
+    for view in (tree.buffer_views[number] for number in views):
+        fields = {
+            "buffer": buffers.index(view.buffer),
+            "byteOffset": view.byte_offset,
+            "byteLength": view.byte_length,
+        }
+        new_views.append(fields | ({"byteStride": view.byte_stride} if view.byte_stride else {}))
+    total = sum(view["byteLength"] for view in new_views)
+    if total > 2 * BINARY_MODEL_BYTES:
+        raise LucidaError("bufferViews", f"hold {size_text(total)}", "split the model")
+    smaller_tree = {
+        "asset": {"version": "2.0"},
+        "buffers": [{"uri": str(number)} for number in buffers],
+        "bufferViews": new_views,
+        "accessors": new_accessors,
+        "meshes": meshes,
+    }
+    return smaller_tree, buffers
+
+
+def _check_accessor(tree: Gltf, number: int, types: tuple[str, ...], field: str) -> None:
+    """Raises LucidaError unless all numbers of the accessor lie inside its buffer view."""
+    accessor = _at(tree.accessors, number, field)
+    field = f"accessors[{number}]"
+    if accessor.type not in types or accessor.component_type not in COMPONENT_BYTES:
+        raise LucidaError(
+            field, f"is {accessor.type[:20]} of type {accessor.component_type}", "export it again"
+        )
+    if accessor.sparse is not None:
+        raise LucidaError(field, "is sparse", "export it without sparse accessors")
+    if accessor.buffer_view is None:
+        raise LucidaError(field, "has no bufferView", "export it uncompressed")
+    view = _at(tree.buffer_views, accessor.buffer_view, f"{field}.buffer_view")
+    _at(tree.buffers, view.buffer, f"bufferViews[{accessor.buffer_view}].buffer")
+    item = COMPONENT_BYTES[accessor.component_type] * COMPONENTS[accessor.type]
+    stride = view.byte_stride or item
+    if stride < item:
+        raise LucidaError(
+            f"bufferViews[{accessor.buffer_view}].byte_stride",
+            f"{stride} is below the {item} bytes of an element",
+            "export it again",
+        )
+    need = accessor.byte_offset + max(accessor.count - 1, 0) * stride + item
+    if accessor.count < 1 or need > view.byte_length:
+        raise LucidaError(
+            field,
+            f"declares {accessor.count} elements, {need} bytes, in a view of {view.byte_length}",
+            "it is damaged; export it again",
+        )
+
+
+def _check_views(tree: dict[str, Any], buffers: dict[str, bytes]) -> None:
+    for view in tree["bufferViews"]:
+        have = len(buffers[tree["buffers"][view["buffer"]]["uri"]])
+        if view["byteOffset"] + view["byteLength"] > have:
+            raise ValueError(f"a buffer view ends behind its buffer of {have} bytes")
+
+
+def _at(entries: list[Any], number: int, field: str) -> Any:
+    if number >= len(entries):
+        raise LucidaError(field, f"names entry {number} of {len(entries)}", "export it again")
+    return entries[number]

@@ -1,0 +1,201 @@
+"""glTF 2.0 files as they lie on disk: the tree's structures, the .glb container, the buffers.
+
+Owns what is read from which file: only from the model's own folder, nothing over a network. Knows
+nothing of what the tree means.
+Source: Khronos, glTF 2.0 Specification.
+"""
+
+from __future__ import annotations
+
+import base64
+import binascii
+import urllib.parse
+from pathlib import Path
+from typing import Annotated
+
+import msgspec
+
+from renderer.errors import LucidaError
+from renderer.scene.limits import BINARY_MODEL_BYTES, GLTF_JSON_BYTES, TEXT_MODEL_BYTES
+from renderer.scene.reading import check_bytes, read_file, size_text
+
+Count = Annotated[int, msgspec.Meta(ge=0, le=1 << 40)]
+Index = Annotated[int, msgspec.Meta(ge=0, le=1 << 31)]
+
+TRIANGLE_LIST, TRIANGLE_STRIP, TRIANGLE_FAN = 4, 5, 6
+COMPRESSED = ("KHR_draco_mesh_compression", "EXT_meshopt_compression", "KHR_meshopt_compression")
+
+
+class Asset(msgspec.Struct, rename="camel"):
+    version: str = "2.0"
+
+
+class Buffer(msgspec.Struct, rename="camel"):
+    byte_length: Count
+    uri: str | None = None
+
+
+class BufferView(msgspec.Struct, rename="camel"):
+    buffer: Index
+    byte_length: Count
+    byte_offset: Count = 0
+    byte_stride: Count | None = None
+
+
+class Accessor(msgspec.Struct, rename="camel"):
+    component_type: int
+    count: Count
+    type: str
+    buffer_view: Index | None = None
+    byte_offset: Count = 0
+    normalized: bool = False
+    sparse: msgspec.Raw | None = None
+
+
+class Primitive(msgspec.Struct, rename="camel"):
+    attributes: dict[str, Index]
+    indices: Index | None = None
+    material: Index | None = None
+    mode: int = TRIANGLE_LIST
+
+
+class GltfMesh(msgspec.Struct, rename="camel"):
+    primitives: list[Primitive]
+    name: str = ""
+
+
+class Pbr(msgspec.Struct, rename="camel"):
+    base_color_factor: tuple[float, float, float, float] = (1.0, 1.0, 1.0, 1.0)
+    metallic_factor: float = 1.0
+    roughness_factor: float = 1.0
+
+
+class GltfMaterial(msgspec.Struct, rename="camel"):
+    pbr_metallic_roughness: Pbr = Pbr()
+
+
+class Node(msgspec.Struct, rename="camel"):
+    name: str = ""
+    mesh: Index | None = None
+    children: list[Index] = []
+    matrix: list[float] | None = None
+    translation: tuple[float, float, float] = (0.0, 0.0, 0.0)
+    rotation: tuple[float, float, float, float] = (0.0, 0.0, 0.0, 1.0)
+    scale: tuple[float, float, float] = (1.0, 1.0, 1.0)
+
+
+class GltfScene(msgspec.Struct, rename="camel"):
+    nodes: list[Index] = []
+
+
+class Gltf(msgspec.Struct, rename="camel"):
+    """The parts of a glTF tree that become objects; all else in it is passed over."""
+
+    asset: Asset
+    extensions_required: list[str] = []
+    scene: Index = 0
+    scenes: list[GltfScene] = []
+    nodes: list[Node] = []
+    meshes: list[GltfMesh] = []
+    materials: list[GltfMaterial] = []
+    accessors: list[Accessor] = []
+    buffer_views: list[BufferView] = []
+    buffers: list[Buffer] = []
+
+
+def open_gltf(path: Path) -> tuple[Gltf, bytes | None]:
+    """The tree, and the binary chunk of a .glb file."""
+    data = read_file(path, BINARY_MODEL_BYTES)
+    binary = None
+    text: bytes | memoryview = data
+    if data[:4] == b"glTF":
+        text, binary = _chunks(data)
+        if len(text) > GLTF_JSON_BYTES:
+            raise LucidaError("", f"has {size_text(len(text))} of JSON", "split the model")
+    else:  # its buffers may be inside, as base64
+        check_bytes(len(data), TEXT_MODEL_BYTES, str(path))
+    try:
+        tree = msgspec.json.decode(text, type=Gltf)
+    except msgspec.ValidationError as error:
+        reason, _, where = str(error).partition(" - at `$")
+        raise LucidaError(
+            where.strip("`."), reason[:1].lower() + reason[1:].replace("`", ""), "export it again"
+        ) from None
+    except (msgspec.DecodeError, RecursionError, UnicodeDecodeError) as error:
+        raise damaged(f"is not glTF: {str(error)[:120]}") from None
+    if tree.asset.version.split(".")[0] != "2":
+        raise LucidaError(
+            "asset.version", f"{tree.asset.version[:20]!r} is not 2.0", "export it as glTF 2.0"
+        )
+    for name in tree.extensions_required:
+        if name in COMPRESSED:
+            raise LucidaError("", f"is compressed with {name}", "export it uncompressed")
+    return tree, binary
+
+
+def _chunks(data: bytes) -> tuple[memoryview, bytes]:
+    """The JSON chunk and the binary chunk (b"" if there is none) of a .glb file."""
+    version, length = (int.from_bytes(data[at : at + 4], "little") for at in (4, 8))
+    if len(data) >= 12 and version != 2:
+        raise LucidaError("", f"is of glTF version {version}", "export it as glTF 2.0")
+    if len(data) < 20 or length > len(data):
+        raise damaged(f"declares {length} bytes and has {len(data)}")
+    chunks: dict[bytes, memoryview] = {}
+    at = 12
+    while at + 8 <= length:
+        size = int.from_bytes(data[at : at + 4], "little")
+        if at + 8 + size > length:
+            raise damaged(f"declares a chunk of {size} bytes, {length - at - 8} are left")
+        chunks.setdefault(data[at + 4 : at + 8], memoryview(data)[at + 8 : at + 8 + size])
+        at += 8 + size
+    if b"JSON" not in chunks:
+        raise damaged("has no JSON chunk")
+    return chunks[b"JSON"], bytes(chunks.get(b"BIN\0", b""))
+
+
+def read_buffer(buffer: Buffer, number: int, binary: bytes | None, path: Path) -> bytes:
+    field = f"buffers[{number}]"
+    if buffer.uri is None:
+        if number or binary is None:
+            raise LucidaError(field, "has no uri and no binary chunk", "export it again")
+        data = binary
+    elif buffer.uri.startswith("data:"):
+        _, comma, text = buffer.uri.partition(",")
+        try:
+            data = base64.b64decode(text, validate=True) if comma else b""
+        except (binascii.Error, ValueError):
+            raise LucidaError(f"{field}.uri", "is not base64", "export it again") from None
+    else:
+        data = _file_beside(buffer.uri, f"{field}.uri", path)
+    if len(data) < buffer.byte_length:
+        raise LucidaError(
+            field,
+            f"declares {size_text(buffer.byte_length)} and has {size_text(len(data))}",
+            "it is cut off; export it again",
+        )
+    return data
+
+
+def _file_beside(uri: str, field: str, path: Path) -> bytes:
+    """A file named by a relative URI, in the model's folder or below it."""
+    name = urllib.parse.unquote(uri)
+    parsed = urllib.parse.urlsplit(uri)
+    folder = path.parent.resolve()
+    try:
+        target = (folder / name).resolve()
+        inside = target.is_relative_to(folder)
+    except (OSError, ValueError):
+        inside = False
+    if parsed.scheme or parsed.netloc or not inside:
+        raise LucidaError(
+            field, f"{uri[:80]!r} is not in the model's folder", "put the file beside the model"
+        )
+    try:
+        return read_file(target, BINARY_MODEL_BYTES)
+    except LucidaError as error:
+        raise LucidaError(field, f"{uri[:80]!r} {error.problem}", error.remedy) from None
+
+
+def damaged(problem: str) -> LucidaError:
+    """The error for a file that is not what its ending or its header says."""
+    return LucidaError("", problem, "it is cut off or of another kind; export it again")

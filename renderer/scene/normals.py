@@ -1,0 +1,122 @@
+"""Smooth vertex normals for meshes that bring none.
+
+Owns which faces share a normal at a vertex, and the normals. Knows nothing of files or scenes.
+"""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+from numpy.typing import NDArray
+
+Ints = NDArray[np.int64]
+Floats32 = NDArray[np.float32]
+
+CREASE_DEG = 40.0  # an edge across which the faces turn by more than this is seen as an edge
+
+
+def merge_positions(vertices: Floats32) -> Ints:
+    """For each vertex (n, 3), the first vertex at exactly the same position: int64 (n,)."""
+    bits = (vertices + np.float32(0)).view(np.uint32).astype(np.uint64)  # + 0 makes -0 into 0
+    xy = bits[:, 0] << np.uint64(32) | bits[:, 1]
+    order = np.lexsort((bits[:, 2], xy))  # stable: the first of equals stays first
+    xy, z = xy[order], bits[order, 2]
+    starts = np.concatenate([[True], (xy[1:] != xy[:-1]) | (z[1:] != z[:-1])])
+    first = order[starts][np.cumsum(starts) - 1]
+    merged = np.empty(len(vertices), np.int64)
+    merged[order] = first
+    return merged
+
+
+def face_normals(vertices: Floats32, faces: Ints) -> NDArray[np.float64]:
+    """cross(b - a, c - a) of each face (m, 3): its normal, twice its area long."""
+    a, b, c = (vertices[faces[:, corner]].astype(np.float64) for corner in range(3))
+    return np.cross(b - a, c - a)
+
+
+def smooth_normals(
+    vertices: Floats32, faces: Ints, crease_deg: float = CREASE_DEG, keep_apart: bool = False
+) -> tuple[Ints, Ints, Floats32]:
+    """Normals that are smooth except across creases.
+
+    vertices (n, 3); faces (m, 3), of one winding where they should join, none of area 0. Vertices
+    in one position share their normals. Returns (source, faces, normals): the new vertex k is a
+    copy of vertex source[k], with the unit normal normals[k]; a vertex on a crease has several
+    copies. Vertices in one position become one, unless keep_apart: they may differ in colour.
+    Corners are weighted by their angle, after Thürmer and Wüthrich 1998,
+    "Computing vertex normals from polygonal facets".
+    """
+    joined = merge_positions(vertices)[faces]
+    normals = face_normals(vertices, joined)
+    normals /= np.linalg.norm(normals, axis=1, keepdims=True)
+    label = _components(joined.size, *_smooth_corners(joined, normals, len(vertices), crease_deg))
+    roots = np.flatnonzero(label == np.arange(len(label)))
+    number = np.empty(len(label), np.int64)
+    number[roots] = np.arange(len(roots))
+    shared = number[label]
+    weights = _corner_angles(vertices, joined)
+    summed = np.stack(
+        [
+            np.bincount(shared, (weights * normals[:, [axis]]).reshape(-1), len(roots))
+            for axis in range(3)
+        ],
+        axis=1,
+    )
+    lengths = np.linalg.norm(summed, axis=1, keepdims=True)
+    unit = np.divide(summed, lengths, out=np.zeros_like(summed), where=lengths > 1e-6)
+    unit = unit.astype(np.float32)
+    corner = faces.reshape(-1)
+    if not keep_apart:
+        return corner[roots], shared.reshape(-1, 3), unit
+    _, first, inverse = np.unique(
+        shared * len(vertices) + corner, return_index=True, return_inverse=True
+    )
+    return corner[first], inverse.reshape(-1, 3), unit[shared[first]]
+
+
+def _smooth_corners(
+    faces: Ints, normals: NDArray[np.float64], vertex_count: int, crease_deg: float
+) -> tuple[Ints, Ints]:
+    """Pairs of corners that share a normal: those at both ends of each edge that is no crease.
+
+    Corner k of face f has the number 3 f + k, and so has the edge that begins there.
+    """
+    begin, end = faces, np.roll(faces, -1, axis=1)
+    key = (np.minimum(begin, end) * vertex_count + np.maximum(begin, end)).reshape(-1)
+    order = np.argsort(key, kind="stable")
+    same = key[order[1:]] == key[order[:-1]]
+    first, second = order[:-1][same], order[1:][same]
+    # Two faces of one winding run along their common edge in opposite directions.
+    opposite = begin.reshape(-1)[first] == end.reshape(-1)[second]
+    turn = np.einsum("ij,ij->i", normals[first // 3], normals[second // 3])
+    smooth = opposite & (turn >= math.cos(math.radians(crease_deg)))
+    first, second = first[smooth], second[smooth]
+    after_first, after_second = (edge - edge % 3 + (edge + 1) % 3 for edge in (first, second))
+    return np.concatenate([first, after_first]), np.concatenate([after_second, second])
+
+
+def _components(count: int, a: Ints, b: Ints) -> Ints:
+    """Connected components of a graph with edges a[k] - b[k]: the smallest member of each node's.
+
+    Hooking and pointer jumping, after Shiloach and Vishkin 1982.
+    """
+    parent = np.arange(count)
+    while True:
+        root_a, root_b = parent[a], parent[b]
+        apart = root_a != root_b
+        if not apart.any():
+            return parent
+        a, b, root_a, root_b = a[apart], b[apart], root_a[apart], root_b[apart]
+        np.minimum.at(parent, np.maximum(root_a, root_b), np.minimum(root_a, root_b))
+        while not np.array_equal(parent, jumped := parent[parent]):
+            parent = jumped
+
+
+def _corner_angles(vertices: Floats32, faces: Ints) -> NDArray[np.float64]:
+    """The angle at each corner of each face, radians: float64 (m, 3)."""
+    corners = vertices[faces].astype(np.float64)
+    to_next = np.roll(corners, -1, axis=1) - corners
+    to_last = np.roll(corners, 1, axis=1) - corners
+    sine = np.linalg.norm(np.cross(to_next, to_last), axis=2)
+    return np.arctan2(sine, np.einsum("ijk,ijk->ij", to_next, to_last))

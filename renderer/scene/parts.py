@@ -1,0 +1,195 @@
+"""What a model file's reader finds, and how it becomes a sound Mesh.
+
+Owns the repairs: what is dropped, what is computed, what is refused. Knows nothing of formats.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from renderer.camera import LARGEST
+from renderer.errors import LucidaError
+from renderer.images.display import from_srgb
+from renderer.scene.model import BRIGHTEST, Material, Mesh
+from renderer.scene.normals import face_normals, merge_positions, smooth_normals
+
+NEEDLE = 1e-9  # height over longest side below which a triangle has no area that could be seen
+SMALLEST_AREA = 1e-18  # its square must not vanish in float32, in which the renderers compute
+
+
+@dataclass(frozen=True, eq=False)
+class Part:
+    """One geometry of a model file, as it was read.
+
+    vertices (n, 3). faces (m, k): polygons of k corners each. normals (n, 3) or None. colors,
+    linear: (n, 3) per vertex, or (m, 3) per face, or None. material: None where the file has none.
+    """
+
+    name: str
+    vertices: Any
+    faces: Any
+    normals: Any = None
+    vertex_colors: Any = None
+    face_colors: Any = None
+    material: Material | None = None
+
+
+def build_mesh(part: Part) -> Mesh | None:
+    """The part as a mesh; None where no triangle with an area is left.
+
+    Polygons become fans of triangles. Faces without area go, and so do faces that repeat another's
+    three positions (both would be hit at the same distance), and vertices that no face uses.
+    Without usable normals in the file they are computed, smooth up to CREASE_DEG. Raises
+    LucidaError where a face uses a vertex that does not exist, or one that is NaN or infinite.
+    """
+    vertices = _floats(part.vertices, (3,), "vertices")
+    faces = _indices(part.faces)
+    vertex_colors = _attribute(part.vertex_colors, len(vertices))
+    face_colors = _attribute(part.face_colors, len(faces))
+    normals = _attribute(part.normals, len(vertices))
+    # Fans: corners 0, k, k + 1 of each polygon.
+    fan = max(faces.shape[1] - 2, 0)
+    corners = [[0, k + 1, k + 2] for k in range(fan)]
+    faces = faces[:, np.array(corners, int).reshape(-1, 3)].reshape(-1, 3)
+    if face_colors is not None:
+        face_colors = np.repeat(face_colors, fan, axis=0)
+    if not len(faces) or not len(vertices):
+        return None
+    if faces.min() < 0 or faces.max() >= len(vertices):
+        wrong = faces.min() if faces.min() < 0 else faces.max()
+        raise LucidaError(
+            "faces", f"use vertex {wrong} of {len(vertices)}", "export the model again"
+        )
+    _check_used(vertices, faces)
+    with np.errstate(over="ignore", invalid="ignore"):  # of vertices that no face uses
+        positions = vertices.astype(np.float32)
+    keep = _visible(positions, faces)
+    faces = faces[keep]
+    if not len(faces):
+        return None
+    if face_colors is not None:  # a vertex for each corner, as it can have only one colour
+        vertex_colors = np.repeat(face_colors[keep], 3, axis=0)
+        normals = None if normals is None else normals[faces.reshape(-1)]
+        positions = positions[faces.reshape(-1)]
+        faces = np.arange(len(positions)).reshape(-1, 3)
+    unit = _unit(normals)
+    if unit is None:
+        source, faces, unit = smooth_normals(positions, faces, keep_apart=vertex_colors is not None)
+    else:
+        source, faces = _used(faces, len(positions))
+        unit = unit[source]
+    colors = None if vertex_colors is None else vertex_colors[source]
+    return Mesh(positions[source], faces.astype(np.int32), unit, colors)
+
+
+def linear_colors(colors: Any, linear: bool = False) -> NDArray[np.float32] | None:
+    """Colours of a file, (n, 3) or (n, 4) of any type, as linear light (n, 3).
+
+    Whole numbers count up to their type's largest value, other numbers to 1. linear: the file's
+    colours are so already; otherwise they are sRGB. None where they are no such array.
+    """
+    if colors is None:
+        return None
+    array = np.asarray(colors)
+    if array.ndim != 2 or array.shape[1] not in (3, 4) or array.dtype.kind not in "uif":
+        return None
+    rgb = array[:, :3].astype(np.float32)
+    if array.dtype.kind in "ui":
+        rgb /= np.float32(255 if array.dtype.itemsize > 2 else np.iinfo(array.dtype).max)
+    elif not linear and len(rgb) and np.nanmax(rgb) > 1.5:  # written as 0 to 255 all the same
+        rgb /= np.float32(255)
+    rgb = np.nan_to_num(rgb, nan=0.0, posinf=BRIGHTEST, neginf=0.0)
+    return np.clip(rgb, 0, BRIGHTEST) if linear else from_srgb(rgb)
+
+
+def _floats(value: Any, row: tuple[int, ...], name: str) -> NDArray[np.float64]:
+    try:
+        array = np.asarray(value, np.float64)
+    except (TypeError, ValueError):
+        array = np.zeros(0)
+    if array.shape[1:] != row:
+        raise LucidaError(name, "are not rows of 3 numbers", "export the model again")
+    return array
+
+
+def _indices(value: Any) -> NDArray[np.int64]:
+    if value is None or not len(value):
+        return np.zeros((0, 3), np.int64)
+    try:
+        array = np.asarray(value)
+        whole = array.astype(np.int64)
+    except (TypeError, ValueError, OverflowError):
+        array = np.zeros(1)
+    if array.ndim != 2 or array.dtype.kind not in "ui" or array.shape[1] > 1 << 16:
+        raise LucidaError("faces", "are not rows of whole numbers", "export the model again")
+    return whole
+
+
+def _attribute(value: Any, count: int) -> NDArray[Any] | None:
+    """Rows of three numbers for `count` vertices or faces, or None."""
+    if value is None:
+        return None
+    try:
+        array = np.asarray(value, np.float64)
+    except (TypeError, ValueError):
+        return None
+    return array if array.shape == (count, 3) else None
+
+
+def _check_used(vertices: NDArray[np.float64], faces: NDArray[np.int64]) -> None:
+    """Raises LucidaError where a face uses a vertex that is not a usable point."""
+    wrong = ~(np.abs(vertices) <= LARGEST).all(axis=1)  # true for NaN too
+    if not wrong.any():
+        return
+    wrong_used = np.unique(faces[wrong[faces]])
+    if len(wrong_used):
+        point = ", ".join(f"{x:g}" for x in vertices[wrong_used[0]])
+        raise LucidaError(
+            "vertices",
+            f"{len(wrong_used)} of {len(vertices)} are NaN or too large, the first ({point})",
+            f"repair the model; stay within {LARGEST:g}",
+        )
+
+
+def _visible(positions: NDArray[np.float32], faces: NDArray[np.int64]) -> NDArray[np.bool_]:
+    """Which faces have an area and do not repeat an earlier face's positions: (m,)."""
+    joined = merge_positions(positions)[faces]
+    longest = np.zeros(len(faces))
+    for corner in range(3):
+        side = positions[faces[:, corner]].astype(np.float64) - positions[faces[:, corner - 1]]
+        longest = np.maximum(longest, np.einsum("ij,ij->i", side, side))
+    area = np.linalg.norm(face_normals(positions, faces), axis=1)
+    keep = (area > NEEDLE * longest) & (area > SMALLEST_AREA)
+    a, b, c = np.sort(joined, axis=1).T.astype(np.uint64)
+    mixed = a * np.uint64(0x9E3779B97F4A7C15) ^ b * np.uint64(0xC2B2AE3D27D4EB4F) ^ c
+    mixed ^= c * np.uint64(0x165667B19E3779F9) >> np.uint64(7)
+    order = np.argsort(mixed, kind="stable")
+    here, before = order[1:], order[:-1]
+    repeats = (a[here] == a[before]) & (b[here] == b[before]) & (c[here] == c[before])
+    keep[here[repeats]] = False
+    return keep
+
+
+def _unit(normals: NDArray[np.float64] | None) -> NDArray[np.float32] | None:
+    """Normals at unit length; rows that have no direction become 0; None where all are so."""
+    if normals is None:
+        return None
+    with np.errstate(over="ignore", invalid="ignore"):
+        lengths = np.linalg.norm(normals, axis=1, keepdims=True)
+    sound = np.isfinite(lengths) & (lengths > 1e-12)
+    if not sound.any():
+        return None
+    unit = np.divide(normals, lengths, out=np.zeros_like(normals), where=sound)
+    return unit.astype(np.float32)
+
+
+def _used(faces: NDArray[np.int64], count: int) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
+    """(source, faces): the vertices that faces use, in their order, and the faces renumbered."""
+    used = np.zeros(count, bool)
+    used[faces] = True
+    number = np.cumsum(used) - 1
+    return np.flatnonzero(used), number[faces]
