@@ -1,0 +1,74 @@
+"""Do the two images agree? Compared in the background, once both are complete and still.
+
+Owns the comparing thread and the last pair of images. Knows nothing of windows.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+from app.background import Background
+from app.live import RayImage, Request
+from renderer.camera import Camera
+from renderer.frame import Frame
+from renderer.scene.flat import FlatScene, flatten
+from renderer.scene.model import Scene
+
+
+@dataclass(frozen=True, eq=False)
+class Verdict:
+    """text: for the status line. unexplained: pixels that differ for no good reason."""
+
+    request: Request
+    text: str
+    unexplained: int
+
+
+class Agreement:
+    """wake: called from the comparing thread when a verdict is there."""
+
+    def __init__(self, wake: Callable[[], None]) -> None:
+        self._comparing: Background[Verdict] = Background("lucida-compare", wake)
+        self._flat: tuple[Scene, FlatScene] | None = None  # used in the thread only
+        self.pair: tuple[Request, Frame, Frame] | None = None
+        self.verdict: Verdict | None = None
+        self.error: Exception | None = None
+
+    @property
+    def busy(self) -> bool:
+        return self._comparing.busy
+
+    def submit(self, image: RayImage, raster: Frame) -> None:
+        """Compares a full ray image with the raster image of the same request."""
+        self.pair = (image.request, raster, image.frame)
+        self.error = None
+        self._comparing.submit(lambda: self._compare(image.request, raster, image.frame))
+
+    def poll(self) -> None:
+        """Takes a verdict that has come."""
+        outcome = self._comparing.poll()
+        if outcome is not None:
+            self.verdict, self.error = outcome.value, outcome.error
+
+    def verdict_on(self, request: Request | None) -> Verdict | None:
+        """The verdict, if it is about this request."""
+        verdict = self.verdict
+        return verdict if verdict is not None and verdict.request == request else None
+
+    def frame_of(self, scene: Scene, camera: Camera, size: tuple[int, int]) -> Frame | None:
+        """The traced image of a view, if it is the last pair's."""
+        if self.pair is None or self.pair[0] != Request(scene, camera, size):
+            return None
+        return self.pair[2]
+
+    def close(self) -> None:
+        self._comparing.close()
+
+    def _compare(self, request: Request, raster: Frame, ray: Frame) -> Verdict:
+        from renderer.compare import compare_frames
+
+        if self._flat is None or self._flat[0] is not request.scene:
+            self._flat = (request.scene, flatten(request.scene))
+        comparison = compare_frames(self._flat[1], request.camera, request.size, raster, ray)
+        return Verdict(request, comparison.summary_short(), comparison.unexplained)

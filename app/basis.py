@@ -1,0 +1,73 @@
+"""Editing one component of the basis while it stays orthonormal.
+
+Pure functions on Camera; knows nothing of widgets.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from renderer.camera import Camera, Vector
+
+Floats = NDArray[np.float64]
+
+# Which vector gives way first when one is edited, and which one makes room for it.
+_NEXT = {"u": ("v", "w"), "v": ("w", "u"), "w": ("v", "u")}
+_TOWARDS = {"u": "w", "v": "w", "w": "u"}
+
+
+def with_component(
+    camera: Camera, name: str, axis: int, value: float, keep_orthonormal: bool
+) -> Camera:
+    """The camera with component `axis` (0, 1, 2) of u, v or w set to `value`.
+
+    keep_orthonormal: the edited vector stays of length 1 with exactly this component (cut to -1
+    to 1), its other two components keeping their ratio; the other vectors follow by Gram-Schmidt,
+    and the handedness stays. Otherwise the vector is set as it stands. Raises LucidaError.
+    """
+    vector = list(getattr(camera, name))
+    vector[axis] = value
+    if not keep_orthonormal:
+        return _with(camera, {name: _vector(np.array(vector, float))})
+    value = min(max(value, -1.0), 1.0)
+    rest = np.array(getattr(camera, name), float)
+    rest[axis] = 0.0
+    if np.linalg.norm(rest) < 1e-9:  # along the axis: turn towards another vector
+        rest = np.array(getattr(camera, _TOWARDS[name]), float)
+        rest[axis] = 0.0
+    edited = rest * (math.sqrt(1 - value * value) / np.linalg.norm(rest))
+    edited[axis] = value
+    return with_vector(camera, name, edited)
+
+
+def with_vector(camera: Camera, name: str, vector: Floats) -> Camera:
+    """The orthonormal camera whose u, v or w points along `vector`; the other two follow.
+
+    Source: Gram-Schmidt, from the vector that must keep its direction.
+    """
+    first = vector / np.linalg.norm(vector)
+    second_name, third_name = _NEXT[name]
+    second = np.asarray(getattr(camera, second_name), float)
+    second = second - (second @ first) * first
+    if np.linalg.norm(second) < 1e-6:  # the new vector took the second one's place
+        second = np.asarray(getattr(camera, name), float)
+        second = second - (second @ first) * first
+    second = second / np.linalg.norm(second)
+    third = np.cross(first, second)
+    basis = {name: first, second_name: second, third_name: third}
+    if np.linalg.det(np.column_stack([basis[n] for n in "uvw"])) * camera.determinant < 0:
+        basis[third_name] = -third
+    return _with(camera, {n: _vector(basis[n]) for n in "uvw"})
+
+
+def _with(camera: Camera, basis: dict[str, Vector]) -> Camera:
+    return replace(camera, **basis)  # type: ignore[arg-type]
+
+
+def _vector(values: Floats) -> Vector:
+    x, y, z = values.tolist()
+    return x, y, z

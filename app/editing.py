@@ -1,0 +1,78 @@
+"""The camera's numbers while they are edited: illegal values wait until they are legal.
+
+Owns Draft: what has been entered and is not (yet) a camera. Pure; knows nothing of widgets. The
+state always holds a legal camera, the last one.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from typing import Any
+
+from app.basis import with_component
+from app.state import AppState
+from renderer.camera import Camera
+from renderer.errors import LucidaError
+
+VECTORS = ("eye", "u", "v", "w")
+BASIS = ("u", "v", "w")
+
+
+@dataclass(frozen=True)
+class Draft:
+    """camera: the legal one that is edited. fields: entered values that are not in it, by name.
+
+    error: why not. base: the camera at the beginning of a drag; orthonormal edits start from it,
+    so that dragging back brings everything back.
+    """
+
+    camera: Camera
+    fields: tuple[tuple[str, Any], ...] = ()
+    error: LucidaError | None = None
+    base: Camera | None = None
+
+    @classmethod
+    def of(cls, camera: Camera) -> Draft:
+        return cls(camera)
+
+    def following(self, camera: Camera) -> Draft:
+        """This draft if it still belongs to the camera, else a fresh one."""
+        return self if camera == self.camera else Draft(camera)
+
+    def value(self, name: str) -> Any:
+        """What a field shows: what was entered, else the camera's."""
+        return dict(self.fields).get(name, getattr(self.camera, name))
+
+    def is_wrong(self, name: str) -> bool:
+        """Whether the error is about this field."""
+        return self.error is not None and self.error.field == name
+
+    def begun(self) -> Draft:
+        """A drag or typed entry begins."""
+        return replace(self, base=self.camera)
+
+
+def edit_component(
+    state: AppState, draft: Draft, name: str, index: int, value: float
+) -> tuple[AppState, Draft]:
+    """Component `index` of eye, u, v, w or viewport is set to `value`."""
+    if name in BASIS and state.keep_orthonormal and not draft.fields:
+        try:
+            base = draft.base or draft.camera
+            camera = with_component(base, name, index, value, keep_orthonormal=True)
+        except LucidaError as error:
+            return state, replace(draft, error=error)
+        return state.with_camera(camera), Draft(camera, base=draft.base)
+    entered = list(draft.value(name))
+    entered[index] = value
+    return edit_field(state, draft, name, tuple(entered))
+
+
+def edit_field(state: AppState, draft: Draft, name: str, value: Any) -> tuple[AppState, Draft]:
+    """A field is set to `value`; where that gives no legal camera, the draft keeps it."""
+    fields = {**dict(draft.fields), name: value}
+    try:
+        camera = replace(draft.camera, **fields)
+    except LucidaError as error:
+        return state, replace(draft, fields=tuple(fields.items()), error=error)
+    return state.with_camera(camera), Draft(camera, base=draft.base)

@@ -1,0 +1,49 @@
+"""Where the windows are docked.
+
+Owns the names of the dock spaces and the default layout:
+
+    +----------+-----------------+-----------------+
+    |  camera  |      left       |      right      |
+    +----------+-----------------+-----------------+
+
+Further windows (outside view, instruments) get spaces below `left` and `right` by further splits
+and layouts; each window only names its space. Knows nothing of what the windows show.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from imgui_bundle import hello_imgui, imgui
+
+CAMERA_SPACE = "CameraSpace"
+LEFT_SPACE = "MainDockSpace"  # HelloImGui's own name for what is left over
+RIGHT_SPACE = "RightSpace"
+
+CAMERA_WIDTH_EM = 19.5
+
+
+def side_by_side(
+    windows: Sequence[hello_imgui.DockableWindow], window_width_px: float, em_px: float
+) -> hello_imgui.DockingParams:
+    """The default layout: the camera's panel, and the two images at the same size."""
+    params = hello_imgui.DockingParams()
+    params.layout_name = "Side by side"
+    camera = min(0.4, CAMERA_WIDTH_EM * em_px / window_width_px)
+    params.docking_splits = [
+        _split("MainDockSpace", CAMERA_SPACE, imgui.Dir.left, camera),
+        _split("MainDockSpace", RIGHT_SPACE, imgui.Dir.right, 0.5),
+    ]
+    params.dockable_windows = list(windows)
+    # A tab has a close button already.
+    params.main_dock_space_node_flags = int(imgui.internal.DockNodeFlagsPrivate_.no_close_button)
+    return params
+
+
+def _split(
+    space: str, new_space: str, direction: imgui.Dir, ratio: float
+) -> hello_imgui.DockingSplit:
+    split = hello_imgui.DockingSplit()
+    split.initial_dock, split.new_dock = space, new_space
+    split.direction, split.ratio = direction, ratio
+    return split

@@ -1,0 +1,248 @@
+"""The ray image of a camera that keeps changing: coarse at once, then finer, then full.
+
+Owns the thread that asks a Tracer for images. Knows nothing of windows and of how images are
+shown. The window's thread only leaves requests and takes images: it never waits for the tracer.
+
+A change cancels a refinement that is under way; a coarse image is finished (it takes a frame or
+two), so that steady dragging always shows something new.
+"""
+
+from __future__ import annotations
+
+import threading
+import time
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Protocol
+
+from renderer.camera import Camera
+from renderer.frame import CHANNELS, Frame
+from renderer.scene.model import Scene
+
+COARSEST = 8  # image pixels a side that one traced pixel stands for
+COARSE_S = 0.012  # what a coarse image may take
+REFINE_S = 0.15  # a full image that takes longer is preceded by another coarse one
+SETTLE_S = 0.04  # without a change, before refining: while dragging, the cores stay free
+PATIENCE_S = 0.1  # for a coarse image, before a change cancels it too
+
+COARSE_CHANNELS = ("color",)
+
+
+@dataclass(frozen=True)
+class Request:
+    """An image to trace. size: (width, height) of the full one."""
+
+    scene: Scene
+    camera: Camera
+    size: tuple[int, int]
+
+
+@dataclass(frozen=True, eq=False)
+class RayImage:
+    """A traced image. factor: 1 for the full one, else how much coarser a side."""
+
+    request: Request
+    frame: Frame
+    factor: int
+
+
+class Job(Protocol):
+    """renderer.trace.TraceJob."""
+
+    @property
+    def progress(self) -> float: ...
+    @property
+    def done(self) -> bool: ...
+    def cancel(self) -> None: ...
+    def wait(self, timeout_s: float | None = None) -> bool: ...
+    def result(self) -> Frame: ...
+
+
+class Tracer(Protocol):
+    """renderer.trace.Tracer."""
+
+    def start(
+        self, camera: Camera, size: tuple[int, int], channels: tuple[str, ...] = ...
+    ) -> Job: ...
+    def close(self) -> None: ...
+
+
+class LiveTrace:
+    """Traces the newest request. wake: called from its thread when there is something new.
+
+    make_tracer: gives a Tracer for a scene. Requests and polls come from one thread, the window's.
+    """
+
+    def __init__(self, wake: Callable[[], None], make_tracer: Callable[[Scene], Tracer]) -> None:
+        self._wake = wake
+        self._make_tracer = make_tracer
+        self._changed = threading.Condition()
+        self._newest: Request | None = None
+        self._served: Request | None = None  # the last one begun
+        self._finished: Request | None = None  # the last one whose full image came, or failed
+        self._arrived: RayImage | None = None
+        self._job: Job | None = None
+        self._refining = False
+        self._closed = False
+        self._error: Exception | None = None
+        self._began_s = 0.0
+        self._first_ever = True
+        self._thread = threading.Thread(target=self._run, name="lucida-live", daemon=True)
+        self._thread.start()
+
+    # The window's side.
+
+    def request(self, request: Request) -> None:
+        """Asks for an image; nothing happens if it is the one asked for last."""
+        with self._changed:
+            if request == self._newest or self._closed:
+                return
+            self._newest = request
+            if self._refining and self._job is not None:
+                self._job.cancel()
+            self._changed.notify()
+
+    def poll(self) -> RayImage | None:
+        """The newest image that has arrived since the last call."""
+        with self._changed:
+            image, self._arrived = self._arrived, None
+            return image
+
+    @property
+    def busy(self) -> bool:
+        """Whether the newest request's full image is still to come."""
+        with self._changed:
+            return self._arrived is not None or self._newest is not self._finished
+
+    @property
+    def error(self) -> Exception | None:
+        """What went wrong with the newest request; a new one tries again."""
+        with self._changed:
+            return self._error
+
+    @property
+    def progress(self) -> float:
+        """The finished part of the image under way, 0 to 1."""
+        with self._changed:
+            return 1.0 if self._job is None else self._job.progress
+
+    @property
+    def preparing_s(self) -> float:
+        """How long the first image of a scene has been awaited: the tracer prepares; else 0."""
+        with self._changed:
+            return time.monotonic() - self._began_s if self._began_s else 0.0
+
+    @property
+    def first_ever(self) -> bool:
+        """Whether no image at all has arrived: preparing then includes compiling."""
+        return self._first_ever
+
+    def close(self, timeout_s: float = 2.0) -> None:
+        """Cancels. A compilation cannot be cancelled: its daemon thread is left to the exit."""
+        with self._changed:
+            self._closed = True
+            if self._job is not None:
+                self._job.cancel()
+            self._changed.notify()
+        self._thread.join(timeout_s)
+
+    # Its thread's side.
+
+    def _run(self) -> None:
+        tracer: Tracer | None = None
+        scene: Scene | None = None
+        pixel_s = 0.0
+        while (request := self._next()) is not None:
+            try:
+                if tracer is None or request.scene is not scene:
+                    if tracer is not None:
+                        tracer.close()
+                    tracer, scene, pixel_s = self._make_tracer(request.scene), request.scene, 0.0
+                    with self._changed:
+                        self._began_s = time.monotonic()
+                pixel_s = self._trace(tracer, request, pixel_s)
+            except Exception as error:  # shown in the window, which goes on
+                tracer = None
+                with self._changed:
+                    self._job, self._refining, self._began_s = None, False, 0.0
+                    self._error, self._finished = error, request
+                self._wake()
+        if tracer is not None:
+            tracer.close()
+
+    def _next(self) -> Request | None:
+        """Waits for a request that has not been served; None: closed."""
+        with self._changed:
+            self._changed.wait_for(lambda: self._closed or self._newest is not self._served)
+            if self._closed:
+                return None
+            self._served, self._error = self._newest, None
+            return self._newest
+
+    def _trace(self, tracer: Tracer, request: Request, pixel_s: float) -> float:
+        """Images of one request, from coarse to full, until a newer one comes.
+
+        pixel_s: the time that a pixel takes, 0 if unknown; gives it as measured now.
+        """
+        factor = first_factor(request.size, pixel_s)
+        refining = False
+        while True:
+            size = reduced(request.size, factor)
+            job = tracer.start(request.camera, size, CHANNELS if factor == 1 else COARSE_CHANNELS)
+            frame = self._finish(job, request, refining)
+            with self._changed:
+                self._job, self._refining = None, False
+                if not frame.complete:
+                    return pixel_s
+                self._arrived = RayImage(request, frame, factor)
+                self._began_s, self._first_ever = 0.0, False
+                if factor == 1:
+                    self._finished = request
+            self._wake()
+            measured = max(frame.time_s, 1e-6) / (size[0] * size[1])
+            pixel_s = measured if factor == 1 or not pixel_s else 0.5 * (pixel_s + measured)
+            if factor == 1:
+                return pixel_s
+            with self._changed:
+                if self._changed.wait_for(lambda: self._is_stale(request), SETTLE_S):
+                    return pixel_s
+            factor = next_factor(factor, request.size, pixel_s)
+            refining = True
+
+    def _finish(self, job: Job, request: Request, refining: bool) -> Frame:
+        """Waits for a job's end; a newer request cancels it, a coarse one only after a while."""
+        with self._changed:
+            self._job, self._refining = job, refining
+            stale = refining and self._is_stale(request)
+        if not stale and not job.wait(PATIENCE_S):
+            with self._changed:
+                self._refining = True  # from now on request() cancels this one too
+                stale = self._is_stale(request)
+        if stale:
+            job.cancel()
+        return job.result()
+
+    def _is_stale(self, request: Request) -> bool:
+        return self._closed or self._newest is not request
+
+
+def first_factor(size: tuple[int, int], pixel_s: float) -> int:
+    """How coarse the first image must be to arrive within a frame or two."""
+    if not pixel_s:
+        return COARSEST
+    factor = 1
+    while factor < COARSEST and pixel_s * size[0] * size[1] / factor**2 > COARSE_S:
+        factor *= 2
+    return factor
+
+
+def next_factor(factor: int, size: tuple[int, int], pixel_s: float) -> int:
+    """What follows a coarse image: the full one if that is quick, else one 4 times as fine."""
+    if pixel_s * size[0] * size[1] <= REFINE_S:
+        return 1
+    return max(factor // 4, 1)
+
+
+def reduced(size: tuple[int, int], factor: int) -> tuple[int, int]:
+    """The size of an image `factor` times as coarse, at least 1 x 1."""
+    return max(1, -(-size[0] // factor)), max(1, -(-size[1] // factor))

@@ -1,0 +1,138 @@
+"""Moving the camera with the mouse: orbit, pan, zoom, and the switch of projection.
+
+Pure functions from a camera to a camera; they hold for skewed, scaled and left-handed bases, which
+turn rigidly. Owns no widgets and no state. Raises LucidaError (from Camera) where a motion leaves
+the legal range; the caller then keeps the old camera.
+
+Points in the image are (x, y) on the image plane, in units of u and v (Camera.image_point).
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import replace
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from renderer.camera import Camera, Vector
+
+Floats = NDArray[np.float64]
+Point = tuple[float, float]
+
+WORLD_UP = (0.0, 1.0, 0.0)
+STEEPEST_DEG = 89.5  # of the view direction above or below the horizon, so that nothing flips
+
+
+def turned(camera: Camera, pivot: ArrayLike, axis: ArrayLike, angle_rad: float) -> Camera:
+    """The camera turned rigidly about an axis through the pivot, right-handed.
+
+    Source: Rodrigues' rotation formula.
+    """
+    x, y, z = np.asarray(axis, float) / np.linalg.norm(axis)
+    cross = np.array([[0, -z, y], [z, 0, -x], [-y, x, 0]])
+    turn = np.eye(3) + math.sin(angle_rad) * cross + (1 - math.cos(angle_rad)) * cross @ cross
+    center = np.asarray(pivot, float)
+    eye = center + turn @ (np.asarray(camera.eye) - center)
+    u, v, w = (turn @ basis for basis in (camera.u, camera.v, camera.w))
+    return replace(camera, eye=_vector(eye), u=_vector(u), v=_vector(v), w=_vector(w))
+
+
+def orbited(camera: Camera, pivot: ArrayLike, right_rad: float, up_rad: float) -> Camera:
+    """The camera on a turntable about the pivot, as if the world were dragged in the image.
+
+    right_rad, up_rad: the drag to the right and upwards as angles. The world's up stays up: no
+    roll, and the view direction stops short of the poles. What is dragged follows the pointer in
+    mirrored and upside-down images too.
+    """
+    up = np.asarray(WORLD_UP)
+    right = _horizontal_right(camera)
+    back = np.asarray(camera.w) / np.linalg.norm(camera.w)
+    mirrored = -1.0 if right @ camera.u < 0 else 1.0
+    upside_down = -1.0 if np.cross(back, right) @ camera.v < 0 else 1.0
+    elevation = math.asin(float(np.clip(back @ up, -1, 1)))
+    limit = max(math.radians(STEEPEST_DEG), abs(elevation))
+    lower = upside_down * up_rad  # dragging upwards lowers the eye
+    steeper = float(np.clip(elevation - lower, -limit, limit)) - elevation
+    camera = turned(camera, pivot, right, -steeper)
+    return turned(camera, pivot, up, -mirrored * right_rad)
+
+
+def panned(camera: Camera, start: Point, end: Point, parameter: float) -> Camera:
+    """The camera moved so that what was seen at `start` is seen at `end`, exactly.
+
+    parameter: the ray parameter of what is dragged, seen at `start` (perspective only).
+    """
+    scale = 1.0 if camera.is_parallel else parameter
+    dx, dy = (end[0] - start[0]) * scale, (end[1] - start[1]) * scale
+    return moved(camera, -(dx * np.asarray(camera.u) + dy * np.asarray(camera.v)))
+
+
+def moved(camera: Camera, offset: ArrayLike) -> Camera:
+    """The camera with its eye moved by a world vector."""
+    return replace(camera, eye=_vector(np.asarray(camera.eye) + np.asarray(offset, float)))
+
+
+def zoomed(camera: Camera, at: Point, factor: float, parameter: float) -> Camera:
+    """Things `factor` times as large, with what is seen at `at` staying there.
+
+    Perspective: the eye goes along that ray towards the point at `parameter`, and never reaches
+    it. Parallel: the viewport shrinks about `at`.
+    """
+    if camera.is_parallel:
+        return zoomed_viewport(camera, at, factor)
+    x, y = at
+    direction = (
+        x * np.asarray(camera.u) + y * np.asarray(camera.v) - camera.distance * np.asarray(camera.w)
+    )
+    return moved(camera, (1 - 1 / factor) * parameter * direction)
+
+
+def zoomed_viewport(camera: Camera, at: Point, factor: float) -> Camera:
+    """The viewport shrunk by `factor` about a point of the image plane."""
+    x, y = at
+    left, right, bottom, top = camera.viewport
+    viewport = (
+        x + (left - x) / factor,
+        x + (right - x) / factor,
+        y + (bottom - y) / factor,
+        y + (top - y) / factor,
+    )
+    return replace(camera, viewport=viewport)
+
+
+def switched_projection(camera: Camera, focus: ArrayLike) -> Camera:
+    """The other projection, with things as far off as `focus` keeping their size in the image.
+
+    At ray parameter t, a perspective viewport sees t times its own width: a parallel one needs
+    that width (and back). Where the focus is not in front of the eye, the viewport is kept.
+    """
+    z = float((camera.camera_from_world @ [*np.asarray(focus, float), 1.0])[2])
+    scale = -z / camera.distance if -z / camera.distance > 1e-6 else 1.0
+    if camera.is_parallel:
+        scale = 1 / scale
+    projection = "perspective" if camera.is_parallel else "parallel"
+    left, right, bottom, top = (edge * scale for edge in camera.viewport)
+    return replace(camera, viewport=(left, right, bottom, top), projection=projection)
+
+
+def parameter_of(camera: Camera, point: ArrayLike) -> float:
+    """The ray parameter at which a world point is as far off as its plane; 1 if behind the eye."""
+    z = float((camera.camera_from_world @ [*np.asarray(point, float), 1.0])[2])
+    parameter = -z if camera.is_parallel else -z / camera.distance
+    return parameter if parameter > 1e-9 else 1.0
+
+
+def _horizontal_right(camera: Camera) -> Floats:
+    """Unit vector to the right of the view direction, level, as a right-handed basis has it."""
+    back = np.asarray(camera.w) / np.linalg.norm(camera.w)
+    right = np.cross(WORLD_UP, back)
+    if np.linalg.norm(right) < 1e-6:  # straight up or down: v says where the top is
+        right = np.cross(camera.v, back)
+        right[1] = 0.0
+    return right / np.linalg.norm(right)
+
+
+def _vector(values: Floats) -> Vector:
+    x, y, z = values.tolist()
+    return x, y, z

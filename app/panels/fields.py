@@ -1,0 +1,94 @@
+"""Number fields: dragged like a slider, or typed; with a level that shows where the value is.
+
+Owns the look and the manner of one field. Knows nothing of cameras.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+from imgui_bundle import ImVec2, ImVec4, imgui
+
+from app import theme
+
+HINT = "drag, or double-click to type; Shift: faster, Alt: slower"
+
+
+@dataclass(frozen=True)
+class Scale:
+    """What a field's level and its drag refer to: low to high; values outside can be reached.
+
+    logarithmic: for values above 0 that differ by factors.
+    """
+
+    low: float
+    high: float
+    logarithmic: bool = False
+
+    def place(self, value: float) -> float:
+        """Where a value is between low (0) and high (1), cut to that."""
+        low, high = self.low, self.high
+        if self.logarithmic:
+            if not value > 0:
+                return 0.0
+            low, high, value = math.log(low), math.log(high), math.log(value)
+        if not math.isfinite(value):
+            return 0.0
+        return min(max((value - low) / (high - low), 0.0), 1.0)
+
+    def speed(self, value: float) -> float:
+        """What one pixel of dragging is worth."""
+        if self.logarithmic:
+            return max(abs(value), 1e-3) * math.log(self.high / self.low) / 500
+        return (self.high - self.low) / 400
+
+
+def number_format(value: float) -> str:
+    """Eight characters wide for all but extreme values, so that nothing moves."""
+    return "%8.3f" if abs(value) < 1000 else "%8.2e"
+
+
+def number_field(
+    label: str,
+    value: float,
+    width_px: float,
+    scale: Scale,
+    color: ImVec4,
+    mono: imgui.ImFont | None,
+    tooltip: str = "",
+    marked: bool = False,
+) -> tuple[bool, float]:
+    """One field: (whether it changed, its value). label: the id, not shown. marked: an error's."""
+    imgui.set_next_item_width(width_px)
+    imgui.push_font(mono, 0.0)
+    if marked:
+        imgui.push_style_var(imgui.StyleVar_.frame_border_size, 1.5)
+        imgui.push_style_color(imgui.Col_.border, theme.ERROR)
+    changed, new = imgui.drag_float(
+        f"##{label}", value, scale.speed(value), format=number_format(value)
+    )
+    if marked:
+        imgui.pop_style_color()
+        imgui.pop_style_var()
+    imgui.pop_font()
+    if not imgui.is_item_active() or not imgui.get_io().want_text_input:
+        _draw_level(value, scale, color)
+    if tooltip and not imgui.is_item_active():
+        imgui.set_item_tooltip(f"{tooltip}\n{HINT}")
+    # float32 in the widget: what was typed, not its nearest neighbour.
+    return changed, float(f"{new:.7g}") if changed and math.isfinite(new) else new
+
+
+def _draw_level(value: float, scale: Scale, color: ImVec4) -> None:
+    """A line along the field's lower edge, from zero to the value, and a grab at its end."""
+    low, high = imgui.get_item_rect_min(), imgui.get_item_rect_max()
+    left, width = low.x + 3, high.x - low.x - 6
+    zero = 0.0 if scale.logarithmic else scale.place(0.0)
+    start, end = left + zero * width, left + scale.place(value) * width
+    draw = imgui.get_window_draw_list()
+    bottom = high.y
+    draw.add_rect_filled(
+        ImVec2(min(start, end), bottom - 2), ImVec2(max(start, end), bottom), theme.u32(color, 0.8)
+    )
+    draw.add_rect_filled(ImVec2(end - 2, bottom - 4), ImVec2(end + 2, bottom), theme.u32(color))

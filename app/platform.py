@@ -1,0 +1,146 @@
+"""Where the window lives: on a display, or on none; and OpenGL inside it.
+
+Owns the choice of GLFW's platform, the check that OpenGL works there, and moderngl's context in
+the window; only this module imports glfw. Knows nothing of what is drawn. The one place where
+systems differ: X11 (also XWayland: the bundle's GLFW has no Wayland of its own), the null
+platform, macOS and Windows.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import os
+import sys
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+from typing import Any
+
+import imgui_bundle  # noqa: F401 - before glfw, so that both use the same GLFW library
+
+# isort: split
+import glfw
+import moderngl
+
+from renderer.errors import LucidaError
+
+REQUIRED = (3, 3)
+
+
+@dataclass(frozen=True)
+class Platform:
+    """has_display: False for the null platform. reason: why there is no display; one line."""
+
+    has_display: bool
+    reason: str = ""
+
+
+def start_platform(want_display: bool = True) -> Platform:
+    """Starts GLFW on a display, or on the null platform (with EGL) where there is none.
+
+    want_display: False for the null platform in any case. Raises LucidaError where no OpenGL 3.3
+    context can be had: one line that says what to install.
+    """
+    platform = _with_display() if want_display else Platform(False, "not asked for")
+    if not platform.has_display:
+        _start_null()
+    _check_opengl(platform)
+    return platform
+
+
+def create_context() -> moderngl.Context:
+    """moderngl in the window's context, which must be current. Raises LucidaError."""
+    if not glfw.get_current_context():
+        raise LucidaError("OpenGL", "the window has no context", "run `lucida doctor`")
+    require = REQUIRED[0] * 100 + REQUIRED[1] * 10
+    return moderngl.create_context(context=_Loader(), require=require)  # type: ignore[arg-type]
+
+
+def set_title(text: str) -> None:
+    """The title of the window whose context is current."""
+    window = glfw.get_current_context()
+    if window:
+        glfw.set_window_title(window, text)
+
+
+def on_drop(dropped: Callable[[list[str]], None]) -> None:
+    """Calls `dropped` with the paths of files that are dropped on the current window."""
+    window = glfw.get_current_context()
+    if window:
+        glfw.set_drop_callback(window, lambda _window, paths: dropped(paths))  # type: ignore
+
+
+class _Loader:
+    """What moderngl needs to find the functions of a context that somebody else made."""
+
+    def load_opengl_function(self, name: str) -> int:
+        return glfw.get_proc_address(name) or 0  # type: ignore[return-value]
+
+    def __enter__(self) -> _Loader:
+        return self
+
+    def __exit__(self, *exception: object) -> None:
+        pass
+
+    def release(self) -> None:
+        pass
+
+
+def _with_display() -> Platform:
+    if sys.platform.startswith("linux") and not os.environ.get("DISPLAY"):
+        if os.environ.get("WAYLAND_DISPLAY"):
+            return Platform(False, "this Wayland session has no XWayland (DISPLAY is not set)")
+        return Platform(False, "DISPLAY is not set")
+    with _quiet() as errors:
+        if glfw.init():
+            return Platform(True)
+    return Platform(False, errors[-1] if errors else "the display does not answer")
+
+
+def _start_null() -> None:
+    with _quiet() as errors:
+        glfw.init_hint(glfw.PLATFORM, glfw.PLATFORM_NULL)
+        if not glfw.init():
+            raise LucidaError("window", _last(errors), "reinstall imgui-bundle")
+        glfw.window_hint(glfw.CONTEXT_CREATION_API, glfw.EGL_CONTEXT_API)
+
+
+def _check_opengl(platform: Platform) -> None:
+    """A context of its own, made and thrown away: the window's would end the process."""
+    remedy = (
+        "install a graphics driver with OpenGL 3.3"
+        if platform.has_display
+        else "install EGL: apt-get install libegl1 libgl1-mesa-dri"
+    )
+    with _quiet() as errors:
+        glfw.window_hint(glfw.VISIBLE, False)
+        glfw.window_hint(glfw.CONTEXT_VERSION_MAJOR, REQUIRED[0])
+        glfw.window_hint(glfw.CONTEXT_VERSION_MINOR, REQUIRED[1])
+        glfw.window_hint(glfw.OPENGL_PROFILE, glfw.OPENGL_CORE_PROFILE)
+        glfw.window_hint(glfw.OPENGL_FORWARD_COMPAT, True)
+        window = glfw.create_window(16, 16, "lucida", None, None)
+        glfw.default_window_hints()
+        if not platform.has_display:
+            glfw.window_hint(glfw.CONTEXT_CREATION_API, glfw.EGL_CONTEXT_API)
+        if not window:
+            raise LucidaError("OpenGL 3.3", f"is not to be had: {_last(errors)}", remedy)
+        glfw.destroy_window(window)
+
+
+@contextlib.contextmanager
+def _quiet() -> Iterator[list[str]]:
+    """Collects GLFW's errors, which would otherwise be warnings on standard error."""
+    errors: list[str] = []
+
+    def collect(code: int, description: Any) -> None:
+        text = description.decode(errors="replace") if isinstance(description, bytes) else ""
+        errors.append(text or f"error {code:#x}")
+
+    old = glfw.set_error_callback(collect)
+    try:
+        yield errors
+    finally:
+        glfw.set_error_callback(old)  # type: ignore[arg-type]
+
+
+def _last(errors: list[str]) -> str:
+    return errors[-1] if errors else "no reason given"

@@ -1,0 +1,187 @@
+"""`lucida [SCENE]`: makes the window, runs it, and takes its picture.
+
+Owns the start and the end of the window: platform, HelloImGui's parameters, settings, screenshot.
+Knows nothing of what happens in a frame (window.py).
+"""
+
+from __future__ import annotations
+
+import sys
+import time
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from imgui_bundle import hello_imgui, immapp
+
+from app import layout, theme
+from app.platform import start_platform
+from app.state import AppState
+from app.window import MainWindow, title
+from renderer.atomic import atomic_write, check_writable
+from renderer.errors import LucidaError
+from renderer.scene import BUILTIN_SCENES, load_scene, load_view
+
+DEFAULT_SIZE = (1280, 720)
+DEFAULT_PICTURE = Path("lucida.png")
+SCREENSHOT_LIMIT_S = 180.0
+SWITCH_INTERVAL_S = 0.001  # a busy Python thread (a compilation) delays a frame by this, not 5 ms
+
+
+def run_viewer(
+    scene_source: str | None = None,
+    screenshot: Path | None = None,
+    *,
+    size: tuple[int, int] | None = None,
+    view: str | Path | None = None,
+) -> int:
+    """Opens the window on a scene and returns when it is closed; gives the exit status.
+
+    screenshot: draw the whole window once, with both images complete, save it there as PNG, and
+    return. With no display that is done in any case, into lucida.png, and one line says so.
+    size: the window's (width, height). view: a view file. Raises LucidaError.
+    """
+    scene = load_scene(scene_source or BUILTIN_SCENES[0])
+    state = AppState.for_scene(scene, None if view is None else load_view(view))
+    if screenshot is not None:
+        check_writable(screenshot)
+    platform = start_platform()
+    picture = screenshot
+    if not platform.has_display and picture is None:
+        picture = DEFAULT_PICTURE
+        check_writable(picture)
+        print(f"lucida: no display ({platform.reason}): drawing the window once, into {picture}")
+    run = Run(state, size or DEFAULT_SIZE, take_picture=picture is not None)
+    run.params.fps_idling.fps_max = 0.0 if platform.has_display else 60.0
+    pixels = run.run()
+    if picture is not None:
+        save_png(picture, pixels)
+        if screenshot is None:
+            print(f"lucida: saved {picture}")
+    return 0
+
+
+class Run:
+    """One run of the window. params may be changed before run(), as tests do.
+
+    take_picture: leave once both images are complete, and use no settings of the user's.
+    """
+
+    def __init__(
+        self,
+        state: AppState,
+        size: tuple[int, int],
+        take_picture: bool = False,
+        remember: bool = True,
+    ) -> None:
+        self.window = MainWindow(state)
+        self.take_picture = take_picture
+        self._error: BaseException | None = None
+        self._quiet_frames = 0
+        self._start_s = 0.0
+        self.params = self._parameters(state, size, remember and not take_picture)
+
+    def run(self) -> np.ndarray:
+        """Shows the window until it is closed; gives its last picture, uint8 (height, width, 3).
+
+        Raises what went wrong in a frame.
+        """
+        interval = sys.getswitchinterval()
+        sys.setswitchinterval(SWITCH_INTERVAL_S)
+        self._start_s = time.monotonic()
+        try:
+            immapp.run(self.params)
+        finally:
+            sys.setswitchinterval(interval)
+        if self._error is not None:
+            raise self._error
+        return np.ascontiguousarray(hello_imgui.final_app_window_screenshot()[..., :3])
+
+    def _parameters(
+        self, state: AppState, size: tuple[int, int], remember: bool
+    ) -> hello_imgui.RunnerParams:
+        params = hello_imgui.RunnerParams()
+        params.app_window_params.window_title = title(state.scene)
+        params.app_window_params.window_geometry.size = size
+        params.app_window_params.restore_previous_geometry = remember
+        _settings(params, remember)
+        docking = hello_imgui.DefaultImGuiWindowType.provide_full_screen_dock_space
+        params.imgui_window_params.default_imgui_window_type = docking
+        params.imgui_window_params.show_menu_bar = True
+        params.imgui_window_params.show_menu_app = False
+        params.imgui_window_params.show_menu_view = False
+        params.imgui_window_params.remember_theme = False
+        params.imgui_window_params.show_status_bar = True
+        params.imgui_window_params.show_status_fps = False
+        params.imgui_window_params.remember_status_bar_settings = False
+        # Text and images only: multisampling would cost more than everything else together.
+        params.renderer_backend_options.open_gl_options.anti_aliasing_samples = 0
+        params.fps_idling.fps_idle = 0.0 if self.take_picture else 1.0
+        params.fps_idling.enable_idling = not self.take_picture
+        params.fps_idling.time_active_after_last_event = 1.0
+        params.docking_params = layout.side_by_side(
+            self.window.dockable_windows(), size[0], theme.TEXT_PX
+        )
+        callbacks = params.callbacks
+        callbacks.load_additional_fonts = self._guarded(self.window.fonts.load)
+        callbacks.setup_imgui_style = self._guarded(theme.apply)
+        callbacks.post_init = self._guarded(self.window.begin)
+        callbacks.show_menus = self._guarded(self.window.menus)
+        callbacks.show_status = self._guarded(self.window.status)
+        callbacks.show_gui = self._guarded(self.window.frame)
+        callbacks.after_swap = self._guarded(self._after_frame)
+        callbacks.before_exit = self._guarded(self.window.end)
+        for dockable in params.docking_params.dockable_windows:
+            dockable.gui_function = self._guarded(dockable.gui_function)
+        return params
+
+    def _guarded(self, function: Callable[[], Any]) -> Callable[[], None]:
+        """Exceptions must not go through C++: they end the run, which raises them."""
+
+        def call() -> None:
+            if self._error is not None and function != self.window.end:
+                return
+            try:
+                function()
+            except BaseException as error:
+                self._error = self._error or error
+                self.params.app_shall_exit = True
+
+        return call
+
+    def _after_frame(self) -> None:
+        if not self.take_picture:
+            return
+        if self.window.failure is not None:
+            raise self.window.failure
+        # The layout needs two frames; afterwards nothing may change.
+        self._quiet_frames = self._quiet_frames + 1 if self.window.settled else 0
+        if self._quiet_frames > 3:
+            self.params.app_shall_exit = True
+        elif time.monotonic() - self._start_s > SCREENSHOT_LIMIT_S:
+            raise LucidaError(
+                "screenshot",
+                f"the images were not complete after {SCREENSHOT_LIMIT_S:g} s",
+                "try a smaller model or --size",
+            )
+
+
+def save_png(path: Path, pixels: np.ndarray) -> None:
+    """Writes uint8 (height, width, 3), row 0 at the top; whole or not at all."""
+    from PIL import Image
+
+    with atomic_write(path) as file:
+        Image.fromarray(pixels).save(file, format="PNG")
+
+
+def _settings(params: hello_imgui.RunnerParams, remember: bool) -> None:
+    """The layout is kept in the user's settings folder, never in the working directory."""
+    params.ini_disable = not remember
+    if remember:
+        import platformdirs
+
+        folder = platformdirs.user_config_path("lucida", appauthor=False)
+        params.ini_folder_type = hello_imgui.IniFolderType.absolute_path
+        params.ini_filename = str(folder / "window.ini")
+        params.ini_filename_use_app_window_title = False
