@@ -185,21 +185,25 @@ def _fill_shapes(vertices, faces, spheres, order, shapes, control):
 @kernel
 def _grow_pieces(records, bounds, links, levels, jobs, leaf_size, control):
     """Takes jobs and builds each one's subtree."""
-    counts, bins = np.empty((3, BINS), np.int64), np.empty((3, BINS, 6), np.float32)
+    # The smaller half is built first, so each node that waits is less than half of the one before.
+    waiting = np.empty((72, 4), np.int64)
+    centres = np.empty(6, np.float32)
+    scratch = (
+        np.empty((3, BINS), np.int64),
+        np.empty((3, BINS, 6), np.float32),
+        np.empty(BINS, np.float32),
+        np.empty(3, np.float32),
+    )
     while True:
         j = take_next(control)
         if j >= len(jobs):
             return
-        job = jobs[j]
-        job[_USED] = _grow(records, bounds, links, levels, job, leaf_size, counts, bins)
+        _grow(records, bounds, links, levels, jobs[j], leaf_size, waiting, centres, scratch)
 
 
 @inlined
-def _grow(records, bounds, links, levels, job, leaf_size, counts, bins):
-    """Builds a job's subtree, leaves of at most leaf_size; gives the node after its last."""
-    # The smaller half is built first, so each node that waits is less than half of the one before.
-    waiting = np.empty((72, 4), np.int64)
-    centres = np.empty(6, np.float32)
+def _grow(records, bounds, links, levels, job, leaf_size, waiting, centres, scratch):
+    """Builds a job's subtree, leaves of at most leaf_size, and notes the node after its last."""
     free = job[_FREE]
     for k in range(4):
         waiting[0, k] = job[k]
@@ -218,7 +222,7 @@ def _grow(records, bounds, links, levels, job, leaf_size, counts, bins):
         # Split by the least cost; by count where no cost says how.
         middle = start
         if level < MAX_DEPTH:
-            axis, last_bin = best_split(records, start, end, centres, counts, bins)
+            axis, last_bin = best_split(records, start, end, centres, scratch)
             if axis >= 0:
                 middle = partition(records, start, end, centres, axis, last_bin)
         if middle in (start, end):
@@ -234,4 +238,4 @@ def _grow(records, bounds, links, levels, job, leaf_size, counts, bins):
             waiting[top, _LEVEL] = level + 1
             top += 1
         free += 2
-    return free
+    job[_USED] = free

@@ -36,8 +36,9 @@ import renderer.scene.flat
 KEPT = 4  # folders of other sources or versions that stay
 KEPT_FOR_S = 3600.0  # younger ones stay too: another process may be filling them
 
-# Saves a third of the time to compile.
-_NOT_FROM_PYTHON = {"no_cpython_wrapper": True, "no_cfunc_wrapper": True}
+# No entry points for Python: a third of the time to compile. No reference counts: arrays belong to
+# the kernel's caller meanwhile, and counting their uses would take longer than most rays.
+_INSIDE = {"no_cpython_wrapper": True, "no_cfunc_wrapper": True, "_nrt": False}
 
 _cache_dir_lock = threading.Lock()
 
@@ -45,9 +46,10 @@ _cache_dir_lock = threading.Lock()
 def inlined(function: Callable[..., Any]) -> Any:
     """Decorator of the small functions that kernels consist of; compiled as part of a kernel.
 
-    No fast-math: nothing is reassociated or fused, which watertight intersection relies on.
+    It must not make arrays: the kernel does. No fast-math: nothing is reassociated or fused, which
+    watertight intersection relies on.
     """
-    return numba.njit(error_model="numpy", forceinline=True, **_NOT_FROM_PYTHON)(function)
+    return numba.njit(error_model="numpy", forceinline=True, **_INSIDE)(function)
 
 
 def kernel(function: Callable[..., Any]) -> Any:

@@ -11,8 +11,8 @@ import numpy as np
 from renderer.trace.atomic import count_done, is_cancelled, take_next
 from renderer.trace.compiled import inlined, kernel
 from renderer.trace.image import BLOCK
-from renderer.trace.shade import color_at, normals_at, object_of, point_on
-from renderer.trace.traverse import closest_hit, new_stack
+from renderer.trace.shade import color_at, normals_at, object_of, point_on, rgb
+from renderer.trace.traverse import closest_hit
 
 
 @kernel
@@ -22,9 +22,15 @@ def trace_image(view, scene, tree, image, control):
     view: View. scene: FlatScene. tree: Tree. image: Image, written. control: see control.py; the
     work's numbers are those of the blocks, row by row.
     """
+    waiting = np.empty(tree.stack_size, np.int32)
+    entered = np.empty(tree.stack_size, np.float64)
+    _trace_blocks(view, scene, tree, (waiting, entered), image, control)
+
+
+@inlined
+def _trace_blocks(view, scene, tree, stack, image, control):
     height, width = image.height, image.width
     rows, columns = image.finished.shape
-    stack = new_stack(tree)
     while True:
         block = take_next(control)
         if block >= rows * columns:
@@ -66,10 +72,12 @@ def write_pixel(scene, image, i, j, origin, direction, hit):
     if image.has_primitive:
         image.primitive[i, j] = primitive
     if image.has_id:
-        image.id[i, j] = object_of(scene, primitive) if primitive >= 0 else -1
+        image.id[i, j] = (
+            object_of(scene.face_object, scene.sphere_object, primitive) if primitive >= 0 else -1
+        )
     if not (image.has_normal or image.has_color):
         return
-    normal, color = (0.0, 0.0, 0.0), background(scene)
+    normal, color = (0.0, 0.0, 0.0), rgb(scene.background)
     if primitive >= 0:
         point = point_on(origin, direction, t)
         geometric, normal = normals_at(scene, direction, point, primitive, b1, b2)
@@ -79,9 +87,3 @@ def write_pixel(scene, image, i, j, origin, direction, hit):
         image.normal[i, j, 0], image.normal[i, j, 1], image.normal[i, j, 2] = normal
     if image.has_color:
         image.color[i, j, 0], image.color[i, j, 1], image.color[i, j, 2] = color
-
-
-@inlined
-def background(scene):
-    color = scene.background
-    return np.float64(color[0]), np.float64(color[1]), np.float64(color[2])

@@ -41,12 +41,18 @@ GRAZING = 1e-3  # the cosine that shading normals keep, at least, towards the vi
 
 
 @inlined
-def object_of(scene, primitive):
+def rgb(color):
+    """A colour (3,) as float64."""
+    return np.float64(color[0]), np.float64(color[1]), np.float64(color[2])
+
+
+@inlined
+def object_of(face_object, sphere_object, primitive):
     """The object that a primitive belongs to."""
-    triangles = len(scene.faces)
+    triangles = len(face_object)
     if primitive < triangles:
-        return scene.face_object[primitive]
-    return scene.sphere_object[primitive - triangles]
+        return face_object[primitive]
+    return sphere_object[primitive - triangles]
 
 
 @inlined
@@ -133,14 +139,12 @@ def color_at(scene, direction, point, geometric, shading, primitive, b1, b2):
     Highlights are not cut off where the surface turns away from the light.
     Source: Marschner and Shirley, Fundamentals of Computer Graphics, ch. 4 (Blinn and Phong).
     """
-    material = scene.materials[object_of(scene, primitive)]
+    material = scene.materials[object_of(scene.face_object, scene.sphere_object, primitive)]
     albedo = albedo_at(scene, material, point, geometric, primitive, b1, b2)
     specular = row(material, SPECULAR_CHECKERED)
     shininess = np.float64(material[DIFFUSE_SHININESS, 3])
     along = normalized(direction)
-    ambient = scene.ambient
-    light = (np.float64(ambient[0]), np.float64(ambient[1]), np.float64(ambient[2]))
-    color = each_times(light, albedo)
+    color = each_times(rgb(scene.ambient), albedo)
     for number in range(len(scene.lights)):
         lamp = scene.lights[number]
         to_light = row(lamp, FIRST)

@@ -136,9 +136,7 @@ def _operator(function: Callable, emit: Callable, compares: bool = False) -> Non
 
     def lower(context, builder, sig, args):  # type: ignore[no-untyped-def]
         kind = _kind(*sig.args)
-        x, y = (
-            _widened(context, builder, a, t, kind) for a, t in zip(args, sig.args, strict=True)
-        )
+        x, y = (_widened(context, builder, a, t, kind) for a, t in zip(args, sig.args, strict=True))
         return emit(builder, kind in ("f32", "f64"), x, y)
 
     for pair in (
@@ -275,9 +273,7 @@ def gather(typing, array, index, mask):  # type: ignore[no-untyped-def]
         address = builder.inttoptr(builder.add(first, offset), pointers)
         zero = ir.Constant(_llvm(kind), [0] * LANES)
         name = f"llvm.masked.gather.v{LANES}{kind}.v{LANES}p0"
-        return _call(
-            builder, name, zero.type, [address, ir.Constant(_I32, 4), args[2], zero]
-        )
+        return _call(builder, name, zero.type, [address, ir.Constant(_I32, 4), args[2], zero])
 
     return _VECTOR[kind](array, index, mask), codegen
 
@@ -338,9 +334,7 @@ def store_square3(typing, array, index, stride, x, y, z):  # type: ignore[no-unt
         xy = _shuffle(builder, args[3], args[4], both)
         zz = _shuffle(builder, args[5], args[5], both)
         rows = [
-            _shuffle(
-                builder, xy, zz, [4 * row + c + LANES * k for c in range(4) for k in range(3)]
-            )
+            _shuffle(builder, xy, zz, [4 * row + c + LANES * k for c in range(4) for k in range(3)])
             for row in range(4)
         ]
         return _store_rows(context, builder, sig, args, rows)

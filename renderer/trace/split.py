@@ -69,11 +69,12 @@ def _extended(low, high, bins, axis, b):
 
 
 @inlined
-def best_split(records, start, end, centres, counts, bins):
+def best_split(records, start, end, centres, scratch):
     """(axis, bin) after which to split records[start:end] at the least cost; axis -1: nowhere.
 
-    counts (3, BINS) and bins (3, BINS, 6) are scratch.
+    scratch: int64 (3, BINS), and float32 (3, BINS, 6), (BINS,), (3,), of the calling thread.
     """
+    counts, bins, right, scales = scratch
     for axis in range(3):
         for b in range(BINS):
             counts[axis, b] = 0
@@ -81,30 +82,18 @@ def best_split(records, start, end, centres, counts, bins):
                 bins[axis, b, k], bins[axis, b, 3 + k] = FAR, -FAR
 
     # Sort the centres into bins along each axis.
-    scales = (
-        bin_scale(centres[0], centres[3]),
-        bin_scale(centres[1], centres[4]),
-        bin_scale(centres[2], centres[5]),
-    )
+    for axis in range(3):
+        scales[axis] = bin_scale(centres[axis], centres[3 + axis])
     for i in range(start, end):
-        x0, y0, z0 = records[i, 0], records[i, 1], records[i, 2]
-        x1, y1, z1 = records[i, 3], records[i, 4], records[i, 5]
         for axis in range(3):
-            low = x0 if axis == 0 else (y0 if axis == 1 else z0)
-            high = x1 if axis == 0 else (y1 if axis == 1 else z1)
-            scale = scales[0] if axis == 0 else (scales[1] if axis == 1 else scales[2])
-            b = bin_of(low, high, centres[axis], scale)
+            b = bin_of(records[i, axis], records[i, 3 + axis], centres[axis], scales[axis])
             counts[axis, b] += 1
-            bins[axis, b, 0] = min(bins[axis, b, 0], x0)
-            bins[axis, b, 1] = min(bins[axis, b, 1], y0)
-            bins[axis, b, 2] = min(bins[axis, b, 2], z0)
-            bins[axis, b, 3] = max(bins[axis, b, 3], x1)
-            bins[axis, b, 4] = max(bins[axis, b, 4], y1)
-            bins[axis, b, 5] = max(bins[axis, b, 5], z1)
+            for k in range(3):
+                bins[axis, b, k] = min(bins[axis, b, k], records[i, k])
+                bins[axis, b, 3 + k] = max(bins[axis, b, 3 + k], records[i, 3 + k])
 
     # The cost of a split: for each side, its area times its primitives.
     best, best_axis, best_bin = FAR, -1, -1
-    right = np.empty(BINS, np.float32)
     for axis in range(3):
         if centres[3 + axis] <= centres[axis]:
             continue

@@ -1,0 +1,182 @@
+"""The scene in two levels: a wide tree for each mesh, and a tree of what stands where.
+
+Owns the trees of a scene, and how they follow a scene of which objects were moved. Knows nothing of
+cameras; rays and packets alike walk what is made here.
+
+A mesh's tree is in the mesh's own space. An object is an instance of its mesh: a transform and the
+root of a tree. So a moved object costs a new box in the upper tree, and objects that share a mesh
+share its tree. Spheres stand in the upper tree beside the instances.
+"""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from renderer.scene.flat import FlatScene
+from renderer.scene.model import Mesh, Scene, Sphere
+from renderer.trace.team import Team
+from renderer.trace.wide import FIRST_LEAF, WIDTH, WideTree, tree_of_boxes, tree_of_mesh
+
+_OUTWARDS = 4e-7  # of the coordinates: more than the rounding of bounds to float32
+
+
+class World(NamedTuple):
+    """What kernels walk. Arrays flat, C order, laid out as in WideTree unless said otherwise.
+
+    box, child, corner, face, normal: the nodes and leaves of all meshes, one after another.
+    top_box, top_child: the upper tree; its leaf k is item k: instance k, or sphere k - instances.
+    root: int32, the node at which an instance's tree begins. root_object: int32, its object.
+    first_primitive: int32, what added to a triangle's face number gives its primitive number.
+    normal_matrix: float32, 9 an instance, row by row: takes a normal to world space, up to length,
+        and keeps it on the winding's side.
+    spheres: float64, 4 a sphere: centre, radius. sphere_object: int32.
+    """
+
+    box: NDArray[np.float32]
+    child: NDArray[np.int32]
+    corner: NDArray[np.float32]
+    face: NDArray[np.int32]
+    normal: NDArray[np.float32]
+    top_box: NDArray[np.float32]
+    top_child: NDArray[np.int32]
+    root: NDArray[np.int32]
+    root_object: NDArray[np.int32]
+    first_primitive: NDArray[np.int32]
+    normal_matrix: NDArray[np.float32]
+    spheres: NDArray[np.float64]
+    sphere_object: NDArray[np.int32]
+
+
+class Instances:
+    """The two levels of one scene. Raises LucidaError where flatten() does."""
+
+    def __init__(self, scene: Scene, flat: FlatScene, team: Team) -> None:
+        self._team = team
+        self._trees: dict[tuple[int, int], WideTree] = {}
+        self._meshes: list[Mesh] = []
+        self._numbers: dict[tuple[int, int], int] = {}
+        self._build_trees(scene, flat)
+        self._place(scene, flat)
+
+    def update(self, scene: Scene, flat: FlatScene) -> None:
+        """Follows a changed scene; meshes whose arrays are the same objects keep their trees."""
+        if not {_key(mesh) for mesh in _meshes(scene)} <= set(self._trees):
+            self._build_trees(scene, flat)
+        self._place(scene, flat)
+
+    @property
+    def stack_size(self) -> int:
+        """Nodes that can wait in a traversal, of the upper tree and then of a mesh's."""
+        levels = self._top_levels + max((tree.levels for tree in self._trees.values()), default=0)
+        return (WIDTH - 1) * levels + 2 * WIDTH
+
+    def _build_trees(self, scene: Scene, flat: FlatScene) -> None:
+        """A tree for each mesh that has none; meshes no longer used lose theirs."""
+        known = self._trees
+        self._trees = {}
+        self._meshes = []  # kept alive: their arrays' identities are the keys
+        for mesh in _meshes(scene):
+            key = _key(mesh)
+            if key not in self._trees:
+                self._meshes.append(mesh)
+                self._trees[key] = known.get(key) or tree_of_mesh(
+                    mesh.vertices, mesh.faces, flat, self._team
+                )
+        self._join()
+
+    def _join(self) -> None:
+        """One array of each kind for all trees; children and leaves are renumbered."""
+        nodes = leaves = 0
+        parts: list[tuple[np.ndarray, ...]] = []
+        self._roots: dict[tuple[int, int], int] = {}
+        for key, tree in self._trees.items():
+            child = tree.child
+            if nodes:
+                child = np.where(child >= 0, child + np.int32(nodes), child)
+                child[tree.child <= FIRST_LEAF] -= np.int32(leaves)
+            parts.append((tree.box, child, tree.corner, tree.face, tree.normal))
+            self._roots[key] = nodes
+            nodes += len(tree.child) // WIDTH
+            leaves += len(tree.face) // WIDTH
+        dtypes = (np.float32, np.int32, np.float32, np.int32, np.float32)
+        if len(parts) == 1:
+            self._joined = parts[0]
+        else:
+            self._joined = tuple(
+                np.concatenate([part[k] for part in parts]) if parts else np.empty(0, dtype)
+                for k, dtype in enumerate(dtypes)
+            )
+
+    def _place(self, scene: Scene, flat: FlatScene) -> None:
+        """The instances, the spheres and the tree over them."""
+        objects = [
+            (number, entry.shape)
+            for number, entry in enumerate(scene.objects)
+            if isinstance(entry.shape, Mesh)
+        ]
+        meshes = [mesh for _, mesh in objects]
+        object_number = np.array([number for number, _ in objects], np.int32)
+        matrix = np.array([mesh.transform for mesh in meshes]).reshape(-1, 4, 4)
+        bounds = np.array([self._trees[_key(mesh)].bounds for mesh in meshes]).reshape(-1, 2, 3)
+        self.world_from_object: NDArray[np.float64] = matrix
+        self.object_bounds: NDArray[np.float64] = bounds
+        spheres = np.array(
+            [(*e.shape.center, e.shape.radius) for e in scene.objects if isinstance(e.shape, Sphere)],
+            np.float64,
+        ).reshape(-1, 4)
+        low, high = _world_boxes(matrix, bounds)
+        low = np.concatenate([low, spheres[:, :3] - spheres[:, 3:]])
+        high = np.concatenate([high, spheres[:, :3] + spheres[:, 3:]])
+        margin = _OUTWARDS * np.maximum(np.abs(low), np.abs(high))
+        low, high = low - margin, high + margin
+        self.bounds = np.stack([low.min(0), high.max(0)]) if len(low) else np.zeros((2, 3))
+        top_box, top_child, self._top_levels = np.empty(0, np.float32), np.empty(0, np.int32), 1
+        if len(low):
+            top_box, top_child, self._top_levels = tree_of_boxes(
+                low.astype(np.float32), high.astype(np.float32), flat, self._team
+            )
+        self.world = World(
+            *self._joined,
+            top_box=top_box,
+            top_child=top_child,
+            root=np.array([self._roots[_key(mesh)] for mesh in meshes], np.int32),
+            root_object=object_number,
+            first_primitive=flat.object_faces[object_number, 0],
+            normal_matrix=_normal_matrices(matrix).astype(np.float32).reshape(-1),
+            spheres=spheres.reshape(-1),
+            sphere_object=flat.sphere_object.copy(),
+        )
+
+
+def _meshes(scene: Scene) -> list[Mesh]:
+    return [entry.shape for entry in scene.objects if isinstance(entry.shape, Mesh)]
+
+
+def _key(mesh: Mesh) -> tuple[int, int]:
+    return id(mesh.vertices), id(mesh.faces)
+
+
+def _world_boxes(
+    world_from_object: NDArray[np.float64], bounds: NDArray[np.float64]
+) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """Boxes around transformed boxes, (n, 3) each.
+
+    Source: Arvo, "Transforming Axis-Aligned Bounding Boxes", Graphics Gems 1990.
+    """
+    linear, position = world_from_object[:, :3, :3], world_from_object[:, :3, 3]
+    first, second = linear * bounds[:, :1], linear * bounds[:, 1:]
+    return (
+        np.minimum(first, second).sum(2) + position,
+        np.maximum(first, second).sum(2) + position,
+    )
+
+
+def _normal_matrices(world_from_object: NDArray[np.float64]) -> NDArray[np.float64]:
+    """The cofactor matrices (n, 3, 3): cross(M a, M b) = cofactor(M) cross(a, b), scaled to 1."""
+    a, b, c = np.moveaxis(world_from_object[:, :3, :3], 1, 0)
+    cofactor = np.stack([np.cross(b, c), np.cross(c, a), np.cross(a, b)], axis=1)
+    largest = np.abs(cofactor).max(axis=(1, 2), keepdims=True) if len(cofactor) else 1.0
+    return cofactor / largest
