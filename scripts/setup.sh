@@ -82,9 +82,9 @@ find_python() {
 
 install_packages() {
     if [ "$(uname -s)" = Linux ] && [ "$(uname -m)" != x86_64 ] && has_apt && has_rights; then
-        # moderngl has no wheels here: pip compiles it.
+        # moderngl and glcontext have no wheels here: pip compiles them.
         version=$("$VENV/bin/python" -c 'import sys; print("%d.%d" % sys.version_info[:2])')
-        missing=$(missing_packages g++ "python$version-dev")
+        missing=$(missing_packages g++ libx11-dev "python$version-dev")
         [ -z "$missing" ] || apt_install $missing || true
     fi
     say "installing the Python packages (about 200 MB, once)"
