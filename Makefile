@@ -4,12 +4,13 @@ PYTHON_IN_VENV := .venv/bin/python
 ARGS :=
 
 .DEFAULT_GOAL := help
-.PHONY: help setup run test lint requirements clean
+.PHONY: help setup run test bench lint requirements clean
 
 help:
 	@echo 'make setup          prepare .venv and the system libraries'
 	@echo 'make run            open the window           make run ARGS="spheres"'
 	@echo 'make test           run the tests             make test ARGS="-k camera"'
+	@echo 'make bench          measure the tracer beside others; make bench ARGS="--quick"'
 	@echo 'make lint           ruff and mypy'
 	@echo 'make requirements   pin the packages anew     make requirements ARGS="--upgrade"'
 	@echo 'make clean          remove .venv and everything else that was made'
@@ -24,6 +25,11 @@ run: setup
 test: setup
 	@$(PYTHON_IN_VENV) -m pytest $(ARGS)
 
+# In .venv-bench, which has the peers and sees the packages of .venv.
+bench: setup
+	@$(PYTHON_IN_VENV) -m tests.benchmarks.environment
+	@.venv-bench/bin/python -m tests.benchmarks $(ARGS)
+
 lint: setup
 	@sh scripts/lint.sh
 
@@ -31,5 +37,5 @@ requirements: setup
 	@sh scripts/requirements.sh $(ARGS)
 
 clean:
-	rm -rf .venv build dist out .pytest_cache .mypy_cache .ruff_cache .hypothesis
+	rm -rf .venv .venv-bench build dist out .pytest_cache .mypy_cache .ruff_cache .hypothesis
 	find app renderer shaders tests -name __pycache__ -type d -prune -exec rm -rf {} +

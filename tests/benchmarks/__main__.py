@@ -1,0 +1,122 @@
+"""python -m tests.benchmarks: measures, prints the tables, writes JSON and a picture."""
+
+from __future__ import annotations
+
+import argparse
+import sys
+from pathlib import Path
+
+from renderer.atomic import atomic_write
+from renderer.errors import LucidaError
+from tests.benchmarks import plot, report
+from tests.benchmarks.run import Run, versions
+from tests.benchmarks.tables import TABLES
+
+ROOT = Path(__file__).resolve().parents[2]
+OUT = ROOT / "out" / "bench"
+README_TABLES = ("visibility", "build", "scaling")  # whole; of the others, the targets
+
+
+def main(argv: list[str] | None = None) -> int:
+    """The command line; gives the exit status: 2 for a user's mistake, else 0."""
+    arguments = _parser().parse_args(argv)
+    try:
+        return _run(arguments)
+    except LucidaError as error:
+        print(f"bench: {error}", file=sys.stderr)
+        return 2
+
+
+def _parser() -> argparse.ArgumentParser:
+    parser = argparse.ArgumentParser(prog="make bench ARGS=...", description=__doc__)
+    parser.add_argument("--only", help=f"comma-separated: {','.join(TABLES)}")
+    parser.add_argument("--quick", action="store_true", help="small scenes, few rounds")
+    parser.add_argument("--full", action="store_true", help="50 million rays for pinholes")
+    parser.add_argument("--model", type=Path, metavar="FILE", help="measure this mesh instead")
+    parser.add_argument("--out", type=Path, default=OUT, metavar="FOLDER")
+    parser.add_argument("--no-peers", action="store_true", help="Lucida alone")
+    parser.add_argument(
+        "--readme", action="store_true", help="write the tables into README.md and docs/bench.png"
+    )
+    return parser
+
+
+def _run(arguments: argparse.Namespace) -> int:
+    names = _chosen(arguments.only)
+    run = Run(arguments.quick, arguments.full, arguments.model)
+    if not arguments.no_peers:
+        run.say("looking for the peers")
+        run.find_peers()
+    machine = report.machine()
+    print(f"{machine['cpu']}, {machine['processors']} processors, Python {machine['python']}")
+    for name, version in versions(run.kinds).items():
+        print(f"{name}: {version}")
+    for name, why in run.left_out.items():
+        print(f"{name} is left out: {why}")
+    print()
+    tables: list[report.Table] = []
+    try:
+        for name in names:
+            for table in TABLES[name](run):
+                tables.append(table)
+                print(report.text(table), flush=True)
+    except KeyboardInterrupt:
+        run.say("stopped; what was measured is written")
+    settings = {"quick": run.quick, "full": run.full, "model": run.file and str(run.file)}
+    text = report.as_json(tables, machine, settings, versions(run.kinds), run.left_out)
+    _write(arguments.out, tables, text)
+    if arguments.readme:
+        _update_readme(run, machine, tables)
+    return 0
+
+
+def _chosen(only: str | None) -> list[str]:
+    names = list(TABLES) if only is None else only.split(",")
+    for name in names:
+        if name not in TABLES:
+            raise LucidaError("--only", f"{name!r} is unknown", f"give one of {', '.join(TABLES)}")
+    return names
+
+
+def _write(folder: Path, tables: list[report.Table], text: str) -> None:
+    folder.mkdir(parents=True, exist_ok=True)
+    with atomic_write(folder / "bench.json") as file:
+        file.write(text.encode())
+    print(folder / "bench.json")
+    _draw(tables, folder / "bench.png")
+
+
+def _draw(tables: list[report.Table], path: Path) -> bool:
+    try:
+        drawn = plot.draw(tables, path)
+    except ImportError as error:
+        print(f"the picture is left out: {error}")
+        return False
+    if drawn:
+        print(path)
+    return drawn
+
+
+def _update_readme(run: Run, machine: dict, tables: list[report.Table]) -> None:
+    """Puts the tables between README.md's marks, and the picture beside them."""
+    picture = "docs/bench.png"
+    drawn = _draw(tables, ROOT / picture)
+    peers = ", ".join(f"{name} {version}" for name, version in versions(run.kinds).items())
+    parts = [
+        f"`make bench` on {machine['cpu']}, {machine['processors']} processors, Python "
+        f"{machine['python']}, numba {machine['packages']['numba']}; beside {peers or 'no peers'}. "
+        "Medians of interleaved rounds, in ms; in brackets how many times as long as Lucida.",
+        f"![Speed, building and scaling]({picture})" if drawn else "",
+        *(report.markdown(table) for table in tables if table.name in README_TABLES),
+        "**Targets**",
+        report.targets_markdown(tables),
+    ]
+    block = "\n\n".join(part.strip() for part in parts if part)
+    readme = ROOT / "README.md"
+    text = report.between_marks(readme.read_text(encoding="utf-8"), block)
+    with atomic_write(readme) as file:
+        file.write(text.encode())
+
+
+if __name__ == "__main__":
+    sys.exit(main())

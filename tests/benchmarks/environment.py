@@ -1,0 +1,100 @@
+"""The environment of the benchmarks: .venv-bench, with the peers, that also sees what Lucida needs.
+
+`python -m tests.benchmarks.environment` makes it, run by the Python of the project's own
+environment; what is there already is left alone. A peer that cannot be installed is named and left
+out; the next run tries again. Owns that folder. Needs the standard library only.
+"""
+
+from __future__ import annotations
+
+import subprocess
+import sys
+import sysconfig
+import venv
+from importlib import metadata
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parents[2]
+FOLDER = ROOT / ".venv-bench"
+REQUIREMENTS = ROOT / "requirements-bench.txt"
+CONSTRAINTS = "constraints.txt"
+
+
+def prepare(folder: Path = FOLDER, requirements: Path = REQUIREMENTS) -> dict[str, str]:
+    """Makes the environment complete. Gives what could not be installed, and why."""
+    runtime = sysconfig.get_path("purelib")
+    made_from = f"{sys.version}\n{runtime}\n"
+    stamp = folder / "made-from"
+    if not stamp.exists() or stamp.read_text() != made_from:
+        say(f"making {folder.name}")
+        venv.create(folder, clear=True, with_pip=True)
+        own = Path(_ask(folder, "import sysconfig; print(sysconfig.get_path('purelib'))"))
+        # Behind the environment's own packages on the path, which therefore come first.
+        (own / "lucida-runtime.pth").write_text(runtime + "\n")
+        stamp.write_text(made_from)
+    failed = {}
+    for line in wanted(requirements.read_text()):
+        why = _install(folder, line)
+        if why:
+            failed[line] = why
+    return failed
+
+
+def wanted(requirements: str) -> list[str]:
+    """The lines of a requirements file that name a package."""
+    lines = (line.partition("#")[0].strip() for line in requirements.splitlines())
+    return [line for line in lines if line]
+
+
+def python_of(folder: Path) -> Path:
+    """The environment's interpreter."""
+    windows = sys.platform == "win32"
+    return folder / ("Scripts/python.exe" if windows else "bin/python")
+
+
+def say(text: str) -> None:
+    print(f"bench: {text}", file=sys.stderr, flush=True)
+
+
+def _install(folder: Path, requirement: str) -> str:
+    """Installs one package, if it is not there; gives why that failed, or ""."""
+    stamp = folder / f"installed-{requirement.partition('==')[0]}"
+    if stamp.exists() and stamp.read_text() == requirement:
+        return ""
+    say(f"installing {requirement}")
+    # Lucida is to be measured with the packages that it runs with, whatever a peer would like.
+    constraints = folder / CONSTRAINTS
+    constraints.write_text("".join(f"{line}\n" for line in _installed()))
+    command = [str(python_of(folder)), "-m", "pip", "install", "--quiet"]
+    command += ["--disable-pip-version-check", "--retries", "1"]
+    command += ["--constraint", str(constraints), requirement]
+    done = subprocess.run(command, capture_output=True, text=True)
+    if done.returncode:
+        lines = [line for line in done.stderr.splitlines() if line.strip()]
+        errors = [line for line in lines if line.startswith("ERROR:")]
+        return (errors or lines or ["pip failed"])[-1].removeprefix("ERROR: ")
+    stamp.write_text(requirement)
+    return ""
+
+
+def _installed() -> list[str]:
+    """name==version of the packages that Lucida runs with."""
+    found = metadata.distributions(path=[sysconfig.get_path("purelib")])
+    pins = {d.metadata["Name"]: d.version for d in found}
+    return [f"{name}=={version}" for name, version in sorted(pins.items()) if name != "lucida"]
+
+
+def _ask(folder: Path, code: str) -> str:
+    command = [str(python_of(folder)), "-c", code]
+    return subprocess.run(command, check=True, capture_output=True, text=True).stdout.strip()
+
+
+def main() -> int:
+    """Always 0: the benchmarks run with whatever could be installed."""
+    for requirement, why in prepare().items():
+        say(f"{requirement} is left out: {why}")
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

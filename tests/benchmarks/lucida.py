@@ -1,0 +1,61 @@
+"""Lucida's own tracer behind the interface of the peers.
+
+Owns how it is called, by its public interface only.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from renderer.camera import Camera, Size
+from renderer.frame import Frame
+from renderer.scene import Mesh, Scene, SceneObject
+from renderer.trace import Tracer
+from tests.benchmarks.peers import Hits, Peer
+from tests.benchmarks.scenes import Faces, Vertices
+
+VISIBILITY = ("depth", "primitive", "normal")
+
+
+class Lucida(Peer):
+    """renderer.Tracer."""
+
+    name = "Lucida"
+
+    def __init__(self, threads: int | None = None) -> None:
+        self._threads = threads
+        self.has_batches = hasattr(Tracer, "closest_hits") and hasattr(Tracer, "any_hits")
+
+    def prepare(self, vertices: Vertices, faces: Faces) -> None:
+        self.prepare_scene(Scene((SceneObject(Mesh(vertices, faces)),)))
+
+    def prepare_scene(self, scene: Scene) -> None:
+        """As prepare, for a scene of any objects."""
+        self.tracer = Tracer(scene, self._threads)
+        # The tracer prepares a scene with its first image.
+        self.tracer.render(Camera.canonical(), (1, 1), VISIBILITY)
+
+    def trace(self, camera: Camera, size: Size) -> Frame:
+        return self.tracer.render(camera, size, VISIBILITY)
+
+    def closest_hits(self, batch: Any) -> Any:
+        return self.tracer.closest_hits(*batch)
+
+    def any_hits(self, batch: Any) -> Any:
+        return self.tracer.any_hits(*batch)
+
+    def read(self, answer: Any) -> Hits:
+        if isinstance(answer, Frame):
+            return Hits(
+                answer.channel("depth").ravel(),
+                answer.channel("primitive").ravel(),
+                answer.channel("normal").reshape(-1, 3),
+            )
+        t, primitive = answer[0], answer[1]
+        return Hits(t, primitive, np.zeros((len(t), 3), np.float32))
+
+    def close(self) -> None:
+        if hasattr(self, "tracer"):
+            self.tracer.close()

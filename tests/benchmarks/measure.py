@@ -1,0 +1,102 @@
+"""How long calls take: taken in turns, so that whatever slows the machine slows them all alike.
+
+Owns the stopwatch. Knows nothing of what is called.
+"""
+
+from __future__ import annotations
+
+import gc
+import time
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+
+import numpy as np
+
+Call = Callable[[], object]
+
+
+@dataclass(frozen=True)
+class Timing:
+    """The seconds that a call took, each time."""
+
+    samples_s: tuple[float, ...]
+
+    @property
+    def median_s(self) -> float:
+        return float(np.median(self.samples_s))
+
+    @property
+    def low_s(self) -> float:
+        """The lower quartile."""
+        return float(np.quantile(self.samples_s, 0.25))
+
+    @property
+    def high_s(self) -> float:
+        """The upper quartile."""
+        return float(np.quantile(self.samples_s, 0.75))
+
+    def numbers(self) -> dict[str, float | int]:
+        """For the JSON file."""
+        return {
+            "median_s": self.median_s,
+            "low_s": self.low_s,
+            "high_s": self.high_s,
+            "min_s": min(self.samples_s),
+            "max_s": max(self.samples_s),
+            "samples": len(self.samples_s),
+        }
+
+
+@dataclass(frozen=True)
+class Plan:
+    """rounds: how often each call has its turn. repeats: timed calls in a turn, of fast calls;
+    slow_s: a call that takes longer is timed once a turn. budget_s: no new round after that long,
+    once there were least_rounds."""
+
+    rounds: int = 7
+    repeats: int = 3
+    slow_s: float = 0.15
+    budget_s: float = 20.0
+    least_rounds: int = 3
+
+
+QUICK = Plan(rounds=3, repeats=2, budget_s=4.0, least_rounds=2)
+
+
+def seconds(call: Call) -> float:
+    """How long one call takes; what it gives is freed after the watch has stopped."""
+    start = time.perf_counter()
+    result = call()
+    elapsed = time.perf_counter() - start
+    del result
+    return elapsed
+
+
+def interleaved(calls: Mapping[str, Call], plan: Plan) -> dict[str, Timing]:
+    """Times of all calls: round after round, each has one turn.
+
+    A turn is an untimed call, which finds the caches full of another's data, and then timed ones;
+    the first round is preceded by an untimed call of each, which may compile.
+    """
+    samples: dict[str, list[float]] = {name: [] for name in calls}
+    for call in calls.values():
+        call()
+    start = time.perf_counter()
+    gc.collect()
+    gc.disable()
+    try:
+        for done in range(plan.rounds):
+            if done >= plan.least_rounds and time.perf_counter() - start > plan.budget_s:
+                break
+            for name, call in calls.items():
+                samples[name] += _turn(call, plan)
+    finally:
+        gc.enable()
+    return {name: Timing(tuple(own)) for name, own in samples.items()}
+
+
+def _turn(call: Call, plan: Plan) -> list[float]:
+    first_s = seconds(call)
+    if first_s > plan.slow_s:
+        return [first_s]
+    return [seconds(call) for _ in range(plan.repeats)]

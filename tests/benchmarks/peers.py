@@ -1,0 +1,321 @@
+"""Other ray tracers behind one interface, each used in the fastest way that its Python offers.
+
+Owns how each is called. Knows nothing of timing. All trace float32 triangles, and make the rays of
+a camera image themselves: in NumPy, or in a compiled kernel where they have one.
+"""
+
+from __future__ import annotations
+
+import os
+import threading
+from abc import ABC, abstractmethod
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from renderer.camera import Camera, Size
+from tests.benchmarks.cameras import Rays, rays
+from tests.benchmarks.scenes import Faces, Vertices
+
+
+class Hits(NamedTuple):
+    """t: float32 (n,), inf where nothing is hit. primitive: int32 (n,), -1 there.
+    normal: float32 (n, 3), unit, on either side."""
+
+    t: np.ndarray
+    primitive: np.ndarray
+    normal: np.ndarray
+
+
+class Peer(ABC):
+    """One ray tracer and one mesh.
+
+    trace, closest_hits and any_hits answer in the tracer's own form, complete in memory; read and
+    read_any turn that into arrays, which is not timed.
+    """
+
+    name: str  # in tables
+    package: str = ""  # the distribution that it comes in
+    has_batches = True  # closest_hits and any_hits work
+
+    @abstractmethod
+    def __init__(self, threads: int | None = None) -> None:
+        """threads: how many trace together; None: as many as there are processors.
+
+        Raises ImportError, or what else a broken installation raises.
+        """
+
+    @abstractmethod
+    def prepare(self, vertices: Vertices, faces: Faces) -> None:
+        """Takes the mesh and builds whatever the first ray needs. Called once."""
+
+    @abstractmethod
+    def trace(self, camera: Camera, size: Size) -> Any:
+        """Ray parameter, primitive and normal of each pixel."""
+
+    def batch(self, origins: Rays, directions: Rays) -> Any:
+        """Arbitrary rays, float32 (n, 3) each, in the form that the tracer takes."""
+        return origins, directions
+
+    @abstractmethod
+    def closest_hits(self, batch: Any) -> Any:
+        """The closest hit of each ray, as trace."""
+
+    @abstractmethod
+    def any_hits(self, batch: Any) -> Any:
+        """Whether each ray hits anything."""
+
+    @abstractmethod
+    def read(self, answer: Any) -> Hits:
+        """What trace or closest_hits gave."""
+
+    def read_any(self, answer: Any) -> np.ndarray:
+        """What any_hits gave: bool (n,)."""
+        return np.asarray(answer)
+
+    def close(self) -> None:  # noqa: B027 # most have nothing to free
+        """Frees threads, if the tracer has its own."""
+
+
+class Mitsuba(Peer):
+    """Mitsuba 3, variant llvm_ad_rgb: rays made in its JIT kernel, traced by Embree in packets."""
+
+    name = "Mitsuba 3 (llvm)"
+    package = "mitsuba"
+
+    def __init__(self, threads: int | None = None) -> None:
+        import drjit
+        import mitsuba
+
+        mitsuba.set_variant("llvm_ad_rgb")
+        self._mi, self._dr, self._threads = mitsuba, drjit, threads or processors()
+        drjit.eval(drjit.arange(mitsuba.UInt32, 8) + 1)  # fails here where there is no LLVM
+
+    def prepare(self, vertices: Vertices, faces: Faces) -> None:
+        self._use_threads()
+        mesh = self._mi.Mesh("mesh", len(vertices), len(faces))
+        parameters = self._mi.traverse(mesh)
+        parameters["vertex_positions"] = vertices.ravel()
+        parameters["faces"] = faces.ravel().astype(np.uint32)
+        parameters.update()
+        self._scene = self._mi.load_dict({"type": "scene", "mesh": mesh})
+        self.any_hits(self.batch(np.zeros((1, 3), np.float32), np.ones((1, 3), np.float32)))
+
+    def trace(self, camera: Camera, size: Size) -> Any:
+        mi, dr = self._mi, self._dr
+        width, height = size
+        left, right, bottom, top = camera.viewport
+        self._use_threads()
+        with dr.suspend_grad():
+            index = dr.arange(mi.UInt32, width * height)
+            row = index // width
+            column = index - row * width
+            x = self._number(left) + self._number((right - left) / width) * (column + 0.5)
+            y = self._number(top) - self._number((top - bottom) / height) * (row + 0.5)
+            across = x * self._vector(camera.u) + y * self._vector(camera.v)
+            if camera.is_parallel:
+                # + 0: the direction must have as many lanes as the origin.
+                origin = self._vector(camera.eye) + across
+                direction = 0 * across - self._vector(camera.w)
+            else:
+                origin = self._vector(camera.eye) + 0 * across
+                direction = across - self._vector([camera.distance * w for w in camera.w])
+            return self._intersect(origin, direction, coherent=True)
+
+    def batch(self, origins: Rays, directions: Rays) -> Any:
+        vectors = [self._mi.Vector3f(np.ascontiguousarray(a.T)) for a in (origins, directions)]
+        self._dr.eval(*vectors)
+        self._dr.sync_thread()
+        return vectors
+
+    def closest_hits(self, batch: Any) -> Any:
+        with self._dr.suspend_grad():
+            return self._intersect(batch[0], batch[1], coherent=False)
+
+    def any_hits(self, batch: Any) -> Any:
+        origin, direction = batch
+        with self._dr.suspend_grad():
+            ray = self._mi.Ray3f(self._mi.Point3f(origin), direction)
+            hit = self._scene.ray_test(ray, coherent=False)
+            self._dr.eval(hit)
+            self._dr.sync_thread()
+        return hit
+
+    def read(self, answer: Any) -> Hits:
+        t, primitive, normal = (np.array(part) for part in answer)
+        none = ~np.isfinite(t)
+        return Hits(t, np.where(none, -1, primitive.astype(np.int64)).astype(np.int32), normal.T)
+
+    def _intersect(self, origin: Any, direction: Any, coherent: bool) -> Any:
+        ray = self._mi.Ray3f(self._mi.Point3f(origin), direction)
+        hit = self._scene.ray_intersect_preliminary(ray, coherent=coherent)
+        normal = hit.compute_surface_interaction(ray, self._mi.RayFlags.Minimal).n
+        self._dr.eval(hit.t, hit.prim_index, normal)
+        self._dr.sync_thread()
+        return hit.t, hit.prim_index, normal
+
+    def _use_threads(self) -> None:
+        # The number is the process's, not the scene's.
+        if self._dr.thread_count() != self._threads:
+            self._dr.set_thread_count(self._threads)
+
+    def _number(self, value: float) -> Any:
+        # Opaque: as a literal it would be part of the kernel, and each camera would compile one.
+        return self._dr.opaque(self._mi.Float, float(value))
+
+    def _vector(self, values: Any) -> Any:
+        return self._mi.Vector3f(*(self._number(value) for value in values))
+
+
+class Open3D(Peer):
+    """open3d.t.geometry.RaycastingScene: Embree, the rays in one float32 (n, 6) array."""
+
+    name = "Open3D"
+    package = "open3d"
+
+    def __init__(self, threads: int | None = None) -> None:
+        import open3d
+
+        self._open3d, self._threads = open3d, threads or 0
+
+    def prepare(self, vertices: Vertices, faces: Faces) -> None:
+        tensor = self._open3d.core.Tensor
+        self._scene = self._open3d.t.geometry.RaycastingScene(nthreads=self._threads)
+        self._scene.add_triangles(tensor(vertices), tensor(faces.astype(np.uint32)))
+        self._scene.cast_rays(tensor(np.zeros((1, 6), np.float32)))
+
+    def trace(self, camera: Camera, size: Size) -> Any:
+        return self.closest_hits(self.batch(*rays(camera, size)))
+
+    def batch(self, origins: Rays, directions: Rays) -> Any:
+        both = np.concatenate([origins, directions], axis=1)
+        return self._open3d.core.Tensor.from_numpy(both)
+
+    def closest_hits(self, batch: Any) -> Any:
+        return self._scene.cast_rays(batch, nthreads=self._threads)
+
+    def any_hits(self, batch: Any) -> Any:
+        return self._scene.test_occlusions(batch, nthreads=self._threads)
+
+    def read(self, answer: Any) -> Hits:
+        primitive = answer["primitive_ids"].numpy().astype(np.int32)  # 2**32 - 1 becomes -1
+        return Hits(answer["t_hit"].numpy(), primitive, answer["primitive_normals"].numpy())
+
+    def read_any(self, answer: Any) -> np.ndarray:
+        return answer.numpy()
+
+
+class Embreex(Peer):
+    """embreex: Embree's calls for single rays on float32 arrays, a slice for each thread."""
+
+    name = "embreex"
+    package = "embreex"
+
+    def __init__(self, threads: int | None = None) -> None:
+        import embreex.mesh_construction
+        import embreex.rtcore_scene
+
+        self._scenes = embreex.rtcore_scene
+        self._meshes = embreex.mesh_construction
+        self._threads = threads or processors()
+
+    def prepare(self, vertices: Vertices, faces: Faces) -> None:
+        self._scene = self._scenes.EmbreeScene()
+        self._mesh = self._meshes.TriangleMesh(self._scene, vertices, faces)
+        self._scene.run(np.zeros((1, 3), np.float32), np.ones((1, 3), np.float32))
+
+    def trace(self, camera: Camera, size: Size) -> Any:
+        return self.closest_hits(rays(camera, size))
+
+    def closest_hits(self, batch: Any) -> Any:
+        def part(origins: Rays, directions: Rays) -> tuple[np.ndarray, ...]:
+            answer = self._scene.run(origins, directions, output=1)
+            normal = answer["Ng"]
+            length = np.sqrt(np.einsum("ij,ij->i", normal, normal))
+            normal /= np.maximum(length, 1e-30)[:, None]
+            return answer["tfar"], answer["primID"], normal
+
+        return self._in_threads(part, batch)
+
+    def any_hits(self, batch: Any) -> Any:
+        def part(origins: Rays, directions: Rays) -> tuple[np.ndarray, ...]:
+            return (self._scene.run(origins, directions, query="OCCLUDED"),)
+
+        return self._in_threads(part, batch)[0]
+
+    def read(self, answer: Any) -> Hits:
+        t, primitive, normal = answer
+        primitive = primitive.astype(np.int64).astype(np.int32)  # 2**32 - 1 becomes -1
+        return Hits(np.where(primitive < 0, np.float32(np.inf), t), primitive, normal)
+
+    def read_any(self, answer: Any) -> np.ndarray:
+        return answer == 0  # 0: occluded; -1: not
+
+    def _in_threads(self, part: Any, batch: Any) -> tuple[np.ndarray, ...]:
+        origins, directions = batch
+        cuts = np.linspace(0, len(origins), self._threads + 1).astype(int)
+        parts: list[Any] = [None] * self._threads
+
+        def work(k: int) -> None:
+            own = slice(cuts[k], cuts[k + 1])
+            parts[k] = part(origins[own], directions[own])
+
+        workers = [threading.Thread(target=work, args=(k,)) for k in range(self._threads)]
+        for worker in workers:
+            worker.start()
+        for worker in workers:
+            worker.join()
+        return tuple(np.concatenate(columns) for columns in zip(*parts, strict=True))
+
+
+class Trimesh(Peer):
+    """trimesh's RayMeshIntersector on embreex: one thread, locations instead of parameters."""
+
+    name = "trimesh (embreex)"
+    package = "trimesh"
+
+    def __init__(self, threads: int | None = None) -> None:
+        import trimesh
+        from trimesh.ray.ray_pyembree import RayMeshIntersector
+
+        self._trimesh, self._intersector = trimesh, RayMeshIntersector
+
+    def prepare(self, vertices: Vertices, faces: Faces) -> None:
+        mesh = self._trimesh.Trimesh(vertices, faces, process=False, validate=False)
+        self._normals = mesh.face_normals
+        self._rays = self._intersector(mesh)
+        self._rays.intersects_first(np.zeros((1, 3)), np.ones((1, 3)))
+
+    def trace(self, camera: Camera, size: Size) -> Any:
+        return self.closest_hits(rays(camera, size))
+
+    def closest_hits(self, batch: Any) -> Any:
+        origins, directions = batch
+        primitive, ray, at = self._rays.intersects_id(
+            origins, directions, multiple_hits=False, return_locations=True
+        )
+        return batch, primitive, ray, at, self._normals[primitive]
+
+    def any_hits(self, batch: Any) -> Any:
+        return self._rays.intersects_any(*batch)
+
+    def read(self, answer: Any) -> Hits:
+        (origins, directions), own, ray, at, own_normal = answer
+        t = np.full(len(origins), np.inf, np.float32)
+        primitive = np.full(len(origins), -1, np.int32)
+        normal = np.zeros((len(origins), 3), np.float32)
+        along = directions[ray].astype(float)
+        offset = np.einsum("ij,ij->i", at - origins[ray], along)
+        t[ray] = offset / np.einsum("ij,ij->i", along, along)
+        primitive[ray], normal[ray] = own, own_normal
+        return Hits(t, primitive, normal)
+
+
+PEERS: tuple[type[Peer], ...] = (Mitsuba, Open3D, Embreex, Trimesh)
+
+
+def processors() -> int:
+    """How many this process may use."""
+    if hasattr(os, "sched_getaffinity"):
+        return len(os.sched_getaffinity(0))
+    return os.cpu_count() or 1

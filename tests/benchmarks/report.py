@@ -1,0 +1,215 @@
+"""What was measured, as tables: for the terminal, for the README and as JSON.
+
+Owns the tables' form and the targets. Knows nothing of how anything is measured.
+"""
+
+from __future__ import annotations
+
+import json
+import math
+import os
+import platform
+import re
+from collections.abc import Iterable
+from dataclasses import dataclass, field
+from importlib import metadata
+from pathlib import Path
+from typing import Any
+
+from renderer.errors import LucidaError
+from tests.benchmarks.measure import Timing
+
+FORMAT = 1  # of the JSON file
+BEGIN, END = "<!-- bench:begin -->", "<!-- bench:end -->"
+
+
+@dataclass(frozen=True)
+class Target:
+    """A number that was promised, and what it came to. unit: "x" for a ratio, "ms", "s"..."""
+
+    name: str
+    measured: float
+    bound: float
+    unit: str
+    at_least: bool = True
+
+    @property
+    def met(self) -> bool:
+        """False for NaN too: what could not be measured is not met."""
+        if self.at_least:
+            return self.measured >= self.bound
+        return self.measured <= self.bound
+
+    def cells(self) -> tuple[str, ...]:
+        sign = "at least" if self.at_least else "at most"
+        return (
+            self.name,
+            f"{sign} {self.bound:g} {self.unit}",
+            f"{short(self.measured)} {self.unit}",
+            "met" if self.met else "falls short",
+        )
+
+
+TARGET_HEADER = ("target", "promised", "measured", "")
+
+
+@dataclass
+class Table:
+    """One table. name: what --only takes. rows: one text a column of the header; the first is
+    aligned left. data: the numbers behind the rows, for the JSON file."""
+
+    name: str
+    title: str
+    header: tuple[str, ...]
+    rows: list[tuple[str, ...]] = field(default_factory=list)
+    notes: list[str] = field(default_factory=list)
+    targets: list[Target] = field(default_factory=list)
+    data: list[dict[str, Any]] = field(default_factory=list)
+
+    def add(self, *cells: str, **numbers: Any) -> None:
+        """A row, and the numbers behind it."""
+        if len(cells) != len(self.header):
+            raise ValueError(f"{self.name}: {len(cells)} cells under {len(self.header)} headings")
+        self.rows.append(cells)
+        if numbers:
+            self.data.append(numbers)
+
+    def target(
+        self, name: str, measured: float, bound: float, unit: str, at_least: bool = True
+    ) -> None:
+        self.targets.append(Target(name, float(measured), bound, unit, at_least))
+
+
+# Numbers as text.
+
+
+def short(number: float) -> str:
+    """Three digits: 0.123, 1.23, 12.3, 123."""
+    if not math.isfinite(number):
+        return "-"
+    digits = 3 if abs(number) < 1 else 2 if abs(number) < 10 else 1 if abs(number) < 100 else 0
+    return f"{number:.{digits}f}"
+
+
+def ms(timing: Timing) -> str:
+    """The median in ms, with the quartiles: "5.12 (5.01 to 5.30)"."""
+    low, middle, high = (short(1e3 * s) for s in (timing.low_s, timing.median_s, timing.high_s))
+    return f"{middle} ({low} to {high})"
+
+
+def times(number: float) -> str:
+    return f"{short(number)}x"
+
+
+# Tables as text.
+
+
+def text(table: Table) -> str:
+    """For the terminal."""
+    parts = [f"{table.title}  [{table.name}]", "", _aligned([table.header, *table.rows])]
+    parts += [f"  {note}" for note in table.notes]
+    if table.targets:
+        parts += ["", _aligned([TARGET_HEADER, *(target.cells() for target in table.targets)])]
+    return "\n".join(parts) + "\n"
+
+
+def markdown(table: Table) -> str:
+    """For the README: the table and its notes, without the targets."""
+    lines = [f"**{table.title}**", "", *_pipes(table.header, table.rows)]
+    if table.notes:
+        lines += ["", *table.notes]
+    return "\n".join(lines) + "\n"
+
+
+def targets_markdown(tables: Iterable[Table]) -> str:
+    """For the README: the targets of all tables."""
+    rows = [target.cells() for table in tables for target in table.targets]
+    return "\n".join(_pipes(TARGET_HEADER, rows)) + "\n"
+
+
+def _aligned(rows: list[tuple[str, ...]]) -> str:
+    widths = [max(map(len, column)) for column in zip(*rows, strict=True)]
+    lines = []
+    for cells in rows:
+        first, *others = zip(cells, widths, strict=True)
+        line = [first[0].ljust(first[1]), *(cell.rjust(width) for cell, width in others)]
+        lines.append("  " + "  ".join(line).rstrip())
+    lines.insert(1, "  " + "  ".join("-" * width for width in widths))
+    return "\n".join(lines)
+
+
+def _pipes(header: tuple[str, ...], rows: Iterable[tuple[str, ...]]) -> list[str]:
+    lines = [header, ("---", *("---:" for _ in header[1:])), *rows]
+    return ["| " + " | ".join(cells) + " |" for cells in lines]
+
+
+# Files.
+
+
+def machine() -> dict[str, Any]:
+    """What the numbers were measured on."""
+    cpu = platform.processor() or platform.machine()
+    cpuinfo = Path("/proc/cpuinfo")
+    if cpuinfo.exists():
+        found = re.search(r"^model name\s*:\s*(.+)$", cpuinfo.read_text(), re.MULTILINE)
+        cpu = found[1] if found else cpu
+    return {
+        "cpu": cpu,
+        "processors": os.cpu_count(),
+        "system": f"{platform.system()} {platform.machine()}",
+        "python": platform.python_version(),
+        "packages": {name: _version(name) for name in ("numpy", "numba", "llvmlite")},
+    }
+
+
+def as_json(
+    tables: Iterable[Table],
+    machine: dict[str, Any],
+    settings: dict[str, Any],
+    peers: dict[str, str],
+    left_out: dict[str, str],
+) -> str:
+    """Everything, for other programs. peers: versions. left_out: why, for each peer that is."""
+    whole = {
+        "format": FORMAT,
+        "machine": machine,
+        "settings": settings,
+        "peers": peers,
+        "left_out": left_out,
+        "tables": [
+            {
+                "name": table.name,
+                "title": table.title,
+                "header": list(table.header),
+                "rows": [list(row) for row in table.rows],
+                "notes": table.notes,
+                "targets": [
+                    {**target.__dict__, "measured": _finite(target.measured), "met": target.met}
+                    for target in table.targets
+                ],
+                "data": table.data,
+            }
+            for table in tables
+        ],
+    }
+    return json.dumps(whole, indent=1, allow_nan=False, default=float) + "\n"
+
+
+def between_marks(document: str, block: str) -> str:
+    """The document with what lies between the two marks replaced. Raises LucidaError."""
+    before, begin, rest = document.partition(BEGIN)
+    _, end, after = rest.partition(END)
+    if not begin or not end:
+        raise LucidaError("README.md", f"{BEGIN} or {END} is missing", "put them in")
+    return f"{before}{BEGIN}\n{block.strip()}\n{END}{after}"
+
+
+def _finite(number: float) -> float | None:
+    return number if math.isfinite(number) else None
+
+
+def _version(name: str) -> str:
+    try:
+        return metadata.version(name)
+    except metadata.PackageNotFoundError:
+        return "not installed"

@@ -1,0 +1,75 @@
+"""How times grow: with the threads, with the pixels, with the triangles."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from functools import partial
+
+from tests.benchmarks.cameras import easy_views
+from tests.benchmarks.measure import Timing
+from tests.benchmarks.peers import Peer, Trimesh, processors
+from tests.benchmarks.report import Table, short, times
+from tests.benchmarks.run import HD, Run, size_text
+from tests.benchmarks.scenes import Subject, knot
+
+SIZES = ((640, 360), (1280, 720), (2560, 1440))
+TRIANGLES = (10_000, 100_000, 1_000_000)
+AXES = ("threads", "pixels", "triangles")
+
+
+def measure(run: Run) -> list[Table]:
+    """One table: a row a number of threads, of pixels, of triangles; the knot, perspective."""
+    kinds = run.all_kinds(Trimesh)
+    header = ("what grows", "to", *(f"{kind.name} ms (times the row above)" for kind in kinds))
+    table = Table("scaling", "Scaling: threads, pixels x4, triangles x10; visibility", header)
+    middle = Subject("100k", *knot(100_000))
+    counts = sorted({1, 2, processors()} & set(range(1, processors() + 1)))
+    _grow(run, table, kinds, "threads", [(str(n), middle, HD, n) for n in counts])
+    _grow(run, table, kinds, "pixels", [(size_text(s), middle, s, None) for s in SIZES])
+    if not run.quick:
+        meshes = [Subject(f"{n:,}", *knot(n)) for n in TRIANGLES]
+        _grow(run, table, kinds, "triangles", [(m.name, m, HD, None) for m in meshes])
+    return [table]
+
+
+def _grow(
+    run: Run,
+    table: Table,
+    kinds: tuple[type[Peer], ...],
+    axis: str,
+    steps: list[tuple[str, Subject, tuple[int, int], int | None]],
+) -> None:
+    """Measures all steps of one axis in the same rounds."""
+    run.say(f"scaling: {axis}")
+    ready: list[Peer] = []
+    calls: dict[str, Callable[[], object]] = {}
+    try:
+        for step, subject, size, threads in steps:
+            camera = easy_views(subject, size)[0].camera
+            for kind in kinds:
+                tracer = kind(threads)
+                tracer.prepare(subject.vertices, subject.faces)
+                ready.append(tracer)
+                calls[f"{step} {kind.name}"] = partial(tracer.trace, camera, size)
+        timings = run.time(calls)
+    finally:
+        for tracer in ready:
+            tracer.close()
+    above: dict[str, Timing] = {}
+    for step, subject, size, threads in steps:
+        own = {kind.name: timings[f"{step} {kind.name}"] for kind in kinds}
+        cells = []
+        for name, timing in own.items():
+            growth = timing.median_s / above[name].median_s if above else float("nan")
+            cells.append(short(1e3 * timing.median_s) + (f" ({times(growth)})" if above else ""))
+        above = own
+        table.add(
+            axis,
+            step,
+            *cells,
+            axis=axis,
+            threads=threads or processors(),
+            size=list(size),
+            triangles=subject.triangles,
+            times={name: timing.numbers() for name, timing in own.items()},
+        )

@@ -1,0 +1,91 @@
+"""Single rays in batches: shadows, mirror reflections, and rays that go anywhere.
+
+The rays start where the primary ones of a view hit. Each tracer gets them in the form that it
+takes, made before the watch starts.
+"""
+
+from __future__ import annotations
+
+from functools import partial
+
+import numpy as np
+
+from renderer.trace import Tracer
+from tests.benchmarks.cameras import Rays, easy_views
+from tests.benchmarks.peers import Open3D, Trimesh
+from tests.benchmarks.report import Table, ms, short, times
+from tests.benchmarks.run import Run
+from tests.benchmarks.scenes import Subject, scene_of
+
+AT_LEAST_OPEN3D = 1.5
+SIZE = (960, 540)
+SEED = 3
+
+
+def measure(run: Run) -> list[Table]:
+    """One table: a row a scene and kind of rays."""
+    kinds = [kind for kind in run.kinds if kind is not Trimesh]
+    header: tuple[str, ...] = ("scene", "rays", "thousands", "Lucida ms (quartiles)", "Mrays/s")
+    header += tuple(f"{kind.name} ms (times ours)" for kind in kinds)
+    table = Table("secondary", "Single rays: shadows (any hit), reflections (closest hit)", header)
+    ratios: dict[str, list[float]] = {}
+    for subject in run.subjects("small", "70k", "1M"):
+        sets = secondary_rays(subject)
+        with run.tracers(subject, Trimesh) as tracers:
+            if not tracers[0].has_batches:
+                table.notes = ["Lucida's Tracer takes no batches of rays yet."]
+            tracers = [tracer for tracer in tracers if tracer.has_batches]
+            for name, (origins, directions) in sets.items():
+                run.say(f"secondary: {subject.name}, {name}")
+                any_hit = name.startswith("shadow")
+                calls = {}
+                for tracer in tracers:
+                    trace = tracer.any_hits if any_hit else tracer.closest_hits
+                    calls[tracer.name] = partial(trace, tracer.batch(origins, directions))
+                timings = run.time(calls)
+                own = timings.get("Lucida")
+                cells = [subject.name, name, short(len(origins) / 1e3)]
+                cells += [ms(own), short(len(origins) / own.median_s / 1e6)] if own else ["-", "-"]
+                for kind in kinds:
+                    peer_s = timings[kind.name].median_s
+                    ratio = peer_s / own.median_s if own else float("nan")
+                    cells.append(f"{short(1e3 * peer_s)} ({times(ratio)})")
+                    if kind is Open3D:
+                        ratios.setdefault("any hit" if any_hit else "closest hit", []).append(ratio)
+                table.add(
+                    *cells,
+                    scene=subject.name,
+                    rays=name,
+                    count=len(origins),
+                    times={name: timing.numbers() for name, timing in timings.items()},
+                )
+    for name, own_ratios in ratios.items():
+        table.target(f"{name}, against Open3D, worst", min(own_ratios), AT_LEAST_OPEN3D, "x")
+    return [table]
+
+
+def secondary_rays(subject: Subject) -> dict[str, tuple[Rays, Rays]]:
+    """Batches of rays, origins and directions float32 (n, 3), from the points that a view shows.
+
+    shadow: towards a light far away. mirror: the viewing ray reflected. diffuse: a direction of
+    the hemisphere about the normal, by its cosine, in no order.
+    """
+    camera = easy_views(subject, SIZE)[0].camera
+    with Tracer(scene_of(subject)) as tracer:
+        frame = tracer.render(camera, SIZE, ("depth", "normal"))
+    depth, normal = frame.channel("depth").ravel(), frame.channel("normal").reshape(-1, 3)
+    hit = np.isfinite(depth)
+    viewing = camera.rays(SIZE)
+    origin, direction = (part.reshape(-1, 3)[hit] for part in viewing)
+    n = normal[hit].astype(float)
+    start = origin + depth[hit, None] * direction + n * (1e-4 * subject.radius)
+    unit = direction / np.linalg.norm(direction, axis=1, keepdims=True)
+    mirrored = unit - 2 * np.einsum("ij,ij->i", unit, n)[:, None] * n
+    light = np.broadcast_to(np.array([0.3, 0.9, -0.3]), n.shape)
+    ball = np.random.default_rng(SEED).normal(size=n.shape)
+    cosine = n + ball / np.linalg.norm(ball, axis=1, keepdims=True) * (1 - 1e-6)
+    ways = {"shadow": light, "mirror": mirrored, "diffuse": cosine}
+    return {
+        name: (start.astype(np.float32), np.ascontiguousarray(way, np.float32))
+        for name, way in ways.items()
+    }
