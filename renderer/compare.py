@@ -204,10 +204,12 @@ def _explain(
     (first, t_first), (second, t_second) = seen
     t = np.where(second >= 0, t_second, t_first)
     same = (first == second) & (first >= 0)
+    # Within one flat triangle nothing jumps; on a sphere depth and normal do, at its silhouette.
+    same_triangle = same & (first < len(flat.faces))
     # The cases in the order of CAUSES: each a distance in pixels.
     outline = np.fmin(lines.outline_px(first, i, j), lines.outline_px(second, i, j))
     distances = [
-        np.where(same, np.inf, outline),
+        np.where(same_triangle, np.inf, outline),
         lines.meeting_px(first, second, i, j, t),
         np.fmin(lines.clip_px(first, i, j, t_first), lines.clip_px(second, i, j, t_second)),
         np.where(same, lines.checker_px(second, i, j, t), np.inf),

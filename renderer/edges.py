@@ -26,6 +26,7 @@ Numbers = NDArray[np.integer] | NDArray[np.floating]
 Function = Callable[[float, float], Floats]  # of an offset (rows, columns) in pixels
 
 STEP_PX = 1 / 256  # of the central differences: well inside the tolerance, far above rounding
+NUDGE = 1e-3  # cells: how far below the surface both renderers look up a checker's cell
 BEHIND = 1e-9  # outlines are clipped where the ray parameter falls below this part of its largest
 
 
@@ -87,7 +88,12 @@ class Lines:
             at = self.parameter(primitive, i + di, j + dj, t)
             origin, direction = self.camera.ray(i + di, j + dj, self.size)
             point = origin + at[:, None] * direction
-            return np.einsum("nk,nk->n", rows[:, axis, :3], point) + rows[:, axis, 3]
+            facing = self._facing(primitive, point, direction)
+            inward = np.einsum("nrk,nk->nr", rows[:, :, :3], facing)
+            with np.errstate(divide="ignore", invalid="ignore"):  # what is not hit
+                inward *= NUDGE / np.linalg.norm(inward, axis=1, keepdims=True)
+            here = np.einsum("nk,nk->n", rows[:, axis, :3], point) + rows[:, axis, 3]
+            return here - inward[:, axis]
 
         for axis in range(3):
             border = np.round(cell(axis, 0, 0))
@@ -121,6 +127,17 @@ class Lines:
             is_near = np.abs(near - t[sphere]) <= np.abs(far - t[sphere])
         result[sphere] = np.where(is_near, near, far)
         return result
+
+    def _facing(self, primitive: Ints, point: Floats, direction: Floats) -> Floats:
+        """The geometric normal on the viewer's side; not unit length. (n, 3)."""
+        normal = np.zeros_like(point)
+        triangle, sphere = self._kinds(primitive)
+        a, b, c = self._corners(primitive[triangle])
+        normal[triangle] = np.cross(b - a, c - a)
+        center = self.flat.spheres[primitive[sphere] - len(self.flat.faces), :3]
+        normal[sphere] = point[sphere] - center
+        away = np.einsum("nk,nk->n", normal, direction) > 0
+        return np.where(away[:, None], -normal, normal)
 
     def _kinds(self, primitive: Ints) -> tuple[NDArray[np.bool_], NDArray[np.bool_]]:
         triangles = len(self.flat.faces)
