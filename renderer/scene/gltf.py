@@ -224,10 +224,10 @@ def _smaller_tree(tree: Gltf, keys: list[tuple[int, int]]) -> tuple[dict[str, An
             smaller["indices"] = accessors.setdefault(primitive.indices, len(accessors))
         meshes.append({"name": str(number), "primitives": [smaller]})
     for source in accessors:
-        view = tree.accessors[source].buffer_view
-        assert view is not None
-        views.setdefault(view, len(views))
-    buffers = sorted({tree.buffer_views[view].buffer for view in views})
+        used = tree.accessors[source].buffer_view
+        assert used is not None
+        views.setdefault(used, len(views))
+    buffers = sorted({tree.buffer_views[number].buffer for number in views})
     new_accessors = []
     for accessor in (tree.accessors[source] for source in accessors):
         assert accessor.buffer_view is not None
@@ -279,7 +279,7 @@ def _check_accessor(tree: Gltf, number: int, types: tuple[str, ...], field: str)
     stride = view.byte_stride or item
     if stride < item:
         raise LucidaError(
-            f"bufferViews[{accessor.buffer_view}].byte_stride",
+            f"bufferViews[{accessor.buffer_view}].byteStride",
             f"{stride} is below the {item} bytes of an element",
             "export it again",
         )
@@ -301,5 +301,7 @@ def _check_views(tree: dict[str, Any], buffers: dict[str, bytes]) -> None:
 
 def _at(entries: list[Any], number: int, field: str) -> Any:
     if number >= len(entries):
-        raise LucidaError(field, f"names entry {number} of {len(entries)}", "export it again")
+        raise LucidaError(
+            field, f"names entry {number}, counted from 0, of {len(entries)}", "export it again"
+        )
     return entries[number]

@@ -11,7 +11,7 @@ import base64
 import binascii
 import urllib.parse
 from pathlib import Path
-from typing import Annotated
+from typing import Annotated, Any
 
 import msgspec
 
@@ -49,7 +49,7 @@ class Accessor(msgspec.Struct, rename="camel"):
     buffer_view: Index | None = None
     byte_offset: Count = 0
     normalized: bool = False
-    sparse: msgspec.Raw | None = None
+    sparse: Any = None
 
 
 class Primitive(msgspec.Struct, rename="camel"):
@@ -64,7 +64,7 @@ class GltfMesh(msgspec.Struct, rename="camel"):
     name: str = ""
 
 
-class Pbr(msgspec.Struct, rename="camel"):
+class Pbr(msgspec.Struct, rename="camel", frozen=True):
     base_color_factor: tuple[float, float, float, float] = (1.0, 1.0, 1.0, 1.0)
     metallic_factor: float = 1.0
     roughness_factor: float = 1.0
@@ -191,7 +191,7 @@ def _file_beside(uri: str, field: str, path: Path) -> bytes:
             field, f"{uri[:80]!r} is not in the model's folder", "put the file beside the model"
         )
     try:
-        return read_file(target, BINARY_MODEL_BYTES)
+        return read_file(path.parent / name, BINARY_MODEL_BYTES)
     except LucidaError as error:
         raise LucidaError(field, f"{uri[:80]!r} {error.problem}", error.remedy) from None
 

@@ -16,5 +16,5 @@ MATERIAL_BYTES = 4 << 20  # of the .mtl file of an .obj file
 OBJECTS = 10_000  # of a scene, after the parts of its models are counted apart
 LIGHTS = 64
 TRIANGLES = 20_000_000  # of a scene, instances counted as often as they appear
-SEGMENTS = 2048  # of a round shape, in one direction
+SEGMENTS = 1024  # of a round shape, in one direction
 NODE_DEPTH = 1000  # of a glTF file's tree

@@ -5,6 +5,7 @@ Owns the choice between them, by name and by ending. Knows nothing of what is in
 
 from __future__ import annotations
 
+import difflib
 from pathlib import Path
 
 from renderer.errors import LucidaError
@@ -51,11 +52,13 @@ def load_scene(source: str | Path) -> Scene:
         raise LucidaError(
             "", "does not exist", f"{neighbours(path)}; scenes are {endings}", str(path)
         )
+    close = difflib.get_close_matches(str(source)[:100], BUILTIN_SCENES, 1)
+    guess = f"did you mean {close[0]!r}? " if close else ""
     raise LucidaError(
         "scene",
         f"{str(source)[:80]!r} is neither a built-in scene nor a file",
-        f"{suggestion(str(source), BUILTIN_SCENES)}; built-in: {', '.join(BUILTIN_SCENES)}; "
-        f"or give a file ending in {' '.join(SCENE_ENDINGS)}",
+        f"{guess}built-in scenes are {', '.join(BUILTIN_SCENES)}; files end in "
+        + " ".join(SCENE_ENDINGS),
     )
 
 

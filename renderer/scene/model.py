@@ -169,15 +169,11 @@ class Mesh:
                     raise LucidaError(name, "holds NaN or infinity", "repair the mesh")
                 object.__setattr__(self, name, value)
         transform = _array("transform", self.transform, np.float64, (4, 4))
+        if not ((np.abs(transform) <= LARGEST).all() and (transform[3] == (0, 0, 0, 1)).all()):
+            raise LucidaError("transform", "is too large, or not affine", "scale it down")
         linear = transform[:3, :3]
         lengths = np.linalg.norm(linear, axis=0)
-        sound = np.isfinite(transform).all() and (transform[3] == (0, 0, 0, 1)).all()
-        if not (
-            sound
-            and (lengths > 1e-12).all()
-            and (np.abs(transform) <= LARGEST).all()
-            and abs(np.linalg.det(linear / lengths)) > 1e-9
-        ):
+        if not ((lengths > 1e-12).all() and abs(np.linalg.det(linear / lengths)) > 1e-9):
             raise LucidaError("transform", "is not invertible", "give scales other than 0")
         object.__setattr__(self, "transform", transform)
 

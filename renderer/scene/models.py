@@ -112,7 +112,7 @@ def _gltf_objects(path: Path) -> list[SceneObject]:
 
 def _is_flat(matrix: np.ndarray) -> bool:
     """Scaled by 0, the way files hide a node."""
-    return bool((np.linalg.norm(matrix[:3, :3], axis=0) == 0).any())
+    return bool((np.abs(matrix[:3, :3]).max(axis=0) == 0).any())
 
 
 def _material(part: Part) -> Material:

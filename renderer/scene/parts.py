@@ -142,7 +142,7 @@ def _attribute(value: Any, count: int) -> NDArray[Any] | None:
 
 def _check_used(vertices: NDArray[np.float64], faces: NDArray[np.int64]) -> None:
     """Raises LucidaError where a face uses a vertex that is not a usable point."""
-    wrong = ~(np.abs(vertices) <= LARGEST).all(axis=1)  # true for NaN too
+    wrong = np.logical_not((np.abs(vertices) <= LARGEST).all(axis=1))  # true for NaN too
     if not wrong.any():
         return
     wrong_used = np.unique(faces[wrong[faces]])

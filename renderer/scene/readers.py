@@ -7,6 +7,7 @@ against its size, so that no lie sets memory aside. Knows nothing of glTF or of 
 from __future__ import annotations
 
 import io
+import itertools
 import re
 from collections.abc import Iterator, Mapping
 from pathlib import Path
@@ -33,26 +34,32 @@ SPLIT_WORK = 1 << 31  # parts times vertices of an .obj file up to which it is s
 _RELATIVE = re.compile(r"^f[^\n]*[ \t/](?:-\d|0+(?![0-9.]))", re.MULTILINE)
 _COMMENT = re.compile(r"^((?:f|v[nt]?)[ \t][^#\n]*)#[^\n]*", re.MULTILINE)
 _UNTIDY = re.compile(r"^(?:[ \t]+(?=\S)|(f|v[nt]?|o|g|usemtl|mtllib)[ \t]*\t[ \t]*)", re.MULTILINE)
+_SOLID = re.compile(r"^solid\b([^\n]*)", re.MULTILINE | re.IGNORECASE)
 _DIVISION = re.compile(r"^(?:o|g|usemtl|mtllib)\b[^\n]*\n", re.MULTILINE)
 
 
 def read_obj(path: Path) -> list[Part]:
     """The parts of a Wavefront .obj: one for each object and material, in the file's order."""
-    text = _text(read_file(path, TEXT_MODEL_BYTES))
+    original = text = _text(read_file(path, TEXT_MODEL_BYTES))
     if "\nf " not in text:
         return []
     vertices = text.count("\nv ")
     divisions = text.count("\no ") + text.count("\nusemtl ") + 1
     if divisions > OBJECTS or divisions * vertices > SPLIT_WORK:
         text = _DIVISION.sub("", text)
-    if _RELATIVE.search(text):
+    faces = text[text.find("\nf ") :]
+    if any(sign in faces for sign in ("-", " 0", "/0")) and _RELATIVE.search(faces):
         text = _absolute_indices(text)
-    with guarded(path, "OBJ"):
-        from trimesh.exchange.obj import load_obj
+    try:
+        with guarded(path, "OBJ"):
+            from trimesh.exchange.obj import load_obj
 
-        found = load_obj(
-            io.StringIO(text), _BesideIt(path.parent), split_objects=True, group_material=True
-        )
+            found = load_obj(
+                io.StringIO(text), _BesideIt(path.parent), split_objects=True, group_material=True
+            )
+    except LucidaError:
+        _blame_line(path, original)
+        raise
     parts = []
     for name, fields in reversed(_geometries(found, path.stem)):
         material = _obj_material(fields.get("visual"))
@@ -69,14 +76,16 @@ def read_ply(path: Path) -> list[Part]:
     header, body = data[: end.end()].decode("utf-8", "replace"), data[end.end() :]
     if "ascii" in header.split("\n", 2)[1]:
         check_bytes(len(data), TEXT_MODEL_BYTES, str(path))
-        body = body.decode("utf-8", "replace").replace("\r", "\n").replace("\n\n", "\n").encode()
-        _check_rows(path, _ply_rows(header, least_bytes=False), body.count(b"\n") + 1, "lines")
+        lines = _lines(body.decode("utf-8", "replace"))
+        body = "\n".join(lines).encode()
+        _check_rows(path, _ply_rows(header, least_bytes=False), len(lines), "lines")
     else:
         _check_rows(path, _ply_rows(header, least_bytes=True), len(body), "bytes")
     with guarded(path, "PLY"):
         from trimesh.exchange.ply import load_ply
 
-        # Textures and edges are left alone.
+        # Edges and textures are passed over: under this name trimesh does not look for edges.
+        header = re.sub(r"(?m)^element edge\b", "element edges", header)
         found = load_ply(io.BytesIO(header.encode() + body), skip_materials=True)
     return [_part(path.stem, fields) for _, fields in _geometries(found, path.stem)]
 
@@ -85,6 +94,7 @@ def read_stl(path: Path) -> list[Part]:
     """The solids of an .stl file, text or binary."""
     data = read_file(path, BINARY_MODEL_BYTES)
     triangles = int.from_bytes(data[80:84], "little")
+    names: list[str] = []
     if len(data) != 84 + 50 * triangles or len(data) < 84:
         if not data.lstrip()[:5].lower() == b"solid":
             raise _damaged(
@@ -95,36 +105,44 @@ def read_stl(path: Path) -> list[Part]:
                 else "is too short to be STL",
             )
         check_bytes(len(data), TEXT_MODEL_BYTES, str(path))
-        data = _text(data).encode()
-        solids = data.lower().count(b"endsolid")
+        text = _text(data)
+        solids = text.lower().count("endsolid")
         if not solids:
             raise _damaged(path, "has no 'endsolid'")
         _check_limit(path, solids, OBJECTS, "solids")
+        # trimesh takes quadratic time over equal names.
+        names = [match[1].strip() for match in _SOLID.finditer(text)]
+        numbers = itertools.count()
+        data = _SOLID.sub(lambda _: f"solid {next(numbers)}", text).encode()
     else:
         _check_limit(path, triangles, TRIANGLES, "triangles")
     with guarded(path, "STL"):
         from trimesh.exchange.stl import load_stl
 
         found = load_stl(io.BytesIO(data))
-    return [_part(name, fields) for name, fields in _geometries(found, path.stem)]
+    parts = []
+    for number, fields in _geometries(found, ""):
+        name = names[int(number)] if number.isdigit() and int(number) < len(names) else ""
+        parts.append(_part(name or path.stem, fields))
+    return parts
 
 
 def read_off(path: Path) -> list[Part]:
     """The mesh of an .off file (text; vertex colours are not read)."""
-    text = _text(read_file(path, TEXT_MODEL_BYTES))
-    words = re.sub(r"#[^\n]*", "", text[: 1 << 16]).split(None, 4)
-    header = words[0] if words else ""
-    if not re.fullmatch(r"[A-Z0-9]*OFF", header):
+    text = re.sub(r"#[^\n]*", "", _text(read_file(path, TEXT_MODEL_BYTES)))
+    lines = _lines(text)
+    words = " ".join(lines[:3]).split(None, 3)
+    if not words or not re.fullmatch(r"[A-Z0-9]*OFF", words[0]):
         raise _damaged(path, "does not begin with OFF")
-    if header not in ("OFF", "COFF", "NOFF", "CNOFF", "STOFF") or words[1:2] == ["BINARY"]:
-        raise LucidaError(
-            "", f"is of the kind {header} {words[1]}", "export a plain OFF", str(path)
-        )
-    _check_rows(path, [_whole(path, word) for word in words[1:3]], text.count("\n"), "lines")
+    if words[0] not in ("OFF", "COFF", "NOFF", "CNOFF", "STOFF") or words[1:2] == ["BINARY"]:
+        raise LucidaError("", f"is of the kind {words[0]}", "export a plain OFF", str(path))
+    counts = [_whole(path, word) for word in words[1:3]]
+    first = 2 if lines[0] == words[0] else 1  # the counts may stand beside the keyword
+    _check_rows(path, counts, len(lines) - first, "lines")
     with guarded(path, "OFF"):
         from trimesh.exchange.off import load_off
 
-        found = load_off(io.StringIO(text))
+        found = load_off(io.StringIO("\n".join(lines)))
     return [_part(path.stem, fields) for _, fields in _geometries(found, path.stem)]
 
 
@@ -153,8 +171,52 @@ class _BesideIt(Mapping[str, bytes]):
 def _text(data: bytes) -> str:
     """Text with newlines only, tidy enough for trimesh; what is not UTF-8 is replaced."""
     text = data.decode("utf-8-sig", "replace").replace("\r\n", "\n").replace("\r", "\n")
-    text = _UNTIDY.sub(lambda match: f"{match[1]} " if match[1] else "", f"\n{text}\n")
-    return _COMMENT.sub(r"\1", text)
+    text = f"\n{text}\n"
+    if "\t" in text or "\n " in text:
+        text = _UNTIDY.sub(lambda match: f"{match[1]} " if match[1] else "", text)
+    if text.count("#") > text.count("\n#"):
+        text = _COMMENT.sub(r"\1", text)
+    return text
+
+
+def _lines(text: str) -> list[str]:
+    """The lines of a text that are not empty."""
+    return [line for line in map(str.strip, text.split("\n")) if line]
+
+
+def _blame_line(path: Path, text: str) -> None:
+    """Raises LucidaError for the first line that trimesh may have stumbled over, if there is one.
+
+    text: as _text() gives it, with an empty line before the first.
+    """
+    vertices = text.count("\nv ")
+    above = 0
+    for number, line in enumerate(text.split("\n")):
+        keyword, _, rest = line.partition(" ")
+        where = f"line {number}"
+        if keyword == "v":
+            above += 1
+            try:
+                if len([float(word) for word in rest.split()[:3]]) < 3:
+                    raise ValueError
+            except ValueError:
+                raise LucidaError(
+                    where, f"{line[:60]!r} is not a vertex", "repair the line", str(path)
+                ) from None
+        elif keyword == "f":
+            for corner in rest.split():
+                index = corner.split("/")[0]
+                if not re.fullmatch(r"[-+]?\d{1,18}", index):
+                    raise LucidaError(
+                        where, f"{line[:60]!r} is not a face", "repair the line", str(path)
+                    )
+                if int(index) == 0 or not -above <= int(index) <= vertices:
+                    raise LucidaError(
+                        where,
+                        f"{line[:60]!r} uses vertex {int(index)} of {vertices}",
+                        "repair the line",
+                        str(path),
+                    )
 
 
 def _absolute_indices(text: str) -> str:

@@ -79,7 +79,7 @@ def neighbours(path: Path) -> str:
             names = [entry.name for entry, _ in zip(entries, range(10_000), strict=False)]
     except (OSError, ValueError):
         return "check its name and folder"
-    close = difflib.get_close_matches(path.name[:255], names, 1)
+    close = difflib.get_close_matches(path.name[:255], names, 1, 0.75)
     return f"did you mean {str(path.with_name(close[0]))!r}?" if close else "check its name"
 
 

@@ -9,7 +9,7 @@ Lengths are in world units, angles in degrees, y is up.
 
 from __future__ import annotations
 
-from typing import Any, Literal
+from typing import Any
 
 import msgspec
 
@@ -33,7 +33,7 @@ class CameraFields(Table):
     w: Numbers3 = (0.0, 0.0, 1.0)
     distance: float = 1.0
     viewport: tuple[float, float, float, float] = (-0.5, 0.5, -0.5, 0.5)
-    projection: Literal["perspective", "parallel"] = "perspective"
+    projection: str = "perspective"
     near: float | None = None
     far: float | None = None
     fit: bool | None = None
@@ -52,7 +52,7 @@ class LookAtFields(Table):
     fov_y_deg: float | None = None
     distance: float | None = None
     aspect: float = 1.0
-    projection: Literal["perspective", "parallel"] = "perspective"
+    projection: str = "perspective"
     near: float | None = None
     far: float | None = None
     fit: bool | None = None

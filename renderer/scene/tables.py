@@ -47,8 +47,8 @@ def parse_toml(text: str) -> dict[str, Any]:
         raise _syntax_error(str(error), text) from None
     except RecursionError:
         raise LucidaError("", "is nested too deeply", "write it with fewer brackets") from None
-    except ValueError as error:  # numbers that Python refuses, such as one of 5000 digits
-        raise LucidaError("", f"is not TOML: {error}", "correct that number") from None
+    except ValueError:  # Python's own limit on the digits of a number
+        raise LucidaError("", "holds a number of too many digits", "shorten it") from None
     version = tables.pop("lucida", VERSION)
     if isinstance(version, bool) or not isinstance(version, int) or version < 1:
         raise LucidaError("lucida", f"{version!r} is no version", f"give lucida = {VERSION}")
@@ -62,7 +62,10 @@ def parse_toml(text: str) -> dict[str, Any]:
 
 
 def to_struct(value: Any, kind: Any, prefix: str = "") -> Any:
-    """The value as a msgspec structure or a union of them; LucidaError with the field's path under `prefix`."""
+    """The value as a msgspec structure, or one of a union of them.
+
+    Raises LucidaError with the field's path under `prefix`.
+    """
     try:
         return msgspec.convert(value, kind)
     except msgspec.ValidationError as error:
