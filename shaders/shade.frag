@@ -40,7 +40,10 @@ void main() {
             anchor + image_from_world * a,
             anchor + image_from_world * b,
             anchor + image_from_world * c, xy);
-        hit.point = to_ray(anchor, xy) + (hit.t - anchor.z) * d;
+        float reach = sqrt(max(max(dot(a, a), dot(b, b)), dot(c, c)) / dot(d, d));
+        hit.point = is_far(reach, hit.t)
+            ? mat3(a, b, c) * weights
+            : to_ray(anchor, xy) + (hit.t - anchor.z) * d;
         hit.normal = normalize(cross(b - a, c - a));
         mat3 normals = mat3(
             texelFetch(vertices, texel(3 * face.x + 1), 0).xyz,
@@ -54,10 +57,13 @@ void main() {
     } else {
         Sphere sphere = sphere_at(primitive - triangle_count);
         hit.object = sphere.object;
-        hit.t = sphere_t(sphere, xy);
+        vec3 normal;
+        hit.t = sphere_t(sphere, xy, normal);
         vec3 anchor = object_anchor(hit.object);
-        hit.point = to_ray(anchor, xy) + (hit.t - anchor.z) * d;
-        hit.normal = normalize(to_ray(sphere.center, xy) + (hit.t - sphere.center.z) * d);
+        hit.point = is_far(sphere.radius * inversesqrt(dot(d, d)), hit.t)
+            ? sphere.from_anchor + normal
+            : to_ray(anchor, xy) + (hit.t - anchor.z) * d;
+        hit.normal = normalize(normal);
         hit.smooth_normal = vec3(0.0);
         hit.vertex_color = vec3(1.0);
     }

@@ -10,7 +10,8 @@ flat in int number;
 out int primitive;
 
 void main() {
-    float t = sphere_t(sphere_at(number), image_position(gl_FragCoord.xy));
+    vec3 normal;
+    float t = sphere_t(sphere_at(number), image_position(gl_FragCoord.xy), normal);
     if (!counts(t)) {
         discard;
     }

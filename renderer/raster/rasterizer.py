@@ -241,13 +241,14 @@ class SceneData:
         flat = self._flat
         space = image_space(camera, size, flat.bounds)
         self._block.write(camera_block(camera, size, space, flat))
-        self._objects.write(object_rows(flat, self._setup, camera, space))
+        objects = object_rows(flat, self._setup, camera, space)
+        self._objects.write(objects)
         if len(flat.faces):
             rows = self._rows.texels[: len(flat.faces), :3]
             triangle_rows(self._setup.planes, space, camera.is_parallel, rows)
             self._rows.write()
         if len(flat.spheres):
-            self._spheres.write(sphere_rows(flat, camera, space))
+            self._spheres.write(sphere_rows(flat, space, objects))
         self._camera = camera, size
 
     def draw_primitives(self, left_handed: bool) -> None:

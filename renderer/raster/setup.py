@@ -189,18 +189,20 @@ def object_rows(
     return rows
 
 
-def sphere_rows(flat: FlatScene, camera: Camera, space: ImageSpace) -> NDArray[np.float32]:
-    """(spheres, SPHERE_TEXELS, 4): centre in image coordinates, radius | eye - centre,
-    |eye - centre|^2 - radius^2 | the object's number."""
+def sphere_rows(flat: FlatScene, space: ImageSpace, objects: NDArray) -> NDArray[np.float32]:
+    """(spheres, SPHERE_TEXELS, 4): centre in image coordinates, radius | from the centre to the
+    origin of the ray through the image's centre, |that|^2 - radius^2 | from the object's anchor to
+    the centre, the object's number. objects: from object_rows()."""
     rows = np.zeros((len(flat.spheres), SPHERE_TEXELS, 4), np.float32)
     center, radius = flat.spheres[:, :3].astype(np.float64), flat.spheres[:, 3].astype(np.float64)
     rows[:, 0, :3] = center @ space.image_from_world[:, :3].T + space.image_from_world[:, 3]
     rows[:, 0, 3] = radius
-    from_center = np.asarray(camera.eye) - center
+    from_center = space.origin - center
     rows[:, 1, :3] = from_center
     distance = np.linalg.norm(from_center, axis=1)
-    rows[:, 1, 3] = np.minimum((distance - radius) * (distance + radius), FLOAT32_MAX)
-    rows[:, 2, 0] = flat.sphere_object
+    rows[:, 1, 3] = (distance - radius) * (distance + radius)
+    rows[:, 2, :3] = center - objects[flat.sphere_object, 1, :3]
+    rows[:, 2, 3] = flat.sphere_object
     return rows
 
 

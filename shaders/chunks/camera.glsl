@@ -52,3 +52,8 @@ bool counts(float t) {
 float depth(float t) {
     return clamp(float(floatBitsToInt(t) - depth_low) * depth_scale, 0.0, 0.9999999);
 }
+
+// Whether a hit at t is better located from something near it, `reach` away, than from the eye.
+bool is_far(float reach, float t) {
+    return reach < t;
+}
