@@ -16,7 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from renderer.scene.flat import FlatScene
-from renderer.scene.model import Mesh, Scene, Sphere
+from renderer.scene.model import Mesh, Scene
 from renderer.trace.team import Team
 from renderer.trace.wide import FIRST_LEAF, WIDTH, WideTree, tree_of_boxes, tree_of_mesh
 
@@ -51,7 +51,12 @@ class World(NamedTuple):
 
 
 class Instances:
-    """The two levels of one scene. Raises LucidaError where flatten() does."""
+    """The two levels of one scene.
+
+    world: what kernels walk. world_from_space: float64 (instances + 1, 4, 4), the transform of each
+    instance, and of the world itself, in whose space the upper tree is. bounds: float64
+    (instances + 1, 2, 3), lowest and highest corner in each of these spaces.
+    """
 
     def __init__(self, scene: Scene, flat: FlatScene, team: Team) -> None:
         self._team = team
@@ -121,18 +126,15 @@ class Instances:
         object_number = np.array([number for number, _ in objects], np.int32)
         matrix = np.array([mesh.transform for mesh in meshes]).reshape(-1, 4, 4)
         bounds = np.array([self._trees[_key(mesh)].bounds for mesh in meshes]).reshape(-1, 2, 3)
-        self.world_from_object: NDArray[np.float64] = matrix
-        self.object_bounds: NDArray[np.float64] = bounds
-        spheres = np.array(
-            [(*e.shape.center, e.shape.radius) for e in scene.objects if isinstance(e.shape, Sphere)],
-            np.float64,
-        ).reshape(-1, 4)
+        spheres = flat.spheres.astype(np.float64)
         low, high = _world_boxes(matrix, bounds)
         low = np.concatenate([low, spheres[:, :3] - spheres[:, 3:]])
         high = np.concatenate([high, spheres[:, :3] + spheres[:, 3:]])
         margin = _OUTWARDS * np.maximum(np.abs(low), np.abs(high))
         low, high = low - margin, high + margin
-        self.bounds = np.stack([low.min(0), high.max(0)]) if len(low) else np.zeros((2, 3))
+        whole = np.stack([low.min(0), high.max(0)]) if len(low) else np.zeros((2, 3))
+        self.world_from_space = np.concatenate([matrix, np.eye(4)[None]])
+        self.bounds = np.concatenate([bounds, whole[None]])
         top_box, top_child, self._top_levels = np.empty(0, np.float32), np.empty(0, np.int32), 1
         if len(low):
             top_box, top_child, self._top_levels = tree_of_boxes(

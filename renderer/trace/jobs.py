@@ -43,6 +43,8 @@ class Task:
 
     def trace(self, trace: TraceCall) -> None:
         """Traces the image, unless cancelled before. Called once, by the Tracer's thread."""
+        if self.finished.is_set():
+            return
         image = new_image(self.size, self.channels)
         with self._lock:
             if self.finished.is_set():
@@ -60,9 +62,13 @@ class Task:
             self._error = error
             self.finished.set()
 
-    def cancel(self) -> None:
-        """Ends a waiting task at once; a kernel at work leaves after the pixel in hand."""
+    def stop(self) -> None:
+        """Makes a kernel at work, or about to be, leave after the pixel in hand. Takes no lock."""
         cancel(self._control)
+
+    def cancel(self) -> None:
+        """Ends a waiting task at once, and stops one at work."""
+        self.stop()
         with self._lock:
             if not self._tracing:
                 self.finished.set()

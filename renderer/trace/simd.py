@@ -261,7 +261,10 @@ def store(typing, array, index, vector):  # type: ignore[no-untyped-def]
 @intrinsic
 def gather(typing, array, index, mask):  # type: ignore[no-untyped-def]
     """array[index[lane]] in the lanes of the mask; 0 in the others, whose index may be any."""
-    kind = _array_kind(array)
+    return _gather(_array_kind(array), array, index, mask)
+
+
+def _gather(kind: str, array: Any, index: Any, mask: Any) -> Any:
     if kind == "f64" or index != I32 or mask != MASK:
         raise TypingError("gather takes 32-bit elements, an I32 and a MASK")
 
@@ -276,6 +279,33 @@ def gather(typing, array, index, mask):  # type: ignore[no-untyped-def]
         return _call(builder, name, zero.type, [address, ir.Constant(_I32, 4), args[2], zero])
 
     return _VECTOR[kind](array, index, mask), codegen
+
+
+@intrinsic
+def fetch(typing, array, index, mask):  # type: ignore[no-untyped-def]
+    """A vector of array[index]: gathered for an I32 of indices, repeated for a number."""
+    kind = _array_kind(array)
+    if index == I32:
+        return _gather(kind, array, index, mask)
+
+    def codegen(context, builder, sig, args):  # type: ignore[no-untyped-def]
+        at = _pointer(context, builder, sig.args[0], args[0], sig.args[1], args[1])
+        return _splat(builder, builder.load(at, typ=_ELEMENT[kind]))
+
+    return _VECTOR[kind](array, index, mask), codegen
+
+
+@intrinsic
+def fetch_index(typing, array, index, mask):  # type: ignore[no-untyped-def]
+    """array[index]: gathered for an I32 of indices, one int32 for a number."""
+    if index == I32:
+        return _gather(_array_kind(array), array, index, mask)
+
+    def codegen(context, builder, sig, args):  # type: ignore[no-untyped-def]
+        at = _pointer(context, builder, sig.args[0], args[0], sig.args[1], args[1])
+        return builder.load(at, typ=_I32)
+
+    return types.int32(array, index, mask), codegen
 
 
 @intrinsic

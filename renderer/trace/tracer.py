@@ -35,7 +35,7 @@ class Tracer:
         self.scene = scene
         self.threads = check_threads(threads)
         self._worker = Worker(scene, self.threads)
-        weakref.finalize(self, self._worker.close)
+        weakref.finalize(self, self._worker.abandon)
 
     def render(
         self,

@@ -23,9 +23,10 @@ class Worker:
 
     def __init__(self, scene: Scene, threads: int) -> None:
         self._scene, self._threads = scene, threads
-        self._tasks: queue.SimpleQueue[Task | None] = queue.SimpleQueue()
+        self._queue: queue.SimpleQueue[Task | None] = queue.SimpleQueue()
         self._lock = threading.Lock()
-        self._unfinished: list[Task] = []
+        self._tasks: weakref.WeakSet[Task] = weakref.WeakSet()
+        self._current: Task | None = None
         self._thread: threading.Thread | None = None
         self._closed = False
 
@@ -34,8 +35,7 @@ class Worker:
         with self._lock:
             if self._closed:
                 raise LucidaError("tracer", "is closed", "make a new Tracer")
-            self._unfinished = [old for old in self._unfinished if not old.finished.is_set()]
-            self._unfinished.append(task)
+            self._tasks.add(task)
             if self._thread is None:
                 # A daemon, so that the interpreter's exit reaches _end_all instead of waiting.
                 self._thread = threading.Thread(
@@ -43,14 +43,25 @@ class Worker:
                 )
                 self._thread.start()
                 _workers.add(self)
-            self._tasks.put(task)
+            self._queue.put(task)
 
     def close(self) -> None:
-        """Cancels all tasks and ends the thread, without waiting for it; see join()."""
-        self._closed = True  # without the lock: a finalizer may run in the thread that holds it
-        self._tasks.put(None)
-        for task in list(self._unfinished):
-            task.cancel()
+        """Cancels all tasks and lets the thread end, without waiting for it; see join()."""
+        with self._lock:
+            self.abandon()
+            for task in list(self._tasks):
+                task.cancel()
+
+    def abandon(self) -> None:
+        """Lets the thread end, and cancel all tasks, once nobody can submit any more.
+
+        Takes no locks: as a finalizer, it may interrupt a thread that holds them.
+        """
+        self._closed = True
+        self._queue.put(None)
+        current = self._current
+        if current is not None:
+            current.stop()
 
     def join(self) -> None:
         """Waits for the thread to end."""
@@ -60,7 +71,10 @@ class Worker:
     def _serve(self) -> None:
         team = Team(self._threads)
         engine = None
-        while (task := self._tasks.get()) is not None:
+        while (task := self._queue.get()) is not None:
+            self._current = task
+            if self._closed:
+                task.cancel()
             try:
                 if engine is None and not task.finished.is_set():
                     from renderer.trace.engine import Engine  # imports numba
@@ -68,9 +82,11 @@ class Worker:
                     engine = Engine(self._scene, team)
                 if engine is not None:
                     task.trace(engine.trace)
+            except MemoryError:
+                task.fail(LucidaError("scene", "exceeds the memory", "use a smaller model"))
             except BaseException as error:
                 task.fail(error)
-            del task  # its buffers, while waiting for the next
+            task = self._current = None  # its buffers, while waiting for the next
         team.close()
 
 
