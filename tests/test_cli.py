@@ -6,14 +6,16 @@ import os
 import re
 import subprocess
 import sys
+from pathlib import Path
 
 import pytest
 
 from app import __version__
 from app.cli import main
-from app.commands import COMMANDS, render
+from app.commands import COMMANDS, render, view
 from renderer.scene import BUILTIN_SCENES
 
+ROOT = Path(__file__).parent.parent
 NAMES = [command.NAME for command in COMMANDS]
 VIEW = """\
 [camera]
@@ -78,6 +80,26 @@ class TestHelp:
         assert "app" in loaded
         heavy = {"numba", "llvmlite", "moderngl", "imgui_bundle", "glfw", "trimesh", "numpy", "PIL"}
         assert not loaded & heavy
+
+
+class TestWindow:
+    """`lucida` without a command's name; the window itself is left out."""
+
+    @pytest.mark.parametrize(
+        ("line", "scene"),
+        [
+            ("", None),
+            ("spheres", "spheres"),
+            ("./render", "./render"),
+            ("-- render", "render"),
+            ("--size 640x480 render", "render"),
+        ],
+    )
+    def test_which_scene(self, monkeypatch, line, scene):
+        seen = []
+        monkeypatch.setattr(view, "run", lambda arguments: seen.append(arguments.scene) or 0)
+        assert main(line.split()) == 0
+        assert seen == [scene]
 
 
 class TestMistakes:
@@ -189,6 +211,3 @@ class TestEnds:
     def test_scenes_are_those_of_the_renderer(self, capsys):
         assert main(["scenes"]) == 0
         assert tuple(capsys.readouterr().out.split()) == BUILTIN_SCENES
-
-
-ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
