@@ -1,0 +1,126 @@
+"""The tree: every primitive once, every box around what is below it, for any scene."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from trace_reference import ball, cast, closest, random_scene, scene_of, tree_of
+
+from renderer.scene.flat import FlatScene, flatten
+from renderer.scene.model import Mesh, Scene, Sphere
+from renderer.trace.bvh import MAX_DEPTH, Bvh, build
+from renderer.trace.team import Team
+
+
+def primitive_boxes(flat: FlatScene) -> tuple[np.ndarray, np.ndarray]:
+    corners = flat.vertices[flat.faces].astype(float).reshape(-1, 3, 3)
+    centre, radius = flat.spheres[:, :3].astype(float), flat.spheres[:, 3:].astype(float)
+    low = np.concatenate([corners.min(axis=1), centre - radius])
+    return low, np.concatenate([corners.max(axis=1), centre + radius])
+
+
+def check(flat: FlatScene, bvh: Bvh, leaf_size: int) -> None:
+    count = len(flat.faces) + len(flat.spheres)
+    assert sorted(bvh.order) == list(range(count))
+    low, high = primitive_boxes(flat)
+    visits = np.zeros(count, int)
+    used = np.zeros(len(bvh.bounds), int)
+    deepest = 0
+    stack = [(0, 1)] if count else []
+    while stack:
+        node, level = stack.pop()
+        used[node] += 1
+        deepest = max(deepest, level)
+        first, size = (int(number) for number in bvh.links[node])
+        box = bvh.bounds[node]
+        if size:
+            assert size <= leaf_size
+            visits[first : first + size] += 1
+            members = bvh.order[first : first + size]
+            assert (box[:3] <= low[members]).all()
+            assert (box[3:] >= high[members]).all()
+        else:
+            for child in (first, first + 1):
+                assert (box[:3] <= bvh.bounds[child, :3]).all()
+                assert (box[3:] >= bvh.bounds[child, 3:]).all()
+                stack.append((child, level + 1))
+    assert (visits == 1).all()
+    assert (used == 1).all()
+    assert deepest == bvh.depth
+
+
+def soup(count: int, seed: int = 0, spread: float = 1.0) -> Scene:
+    random = np.random.default_rng(seed)
+    centres = random.normal(size=(count, 1, 3)) * spread
+    vertices = (centres + 0.1 * random.normal(size=(count, 3, 3))).reshape(-1, 3)
+    return scene_of(Mesh(vertices, np.arange(3 * count).reshape(-1, 3)))
+
+
+@pytest.mark.parametrize("threads", [1, 2, 3])
+@pytest.mark.parametrize("leaf_size", [1, 4, 16])
+def test_every_primitive_is_in_one_leaf(threads: int, leaf_size: int) -> None:
+    team = Team(threads)
+    for scene in (
+        Scene(()),
+        scene_of(Sphere((1, 2, 3), 0.5)),
+        soup(1),
+        soup(2),
+        soup(30_000),
+        random_scene(np.random.default_rng(1)),
+        scene_of(*(Sphere((x * 1e-3, 1e3, 1e-3), 0.1) for x in range(200))),
+    ):
+        flat = flatten(scene)
+        check(flat, build(flat, team, leaf_size), leaf_size)
+    team.close()
+
+
+@pytest.mark.parametrize("count", [5, 20_000])
+def test_triangles_that_cannot_be_told_apart_are_halved(count: int) -> None:
+    vertices = np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0]], float)
+    flat = flatten(scene_of(Mesh(vertices, np.tile([0, 1, 2], (count, 1)))))
+    bvh = build(flat, Team(1))
+    check(flat, bvh, 4)
+    assert bvh.depth <= np.ceil(np.log2(count)) + 1
+    t, primitive, _, _, _ = cast(
+        tree_of(flat), np.array([[0.2, 0.2, 1.0]]), np.array([[0.0, 0.0, -1.0]]), 0.0, np.inf
+    )
+    assert (t[0], primitive[0]) == (1.0, 0)
+
+
+def test_the_depth_is_bounded_where_sizes_explode() -> None:
+    # Each triangle is twice the size of the one before: splits take off one at a time.
+    sizes = 2.0 ** np.arange(-60, 36, 0.25)
+    corners = np.array([[1, 0, 0], [0, 1, 0], [0, 0, 1]])
+    vertices = (sizes[:, None, None] * corners).reshape(-1, 3)
+    flat = flatten(scene_of(Mesh(vertices, np.arange(len(vertices)).reshape(-1, 3))))
+    bvh = build(flat, Team(1), 1)
+    check(flat, bvh, 1)
+    assert bvh.depth <= MAX_DEPTH + 32
+
+
+def test_triangles_without_area_are_no_trouble() -> None:
+    vertices = np.zeros((300, 3))
+    vertices[:, 0] = np.arange(300) // 3
+    flat = flatten(scene_of(Mesh(vertices, np.arange(300).reshape(-1, 3))))
+    check(flat, build(flat, Team(1)), 4)
+
+
+def test_large_trees_find_what_all_primitives_tried_in_turn_give() -> None:
+    for scene in (soup(3000), scene_of(ball(), Sphere((0.5, 0, 0), 0.7))):
+        flat = flatten(scene)
+        origins, directions = np.random.default_rng(2).normal(size=(2, 300, 3))
+        want = closest(flat, origins, directions)
+        t, primitive, b1, b2, _ = cast(tree_of(flat), origins, directions, 0.0, np.inf)
+        sure = ~want.doubtful
+        assert np.array_equal(primitive[sure], want.primitive[sure])
+        hit = sure & (primitive >= 0)
+        assert hit.sum() > 50
+        np.testing.assert_allclose(t[hit], want.t[hit], rtol=1e-9)
+        np.testing.assert_allclose(b1[hit], want.b1[hit], atol=1e-6)
+        np.testing.assert_allclose(b2[hit], want.b2[hit], atol=1e-6)
+
+
+def test_the_tree_does_not_depend_on_the_threads() -> None:
+    flat = flatten(soup(40_000))
+    trees = [build(flat, Team(threads)) for threads in (2, 2)]
+    assert all(np.array_equal(a, b) for a, b in zip(*trees, strict=True))

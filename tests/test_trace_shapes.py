@@ -1,0 +1,203 @@
+"""Single shapes whose image is known, and scenes at the limits."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import pytest
+from trace_reference import cast, scene_of, tree_of
+
+from renderer.camera import Camera
+from renderer.errors import LucidaError
+from renderer.frame import Frame
+from renderer.scene.flat import flatten
+from renderer.scene.model import Checker, Material, Mesh, Scene, SceneObject, Sphere
+from renderer.trace import Tracer
+
+ALL = ("color", "depth", "normal", "id", "primitive")
+FRONT = Camera.look_at((0, 0, 5), (0, 0, 0), fov_y_deg=40)
+QUAD = [[-1, -1, 0], [1, -1, 0], [1, 1, 0], [-1, 1, 0]]
+
+
+def quad(scale: float = 1.0, z: float = 0.0) -> Mesh:
+    vertices = np.array(QUAD, float) * scale + (0, 0, z)
+    return Mesh(vertices, np.array([[0, 1, 2], [0, 2, 3]]))
+
+
+def draw(scene: Scene, camera: Camera = FRONT, size: tuple[int, int] = (48, 48)) -> Frame:
+    with Tracer(scene, threads=2) as tracer:
+        frame = tracer.render(camera, size, ALL)
+    assert frame.complete
+    assert frame.size == size
+    assert not any(np.isnan(getattr(frame, channel)).any() for channel in ALL)
+    hit = frame.id >= 0
+    assert np.array_equal(hit, frame.primitive >= 0)
+    assert np.array_equal(hit, np.isfinite(frame.depth))
+    np.testing.assert_allclose(np.linalg.norm(frame.normal, axis=-1), hit, atol=1e-6)
+    return frame
+
+
+def test_a_sphere_from_the_lectures_camera() -> None:
+    frame = draw(scene_of(Sphere((0, 0, -3), 1.0)), Camera.canonical(), (40, 40))
+    d = Camera.canonical().rays((40, 40)).direction
+    # |t d - c| = r
+    a, b, c = (d * d).sum(-1), -3 * d[..., 2], 9 - 1
+    inside = b * b - a * c
+    assert np.array_equal(frame.id == 0, inside > 0)
+    t = (b - np.sqrt(np.where(inside > 0, inside, np.nan))) / a
+    np.testing.assert_allclose(frame.depth[inside > 0], t[inside > 0], rtol=1e-6)
+    normal = t[..., None] * d - (0, 0, -3)
+    np.testing.assert_allclose(frame.normal[inside > 0], normal[inside > 0], atol=1e-5)
+
+
+def test_a_plane_has_the_same_parameter_everywhere() -> None:
+    frame = draw(scene_of(quad(100, -7.5)), Camera(distance=2.5))
+    np.testing.assert_allclose(frame.depth, 3.0, rtol=1e-7)
+    assert (frame.normal == (0, 0, 1)).all()
+
+
+def test_vertex_colours_are_interpolated_by_barycentrics() -> None:
+    corners = np.array([[-1, -1, 0], [1, -1, 0], [-1, 1, 0]], float)
+    mesh = Mesh(corners, np.array([[0, 1, 2]]), colors=np.eye(3))
+    scene = Scene((SceneObject(mesh, Material((1, 1, 1))),), ambient=(1, 1, 1))
+    camera = Camera((0, 0, 1), projection="parallel", viewport=(-1, 1, -1, 1))
+    frame = draw(scene, camera, (15, 15))
+    x, y = camera.image_point(*np.indices((15, 15)), (15, 15))
+    weights = np.stack([-(x + y) / 2, (1 + x) / 2, (1 + y) / 2], axis=-1)
+    hit = frame.id >= 0
+    assert np.array_equal(hit, x + y <= 1e-15)  # a hit exactly on the edge counts
+    np.testing.assert_allclose(frame.color[hit], weights[hit], atol=1e-6)
+
+
+def test_nothing_is_hit_in_an_empty_scene() -> None:
+    frame = draw(Scene((), background=(0.25, 0.5, 0.75)))
+    assert (frame.color == np.float32([0.25, 0.5, 0.75])).all()
+    assert np.isinf(frame.depth).all()
+    assert (frame.id == -1).all()
+    assert (frame.primitive == -1).all()
+
+
+@pytest.mark.parametrize("size", [(1, 1), (1, 70), (33, 31), (65, 1)])
+def test_sizes_need_not_be_whole_blocks(size: tuple[int, int]) -> None:
+    frame = draw(scene_of(Sphere((0, 0, 0), 50.0)), FRONT, size)
+    assert frame.depth.shape == (size[1], size[0])
+    assert (frame.id == 0).all()
+
+
+def test_near_and_far_cut_by_the_parameter() -> None:
+    scene = scene_of(quad(1, 0), Sphere((0, 0, -2), 0.5))
+    camera = Camera((0, 0, 5), distance=2, viewport=(-0.1, 0.1, -0.1, 0.1))
+    for near, far, want in (
+        (None, None, 2.5),
+        (4.99, 5.01, 2.5),
+        (5.0, None, 3.25),  # t > t_min, not >=
+        (6.6, None, 3.75),  # the near side cut off: the far side of the sphere is seen
+        (None, 5.0, math.inf),
+        (7.6, 9.0, math.inf),
+    ):
+        cut = Camera(
+            camera.eye, distance=2, viewport=camera.viewport, near=near, far=far
+        )  # fmt: skip
+        assert draw(scene, cut, (1, 1)).depth[0, 0] == np.float32(want)
+
+
+def test_inside_a_sphere_its_other_side_is_seen_from_within() -> None:
+    frame = draw(scene_of(Sphere((0, 0, 5), 2.0)))
+    d = FRONT.rays((48, 48)).direction
+    np.testing.assert_allclose(frame.depth, 2 / np.linalg.norm(d, axis=-1), rtol=1e-6)
+    np.testing.assert_allclose(
+        frame.normal, -d / np.linalg.norm(d, axis=-1, keepdims=True), atol=1e-6
+    )
+
+
+def test_rays_that_touch_a_sphere() -> None:
+    camera = Camera((0, 0, 5), viewport=(0.5, 1.5, -0.5, 0.5), projection="parallel")
+    assert draw(scene_of(Sphere()), camera, (1, 1)).depth[0, 0] == 5  # x = 1: tangent
+    draw(scene_of(Sphere()), Camera((0, 0, 1)))  # the eye on the sphere
+    outwards = Camera((0, 0, 1), w=(0, 0, -1), u=(-1, 0, 0))
+    assert (draw(scene_of(Sphere()), outwards).id == -1).all()
+
+
+def test_triangles_without_area_are_never_hit() -> None:
+    vertices = [[0, 0, 0], [1, 1, 0], [2, 2, 0], [-1, 0, 0], [-1, 0, 0], [-1, 2, 0]]
+    faces = [[0, 1, 2], [3, 4, 5], [0, 0, 0]]
+    mesh = Mesh(np.array(vertices, float), np.array(faces))
+    assert (draw(scene_of(mesh), FRONT, (49, 49)).id == -1).all()
+    flat = flatten(scene_of(mesh))
+    targets = np.array(vertices, float) * 0.5
+    origins = np.broadcast_to([0.3, 0.2, 4.0], targets.shape)
+    _, primitive, _, _, hit = cast(tree_of(flat), origins, targets - origins, 0.0, np.inf)
+    assert (primitive == -1).all()
+    assert not hit.any()
+    both = scene_of(mesh, quad(0.5, -1))
+    assert (draw(both, FRONT).id == 1).any()
+
+
+def test_rays_that_run_in_the_faces_of_boxes() -> None:
+    # Axis-parallel rays, from origins on the planes of the triangles' bounding boxes.
+    flat = flatten(scene_of(quad(1, 0), quad(1, -1), Sphere((0, 0, -4), 1.0)))
+    grid = np.array([-1.0, -0.5, 0.0, 0.5, 1.0])
+    x, y = (part.ravel() for part in np.meshgrid(grid, grid))
+    for zero in (0.0, -0.0):
+        origins = np.stack([x, y, np.full_like(x, 3)], axis=-1)
+        directions = np.broadcast_to([zero, zero, -2.0], origins.shape)
+        t, primitive, _, _, _ = cast(tree_of(flat, 1), origins, directions, 0.0, np.inf)
+        assert (t == 1.5).all()
+        assert (primitive < 2).all()
+        t, _, _, _, _ = cast(tree_of(flat, 1), origins, directions, 1.5, np.inf)
+        assert (t == 2.0).all()
+
+
+@pytest.mark.parametrize("distance", [1e3, 1e6])
+def test_from_far_away(distance: float) -> None:
+    scene = scene_of(Sphere((-1, 0, 0), 0.9), quad(0.8, 0))
+    near = Camera((0, 0, 5), viewport=(-2, 2, -2, 2), projection="parallel")
+    far = Camera.look_at((0, 0, distance), (0, 0, 0), fov_y_deg=math.degrees(4 / distance))
+    want, got = draw(scene, near), draw(scene, far)
+    assert (want.id != got.id).mean() < (0.01 if distance < 1e4 else 0.005)
+    both = (want.id == got.id) & (want.id >= 0)
+    np.testing.assert_allclose(got.normal[both], want.normal[both], atol=0.1)
+
+
+def test_a_mirrored_and_scaled_basis_changes_parameters_as_the_formula_says() -> None:
+    scene = scene_of(quad(10, 0))
+    camera = Camera((0, 0, 6), (-3, 0, 0), (0.5, 2, 0), (0.2, -0.3, 2), 1.5)
+    frame = draw(scene, camera)
+    d = camera.rays((48, 48)).direction
+    np.testing.assert_allclose(frame.depth, -6 / d[..., 2], rtol=1e-6)
+    assert (frame.normal == (0, 0, 1)).all()
+
+
+def test_a_checkers_face_on_a_cells_border_stays_one_cell() -> None:
+    checker = Material((1, 1, 1), checker=Checker((0, 0, 0), 1.0))
+    scene = Scene((SceneObject(quad(2, 0.5), checker),), ambient=(1, 1, 1))
+    camera = Camera((0, 0, 3), viewport=(-2, 2, -2, 2), projection="parallel")
+    color = draw(scene, camera, (64, 64)).color[..., 0]
+    x, y = camera.image_point(*np.indices((64, 64)), (64, 64))
+    odd = (np.floor(x + 0.5) + np.floor(y + 0.5)) % 2
+    assert np.array_equal(color, 1 - odd)
+
+
+def test_of_equally_near_faces_the_first_is_seen() -> None:
+    frame = draw(scene_of(quad(1, 0), quad(1, 0)))
+    assert set(np.unique(frame.id)) == {-1, 0}
+
+
+def test_mistakes_are_told() -> None:
+    with pytest.raises(LucidaError, match="threads: 0 is not in"):
+        Tracer(scene_of(quad()), threads=0)
+    with Tracer(scene_of(quad())) as tracer:
+        with pytest.raises(LucidaError, match="channel: 'colour' is unknown"):
+            tracer.render(FRONT, (8, 8), ("colour",))
+        with pytest.raises(LucidaError, match="size: 0x8 has no pixels"):
+            tracer.start(FRONT, (0, 8))
+        with pytest.raises(LucidaError, match="samples: 5 is not a square"):
+            tracer.render(FRONT, (8, 8), samples=5)
+    with pytest.raises(LucidaError, match="tracer: is closed"):
+        tracer.render(FRONT, (8, 8))
+    huge = np.eye(4) * 1e12
+    huge[3, 3] = 1
+    mesh = Mesh(np.array(QUAD, float) * 1e12, np.array([[0, 1, 2]]), transform=huge)
+    with Tracer(scene_of(mesh)) as tracer, pytest.raises(LucidaError, match="too large"):
+        tracer.render(FRONT, (8, 8))
