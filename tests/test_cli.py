@@ -112,7 +112,7 @@ class TestMistakes:
             ("nosuch", "nosuch"),
             ("one two", "unrecognized arguments: two"),
             ("--screenshot a.gif", r"a\.gif: the ending '\.gif' is unknown; give one of \.png"),
-            ("--screenshot a.npy", r"a\.npy: \.npy cannot hold this picture"),
+            ("--screenshot a.ppm", r"a\.ppm: \.ppm cannot hold this picture; give one of \.png"),
             ("--size 9", "argument --size: '9' is not a size; give e.g. 1280x720"),
             ("render", "required: SCENE, -o/--output; see 'lucida render --help'"),
             ("render spheres", "required: -o/--output"),

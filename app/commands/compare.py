@@ -49,10 +49,10 @@ def configure(parser: argparse.ArgumentParser) -> None:
 
 def run(arguments: argparse.Namespace) -> int:
     from renderer.compare import compare
-    from renderer.images import check_image_path, write_picture
+    from renderer.images import PICTURES, check_image_path, write_picture
 
     if arguments.output is not None:
-        check_image_path(arguments.output, pictures_only=True)
+        check_image_path(arguments.output, PICTURES)
     scene, camera = common.scene_and_camera(arguments.scene, arguments.view, arguments.size)
     with common.progress_bar("compare") as progress:
         comparison = compare(scene, camera, arguments.size, arguments.backend, progress)

@@ -51,7 +51,7 @@ def run(arguments: argparse.Namespace) -> int:
 
     screenshot = None
     if arguments.screenshot is not None:
-        check_image_path(arguments.screenshot, pictures_only=True)
+        check_image_path(arguments.screenshot, (".png",))
         screenshot = Path(arguments.screenshot)
     from app.viewer import run_viewer  # after the quick mistakes: it loads the whole window
 

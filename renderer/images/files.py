@@ -11,7 +11,7 @@ PFM, EXR and NPY hold the numbers, unexposed: linear light, ray parameters, worl
 from __future__ import annotations
 
 import io
-from collections.abc import Callable
+from collections.abc import Callable, Collection
 from pathlib import Path
 from typing import BinaryIO
 
@@ -34,13 +34,13 @@ EXR_CHANNELS = {
 HALF = 128  # the darkest gray that a bitmap shows white
 
 
-def check_image_path(path: str | Path, pictures_only: bool = False) -> str:
+def check_image_path(path: str | Path, endings: Collection[str] | None = None) -> str:
     """The ending of `path`, in small letters, if an image can be written there.
 
-    pictures_only: accept the 8-bit formats alone. Raises LucidaError for an unknown ending or a
+    endings: those that will do (default: ENDINGS). Raises LucidaError for another ending or a
     place that cannot be written to: ask before a long rendering, not after.
     """
-    endings = PICTURES if pictures_only else ENDINGS
+    endings = ENDINGS if endings is None else endings
     ending = Path(path).suffix.lower()
     if ending not in endings:
         problem = f"the ending {ending!r} is unknown" if ending else "has no ending"
@@ -75,7 +75,7 @@ def write_image(
 
 def write_picture(path: str | Path, shown: Bytes) -> None:
     """Write an sRGB picture, uint8 (height, width, 3), as .png .ppm .pgm or .pbm."""
-    ending = check_image_path(path, pictures_only=True)
+    ending = check_image_path(path, PICTURES)
     content = gray_of(shown) if ending in GRAYS else shown
     with atomic_write(path) as file:
         PICTURES[ending](file, content)
