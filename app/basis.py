@@ -49,7 +49,8 @@ def with_vector(camera: Camera, name: str, vector: Floats) -> Camera:
 
     Source: Gram-Schmidt, from the vector that must keep its direction.
     """
-    first = vector / np.linalg.norm(vector)
+    length = np.linalg.norm(vector)
+    first = vector if abs(length - 1) < 1e-12 else vector / length  # keeps entered numbers exact
     second_name, third_name = _NEXT[name]
     second = np.asarray(getattr(camera, second_name), float)
     second = second - (second @ first) * first

@@ -70,12 +70,19 @@ class Tracer(Protocol):
 class LiveTrace:
     """Traces the newest request. wake: called from its thread when there is something new.
 
-    make_tracer: gives a Tracer for a scene. Requests and polls come from one thread, the window's.
+    make_tracer: gives a Tracer for a scene; called in that thread. begin: called there first.
+    Requests and polls come from one thread, the window's.
     """
 
-    def __init__(self, wake: Callable[[], None], make_tracer: Callable[[Scene], Tracer]) -> None:
+    def __init__(
+        self,
+        wake: Callable[[], None],
+        make_tracer: Callable[[Scene], Tracer],
+        begin: Callable[[], None] = lambda: None,
+    ) -> None:
         self._wake = wake
         self._make_tracer = make_tracer
+        self._begin = begin
         self._changed = threading.Condition()
         self._newest: Request | None = None
         self._served: Request | None = None  # the last one begun
@@ -149,6 +156,7 @@ class LiveTrace:
     # Its thread's side.
 
     def _run(self) -> None:
+        self._begin()
         tracer: Tracer | None = None
         scene: Scene | None = None
         pixel_s = 0.0

@@ -7,16 +7,21 @@ changed. Knows nothing of widgets and of how the ray image was made.
 from __future__ import annotations
 
 import contextlib
+import time
 from dataclasses import dataclass
 
 import moderngl
 
-from app.live import RayImage
+from app.live import RayImage, reduced
 from renderer.camera import Camera
 from renderer.errors import LucidaError
 from renderer.frame import CHANNELS, Frame
 from renderer.raster import Display, Rasterizer
 from renderer.scene.model import Scene
+
+MOVING_S = 0.1  # after a change; a raster image that is too slow for the display is coarse then
+FRAME_S = 0.008  # what a raster image may take of a frame while the camera moves
+COARSEST = 4
 
 
 @dataclass(frozen=True)
@@ -37,27 +42,32 @@ class Pictures:
         self._rasterizer = Rasterizer(scene, context=context)
         self._scene = scene
         self._timer = context.query(time=True)
-        self._timing = False
+        self._timed_pixels = 0  # of the image whose time is still to be read
+        self._pixel_s = 0.0
         self._linear: moderngl.Texture | None = None
         self._wanted: Wanted | None = None
+        self._changed_s = 0.0
         self._raster: moderngl.Texture | None = None
         self._raster_ev = 0.0
         self._ray_linear: moderngl.Texture | None = None
         self._ray: moderngl.Texture | None = None
         self._ray_ev = 0.0
+        self.raster_factor = 1
         self.raster_s = 0.0
         self.raster_error: Exception | None = None
 
     def raster(self, wanted: Wanted, exposure_ev: float) -> moderngl.Texture | None:
-        """The raster image, drawn anew if it must be; None where that failed, see raster_error."""
-        if self._timing:  # a frame later: reading it at once would wait for the GPU
-            self.raster_s, self._timing = self._timer.elapsed * 1e-9, False
+        """The raster image, drawn anew if it must be; None where that failed, see raster_error.
+
+        Where OpenGL runs on the CPU, it is coarse while things move, and full soon after.
+        """
+        self._read_time()
         try:
             if wanted != self._wanted:
-                self._show(wanted.scene)
-                with self._timer:
-                    self._linear = self._rasterizer.draw(wanted.camera, wanted.size).color
-                self._wanted, self._raster, self._timing = wanted, None, True
+                self._changed_s = time.monotonic()
+                self._draw(wanted, self._moving_factor(wanted.size))
+            elif self.raster_factor > 1 and time.monotonic() - self._changed_s > MOVING_S:
+                self._draw(wanted, 1)
             if self._linear is not None and (
                 self._raster is None or exposure_ev != self._raster_ev
             ):
@@ -66,7 +76,7 @@ class Pictures:
             self.raster_error = None
         except (LucidaError, moderngl.Error) as error:  # shown in the window, which goes on
             self._wanted = self._raster = self._linear = None
-            self.raster_error = error
+            self.raster_error, self.raster_factor = error, 1
         return self._raster
 
     def take_ray(self, image: RayImage) -> None:
@@ -82,9 +92,9 @@ class Pictures:
         return self._ray
 
     @property
-    def timing(self) -> bool:
-        """Whether the last raster image's time is still to be read, in the next frame."""
-        return self._timing
+    def unfinished(self) -> bool:
+        """Whether the next frames have something to do: refine, or read the last image's time."""
+        return self.raster_factor > 1 or self._timed_pixels > 0
 
     def read_back(self, wanted: Wanted) -> Frame:
         """All channels of a raster image as arrays. Raises LucidaError."""
@@ -101,6 +111,27 @@ class Pictures:
         with contextlib.suppress(moderngl.Error):
             self._rasterizer.release()
             self._display.release()
+
+    def _draw(self, wanted: Wanted, factor: int) -> None:
+        self._show(wanted.scene)
+        size = reduced(wanted.size, factor)
+        with self._timer:
+            self._linear = self._rasterizer.draw(wanted.camera, size).color
+        self._wanted, self._raster = wanted, None
+        self._timed_pixels, self.raster_factor = size[0] * size[1], factor
+
+    def _read_time(self) -> None:
+        """A frame later: at once, it would wait for the GPU."""
+        if self._timed_pixels:
+            self.raster_s = self._timer.elapsed * 1e-9
+            self._pixel_s = self.raster_s / self._timed_pixels
+            self._timed_pixels = 0
+
+    def _moving_factor(self, size: tuple[int, int]) -> int:
+        factor = 1
+        while factor < COARSEST and self._pixel_s * size[0] * size[1] / factor**2 > FRAME_S:
+            factor *= 2
+        return factor
 
     def _show(self, scene: Scene) -> None:
         if scene is not self._scene:

@@ -11,6 +11,7 @@ from __future__ import annotations
 import contextlib
 import os
 import sys
+import threading
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from typing import Any
@@ -24,6 +25,7 @@ import moderngl
 from renderer.errors import LucidaError
 
 REQUIRED = (3, 3)
+LOWER_NICENESS = 5
 
 
 @dataclass(frozen=True)
@@ -53,6 +55,14 @@ def create_context() -> moderngl.Context:
         raise LucidaError("OpenGL", "the window has no context", "run `lucida doctor`")
     require = REQUIRED[0] * 100 + REQUIRED[1] * 10
     return moderngl.create_context(context=_Loader(), require=require)  # type: ignore[arg-type]
+
+
+def lower_priority() -> None:
+    """The calling thread, and the threads that it starts, give way to the window's (Linux)."""
+    if sys.platform.startswith("linux"):
+        with contextlib.suppress(OSError):
+            # There, and against POSIX, niceness belongs to a thread and is inherited.
+            os.setpriority(os.PRIO_PROCESS, threading.get_native_id(), LOWER_NICENESS)
 
 
 def set_title(text: str) -> None:

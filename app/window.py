@@ -10,7 +10,6 @@ from __future__ import annotations
 import math
 import time
 
-import numpy as np
 from imgui_bundle import ImVec2, hello_imgui, imgui
 
 from app import __version__, layout, theme
@@ -18,6 +17,7 @@ from app.actions import run_shortcuts
 from app.agreement import Agreement
 from app.editing import Draft
 from app.files import Files, Opened, describe
+from app.focus import Focus, scene_focus
 from app.live import LiveTrace, RayImage, Request
 from app.panels.camera import Surroundings, camera_panel
 from app.panels.images import Grab, Pane, Pixel, available_px, image_pane
@@ -25,7 +25,7 @@ from app.panels.menus import help_sheet, menu_bar
 from app.panels.messages import message_box
 from app.panels.status import Status, status_line
 from app.pictures import Pictures, Wanted
-from app.platform import create_context, on_drop, set_title
+from app.platform import create_context, lower_priority, on_drop, set_title
 from app.state import AppState, History
 from renderer.camera import Camera
 from renderer.errors import LucidaError
@@ -46,7 +46,7 @@ class MainWindow:
         self.fonts = theme.Fonts()
         self.agreement = Agreement(hello_imgui.request_refresh)
         self.files = Files(hello_imgui.request_refresh)
-        self.live = LiveTrace(hello_imgui.request_refresh, _make_tracer)
+        self.live = LiveTrace(hello_imgui.request_refresh, _make_tracer, lower_priority)
         self.pictures: Pictures | None = None
         self.ray_image: RayImage | None = None
         self.size = (0, 0)  # of both images
@@ -61,7 +61,7 @@ class MainWindow:
         self._wheel = (0, 0.0)
         self._compared: Request | None = None
         self._help = False
-        self._bounds: tuple[Scene, tuple[float, float, float], float] | None = None
+        self._focused: tuple[Scene, Focus] | None = None
 
     # What actions and panels ask for.
 
@@ -71,7 +71,7 @@ class MainWindow:
 
     @property
     def scene_center(self) -> tuple[float, float, float]:
-        return self._scene_bounds()[0]
+        return self._focus().center
 
     @property
     def shown_camera(self) -> Camera:
@@ -94,6 +94,7 @@ class MainWindow:
             and self.ray_image.request == self.request
             and self.agreement.verdict_on(self.request) is not None
             and not (self.live.busy or self.files.busy or self.agreement.busy)
+            and not (self.pictures is None or self.pictures.unfinished)
         )
 
     @property
@@ -173,7 +174,7 @@ class MainWindow:
             help_sheet(self, self.fonts, __version__)
         if self.files.message and message_box(self.files.message):
             self.files.message = ""
-        if self.files.busy or (self.pictures is not None and self.pictures.timing):
+        if self.files.busy or (self.pictures is not None and self.pictures.unfinished):
             hello_imgui.request_refresh()
 
     def status(self) -> None:
@@ -183,6 +184,7 @@ class MainWindow:
         status_line(
             Status(
                 raster_s=self.pictures.raster_s if self.pictures else 0.0,
+                raster_factor=self.pictures.raster_factor if self.pictures else 1,
                 ray_s=image.frame.time_s if image else 0.0,
                 size=self.size,
                 factor=image.factor if image else 0,
@@ -206,8 +208,7 @@ class MainWindow:
     # Windows.
 
     def _camera_window(self) -> None:
-        center, radius = self._scene_bounds()[0], self._scene_bounds()[1]
-        around = Surroundings(self.fonts, self.shown_camera, center, radius)
+        around = Surroundings(self.fonts, self.shown_camera, self._focus())
         state, self._draft = camera_panel(self.state, self._draft, around)
         self._apply(state)
 
@@ -364,22 +365,10 @@ class MainWindow:
             self.open(paths[0])
             hello_imgui.request_refresh()
 
-    def _scene_bounds(self) -> tuple[tuple[float, float, float], float]:
-        """Centre and radius of the scene's objects."""
-        if self._bounds is None or self._bounds[0] is not self.state.scene:
-            self._bounds = (self.state.scene, *scene_bounds(self.state.scene))
-        return self._bounds[1], self._bounds[2]
-
-
-def scene_bounds(scene: Scene) -> tuple[tuple[float, float, float], float]:
-    """Centre and radius of a scene's bounds; of a unit sphere's for an empty scene."""
-    from renderer.scene.flat import flatten
-
-    low, high = np.asarray(flatten(scene).bounds, float)
-    if not (high > low).any():
-        return (0.0, 0.0, 0.0), 1.0
-    x, y, z = ((low + high) / 2).tolist()
-    return (x, y, z), float(np.linalg.norm(high - low)) / 2
+    def _focus(self) -> Focus:
+        if self._focused is None or self._focused[0] is not self.state.scene:
+            self._focused = (self.state.scene, scene_focus(self.state.scene))
+        return self._focused[1]
 
 
 def title(scene: Scene) -> str:

@@ -11,10 +11,11 @@ from imgui_bundle import ImVec4, imgui
 
 from app import theme
 from app.editing import BASIS, Draft, edit_component, edit_field
+from app.focus import Focus
 from app.navigation import switched_projection
 from app.panels.fields import Scale, number_field
 from app.state import EXPOSURE_LIMIT_EV, AppState
-from renderer.camera import Camera, Vector
+from renderer.camera import Camera
 
 ROLES = {
     "eye": ("eye", "", "The eye e: where all viewing rays start (perspective)."),
@@ -39,12 +40,11 @@ origin = e + x u + y v,  direction = -w"""
 @dataclass(frozen=True)
 class Surroundings:
     """What the panel must know beside the state. shown: the camera that the images are drawn
-    with. center, radius: of the scene."""
+    with."""
 
     fonts: theme.Fonts
     shown: Camera
-    center: Vector
-    radius: float
+    focus: Focus
 
 
 def camera_panel(state: AppState, draft: Draft, around: Surroundings) -> tuple[AppState, Draft]:
@@ -53,10 +53,13 @@ def camera_panel(state: AppState, draft: Draft, around: Surroundings) -> tuple[A
     state = _projection(state, around)
     state, draft = _vectors(state, draft.following(state.camera), around)
     state = _orthonormal(state)
-    _gap()
-    state, draft = _image_plane(state, draft.following(state.camera), around)
-    _gap()
+    _line()
+    state, draft = _distance(state, draft.following(state.camera), around)
+    state, draft = _viewport(state, draft, around)
+    state = _fit(state, around)
+    _line()
     state = _exposure(state, around)
+    _line()
     state = _resets(state)
     draft = draft.following(state.camera)
     return state, _error(draft)
@@ -66,13 +69,13 @@ def _projection(state: AppState, around: Surroundings) -> AppState:
     parallel = state.camera.is_parallel
     half = imgui.get_content_region_avail().x / 2
     if imgui.radio_button("perspective", not parallel) and parallel:
-        state = state.with_camera(switched_projection(state.camera, around.center))
+        state = state.with_camera(switched_projection(state.camera, around.focus.center))
     imgui.set_item_tooltip(PERSPECTIVE)
     imgui.same_line(imgui.get_style().window_padding.x + half)
     if imgui.radio_button("parallel", parallel) and not parallel:
-        state = state.with_camera(switched_projection(state.camera, around.center))
+        state = state.with_camera(switched_projection(state.camera, around.focus.center))
     imgui.set_item_tooltip(PARALLEL)
-    _gap()
+    _line()
     return state
 
 
@@ -83,9 +86,9 @@ def _vectors(state: AppState, draft: Draft, around: Surroundings) -> tuple[AppSt
     for axis, letter in enumerate("xyz"):
         at = padding + label_px + axis * (field_px + spacing)
         width = imgui.calc_text_size(letter).x
-        imgui.same_line(at + (field_px - width) / 2) if axis else imgui.set_cursor_pos_x(
-            at + (field_px - width) / 2
-        )
+        if axis:
+            imgui.same_line()
+        imgui.set_cursor_pos_x(at + (field_px - width) / 2)
         imgui.text_disabled(letter)
     for name, (label, role, tooltip) in ROLES.items():
         color = theme.BASIS.get(name, theme.PLAIN)
@@ -93,8 +96,7 @@ def _vectors(state: AppState, draft: Draft, around: Surroundings) -> tuple[AppSt
         imgui.set_item_tooltip(tooltip)
         scale = Scale(-1.0, 1.0)
         if name == "eye":
-            reach = round(2 * around.radius, 3) or 1.0
-            scale = Scale(-reach, reach)
+            scale = Scale(-around.focus.reach, around.focus.reach)
         for axis, letter in enumerate("xyz"):
             imgui.same_line(padding + label_px + axis * (field_px + spacing))
             state, draft = _component(
@@ -112,7 +114,7 @@ def _vectors(state: AppState, draft: Draft, around: Surroundings) -> tuple[AppSt
     return state, draft
 
 
-def _image_plane(state: AppState, draft: Draft, around: Surroundings) -> tuple[AppState, Draft]:
+def _distance(state: AppState, draft: Draft, around: Surroundings) -> tuple[AppState, Draft]:
     label_px, _ = _columns(1)
     padding = imgui.get_style().window_padding.x
     avail = imgui.get_content_region_avail().x
@@ -142,25 +144,25 @@ def _image_plane(state: AppState, draft: Draft, around: Surroundings) -> tuple[A
     imgui.same_line(padding + label_px)
     imgui.push_font(around.fonts.mono, 0.0)
     if state.camera.is_parallel:
-        imgui.text_colored(theme.DIM, "none: rays are parallel")
+        imgui.text_colored(theme.DIM, "none, rays are parallel")
     else:
         imgui.text(f"{around.shown.fov_y_deg:8.2f}\N{DEGREE SIGN} vertical")
     imgui.pop_font()
-    _gap()
-    state, draft = _viewport(state, draft, around)
+    return state, draft
+
+
+def _fit(state: AppState, around: Surroundings) -> AppState:
     changed, fit = imgui.checkbox("fit to the image's aspect ratio", state.view.fit)
     imgui.set_item_tooltip(
         "On: the viewport is widened or heightened to the image's shape.\n"
         "Off: it is used as it stands, and the picture may look stretched."
     )
-    if changed:
-        state = state.with_fit(fit)
     left, right, bottom, top = around.shown.viewport
-    imgui.push_font(around.fonts.mono, theme.SMALL_PX)
-    imgui.text_colored(theme.DIM, f"drawn{left:7.3f}{right:7.3f}{bottom:7.3f}{top:7.3f}")
+    imgui.push_font(around.fonts.mono, 0.0)
+    imgui.text_colored(theme.DIM, f"as drawn{left:7.3f}{right:7.3f}{bottom:7.3f}{top:7.3f}")
     imgui.set_item_tooltip("The viewport as drawn: left, right, bottom, top.")
     imgui.pop_font()
-    return state, draft
+    return state.with_fit(fit) if changed else state
 
 
 def _viewport(state: AppState, draft: Draft, around: Surroundings) -> tuple[AppState, Draft]:
@@ -169,6 +171,8 @@ def _viewport(state: AppState, draft: Draft, around: Surroundings) -> tuple[AppS
     label_px, half = 3.2 * imgui.get_font_size(), avail / 2
     spacing = imgui.get_style().item_inner_spacing.x
     scale = Scale(-1.0, 1.0)
+    _line()
+    _label("viewport", "in units of u and v", theme.TEXT, around.fonts)
     for index, (name, tooltip) in enumerate(VIEWPORT):
         column = index % 2
         if column:
@@ -296,5 +300,7 @@ def _columns(fields: int) -> tuple[float, float]:
     return label, (avail - label - (fields - 1) * spacing) / fields
 
 
-def _gap() -> None:
-    imgui.dummy((0, 3))
+def _line() -> None:
+    imgui.dummy((0, 1))
+    imgui.separator()
+    imgui.dummy((0, 1))

@@ -15,9 +15,11 @@ from app import theme
 @dataclass(frozen=True)
 class Status:
     """What the line tells. size: of the full image. factor: how coarse the ray image is, 1 for
-    full, 0 for none. agreement: a text, empty while unknown; agrees: whether it is good news."""
+    full, 0 for none; raster_factor: likewise. agreement: a text, empty while unknown; agrees:
+    whether it is good news."""
 
     raster_s: float
+    raster_factor: int
     ray_s: float
     size: tuple[int, int]
     factor: int
@@ -32,8 +34,9 @@ class Status:
 def status_line(status: Status, fonts: theme.Fonts) -> None:
     """Draws the line; call in HelloImGui's show_status."""
     imgui.push_font(fonts.mono, 0.0)
+    coarseness = f" 1/{status.raster_factor}" if status.raster_factor > 1 else "    "
     parts = [
-        (f"raster {milliseconds(status.raster_s)}", theme.TEXT),
+        (f"raster {milliseconds(status.raster_s)}{coarseness}", theme.TEXT),
         (ray_text(status), theme.TEXT),
     ]
     good = theme.rgb("#35c497") if status.agrees else theme.ERROR

@@ -1,0 +1,310 @@
+"""The ray image of a changing camera: coarse first, newest wins, nothing is waited for."""
+
+from __future__ import annotations
+
+import threading
+import time
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass, field, replace
+
+import numpy as np
+import pytest
+
+from app import live
+from app.agreement import Agreement
+from app.background import Background
+from app.live import LiveTrace, RayImage, Request
+from renderer.camera import Camera
+from renderer.errors import LucidaError
+from renderer.frame import CHANNELS, Frame
+from renderer.scene.model import Scene, SceneObject, Sphere
+
+SCENE, OTHER = Scene((SceneObject(Sphere()),)), Scene(())
+SIZE = (80, 64)
+PATIENT_S = 30.0  # only a hang takes this long
+
+
+class Job:
+    """A job that ends when the test says so, or when it is cancelled."""
+
+    def __init__(self, size: tuple[int, int], channels: tuple[str, ...], time_s: float) -> None:
+        self.size, self.channels, self.time_s = size, channels, time_s
+        self.ended, self.cancelled = threading.Event(), False
+
+    progress = 0.5
+
+    @property
+    def done(self) -> bool:
+        return self.ended.is_set()
+
+    def cancel(self) -> None:
+        if not self.done:
+            self.cancelled = True
+            self.ended.set()
+
+    def wait(self, timeout_s: float | None = None) -> bool:
+        return self.ended.wait(PATIENT_S if timeout_s is None else timeout_s)
+
+    def result(self) -> Frame:
+        assert self.wait()
+        color = np.zeros((self.size[1], self.size[0], 3), np.float32)
+        return Frame(self.size, color, time_s=self.time_s, complete=not self.cancelled)
+
+
+@dataclass
+class Tracer:
+    """held: jobs wait for the test; else they end at once. pixel_s: how slow it says it is."""
+
+    scene: Scene
+    held: bool = False
+    pixel_s: float = 1e-9
+    error: Exception | None = None
+    jobs: list[Job] = field(default_factory=list)
+    cameras: list[Camera] = field(default_factory=list)
+    closed: bool = False
+
+    def start(self, camera: Camera, size: tuple[int, int], channels: tuple[str, ...] = ()) -> Job:
+        if self.error is not None:
+            raise self.error
+        job = Job(size, channels, self.pixel_s * size[0] * size[1])
+        self.jobs.append(job)
+        self.cameras.append(camera)
+        if not self.held:
+            job.ended.set()
+        return job
+
+    def close(self) -> None:
+        self.closed = True
+
+
+class Rig:
+    def __init__(self) -> None:
+        self.tracers: list[Tracer] = []
+        self.settings: dict = {}
+        self.woken = threading.Semaphore(0)
+        self.live = LiveTrace(self.woken.release, self._make)
+
+    def _make(self, scene: Scene) -> Tracer:
+        self.tracers.append(Tracer(scene, **self.settings))
+        return self.tracers[-1]
+
+    def until(self, condition: Callable[[], bool]) -> None:
+        end_s = time.monotonic() + PATIENT_S
+        while not condition():
+            assert time.monotonic() < end_s, "nothing happened"
+            time.sleep(0.001)
+
+    def images(self) -> list[RayImage]:
+        """All images until nothing more is to come."""
+        images = []
+        while True:
+            image = self.live.poll()
+            if image is not None:
+                images.append(image)
+            elif not self.live.busy:
+                return images
+            else:
+                assert self.woken.acquire(timeout=PATIENT_S)
+
+
+@pytest.fixture
+def rig() -> Iterator[Rig]:
+    rig = Rig()
+    yield rig
+    for tracer in rig.tracers:
+        for job in tracer.jobs:
+            job.ended.set()
+    rig.live.close(PATIENT_S)
+    assert not rig.live._thread.is_alive()
+
+
+def request(x: float = 0.0, scene: Scene = SCENE) -> Request:
+    return Request(scene, replace(Camera(), eye=(x, 0, 3)), SIZE)
+
+
+def test_coarse_then_full(rig: Rig) -> None:
+    rig.live.request(request())
+    images = rig.images()
+    assert [image.factor for image in images] == [8, 1]
+    assert images[0].frame.size == (10, 8)
+    assert images[1].frame.size == SIZE
+    jobs = rig.tracers[0].jobs
+    assert [job.channels for job in jobs] == [live.COARSE_CHANNELS, CHANNELS]
+
+
+def test_a_quick_tracer_goes_to_full_at_once(rig: Rig) -> None:
+    rig.live.request(request())
+    rig.images()
+    rig.live.request(request(1.0))
+    assert [image.factor for image in rig.images()] == [1]
+
+
+def test_a_slow_tracer_takes_more_steps(rig: Rig) -> None:
+    rig.settings = {"pixel_s": 1.0 / (SIZE[0] * SIZE[1])}
+    rig.live.request(request())
+    assert [image.factor for image in rig.images()] == [8, 2, 1]
+
+
+def test_the_same_request_is_traced_once(rig: Rig) -> None:
+    rig.live.request(request())
+    rig.images()
+    rig.live.request(request())
+    assert not rig.live.busy
+    assert rig.images() == []
+
+
+def test_nothing_is_waited_for_and_a_change_cancels_a_refinement(rig: Rig) -> None:
+    # The jobs never end by themselves: any call that waited for them would hang.
+    rig.settings = {"held": True}
+    rig.live.request(request())
+    rig.until(lambda: bool(rig.tracers) and len(rig.tracers[0].jobs) == 1)
+    tracer = rig.tracers[0]
+    assert rig.live.poll() is None
+    assert rig.live.busy
+    assert rig.live.progress == 0.5
+    tracer.jobs[0].ended.set()
+    rig.until(lambda: len(tracer.jobs) == 2)  # the refinement
+    rig.live.request(request(1.0))
+    rig.live.request(request(2.0))
+    rig.until(lambda: len(tracer.jobs) == 3)
+    assert tracer.jobs[1].cancelled
+    assert tracer.cameras[2].eye[0] == 2.0  # the newest; the one between was never begun
+    image = rig.live.poll()
+    assert image is not None
+    assert image.factor == 8  # the coarse one of the first request stays on the screen
+
+
+def test_a_coarse_image_is_finished_despite_changes(rig: Rig, monkeypatch) -> None:
+    monkeypatch.setattr(live, "PATIENCE_S", PATIENT_S)
+    rig.settings = {"held": True}
+    rig.live.request(request())
+    rig.until(lambda: bool(rig.tracers) and len(rig.tracers[0].jobs) == 1)
+    rig.live.request(request(1.0))
+    job = rig.tracers[0].jobs[0]
+    assert not job.cancelled
+    job.ended.set()
+    rig.until(lambda: len(rig.tracers[0].jobs) == 2)
+    image = rig.live.poll()
+    assert image is not None
+    assert image.request == request()
+
+
+def test_a_coarse_image_that_takes_too_long_is_cancelled(rig: Rig, monkeypatch) -> None:
+    monkeypatch.setattr(live, "PATIENCE_S", 0.0)
+    rig.settings = {"held": True}
+    rig.live.request(request())
+    rig.until(lambda: bool(rig.tracers) and len(rig.tracers[0].jobs) == 1)
+    rig.until(lambda: rig.live.preparing_s > 0)
+    rig.live.request(request(1.0))
+    rig.until(lambda: rig.tracers[0].jobs[0].cancelled and len(rig.tracers[0].jobs) == 2)
+    assert rig.live.first_ever
+
+
+def test_another_scene_gets_another_tracer(rig: Rig) -> None:
+    rig.live.request(request())
+    rig.images()
+    rig.live.request(request(scene=OTHER))
+    assert [image.request.scene for image in rig.images()][-1] is OTHER
+    assert [tracer.closed for tracer in rig.tracers] == [True, False]
+    assert not rig.live.first_ever
+    assert rig.live.preparing_s == 0
+
+
+def test_an_error_is_kept_and_the_next_request_tries_again(rig: Rig) -> None:
+    rig.settings = {"error": LucidaError("size", "is too large")}
+    rig.live.request(request())
+    assert rig.images() == []
+    assert isinstance(rig.live.error, LucidaError)
+    rig.settings = {}
+    rig.live.request(request(1.0))
+    assert rig.images()[-1].factor == 1
+    assert rig.live.error is None
+
+
+def test_closing_cancels_and_does_not_wait_for_ever() -> None:
+    rig = Rig()
+    rig.settings = {"held": True}
+    rig.live.request(request())
+    rig.until(lambda: bool(rig.tracers) and len(rig.tracers[0].jobs) == 1)
+    rig.live.close(PATIENT_S)
+    assert rig.tracers[0].jobs[0].cancelled
+    assert rig.tracers[0].closed
+    rig.live.request(request(1.0))
+    assert len(rig.tracers[0].jobs) == 1
+
+
+@pytest.mark.parametrize("size", [(1, 1), (7, 3), (1280, 720)])
+@pytest.mark.parametrize("pixel_s", [0.0, 1e-9, 1e-7, 1e-5, 1.0])
+def test_refinement_ends_at_the_full_image(size: tuple[int, int], pixel_s: float) -> None:
+    factor = live.first_factor(size, pixel_s)
+    assert 1 <= factor <= live.COARSEST
+    for _ in range(4):
+        assert min(live.reduced(size, factor)) >= 1
+        factor = live.next_factor(factor, size, pixel_s)
+    assert factor == 1
+    assert live.reduced(size, 1) == size
+
+
+def test_the_newest_waiting_work_wins_and_errors_are_outcomes() -> None:
+    woken, gate = threading.Semaphore(0), threading.Event()
+    background: Background[int] = Background("test", woken.release)
+    done: list[int] = []
+
+    def work(number: int) -> int:
+        assert gate.wait(PATIENT_S)
+        done.append(number)
+        if number == 3:
+            raise LucidaError("x", "is wrong")
+        return number
+
+    background.submit(lambda: work(1))
+    while background._waiting is not None:  # until the first has begun
+        time.sleep(0.001)
+    background.submit(lambda: work(2))
+    background.submit(lambda: work(3))
+    assert background.busy
+    assert background.poll() is None
+    gate.set()
+    assert woken.acquire(timeout=PATIENT_S)
+    assert woken.acquire(timeout=PATIENT_S)
+    outcome = background.poll()
+    assert outcome is not None
+    assert isinstance(outcome.error, LucidaError)
+    assert done == [1, 3]
+    assert not background.busy
+    background.close(PATIENT_S)
+
+
+def test_agreement_counts_the_pixels_that_differ() -> None:
+    woken = threading.Semaphore(0)
+    agreement = Agreement(woken.release)
+    asked = Request(SCENE, Camera(eye=(0, 0, 3)), (4, 2))
+
+    def frame(number: int) -> Frame:
+        shape = (2, 4)
+        ids = np.zeros(shape, np.int32)
+        ids[0, 0] = number
+        return Frame(
+            (4, 2),
+            np.zeros((*shape, 3), np.float32),
+            np.ones(shape, np.float32),
+            np.zeros((*shape, 3), np.float32),
+            ids,
+            np.zeros(shape, np.int32),
+        )
+
+    agreement.submit(RayImage(asked, frame(0), 1), frame(0))
+    assert woken.acquire(timeout=PATIENT_S)
+    agreement.poll()
+    verdict = agreement.verdict_on(asked)
+    assert verdict is not None
+    assert verdict.text == "agree: all pixels"
+    assert agreement.verdict_on(replace(asked, size=(4, 3))) is None
+    assert agreement.frame_of(asked.scene, asked.camera, asked.size) is not None
+    agreement.submit(RayImage(asked, frame(0), 1), frame(1))
+    assert woken.acquire(timeout=PATIENT_S)
+    agreement.poll()
+    verdict = agreement.verdict_on(asked)
+    assert verdict is not None
+    assert verdict.unexplained + ("edge" in verdict.text) > 0
+    agreement.close()

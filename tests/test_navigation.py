@@ -1,0 +1,170 @@
+"""Orbit, pan, zoom and the switch of projection, for any basis."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from hypothesis import assume, given
+from hypothesis import strategies as st
+
+from app import navigation
+from renderer.camera import Camera
+from renderer.errors import LucidaError
+
+SIZE = (320, 200)
+small = st.floats(-2, 2)
+vectors = st.tuples(small, small, small)
+points = st.tuples(st.floats(-0.5, 0.5), st.floats(-0.5, 0.5))
+
+
+@st.composite
+def cameras(draw: st.DrawFn) -> Camera:
+    """Skewed, scaled and left-handed bases, off-axis viewports, both projections."""
+    basis = np.array([draw(vectors), draw(vectors), draw(vectors)])
+    assume(abs(np.linalg.det(basis)) > 0.2)
+    u, v, w = (tuple(row) for row in basis.tolist())
+    left, bottom = draw(st.floats(-1, 0)), draw(st.floats(-1, 0))
+    width, height = draw(st.floats(0.3, 2)), draw(st.floats(0.3, 2))
+    return Camera(
+        draw(vectors),
+        u,
+        v,
+        w,
+        draw(st.floats(0.3, 3)),
+        (left, left + width, bottom, bottom + height),
+        draw(st.sampled_from(("perspective", "parallel"))),
+    )
+
+
+def seen_at(camera: Camera, point: tuple[float, float], parameter: float) -> np.ndarray:
+    """The world point on the ray through (x, y) of the image plane."""
+    across = point[0] * np.asarray(camera.u) + point[1] * np.asarray(camera.v)
+    if camera.is_parallel:
+        return np.asarray(camera.eye) + across - parameter * np.asarray(camera.w)
+    direction = across - camera.distance * np.asarray(camera.w)
+    return np.asarray(camera.eye) + parameter * direction
+
+
+def image_point(camera: Camera, world: np.ndarray) -> np.ndarray:
+    row, column, _ = camera.project(world, SIZE)
+    return np.array(camera.image_point(row, column, SIZE))
+
+
+@given(cameras(), points, points, st.floats(0.2, 20))
+def test_the_panned_point_follows_the_pointer(
+    camera: Camera, start: tuple[float, float], end: tuple[float, float], parameter: float
+) -> None:
+    world = seen_at(camera, start, parameter)
+    after = navigation.panned(camera, start, end, parameter)
+    assert image_point(after, world) == pytest.approx(np.array(end), abs=1e-6)
+    assert (after.u, after.v, after.w) == (camera.u, camera.v, camera.w)
+
+
+@given(cameras(), points, st.floats(0.5, 3), st.floats(0.2, 20))
+def test_the_zoomed_point_stays_under_the_pointer(
+    camera: Camera, at: tuple[float, float], factor: float, parameter: float
+) -> None:
+    world = seen_at(camera, at, parameter)
+    after = navigation.zoomed(camera, at, factor, parameter)
+    assert image_point(after, world) == pytest.approx(np.array(at), abs=1e-6)
+    # What is as far off as that point is seen `factor` times as large.
+    other = world + 0.01 * np.asarray(camera.u)
+    grown = image_point(after, other) - image_point(after, world)
+    before = image_point(camera, other) - image_point(camera, world)
+    columns = (camera.viewport[1] - camera.viewport[0]) / (after.viewport[1] - after.viewport[0])
+    assert grown[0] * columns == pytest.approx(before[0] * factor, rel=1e-4)
+
+
+@given(cameras(), vectors, st.floats(-3, 3), st.floats(-3, 3))
+def test_orbit_turns_rigidly_about_the_pivot(
+    camera: Camera, pivot: tuple[float, float, float], right: float, up: float
+) -> None:
+    after = navigation.orbited(camera, pivot, right, up)
+    assert np.allclose(after.basis.T @ after.basis, camera.basis.T @ camera.basis, atol=1e-9)
+    assert after.determinant == pytest.approx(camera.determinant)
+    # The pivot stays where it was in the camera's own coordinates.
+    local = np.linalg.solve(camera.basis, np.subtract(pivot, camera.eye))
+    assert np.allclose(
+        np.linalg.solve(after.basis, np.subtract(pivot, after.eye)), local, atol=1e-7
+    )
+
+
+@given(st.floats(-3, 3), st.lists(st.floats(-1, 1), min_size=1, max_size=8))
+def test_orbit_neither_rolls_nor_flips(right: float, ups: list[float]) -> None:
+    camera = Camera.look_at((1, 2, 5), (0, 0, 0))
+    for up in ups:
+        camera = navigation.orbited(camera, (0, 0, 0), right, up)
+        assert camera.u[1] == pytest.approx(0, abs=1e-9)  # no roll: right is level
+        assert camera.v[1] > 0  # up stays up
+        assert abs(camera.w[1]) <= math.sin(math.radians(navigation.STEEPEST_DEG)) + 1e-9
+
+
+@pytest.mark.parametrize("mirrored", [1, -1])
+@pytest.mark.parametrize("upside_down", [1, -1])
+@pytest.mark.parametrize("projection", ["perspective", "parallel"])
+def test_what_is_dragged_follows_the_pointer(
+    mirrored: int, upside_down: int, projection: str
+) -> None:
+    camera = Camera(
+        eye=(0, 1, 5),
+        u=(mirrored, 0, 0),
+        v=(0, upside_down, 0),
+        viewport=(-2, 2, -2, 2),
+        projection=projection,
+    )
+    near = np.array([0.0, 1.0, 1.0])  # in front of the pivot
+    before = image_point(camera, near)
+    right = image_point(navigation.orbited(camera, (0, 1, 0), 0.2, 0.0), near) - before
+    up = image_point(navigation.orbited(camera, (0, 1, 0), 0.0, 0.2), near) - before
+    assert right[0] > 0.01
+    assert abs(right[1]) < right[0] / 4
+    assert up[1] > 0.01
+    assert abs(up[0]) < 1e-9
+
+
+def test_orbit_from_straight_above() -> None:
+    camera = Camera(eye=(0, 5, 0), u=(1, 0, 0), v=(0, 0, -1), w=(0, 1, 0))
+    after = navigation.orbited(camera, (0, 0, 0), 0.3, 0.4)
+    assert after.w[1] < 1
+    assert after.w[2] > 0  # the eye comes down on the side that was the image's lower edge
+    steepest = navigation.orbited(camera, (0, 0, 0), 0.0, -1.0)
+    assert steepest.w == pytest.approx(camera.w)
+
+
+@given(cameras(), vectors)
+def test_the_switch_of_projection_keeps_the_size_at_the_focus(
+    camera: Camera, focus: tuple[float, float, float]
+) -> None:
+    switched = navigation.switched_projection(camera, focus)
+    assert switched.is_parallel != camera.is_parallel
+    back = navigation.switched_projection(switched, focus)
+    assert back.viewport == pytest.approx(camera.viewport)
+    assume(-float((camera.camera_from_world @ [*focus, 1.0])[2]) / camera.distance > 0.05)
+    first, second = camera.project(focus, SIZE), switched.project(focus, SIZE)
+    assert second.row == pytest.approx(first.row, abs=1e-5)
+    assert second.column == pytest.approx(first.column, abs=1e-5)
+
+
+def test_the_viewport_is_kept_where_the_focus_is_behind_the_eye() -> None:
+    camera = Camera(eye=(0, 0, -5))
+    assert navigation.switched_projection(camera, (0, 0, 0)).viewport == camera.viewport
+    assert navigation.parameter_of(camera, (0, 0, 0)) == 1.0
+
+
+def test_zoom_of_a_fitted_viewport_is_the_fitted_zoom() -> None:
+    camera = replace(Camera(projection="parallel"), viewport=(-0.2, 0.6, -0.5, 0.3))
+    at = (0.1, 0.2)
+    one = navigation.zoomed(camera, at, 1.7, 1.0).fitted(SIZE)
+    other = navigation.zoomed(camera.fitted(SIZE), at, 1.7, 1.0)
+    assert one.viewport == pytest.approx(other.viewport)
+
+
+def test_a_motion_out_of_range_is_refused() -> None:
+    with pytest.raises(LucidaError):
+        navigation.panned(Camera(), (0, 0), (1, 0), 1e13)
+    camera = Camera(projection="parallel")
+    with pytest.raises(LucidaError):
+        navigation.zoomed(camera, (0.25, 0.25), 1e300, 1.0)

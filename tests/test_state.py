@@ -1,0 +1,149 @@
+"""The window's state: history, switches, and edits that may be illegal for a while."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from app.basis import with_component, with_vector
+from app.editing import Draft, edit_component, edit_field
+from app.focus import scene_focus
+from app.state import AppState, History, is_orthonormal
+from renderer.camera import Camera
+from renderer.scene import View, load_scene
+from renderer.scene.model import Scene, SceneObject, Sphere
+
+SCENE = Scene((SceneObject(Sphere()),), view=View(Camera(eye=(0, 0, 5)), fit=True))
+STATE = AppState.for_scene(SCENE)
+SKEWED = Camera(u=(1, 0.3, 0), v=(0, 2, 0.1), w=(0.2, 0, 1))
+
+
+def moved(x: float) -> AppState:
+    return STATE.with_camera(replace(STATE.camera, eye=(x, 0, 5)))
+
+
+def test_a_drag_is_one_step_of_undo() -> None:
+    history = History(STATE)
+    for x in (1.0, 2.0, 3.0):
+        history = history.change(moved(x), gesture=("drag", 1))
+    history = history.change(moved(4.0), gesture=("drag", 2))
+    assert history.undo().present == moved(3.0)
+    assert history.undo().undo().present == STATE
+    assert history.undo().undo().undo().present == STATE
+    assert history.undo().undo().redo().redo().present == moved(4.0)
+
+
+def test_steps_without_a_gesture_stay_apart() -> None:
+    history = History(STATE).change(moved(1.0)).change(moved(2.0))
+    assert history.undo().present == moved(1.0)
+
+
+def test_a_change_after_undo_forgets_the_future() -> None:
+    history = History(STATE).change(moved(1.0)).undo().change(moved(2.0))
+    assert history.redo() == history
+    assert history.undo().present == STATE
+
+
+def test_a_drag_after_undo_does_not_join_the_drag_before() -> None:
+    history = History(STATE).change(moved(1.0), "a").change(moved(2.0), "b").undo()
+    history = history.change(moved(3.0), "a")
+    assert history.undo().present == moved(1.0)
+
+
+def test_no_change_is_no_step() -> None:
+    history = History(STATE)
+    assert history.change(STATE) is history
+
+
+def test_turning_the_switch_on_makes_the_basis_orthonormal() -> None:
+    state = AppState.for_scene(SCENE, View(SKEWED))
+    assert not state.keep_orthonormal
+    state = state.with_keep_orthonormal(True)
+    assert is_orthonormal(state.camera)
+    assert np.allclose(np.cross(state.camera.w, SKEWED.w), 0)
+
+
+def test_a_skewed_view_turns_the_switch_off() -> None:
+    assert STATE.keep_orthonormal
+    assert not STATE.with_view(View(SKEWED)).keep_orthonormal
+
+
+@given(
+    name=st.sampled_from("uvw"),
+    axis=st.integers(0, 2),
+    value=st.floats(-3, 3),
+    mirrored=st.booleans(),
+    spin=st.tuples(*[st.floats(-1, 1)] * 3).filter(lambda v: np.linalg.norm(v) > 0.1),
+)
+def test_edits_keep_the_basis_orthonormal_and_its_handedness(
+    name: str, axis: int, value: float, mirrored: bool, spin: tuple[float, float, float]
+) -> None:
+    camera = with_vector(Camera(u=(-1, 0, 0) if mirrored else (1, 0, 0)), "w", np.array(spin))
+    edited = with_component(camera, name, axis, value, keep_orthonormal=True)
+    assert is_orthonormal(edited)
+    assert getattr(edited, name)[axis] == pytest.approx(min(max(value, -1), 1), abs=1e-9)
+    assert edited.determinant * camera.determinant > 0
+
+
+def test_an_axis_can_be_left_and_reached() -> None:
+    camera = with_component(Camera(), "w", 2, 0.5, keep_orthonormal=True)
+    assert camera.w[2] == 0.5
+    assert np.linalg.norm(camera.w) == pytest.approx(1)
+    assert with_component(camera, "w", 2, 1.0, keep_orthonormal=True).w == pytest.approx((0, 0, 1))
+
+
+def test_dragging_back_brings_everything_back() -> None:
+    state, draft = STATE, Draft.of(STATE.camera).begun()
+    for value in (0.3, 0.9, 1.7, -1.0, 0.2, 0.0):
+        state, draft = edit_component(state, draft, "w", 0, value)
+    assert np.allclose(state.camera.basis, STATE.camera.basis)
+
+
+def test_an_illegal_value_waits_and_the_camera_stays() -> None:
+    state = replace(STATE, keep_orthonormal=False)
+    draft = Draft.of(state.camera)
+    after, draft = edit_component(state, draft, "w", 2, 0.0)
+    assert after == state
+    assert draft.error is not None
+    assert draft.is_wrong("w")
+    assert draft.value("w") == (0, 0, 0)
+    # A waiting component becomes part of the camera with the one that makes it legal.
+    after, draft = edit_component(after, draft, "w", 0, 1.0)
+    assert after == state
+    assert draft.is_wrong("w")  # parallel to u
+    after, draft = edit_component(after, draft, "u", 2, 1.0)
+    assert draft.error is None
+    assert after.camera.w == (1, 0, 0)
+    assert after.camera.u == (1, 0, 1)
+
+
+@pytest.mark.parametrize(
+    ("name", "value"),
+    [
+        ("distance", 0.0),
+        ("distance", float("nan")),
+        ("viewport", (0.5, -0.5, -0.5, 0.5)),
+        ("eye", (float("inf"), 0.0, 0.0)),
+    ],
+)
+def test_illegal_fields_are_told_and_kept_out(name: str, value: object) -> None:
+    state, draft = edit_field(STATE, Draft.of(STATE.camera), name, value)
+    assert state == STATE
+    assert draft.is_wrong(name)
+
+
+def test_a_draft_is_dropped_when_the_camera_changes_elsewhere() -> None:
+    _, draft = edit_field(STATE, Draft.of(STATE.camera), "distance", -1.0)
+    assert draft.following(STATE.camera) is draft
+    assert draft.following(moved(1.0).camera).error is None
+
+
+def test_the_focus_is_not_misled_by_a_large_floor() -> None:
+    focus = scene_focus(load_scene("spheres"))
+    assert np.linalg.norm(focus.center) < 3
+    assert focus.reach < 40
+    assert scene_focus(Scene(())).reach > 0
