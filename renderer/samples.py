@@ -67,6 +67,7 @@ def supersampled(
     places = offsets(samples if "color" in channels else 1)
     centre = (0.0, 0.0)
     others = tuple(name for name in channels if name != "color")
+    passes: list[tuple[tuple[float, float], tuple[str, ...]]]
     passes = [(place, ("color",)) for place in places if place != centre]
     if centre in places:
         passes.insert(0, (centre, channels))

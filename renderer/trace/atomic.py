@@ -18,15 +18,15 @@ from renderer.trace.compiled import inlined
 from renderer.trace.control import CANCELLED, DONE, NEXT
 
 
-def _pointer(context, builder, array_type, array):  # type: ignore[no-untyped-def]
+def _pointer(context, builder, array_type, array):
     return make_array(array_type)(context, builder, array).data
 
 
 @intrinsic
-def fetch_add(typing, array, index, value):  # type: ignore[no-untyped-def]
+def fetch_add(typing, array, index, value):
     """Adds value to array[index] (int64) at once; gives what was there before."""
 
-    def codegen(context, builder, signature, args):  # type: ignore[no-untyped-def]
+    def codegen(context, builder, signature, args):
         data = _pointer(context, builder, signature.args[0], args[0])
         at = builder.gep(data, [args[1]])
         return builder.atomic_rmw("add", at, args[2], "seq_cst")
@@ -35,10 +35,10 @@ def fetch_add(typing, array, index, value):  # type: ignore[no-untyped-def]
 
 
 @intrinsic
-def read(typing, array, index):  # type: ignore[no-untyped-def]
+def read(typing, array, index):
     """array[index] (int64) as it is in memory now."""
 
-    def codegen(context, builder, signature, args):  # type: ignore[no-untyped-def]
+    def codegen(context, builder, signature, args):
         data = _pointer(context, builder, signature.args[0], args[0])
         at = builder.gep(data, [args[1]])
         return builder.load_atomic(at, "monotonic", 8, typ=ir.IntType(64))

@@ -5,7 +5,7 @@ Owns the buffers and the blocks that an image is divided into. Needs no numba.
 
 from __future__ import annotations
 
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -15,7 +15,8 @@ from renderer.frame import Frame
 
 BLOCK = 32  # pixels: side of the square that a thread takes at a time
 
-_LAYOUT = {  # shape of a pixel, type, and what a pixel without a hit holds (color: the background)
+# Shape of a pixel, type, and what a pixel without a hit holds (color: the background instead).
+_LAYOUT: dict[str, tuple[tuple[int, ...], type, float]] = {
     "color": ((3,), np.float32, 0),
     "depth": ((), np.float32, np.inf),
     "normal": ((3,), np.float32, 0),
@@ -48,18 +49,18 @@ class Image(NamedTuple):
 def new_image(size: tuple[int, int], channels: tuple[str, ...]) -> Image:
     """Buffers whose pixels hold anything as yet. Raises LucidaError where memory runs out."""
     width, height = size
-    buffers, has = {}, {}
+    parts: dict[str, Any] = {}
     try:
         for name, (pixel, dtype, _) in _LAYOUT.items():
-            has[f"has_{name}"] = name in channels
             shape = (height, width) if name in channels else (0, 0)
-            buffers[name] = np.empty((*shape, *pixel), dtype)
+            parts[name] = np.empty((*shape, *pixel), dtype)
+            parts[f"has_{name}"] = name in channels
     except MemoryError:
         raise LucidaError(
             "size", f"{width}x{height} exceeds the memory", "make it smaller"
         ) from None
     finished = np.zeros((-(-height // BLOCK), -(-width // BLOCK)), np.uint8)
-    return Image(width, height, finished, **buffers, **has)
+    return Image(width, height, finished, **parts)
 
 
 def to_frame(image: Image, background: tuple[float, float, float], time_s: float) -> Frame:

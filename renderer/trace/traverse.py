@@ -48,12 +48,12 @@ def closest_hit(tree, stack, origin, direction, t_min, t_max):
     """
     bounds, links, order = tree.bounds, tree.links, tree.order
     waiting, entered = stack
-    closest, primitive, b1, b2 = t_max, -1, 0.0, 0.0
+    closest, primitive, b1, b2 = t_max, np.int64(-1), 0.0, 0.0
     if len(order) == 0:
         return np.inf, primitive, b1, b2
     to_boxes = box_ray(origin, direction, tree.extent)
     to_triangles = sheared_ray(origin, direction)
-    node, top = 0, 0
+    node, top = np.int64(0), 0
     while True:
         count = links[node, 1]
         if count == 0:

@@ -40,8 +40,8 @@ class View(NamedTuple):
             camera.u,
             camera.v,
             (scale * x, scale * y, scale * z),
-            *(float(edge) for edge in camera.viewport),
+            *camera.viewport,
             camera.is_parallel,
-            float(t_min),
-            float(t_max),
+            t_min,
+            t_max,
         )

@@ -1,0 +1,105 @@
+"""Where compiled kernels are kept: read-only installations, no place at all, edits, two at once."""
+
+from __future__ import annotations
+
+import os
+import shutil
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+import pytest
+
+import renderer
+from renderer.trace import compiled
+
+HANG_S = 280
+SCRIPT = """
+from renderer.camera import Camera
+from renderer.scene.model import Scene, SceneObject, Sphere
+from renderer.trace import Tracer
+frame = Tracer(Scene((SceneObject(Sphere((0, 0, -3))),))).render(Camera(), (5, 5), ("depth",))
+assert frame.depth[2, 2] == 2, frame.depth
+from renderer.trace import compiled
+from renderer.trace.kernel import trace_image as kernel
+print(compiled.cache_folder(), sum(kernel.stats.cache_hits.values()))
+"""
+
+
+@pytest.fixture
+def installation(tmp_path: Path) -> Path:
+    """A copy of the package that cannot cache beside itself: the folder's name is taken."""
+    package = tmp_path / "installation" / "renderer"
+    source = Path(renderer.__file__).parent
+    shutil.copytree(source, package, ignore=shutil.ignore_patterns("__pycache__"))
+    (package / "trace" / "__pycache__").write_text("")
+    return package
+
+
+def start(installation: Path, cache: Path, script: str = SCRIPT) -> subprocess.Popen:
+    env = {name: text for name, text in os.environ.items() if not name.startswith("NUMBA_")}
+    env |= {
+        "PYTHONPATH": str(installation.parent),
+        "PYTHONDONTWRITEBYTECODE": "1",
+        "HOME": str(cache),
+        "XDG_CACHE_HOME": str(cache),
+        "LOCALAPPDATA": str(cache),
+    }
+    return subprocess.Popen(
+        [sys.executable, "-c", script], cwd=installation.parent, env=env, text=True,
+        stdout=subprocess.PIPE, stderr=subprocess.PIPE,
+    )  # fmt: skip
+
+
+def finish(process: subprocess.Popen) -> str:
+    out, err = process.communicate(timeout=HANG_S)
+    assert process.returncode == 0, err
+    assert err == ""
+    return out.strip()
+
+
+def test_a_read_only_installation_caches_for_the_user(installation: Path, tmp_path: Path) -> None:
+    cache = tmp_path / "cache"
+    for process in [start(installation, cache) for _ in range(2)]:  # both compile, at once
+        folder, hits = finish(process).rsplit(" ", 1)
+        assert Path(folder).is_relative_to(cache)
+        assert hits == "0"
+    assert finish(start(installation, cache)) == f"{folder} 1"
+
+    # A damaged file costs compiling again, and is replaced.
+    for file in Path(folder).rglob("*.nb?"):
+        file.write_bytes(file.read_bytes()[: file.stat().st_size // 2])
+    assert finish(start(installation, cache)) == f"{folder} 0"
+
+    # An edit of any file that kernels consist of leads to another folder.
+    shown = "from renderer.trace import compiled; print(compiled.cache_folder())"
+    folders = {folder, finish(start(installation, cache, shown))}
+    assert len(folders) == 1
+    for edited in ("trace/intersect.py", "trace/vectors.py", "scene/flat.py"):
+        with (installation / edited).open("a") as file:
+            file.write("\n")
+        folders.add(finish(start(installation, cache, shown)))
+    assert len(folders) == 4
+
+
+def test_with_nowhere_to_write_kernels_are_compiled_each_time(
+    installation: Path, tmp_path: Path
+) -> None:
+    cache = tmp_path / "file"
+    cache.write_text("no folder can be made in here")
+    assert finish(start(installation, cache / "below")) == "None 0"
+
+
+def test_old_folders_are_pruned(tmp_path: Path) -> None:
+    for age in range(10):
+        folder = tmp_path / f"old{age}"
+        folder.mkdir()
+        (folder / "kernel.nbi").write_text("x")
+        stamp = time.time() - 86400 * (age + 1)
+        os.utime(folder, (stamp, stamp))
+    for name in ("young", "used"):
+        (tmp_path / name).mkdir()
+    compiled._prune(tmp_path, tmp_path / "used")
+    left = {path.name for path in tmp_path.iterdir()}
+    assert left == {"used", "young", "old0", "old1", "old2"}

@@ -1,0 +1,253 @@
+"""Jobs in the background: progress, cancelling, several at once, and their end."""
+
+from __future__ import annotations
+
+import gc
+import subprocess
+import sys
+import threading
+import time
+import weakref
+from collections.abc import Iterator
+
+import numpy as np
+import pytest
+from trace_reference import scene_of
+
+from renderer.camera import Camera
+from renderer.errors import LucidaError
+from renderer.scene.model import Mesh, Scene, Sphere
+from renderer.trace import TraceJob, Tracer
+from renderer.trace.image import BLOCK
+from renderer.trace.team import Team
+
+FRONT = Camera.look_at((0, 0, 5), (0, 0, 0), fov_y_deg=40)
+SMALL, LARGE = (48, 32), (2048, 2048)
+HANG_S = 60  # a failure, not a measurement
+
+
+def slow_scene() -> Scene:
+    """Each ray tries all of 5000 equal triangles: an image of LARGE takes minutes."""
+    vertices = np.array([[-9, -9, 0], [9, -9, 0], [0, 20, 0]], float)
+    return scene_of(Mesh(vertices, np.tile([0, 1, 2], (5000, 1))))
+
+
+@pytest.fixture(scope="module")
+def slow() -> Iterator[Tracer]:
+    with Tracer(slow_scene(), threads=2) as tracer:
+        tracer.render(FRONT, (1, 1))
+        yield tracer
+
+
+def wait_until_tracing(job: TraceJob) -> None:
+    deadline = time.monotonic() + HANG_S
+    while job.progress == 0 and time.monotonic() < deadline:
+        time.sleep(0.001)
+    assert 0 < job.progress < 1
+
+
+def test_a_cancelled_job_gives_what_it_has(slow: Tracer) -> None:
+    job = slow.start(FRONT, LARGE, ("color", "depth", "normal", "id", "primitive"))
+    wait_until_tracing(job)
+    assert not job.done
+    job.cancel()
+    assert job.wait(HANG_S)
+    assert job.done
+    assert job.progress == 1
+    frame = job.result()
+    assert not frame.complete
+    assert frame is job.result()
+    first = frame.id[:BLOCK, :BLOCK]  # taken first, and finished before any progress was seen
+    assert (first == 0).any() or (frame.id == 0).any()
+    missed = frame.id < 0
+    assert missed[-BLOCK:].all()
+    assert np.isinf(frame.depth[missed]).all()
+    assert (frame.color[missed] == np.float32([0.1, 0.2, 0.3])).all()
+    assert (frame.normal[missed] == 0).all()
+    assert (frame.primitive[missed] == -1).all()
+    assert np.isfinite(frame.depth[~missed]).all()
+
+
+def test_jobs_wait_for_one_another_and_can_be_cancelled_while_waiting(slow: Tracer) -> None:
+    first = slow.start(FRONT, LARGE, ("depth",))
+    second = slow.start(FRONT, SMALL)
+    third = slow.start(FRONT, (8, 8))
+    second.cancel()
+    assert second.done  # at once, though the first goes on
+    assert not first.done
+    frame = second.result()
+    assert not frame.complete
+    assert frame.color.shape == (32, 48, 3)
+    assert np.isinf(frame.depth).all()
+    assert not third.wait(0.01)
+    first.cancel()
+    assert third.result().complete
+
+
+def test_a_cancelled_job_stays_cancelled_and_the_tracer_goes_on(slow: Tracer) -> None:
+    job = slow.start(FRONT, LARGE)
+    job.cancel()
+    job.cancel()
+    assert not job.result().complete
+    assert slow.render(FRONT, (4, 4)).complete
+    done = slow.start(FRONT, (4, 4))
+    done.wait()
+    done.cancel()
+    assert done.result().complete
+
+
+def test_progress_rises_to_one(slow: Tracer) -> None:
+    seen: list[float] = []
+    threads = set()
+
+    def progress(fraction: float) -> None:
+        seen.append(fraction)
+        threads.add(threading.current_thread())
+
+    frame = slow.render(FRONT, (96, 64), ("color", "depth"), samples=4, progress=progress)
+    assert frame.complete
+    assert seen == sorted(seen)
+    assert len(seen) >= 5
+    assert seen[-1] == 1
+    assert 0 <= seen[0] < 1
+    assert threads == {threading.current_thread()}
+
+
+def test_an_exception_in_progress_cancels(slow: Tracer) -> None:
+    def progress(fraction: float) -> None:
+        raise KeyboardInterrupt
+
+    with pytest.raises(KeyboardInterrupt):
+        slow.render(FRONT, LARGE, progress=progress)
+    assert slow.render(FRONT, (4, 4)).complete  # not after minutes
+
+
+def test_closing_cancels_and_ends_the_threads() -> None:
+    before = threading.active_count()
+    tracer = Tracer(slow_scene(), threads=3)
+    jobs = [tracer.start(FRONT, LARGE) for _ in range(3)]
+    wait_until_tracing(jobs[0])
+    tracer.close()
+    tracer.close()
+    assert all(job.done for job in jobs)
+    assert not any(job.result().complete for job in jobs)
+    assert threading.active_count() == before
+    with pytest.raises(LucidaError, match="closed"):
+        tracer.start(FRONT, SMALL)
+
+
+def test_a_dropped_tracer_ends_its_threads() -> None:
+    before = set(threading.enumerate())
+    tracer = Tracer(slow_scene(), threads=2)
+    job = tracer.start(FRONT, LARGE)
+    wait_until_tracing(job)
+    started = set(threading.enumerate()) - before
+    gone = weakref.ref(tracer)
+    del tracer
+    gc.collect()
+    assert gone() is not None  # the job keeps it
+    assert not job.done
+    del job
+    gc.collect()
+    assert gone() is None
+    assert len(started) == 2
+    for thread in started:
+        thread.join(HANG_S)
+        assert not thread.is_alive()
+
+
+def test_several_tracers_at_once() -> None:
+    scenes = [scene_of(Sphere((0, 0, z), 1.0)) for z in (-4.0, -2.0, 0.0, 1.0)]
+    tracers = [Tracer(scene, threads=2) for scene in scenes]
+    jobs = [tracer.start(FRONT, (63, 65), ("depth",)) for _ in range(5) for tracer in tracers]
+    frames = [job.result() for job in jobs]
+    assert all(frame.complete for frame in frames)
+    for number, frame in enumerate(frames):
+        assert np.array_equal(frame.depth, frames[number % 4].depth)
+        assert frame.depth[32, 31] * FRONT.distance == pytest.approx(
+            4 - (-4.0, -2.0, 0.0, 1.0)[number % 4], rel=0.01
+        )
+    for tracer in tracers:
+        tracer.close()
+
+
+def test_one_tracer_from_several_threads() -> None:
+    with Tracer(scene_of(Sphere()), threads=2) as tracer:
+        want = tracer.render(FRONT, SMALL)
+        frames = [None] * 6
+
+        def render(number: int) -> None:
+            frames[number] = tracer.render(FRONT, SMALL)
+
+        threads = [threading.Thread(target=render, args=(number,)) for number in range(6)]
+        for thread in threads:
+            thread.start()
+        for thread in threads:
+            thread.join()
+        assert all(np.array_equal(frame.color, want.color) for frame in frames)
+
+
+def test_the_image_does_not_depend_on_the_threads() -> None:
+    frames = []
+    for threads in (1, 2, 5):
+        with Tracer(scene_of(Sphere(), Sphere((1, 1, 1), 0.5)), threads) as tracer:
+            frames.append(tracer.render(FRONT, (100, 70)))
+    for channel in ("color", "depth", "normal", "id"):
+        assert all(
+            np.array_equal(getattr(frame, channel), getattr(frames[0], channel)) for frame in frames
+        )
+
+
+def test_only_the_channels_asked_for_are_given() -> None:
+    with Tracer(scene_of(Sphere()), threads=2) as tracer:
+        every = tracer.render(FRONT, SMALL, ("color", "depth", "normal", "id", "primitive"))
+        for channel in ("color", "depth", "normal", "id", "primitive"):
+            frame = tracer.render(FRONT, SMALL, (channel,))
+            given = [name for name in ("color", "depth", "normal", "id", "primitive")
+                     if getattr(frame, name) is not None]  # fmt: skip
+            assert given == [channel]
+            assert np.array_equal(getattr(frame, channel), getattr(every, channel))
+            assert frame.time_s > 0
+
+
+def test_an_error_in_the_team_reaches_the_caller() -> None:
+    team = Team(3)
+
+    def fail() -> None:
+        raise ZeroDivisionError
+
+    with pytest.raises(ZeroDivisionError):
+        team.run(fail)
+    calls: list[int] = []
+    team.run(calls.append, 1)
+    team.run(calls.append, 1, size=2)
+    assert len(calls) == 5
+    team.close()
+
+
+@pytest.mark.parametrize("end", ["", "sys.exit(3)", "raise RuntimeError"])
+def test_the_interpreter_exits_while_jobs_run(end: str) -> None:
+    script = f"""
+import sys, time
+from test_trace_jobs import FRONT, LARGE, slow_scene
+from renderer.trace import Tracer
+tracers = [Tracer(slow_scene(), threads=2) for _ in range(2)]
+jobs = [tracer.start(FRONT, LARGE) for tracer in tracers for _ in range(2)]
+while not jobs[0].progress or not jobs[2].progress:
+    time.sleep(0.01)
+{end}
+"""
+    done = subprocess.run(
+        [sys.executable, "-c", script], capture_output=True, text=True, timeout=HANG_S * 2,
+        env=_environment(),
+    )  # fmt: skip
+    assert done.returncode == {"": 0, "sys.exit(3)": 3, "raise RuntimeError": 1}[end]
+    assert ("RuntimeError" in done.stderr) if "raise" in end else done.stderr == ""
+
+
+def _environment() -> dict[str, str]:
+    import os
+    from pathlib import Path
+
+    tests = Path(__file__).parent
+    return {**os.environ, "PYTHONPATH": os.pathsep.join([str(tests.parent), str(tests)])}
