@@ -1,5 +1,7 @@
 #version 330 core
 // Once a pixel: from the number of the primitive that is seen to the hit and its colour.
+// HAS_TRIANGLES, HAS_SPHERES, HAS_NORMALS, HAS_COLORS, HAS_CHECKERS: constants put in above, so that a
+// scene does not pay for what it has not.
 
 #include "chunks/triangle.glsl"
 #include "chunks/sphere.glsl"
@@ -17,17 +19,13 @@ layout(location = 2) out int object;
 
 void main() {
     int primitive = texelFetch(primitives, ivec2(gl_FragCoord.xy), 0).x;
-    if (primitive < 0) {
-        color = vec4(background, 1.0);
-        surface = vec4(0.0, 0.0, 0.0, uintBitsToFloat(0x7f800000u));  // infinity
-        object = -1;
-        return;
-    }
     vec2 xy = image_position(gl_FragCoord.xy);
     vec3 d = ray_direction(xy);
     Hit hit;
     hit.to_viewer = -normalize(d);
-    if (primitive < triangle_count) {
+    hit.smooth_normal = vec3(0.0);
+    hit.vertex_color = vec3(1.0);
+    if (HAS_TRIANGLES && (!HAS_SPHERES || primitive < triangle_count)) {
         ivec4 face = texelFetch(faces, texel(primitive), 0);
         hit.object = face.w;
         hit.t = triangle_t(texelFetch(triangle_rows, texel(primitive), 0).xyz, xy);
@@ -45,16 +43,20 @@ void main() {
             ? mat3(a, b, c) * weights
             : to_ray(anchor, xy) + (hit.t - anchor.z) * d;
         hit.normal = normalize(cross(b - a, c - a));
-        mat3 normals = mat3(
-            texelFetch(vertices, texel(3 * face.x + 1), 0).xyz,
-            texelFetch(vertices, texel(3 * face.y + 1), 0).xyz,
-            texelFetch(vertices, texel(3 * face.z + 1), 0).xyz);
-        hit.smooth_normal = smooth_normal(normals, weights, hit.normal);
-        hit.vertex_color = mat3(
-            texelFetch(vertices, texel(3 * face.x + 2), 0).xyz,
-            texelFetch(vertices, texel(3 * face.y + 2), 0).xyz,
-            texelFetch(vertices, texel(3 * face.z + 2), 0).xyz) * weights;
-    } else {
+        if (HAS_NORMALS) {
+            mat3 normals = mat3(
+                texelFetch(vertices, texel(3 * face.x + 1), 0).xyz,
+                texelFetch(vertices, texel(3 * face.y + 1), 0).xyz,
+                texelFetch(vertices, texel(3 * face.z + 1), 0).xyz);
+            hit.smooth_normal = smooth_normal(normals, weights, hit.normal);
+        }
+        if (HAS_COLORS) {
+            hit.vertex_color = mat3(
+                texelFetch(vertices, texel(3 * face.x + 2), 0).xyz,
+                texelFetch(vertices, texel(3 * face.y + 2), 0).xyz,
+                texelFetch(vertices, texel(3 * face.z + 2), 0).xyz) * weights;
+        }
+    } else if (HAS_SPHERES) {
         Sphere sphere = sphere_at(primitive - triangle_count);
         hit.object = sphere.object;
         vec3 normal;
@@ -64,8 +66,6 @@ void main() {
             ? sphere.from_anchor + normal
             : to_ray(anchor, xy) + (hit.t - anchor.z) * d;
         hit.normal = normalize(normal);
-        hit.smooth_normal = vec3(0.0);
-        hit.vertex_color = vec3(1.0);
     }
     face_viewer(hit);
     color = vec4(shaded(hit), 1.0);

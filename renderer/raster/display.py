@@ -44,6 +44,7 @@ class Display:
             framebuffer.use()
             texture.use(0)
             self._program["linear_color"].value = 0
+            self._program["window_depth"].value = 0.5
             self._program["exposure"].value = min(2.0**exposure_ev, 1e30)
             self._screen.render(moderngl.TRIANGLES, vertices=3)
         finally:

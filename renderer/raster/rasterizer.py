@@ -32,11 +32,13 @@ from renderer.raster.sources import link
 from renderer.raster.tables import Table, check
 from renderer.raster.targets import Targets, Textures
 from renderer.samples import Progress, check_samples, supersampled
-from renderer.scene.flat import FlatScene, flatten
+from renderer.scene.flat import SPECULAR_CHECKERED, FlatScene, flatten
 from renderer.scene.model import Scene
 
 DEFAULT_CHANNELS = ("color", "depth", "normal", "id")
 BOX_VERTICES = 36
+# In window depth: where nothing is, and between that and what depth() in camera.glsl may give.
+FARTHEST, BEFORE_FARTHEST = 1.0, 1 - 2**-21
 
 
 class Rasterizer:
@@ -165,14 +167,30 @@ class Programs:
     """The compiled shaders."""
 
     def __init__(self, gl: moderngl.Context) -> None:
-        self.background = link(gl, "screen.vert", "background.frag")
+        self._gl = gl
+        self._shade: dict[tuple[bool, ...], moderngl.Program] = {}
+        self.clear = link(gl, "screen.vert", "clear.frag")
         self.triangles = link(gl, "triangles.vert", "triangles.frag")
         self.spheres = link(gl, "spheres.vert", "spheres.frag")
-        self.shade = link(gl, "screen.vert", "shade.frag")
-        self.all = (self.background, self.triangles, self.spheres, self.shade)
+        self.background = link(gl, "screen.vert", "background.frag")
+
+    def shade(self, flat: FlatScene) -> moderngl.Program:
+        """The shading pass for what the scene has."""
+        features = {
+            "HAS_TRIANGLES": len(flat.faces) > 0,
+            "HAS_SPHERES": len(flat.spheres) > 0,
+            "HAS_NORMALS": bool(flat.normals.any()),
+            "HAS_COLORS": bool((flat.colors != 1).any()),
+            "HAS_CHECKERS": bool(flat.materials[:, SPECULAR_CHECKERED, 3].any()),
+        }
+        key = tuple(features.values())
+        if key not in self._shade:
+            self._shade[key] = link(self._gl, "screen.vert", "shade.frag", features)
+        return self._shade[key]
 
     def release(self) -> None:
-        for program in self.all:
+        first = (self.clear, self.triangles, self.spheres, self.background)
+        for program in (*first, *self._shade.values()):
             program.release()
 
 
@@ -209,8 +227,9 @@ class SceneData:
         }
         self._units = {name: unit for unit, name in enumerate((*self._tables, "primitives"))}
         self._block = self._own(gl.buffer(reserve=CAMERA_BLOCK.itemsize))
+        self._clear = self._own(gl.vertex_array(programs.clear, []))
         self._background = self._own(gl.vertex_array(programs.background, []))
-        self._shade = self._own(gl.vertex_array(programs.shade, []))
+        self._shade = self._own(gl.vertex_array(programs.shade(flat), []))
         self._sphere_boxes = self._own(gl.vertex_array(programs.spheres, []))
         self._triangles = None
         if triangles:
@@ -256,8 +275,7 @@ class SceneData:
         gl, programs = self._gl, self._programs
         self._bind()
         gl.enable_only(moderngl.DEPTH_TEST)
-        gl.depth_func = "1"
-        self._background.render(moderngl.TRIANGLES, vertices=3)
+        self._screen(self._clear, "1", FARTHEST)
         gl.depth_func = "<"
         if self._triangles is not None:
             self._use(programs.triangles)
@@ -271,11 +289,19 @@ class SceneData:
             self._sphere_boxes.render(moderngl.TRIANGLES, vertices=BOX_VERTICES, instances=count)
 
     def shade(self, primitives: moderngl.Texture) -> None:
-        """Hit and colour of each pixel, into the bound framebuffer."""
-        self._gl.enable_only(moderngl.NOTHING)
+        """Hit and colour of each pixel, into the bound framebuffer, by its depth: where the first
+        pass has left nothing, no hit is looked for."""
+        self._gl.enable_only(moderngl.DEPTH_TEST)
         primitives.use(self._units["primitives"])
-        self._use(self._programs.shade)
-        self._shade.render(moderngl.TRIANGLES, vertices=3)
+        self._screen(self._background, "==", FARTHEST)
+        if len(self._flat.materials):
+            self._screen(self._shade, ">", BEFORE_FARTHEST)
+
+    def _screen(self, array: moderngl.VertexArray, depth_func: str, window_depth: float) -> None:
+        self._gl.depth_func = depth_func
+        self._use(array.program)
+        array.program["window_depth"].value = window_depth
+        array.render(moderngl.TRIANGLES, vertices=3)
 
     def _bind(self) -> None:
         self._block.bind_to_uniform_block(0)
@@ -289,7 +315,8 @@ class SceneData:
                 program[name].value = unit
         if "triangle_count" in program:
             program["triangle_count"].value = len(self._flat.faces)
-        program["Camera"].binding = 0
+        if "Camera" in program:
+            program["Camera"].binding = 0
 
 
 def _read(targets: Targets, channel: str) -> np.ndarray:

@@ -7,7 +7,7 @@ file and line. Knows nothing of what the shaders compute.
 from __future__ import annotations
 
 import re
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from importlib.resources import files
 
 import moderngl
@@ -30,18 +30,27 @@ def read_shader(name: str) -> str:
 class Source:
     """One stage's text with its chunks put in, each once, and where each of its lines comes from.
 
-    name: a file under shaders/. read: gives a file's text by name. places: (file, line) of each line
+    name: a file under shaders/. read: gives a file's text by name. constants: declared after the
+    first line, which is #version. places: (file, line) of each line
     of the text: drivers count lines of the text, and some lose the string number of a #line.
     Raises LucidaError for a chunk that is missing or that includes itself.
     """
 
-    def __init__(self, name: str, read: Callable[[str], str] = read_shader) -> None:
+    def __init__(
+        self,
+        name: str,
+        read: Callable[[str], str] = read_shader,
+        constants: Mapping[str, bool] | None = None,
+    ) -> None:
         self.name = name
         self.places: list[tuple[str, int]] = []
         self._read = read
         self._taken: set[str] = set()
         self._lines: list[str] = []
         self._expand(name, read(name), ())
+        for constant, value in (constants or {}).items():
+            self._lines.insert(1, f"const bool {constant} = {str(value).lower()};")
+            self.places.insert(1, (name, 1))
         self.text = "\n".join(self._lines) + "\n"
 
     def _expand(self, name: str, text: str, chain: tuple[str, ...]) -> None:
@@ -81,13 +90,17 @@ def link(
     context: moderngl.Context,
     vertex: str,
     fragment: str,
+    constants: Mapping[str, bool] | None = None,
     read: Callable[[str], str] = read_shader,
 ) -> moderngl.Program:
-    """The program of two stages under shaders/.
+    """The program of two stages under shaders/; the fragment shader gets the constants.
 
     Raises LucidaError naming the file and line where the driver does not accept one.
     """
-    stages = {"vertex_shader": Source(vertex, read), "fragment_shader": Source(fragment, read)}
+    stages = {
+        "vertex_shader": Source(vertex, read),
+        "fragment_shader": Source(fragment, read, constants),
+    }
     try:
         return context.program(**{stage: source.text for stage, source in stages.items()})
     except moderngl.Error as error:

@@ -29,7 +29,8 @@ class Textures:
 
 
 class Targets:
-    """Framebuffers of one size, (width, height): `seen` takes primitives, `shaded` the rest."""
+    """Framebuffers of one size, (width, height): `seen` takes primitives and depth, `shaded` the rest; it only
+    reads the depth."""
 
     def __init__(self, context: moderngl.Context, size: tuple[int, int]) -> None:
         largest = context.info["GL_MAX_TEXTURE_SIZE"]
@@ -53,9 +54,10 @@ class Targets:
             self.seen = self._own(context.framebuffer([self.textures.primitive], depth))
             self.shaded = self._own(
                 context.framebuffer(
-                    [self.textures.color, self.textures.surface, self.textures.object]
+                    [self.textures.color, self.textures.surface, self.textures.object], depth
                 )
             )
+            self.shaded.depth_mask = False
         except moderngl.Error as error:
             self.release()
             raise LucidaError(

@@ -48,9 +48,10 @@ bool counts(float t) {
     return t > t_range.x && t < t_range.y;
 }
 
-// Window depth: the place of t among the floats.
+// Window depth: the place of t among the floats. The last bit of it stays for "nothing"
+// (rasterizer.py).
 float depth(float t) {
-    return clamp(float(floatBitsToInt(t) - depth_low) * depth_scale, 0.0, 0.9999999);
+    return clamp(float(floatBitsToInt(t) - depth_low) * depth_scale, 0.0, 0.999999);
 }
 
 // Whether a hit at t is better located from something near it, `reach` away, than from the eye.

@@ -55,7 +55,7 @@ void face_viewer(inout Hit hit) {
 // Diffuse reflectance: a checker is a solid pattern of cells, and a face on a border takes the cell inside.
 vec3 albedo(Hit hit) {
     vec4 diffuse = object_texel(hit.object, 2);
-    if (object_texel(hit.object, 3).w == 0.0) {
+    if (!HAS_CHECKERS || object_texel(hit.object, 3).w == 0.0) {
         return diffuse.rgb * hit.vertex_color;
     }
     vec4 x = object_texel(hit.object, 5);
