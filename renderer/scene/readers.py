@@ -33,7 +33,8 @@ SPLIT_WORK = 1 << 31  # parts times vertices of an .obj file up to which it is s
 # What a face line of an .obj must not hold for trimesh: indices counted from the end, or 0.
 _RELATIVE = re.compile(r"^f[^\n]*[ \t/](?:-\d|0+(?![0-9.]))", re.MULTILINE)
 _COMMENT = re.compile(r"^((?:f|v[nt]?)[ \t][^#\n]*)#[^\n]*", re.MULTILINE)
-_UNTIDY = re.compile(r"^(?:[ \t]+(?=\S)|(f|v[nt]?|o|g|usemtl|mtllib)[ \t]*\t[ \t]*)", re.MULTILINE)
+_INDENT = re.compile(r"^[ \t]+", re.MULTILINE)
+_TAB = re.compile(r"^(f|v[nt]?|o|g|usemtl|mtllib)[ \t]*\t[ \t]*", re.MULTILINE)
 _SOLID = re.compile(r"^solid\b([^\n]*)", re.MULTILINE | re.IGNORECASE)
 _DIVISION = re.compile(r"^(?:o|g|usemtl|mtllib)\b[^\n]*\n", re.MULTILINE)
 
@@ -173,7 +174,7 @@ def _text(data: bytes) -> str:
     text = data.decode("utf-8-sig", "replace").replace("\r\n", "\n").replace("\r", "\n")
     text = f"\n{text}\n"
     if "\t" in text or "\n " in text:
-        text = _UNTIDY.sub(lambda match: f"{match[1]} " if match[1] else "", text)
+        text = _TAB.sub(r"\1 ", _INDENT.sub("", text))
     if text.count("#") > text.count("\n#"):
         text = _COMMENT.sub(r"\1", text)
     return text

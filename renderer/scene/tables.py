@@ -28,7 +28,6 @@ _NAMES = {
     "bool": "true or false",
     "array": "a list",
     "object": "a table",
-    "null": "nothing",
 }
 
 
@@ -104,7 +103,8 @@ def _explained(message: str, value: Any, kind: Any, prefix: str) -> LucidaError:
     if length := re.fullmatch(r"Expected `array` of length (\d+), got (\d+)", text):
         return LucidaError(field, f"has {length[2]} entries", f"give {length[1]}")
     if wrong := re.fullmatch(r"Expected `(.*)`, got `(.*)`", text):
-        wanted = " or ".join(_NAMES.get(name, name) for name in wrong[1].split(" | "))
+        kinds = [name for name in wrong[1].split(" | ") if name != "null"]
+        wanted = " or ".join(_NAMES.get(name, name) for name in kinds)
         return LucidaError(field, f"is {_NAMES.get(wrong[2], 'a ' + wrong[2])}", f"give {wanted}")
     return LucidaError(field, text[:1].lower() + text[1:], "correct it")
 
