@@ -13,7 +13,7 @@ from renderer.errors import LucidaError
 from renderer.scene import flatten
 from tests.benchmarks import __main__ as command
 from tests.benchmarks import cameras, environment, measure, report, run, scenes
-from tests.benchmarks.tables import TABLES, moving
+from tests.benchmarks.tables import TABLES, memory, moving, window
 
 SIZE = (32, 18)
 
@@ -67,6 +67,12 @@ class TestMeshes:
         moved = moving.moved_object(scene, 1)
         same = [a is b for a, b in zip(scene.objects, moved.objects, strict=True)]
         assert same.count(False) == 1
+        number = same.index(False)
+        before, after = scene.objects[number].shape, moved.objects[number].shape
+        assert (before.transform != after.transform).any()
+        # As it is for the tracer, which keeps what it built of them.
+        assert before.vertices is after.vertices
+        assert before.faces is after.faces
 
 
 class TestCameras:
@@ -186,6 +192,33 @@ class TestReport:
     def test_missing_marks_are_named(self, text):
         with pytest.raises(LucidaError, match="bench:begin"):
             report.between_marks(text, "new")
+
+
+class TestTables:
+    def test_the_windows_row(self):
+        made = report.Table("window", "", tuple("abcdefghi"))
+        measured = window.Measured(
+            size=(1280, 720),
+            drag_starts_s=[0.0, 0.016, 0.032, 0.064],
+            drag_work_s=[0.002, 0.010, 0.020, 0.004],
+            drag_images=2,
+            first_s=[0.03, 0.04],
+            first_frames=[1, 2],
+            first_factors=[1, 1],
+            full_s=[],
+            full_frames=[],
+        )
+        window.add_row(made, "small", measured)
+        assert made.rows[0][:4] == ("small", "1280x720", "4", "1 (25.0 %)")
+        assert made.rows[0][4] == "16.0"
+        assert made.rows[0][6:] == ("31.2", "35.0 (1.50)", "- (-)")
+        # What never came is not met.
+        assert [target.met for target in made.targets] == [False, False, False]
+        json.loads(report.as_json([made], {}, {}, {}, {}))
+
+    def test_bytes_of_the_mesh(self):
+        ball = scenes.SUBJECTS["ball 4k"]()
+        assert memory.mesh_bytes(ball) == 12 * (len(ball.vertices) + len(ball.faces))
 
 
 class TestPeers:

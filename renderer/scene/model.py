@@ -45,9 +45,14 @@ def color(name: str, value: Iterable[float]) -> Color:
     return rgb
 
 
+def _final(value: ArrayLike) -> bool:
+    """Whether nobody can write to an array: such ones are shared, by a mesh moved about."""
+    return isinstance(value, np.ndarray) and value.flags.owndata and not value.flags.writeable
+
+
 def _array(name: str, value: ArrayLike, dtype: type, shape: tuple[int | None, int]) -> np.ndarray:
     try:
-        array: np.ndarray = np.array(value, dtype, order="C")
+        array: np.ndarray = np.array(value, dtype, order="C", copy=None if _final(value) else True)
     except (TypeError, ValueError, OverflowError):
         raise LucidaError(name, "is not an array of numbers", f"give {dtype.__name__}") from None
     if array.ndim != 2 or any(

@@ -49,6 +49,8 @@ def _run(arguments: argparse.Namespace) -> int:
         run.find_peers()
     machine = report.machine()
     print(f"{machine['cpu']}, {machine['processors']} processors, Python {machine['python']}")
+    if (machine["load"] or 0) > 0.5 * machine["processors"]:
+        print(f"the machine is busy (load {machine['load']:.1f}): the times below are unreliable")
     for name, version in versions(run.kinds).items():
         print(f"{name}: {version}")
     for name, why in run.left_out.items():
@@ -62,6 +64,7 @@ def _run(arguments: argparse.Namespace) -> int:
                 print(report.text(table), flush=True)
     except KeyboardInterrupt:
         run.say("stopped; what was measured is written")
+    machine["load_after"] = report.load()
     settings = {"quick": run.quick, "full": run.full, "model": run.file and str(run.file)}
     text = report.as_json(tables, machine, settings, versions(run.kinds), run.left_out)
     _write(arguments.out, tables, text)

@@ -156,10 +156,16 @@ def machine() -> dict[str, Any]:
     return {
         "cpu": cpu,
         "processors": os.cpu_count(),
+        "load": load(),
         "system": f"{platform.system()} {platform.machine()}",
         "python": platform.python_version(),
         "packages": {name: _version(name) for name in ("numpy", "numba", "llvmlite")},
     }
+
+
+def load() -> float | None:
+    """How many threads wanted a processor in the last minute; None where the system knows not."""
+    return os.getloadavg()[0] if hasattr(os, "getloadavg") else None
 
 
 def as_json(

@@ -17,6 +17,7 @@ from tests.benchmarks.tables import (
     shading,
     visibility,
     watertight,
+    window,
 )
 
 Measure = Callable[[Run], list[Table]]
@@ -32,4 +33,5 @@ TABLES: dict[str, Measure] = {
     "memory": memory.measure,
     "moving": moving.measure,
     "watertight": watertight.measure,
+    "window": window.measure,
 }

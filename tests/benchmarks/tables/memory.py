@@ -8,6 +8,7 @@ NAME MESH` is such a process.
 from __future__ import annotations
 
 import json
+import math
 import os
 import subprocess
 import sys
@@ -47,7 +48,7 @@ def measure(run: Run) -> list[Table]:
             short(grown),
             tracer=kind.name,
             triangles=subject.triangles,
-            process_bytes=growth if growth == growth else None,
+            process_bytes=growth if math.isfinite(growth) else None,
             **({"array_bytes": kept, "peak_bytes": peak} if ours else {}),
         )
     table.target("beyond the mesh", own, AT_MOST_BYTES, "bytes a triangle", at_least=False)
