@@ -160,6 +160,16 @@ def test_from_far_away(distance: float) -> None:
     np.testing.assert_allclose(got.normal[both], want.normal[both], atol=0.1)
 
 
+@pytest.mark.parametrize("eye", [1e6, 1e9, 1e12])
+@pytest.mark.parametrize("radius", [1e-9, 1e-3, 1e9])
+def test_sizes_beyond_precision_give_no_nan(eye: float, radius: float) -> None:
+    shapes = Sphere((1, 0, 0), radius), Sphere((0, 0, 0), radius), quad(radius, 0)
+    for projection in ("perspective", "parallel"):
+        edge = 1e-12 * eye
+        camera = Camera((1, 0, eye), viewport=(-edge, edge, -edge, edge), projection=projection)
+        draw(scene_of(*shapes, material=Material(checker=Checker())), camera, (9, 9))
+
+
 def test_a_mirrored_and_scaled_basis_changes_parameters_as_the_formula_says() -> None:
     scene = scene_of(quad(10, 0))
     camera = Camera((0, 0, 6), (-3, 0, 0), (0.5, 2, 0), (0.2, -0.3, 2), 1.5)

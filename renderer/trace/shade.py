@@ -66,8 +66,9 @@ def normals_at(scene, direction, point, primitive, b1, b2):
     """(geometric, shading) unit normals at a hit, both on the viewer's side."""
     triangles = len(scene.faces)
     if primitive >= triangles:
-        centre = row(scene.spheres, primitive - triangles)
-        facing = _facing(normalized(minus(point, centre)), direction)
+        out = minus(point, row(scene.spheres, primitive - triangles))
+        # A tiny sphere far away may round to its centre.
+        facing = _facing(normalized(out if _is_set(out) else direction), direction)
         return facing, _not_grazing(facing, direction)
     i, j, k = corners_of(scene.faces, primitive)
     a, b, c = row(scene.vertices, i), row(scene.vertices, j), row(scene.vertices, k)

@@ -70,7 +70,10 @@ class Tracer:
         return TraceJob(task, self)
 
     def close(self) -> None:
-        """Cancels all jobs and waits for the threads to end. A closed Tracer starts no more."""
+        """Cancels all jobs and waits for the threads to end. A closed Tracer starts no more.
+
+        Milliseconds, unless kernels are being compiled: then until the compiler is done.
+        """
         self._worker.close()
         self._worker.join()
 
