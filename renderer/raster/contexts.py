@@ -17,13 +17,9 @@ from typing import Any, Protocol
 import moderngl
 
 from renderer.errors import LucidaError
+from renderer.raster.packages import remedy
 
 BACKENDS = ("auto", "egl", "osmesa")
-INSTALL = {
-    "egl": "install the EGL and Mesa driver packages (Debian, Ubuntu: libegl1 libgl1-mesa-dri)",
-    "osmesa": "install OSMesa (Debian 12, Ubuntu 24.04: libosmesa6; Mesa 25.1 and later have none)",
-    "default": "update the graphics driver",
-}
 OSMESA_NAMES = (
     "libOSMesa.so.8",
     "libOSMesa.so.6",
@@ -161,7 +157,7 @@ def open_platform(backend: str = "auto", context: moderngl.Context | None = None
             return OSMesa() if name == "osmesa" else Standalone(name)
         except Exception as error:  # each library reports a missing driver in its own way
             tried.append(f"{name}: {error}")
-            remedies.append(INSTALL[name])
+            remedies.append(remedy(name))
     problem = f"no OpenGL 3.3 context ({'; '.join(tried)})"
     raise LucidaError("backend", problem, " or ".join(remedies) + "; see `lucida doctor`")
 
@@ -197,7 +193,7 @@ def _nothing_current() -> Iterator[None]:
     """Takes another EGL context (a window's, say) off this thread, and puts it back afterwards.
 
     EGL and OSMesa share Mesa's dispatch table without telling each other: an EGL context that is
-    still current while OSMesa is made current stays broken, since EGL sees no reason to bind it again.
+    still current while OSMesa is made current stays broken: EGL sees no reason to bind it again.
     """
     egl = _egl()
     before = egl.eglGetCurrentContext() if egl is not None else None

@@ -1,0 +1,65 @@
+"""What to install, on this operating system, for what is missing.
+
+Owns the names of system packages. Knows nothing of how they are looked for.
+"""
+
+from __future__ import annotations
+
+import platform
+import sys
+
+SYSTEMS = ("debian", "fedora", "arch", "macos", "windows", "other")
+
+_GONE = "Mesa 25.1 and later have no OSMesa: nothing to install, EGL takes its place"
+_DRIVER = "update the graphics driver (OpenGL 3.3)"
+
+_REMEDIES = {
+    "egl": {
+        "debian": "apt-get install libegl1 libgl1 libgl1-mesa-dri",
+        "fedora": "dnf install mesa-libEGL mesa-libGL mesa-dri-drivers",
+        "arch": "pacman -S libglvnd mesa",
+        "other": "install libEGL, libGL and Mesa's drivers",
+    },
+    "default": {"other": _DRIVER},
+    "osmesa": {
+        "debian": "apt-get install libosmesa6, where the release has it; else EGL takes its place",
+        "fedora": "dnf install mesa-libOSMesa (in newer releases: mesa-compat-libOSMesa)",
+        "other": _GONE,
+    },
+    "display": {
+        "debian": "log in to a desktop, or apt-get install xvfb and start with xvfb-run",
+        "fedora": "log in to a desktop, or dnf install xorg-x11-server-Xvfb, start with xvfb-run",
+        "arch": "log in to a desktop, or pacman -S xorg-server-xvfb and start with xvfb-run",
+        "other": "log in to a desktop",
+    },
+    "tracer": {"other": "pip install --upgrade numba"},
+    "formulas": {
+        "debian": "apt-get install locales; localedef -i en_US -f UTF-8 en_US.UTF-8",
+        "fedora": "dnf install glibc-langpack-en",
+        "arch": "uncomment en_US.UTF-8 in /etc/locale.gen and run locale-gen",
+        "other": "add the locale en_US.UTF-8",
+    },
+}
+
+
+def remedy(part: str, system: str = "") -> str:
+    """One line: what to do for "egl", "osmesa", "default", "display", "tracer" or "formulas".
+
+    system: one of SYSTEMS; "": the one that this runs on.
+    """
+    remedies = _REMEDIES[part]
+    return remedies.get(system or this_system(), remedies["other"])
+
+
+def this_system() -> str:
+    """One of SYSTEMS; Ubuntu, Mint and others count as what they are derived from."""
+    if sys.platform in ("darwin", "win32"):
+        return {"darwin": "macos", "win32": "windows"}[sys.platform]
+    try:
+        release = platform.freedesktop_os_release()
+    except OSError:
+        return "other"
+    names = f"{release.get('ID', '')} {release.get('ID_LIKE', '')}".split()
+    if "rhel" in names:
+        names.append("fedora")
+    return next((name for name in names if name in SYSTEMS), "other")

@@ -1,0 +1,45 @@
+"""Fixtures that several tests share: OpenGL platforms and a rasterizer on each.
+
+A test that needs OpenGL gets it from here, once for each platform. Where there is none it is
+skipped with the reason; where CI is set it fails.
+"""
+
+import os
+
+import pytest
+from hypothesis import settings
+
+from renderer.errors import LucidaError
+from renderer.raster import Rasterizer
+from renderer.scene.model import Scene
+
+settings.register_profile("lucida", deadline=None, derandomize=bool(os.environ.get("CI")))
+settings.load_profile("lucida")
+
+
+@pytest.fixture(scope="session", params=["egl", "osmesa"])
+def _session_rasterizer(request):
+    """One rasterizer a platform for the whole run: its shaders compile once."""
+    try:
+        rasterizer = Rasterizer(Scene(()), backend=request.param)
+    except LucidaError as error:
+        if os.environ.get("CI"):
+            pytest.fail(str(error))
+        pytest.skip(str(error))
+    with rasterizer:
+        yield rasterizer
+
+
+@pytest.fixture
+def gl_backend(_session_rasterizer):
+    """The name of a platform that works, for Rasterizer(backend=...)."""
+    return _session_rasterizer.platform.split(":")[0]
+
+
+@pytest.fixture
+def rasterizer(_session_rasterizer):
+    """A rasterizer of an empty scene: give it another by set_scene(). OpenGL reports no error."""
+    _session_rasterizer.set_scene(Scene(()))
+    yield _session_rasterizer
+    with _session_rasterizer.current() as gl:
+        assert gl.error == "GL_NO_ERROR"

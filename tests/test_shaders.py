@@ -1,0 +1,131 @@
+"""Shader sources: includes, and a compiler's errors told by file and line."""
+
+import re
+from importlib.resources import files
+
+import pytest
+
+from renderer.errors import LucidaError
+from renderer.raster.sources import Source, link, read_shader
+
+STAGES = sorted(
+    entry.name
+    for entry in files("shaders").iterdir()
+    if entry.name.endswith((".vert", ".frag", ".geom"))
+)
+
+
+def library(**texts):
+    """A reader of shaders kept in a dictionary; "__" stands for the dot of a name."""
+    named = {name.replace("__", "."): text for name, text in texts.items()}
+
+    def read(name):
+        if name not in named:
+            raise LucidaError(f"shaders/{name}", "does not exist")
+        return named[name]
+
+    return read
+
+
+def test_chunks_are_put_in_where_they_are_named_each_once():
+    read = library(
+        main__frag='#version 330 core\n#include "a.glsl"\n#include "b.glsl"\nlast',
+        a__glsl='#include "b.glsl"\na',
+        b__glsl="b",
+    )
+    source = Source("main.frag", read)
+    assert source.text == "#version 330 core\nb\na\nlast\n"
+    assert source.places == [("main.frag", 1), ("b.glsl", 1), ("a.glsl", 2), ("main.frag", 4)]
+
+
+def test_a_cycle_is_refused_and_the_chain_is_named():
+    read = library(a='#include "b"', b='\n#include "c"', c='#include "a"')
+    with pytest.raises(
+        LucidaError, match=re.escape("shaders/c:1: a cycle of includes: a -> b -> c -> a")
+    ):
+        Source("a", read)
+
+
+def test_an_unknown_chunk_is_refused_where_it_is_named():
+    read = library(a='#include "b"', b='\n#include "chunks/nothing.glsl"')
+    with pytest.raises(LucidaError, match='shaders/b:2: the chunk "chunks/nothing.glsl"'):
+        Source("a", read)
+
+
+def test_a_stage_that_does_not_exist_is_one_line():
+    with pytest.raises(LucidaError, match="shaders/none.frag: does not exist"):
+        Source("none.frag", read_shader)
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        '// #include "nothing"',
+        '/* one\n#include "nothing"\n*/',
+        '/* one */ /* two\n#include "nothing"\n*/ rest',
+        '// no comment begins here /*\n// #include "nothing"',
+        'x; // #include "nothing"',
+    ],
+)
+def test_comments_include_nothing(text):
+    assert Source("a", library(a=text)).text == text + "\n"
+
+
+def test_an_include_after_a_comment_counts():
+    read = library(a='/* one\n*/\n// two /*\n#include "b"', b="b")
+    assert Source("a", read).text == "/* one\n*/\n// two /*\nb\n"
+
+
+def test_constants_follow_the_version():
+    source = Source("a", library(a="#version 330 core\nx"), {"YES": True, "NO": False})
+    assert source.text.splitlines()[0] == "#version 330 core"
+    assert set(source.text.splitlines()[1:3]) == {
+        "const bool YES = true;",
+        "const bool NO = false;",
+    }
+    assert source.places[-1] == ("a", 2)
+
+
+@pytest.mark.parametrize(
+    ("message", "told"),
+    [
+        ("0:2(5): error: x", "b.glsl:1: error: x"),  # Mesa
+        ("0(2) : error C1008: x", "b.glsl:1 : error C1008: x"),  # NVIDIA
+        ("ERROR: 0:3: 'x' : undeclared", "ERROR: a.frag:3: 'x' : undeclared"),  # macOS, AMD, Intel
+        ("0:99(1): error", "0:99(1): error"),
+        ("error: 10:30 is no place", "error: 10:30 is no place"),
+    ],
+)
+def test_messages_of_each_driver_are_told_by_file_and_line(message, told):
+    source = Source("a.frag", library(a__frag='one\n#include "b.glsl"\nthree', b__glsl="two"))
+    assert source.explain(message) == told
+
+
+def test_a_compile_error_names_the_chunk_and_the_line(rasterizer):
+    broken = library(
+        all__vert='#version 330 core\n#include "chunk.glsl"\nvoid main() { gl_Position = f(); }',
+        chunk__glsl="// one\n// two\nvec4 f() { return undeclared; }",
+        all__frag="#version 330 core\nvoid main() {}",
+    )
+    with rasterizer.current() as gl, pytest.raises(LucidaError) as caught:
+        link(gl, "all.vert", "all.frag", read=broken)
+    assert caught.value.field == "shaders/all.vert"
+    assert "chunk.glsl:3" in str(caught.value)
+    assert "\n" not in str(caught.value)
+
+
+def test_a_link_error_is_one_line(rasterizer):
+    unmatched = library(
+        a__vert="#version 330 core\nout vec2 m; void main() { m = vec2(0.0); gl_Position = vec4(0.0); }",
+        a__frag="#version 330 core\nin vec3 m; out vec3 c; void main() { c = m; }",
+    )
+    with rasterizer.current() as gl, pytest.raises(LucidaError, match=r"a\.vert, a\.frag"):
+        link(gl, "a.vert", "a.frag", read=unmatched)
+
+
+@pytest.mark.parametrize("name", STAGES)
+def test_every_stage_is_glsl_3_30_and_has_a_heading(name):
+    lines = read_shader(name).splitlines()
+    assert lines[0] == "#version 330 core"
+    assert lines[1].startswith("// ")
+    assert len(Source(name).text.splitlines()) == len(Source(name).places)
