@@ -1,4 +1,4 @@
-"""The commands of `lucida`, a module each: NAME, SUMMARY, configure(parser), run(arguments).
+"""The commands of `lucida`, a module each: NAME, configure(parser), run(arguments).
 
 Without a command's name, `lucida` is app/commands/view.py: the window.
 """

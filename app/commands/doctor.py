@@ -1,15 +1,74 @@
-"""`lucida doctor`: what works on this machine."""
+"""`lucida doctor`: what works on this machine.
+
+Owns the report's looks. Knows nothing of the checks (renderer/doctor.py).
+"""
 
 from __future__ import annotations
 
 import argparse
+import dataclasses
+import json
+import platform
+from typing import TYPE_CHECKING
+
+from app import __version__
+
+if TYPE_CHECKING:
+    from renderer.doctor import Check
 
 NAME = "doctor"
 
+DESCRIPTION = """\
+Say which OpenGL platforms work on this machine, and of the rest, why not and what to install."""
+
+EPILOG = """\
+exit status: 0 at least one OpenGL platform works, 1 none does
+
+examples:
+  lucida doctor
+  lucida doctor --json"""
+
 
 def configure(parser: argparse.ArgumentParser) -> None:
-    parser.description = "x"
+    parser.description, parser.epilog = DESCRIPTION, EPILOG
+    parser.add_argument("--json", action="store_true", help="print one JSON object")
 
 
 def run(arguments: argparse.Namespace) -> int:
-    return 0
+    from renderer.doctor import can_draw, report
+
+    checks = report()
+    usable = can_draw(checks)
+    if arguments.json:
+        print(json.dumps(as_dict(checks, usable), indent=2, allow_nan=False))
+    else:
+        print(as_text(checks, usable))
+    return 0 if usable else 1
+
+
+def as_dict(checks: list[Check], usable: bool) -> dict[str, object]:
+    """The report as JSON's values."""
+    return {
+        "lucida": __version__,
+        "python": platform.python_version(),
+        "system": _system(),
+        "can_draw": usable,
+        "checks": [dataclasses.asdict(check) for check in checks],
+    }
+
+
+def as_text(checks: list[Check], usable: bool) -> str:
+    """The report to read: a line a check, and a line of what to do where it does not work."""
+    lines = [f"lucida {__version__}, Python {platform.python_version()}, {_system()}", ""]
+    for check in checks:
+        mark = "works" if check.works else "no"
+        lines.append(f"{check.name:9} {mark:6} {check.purpose}: {check.detail}")
+        if check.remedy:
+            lines.append(f"{'':16} {check.remedy}")
+    if not usable:
+        lines += ["", "No OpenGL platform works: only the ray tracer can draw."]
+    return "\n".join(lines)
+
+
+def _system() -> str:
+    return f"{platform.system()} {platform.release()} {platform.machine()}"
