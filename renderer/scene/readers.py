@@ -238,8 +238,8 @@ def _absolute_indices(text: str) -> str:
             for corner in rest.split():
                 indices = corner.split("/")
                 for k, index in enumerate(indices[:3]):
-                    if index.startswith("-") or index.strip("0") == "" != index:
-                        back = int(index)
+                    if re.fullmatch(r"-\d{1,18}|0+", index):
+                        back = int(index[:19])
                         absolute = counts[kinds[k]] + 1 + back
                         indices[k] = str(absolute if back and absolute > 0 else 1 << 40)
                 corners.append("/".join(indices))

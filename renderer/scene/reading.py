@@ -26,8 +26,7 @@ def read_file(path: Path, most_bytes: int) -> bytes:
             raise LucidaError("", "is not an ordinary file", "copy it into one", source)
         check_bytes(status.st_size, most_bytes, source)
         with path.open("rb") as file:
-            data = file.read(most_bytes + 1)
-        check_bytes(len(data), most_bytes, source)
+            data = file.read(status.st_size)  # not read(): a file may grow without end
     except FileNotFoundError:
         raise LucidaError("", "does not exist", neighbours(path), source) from None
     except LucidaError:

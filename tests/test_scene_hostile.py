@@ -1,0 +1,485 @@
+"""Broken, empty, huge and hostile files: one clear line each, in little time and memory."""
+
+from __future__ import annotations
+
+import base64
+import copy
+import json
+import os
+import random
+import struct
+import tracemalloc
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+from renderer.errors import LucidaError
+from renderer.scene import Mesh, flatten, load_scene, load_view
+from renderer.scene.model import Scene
+
+ENDINGS = ("obj", "ply", "stl", "off", "glb", "gltf", "toml")
+TRIANGLE = "v 0 0 0\nv 1 0 0\nv 0 1 0\n"
+MOST_BYTES = 32 << 20  # what refusing a small file may take
+
+
+def refusal(path: Path, load: Callable[[Path], Any] = load_scene) -> str:
+    """The line with which the file is refused."""
+    load_scene("spheres")  # what is imported for the first time is not counted below
+    tracemalloc.start()
+    try:
+        with pytest.raises(LucidaError) as caught:
+            load(path)
+        assert tracemalloc.get_traced_memory()[1] < MOST_BYTES
+    finally:
+        tracemalloc.stop()
+    line = str(caught.value)
+    assert line.startswith(f"{path}: ")
+    assert caught.value.remedy
+    assert "\n" not in line
+    return line.removeprefix(f"{path}: ")
+
+
+def write(path: Path, content: str | bytes) -> Path:
+    path.write_bytes(content.encode() if isinstance(content, str) else content)
+    return path
+
+
+# Files that are no such file.
+
+
+@pytest.mark.parametrize("ending", ENDINGS)
+class TestAnyEnding:
+    def test_empty(self, ending: str, tmp_path: Path) -> None:
+        assert refusal(write(tmp_path / f"x.{ending}", b"")).startswith("is empty")
+
+    def test_missing(self, ending: str, tmp_path: Path) -> None:
+        assert refusal(tmp_path / f"x.{ending}").startswith("does not exist")
+
+    def test_a_folder(self, ending: str, tmp_path: Path) -> None:
+        (tmp_path / f"x.{ending}").mkdir()
+        assert refusal(tmp_path / f"x.{ending}").startswith("is a folder")
+
+    @pytest.mark.skipif(not hasattr(os, "mkfifo"), reason="this system has no pipes among files")
+    def test_a_pipe_that_nobody_writes_to(self, ending: str, tmp_path: Path) -> None:
+        os.mkfifo(tmp_path / f"x.{ending}")
+        assert refusal(tmp_path / f"x.{ending}").startswith("is not an ordinary file")
+
+    def test_unreadable(self, ending: str, tmp_path: Path, monkeypatch) -> None:
+        def denied(*_: object) -> None:
+            raise PermissionError(13, "Permission denied")
+
+        path = write(tmp_path / f"x.{ending}", "x")
+        monkeypatch.setattr(Path, "open", denied)  # the rights of files do not bind root
+        with pytest.raises(LucidaError, match=r"cannot be read: permission denied; check its name"):
+            load_scene(path)
+
+    def test_ten_gigabytes(self, ending: str, tmp_path: Path) -> None:
+        path = write(tmp_path / f"x.{ending}", b"")
+        os.truncate(path, 10 << 30)
+        assert refusal(path).startswith("is too large, 10 GiB; stay within ")
+
+    @pytest.mark.parametrize("seed", range(3))
+    def test_noise(self, ending: str, seed: int, tmp_path: Path) -> None:
+        noise = random.Random(seed).randbytes(5000)
+        refusal(write(tmp_path / f"x.{ending}", noise))
+
+    @pytest.mark.parametrize("content", ["\n", "hello\nworld\n", "\0" * 5000, "{", "[" * 100_000])
+    def test_other_content(self, ending: str, content: str, tmp_path: Path) -> None:
+        refusal(write(tmp_path / f"x.{ending}", content))
+
+
+def test_view_files_too(tmp_path: Path) -> None:
+    path = write(tmp_path / "v.toml", b"")
+    os.truncate(path, 10 << 30)
+    assert refusal(path, load_view).startswith("is too large")
+    assert refusal(tmp_path, load_view).startswith("is a folder")
+    assert refusal(tmp_path / "none.toml", load_view).startswith("does not exist")
+    assert refusal(write(path, b"\xff"), load_view).startswith("line 1: is not text in UTF-8")
+
+
+# OBJ.
+
+
+@pytest.mark.parametrize(
+    ("text", "message"),
+    [
+        (TRIANGLE, "holds no triangle"),
+        ("f 1 2 3\n", "holds no triangle"),
+        (TRIANGLE + "f 1 2\n", "holds no triangle"),
+        (TRIANGLE + "f 1 1 2\n", "holds no triangle"),
+        (TRIANGLE + "f 1 2 9\n", "line 4: 'f 1 2 9' uses vertex 9 of 3"),
+        (TRIANGLE + "f 0 1 2\n", "line 4: 'f 0 1 2' uses vertex 0 of 3"),
+        (TRIANGLE + "f 1 2 -4\n", "line 4: 'f 1 2 -4' uses vertex -4 of 3"),
+        ("\n" + TRIANGLE + "f 1 2 1099511627776\n", "line 5: "),
+        (TRIANGLE + "f 1 2 99999999999999999999999\n", "line 4: "),
+        (TRIANGLE + "f a b c\n", "line 4: 'f a b c' is not a face"),
+        (TRIANGLE + "f - -x -\n", "line 4: 'f - -x -' is not a face"),
+        (TRIANGLE + "f " + "0" * 5000 + " -2 -1\n", "line 4: "),
+        (TRIANGLE + "f 1.5 2 3\n", "line 4: 'f 1.5 2 3' is not a face"),
+        ("v a b c\n" + TRIANGLE + "f 1 2 3\n", "line 1: 'v a b c' is not a vertex"),
+        ("v 0 0\nv 1 0\nv 1 1\nf 1 2 3\n", "vertices: "),
+        ("v nan 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n", "vertices: 1 of 3 are NaN or too large"),
+        ("v 1e999 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n", "vertices: 1 of 3 are NaN or too large"),
+        ("v 1e30 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n", "vertices: 1 of 3 are NaN or too large"),
+        ("v 0 0 0\nv 1e-12 0 0\nv 0 1e-12 0\nf 1 2 3\n", "holds no triangle"),
+        ("v 0 0 0\nv 1e-7 0 0\nv 0 1e-7 0\nf 1 2 3\n", "is too small, 1.41421e-07 across"),
+        (TRIANGLE + "f " + "1 2 3 " * 30_000 + "\n", "faces: are not rows of whole numbers"),
+    ],
+    ids=range(21),
+)
+def test_obj(text: str, message: str, tmp_path: Path) -> None:
+    assert refusal(write(tmp_path / "x.obj", text)).startswith(message)
+
+
+def test_vertices_that_no_face_uses_may_be_anything(tmp_path: Path) -> None:
+    text = TRIANGLE + "v nan inf 1e300\nf 1 2 3\n"
+    shape = load_scene(write(tmp_path / "x.obj", text)).objects[0].shape
+    assert isinstance(shape, Mesh)
+    assert len(shape.vertices) == 3
+
+
+# PLY.
+
+
+def ply(vertices: int | str, faces: int | str, form: str = "ascii") -> str:
+    return (
+        f"ply\nformat {form} 1.0\nelement vertex {vertices}\nproperty float x\nproperty float y\n"
+        f"property float z\nelement face {faces}\nproperty list uchar int vertex_indices\n"
+        "end_header\n"
+    )
+
+
+POINTS = "0 0 0\n1 0 0\n0 1 0\n"
+BINARY = "binary_little_endian"
+BINARY_POINTS = np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0]], "<f4").tobytes()
+
+
+@pytest.mark.parametrize(
+    ("content", "message"),
+    [
+        (ply(3, 4_000_000_000) + POINTS, "declares 4000000003 lines of data and has 3"),
+        (ply(3_000_000_000, 1, BINARY) + "x" * 99, "declares 36000000001 bytes of data and has 99"),
+        (ply(3, 2) + POINTS + "3 0 1 2\n", "declares 5 lines of data and has 4"),
+        (ply(-3, 1) + POINTS, "declares a count that is not a whole number"),
+        (ply("1e9", 1) + POINTS, "declares a count that is not a whole number"),
+        (ply("9" * 5000, 1) + POINTS, "declares a count that is not a whole number"),
+        (ply(3, 0) + POINTS, "holds no triangle"),
+        (ply(3, 1) + POINTS + "3 0 1 7\n", "faces: use vertex 7 of 3"),
+        (ply(3, 1) + POINTS + "3 0 1 -1\n", "faces: use vertex -1 of 3"),
+        (ply(3, 1) + POINTS + "-3 0 1 2\n", ""),
+        (ply(3, 1) + POINTS.replace("1", "nan") + "3 0 1 2\n", "vertices: 2 of 3 are NaN"),
+        (ply(3, 1) + POINTS.replace("1", "x") + "3 0 1 2\n", "cannot be read as PLY"),
+        (ply(3, 1).replace("float x", "foo x") + POINTS + "3 0 1 2\n", "cannot be read as PLY"),
+        (ply(3, 1).replace("float x", "float q") + POINTS + "3 0 1 2\n", "cannot be read as PLY"),
+        (ply(3, 1).replace("end_header", ""), "has no PLY header"),
+        ("ply\nformat ascii 1.0\nproperty float x\nend_header\n", "cannot be read as PLY"),
+        ("ply\nend_header\n", ""),
+        ("ply\nformat ascii 1.0\nelement vertex 1000000000000\nend_header\n1\n", "declares"),
+        (
+            ply(3, 1, BINARY).replace("uchar int", "int int").encode()
+            + BINARY_POINTS
+            + struct.pack("<4i", -5, 0, 1, 2),
+            "cannot be read as PLY",
+        ),
+        (
+            ply(3, 1, BINARY).replace("uchar int", "uint int").encode()
+            + BINARY_POINTS
+            + struct.pack("<I3i", 4_000_000_000, 0, 1, 2),
+            "cannot be read as PLY",
+        ),
+    ],
+    ids=range(20),
+)
+def test_ply(content: str | bytes, message: str, tmp_path: Path) -> None:
+    assert refusal(write(tmp_path / "x.ply", content)).startswith(message)
+
+
+# STL.
+
+FACET = (
+    "facet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\nendloop\nendfacet\n"
+)
+
+
+def stl(declared: int, triangles: int, value: float = 0.0) -> bytes:
+    one = struct.pack("<12fH", 0, 0, 1, value, 0, 0, 1, 0, 0, 0, 1, 0, 0)
+    return bytes(80) + struct.pack("<I", declared) + one * triangles
+
+
+@pytest.mark.parametrize(
+    ("content", "message"),
+    [
+        (stl(4_000_000_000, 1), "declares 4000000000 triangles, 186 GiB, and has 134 bytes"),
+        (stl(2, 1), "declares 2 triangles"),
+        (stl(1, 2), "declares 1 triangles"),
+        (stl(0, 0), "holds no triangle"),
+        (stl(1, 1, float("nan")), "vertices: 1 of 3 are NaN"),
+        (stl(1, 1)[:60], "is too short to be STL"),
+        (b"solid" + stl(4_000_000_000, 1)[5:], "has no 'endsolid'"),
+        (f"solid x\n{FACET}", "has no 'endsolid'"),
+        (f"solid x\n{FACET.replace('vertex 1 0 0', 'vertex 1 0')}endsolid\n", "cannot be read"),
+        (f"solid x\n{FACET.replace('vertex 1 0 0', 'vertex a b c')}endsolid\n", "cannot be read"),
+        ("solid\nendsolid\n" * 5000, "holds no triangle"),
+        ("solid\nendsolid\n" * 10_001, "has 10001 solids; stay within 10000"),
+        ("endsolid solid\n", ""),
+    ],
+    ids=range(13),
+)
+def test_stl(content: str | bytes, message: str, tmp_path: Path) -> None:
+    assert refusal(write(tmp_path / "x.stl", content)).startswith(message)
+
+
+# OFF.
+
+
+@pytest.mark.parametrize(
+    ("text", "message"),
+    [
+        ("OFF\n-3 -1 0\n0 0 0\n", "declares a count that is not a whole number"),
+        ("OFF\n3.5 1 0\n", "declares a count that is not a whole number"),
+        ("OFF\n" + "9" * 5000 + " 1 0\n", "declares a count that is not a whole number"),
+        ("OFF\n3000000000 1000000000 0\n0 0 0\n", "declares 4000000000 lines of data and has 1"),
+        ("OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n", "declares 4 lines of data and has 3"),
+        ("OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 9\n", "cannot be read as OFF"),
+        ("OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 -1\n", "cannot be read as OFF"),
+        ("OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n-3 0 1 2\n", "holds no triangle"),
+        ("OFF\n3 1 0\n0 0 0\n1 0 0\n0 x 0\n3 0 1 2\n", "cannot be read as OFF"),
+        ("OFF\n3 1 0\n0 0 0\n1 0 0\n0 inf 0\n3 0 1 2\n", "vertices: 1 of 3 are NaN or too large"),
+        ("3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n", "does not begin with OFF"),
+        ("OFF BINARY\n", "is of the kind OFF"),
+        ("4OFF\n1 1 1\n", "is of the kind 4OFF"),
+        ("OFF", ""),
+    ],
+    ids=range(14),
+)
+def test_off(text: str, message: str, tmp_path: Path) -> None:
+    assert refusal(write(tmp_path / "x.off", text)).startswith(message)
+
+
+# glTF.
+
+BUFFER = BINARY_POINTS + np.arange(3, dtype="<u2").tobytes() + b"\0\0"
+TREE: dict[str, Any] = {
+    "asset": {"version": "2.0"},
+    "scene": 0,
+    "scenes": [{"nodes": [0]}],
+    "nodes": [{"mesh": 0}],
+    "meshes": [{"primitives": [{"attributes": {"POSITION": 0}, "indices": 1}]}],
+    "accessors": [
+        {"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3"},
+        {"bufferView": 1, "componentType": 5123, "count": 3, "type": "SCALAR"},
+    ],
+    "bufferViews": [
+        {"buffer": 0, "byteLength": 36},
+        {"buffer": 0, "byteOffset": 36, "byteLength": 6},
+    ],
+    "buffers": [
+        {
+            "byteLength": 44,
+            "uri": "data:application/octet-stream;base64," + base64.b64encode(BUFFER).decode(),
+        }
+    ],
+}
+PRIMITIVE = ("meshes", 0, "primitives", 0)
+
+
+def changed(*steps: tuple[tuple[Any, ...], Any]) -> dict[str, Any]:
+    """TREE with the entries at some paths replaced, or removed where the value is None."""
+    tree = copy.deepcopy(TREE)
+    for path, value in steps:
+        entry = tree
+        for key in path[:-1]:
+            entry = entry[key]
+        if value is None:
+            del entry[path[-1]]
+        else:
+            entry[path[-1]] = value
+    return tree
+
+
+def nodes(*entries: dict[str, Any]) -> dict[str, Any]:
+    return changed((("nodes",), list(entries)))
+
+
+OUTSIDE = "is not in the model's folder"
+GLTF_MISTAKES: list[tuple[dict[str, Any], str]] = [
+    (nodes({"mesh": 0, "children": [1]}, {"children": [0]}), "nodes[0]: has two parents, or is"),
+    (nodes({"mesh": 0, "children": [0]}), "nodes[0]: has two parents, or is its own ancestor"),
+    (nodes({"children": [1, 1]}, {"mesh": 0}), "nodes[1]: has two parents"),
+    (nodes(*[{"children": [k + 1]} for k in range(5000)], {"mesh": 0}), "nodes[1001]: is deeper"),
+    (nodes({"children": [7]}), "nodes: names entry 7, counted from 0, of 1"),
+    (nodes({"mesh": 7}), "nodes[0].mesh: names entry 7"),
+    (nodes({}), "holds no triangle"),
+    (nodes({"mesh": 0, "scale": [0, 1, 1]}), "holds no triangle"),
+    (nodes({"mesh": 0, "scale": [1e300, 1e300, 1]}), "node 'x'.transform: is too large"),
+    (nodes({"mesh": 0, "matrix": [1] * 16}), "node 'x'.transform: is not invertible"),
+    (nodes({"mesh": 0, "matrix": [1] * 15}), "nodes[0].matrix: is not 16 numbers"),
+    (nodes({"mesh": 0, "translation": ["a", 0, 0]}), "nodes[0].translation[0]: expected float"),
+    (changed((("scene",), 9)), "scene: names entry 9"),
+    (changed((("scenes", 0, "nodes"), list(range(20_000)))), "nodes: names entry 1"),
+    (
+        changed(
+            (("scenes", 0, "nodes"), list(range(10_001))), (("nodes",), [{"mesh": 0}] * 10_001)
+        ),
+        "nodes: make more than 10000 objects",
+    ),
+    (changed((("asset", "version"), "1.0")), "asset.version: '1.0' is not 2.0"),
+    (changed((("asset",), None)), "object missing required field asset"),
+    (changed((("extensionsRequired",), ["KHR_draco_mesh_compression"])), "is compressed with KHR"),
+    (changed(((*PRIMITIVE, "indices"), 9)), "accessors: names entry 9"),
+    (changed(((*PRIMITIVE, "material"), 9)), "meshes[0].primitives[0].material: names entry 9"),
+    (
+        changed(((*PRIMITIVE, "attributes", "POSITION"), None)),
+        "meshes[0].primitives[0]: has no POS",
+    ),
+    (changed(((*PRIMITIVE, "mode"), 0)), "holds no triangle"),
+    (changed(((*PRIMITIVE, "mode"), 6)), "meshes[0].primitives[0].mode: is a triangle fan"),
+    (changed((("accessors", 0, "count"), 10**11)), "accessors[0]: declares 100000000000 elements"),
+    (changed((("accessors", 1, "count"), 10**11)), "has 33333333333 triangles"),
+    (changed((("accessors", 1, "count"), 10**7)), "accessors[1]: declares 10000000 elements"),
+    (changed((("accessors", 0, "count"), 10**30)), "accessors[0].count: expected int <="),
+    (changed((("accessors", 0, "count"), -1)), "accessors[0].count: expected int >= 0"),
+    (changed((("accessors", 0, "bufferView"), None)), "accessors[0]: has no bufferView"),
+    (changed((("accessors", 0, "sparse"), {"count": 1})), "accessors[0]: is sparse"),
+    (changed((("accessors", 0, "type"), "VEC9")), "accessors[0]: is VEC9 of type 5126"),
+    (changed((("accessors", 0, "componentType"), 1)), "accessors[0]: is VEC3 of type 1"),
+    (changed((("accessors", 1, "componentType"), 5126)), "accessors[1]: declares 3 elements, 12"),
+    (changed((("accessors", 0, "byteOffset"), 4)), "accessors[0]: declares 3 elements, 40 bytes"),
+    (changed((("bufferViews", 0, "buffer"), 3)), "bufferViews[0].buffer: names entry 3"),
+    (changed((("bufferViews", 0, "byteLength"), 10**9)), "cannot be read as glTF: a buffer view"),
+    (
+        changed((("bufferViews", 0, "byteStride"), 1)),
+        "bufferViews[0].byteStride: 1 is below the 12",
+    ),
+    (
+        changed((("bufferViews", 0, "byteStride"), 10**11)),
+        "accessors[0]: declares 3 elements, 2000",
+    ),
+    (changed((("bufferViews", 0, "byteLength"), 10**11)), "bufferViews: hold 93.1 GiB"),
+    (changed((("buffers", 0, "byteLength"), 10**9)), "buffers[0]: declares 954 MiB and has 44"),
+    (changed((("buffers", 0, "uri"), None)), "buffers[0]: has no uri and no binary chunk"),
+    (changed((("buffers", 0, "uri"), "data:x;base64,@@@")), "buffers[0].uri: is not base64"),
+    (changed((("buffers", 0, "uri"), "none.bin")), "buffers[0].uri: 'none.bin' does not exist"),
+    (changed((("buffers", 0, "uri"), "http://example.com/a.bin")), "buffers[0].uri: 'http://exam"),
+    (
+        changed((("buffers", 0, "uri"), "../secret.bin")),
+        f"buffers[0].uri: '../secret.bin' {OUTSIDE}",
+    ),
+    (
+        changed((("buffers", 0, "uri"), "%2e%2e/secret.bin")),
+        "buffers[0].uri: '%2e%2e/secret.bin' is",
+    ),
+    (changed((("buffers", 0, "uri"), "/etc/passwd")), f"buffers[0].uri: '/etc/passwd' {OUTSIDE}"),
+    (
+        changed((("buffers", 0, "uri"), "file:///etc/passwd")),
+        "buffers[0].uri: 'file:///etc/passwd'",
+    ),
+    (changed((("buffers", 0, "uri"), "link.bin")), f"buffers[0].uri: 'link.bin' {OUTSIDE}"),
+    (changed((("buffers", 0, "uri"), "a\0b")), "buffers[0].uri: "),
+    (changed((("buffers", 0, "uri"), ".")), "buffers[0].uri: '.' is a folder"),
+]
+
+
+@pytest.mark.parametrize(("tree", "message"), GLTF_MISTAKES, ids=range(len(GLTF_MISTAKES)))
+def test_gltf(tree: dict[str, Any], message: str, tmp_path: Path) -> None:
+    folder = tmp_path / "model"
+    folder.mkdir()
+    write(tmp_path / "secret.bin", BUFFER)
+    (folder / "link.bin").symlink_to(tmp_path / "secret.bin")
+    assert refusal(write(folder / "x.gltf", json.dumps(tree))).startswith(message)
+
+
+@pytest.mark.parametrize(
+    "text", ["[" * 1_000_000, '{"asset":{"version":"2.0"},"extras":' + "[" * 1_000_000, '{"x":NaN}']
+)
+def test_gltf_json(text: str, tmp_path: Path) -> None:
+    refusal(write(tmp_path / "x.gltf", text))
+
+
+def glb(tree: dict[str, Any], declared: int | None = None, chunk: int | None = None) -> bytes:
+    text = json.dumps(tree).encode()
+    text += b" " * (-len(text) % 4)
+    body = struct.pack("<I4s", len(text) if chunk is None else chunk, b"JSON") + text
+    body += struct.pack("<I4s", len(BUFFER), b"BIN\0") + BUFFER
+    return struct.pack("<4sII", b"glTF", 2, declared or 12 + len(body)) + body
+
+
+IN_CHUNK = changed((("buffers", 0, "uri"), None))
+
+
+@pytest.mark.parametrize(
+    ("content", "message"),
+    [
+        (glb(IN_CHUNK, declared=10**9), "declares 1000000000 bytes and has"),
+        (glb(IN_CHUNK, declared=30), "declares a chunk of"),
+        (glb(IN_CHUNK, chunk=4_000_000_000), "declares a chunk of 4000000000 bytes"),
+        (glb(IN_CHUNK)[:-20], "declares"),
+        (glb(IN_CHUNK).replace(b"BIN\0", b"NIX\0"), "buffers[0]: declares 44 bytes and has 0 byt"),
+        (glb(IN_CHUNK).replace(b"JSON", b"NOSJ"), "has no JSON chunk"),
+        (struct.pack("<4sII", b"glTF", 1, 20) + bytes(20), "is of glTF version 1"),
+        (b"glTF", "declares 0 bytes and has 4"),
+    ],
+    ids=range(8),
+)
+def test_glb(content: bytes, message: str, tmp_path: Path) -> None:
+    assert refusal(write(tmp_path / "x.glb", content)).startswith(message)
+
+
+# Everything at once.
+
+SOUND: dict[str, bytes] = {
+    "obj": (TRIANGLE + "vn 0 0 1\nvt 0 0\no a\nf 1/1/1 2/1/1 3/1/1\n").encode(),
+    "ply": ply(3, 1, BINARY).encode() + BINARY_POINTS + b"\3" + bytes(range(3)) + bytes(9),
+    "ascii.ply": (ply(3, 1) + POINTS + "3 0 1 2\n").encode(),
+    "stl": stl(1, 1),
+    "ascii.stl": f"solid x\n{FACET}endsolid x\n".encode(),
+    "off": b"OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n",
+    "glb": glb(IN_CHUNK),
+    "gltf": json.dumps(TREE).encode(),
+    "toml": b'lucida = 1\n[[objects]]\ntype = "torus"\nsegments = 9\n[camera]\neye = [0, 0, 1]\n',
+}
+
+
+def sound_or_refused(path: Path) -> Scene | None:
+    try:
+        scene = load_scene(path)
+    except LucidaError:
+        return None
+    assert all(np.isfinite(array).all() for array in flatten(scene))
+    return scene
+
+
+@pytest.mark.parametrize("name", SOUND)
+def test_files_with_a_few_wrong_bytes_are_read_or_refused(name: str, tmp_path: Path) -> None:
+    path = tmp_path / f"x.{name}"
+    write(path, SOUND[name])
+    if name != "ply":  # its indices are not meant to be right
+        assert sound_or_refused(path) is not None
+    dice = random.Random(name)
+    for _ in range(120):
+        data = bytearray(SOUND[name])
+        for _ in range(dice.choice([1, 1, 2, 4])):
+            at = dice.randrange(len(data))
+            kind = dice.randrange(4)
+            if kind == 0:
+                data[at] = dice.randrange(256)
+            elif kind == 1:
+                data[at : at + 1] = dice.choice(
+                    [b"9", b"-", b"0", b"\n", b" ", b"e", b"/", b"\xff"]
+                )
+            elif kind == 2:
+                del data[at : at + dice.choice([1, 4, 20])]
+                data = data or bytearray(b"x")
+            else:
+                data[at:at] = data[max(0, at - 8) : at]
+        sound_or_refused(write(path, bytes(data)))
+
+
+@pytest.mark.parametrize("name", SOUND)
+def test_files_cut_off_anywhere_are_read_or_refused(name: str, tmp_path: Path) -> None:
+    data = SOUND[name]
+    for end in range(1, len(data), max(1, len(data) // 60)):
+        sound_or_refused(write(tmp_path / f"x.{name}", data[:end]))
