@@ -1,7 +1,8 @@
 """OpenGL contexts without a window: which platforms there are, and how one is made current.
 
 Owns the choice of platform (EGL, OSMesa, the system's default) and the passage of "current" from
-one context to another. Knows nothing of scenes, shaders or windows: a window's context is passed in.
+one context to another. Knows nothing of scenes, shaders or windows: a window's context is passed
+in.
 """
 
 from __future__ import annotations
@@ -60,7 +61,7 @@ class Standalone:
 
     def __init__(self, name: str) -> None:
         self.name = name
-        settings = {"backend": "egl"} if name == "egl" else {}
+        settings: dict[str, Any] = {"backend": "egl"} if name == "egl" else {}
         with _nothing_current():
             self.context = moderngl.create_context(standalone=True, require=330, **settings)
             self.context.__exit__(None, None, None)
@@ -99,7 +100,8 @@ class OSMesa:
         # OSMesa insists on a default framebuffer in memory; everything is drawn into textures.
         self._pixels = (ctypes.c_ubyte * 4)()
         with _nothing_current(), self:
-            self.context = moderngl.create_context(require=330, context=self)
+            loader: Any = self
+            self.context = moderngl.create_context(require=330, context=loader)
 
     # What moderngl asks of a loader.
 

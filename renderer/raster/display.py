@@ -9,8 +9,9 @@ import moderngl
 import numpy as np
 from numpy.typing import NDArray
 
+from renderer.raster.programs import set_uniform
+from renderer.raster.resources import check, new_texture
 from renderer.raster.sources import link
-from renderer.raster.tables import check, new_texture
 
 MOST_PICTURES = 8
 
@@ -30,7 +31,7 @@ class Display:
         self._uploaded: moderngl.Texture | None = None
 
     def draw(self, texture: moderngl.Texture, exposure_ev: float = 0.0) -> moderngl.Texture:
-        """An RGBA8 texture of the same size: 2^exposure_ev * colour, clamped, sRGB, row 0 at the top.
+        """An RGBA8 texture of the same size: 2^exposure_ev * colour, clamped, as sRGB.
 
         The texture returned is drawn over by the next draw() of the same source.
         """
@@ -43,9 +44,9 @@ class Display:
             gl.clear_samplers(0, 1)
             framebuffer.use()
             texture.use(0)
-            self._program["linear_color"].value = 0
-            self._program["window_depth"].value = 0.5
-            self._program["exposure"].value = min(2.0**exposure_ev, 1e30)
+            set_uniform(self._program, "linear_color", 0)
+            set_uniform(self._program, "window_depth", 0.5)
+            set_uniform(self._program, "exposure", min(2.0**exposure_ev, 1e30))
             self._screen.render(moderngl.TRIANGLES, vertices=3)
         finally:
             before.use()

@@ -1,15 +1,15 @@
 """Triangle setup: what the shaders need to know about one camera, computed in float64.
 
-Owns the tables that change with the camera: the camera block, a row for each triangle, sphere and
-object. Knows nothing of GL: it gives NumPy arrays, laid out as shaders/chunks reads them.
+Owns the tables that change with the camera: the camera block, and a row for each triangle, sphere
+and object. Knows nothing of GL: it gives NumPy arrays, laid out as shaders/chunks reads them.
 
 Image coordinates: a point's (x, y) in pixels from the image's centre (x right, y up), and t, the
-parameter of the ray that goes through it. Perspective keeps x and y multiplied by t, so that they are affine
-in the point. Pixel centres are exact in float32 in these coordinates.
+parameter of the ray that goes through it. Perspective keeps x and y multiplied by t, so that they
+are affine in the point. Pixel centres are exact in float32 in these coordinates.
 
-float32 keeps 7 digits, so nothing large may cancel on the GPU. Each object is therefore seen from an
-anchor of its own: the point of its bounding box that is nearest to the eye. A triangle's plane meets
-a ray at t (parallel) or 1/t (perspective) that is affine in x and y: the three coefficients
+float32 keeps 7 digits, so nothing large may cancel on the GPU. Each object is therefore seen from
+an anchor of its own: the point of its bounding box that is nearest to the eye. A triangle's plane
+meets a ray at t (parallel) or 1/t (perspective) that is affine in x and y: the three coefficients
 are composed here, where N.(a - eye) may cancel without harm.
 """
 
@@ -31,8 +31,8 @@ NEAREST = (
     1e-6  # of the farthest t: nothing nearer than this is drawn where the eye is among objects
 )
 TINY = 1e-30
-# Rows at a time. Small products stay on one thread of NumPy's BLAS: its threads wait for one another,
-# which takes tens of milliseconds while the tracer has all cores.
+# Rows at a time. Small products stay on one thread of NumPy's BLAS: its threads wait for one
+# another, which takes tens of milliseconds while the tracer has all cores.
 BLOCK = 8192
 
 # std140: a vec3 takes four floats, whose last one is free for a scalar.
@@ -67,10 +67,13 @@ class SceneSetup(NamedTuple):
 
 
 class ImageSpace(NamedTuple):
-    """Image coordinates of one camera and size. image_from_world (3, 4): rows x, y (times t in
-    perspective), t. step_x, step_y (3,): world vectors of one pixel to the right and up, on the plane
-    t = 1 in perspective. origin, direction (3,): the ray through the image's centre.
-    clip_z: z in clip space is clip_z[0] * t + clip_z[1]. t_low, t_high: of the scene's bounds."""
+    """Image coordinates of one camera and size.
+
+    image_from_world (3, 4): rows x, y (times t in perspective), t. step_x, step_y (3,): world
+    vectors of one pixel to the right and up, on the plane t = 1 in perspective. origin, direction
+    (3,): the ray through the image's centre. clip_z: z in clip space is clip_z[0] * t + clip_z[1].
+    t_low, t_high: around all t > 0 of the scene.
+    """
 
     image_from_world: Floats
     step_x: Floats

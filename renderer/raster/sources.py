@@ -102,7 +102,10 @@ def link(
         "fragment_shader": Source(fragment, read, constants),
     }
     try:
-        return context.program(**{stage: source.text for stage, source in stages.items()})
+        return context.program(
+            vertex_shader=stages["vertex_shader"].text,
+            fragment_shader=stages["fragment_shader"].text,
+        )
     except moderngl.Error as error:
         message = str(error)
         stage = next((stage for stage in stages if stage in message), None)

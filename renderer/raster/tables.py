@@ -6,13 +6,16 @@ Knows nothing of what the numbers mean.
 
 from __future__ import annotations
 
+from typing import Any
+
 import moderngl
 import numpy as np
 from numpy.typing import NDArray
 
 from renderer.errors import LucidaError
+from renderer.raster.resources import new_texture
 
-TABLE_WIDTH = 4096  # a power of two; texel() in tables.glsl shifts by its logarithm
+TABLE_WIDTH = 4096  # a power of two: texel() in tables.glsl shifts by its logarithm
 
 
 class Table:
@@ -21,52 +24,28 @@ class Table:
     Raises LucidaError where the array is longer than the driver's textures.
     """
 
-    def __init__(self, context: moderngl.Context, name: str, array: NDArray) -> None:
-        self.components = array.shape[-1]
-        texels = array.size // self.components
-        rows = max(1, -(-texels // TABLE_WIDTH))
+    def __init__(self, context: moderngl.Context, name: str, array: NDArray[Any]) -> None:
+        components = array.shape[-1]
+        self.count = array.size // components
+        rows = max(1, -(-self.count // TABLE_WIDTH))
         largest = context.info["GL_MAX_TEXTURE_SIZE"]
         if max(TABLE_WIDTH, rows) > largest:
             raise LucidaError(
                 "scene",
-                f"{name}: {texels} texels do not fit into the driver's textures ({largest} a side)",
-                "simplify the model, or draw it with --renderer ray",
+                f"{self.count} texels of {name} do not fit into the driver's textures "
+                f"({largest} a side)",
+                "simplify the model, or use --renderer ray",
             )
         # The last row is filled up: a texture is written as a rectangle.
-        self.texels = np.zeros((rows * TABLE_WIDTH, self.components), array.dtype)
-        self.count = texels
-        self.texture = new_texture(context, (TABLE_WIDTH, rows), self.components, array.dtype)
+        self.texels = np.zeros((rows * TABLE_WIDTH, components), array.dtype)
+        self.texture = new_texture(context, (TABLE_WIDTH, rows), components, array.dtype)
         self.write(array)
 
-    def write(self, array: NDArray | None = None) -> None:
-        """Uploads; None: what the caller has put into `texels` itself."""
+    def write(self, array: NDArray[Any] | None = None) -> None:
+        """Uploads the array; None: what the caller has put into `texels`."""
         if array is not None:
-            self.texels[: self.count] = array.reshape(self.count, self.components)
+            self.texels[: self.count] = array.reshape(self.texels[: self.count].shape)
         self.texture.write(self.texels)
 
     def release(self) -> None:
         self.texture.release()
-
-
-def new_texture(
-    context: moderngl.Context, size: tuple[int, int], components: int, dtype: np.dtype | str
-) -> moderngl.Texture:
-    """A texture without filtering. Raises LucidaError where there is no memory for it."""
-    kind = {"float32": "f4", "int32": "i4", "uint8": "f1"}[np.dtype(dtype).name]
-    texture = context.texture(size, components, dtype=kind)
-    check(context, f"a texture of {size[0]}x{size[1]}")
-    texture.filter = moderngl.NEAREST, moderngl.NEAREST
-    texture.repeat_x = texture.repeat_y = False
-    return texture
-
-
-def check(context: moderngl.Context, doing: str) -> None:
-    """Raises LucidaError where OpenGL has reported an error since it was last asked."""
-    error = context.error
-    if error == "GL_NO_ERROR":
-        return
-    if error == "GL_OUT_OF_MEMORY":
-        raise LucidaError(
-            "OpenGL", f"no memory for {doing}", "choose a smaller image or a smaller model"
-        )
-    raise LucidaError("OpenGL", f"{error} at {doing}", "update the graphics driver")

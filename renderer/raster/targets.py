@@ -1,4 +1,4 @@
-"""Targets: the textures that one image size is drawn into.
+"""Targets: the textures that images of one size are drawn into.
 
 Owns framebuffers and their attachments. Knows nothing of scenes or cameras.
 """
@@ -8,9 +8,11 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import moderngl
+import numpy as np
+from numpy.typing import NDArray
 
 from renderer.errors import LucidaError
-from renderer.raster.tables import check, new_texture
+from renderer.raster.resources import Owner, check, new_texture
 
 
 @dataclass(frozen=True, eq=False)
@@ -18,8 +20,8 @@ class Textures:
     """What the rasterizer drew, on the GPU; row 0 of each texture is the image's top row.
 
     color: RGBA32F, linear light. surface: RGBA32F, the normal, and t (infinity: nothing hit).
-    object, primitive: R32I, -1 where nothing is hit. They are the rasterizer's own, and are drawn over or
-    replaced by its next draw().
+    object, primitive: R32I, -1 where nothing is hit. They stay the rasterizer's own: its next
+    draw() draws over them, or replaces them where the size changes.
     """
 
     color: moderngl.Texture
@@ -29,8 +31,10 @@ class Textures:
 
 
 class Targets:
-    """Framebuffers of one size, (width, height): `seen` takes primitives and depth, `shaded` the rest; it only
-    reads the depth."""
+    """Framebuffers of one size, (width, height).
+
+    seen: takes primitives and depth. shaded: takes the rest, and only reads the depth.
+    """
 
     def __init__(self, context: moderngl.Context, size: tuple[int, int]) -> None:
         largest = context.info["GL_MAX_TEXTURE_SIZE"]
@@ -38,40 +42,48 @@ class Targets:
             raise LucidaError(
                 "size",
                 f"{size[0]}x{size[1]} is too large for the graphics driver",
-                f"stay within {largest} a side, or render with --renderer ray",
+                f"stay within {largest} a side, or use --renderer ray",
             )
         self.size = size
-        self._owned: list = []
+        self._owner = Owner()
         try:
-            self.textures = Textures(
-                color=self._own(new_texture(context, size, 4, "float32")),
-                surface=self._own(new_texture(context, size, 4, "float32")),
-                object=self._own(new_texture(context, size, 1, "int32")),
-                primitive=self._own(new_texture(context, size, 1, "int32")),
-            )
-            depth = self._own(context.depth_renderbuffer(size))
-            check(context, f"a depth buffer of {size[0]}x{size[1]}")
-            self.seen = self._own(context.framebuffer([self.textures.primitive], depth))
-            self.shaded = self._own(
-                context.framebuffer(
-                    [self.textures.color, self.textures.surface, self.textures.object], depth
-                )
-            )
-            self.shaded.depth_mask = False
+            self._build(context, size)
         except moderngl.Error as error:
             self.release()
-            raise LucidaError(
-                "size", f"{size[0]}x{size[1]}: {error}", "choose a smaller image"
-            ) from None
+            problem = f"{size[0]}x{size[1]}: {error}"
+            raise LucidaError("size", problem, "choose a smaller image") from None
         except LucidaError:
             self.release()
             raise
 
-    def _own(self, resource):  # type: ignore[no-untyped-def]
-        self._owned.append(resource)
-        return resource
+    def _build(self, context: moderngl.Context, size: tuple[int, int]) -> None:
+        own = self._owner.own
+        self.textures = Textures(
+            color=own(new_texture(context, size, 4, np.float32)),
+            surface=own(new_texture(context, size, 4, np.float32)),
+            object=own(new_texture(context, size, 1, np.int32)),
+            primitive=own(new_texture(context, size, 1, np.int32)),
+        )
+        depth = own(context.depth_renderbuffer(size))
+        check(context, f"a depth buffer of {size[0]}x{size[1]}")
+        textures = self.textures
+        self.seen = own(context.framebuffer([textures.primitive], depth))
+        shaded = [textures.color, textures.surface, textures.object]
+        self.shaded = own(context.framebuffer(shaded, depth))
+        self.shaded.depth_mask = False
+
+    def read(self, channel: str) -> NDArray[np.float32] | NDArray[np.int32]:
+        """A channel (renderer/frame.py) of the last image; waits until it is drawn."""
+        width, height = self.size
+        if channel in ("id", "primitive"):
+            numbers = np.empty((height, width), np.int32)
+            source, attachment = (self.shaded, 2) if channel == "id" else (self.seen, 0)
+            source.read_into(numbers, components=1, attachment=attachment, dtype="i4")
+            return numbers
+        values = np.empty((height, width, 4), np.float32)
+        attachment = 0 if channel == "color" else 1
+        self.shaded.read_into(values, components=4, attachment=attachment, dtype="f4")
+        return np.ascontiguousarray(values[..., 3] if channel == "depth" else values[..., :3])
 
     def release(self) -> None:
-        for resource in reversed(self._owned):
-            resource.release()
-        self._owned.clear()
+        self._owner.release()

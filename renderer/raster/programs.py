@@ -1,0 +1,55 @@
+"""The rasterizer's shaders, compiled.
+
+Owns the programs and which constants the shading pass is compiled with. Knows nothing of the
+numbers that they are given.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+import moderngl
+
+from renderer.raster.resources import Owner
+from renderer.raster.sources import link
+from renderer.scene.flat import SPECULAR_CHECKERED, FlatScene
+
+
+class Programs:
+    """Compiled once for a context; the shading pass once for each kind of scene."""
+
+    def __init__(self, context: moderngl.Context) -> None:
+        self._context = context
+        self._owner = Owner()
+        self._shade: dict[tuple[bool, ...], moderngl.Program] = {}
+        self.clear = self._owner.own(link(context, "screen.vert", "clear.frag"))
+        self.triangles = self._owner.own(link(context, "triangles.vert", "triangles.frag"))
+        self.spheres = self._owner.own(link(context, "spheres.vert", "spheres.frag"))
+        self.background = self._owner.own(link(context, "screen.vert", "background.frag"))
+
+    def shade(self, flat: FlatScene) -> moderngl.Program:
+        """The shading pass for what the scene has."""
+        features = {
+            "HAS_TRIANGLES": len(flat.faces) > 0,
+            "HAS_SPHERES": len(flat.spheres) > 0,
+            "HAS_NORMALS": bool(flat.normals.any()),
+            "HAS_COLORS": bool((flat.colors != 1).any()),
+            "HAS_CHECKERS": bool(flat.materials[:, SPECULAR_CHECKERED, 3].any()),
+        }
+        key = tuple(features.values())
+        if key not in self._shade:
+            program = link(self._context, "screen.vert", "shade.frag", features)
+            self._shade[key] = self._owner.own(program)
+        return self._shade[key]
+
+    def release(self) -> None:
+        self._owner.release()
+
+
+def set_uniform(program: moderngl.Program, name: str, value: Any) -> None:
+    """Sets a uniform; one that the compiler has left out is passed over."""
+    uniform = program.get(name, None)
+    if isinstance(uniform, moderngl.Uniform):
+        uniform.value = value
+    elif isinstance(uniform, moderngl.UniformBlock):
+        uniform.binding = value

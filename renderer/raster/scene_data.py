@@ -1,0 +1,151 @@
+"""A scene on the GPU: its tables, and the draws of both passes.
+
+Owns the scene's buffers and textures and what of them belongs to the last camera. Knows nothing of
+targets. The numbers come from setup.py; shaders/ says what is done with them.
+"""
+
+from __future__ import annotations
+
+import moderngl
+import numpy as np
+
+from renderer.camera import Camera
+from renderer.raster.programs import Programs, set_uniform
+from renderer.raster.resources import Owner, check
+from renderer.raster.setup import (
+    CAMERA_BLOCK,
+    OBJECT_TEXELS,
+    SPHERE_TEXELS,
+    camera_block,
+    image_space,
+    object_rows,
+    scene_setup,
+    sphere_rows,
+    triangle_rows,
+)
+from renderer.raster.tables import Table
+from renderer.scene.flat import FlatScene
+
+BOX_VERTICES = 36
+# Window depths: where nothing is, and one between that and the farthest of depth() in camera.glsl.
+FARTHEST, BEFORE_FARTHEST = 1.0, 1 - 2**-21
+
+
+class SceneData:
+    """One scene in one context, which must be current. Raises LucidaError where it does not fit."""
+
+    def __init__(self, context: moderngl.Context, programs: Programs, flat: FlatScene) -> None:
+        self._context, self._flat = context, flat
+        self._setup = scene_setup(flat)
+        self._last: tuple[Camera, tuple[int, int]] | None = None
+        self._owner = Owner()
+        try:
+            self._build_tables()
+            self._build_arrays(programs)
+            check(context, "the scene")
+        except BaseException:
+            self.release()
+            raise
+
+    def _build_tables(self) -> None:
+        flat = self._flat
+        triangles, spheres, objects = len(flat.faces), len(flat.spheres), len(flat.materials)
+        changing = {
+            "triangle_rows": np.zeros((triangles, 4), np.float32),
+            "spheres": np.zeros((spheres, SPHERE_TEXELS, 4), np.float32),
+            "objects": np.zeros((objects, OBJECT_TEXELS, 4), np.float32),
+        }
+        fixed = {
+            "faces": np.concatenate([flat.faces, flat.face_object[:, None]], axis=1),
+            "vertices": np.stack([flat.vertices, flat.normals, flat.colors], axis=1),
+            "lights": flat.lights,
+        }
+        self._tables = {
+            name: self._owner.own(Table(self._context, name, array))
+            for name, array in (changing | fixed).items()
+        }
+        names = (*self._tables, "primitives")
+        self._units = {name: unit for unit, name in enumerate(names)}
+
+    def _build_arrays(self, programs: Programs) -> None:
+        context, flat, own = self._context, self._flat, self._owner.own
+        self._block = own(context.buffer(reserve=CAMERA_BLOCK.itemsize))
+        self._clear = own(context.vertex_array(programs.clear, []))
+        self._background = own(context.vertex_array(programs.background, []))
+        self._shade: moderngl.VertexArray | None = None
+        if len(flat.materials):
+            self._shade = own(context.vertex_array(programs.shade(flat), []))
+        self._spheres = own(context.vertex_array(programs.spheres, []))
+        self._triangles: moderngl.VertexArray | None = None
+        if len(flat.faces):
+            vertices = own(context.buffer(flat.vertices))
+            objects = own(context.buffer(self._setup.vertex_object))
+            content = [(vertices, "3f4", "vertex"), (objects, "1i4", "object")]
+            indices = own(context.buffer(flat.faces))
+            self._triangles = own(
+                context.vertex_array(programs.triangles, content, indices, index_element_size=4)
+            )
+
+    def release(self) -> None:
+        self._owner.release()
+
+    def set_camera(self, camera: Camera, size: tuple[int, int]) -> None:
+        """Fills the tables that depend on the camera, unless they are this camera's already."""
+        if self._last == (camera, size):
+            return
+        self._last = None
+        flat, tables = self._flat, self._tables
+        space = image_space(camera, size, flat.bounds)
+        objects = object_rows(flat, self._setup, camera, space)
+        self._block.write(camera_block(camera, size, space, flat))
+        tables["objects"].write(objects)
+        if len(flat.faces):
+            rows = tables["triangle_rows"].texels[: len(flat.faces), :3]
+            triangle_rows(self._setup.planes, space, camera.is_parallel, rows)
+            tables["triangle_rows"].write()
+        if len(flat.spheres):
+            tables["spheres"].write(sphere_rows(flat, space, objects))
+        self._last = camera, size
+
+    def see(self) -> None:
+        """First pass: the nearest primitive of each pixel, into the bound framebuffer."""
+        context, camera = self._context, self._last
+        self._block.bind_to_uniform_block(0)
+        for name, table in self._tables.items():
+            table.texture.use(self._units[name])
+        context.enable_only(moderngl.DEPTH_TEST)
+        self._cover(self._clear, "1", FARTHEST)
+        context.depth_func = "<"
+        if self._triangles is not None:
+            self._prepare(self._triangles.program)
+            self._triangles.render(moderngl.TRIANGLES)
+        if len(self._flat.spheres) and camera is not None:
+            self._prepare(self._spheres.program)
+            context.enable_only(moderngl.DEPTH_TEST | moderngl.CULL_FACE)
+            # Far sides only. The image is flipped, and a left-handed basis flips it again.
+            context.front_face = "cw" if camera[0].determinant > 0 else "ccw"
+            context.cull_face = "front"
+            count = len(self._flat.spheres)
+            self._spheres.render(moderngl.TRIANGLES, vertices=BOX_VERTICES, instances=count)
+
+    def shade(self, primitives: moderngl.Texture) -> None:
+        """Second pass: hit and colour of each pixel, into the bound framebuffer, by its depth:
+        where the first pass has left nothing, no hit is looked for."""
+        self._context.enable_only(moderngl.DEPTH_TEST)
+        primitives.use(self._units["primitives"])
+        self._cover(self._background, "==", FARTHEST)
+        if self._shade is not None:
+            self._cover(self._shade, ">", BEFORE_FARTHEST)
+
+    def _cover(self, array: moderngl.VertexArray, depth_func: str, window_depth: float) -> None:
+        self._context.depth_func = depth_func
+        self._prepare(array.program)
+        set_uniform(array.program, "window_depth", window_depth)
+        array.render(moderngl.TRIANGLES, vertices=3)
+
+    def _prepare(self, program: moderngl.Program) -> None:
+        """Programs are shared: one still holds what it was given for another scene."""
+        for name, unit in self._units.items():
+            set_uniform(program, name, unit)
+        set_uniform(program, "triangle_count", len(self._flat.faces))
+        set_uniform(program, "Camera", 0)
