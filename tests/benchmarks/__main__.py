@@ -43,6 +43,8 @@ def _parser() -> argparse.ArgumentParser:
 
 def _run(arguments: argparse.Namespace) -> int:
     names = _chosen(arguments.only)
+    if arguments.readme and arguments.only is not None:
+        raise LucidaError("--readme", "needs all tables", "leave out --only")
     run = Run(arguments.quick, arguments.full, arguments.model)
     if not arguments.no_peers:
         run.say("looking for the peers")
