@@ -36,12 +36,18 @@ def drawn(name: str, *options: str) -> np.ndarray:
 
 
 class TestRender:
-    @pytest.mark.parametrize("renderer", ["raster", "ray"])
-    def test_npy_is_as_the_contract_says(self, renderer):
-        color = drawn("color", "--renderer", renderer)
-        depth = drawn("depth", "--renderer", renderer, "--channel", "depth")
-        normal = drawn("normal", "--renderer", renderer, "--channel", "normal")
-        index = drawn("id", "--renderer", renderer, "--channel", "id")
+    def test_npy_is_as_the_contract_says(self):
+        self.check_npy()
+
+    def test_npy_of_the_rasterizer_too(self, gl_backend):
+        self.check_npy("--renderer", "raster", "--backend", gl_backend)
+
+    @staticmethod
+    def check_npy(*options):
+        color = drawn("color", *options)
+        depth = drawn("depth", *options, "--channel", "depth")
+        normal = drawn("normal", *options, "--channel", "normal")
+        index = drawn("id", *options, "--channel", "id")
         assert (color.shape, color.dtype) == ((18, 32, 3), np.float32)
         assert (depth.shape, depth.dtype) == ((18, 32), np.float32)
         assert (normal.shape, normal.dtype) == ((18, 32, 3), np.float32)
@@ -97,10 +103,10 @@ class TestRender:
     def test_threads_change_nothing(self):
         np.testing.assert_array_equal(drawn("one", "--threads", "1"), drawn("all"))
 
-    def test_both_renderers_show_the_same(self):
+    def test_both_renderers_show_the_same(self, gl_backend):
         for renderer in ("raster", "ray"):
             arguments = ["render", "still-life", "-o", f"{renderer}.png", "--renderer", renderer]
-            assert main([*arguments, "--size", "160x90"]) == 0
+            assert main([*arguments, "--size", "160x90", "--backend", gl_backend]) == 0
         with Image.open("raster.png") as raster, Image.open("ray.png") as ray:
             difference = np.abs(np.asarray(raster, int) - np.asarray(ray, int)).max(axis=2)
         assert (difference > 2).mean() < 0.002  # no pixel but some on edges
@@ -117,10 +123,9 @@ class TestRender:
 
 
 class TestCompare:
-    def test_json_is_stable(self, capsys):
-        assert (
-            main(["compare", "spheres", "--size", "96x54", "--json", "-o", "difference.png"]) == 0
-        )
+    def test_json_is_stable(self, capsys, gl_backend):
+        arguments = ["compare", "spheres", "--size", "96x54", "--backend", gl_backend]
+        assert main([*arguments, "--json", "-o", "difference.png"]) == 0
         told = capsys.readouterr()
         assert not told.err
         result = json.loads(told.out)
@@ -132,11 +137,11 @@ class TestCompare:
         with Image.open("difference.png") as image:
             assert image.size == (96, 54)
 
-    def test_text_says_the_counts(self, capsys):
-        assert main(["compare", "canonical", "--size", "48x48"]) == 0
+    def test_text_says_the_counts(self, capsys, gl_backend):
+        assert main(["compare", "canonical", "--size", "48x48", "--backend", gl_backend]) == 0
         assert "unexplained: 0" in capsys.readouterr().out
 
-    def test_disagreement_is_status_1(self, monkeypatch, capsys):
+    def test_disagreement_is_status_1(self, monkeypatch, capsys, gl_backend):
         import renderer.compare
 
         real = renderer.compare.compare
@@ -147,7 +152,7 @@ class TestCompare:
             return comparison
 
         monkeypatch.setattr(renderer.compare, "compare", wrong)
-        assert main(["compare", "canonical", "--size", "16x16"]) == 1
+        assert main(["compare", "canonical", "--size", "16x16", "--backend", gl_backend]) == 1
         assert "unexplained: 3" in capsys.readouterr().out
 
 
