@@ -20,6 +20,7 @@ from renderer.scene.model import Mesh, Scene
 from renderer.trace.team import Team
 from renderer.trace.wide import FIRST_LEAF, WIDTH, WideTree, tree_of_boxes, tree_of_mesh
 
+HAS_NORMALS, HAS_COLORS = 1, 2  # what an instance's vertices have: bits
 _OUTWARDS = 4e-7  # of the coordinates: more than the rounding of bounds to float32
 
 
@@ -32,7 +33,10 @@ class World(NamedTuple):
     first_primitive: int32, what added to a triangle's face number gives its primitive number.
     normal_matrix: float32, 9 an instance, row by row: takes a normal to world space, up to length,
         and keeps it on the winding's side.
+    attributes: int32, HAS_NORMALS and HAS_COLORS.
     spheres: float64, 4 a sphere: centre, radius. sphere_object: int32.
+    instances, triangles: how many; sphere k has the primitive number triangles + k.
+    is_empty: there is nothing to see.
     """
 
     box: NDArray[np.float32]
@@ -46,8 +50,12 @@ class World(NamedTuple):
     root_object: NDArray[np.int32]
     first_primitive: NDArray[np.int32]
     normal_matrix: NDArray[np.float32]
+    attributes: NDArray[np.int32]
     spheres: NDArray[np.float64]
     sphere_object: NDArray[np.int32]
+    instances: int
+    triangles: int
+    is_empty: bool
 
 
 class Instances:
@@ -148,8 +156,18 @@ class Instances:
             root_object=object_number,
             first_primitive=flat.object_faces[object_number, 0],
             normal_matrix=_normal_matrices(matrix).astype(np.float32).reshape(-1),
+            attributes=np.array(
+                [
+                    HAS_NORMALS * (mesh.normals is not None) + HAS_COLORS * (mesh.colors is not None)
+                    for mesh in meshes
+                ],
+                np.int32,
+            ),
             spheres=spheres.reshape(-1),
             sphere_object=flat.sphere_object.copy(),
+            instances=len(meshes),
+            triangles=len(flat.faces),
+            is_empty=not len(low),
         )
 
 

@@ -220,9 +220,9 @@ def see_triangles(view, found, leaf, space, x_first, y_first, square, floats, in
     slot = load(ints, SEEN + LANES * square)
     before = best
     while found != 0:
-        i = COEFFICIENTS + np.int64(lowest_bit(found))
-        number = np.int32(leaf * WIDTH + i)
-        found &= found - np.int32(1)
+        lane = lowest_bit(found)
+        found &= found - 1
+        i = COEFFICIENTS + lane
         inside = vmin(
             vmin(_at(floats, i, x, y), _at(floats, i + 3 * LANES, x, y)),
             _at(floats, i + 6 * LANES, x, y),
@@ -230,7 +230,7 @@ def see_triangles(view, found, leaf, space, x_first, y_first, square, floats, in
         k = _at(floats, i + 9 * LANES, x, y)
         hit = (inside >= np.float32(0)) & (k > best) & (k < view.key_near)
         best = select(hit, k, best)
-        slot = select(hit, splat(number), slot)
+        slot = select(hit, splat(np.int32(leaf * WIDTH + lane)), slot)
     store(floats, BEST + LANES * square, best)
     store(ints, SEEN + LANES * square, slot)
     owner = load(ints, OWNER + LANES * square)

@@ -72,13 +72,14 @@ def packet_view(view: View, size: tuple[int, int], instances: Instances) -> Pack
     """The numbers for an image of (width, height)."""
     width, height = size
     eye, u, v, back = (np.array(vector) for vector in (view.eye, view.u, view.v, view.back))
+    # What a pixel to the right, and one down, are on the image plane.
     per_px = (view.right - view.left) / width, (view.bottom - view.top) / height
     middle = (view.left + view.right) / 2, (view.bottom + view.top) / 2
 
     # Rows of (x, y, t) for points relative to the eye, in units of u and v.
     to_x, to_y, to_t = np.linalg.inv(np.column_stack([u, v, -back]))
-    linear = np.stack([to_x / per_px[0], -to_y / per_px[1], to_t])
-    shift = np.array([-middle[0] / per_px[0], middle[1] / per_px[1], 0.0])
+    linear = np.stack([to_x / per_px[0], to_y / per_px[1], to_t])
+    shift = np.array([-middle[0] / per_px[0], -middle[1] / per_px[1], 0.0])
     if not view.parallel:
         linear[:2] += shift[:2, None] * to_t
         shift[:] = 0.0
@@ -92,7 +93,7 @@ def packet_view(view: View, size: tuple[int, int], instances: Instances) -> Pack
         linear[:2] /= scale
 
     rows, is_exact = _rows(linear, shift, eye, view.parallel, instances)
-    across, down = per_px[0] * u, -per_px[1] * v
+    across, down = per_px[0] * u, per_px[1] * v
     center = middle[0] * u + middle[1] * v
     if view.parallel:
         ray = np.concatenate([eye + center, across, down, -back])

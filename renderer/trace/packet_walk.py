@@ -39,8 +39,8 @@ def push_children(inside, depth, child, node, top, floats, ints):
     store(floats, DEPTHS, depth)
     base = top
     while found != 0:
-        lane = np.int64(lowest_bit(found))
-        found &= found - np.int32(1)
+        lane = lowest_bit(found)
+        found &= found - 1
         # By insertion: there are few.
         z = floats[DEPTHS + lane]
         i = top
@@ -57,7 +57,7 @@ def push_children(inside, depth, child, node, top, floats, ints):
 @inlined
 def walk_world(view, world, tile, floats, ints):
     """Lets the tile's pixels see the scene: the upper tree, spheres and instances."""
-    space = len(world.root)
+    space = world.instances
     least = view.key_far
     set_planes(view, space, tile, floats, ints)
     floats[WAITING_DEPTHS], ints[WAITING_NODES] = np.float32(-np.inf), 0

@@ -92,10 +92,19 @@ def _widened(context: Any, builder: Any, value: Any, fe_type: Any, kind: str) ->
     return _splat(builder, context.cast(builder, value, fe_type, _SCALAR[kind]))
 
 
-def _pointer(context: Any, builder: Any, array_type: Any, array: Any, index_type: Any, index: Any):  # type: ignore[no-untyped-def]
-    """The address of array[index]."""
-    index = context.cast(builder, index, index_type, types.intp)
-    return builder.gep(make_array(array_type)(context, builder, array).data, [index])
+def _address(context: Any, builder: Any, array_type: Any, array: Any) -> Any:
+    """The address of an array's first element."""
+    if isinstance(array_type, types.CPointer):
+        return array
+    return make_array(array_type)(context, builder, array).data
+
+
+def _element(context: Any, builder: Any, sig: Any, args: Any) -> Any:
+    """The address of array[index], the first two arguments."""
+    index = context.cast(builder, args[1], sig.args[1], types.intp)
+    kind = _array_kind(sig.args[0])
+    address = _address(context, builder, sig.args[0], args[0])
+    return builder.gep(address, [index], source_etype=_ELEMENT[kind])
 
 
 def _kind(*fe_types: Any) -> str:
@@ -108,9 +117,11 @@ def _kind(*fe_types: Any) -> str:
 
 
 def _array_kind(array: Any) -> str:
-    """The kind of vector that an array's elements make."""
-    if not isinstance(array, types.Array) or array.ndim != 1 or array.layout != "C":
-        raise TypingError(f"a contiguous one-dimensional array is needed, not {array}")
+    """The kind of vector that the elements of an array, or of a pointer's array, make."""
+    if not isinstance(array, types.CPointer) and not (
+        isinstance(array, types.Array) and array.ndim == 1 and array.layout == "C"
+    ):
+        raise TypingError(f"a pointer or a contiguous one-dimensional array is needed, not {array}")
     if array.dtype not in _KIND_OF:
         raise TypingError(f"no vectors of {array.dtype}")
     return _KIND_OF[array.dtype]
@@ -230,12 +241,29 @@ def lane_row(typing):  # type: ignore[no-untyped-def]
 
 
 @intrinsic
+def pointer(typing, array):  # type: ignore[no-untyped-def]
+    """The address of a contiguous array, which is indexed like the flat array.
+
+    Inside kernels, arrays are handed on as pointers: an array is seven numbers and a count of
+    references, which a function per stage makes slow to compile and to run. The kernel keeps the
+    array itself alive.
+    """
+    if not isinstance(array, types.Array) or array.layout != "C":
+        raise TypingError(f"a contiguous array is needed, not {array}")
+
+    def codegen(context, builder, sig, args):  # type: ignore[no-untyped-def]
+        return make_array(sig.args[0])(context, builder, args[0]).data
+
+    return types.CPointer(array.dtype)(array), codegen
+
+
+@intrinsic
 def load(typing, array, index):  # type: ignore[no-untyped-def]
     """array[index : index + 16]."""
     kind = _array_kind(array)
 
     def codegen(context, builder, sig, args):  # type: ignore[no-untyped-def]
-        at = _pointer(context, builder, sig.args[0], args[0], sig.args[1], args[1])
+        at = _element(context, builder, sig, args)
         at = builder.bitcast(at, _llvm(kind).as_pointer())
         value = builder.load(at, typ=_llvm(kind))
         value.align = 4
@@ -251,7 +279,7 @@ def store(typing, array, index, vector):  # type: ignore[no-untyped-def]
         raise TypingError(f"{vector} does not fit into {array}")
 
     def codegen(context, builder, sig, args):  # type: ignore[no-untyped-def]
-        at = _pointer(context, builder, sig.args[0], args[0], sig.args[1], args[1])
+        at = _element(context, builder, sig, args)
         builder.store(args[2], builder.bitcast(at, args[2].type.as_pointer()), align=4)
         return context.get_dummy_value()
 
@@ -270,7 +298,7 @@ def _gather(kind: str, array: Any, index: Any, mask: Any) -> Any:
 
     def codegen(context, builder, sig, args):  # type: ignore[no-untyped-def]
         wide, pointers = ir.VectorType(_I64, LANES), ir.VectorType(ir.PointerType(), LANES)
-        data = make_array(sig.args[0])(context, builder, args[0]).data
+        data = _address(context, builder, sig.args[0], args[0])
         first = _splat(builder, builder.ptrtoint(data, _I64))
         offset = builder.shl(builder.sext(args[1], wide), ir.Constant(wide, [2] * LANES))
         address = builder.inttoptr(builder.add(first, offset), pointers)
@@ -289,7 +317,7 @@ def fetch(typing, array, index, mask):  # type: ignore[no-untyped-def]
         return _gather(kind, array, index, mask)
 
     def codegen(context, builder, sig, args):  # type: ignore[no-untyped-def]
-        at = _pointer(context, builder, sig.args[0], args[0], sig.args[1], args[1])
+        at = _element(context, builder, sig, args)
         return _splat(builder, builder.load(at, typ=_ELEMENT[kind]))
 
     return _VECTOR[kind](array, index, mask), codegen
@@ -302,7 +330,7 @@ def fetch_index(typing, array, index, mask):  # type: ignore[no-untyped-def]
         return _gather(_array_kind(array), array, index, mask)
 
     def codegen(context, builder, sig, args):  # type: ignore[no-untyped-def]
-        at = _pointer(context, builder, sig.args[0], args[0], sig.args[1], args[1])
+        at = _element(context, builder, sig, args)
         return builder.load(at, typ=_I32)
 
     return types.int32(array, index, mask), codegen
@@ -313,7 +341,7 @@ def prefetch(typing, array, index):  # type: ignore[no-untyped-def]
     """Asks for the cache line of array[index], which will be read soon; any index is allowed."""
 
     def codegen(context, builder, sig, args):  # type: ignore[no-untyped-def]
-        at = _pointer(context, builder, sig.args[0], args[0], sig.args[1], args[1])
+        at = _element(context, builder, sig, args)
         read, keep, data = (ir.Constant(_I32, value) for value in (0, 3, 1))
         _call(builder, "llvm.prefetch.p0", ir.VoidType(), [at, read, keep, data])
         return context.get_dummy_value()
@@ -329,8 +357,10 @@ def _store_rows(context: Any, builder: Any, sig: Any, args: Any, rows: list) -> 
         context.cast(builder, value, fe_type, types.intp)
         for value, fe_type in zip(args[1:3], sig.args[1:3], strict=True)
     )
+    kind = _array_kind(sig.args[0])
+    first = _address(context, builder, sig.args[0], args[0])
     for row in rows:
-        at = _pointer(context, builder, sig.args[0], args[0], types.intp, index)
+        at = builder.gep(first, [index], source_etype=_ELEMENT[kind])
         builder.store(row, builder.bitcast(at, row.type.as_pointer()), align=4)
         index = builder.add(index, stride)
     return context.get_dummy_value()
@@ -465,24 +495,23 @@ f32_of_bits = intrinsic(_conversion(I32, F32, "bitcast"))
 
 @intrinsic
 def bits(typing, mask):  # type: ignore[no-untyped-def]
-    """A mask as an int32: bit i is lane i."""
+    """A mask as an int64: bit i is lane i."""
     if mask != MASK:
         raise TypingError(f"a mask is needed, not {mask}")
 
     def codegen(context, builder, sig, args):  # type: ignore[no-untyped-def]
-        return builder.zext(builder.bitcast(args[0], ir.IntType(LANES)), _I32)
+        return builder.zext(builder.bitcast(args[0], ir.IntType(LANES)), _I64)
 
-    return types.int32(mask), codegen
+    return types.int64(mask), codegen
 
 
 @intrinsic
 def mask_of(typing, number):  # type: ignore[no-untyped-def]
-    """The mask whose lane i is bit i of an int32."""
-    if number != types.int32:
-        raise TypingError(f"an int32 is needed, not {number}")
+    """The mask whose lane i is bit i of an integer."""
 
     def codegen(context, builder, sig, args):  # type: ignore[no-untyped-def]
-        return builder.bitcast(builder.trunc(args[0], ir.IntType(LANES)), _llvm("mask"))
+        value = context.cast(builder, args[0], sig.args[0], types.int32)
+        return builder.bitcast(builder.trunc(value, ir.IntType(LANES)), _llvm("mask"))
 
     return MASK(number), codegen
 
@@ -511,11 +540,23 @@ largest = intrinsic(_reduction(">"))
 
 @intrinsic
 def lowest_bit(typing, number):  # type: ignore[no-untyped-def]
-    """The index of the lowest bit set in an int32 that is not 0."""
-    if number != types.int32:
-        raise TypingError(f"an int32 is needed, not {number}")
+    """The index, int64, of the lowest bit set in an integer whose low 32 bits are not 0."""
 
     def codegen(context, builder, sig, args):  # type: ignore[no-untyped-def]
-        return _call(builder, "llvm.cttz.i32", _I32, [args[0], ir.Constant(_I1, 1)])
+        value = context.cast(builder, args[0], sig.args[0], types.int32)
+        index = _call(builder, "llvm.cttz.i32", _I32, [value, ir.Constant(_I1, 1)])
+        return builder.zext(index, _I64)
 
-    return types.int32(number), codegen
+    return types.int64(number), codegen
+
+
+@intrinsic
+def lane_of(typing, vector, lane):  # type: ignore[no-untyped-def]
+    """One lane of a vector, by its index."""
+    scalar = _SCALAR[vector.kind]
+
+    def codegen(context, builder, sig, args):  # type: ignore[no-untyped-def]
+        index = context.cast(builder, args[1], sig.args[1], types.int32)
+        return builder.extract_element(args[0], index)
+
+    return scalar(vector, lane), codegen

@@ -1,0 +1,243 @@
+"""The packet kernel: the picture, tile by tile.
+
+Owns the loop over blocks and tiles, and what is written of a square. Still image order: for each
+packet of pixels, find the closest objects; then determine the colours. Knows nothing of threads:
+each of a team calls trace_packets() with the same arguments, and they share the blocks.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from renderer.trace.atomic import count_done, is_cancelled, take_next
+from renderer.trace.compiled import inlined, kernel
+from renderer.trace.image import BLOCK, Image
+from renderer.trace.instances import World
+from renderer.trace.packet_shade import shade_square
+from renderer.trace.packet_surface import SHADING, SceneArrays, find_surfaces, square_rays
+from renderer.trace.packet_tile import (
+    BEST,
+    NOTHING,
+    SEEN,
+    SQUARE,
+    SQUARES,
+    TILE,
+    WAITING_DEPTHS,
+    WAITING_NODES,
+    clear_tile,
+    new_tile,
+)
+from renderer.trace.packet_view import PacketView
+from renderer.trace.packet_walk import walk_world
+from renderer.trace.simd import (
+    LANES,
+    bits,
+    load,
+    pointer,
+    select,
+    splat,
+    store,
+    store_square,
+    store_square3,
+)
+
+
+@kernel
+def trace_packets(view, world, scene, image, stack_size, control):
+    """Traces blocks of pixels until none are left, or the control array says to stop.
+
+    view: PacketView. world: World. scene: FlatScene. image: Image, written. control: control.py.
+    """
+    rows, columns = image.finished.shape
+    floats = np.empty(WAITING_DEPTHS + stack_size + LANES, np.float32)
+    ints = np.zeros(WAITING_NODES + stack_size + LANES, np.int32)
+    pointers = (
+        view_pointers(view),
+        world_pointers(world),
+        scene_pointers(scene),
+        image_pointers(image),
+        pointer(floats),
+        pointer(ints),
+    )
+    while True:
+        block = take_next(control)
+        if block >= rows * columns:
+            return
+        top, left = block // columns * BLOCK, block % columns * BLOCK
+        for row in range(top, min(top + BLOCK, image.height), TILE):
+            for column in range(left, min(left + BLOCK, image.width), TILE):
+                if is_cancelled(control):
+                    return
+                trace_tile(row, column, *pointers)
+        image.finished[block // columns, block % columns] = 1
+        count_done(control)
+
+
+@inlined
+def trace_tile(row, column, view, world, scene, image, floats, ints):
+    """Traces the tile whose first pixel is (row, column)."""
+    # Find the closest objects.
+    tile = new_tile(view, row, column)
+    clear_tile(view, row, column, floats, ints)
+    if not world.is_empty:
+        walk_world(view, world, tile, floats, ints)
+    # Determine the colours.
+    write_tile(view, world, scene, image, row, column, tile, floats, ints)
+
+
+@inlined
+def view_pointers(view):
+    return PacketView(
+        view.parallel,
+        view.width,
+        view.height,
+        view.slack_px,
+        view.key_far,
+        view.key_near,
+        view.z_far,
+        view.z_near,
+        view.scale,
+        pointer(view.rows),
+        pointer(view.rows_exact),
+        pointer(view.exact),
+        pointer(view.ray),
+        pointer(view.sphere_box),
+    )
+
+
+@inlined
+def world_pointers(world):
+    return World(
+        pointer(world.box),
+        pointer(world.child),
+        pointer(world.corner),
+        pointer(world.face),
+        pointer(world.normal),
+        pointer(world.top_box),
+        pointer(world.top_child),
+        pointer(world.root),
+        pointer(world.root_object),
+        pointer(world.first_primitive),
+        pointer(world.normal_matrix),
+        pointer(world.attributes),
+        pointer(world.spheres),
+        pointer(world.sphere_object),
+        world.instances,
+        world.triangles,
+        world.is_empty,
+    )
+
+
+@inlined
+def scene_pointers(scene):
+    ambient, background = scene.ambient, scene.background
+    return SceneArrays(
+        pointer(scene.faces),
+        pointer(scene.normals),
+        pointer(scene.colors),
+        pointer(scene.materials),
+        pointer(scene.lights),
+        len(scene.lights),
+        (ambient[0], ambient[1], ambient[2]),
+        (background[0], background[1], background[2]),
+    )
+
+
+@inlined
+def image_pointers(image):
+    return Image(
+        image.width,
+        image.height,
+        pointer(image.finished),
+        pointer(image.color),
+        pointer(image.depth),
+        pointer(image.normal),
+        pointer(image.id),
+        pointer(image.primitive),
+        image.has_color,
+        image.has_depth,
+        image.has_normal,
+        image.has_id,
+        image.has_primitive,
+    )
+
+
+@inlined
+def write_tile(view, world, scene, image, row, column, tile, floats, ints):
+    """Writes the channels that the image has, square by square."""
+    for square in range(SQUARES):
+        dx, dy = (square & 3) * SQUARE, (square >> 2) * SQUARE
+        i, j = row + dy, column + dx
+        if i < image.height and j < image.width:
+            first = tile.x + np.float32(dx), tile.y + np.float32(dy)
+            write_square(view, world, scene, image, i, j, first, square, floats, ints)
+
+
+@inlined
+def write_square(view, world, scene, image, i, j, first, square, floats, ints):
+    """Writes a square's pixels, of which the first is (i, j) and at the image point `first`."""
+    best, seen = load(floats, BEST + LANES * square), load(ints, SEEN + LANES * square)
+    is_hit = seen != NOTHING
+    z = -best if view.parallel else splat(np.float32(1)) / best
+    t = select(is_hit, z * np.float32(view.scale), np.float32(np.inf))
+    if image.has_depth:
+        write_one(image, image.depth, i, j, t, floats)
+    if not (image.has_color or image.has_normal or image.has_id or image.has_primitive):
+        return
+    zero = splat(np.float32(0))
+    normal = (zero, zero, zero)
+    background = scene.background
+    color = (splat(background[0]), splat(background[1]), splat(background[2]))
+    objects = primitives = splat(np.int32(-1))
+    if bits(is_hit) != 0:
+        pixels = square_rays(view, first)
+        objects, primitives = find_surfaces(
+            view, world, scene, first, pixels, square, z, image.has_color, floats, ints
+        )
+        normal = (
+            load(floats, SHADING),
+            load(floats, SHADING + LANES),
+            load(floats, SHADING + 2 * LANES),
+        )
+        if image.has_color:
+            color = shade_square(view, scene, pixels, first, t, objects, floats)
+    if image.has_id:
+        write_one(image, image.id, i, j, objects, ints)
+    if image.has_primitive:
+        write_one(image, image.primitive, i, j, primitives, ints)
+    if image.has_normal:
+        write_three(image, image.normal, i, j, normal, floats)
+    if image.has_color:
+        write_three(image, image.color, i, j, color, floats)
+
+
+@inlined
+def write_one(image, channel, i, j, values, scratch):
+    """Stores a square of a channel of one number; at the image's border, what there is of it."""
+    height, width = image.height, image.width
+    if i + SQUARE <= height and j + SQUARE <= width:
+        store_square(channel, i * width + j, width, values)
+        return
+    store(scratch, 0, values)
+    for k in range(LANES):
+        row, column = i + k // SQUARE, j + k % SQUARE
+        if row < height and column < width:
+            channel[row * width + column] = scratch[k]
+
+
+@inlined
+def write_three(image, channel, i, j, values, scratch):
+    """The same for a channel of three numbers."""
+    height, width = image.height, image.width
+    if i + SQUARE <= height and j + SQUARE <= width:
+        at = 3 * (i * width + j)
+        store_square3(channel, at, 3 * width, values[0], values[1], values[2])
+        return
+    store(scratch, 0, values[0])
+    store(scratch, LANES, values[1])
+    store(scratch, 2 * LANES, values[2])
+    for k in range(LANES):
+        row, column = i + k // SQUARE, j + k % SQUARE
+        if row < height and column < width:
+            for axis in range(3):
+                channel[3 * (row * width + column) + axis] = scratch[axis * LANES + k]

@@ -1,0 +1,189 @@
+"""The colour of a square's 16 pixels: checker, diffuse light and highlights, in float32 lanes.
+
+Owns the shading model as lanes compute it: shade.py's, formula by formula. Knows nothing of how
+surfaces were found.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from renderer.scene.flat import (
+    CELL_X,
+    CHECKER_DIFFUSE,
+    DIFFUSE_SHININESS,
+    SPECULAR_CHECKERED,
+)
+from renderer.trace.compiled import inlined
+from renderer.trace.packet_surface import GEOMETRIC, SHADING, TINT
+from renderer.trace.packet_view import ACROSS, DOWN, SHARED, VARYING
+from renderer.trace.shade import CELL_NUDGE
+from renderer.trace.simd import (
+    LANES,
+    bits,
+    fma,
+    lane_column,
+    lane_of,
+    lane_row,
+    load,
+    lowest_bit,
+    select,
+    splat,
+    to_f64,
+    vfloor,
+    vmax,
+)
+from renderer.trace.simd_math import (
+    dot_lanes,
+    inverse_length,
+    minus_lanes,
+    normalized_lanes,
+    power_lanes,
+    scaled_lanes,
+    select_lanes,
+)
+
+_SMALLEST_LIGHT = np.float32(1e-12)  # a point light nearer than this gives no light
+_SMALLEST_HALF = np.float32(1e-6)  # with a half vector shorter than this, there is no highlight
+
+
+@inlined
+def shade_square(view, scene, pixels, first, t, objects, floats):
+    """The colours of a square: three F32; the background's where there is no object.
+
+    scene: SceneArrays. t: ray parameters. objects: the pixels' objects; surfaces are in `floats`.
+    """
+    background = scene.background
+    color = (splat(background[0]), splat(background[1]), splat(background[2]))
+    left = bits(objects >= np.int32(0))
+    if left == 0:
+        return color
+    geometric, shading = _three(floats, GEOMETRIC), _three(floats, SHADING)
+    tint = _three(floats, TINT)
+    o, d = pixels.origin, pixels.direction
+    point = (fma(t, d[0], o[0]), fma(t, d[1], o[1]), fma(t, d[2], o[2]))
+    while left != 0:
+        # The pixels of one object, which share its material.
+        object_number = lane_of(objects, lowest_bit(left))
+        mask = objects == object_number
+        left &= ~bits(mask)
+        m = np.int64(object_number) * 24
+        albedo = _albedo(view, scene.materials, m, first, t, geometric, tint)
+        lit = shade_material(scene, m, pixels.along, point, shading, albedo)
+        color = select_lanes(mask, lit, color)
+    return color
+
+
+@inlined
+def _three(floats, at):
+    return load(floats, at), load(floats, at + LANES), load(floats, at + 2 * LANES)
+
+
+@inlined
+def _row(materials, at):
+    return materials[at], materials[at + 1], materials[at + 2]
+
+
+@inlined
+def _albedo(view, materials, m, first, t, geometric, tint):
+    """The diffuse reflectance of the material at m, or its checker's, times the vertex colours."""
+    r, g, b = _row(materials, m + 4 * DIFFUSE_SHININESS)
+    albedo = (splat(r), splat(g), splat(b))
+    if materials[m + 4 * SPECULAR_CHECKERED + 3] != np.float32(0):
+        r, g, b = _row(materials, m + 4 * CHECKER_DIFFUSE)
+        is_other = is_other_cell(view, materials, m, first, t, geometric)
+        albedo = select_lanes(is_other, (splat(r), splat(g), splat(b)), albedo)
+    return albedo[0] * tint[0], albedo[1] * tint[1], albedo[2] * tint[2]
+
+
+@inlined
+def is_other_cell(view, materials, m, first, t, geometric):
+    """Mask of pixels that see a cell of odd number, just below the surface.
+
+    In float64, along the ray: what a pixel covers may be small against the cell's coordinates.
+    """
+    across = normalized_lanes(
+        (
+            _direction(materials, m + 4 * CELL_X, geometric),
+            _direction(materials, m + 4 * CELL_X + 4, geometric),
+            _direction(materials, m + 4 * CELL_X + 8, geometric),
+        )
+    )
+    is_odd = lane_row() < np.float32(0)
+    for axis in range(3):
+        nudge = across[0] if axis == 0 else (across[1] if axis == 1 else across[2])
+        cell = _cell(view, materials, m + 4 * (CELL_X + axis), first, t, nudge)
+        half = cell * 0.5
+        is_odd = is_odd ^ (half - vfloor(half) >= 0.5)
+    return is_odd
+
+
+@inlined
+def _direction(materials, row, a):
+    return fma(a[0], materials[row], fma(a[1], materials[row + 1], a[2] * materials[row + 2]))
+
+
+@inlined
+def _cell(view, materials, row, first, t, nudge):
+    """One coordinate of the pixels' cells, F64."""
+    ray = view.ray
+    varying = _along(materials, row, ray, VARYING)
+    right, down = _along(materials, row, ray, ACROSS), _along(materials, row, ray, DOWN)
+    shared = _along(materials, row, ray, SHARED)
+    offset = np.float64(materials[row + 3])
+    x = to_f64(lane_column()) + np.float64(first[0])
+    y = to_f64(lane_row()) + np.float64(first[1])
+    t = to_f64(t)
+    pixel = fma(x, right, fma(y, down, splat(varying)))
+    point = fma(t, shared, pixel) if view.parallel else fma(t, pixel, splat(shared))
+    return point + offset - CELL_NUDGE * to_f64(nudge)
+
+
+@inlined
+def _along(materials, row, ray, at):
+    return (
+        np.float64(materials[row]) * ray[at]
+        + np.float64(materials[row + 1]) * ray[at + 1]
+        + np.float64(materials[row + 2]) * ray[at + 2]
+    )
+
+
+@inlined
+def shade_material(scene, m, along, point, shading, albedo):
+    """The light that pixels of the material at m send to the viewer.
+
+    Source: Marschner and Shirley, Fundamentals of Computer Graphics, ch. 4 (Blinn and Phong).
+    """
+    materials, lights = scene.materials, scene.lights
+    specular = _row(materials, m + 4 * SPECULAR_CHECKERED)
+    shininess = materials[m + 4 * DIFFUSE_SHININESS + 3]
+    is_shiny = specular[0] + specular[1] + specular[2] > np.float32(0)
+    ambient = scene.ambient
+    r, g, b = albedo[0] * ambient[0], albedo[1] * ambient[1], albedo[2] * ambient[2]
+    for lamp in range(0, 8 * scene.light_count, 8):
+        lx, ly, lz = lights[lamp], lights[lamp + 1], lights[lamp + 2]
+        to_light = (splat(lx), splat(ly), splat(lz))
+        if lights[lamp + 3] != np.float32(0):
+            to_light = minus_lanes(to_light, point)
+            near = inverse_length(to_light)
+            # At the light itself there is no direction to it, and no light.
+            is_lit = near < np.float32(1) / _SMALLEST_LIGHT
+            to_light = scaled_lanes(select(is_lit, near, np.float32(0)), to_light)
+        cosine = vmax(dot_lanes(shading, to_light), np.float32(0))
+        rgb = lights[lamp + 4], lights[lamp + 5], lights[lamp + 6]
+        r = fma(cosine * rgb[0], albedo[0], r)
+        g = fma(cosine * rgb[1], albedo[1], g)
+        b = fma(cosine * rgb[2], albedo[2], b)
+        if is_shiny:
+            half = minus_lanes(to_light, along)
+            per_length = inverse_length(half)
+            highlight = vmax(dot_lanes(shading, half) * per_length, np.float32(0))
+            highlight = power_lanes(highlight, shininess)
+            is_lit = per_length < np.float32(1) / _SMALLEST_HALF
+            if lights[lamp + 3] != np.float32(0):
+                is_lit = is_lit & (dot_lanes(to_light, to_light) > np.float32(0.5))
+            highlight = select(is_lit, highlight, np.float32(0))
+            r = fma(highlight, splat(rgb[0] * specular[0]), r)
+            g = fma(highlight, splat(rgb[1] * specular[1]), g)
+            b = fma(highlight, splat(rgb[2] * specular[2]), b)
+    return r, g, b
