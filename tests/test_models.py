@@ -198,7 +198,7 @@ def test_obj_objects_and_materials_become_scene_objects_in_order(tmp_path: Path)
         TRIANGLE.replace("\n", "\r") + "f 1 2 3",
         "\ufeff" + TRIANGLE + "f 1 2 3 # a comment\n",
         "  v\t0 0 0\n\tv 1 0 0 # x\nv 0 1 0\nf\t1 2 3\n",
-        TRIANGLE + "f 1 2 \\\n3\n",
+        TRIANGLE + "f 1 2\\\n  3\n",
         TRIANGLE + "vt 0 0\nf 1/1 2/1 3/1\n",
         TRIANGLE + "vt 0 0\nvn 0 0 1\nf 1/1/1 2/1/1 3/1/1\n",
         TRIANGLE + "vn 0 0 1\nf 1//9 2//1 3//1\n",

@@ -1,19 +1,27 @@
-"""The border to trimesh: whatever happens behind it comes back as one line.
+"""The border to trimesh: texts go in tidied, geometries come out as parts, exceptions as one line.
 
-Knows nothing of formats.
+Knows nothing of what a format means.
 """
 
 from __future__ import annotations
 
 import contextlib
 import logging
+import re
 import warnings
 from collections.abc import Iterator
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
 from renderer.errors import LucidaError
+from renderer.scene.model import Material
+from renderer.scene.parts import Part, linear_colors
+
+_COMMENT = re.compile(r"^((?:f|v[nt]?)[ \t][^#\n]*)#[^\n]*", re.MULTILINE)
+_INDENT = re.compile(r"^[ \t]+", re.MULTILINE)
+_TAB = re.compile(r"^(f|v[nt]?|o|g|usemtl|mtllib)[ \t]*\t[ \t]*", re.MULTILINE)
 
 
 @contextlib.contextmanager
@@ -41,3 +49,42 @@ def guarded(path: Path, kind: str) -> Iterator[None]:
             "it is damaged or of another kind; export it again, as triangles",
             str(path),
         ) from None
+
+
+def tidy_text(data: bytes) -> str:
+    """Text with newlines only, tidy enough for trimesh; what is not UTF-8 is replaced.
+
+    It begins and ends with a newline; otherwise lines keep their number.
+    """
+    text = data.decode("utf-8-sig", "replace").replace("\r\n", "\n").replace("\r", "\n")
+    text = f"\n{text}\n".replace("\\\n", " ")  # a backslash continues its line
+    if "\t" in text or "\n " in text:
+        text = _TAB.sub(r"\1 ", _INDENT.sub("", text))
+    if text.count("#") > text.count("\n#"):
+        text = _COMMENT.sub(r"\1", text)
+    return text
+
+
+def geometries(found: dict[str, Any], name: str) -> list[tuple[str, dict[str, Any]]]:
+    """trimesh's answer as (name, fields of a geometry), whether it found one or several."""
+    if "geometry" in found:
+        return list(found["geometry"].items())
+    return [(name, found)]
+
+
+def to_part(name: str, fields: dict[str, Any], material: Material | None = None) -> Part:
+    """A geometry of trimesh's as a part; its colours are sRGB."""
+    return Part(
+        str(name),
+        fields.get("vertices"),
+        fields.get("faces"),
+        fields.get("vertex_normals"),
+        linear_colors(fields.get("vertex_colors")),
+        linear_colors(fields.get("face_colors")),
+        material,
+    )
+
+
+def damaged(path: Path, problem: str) -> LucidaError:
+    """The error for a file that is not what its ending or its header says."""
+    return LucidaError("", problem, "it is cut off or of another kind; export it again", str(path))

@@ -71,10 +71,10 @@ def model_scene(path: str | Path) -> Scene:
 
 def _objects(path: Path, ending: str) -> list[SceneObject]:
     # Imported here: scenes without models need none of it.
-    from renderer.scene import readers
+    from renderer.scene import obj, readers
 
     read = {
-        ".obj": readers.read_obj,
+        ".obj": obj.read_obj,
         ".ply": readers.read_ply,
         ".stl": readers.read_stl,
         ".off": readers.read_off,
