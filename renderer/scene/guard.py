@@ -19,6 +19,7 @@ from renderer.errors import LucidaError
 from renderer.scene.model import Material
 from renderer.scene.parts import Part, linear_colors
 
+_SILENT = logging.NullHandler()
 _COMMENT = re.compile(r"^((?:f|v[nt]?)[ \t][^#\n]*)#[^\n]*", re.MULTILINE)
 _INDENT = re.compile(r"^[ \t]+", re.MULTILINE)
 _TAB = re.compile(r"^(f|v[nt]?|o|g|usemtl|mtllib)[ \t]*\t[ \t]*", re.MULTILINE)
@@ -27,7 +28,7 @@ _TAB = re.compile(r"^(f|v[nt]?|o|g|usemtl|mtllib)[ \t]*\t[ \t]*", re.MULTILINE)
 @contextlib.contextmanager
 def guarded(path: Path, kind: str) -> Iterator[None]:
     """Any exception inside becomes a LucidaError that names the file; warnings are not shown."""
-    logging.getLogger("trimesh").addHandler(logging.NullHandler())  # it logs what it also raises
+    logging.getLogger("trimesh").addHandler(_SILENT)  # it logs what it also raises
     try:
         with warnings.catch_warnings(), np.errstate(all="ignore"):
             warnings.simplefilter("ignore")
