@@ -12,7 +12,7 @@ import pytest
 from renderer.errors import LucidaError
 from renderer.scene import flatten
 from tests.benchmarks import __main__ as command
-from tests.benchmarks import cameras, environment, measure, report, run, scenes
+from tests.benchmarks import cameras, environment, measure, plot, report, run, scenes
 from tests.benchmarks.tables import TABLES, memory, moving, window
 
 SIZE = (32, 18)
@@ -195,6 +195,10 @@ class TestReport:
 
 
 class TestTables:
+    def test_counts_in_the_picture(self):
+        numbers = (4276, 70_006, 921_600, 1_000_182)
+        assert [plot._count(n) for n in numbers] == ["4.28k", "70k", "922k", "1M"]
+
     def test_the_windows_row(self):
         made = report.Table("window", "", tuple("abcdefghi"))
         measured = window.Measured(
@@ -265,6 +269,17 @@ class TestCommand:
         assert [made["name"] for made in whole["tables"]] == ["speed"]
         assert whole["settings"]["quick"] is True
         assert "falls short" in capsys.readouterr().out
+
+    def test_a_table_that_fails_leaves_the_others(self, tmp_path, monkeypatch, capsys):
+        def broken(session):
+            raise RuntimeError("out of luck")
+
+        monkeypatch.setitem(TABLES, "build", broken)
+        monkeypatch.setitem(TABLES, "cancel", lambda session: [table()])
+        arguments = ["--only", "build,cancel", "--no-peers", "--out", str(tmp_path)]
+        assert command.main(arguments) == 1
+        assert "out of luck" in capsys.readouterr().err
+        assert len(json.loads((tmp_path / "bench.json").read_text())["tables"]) == 1
 
     def test_the_readme_needs_all_tables(self, capsys):
         assert command.main(["--readme", "--only", "build", "--no-peers"]) == 2

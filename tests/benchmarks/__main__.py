@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import argparse
 import sys
+import traceback
 from pathlib import Path
 
 from renderer.atomic import atomic_write
@@ -18,7 +19,7 @@ README_TABLES = ("visibility", "build", "scaling")  # whole; of the others, the 
 
 
 def main(argv: list[str] | None = None) -> int:
-    """The command line; gives the exit status: 2 for a user's mistake, else 0."""
+    """The command line; gives the exit status: 2 for a user's mistake, 1 if a table failed."""
     arguments = _parser().parse_args(argv)
     try:
         return _run(arguments)
@@ -59,10 +60,19 @@ def _run(arguments: argparse.Namespace) -> int:
         print(f"{name} is left out: {why}")
     print()
     tables: list[report.Table] = []
+    failed = False
     try:
         for name in names:
-            for table in TABLES[name](run):
-                tables.append(table)
+            try:
+                made = TABLES[name](run)
+            except LucidaError:
+                raise
+            except Exception:  # the other tables are still worth having
+                traceback.print_exc()
+                failed = True
+                continue
+            tables += made
+            for table in made:
                 print(report.text(table), flush=True)
     except KeyboardInterrupt:
         run.say("stopped; what was measured is written")
@@ -71,8 +81,10 @@ def _run(arguments: argparse.Namespace) -> int:
     text = report.as_json(tables, machine, settings, versions(run.kinds), run.left_out)
     _write(arguments.out, tables, text)
     if arguments.readme:
+        if failed:
+            raise LucidaError("--readme", "a table failed", "see above; nothing was changed")
         _update_readme(run, machine, tables)
-    return 0
+    return int(failed)
 
 
 def _chosen(only: str | None) -> list[str]:
