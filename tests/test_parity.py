@@ -1,0 +1,163 @@
+"""The product's promise: both renderers agree at every pixel, for any camera and any scene.
+
+LUCIDA_PARITY_CAMERAS=N tries N random cameras a scene and platform (a soak; default below).
+"""
+
+import os
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from renderer import Camera, Rasterizer, Tracer
+from renderer.compare import CHANNELS, compare_frames
+from renderer.scene import BUILTIN_SCENES, load_scene
+from renderer.scene.flat import flatten
+from renderer.scene.model import (
+    Checker,
+    DirectionalLight,
+    Material,
+    Mesh,
+    PointLight,
+    Scene,
+    SceneObject,
+    Sphere,
+)
+
+CAMERAS = int(os.environ.get("LUCIDA_PARITY_CAMERAS", "60"))
+
+
+def random_camera(rng, bounds):
+    """Any camera that sees something of the box `bounds`: skewed, left-handed, off-axis, near
+    objects and inside them, telephoto, parallel."""
+    low, high = bounds.astype(float)
+    reach = np.linalg.norm(high - low)
+    target = rng.uniform(low, high)
+    if rng.random() < 0.4:  # among the objects or inside one
+        eye = rng.uniform(low, high)
+    else:
+        away = rng.normal(size=3)
+        eye = target + away / np.linalg.norm(away) * reach * 10 ** rng.uniform(-1.5, 1)
+    back = eye - target
+    far_off = np.linalg.norm(back)
+    camera = Camera.look_at(eye, target, rng.normal(size=3))
+    basis = camera.basis
+    if rng.random() < 0.6:  # skewed: but w still looks about where it looked
+        basis = basis + rng.normal(size=(3, 3)) * [0.4, 0.4, 0.1]
+    if rng.random() < 0.3:
+        basis[:, rng.integers(2)] *= -1
+    if rng.random() < 0.5:
+        basis = basis * 10 ** rng.uniform(-1, 1, 3)
+    if rng.random() < 0.15:  # along the axes: rays parallel to the boxes' sides
+        basis = np.eye(3)[rng.permutation(3)] * rng.choice([-1.0, 1.0], 3)
+    lengths = np.linalg.norm(basis, axis=0)
+    if abs(np.linalg.det(basis / lengths)) < 0.05:
+        return random_camera(rng, bounds)
+    projection = ("perspective", "parallel")[rng.integers(2)]
+    distance = 10 ** rng.uniform(-0.7, 0.7)
+    if projection == "parallel":
+        half = rng.uniform(0.05, 0.6) * reach / lengths[:2]
+    else:
+        angle = 10 ** rng.uniform(-1.3, 0.2) if far_off < reach else reach / far_off
+        half = angle * rng.uniform(0.2, 1) * distance * lengths[2] / lengths[:2]
+    shift = rng.uniform(-0.8, 0.8, 2) * half
+    return Camera(
+        tuple(eye),
+        *(tuple(vector) for vector in basis.T),
+        distance,
+        (shift[0] - half[0], shift[0] + half[0], shift[1] - half[1], shift[1] + half[1]),
+        projection,
+    )
+
+
+def crowd():
+    """Everything at once: coloured, smooth and checkered meshes, spheres inside one another."""
+    rng = np.random.default_rng(3)
+    corners = rng.uniform(-1, 1, (40, 1, 3))
+    shards = (corners + rng.normal(scale=0.4, size=(40, 3, 3))).reshape(-1, 3)
+    normals = rng.normal(size=(120, 3))
+    normals /= np.linalg.norm(normals, axis=1, keepdims=True)
+    faces = np.arange(120).reshape(40, 3)
+    shiny = Material((0.6, 0.5, 0.4), (0.5, 0.5, 0.5), 200, Checker((0.1, 0.2, 0.9), 0.17))
+    return Scene(
+        (
+            SceneObject(Mesh(shards, faces, colors=rng.uniform(0, 1, (120, 3))), shiny),
+            SceneObject(Mesh(shards + 0.7, faces, normals=normals), Material((0.2, 0.8, 0.3))),
+            SceneObject(Sphere((0.3, 0.2, -0.4), 0.9), shiny),
+            SceneObject(Sphere((0.2, 0.2, -0.4), 0.3), Material(specular=(1, 1, 1), shininess=900)),
+            SceneObject(Sphere((-1, 0.5, 0.8), 0.01), Material((1, 0, 0))),
+        ),
+        (PointLight((2, 3, 4), (0.8, 0.8, 0.7)), DirectionalLight((1, -1, -0.5), (0.4, 0.4, 0.5))),
+        background=(0.1, 0.2, 0.3),
+    )
+
+
+SCENES = {"crowd": crowd, **{name: lambda name=name: load_scene(name) for name in BUILTIN_SCENES}}
+
+
+def compared(flat, renderers, camera, size):
+    raster, ray = (renderer.render(camera, size, channels=CHANNELS) for renderer in renderers)
+    assert ray.complete
+    return compare_frames(flat, camera, size, raster, ray)
+
+
+@pytest.mark.parametrize("name", SCENES)
+def test_random_cameras_agree(name, gl_backend):
+    scene = SCENES[name]()
+    flat = flatten(scene)
+    rng = np.random.default_rng(20261120)
+    tried = seeing = 0
+    with Rasterizer(scene, backend=gl_backend) as rasterizer, Tracer(scene) as tracer:
+        while seeing < CAMERAS:
+            camera = random_camera(rng, flat.bounds)
+            size = tuple(int(side) for side in rng.integers(30, 120, 2))
+            result = compared(flat, (rasterizer, tracer), camera, size)
+            message = f"camera {tried}, {size}: {camera}\n{result.summary()}"
+            assert result.unexplained == 0, message
+            assert sum(result.explained.values()) < 0.02 * result.pixels + 5, message
+            tried += 1
+            seeing += bool((result.ray.id >= 0).any())
+    assert tried < 3 * CAMERAS
+
+
+@pytest.mark.parametrize("name", BUILTIN_SCENES)
+@pytest.mark.parametrize("projection", ["perspective", "parallel"])
+def test_the_scenes_own_view_agrees(name, projection, gl_backend):
+    scene = load_scene(name)
+    size = (320, 180)
+    camera = replace(scene.view.for_size(size), projection=projection)
+    with Rasterizer(scene, backend=gl_backend) as rasterizer, Tracer(scene) as tracer:
+        result = compared(flatten(scene), (rasterizer, tracer), camera, size)
+    assert result.unexplained == 0, result.summary()
+
+
+def test_near_and_far_cut_both_alike(gl_backend):
+    scene = crowd()
+    flat = flatten(scene)
+    rng = np.random.default_rng(5)
+    with Rasterizer(scene, backend=gl_backend) as rasterizer, Tracer(scene) as tracer:
+        for number in range(12):
+            camera = random_camera(rng, flat.bounds)
+            depth = tracer.render(camera, (40, 40), channels=("depth",)).depth
+            hits = depth[np.isfinite(depth)]
+            if not len(hits):
+                continue
+            unit = 1 if camera.is_parallel else camera.distance
+            near, far = np.quantile(hits, (0.2, 0.7)) * unit
+            cut = replace(camera, near=max(near, 1e-6), far=max(far, near * 1.01, 2e-6))
+            result = compared(flat, (rasterizer, tracer), cut, (60, 50))
+            assert result.unexplained == 0, f"camera {number}: {cut}\n{result.summary()}"
+
+
+def test_supersampled_colour_agrees():
+    """Sixteen samples a pixel: a disagreeing sample weighs a sixteenth."""
+    scene = load_scene(BUILTIN_SCENES[0])
+    camera = scene.view.for_size((64, 36))
+    with Rasterizer(scene) as rasterizer, Tracer(scene) as tracer:
+        raster = rasterizer.render(camera, (64, 36), channels=("color",), samples=16)
+        ray = tracer.render(camera, (64, 36), channels=("color",), samples=16)
+        single = tracer.render(camera, (64, 36), channels=("color",))
+    difference = np.abs(raster.color - ray.color).max(axis=2)
+    assert (difference < 2e-3).mean() > 0.995
+    assert difference.max() < 0.2
+    assert np.abs(single.color - ray.color).max() > 0.05
