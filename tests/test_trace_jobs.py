@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 import gc
+import os
 import subprocess
 import sys
 import threading
 import time
 import weakref
 from collections.abc import Iterator
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -18,6 +20,7 @@ from renderer.camera import Camera
 from renderer.errors import LucidaError
 from renderer.scene.model import Mesh, Scene, Sphere
 from renderer.trace import TraceJob, Tracer
+from renderer.trace.garbage import no_full_collections
 from renderer.trace.image import BLOCK
 from renderer.trace.team import Team
 
@@ -210,6 +213,18 @@ def test_only_the_channels_asked_for_are_given() -> None:
             assert frame.time_s > 0
 
 
+def test_preparing_leaves_the_garbage_collector_as_it_was() -> None:
+    before = gc.get_threshold()
+    with no_full_collections(), no_full_collections():
+        assert gc.get_threshold()[:2] == before[:2]
+        assert gc.get_threshold()[2] > 1_000_000
+    assert gc.get_threshold() == before
+    with no_full_collections():
+        gc.set_threshold(before[0], before[1], 77)  # somebody else's wish
+    assert gc.get_threshold()[2] == 77
+    gc.set_threshold(*before)
+
+
 def test_an_error_in_the_team_reaches_the_caller() -> None:
     team = Team(3)
 
@@ -246,8 +261,5 @@ while not jobs[0].progress or not jobs[2].progress:
 
 
 def _environment() -> dict[str, str]:
-    import os
-    from pathlib import Path
-
     tests = Path(__file__).parent
     return {**os.environ, "PYTHONPATH": os.pathsep.join([str(tests.parent), str(tests)])}

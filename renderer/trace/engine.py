@@ -6,11 +6,12 @@ numba, so only a Tracer's own thread does. Other kernels, and the choice between
 
 from __future__ import annotations
 
+from renderer.camera import Camera
 from renderer.scene.flat import flatten
 from renderer.scene.model import Scene
 from renderer.trace.bvh import build, packed
-from renderer.trace.control import Control
-from renderer.trace.image import Image
+from renderer.trace.control import Control, cancel, new_control
+from renderer.trace.image import Image, new_image
 from renderer.trace.kernel import trace_image
 from renderer.trace.team import Team
 from renderer.trace.view import View
@@ -23,6 +24,10 @@ class Engine:
         self._team = team
         self._flat = flatten(scene)
         self._tree = packed(build(self._flat, team), self._flat, team)
+        # Compile, by an image that is over before it begins.
+        over = new_control()
+        cancel(over)
+        self.trace(View.of(Camera.canonical()), new_image((1, 1), ()), over)
 
     def trace(self, view: View, image: Image, control: Control) -> None:
         """Fills the image; returns early if cancelled. Blocks without a finished mark are open."""

@@ -14,6 +14,7 @@ import weakref
 
 from renderer.errors import LucidaError
 from renderer.scene.model import Scene
+from renderer.trace.garbage import no_full_collections
 from renderer.trace.jobs import Task
 from renderer.trace.team import Team
 
@@ -77,9 +78,10 @@ class Worker:
                 task.cancel()
             try:
                 if engine is None and not task.finished.is_set():
-                    from renderer.trace.engine import Engine  # imports numba
+                    with no_full_collections():
+                        from renderer.trace.engine import Engine  # imports numba
 
-                    engine = Engine(self._scene, team)
+                        engine = Engine(self._scene, team)
                 if engine is not None:
                     task.trace(engine.trace)
             except MemoryError:
