@@ -48,12 +48,12 @@ def test_a_cycle_is_refused_and_the_chain_is_named():
 
 def test_an_unknown_chunk_is_refused_where_it_is_named():
     read = library(a='#include "b"', b='\n#include "chunks/nothing.glsl"')
-    with pytest.raises(LucidaError, match='shaders/b:2: the chunk "chunks/nothing.glsl"'):
+    with pytest.raises(LucidaError, match=r'shaders/b:2: the chunk "chunks/nothing\.glsl"'):
         Source("a", read)
 
 
 def test_a_stage_that_does_not_exist_is_one_line():
-    with pytest.raises(LucidaError, match="shaders/none.frag: does not exist"):
+    with pytest.raises(LucidaError, match=r"shaders/none\.frag: does not exist"):
         Source("none.frag", read_shader)
 
 
@@ -116,7 +116,7 @@ def test_a_compile_error_names_the_chunk_and_the_line(rasterizer):
 
 def test_a_link_error_is_one_line(rasterizer):
     unmatched = library(
-        a__vert="#version 330 core\nout vec2 m; void main() { m = vec2(0.0); gl_Position = vec4(0.0); }",
+        a__vert="#version 330 core\nout vec2 m; void main() { m = vec2(0.0); }",
         a__frag="#version 330 core\nin vec3 m; out vec3 c; void main() { c = m; }",
     )
     with rasterizer.current() as gl, pytest.raises(LucidaError, match=r"a\.vert, a\.frag"):

@@ -46,7 +46,8 @@ class Display:
             texture.use(0)
             set_uniform(self._program, "linear_color", 0)
             set_uniform(self._program, "window_depth", 0.5)
-            set_uniform(self._program, "exposure", min(2.0**exposure_ev, 1e30))
+            exposure = 2.0 ** min(max(exposure_ev, -100.0), 100.0)
+            set_uniform(self._program, "exposure", exposure)
             self._screen.render(moderngl.TRIANGLES, vertices=3)
         finally:
             before.use()
