@@ -20,7 +20,8 @@ class LucidaError(ValueError):
     def __str__(self) -> str:
         where = "".join(f"{part}: " for part in (self.source, self.field) if part)
         text = where + self.problem + (f"; {self.remedy}" if self.remedy else "")
-        return " ".join(text.split())  # one line, whatever a library's message brought along
+        line = " ".join(text.split())  # one line, whatever a library's message brought along
+        return "".join(c if c.isprintable() else repr(c)[1:-1] for c in line)
 
     def within(self, prefix: str) -> LucidaError:
         """The same error with its field under `prefix`: "w" within "camera" is "camera.w"."""
