@@ -41,6 +41,7 @@ _ATTRIBUTES = {
 }
 _GL_UNSIGNED_BYTE = 0x1401
 _EGL_DRAW, _EGL_READ = 0x3059, 0x305A
+_OSMESA_TYPE = 0x23
 
 
 class Platform(Protocol):
@@ -170,6 +171,7 @@ def candidates() -> tuple[str, ...]:
     return own, "osmesa"
 
 
+@cache
 def _load_osmesa() -> Any:
     names = (find_library("OSMesa"), *OSMESA_NAMES)
     for name in filter(None, names):
@@ -186,17 +188,27 @@ def _load_osmesa() -> Any:
         library.OSMesaGetProcAddress.argtypes = (ctypes.c_char_p,)
         library.OSMesaDestroyContext.restype = None
         library.OSMesaDestroyContext.argtypes = (pointer,)
+        library.OSMesaGetCurrentContext.restype = pointer
+        numbers = (ctypes.POINTER(integer),) * 3
+        library.OSMesaGetColorBuffer.argtypes = (pointer, *numbers, ctypes.POINTER(pointer))
+        library.OSMesaGetIntegerv.argtypes = (integer, ctypes.POINTER(integer))
         return library
     raise OSError("libOSMesa is not installed")
 
 
 @contextmanager
 def _nothing_current() -> Iterator[None]:
-    """Takes another EGL context (a window's, say) off this thread, and puts it back afterwards.
+    """Takes another context (a window's, say) off this thread, and puts it back afterwards.
 
     EGL and OSMesa share Mesa's dispatch table without telling each other: an EGL context that is
     still current while OSMesa is made current stays broken: EGL sees no reason to bind it again.
     """
+    with _without_egl(), _without_osmesa():
+        yield
+
+
+@contextmanager
+def _without_egl() -> Iterator[None]:
     egl = _egl()
     before = egl.eglGetCurrentContext() if egl is not None else None
     if not before:
@@ -209,6 +221,24 @@ def _nothing_current() -> Iterator[None]:
         yield
     finally:
         egl.eglMakeCurrent(display, *surfaces, before)
+
+
+@contextmanager
+def _without_osmesa() -> Iterator[None]:
+    library = _load_osmesa() if _load_osmesa.cache_info().currsize else None
+    before = library.OSMesaGetCurrentContext() if library is not None else None
+    if library is None or not before:
+        yield
+        return
+    width, height, kind = ctypes.c_int(), ctypes.c_int(), ctypes.c_int()
+    pixels = ctypes.c_void_p()
+    library.OSMesaGetColorBuffer(before, width, height, kind, pixels)
+    library.OSMesaGetIntegerv(_OSMESA_TYPE, kind)
+    library.OSMesaMakeCurrent(None, None, 0, 0, 0)
+    try:
+        yield
+    finally:
+        library.OSMesaMakeCurrent(before, pixels, kind.value, width.value, height.value)
 
 
 @cache
