@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 import math
 import subprocess
+from importlib import import_module
 
 import numpy as np
 import pytest
@@ -13,7 +14,7 @@ from renderer.errors import LucidaError
 from renderer.scene import flatten
 from tests.benchmarks import __main__ as command
 from tests.benchmarks import cameras, environment, measure, plot, report, run, scenes
-from tests.benchmarks.tables import TABLES, memory, moving, window
+from tests.benchmarks.tables import TABLES, build, cancel, memory, moving, window
 
 SIZE = (32, 18)
 
@@ -195,6 +196,10 @@ class TestReport:
 
 
 class TestTables:
+    def test_each_has_a_module(self):
+        for name in TABLES:
+            assert callable(import_module(f"tests.benchmarks.tables.{name}").measure)
+
     def test_counts_in_the_picture(self):
         numbers = (4276, 70_006, 921_600, 1_000_182)
         assert [plot._count(n) for n in numbers] == ["4.28k", "70k", "922k", "1M"]
@@ -262,7 +267,7 @@ class TestCommand:
         assert "--only: 'speed' is unknown; give one of visibility" in capsys.readouterr().err
 
     def test_tables_are_written_as_json(self, tmp_path, monkeypatch, capsys):
-        monkeypatch.setitem(TABLES, "build", lambda session: [table()])
+        monkeypatch.setattr(build, "measure", lambda session: [table()])
         arguments = ["--only", "build", "--quick", "--no-peers", "--out", str(tmp_path / "out")]
         assert command.main(arguments) == 0
         whole = json.loads((tmp_path / "out" / "bench.json").read_text())
@@ -274,8 +279,8 @@ class TestCommand:
         def broken(session):
             raise RuntimeError("out of luck")
 
-        monkeypatch.setitem(TABLES, "build", broken)
-        monkeypatch.setitem(TABLES, "cancel", lambda session: [table()])
+        monkeypatch.setattr(build, "measure", broken)
+        monkeypatch.setattr(cancel, "measure", lambda session: [table()])
         arguments = ["--only", "build,cancel", "--no-peers", "--out", str(tmp_path)]
         assert command.main(arguments) == 1
         assert "out of luck" in capsys.readouterr().err
@@ -288,7 +293,8 @@ class TestCommand:
     def test_the_readmes_block_is_replaced(self, tmp_path, monkeypatch):
         monkeypatch.setattr(command, "ROOT", tmp_path)
         monkeypatch.setattr(command, "README_TABLES", ("speed",))
-        monkeypatch.setattr(command, "TABLES", {"build": lambda session: [table()]})
+        monkeypatch.setattr(command, "TABLES", ("build",))
+        monkeypatch.setattr(build, "measure", lambda session: [table()])
         monkeypatch.setattr(command.plot, "draw", lambda tables, path: True)
         readme = tmp_path / "README.md"
         readme.write_text(f"# Title\n{report.BEGIN}\nold\n{report.END}\nrest\n")
@@ -304,8 +310,8 @@ class TestCommand:
         def stopped(session):
             raise KeyboardInterrupt
 
-        monkeypatch.setitem(TABLES, "build", lambda session: [table()])
-        monkeypatch.setitem(TABLES, "cancel", stopped)
+        monkeypatch.setattr(build, "measure", lambda session: [table()])
+        monkeypatch.setattr(cancel, "measure", stopped)
         arguments = ["--only", "build,cancel", "--no-peers", "--out", str(tmp_path)]
         assert command.main(arguments) == 0
         assert len(json.loads((tmp_path / "bench.json").read_text())["tables"]) == 1
