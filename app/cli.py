@@ -15,7 +15,7 @@ from collections.abc import Sequence
 
 from app.commands import COMMANDS, view
 from app.commands.arguments import TRACEBACK_VARIABLE, Parser
-from renderer.errors import LucidaError
+from renderer.errors import LucidaError, one_line
 
 FAILED = 2
 INTERRUPTED = 128 + signal.SIGINT
@@ -50,7 +50,7 @@ def main(argv: Sequence[str] | None = None) -> int:
         where = f"{error.filename}: " if error.filename else ""
         return _failed(f"{where}{error.strerror or error}")
     except Exception as error:
-        what = " ".join(f"{type(error).__name__} {error}".split())
+        what = one_line(f"{type(error).__name__} {error}")
         return _failed(f"internal error: {what}; {TRACEBACK_VARIABLE}=1 shows where, for a report")
 
 
@@ -70,7 +70,7 @@ def _failed(message: str) -> int:
 
 
 def _say(message: str) -> None:
-    print(f"lucida: {message}", file=sys.stderr)
+    print(f"lucida: {one_line(message)}", file=sys.stderr)
 
 
 def _discard_output() -> None:

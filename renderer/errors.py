@@ -20,8 +20,7 @@ class LucidaError(ValueError):
     def __str__(self) -> str:
         where = "".join(f"{part}: " for part in (self.source, self.field) if part)
         text = where + self.problem + (f"; {self.remedy}" if self.remedy else "")
-        line = " ".join(text.split())  # one line, whatever a library's message brought along
-        return "".join(c if c.isprintable() else repr(c)[1:-1] for c in line)
+        return one_line(text)
 
     def within(self, prefix: str) -> LucidaError:
         """The same error with its field under `prefix`: "w" within "camera" is "camera.w"."""
@@ -31,3 +30,8 @@ class LucidaError(ValueError):
     def in_file(self, source: str) -> LucidaError:
         """The same error, naming the file that it comes from."""
         return LucidaError(self.field, self.problem, self.remedy, str(source))
+
+
+def one_line(text: str) -> str:
+    """The text without line breaks, and without what a terminal would take for a command."""
+    return "".join(c if c.isprintable() else repr(c)[1:-1] for c in " ".join(text.split()))

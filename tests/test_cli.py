@@ -157,6 +157,16 @@ class TestMistakes:
         assert "internal error" not in output.err
         assert sorted(in_an_empty_folder.iterdir()) == before
 
+    @pytest.mark.parametrize("name", ["a\nb", "\x1b[31m", "\udcff"])
+    @pytest.mark.parametrize(
+        "line", ["render {} -o a.png", "render spheres -o {}", "--size {}", "--{}"]
+    )
+    def test_a_name_that_a_terminal_would_obey(self, capsys, name, line):
+        assert main([part.format(name) for part in line.split()]) == 2
+        told = capsys.readouterr().err
+        assert told.endswith("\n")
+        assert told[:-1].isprintable()
+
     def test_a_failure_inside_is_one_line_too(self, capsys, monkeypatch):
         def fail(arguments):
             raise RuntimeError("no\nluck")

@@ -9,6 +9,7 @@ import argparse
 from typing import TYPE_CHECKING
 
 from app.commands import arguments as common
+from renderer.errors import one_line
 
 if TYPE_CHECKING:
     from renderer.camera import Camera
@@ -103,7 +104,7 @@ def run(arguments: argparse.Namespace) -> int:
     write_image(arguments.output, frame, arguments.channel, arguments.exposure)
     width, height = frame.size
     print(
-        f"{arguments.output}: {arguments.channel}, {arguments.renderer}, "
+        f"{one_line(arguments.output)}: {arguments.channel}, {arguments.renderer}, "
         f"{width}x{height}, {1e3 * frame.time_s:.1f} ms"
     )
     return 0
