@@ -1,6 +1,11 @@
 """OpenGL platforms: the choice, several contexts in turn, a window's context, and giving back."""
 
 import itertools
+import os
+import shutil
+import subprocess
+import sys
+from pathlib import Path
 
 import moderngl
 import numpy as np
@@ -8,7 +13,7 @@ import pytest
 
 from renderer.camera import Camera
 from renderer.errors import LucidaError
-from renderer.raster import Display, Rasterizer, contexts
+from renderer.raster import Display, Rasterizer, contexts, current
 from renderer.raster.packages import SYSTEMS, remedy, this_system
 from renderer.raster.resources import check
 from renderer.raster.tables import Table
@@ -106,6 +111,55 @@ def test_a_windows_context_is_drawn_in_and_left_as_it_was(foreign):
     assert picture.read(components=4)[:4] == b"\xff\x00\x00\xff"  # the context is still alive
 
 
+WITH_A_WINDOW = """
+import glfw, moderngl
+from test_raster_platforms import color_of, painted
+from renderer.raster import Rasterizer
+
+class Loader:
+    load_opengl_function = staticmethod(lambda name: glfw.get_proc_address(name) or 0)
+    __enter__ = __exit__ = release = lambda self, *_: None
+
+assert glfw.init()
+glfw.window_hint(glfw.VISIBLE, False)
+glfw.window_hint(glfw.CONTEXT_VERSION_MAJOR, 3)
+glfw.window_hint(glfw.CONTEXT_VERSION_MINOR, 3)
+glfw.window_hint(glfw.OPENGL_PROFILE, glfw.OPENGL_CORE_PROFILE)
+glfw.make_context_current(glfw.create_window(8, 8, "", None, None))
+window = Rasterizer(painted(1), context=moderngl.create_context(context=Loader()))
+for number, backend in enumerate(("egl", "osmesa", "egl"), start=2):
+    with Rasterizer(painted(number), backend=backend) as other:
+        assert color_of(window) == 1
+        assert color_of(other) == number
+        assert color_of(window) == 1
+print("done")
+"""
+
+
+@pytest.mark.skipif(shutil.which("Xvfb") is None, reason="Xvfb is not installed")
+def test_beside_a_windows_context_on_x11(gl_backend):
+    """GLX, EGL and OSMesa in one thread."""
+    with subprocess.Popen(
+        ["Xvfb", "-displayfd", "1", "-screen", "0", "64x64x24"],
+        stdout=subprocess.PIPE,
+        stderr=subprocess.DEVNULL,
+    ) as server:
+        try:
+            display = f":{server.stdout.readline().decode().strip()}"
+            here = Path(__file__).parent
+            path = os.pathsep.join([str(here.parent), str(here)])
+            done = subprocess.run(
+                [sys.executable, "-c", WITH_A_WINDOW],
+                env={**os.environ, "DISPLAY": display, "PYTHONPATH": path},
+                capture_output=True,
+                timeout=60,
+                text=True,
+            )
+        finally:
+            server.terminate()
+    assert done.stdout == "done\n", done.stderr
+
+
 @pytest.mark.parametrize("_session_rasterizer", ["osmesa"], indirect=True)
 def test_auto_takes_the_first_that_works(monkeypatch, gl_backend):
     def broken(name):
@@ -132,9 +186,9 @@ def test_no_platform_at_all_is_one_line_that_names_each(monkeypatch):
 
 
 def test_a_missing_osmesa_says_so(monkeypatch):
-    monkeypatch.setattr(contexts, "OSMESA_NAMES", ("libOSMesaThatIsNot.so",))
-    monkeypatch.setattr(contexts, "find_library", lambda name: None)
-    contexts._load_osmesa.cache_clear()
+    monkeypatch.setattr(current, "OSMESA_NAMES", ("libOSMesaThatIsNot.so",))
+    monkeypatch.setattr(current, "find_library", lambda name: None)
+    current.load_osmesa.cache_clear()
     with pytest.raises(LucidaError, match="libOSMesa is not installed") as caught:
         Rasterizer(painted(1), backend="osmesa")
     assert remedy("osmesa") in str(caught.value)

@@ -1,8 +1,7 @@
 """OpenGL contexts without a window: which platforms there are, and how one is made current.
 
-Owns the choice of platform (EGL, OSMesa, the system's default) and the passage of "current" from
-one context to another. Knows nothing of scenes, shaders or windows: a window's context is passed
-in.
+Owns the choice of platform: EGL, OSMesa, the system's default. Knows nothing of scenes, shaders or
+windows: a window's context is passed in.
 """
 
 from __future__ import annotations
@@ -11,26 +10,15 @@ import ctypes
 import sys
 from collections.abc import Iterator
 from contextlib import contextmanager
-from ctypes.util import find_library
-from functools import cache
 from typing import Any, Protocol
 
 import moderngl
 
 from renderer.errors import LucidaError
+from renderer.raster.current import load_egl, load_osmesa, nothing_current
 from renderer.raster.packages import remedy
 
 BACKENDS = ("auto", "egl", "osmesa")
-OSMESA_NAMES = (
-    "libOSMesa.so.8",
-    "libOSMesa.so.6",
-    "libOSMesa.so",
-    "libOSMesa.8.dylib",
-    "libOSMesa.dylib",
-    "osmesa.dll",
-    "libOSMesa.dll",
-)
-
 # Names of the OSMesa and GL headers.
 _ATTRIBUTES = {
     "OSMESA_FORMAT": (0x22, 0x1908),  # OSMESA_RGBA
@@ -40,8 +28,6 @@ _ATTRIBUTES = {
     "OSMESA_CONTEXT_MINOR_VERSION": (0x37, 3),
 }
 _GL_UNSIGNED_BYTE = 0x1401
-_EGL_DRAW, _EGL_READ = 0x3059, 0x305A
-_OSMESA_TYPE = 0x23
 
 
 class Platform(Protocol):
@@ -63,14 +49,14 @@ class Standalone:
     def __init__(self, name: str) -> None:
         self.name = name
         settings: dict[str, Any] = {"backend": "egl"} if name == "egl" else {}
-        with _nothing_current():
+        with nothing_current():
             self.context = moderngl.create_context(standalone=True, require=330, **settings)
             self.context.__exit__(None, None, None)
 
     @contextmanager
     def current(self) -> Iterator[moderngl.Context]:
-        egl = _egl() if self.name == "egl" else None
-        with _nothing_current(), self.context:
+        egl = load_egl() if self.name == "egl" else None
+        with nothing_current(), self.context:
             if egl is not None and not egl.eglGetCurrentContext():
                 raise LucidaError(
                     "backend",
@@ -92,7 +78,7 @@ class OSMesa:
     name = "osmesa"
 
     def __init__(self) -> None:
-        self._library = _load_osmesa()
+        self._library = load_osmesa()
         pairs = [number for pair in _ATTRIBUTES.values() for number in pair]
         attributes = (ctypes.c_int * (len(pairs) + 1))(*pairs, 0)
         self._handle = self._library.OSMesaCreateContextAttribs(attributes, None)
@@ -100,7 +86,7 @@ class OSMesa:
             raise RuntimeError("libOSMesa gives no OpenGL 3.3 core context")
         # OSMesa insists on a default framebuffer in memory; everything is drawn into textures.
         self._pixels = (ctypes.c_ubyte * 4)()
-        with _nothing_current(), self:
+        with nothing_current(), self:
             loader: Any = self
             self.context = moderngl.create_context(require=330, context=loader)
 
@@ -124,7 +110,7 @@ class OSMesa:
 
     @contextmanager
     def current(self) -> Iterator[moderngl.Context]:
-        with _nothing_current(), self:
+        with nothing_current(), self:
             yield self.context
 
 
@@ -169,90 +155,3 @@ def candidates() -> tuple[str, ...]:
     """The platforms to try on this system, best first."""
     own = "default" if sys.platform in ("darwin", "win32") else "egl"
     return own, "osmesa"
-
-
-@cache
-def _load_osmesa() -> Any:
-    names = (find_library("OSMesa"), *OSMESA_NAMES)
-    for name in filter(None, names):
-        try:
-            library: Any = ctypes.CDLL(name)
-        except OSError:
-            continue
-        pointer, integer = ctypes.c_void_p, ctypes.c_int
-        library.OSMesaCreateContextAttribs.restype = pointer
-        library.OSMesaCreateContextAttribs.argtypes = (ctypes.POINTER(integer), pointer)
-        library.OSMesaMakeCurrent.restype = ctypes.c_ubyte
-        library.OSMesaMakeCurrent.argtypes = (pointer, pointer, ctypes.c_uint, integer, integer)
-        library.OSMesaGetProcAddress.restype = pointer
-        library.OSMesaGetProcAddress.argtypes = (ctypes.c_char_p,)
-        library.OSMesaDestroyContext.restype = None
-        library.OSMesaDestroyContext.argtypes = (pointer,)
-        library.OSMesaGetCurrentContext.restype = pointer
-        numbers = (ctypes.POINTER(integer),) * 3
-        library.OSMesaGetColorBuffer.argtypes = (pointer, *numbers, ctypes.POINTER(pointer))
-        library.OSMesaGetIntegerv.argtypes = (integer, ctypes.POINTER(integer))
-        return library
-    raise OSError("libOSMesa is not installed")
-
-
-@contextmanager
-def _nothing_current() -> Iterator[None]:
-    """Takes another context (a window's, say) off this thread, and puts it back afterwards.
-
-    EGL and OSMesa share Mesa's dispatch table without telling each other: an EGL context that is
-    still current while OSMesa is made current stays broken: EGL sees no reason to bind it again.
-    """
-    with _without_egl(), _without_osmesa():
-        yield
-
-
-@contextmanager
-def _without_egl() -> Iterator[None]:
-    egl = _egl()
-    before = egl.eglGetCurrentContext() if egl is not None else None
-    if not before:
-        yield
-        return
-    display = egl.eglGetCurrentDisplay()
-    surfaces = egl.eglGetCurrentSurface(_EGL_DRAW), egl.eglGetCurrentSurface(_EGL_READ)
-    egl.eglMakeCurrent(display, None, None, None)
-    try:
-        yield
-    finally:
-        egl.eglMakeCurrent(display, *surfaces, before)
-
-
-@contextmanager
-def _without_osmesa() -> Iterator[None]:
-    library = _load_osmesa() if _load_osmesa.cache_info().currsize else None
-    before = library.OSMesaGetCurrentContext() if library is not None else None
-    if library is None or not before:
-        yield
-        return
-    width, height, kind = ctypes.c_int(), ctypes.c_int(), ctypes.c_int()
-    pixels = ctypes.c_void_p()
-    library.OSMesaGetColorBuffer(before, width, height, kind, pixels)
-    library.OSMesaGetIntegerv(_OSMESA_TYPE, kind)
-    library.OSMesaMakeCurrent(None, None, 0, 0, 0)
-    try:
-        yield
-    finally:
-        library.OSMesaMakeCurrent(before, pixels, kind.value, width.value, height.value)
-
-
-@cache
-def _egl() -> Any:
-    name = find_library("EGL") if sys.platform.startswith("linux") else None
-    if name is None:
-        return None
-    try:
-        egl: Any = ctypes.CDLL(name)
-    except OSError:
-        return None
-    pointer = ctypes.c_void_p
-    for function in ("eglGetCurrentContext", "eglGetCurrentDisplay", "eglGetCurrentSurface"):
-        getattr(egl, function).restype = pointer
-    egl.eglGetCurrentSurface.argtypes = (ctypes.c_int,)
-    egl.eglMakeCurrent.argtypes = (pointer,) * 4
-    return egl

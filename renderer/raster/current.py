@@ -1,0 +1,151 @@
+"""The current OpenGL context of a thread: put aside, and put back.
+
+Owns what EGL, GLX and OSMesa say of their current contexts. Knows nothing of what is drawn in them.
+"""
+
+from __future__ import annotations
+
+import ctypes
+import sys
+from collections.abc import Iterator
+from contextlib import contextmanager
+from ctypes.util import find_library
+from functools import cache
+from typing import Any
+
+OSMESA_NAMES = (
+    "libOSMesa.so.8",
+    "libOSMesa.so.6",
+    "libOSMesa.so",
+    "libOSMesa.8.dylib",
+    "libOSMesa.dylib",
+    "osmesa.dll",
+    "libOSMesa.dll",
+)
+
+# Of the headers of EGL and OSMesa.
+_EGL_DRAW, _EGL_READ = 0x3059, 0x305A
+_OSMESA_TYPE = 0x23
+
+
+@contextmanager
+def nothing_current() -> Iterator[None]:
+    """Takes another context (a window's, say) off this thread, and puts it back afterwards.
+
+    EGL, GLX and OSMesa share Mesa's dispatch table without telling each other: a context of one
+    that is still current while another's is made current stays broken, since its library sees no
+    reason to bind it again; and OSMesa takes it for its own.
+    """
+    with _without_glx(), _without_egl(), _without_osmesa():
+        yield
+
+
+@contextmanager
+def _without_egl() -> Iterator[None]:
+    egl = load_egl()
+    before = egl.eglGetCurrentContext() if egl is not None else None
+    if not before:
+        yield
+        return
+    display = egl.eglGetCurrentDisplay()
+    surfaces = egl.eglGetCurrentSurface(_EGL_DRAW), egl.eglGetCurrentSurface(_EGL_READ)
+    egl.eglMakeCurrent(display, None, None, None)
+    try:
+        yield
+    finally:
+        egl.eglMakeCurrent(display, *surfaces, before)
+
+
+@contextmanager
+def _without_glx() -> Iterator[None]:
+    glx = _glx()
+    before = glx.glXGetCurrentContext() if glx is not None else None
+    if not before:
+        yield
+        return
+    display = glx.glXGetCurrentDisplay()
+    drawables = glx.glXGetCurrentDrawable(), glx.glXGetCurrentReadDrawable()
+    glx.glXMakeContextCurrent(display, 0, 0, None)
+    try:
+        yield
+    finally:
+        glx.glXMakeContextCurrent(display, *drawables, before)
+
+
+@contextmanager
+def _without_osmesa() -> Iterator[None]:
+    library = load_osmesa() if load_osmesa.cache_info().currsize else None
+    before = library.OSMesaGetCurrentContext() if library is not None else None
+    if library is None or not before:
+        yield
+        return
+    width, height, kind = ctypes.c_int(), ctypes.c_int(), ctypes.c_int()
+    pixels = ctypes.c_void_p()
+    library.OSMesaGetColorBuffer(before, width, height, kind, pixels)
+    library.OSMesaGetIntegerv(_OSMESA_TYPE, kind)
+    library.OSMesaMakeCurrent(None, None, 0, 0, 0)
+    try:
+        yield
+    finally:
+        library.OSMesaMakeCurrent(before, pixels, kind.value, width.value, height.value)
+
+
+@cache
+def load_egl() -> Any:
+    """libEGL; None where there is none."""
+    egl = _linux_library("EGL")
+    if egl is not None:
+        pointer = ctypes.c_void_p
+        for function in ("eglGetCurrentContext", "eglGetCurrentDisplay", "eglGetCurrentSurface"):
+            getattr(egl, function).restype = pointer
+        egl.eglGetCurrentSurface.argtypes = (ctypes.c_int,)
+        egl.eglMakeCurrent.argtypes = (pointer,) * 4
+    return egl
+
+
+@cache
+def _glx() -> Any:
+    glx = _linux_library("GL")
+    if not hasattr(glx, "glXMakeContextCurrent"):  # also where there is no library
+        return None
+    pointer, drawable = ctypes.c_void_p, ctypes.c_ulong
+    for function in ("glXGetCurrentContext", "glXGetCurrentDisplay"):
+        getattr(glx, function).restype = pointer
+    for function in ("glXGetCurrentDrawable", "glXGetCurrentReadDrawable"):
+        getattr(glx, function).restype = drawable
+    glx.glXMakeContextCurrent.argtypes = (pointer, drawable, drawable, pointer)
+    return glx
+
+
+@cache
+def load_osmesa() -> Any:
+    """libOSMesa. Raises OSError where there is none."""
+    names = (find_library("OSMesa"), *OSMESA_NAMES)
+    for name in filter(None, names):
+        try:
+            library: Any = ctypes.CDLL(name)
+        except OSError:
+            continue
+        pointer, integer = ctypes.c_void_p, ctypes.c_int
+        library.OSMesaCreateContextAttribs.restype = pointer
+        library.OSMesaCreateContextAttribs.argtypes = (ctypes.POINTER(integer), pointer)
+        library.OSMesaMakeCurrent.restype = ctypes.c_ubyte
+        library.OSMesaMakeCurrent.argtypes = (pointer, pointer, ctypes.c_uint, integer, integer)
+        library.OSMesaGetProcAddress.restype = pointer
+        library.OSMesaGetProcAddress.argtypes = (ctypes.c_char_p,)
+        library.OSMesaDestroyContext.restype = None
+        library.OSMesaDestroyContext.argtypes = (pointer,)
+        library.OSMesaGetCurrentContext.restype = pointer
+        numbers = (ctypes.POINTER(integer),) * 3
+        library.OSMesaGetColorBuffer.argtypes = (pointer, *numbers, ctypes.POINTER(pointer))
+        library.OSMesaGetIntegerv.argtypes = (integer, ctypes.POINTER(integer))
+        return library
+    raise OSError("libOSMesa is not installed")
+
+
+def _linux_library(name: str) -> Any:
+    found = find_library(name) if sys.platform.startswith("linux") else None
+    try:
+        return ctypes.CDLL(found) if found else None
+    except OSError:
+        return None
