@@ -192,7 +192,8 @@ def write_square(view, world, scene, image, i, j, first, square, floats, ints):
     if bits(is_hit) != 0:
         pixels = square_rays(view, first)
         objects, primitives = find_surfaces(
-            view, world, scene, first, pixels, square, z, image.has_color, floats, ints
+            view, world, scene, first, pixels, square, z,
+            image.has_color, image.has_primitive, floats, ints,
         )
         normal = (
             load(floats, SHADING),

@@ -25,12 +25,14 @@ import numpy as np
 from renderer.trace.compiled import inlined
 from renderer.trace.packet_tile import (
     BEST,
+    BOUNDS,
     COEFFICIENTS,
+    COVERED,
     LEAST,
     OWNER,
     SEEN,
     SQUARE,
-    SQUARES,
+    TILE,
 )
 from renderer.trace.packet_view import ORIGIN, ROW_X, ROW_Y, ROW_Z, ROWS
 from renderer.trace.simd import (
@@ -189,27 +191,50 @@ def see_leaf(view, corner, leaf, space, tile, least, floats, ints):
         store(floats, COEFFICIENTS + LANES * (6 + k), e2[k])
         store(floats, COEFFICIENTS + LANES * (9 + k), key[k])
 
-    # The same question for each square: the first one's answer, shifted.
-    x_high -= np.float32(12)
-    y_high -= np.float32(12)
-    m0 = _largest(e0, x_low, x_high, y_low, y_high)
-    m1 = _largest(e1, x_low, x_high, y_low, y_high)
-    m2 = _largest(e2, x_low, x_high, y_low, y_high)
-    mk = _largest(key, x_low, x_high, y_low, y_high)
-    changed = False
-    for square in range(SQUARES):
+    # The largest values in the tile's first square.
+    x_high -= np.float32(TILE - SQUARE)
+    y_high -= np.float32(TILE - SQUARE)
+    store(floats, BOUNDS, _largest(e0, x_low, x_high, y_low, y_high))
+    store(floats, BOUNDS + LANES, _largest(e1, x_low, x_high, y_low, y_high))
+    store(floats, BOUNDS + 2 * LANES, _largest(e2, x_low, x_high, y_low, y_high))
+    store(floats, BOUNDS + 3 * LANES, _largest(key, x_low, x_high, y_low, y_high))
+
+    # The same question for each square: squares in lanes, one triangle after the other.
+    nearest = load(floats, LEAST)
+    store(ints, COVERED, splat(np.int32(0)))
+    covered = 0
+    left = kept
+    while left != 0:
+        lane = lowest_bit(left)
+        left &= left - 1
+        may = _bound(floats, lane, 0) >= np.float32(0)
+        may = may & (_bound(floats, lane, 1) >= np.float32(0))
+        may = may & (_bound(floats, lane, 2) >= np.float32(0))
+        may = may & (_bound(floats, lane, 3) > nearest)
+        squares = bits(may)
+        ints[COVERED + lane] = squares
+        covered |= squares
+    if covered == 0:
+        return least
+
+    # Triangles in lanes again: those of each square.
+    squares_of = load(ints, COVERED)
+    while covered != 0:
+        square = lowest_bit(covered)
+        covered &= covered - 1
+        found = bits((squares_of & np.int32(1 << square)) != np.int32(0))
         dx, dy = np.float32((square & 3) * SQUARE), np.float32((square >> 2) * SQUARE)
-        may = fma(e0[0], dx, fma(e0[1], dy, m0)) >= np.float32(0)
-        may = may & (fma(e1[0], dx, fma(e1[1], dy, m1)) >= np.float32(0))
-        may = may & (fma(e2[0], dx, fma(e2[1], dy, m2)) >= np.float32(0))
-        may = may & (fma(key[0], dx, fma(key[1], dy, mk)) > floats[LEAST + square])
-        found = bits(may) & kept
-        if found != 0:
-            see_triangles(view, found, leaf, space, tile.x + dx, tile.y + dy, square, floats, ints)
-            changed = True
-    if changed:
-        return smallest(load(floats, LEAST))
-    return least
+        see_triangles(view, found, leaf, space, tile.x + dx, tile.y + dy, square, floats, ints)
+    return smallest(load(floats, LEAST))
+
+
+@inlined
+def _bound(floats, lane, function):
+    """The largest value of a triangle's function in each square: the first one's, shifted."""
+    i = COEFFICIENTS + 3 * LANES * function + lane
+    bound = splat(floats[BOUNDS + LANES * function + lane])
+    side = np.float32(SQUARE)
+    return fma(lane_column(), floats[i] * side, fma(lane_row(), floats[i + LANES] * side, bound))
 
 
 @inlined

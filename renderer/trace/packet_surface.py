@@ -32,6 +32,7 @@ from renderer.trace.simd import (
     fetch,
     fetch_index,
     fma,
+    gather,
     lane_column,
     lane_row,
     load,
@@ -112,19 +113,21 @@ def _ray_lanes(ray, axis, x, y):
 
 
 @inlined
-def find_surfaces(view, world, scene, first, pixels, square, z, wants_tint, floats, ints):
+def find_surfaces(
+    view, world, scene, first, pixels, square, z, wants_tint, wants_primitives, floats, ints
+):
     """Fills a square's normals and colours (SURFACE); gives (objects, primitives), I32, -1: none.
 
-    scene: SceneArrays. first: the square's first image point.
-    z: what its pixels see is there.
+    scene: SceneArrays. first: the square's first image point. z: of what its pixels see.
+    Primitives are left out where they are not wanted.
     """
     seen = load(ints, SEEN + LANES * square)
     owner = load(ints, OWNER + LANES * square)
     objects, primitives = splat(np.int32(-1)), splat(np.int32(-1))
-    for k in range(9):
-        store(floats, GEOMETRIC + LANES * k, splat(np.float32(0)))
     left = bits(seen != NOTHING)
-    turns = 0
+    if left != 0xFFFF:
+        for k in range(9):
+            store(floats, GEOMETRIC + LANES * k, splat(np.float32(0)))
     while left != 0:
         lane = lowest_bit(left)
         number = ints[SEEN + LANES * square + lane]
@@ -133,27 +136,90 @@ def find_surfaces(view, world, scene, first, pixels, square, z, wants_tint, floa
             sphere = np.int64(FIRST_SPHERE) - number
             sphere_surface(view, world.spheres, sphere, first, pixels, z, mask, floats)
             objects = select(mask, splat(world.sphere_object[sphere]), objects)
-            primitive = np.int32(world.triangles + sphere)
-            primitives = select(mask, splat(primitive), primitives)
-            left &= ~bits(mask)
-            continue
-        space = np.int64(ints[OWNER + LANES * square + lane])
-        mask = (owner == np.int32(space)) & (seen >= np.int32(0)) & mask_of(left)
-        objects = select(mask, splat(world.root_object[space]), objects)
-        turns += 1
-        if turns <= SINGLES:
-            mask = mask & (seen == number)
-            found = triangle_surface(
-                view, world, scene, space, np.int64(number), mask, pixels, wants_tint, floats
-            )
-            primitives = select(mask, splat(np.int32(found)), primitives)
+            primitives = select(mask, splat(np.int32(world.triangles + sphere)), primitives)
         else:
-            found = triangle_surface(
-                view, world, scene, space, seen, mask, pixels, wants_tint, floats
+            space = np.int64(ints[OWNER + LANES * square + lane])
+            mask = (owner == np.int32(space)) & (seen >= np.int32(0))
+            objects = select(mask, splat(world.root_object[space]), objects)
+            if wants_primitives:
+                found = gather(world.face, seen, mask) + world.first_primitive[space]
+                primitives = select(mask, found, primitives)
+            at = SEEN + LANES * square
+            instance_surface(
+                view, world, scene, space, seen, at, mask, pixels, wants_tint, floats, ints
             )
-            primitives = select(mask, found, primitives)
         left &= ~bits(mask)
     return objects, primitives
+
+
+@inlined
+def triangle_normals(world, slots, at, mask, ints):
+    """The triangles' normals in their own space, in the lanes of the mask; slots: ints[at :]."""
+    x = y = z = splat(np.float32(0))
+    left = bits(mask)
+    for turn in range(SINGLES):
+        # One triangle, for all the pixels that see it.
+        slot = np.int64(ints[at + lowest_bit(left)])
+        n = (slot >> 4) * (3 * WIDTH) + (slot & 15)
+        same = mask & (slots == np.int32(slot))
+        x = select(same, splat(world.normal[n]), x)
+        y = select(same, splat(world.normal[n + WIDTH]), y)
+        z = select(same, splat(world.normal[n + 2 * WIDTH]), z)
+        left &= ~bits(same)
+        if left == 0:
+            return x, y, z
+    # The rest at once.
+    rest = mask_of(left)
+    n = (slots >> np.int32(4)) * np.int32(3 * WIDTH) + (slots & np.int32(15))
+    return (
+        select(rest, gather(world.normal, n, rest), x),
+        select(rest, gather(world.normal, n + np.int32(WIDTH), rest), y),
+        select(rest, gather(world.normal, n + np.int32(2 * WIDTH), rest), z),
+    )
+
+
+@inlined
+def instance_surface(view, world, scene, space, slots, at, mask, pixels, wants_tint, floats, ints):
+    """The surfaces of one instance, in the lanes of the mask, which see the slots ints[at :]."""
+    # The geometric normal, in world space, on the viewer's side.
+    x, y, z = triangle_normals(world, slots, at, mask, ints)
+    m, r = world.normal_matrix, space * 9
+    geometric = normalized_lanes(
+        (
+            fma(x, m[r], fma(y, m[r + 1], z * m[r + 2])),
+            fma(x, m[r + 3], fma(y, m[r + 4], z * m[r + 5])),
+            fma(x, m[r + 6], fma(y, m[r + 7], z * m[r + 8])),
+        )
+    )
+    side = select(
+        dot_lanes(geometric, pixels.direction) < np.float32(0), splat(np.float32(1)), np.float32(-1)
+    )
+    facing = scaled_lanes(side, geometric)
+    _store_masked(floats, SHADING, mask, facing)
+    if wants_tint:
+        one = splat(np.float32(1))
+        _store_masked(floats, GEOMETRIC, mask, facing)
+        _store_masked(floats, TINT, mask, (one, one, one))
+    wanted = world.attributes[space] & (HAS_NORMALS | (HAS_COLORS if wants_tint else 0))
+    if wanted != 0:
+        left = bits(mask)
+        turn = 0
+        while left != 0:
+            turn += 1
+            if turn <= SINGLES:
+                slot = np.int64(ints[at + lowest_bit(left)])
+                same = mask & (slots == np.int32(slot))
+                interpolate(
+                    view, world, scene, space, slot, same, pixels, geometric, side, wanted, floats
+                )
+            else:
+                same = mask_of(left)
+                interpolate(
+                    view, world, scene, space, slots, same, pixels, geometric, side, wanted, floats
+                )
+            left &= ~bits(same)
+    shading = load(floats, SHADING), load(floats, SHADING + LANES), load(floats, SHADING + 2 * LANES)
+    _store_masked(floats, SHADING, mask, not_grazing(shading, pixels.along))
 
 
 @inlined
@@ -172,58 +238,31 @@ def not_grazing(normal, along):
 
 
 @inlined
-def triangle_surface(view, world, scene, space, slot, mask, pixels, wants_tint, floats):
-    """The surface of one slot, or of a slot a lane, in the lanes of the mask; its primitive."""
+def interpolate(view, world, scene, space, slot, mask, pixels, geometric, side, wanted, floats):
+    """Smooth normals and vertex colours of one slot, or a slot a lane, in the lanes of the mask."""
     leaf, lane = slot >> np.int32(4), slot & np.int32(15)
-    # The geometric normal, in world space, on the viewer's side.
-    at = leaf * np.int32(3 * WIDTH) + lane
-    x = fetch(world.normal, at, mask)
-    y = fetch(world.normal, at + np.int32(WIDTH), mask)
-    z = fetch(world.normal, at + np.int32(2 * WIDTH), mask)
-    m, r = world.normal_matrix, space * 9
-    geometric = normalized_lanes(
-        (
-            fma(x, m[r], fma(y, m[r + 1], z * m[r + 2])),
-            fma(x, m[r + 3], fma(y, m[r + 4], z * m[r + 5])),
-            fma(x, m[r + 6], fma(y, m[r + 7], z * m[r + 8])),
-        )
-    )
-    side = select(
-        dot_lanes(geometric, pixels.direction) < np.float32(0), splat(np.float32(1)), np.float32(-1)
-    )
-    facing = scaled_lanes(side, geometric)
-    shading = facing
-    face = fetch_index(world.face, slot, mask)
-    primitive = face + world.first_primitive[space]
-    wanted = world.attributes[space] & (HAS_NORMALS | (HAS_COLORS if wants_tint else 0))
-    if wanted != 0:
-        b0, b1, b2 = barycentrics(view, world.corner, leaf, lane, space, mask, pixels)
-        faces, normals, colors = scene.faces, scene.normals, scene.colors
-        i = fetch_index(faces, primitive * np.int32(3), mask) * np.int32(3)
-        j = fetch_index(faces, primitive * np.int32(3) + np.int32(1), mask) * np.int32(3)
-        k = fetch_index(faces, primitive * np.int32(3) + np.int32(2), mask) * np.int32(3)
-        if wanted & HAS_NORMALS:
-            n0, n1, n2 = _three(normals, i, mask), _three(normals, j, mask), _three(normals, k, mask)
-            smooth = _blend(b0, n0, b1, n1, b2, n2)
-            size = dot_lanes(smooth, smooth)
-            usable = _is_set(n0) & _is_set(n1) & _is_set(n2) & (size >= np.float32(1e-12))
-            # Normals that disagree with the winding are turned, for the whole triangle alike.
-            total = (n0[0] + n1[0] + n2[0], n0[1] + n1[1] + n2[1], n0[2] + n1[2] + n2[2])
-            turn = select(dot_lanes(total, geometric) >= np.float32(0), side, -side)
-            shading = select_lanes(
-                usable, scaled_lanes(turn * inverse_length(smooth), smooth), facing
-            )
-        if wants_tint and wanted & HAS_COLORS:
-            tint = _blend(
-                b0, _three(colors, i, mask), b1, _three(colors, j, mask), b2, _three(colors, k, mask)
-            )
-            _store_masked(floats, TINT, mask, tint)
-    if wants_tint and not wanted & HAS_COLORS:
-        one = splat(np.float32(1))
-        _store_masked(floats, TINT, mask, (one, one, one))
-    _store_masked(floats, GEOMETRIC, mask, facing)
-    _store_masked(floats, SHADING, mask, not_grazing(shading, pixels.along))
-    return primitive
+    b0, b1, b2 = barycentrics(view, world.corner, leaf, lane, space, mask, pixels)
+    first = (fetch_index(world.face, slot, mask) + world.first_primitive[space]) * np.int32(3)
+    i = fetch_index(scene.faces, first, mask) * np.int32(3)
+    j = fetch_index(scene.faces, first + np.int32(1), mask) * np.int32(3)
+    k = fetch_index(scene.faces, first + np.int32(2), mask) * np.int32(3)
+    if wanted & HAS_NORMALS:
+        n0 = _three(scene.normals, i, mask)
+        n1 = _three(scene.normals, j, mask)
+        n2 = _three(scene.normals, k, mask)
+        smooth = _blend(b0, n0, b1, n1, b2, n2)
+        size = dot_lanes(smooth, smooth)
+        usable = mask & _is_set(n0) & _is_set(n1) & _is_set(n2) & (size >= np.float32(1e-12))
+        # Normals that disagree with the winding are turned, for the whole triangle alike.
+        total = (n0[0] + n1[0] + n2[0], n0[1] + n1[1] + n2[1], n0[2] + n1[2] + n2[2])
+        turn = select(dot_lanes(total, geometric) >= np.float32(0), side, -side)
+        shading = scaled_lanes(turn * inverse_length(smooth), smooth)
+        _store_masked(floats, SHADING, usable, shading)
+    if wanted & HAS_COLORS:
+        c0 = _three(scene.colors, i, mask)
+        c1 = _three(scene.colors, j, mask)
+        c2 = _three(scene.colors, k, mask)
+        _store_masked(floats, TINT, mask, _blend(b0, c0, b1, c1, b2, c2))
 
 
 @inlined

@@ -26,22 +26,25 @@ TILE = 16  # pixels: side of a packet's square
 SQUARE = 4  # pixels: side of the square that a vector holds
 SQUARES = (TILE // SQUARE) ** 2
 
-# One thread's scratch, float32: 12 coefficients of a leaf's 16 triangles; a node's children's
-# depths; the least key of each square, and the best key of each pixel; six planes of four numbers;
+# One thread's scratch, float32: 12 coefficients and 4 bounds of a leaf's 16 triangles; a node's
+# children's depths; the least key of each square, and the best key of each pixel; six planes of four numbers;
 # a square's surface, for shading; the depths of the nodes that wait (to the end).
 COEFFICIENTS = 0
-DEPTHS = COEFFICIENTS + 12 * LANES
+BOUNDS = COEFFICIENTS + 12 * LANES
+DEPTHS = BOUNDS + 4 * LANES
 LEAST = DEPTHS + LANES
 BEST = LEAST + SQUARES
 PLANES = BEST + SQUARES * LANES
 SURFACE = PLANES + 32
 WAITING_DEPTHS = SURFACE + 12 * LANES
 # And int32: what each pixel sees, a slot or FIRST_SPHERE - sphere, or nothing; of which instance;
-# where each plane finds the coordinates that it needs of a box; the nodes that wait (to the end).
+# where each plane finds the coordinates that it needs of a box; the squares that each of a leaf's
+# triangles may cover; the nodes that wait (to the end).
 SEEN = 0
 OWNER = SEEN + SQUARES * LANES
 FARTHEST = OWNER + SQUARES * LANES
-WAITING_NODES = FARTHEST + 32
+COVERED = FARTHEST + 32
+WAITING_NODES = COVERED + LANES
 NOTHING, FIRST_SPHERE = np.int32(-1), np.int32(-2)
 
 LEFT, RIGHT, TOP, BOTTOM, BEHIND, AHEAD = range(6)  # the planes: four sides, -Z and Z

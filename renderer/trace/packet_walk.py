@@ -20,8 +20,8 @@ from renderer.trace.packet_tile import (
     children_in_tile,
     set_planes,
 )
-from renderer.trace.simd import bits, lowest_bit, store
-from renderer.trace.wide import FIRST_LEAF, WIDTH
+from renderer.trace.simd import bits, lowest_bit, prefetch, store
+from renderer.trace.wide import CORNERS, FIRST_LEAF, WIDTH
 
 
 @inlined
@@ -98,6 +98,11 @@ def walk_instance(view, world, space, tile, base, least, floats, ints):
             inside, depth = children_in_tile(view, world.box, node, z_far, floats, ints)
             top = push_children(inside, depth, world.child, node, top, floats, ints)
         else:
+            # Ask for the next leaf's corners while this one is at work.
+            following = FIRST_LEAF - np.int64(ints[WAITING_NODES + top - 1])
+            if following >= 0 and top > base:
+                for line in range(0, CORNERS, 16):
+                    prefetch(world.corner, following * CORNERS + line)
             leaf = FIRST_LEAF - node
             least = see_leaf(view, world.corner, leaf, space, tile, least, floats, ints)
     return least
