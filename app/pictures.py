@@ -13,10 +13,11 @@ from dataclasses import dataclass
 import moderngl
 
 from app.live import RayImage, reduced
+from app.shown import ShownImage
 from renderer.camera import Camera
 from renderer.errors import LucidaError
 from renderer.frame import CHANNELS, Frame
-from renderer.raster import Display, Rasterizer
+from renderer.raster import Rasterizer
 from renderer.scene.model import Scene
 
 MOVING_S = 0.1  # after a change; a raster image that is too slow for the display is coarse then
@@ -37,29 +38,26 @@ class Pictures:
     """Both images, in the window's context, which must be current in every call."""
 
     def __init__(self, context: moderngl.Context, scene: Scene) -> None:
-        self._context = context
-        self._display = Display(context)
+        self._raster, self._ray = ShownImage(context), ShownImage(context)
         self._rasterizer = Rasterizer(scene, context=context)
         self._scene = scene
         self._timer = context.query(time=True)
         self._timed_pixels = 0  # of the image whose time is still to be read
         self._pixel_s = 0.0
-        self._linear: moderngl.Texture | None = None
         self._wanted: Wanted | None = None
         self._changed_s = 0.0
-        self._raster: moderngl.Texture | None = None
-        self._raster_ev = 0.0
-        self._ray_linear: moderngl.Texture | None = None
-        self._ray: moderngl.Texture | None = None
-        self._ray_ev = 0.0
         self.raster_factor = 1
         self.raster_s = 0.0
         self.raster_error: Exception | None = None
+        self.ray_error: Exception | None = None
 
-    def raster(self, wanted: Wanted, exposure_ev: float) -> moderngl.Texture | None:
-        """The raster image, drawn anew if it must be; None where that failed, see raster_error.
+    def raster(
+        self, wanted: Wanted, exposure_ev: float, size_px: tuple[int, int]
+    ) -> moderngl.Texture | None:
+        """The raster image to show at size_px framebuffer pixels, drawn anew if it must be.
 
-        Where OpenGL runs on the CPU, it is coarse while things move, and full soon after.
+        None where that failed, see raster_error. Where OpenGL runs on the CPU, the image is coarse
+        while things move, and full soon after.
         """
         self._read_time()
         try:
@@ -68,28 +66,30 @@ class Pictures:
                 self._draw(wanted, self._moving_factor(wanted.size))
             elif self.raster_factor > 1 and time.monotonic() - self._changed_s > MOVING_S:
                 self._draw(wanted, 1)
-            if self._linear is not None and (
-                self._raster is None or exposure_ev != self._raster_ev
-            ):
-                self._raster = self._display.draw(self._linear, exposure_ev)
-                self._raster_ev = exposure_ev
+            texture = self._raster.texture(exposure_ev, size_px)
             self.raster_error = None
         except (LucidaError, moderngl.Error) as error:  # shown in the window, which goes on
-            self._wanted = self._raster = self._linear = None
-            self.raster_error, self.raster_factor = error, 1
-        return self._raster
+            self._raster.set_linear(None)
+            self._wanted, self.raster_error, self.raster_factor = None, error, 1
+            return None
+        return texture
 
     def take_ray(self, image: RayImage) -> None:
-        """Puts a traced image on the GPU."""
-        self._ray_linear = self._display.upload(image.frame.channel("color"))
-        self._ray = None
+        """Puts a traced image on the GPU; where that fails, see ray_error."""
+        try:
+            self._ray.upload(image.frame.channel("color"))
+            self.ray_error = None
+        except (LucidaError, moderngl.Error) as error:
+            self.ray_error = error
 
-    def ray(self, exposure_ev: float) -> moderngl.Texture | None:
-        """The last traced image; None before the first."""
-        if self._ray_linear is not None and (self._ray is None or exposure_ev != self._ray_ev):
-            self._ray = self._display.draw(self._ray_linear, exposure_ev)
-            self._ray_ev = exposure_ev
-        return self._ray
+    def ray(self, exposure_ev: float, size_px: tuple[int, int]) -> moderngl.Texture | None:
+        """The last traced image to show at size_px framebuffer pixels; None before the first."""
+        try:
+            return self._ray.texture(exposure_ev, size_px)
+        except (LucidaError, moderngl.Error) as error:
+            self._ray.set_linear(None)
+            self.ray_error = error
+            return None
 
     @property
     def unfinished(self) -> bool:
@@ -100,6 +100,7 @@ class Pictures:
         """All channels of a raster image as arrays. Raises LucidaError."""
         self._show(wanted.scene)
         self._wanted = None  # the textures are drawn over
+        self._raster.set_linear(None)
         return self._rasterizer.render(wanted.camera, wanted.size, CHANNELS)
 
     @property
@@ -110,14 +111,15 @@ class Pictures:
     def release(self) -> None:
         with contextlib.suppress(moderngl.Error):
             self._rasterizer.release()
-            self._display.release()
+            self._raster.release()
+            self._ray.release()
 
     def _draw(self, wanted: Wanted, factor: int) -> None:
         self._show(wanted.scene)
         size = reduced(wanted.size, factor)
         with self._timer:
-            self._linear = self._rasterizer.draw(wanted.camera, size).color
-        self._wanted, self._raster = wanted, None
+            self._raster.set_linear(self._rasterizer.draw(wanted.camera, size).color)
+        self._wanted = wanted
         self._timed_pixels, self.raster_factor = size[0] * size[1], factor
 
     def _read_time(self) -> None:

@@ -100,8 +100,8 @@ class MainWindow:
     @property
     def failure(self) -> Exception | None:
         """What keeps an image from being complete."""
-        raster = self.pictures.raster_error if self.pictures else None
-        return raster or self.live.error or self.agreement.error
+        drawn = (self.pictures.raster_error or self.pictures.ray_error) if self.pictures else None
+        return drawn or self.live.error or self.agreement.error
 
     def change(self, state: AppState) -> None:
         """A step of its own in the history."""
@@ -218,7 +218,7 @@ class MainWindow:
         self._pane(RASTER, self._raster_texture, describe(error) if error else "", bool(error))
 
     def _ray_window(self) -> None:
-        error = self.live.error
+        error = self.live.error or (self.pictures.ray_error if self.pictures else None)
         note = describe(error) if error else self._preparing_note()
         progress = 1.0
         if self.ray_image is not None and self.ray_image.factor > 1:
@@ -236,7 +236,7 @@ class MainWindow:
         if not dockable.is_visible:
             self._panes_px.pop(name, None)
             return
-        imgui.push_style_var(imgui.StyleVar_.window_padding, ImVec2(0, 0))
+        imgui.push_style_var(imgui.StyleVar_.window_padding, ImVec2(1, 1))
         opened, visible = imgui.begin(
             dockable.label, True, flags.no_scrollbar | flags.no_scroll_with_mouse
         )
@@ -274,13 +274,17 @@ class MainWindow:
     def _raster_texture(self, state: AppState) -> int | None:
         assert self.pictures is not None
         wanted = Wanted(state.scene, state.view.for_size(self.size), self.size)
-        texture = self.pictures.raster(wanted, state.exposure_ev)
+        texture = self.pictures.raster(wanted, state.exposure_ev, self._shown_px(state))
         return texture.glo if texture is not None else None
 
     def _ray_texture(self, state: AppState) -> int | None:
         assert self.pictures is not None
-        texture = self.pictures.ray(state.exposure_ev)
+        texture = self.pictures.ray(state.exposure_ev, self._shown_px(state))
         return texture.glo if texture is not None else None
+
+    def _shown_px(self, state: AppState) -> tuple[int, int]:
+        """An image's size on the screen, in framebuffer pixels."""
+        return self.size[0] * state.pixel_size, self.size[1] * state.pixel_size
 
     def _take_ray_image(self) -> None:
         image = self.live.poll()

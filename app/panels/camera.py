@@ -170,7 +170,8 @@ def _viewport(state: AppState, draft: Draft, around: Surroundings) -> tuple[AppS
     avail = imgui.get_content_region_avail().x
     label_px, half = 3.2 * imgui.get_font_size(), avail / 2
     spacing = imgui.get_style().item_inner_spacing.x
-    scale = Scale(-1.0, 1.0)
+    reach = around.focus.reach if state.camera.is_parallel else 1.0  # lengths, or slopes
+    scale = Scale(-reach, reach)
     _line()
     _label("viewport", "in units of u and v", theme.TEXT, around.fonts)
     for index, (name, tooltip) in enumerate(VIEWPORT):
@@ -301,6 +302,6 @@ def _columns(fields: int) -> tuple[float, float]:
 
 
 def _line() -> None:
-    imgui.dummy((0, 1))
+    imgui.dummy((0, 0))
     imgui.separator()
-    imgui.dummy((0, 1))
+    imgui.dummy((0, 0))

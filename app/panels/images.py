@@ -20,6 +20,7 @@ from renderer.errors import LucidaError
 Pixel = tuple[int, int]  # (row, column)
 
 WHEEL_STEP = 1.15
+SMALLEST_FRAMED = 6  # a pixel as large as that gets a frame of its own size
 HALF_TURN = math.pi  # a drag over the image's whole height
 
 
@@ -192,9 +193,9 @@ def _image_point(
 
 
 def _mark(draw: imgui.ImDrawList, pixel: Pixel, origin: ImVec2, unit: float) -> None:
-    """A frame round a pixel: its own border if it is large enough to see."""
+    """A frame round a pixel: its own border where that is large enough to see."""
     middle = ImVec2(origin.x + (pixel[1] + 0.5) * unit, origin.y + (pixel[0] + 0.5) * unit)
-    half = max(unit / 2, 5.0)
+    half = unit / 2 if unit >= SMALLEST_FRAMED else 5.0
     for grow, color in ((2.0, theme.rgb("#000000", 0.7)), (1.0, theme.MARK)):
         reach = half + grow
         draw.add_rect(
