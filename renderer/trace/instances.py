@@ -15,12 +15,15 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from renderer.scene.flat import FlatScene
+from renderer.scene.flat import DIFFUSE_SHININESS, FlatScene
 from renderer.scene.model import Mesh, Scene
 from renderer.trace.team import Team
 from renderer.trace.wide import FIRST_LEAF, WIDTH, WideTree, tree_of_boxes, tree_of_mesh
 
-HAS_NORMALS, HAS_COLORS = 1, 2  # what an instance's vertices have: bits
+# Bits of an instance: its vertices have normals, have colours; its transform changes angles.
+HAS_NORMALS, HAS_COLORS, IS_STRETCHED = 1, 2, 4
+_SQUASHED = 1e-6  # a transform that changes angles by less counts as a similarity
+_NO_HIGHLIGHT = 2.0**-40  # a highlight smaller than this is none, in any light
 _OUTWARDS = 4e-7  # of the coordinates: more than the rounding of bounds to float32
 
 
@@ -31,9 +34,10 @@ class World(NamedTuple):
     top_box, top_child: the upper tree; its leaf k is item k: instance k, or sphere k - instances.
     root: int32, the node at which an instance's tree begins. root_object: int32, its object.
     first_primitive: int32, what added to a triangle's face number gives its primitive number.
-    normal_matrix: float32, 9 an instance, row by row: takes a normal to world space, up to length,
-        and keeps it on the winding's side.
-    attributes: int32, HAS_NORMALS and HAS_COLORS.
+    normal_matrix: float32, 9 an instance, row by row: takes a normal to world space and keeps it on
+        the winding's side; its length changes only where the transform changes angles.
+    attributes: int32, HAS_NORMALS, HAS_COLORS, IS_STRETCHED.
+    dark_cosine: float32, for each object the cosine below which its highlights are nothing.
     spheres: float64, 4 a sphere: centre, radius. sphere_object: int32.
     instances, triangles: how many; sphere k has the primitive number triangles + k.
     is_empty: there is nothing to see.
@@ -51,6 +55,7 @@ class World(NamedTuple):
     first_primitive: NDArray[np.int32]
     normal_matrix: NDArray[np.float32]
     attributes: NDArray[np.int32]
+    dark_cosine: NDArray[np.float32]
     spheres: NDArray[np.float64]
     sphere_object: NDArray[np.int32]
     instances: int
@@ -148,6 +153,7 @@ class Instances:
             top_box, top_child, self._top_levels = tree_of_boxes(
                 low.astype(np.float32), high.astype(np.float32), flat, self._team
             )
+        normal_matrix, is_stretched = _normal_matrices(matrix)
         self.world = World(
             *self._joined,
             top_box=top_box,
@@ -155,14 +161,9 @@ class Instances:
             root=np.array([self._roots[_key(mesh)] for mesh in meshes], np.int32),
             root_object=object_number,
             first_primitive=flat.object_faces[object_number, 0],
-            normal_matrix=_normal_matrices(matrix).astype(np.float32).reshape(-1),
-            attributes=np.array(
-                [
-                    HAS_NORMALS * (mesh.normals is not None) + HAS_COLORS * (mesh.colors is not None)
-                    for mesh in meshes
-                ],
-                np.int32,
-            ),
+            normal_matrix=normal_matrix.astype(np.float32).reshape(-1),
+            attributes=_attributes(meshes) | np.where(is_stretched, IS_STRETCHED, 0).astype(np.int32),
+            dark_cosine=_NO_HIGHLIGHT ** (1 / flat.materials[:, DIFFUSE_SHININESS, 3]),
             spheres=spheres.reshape(-1),
             sphere_object=flat.sphere_object.copy(),
             instances=len(meshes),
@@ -194,9 +195,26 @@ def _world_boxes(
     )
 
 
-def _normal_matrices(world_from_object: NDArray[np.float64]) -> NDArray[np.float64]:
-    """The cofactor matrices (n, 3, 3): cross(M a, M b) = cofactor(M) cross(a, b), scaled to 1."""
+def _attributes(meshes: list[Mesh]) -> NDArray[np.int32]:
+    bits = [
+        HAS_NORMALS * (mesh.normals is not None) + HAS_COLORS * (mesh.colors is not None)
+        for mesh in meshes
+    ]
+    return np.array(bits, np.int32)
+
+
+def _normal_matrices(
+    world_from_object: NDArray[np.float64],
+) -> tuple[NDArray[np.float64], NDArray[np.bool_]]:
+    """The cofactor matrices (n, 3, 3), and which of the transforms change angles (n,).
+
+    cross(M a, M b) = cofactor(M) cross(a, b). Scaled so that a similarity gives a rotation.
+    """
+    if not len(world_from_object):
+        return np.empty((0, 3, 3)), np.empty(0, bool)
     a, b, c = np.moveaxis(world_from_object[:, :3, :3], 1, 0)
     cofactor = np.stack([np.cross(b, c), np.cross(c, a), np.cross(a, b)], axis=1)
-    largest = np.abs(cofactor).max(axis=(1, 2), keepdims=True) if len(cofactor) else 1.0
-    return cofactor / largest
+    volume = np.abs(np.einsum("nk,nk->n", a, cofactor[:, 0]))
+    cofactor /= np.cbrt(volume)[:, None, None] ** 2
+    gram = np.swapaxes(cofactor, 1, 2) @ cofactor
+    return cofactor, np.abs(gram - np.eye(3)).max(axis=(1, 2)) > _SQUASHED

@@ -120,6 +120,7 @@ def world_pointers(world):
         pointer(world.first_primitive),
         pointer(world.normal_matrix),
         pointer(world.attributes),
+        pointer(world.dark_cosine),
         pointer(world.spheres),
         pointer(world.sphere_object),
         world.instances,
@@ -201,7 +202,7 @@ def write_square(view, world, scene, image, i, j, first, square, floats, ints):
             load(floats, SHADING + 2 * LANES),
         )
         if image.has_color:
-            color = shade_square(view, scene, pixels, first, t, objects, floats)
+            color = shade_square(view, world, scene, pixels, first, t, objects, floats)
     if image.has_id:
         write_one(image, image.id, i, j, objects, ints)
     if image.has_primitive:

@@ -32,6 +32,7 @@ from renderer.trace.simd import (
     to_f64,
     vfloor,
     vmax,
+    vsqrt,
 )
 from renderer.trace.simd_math import (
     dot_lanes,
@@ -48,7 +49,7 @@ _SMALLEST_HALF = np.float32(1e-6)  # with a half vector shorter than this, there
 
 
 @inlined
-def shade_square(view, scene, pixels, first, t, objects, floats):
+def shade_square(view, world, scene, pixels, first, t, objects, floats):
     """The colours of a square: three F32; the background's where there is no object.
 
     scene: SceneArrays. t: ray parameters. objects: the pixels' objects; surfaces are in `floats`.
@@ -69,7 +70,9 @@ def shade_square(view, scene, pixels, first, t, objects, floats):
         left &= ~bits(mask)
         m = np.int64(object_number) * 24
         albedo = _albedo(view, scene.materials, m, first, t, geometric, tint)
-        lit = shade_material(scene, m, pixels.along, point, shading, albedo)
+        lit = shade_material(
+            scene, m, world.dark_cosine[object_number], pixels.direction, point, shading, albedo
+        )
         color = select_lanes(mask, lit, color)
     return color
 
@@ -149,7 +152,7 @@ def _along(materials, row, ray, at):
 
 
 @inlined
-def shade_material(scene, m, along, point, shading, albedo):
+def shade_material(scene, m, dark_cosine, direction, point, shading, albedo):
     """The light that pixels of the material at m send to the viewer.
 
     Source: Marschner and Shirley, Fundamentals of Computer Graphics, ch. 4 (Blinn and Phong).
@@ -158,6 +161,7 @@ def shade_material(scene, m, along, point, shading, albedo):
     specular = _row(materials, m + 4 * SPECULAR_CHECKERED)
     shininess = materials[m + 4 * DIFFUSE_SHININESS + 3]
     is_shiny = specular[0] + specular[1] + specular[2] > np.float32(0)
+    along = normalized_lanes(direction) if is_shiny else direction
     ambient = scene.ambient
     r, g, b = albedo[0] * ambient[0], albedo[1] * ambient[1], albedo[2] * ambient[2]
     for lamp in range(0, 8 * scene.light_count, 8):
@@ -165,25 +169,29 @@ def shade_material(scene, m, along, point, shading, albedo):
         to_light = (splat(lx), splat(ly), splat(lz))
         if lights[lamp + 3] != np.float32(0):
             to_light = minus_lanes(to_light, point)
-            near = inverse_length(to_light)
+            per_length = inverse_length(to_light)
             # At the light itself there is no direction to it, and no light.
-            is_lit = near < np.float32(1) / _SMALLEST_LIGHT
-            to_light = scaled_lanes(select(is_lit, near, np.float32(0)), to_light)
+            is_apart = per_length < np.float32(1) / _SMALLEST_LIGHT
+            to_light = scaled_lanes(select(is_apart, per_length, np.float32(0)), to_light)
         cosine = vmax(dot_lanes(shading, to_light), np.float32(0))
         rgb = lights[lamp + 4], lights[lamp + 5], lights[lamp + 6]
         r = fma(cosine * rgb[0], albedo[0], r)
         g = fma(cosine * rgb[1], albedo[1], g)
         b = fma(cosine * rgb[2], albedo[2], b)
-        if is_shiny:
-            half = minus_lanes(to_light, along)
-            per_length = inverse_length(half)
-            highlight = vmax(dot_lanes(shading, half) * per_length, np.float32(0))
-            highlight = power_lanes(highlight, shininess)
-            is_lit = per_length < np.float32(1) / _SMALLEST_HALF
-            if lights[lamp + 3] != np.float32(0):
-                is_lit = is_lit & (dot_lanes(to_light, to_light) > np.float32(0.5))
-            highlight = select(is_lit, highlight, np.float32(0))
-            r = fma(highlight, splat(rgb[0] * specular[0]), r)
-            g = fma(highlight, splat(rgb[1] * specular[1]), g)
-            b = fma(highlight, splat(rgb[2] * specular[2]), b)
+        if not is_shiny:
+            continue
+        half = minus_lanes(to_light, along)
+        length = vsqrt(dot_lanes(half, half))
+        cosine = dot_lanes(shading, half)
+        # Highlights are small: most squares have none of most lights.
+        is_lit = (cosine > length * dark_cosine) & (length >= _SMALLEST_HALF)
+        if lights[lamp + 3] != np.float32(0):
+            is_lit = is_lit & (dot_lanes(to_light, to_light) > np.float32(0.5))
+        if bits(is_lit) == 0:
+            continue
+        highlight = power_lanes(cosine / length, shininess)
+        highlight = select(is_lit, highlight, np.float32(0))
+        r = fma(highlight, splat(rgb[0] * specular[0]), r)
+        g = fma(highlight, splat(rgb[1] * specular[1]), g)
+        b = fma(highlight, splat(rgb[2] * specular[2]), b)
     return r, g, b

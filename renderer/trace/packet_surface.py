@@ -15,7 +15,7 @@ from typing import NamedTuple
 import numpy as np
 
 from renderer.trace.compiled import inlined
-from renderer.trace.instances import HAS_COLORS, HAS_NORMALS
+from renderer.trace.instances import HAS_COLORS, HAS_NORMALS, IS_STRETCHED
 from renderer.trace.packet_leaf import edge_function, homogeneous
 from renderer.trace.packet_sphere import (
     affine,
@@ -74,13 +74,12 @@ class SceneArrays(NamedTuple):
 
 
 class Pixels(NamedTuple):
-    """The rays of a square: image points, origins, directions and the latter's unit vectors."""
+    """The rays of a square: image points, origins and directions."""
 
     x: object
     y: object
     origin: object
     direction: object
-    along: object
 
 
 @inlined
@@ -99,8 +98,8 @@ def square_rays(view, first):
         splat(np.float32(ray[SHARED + 2])),
     )
     if view.parallel:
-        return Pixels(x, y, varying, shared, normalized_lanes(shared))
-    return Pixels(x, y, shared, varying, normalized_lanes(varying))
+        return Pixels(x, y, varying, shared)
+    return Pixels(x, y, shared, varying)
 
 
 @inlined
@@ -184,13 +183,13 @@ def instance_surface(view, world, scene, space, slots, at, mask, pixels, wants_t
     # The geometric normal, in world space, on the viewer's side.
     x, y, z = triangle_normals(world, slots, at, mask, ints)
     m, r = world.normal_matrix, space * 9
-    geometric = normalized_lanes(
-        (
-            fma(x, m[r], fma(y, m[r + 1], z * m[r + 2])),
-            fma(x, m[r + 3], fma(y, m[r + 4], z * m[r + 5])),
-            fma(x, m[r + 6], fma(y, m[r + 7], z * m[r + 8])),
-        )
+    geometric = (
+        fma(x, m[r], fma(y, m[r + 1], z * m[r + 2])),
+        fma(x, m[r + 3], fma(y, m[r + 4], z * m[r + 5])),
+        fma(x, m[r + 6], fma(y, m[r + 7], z * m[r + 8])),
     )
+    if world.attributes[space] & IS_STRETCHED:
+        geometric = normalized_lanes(geometric)
     side = select(
         dot_lanes(geometric, pixels.direction) < np.float32(0), splat(np.float32(1)), np.float32(-1)
     )
@@ -218,8 +217,7 @@ def instance_surface(view, world, scene, space, slots, at, mask, pixels, wants_t
                     view, world, scene, space, slots, same, pixels, geometric, side, wanted, floats
                 )
             left &= ~bits(same)
-    shading = load(floats, SHADING), load(floats, SHADING + LANES), load(floats, SHADING + 2 * LANES)
-    _store_masked(floats, SHADING, mask, not_grazing(shading, pixels.along))
+    bend_grazing(pixels.direction, mask, floats)
 
 
 @inlined
@@ -229,12 +227,23 @@ def _store_masked(floats, at, mask, a):
 
 
 @inlined
-def not_grazing(normal, along):
-    """The normal, bent just enough to face the viewer."""
-    cosine = dot_lanes(normal, along)
-    bent = cosine + GRAZING
+def bend_grazing(direction, mask, floats):
+    """Bends shading normals just enough to face the viewer, in the lanes of the mask."""
+    normal = _load3(floats, SHADING)
+    cosine = dot_lanes(normal, direction)
+    # Few squares have any: cosine > -GRAZING |direction|, without the root.
+    close = cosine * cosine < dot_lanes(direction, direction) * (GRAZING * GRAZING)
+    if bits(mask & (close | (cosine > np.float32(0)))) == 0:
+        return
+    along = normalized_lanes(direction)
+    bent = dot_lanes(normal, along) + GRAZING
     turned = normalized_lanes(minus_lanes(normal, scaled_lanes(bent, along)))
-    return select_lanes(bent > np.float32(0), turned, normal)
+    _store_masked(floats, SHADING, mask & (bent > np.float32(0)), turned)
+
+
+@inlined
+def _load3(floats, at):
+    return load(floats, at), load(floats, at + LANES), load(floats, at + 2 * LANES)
 
 
 @inlined
@@ -359,4 +368,5 @@ def sphere_surface(view, spheres, sphere, first, pixels, z, mask, floats):
     one = splat(np.float32(1))
     _store_masked(floats, TINT, mask, (one, one, one))
     _store_masked(floats, GEOMETRIC, mask, facing)
-    _store_masked(floats, SHADING, mask, not_grazing(facing, pixels.along))
+    _store_masked(floats, SHADING, mask, facing)
+    bend_grazing(pixels.direction, mask, floats)
