@@ -191,6 +191,25 @@ def test_every_camera_agrees_with_float64(rasterizer, name, projection):
     agrees(rasterizer, still_life(), camera)
 
 
+def test_normals_that_disagree_with_the_winding_are_turned(rasterizer):
+    """What counts is the side that is seen: neither the winding nor the normals' sign shows."""
+    corners = np.array([(-1, -1, -3), (1, -1, -2.5), (0, 1, -2)])
+    normals = np.array([(-0.6, 0, 0.8), (0.6, 0, 0.8), (0, 0.6, 0.8)])
+    light = (PointLight((1, 2, 3)),)
+    frames = []
+    for order in ([0, 1, 2], [0, 2, 1]):
+        for sign in (1, -1):
+            mesh = Mesh(corners, np.array([order]), normals=sign * normals)
+            rasterizer.set_scene(Scene((SceneObject(mesh),), light))
+            frames.append(rasterizer.render(WIDE, SIZE))
+    assert (frames[0].id == 0).sum() > 200
+    assert (frames[0].normal[frames[0].id == 0][:, 2] > 0.5).all()
+    for frame in frames[1:]:
+        both = (frame.id == 0) & (frames[0].id == 0)
+        np.testing.assert_allclose(frame.normal[both], frames[0].normal[both], atol=1e-5)
+        np.testing.assert_allclose(frame.color[both], frames[0].color[both], atol=1e-5)
+
+
 class TestNumbers:
     """What float32 would lose if it were not for the anchors and the rows of setup.py."""
 
@@ -218,6 +237,25 @@ class TestNumbers:
         )
         frame = agrees(rasterizer, planet, Camera.look_at((0, 0.05, 0), (0, 0, -0.3), fov_y_deg=60))
         assert (frame.id == 0).mean() > 0.5
+
+    def test_a_planets_horizon(self, rasterizer):
+        planet = Scene((SceneObject(Sphere((0, -1000, 0), 1000)),))
+        camera = Camera.look_at((0, 0.005, 0), (0, 0, -2), fov_y_deg=10)
+        rasterizer.set_scene(planet)
+        depth = rasterizer.render(camera, SIZE).depth
+        exact = reference(planet, camera, SIZE).depth
+        seen = exact < 3
+        assert seen.mean() > 0.1
+        np.testing.assert_allclose(depth[seen], exact[seen], rtol=1e-5)
+
+    def test_fine_checkers_through_a_telephoto_lens(self, rasterizer):
+        """Hundreds of borders in a row of pixels: a hit may not slide along the ray."""
+        fine = replace(CHECKERED, checker=Checker((0, 0, 0), 0.013))
+        shapes = Sphere((-0.8, 0, 0), 0.8), triangle((0, -1, 0.5), (1.6, -1, -0.3), (0.8, 2, 0))
+        scene = Scene(tuple(SceneObject(shape, fine) for shape in shapes))
+        camera = Camera.look_at((60, 120, 268), (0, 0, 0), fov_y_deg=0.6)
+        line = replace(camera, viewport=(-0.5, 0.5, -0.001, 0.001))
+        agrees(rasterizer, scene, line, (3000, 4))
 
     def test_a_plain_under_the_camera(self, rasterizer):
         plain = triangle((-500, 0, -500), (500, 0, -500), (0, 0, 900))
@@ -375,6 +413,22 @@ class TestSizesAndScenes:
         assert frame.depth is not None
         assert frame.depth.dtype == np.float32
         assert frame.time_s > 0
+
+
+def test_slivers_keep_to_the_colours_of_their_corners(rasterizer):
+    """Vertices are snapped to a fraction of a pixel: a centre may lie outside of what covers it."""
+    rng = np.random.default_rng(1)
+    corners = rng.uniform(-1, 1, (400, 3, 3)) - (0, 0, 3)
+    corners[:, 2] = corners[:, 1] + rng.normal(scale=0.004, size=(400, 3))
+    colors = np.tile(np.eye(3), (400, 1))  # the colour is the barycentrics
+    mesh = Mesh(corners.reshape(-1, 3), np.arange(1200).reshape(-1, 3), colors=colors)
+    white = Material((1, 1, 1))
+    rasterizer.set_scene(Scene((SceneObject(mesh, white),), ambient=(1, 1, 1)))
+    frame = rasterizer.render(WIDE, (200, 150))
+    seen = frame.color[frame.id == 0]
+    assert len(seen) > 1000
+    assert seen.min() >= 0
+    np.testing.assert_allclose(seen.sum(axis=1), 1, atol=1e-6)
 
 
 def test_samples_are_averaged_in_linear_light(rasterizer):
