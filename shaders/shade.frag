@@ -1,7 +1,7 @@
 #version 330 core
 // Once a pixel: from the number of the primitive that is seen to the hit and its colour.
-// HAS_TRIANGLES, HAS_SPHERES, HAS_NORMALS, HAS_COLORS, HAS_CHECKERS: constants put in above, so that a
-// scene does not pay for what it has not.
+// HAS_TRIANGLES, HAS_SPHERES, HAS_NORMALS, HAS_COLORS, HAS_CHECKERS: constants that are put in above,
+// so that a scene does not pay for what it has not (renderer/raster/programs.py).
 
 #include "chunks/triangle.glsl"
 #include "chunks/sphere.glsl"
@@ -31,9 +31,13 @@ void main() {
         hit.t = triangle_t(texelFetch(triangle_rows, texel(primitive), 0).xyz, xy);
         vec3 anchor = object_anchor(hit.object);
         vec3 anchor_world = object_anchor_world(hit.object);
-        vec3 a = texelFetch(vertices, texel(3 * face.x), 0).xyz - anchor_world;
-        vec3 b = texelFetch(vertices, texel(3 * face.y), 0).xyz - anchor_world;
-        vec3 c = texelFetch(vertices, texel(3 * face.z), 0).xyz - anchor_world;
+        mat3 corners = mat3(
+            texelFetch(vertices, texel(3 * face.x), 0).xyz,
+            texelFetch(vertices, texel(3 * face.y), 0).xyz,
+            texelFetch(vertices, texel(3 * face.z), 0).xyz);
+        vec3 a = corners[0] - anchor_world;
+        vec3 b = corners[1] - anchor_world;
+        vec3 c = corners[2] - anchor_world;
         vec3 weights = barycentrics(
             anchor + image_from_world * a,
             anchor + image_from_world * b,
@@ -42,7 +46,7 @@ void main() {
         hit.point = is_far(reach, hit.t)
             ? mat3(a, b, c) * weights
             : to_ray(anchor, xy) + (hit.t - anchor.z) * d;
-        hit.normal = normalize(cross(b - a, c - a));
+        hit.normal = normalize(cross(corners[1] - corners[0], corners[2] - corners[0]));
         if (HAS_NORMALS) {
             mat3 normals = mat3(
                 texelFetch(vertices, texel(3 * face.x + 1), 0).xyz,

@@ -48,8 +48,8 @@ bool counts(float t) {
     return t > t_range.x && t < t_range.y;
 }
 
-// Window depth: the place of t among the floats. The last bit of it stays for "nothing"
-// (rasterizer.py).
+// Window depth: the place of t among the floats. The farthest depth of all stays for "nothing"
+// (renderer/raster/scene_data.py).
 float depth(float t) {
     return clamp(float(floatBitsToInt(t) - depth_low) * depth_scale, 0.0, 0.999999);
 }
