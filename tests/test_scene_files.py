@@ -365,7 +365,7 @@ def test_the_default_scene_shows_near_far_and_hidden_things() -> None:
         ("a.toml", "a.toml: does not exist; "),
         ("a.obj", "a.obj: does not exist; "),
         ("a.png", "a.png: does not exist; "),
-        ("a\0b.toml", "a\0b.toml: cannot be read: "),
+        ("a\0b.toml", "a\\x00b.toml: cannot be read: "),
         ("a" * 5000, "scene: 'aaaa"),
         ("a" * 5000 + ".obj", "aaaa"),
     ],
