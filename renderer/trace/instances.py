@@ -17,6 +17,8 @@ from numpy.typing import NDArray
 
 from renderer.scene.flat import DIFFUSE_SHININESS, FlatScene
 from renderer.scene.model import Mesh, Scene
+from renderer.trace.compiled import inlined
+from renderer.trace.simd import pointer
 from renderer.trace.team import Team
 from renderer.trace.wide import FIRST_LEAF, WIDTH, WideTree, tree_of_boxes, tree_of_mesh
 
@@ -32,8 +34,10 @@ class World(NamedTuple):
 
     box, child, corner, face, normal: the nodes and leaves of all meshes, one after another.
     top_box, top_child: the upper tree; its leaf k is item k: instance k, or sphere k - instances.
+    top: where its traversal begins: node 0, or the leaf if there is one item only.
     root: int32, the node at which an instance's tree begins. root_object: int32, its object.
     first_primitive: int32, what added to a triangle's face number gives its primitive number.
+    object_from_world: float64, 12 an instance: the upper three rows of the matrix.
     normal_matrix: float32, 9 an instance, row by row: takes a normal to world space and keeps it on
         the winding's side; its length changes only where the transform changes angles.
     attributes: int32, HAS_NORMALS, HAS_COLORS, IS_STRETCHED.
@@ -53,14 +57,43 @@ class World(NamedTuple):
     root: NDArray[np.int32]
     root_object: NDArray[np.int32]
     first_primitive: NDArray[np.int32]
+    object_from_world: NDArray[np.float64]
     normal_matrix: NDArray[np.float32]
     attributes: NDArray[np.int32]
     dark_cosine: NDArray[np.float32]
     spheres: NDArray[np.float64]
     sphere_object: NDArray[np.int32]
+    top: int
     instances: int
     triangles: int
     is_empty: bool
+
+
+@inlined
+def world_pointers(world):
+    """The World with pointers for arrays, as stages take it."""
+    return World(
+        pointer(world.box),
+        pointer(world.child),
+        pointer(world.corner),
+        pointer(world.face),
+        pointer(world.normal),
+        pointer(world.top_box),
+        pointer(world.top_child),
+        pointer(world.root),
+        pointer(world.root_object),
+        pointer(world.first_primitive),
+        pointer(world.object_from_world),
+        pointer(world.normal_matrix),
+        pointer(world.attributes),
+        pointer(world.dark_cosine),
+        pointer(world.spheres),
+        pointer(world.sphere_object),
+        world.top,
+        world.instances,
+        world.triangles,
+        world.is_empty,
+    )
 
 
 class Instances:
@@ -161,11 +194,13 @@ class Instances:
             root=np.array([self._roots[_key(mesh)] for mesh in meshes], np.int32),
             root_object=object_number,
             first_primitive=flat.object_faces[object_number, 0],
+            object_from_world=np.linalg.inv(matrix)[:, :3].reshape(-1),
             normal_matrix=normal_matrix.astype(np.float32).reshape(-1),
             attributes=_attributes(meshes) | np.where(is_stretched, IS_STRETCHED, 0).astype(np.int32),
             dark_cosine=_NO_HIGHLIGHT ** (1 / flat.materials[:, DIFFUSE_SHININESS, 3]),
             spheres=spheres.reshape(-1),
             sphere_object=flat.sphere_object.copy(),
+            top=FIRST_LEAF if len(low) == 1 else 0,
             instances=len(meshes),
             triangles=len(flat.faces),
             is_empty=not len(low),

@@ -12,9 +12,9 @@ import numpy as np
 from renderer.trace.atomic import count_done, is_cancelled, take_next
 from renderer.trace.compiled import inlined, kernel
 from renderer.trace.image import BLOCK, Image
-from renderer.trace.instances import World
+from renderer.trace.instances import world_pointers
 from renderer.trace.packet_shade import shade_square
-from renderer.trace.packet_surface import SHADING, SceneArrays, find_surfaces, square_rays
+from renderer.trace.packet_surface import SHADING, find_surfaces, scene_pointers, square_rays
 from renderer.trace.packet_tile import (
     BEST,
     NOTHING,
@@ -27,7 +27,7 @@ from renderer.trace.packet_tile import (
     clear_tile,
     new_tile,
 )
-from renderer.trace.packet_view import PacketView
+from renderer.trace.packet_view import view_pointers
 from renderer.trace.packet_walk import walk_world
 from renderer.trace.simd import (
     LANES,
@@ -83,65 +83,6 @@ def trace_tile(row, column, view, world, scene, image, floats, ints):
         walk_world(view, world, tile, floats, ints)
     # Determine the colours.
     write_tile(view, world, scene, image, row, column, tile, floats, ints)
-
-
-@inlined
-def view_pointers(view):
-    return PacketView(
-        view.parallel,
-        view.width,
-        view.height,
-        view.slack_px,
-        view.key_far,
-        view.key_near,
-        view.z_far,
-        view.z_near,
-        view.scale,
-        pointer(view.rows),
-        pointer(view.rows_exact),
-        pointer(view.exact),
-        pointer(view.ray),
-        pointer(view.sphere_box),
-    )
-
-
-@inlined
-def world_pointers(world):
-    return World(
-        pointer(world.box),
-        pointer(world.child),
-        pointer(world.corner),
-        pointer(world.face),
-        pointer(world.normal),
-        pointer(world.top_box),
-        pointer(world.top_child),
-        pointer(world.root),
-        pointer(world.root_object),
-        pointer(world.first_primitive),
-        pointer(world.normal_matrix),
-        pointer(world.attributes),
-        pointer(world.dark_cosine),
-        pointer(world.spheres),
-        pointer(world.sphere_object),
-        world.instances,
-        world.triangles,
-        world.is_empty,
-    )
-
-
-@inlined
-def scene_pointers(scene):
-    ambient, background = scene.ambient, scene.background
-    return SceneArrays(
-        pointer(scene.faces),
-        pointer(scene.normals),
-        pointer(scene.colors),
-        pointer(scene.materials),
-        pointer(scene.lights),
-        len(scene.lights),
-        (ambient[0], ambient[1], ambient[2]),
-        (background[0], background[1], background[2]),
-    )
 
 
 @inlined

@@ -38,6 +38,7 @@ from renderer.trace.simd import (
     load,
     lowest_bit,
     mask_of,
+    pointer,
     select,
     splat,
     store,
@@ -71,6 +72,22 @@ class SceneArrays(NamedTuple):
     light_count: object
     ambient: object
     background: object
+
+
+@inlined
+def scene_pointers(scene):
+    """The SceneArrays of a FlatScene."""
+    ambient, background = scene.ambient, scene.background
+    return SceneArrays(
+        pointer(scene.faces),
+        pointer(scene.normals),
+        pointer(scene.colors),
+        pointer(scene.materials),
+        pointer(scene.lights),
+        len(scene.lights),
+        (ambient[0], ambient[1], ambient[2]),
+        (background[0], background[1], background[2]),
+    )
 
 
 class Pixels(NamedTuple):

@@ -25,7 +25,9 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from renderer.trace.compiled import inlined
 from renderer.trace.instances import Instances
+from renderer.trace.simd import pointer
 from renderer.trace.view import View
 
 # A space's numbers: an origin o, near the eye; for X, Y and Z a row (a, b, c, d) of the affine map
@@ -66,6 +68,27 @@ class PacketView(NamedTuple):
     exact: NDArray[np.uint8]
     ray: NDArray[np.float64]
     sphere_box: NDArray[np.float32]
+
+
+@inlined
+def view_pointers(view):
+    """The PacketView with pointers for arrays, as stages take it."""
+    return PacketView(
+        view.parallel,
+        view.width,
+        view.height,
+        view.slack_px,
+        view.key_far,
+        view.key_near,
+        view.z_far,
+        view.z_near,
+        view.scale,
+        pointer(view.rows),
+        pointer(view.rows_exact),
+        pointer(view.exact),
+        pointer(view.ray),
+        pointer(view.sphere_box),
+    )
 
 
 def packet_view(view: View, size: tuple[int, int], instances: Instances) -> PacketView:

@@ -59,8 +59,9 @@ def walk_world(view, world, tile, floats, ints):
     """Lets the tile's pixels see the scene: the upper tree, spheres and instances."""
     space = world.instances
     least = view.key_far
-    set_planes(view, space, tile, floats, ints)
-    floats[WAITING_DEPTHS], ints[WAITING_NODES] = np.float32(-np.inf), 0
+    floats[WAITING_DEPTHS], ints[WAITING_NODES] = np.float32(-np.inf), world.top
+    if world.top == 0:
+        set_planes(view, space, tile, floats, ints)
     top = 1
     while top > 0:
         top -= 1

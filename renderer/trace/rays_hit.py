@@ -1,0 +1,340 @@
+"""Single rays on the wide trees: the closest hit along a ray, and whether there is any.
+
+Owns the traversal for rays that have nothing in common: shadows, reflections, rays given by a
+user. In lanes are the 16 children of a node, then the 16 triangles of a leaf. Knows nothing of
+cameras and colours; a shading kernel may call closest_hit and any_hit.
+
+Rays and arithmetic are float32, relative to the ray's origin; spheres, float64.
+
+Sources: slabs, Kay and Kajiya 1986; Wald, Benthin and Boulos, "Getting Rid of Packets", 2008;
+triangles, Woop, Benthin and Wald, "Watertight Ray/Triangle Intersection", 2013.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import NamedTuple
+
+import numpy as np
+
+from renderer.trace.compiled import inlined
+from renderer.trace.simd import (
+    LANES,
+    bits,
+    fma,
+    load,
+    lowest_bit,
+    select,
+    smallest,
+    splat,
+    store,
+    vmax,
+    vmin,
+)
+from renderer.trace.wide import BOX, CORNERS, FIRST_LEAF, WIDTH
+
+_ROUNDING = np.float32(5e-7)  # relative: more than the roundings of a box test add up to
+_STEEP = np.float32(1e-9)  # a direction's component counts as at least this part of the largest
+_DEPTHS, _WAITING_DEPTHS = 0, LANES  # float32 scratch: children's depths, depths of waiting nodes
+
+
+class SpaceRay(NamedTuple):
+    """A ray in an instance's space (or the world's), prepared for boxes and for triangles.
+
+    near, far: columns of a node's boxes with the planes that the ray meets first and last.
+    inverse: 1 / direction. enter_add, leave_add: -origin / direction, with slack outwards.
+    axes: columns of a leaf's coordinates x, y, z, where z is the one in which the ray goes
+    farthest. origin: in these axes. shear: takes the direction to (0, 0, 1).
+    """
+
+    near: tuple[int, int, int]
+    far: tuple[int, int, int]
+    inverse: tuple[np.float32, np.float32, np.float32]
+    enter_add: tuple[np.float32, np.float32, np.float32]
+    leave_add: tuple[np.float32, np.float32, np.float32]
+    axes: tuple[int, int, int]
+    origin: tuple[np.float32, np.float32, np.float32]
+    shear: tuple[np.float32, np.float32, np.float32]
+
+
+@inlined
+def _steep(x, least):
+    return x if abs(x) > least else math.copysign(least, x)
+
+
+@inlined
+def space_ray(origin, direction):
+    """Prepares a ray; origin, direction: (3,) float64 in that space, direction not 0."""
+    ox, oy, oz = np.float32(origin[0]), np.float32(origin[1]), np.float32(origin[2])
+    dx, dy, dz = np.float32(direction[0]), np.float32(direction[1]), np.float32(direction[2])
+    ax, ay, az = abs(dx), abs(dy), abs(dz)
+    # Boxes: no division by 0, and no infinity times 0.
+    least = max(ax, ay, az) * _STEEP
+    one = np.float32(1)
+    ix, iy, iz = one / _steep(dx, least), one / _steep(dy, least), one / _steep(dz, least)
+    px, py, pz = -ox * ix, -oy * iy, -oz * iz
+    sx, sy, sz = abs(px) * _ROUNDING, abs(py) * _ROUNDING, abs(pz) * _ROUNDING
+    near = (
+        (0 if ix >= 0 else 3) * WIDTH,
+        (1 if iy >= 0 else 4) * WIDTH,
+        (2 if iz >= 0 else 5) * WIDTH,
+    )
+    far = 3 * WIDTH - near[0], 5 * WIDTH - near[1], 7 * WIDTH - near[2]
+    # Triangles: the axis of the largest component is z.
+    if ax >= ay and ax >= az:
+        axes, origin_, shear = (1, 2, 0), (oy, oz, ox), (dy * ix, dz * ix, ix)
+    elif ay >= az:
+        axes, origin_, shear = (2, 0, 1), (oz, ox, oy), (dz * iy, dx * iy, iy)
+    else:
+        axes, origin_, shear = (0, 1, 2), (ox, oy, oz), (dx * iz, dy * iz, iz)
+    return SpaceRay(
+        near,
+        far,
+        (ix, iy, iz),
+        (px - sx, py - sy, pz - sz),
+        (px + sx, py + sy, pz + sz),
+        (axes[0] * WIDTH, axes[1] * WIDTH, axes[2] * WIDTH),
+        origin_,
+        shear,
+    )
+
+
+@inlined
+def children_on_ray(box, node, ray, t_min, t_max):
+    """(mask, depths): children of a node that the ray enters within [t_min, t_max]."""
+    at = node * BOX
+    near, far, inverse = ray.near, ray.far, ray.inverse
+    enter, leave = ray.enter_add, ray.leave_add
+    t0 = vmax(
+        fma(load(box, at + near[0]), inverse[0], splat(enter[0])),
+        fma(load(box, at + near[1]), inverse[1], splat(enter[1])),
+    )
+    t0 = vmax(t0, fma(load(box, at + near[2]), inverse[2], splat(enter[2])))
+    t1 = vmin(
+        fma(load(box, at + far[0]), inverse[0], splat(leave[0])),
+        fma(load(box, at + far[1]), inverse[1], splat(leave[1])),
+    )
+    t1 = vmin(t1, fma(load(box, at + far[2]), inverse[2], splat(leave[2])))
+    t0 = vmax(t0 * (np.float32(1) - _ROUNDING), t_min)
+    return t0 <= vmin(t1 * (np.float32(1) + _ROUNDING), t_max), t0
+
+
+@inlined
+def triangles_on_ray(corner, leaf, ray, t_min, t_max):
+    """(bits, t): which of a leaf's triangles the ray meets within (t_min, t_max), and where.
+
+    Two triangles at a common edge compute exactly opposite numbers for it: products commute. So
+    there is no fma() here.
+    """
+    at = leaf * CORNERS
+    ax, ay, az = _sheared(corner, at, ray)
+    bx, by, bz = _sheared(corner, at + 3 * WIDTH, ray)
+    cx, cy, cz = _sheared(corner, at + 6 * WIDTH, ray)
+    e0, e1, e2 = cx * by - cy * bx, ax * cy - ay * cx, bx * ay - by * ax
+    zero = np.float32(0)
+    inside = (vmin(vmin(e0, e1), e2) >= zero) | (vmax(vmax(e0, e1), e2) <= zero)
+    t = splat(np.float32(np.inf))
+    found = bits(inside)
+    if found != 0:
+        # t is a mean of the corners', weighted by the edge functions: never outside them.
+        area = e0 + e1 + e2
+        t = (e0 * az + e1 * bz + e2 * cz) * ray.shear[2] / area
+        inside = inside & (area != zero) & (t > t_min) & (t < t_max)
+        found = bits(inside)
+        t = select(inside, t, np.float32(np.inf))
+    return found, t
+
+
+@inlined
+def _sheared(corner, at, ray):
+    """A corner of 16 triangles relative to the origin, sheared so that the ray is the z axis."""
+    z = load(corner, at + ray.axes[2]) - ray.origin[2]
+    x = (load(corner, at + ray.axes[0]) - ray.origin[0]) - z * ray.shear[0]
+    y = (load(corner, at + ray.axes[1]) - ray.origin[1]) - z * ray.shear[1]
+    return x, y, z
+
+
+@inlined
+def instance_ray(world, space, origin, direction):
+    """The ray in an instance's space; t stays what it is."""
+    m, at = world.object_from_world, 12 * space
+    ox, oy, oz = origin
+    dx, dy, dz = direction
+    return space_ray(
+        (
+            m[at] * ox + m[at + 1] * oy + m[at + 2] * oz + m[at + 3],
+            m[at + 4] * ox + m[at + 5] * oy + m[at + 6] * oz + m[at + 7],
+            m[at + 8] * ox + m[at + 9] * oy + m[at + 10] * oz + m[at + 11],
+        ),
+        (
+            m[at] * dx + m[at + 1] * dy + m[at + 2] * dz,
+            m[at + 4] * dx + m[at + 5] * dy + m[at + 6] * dz,
+            m[at + 8] * dx + m[at + 9] * dy + m[at + 10] * dz,
+        ),
+    )
+
+
+@inlined
+def sphere_on_ray(world, sphere, origin, direction, t_min, t_max):
+    """The least t within (t_min, t_max) where the ray meets a sphere; inf: none.
+
+    Source: Haines et al., "Precision Improvements for Ray/Sphere Intersection", 2019.
+    """
+    at, spheres = 4 * sphere, world.spheres
+    dx, dy, dz = direction
+    fx, fy, fz = origin[0] - spheres[at], origin[1] - spheres[at + 1], origin[2] - spheres[at + 2]
+    radius = spheres[at + 3]
+    a = dx * dx + dy * dy + dz * dz
+    b = -(fx * dx + fy * dy + fz * dz)
+    nx, ny, nz = fx + b / a * dx, fy + b / a * dy, fz + b / a * dz
+    left_over = radius * radius - (nx * nx + ny * ny + nz * nz)
+    if left_over < 0.0:
+        return np.inf
+    q = b + math.copysign(math.sqrt(a * left_over), b)
+    first, second = (fx * fx + fy * fy + fz * fz - radius * radius) / q, q / a
+    near, far = min(first, second), max(first, second)
+    if t_min < near < t_max:
+        return near
+    return far if t_min < far < t_max else np.inf
+
+
+@inlined
+def _push(found, depth, child, node, top, floats, ints):
+    """Puts the children in `found` on the stack, the nearest on top; gives its new height."""
+    lane = lowest_bit(found)
+    if found & (found - 1) == 0:
+        floats[_WAITING_DEPTHS + top] = np.float32(-np.inf)  # it is next: no need to look
+        ints[top] = child[node * WIDTH + lane]
+        return top + 1
+    store(floats, _DEPTHS, depth)
+    base = top
+    while found != 0:
+        lane = lowest_bit(found)
+        found &= found - 1
+        t = floats[_DEPTHS + lane]
+        i = top
+        while i > base and floats[_WAITING_DEPTHS + i - 1] < t:
+            floats[_WAITING_DEPTHS + i] = floats[_WAITING_DEPTHS + i - 1]
+            ints[i] = ints[i - 1]
+            i -= 1
+        floats[_WAITING_DEPTHS + i] = t
+        ints[i] = child[node * WIDTH + lane]
+        top += 1
+    return top
+
+
+@inlined
+def closest_in_instance(world, ray, root, base, t_min, t_max, floats, ints):
+    """(t, slot) of the closest triangle of an instance; (t_max, -1): none."""
+    closest, slot = t_max, np.int64(-1)
+    floats[_WAITING_DEPTHS + base], ints[base] = np.float32(-np.inf), root
+    top = base + 1
+    while top > base:
+        top -= 1
+        if floats[_WAITING_DEPTHS + top] >= closest:
+            continue
+        node = np.int64(ints[top])
+        if node >= 0:
+            inside, depth = children_on_ray(world.box, node, ray, t_min, closest)
+            found = bits(inside)
+            if found != 0:
+                top = _push(found, depth, world.child, node, top, floats, ints)
+            continue
+        leaf = FIRST_LEAF - node
+        found, t = triangles_on_ray(world.corner, leaf, ray, t_min, closest)
+        if found != 0:
+            closest = smallest(t)
+            slot = leaf * WIDTH + lowest_bit(bits(t == closest))
+    return closest, slot
+
+
+@inlined
+def closest_hit(world, origin, direction, t_min, t_max, floats, ints):
+    """(t, slot, space) of the closest hit along a ray: world space, t_min < t < t_max.
+
+    slot: of a triangle of instance `space`; or FIRST_LEAF - k for sphere k; -1: no hit, t is inf.
+    floats, ints: scratch of one thread, the stack's size and 16 more elements.
+    """
+    closest, slot, in_space = t_max, np.int64(-1), np.int64(-1)
+    if world.is_empty:
+        return np.float32(np.inf), slot, in_space
+    ray = space_ray(origin, direction)
+    floats[_WAITING_DEPTHS], ints[0] = np.float32(-np.inf), world.top
+    top = 1
+    while top > 0:
+        top -= 1
+        if floats[_WAITING_DEPTHS + top] >= closest:
+            continue
+        node = np.int64(ints[top])
+        if node >= 0:
+            inside, depth = children_on_ray(world.top_box, node, ray, t_min, closest)
+            found = bits(inside)
+            if found != 0:
+                top = _push(found, depth, world.top_child, node, top, floats, ints)
+            continue
+        item = FIRST_LEAF - node
+        if item >= world.instances:
+            sphere = item - world.instances
+            t = np.float32(sphere_on_ray(world, sphere, origin, direction, t_min, closest))
+            if t < closest:
+                closest, slot, in_space = t, FIRST_LEAF - sphere, np.int64(-1)
+            continue
+        inner = instance_ray(world, item, origin, direction)
+        t, found_slot = closest_in_instance(
+            world, inner, world.root[item], top, t_min, closest, floats, ints
+        )
+        if found_slot >= 0:
+            closest, slot, in_space = t, found_slot, item
+    return (closest if slot != -1 else np.float32(np.inf)), slot, in_space
+
+
+@inlined
+def any_in_instance(world, ray, root, base, t_min, t_max, ints):
+    """Whether the ray meets any triangle of an instance."""
+    ints[base] = root
+    top = base + 1
+    while top > base:
+        top -= 1
+        node = np.int64(ints[top])
+        if node >= 0:
+            inside, _ = children_on_ray(world.box, node, ray, t_min, t_max)
+            top = _push_any(bits(inside), world.child, node, top, ints)
+        elif triangles_on_ray(world.corner, FIRST_LEAF - node, ray, t_min, t_max)[0] != 0:
+            return True
+    return False
+
+
+@inlined
+def _push_any(found, child, node, top, ints):
+    while found != 0:
+        ints[top] = child[node * WIDTH + lowest_bit(found)]
+        found &= found - 1
+        top += 1
+    return top
+
+
+@inlined
+def any_hit(world, origin, direction, t_min, t_max, ints):
+    """Whether anything is hit with t_min < t < t_max; stops at the first, in no order."""
+    if world.is_empty:
+        return False
+    ray = space_ray(origin, direction)
+    ints[0] = world.top
+    top = 1
+    while top > 0:
+        top -= 1
+        node = np.int64(ints[top])
+        if node >= 0:
+            inside, _ = children_on_ray(world.top_box, node, ray, t_min, t_max)
+            top = _push_any(bits(inside), world.top_child, node, top, ints)
+            continue
+        item = FIRST_LEAF - node
+        if item >= world.instances:
+            sphere = item - world.instances
+            if sphere_on_ray(world, sphere, origin, direction, t_min, t_max) < np.inf:
+                return True
+            continue
+        inner = instance_ray(world, item, origin, direction)
+        if any_in_instance(world, inner, world.root[item], top, t_min, t_max, ints):
+            return True
+    return False
