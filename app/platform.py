@@ -9,6 +9,7 @@ platform, macOS and Windows.
 from __future__ import annotations
 
 import contextlib
+import ctypes
 import os
 import sys
 import threading
@@ -25,7 +26,7 @@ import moderngl
 from renderer.errors import LucidaError
 
 REQUIRED = (3, 3)
-LOWER_NICENESS = 5
+NICER = 5
 
 
 @dataclass(frozen=True)
@@ -57,12 +58,22 @@ def create_context() -> moderngl.Context:
     return moderngl.create_context(context=_Loader(), require=require)  # type: ignore[arg-type]
 
 
+def flush_opengl() -> None:
+    """Sends what is waiting to the GPU. A swap does that on a display; the null platform has no
+    display to swap to, and would draw nothing until somebody asks for the result."""
+    address = glfw.get_proc_address("glFlush")
+    if address:
+        ctypes.CFUNCTYPE(None)(ctypes.cast(address, ctypes.c_void_p).value or 0)()
+
+
 def lower_priority() -> None:
     """The calling thread, and the threads that it starts, give way to the window's (Linux)."""
     if sys.platform.startswith("linux"):
         with contextlib.suppress(OSError):
             # There, and against POSIX, niceness belongs to a thread and is inherited.
-            os.setpriority(os.PRIO_PROCESS, threading.get_native_id(), LOWER_NICENESS)
+            thread = threading.get_native_id()
+            niceness = os.getpriority(os.PRIO_PROCESS, thread) + NICER
+            os.setpriority(os.PRIO_PROCESS, thread, min(niceness, 19))
 
 
 def set_title(text: str) -> None:

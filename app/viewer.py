@@ -16,7 +16,7 @@ import numpy as np
 from imgui_bundle import hello_imgui, immapp
 
 from app import layout, theme
-from app.platform import start_platform
+from app.platform import Platform, flush_opengl, start_platform
 from app.state import AppState
 from app.window import MainWindow, title
 from renderer.atomic import atomic_write, check_writable
@@ -26,6 +26,7 @@ from renderer.scene import BUILTIN_SCENES, load_scene, load_view
 DEFAULT_SIZE = (1280, 720)
 DEFAULT_PICTURE = Path("lucida.png")
 SCREENSHOT_LIMIT_S = 180.0
+NULL_FPS = 60.0
 SWITCH_INTERVAL_S = 0.001  # a busy Python thread (a compilation) delays a frame by this, not 5 ms
 
 
@@ -52,8 +53,7 @@ def run_viewer(
         picture = DEFAULT_PICTURE
         check_writable(picture)
         print(f"lucida: no display ({platform.reason}): drawing the window once, into {picture}")
-    run = Run(state, size or DEFAULT_SIZE, take_picture=picture is not None)
-    run.params.fps_idling.fps_max = 0.0 if platform.has_display else 60.0
+    run = Run(platform, state, size or DEFAULT_SIZE, take_picture=picture is not None)
     pixels = run.run()
     if picture is not None:
         save_png(picture, pixels)
@@ -70,12 +70,14 @@ class Run:
 
     def __init__(
         self,
+        platform: Platform,
         state: AppState,
         size: tuple[int, int],
         take_picture: bool = False,
         remember: bool = True,
     ) -> None:
         self.window = MainWindow(state)
+        self._platform = platform
         self.take_picture = take_picture
         self._error: BaseException | None = None
         self._quiet_frames = 0
@@ -92,6 +94,8 @@ class Run:
         self._start_s = time.monotonic()
         try:
             immapp.run(self.params)
+        except Exception as error:  # often ImGui's complaint about the window that was left
+            self._error = self._error or error
         finally:
             sys.setswitchinterval(interval)
         if self._error is not None:
@@ -119,6 +123,8 @@ class Run:
         params.renderer_backend_options.open_gl_options.anti_aliasing_samples = 0
         params.fps_idling.fps_idle = 0.0 if self.take_picture else 1.0
         params.fps_idling.enable_idling = not self.take_picture
+        if not self._platform.has_display:  # nothing else paces the frames
+            params.fps_idling.fps_max = NULL_FPS
         params.fps_idling.time_active_after_last_event = 1.0
         params.docking_params = layout.side_by_side(
             self.window.dockable_windows(), size[0], theme.TEXT_PX
@@ -151,6 +157,8 @@ class Run:
         return call
 
     def _after_frame(self) -> None:
+        if not self._platform.has_display:
+            flush_opengl()
         if not self.take_picture:
             return
         if self.window.failure is not None:

@@ -238,7 +238,9 @@ class MainWindow:
             return
         imgui.push_style_var(imgui.StyleVar_.window_padding, ImVec2(1, 1))
         opened, visible = imgui.begin(
-            dockable.label, True, flags.no_scrollbar | flags.no_scroll_with_mouse
+            dockable.label,
+            True,
+            flags.no_scrollbar | flags.no_scroll_with_mouse | flags.no_background,
         )
         dockable.is_visible = bool(visible)
         imgui.pop_style_var()

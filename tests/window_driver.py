@@ -1,10 +1,10 @@
 """Drives the real window with ImGui's test engine, on GLFW's null platform; a process of its own.
 
-    python window_driver.py REPORT.json FOLDER
+    python window_driver.py REPORT.json FOLDER [PART OF A NAME ...]
 
-runs every function of this file whose name begins with `drive_`, in order, in one window, and
-writes a JSON object from their names to "" or the traceback of their failure. Pictures of the
-window are left in FOLDER. test_window.py runs it and tells the results.
+runs every function of this file whose name begins with `drive_` (or those named), in order, in
+one window, and writes a JSON object from their names to "" or the traceback of their failure.
+Pictures of the window are left in FOLDER. test_window.py runs it and tells the results.
 """
 
 from __future__ import annotations
@@ -47,7 +47,7 @@ class Driver:
         self.folder = folder
         state = AppState.for_scene(load_scene("still-life"))
         self.start = state
-        self.run = Run(state, SIZE, remember=False)
+        self.run = Run(start_platform(want_display=False), state, SIZE, remember=False)
         self.window = self.run.window
         self.ctx: Any = None
         self.stay = False  # the mouse, while a picture is taken
@@ -460,12 +460,25 @@ def drive_15_windows_can_be_hidden(d: Driver) -> None:
     assert abs(d.window.size[0] - both[0]) <= 2
 
 
-def main(report: Path, folder: Path) -> None:
+def close_at_work(report: Path, folder: Path) -> None:
+    """Closes the window while a tracer prepares, which nothing can cancel."""
+    driver = Driver(folder)
+    driver.window.live._make_tracer = lambda scene: threading.Event().wait()
+    frames = iter(range(20))
+
+    def count() -> None:
+        driver.run.params.app_shall_exit = next(frames, None) is None
+
+    driver.run.params.callbacks.post_new_frame = count
+    driver.run.run()
+    busy = driver.window.live.busy
+    report.write_text(json.dumps({"close_at_work": "" if busy else "the tracer was not at work"}))
+
+
+def main(report: Path, folder: Path, only: list[str]) -> None:
     tests = {name: test for name, test in globals().items() if name.startswith("drive_")}
-    only = sys.argv[3:]
     tests = {n: t for n, t in tests.items() if not only or any(part in n for part in only)}
     results = dict.fromkeys(tests, "was not run")
-    start_platform(want_display=False)
     driver = Driver(folder)
     params = driver.run.params
 
@@ -497,7 +510,6 @@ def main(report: Path, folder: Path) -> None:
     params.use_imgui_test_engine = True
     params.callbacks.register_tests = register
     params.fps_idling.enable_idling = False
-    params.fps_idling.fps_max = 60.0
     try:
         driver.run.run()
     finally:
@@ -505,4 +517,7 @@ def main(report: Path, folder: Path) -> None:
 
 
 if __name__ == "__main__":
-    main(Path(sys.argv[1]), Path(sys.argv[2]))
+    if sys.argv[3:] == ["close_at_work"]:
+        close_at_work(Path(sys.argv[1]), Path(sys.argv[2]))
+    else:
+        main(Path(sys.argv[1]), Path(sys.argv[2]), sys.argv[3:])

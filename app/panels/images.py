@@ -105,9 +105,8 @@ def image_pane(pane: Pane, state: AppState, grab: Grab | None) -> PaneResult:
     far = ImVec2(origin.x + extent.x, origin.y + extent.y)
     draw = imgui.get_window_draw_list()
     texture = pane.texture(state)
-    if texture is None:
-        draw.add_rect_filled(origin, far, theme.u32(theme.BACKGROUND))
-    else:
+    _surround(draw, corner, avail, origin, origin if texture is None else far)
+    if texture is not None:
         draw.add_image(imgui.ImTextureRef(texture), origin, far)
     if pane.marked is not None and grab is None:
         _mark(draw, pane.marked, origin, unit)
@@ -190,6 +189,21 @@ def _image_point(
     row, column = (mouse.y - origin.y) / unit - 0.5, (mouse.x - origin.x) / unit - 0.5
     x, y = camera.image_point(row, column, size)
     return float(x), float(y)
+
+
+def _surround(
+    draw: imgui.ImDrawList, corner: ImVec2, avail: ImVec2, origin: ImVec2, far: ImVec2
+) -> None:
+    """Fills what the image leaves of the window (whose own background would be drawn twice)."""
+    end = ImVec2(corner.x + avail.x, corner.y + avail.y)
+    for low, high in (
+        (corner, ImVec2(end.x, origin.y)),
+        (ImVec2(corner.x, far.y), end),
+        (ImVec2(corner.x, origin.y), ImVec2(origin.x, far.y)),
+        (ImVec2(far.x, origin.y), ImVec2(end.x, far.y)),
+    ):
+        if high.x > low.x and high.y > low.y:
+            draw.add_rect_filled(low, high, theme.u32(theme.BACKGROUND))
 
 
 def _mark(draw: imgui.ImDrawList, pixel: Pixel, origin: ImVec2, unit: float) -> None:

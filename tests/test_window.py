@@ -1,0 +1,193 @@
+"""The window, driven: real widgets, real events, real pixels, in processes of their own."""
+
+from __future__ import annotations
+
+import ast
+import json
+import os
+import shutil
+import subprocess
+import sys
+import time
+from collections.abc import Iterator
+from pathlib import Path
+
+import numpy as np
+import pytest
+from PIL import Image
+
+TESTS = Path(__file__).parent
+DRIVER = TESTS / "window_driver.py"
+LIMIT_S = 240  # the first run compiles the tracer
+DRIVES = [
+    node.name
+    for node in ast.parse(DRIVER.read_text()).body
+    if isinstance(node, ast.FunctionDef) and node.name.startswith("drive_")
+]
+
+
+def environment(folder: Path, display: str | None = None) -> dict[str, str]:
+    """No display unless one is given, and no settings of whoever runs the tests."""
+    variables = {k: v for k, v in os.environ.items() if k not in ("DISPLAY", "WAYLAND_DISPLAY")}
+    variables |= {"XDG_CONFIG_HOME": str(folder / "config"), "PYTHONPATH": str(TESTS.parent)}
+    return variables | ({"DISPLAY": display} if display else {})
+
+
+def run(
+    arguments: list[str], folder: Path, display: str | None = None
+) -> subprocess.CompletedProcess[str]:
+    return subprocess.run(
+        [sys.executable, *arguments],
+        cwd=folder,
+        env=environment(folder, display),
+        capture_output=True,
+        text=True,
+        timeout=LIMIT_S,
+    )
+
+
+def drive(folder: Path, *names: str) -> dict[str, str]:
+    report = folder / "report.json"
+    done = run([str(DRIVER), str(report), str(folder), *names], folder)
+    assert report.exists(), done.stdout[-2000:] + done.stderr[-2000:]
+    assert done.returncode == 0, done.stdout[-2000:] + done.stderr[-2000:]
+    return json.loads(report.read_text())
+
+
+@pytest.fixture(scope="module")
+def driven(tmp_path_factory: pytest.TempPathFactory) -> dict[str, str]:
+    return drive(tmp_path_factory.mktemp("window"))
+
+
+@pytest.mark.parametrize("name", DRIVES)
+def test_the_window(driven: dict[str, str], name: str) -> None:
+    assert driven[name] == ""
+
+
+def test_closing_while_the_tracer_works(tmp_path: Path) -> None:
+    assert drive(tmp_path, "close_at_work") == {"close_at_work": ""}
+
+
+def check_picture(path: Path, size: tuple[int, int]) -> None:
+    """Both images are there, side by side, and nearly equal."""
+    picture = np.asarray(Image.open(path).convert("RGB")).astype(int)
+    assert picture.shape == (size[1], size[0], 3)
+    assert picture.std() > 20
+    panel = round(19.5 * 16)
+    images = picture[60 : size[1] - 60, panel + 12 :]
+    middle = images.shape[1] // 2
+    left, right = images[:, 20 : middle - 20], images[:, middle + 20 : -20]
+    width = min(left.shape[1], right.shape[1])
+    # The dividing line may lie a pixel or two beside the middle.
+    best = min(
+        np.abs(left[:, 4 + k : width - 8 + k] - right[:, 4 : width - 8]).mean()
+        for k in range(-4, 5)
+    )
+    assert best < 3
+
+
+def test_no_display(tmp_path: Path) -> None:
+    done = run(["-m", "app"], tmp_path)
+    assert done.returncode == 0, done.stderr
+    first, last = done.stdout.splitlines()
+    assert "no display" in first
+    assert "lucida.png" in last
+    check_picture(tmp_path / "lucida.png", (1280, 720))
+    assert not (tmp_path / "config").exists()  # pictures neither read nor write settings
+    assert sorted(path.name for path in tmp_path.iterdir()) == ["lucida.png"]
+
+
+def test_screenshot_of_any_size_and_scene(tmp_path: Path) -> None:
+    picture = tmp_path / "out.png"
+    done = run(
+        ["-m", "app", "spheres", "--screenshot", str(picture), "--size", "1000x600"], tmp_path
+    )
+    assert done.returncode == 0, done.stderr
+    assert done.stdout == ""
+    check_picture(picture, (1000, 600))
+
+
+def test_mistakes_are_one_line(tmp_path: Path) -> None:
+    done = run(["-m", "app", "nowhere.obj"], tmp_path)
+    assert done.returncode == 2
+    assert done.stderr.count("\n") == 1
+    assert "nowhere.obj" in done.stderr
+    done = run(["-m", "app", "--screenshot", "no/such/folder.png"], tmp_path)
+    assert done.returncode == 2
+    assert done.stderr.count("\n") == 1
+
+
+def test_no_opengl_is_one_clear_error(monkeypatch: pytest.MonkeyPatch) -> None:
+    from app import platform
+    from renderer.errors import LucidaError
+
+    monkeypatch.delenv("DISPLAY", raising=False)
+    monkeypatch.delenv("WAYLAND_DISPLAY", raising=False)
+    monkeypatch.setattr(platform.glfw, "create_window", lambda *_: None)
+    with pytest.raises(LucidaError, match=r"OpenGL 3\.3.*install"):
+        platform.start_platform(want_display=False)
+    platform.glfw.terminate()
+
+
+@pytest.fixture
+def xvfb() -> Iterator[str]:
+    """A display that nobody looks at."""
+    program = shutil.which("Xvfb")
+    if program is None:
+        pytest.skip("Xvfb is not installed")
+    read, write = os.pipe()
+    arguments = [program, "-displayfd", str(write), "-screen", "0", "1400x900x24"]
+    server = subprocess.Popen(arguments, pass_fds=(write,), stderr=subprocess.DEVNULL)
+    os.close(write)
+    with os.fdopen(read) as pipe:
+        number = pipe.readline().strip()
+    try:
+        if not number:
+            pytest.skip("Xvfb did not start")
+        yield f":{number}"
+    finally:
+        server.terminate()
+        server.wait()
+
+
+def test_on_a_display(tmp_path: Path, xvfb: str) -> None:
+    picture = tmp_path / "out.png"
+    done = run(["-m", "app", "--screenshot", str(picture)], tmp_path, xvfb)
+    assert done.returncode == 0, done.stderr
+    check_picture(picture, (1280, 720))
+    assert not (tmp_path / "config").exists()
+
+
+def test_idle_means_idle_and_settings_are_the_users(tmp_path: Path, xvfb: str) -> None:
+    """Once all is still, next to no frames are drawn; the layout is kept in the user's folder."""
+    script = """
+import sys, threading, time
+from app.platform import start_platform
+from app.state import AppState
+from app.viewer import Run
+from renderer.scene import load_scene
+
+platform = start_platform()
+assert platform.has_display, platform.reason
+run = Run(platform, AppState.for_scene(load_scene("spheres")), (900, 600))
+frames = []
+run.params.callbacks.post_new_frame = lambda: frames.append(time.monotonic())
+
+def watch():
+    while not run.window.settled:
+        time.sleep(0.05)
+    time.sleep(2.0)
+    before = len(frames)
+    time.sleep(4.0)
+    print(len(frames) - before)
+    run.params.app_shall_exit = True
+
+threading.Thread(target=watch, daemon=True).start()
+run.run()
+"""
+    start_s = time.monotonic()
+    done = run(["-c", script], tmp_path, xvfb)
+    assert done.returncode == 0, done.stderr
+    assert int(done.stdout) < 40, f"{done.stdout} frames in 4 s, {time.monotonic() - start_s:.0f}"
+    assert (tmp_path / "config" / "lucida" / "window.ini").exists()
+    assert sorted(path.name for path in tmp_path.iterdir()) == ["config"]
