@@ -41,6 +41,8 @@ from renderer.trace.simd import (
     store_square3,
 )
 
+_ACROSS = BLOCK // TILE  # tiles of a block, in a row
+
 
 @kernel
 def trace_packets(view, world, scene, image, stack_size, control):
@@ -50,39 +52,33 @@ def trace_packets(view, world, scene, image, stack_size, control):
     """
     rows, columns = image.finished.shape
     floats = np.empty(WAITING_DEPTHS + stack_size + LANES, np.float32)
-    ints = np.zeros(WAITING_NODES + stack_size + LANES, np.int32)
-    pointers = (
-        view_pointers(view),
-        world_pointers(world),
-        scene_pointers(scene),
-        image_pointers(image),
-        pointer(floats),
-        pointer(ints),
-    )
+    ints = np.empty(WAITING_NODES + stack_size + LANES, np.int32)
+    view, world = view_pointers(view), world_pointers(world)
+    scene, pixels = scene_pointers(scene), image_pointers(image)
+    floats_at, ints_at = pointer(floats), pointer(ints)
     while True:
         block = take_next(control)
         if block >= rows * columns:
             return
         top, left = block // columns * BLOCK, block % columns * BLOCK
-        for row in range(top, min(top + BLOCK, image.height), TILE):
-            for column in range(left, min(left + BLOCK, image.width), TILE):
-                if is_cancelled(control):
-                    return
-                trace_tile(row, column, *pointers)
+        for part in range(_ACROSS * _ACROSS):
+            row, column = top + part // _ACROSS * TILE, left + part % _ACROSS * TILE
+            if row >= image.height or column >= image.width:
+                continue
+            if is_cancelled(control):
+                return
+            # Find the closest objects.
+            tile = new_tile(view, row, column)
+            clear_tile(view, row, column, floats_at, ints_at)
+            if not world.is_empty:
+                walk_world(view, world, tile, floats_at, ints_at)
+            # Determine the colours.
+            for square in range(SQUARES):
+                write_square(
+                    view, world, scene, pixels, row, column, tile, square, floats_at, ints_at
+                )
         image.finished[block // columns, block % columns] = 1
         count_done(control)
-
-
-@inlined
-def trace_tile(row, column, view, world, scene, image, floats, ints):
-    """Traces the tile whose first pixel is (row, column)."""
-    # Find the closest objects.
-    tile = new_tile(view, row, column)
-    clear_tile(view, row, column, floats, ints)
-    if not world.is_empty:
-        walk_world(view, world, tile, floats, ints)
-    # Determine the colours.
-    write_tile(view, world, scene, image, row, column, tile, floats, ints)
 
 
 @inlined
@@ -105,19 +101,12 @@ def image_pointers(image):
 
 
 @inlined
-def write_tile(view, world, scene, image, row, column, tile, floats, ints):
-    """Writes the channels that the image has, square by square."""
-    for square in range(SQUARES):
-        dx, dy = (square & 3) * SQUARE, (square >> 2) * SQUARE
-        i, j = row + dy, column + dx
-        if i < image.height and j < image.width:
-            first = tile.x + np.float32(dx), tile.y + np.float32(dy)
-            write_square(view, world, scene, image, i, j, first, square, floats, ints)
-
-
-@inlined
-def write_square(view, world, scene, image, i, j, first, square, floats, ints):
-    """Writes a square's pixels, of which the first is (i, j) and at the image point `first`."""
+def write_square(view, world, scene, image, row, column, tile, square, floats, ints):
+    """Writes the channels that the image has, of one square of the tile at (row, column)."""
+    i, j = row + (square >> 2) * SQUARE, column + (square & 3) * SQUARE
+    if i >= image.height or j >= image.width:
+        return
+    first = tile.x + np.float32(j - column), tile.y + np.float32(i - row)
     best, seen = load(floats, BEST + LANES * square), load(ints, SEEN + LANES * square)
     is_hit = seen != NOTHING
     z = -best if view.parallel else splat(np.float32(1)) / best

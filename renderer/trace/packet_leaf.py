@@ -59,6 +59,8 @@ from renderer.trace.wide import CORNERS, WIDTH
 # at any depth: below this part of the terms that it is the sum of, it counts as 0.
 EDGE_ON = np.float32(3e-7)
 
+_E0, _E1, _E2, _KEY = np.arange(4)  # a triangle's functions, in the order of their coefficients
+
 
 @inlined
 def _camera_corner(corner, at, rows, r):
@@ -207,10 +209,10 @@ def see_leaf(view, corner, leaf, space, tile, least, floats, ints):
     while left != 0:
         lane = lowest_bit(left)
         left &= left - 1
-        may = _bound(floats, lane, 0) >= np.float32(0)
-        may = may & (_bound(floats, lane, 1) >= np.float32(0))
-        may = may & (_bound(floats, lane, 2) >= np.float32(0))
-        may = may & (_bound(floats, lane, 3) > nearest)
+        may = _bound(floats, lane, _E0) >= np.float32(0)
+        may = may & (_bound(floats, lane, _E1) >= np.float32(0))
+        may = may & (_bound(floats, lane, _E2) >= np.float32(0))
+        may = may & (_bound(floats, lane, _KEY) > nearest)
         squares = bits(may)
         ints[COVERED + lane] = squares
         covered |= squares

@@ -56,6 +56,7 @@ from renderer.trace.simd_math import (
 from renderer.trace.wide import CORNERS, WIDTH
 
 GRAZING = np.float32(1e-3)  # the cosine that shading normals keep, at least, towards the viewer
+_X, _Y, _Z = np.arange(3)
 SINGLES = 3  # triangles that are taken one by one before the rest gather
 # Vectors of a square's surface in the scratch: geometric and shading normal, vertex colour.
 GEOMETRIC, SHADING, TINT = SURFACE, SURFACE + 3 * LANES, SURFACE + 6 * LANES
@@ -104,11 +105,7 @@ def square_rays(view, first):
     """The rays of the 4 x 4 pixels whose first is at the image point `first`."""
     x, y = lane_column() + first[0], lane_row() + first[1]
     ray = view.ray
-    varying = (
-        _ray_lanes(ray, 0, x, y),
-        _ray_lanes(ray, 1, x, y),
-        _ray_lanes(ray, 2, x, y),
-    )
+    varying = _ray_lanes(ray, _X, x, y), _ray_lanes(ray, _Y, x, y), _ray_lanes(ray, _Z, x, y)
     shared = (
         splat(np.float32(ray[SHARED])),
         splat(np.float32(ray[SHARED + 1])),
@@ -219,20 +216,12 @@ def instance_surface(view, world, scene, space, slots, at, mask, pixels, wants_t
     wanted = world.attributes[space] & (HAS_NORMALS | (HAS_COLORS if wants_tint else 0))
     if wanted != 0:
         left = bits(mask)
-        turn = 0
         while left != 0:
-            turn += 1
-            if turn <= SINGLES:
-                slot = np.int64(ints[at + lowest_bit(left)])
-                same = mask & (slots == np.int32(slot))
-                interpolate(
-                    view, world, scene, space, slot, same, pixels, geometric, side, wanted, floats
-                )
-            else:
-                same = mask_of(left)
-                interpolate(
-                    view, world, scene, space, slots, same, pixels, geometric, side, wanted, floats
-                )
+            slot = np.int64(ints[at + lowest_bit(left)])
+            same = mask & (slots == np.int32(slot))
+            interpolate(
+                view, world, scene, space, slot, same, pixels, geometric, side, wanted, floats
+            )
             left &= ~bits(same)
     bend_grazing(pixels.direction, mask, floats)
 
@@ -365,8 +354,8 @@ def sphere_surface(view, spheres, sphere, first, pixels, z, mask, floats):
     a, b = quadratic(equation[0], x, y), affine(equation[1], x, y)
     discriminant = quadratic(equation[3], x, y)
     m = moment(f, d)
-    dx, dy, dz = _component(d, 0, x, y), _component(d, 1, x, y), _component(d, 2, x, y)
-    mx, my, mz = _component(m, 0, x, y), _component(m, 1, x, y), _component(m, 2, x, y)
+    dx, dy, dz = _component(d, _X, x, y), _component(d, _Y, x, y), _component(d, _Z, x, y)
+    mx, my, mz = _component(m, _X, x, y), _component(m, _Y, x, y), _component(m, _Z, x, y)
     inverse = splat(np.float32(1)) / a
     # The length of half the chord, in parameters.
     half = vsqrt(select(discriminant > np.float32(0), discriminant, np.float32(0))) * inverse

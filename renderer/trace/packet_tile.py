@@ -47,7 +47,8 @@ COVERED = FARTHEST + 32
 WAITING_NODES = COVERED + LANES
 NOTHING, FIRST_SPHERE = np.int32(-1), np.int32(-2)
 
-LEFT, RIGHT, TOP, BOTTOM, BEHIND, AHEAD = range(6)  # the planes: four sides, -Z and Z
+# The planes: four sides, -Z and Z. Not Python's int, for each of which a function is compiled anew.
+LEFT, RIGHT, TOP, BOTTOM, BEHIND, AHEAD = np.arange(6)
 
 
 class Tile(NamedTuple):

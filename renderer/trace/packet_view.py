@@ -36,7 +36,7 @@ ORIGIN, ROW_X, ROW_Y, ROW_Z, EXTENT, ROWS = 0, 3, 7, 11, 15, 16
 
 # The rays: direction (perspective) or origin (parallel) at the image's centre, and what a pixel
 # to the right and a pixel down add to it; then the other, which all pixels share.
-VARYING, ACROSS, DOWN, SHARED = 0, 3, 6, 9
+VARYING, ACROSS, DOWN, SHARED = np.array([0, 3, 6, 9])
 
 # float32 has digits for this many pixels: where a space's extent would be seen larger than that,
 # its corners go to camera coordinates in float64. Three roundings then are 1/300 of a pixel.
