@@ -40,6 +40,35 @@ def side_by_side(
     return params
 
 
+class Proportion:
+    """Keeps the two images' shares of the room when the window is resized.
+
+    ImGui would give all of the difference to one of them. The user's own division stays.
+    """
+
+    def __init__(self) -> None:
+        self._room = 0.0
+        self._share = 0.5
+        self._settling = 0  # frames until the new sizes are there
+
+    def keep(self) -> None:
+        """Call once a frame."""
+        params = hello_imgui.get_runner_params().docking_params
+        space = params.dock_space_id_from_name(RIGHT_SPACE)
+        node = imgui.internal.dock_builder_get_node(space) if space is not None else None
+        parent = node.parent_node if node is not None else None
+        if node is None or parent is None or parent.size.x <= 0:
+            return
+        if parent.size.x != self._room:
+            size = (self._share * parent.size.x, node.size.y)
+            imgui.internal.dock_builder_set_node_size(node.id_, size)
+            self._room, self._settling = parent.size.x, 2
+        elif self._settling:
+            self._settling -= 1
+        else:
+            self._share = node.size.x / parent.size.x
+
+
 def _split(
     space: str, new_space: str, direction: imgui.Dir, ratio: float
 ) -> hello_imgui.DockingSplit:

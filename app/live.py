@@ -165,9 +165,9 @@ class LiveTrace:
                 if tracer is None or request.scene is not scene:
                     if tracer is not None:
                         tracer.close()
-                    tracer, scene, pixel_s = self._make_tracer(request.scene), request.scene, 0.0
                     with self._changed:
                         self._began_s = time.monotonic()
+                    tracer, scene, pixel_s = self._make_tracer(request.scene), request.scene, 0.0
                 pixel_s = self._trace(tracer, request, pixel_s)
             except Exception as error:  # shown in the window, which goes on
                 tracer = None

@@ -40,14 +40,28 @@ class Platform:
 def start_platform(want_display: bool = True) -> Platform:
     """Starts GLFW on a display, or on the null platform (with EGL) where there is none.
 
-    want_display: False for the null platform in any case. Raises LucidaError where no OpenGL 3.3
-    context can be had: one line that says what to install.
+    want_display: False for the null platform, if that works here: pictures then have any size,
+    and no window is seen. Raises LucidaError where no OpenGL 3.3 context can be had: one line that
+    says what to install.
     """
-    platform = _with_display() if want_display else Platform(False, "not asked for")
-    if not platform.has_display:
+    if want_display:
+        platform = _with_display()
+        if not platform.has_display:
+            _start_null()
+        _check_opengl(platform)
+        return platform
+    try:
         _start_null()
-    _check_opengl(platform)
-    return platform
+        _check_opengl(platform := Platform(False, "not asked for"))
+        return platform
+    except LucidaError:
+        glfw.terminate()
+        glfw.init_hint(glfw.PLATFORM, glfw.ANY_PLATFORM)
+        platform = _with_display()
+        if not platform.has_display:
+            raise
+        _check_opengl(platform)
+        return platform
 
 
 def create_context() -> moderngl.Context:
@@ -88,6 +102,40 @@ def on_drop(dropped: Callable[[list[str]], None]) -> None:
     window = glfw.get_current_context()
     if window:
         glfw.set_drop_callback(window, lambda _window, paths: dropped(paths))  # type: ignore
+
+
+def set_size(size: tuple[int, int]) -> None:
+    """(width, height) of the window whose context is current, in screen coordinates."""
+    window = glfw.get_current_context()
+    if window and glfw.get_window_size(window) != size:
+        glfw.set_window_size(window, *size)
+
+
+class Canvas:
+    """What the window is drawn into on the null platform: a framebuffer of any size.
+
+    There, the window's own has the size that it was made with, at most that of an imaginary
+    monitor of 1920 x 1080. Left bound, so that pictures of the window are read from it.
+    """
+
+    def __init__(self, context: moderngl.Context) -> None:
+        self._context = context
+        self._target: moderngl.Framebuffer | None = None
+
+    def bind(self) -> None:
+        """Call before ImGui draws."""
+        size = glfw.get_framebuffer_size(glfw.get_current_context())
+        if self._target is None or self._target.size != size:
+            self.release()
+            color = self._context.renderbuffer(size, 4)
+            self._target = self._context.framebuffer([color])
+        self._target.use()
+
+    def release(self) -> None:
+        if self._target is not None:
+            for part in (*self._target.color_attachments, self._target):
+                part.release()
+            self._target = None
 
 
 class _Loader:

@@ -16,7 +16,14 @@ import numpy as np
 from imgui_bundle import hello_imgui, immapp
 
 from app import layout, theme
-from app.platform import Platform, flush_opengl, start_platform
+from app.platform import (
+    Canvas,
+    Platform,
+    create_context,
+    flush_opengl,
+    set_size,
+    start_platform,
+)
 from app.state import AppState
 from app.window import MainWindow, title
 from renderer.atomic import atomic_write, check_writable
@@ -47,7 +54,7 @@ def run_viewer(
     state = AppState.for_scene(scene, None if view is None else load_view(view))
     if screenshot is not None:
         check_writable(screenshot)
-    platform = start_platform()
+    platform = start_platform(want_display=screenshot is None)
     picture = screenshot
     if not platform.has_display and picture is None:
         picture = DEFAULT_PICTURE
@@ -78,6 +85,8 @@ class Run:
     ) -> None:
         self.window = MainWindow(state)
         self._platform = platform
+        self._size = size
+        self._canvas: Canvas | None = None
         self.take_picture = take_picture
         self._error: BaseException | None = None
         self._quiet_frames = 0
@@ -132,7 +141,8 @@ class Run:
         callbacks = params.callbacks
         callbacks.load_additional_fonts = self._guarded(self.window.fonts.load)
         callbacks.setup_imgui_style = self._guarded(theme.apply)
-        callbacks.post_init = self._guarded(self.window.begin)
+        callbacks.post_init = self._guarded(self._begin)
+        callbacks.before_imgui_render = self._guarded(self._before_render)
         callbacks.show_menus = self._guarded(self.window.menus)
         callbacks.show_status = self._guarded(self.window.status)
         callbacks.show_gui = self._guarded(self.window.frame)
@@ -155,6 +165,17 @@ class Run:
                 self.params.app_shall_exit = True
 
         return call
+
+    def _begin(self) -> None:
+        context = create_context()
+        if not self._platform.has_display:
+            set_size(self._size)
+            self._canvas = Canvas(context)
+        self.window.begin(context)
+
+    def _before_render(self) -> None:
+        if self._canvas is not None:
+            self._canvas.bind()
 
     def _after_frame(self) -> None:
         if not self._platform.has_display:

@@ -10,6 +10,7 @@ from __future__ import annotations
 import math
 import time
 
+import moderngl
 from imgui_bundle import ImVec2, hello_imgui, imgui
 
 from app import __version__, layout, theme
@@ -25,7 +26,7 @@ from app.panels.menus import help_sheet, menu_bar
 from app.panels.messages import message_box
 from app.panels.status import Status, status_line
 from app.pictures import Pictures, Wanted
-from app.platform import create_context, lower_priority, on_drop, set_title
+from app.platform import lower_priority, on_drop, set_title
 from app.state import AppState, History
 from renderer.camera import Camera
 from renderer.errors import LucidaError
@@ -51,6 +52,7 @@ class MainWindow:
         self.ray_image: RayImage | None = None
         self.size = (0, 0)  # of both images
         self.frame_times_s: list[float] = []
+        self._proportion = layout.Proportion()
         self._draft = Draft.of(state.camera)
         self._grab: Grab | None = None
         self._hovered: tuple[str, Pixel] | None = None
@@ -147,9 +149,9 @@ class MainWindow:
             pane.call_begin_end = False
         return [camera, raster, ray]
 
-    def begin(self) -> None:
-        """Once, when the context is there."""
-        self.pictures = Pictures(create_context(), self.state.scene)
+    def begin(self, context: moderngl.Context) -> None:
+        """Once, when the window's context is there, and current."""
+        self.pictures = Pictures(context, self.state.scene)
         on_drop(self._dropped)
 
     def menus(self) -> None:
@@ -169,6 +171,7 @@ class MainWindow:
             self._take_opened(opened)
         self._take_ray_image()
         self.agreement.poll()
+        self._proportion.keep()
         run_shortcuts(self)
         if self._help:
             help_sheet(self, self.fonts, __version__)
@@ -180,6 +183,8 @@ class MainWindow:
     def status(self) -> None:
         image, verdict = self.ray_image, self.agreement.verdict_on(self.request)
         failed = "" if self.agreement.error is None else describe(self.agreement.error)
+        if image is not None and image.request.scene is not self.state.scene:
+            image = None  # of another scene, until the first one of this scene comes
         pixel = self._hovered[1] if self._hovered else None
         status_line(
             Status(

