@@ -180,7 +180,10 @@ class TestOnATerminal:
         import pty
         import termios
 
-        ours, theirs = pty.openpty()
+        try:
+            ours, theirs = pty.openpty()
+        except OSError as error:  # a container without /dev/pts
+            pytest.skip(f"no terminal can be had: {error}")
         termios.tcsetwinsize(theirs, (24, 80))
         process = self.start(theirs)
         os.close(theirs)
