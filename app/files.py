@@ -5,6 +5,8 @@ Owns the dialogs and the loading thread. Knows nothing of what is done with a sc
 
 from __future__ import annotations
 
+import shutil
+import sys
 from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
@@ -16,6 +18,7 @@ from renderer.errors import LucidaError
 from renderer.scene import BUILTIN_SCENES, SCENE_ENDINGS, Scene, View, load_scene, load_view
 
 SNIFFED_BYTES = 1 << 20
+LINUX_DIALOGS = ("zenity", "kdialog", "matedialog", "qarma")  # what the dialogs are drawn by
 
 
 @dataclass(frozen=True)
@@ -53,12 +56,12 @@ class Files:
 
     def open_dialog(self) -> None:
         endings = " ".join(f"*{ending}" for ending in SCENE_ENDINGS)
-        if self._open is None:
+        if self._open is None and self._can_ask("drop the file on the window"):
             filters = ["Scenes, views and models", endings, "All files", "*"]
             self._open = dialogs.open_file("Open a scene, a view or a model", "", filters)
 
     def save_view_dialog(self, view: View) -> None:
-        if self._save is None:
+        if self._save is None and self._can_ask("kdialog"):
             self._view = view
             filters = ["View files", "*.toml"]
             self._save = dialogs.save_file("Save the view", "view.toml", filters)
@@ -82,6 +85,13 @@ class Files:
 
     def close(self) -> None:
         self._loading.close()
+
+    def _can_ask(self, otherwise: str) -> bool:
+        """Whether the system has file dialogs; if not, the message says what to do."""
+        if sys.platform.startswith("linux") and not any(map(shutil.which, LINUX_DIALOGS)):
+            self.message = f"no file dialog on this system: install zenity, or {otherwise}"
+            return False
+        return True
 
     def _store(self, path: str, view: View) -> None:
         from renderer.scene import save_view

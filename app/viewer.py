@@ -182,8 +182,8 @@ class Run:
             flush_opengl()
         if not self.take_picture:
             return
-        if self.window.failure is not None:
-            raise self.window.failure
+        if self.window.renderers.failure is not None:
+            raise self.window.renderers.failure
         # The layout needs two frames; afterwards nothing may change.
         self._quiet_frames = self._quiet_frames + 1 if self.window.settled else 0
         if self._quiet_frames > 3:

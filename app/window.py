@@ -7,36 +7,30 @@ and the renderers are told. Knows nothing of how the window was made (viewer.py)
 
 from __future__ import annotations
 
-import math
 import time
+from collections.abc import Callable
 
 import moderngl
 from imgui_bundle import ImVec2, hello_imgui, imgui
 
 from app import __version__, layout, theme
 from app.actions import run_shortcuts
-from app.agreement import Agreement
 from app.editing import Draft
 from app.files import Files, Opened, describe
 from app.focus import Focus, scene_focus
-from app.live import LiveTrace, RayImage, Request
 from app.panels.camera import Surroundings, camera_panel
 from app.panels.images import Grab, Pane, Pixel, available_px, image_pane
 from app.panels.menus import help_sheet, menu_bar
 from app.panels.messages import message_box
 from app.panels.status import Status, status_line
-from app.pictures import Pictures, Wanted
-from app.platform import lower_priority, on_drop, set_title
+from app.platform import on_drop, set_title
+from app.renderers import Renderers
 from app.state import AppState, History
-from renderer.camera import Camera
-from renderer.errors import LucidaError
-from renderer.frame import LARGEST_PIXELS, LARGEST_SIDE
 from renderer.scene import BUILTIN_SCENES, Scene
 
 RASTER, RAY = "Raster", "Ray"
 TITLES = {RASTER: "Raster  object order", RAY: "Ray  image order"}
 WHEEL_PAUSE_S = 0.5  # turns of the wheel closer together are one step of undo
-NOTE_AFTER_S = 0.3
 
 
 class MainWindow:
@@ -45,13 +39,8 @@ class MainWindow:
     def __init__(self, state: AppState) -> None:
         self.history = History(state)
         self.fonts = theme.Fonts()
-        self.agreement = Agreement(hello_imgui.request_refresh)
         self.files = Files(hello_imgui.request_refresh)
-        self.live = LiveTrace(hello_imgui.request_refresh, _make_tracer, lower_priority)
-        self.pictures: Pictures | None = None
-        self.ray_image: RayImage | None = None
-        self.size = (0, 0)  # of both images
-        self.frame_times_s: list[float] = []
+        self.renderers = Renderers(hello_imgui.request_refresh)
         self._proportion = layout.Proportion()
         self._draft = Draft.of(state.camera)
         self._grab: Grab | None = None
@@ -61,7 +50,6 @@ class MainWindow:
         self._gesture = 0
         self._was_active = False
         self._wheel = (0, 0.0)
-        self._compared: Request | None = None
         self._help = False
         self._focused: tuple[Scene, Focus] | None = None
 
@@ -76,34 +64,9 @@ class MainWindow:
         return self._focus().center
 
     @property
-    def shown_camera(self) -> Camera:
-        """The camera that both images are drawn with."""
-        return self.state.view.for_size(self.size if min(self.size) else (1, 1))
-
-    @property
-    def request(self) -> Request | None:
-        """The image that both renderers are to draw; None before the first layout."""
-        if not min(self.size):
-            return None
-        return Request(self.state.scene, self.shown_camera, self.size)
-
-    @property
     def settled(self) -> bool:
-        """Whether both images are complete and compared: nothing will change by itself."""
-        return (
-            self.ray_image is not None
-            and self.ray_image.factor == 1
-            and self.ray_image.request == self.request
-            and self.agreement.verdict_on(self.request) is not None
-            and not (self.live.busy or self.files.busy or self.agreement.busy)
-            and not (self.pictures is None or self.pictures.unfinished)
-        )
-
-    @property
-    def failure(self) -> Exception | None:
-        """What keeps an image from being complete."""
-        drawn = (self.pictures.raster_error or self.pictures.ray_error) if self.pictures else None
-        return drawn or self.live.error or self.agreement.error
+        """Whether nothing will change by itself: both images are complete and compared."""
+        return self.renderers.settled(self.state) and not self.files.busy
 
     def change(self, state: AppState) -> None:
         """A step of its own in the history."""
@@ -151,7 +114,7 @@ class MainWindow:
 
     def begin(self, context: moderngl.Context) -> None:
         """Once, when the window's context is there, and current."""
-        self.pictures = Pictures(context, self.state.scene)
+        self.renderers.begin(context, self.state.scene)
         on_drop(self._dropped)
 
     def menus(self) -> None:
@@ -159,8 +122,6 @@ class MainWindow:
 
     def frame(self) -> None:
         """The beginning of each frame: what has come from the threads, and the keys."""
-        self.frame_times_s.append(time.perf_counter())
-        del self.frame_times_s[:-600]
         active = imgui.is_any_item_active() or self._grab is not None
         if active and not self._was_active:
             self._gesture += 1
@@ -169,78 +130,76 @@ class MainWindow:
         opened = self.files.poll()
         if opened is not None:
             self._take_opened(opened)
-        self._take_ray_image()
-        self.agreement.poll()
+        self.renderers.update(self.state, moving=active)
         self._proportion.keep()
         run_shortcuts(self)
         if self._help:
             help_sheet(self, self.fonts, __version__)
         if self.files.message and message_box(self.files.message):
             self.files.message = ""
-        if self.files.busy or (self.pictures is not None and self.pictures.unfinished):
+        if self.files.busy or self.renderers.unfinished(self.state):
             hello_imgui.request_refresh()
 
     def status(self) -> None:
-        image, verdict = self.ray_image, self.agreement.verdict_on(self.request)
-        failed = "" if self.agreement.error is None else describe(self.agreement.error)
-        if image is not None and image.request.scene is not self.state.scene:
+        both, state = self.renderers, self.state
+        image, verdict, failure = both.ray_image, both.verdict(state), both.agreement.error
+        if image is not None and image.request.scene is not state.scene:
             image = None  # of another scene, until the first one of this scene comes
         pixel = self._hovered[1] if self._hovered else None
         status_line(
             Status(
-                raster_s=self.pictures.raster_s if self.pictures else 0.0,
-                raster_factor=self.pictures.raster_factor if self.pictures else 1,
+                raster_s=both.pictures.raster_s if both.pictures else 0.0,
+                raster_factor=both.pictures.raster_factor if both.pictures else 1,
                 ray_s=image.frame.time_s if image else 0.0,
-                size=self.size,
+                size=both.size,
                 factor=image.factor if image else 0,
-                agreement=verdict.text if verdict else failed,
+                agreement=verdict.text if verdict else describe(failure) if failure else "",
                 agrees=verdict is not None and verdict.unexplained == 0,
-                scene=self.state.scene.name,
+                scene=state.scene.name,
                 pixel=pixel,
-                seen=self._seen(pixel),
+                seen=both.seen_at(state, pixel) if pixel else "",
             ),
             self.fonts,
         )
 
     def end(self) -> None:
         """Once, before the context goes."""
-        self.live.close()
-        self.agreement.close()
+        self.renderers.end()
         self.files.close()
-        if self.pictures is not None:
-            self.pictures.release()
 
     # Windows.
 
     def _camera_window(self) -> None:
-        around = Surroundings(self.fonts, self.shown_camera, self._focus())
+        around = Surroundings(self.fonts, self.renderers.camera(self.state), self._focus())
         state, self._draft = camera_panel(self.state, self._draft, around)
         self._apply(state)
 
     def _raster_window(self) -> None:
-        assert self.pictures is not None
-        error = self.pictures.raster_error
-        self._pane(RASTER, self._raster_texture, describe(error) if error else "", bool(error))
+        self._pane(RASTER, self.renderers.raster_texture, self.renderers.raster_error)
 
     def _ray_window(self) -> None:
-        error = self.live.error or (self.pictures.ray_error if self.pictures else None)
-        note = describe(error) if error else self._preparing_note()
-        progress = 1.0
-        if self.ray_image is not None and self.ray_image.factor > 1:
-            progress = self.live.progress
-        self._pane(RAY, self._ray_texture, note, bool(error), progress)
-        request = self.request
-        if request is not None:
-            self.live.request(request)
+        both, image = self.renderers, self.renderers.ray_image
+        refining = image is not None and image.factor > 1
+        progress = both.live.progress if refining else 1.0
+        if self._pane(RAY, both.ray_texture, both.ray_error, both.preparing(), progress):
+            both.trace(self.state)
 
-    def _pane(self, name, texture, note, is_error, progress=1.0) -> None:  # type: ignore[no-untyped-def]
+    def _pane(
+        self,
+        name: str,
+        texture: Callable[[AppState], int | None],
+        error: Exception | None,
+        note: str = "",
+        progress: float = 1.0,
+    ) -> bool:
+        """The window of one image; gives whether it is open."""
         flags = imgui.WindowFlags_
         dockable = hello_imgui.get_runner_params().docking_params.dockable_window_of_name(
             f"{TITLES[name]}###{name}"
         )
         if not dockable.is_visible:
             self._panes_px.pop(name, None)
-            return
+            return False
         imgui.push_style_var(imgui.StyleVar_.window_padding, ImVec2(1, 1))
         opened, visible = imgui.begin(
             dockable.label,
@@ -250,8 +209,9 @@ class MainWindow:
         dockable.is_visible = bool(visible)
         imgui.pop_style_var()
         if opened:
+            both = self.renderers
             self._panes_px[name] = available_px()
-            self._update_size()
+            both.fit_into(self._panes_px.values(), self.state.pixel_size)
             marked = None
             if self._hovered is not None and (
                 self._hovered[0] != name or self.state.pixel_size > 4
@@ -260,12 +220,12 @@ class MainWindow:
             pane = Pane(
                 name=name,
                 texture=texture,
-                shown=self.shown_camera,
-                size=self.size,
+                shown=both.camera(self.state),
+                size=both.size,
                 center=self.scene_center,
-                depth_at=self._depth_at,
-                note=note,
-                is_error=is_error,
+                depth_at=lambda pixel: both.depth_at(self.state, pixel),
+                note=describe(error) if error else note,
+                is_error=error is not None,
                 progress=progress,
                 marked=marked,
             )
@@ -275,77 +235,7 @@ class MainWindow:
                 self._next_hovered = (name, result.hovered)
             self._apply(result.state, wheeled=result.wheeled)
         imgui.end()
-
-    # Images.
-
-    def _raster_texture(self, state: AppState) -> int | None:
-        assert self.pictures is not None
-        wanted = Wanted(state.scene, state.view.for_size(self.size), self.size)
-        texture = self.pictures.raster(wanted, state.exposure_ev, self._shown_px(state))
-        return texture.glo if texture is not None else None
-
-    def _ray_texture(self, state: AppState) -> int | None:
-        assert self.pictures is not None
-        texture = self.pictures.ray(state.exposure_ev, self._shown_px(state))
-        return texture.glo if texture is not None else None
-
-    def _shown_px(self, state: AppState) -> tuple[int, int]:
-        """An image's size on the screen, in framebuffer pixels."""
-        return self.size[0] * state.pixel_size, self.size[1] * state.pixel_size
-
-    def _take_ray_image(self) -> None:
-        image = self.live.poll()
-        if image is not None and self.pictures is not None:
-            self.pictures.take_ray(image)
-            self.ray_image = image
-        image, request = self.ray_image, self.request
-        if image is None or image.factor != 1 or image.request != request:
-            return
-        if self._compared == request or self._grab is not None or self.pictures is None:
-            return
-        self._compared = request
-        try:
-            raster = self.pictures.read_back(Wanted(request.scene, request.camera, request.size))
-            self.agreement.submit(image, raster)
-        except LucidaError as error:
-            self.pictures.raster_error = error
-
-    def _preparing_note(self) -> str:
-        if self.live.preparing_s < NOTE_AFTER_S:
-            return ""
-        if self.live.first_ever:
-            return "compiling the ray tracer, once for this installation ..."
-        return "preparing the scene for the ray tracer ..."
-
-    def _update_size(self) -> None:
-        """Both images have the same size: the smaller window's."""
-        sizes = list(self._panes_px.values())
-        pixel = self.state.pixel_size
-        width, height = (max(1, min(size[k] for size in sizes) // pixel) for k in (0, 1))
-        width, height = min(width, LARGEST_SIDE), min(height, LARGEST_SIDE)
-        self.size = (width, min(height, LARGEST_PIXELS // width))
-
-    # The pixel under the mouse.
-
-    def _depth_at(self, pixel: Pixel) -> float | None:
-        frame = self.agreement.frame_of(self.state.scene, self.shown_camera, self.size)
-        if frame is None or frame.depth is None:
-            return None
-        depth = float(frame.depth[pixel])
-        return depth if math.isfinite(depth) else None
-
-    def _seen(self, pixel: Pixel | None) -> str:
-        """The name of the object at a pixel, once that is known."""
-        frame = self.agreement.frame_of(self.state.scene, self.shown_camera, self.size)
-        if pixel is None or frame is None or frame.id is None:
-            return ""
-        if pixel[0] >= frame.size[1] or pixel[1] >= frame.size[0]:
-            return ""
-        number = int(frame.id[pixel])
-        if number < 0:
-            return "background"
-        name = self.state.scene.objects[number].name or f"object {number}"
-        return f"{name}, t = {float(frame.depth[pixel]):.4g}" if frame.depth is not None else name
+        return bool(opened)
 
     # State.
 
@@ -385,9 +275,3 @@ class MainWindow:
 def title(scene: Scene) -> str:
     """The window's title."""
     return f"Lucida: {scene.name}" if scene.name else "Lucida"
-
-
-def _make_tracer(scene: Scene):  # type: ignore[no-untyped-def]
-    from renderer.trace import Tracer
-
-    return Tracer(scene)

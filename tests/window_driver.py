@@ -102,12 +102,14 @@ class Driver:
     def agreeing_images(self) -> tuple[np.ndarray, np.ndarray]:
         """Both images at rest; they must agree, and show something."""
         self.settle()
-        verdict = self.window.agreement.verdict_on(self.window.request)
+        verdict = self.window.renderers.agreement.verdict_on(
+            self.window.renderers.request(self.window.state)
+        )
         assert verdict is not None
         assert verdict.unexplained == 0, verdict.text
         raster, ray = self.images()
         assert raster.shape == ray.shape
-        assert raster.shape[:2] == (self.window.size[1], self.window.size[0])
+        assert raster.shape[:2] == (self.window.renderers.size[1], self.window.renderers.size[0])
         different = (np.abs(raster - ray).max(axis=2) > 3).mean()
         assert different < 0.002, f"{different:.2%} of the pixels differ on the screen"
         assert raster.std() > 5
@@ -157,9 +159,9 @@ def drive_01_a_slider_is_dragged(d: Driver) -> None:
     for step in range(1, 30):
         d.ctx.mouse_teleport_to_pos((center.x + 2 * step, center.y))
         d.ctx.yield_()
-        image = d.window.ray_image
+        image = d.window.renderers.ray_image
         seen.append(image.request.camera.eye)
-        shown = d.window._ray_texture(d.window.state)
+        shown = d.window.renderers.ray_texture(d.window.state)
         assert shown is not None  # never nothing
     d.ctx.mouse_up(0)
     assert d.window.state.camera.w[0] > d.start.camera.w[0] + 0.05
@@ -167,7 +169,7 @@ def drive_01_a_slider_is_dragged(d: Driver) -> None:
     assert changed(before[0], after[0]) > 0.1
     assert changed(before[1], after[1]) > 0.1
     assert len(d.window.history.past) == 1  # the whole drag
-    assert d.window.ray_image.factor == 1
+    assert d.window.renderers.ray_image.factor == 1
 
 
 def drive_02_a_switch_is_clicked(d: Driver) -> None:
@@ -261,9 +263,9 @@ def drive_06_the_mouse_turns_moves_and_zooms(d: Driver) -> None:
         assert min(changed(a, b) for a, b in zip(before, after, strict=True)) > 0.1
         for button, key in ((1, 0), (2, 0), (0, int(Key.mod_shift))):
             was = window.state.camera
-            pixel = (window.size[1] // 2, window.size[0] // 2)
-            parameter = window._depth_at(pixel)
-            ray = window.shown_camera.ray(*pixel, window.size)
+            pixel = (window.renderers.size[1] // 2, window.renderers.size[0] // 2)
+            parameter = window.renderers.depth_at(window.state, pixel)
+            ray = window.renderers.camera(window.state).ray(*pixel, window.renderers.size)
             world = ray.origin + parameter * ray.direction
             if key:
                 d.ctx.key_down(key)
@@ -274,7 +276,9 @@ def drive_06_the_mouse_turns_moves_and_zooms(d: Driver) -> None:
                 d.ctx.key_up(key)
             assert window.state.camera.w == was.w
             assert window.state.camera.eye != was.eye
-            row, column, _ = window.shown_camera.project(world, window.size)
+            row, column, _ = window.renderers.camera(window.state).project(
+                world, window.renderers.size
+            )
             assert abs(row - (pixel[0] - 21)) < 0.05
             assert abs(column - (pixel[1] + 37)) < 0.05
             d.settle()
@@ -335,7 +339,7 @@ def drive_08_keys_and_menus(d: Driver) -> None:
     assert window.state.camera.viewport == (-0.5, 0.5, -0.5, 0.5)
     d.ctx.menu_click("//##MainMenuBar/Camera/Fit to the image's aspect ratio")
     d.settle()
-    assert window.shown_camera.viewport == (-0.5, 0.5, -0.5, 0.5)
+    assert window.renderers.camera(window.state).viewport == (-0.5, 0.5, -0.5, 0.5)
     d.ctx.item_click("//Camera/Scene's view")
     assert window.state.camera == d.start.camera
     d.ctx.key_press(int(Key.f1))
@@ -356,13 +360,13 @@ def drive_09_letters_typed_into_a_field_are_no_shortcuts(d: Driver) -> None:
 
 
 def drive_10_pixels_can_be_large_and_are_marked(d: Driver) -> None:
-    before = d.window.size
+    before = d.window.renderers.size
     d.ctx.menu_click("//##MainMenuBar/View/Pixels 8 x 8")
     d.settle()
-    assert d.window.size == (before[0] // 8, before[1] // 8)
+    assert d.window.renderers.size == (before[0] // 8, before[1] // 8)
     raster, ray = d.images()
-    assert raster.shape[:2] == (8 * d.window.size[1], 8 * d.window.size[0])
-    blocks = raster.reshape(d.window.size[1], 8, d.window.size[0], 8, 3)
+    assert raster.shape[:2] == (8 * d.window.renderers.size[1], 8 * d.window.renderers.size[0])
+    blocks = raster.reshape(d.window.renderers.size[1], 8, d.window.renderers.size[0], 8, 3)
     assert (blocks == blocks[:, :1, :, :1]).all()  # nearest neighbour: no pixel is blurred
     x, y, *_ = d.rect(RASTER)
     d.ctx.mouse_teleport_to_pos((x + 8 * 20 + 4, y + 8 * 30 + 4))
@@ -395,10 +399,16 @@ def drive_12_files_are_opened_and_broken_ones_told(d: Driver) -> None:
     d.picture()
     d.ctx.item_click("//##message/Close")
     assert window.files.message == ""
+    os.environ["PATH"], path = "", os.environ["PATH"]  # no program that draws dialogs
+    d.ctx.key_press(int(Key.mod_ctrl) | int(Key.o))
+    d.ctx.yield_(2)
+    os.environ["PATH"] = path
+    if sys.platform.startswith("linux"):
+        assert "zenity" in window.files.message
     broken = d.folder / "broken.obj"
     broken.write_bytes(b"\x00\xff nothing of use")
     window._dropped([str(broken)])
-    d.until(lambda: bool(window.files.message))
+    d.until(lambda: "broken.obj" in window.files.message)
     assert window.state == d.start
     window.open("spheres")
     d.until(lambda: window.state.scene is not d.start.scene)
@@ -415,7 +425,7 @@ def drive_12_files_are_opened_and_broken_ones_told(d: Driver) -> None:
 
 
 def drive_13_a_failing_tracer_is_told_and_survived(d: Driver) -> None:
-    live = d.window.live
+    live = d.window.renderers.live
     good = live._make_tracer
 
     def bad(scene: object) -> Any:
@@ -434,7 +444,7 @@ def drive_13_a_failing_tracer_is_told_and_survived(d: Driver) -> None:
 
 def drive_14_no_frame_waits_for_the_tracer(d: Driver) -> None:
     """The tracer's thread is held up: the window goes on, with the raster image of now."""
-    live, gate = d.window.live, threading.Event()
+    live, gate = d.window.renderers.live, threading.Event()
     good = live._make_tracer
 
     def slow(scene: object) -> Any:
@@ -444,28 +454,28 @@ def drive_14_no_frame_waits_for_the_tracer(d: Driver) -> None:
     live._make_tracer = slow
     d.window.open("columns")
     d.until(lambda: d.window.state.scene.name == "columns")
-    d.until(lambda: "preparing" in d.window._preparing_note())
+    d.until(lambda: "preparing" in d.window.renderers.preparing())
     before = d.images()[0]
     d.drag_field("eye.x", 30)
-    d.until(lambda: not d.window.pictures.unfinished)
+    d.until(lambda: not d.window.renderers.pictures.unfinished)
     assert changed(before, d.images()[0]) > 0.05
-    assert d.window.live.busy
+    assert d.window.renderers.live.busy
     live._make_tracer = good
     gate.set()
     d.agreeing_images()
 
 
 def drive_15_windows_can_be_hidden(d: Driver) -> None:
-    both = d.window.size
+    both = d.window.renderers.size
     d.ctx.window_close(f"//###{RAY}")
     d.ctx.yield_(3)
-    d.until(lambda: d.window.size[0] > both[0])
+    d.until(lambda: d.window.renderers.size[0] > both[0])
     d.ctx.menu_click("//##MainMenuBar/View/Ray  image order")
     d.ctx.yield_(3)
     d.ctx.menu_click("//##MainMenuBar/View/Reset the layout")
     d.ctx.yield_(5)
     d.agreeing_images()
-    assert abs(d.window.size[0] - both[0]) <= 2
+    assert abs(d.window.renderers.size[0] - both[0]) <= 2
 
 
 def drive_16_the_window_is_resized(d: Driver) -> None:
@@ -481,7 +491,7 @@ def drive_16_the_window_is_resized(d: Driver) -> None:
 def close_at_work(report: Path, folder: Path) -> None:
     """Closes the window while a tracer prepares, which nothing can cancel."""
     driver = Driver(folder)
-    driver.window.live._make_tracer = lambda scene: threading.Event().wait()
+    driver.window.renderers.live._make_tracer = lambda scene: threading.Event().wait()
     frames = iter(range(20))
 
     def count() -> None:
@@ -489,7 +499,7 @@ def close_at_work(report: Path, folder: Path) -> None:
 
     driver.run.params.callbacks.post_new_frame = count
     driver.run.run()
-    busy = driver.window.live.busy
+    busy = driver.window.renderers.live.busy
     report.write_text(json.dumps({"close_at_work": "" if busy else "the tracer was not at work"}))
 
 

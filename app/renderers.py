@@ -1,0 +1,194 @@
+"""Both renderers behind the window: told the state, they keep both images up to date.
+
+Owns the images' common size, the rasterizer, the live tracer and the comparison. Knows nothing of
+widgets. All methods are called in the window's thread, with its context current.
+"""
+
+from __future__ import annotations
+
+import math
+import time
+from collections.abc import Callable, Collection
+
+import moderngl
+
+from app.agreement import Agreement, Verdict
+from app.live import LiveTrace, RayImage, Request, Tracer
+from app.pictures import Pictures, Wanted
+from app.platform import lower_priority
+from app.state import AppState
+from renderer.camera import Camera
+from renderer.errors import LucidaError
+from renderer.frame import LARGEST_PIXELS, LARGEST_SIDE, Frame
+from renderer.scene.model import Scene, View
+
+NOTE_AFTER_S = 0.3
+STILL_S = 0.3  # comparing reads the raster image back, which may cost a frame: not while dragging
+
+
+class Renderers:
+    """wake: called from other threads when the window has something new to show."""
+
+    def __init__(self, wake: Callable[[], None]) -> None:
+        self.agreement = Agreement(wake)
+        self.live = LiveTrace(wake, _make_tracer, lower_priority)
+        self.pictures: Pictures | None = None
+        self.ray_image: RayImage | None = None
+        self.size = (0, 0)  # (width, height) of both images; (0, 0) before the first layout
+        self._arrived_s = 0.0
+        self._compared: Request | None = None
+        self._fitted: tuple[View, tuple[int, int], Camera] | None = None
+
+    def begin(self, context: moderngl.Context, scene: Scene) -> None:
+        """Once, when there is a context."""
+        self.pictures = Pictures(context, scene)
+
+    def end(self) -> None:
+        """Once, before the context goes."""
+        self.live.close()
+        self.agreement.close()
+        if self.pictures is not None:
+            self.pictures.release()
+
+    # What is to be drawn.
+
+    def fit_into(self, panes_px: Collection[tuple[int, int]], pixel_size: int) -> None:
+        """Both images get the size of the smallest of these panes, (width, height) each."""
+        width, height = (max(1, min(pane[k] for pane in panes_px) // pixel_size) for k in (0, 1))
+        width, height = min(width, LARGEST_SIDE), min(height, LARGEST_SIDE)
+        self.size = (width, min(height, LARGEST_PIXELS // width))
+
+    def camera(self, state: AppState) -> Camera:
+        """The camera that both images of a state are drawn with."""
+        size = self.size if min(self.size) else (1, 1)
+        if self._fitted is None or self._fitted[:2] != (state.view, size):
+            self._fitted = (state.view, size, state.view.for_size(size))
+        return self._fitted[2]
+
+    def request(self, state: AppState) -> Request | None:
+        """The image that both renderers are to draw; None before the first layout."""
+        return Request(state.scene, self.camera(state), self.size) if min(self.size) else None
+
+    def trace(self, state: AppState) -> None:
+        """Tells the tracer what is wanted now."""
+        if (request := self.request(state)) is not None:
+            self.live.request(request)
+
+    def update(self, state: AppState, moving: bool) -> None:
+        """Once a frame: takes what has come from the threads. moving: something is dragged."""
+        assert self.pictures is not None
+        image = self.live.poll()
+        if image is not None:
+            self.pictures.take_ray(image)
+            self.ray_image, self._arrived_s = image, time.monotonic()
+        if self._to_compare(state) and not (moving and time.monotonic() < self._still_s):
+            self._compare(state)
+        self.agreement.poll()
+
+    # What is there.
+
+    def raster_texture(self, state: AppState) -> int | None:
+        """The raster image's GL name, drawn anew if it must be; None where that failed."""
+        assert self.pictures is not None
+        wanted = Wanted(state.scene, self.camera(state), self.size)
+        texture = self.pictures.raster(wanted, state.exposure_ev, self._shown_px(state))
+        return texture.glo if texture is not None else None
+
+    def ray_texture(self, state: AppState) -> int | None:
+        """The GL name of the newest ray image that has arrived; None before the first."""
+        assert self.pictures is not None
+        texture = self.pictures.ray(state.exposure_ev, self._shown_px(state))
+        return texture.glo if texture is not None else None
+
+    def unfinished(self, state: AppState) -> bool:
+        """Whether coming frames have something to do that no thread will call for."""
+        return self._to_compare(state) or (self.pictures is not None and self.pictures.unfinished)
+
+    def settled(self, state: AppState) -> bool:
+        """Whether both images are complete and compared: nothing will change by itself."""
+        return (
+            self._has_full(state)
+            and self.verdict(state) is not None
+            and not (self.live.busy or self.agreement.busy or self.unfinished(state))
+        )
+
+    def verdict(self, state: AppState) -> Verdict | None:
+        """Whether the images of this state agree; None until that is known."""
+        return self.agreement.verdict_on(self.request(state))
+
+    @property
+    def raster_error(self) -> Exception | None:
+        return self.pictures.raster_error if self.pictures else None
+
+    @property
+    def ray_error(self) -> Exception | None:
+        return self.live.error or (self.pictures.ray_error if self.pictures else None)
+
+    @property
+    def failure(self) -> Exception | None:
+        """What keeps the images from being complete and compared."""
+        return self.raster_error or self.ray_error or self.agreement.error
+
+    def preparing(self) -> str:
+        """What the tracer does before its first image of a scene; empty if that is quick."""
+        if self.live.preparing_s < NOTE_AFTER_S:
+            return ""
+        if self.live.first_ever:
+            return "compiling the ray tracer, once for this installation ..."
+        return "preparing the scene for the ray tracer ..."
+
+    def depth_at(self, state: AppState, pixel: tuple[int, int]) -> float | None:
+        """The ray parameter seen at (row, column); None where nothing is, or it is not known."""
+        frame = self._frame_with(state, pixel)
+        depth = float(frame.channel("depth")[pixel]) if frame is not None else math.inf
+        return depth if math.isfinite(depth) else None
+
+    def seen_at(self, state: AppState, pixel: tuple[int, int]) -> str:
+        """The object at (row, column) in words; empty where it is not known."""
+        frame = self._frame_with(state, pixel)
+        if frame is None:
+            return ""
+        number = int(frame.channel("id")[pixel])
+        if number < 0:
+            return "background"
+        name = state.scene.objects[number].name or f"object {number}"
+        return f"{name}, t = {float(frame.channel('depth')[pixel]):.4g}"
+
+    def _has_full(self, state: AppState) -> bool:
+        image = self.ray_image
+        return image is not None and image.factor == 1 and image.request == self.request(state)
+
+    def _to_compare(self, state: AppState) -> bool:
+        return self._has_full(state) and self._compared != self.request(state)
+
+    @property
+    def _still_s(self) -> float:
+        return self._arrived_s + STILL_S
+
+    def _compare(self, state: AppState) -> None:
+        request, image = self.request(state), self.ray_image
+        assert request is not None
+        assert image is not None
+        assert self.pictures is not None
+        self._compared = request
+        try:
+            raster = self.pictures.read_back(Wanted(request.scene, request.camera, request.size))
+            self.agreement.submit(image, raster)
+        except (LucidaError, moderngl.Error) as error:
+            self.agreement.error = error
+
+    def _frame_with(self, state: AppState, pixel: tuple[int, int]) -> Frame | None:
+        frame = self.agreement.frame_of(state.scene, self.camera(state), self.size)
+        if frame is None or pixel[0] >= frame.size[1] or pixel[1] >= frame.size[0]:
+            return None
+        return frame
+
+    def _shown_px(self, state: AppState) -> tuple[int, int]:
+        """An image's size on the screen, in framebuffer pixels."""
+        return self.size[0] * state.pixel_size, self.size[1] * state.pixel_size
+
+
+def _make_tracer(scene: Scene) -> Tracer:
+    from renderer.trace import Tracer  # here, in the live thread: it loads the compiler
+
+    return Tracer(scene)
