@@ -187,8 +187,13 @@ class Instances:
                 low.astype(np.float32), high.astype(np.float32), flat, self._team
             )
         normal_matrix, is_stretched = _normal_matrices(matrix)
+        shininess = flat.materials[:, DIFFUSE_SHININESS, 3]
         self.world = World(
-            *self._joined,
+            box=self._joined[0],
+            child=self._joined[1],
+            corner=self._joined[2],
+            face=self._joined[3],
+            normal=self._joined[4],
             top_box=top_box,
             top_child=top_child,
             root=np.array([self._roots[_key(mesh)] for mesh in meshes], np.int32),
@@ -196,8 +201,8 @@ class Instances:
             first_primitive=flat.object_faces[object_number, 0],
             object_from_world=np.linalg.inv(matrix)[:, :3].reshape(-1),
             normal_matrix=normal_matrix.astype(np.float32).reshape(-1),
-            attributes=_attributes(meshes) | np.where(is_stretched, IS_STRETCHED, 0).astype(np.int32),
-            dark_cosine=_NO_HIGHLIGHT ** (1 / flat.materials[:, DIFFUSE_SHININESS, 3]),
+            attributes=_attributes(meshes, is_stretched),
+            dark_cosine=(_NO_HIGHLIGHT ** (1 / shininess)).astype(np.float32),
             spheres=spheres.reshape(-1),
             sphere_object=flat.sphere_object.copy(),
             top=FIRST_LEAF if len(low) == 1 else 0,
@@ -230,10 +235,12 @@ def _world_boxes(
     )
 
 
-def _attributes(meshes: list[Mesh]) -> NDArray[np.int32]:
+def _attributes(meshes: list[Mesh], is_stretched: NDArray[np.bool_]) -> NDArray[np.int32]:
     bits = [
-        HAS_NORMALS * (mesh.normals is not None) + HAS_COLORS * (mesh.colors is not None)
-        for mesh in meshes
+        HAS_NORMALS * (mesh.normals is not None)
+        + HAS_COLORS * (mesh.colors is not None)
+        + IS_STRETCHED * bool(stretched)
+        for mesh, stretched in zip(meshes, is_stretched, strict=True)
     ]
     return np.array(bits, np.int32)
 

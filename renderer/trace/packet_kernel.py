@@ -55,11 +55,12 @@ def trace_packets(view, world, scene, image, stack_size, control):
     ints = np.empty(WAITING_NODES + stack_size + LANES, np.int32)
     view, world = view_pointers(view), world_pointers(world)
     scene, pixels = scene_pointers(scene), image_pointers(image)
-    floats_at, ints_at = pointer(floats), pointer(ints)
     while True:
         block = take_next(control)
         if block >= rows * columns:
             return
+        # Here, not before: an array lives until its name is last used.
+        floats_at, ints_at = pointer(floats), pointer(ints)
         top, left = block // columns * BLOCK, block % columns * BLOCK
         for part in range(_ACROSS * _ACROSS):
             row, column = top + part // _ACROSS * TILE, left + part % _ACROSS * TILE
@@ -123,8 +124,17 @@ def write_square(view, world, scene, image, row, column, tile, square, floats, i
     if bits(is_hit) != 0:
         pixels = square_rays(view, first)
         objects, primitives = find_surfaces(
-            view, world, scene, first, pixels, square, z,
-            image.has_color, image.has_primitive, floats, ints,
+            view,
+            world,
+            scene,
+            first,
+            pixels,
+            square,
+            z,
+            image.has_color,
+            image.has_primitive,
+            floats,
+            ints,
         )
         normal = (
             load(floats, SHADING),

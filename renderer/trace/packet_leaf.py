@@ -68,11 +68,16 @@ def _camera_corner(corner, at, rows, r):
     x = load(corner, at) - rows[r + ORIGIN]
     y = load(corner, at + WIDTH) - rows[r + ORIGIN + 1]
     z = load(corner, at + 2 * WIDTH) - rows[r + ORIGIN + 2]
-    return _row(rows, r + ROW_X, x, y, z), _row(rows, r + ROW_Y, x, y, z), _row(rows, r + ROW_Z, x, y, z)
+    return (
+        affine_row(rows, r + ROW_X, x, y, z),
+        affine_row(rows, r + ROW_Y, x, y, z),
+        affine_row(rows, r + ROW_Z, x, y, z),
+    )
 
 
 @inlined
-def _row(rows, r, x, y, z):
+def affine_row(rows, r, x, y, z):
+    """One camera coordinate of p = o + (x, y, z), by the row at r."""
     return fma(x, rows[r], fma(y, rows[r + 1], fma(z, rows[r + 2], splat(rows[r + 3]))))
 
 
@@ -83,9 +88,9 @@ def _camera_corner_exact(corner, at, rows, r):
     y = to_f64(load(corner, at + WIDTH)) - rows[r + ORIGIN + 1]
     z = to_f64(load(corner, at + 2 * WIDTH)) - rows[r + ORIGIN + 2]
     return (
-        to_f32(_row(rows, r + ROW_X, x, y, z)),
-        to_f32(_row(rows, r + ROW_Y, x, y, z)),
-        to_f32(_row(rows, r + ROW_Z, x, y, z)),
+        to_f32(affine_row(rows, r + ROW_X, x, y, z)),
+        to_f32(affine_row(rows, r + ROW_Y, x, y, z)),
+        to_f32(affine_row(rows, r + ROW_Z, x, y, z)),
     )
 
 
@@ -176,7 +181,11 @@ def see_leaf(view, corner, leaf, space, tile, least, floats, ints):
     ha, hb, hc = homogeneous(view, a, b, c)
     key, sign = key_function(view, a, b, c, ha, hb, hc)
     pa, pb, pc = (a[0], a[1], ha), (b[0], b[1], hb), (c[0], c[1], hc)
-    e0, e1, e2 = edge_function(pa, pb, sign), edge_function(pb, pc, sign), edge_function(pc, pa, sign)
+    e0, e1, e2 = (
+        edge_function(pa, pb, sign),
+        edge_function(pb, pc, sign),
+        edge_function(pc, pa, sign),
+    )
 
     # Keep those that may cover a pixel of the tile, nearer than what it sees.
     x_low, x_high, y_low, y_high = tile.x_low, tile.x_high, tile.y_low, tile.y_high

@@ -37,7 +37,10 @@ from renderer.trace.simd import (
     store,
     vsqrt,
 )
+from renderer.trace.simd_math import normalized_lanes
 from renderer.trace.vectors import cross, dot, minus, plus, times
+
+_X, _Y, _Z = np.arange(3)
 
 
 @inlined
@@ -173,3 +176,38 @@ def see_sphere(view, spheres, sphere, tile, least, floats, ints):
         store(ints, SEEN + LANES * square, select(hit, splat(number), seen))
         floats[LEAST + square] = smallest(best)
     return smallest(load(floats, LEAST))
+
+
+@inlined
+def sphere_normal(view, spheres, sphere, first, z):
+    """Outward unit normals of a sphere where a square's pixels see it, F32; z: the depths seen.
+
+    From the ray's point nearest to the centre, d x (f x d) / a, half a chord back or forth: no
+    difference of large numbers, however far away the sphere is.
+    """
+    f, d = sphere_ray(view, spheres, sphere, np.float64(first[0]), np.float64(first[1]))
+    m = moment(f, d)
+    equation = sphere_equation(f, d)
+    x, y = lane_column(), lane_row()
+    a, b = quadratic(equation[0], x, y), affine(equation[1], x, y)
+    discriminant = quadratic(equation[3], x, y)
+    dx, dy, dz = _component(d, _X, x, y), _component(d, _Y, x, y), _component(d, _Z, x, y)
+    mx, my, mz = _component(m, _X, x, y), _component(m, _Y, x, y), _component(m, _Z, x, y)
+    inverse = splat(np.float32(1)) / a
+    # Half the chord, as a parameter.
+    half = vsqrt(select(discriminant > np.float32(0), discriminant, np.float32(0))) * inverse
+    half = select(z <= b * inverse, -half, half)
+    return normalized_lanes(
+        (
+            fma(dy * mz - dz * my, inverse, half * dx),
+            fma(dz * mx - dx * mz, inverse, half * dy),
+            fma(dx * my - dy * mx, inverse, half * dz),
+        )
+    )
+
+
+@inlined
+def _component(p, axis, x, y):
+    """One coordinate of an affine vector at 16 image points."""
+    value = fma(x, np.float32(p[1][axis]), splat(np.float32(p[0][axis])))
+    return fma(y, np.float32(p[2][axis]), value)

@@ -27,8 +27,8 @@ SQUARE = 4  # pixels: side of the square that a vector holds
 SQUARES = (TILE // SQUARE) ** 2
 
 # One thread's scratch, float32: 12 coefficients and 4 bounds of a leaf's 16 triangles; a node's
-# children's depths; the least key of each square, and the best key of each pixel; six planes of four numbers;
-# a square's surface, for shading; the depths of the nodes that wait (to the end).
+# children's depths; the least key of each square, and the best key of each pixel; six planes of
+# four numbers; a square's surface, for shading; the depths of the nodes that wait (to the end).
 COEFFICIENTS = 0
 BOUNDS = COEFFICIENTS + 12 * LANES
 DEPTHS = BOUNDS + 4 * LANES
@@ -37,9 +37,9 @@ BEST = LEAST + SQUARES
 PLANES = BEST + SQUARES * LANES
 SURFACE = PLANES + 32
 WAITING_DEPTHS = SURFACE + 12 * LANES
-# And int32: what each pixel sees, a slot or FIRST_SPHERE - sphere, or nothing; of which instance;
-# where each plane finds the coordinates that it needs of a box; the squares that each of a leaf's
-# triangles may cover; the nodes that wait (to the end).
+# And int32: what each pixel sees, a slot, or FIRST_SPHERE - k for sphere k, or nothing; of which
+# instance; where each plane finds the coordinates that it needs of a box; the squares that each of
+# a leaf's triangles may cover; the nodes that wait (to the end).
 SEEN = 0
 OWNER = SEEN + SQUARES * LANES
 FARTHEST = OWNER + SQUARES * LANES
@@ -52,7 +52,7 @@ LEFT, RIGHT, TOP, BOTTOM, BEHIND, AHEAD = np.arange(6)
 
 
 class Tile(NamedTuple):
-    """The image point of its first pixel, and the rectangle of all its pixels' centres with slack."""
+    """The image point of its first pixel, and a rectangle around its pixels' centres."""
 
     x: np.float32
     y: np.float32
@@ -85,40 +85,52 @@ def clear_tile(view, row, column, floats, ints):
 
 @inlined
 def set_planes(view, space, tile, floats, ints):
-    """The tile's planes in a space: functions of p that are >= 0 inside, of which w is loose."""
+    """Sets up the tile's planes in a space: functions of p that are >= 0 inside.
+
+    With X, Y, H and Z as in packet_view.py, the left side is X >= x_low H, and so on.
+    """
     at = space * ROWS
+    x, y, z = _row(view, at + ROW_X), _row(view, at + ROW_Y), _row(view, at + ROW_Z)
+    zero, one = np.float32(0), np.float32(1)
+    h = (zero, zero, zero, one) if view.parallel else z
+    _set_plane(view, at, LEFT, _side(x, tile.x_low, h, one), floats, ints)
+    _set_plane(view, at, RIGHT, _side(x, tile.x_high, h, -one), floats, ints)
+    _set_plane(view, at, TOP, _side(y, tile.y_low, h, one), floats, ints)
+    _set_plane(view, at, BOTTOM, _side(y, tile.y_high, h, -one), floats, ints)
+    _set_plane(view, at, AHEAD, z, floats, ints)
+    _set_plane(view, at, BEHIND, _side(z, zero, h, -one), floats, ints)
+
+
+@inlined
+def _row(view, at):
     rows = view.rows
-    for plane in range(6):
-        # The side X >= x_low H, and so on: a combination of the rows.
-        if plane == BEHIND or plane == AHEAD:
-            row, limit = ROW_Z, np.float32(0)
-            sign = np.float32(1) if plane == AHEAD else np.float32(-1)
-        else:
-            row = ROW_X if plane < TOP else ROW_Y
-            if plane == LEFT or plane == RIGHT:
-                limit = tile.x_low if plane == LEFT else tile.x_high
-            else:
-                limit = tile.y_low if plane == TOP else tile.y_high
-            sign = np.float32(1) if plane == LEFT or plane == TOP else np.float32(-1)
-        w = np.float32(0)
-        size = np.float32(0)
-        for axis in range(4):
-            n = rows[at + row + axis]
-            if not view.parallel:
-                n -= limit * rows[at + ROW_Z + axis]
-            elif axis == 3:
-                n -= limit
-            n *= sign
-            if axis == 3:
-                w += n
-                size += abs(n)
-                break
-            floats[PLANES + 4 * plane + axis] = n
-            ints[FARTHEST + 3 * plane + axis] = (3 + axis if n >= 0 else axis) * WIDTH
-            w -= n * rows[at + ORIGIN + axis]
-            size += abs(n) * (rows[at + EXTENT] + np.float32(2) * abs(rows[at + ORIGIN + axis]))
-        # Never too small: a box is rejected only if rounding has nothing to do with it.
-        floats[PLANES + 4 * plane + 3] = w + np.float32(5e-7) * size
+    return rows[at], rows[at + 1], rows[at + 2], rows[at + 3]
+
+
+@inlined
+def _side(row, limit, h, sign):
+    """sign (row - limit h)."""
+    return (
+        sign * (row[0] - limit * h[0]),
+        sign * (row[1] - limit * h[1]),
+        sign * (row[2] - limit * h[2]),
+        sign * (row[3] - limit * h[3]),
+    )
+
+
+@inlined
+def _set_plane(view, at, plane, function, floats, ints):
+    """Stores n . (p - o) + d as n . p + w, and which corner of a box is farthest along n."""
+    extent = view.rows[at + EXTENT]
+    w, size = function[3], abs(function[3])
+    for axis in range(3):
+        n, origin = function[axis], view.rows[at + ORIGIN + axis]
+        floats[PLANES + 4 * plane + axis] = n
+        ints[FARTHEST + 3 * plane + axis] = (3 + axis if n >= 0 else axis) * WIDTH
+        w -= n * origin
+        size += abs(n) * (extent + np.float32(2) * abs(origin))
+    # Never too small: no box is rejected by rounding.
+    floats[PLANES + 4 * plane + 3] = w + np.float32(5e-7) * size
 
 
 @inlined

@@ -48,7 +48,7 @@ class PacketView(NamedTuple):
     """See the module. Spaces are the instances', then the world's.
 
     slack_px: tests that only reject take tiles to be larger by this much, which covers rounding.
-    key_far < K < key_near counts as a hit; z_near, z_far: the same as Z. scale: t / Z, a power of 2.
+    key_far < K < key_near counts as a hit; z_near, z_far: the same as Z. scale: t / Z.
     rows: float32, ROWS a space; rows_exact: the same in float64. exact: uint8, whether to use them.
     ray: float64, 12 numbers in world space (VARYING ...).
     sphere_box: float32, 4 a sphere: left, top, right, bottom of its image, or a superset.
@@ -172,8 +172,10 @@ def _rows(
         pixels = pixels * extent
     else:
         far = np.linalg.norm(origin - eye_in_space, axis=1)
-        pixels = pixels / lengths[:, 2] * np.divide(
-            extent, far, out=np.ones_like(far), where=far > extent
+        pixels = (
+            pixels
+            / lengths[:, 2]
+            * np.divide(extent, far, out=np.ones_like(far), where=far > extent)
         )
     return rows, (pixels > _FLOAT32_PX).astype(np.uint8)
 

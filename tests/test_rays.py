@@ -1,0 +1,111 @@
+"""Single rays on the wide trees against the scalar reference."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from test_parity import crowd
+from trace_reference import ball, cast, tree_of
+
+from renderer.errors import LucidaError
+from renderer.scene.flat import flatten
+from renderer.scene.model import Mesh, Scene, SceneObject, Sphere
+from renderer.trace.instances import Instances
+from renderer.trace.rays import any_hits, closest_hits
+from renderer.trace.team import Team
+
+# float32, relative to the origin: corners, shear and t are each rounded a few times. For a ray that
+# grazes a triangle, or meets it near its origin, that counts for more.
+T_RELATIVE, T_GRAZING = 2e-6, 1e-4
+
+
+@pytest.fixture
+def team():
+    made = Team(2)
+    yield made
+    made.close()
+
+
+def stretched() -> Scene:
+    mesh = ball(20, 30)
+    random = np.random.default_rng(5)
+    objects = [SceneObject(Sphere((0, 2, 0), 0.5))]
+    for _ in range(6):
+        transform = np.eye(4)
+        transform[:3, :3] = random.normal(size=(3, 3)) * 0.5
+        transform[:3, 3] = random.uniform(-2, 2, 3)
+        objects.append(SceneObject(Mesh(mesh.vertices, mesh.faces, transform=transform)))
+    return Scene(tuple(objects))
+
+
+@pytest.mark.parametrize("make", [crowd, stretched])
+def test_the_closest_hit_is_the_references(make, team) -> None:
+    scene = make()
+    flat = flatten(scene)
+    instances = Instances(scene, flat, team)
+    random = np.random.default_rng(6)
+    origins = random.uniform(-3, 3, (50_000, 3)).astype(np.float32)
+    directions = random.normal(size=(50_000, 3)) * 10 ** random.uniform(-3, 3, (50_000, 1))
+    directions = directions.astype(np.float32)
+    directions[:5000, :2] = 0  # along an axis
+    for t_min, t_max in ((0.0, np.inf), (0.3, 1.0)):
+        t, primitive = closest_hits(instances, team, origins, directions, t_min, t_max)
+        exact_t, exact, *_ = cast(
+            tree_of(flat), origins.astype(float), directions.astype(float), t_min, t_max
+        )
+        same = primitive == exact
+        # What differs is grazed, or met within rounding of a limit or of an edge.
+        assert np.count_nonzero(~same) < 12
+        hit = same & (primitive >= 0)
+        assert np.count_nonzero(hit) > 500
+        error = np.abs(t[hit] / exact_t[hit] - 1)
+        assert np.quantile(error, 0.98) < T_RELATIVE
+        assert np.quantile(error, 0.999) < T_GRAZING
+        assert np.isposinf(t[primitive < 0]).all()
+        any_of_them = any_hits(instances, team, origins, directions, t_min, t_max)
+        assert np.array_equal(any_of_them, primitive >= 0)
+
+
+def test_no_leak_in_a_closed_mesh(team) -> None:
+    mesh = ball(60, 80)
+    scene = Scene((SceneObject(mesh),))
+    instances = Instances(scene, flatten(scene), team)
+    random = np.random.default_rng(7)
+    vertices = mesh.vertices[mesh.faces]
+    for part in (0.0, 0.5, random.uniform(size=(len(vertices), 3, 1))):
+        # At vertices, and at points of edges.
+        targets = vertices + part * (np.roll(vertices, 1, axis=1) - vertices)
+        targets = targets.reshape(-1, 3)
+        origins = random.uniform(-0.4, 0.4, (len(targets), 3))
+        assert any_hits(instances, team, origins, targets - origins).all()
+    origins = random.uniform(-0.4, 0.4, (500_000, 3))
+    assert any_hits(instances, team, origins, random.normal(size=origins.shape)).all()
+
+
+def test_rays_that_are_none_hit_nothing(team) -> None:
+    scene = stretched()
+    instances = Instances(scene, flatten(scene), team)
+    origins = np.zeros((3, 3))
+    directions = np.array([[0, 0, 0], [np.nan, 1, 0], [np.inf, 0, 0]])
+    t, primitive = closest_hits(instances, team, origins, directions)
+    assert (primitive == -1).all()
+    assert np.isposinf(t).all()
+    assert not any_hits(instances, team, origins, directions).any()
+    t, primitive = closest_hits(instances, team, np.zeros((0, 3)), np.zeros((0, 3)))
+    assert len(t) == len(primitive) == 0
+
+
+def test_an_empty_scene(team) -> None:
+    scene = Scene(())
+    instances = Instances(scene, flatten(scene), team)
+    assert not any_hits(instances, team, np.zeros((5, 3)), np.ones((5, 3))).any()
+    assert (closest_hits(instances, team, np.zeros((5, 3)), np.ones((5, 3)))[1] == -1).all()
+
+
+def test_shapes_are_checked(team) -> None:
+    scene = Scene(())
+    instances = Instances(scene, flatten(scene), team)
+    with pytest.raises(LucidaError, match="n x 3"):
+        closest_hits(instances, team, np.zeros(3), np.zeros((1, 3)))
+    with pytest.raises(LucidaError, match="one a ray"):
+        any_hits(instances, team, np.zeros((2, 3)), np.ones((1, 3)))

@@ -1,0 +1,153 @@
+"""The wide tree and the two levels: every triangle once, inside its boxes; what moves, moves."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from trace_reference import ball
+
+from renderer.scene.flat import flatten
+from renderer.scene.model import Mesh, Scene, SceneObject, Sphere
+from renderer.trace.instances import Instances
+from renderer.trace.team import Team
+from renderer.trace.wide import (
+    CORNERS,
+    FIRST_LEAF,
+    NO_CHILD,
+    WIDTH,
+    WideTree,
+    tree_of_boxes,
+    tree_of_mesh,
+)
+
+EMPTY = flatten(Scene(()))
+
+
+def wide(mesh: Mesh, threads: int = 2) -> WideTree:
+    team = Team(threads)
+    try:
+        return tree_of_mesh(mesh.vertices, mesh.faces, EMPTY, team)
+    finally:
+        team.close()
+
+
+def shards(count: int, seed: int = 1) -> Mesh:
+    random = np.random.default_rng(seed)
+    corners = random.uniform(-1, 1, (count, 1, 3)) + random.normal(scale=0.03, size=(count, 3, 3))
+    return Mesh(corners.reshape(-1, 3), np.arange(3 * count).reshape(-1, 3))
+
+
+@pytest.mark.parametrize("count", [1, 2, 16, 17, 300, 20_000])
+def test_each_triangle_is_in_one_leaf_within_its_boxes(count: int) -> None:
+    mesh = shards(count)
+    tree = wide(mesh)
+    face, child = tree.face.reshape(-1, WIDTH), tree.child.reshape(-1, WIDTH)
+    box, corner = tree.box.reshape(-1, 2, 3, WIDTH), tree.corner.reshape(-1, 3, 3, WIDTH)
+    assert np.array_equal(np.sort(face[face >= 0]), np.arange(count))
+    seen_leaves = []
+    deepest = 0
+
+    def visit(node: int, low: np.ndarray, high: np.ndarray, level: int) -> None:
+        nonlocal deepest
+        deepest = max(deepest, level)
+        for lane in np.flatnonzero(child[node] != NO_CHILD):
+            inner_low, inner_high = box[node, :, :, lane]
+            assert (inner_low >= low).all()
+            assert (inner_high <= high).all()
+            if child[node, lane] >= 0:
+                visit(child[node, lane], inner_low, inner_high, level + 1)
+                continue
+            leaf = FIRST_LEAF - child[node, lane]
+            seen_leaves.append(leaf)
+            used = face[leaf] >= 0
+            assert (corner[leaf][..., used] >= inner_low[:, None]).all()
+            assert (corner[leaf][..., used] <= inner_high[:, None]).all()
+            vertices = mesh.vertices[mesh.faces[face[leaf, used]]]
+            assert np.array_equal(np.moveaxis(corner[leaf][..., used], 2, 0), vertices)
+
+    visit(0, *tree.bounds.astype(np.float32), 1)
+    assert sorted(seen_leaves) == list(range(len(face)))
+    assert deepest == tree.levels
+
+
+def test_normals_are_those_of_the_winding() -> None:
+    mesh = ball()
+    tree = wide(mesh)
+    used = tree.face >= 0
+    normal = np.moveaxis(tree.normal.reshape(-1, 3, WIDTH), 1, 2).reshape(-1, 3)[used]
+    a, b, c = mesh.vertices[mesh.faces[tree.face[used]].T].astype(float)
+    wanted = np.cross(b - a, c - a)
+    lengths = np.linalg.norm(wanted, axis=1)
+    assert np.allclose(normal[lengths > 0], (wanted / lengths[:, None])[lengths > 0], atol=1e-6)
+    assert not normal[lengths == 0].any()
+
+
+def test_a_triangle_takes_at_most_120_bytes() -> None:
+    mesh = shards(100_000)
+    tree = wide(mesh)
+    assert tree.size_bytes <= 120 * len(mesh.faces)
+    assert len(tree.corner) == len(tree.face) // WIDTH * CORNERS
+
+
+def test_identical_triangles_end_in_leaves() -> None:
+    tree = wide(Mesh(np.eye(3), np.tile([[0, 1, 2]], (1000, 1))))
+    assert np.array_equal(np.sort(tree.face[tree.face >= 0]), np.arange(1000))
+
+
+@pytest.mark.parametrize("count", [1, 40, 3000])
+def test_boxes_are_leaves_of_one(count: int) -> None:
+    random = np.random.default_rng(2)
+    low = random.uniform(-1, 1, (count, 3)).astype(np.float32)
+    high = low + random.uniform(0, 0.1, (count, 3)).astype(np.float32)
+    team = Team(2)
+    box, child, _ = tree_of_boxes(low, high, EMPTY, team)
+    team.close()
+    is_leaf = child <= FIRST_LEAF
+    item = FIRST_LEAF - child[is_leaf]
+    assert np.array_equal(np.sort(item), np.arange(count))
+    found = np.moveaxis(box.reshape(-1, 6, WIDTH), 1, 2).reshape(-1, 6)[is_leaf]
+    assert np.array_equal(found, np.concatenate([low[item], high[item]], axis=1))
+
+
+def scene_of(*shapes: Mesh | Sphere) -> Scene:
+    return Scene(tuple(SceneObject(shape) for shape in shapes))
+
+
+def placed(mesh: Mesh, x: float) -> Mesh:
+    """The same arrays elsewhere."""
+    transform = np.eye(4)
+    transform[0, 3] = x
+    moved = replace(mesh, transform=transform)
+    for name in ("vertices", "faces"):
+        object.__setattr__(moved, name, getattr(mesh, name))
+    return moved
+
+
+def test_objects_share_the_tree_of_a_shared_mesh() -> None:
+    mesh, other = ball(), shards(50)
+    scene = scene_of(mesh, placed(mesh, 3), Sphere((9, 0, 0)), other, placed(mesh, -3))
+    team = Team(1)
+    instances = Instances(scene, flatten(scene), team)
+    world = instances.world
+    assert np.count_nonzero(world.face >= 0) == len(mesh.faces) + len(other.faces)
+    assert world.root[0] == world.root[1] == world.root[3] != world.root[2]
+    assert world.root_object.tolist() == [0, 1, 3, 4]
+    assert world.sphere_object.tolist() == [2]
+    first = np.cumsum([0, len(mesh.faces), len(mesh.faces), len(other.faces)])
+    assert world.first_primitive.tolist() == first.tolist()
+    assert instances.bounds[-1, :, 0] == pytest.approx([-4, 10], abs=1e-4)
+
+    # Move one object: the trees stay, the upper tree follows.
+    moved = scene_of(mesh, placed(mesh, 7), Sphere((9, 0, 0)), other, placed(mesh, -20))
+    instances.update(moved, flatten(moved))
+    assert instances.world.box is world.box
+    assert instances.world.corner is world.corner
+    assert instances.bounds[-1, 0, 0] == pytest.approx(-21, abs=1e-4)
+
+    # Another mesh: only it is built.
+    changed = scene_of(mesh, shards(60, seed=5))
+    instances.update(changed, flatten(changed))
+    assert np.count_nonzero(instances.world.face >= 0) == len(mesh.faces) + 60
+    team.close()
