@@ -28,6 +28,7 @@ Function = Callable[[float, float], Floats]  # of an offset (rows, columns) in p
 STEP_PX = 1 / 256  # of the central differences: well inside the tolerance, far above rounding
 NUDGE = 1e-3  # cells: how far below the surface both renderers look up a checker's cell
 BEHIND = 1e-9  # outlines are clipped where the ray parameter falls below this part of its largest
+ROUNDING = 1e-12  # of the largest coordinate: what float64 cannot tell from the eye itself
 
 
 @dataclass(frozen=True)
@@ -63,13 +64,17 @@ class Lines:
         return np.where(pair, distance, np.inf)
 
     def clip_px(self, primitive: Ints, i: Ints, j: Ints, t: Floats) -> Floats:
-        """Distance from the lines where near and far (or the eye's plane) cut the primitive."""
+        """Distance from the lines where near and far (or the eye's plane) cut the primitive.
+
+        A surface that the eye itself lies on is cut everywhere: rounding decides where it begins.
+        """
         distance = np.full(len(primitive), np.inf)
+        at_eye = ROUNDING * self._largest_parameter()
         for limit in self.camera.t_range:
             if np.isfinite(limit):
                 cut = _zero_px(lambda di, dj: self.parameter(primitive, i + di, j + dj, t) - limit)  # noqa: B023
                 here = self.parameter(primitive, i, j, t)
-                cut[np.abs(here - limit) <= 1e-6 * limit] = 0
+                cut[np.abs(here - limit) <= max(1e-6 * limit, at_eye)] = 0
                 distance = np.fmin(distance, cut)
         return np.where(primitive >= 0, distance, np.inf)
 
@@ -127,6 +132,12 @@ class Lines:
             is_near = np.abs(near - t[sphere]) <= np.abs(far - t[sphere])
         result[sphere] = np.where(is_near, near, far)
         return result
+
+    def _largest_parameter(self) -> float:
+        """The ray parameter of the scene's and the eye's largest coordinate."""
+        unit = 1.0 if self.camera.is_parallel else self.camera.distance
+        largest = max(np.abs(self.flat.bounds).max(), *np.abs(self.camera.eye))
+        return float(np.linalg.norm(self.camera.camera_from_world[2, :3]) * largest / unit)
 
     def _facing(self, primitive: Ints, point: Floats, direction: Floats) -> Floats:
         """The geometric normal on the viewer's side; not unit length. (n, 3)."""
@@ -207,11 +218,11 @@ class Lines:
 
 def _segment_px(point: Floats, start: Floats, end: Floats) -> Floats:
     """Distance of points from segments in the plane; inf where a segment is NaN."""
-    along = end - start
-    with np.errstate(divide="ignore", invalid="ignore"):
+    with np.errstate(divide="ignore", invalid="ignore"):  # an edge through the eye's plane
+        along = end - start
         part = np.einsum("nk,nk->n", point - start, along) / np.einsum("nk,nk->n", along, along)
-    part = np.clip(np.nan_to_num(part), 0, 1)[:, None]
-    distance = np.linalg.norm(point - (start + part * along), axis=1)
+        part = np.clip(np.nan_to_num(part), 0, 1)[:, None]
+        distance = np.linalg.norm(point - (start + part * along), axis=1)
     return np.where(np.isnan(distance), np.inf, distance)
 
 

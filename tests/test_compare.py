@@ -138,6 +138,22 @@ def test_near_and_far_cut_along_clip_lines():
     np.testing.assert_allclose(distance, [0.5, 0.5], rtol=0.05)
 
 
+@pytest.mark.parametrize(("height", "unexplained"), [(1e-17, 0), (1e-9, 768)])
+def test_rounding_decides_whether_the_eye_sees_what_it_lies_on(height, unexplained):
+    flat = flatten(Scene((wall(0), wall(-2))))
+    camera = replace(CAMERA, eye=(0, 0, height))
+    on_it, through = image(height, 0, 0), image(2, 1, 2)
+    assert compare_frames(flat, camera, SIZE, on_it, through).unexplained == unexplained
+
+
+def test_edges_in_the_eyes_plane_are_quiet():
+    floor = SceneObject(Mesh([(-1, -1, 0), (1, -1, 0), (0, -1, -9)], [[0, 1, 2]]))
+    flat = flatten(Scene((floor, wall(-20))))
+    frame = image(20, 1, 1)
+    wrong = changed(frame, (3, 4), depth=1, id=0, primitive=0)
+    assert counts(compare_frames(flat, CAMERA, SIZE, wrong, frame)) == {"unexplained": 1}
+
+
 def test_checker_borders_explain_colours_only_where_there_are_checkers():
     at = CAMERA.image_point(0, 20 + 0.5 / 128, SIZE)[0] * 2
     frame = image(2, 0, 0)
