@@ -14,11 +14,14 @@ const int SIDES[36] = int[36](
     0, 1, 5, 0, 5, 4,   2, 6, 7, 2, 7, 3,
     0, 2, 3, 0, 3, 1,   4, 5, 7, 4, 7, 6);
 
+uniform sampler2D objects;  // object_rows() in setup.py
+
 flat out int number;
 
 void main() {
     number = gl_InstanceID;
     Sphere sphere = sphere_at(number);
     vec3 corner = AROUND * sphere.radius * CORNERS[SIDES[gl_VertexID]];
-    gl_Position = clip_from_image(sphere.center + image_from_world * corner);
+    float near = texelFetch(objects, texel(8 * sphere.object), 0).w;
+    gl_Position = clip_from_image(sphere.center + image_from_world * corner, near);
 }

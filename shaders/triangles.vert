@@ -10,7 +10,8 @@ in vec3 vertex;
 in int object;
 
 void main() {
-    vec3 anchor = texelFetch(objects, texel(8 * object), 0).xyz;
+    vec4 anchor = texelFetch(objects, texel(8 * object), 0);
     vec3 anchor_world = texelFetch(objects, texel(8 * object + 1), 0).xyz;
-    gl_Position = clip_from_image(anchor + image_from_world * (vertex - anchor_world));
+    vec3 point = anchor.xyz + image_from_world * (vertex - anchor_world);
+    gl_Position = clip_from_image(point, anchor.w);
 }

@@ -267,6 +267,19 @@ class TestNumbers:
         assert seen.mean() > 0.3
         np.testing.assert_allclose(frame.depth[seen], exact.depth[seen], rtol=1e-4)
 
+    def test_small_things_close_by_on_a_vast_plain(self, rasterizer):
+        """Nearer than a millionth of the plain's extent."""
+        plain = triangle((-1e5, 0, -1e5), (1e5, 0, -1e5), (0, 0, 1e5))
+        scene = Scene(
+            (
+                SceneObject(plain, CHECKERED),
+                SceneObject(Sphere((0, 0.5, -0.08), 0.015)),
+                SceneObject(triangle((-0.04, 0.5, -0.07), (0.04, 0.49, -0.07), (0.02, 0.53, -0.06))),
+            )
+        )
+        frame = agrees(rasterizer, scene, replace(WIDE, eye=(0, 0.5, 0)))
+        assert set(frame.id.ravel().tolist()) == {-1, 0, 1, 2}
+
     def test_tiny_and_huge_worlds(self, rasterizer):
         for scale in (1e-6, 1e6):
             scene = Scene(

@@ -95,7 +95,7 @@ class SceneData:
             return
         self._last = None
         flat, tables = self._flat, self._tables
-        space = image_space(camera, size, flat.bounds)
+        space = image_space(camera, size, self._setup.object_bounds)
         objects = object_rows(flat, self._setup, camera, space)
         self._block.write(camera_block(camera, size, space, flat))
         tables["objects"].write(objects)

@@ -23,13 +23,14 @@ from numpy.typing import NDArray
 from renderer.camera import Camera, Floats
 from renderer.scene.flat import CELL_X, FlatScene
 
-OBJECT_TEXELS = 8  # anchor in image coordinates | anchor in the world | six rows of the material
+# Anchor in image coordinates, near | anchor in the world | six rows of the material
+OBJECT_TEXELS = 8
 SPHERE_TEXELS = 3
 
 FLOAT32_MAX = float(np.finfo(np.float32).max)
-NEAREST = (
-    1e-6  # of the farthest t: nothing nearer than this is drawn where the eye is among objects
-)
+# Of an object's farthest t: nearer than this, nothing of it is drawn where it reaches behind the eye.
+# GL clips in float32: nearer, what is left of a long triangle might lie behind the eye.
+NEAREST = 1e-6
 TINY = 1e-30
 # Rows at a time. Small products stay on one thread of NumPy's BLAS: its threads wait for one
 # another, which takes tens of milliseconds while the tracer has all cores.
@@ -71,8 +72,9 @@ class ImageSpace(NamedTuple):
 
     image_from_world (3, 4): rows x, y (times t in perspective), t. step_x, step_y (3,): world
     vectors of one pixel to the right and up, on the plane t = 1 in perspective. origin, direction
-    (3,): the ray through the image's centre. clip_z: z in clip space is clip_z[0] * t + clip_z[1].
-    t_low, t_high: around all t > 0 of the scene.
+    (3,): the ray through the image's centre. clip_z: z in clip space is clip_z[0] * t + clip_z[1],
+    in perspective less twice the object's near (objects,), which is 0 in parallel projection.
+    t_low, t_high: around all t > 0 of the scene that are drawn.
     """
 
     image_from_world: Floats
@@ -81,6 +83,7 @@ class ImageSpace(NamedTuple):
     origin: Floats
     direction: Floats
     clip_z: tuple[float, float]
+    near: Floats
     t_low: float
     t_high: float
 
@@ -107,8 +110,9 @@ def scene_setup(flat: FlatScene) -> SceneSetup:
     return SceneSetup(planes, bounds, vertex_object)
 
 
-def image_space(camera: Camera, size: tuple[int, int], bounds: NDArray) -> ImageSpace:
-    """Image coordinates of `camera` for an image of (width, height). bounds (2, 3): the scene's."""
+def image_space(camera: Camera, size: tuple[int, int], bounds: Floats) -> ImageSpace:
+    """Image coordinates of `camera` for an image of (width, height). bounds: the objects'
+    (SceneSetup)."""
     width, height = size
     left, right, bottom, top = camera.viewport
     x, y = (left + right) / 2, (bottom + top) / 2
@@ -116,22 +120,24 @@ def image_space(camera: Camera, size: tuple[int, int], bounds: NDArray) -> Image
     eye, across = np.asarray(camera.eye), x * u + y * v
     unit = 1.0 if camera.is_parallel else camera.distance
     camera_from_world = camera.camera_from_world
-    corners = np.array(np.meshgrid(*np.asarray(bounds, float).T)).reshape(3, -1)
-    t = -(camera_from_world[2, :3] @ corners + camera_from_world[2, 3]) / unit
-    t_low, t_high, near, far = _fitted(t.min(), t.max(), camera)
-    clip_from_camera = camera.clip_from_camera(near * unit, far * unit)
+    t_row = -camera_from_world[2] / unit
+    middle = bounds.mean(axis=1) @ t_row[:3] + t_row[3]
+    half = (bounds[:, 1] - bounds[:, 0]) / 2 @ np.abs(t_row[:3])
+    fitted = _fitted(middle - half, middle + half)
+    clip_near, clip_far = (1.0, 2.0) if not camera.is_parallel else fitted.box
+    clip_from_camera = camera.clip_from_camera(clip_near * unit, clip_far * unit)
     clip = clip_from_camera @ camera_from_world / unit
+    clip_z = (-clip_from_camera[2, 2], clip_from_camera[2, 3] / unit)
     return ImageSpace(
-        image_from_world=np.stack(
-            [clip[0] * width / 2, clip[1] * height / 2, -camera_from_world[2] / unit]
-        ),
+        image_from_world=np.stack([clip[0] * width / 2, clip[1] * height / 2, t_row]),
         step_x=(right - left) / width * u,
         step_y=(top - bottom) / height * v,
         origin=eye + across if camera.is_parallel else eye,
         direction=-w if camera.is_parallel else across - camera.distance * w,
-        clip_z=(-clip_from_camera[2, 2], clip_from_camera[2, 3] / unit),
-        t_low=t_low,
-        t_high=t_high,
+        clip_z=clip_z if camera.is_parallel else (1.0, 0.0),
+        near=np.zeros(len(bounds)) if camera.is_parallel else fitted.near,
+        t_low=fitted.t_low,
+        t_high=fitted.t_high,
     )
 
 
@@ -189,6 +195,7 @@ def object_rows(
     anchor = np.clip(np.asarray(camera.eye), low, high).astype(np.float32)
     world = anchor.astype(np.float64)
     rows[:, 0, :3] = world @ space.image_from_world[:, :3].T + space.image_from_world[:, 3]
+    rows[:, 0, 3] = space.near
     rows[:, 1, :3] = anchor
     rows[:, 2:] = flat.materials
     cells = flat.materials[:, CELL_X:].astype(np.float64)
@@ -215,15 +222,31 @@ def sphere_rows(flat: FlatScene, space: ImageSpace, objects: NDArray) -> NDArray
     return rows
 
 
-def _fitted(t_min: float, t_max: float, camera: Camera) -> tuple[float, float, float, float]:
-    """(t_low, t_high) that enclose all visible t > 0 of the scene, and near and far, generously
-    around them, as ray parameters: clipping by them must never show."""
-    span = max(t_max - t_min, 1e-3 * max(abs(t_min), abs(t_max)), TINY)
-    t_high = max(1.01 * t_max, TINY)
-    t_low = max(0.99 * t_min, NEAREST * t_high)
-    if camera.is_parallel:
-        return t_low, t_high, t_min - span, t_max + span
-    return t_low, t_high, max(t_min / 2, NEAREST * t_high), 2 * t_high
+class _Fitted(NamedTuple):
+    near: Floats
+    t_low: float
+    t_high: float
+    box: tuple[float, float]
+
+
+def _fitted(t_min: Floats, t_max: Floats) -> _Fitted:
+    """Near planes of objects (perspective), near and far of all (parallel), t_low and t_high, as ray
+    parameters, generously around what is to be seen: clipping by them must never show.
+
+    t_min, t_max: the objects' (objects,).
+    """
+    ahead = t_max > 0
+    if not ahead.any():
+        return _Fitted(np.ones(len(t_max)), TINY, 2 * TINY, (1.0, 2.0))
+    least = np.where(ahead, np.maximum(NEAREST * t_max, TINY), 1.0)
+    lowest, highest = float(t_min.min()), float(t_max.max())
+    span = max(highest - lowest, 1e-3 * max(abs(lowest), abs(highest)), TINY)
+    return _Fitted(
+        near=np.maximum(t_min / 2, least),
+        t_low=float(np.maximum(0.99 * t_min, least)[ahead].min()),
+        t_high=max(1.01 * highest, TINY),
+        box=(lowest - span, highest + span),
+    )
 
 
 def _columns(matrix: Floats) -> NDArray[np.float32]:
