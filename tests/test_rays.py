@@ -10,6 +10,7 @@ from trace_reference import ball, cast, tree_of
 from renderer.errors import LucidaError
 from renderer.scene.flat import flatten
 from renderer.scene.model import Mesh, Scene, SceneObject, Sphere
+from renderer.trace import Tracer
 from renderer.trace.instances import Instances
 from renderer.trace.rays import any_hits, closest_hits
 from renderer.trace.team import Team
@@ -76,36 +77,53 @@ def test_no_leak_in_a_closed_mesh(team) -> None:
         # At vertices, and at points of edges.
         targets = vertices + part * (np.roll(vertices, 1, axis=1) - vertices)
         targets = targets.reshape(-1, 3)
-        origins = random.uniform(-0.4, 0.4, (len(targets), 3))
-        assert any_hits(instances, team, origins, targets - origins).all()
-    origins = random.uniform(-0.4, 0.4, (500_000, 3))
-    assert any_hits(instances, team, origins, random.normal(size=origins.shape)).all()
+        origins = random.uniform(-0.4, 0.4, (len(targets), 3)).astype(np.float32)
+        ways = (targets - origins).astype(np.float32)
+        assert any_hits(instances, team, origins, ways).all()
+    origins = random.uniform(-0.4, 0.4, (500_000, 3)).astype(np.float32)
+    ways = random.normal(size=origins.shape).astype(np.float32)
+    assert any_hits(instances, team, origins, ways).all()
 
 
 def test_rays_that_are_none_hit_nothing(team) -> None:
     scene = stretched()
     instances = Instances(scene, flatten(scene), team)
-    origins = np.zeros((3, 3))
-    directions = np.array([[0, 0, 0], [np.nan, 1, 0], [np.inf, 0, 0]])
+    origins = np.zeros((3, 3), np.float32)
+    directions = np.array([[0, 0, 0], [np.nan, 1, 0], [np.inf, 0, 0]], np.float32)
     t, primitive = closest_hits(instances, team, origins, directions)
     assert (primitive == -1).all()
     assert np.isposinf(t).all()
     assert not any_hits(instances, team, origins, directions).any()
-    t, primitive = closest_hits(instances, team, np.zeros((0, 3)), np.zeros((0, 3)))
+    none = np.zeros((0, 3), np.float32)
+    t, primitive = closest_hits(instances, team, none, none)
     assert len(t) == len(primitive) == 0
 
 
 def test_an_empty_scene(team) -> None:
     scene = Scene(())
     instances = Instances(scene, flatten(scene), team)
-    assert not any_hits(instances, team, np.zeros((5, 3)), np.ones((5, 3))).any()
-    assert (closest_hits(instances, team, np.zeros((5, 3)), np.ones((5, 3)))[1] == -1).all()
+    rays = np.zeros((5, 3), np.float32), np.ones((5, 3), np.float32)
+    assert not any_hits(instances, team, *rays).any()
+    assert (closest_hits(instances, team, *rays)[1] == -1).all()
 
 
-def test_shapes_are_checked(team) -> None:
-    scene = Scene(())
-    instances = Instances(scene, flatten(scene), team)
-    with pytest.raises(LucidaError, match="n x 3"):
-        closest_hits(instances, team, np.zeros(3), np.zeros((1, 3)))
-    with pytest.raises(LucidaError, match="one a ray"):
-        any_hits(instances, team, np.zeros((2, 3)), np.ones((1, 3)))
+def test_a_tracer_takes_batches() -> None:
+    scene = stretched()
+    origins, directions = [[0, 2, 5], [0, 9, 5]], [[0, 0, -2], [0, 0, -2]]
+    with Tracer(scene, threads=2) as tracer:
+        t, primitive = tracer.closest_hits(origins, directions)
+        assert t[0] == pytest.approx(2.25)
+        assert primitive.tolist() == [len(flatten(scene).faces), -1]
+        assert tracer.any_hits(origins, directions).tolist() == [True, False]
+        assert not tracer.any_hits(origins, directions, 0, 2.2).any()
+        with pytest.raises(LucidaError, match="n x 3"):
+            tracer.closest_hits([0, 1, 2], [[0, 0, 1]])
+        with pytest.raises(LucidaError, match="one a ray"):
+            tracer.any_hits(np.zeros((2, 3)), np.ones((1, 3)))
+    with pytest.raises(LucidaError, match="closed"):
+        tracer.any_hits(origins, directions)
+    with (
+        Tracer(scene, method="reference") as tracer,
+        pytest.raises(LucidaError, match="takes no batches"),
+    ):
+        tracer.any_hits(origins, directions)

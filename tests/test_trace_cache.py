@@ -22,7 +22,7 @@ from renderer.trace import Tracer
 frame = Tracer(Scene((SceneObject(Sphere((0, 0, -3))),))).render(Camera(), (5, 5), ("depth",))
 assert frame.depth[2, 2] == 2, frame.depth
 from renderer.trace import compiled
-from renderer.trace.kernel import trace_image as kernel
+from renderer.trace.packet_kernel import trace_packets as kernel
 print(compiled.cache_folder(), sum(kernel.stats.cache_hits.values()))
 """
 

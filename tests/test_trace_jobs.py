@@ -37,7 +37,7 @@ def slow_scene() -> Scene:
 
 @pytest.fixture(scope="module")
 def slow() -> Iterator[Tracer]:
-    with Tracer(slow_scene(), threads=2) as tracer:
+    with Tracer(slow_scene(), threads=2, method="reference") as tracer:
         tracer.render(FRONT, (1, 1))
         yield tracer
 
@@ -127,7 +127,7 @@ def test_an_exception_in_progress_cancels(slow: Tracer) -> None:
 
 def test_closing_cancels_and_ends_the_threads() -> None:
     before = threading.active_count()
-    tracer = Tracer(slow_scene(), threads=3)
+    tracer = Tracer(slow_scene(), threads=3, method="reference")
     jobs = [tracer.start(FRONT, LARGE) for _ in range(3)]
     wait_until_tracing(jobs[0])
     tracer.close()
@@ -141,7 +141,7 @@ def test_closing_cancels_and_ends_the_threads() -> None:
 
 def test_a_dropped_tracer_ends_its_threads() -> None:
     before = set(threading.enumerate())
-    tracer = Tracer(slow_scene(), threads=2)
+    tracer = Tracer(slow_scene(), threads=2, method="reference")
     job = tracer.start(FRONT, LARGE)
     wait_until_tracing(job)
     started = set(threading.enumerate()) - before
@@ -246,7 +246,7 @@ def test_the_interpreter_exits_while_jobs_run(end: str) -> None:
 import sys, time
 from test_trace_jobs import FRONT, LARGE, slow_scene
 from renderer.trace import Tracer
-tracers = [Tracer(slow_scene(), threads=2) for _ in range(2)]
+tracers = [Tracer(slow_scene(), threads=2, method="reference") for _ in range(2)]
 jobs = [tracer.start(FRONT, LARGE) for tracer in tracers for _ in range(2)]
 while not jobs[0].progress or not jobs[2].progress:
     time.sleep(0.01)

@@ -22,7 +22,7 @@ def test_images_match_the_reference(seed: int) -> None:
     rays = camera.rays(SIZE)
     hits = closest(flat, *(part.reshape(-1, 3) for part in rays), camera.t_range)
     color, normal = shaded(scene, flat, camera, SIZE, hits)
-    with Tracer(scene, threads=2) as tracer:
+    with Tracer(scene, threads=2, method="reference") as tracer:
         frame = tracer.render(camera, SIZE, ALL)
 
     sure = ~hits.doubtful.reshape(SIZE[::-1])

@@ -1,7 +1,8 @@
 """A scene prepared for tracing: flat arrays and BVH, and the kernel run on them.
 
 The one door between the tracer's threads and the compiled code: importing this module imports
-numba, so only a Tracer's own thread does. Other kernels, and the choice between them, belong here.
+numba, so only a Tracer's own thread does. Owns the plain way, one ray after another in float64, and
+the choice between it and packets (packet_engine.py).
 """
 
 from __future__ import annotations
@@ -13,8 +14,14 @@ from renderer.trace.bvh import build, packed
 from renderer.trace.control import Control, cancel, new_control
 from renderer.trace.image import Image, new_image
 from renderer.trace.kernel import trace_image
+from renderer.trace.packet_engine import PacketEngine
 from renderer.trace.team import Team
 from renderer.trace.view import View
+
+
+def new_engine(scene: Scene, team: Team, method: str) -> Engine | PacketEngine:
+    """The scene prepared for one of tracer.METHODS."""
+    return PacketEngine(scene, team) if method == "packets" else Engine(scene, team)
 
 
 class Engine:
@@ -22,12 +29,16 @@ class Engine:
 
     def __init__(self, scene: Scene, team: Team) -> None:
         self._team = team
-        self._flat = flatten(scene)
-        self._tree = packed(build(self._flat, team), self._flat, team)
+        self.set_scene(scene)
         # Compile, by an image that is over before it begins.
         over = new_control()
         cancel(over)
         self.trace(View.of(Camera.canonical()), new_image((1, 1), ()), over)
+
+    def set_scene(self, scene: Scene) -> None:
+        """Prepares another scene."""
+        self._flat = flatten(scene)
+        self._tree = packed(build(self._flat, self._team), self._flat, self._team)
 
     def trace(self, view: View, image: Image, control: Control) -> None:
         """Fills the image; returns early if cancelled. Blocks without a finished mark are open."""

@@ -9,6 +9,7 @@ from __future__ import annotations
 import threading
 import time
 from collections.abc import Callable
+from typing import Any
 
 from renderer.camera import Camera
 from renderer.frame import Frame
@@ -40,6 +41,10 @@ class Task:
         self._time_s = 0.0
         self._error: BaseException | None = None
         self._frame: Frame | None = None
+
+    def run(self, engine: Any) -> None:
+        """Traces the image by an engine (engine.py)."""
+        self.trace(engine.trace)
 
     def trace(self, trace: TraceCall) -> None:
         """Traces the image, unless cancelled before. Called once, by the Tracer's thread."""

@@ -5,6 +5,9 @@ Does what engine.py's Engine does, many times faster. Knows nothing of tasks and
 
 from __future__ import annotations
 
+import numpy as np
+from numpy.typing import NDArray
+
 from renderer.camera import Camera
 from renderer.scene.flat import flatten
 from renderer.scene.model import Scene
@@ -13,8 +16,11 @@ from renderer.trace.image import Image, new_image
 from renderer.trace.instances import Instances
 from renderer.trace.packet_kernel import trace_packets
 from renderer.trace.packet_view import packet_view
+from renderer.trace.rays import any_hits, closest_hits
 from renderer.trace.team import Team
 from renderer.trace.view import View
+
+Rays = NDArray[np.float32]
 
 
 class PacketEngine:
@@ -33,6 +39,18 @@ class PacketEngine:
         """Follows a changed scene; unchanged meshes (the same arrays) keep their trees."""
         self._flat = flatten(scene)
         self.instances.update(scene, self._flat)
+
+    def closest_hits(
+        self, origins: Rays, directions: Rays, t_min: float, t_max: float
+    ) -> tuple[NDArray[np.float32], NDArray[np.int32]]:
+        """(t, primitive) of many rays: see rays.py."""
+        return closest_hits(self.instances, self._team, origins, directions, t_min, t_max)
+
+    def any_hits(
+        self, origins: Rays, directions: Rays, t_min: float, t_max: float
+    ) -> NDArray[np.bool_]:
+        """Whether each of many rays hits anything: see rays.py."""
+        return any_hits(self.instances, self._team, origins, directions, t_min, t_max)
 
     def trace(self, view: View, image: Image, control: Control) -> None:
         """Fills the image; returns early if cancelled. Blocks without a finished mark are open."""

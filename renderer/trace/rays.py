@@ -1,14 +1,13 @@
 """Many rays at once: the closest hit of each, or whether there is any.
 
-Owns the batches that a user gives, and their checks. The rays' way is rays_hit.py's.
+Owns how threads share a batch. Each ray's way is rays_hit.py's; batch.py checks what a user gives.
 """
 
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import NDArray
 
-from renderer.errors import LucidaError
 from renderer.trace.atomic import take_next
 from renderer.trace.compiled import inlined, kernel
 from renderer.trace.control import new_control
@@ -24,24 +23,23 @@ _CHUNK = 256  # rays that a thread takes at a time
 def closest_hits(
     instances: Instances,
     team: Team,
-    origins: ArrayLike,
-    directions: ArrayLike,
+    origins: NDArray[np.float32],
+    directions: NDArray[np.float32],
     t_min: float = 0.0,
     t_max: float = np.inf,
 ) -> tuple[NDArray[np.float32], NDArray[np.int32]]:
     """(t, primitive) of the closest hit along each ray; inf and -1 where there is none.
 
-    origins, directions: (n, 3), world space; directions of any length. t: float32 (n,), in
-    units of the direction, t_min < t < t_max. primitive: int32 (n,), numbers of the flat scene.
-    Arithmetic is float32. A ray that holds NaN or has no direction hits nothing. Raises LucidaError
-    where the shapes are not those of rays.
+    origins, directions: float32 (n, 3), C order, world space; directions of any length.
+    t: float32 (n,), in units of the direction, t_min < t < t_max. primitive: int32 (n,), numbers of
+    the flat scene. Arithmetic is float32. A ray that holds NaN or has no direction hits nothing.
     """
-    o, d = _rays(origins, directions)
-    t, primitive = np.empty(len(o), np.float32), np.empty(len(o), np.int32)
+    t, primitive = np.empty(len(origins), np.float32), np.empty(len(origins), np.int32)
     limits = np.array([t_min, t_max], np.float32)
     team.run(
-        _closest, instances.world, o, d, limits, t, primitive, instances.stack_size, new_control(),
-        size=-(-len(o) // _CHUNK),
+        _closest, instances.world, origins, directions, limits, t, primitive,
+        instances.stack_size, new_control(),
+        size=-(-len(origins) // _CHUNK),
     )  # fmt: skip
     return t, primitive
 
@@ -49,35 +47,20 @@ def closest_hits(
 def any_hits(
     instances: Instances,
     team: Team,
-    origins: ArrayLike,
-    directions: ArrayLike,
+    origins: NDArray[np.float32],
+    directions: NDArray[np.float32],
     t_min: float = 0.0,
     t_max: float = np.inf,
 ) -> NDArray[np.bool_]:
     """bool (n,): whether each ray hits anything with t_min < t < t_max; see closest_hits."""
-    o, d = _rays(origins, directions)
-    hit = np.empty(len(o), np.bool_)
+    hit = np.empty(len(origins), np.bool_)
     limits = np.array([t_min, t_max], np.float32)
     team.run(
-        _any, instances.world, o, d, limits, hit, instances.stack_size, new_control(),
-        size=-(-len(o) // _CHUNK),
+        _any, instances.world, origins, directions, limits, hit,
+        instances.stack_size, new_control(),
+        size=-(-len(origins) // _CHUNK),
     )  # fmt: skip
     return hit
-
-
-def _rays(
-    origins: ArrayLike, directions: ArrayLike
-) -> tuple[NDArray[np.float32], NDArray[np.float32]]:
-    """Both as contiguous float32 (n, 3)."""
-    parts = []
-    for name, value in (("origins", origins), ("directions", directions)):
-        array = np.ascontiguousarray(value, np.float32)
-        if array.ndim != 2 or array.shape[1] != 3:
-            raise LucidaError(name, f"has shape {array.shape}", "give n x 3 numbers")
-        parts.append(array)
-    if len(parts[0]) != len(parts[1]):
-        raise LucidaError("directions", f"are {len(parts[1])}", f"give {len(parts[0])}: one a ray")
-    return parts[0], parts[1]
 
 
 @inlined

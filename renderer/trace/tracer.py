@@ -5,19 +5,27 @@ Owns what its user sees: images made at once, or in the background. The work is 
 
 from __future__ import annotations
 
+import math
 import weakref
 from collections.abc import Callable, Iterable
 from types import TracebackType
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
 
 from renderer.camera import Camera
+from renderer.errors import LucidaError
 from renderer.frame import Frame, check_channels, check_size
 from renderer.samples import check_samples, supersampled
 from renderer.scene.model import Scene
+from renderer.trace.batch import RayBatch
 from renderer.trace.jobs import Task, TraceJob
 from renderer.trace.team import check_threads
 from renderer.trace.worker import Worker
 
 DEFAULT_CHANNELS = ("color", "depth", "normal", "id")
+METHODS = ("packets", "reference")
 POLL_S = 0.03  # between two reports of progress
 
 
@@ -25,17 +33,37 @@ class Tracer:
     """Draws images of one scene by tracing each pixel's viewing ray.
 
     threads: how many trace an image together; None: as many as this process has processors.
+    method: "packets" traces squares of pixels together, in float32 and by SIMD; "reference" one ray
+    after another, in float64, tens of times slower, by the code that reads like the lecture.
     The first image takes longer: the scene is prepared then and, once for each installation, the
     kernels are compiled, some seconds. Several Tracers may work at once; the jobs of one are done
     one after another, in the order of their start. All methods may be called from any thread.
-    Raises LucidaError for a bad number of threads.
+    Raises LucidaError for a bad number of threads or an unknown method.
     """
 
-    def __init__(self, scene: Scene, threads: int | None = None) -> None:
-        self.scene = scene
+    def __init__(self, scene: Scene, threads: int | None = None, method: str = METHODS[0]) -> None:
+        if method not in METHODS:
+            names = " or ".join(repr(name) for name in METHODS)
+            raise LucidaError("method", f"{method!r} is unknown", f"give {names}")
+        self._scene = scene
         self.threads = check_threads(threads)
-        self._worker = Worker(scene, self.threads)
+        self.method = method
+        self._worker = Worker(self.threads, method)
         weakref.finalize(self, self._worker.abandon)
+
+    @property
+    def scene(self) -> Scene:
+        """What the next image shows."""
+        return self._scene
+
+    def set_scene(self, scene: Scene) -> None:
+        """Changes what the images started from now on show.
+
+        Of a scene that differs from the last one by moved objects, or other materials and lights,
+        only that is prepared anew: milliseconds. Meshes are the same if their arrays are, as after
+        dataclasses.replace(mesh, transform=...).
+        """
+        self._scene = scene
 
     def render(
         self,
@@ -65,9 +93,36 @@ class Tracer:
 
         Jobs begun before come first: cancel those that are no longer wanted.
         """
-        task = Task(camera, check_size(size), check_channels(channels), self.scene.background)
-        self._worker.submit(task)
+        scene = self._scene
+        task = Task(camera, check_size(size), check_channels(channels), scene.background)
+        self._worker.submit(scene, task)
         return TraceJob(task, self)
+
+    def closest_hits(
+        self, origins: ArrayLike, directions: ArrayLike, t_min: float = 0.0, t_max: float = math.inf
+    ) -> tuple[NDArray[np.float32], NDArray[np.int32]]:
+        """(t, primitive) of the closest hit along each of n rays; inf and -1 where there is none.
+
+        origins, directions: (n, 3), world space; directions of any length. t: float32 (n,), in
+        units of the direction, t_min < t < t_max. primitive: int32 (n,), as in Frame. Arithmetic is
+        float32. Raises LucidaError for other shapes, and where the method is not "packets".
+        """
+        return self._batch("closest_hits", origins, directions, t_min, t_max)
+
+    def any_hits(
+        self, origins: ArrayLike, directions: ArrayLike, t_min: float = 0.0, t_max: float = math.inf
+    ) -> NDArray[np.bool_]:
+        """bool (n,): whether each ray hits anything with t_min < t < t_max; see closest_hits."""
+        return self._batch("any_hits", origins, directions, t_min, t_max)
+
+    def _batch(self, name: str, *rays: Any) -> Any:
+        if self.method != "packets":
+            raise LucidaError(
+                "method", f"{self.method!r} takes no batches of rays", "use 'packets', the default"
+            )
+        batch = RayBatch(name, *rays)
+        self._worker.submit(self._scene, batch)
+        return batch.result()
 
     def close(self) -> None:
         """Cancels all jobs and waits for the threads to end. A closed Tracer starts no more.

@@ -14,25 +14,28 @@ import weakref
 
 from renderer.errors import LucidaError
 from renderer.scene.model import Scene
+from renderer.trace.batch import RayBatch
 from renderer.trace.garbage import no_full_collections
 from renderer.trace.jobs import Task
 from renderer.trace.team import Team
+
+Work = Task | RayBatch
 
 
 class Worker:
     """Runs tasks in the order of their submission, in a thread that starts with the first."""
 
-    def __init__(self, scene: Scene, threads: int) -> None:
-        self._scene, self._threads = scene, threads
-        self._queue: queue.SimpleQueue[Task | None] = queue.SimpleQueue()
+    def __init__(self, threads: int, method: str) -> None:
+        self._threads, self._method = threads, method
+        self._queue: queue.SimpleQueue[tuple[Scene, Work] | None] = queue.SimpleQueue()
         self._lock = threading.Lock()
-        self._tasks: weakref.WeakSet[Task] = weakref.WeakSet()
-        self._current: Task | None = None
+        self._tasks: weakref.WeakSet[Work] = weakref.WeakSet()
+        self._current: Work | None = None
         self._thread: threading.Thread | None = None
         self._closed = False
 
-    def submit(self, task: Task) -> None:
-        """Queues a task. Raises LucidaError once closed."""
+    def submit(self, scene: Scene, task: Work) -> None:
+        """Queues a task on a scene. Raises LucidaError once closed."""
         with self._lock:
             if self._closed:
                 raise LucidaError("tracer", "is closed", "make a new Tracer")
@@ -44,7 +47,7 @@ class Worker:
                 )
                 self._thread.start()
                 _workers.add(self)
-            self._queue.put(task)
+            self._queue.put((scene, task))
 
     def close(self) -> None:
         """Cancels all tasks and lets the thread end, without waiting for it; see join()."""
@@ -71,24 +74,32 @@ class Worker:
 
     def _serve(self) -> None:
         team = Team(self._threads)
-        engine = None
-        while (task := self._queue.get()) is not None:
+        engine = prepared = None
+        while (item := self._queue.get()) is not None:
+            scene, task = item
             self._current = task
             if self._closed:
                 task.cancel()
             try:
-                if engine is None and not task.finished.is_set():
+                if task.finished.is_set():
+                    pass
+                elif engine is None:
                     with no_full_collections():
-                        from renderer.trace.engine import Engine  # imports numba
+                        from renderer.trace.engine import new_engine  # imports numba
 
-                        engine = Engine(self._scene, team)
+                        engine = new_engine(scene, team, self._method)
+                elif scene is not prepared:
+                    prepared = None  # until it is, if it can be
+                    engine.set_scene(scene)
                 if engine is not None:
-                    task.trace(engine.trace)
+                    prepared = scene
+                    task.run(engine)
             except MemoryError:
                 task.fail(LucidaError("scene", "exceeds the memory", "use a smaller model"))
             except BaseException as error:
                 task.fail(error)
-            task = self._current = None  # its buffers, while waiting for the next
+            del item, task  # their buffers, while waiting for the next
+            self._current = None
         team.close()
 
 
