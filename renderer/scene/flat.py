@@ -15,7 +15,16 @@ import numpy as np
 from numpy.typing import NDArray
 
 from renderer.errors import LucidaError
-from renderer.scene.model import Checker, Material, Mesh, PointLight, Scene, Sphere
+from renderer.scene.model import (
+    Checker,
+    Material,
+    Mesh,
+    PointLight,
+    Scene,
+    SceneObject,
+    Shape,
+    Sphere,
+)
 
 F32 = NDArray[np.float32]
 I32 = NDArray[np.int32]
@@ -57,8 +66,12 @@ class FlatScene(NamedTuple):
     bounds: F32
 
 
-def flatten(scene: Scene) -> FlatScene:
-    """The scene's arrays. Raises LucidaError where a transformed mesh leaves float32's range."""
+def flatten(scene: Scene, known: tuple[Scene, FlatScene] | None = None) -> FlatScene:
+    """The scene's arrays. Raises LucidaError where a transformed mesh leaves float32's range.
+
+    known: a scene that was flattened before, and its arrays; what the two scenes have in common
+    (the same objects of Python's, at the same place) is copied from them.
+    """
     count = len(scene.objects)
     vertices: list[F32] = []
     normals: list[F32] = []
@@ -71,8 +84,10 @@ def flatten(scene: Scene) -> FlatScene:
     object_sphere = np.full(count, -1, np.int32)
     materials = np.zeros((count, 6, 4), np.float32)
     first_vertex = first_face = 0
+    same_so_far = known is not None
     for number, entry in enumerate(scene.objects):
         shape = entry.shape
+        old = known[0].objects[number] if known and number < len(known[0].objects) else None
         transform: NDArray[np.float64] = np.eye(4)
         object_faces[number] = first_face, 0
         if isinstance(shape, Sphere):
@@ -82,22 +97,23 @@ def flatten(scene: Scene) -> FlatScene:
             sphere_object.append(number)
         else:
             transform = shape.transform
-            with np.errstate(over="ignore", invalid="ignore"):
-                world = shape.vertices @ transform[:3, :3].T + transform[:3, 3]
-                usable = (np.abs(world) < 1e15).all()
-            if not usable:
-                field = f"object {number} ({entry.name})" if entry.name else f"object {number}"
-                raise LucidaError(field, "its transform is too large", "scale it down")
-            vertices.append(world.astype(np.float32))
-            normals.append(_world_normals(shape))
-            ones = np.ones_like(shape.vertices)
-            colors.append(ones if shape.colors is None else shape.colors)
-            faces.append(shape.faces + np.int32(first_vertex))
+            if known and old and same_so_far and old.shape is shape:
+                parts = _known_parts(known[1], shape, first_vertex, first_face)
+            else:
+                parts = _world_parts(number, entry, shape, first_vertex)
+            vertices.append(parts[0])
+            normals.append(parts[1])
+            colors.append(parts[2])
+            faces.append(parts[3])
             face_object.append(np.full(len(shape.faces), number, np.int32))
             object_faces[number, 1] = len(shape.faces)
             first_vertex += len(shape.vertices)
             first_face += len(shape.faces)
-        materials[number] = _material_rows(entry.material, transform)
+        if known and old is entry:
+            materials[number] = known[1].materials[number]
+        else:
+            materials[number] = _material_rows(entry.material, transform)
+        same_so_far = same_so_far and old is not None and _room(old.shape) == _room(shape)
     flat_vertices = _stack(vertices, (0, 3), np.float32)
     flat_spheres = np.array(spheres, np.float32).reshape(-1, 4)
     flat = FlatScene(
@@ -119,6 +135,36 @@ def flatten(scene: Scene) -> FlatScene:
     for array in flat:
         array.setflags(write=False)
     return flat
+
+
+def _world_parts(
+    number: int, entry: SceneObject, mesh: Mesh, first_vertex: int
+) -> tuple[F32, F32, F32, I32]:
+    """A mesh's part of the vertices, normals, colors and faces."""
+    transform = mesh.transform
+    with np.errstate(over="ignore", invalid="ignore"):
+        world = mesh.vertices @ transform[:3, :3].T + transform[:3, 3]
+        usable = (np.abs(world) < 1e15).all()
+    if not usable:
+        field = f"object {number} ({entry.name})" if entry.name else f"object {number}"
+        raise LucidaError(field, "its transform is too large", "scale it down")
+    colors = np.ones_like(mesh.vertices) if mesh.colors is None else mesh.colors
+    faces = mesh.faces + np.int32(first_vertex)
+    return world.astype(np.float32), _world_normals(mesh), colors, faces
+
+
+def _known_parts(
+    flat: FlatScene, mesh: Mesh, first_vertex: int, first_face: int
+) -> tuple[F32, F32, F32, I32]:
+    """The same, of a mesh that is at the same place of flattened arrays."""
+    vertices = slice(first_vertex, first_vertex + len(mesh.vertices))
+    faces = slice(first_face, first_face + len(mesh.faces))
+    return flat.vertices[vertices], flat.normals[vertices], flat.colors[vertices], flat.faces[faces]
+
+
+def _room(shape: Shape) -> tuple[int, int]:
+    """How many vertices and faces a shape takes."""
+    return (len(shape.vertices), len(shape.faces)) if isinstance(shape, Mesh) else (0, 0)
 
 
 def _stack(parts: list, shape: tuple[int, ...], dtype: type) -> np.ndarray:
@@ -160,8 +206,16 @@ def _light_rows(scene: Scene) -> F32:
 
 
 def _bounds(vertices: F32, spheres: F32) -> F32:
-    low = [vertices.min(0)] if len(vertices) else []
-    high = [vertices.max(0)] if len(vertices) else []
+    low, high = [], []
+    if len(vertices):
+        # Many numbers a row: along rows of three, NumPy takes ten times as long.
+        whole = len(vertices) // 64 * 64
+        parts = [vertices[whole:]]
+        if whole:
+            rows = vertices[:whole].reshape(-1, 64 * 3)
+            parts += [rows.min(0).reshape(64, 3), rows.max(0).reshape(64, 3)]
+        corners = np.concatenate(parts)
+        low, high = [corners.min(0)], [corners.max(0)]
     if len(spheres):
         low.append((spheres[:, :3] - spheres[:, 3:]).min(0))
         high.append((spheres[:, :3] + spheres[:, 3:]).max(0))

@@ -28,6 +28,7 @@ class PacketEngine:
 
     def __init__(self, scene: Scene, team: Team) -> None:
         self._team = team
+        self._scene = scene
         self._flat = flatten(scene)
         self.instances = Instances(scene, self._flat, team)
         # Compile, by an image that is over before it begins.
@@ -37,7 +38,8 @@ class PacketEngine:
 
     def set_scene(self, scene: Scene) -> None:
         """Follows a changed scene; unchanged meshes (the same arrays) keep their trees."""
-        self._flat = flatten(scene)
+        self._flat = flatten(scene, (self._scene, self._flat))
+        self._scene = scene
         self.instances.update(scene, self._flat)
 
     def closest_hits(
