@@ -78,7 +78,7 @@ class LiveTrace:
         self,
         wake: Callable[[], None],
         make_tracer: Callable[[Scene], Tracer],
-        begin: Callable[[], None] = lambda: None,
+        begin: Callable[[], None] | None = None,
     ) -> None:
         self._wake = wake
         self._make_tracer = make_tracer
@@ -156,7 +156,8 @@ class LiveTrace:
     # Its thread's side.
 
     def _run(self) -> None:
-        self._begin()
+        if self._begin is not None:
+            self._begin()
         tracer: Tracer | None = None
         scene: Scene | None = None
         pixel_s = 0.0

@@ -27,11 +27,15 @@ STILL_S = 0.3  # comparing reads the raster image back, which may cost a frame: 
 
 
 class Renderers:
-    """wake: called from other threads when the window has something new to show."""
+    """wake: called from other threads when the window has something new to show.
 
-    def __init__(self, wake: Callable[[], None]) -> None:
+    smooth: the tracer gives way to the window's frames; without, it is done sooner.
+    """
+
+    def __init__(self, wake: Callable[[], None], smooth: bool = True) -> None:
         self.agreement = Agreement(wake)
-        self.live = LiveTrace(wake, _make_tracer, lower_priority)
+        begin = lower_priority if smooth else None
+        self.live = LiveTrace(wake, _make_tracer, begin)
         self.pictures: Pictures | None = None
         self.ray_image: RayImage | None = None
         self.size = (0, 0)  # (width, height) of both images; (0, 0) before the first layout

@@ -32,7 +32,7 @@ from renderer.scene import BUILTIN_SCENES, load_scene, load_view
 
 DEFAULT_SIZE = (1280, 720)
 DEFAULT_PICTURE = Path("lucida.png")
-SCREENSHOT_LIMIT_S = 180.0
+SCREENSHOT_LIMIT_S = 300.0  # the first image of an installation compiles the tracer
 NULL_FPS = 60.0
 SWITCH_INTERVAL_S = 0.001  # a busy Python thread (a compilation) delays a frame by this, not 5 ms
 
@@ -83,7 +83,7 @@ class Run:
         take_picture: bool = False,
         remember: bool = True,
     ) -> None:
-        self.window = MainWindow(state)
+        self.window = MainWindow(state, smooth=not take_picture)
         self._platform = platform
         self._size = size
         self._canvas: Canvas | None = None

@@ -34,13 +34,16 @@ WHEEL_PAUSE_S = 0.5  # turns of the wheel closer together are one step of undo
 
 
 class MainWindow:
-    """Everything behind the window. Methods are called in its thread, in its context."""
+    """Everything behind the window. Methods are called in its thread, in its context.
 
-    def __init__(self, state: AppState) -> None:
+    smooth: keep the display's rate while tracing; not needed for a picture.
+    """
+
+    def __init__(self, state: AppState, smooth: bool = True) -> None:
         self.history = History(state)
         self.fonts = theme.Fonts()
         self.files = Files(hello_imgui.request_refresh)
-        self.renderers = Renderers(hello_imgui.request_refresh)
+        self.renderers = Renderers(hello_imgui.request_refresh, smooth)
         self._proportion = layout.Proportion()
         self._draft = Draft.of(state.camera)
         self._grab: Grab | None = None
