@@ -274,11 +274,21 @@ class TestNumbers:
             (
                 SceneObject(plain, CHECKERED),
                 SceneObject(Sphere((0, 0.5, -0.08), 0.015)),
-                SceneObject(triangle((-0.04, 0.5, -0.07), (0.04, 0.49, -0.07), (0.02, 0.53, -0.06))),
+                SceneObject(
+                    triangle((-0.04, 0.5, -0.07), (0.04, 0.49, -0.07), (0.02, 0.53, -0.06))
+                ),
             )
         )
         frame = agrees(rasterizer, scene, replace(WIDE, eye=(0, 0.5, 0)))
         assert set(frame.id.ravel().tolist()) == {-1, 0, 1, 2}
+
+    def test_a_vast_plain_reaches_the_images_borders(self, rasterizer):
+        plain = square(1e5).vertices[:, [0, 2, 1]]
+        scene = Scene((SceneObject(Mesh(plain, [[0, 1, 2], [0, 2, 3]])),))
+        for turn in (0.0, 0.25, 3.0):
+            target = (np.sin(turn), 0, 3 - np.cos(turn))
+            camera = Camera.look_at((0, 0.5, 3), target, fov_y_deg=50).fitted((320, 20))
+            agrees(rasterizer, scene, camera, (320, 20))
 
     def test_tiny_and_huge_worlds(self, rasterizer):
         for scale in (1e-6, 1e6):

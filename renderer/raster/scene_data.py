@@ -89,6 +89,16 @@ class SceneData:
     def release(self) -> None:
         self._owner.release()
 
+    def margin(self, size: tuple[int, int]) -> tuple[int, int]:
+        """Pixels that the viewport has beyond the image on each side: GL clips in float32, and the
+        edges that clipping makes shall lie outside the image, even those of a vast plain."""
+        largest = self._context.info["GL_MAX_VIEWPORT_DIMS"]
+        width, height = (
+            max(0, min(side // 2 + 1, (most - side) // 2))
+            for side, most in zip(size, largest, strict=True)
+        )
+        return width, height
+
     def set_camera(self, camera: Camera, size: tuple[int, int]) -> None:
         """Fills the tables that depend on the camera, unless they are this camera's already."""
         if self._last == (camera, size):
@@ -97,7 +107,7 @@ class SceneData:
         flat, tables = self._flat, self._tables
         space = image_space(camera, size, self._setup.object_bounds)
         objects = object_rows(flat, self._setup, camera, space)
-        self._block.write(camera_block(camera, size, space, flat))
+        self._block.write(camera_block(camera, size, self.margin(size), space, flat))
         tables["objects"].write(objects)
         if len(flat.faces):
             rows = tables["triangle_rows"].texels[: len(flat.faces), :3]
@@ -110,6 +120,9 @@ class SceneData:
     def see(self) -> None:
         """First pass: the nearest primitive of each pixel, into the bound framebuffer."""
         context, camera = self._context, self._last
+        assert camera is not None, "set_camera() comes first"
+        (width, height), (x, y) = camera[1], self.margin(camera[1])
+        context.viewport = -x, -y, width + 2 * x, height + 2 * y
         self._block.bind_to_uniform_block(0)
         for name, table in self._tables.items():
             table.texture.use(self._units[name])
@@ -119,7 +132,7 @@ class SceneData:
         if self._triangles is not None:
             self._prepare(self._triangles.program)
             self._triangles.render(moderngl.TRIANGLES)
-        if len(self._flat.spheres) and camera is not None:
+        if len(self._flat.spheres):
             self._prepare(self._spheres.program)
             context.enable_only(moderngl.DEPTH_TEST | moderngl.CULL_FACE)
             # Far sides only. The image is flipped, and a left-handed basis flips it again.

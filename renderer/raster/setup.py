@@ -28,8 +28,8 @@ OBJECT_TEXELS = 8
 SPHERE_TEXELS = 3
 
 FLOAT32_MAX = float(np.finfo(np.float32).max)
-# Of an object's farthest t: nearer than this, nothing of it is drawn where it reaches behind the eye.
-# GL clips in float32: nearer, what is left of a long triangle might lie behind the eye.
+# Of an object's farthest t: where it reaches behind the eye, nothing of it is drawn that is nearer.
+# GL clips in float32: nearer still, what is left of a long triangle might lie behind the eye.
 NEAREST = 1e-6
 TINY = 1e-30
 # Rows at a time. Small products stay on one thread of NumPy's BLAS: its threads wait for one
@@ -52,8 +52,8 @@ CAMERA_BLOCK = np.dtype(
         ("padding", np.float32),
         ("half_size", np.float32, 2),
         ("t_range", np.float32, 2),
+        ("clip_half", np.float32, 2),
         ("clip_z", np.float32, 2),
-        ("clip_padding", np.float32, 2),
     ]
 )
 
@@ -142,9 +142,14 @@ def image_space(camera: Camera, size: tuple[int, int], bounds: Floats) -> ImageS
 
 
 def camera_block(
-    camera: Camera, size: tuple[int, int], space: ImageSpace, flat: FlatScene
+    camera: Camera,
+    size: tuple[int, int],
+    margin: tuple[int, int],
+    space: ImageSpace,
+    flat: FlatScene,
 ) -> NDArray:
-    """The uniform block of shaders/chunks/camera.glsl, one element of CAMERA_BLOCK."""
+    """The uniform block of shaders/chunks/camera.glsl, one element of CAMERA_BLOCK. margin: how far
+    the viewport reaches beyond the image on each side, (horizontally, vertically) in pixels."""
     block = np.zeros((), CAMERA_BLOCK)
     block["image_from_world"] = _columns(space.image_from_world[:, :3])
     block["step_x"], block["step_y"] = space.step_x, space.step_y
@@ -152,6 +157,7 @@ def camera_block(
     block["perspective"] = not camera.is_parallel
     block["half_size"] = size[0] / 2, size[1] / 2
     block["t_range"] = np.minimum(camera.t_range, FLOAT32_MAX)
+    block["clip_half"] = size[0] / 2 + margin[0], size[1] / 2 + margin[1]
     block["clip_z"] = space.clip_z
     # Depth is a number's place among the floats between t_low and t_high, a piecewise linear
     # logarithm: 24 bits then resolve t to a part in a million everywhere.
@@ -230,8 +236,8 @@ class _Fitted(NamedTuple):
 
 
 def _fitted(t_min: Floats, t_max: Floats) -> _Fitted:
-    """Near planes of objects (perspective), near and far of all (parallel), t_low and t_high, as ray
-    parameters, generously around what is to be seen: clipping by them must never show.
+    """As ray parameters: near planes of objects (perspective), near and far of all (parallel),
+    t_low and t_high; generously around what is to be seen, so that clipping by them never shows.
 
     t_min, t_max: the objects' (objects,).
     """

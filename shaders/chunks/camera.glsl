@@ -16,6 +16,7 @@ layout(std140) uniform Camera {
     float padding;
     vec2 half_size;         // of the image, in pixels
     vec2 t_range;           // a hit counts for t_range.x < t < t_range.y
+    vec2 clip_half;         // half the viewport, in pixels: the image and a margin around it
     vec2 clip_z;            // z in clip space is clip_z.x * t + clip_z.y, before the near plane is set
 };
 
@@ -42,7 +43,7 @@ vec3 to_ray(vec3 point, vec2 xy) {
 // near: of the point's object. In perspective z is t - 2 near: nothing is cut but t < near.
 vec4 clip_from_image(vec3 point, float near) {
     float z = clip_z.x * point.z + clip_z.y - 2.0 * near;
-    return vec4(point.x / half_size.x, -point.y / half_size.y, z, weight(point.z));
+    return vec4(point.x / clip_half.x, -point.y / clip_half.y, z, weight(point.z));
 }
 
 bool counts(float t) {
