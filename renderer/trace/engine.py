@@ -19,9 +19,13 @@ from renderer.trace.team import Team
 from renderer.trace.view import View
 
 
-def new_engine(scene: Scene, team: Team, method: str) -> Engine | PacketEngine:
-    """The scene prepared for one of tracer.METHODS."""
-    return PacketEngine(scene, team) if method == "packets" else Engine(scene, team)
+def new_engine(
+    scene: Scene, team: Team, method: str, shadows: bool, mirror_depth: int
+) -> Engine | PacketEngine:
+    """The scene prepared for one of tracer.METHODS; only packets have shadows and mirrors."""
+    if method == "reference":
+        return Engine(scene, team)
+    return PacketEngine(scene, team, shadows, mirror_depth)
 
 
 class Engine:

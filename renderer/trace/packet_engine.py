@@ -14,6 +14,7 @@ from renderer.scene.model import Scene
 from renderer.trace.control import Control, cancel, new_control
 from renderer.trace.image import Image, new_image
 from renderer.trace.instances import Instances
+from renderer.trace.packet_effects import effects_of
 from renderer.trace.packet_kernel import trace_packets
 from renderer.trace.packet_view import packet_view
 from renderer.trace.rays import any_hits, closest_hits
@@ -24,9 +25,15 @@ Rays = NDArray[np.float32]
 
 
 class PacketEngine:
-    """Traces images of one scene by a team of threads. Raises LucidaError (see flatten)."""
+    """Traces images of one scene by a team of threads. Raises LucidaError (see flatten).
 
-    def __init__(self, scene: Scene, team: Team) -> None:
+    shadows, mirror_depth: see packet_effects.py.
+    """
+
+    def __init__(
+        self, scene: Scene, team: Team, shadows: bool = False, mirror_depth: int = 0
+    ) -> None:
+        self._effects = shadows, mirror_depth
         self._team = team
         self._scene = scene
         self._flat = flatten(scene)
@@ -61,6 +68,7 @@ class PacketEngine:
             packet_view(view, (image.width, image.height), self.instances),
             self.instances.world,
             self._flat,
+            effects_of(*self._effects, self.instances.bounds[-1], view.eye),
             image,
             self.instances.stack_size,
             control,

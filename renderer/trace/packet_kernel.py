@@ -13,7 +13,7 @@ from renderer.trace.atomic import count_done, is_cancelled, take_next
 from renderer.trace.compiled import inlined, kernel
 from renderer.trace.image import BLOCK, Image
 from renderer.trace.instances import world_pointers
-from renderer.trace.packet_shade import shade_square
+from renderer.trace.packet_shade import add_reflections, shade_square
 from renderer.trace.packet_surface import SHADING, find_surfaces, scene_pointers, square_rays
 from renderer.trace.packet_tile import (
     BEST,
@@ -45,10 +45,11 @@ _ACROSS = BLOCK // TILE  # tiles of a block, in a row
 
 
 @kernel
-def trace_packets(view, world, scene, image, stack_size, control):
+def trace_packets(view, world, scene, effects, image, stack_size, control):
     """Traces blocks of pixels until none are left, or the control array says to stop.
 
-    view: PacketView. world: World. scene: FlatScene. image: Image, written. control: control.py.
+    view: PacketView. world: World. scene: FlatScene. effects: Effects, or None. image: Image,
+    written. control: see control.py.
     """
     rows, columns = image.finished.shape
     floats = np.empty(WAITING_DEPTHS + stack_size + LANES, np.float32)
@@ -76,7 +77,17 @@ def trace_packets(view, world, scene, image, stack_size, control):
             # Determine the colours.
             for square in range(SQUARES):
                 write_square(
-                    view, world, scene, pixels, row, column, tile, square, floats_at, ints_at
+                    view,
+                    world,
+                    scene,
+                    effects,
+                    pixels,
+                    row,
+                    column,
+                    tile,
+                    square,
+                    floats_at,
+                    ints_at,
                 )
         image.finished[block // columns, block % columns] = 1
         count_done(control)
@@ -102,7 +113,7 @@ def image_pointers(image):
 
 
 @inlined
-def write_square(view, world, scene, image, row, column, tile, square, floats, ints):
+def write_square(view, world, scene, effects, image, row, column, tile, square, floats, ints):
     """Writes the channels that the image has, of one square of the tile at (row, column)."""
     i, j = row + (square >> 2) * SQUARE, column + (square & 3) * SQUARE
     if i >= image.height or j >= image.width:
@@ -142,7 +153,13 @@ def write_square(view, world, scene, image, row, column, tile, square, floats, i
             load(floats, SHADING + 2 * LANES),
         )
         if image.has_color:
-            color = shade_square(view, world, scene, pixels, first, t, objects, floats)
+            color = shade_square(
+                view, world, scene, effects, pixels, first, t, objects, floats, ints
+            )
+            if effects is not None:
+                color = add_reflections(
+                    view, world, scene, effects, pixels, square, t, objects, color, floats, ints
+                )
     if image.has_id:
         write_one(image, image.id, i, j, objects, ints)
     if image.has_primitive:

@@ -15,17 +15,22 @@ from renderer.scene.flat import (
     SPECULAR_CHECKERED,
 )
 from renderer.trace.compiled import inlined
-from renderer.trace.packet_surface import GEOMETRIC, SHADING, TINT
+from renderer.trace.packet_effects import (
+    brightest,
+    lit_pixels,
+    reflectance,
+    reflected_rays,
+    trace_square,
+)
+from renderer.trace.packet_surface import GEOMETRIC, SHADING, TINT, find_surfaces, load3, points_on
 from renderer.trace.packet_view import ACROSS, DOWN, SHARED, VARYING
 from renderer.trace.shade import CELL_NUDGE
 from renderer.trace.simd import (
-    LANES,
     bits,
     fma,
     lane_column,
     lane_of,
     lane_row,
-    load,
     lowest_bit,
     select,
     splat,
@@ -49,37 +54,58 @@ _SMALLEST_HALF = np.float32(1e-6)  # with a half vector shorter than this, there
 
 
 @inlined
-def shade_square(view, world, scene, pixels, first, t, objects, floats):
+def shade_square(view, world, scene, effects, pixels, first, t, objects, floats, ints):
     """The colours of a square: three F32; the background's where there is no object.
 
-    scene: SceneArrays. t: ray parameters. objects: the pixels' objects; surfaces are in `floats`.
+    scene: SceneArrays. effects: Effects, or None. first: as for find_surfaces. t: ray parameters.
+    objects: the pixels' objects; their surfaces are in `floats`.
     """
     background = scene.background
     color = (splat(background[0]), splat(background[1]), splat(background[2]))
     left = bits(objects >= np.int32(0))
     if left == 0:
         return color
-    geometric, shading = _three(floats, GEOMETRIC), _three(floats, SHADING)
-    tint = _three(floats, TINT)
-    o, d = pixels.origin, pixels.direction
-    point = (fma(t, d[0], o[0]), fma(t, d[1], o[1]), fma(t, d[2], o[2]))
+    geometric, shading = load3(floats, GEOMETRIC), load3(floats, SHADING)
+    tint = load3(floats, TINT)
+    point = points_on(pixels, t)
     while left != 0:
         # The pixels of one object, which share its material.
         object_number = lane_of(objects, lowest_bit(left))
         mask = objects == object_number
         left &= ~bits(mask)
         m = np.int64(object_number) * 24
-        albedo = _albedo(view, scene.materials, m, first, t, geometric, tint)
+        albedo = _albedo(view, scene.materials, m, first, t, point, geometric, tint)
         lit = shade_material(
-            scene, m, world.dark_cosine[object_number], pixels.direction, point, shading, albedo
-        )
+            world, scene, effects, object_number, mask, pixels.direction, point, geometric,
+            shading, albedo, floats, ints,
+        )  # fmt: skip
         color = select_lanes(mask, lit, color)
     return color
 
 
 @inlined
-def _three(floats, at):
-    return load(floats, at), load(floats, at + LANES), load(floats, at + 2 * LANES)
+def add_reflections(view, world, scene, effects, pixels, square, t, objects, color, floats, ints):
+    """The colours of a square and what its surfaces mirror, by as many bounces as there may be."""
+    weight = reflectance(scene, objects)
+    for _ in range(effects.mirror_depth):
+        mask = brightest(weight) > np.float32(0)
+        if bits(mask) == 0:
+            break
+        pixels = reflected_rays(effects, pixels, t, floats)
+        t = trace_square(world, pixels, mask, square, floats, ints)
+        objects, _primitives = find_surfaces(
+            view, world, scene, None, pixels, square, t, True, False, floats, ints
+        )
+        seen = shade_square(view, world, scene, effects, pixels, None, t, objects, floats, ints)
+        color = (
+            fma(weight[0], seen[0], color[0]),
+            fma(weight[1], seen[1], color[1]),
+            fma(weight[2], seen[2], color[2]),
+        )
+        # Of what has left the scene, the next reflectance is 0.
+        more = reflectance(scene, objects)
+        weight = weight[0] * more[0], weight[1] * more[1], weight[2] * more[2]
+    return color
 
 
 @inlined
@@ -88,19 +114,19 @@ def _row(materials, at):
 
 
 @inlined
-def _albedo(view, materials, m, first, t, geometric, tint):
+def _albedo(view, materials, m, first, t, point, geometric, tint):
     """The diffuse reflectance of the material at m, or its checker's, times the vertex colours."""
     r, g, b = _row(materials, m + 4 * DIFFUSE_SHININESS)
     albedo = (splat(r), splat(g), splat(b))
     if materials[m + 4 * SPECULAR_CHECKERED + 3] != np.float32(0):
         r, g, b = _row(materials, m + 4 * CHECKER_DIFFUSE)
-        is_other = is_other_cell(view, materials, m, first, t, geometric)
+        is_other = is_other_cell(view, materials, m, first, t, point, geometric)
         albedo = select_lanes(is_other, (splat(r), splat(g), splat(b)), albedo)
     return albedo[0] * tint[0], albedo[1] * tint[1], albedo[2] * tint[2]
 
 
 @inlined
-def is_other_cell(view, materials, m, first, t, geometric):
+def is_other_cell(view, materials, m, first, t, point, geometric):
     """Mask of pixels that see a cell of odd number, just below the surface.
 
     In float64, along the ray: what a pixel covers may be small against the cell's coordinates.
@@ -115,8 +141,12 @@ def is_other_cell(view, materials, m, first, t, geometric):
     is_odd = lane_row() < np.float32(0)
     for axis in range(3):
         nudge = across[0] if axis == 0 else (across[1] if axis == 1 else across[2])
-        cell = _cell(view, materials, m + 4 * (CELL_X + axis), first, t, nudge)
-        half = cell * 0.5
+        row = m + 4 * (CELL_X + axis)
+        if first is None:
+            cell = _cell_at(materials, row, point)
+        else:
+            cell = _cell(view, materials, row, first, t)
+        half = (cell - CELL_NUDGE * to_f64(nudge)) * 0.5
         is_odd = is_odd ^ (half - vfloor(half) >= 0.5)
     return is_odd
 
@@ -127,19 +157,27 @@ def _direction(materials, row, a):
 
 
 @inlined
-def _cell(view, materials, row, first, t, nudge):
+def _cell(view, materials, row, first, t):
     """One coordinate of the pixels' cells, F64."""
     ray = view.ray
     varying = _along(materials, row, ray, VARYING)
     right, down = _along(materials, row, ray, ACROSS), _along(materials, row, ray, DOWN)
     shared = _along(materials, row, ray, SHARED)
-    offset = np.float64(materials[row + 3])
     x = to_f64(lane_column()) + np.float64(first[0])
     y = to_f64(lane_row()) + np.float64(first[1])
     t = to_f64(t)
     pixel = fma(x, right, fma(y, down, splat(varying)))
     point = fma(t, shared, pixel) if view.parallel else fma(t, pixel, splat(shared))
-    return point + offset - CELL_NUDGE * to_f64(nudge)
+    return point + np.float64(materials[row + 3])
+
+
+@inlined
+def _cell_at(materials, row, point):
+    """The same for points."""
+    a, b = np.float64(materials[row]), np.float64(materials[row + 1])
+    c, d = np.float64(materials[row + 2]), np.float64(materials[row + 3])
+    x, y, z = to_f64(point[0]), to_f64(point[1]), to_f64(point[2])
+    return fma(x, a, fma(y, b, fma(z, c, splat(d))))
 
 
 @inlined
@@ -152,12 +190,16 @@ def _along(materials, row, ray, at):
 
 
 @inlined
-def shade_material(scene, m, dark_cosine, direction, point, shading, albedo):
-    """The light that pixels of the material at m send to the viewer.
+def shade_material(
+    world, scene, effects, object_number, mask, direction, point, geometric, shading, albedo,
+    floats, ints,
+):  # fmt: skip
+    """The light that the pixels of one object, in the lanes of the mask, send to the viewer.
 
     Source: Marschner and Shirley, Fundamentals of Computer Graphics, ch. 4 (Blinn and Phong).
     """
     materials, lights = scene.materials, scene.lights
+    m, dark_cosine = np.int64(object_number) * 24, world.dark_cosine[object_number]
     specular = _row(materials, m + 4 * SPECULAR_CHECKERED)
     shininess = materials[m + 4 * DIFFUSE_SHININESS + 3]
     is_shiny = specular[0] + specular[1] + specular[2] > np.float32(0)
@@ -174,6 +216,13 @@ def shade_material(scene, m, dark_cosine, direction, point, shading, albedo):
             is_apart = per_length < np.float32(1) / _SMALLEST_LIGHT
             to_light = scaled_lanes(select(is_apart, per_length, np.float32(0)), to_light)
         cosine = vmax(dot_lanes(shading, to_light), np.float32(0))
+        in_light = mask
+        if effects is not None:
+            light = lx, ly, lz, lights[lamp + 3]
+            in_light = lit_pixels(
+                world, effects, point, geometric, to_light, light, mask, floats, ints
+            )
+            cosine = select(in_light, cosine, np.float32(0))
         rgb = lights[lamp + 4], lights[lamp + 5], lights[lamp + 6]
         r = fma(cosine * rgb[0], albedo[0], r)
         g = fma(cosine * rgb[1], albedo[1], g)
@@ -184,7 +233,7 @@ def shade_material(scene, m, dark_cosine, direction, point, shading, albedo):
         length = vsqrt(dot_lanes(half, half))
         cosine = dot_lanes(shading, half)
         # Highlights are small: most squares have none of most lights.
-        is_lit = (cosine > length * dark_cosine) & (length >= _SMALLEST_HALF)
+        is_lit = in_light & (cosine > length * dark_cosine) & (length >= _SMALLEST_HALF)
         if lights[lamp + 3] != np.float32(0):
             is_lit = is_lit & (dot_lanes(to_light, to_light) > np.float32(0.5))
         if bits(is_lit) == 0:

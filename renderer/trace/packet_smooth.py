@@ -13,7 +13,7 @@ import numpy as np
 from renderer.trace.compiled import inlined
 from renderer.trace.packet_view import ORIGIN, ROW_X, ROW_Y, ROW_Z, ROWS
 from renderer.trace.simd import fma, lane_column, lane_row, splat
-from renderer.trace.vectors import cross, dot
+from renderer.trace.vectors import cross, dot, minus, times
 from renderer.trace.wide import CORNERS, WIDTH
 
 
@@ -50,6 +50,44 @@ def barycentrics(view, corner, slot, space, first):
     w0, w1, w2 = _edge(b, c, first), _edge(c, a, first), _edge(a, b, first)
     scale = splat(np.float32(1)) / (w0 + w1 + w2)
     return w0 * scale, w1 * scale, w2 * scale
+
+
+@inlined
+def barycentrics_at(world, slot, space, point):
+    """(b0, b1, b2) of a slot's triangle at 16 points of it, F32."""
+    at = slot // WIDTH * CORNERS + slot % WIDTH
+    a = _corner(world.corner, at)
+    u, v = (
+        minus(_corner(world.corner, at + 3 * WIDTH), a),
+        minus(_corner(world.corner, at + 6 * WIDTH), a),
+    )
+    n = cross(u, v)
+    # Vectors whose product with a point of the triangle is b1, or b2, up to a constant.
+    scale = 1.0 / dot(n, n)
+    b1 = _weight(world, space, times(scale, cross(v, n)), a, point)
+    b2 = _weight(world, space, times(scale, cross(n, u)), a, point)
+    return np.float32(1) - b1 - b2, b1, b2
+
+
+@inlined
+def _corner(corner, at):
+    return (
+        np.float64(corner[at]),
+        np.float64(corner[at + WIDTH]),
+        np.float64(corner[at + 2 * WIDTH]),
+    )
+
+
+@inlined
+def _weight(world, space, g, a, point):
+    """g . (q - a), q the object's point that is seen at a point of the world."""
+    m, r = world.object_from_world, 12 * space
+    x = g[0] * m[r] + g[1] * m[r + 4] + g[2] * m[r + 8]
+    y = g[0] * m[r + 1] + g[1] * m[r + 5] + g[2] * m[r + 9]
+    z = g[0] * m[r + 2] + g[1] * m[r + 6] + g[2] * m[r + 10]
+    constant = dot(g, (m[r + 3], m[r + 7], m[r + 11])) - dot(g, a)
+    value = fma(point[2], np.float32(z), splat(np.float32(constant)))
+    return fma(point[0], np.float32(x), fma(point[1], np.float32(y), value))
 
 
 @inlined

@@ -207,6 +207,15 @@ def sphere_normal(view, spheres, sphere, first, z):
 
 
 @inlined
+def sphere_normal_at(spheres, sphere, point):
+    """Outward unit normals of a sphere at 16 points of it."""
+    x, y, z = _numbers(spheres, 4 * sphere)
+    return normalized_lanes(
+        (point[0] - np.float32(x), point[1] - np.float32(y), point[2] - np.float32(z))
+    )
+
+
+@inlined
 def _component(p, axis, x, y):
     """One coordinate of an affine vector at 16 image points."""
     value = fma(x, np.float32(p[1][axis]), splat(np.float32(p[0][axis])))

@@ -18,11 +18,12 @@ from renderer.trace.instances import HAS_COLORS, HAS_NORMALS, IS_STRETCHED
 from renderer.trace.packet_smooth import (
     agrees,
     barycentrics,
+    barycentrics_at,
     blended,
     have_normals,
     vertices_of,
 )
-from renderer.trace.packet_sphere import sphere_normal
+from renderer.trace.packet_sphere import sphere_normal, sphere_normal_at
 from renderer.trace.packet_tile import FIRST_SPHERE, NOTHING, OWNER, SEEN, SURFACE
 from renderer.trace.packet_view import ACROSS, DOWN, SHARED, VARYING
 from renderer.trace.simd import (
@@ -110,6 +111,13 @@ def square_rays(view, first):
 
 
 @inlined
+def points_on(pixels, t):
+    """The points of rays at t."""
+    o, d = pixels.origin, pixels.direction
+    return fma(t, d[0], o[0]), fma(t, d[1], o[1]), fma(t, d[2], o[2])
+
+
+@inlined
 def _ray_lanes(ray, axis, x, y):
     return fma(
         x,
@@ -120,12 +128,13 @@ def _ray_lanes(ray, axis, x, y):
 
 @inlined
 def find_surfaces(
-    view, world, scene, first, pixels, square, z, wants_tint, wants_primitives, floats, ints
+    view, world, scene, first, pixels, square, depth, wants_tint, wants_primitives, floats, ints
 ):
     """Fills a square's normals and colours (SURFACE); gives (objects, primitives), I32, -1: none.
 
-    scene: SceneArrays. first: the square's first image point. z: of what its pixels see.
-    Primitives are left out where they are not wanted.
+    scene: SceneArrays. first: the square's first image point; None for rays that are not the
+    view's. depth: of what the pixels see, Z; for other rays, t. Primitives are left out where they
+    are not wanted.
     """
     seen = load(ints, SEEN + LANES * square)
     owner = load(ints, OWNER + LANES * square)
@@ -140,7 +149,10 @@ def find_surfaces(
         if number <= FIRST_SPHERE:
             mask = seen == number
             sphere = np.int64(FIRST_SPHERE) - number
-            normal = sphere_normal(view, world.spheres, sphere, first, z)
+            if first is None:
+                normal = sphere_normal_at(world.spheres, sphere, points_on(pixels, depth))
+            else:
+                normal = sphere_normal(view, world.spheres, sphere, first, depth)
             facing = scaled_lanes(viewers_side(normal, pixels.direction), normal)
             store_surface(floats, mask, facing)
             bend_grazing(pixels.direction, mask, floats)
@@ -155,8 +167,9 @@ def find_surfaces(
                 primitives = select(mask, found, primitives)
             at = SEEN + LANES * square
             instance_surface(
-                view, world, scene, space, seen, at, first, pixels, mask, wants_tint, floats, ints
-            )
+                view, world, scene, space, seen, at, first, pixels, depth, mask, wants_tint,
+                floats, ints,
+            )  # fmt: skip
         left &= ~bits(mask)
     return objects, primitives
 
@@ -189,7 +202,7 @@ def triangle_normals(world, slots, at, mask, ints):
 
 @inlined
 def instance_surface(
-    view, world, scene, space, slots, at, first, pixels, mask, wants_tint, floats, ints
+    view, world, scene, space, slots, at, first, pixels, depth, mask, wants_tint, floats, ints
 ):
     """The surfaces of one instance, in the lanes of the mask.
 
@@ -217,7 +230,10 @@ def instance_surface(
             same = mask & (slots == np.int32(slot))
             left &= ~bits(same)
             vertices = vertices_of(scene.faces, world.face[slot] + world.first_primitive[space])
-            weights = barycentrics(view, world.corner, slot, space, first)
+            if first is None:
+                weights = barycentrics_at(world, slot, space, points_on(pixels, depth))
+            else:
+                weights = barycentrics(view, world.corner, slot, space, first)
             if wanted & HAS_COLORS:
                 _store_masked(floats, TINT, same, blended(scene.colors, vertices, weights))
             if wanted & HAS_NORMALS and have_normals(scene.normals, vertices):
@@ -261,7 +277,7 @@ def _store_masked(floats, at, mask, a):
 @inlined
 def bend_grazing(direction, mask, floats):
     """Bends shading normals just enough to face the viewer, in the lanes of the mask."""
-    normal = _load3(floats, SHADING)
+    normal = load3(floats, SHADING)
     cosine = dot_lanes(normal, direction)
     # Few squares have any: cosine > -GRAZING |direction|, without the root.
     close = cosine * cosine < dot_lanes(direction, direction) * (GRAZING * GRAZING)
@@ -274,5 +290,14 @@ def bend_grazing(direction, mask, floats):
 
 
 @inlined
-def _load3(floats, at):
+def store3(floats, at, a):
+    """Stores three vectors, one behind the other."""
+    store(floats, at, a[0])
+    store(floats, at + LANES, a[1])
+    store(floats, at + 2 * LANES, a[2])
+
+
+@inlined
+def load3(floats, at):
+    """Three vectors, as store3 stores them."""
     return load(floats, at), load(floats, at + LANES), load(floats, at + 2 * LANES)

@@ -28,7 +28,8 @@ SQUARES = (TILE // SQUARE) ** 2
 
 # One thread's scratch, float32: 12 coefficients and 4 bounds of a leaf's 16 triangles; a node's
 # children's depths; the least key of each square, and the best key of each pixel; six planes of
-# four numbers; a square's surface, for shading; the depths of the nodes that wait (to the end).
+# four numbers; a square's surface and secondary rays, for shading; the depths of the nodes that
+# wait (to the end).
 COEFFICIENTS = 0
 BOUNDS = COEFFICIENTS + 12 * LANES
 DEPTHS = BOUNDS + 4 * LANES
@@ -36,7 +37,7 @@ LEAST = DEPTHS + LANES
 BEST = LEAST + SQUARES
 PLANES = BEST + SQUARES * LANES
 SURFACE = PLANES + 32
-WAITING_DEPTHS = SURFACE + 12 * LANES
+WAITING_DEPTHS = SURFACE + 16 * LANES
 # And int32: what each pixel sees, a slot, or FIRST_SPHERE - k for sphere k, or nothing; of which
 # instance; where each plane finds the coordinates that it needs of a box; the squares that each of
 # a leaf's triangles may cover; the nodes that wait (to the end).

@@ -102,6 +102,17 @@ def pointer(typing, array):
 
 
 @intrinsic
+def shifted(typing, array, index):
+    """The pointer to array[index], for a pointer."""
+    array_kind(array)
+
+    def codegen(context, builder, sig, args):
+        return element_address(context, builder, sig, args)
+
+    return array(array, index), codegen
+
+
+@intrinsic
 def load(typing, array, index):
     """array[index : index + 16]."""
     kind = array_kind(array)

@@ -26,6 +26,7 @@ from renderer.trace.worker import Worker
 
 DEFAULT_CHANNELS = ("color", "depth", "normal", "id")
 METHODS = ("packets", "reference")
+MOST_BOUNCES = 16
 POLL_S = 0.03  # between two reports of progress
 
 
@@ -35,20 +36,29 @@ class Tracer:
     threads: how many trace an image together; None: as many as this process has processors.
     method: "packets" traces squares of pixels together, in float32 and by SIMD; "reference" one ray
     after another, in float64, tens of times slower, by the code that reads like the lecture.
+    shadows: whether objects keep light from one another. mirror_depth: how often a viewing ray is
+    reflected, by the materials' specular colours. Off in both renderers, which then agree: only ray
+    tracing has them; for method "packets".
     The first image takes longer: the scene is prepared then and, once for each installation, the
     kernels are compiled, some seconds. Several Tracers may work at once; the jobs of one are done
     one after another, in the order of their start. All methods may be called from any thread.
-    Raises LucidaError for a bad number of threads or an unknown method.
+    Raises LucidaError for a bad number of threads or bounces, and for an unknown method.
     """
 
-    def __init__(self, scene: Scene, threads: int | None = None, method: str = METHODS[0]) -> None:
-        if method not in METHODS:
-            names = " or ".join(repr(name) for name in METHODS)
-            raise LucidaError("method", f"{method!r} is unknown", f"give {names}")
+    def __init__(
+        self,
+        scene: Scene,
+        threads: int | None = None,
+        method: str = METHODS[0],
+        shadows: bool = False,
+        mirror_depth: int = 0,
+    ) -> None:
+        _check_method(method, shadows, mirror_depth)
         self._scene = scene
         self.threads = check_threads(threads)
         self.method = method
-        self._worker = Worker(self.threads, method)
+        self.shadows, self.mirror_depth = bool(shadows), mirror_depth
+        self._worker = Worker(self.threads, method, self.shadows, mirror_depth)
         weakref.finalize(self, self._worker.abandon)
 
     @property
@@ -162,3 +172,17 @@ class Tracer:
             job.cancel()
             raise
         return job.result()
+
+
+def _check_method(method: str, shadows: bool, mirror_depth: int) -> None:
+    """Raises LucidaError for what cannot be."""
+    if method not in METHODS:
+        names = " or ".join(repr(name) for name in METHODS)
+        raise LucidaError("method", f"{method!r} is unknown", f"give {names}")
+    is_whole = isinstance(mirror_depth, int) and not isinstance(mirror_depth, bool)
+    if not is_whole or not 0 <= mirror_depth <= MOST_BOUNCES:
+        problem = f"{mirror_depth!r} is not in 0 to {MOST_BOUNCES}"
+        raise LucidaError("mirror_depth", problem, "give e.g. 3")
+    if method != METHODS[0] and (shadows or mirror_depth):
+        problem = f"{method!r} has neither shadows nor mirrors"
+        raise LucidaError("method", problem, f"use {METHODS[0]!r}, the default")

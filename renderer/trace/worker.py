@@ -25,8 +25,9 @@ Work = Task | RayBatch
 class Worker:
     """Runs tasks in the order of their submission, in a thread that starts with the first."""
 
-    def __init__(self, threads: int, method: str) -> None:
+    def __init__(self, threads: int, method: str, shadows: bool, mirror_depth: int) -> None:
         self._threads, self._method = threads, method
+        self._effects = shadows, mirror_depth
         self._queue: queue.SimpleQueue[tuple[Scene, Work] | None] = queue.SimpleQueue()
         self._lock = threading.Lock()
         self._tasks: weakref.WeakSet[Work] = weakref.WeakSet()
@@ -87,7 +88,7 @@ class Worker:
                     with no_full_collections():
                         from renderer.trace.engine import new_engine  # imports numba
 
-                        engine = new_engine(scene, team, self._method)
+                        engine = new_engine(scene, team, self._method, *self._effects)
                 elif scene is not prepared:
                     prepared = None  # until it is, if it can be
                     engine.set_scene(scene)
