@@ -15,6 +15,7 @@ from collections.abc import Sequence
 
 from app.commands import COMMANDS, view
 from app.commands.arguments import TRACEBACK_VARIABLE, Parser
+from app.process import interrupt_between_imports, open_streams
 from renderer.errors import LucidaError, one_line
 
 FAILED = 2
@@ -29,6 +30,8 @@ def main(argv: Sequence[str] | None = None) -> int:
     works). 2: a mistake in the arguments or files, or a failure. 130: interrupted by Ctrl-C.
     """
     arguments = list(sys.argv[1:] if argv is None else argv)
+    open_streams()
+    interrupt_between_imports()
     try:
         status = _dispatch(arguments)
         sys.stdout.flush()

@@ -1,0 +1,60 @@
+"""The process that a command runs in: its standard streams, and Ctrl-C.
+
+Knows nothing of commands. Light to import.
+"""
+
+from __future__ import annotations
+
+import os
+import signal
+import sys
+import threading
+from types import FrameType
+
+RETRY_S = 0.02
+_IMPORTING = "<frozen importlib._bootstrap>"
+
+
+def open_streams() -> None:
+    """Gives streams that were closed (`lucida ... >&-`) to nobody, so that none of our files takes
+    their place and nothing that is printed fails."""
+    for descriptor in range(3):
+        try:
+            os.fstat(descriptor)
+        except OSError:
+            os.open(os.devnull, os.O_RDWR)  # takes the lowest free number: this one
+    for name in ("stdout", "stderr"):
+        if getattr(sys, name) is None:
+            setattr(sys, name, open(os.devnull, "w", encoding="utf-8"))  # noqa: SIM115
+
+
+def interrupt_between_imports() -> None:
+    """Ctrl-C waits for an import in progress: extension modules take a KeyboardInterrupt for a
+    broken installation, or crash. Changes nothing where Ctrl-C is ignored or handled otherwise."""
+    is_main = threading.current_thread() is threading.main_thread()
+    if is_main and signal.getsignal(signal.SIGINT) is signal.default_int_handler:
+        signal.signal(signal.SIGINT, _interrupt)
+
+
+def _interrupt(number: int, frame: FrameType | None) -> None:
+    if not _is_importing(frame):
+        raise KeyboardInterrupt
+    again = threading.Timer(RETRY_S, _raise_in_main, (number,))
+    again.daemon = True
+    again.start()
+
+
+def _raise_in_main(number: int) -> None:
+    main = threading.main_thread().ident
+    if main is not None and hasattr(signal, "pthread_kill"):
+        signal.pthread_kill(main, number)  # so that it also wakes from a wait
+    else:
+        signal.raise_signal(number)
+
+
+def _is_importing(frame: FrameType | None) -> bool:
+    while frame is not None:
+        if frame.f_code.co_filename == _IMPORTING:
+            return True
+        frame = frame.f_back
+    return False
