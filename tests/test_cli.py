@@ -113,6 +113,7 @@ class TestMistakes:
             ("one two", "unrecognized arguments: two"),
             ("--screenshot a.gif", r"a\.gif: the ending '\.gif' is unknown; give one of \.png"),
             ("--screenshot a.ppm", r"a\.ppm: \.ppm cannot hold this picture; give one of \.png"),
+            ("--size 10x900", "--size: 10x900 is too small for the window; give at least 64x64"),
             ("--size 9", "argument --size: '9' is not a size; give e.g. 1280x720"),
             ("render", "required: SCENE, -o/--output; see 'lucida render --help'"),
             ("render spheres", "required: -o/--output"),

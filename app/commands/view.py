@@ -12,6 +12,7 @@ from app import __version__
 from app.commands.arguments import SCENE_HELP, VIEW_HELP, size
 
 NAME = "view"
+SMALLEST_SIDE = 64  # of the window, in pixels
 
 DESCRIPTION = """\
 One camera, two renderers: a rasterizer (object order) and a ray tracer (image order)
@@ -42,8 +43,21 @@ def configure(parser: argparse.ArgumentParser) -> None:
         "--screenshot", metavar="OUT.png", help="draw the whole window once, save it, leave"
     )
     parser.add_argument("--view", metavar="VIEW.toml", help=VIEW_HELP)
-    parser.add_argument("--size", type=size, metavar="WxH", help="the window's size in pixels")
+    parser.add_argument(
+        "--size", type=window_size, metavar="WxH", help="the window's size in pixels"
+    )
     parser.add_argument("--version", action="version", version=f"lucida {__version__}")
+
+
+def window_size(text: str) -> tuple[int, int]:
+    """A size that leaves the images room: without any, the window would wait for them for ever."""
+    width, height = size(text)
+    if min(width, height) < SMALLEST_SIDE:
+        raise argparse.ArgumentTypeError(
+            f"{width}x{height} is too small for the window; "
+            f"give at least {SMALLEST_SIDE}x{SMALLEST_SIDE}"
+        )
+    return width, height
 
 
 def run(arguments: argparse.Namespace) -> int:
