@@ -124,7 +124,7 @@ def triangles_on_ray(corner, leaf, ray, t_min, t_max):
     """(bits, t): which of a leaf's triangles the ray meets within (t_min, t_max), and where.
 
     Two triangles at a common edge compute exactly opposite numbers for it: products commute. So
-    there is no fma() here.
+    there is no fma() in the edge functions.
     """
     at = leaf * CORNERS
     ax, ay, az = _sheared(corner, at, ray)
@@ -149,8 +149,8 @@ def triangles_on_ray(corner, leaf, ray, t_min, t_max):
 def _sheared(corner, at, ray):
     """A corner of 16 triangles relative to the origin, sheared so that the ray is the z axis."""
     z = load(corner, at + ray.axes[2]) - ray.origin[2]
-    x = (load(corner, at + ray.axes[0]) - ray.origin[0]) - z * ray.shear[0]
-    y = (load(corner, at + ray.axes[1]) - ray.origin[1]) - z * ray.shear[1]
+    x = fma(z, -ray.shear[0], load(corner, at + ray.axes[0]) - ray.origin[0])
+    y = fma(z, -ray.shear[1], load(corner, at + ray.axes[1]) - ray.origin[1])
     return x, y, z
 
 
