@@ -99,11 +99,11 @@ class Comparison:
     def summary_short(self) -> str:
         """For a status line."""
         if self.unexplained:
-            return f"disagree: {self.unexplained} pixels"
+            return f"disagree: {_pixels(self.unexplained)}"
         edges = sum(self.explained.values())
         if not edges:
             return "agree: all pixels"
-        return f"agree: all but {edges} edge pixel{'s' if edges > 1 else ''}"
+        return f"agree: all but {_pixels(edges, 'edge ')}"
 
     def difference_image(self) -> NDArray[np.uint8]:
         """uint8 (height, width, 3): the raster image darkened, explained pixels in blue,
@@ -204,12 +204,9 @@ def _explain(
     (first, t_first), (second, t_second) = seen
     t = np.where(second >= 0, t_second, t_first)
     same = (first == second) & (first >= 0)
-    # Within one flat triangle nothing jumps; on a sphere depth and normal do, at its silhouette.
-    same_triangle = same & (first < len(flat.faces))
     # The cases in the order of CAUSES: each a distance in pixels.
-    outline = np.fmin(lines.outline_px(first, i, j), lines.outline_px(second, i, j))
     distances = [
-        np.where(same_triangle, np.inf, outline),
+        np.fmin(lines.outline_px(first, i, j), lines.outline_px(second, i, j)),
         lines.meeting_px(first, second, i, j, t),
         np.fmin(lines.clip_px(first, i, j, t_first), lines.clip_px(second, i, j, t_second)),
         np.where(same, lines.checker_px(second, i, j, t), np.inf),
@@ -223,3 +220,7 @@ def _explain(
     for label in range(len(CAUSES), 0, -1):
         labels[distances[label - 1] <= TOLERANCE_PX] = label
     return labels
+
+
+def _pixels(count: int, kind: str = "") -> str:
+    return f"{count} {kind}pixel{'' if count == 1 else 's'}"

@@ -79,7 +79,7 @@ def test_a_wrong_value_in_the_middle_of_a_surface_is_unexplained(values):
         comparison = compare_frames(flat, CAMERA, SIZE, first, second)
         assert counts(comparison) == {"unexplained": 1}
         assert comparison.labels[12, 20] == 255
-        assert comparison.summary_short() == "disagree: 1 pixels"
+        assert comparison.summary_short() == "disagree: 1 pixel"
 
 
 def test_differences_within_the_tolerances_agree():
