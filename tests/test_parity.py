@@ -161,3 +161,26 @@ def test_supersampled_colour_agrees():
     assert (difference < 2e-3).mean() > 0.995
     assert difference.max() < 0.2
     assert np.abs(single.color - ray.color).max() > 0.05
+
+
+@pytest.mark.parametrize("side", [1e3, 1e5, 1e6])
+@pytest.mark.parametrize("projection", ["perspective", "parallel"])
+def test_a_vast_plain_seen_from_just_above_it_agrees(side, projection):
+    """Its corners are so far away that float32 alone cannot tell how far below the eye it is."""
+    half = side / 2
+    corners = [(-half, 0, -half), (half, 0, -half), (half, 0, half), (-half, 0, half)]
+    plain = Mesh(corners, [[0, 2, 1], [0, 3, 2]])
+    scene = Scene(
+        (
+            SceneObject(plain, Material(checker=Checker(size=1.0))),
+            SceneObject(Sphere((0, 0.5, -3), 0.5)),
+        ),
+        (PointLight((2, 3, 4)),),
+    )
+    camera = Camera.look_at(
+        (0.3, 0.5, 2), (0, 0.4, -3), fov_y_deg=50, aspect=1.6, projection=projection
+    )
+    with Rasterizer(scene) as rasterizer, Tracer(scene) as tracer:
+        result = compared(flatten(scene), (rasterizer, tracer), camera, (160, 100))
+    assert result.unexplained == 0, result.summary()
+    assert result.agree > 0.95 * result.pixels

@@ -55,9 +55,13 @@ from renderer.trace.simd import (
 )
 from renderer.trace.wide import CORNERS, WIDTH
 
-# A triangle seen exactly edge-on has a volume that is rounding and nothing else, and would be hit
-# at any depth: below this part of the terms that it is the sum of, it counts as 0.
-EDGE_ON = np.float32(3e-7)
+# A triangle's volume is a sum of terms that can be far larger than it: where the triangle is seen
+# edge-on, or is a vast plain seen from just above. Where they are larger by DOUBTFUL, float32 has
+# too few digits left for t, and the leaf's keys are computed anew in float64. Seen exactly edge-on,
+# the volume is rounding and nothing else, and would be hit at any depth: below EDGE_ON of its
+# terms it counts as 0.
+DOUBTFUL = np.float32(1000)
+EDGE_ON = np.float64(1e-13)
 
 _E0, _E1, _E2, _KEY = np.arange(4)  # a triangle's functions, in the order of their coefficients
 
@@ -83,27 +87,42 @@ def affine_row(rows, r, x, y, z):
 
 @inlined
 def _camera_corner_exact(corner, at, rows, r):
-    """The same in float64, for views so narrow that float32 has no digits left for them."""
+    """The same in float64."""
     x = to_f64(load(corner, at)) - rows[r + ORIGIN]
     y = to_f64(load(corner, at + WIDTH)) - rows[r + ORIGIN + 1]
     z = to_f64(load(corner, at + 2 * WIDTH)) - rows[r + ORIGIN + 2]
     return (
-        to_f32(affine_row(rows, r + ROW_X, x, y, z)),
-        to_f32(affine_row(rows, r + ROW_Y, x, y, z)),
-        to_f32(affine_row(rows, r + ROW_Z, x, y, z)),
+        affine_row(rows, r + ROW_X, x, y, z),
+        affine_row(rows, r + ROW_Y, x, y, z),
+        affine_row(rows, r + ROW_Z, x, y, z),
     )
 
 
 @inlined
+def _camera_corners_exact(view, corner, leaf, space):
+    at, r = leaf * CORNERS, space * ROWS
+    return (
+        _camera_corner_exact(corner, at, view.rows_exact, r),
+        _camera_corner_exact(corner, at + 3 * WIDTH, view.rows_exact, r),
+        _camera_corner_exact(corner, at + 6 * WIDTH, view.rows_exact, r),
+    )
+
+
+@inlined
+def _rounded(v):
+    return to_f32(v[0]), to_f32(v[1]), to_f32(v[2])
+
+
+@inlined
 def camera_corners(view, corner, leaf, space):
-    """(X, Y, Z) of the corners a, b, c of a leaf's triangles."""
+    """(X, Y, Z) of the corners a, b, c of a leaf's triangles.
+
+    By way of float64 for views so narrow that float32 has no digits left for them.
+    """
     at, r = leaf * CORNERS, space * ROWS
     if view.exact[space]:
-        return (
-            _camera_corner_exact(corner, at, view.rows_exact, r),
-            _camera_corner_exact(corner, at + 3 * WIDTH, view.rows_exact, r),
-            _camera_corner_exact(corner, at + 6 * WIDTH, view.rows_exact, r),
-        )
+        a, b, c = _camera_corners_exact(view, corner, leaf, space)
+        return _rounded(a), _rounded(b), _rounded(c)
     return (
         _camera_corner(corner, at, view.rows, r),
         _camera_corner(corner, at + 3 * WIDTH, view.rows, r),
@@ -125,10 +144,10 @@ def edge_function(p, q, sign):
 
 @inlined
 def key_function(view, a, b, c, ha, hb, hc):
-    """(coefficients of x, y and 1 of the triangle's key, sign of its volume).
+    """(coefficients of x, y and 1 of the triangle's key, its volume, what that may be wrong by).
 
-    The volume is that of the parallelepiped that the corners span with the eye. The key is -inf for
-    a triangle seen edge-on.
+    The volume is that of the parallelepiped that the corners span with the eye, positive for one
+    side of the triangle; the third number is the sum of the sizes of its terms. Any type of vector.
     """
     x1, y1, h1 = b[0] - a[0], b[1] - a[1], hb - ha
     x2, y2, h2 = c[0] - a[0], c[1] - a[1], hc - ha
@@ -136,11 +155,10 @@ def key_function(view, a, b, c, ha, hb, hc):
     left_h, right_h = x1 * y2, y1 * x2
     nx, ny, nh = left_x - right_x, left_y - right_y, left_h - right_h
     volume = fma(a[0], nx, fma(a[1], ny, ha * nh))
-    noise = vabs(a[0]) * (vabs(left_x) + vabs(right_x))
-    noise = fma(vabs(a[1]), vabs(left_y) + vabs(right_y), noise)
-    noise = fma(vabs(ha), vabs(left_h) + vabs(right_h), noise)
-    is_seen = vabs(volume) > noise * EDGE_ON
-    inverse = select(is_seen, splat(np.float32(1)) / volume, np.float32(0))
+    terms = vabs(a[0]) * (vabs(left_x) + vabs(right_x))
+    terms = fma(vabs(a[1]), vabs(left_y) + vabs(right_y), terms)
+    terms = fma(vabs(ha), vabs(left_h) + vabs(right_h), terms)
+    inverse = np.float32(1) / volume
     if view.parallel:
         # Z is affine in (x, y), and takes the corners' values at them.
         z1, z2 = b[2] - a[2], c[2] - a[2]
@@ -150,9 +168,34 @@ def key_function(view, a, b, c, ha, hb, hc):
     else:
         # Points of the plane have n . (X, Y, H) = volume, so 1 / H = n . (x, y, 1) / volume.
         kx, ky, k1 = nx * inverse, ny * inverse, nh * inverse
-    k1 = select(is_seen, k1, np.float32(-np.inf))
-    sign = select(volume >= np.float32(0), splat(np.float32(1)), np.float32(-1))
-    return (kx, ky, k1), sign
+    return (kx, ky, k1), volume, terms
+
+
+@inlined
+def key_function_exact(view, corner, leaf, space):
+    """(coefficients of the key, sign of the volume) in float64, then rounded.
+
+    The key is -inf for a triangle seen edge-on.
+    """
+    a, b, c = _camera_corners_exact(view, corner, leaf, space)
+    ha, hb, hc = a[2], b[2], c[2]
+    if view.parallel:
+        ha = hb = hc = to_f64(splat(np.float32(1)))
+    (kx, ky, k1), volume, terms = key_function(view, a, b, c, ha, hb, hc)
+    is_seen = vabs(volume) > terms * EDGE_ON
+    zero = splat(np.float32(0))
+    kx, ky = select(is_seen, to_f32(kx), zero), select(is_seen, to_f32(ky), zero)
+    k1 = select(is_seen, to_f32(k1), np.float32(-np.inf))
+    return (kx, ky, k1), select(volume >= np.float64(0), splat(np.float32(1)), np.float32(-1))
+
+
+@inlined
+def triangle_keys(view, corner, leaf, space, a, b, c, ha, hb, hc):
+    """(coefficients of x, y and 1 of the triangles' keys, signs of their volumes)."""
+    key, volume, terms = key_function(view, a, b, c, ha, hb, hc)
+    if bits(vabs(volume) * DOUBTFUL <= terms) != 0:
+        return key_function_exact(view, corner, leaf, space)
+    return key, select(volume >= np.float32(0), splat(np.float32(1)), np.float32(-1))
 
 
 @inlined
@@ -179,7 +222,7 @@ def see_leaf(view, corner, leaf, space, tile, least, floats, ints):
     # Set up the four functions of 16 triangles.
     a, b, c = camera_corners(view, corner, leaf, space)
     ha, hb, hc = homogeneous(view, a, b, c)
-    key, sign = key_function(view, a, b, c, ha, hb, hc)
+    key, sign = triangle_keys(view, corner, leaf, space, a, b, c, ha, hb, hc)
     pa, pb, pc = (a[0], a[1], ha), (b[0], b[1], hb), (c[0], c[1], hc)
     e0, e1, e2 = (
         edge_function(pa, pb, sign),
