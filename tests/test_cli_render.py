@@ -108,6 +108,14 @@ class TestRender:
     def test_threads_change_nothing(self):
         np.testing.assert_array_equal(drawn("one", "--threads", "1"), drawn("all"))
 
+    def test_shadows_darken_and_mirrors_change_the_colour_only(self):
+        plain, shadows, mirrors = drawn("a"), drawn("b", "--shadows"), drawn("c", "--mirrors", "2")
+        assert (shadows <= plain + 1e-6).all()
+        assert (shadows < plain - 0.02).any()
+        assert (np.abs(mirrors - plain) > 0.02).any()
+        depth = ("--channel", "depth")
+        assert np.array_equal(drawn("d", *depth), drawn("e", *depth, "--shadows", "--mirrors", "2"))
+
     def test_both_renderers_show_the_same(self, gl_backend):
         for renderer in ("raster", "ray"):
             arguments = ["render", "still-life", "-o", f"{renderer}.png", "--renderer", renderer]

@@ -71,6 +71,13 @@ def threads(text: str) -> int:
     return int(text)
 
 
+def bounces(text: str) -> int:
+    """A number of reflections, 0 to 16."""
+    if not (_is_whole(text) and int(text) <= 16):
+        raise argparse.ArgumentTypeError(f"{text!r} is not a number of reflections; give 0 to 16")
+    return int(text)
+
+
 def exposure_ev(text: str) -> float:
     """An exposure in stops, -32 to 32."""
     try:

@@ -9,7 +9,7 @@ import argparse
 from typing import TYPE_CHECKING
 
 from app.commands import arguments as common
-from renderer.errors import one_line
+from renderer.errors import LucidaError, one_line
 
 if TYPE_CHECKING:
     from renderer.camera import Camera
@@ -41,6 +41,7 @@ channels:
 examples:
   lucida render spheres -o spheres.png
   lucida render bunny.obj -o bunny.exr --renderer ray --samples 16
+  lucida render still-life -o mirrors.png --renderer ray --shadows --mirrors 4
   lucida render bunny.obj -o depth.npy --channel depth --size 640x480 --view corner.toml"""
 
 
@@ -91,11 +92,23 @@ def configure(parser: argparse.ArgumentParser) -> None:
         metavar="N",
         help="the ray tracer's threads (default: one a core)",
     )
+    parser.add_argument(
+        "--shadows", action="store_true", help="with --renderer ray: objects shade one another"
+    )
+    parser.add_argument(
+        "--mirrors",
+        type=common.bounces,
+        default=0,
+        metavar="N",
+        help="with --renderer ray: specular surfaces reflect, N times at most (default: 0)",
+    )
 
 
 def run(arguments: argparse.Namespace) -> int:
     from renderer.images import check_image_path, write_image
 
+    if arguments.renderer != "ray":
+        _check_effects(arguments)
     check_image_path(arguments.output)
     scene, camera = common.scene_and_camera(arguments.scene, arguments.view, arguments.size)
     frame = draw(scene, camera, arguments)
@@ -121,5 +134,16 @@ def draw(scene: Scene, camera: Camera, arguments: argparse.Namespace) -> Frame:
                 return rasterizer.render(camera, size, channels, samples, progress)
         from renderer.trace import Tracer
 
-        with Tracer(scene, threads=arguments.threads) as tracer:
+        effects = {"shadows": arguments.shadows, "mirror_depth": arguments.mirrors}
+        with Tracer(scene, threads=arguments.threads, **effects) as tracer:
             return tracer.render(camera, size, channels, samples, progress)
+
+
+def _check_effects(arguments: argparse.Namespace) -> None:
+    for switch, given in (("--shadows", arguments.shadows), ("--mirrors", arguments.mirrors)):
+        if given:
+            raise LucidaError(
+                f"argument {switch}",
+                "only image order has it: each hit may send further rays",
+                "add --renderer ray",
+            )
