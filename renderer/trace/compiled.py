@@ -32,13 +32,21 @@ from numba.core import config
 from numba.core.caching import FunctionCache
 
 import renderer.scene.flat
+from renderer.trace.inlining import PartCompiler
 
 KEPT = 4  # folders of other sources or versions that stay
 KEPT_FOR_S = 3600.0  # younger ones stay too: another process may be filling them
 
-# No entry points for Python: a third of the time to compile. No reference counts: arrays belong to
-# the kernel's caller meanwhile, and counting their uses would take longer than most rays.
-_INSIDE = {"no_cpython_wrapper": True, "no_cfunc_wrapper": True, "_nrt": False}
+# No entry points for Python, and no machine code of their own (inlining.py). No reference counts:
+# arrays belong to the kernel's caller meanwhile, and counting their uses would take longer than
+# most rays.
+_INSIDE = {
+    "forceinline": True,
+    "no_cpython_wrapper": True,
+    "no_cfunc_wrapper": True,
+    "_nrt": False,
+    "pipeline_class": PartCompiler,
+}
 
 _cache_dir_lock = threading.Lock()
 
@@ -49,7 +57,7 @@ def inlined(function: Callable[..., Any]) -> Any:
     It must not make arrays: the kernel does. No fast-math: nothing is reassociated or fused, which
     watertight intersection relies on.
     """
-    return numba.njit(error_model="numpy", forceinline=True, **_INSIDE)(function)
+    return numba.njit(error_model="numpy", **_INSIDE)(function)
 
 
 def kernel(function: Callable[..., Any]) -> Any:
