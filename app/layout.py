@@ -21,6 +21,7 @@ LEFT_SPACE = "MainDockSpace"  # HelloImGui's own name for what is left over
 RIGHT_SPACE = "RightSpace"
 
 CAMERA_WIDTH_EM = 19.5
+LEAST_ROOM_PX = 200.0  # for both images; in less, ImGui's smallest sizes decide
 
 
 def side_by_side(
@@ -57,15 +58,17 @@ class Proportion:
         space = params.dock_space_id_from_name(RIGHT_SPACE)
         node = imgui.internal.dock_builder_get_node(space) if space is not None else None
         parent = node.parent_node if node is not None else None
-        if node is None or parent is None or parent.size.x <= 0:
+        if node is None or parent is None or not (parent.size.x > 0 and node.size.y > 0):
             return
+        if not self._room and 0 < node.size_ref.x < parent.size_ref.x:
+            self._share = node.size_ref.x / parent.size_ref.x  # as saved, or the layout's
         if parent.size.x != self._room:
-            size = (self._share * parent.size.x, node.size.y)
+            size = (max(1.0, self._share * parent.size.x), node.size.y)
             imgui.internal.dock_builder_set_node_size(node.id_, size)
             self._room, self._settling = parent.size.x, 2
         elif self._settling:
             self._settling -= 1
-        else:
+        elif parent.size.x > LEAST_ROOM_PX:
             self._share = node.size.x / parent.size.x
 
 

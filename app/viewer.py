@@ -24,6 +24,8 @@ from app.platform import (
     set_size,
     start_platform,
 )
+from app.settings import settings_file
+from app.signals import ended_by_signals
 from app.state import AppState
 from app.window import MainWindow, title
 from renderer.atomic import atomic_write, check_writable
@@ -102,7 +104,8 @@ class Run:
         sys.setswitchinterval(SWITCH_INTERVAL_S)
         self._start_s = time.monotonic()
         try:
-            immapp.run(self.params)
+            with ended_by_signals(self._end):
+                immapp.run(self.params)
         except Exception as error:  # often ImGui's complaint about the window that was left
             self._error = self._error or error
         finally:
@@ -111,14 +114,17 @@ class Run:
             raise self._error
         return np.ascontiguousarray(hello_imgui.final_app_window_screenshot()[..., :3])
 
+    def _end(self) -> None:
+        self.params.app_shall_exit = True
+
     def _parameters(
         self, state: AppState, size: tuple[int, int], remember: bool
     ) -> hello_imgui.RunnerParams:
         params = hello_imgui.RunnerParams()
         params.app_window_params.window_title = title(state.scene)
         params.app_window_params.window_geometry.size = size
-        params.app_window_params.restore_previous_geometry = remember
         _settings(params, remember)
+        params.app_window_params.restore_previous_geometry = not params.ini_disable
         docking = hello_imgui.DefaultImGuiWindowType.provide_full_screen_dock_space
         params.imgui_window_params.default_imgui_window_type = docking
         params.imgui_window_params.show_menu_bar = True
@@ -206,11 +212,9 @@ def save_png(path: Path, pixels: np.ndarray) -> None:
 
 def _settings(params: hello_imgui.RunnerParams, remember: bool) -> None:
     """The layout is kept in the user's settings folder, never in the working directory."""
-    params.ini_disable = not remember
-    if remember:
-        import platformdirs
-
-        folder = platformdirs.user_config_path("lucida", appauthor=False)
+    path = settings_file() if remember else None
+    params.ini_disable = path is None
+    if path is not None:
         params.ini_folder_type = hello_imgui.IniFolderType.absolute_path
-        params.ini_filename = str(folder / "window.ini")
+        params.ini_filename = str(path)
         params.ini_filename_use_app_window_title = False

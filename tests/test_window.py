@@ -6,6 +6,7 @@ import ast
 import json
 import os
 import shutil
+import signal
 import subprocess
 import sys
 import time
@@ -201,3 +202,37 @@ run.run()
     assert int(done.stdout) < 40, f"{done.stdout} frames in 4 s, {time.monotonic() - start_s:.0f}"
     assert (tmp_path / "config" / "lucida" / "window.ini").exists()
     assert sorted(path.name for path in tmp_path.iterdir()) == ["config"]
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="POSIX's signals")
+def test_signals_close_the_window_and_the_next_start_finds_its_layout(
+    tmp_path: Path, xvfb: str
+) -> None:
+    script = """
+import os, signal, sys, threading, time
+from app.platform import start_platform
+from app.state import AppState
+from app.viewer import Run
+from renderer.scene import load_scene
+
+run = Run(start_platform(), AppState.for_scene(load_scene("spheres")), (900, 600))
+
+def watch():
+    while not run.window.settled:
+        time.sleep(0.05)
+    print(run.window.renderers.size, flush=True)
+    os.kill(os.getpid(), getattr(signal, sys.argv[1]))
+
+threading.Thread(target=watch, daemon=True).start()
+run.run()
+"""
+    sizes = []
+    for name in ("SIGTERM", "SIGINT"):
+        done = run(["-c", script, name], tmp_path, xvfb)
+        sizes.append(done.stdout)
+        if name == "SIGTERM":
+            assert (done.returncode, done.stderr) == (-signal.SIGTERM, "")
+        else:
+            assert done.stderr.rstrip().endswith("KeyboardInterrupt")  # which the command tells
+        assert (tmp_path / "config" / "lucida" / "window.ini").exists()
+    assert sizes[0] == sizes[1] != ""

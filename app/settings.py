@@ -1,0 +1,49 @@
+"""Where the window's layout is kept between runs.
+
+Owns the file's place and the check that it is of use. A settings file never keeps the window from
+opening: what cannot be read or written is done without.
+"""
+
+from __future__ import annotations
+
+import os
+import re
+from pathlib import Path
+
+SMALLEST_PX, LARGEST_PX = 64, 16384  # sides of a window that somebody could have left
+LARGEST_BYTES = 1 << 20
+
+
+def settings_file() -> Path | None:
+    """The file for the layout, in the user's settings folder, which is made if it must be.
+
+    None where it cannot be kept, or where what stands there is no file. A file that no window
+    can have left is moved aside.
+    """
+    import platformdirs
+
+    try:
+        path = platformdirs.user_config_path("lucida", appauthor=False) / "window.ini"
+        path.parent.mkdir(parents=True, exist_ok=True)
+        if not path.exists():
+            return path if os.access(path.parent, os.W_OK) else None
+        if not (path.is_file() and os.access(path, os.R_OK | os.W_OK)):
+            return None
+        if not _is_sane(path):
+            path.replace(path.with_suffix(".broken"))
+        return path
+    except (OSError, RuntimeError):  # RuntimeError: there is no home
+        return None
+
+
+def _is_sane(path: Path) -> bool:
+    """Whether it is text of a sensible size, with a window of a sensible size in it."""
+    if path.stat().st_size > LARGEST_BYTES:
+        return False
+    try:
+        text = path.read_text(encoding="utf-8")
+    except UnicodeDecodeError:
+        return False
+    entry = re.search(r"^WindowSize=(.*)$", text, re.MULTILINE)
+    sides = re.fullmatch(r"(\d{1,6}),(\d{1,6})", entry[1].strip()) if entry else None
+    return sides is not None and all(SMALLEST_PX <= int(n) <= LARGEST_PX for n in sides.groups())

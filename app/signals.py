@@ -1,0 +1,45 @@
+"""Ctrl-C, and the system's wish that the program should end, while the window is open.
+
+A signal's exception must not go through the window's C++ code, where it would leave settings
+unsaved: signals are only noted, the window closes as if by its button, and then they count.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import signal
+import threading
+from collections.abc import Callable, Iterator
+from types import FrameType
+
+NAMES = ("SIGINT", "SIGTERM", "SIGHUP")  # the last one: the terminal was closed
+
+
+@contextlib.contextmanager
+def ended_by_signals(end: Callable[[], None]) -> Iterator[None]:
+    """Inside, a signal calls `end`; afterwards it does what it would have done.
+
+    Outside the main thread, and for signals that are ignored, nothing changes.
+    """
+    if threading.current_thread() is not threading.main_thread():
+        yield
+        return
+    received: list[int] = []
+
+    def note(number: int, frame: FrameType | None) -> None:
+        received.append(number)
+        end()
+
+    numbers = [getattr(signal, name) for name in NAMES if hasattr(signal, name)]
+    handlers = {number: signal.getsignal(number) for number in numbers}
+    for number, handler in handlers.items():
+        if handler not in (signal.SIG_IGN, None):
+            signal.signal(number, note)
+    try:
+        yield
+    finally:
+        for number, handler in handlers.items():
+            if handler is not None:
+                signal.signal(number, handler)
+        if received:
+            signal.raise_signal(received[0])
