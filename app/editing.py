@@ -56,13 +56,15 @@ def edit_component(
     state: AppState, draft: Draft, name: str, index: int, value: float
 ) -> tuple[AppState, Draft]:
     """Component `index` of eye, u, v, w or viewport is set to `value`."""
-    if name in BASIS and state.keep_orthonormal and not draft.fields:
+    if name in BASIS and state.keep_orthonormal:
         try:
             base = draft.base or draft.camera
             camera = with_component(base, name, index, value, keep_orthonormal=True)
         except LucidaError as error:
             return state, replace(draft, error=error)
-        return state.with_camera(camera), Draft(camera, base=draft.base)
+        basis = {entry: getattr(camera, entry) for entry in BASIS}
+        others = {k: v for k, v in draft.fields if k not in BASIS}
+        return _edited(state, draft, basis, others)
     entered = list(draft.value(name))
     entered[index] = value
     return edit_field(state, draft, name, tuple(entered))
@@ -70,9 +72,21 @@ def edit_component(
 
 def edit_field(state: AppState, draft: Draft, name: str, value: Any) -> tuple[AppState, Draft]:
     """A field is set to `value`; where that gives no legal camera, the draft keeps it."""
-    fields = {**dict(draft.fields), name: value}
+    others = {k: v for k, v in draft.fields if k != name}
+    return _edited(state, draft, {name: value}, others)
+
+
+def _edited(
+    state: AppState, draft: Draft, edit: dict[str, Any], waiting: dict[str, Any]
+) -> tuple[AppState, Draft]:
+    """`edit` becomes part of the camera, with all that waits if that is legal, else alone."""
     try:
-        camera = replace(draft.camera, **fields)
+        camera = replace(draft.camera, **waiting, **edit)
+        return state.with_camera(camera), Draft(camera, base=draft.base)
     except LucidaError as error:
-        return state, replace(draft, fields=tuple(fields.items()), error=error)
-    return state.with_camera(camera), Draft(camera, base=draft.base)
+        wrong = error
+    try:
+        camera = replace(draft.camera, **edit)
+    except LucidaError:
+        return state, replace(draft, fields=tuple({**waiting, **edit}.items()), error=wrong)
+    return state.with_camera(camera), Draft(camera, tuple(waiting.items()), wrong, draft.base)

@@ -136,6 +136,25 @@ def test_illegal_fields_are_told_and_kept_out(name: str, value: object) -> None:
     assert draft.is_wrong(name)
 
 
+def test_a_legal_edit_does_not_wait_for_an_illegal_one() -> None:
+    state, draft = edit_field(STATE, Draft.of(STATE.camera), "distance", -1.0)
+    state, draft = edit_component(state, draft, "eye", 0, 2.0)
+    assert state.camera.eye == (2, 0, 5)
+    assert draft.following(state.camera).is_wrong("distance")
+    assert draft.value("distance") == -1.0
+    state, draft = edit_field(state, draft, "distance", 3.0)
+    assert state.camera.distance == 3.0
+    assert draft.error is None
+
+
+def test_the_basis_stays_orthonormal_while_something_else_is_illegal() -> None:
+    state, draft = edit_field(STATE, Draft.of(STATE.camera), "distance", -1.0)
+    state, draft = edit_component(state, draft, "w", 0, 0.6)
+    assert state.camera.w[0] == 0.6
+    assert is_orthonormal(state.camera)
+    assert draft.is_wrong("distance")
+
+
 def test_a_draft_is_dropped_when_the_camera_changes_elsewhere() -> None:
     _, draft = edit_field(STATE, Draft.of(STATE.camera), "distance", -1.0)
     assert draft.following(STATE.camera) is draft

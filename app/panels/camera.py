@@ -13,7 +13,7 @@ from app import theme
 from app.editing import BASIS, Draft, edit_component, edit_field
 from app.focus import Focus
 from app.navigation import switched_projection
-from app.panels.fields import Scale, number_field
+from app.panels.fields import Scale, number_field, short_number
 from app.state import EXPOSURE_LIMIT_EV, AppState
 from renderer.camera import Camera
 
@@ -157,9 +157,9 @@ def _fit(state: AppState, around: Surroundings) -> AppState:
         "On: the viewport is widened or heightened to the image's shape.\n"
         "Off: it is used as it stands, and the picture may look stretched."
     )
-    left, right, bottom, top = around.shown.viewport
     imgui.push_font(around.fonts.mono, 0.0)
-    imgui.text_colored(theme.DIM, f"as drawn{left:7.3f}{right:7.3f}{bottom:7.3f}{top:7.3f}")
+    edges = "".join(map(short_number, around.shown.viewport))
+    imgui.text_colored(theme.DIM, f"as drawn{edges}")
     imgui.set_item_tooltip("The viewport as drawn: left, right, bottom, top.")
     imgui.pop_font()
     return state.with_fit(fit) if changed else state

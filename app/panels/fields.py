@@ -12,6 +12,8 @@ from imgui_bundle import ImVec2, ImVec4, imgui
 
 from app import theme
 
+LEAST = 1e-3  # where dragging a logarithmic value ends
+FLT_MAX = 3.4e38
 HINT = "drag, or double-click to type; Shift: faster, Alt: slower"
 
 
@@ -40,13 +42,22 @@ class Scale:
     def speed(self, value: float) -> float:
         """What one pixel of dragging is worth."""
         if self.logarithmic:
-            return max(abs(value), 1e-3) * math.log(self.high / self.low) / 500
+            return max(abs(value), LEAST) * math.log(self.high / self.low) / 500
         return (self.high - self.low) / 400
 
 
-def number_format(value: float) -> str:
+def number_format(value: float, scale: Scale) -> str:
     """Eight characters wide for all but extreme values, so that nothing moves."""
-    return "%8.3f" if abs(value) < 1000 else "%8.2e"
+    tiny = scale.logarithmic and 0 < value < 0.01
+    return "%8.2e" if tiny or abs(value) >= 1000 else "%8.3f"
+
+
+def short_number(value: float) -> str:
+    """Seven characters for all but extreme values, of which the first is a space or a sign."""
+    for limit, digits in ((10, 3), (100, 2), (1000, 1)):
+        if abs(value) < limit - 0.5 * 10**-digits:
+            return f"{value:7.{digits}f}"
+    return f"{value:7.0e}"
 
 
 def number_field(
@@ -65,8 +76,10 @@ def number_field(
     if marked:
         imgui.push_style_var(imgui.StyleVar_.frame_border_size, 1.5)
         imgui.push_style_color(imgui.Col_.border, theme.ERROR)
+    # A logarithmic value is dragged up to its end, and not below 0; typing is free.
+    least, most = (LEAST, FLT_MAX) if scale.logarithmic else (0.0, 0.0)
     changed, new = imgui.drag_float(
-        f"##{label}", value, scale.speed(value), format=number_format(value)
+        f"##{label}", value, scale.speed(value), least, most, number_format(value, scale)
     )
     if marked:
         imgui.pop_style_color()
