@@ -21,6 +21,7 @@ Floats = NDArray[np.float64]
 Point = tuple[float, float]
 
 WORLD_UP = (0.0, 1.0, 0.0)
+NEAREST, FARTHEST = 1e-4, 100.0  # where the wheel stops, in units of the scene's reach
 STEEPEST_DEG = 89.5  # of the view direction above or below the horizon, so that nothing flips
 
 
@@ -101,6 +102,29 @@ def zoomed_viewport(camera: Camera, at: Point, factor: float) -> Camera:
     return replace(camera, viewport=viewport)
 
 
+def may_zoom(
+    before: Camera, after: Camera, target: ArrayLike, center: ArrayLike, reach: float
+) -> bool:
+    """Whether a zoom goes neither too near nor too far; from out there, it may always come back.
+
+    target: what is zoomed at (perspective), center and reach: the scene's; world units.
+    """
+    if before.is_parallel:
+        was, width = (
+            (c.viewport[1] - c.viewport[0]) * float(np.linalg.norm(c.u)) for c in (before, after)
+        )
+        return (width >= was or width > NEAREST * reach) and (
+            width <= was or width < 2 * FARTHEST * reach
+        )
+    (was_near, near), (was_far, far) = (
+        [float(np.linalg.norm(np.asarray(c.eye) - np.asarray(point))) for c in (before, after)]
+        for point in (target, center)
+    )
+    return (near >= was_near or near > NEAREST * reach) and (
+        far <= was_far or far < FARTHEST * reach
+    )
+
+
 def switched_projection(camera: Camera, focus: ArrayLike) -> Camera:
     """The other projection, with things as far off as `focus` keeping their size in the image.
 
@@ -116,11 +140,11 @@ def switched_projection(camera: Camera, focus: ArrayLike) -> Camera:
     return replace(camera, viewport=(left, right, bottom, top), projection=projection)
 
 
-def parameter_of(camera: Camera, point: ArrayLike) -> float:
-    """The ray parameter at which a world point is as far off as its plane; 1 if behind the eye."""
+def parameter_of(camera: Camera, point: ArrayLike, behind: float = 1.0) -> float:
+    """The ray parameter at which rays are as far off as a world point; `behind` the eye: that."""
     z = float((camera.camera_from_world @ [*np.asarray(point, float), 1.0])[2])
     parameter = -z if camera.is_parallel else -z / camera.distance
-    return parameter if parameter > 1e-9 else 1.0
+    return parameter if parameter > 1e-9 else behind
 
 
 def _horizontal_right(camera: Camera) -> Floats:

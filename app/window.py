@@ -19,7 +19,7 @@ from app.editing import Draft
 from app.files import Files, Opened, describe
 from app.focus import Focus, scene_focus
 from app.panels.camera import Surroundings, camera_panel
-from app.panels.images import Grab, Pane, Pixel, available_px, image_pane
+from app.panels.images import Grab, Pane, Pixel, Zoom, available_px, image_pane
 from app.panels.menus import help_sheet, menu_bar
 from app.panels.messages import message_box
 from app.panels.status import Status, status_line
@@ -47,6 +47,7 @@ class MainWindow:
         self._proportion = layout.Proportion()
         self._draft = Draft.of(state.camera)
         self._grab: Grab | None = None
+        self._zoom: Zoom | None = None
         self._hovered: tuple[str, Pixel] | None = None
         self._next_hovered: tuple[str, Pixel] | None = None
         self._panes_px: dict[str, tuple[int, int]] = {}
@@ -76,9 +77,11 @@ class MainWindow:
         self.history = self.history.change(state)
 
     def undo(self) -> None:
+        self._grab = None  # a drag under way ends
         self.history = self.history.undo()
 
     def redo(self) -> None:
+        self._grab = None
         self.history = self.history.redo()
 
     def can_undo(self) -> bool:
@@ -226,17 +229,18 @@ class MainWindow:
                 shown=both.camera(self.state),
                 size=both.size,
                 center=self.scene_center,
+                reach=self._focus().reach,
                 depth_at=lambda pixel: both.depth_at(self.state, pixel),
                 note=describe(error) if error else note,
                 is_error=error is not None,
                 progress=progress,
                 marked=marked,
             )
-            result = image_pane(pane, self.state, self._grab)
-            self._grab = result.grab
+            result = image_pane(pane, self.state, self._grab, self._zoom)
+            self._grab, self._zoom = result.grab, result.zoom or self._zoom
             if result.hovered is not None:
                 self._next_hovered = (name, result.hovered)
-            self._apply(result.state, wheeled=result.wheeled)
+            self._apply(result.state, wheeled=result.zoom is not None)
         imgui.end()
         return bool(opened)
 

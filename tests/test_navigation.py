@@ -168,3 +168,29 @@ def test_a_motion_out_of_range_is_refused() -> None:
     camera = Camera(projection="parallel")
     with pytest.raises(LucidaError):
         navigation.zoomed(camera, (0.25, 0.25), 1e300, 1.0)
+
+
+@pytest.mark.parametrize("projection", ["perspective", "parallel"])
+@pytest.mark.parametrize("factor", [1.15, 1 / 1.15])
+def test_the_wheel_stops_before_there_is_nothing_to_see(projection: str, factor: float) -> None:
+    camera, target = Camera(eye=(0, 0, 5), projection=projection), (0.0, 0.0, 1.0)
+    for _ in range(1000):
+        parameter = navigation.parameter_of(camera, target)
+        after = navigation.zoomed(camera, (0, 0), factor, parameter)
+        if not navigation.may_zoom(camera, after, target, (0, 0, 0), 10.0):
+            break
+        camera = after
+    else:
+        pytest.fail("it never stops")
+    if projection == "perspective":
+        assert 1e-4 < camera.eye[2] - 1 < 2e3
+    else:
+        assert 1e-4 < camera.viewport[1] < 2e3
+    back = navigation.zoomed(camera, (0, 0), 1 / factor, parameter)
+    assert navigation.may_zoom(camera, back, target, (0, 0, 0), 10.0)
+
+
+def test_from_beyond_every_limit_the_wheel_leads_back() -> None:
+    far = Camera(eye=(0, 0, 1e9))
+    near = navigation.zoomed(far, (0, 0), 1.15, 1e9)
+    assert navigation.may_zoom(far, near, (0, 0, 0), (0, 0, 0), 1.0)

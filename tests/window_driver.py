@@ -488,6 +488,76 @@ def drive_16_the_window_is_resized(d: Driver) -> None:
     d.ctx.yield_(5)
 
 
+def drive_17_the_wheel_goes_through_nothing(d: Driver) -> None:
+    """Scrolling faster than images are finished: the point under the mouse stays the aim."""
+    window = d.window
+    pixel = (window.renderers.size[1] // 2 + 30, window.renderers.size[0] // 2)
+    x, y, *_ = d.rect(RASTER)
+    d.ctx.mouse_teleport_to_pos((x + pixel[1], y + pixel[0]))  # ImGui's mouse has whole numbers
+    d.ctx.yield_()
+    corner = pixel[0] - 0.5, pixel[1] - 0.5
+    ray = window.renderers.camera(window.state).ray(*corner, window.renderers.size)
+    aim = ray.origin + window.renderers.depth_at(window.state, pixel) * ray.direction
+    for _ in range(30):
+        d.ctx.mouse_wheel_y(3)
+    d.ctx.yield_(2)
+    to_aim = aim - np.asarray(window.state.camera.eye)
+    assert to_aim @ ray.direction > -0.01, "the eye has gone through what was under the mouse"
+    assert np.linalg.norm(to_aim) < 0.01, to_aim
+    for _ in range(20):
+        d.ctx.mouse_wheel_y(-10)
+    d.ctx.yield_(2)
+    assert 100 < np.linalg.norm(window.state.camera.eye) < 1e4
+    d.ctx.key_press(int(Key.home))
+    assert window.state == d.start
+
+
+def drive_18_keys_count_while_an_image_is_dragged(d: Driver) -> None:
+    window = d.window
+    d.ctx.mouse_teleport_to_pos(d.point(RAY, 0.5, 0.5))
+    d.ctx.yield_()
+    d.ctx.mouse_down(0)
+    d.ctx.mouse_teleport_to_pos(d.point(RAY, 0.6, 0.5))
+    d.ctx.yield_(2)
+    turned = window.state.camera
+    d.ctx.key_press(int(Key.p))
+    d.ctx.mouse_teleport_to_pos(d.point(RAY, 0.7, 0.5))
+    d.ctx.yield_(2)
+    assert window.state.camera.is_parallel
+    assert window.state.camera.w != turned.w  # and the drag goes on
+    assert len(window.history.past) == 3
+    d.ctx.key_press(int(Key.mod_ctrl) | int(Key.z), 3)
+    d.ctx.mouse_teleport_to_pos(d.point(RAY, 0.8, 0.5))
+    d.ctx.yield_(2)
+    assert window.state == d.start  # undone is undone
+    d.ctx.mouse_up(0)
+    d.ctx.yield_()
+    assert window.state == d.start
+    assert len(window.history.future) == 3
+
+
+def drive_19_the_distance_is_not_dragged_below_zero(d: Driver) -> None:
+    d.drag_field("distance", -280)
+    d.drag_field("distance", -280)
+    assert 0 < d.window.state.camera.distance < d.start.camera.distance
+    for _ in range(12):
+        d.drag_field("distance", -280)
+    assert d.window._draft.error is None
+    assert d.window.state.camera.distance > 0
+    d.type("distance", "0.00002")
+    assert d.window.state.camera.distance == 0.00002
+
+
+def drive_20_a_tiny_window_is_survived(d: Driver) -> None:
+    hello_imgui.change_window_size((300, 60))
+    d.ctx.yield_(5)
+    hello_imgui.change_window_size(SIZE)
+    d.ctx.yield_(5)
+    d.agreeing_images()
+    widths = [width for width, _ in d.window._panes_px.values()]
+    assert abs(widths[0] - widths[1]) <= 2, "both images have half of the room again"
+
+
 def close_at_work(report: Path, folder: Path) -> None:
     """Closes the window while a tracer prepares, which nothing can cancel."""
     driver = Driver(folder)

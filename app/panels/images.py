@@ -8,8 +8,9 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
+import numpy as np
 from imgui_bundle import ImVec2, imgui
 
 from app import navigation, theme
@@ -20,13 +21,18 @@ from renderer.errors import LucidaError
 Pixel = tuple[int, int]  # (row, column)
 
 WHEEL_STEP = 1.15
+STILL_PX = 3.0  # a mouse that has moved less while the wheel turned points at the same thing
+SLOWEST = 0.1  # of the scene's reach: what the wheel goes towards where nothing is seen
 SMALLEST_FRAMED = 6  # a pixel as large as that gets a frame of its own size
 HALF_TURN = math.pi  # a drag over the image's whole height
 
 
 @dataclass(frozen=True)
 class Grab:
-    """A drag over an image: where it began, and with which camera. shown: as drawn."""
+    """A drag over an image: where it began, and with which camera. shown: as drawn.
+
+    latest: the camera that it has made; where another is found, something else has changed it.
+    """
 
     pane: str
     kind: str  # "orbit" or "pan"
@@ -36,6 +42,25 @@ class Grab:
     point: tuple[float, float]  # on the image plane
     pivot: Vector
     parameter: float
+    latest: Camera
+
+
+@dataclass(frozen=True)
+class Zoom:
+    """What the wheel zoomed at last: a world point, the camera and the place of the mouse then.
+
+    While it turns, no finished image tells what is seen; the point is still the same.
+    """
+
+    pane: str
+    camera: Camera
+    mouse: tuple[float, float]  # in screen coordinates
+    point: Vector
+
+    def goes_on(self, pane: Pane, state: AppState, mouse: ImVec2) -> bool:
+        """Whether nothing but the wheel has moved since."""
+        still = math.dist(self.mouse, (mouse.x, mouse.y)) < STILL_PX
+        return still and pane.name == self.pane and state.camera == self.camera
 
 
 @dataclass(frozen=True)
@@ -43,7 +68,8 @@ class Pane:
     """One image's window. texture: gives the GL name of a state's image, None for no image; asked
     after the mouse has moved the camera. note: text over the image.
 
-    shown, size: camera and (width, height) of the full image. depth_at: the ray parameter seen at
+    shown, size: camera and (width, height) of the full image. center, reach: the scene's, see
+    focus.py. depth_at: the ray parameter seen at
     a pixel, None where that is not known. progress: of the image under way, 1 for none.
     """
 
@@ -52,6 +78,7 @@ class Pane:
     shown: Camera
     size: tuple[int, int]
     center: Vector
+    reach: float
     depth_at: Callable[[Pixel], float | None]
     note: str = ""
     is_error: bool = False
@@ -61,12 +88,12 @@ class Pane:
 
 @dataclass(frozen=True)
 class PaneResult:
-    """hovered: the pixel under the mouse. wheeled: whether the wheel moved the camera."""
+    """hovered: the pixel under the mouse. zoom: what the wheel zoomed at, None if it rests."""
 
     state: AppState
     grab: Grab | None
     hovered: Pixel | None
-    wheeled: bool
+    zoom: Zoom | None
 
 
 def available_px() -> tuple[int, int]:
@@ -80,8 +107,10 @@ def framebuffer_scale() -> float:
     return imgui.get_io().display_framebuffer_scale.x or 1.0
 
 
-def image_pane(pane: Pane, state: AppState, grab: Grab | None) -> PaneResult:
-    """Draws the image into the current window and follows the mouse over it."""
+def image_pane(
+    pane: Pane, state: AppState, grab: Grab | None, zoom: Zoom | None = None
+) -> PaneResult:
+    """Draws the image into the current window and follows the mouse over it. zoom: the last."""
     scale = framebuffer_scale()
     unit = state.pixel_size / scale  # one image pixel in ImGui's coordinates
     extent = ImVec2(pane.size[0] * unit, pane.size[1] * unit)
@@ -101,7 +130,7 @@ def image_pane(pane: Pane, state: AppState, grab: Grab | None) -> PaneResult:
     over = imgui.is_item_hovered()
     hovered = _pixel(mouse, origin, unit, pane.size) if over else None
     state, grab = _drag(pane, state, grab, origin, extent, unit)
-    state, wheeled = _wheel(pane, state, mouse, origin, unit) if over else (state, False)
+    state, zoom = _wheel(pane, state, zoom, mouse, origin, unit) if over else (state, None)
     far = ImVec2(origin.x + extent.x, origin.y + extent.y)
     draw = imgui.get_window_draw_list()
     texture = pane.texture(state)
@@ -115,7 +144,7 @@ def image_pane(pane: Pane, state: AppState, grab: Grab | None) -> PaneResult:
         draw.add_rect_filled(ImVec2(origin.x, far.y - 3), end, theme.u32(theme.RAY))
     if pane.note:
         _note(draw, pane, origin, far)
-    return PaneResult(state, grab, hovered if grab is None else None, wheeled)
+    return PaneResult(state, grab, hovered if grab is None else None, zoom)
 
 
 def _drag(
@@ -129,6 +158,8 @@ def _drag(
         return state, grab
     if not imgui.is_item_active():
         return state, None
+    if state.camera != grab.latest:  # a key was pressed: the drag goes on from there
+        return state, _begin(pane, state, grab.kind, mouse, origin, unit)
     try:
         if grab.kind == "pan":
             end = _image_point(grab.shown, mouse, origin, unit, pane.size)
@@ -137,7 +168,7 @@ def _drag(
             angle = HALF_TURN / max(extent.y, 1.0)
             right, up = mouse.x - grab.start[0], grab.start[1] - mouse.y
             camera = navigation.orbited(grab.camera, grab.pivot, right * angle, up * angle)
-        return state.with_camera(camera), grab
+        return state.with_camera(camera), replace(grab, latest=camera)
     except LucidaError:  # too far out: the camera stays
         return state, grab
 
@@ -156,26 +187,34 @@ def _begin(
         x, y, z = (ray.origin + parameter * ray.direction).tolist()
         pivot = (x, y, z)
     point = _image_point(pane.shown, mouse, origin, unit, pane.size)
-    return Grab(
-        pane.name, kind, state.camera, pane.shown, (mouse.x, mouse.y), point, pivot, parameter
-    )
+    camera, start = state.camera, (mouse.x, mouse.y)
+    return Grab(pane.name, kind, camera, pane.shown, start, point, pivot, parameter, camera)
 
 
 def _wheel(
-    pane: Pane, state: AppState, mouse: ImVec2, origin: ImVec2, unit: float
-) -> tuple[AppState, bool]:
+    pane: Pane, state: AppState, zoom: Zoom | None, mouse: ImVec2, origin: ImVec2, unit: float
+) -> tuple[AppState, Zoom | None]:
+    """Zooms at what is under the mouse, at the scene where that is not known."""
     steps = imgui.get_io().mouse_wheel
     if not steps:
-        return state, False
-    parameter = pane.depth_at(_pixel(mouse, origin, unit, pane.size))
-    if parameter is None:
-        parameter = navigation.parameter_of(pane.shown, pane.center)
+        return state, None
+    row, column = _pixel(mouse, origin, unit, pane.size)
+    parameter = pane.depth_at((row, column))
     at = _image_point(pane.shown, mouse, origin, unit, pane.size)
+    ray = pane.shown.ray(row, column, pane.size)
+    if parameter is None and zoom is not None and zoom.goes_on(pane, state, mouse):
+        parameter = navigation.parameter_of(pane.shown, zoom.point)
+    if parameter is None:
+        slowest = SLOWEST * pane.reach / float(np.linalg.norm(ray.direction))
+        parameter = max(navigation.parameter_of(pane.shown, pane.center, slowest), slowest)
+    x, y, z = (ray.origin + parameter * ray.direction).tolist()
     try:
         camera = navigation.zoomed(state.camera, at, WHEEL_STEP**steps, parameter)
-    except LucidaError:
-        return state, False
-    return state.with_camera(camera), True
+    except (LucidaError, OverflowError):
+        return state, None
+    if not navigation.may_zoom(state.camera, camera, (x, y, z), pane.center, pane.reach):
+        return state, None
+    return state.with_camera(camera), Zoom(pane.name, camera, (mouse.x, mouse.y), (x, y, z))
 
 
 def _pixel(mouse: ImVec2, origin: ImVec2, unit: float, size: tuple[int, int]) -> Pixel:
