@@ -38,6 +38,7 @@ class Files:
         self._open: dialogs.open_file | None = None
         self._save: dialogs.save_file | None = None
         self._view: View | None = None
+        self._source = ""
         self.message = ""
 
     @property
@@ -46,12 +47,14 @@ class Files:
         return self._loading.busy or self._open is not None or self._save is not None
 
     @property
-    def is_loading(self) -> bool:
-        return self._loading.busy
+    def loading(self) -> str:
+        """The name of what is being loaded; empty while nothing is."""
+        return self._source if self._loading.busy else ""
 
     def open(self, source: str) -> None:
         """Loads a built-in scene, a scene file, a model or a view file in the background."""
         self.message = ""
+        self._source = Path(source).name
         self._loading.submit(lambda: open_source(source))
 
     def open_dialog(self) -> None:

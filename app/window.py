@@ -164,6 +164,7 @@ class MainWindow:
                 scene=state.scene.name,
                 pixel=pixel,
                 seen=both.seen_at(state, pixel) if pixel else "",
+                loading=self.files.loading,
             ),
             self.fonts,
         )

@@ -49,7 +49,10 @@ class Scale:
 def number_format(value: float, scale: Scale) -> str:
     """Eight characters wide for all but extreme values, so that nothing moves."""
     tiny = scale.logarithmic and 0 < value < 0.01
-    return "%8.2e" if tiny or abs(value) >= 1000 else "%8.3f"
+    if tiny or abs(value) >= 1000:
+        return "%8.2e"
+    small_scene = scale.high - scale.low < 1.5 and abs(value) < 100
+    return "%8.4f" if small_scene else "%8.3f"
 
 
 def short_number(value: float) -> str:

@@ -11,12 +11,14 @@ from imgui_bundle import ImVec2, imgui
 
 from app import theme
 
+DIVIDER_PX = 25.0  # a line between two texts, with what is free beside it
+
 
 @dataclass(frozen=True)
 class Status:
     """What the line tells. size: of the full image. factor: how coarse the ray image is, 1 for
     full, 0 for none; raster_factor: likewise. agreement: a text, empty while unknown; agrees:
-    whether it is good news."""
+    whether it is good news. loading: what is being opened, empty for nothing."""
 
     raster_s: float
     raster_factor: int
@@ -28,7 +30,7 @@ class Status:
     scene: str
     pixel: tuple[int, int] | None = None
     seen: str = ""
-    message: str = ""
+    loading: str = ""
 
 
 def status_line(status: Status, fonts: theme.Fonts) -> None:
@@ -42,19 +44,47 @@ def status_line(status: Status, fonts: theme.Fonts) -> None:
     good = theme.rgb("#35c497") if status.agrees else theme.ERROR
     parts.append((status.agreement or "agree: ...", good if status.agreement else theme.DIM))
     parts.append((f"scene: {status.scene}", theme.TEXT))
-    for index, (text, color) in enumerate(parts):
+    room = imgui.get_window_width() - 2 * imgui.get_style().window_padding.x
+    rights = right_texts(status)
+    count, right = fitting([_width(text) for text, _ in parts], list(map(_width, rights)), room)
+    for index, (text, color) in enumerate(parts[:count]):
         if index:
             _divider()
         imgui.align_text_to_frame_padding()
         imgui.text_colored(color, text)
-    right, color = pixel_text(status), theme.MARK
-    if status.message:
-        right, color = status.message, theme.ERROR
-    if right:
-        width = imgui.calc_text_size(right).x
-        imgui.same_line(imgui.get_window_width() - width - imgui.get_style().window_padding.x)
-        imgui.text_colored(color, right)
+    if rights[right]:
+        left = imgui.get_style().window_padding.x + room - _width(rights[right])
+        imgui.same_line(left)
+        imgui.text_colored(theme.TEXT if status.loading else theme.MARK, rights[right])
     imgui.pop_font()
+
+
+def right_texts(status: Status) -> list[str]:
+    """What stands at the right end, from the longest to nothing."""
+    if status.loading:
+        return [f"loading {status.loading} ...", "loading ...", ""]
+    if status.pixel is None:
+        return [""]
+    row, column = status.pixel
+    pixel = f"pixel ({row:4d},{column:4d})"
+    return [f"{status.seen}  {pixel}".strip(), pixel, ""]
+
+
+def fitting(lefts: list[float], rights: list[float], room: float) -> tuple[int, int]:
+    """How many of the left texts, and which of the right ones, have room beside each other.
+
+    lefts, rights: widths, the right ones from the widest to 0. The last of the left texts gives
+    way first, then the right one becomes shorter; the others stay.
+    """
+    all_but_last = len(lefts) - 1
+    for count, right in [
+        (len(lefts), 0),
+        *((all_but_last, index) for index in range(len(rights))),
+    ]:
+        taken = sum(lefts[:count]) + (count - 1) * DIVIDER_PX
+        if taken + (rights[right] + DIVIDER_PX if rights[right] else 0) <= room:
+            return count, right
+    return all_but_last, len(rights) - 1
 
 
 def milliseconds(time_s: float) -> str:
@@ -70,12 +100,8 @@ def ray_text(status: Status) -> str:
     return f"ray {milliseconds(status.ray_s)}, {width}x{height} {detail:4}"
 
 
-def pixel_text(status: Status) -> str:
-    """The pixel under the mouse, with what is seen there."""
-    if status.pixel is None:
-        return ""
-    row, column = status.pixel
-    return f"{status.seen}  pixel ({row:4d},{column:4d})".strip()
+def _width(text: str) -> float:
+    return imgui.calc_text_size(text).x
 
 
 def _divider() -> None:
