@@ -140,6 +140,19 @@ ACTIONS = (
         "View", "Darker", _change(_exposure(-0.5)), "-", (int(Key.minus), int(Key.keypad_subtract))
     ),
     Action("View", "Exposure 0", _change(_exposure(0.0)), "0", (int(Key._0),)),
+    Action(
+        "View",
+        "Shadows (ray image only)",
+        _change(lambda state: replace(state, shadows=not state.shadows)),
+        is_on=lambda state: state.shadows,
+        separated=True,
+    ),
+    Action(
+        "View",
+        "Mirrors (ray image only)",
+        _change(lambda state: replace(state, mirrors=not state.mirrors)),
+        is_on=lambda state: state.mirrors,
+    ),
     *(_pixel_size(size) for size in PIXEL_SIZES),
     Action(
         "Help",

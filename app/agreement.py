@@ -10,7 +10,6 @@ from dataclasses import dataclass
 
 from app.background import Background
 from app.live import RayImage, Request
-from renderer.camera import Camera
 from renderer.frame import Frame
 from renderer.scene.flat import FlatScene, flatten
 from renderer.scene.model import Scene
@@ -56,9 +55,9 @@ class Agreement:
         verdict = self.verdict
         return verdict if verdict is not None and verdict.request == request else None
 
-    def frame_of(self, scene: Scene, camera: Camera, size: tuple[int, int]) -> Frame | None:
-        """The traced image of a view, if it is the last pair's."""
-        if self.pair is None or self.pair[0] != Request(scene, camera, size):
+    def frame_of(self, request: Request | None) -> Frame | None:
+        """The traced image of a request, if it is the last pair's."""
+        if self.pair is None or self.pair[0] != request:
             return None
         return self.pair[2]
 
@@ -68,6 +67,8 @@ class Agreement:
     def _compare(self, request: Request, raster: Frame, ray: Frame) -> Verdict:
         from renderer.compare import compare_frames
 
+        if request.has_effects:
+            return Verdict(request, "not compared: only rays find shadows and mirrors", 0)
         if self._flat is None or self._flat[0] is not request.scene:
             self._flat = (request.scene, flatten(request.scene))
         comparison = compare_frames(self._flat[1], request.camera, request.size, raster, ray)

@@ -30,11 +30,28 @@ COARSE_CHANNELS = ("color",)
 
 @dataclass(frozen=True)
 class Request:
-    """An image to trace. size: (width, height) of the full one."""
+    """An image to trace. size: (width, height) of the full one.
+
+    shadows, mirrors: with these the ray image shows what the raster image cannot.
+    """
 
     scene: Scene
     camera: Camera
     size: tuple[int, int]
+    shadows: bool = False
+    mirrors: bool = False
+
+    @property
+    def has_effects(self) -> bool:
+        return self.shadows or self.mirrors
+
+    def is_served_by(self, other: Request | None) -> bool:
+        """Whether the Tracer that was made for another request serves this one."""
+        return (
+            other is not None
+            and self.scene is other.scene
+            and (self.shadows, self.mirrors) == (other.shadows, other.mirrors)
+        )
 
 
 @dataclass(frozen=True, eq=False)
@@ -70,14 +87,14 @@ class Tracer(Protocol):
 class LiveTrace:
     """Traces the newest request. wake: called from its thread when there is something new.
 
-    make_tracer: gives a Tracer for a scene; called in that thread. begin: called there first.
+    make_tracer: gives a Tracer for a request; called in that thread. begin: called there first.
     Requests and polls come from one thread, the window's.
     """
 
     def __init__(
         self,
         wake: Callable[[], None],
-        make_tracer: Callable[[Scene], Tracer],
+        make_tracer: Callable[[Request], Tracer],
         begin: Callable[[], None] | None = None,
     ) -> None:
         self._wake = wake
@@ -159,16 +176,16 @@ class LiveTrace:
         if self._begin is not None:
             self._begin()
         tracer: Tracer | None = None
-        scene: Scene | None = None
+        made_for: Request | None = None
         pixel_s = 0.0
         while (request := self._next()) is not None:
             try:
-                if tracer is None or request.scene is not scene:
+                if tracer is None or not request.is_served_by(made_for):
                     if tracer is not None:
                         tracer.close()
                     with self._changed:
                         self._began_s = time.monotonic()
-                    tracer, scene, pixel_s = self._make_tracer(request.scene), request.scene, 0.0
+                    tracer, made_for, pixel_s = self._make_tracer(request), request, 0.0
                 pixel_s = self._trace(tracer, request, pixel_s)
             except Exception as error:  # shown in the window, which goes on
                 tracer = None

@@ -23,6 +23,7 @@ from renderer.frame import LARGEST_PIXELS, LARGEST_SIDE, Frame
 from renderer.scene.model import Scene, View
 
 NOTE_AFTER_S = 0.3
+MIRROR_DEPTH = 4
 STILL_S = 0.3  # comparing reads the raster image back, which may cost a frame: not while dragging
 
 
@@ -71,7 +72,9 @@ class Renderers:
 
     def request(self, state: AppState) -> Request | None:
         """The image that both renderers are to draw; None before the first layout."""
-        return Request(state.scene, self.camera(state), self.size) if min(self.size) else None
+        if not min(self.size):
+            return None
+        return Request(state.scene, self.camera(state), self.size, state.shadows, state.mirrors)
 
     def trace(self, state: AppState) -> None:
         """Tells the tracer what is wanted now."""
@@ -182,7 +185,7 @@ class Renderers:
             self.agreement.error = error
 
     def _frame_with(self, state: AppState, pixel: tuple[int, int]) -> Frame | None:
-        frame = self.agreement.frame_of(state.scene, self.camera(state), self.size)
+        frame = self.agreement.frame_of(self.request(state))
         if frame is None or pixel[0] >= frame.size[1] or pixel[1] >= frame.size[0]:
             return None
         return frame
@@ -192,7 +195,8 @@ class Renderers:
         return self.size[0] * state.pixel_size, self.size[1] * state.pixel_size
 
 
-def _make_tracer(scene: Scene) -> Tracer:
+def _make_tracer(request: Request) -> Tracer:
     from renderer.trace import Tracer  # here, in the live thread: it loads the compiler
 
-    return Tracer(scene)
+    depth = MIRROR_DEPTH if request.mirrors else 0
+    return Tracer(request.scene, shadows=request.shadows, mirror_depth=depth)

@@ -24,7 +24,7 @@ class AppState:
 
     keep_orthonormal: edits of u, v or w keep the basis orthonormal.
     exposure_ev: the display's brightness, in stops. pixel_size: screen pixels a side of an
-    image's pixel, so that a class can see them.
+    image's pixel, so that a class can see them. shadows, mirrors: what only image order has.
     """
 
     scene: Scene
@@ -32,6 +32,8 @@ class AppState:
     keep_orthonormal: bool = True
     exposure_ev: float = 0.0
     pixel_size: int = 1
+    shadows: bool = False
+    mirrors: bool = False
 
     @classmethod
     def for_scene(cls, scene: Scene, view: View | None = None) -> AppState:

@@ -84,8 +84,8 @@ class Rig:
         self.woken = threading.Semaphore(0)
         self.live = LiveTrace(self.woken.release, self._make)
 
-    def _make(self, scene: Scene) -> Tracer:
-        self.tracers.append(Tracer(scene, **self.settings))
+    def _make(self, request: Request) -> Tracer:
+        self.tracers.append(Tracer(request.scene, **self.settings))
         return self.tracers[-1]
 
     def until(self, condition: Callable[[], bool]) -> None:
@@ -299,7 +299,8 @@ def test_agreement_counts_the_pixels_that_differ() -> None:
     assert verdict is not None
     assert verdict.text == "agree: all pixels"
     assert agreement.verdict_on(replace(asked, size=(4, 3))) is None
-    assert agreement.frame_of(asked.scene, asked.camera, asked.size) is not None
+    assert agreement.frame_of(asked) is not None
+    assert agreement.frame_of(replace(asked, shadows=True)) is None
     agreement.submit(RayImage(asked, frame(0), 1), frame(1))
     assert woken.acquire(timeout=PATIENT_S)
     agreement.poll()

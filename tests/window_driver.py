@@ -558,6 +558,24 @@ def drive_20_a_tiny_window_is_survived(d: Driver) -> None:
     assert abs(widths[0] - widths[1]) <= 2, "both images have half of the room again"
 
 
+def drive_21_shadows_and_mirrors_are_the_ray_images_alone(d: Driver) -> None:
+    raster, ray = d.agreeing_images()
+    d.ctx.menu_click("//##MainMenuBar/View/Shadows (ray image only)")
+    d.settle()
+    raster_after, shaded = d.images()
+    assert (np.abs(raster_after - raster) <= 3).all()
+    assert (ray - shaded).max() > 30
+    d.ctx.menu_click("//##MainMenuBar/View/Mirrors (ray image only)")
+    d.settle()
+    assert np.abs(d.images()[1] - shaded).max() > 30
+    verdict = d.window.renderers.verdict(d.window.state)
+    assert verdict is not None
+    assert verdict.text.startswith("not compared")
+    d.window.undo()
+    d.window.undo()
+    d.agreeing_images()
+
+
 def close_at_work(report: Path, folder: Path) -> None:
     """Closes the window while a tracer prepares, which nothing can cancel."""
     driver = Driver(folder)
