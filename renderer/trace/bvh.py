@@ -14,7 +14,17 @@ from renderer.scene.flat import FlatScene
 from renderer.trace.atomic import take_next
 from renderer.trace.compiled import inlined, kernel
 from renderer.trace.control import new_control
-from renderer.trace.split import BINS, NUMBER, best_split, measure, partition
+from renderer.trace.simd import LANES, load, pointer, shifted, store
+from renderer.trace.split import (
+    BINS,
+    HIGH,
+    NUMBER,
+    RECORD,
+    best_split,
+    bounds_of_bins,
+    bounds_of_records,
+    partition,
+)
 from renderer.trace.team import Team
 from renderer.trace.traverse import Tree
 from renderer.trace.vectors import cross, minus, row
@@ -45,8 +55,8 @@ class Bvh(NamedTuple):
 def build(flat: FlatScene, team: Team, leaf_size: int = LEAF_SIZE) -> Bvh:
     """The tree over a scene's primitives, leaves of at most leaf_size; no nodes for no primitives.
 
-    The calling thread splits the top of the tree until the pieces are small enough to go round;
-    then the team's threads take the pieces.
+    The threads split the top of the tree, each time to pieces of half the size, until the pieces
+    are small enough to go round; then they take the pieces.
     """
     count = len(flat.faces) + len(flat.spheres)
     # A tree of n leaves has 2 n - 1 nodes; the pages of those that stay unused cost nothing.
@@ -54,20 +64,23 @@ def build(flat: FlatScene, team: Team, leaf_size: int = LEAF_SIZE) -> Bvh:
     levels = np.empty(2 * count, np.uint8)
     if not count:
         return _read_only(Bvh(bounds, links, np.empty(0, np.int32), 0))
-    records = np.empty((count, 8), np.float32)
-    numbers = records.view(np.int32)
-    _share(team, count, _fill_records, flat.vertices, flat.faces, flat.spheres, records, numbers)
-
-    piece = max(PIECE, count // (16 * team.size), leaf_size)
-    jobs = np.array([[0, 0, count, 1, 1, 1]], np.int64)
-    _grow_pieces(records, bounds, links, levels, jobs, piece, new_control())
-    used = int(jobs[0, _USED])
-    jobs = _jobs(links, levels, used, leaf_size)
-    team.run(
-        _grow_pieces, records, bounds, links, levels, jobs, leaf_size, new_control(),
-        size=len(jobs),
+    records = np.empty((count + 1, RECORD), np.float32)  # the last is only read, and not used
+    records[-1] = 0
+    numbers = records.view(np.int32)[:count]
+    _share(
+        team, count, _fill_records,
+        flat.vertices, flat.faces, flat.spheres, records[:count], numbers,
     )  # fmt: skip
-    used = _close_gaps(bounds, links, levels, jobs, used)
+
+    levels[0], links[0] = 1, (0, count)
+    used, piece = 1, max(PIECE, count // (16 * team.size))
+    for largest in (*_halves(count, piece), leaf_size):
+        jobs = _jobs(links, levels, used, largest)
+        team.run(
+            _grow_pieces, records, bounds, links, levels, jobs, largest, new_control(),
+            size=len(jobs),
+        )  # fmt: skip
+        used = _close_gaps(bounds, links, levels, jobs, used)
     depth = int(levels[:used].max())
     bvh = Bvh(bounds[:used].copy(), links[:used].copy(), numbers[:, NUMBER].copy(), depth)
     return _read_only(bvh)
@@ -104,9 +117,15 @@ def _share(team: Team, count: int, fill: Any, *arrays: np.ndarray) -> None:
 _NODE, _START, _END, _LEVEL, _FREE, _USED = range(6)
 
 
+def _halves(count: int, piece: int) -> list[int]:
+    """count / 2, count / 4, ..., as long as they are at least `piece`."""
+    return [count >> k for k in range(1, count.bit_length()) if count >> k >= piece]
+
+
 def _jobs(links: np.ndarray, levels: np.ndarray, used: int, leaf_size: int) -> np.ndarray:
-    """A job for each leaf that is too large, with room for the nodes it may need."""
-    node = np.flatnonzero(links[:used, 1] > leaf_size)
+    """A job for each leaf that is too large, with room for the nodes it may need; the root is one
+    in any case, whose bounds are not known yet."""
+    node = np.flatnonzero(links[:used, 1] > (leaf_size if used > 1 else 0))
     start, size = links[node].astype(np.int64).T
     free = used + np.cumsum(2 * size - 2) - (2 * size - 2)
     return np.stack([node, start, start + size, levels[node], free, free], axis=1)
@@ -138,20 +157,21 @@ def _fill_records(vertices, faces, spheres, records, numbers, control):
             return
         for i in range(start, min(start + CHUNK, count)):
             numbers[i, NUMBER] = i
+            records[i, HIGH + 3] = 0
             for axis in range(3):
                 if i < triangles:
                     a = vertices[faces[i, 0], axis]
                     b = vertices[faces[i, 1], axis]
                     c = vertices[faces[i, 2], axis]
-                    records[i, axis] = min(min(a, b), c)
-                    records[i, 3 + axis] = max(max(a, b), c)
+                    records[i, axis] = -min(min(a, b), c)
+                    records[i, HIGH + axis] = max(max(a, b), c)
                 else:
                     s = i - triangles
                     low = spheres[s, axis] - spheres[s, 3]
                     high = spheres[s, axis] + spheres[s, 3]
                     # Outwards, by more than the rounding of the line above.
-                    records[i, axis] = low - abs(low) * np.float32(1.2e-7)
-                    records[i, 3 + axis] = high + abs(high) * np.float32(1.2e-7)
+                    records[i, axis] = abs(low) * np.float32(1.2e-7) - low
+                    records[i, HIGH + axis] = high + abs(high) * np.float32(1.2e-7)
 
 
 @kernel
@@ -186,33 +206,37 @@ def _fill_shapes(vertices, faces, spheres, order, shapes, control):
 def _grow_pieces(records, bounds, links, levels, jobs, leaf_size, control):
     """Takes jobs and builds each one's subtree."""
     # The smaller half is built first, so each node that waits is less than half of the one before.
-    waiting = np.empty((72, 4), np.int64)
-    centres = np.empty(6, np.float32)
-    scratch = (
-        np.empty((3, BINS), np.int64),
-        np.empty((3, BINS, 6), np.float32),
-        np.empty(BINS, np.float32),
-        np.empty(3, np.float32),
-    )
+    waiting, waiting_bounds = np.empty((72, 4), np.int64), np.empty(72 * LANES, np.float32)
+    bins, counts = np.empty((3 * BINS + 2) * LANES, np.float32), np.empty(3 * BINS, np.int64)
+    # Vectors within cache lines: what is stored there can be loaded again at once.
+    aligned = -(bins.ctypes.data // 4) % LANES
     while True:
         j = take_next(control)
         if j >= len(jobs):
             return
-        _grow(records, bounds, links, levels, jobs[j], leaf_size, waiting, centres, scratch)
+        scratch = shifted(pointer(bins), aligned), pointer(counts)
+        _grow(
+            pointer(records), bounds, links, levels, jobs[j], leaf_size,
+            waiting, pointer(waiting_bounds), scratch,
+        )  # fmt: skip
 
 
 @inlined
-def _grow(records, bounds, links, levels, job, leaf_size, waiting, centres, scratch):
+def _grow(records, bounds, links, levels, job, leaf_size, waiting, waiting_bounds, scratch):
     """Builds a job's subtree, leaves of at most leaf_size, and notes the node after its last."""
     free = job[_FREE]
     for k in range(4):
         waiting[0, k] = job[k]
+    store(waiting_bounds, 0, bounds_of_records(records, job[_START], job[_END]))
     top = 1
     while top > 0:
         top -= 1
         node, start, end = waiting[top, _NODE], waiting[top, _START], waiting[top, _END]
         level = waiting[top, _LEVEL]
-        measure(records, start, end, bounds[node], centres)
+        own = load(waiting_bounds, LANES * top)
+        for axis in range(3):
+            bounds[node, axis] = -waiting_bounds[LANES * top + axis]
+            bounds[node, 3 + axis] = waiting_bounds[LANES * top + HIGH + axis]
         levels[node] = level
         if end - start <= leaf_size:
             links[node, 0], links[node, 1] = start, end - start
@@ -220,13 +244,17 @@ def _grow(records, bounds, links, levels, job, leaf_size, waiting, centres, scra
         links[node, 0], links[node, 1] = free, 0
 
         # Split by the least cost; by count where no cost says how.
-        middle = start
+        axis = -1
         if level < MAX_DEPTH:
-            axis, last_bin = best_split(records, start, end, centres, scratch)
-            if axis >= 0:
-                middle = partition(records, start, end, centres, axis, last_bin)
-        if middle in (start, end):
+            axis, last_bin, middle = best_split(records, start, end, own, scratch)
+        if axis >= 0:
+            partition(records, start, end, own, axis, last_bin)
+            left = bounds_of_bins(scratch[0], axis, 0, last_bin + 1)
+            right = bounds_of_bins(scratch[0], axis, last_bin + 1, BINS)
+        else:
             middle = (start + end) // 2
+            left = bounds_of_records(records, start, middle)
+            right = bounds_of_records(records, middle, end)
 
         # The larger half waits below the smaller.
         left_is_larger = middle - start > end - middle
@@ -236,6 +264,7 @@ def _grow(records, bounds, links, levels, job, leaf_size, waiting, centres, scra
             waiting[top, _START] = start if is_left else middle
             waiting[top, _END] = middle if is_left else end
             waiting[top, _LEVEL] = level + 1
+            store(waiting_bounds, LANES * top, left if is_left else right)
             top += 1
         free += 2
     job[_USED] = free

@@ -371,6 +371,23 @@ def mask_of(typing, number):
     return MASK(number), codegen
 
 
+def _permutation(lanes: list[int]) -> Callable:
+    def build(typing, x):
+        def codegen(context, builder, sig, args):
+            return shuffled(builder, args[0], undefined(args[0].type), lanes)
+
+        return x(x), codegen
+
+    return build
+
+
+# Lanes in another order: 0 to 7, twice; each quarter of a half in the other's place; 1 2 0 3 within
+# each quarter.
+lower_half_twice = intrinsic(_permutation([lane % 8 for lane in range(LANES)]))
+quarters_swapped = intrinsic(_permutation([lane ^ 4 for lane in range(LANES)]))
+next_of_three = intrinsic(_permutation([[1, 2, 0, 3][lane % 4] for lane in range(LANES)]))
+
+
 def _reduction(sign: str) -> Callable:
     def build(typing, x):
         def codegen(context, builder, sig, args):

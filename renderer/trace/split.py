@@ -1,10 +1,14 @@
 """How a BVH's node is split in two: binned surface area heuristic, partition in place.
 
-Owns the records that the builder sorts: float32 (n, 8), one for each primitive: low x, y, z, high
-x, y, z of its box, the bits of its number, nothing. Sorted in place, they are read in order by
-every pass over a node. Knows nothing of nodes.
+Owns the records that the builder sorts: RECORD float32 for each primitive, in one flat array:
+-low x, y, z of its box, the bits of its number, high x, y, z, nothing. Sorted in place, they are
+read in order by every pass over a node. Knows nothing of nodes.
 
+With the low sides negated, the box around two boxes is one maximum of vectors. Bounds are a vector:
+a record's first half, and in its second half the same of the primitive's centre, -x, y, z and then
+x, y, z. So the bins know the bounds of both halves of a node, and no other pass needs to find them.
 Centres are doubled throughout (low + high): no halving.
+
 Source: Wald, "On fast Construction of SAH-based Bounding Volume Hierarchies", 2007.
 """
 
@@ -13,120 +17,139 @@ from __future__ import annotations
 import numpy as np
 
 from renderer.trace.compiled import inlined
+from renderer.trace.simd import (
+    LANES,
+    i32_of,
+    lane_of,
+    load,
+    lower_half_twice,
+    mask_of,
+    next_of_three,
+    quarters_swapped,
+    select,
+    splat,
+    store,
+    vmax,
+    vmin,
+)
 
 BINS = 16
-NUMBER = 6  # the column of a record, seen as int32, with the primitive's number
+RECORD = 8
+NUMBER = 3  # the column of a record, seen as int32, with the primitive's number
+HIGH = 4  # its column with the high x
 FAR = np.float32(3.4e38)
+_LOW_CENTRE, _HIGH_CENTRE = 8, 12  # lanes of bounds
+_CENTRES = 0xFF00  # the lanes of both
 
 
 @inlined
-def measure(records, start, end, box, centres):
-    """Bounds of records[start:end] into box (6,), of their centres into centres (6,)."""
-    for axis in range(3):
-        low = low_centre = FAR
-        high = high_centre = -FAR
-        for i in range(start, end):
-            a, b = records[i, axis], records[i, 3 + axis]
-            low, high = min(low, a), max(high, b)
-            low_centre, high_centre = min(low_centre, a + b), max(high_centre, a + b)
-        box[axis], box[3 + axis] = low, high
-        centres[axis], centres[3 + axis] = low_centre, high_centre
+def _bounds(records, i):
+    """The bounds of record i."""
+    box = lower_half_twice(load(records, RECORD * i))
+    # (-low) - high and high - (-low): the two signs of the centre.
+    return box - select(mask_of(_CENTRES), quarters_swapped(box), np.float32(0))
 
 
 @inlined
-def bin_scale(low, high):
-    """Bins per unit of (doubled) centre."""
-    extent = high - low
-    return np.float32(BINS * 0.9999) / extent if extent > np.float32(1e-30) else np.float32(0)
+def bounds_of_records(records, start, end):
+    """The bounds of records[start:end]; of none: -FAR."""
+    bounds = splat(-FAR)
+    for i in range(start, end):
+        bounds = vmax(bounds, _bounds(records, i))
+    return bounds
 
 
 @inlined
-def bin_of(low, high, origin, scale):
-    return min(max(int((low + high - origin) * scale), 0), BINS - 1)
+def bounds_of_bins(bins, axis, first, end):
+    """The bounds of the records in bins[first:end] of an axis, after best_split()."""
+    bounds = splat(-FAR)
+    for b in range(first, end):
+        bounds = vmax(bounds, load(bins, LANES * (axis * BINS + b)))
+    return bounds
 
 
 @inlined
-def _half_area(low, high):
-    x, y, z = high[0] - low[0], high[1] - low[1], high[2] - low[2]
-    return x * y + y * z + z * x
+def _bin_scale(bounds):
+    """Bins per unit of (doubled) centre, in the lanes of high centres."""
+    extent = bounds + quarters_swapped(bounds)
+    is_wide = extent > np.float32(1e-30)
+    return select(is_wide, np.float32(BINS * 0.9999) / extent, np.float32(0))
 
 
 @inlined
-def _extended(low, high, bins, axis, b):
-    """The box (low, high) made to hold bin b's."""
-    return (
-        (
-            min(low[0], bins[axis, b, 0]),
-            min(low[1], bins[axis, b, 1]),
-            min(low[2], bins[axis, b, 2]),
-        ),
-        (
-            max(high[0], bins[axis, b, 3]),
-            max(high[1], bins[axis, b, 4]),
-            max(high[2], bins[axis, b, 5]),
-        ),
-    )
+def _half_area(bounds):
+    """Half of the surface of bounds' box."""
+    extent = bounds + quarters_swapped(bounds)
+    side = extent * next_of_three(extent)
+    return lane_of(side, 0) + lane_of(side, 1) + lane_of(side, 2)
 
 
 @inlined
-def best_split(records, start, end, centres, scratch):
-    """(axis, bin) after which to split records[start:end] at the least cost; axis -1: nowhere.
+def best_split(records, start, end, bounds, scratch):
+    """(axis, bin, middle) after which to split records[start:end] at the least cost.
 
-    scratch: int64 (3, BINS), and float32 (3, BINS, 6), (BINS,), (3,), of the calling thread.
+    middle: where the second half will start. axis -1: nowhere. scratch: a thread's bins, float32,
+    3 BINS + 1 vectors, and counts, int64, 3 BINS.
     """
-    counts, bins, right, scales = scratch
-    for axis in range(3):
-        for b in range(BINS):
-            counts[axis, b] = 0
-            for k in range(3):
-                bins[axis, b, k], bins[axis, b, 3 + k] = FAR, -FAR
+    bins, counts = scratch
+    for b in range(3 * BINS):
+        counts[b] = 0
+        store(bins, LANES * b, splat(-FAR))
 
     # Sort the centres into bins along each axis.
-    for axis in range(3):
-        scales[axis] = bin_scale(centres[axis], centres[3 + axis])
+    scale, origin = _bin_scale(bounds), quarters_swapped(bounds)
     for i in range(start, end):
+        own = _bounds(records, i)
+        number = i32_of(vmin(vmax((own + origin) * scale, np.float32(0)), np.float32(BINS - 1)))
         for axis in range(3):
-            b = bin_of(records[i, axis], records[i, 3 + axis], centres[axis], scales[axis])
-            counts[axis, b] += 1
-            for k in range(3):
-                bins[axis, b, k] = min(bins[axis, b, k], records[i, k])
-                bins[axis, b, 3 + k] = max(bins[axis, b, 3 + k], records[i, 3 + k])
+            into = axis * BINS + np.int64(lane_of(number, _HIGH_CENTRE + axis))
+            counts[into] += 1
+            store(bins, LANES * into, vmax(load(bins, LANES * into), own))
 
     # The cost of a split: for each side, its area times its primitives.
-    best, best_axis, best_bin = FAR, -1, -1
+    best, best_axis, best_bin, middle = FAR, -1, -1, start
+    right = 3 * BINS * LANES
     for axis in range(3):
-        if centres[3 + axis] <= centres[axis]:
-            continue
         # Sweep from the right for each right side, then from the left for the sum.
-        low, high, n = (FAR, FAR, FAR), (-FAR, -FAR, -FAR), 0
+        first = axis * BINS
+        side, n = splat(-FAR), 0
         for b in range(BINS - 1, 0, -1):
-            n += counts[axis, b]
-            low, high = _extended(low, high, bins, axis, b)
-            right[b] = _half_area(low, high) * np.float32(n) if n > 0 else np.float32(0)
-        low, high, n = (FAR, FAR, FAR), (-FAR, -FAR, -FAR), 0
+            n += counts[first + b]
+            side = vmax(side, load(bins, LANES * (first + b)))
+            bins[right + b] = _half_area(side) * np.float32(n)
+        side, n = splat(-FAR), 0
         for b in range(BINS - 1):
-            n += counts[axis, b]
-            low, high = _extended(low, high, bins, axis, b)
+            n += counts[first + b]
+            side = vmax(side, load(bins, LANES * (first + b)))
             if 0 < n < end - start:
-                cost = _half_area(low, high) * np.float32(n) + right[b + 1]
+                cost = _half_area(side) * np.float32(n) + bins[right + b + 1]
                 if cost < best:
-                    best, best_axis, best_bin = cost, axis, b
-    return best_axis, best_bin
+                    best, best_axis, best_bin, middle = cost, axis, b, start + n
+    return best_axis, best_bin, middle
 
 
 @inlined
-def partition(records, start, end, centres, axis, last_bin):
-    """Moves the records in bins up to last_bin to the front; gives the first of the others."""
-    scale, origin = bin_scale(centres[axis], centres[3 + axis]), centres[axis]
+def partition(records, start, end, bounds, axis, last_bin):
+    """Moves the records in bins up to last_bin to the front."""
+    scale = lane_of(_bin_scale(bounds), _HIGH_CENTRE + axis)
+    origin = lane_of(bounds, _LOW_CENTRE + axis)
     i, j = start, end - 1
     while True:
-        while i <= j and bin_of(records[i, axis], records[i, 3 + axis], origin, scale) <= last_bin:
+        while i <= j and _bin_of(records, i, axis, origin, scale) <= last_bin:
             i += 1
-        while i <= j and bin_of(records[j, axis], records[j, 3 + axis], origin, scale) > last_bin:
+        while i <= j and _bin_of(records, j, axis, origin, scale) > last_bin:
             j -= 1
         if i >= j:
-            return i
-        for k in range(7):
-            records[i, k], records[j, k] = records[j, k], records[i, k]
+            return
+        for k in range(RECORD):
+            a, b = RECORD * i + k, RECORD * j + k
+            records[a], records[b] = records[b], records[a]
         i += 1
         j -= 1
+
+
+@inlined
+def _bin_of(records, i, axis, origin, scale):
+    """The bin of record i, as best_split() finds it."""
+    centre = records[RECORD * i + HIGH + axis] - records[RECORD * i + axis]
+    return min(max(int((centre + origin) * scale), 0), BINS - 1)
