@@ -11,6 +11,7 @@ import contextlib
 import queue
 import threading
 import weakref
+from typing import Any
 
 from renderer.errors import LucidaError
 from renderer.scene.model import Scene
@@ -86,15 +87,15 @@ class Worker:
                     pass
                 elif engine is None:
                     with no_full_collections():
-                        from renderer.trace.engine import new_engine  # imports numba
-
-                        engine = new_engine(scene, team, self._method, *self._effects)
+                        engine = self._new_engine(scene, team)
                 elif scene is not prepared:
                     prepared = None  # until it is, if it can be
                     engine.set_scene(scene)
                 if engine is not None:
                     prepared = scene
                     task.run(engine)
+                elif self._closed:
+                    task.cancel()
             except MemoryError:
                 task.fail(LucidaError("scene", "exceeds the memory", "use a smaller model"))
             except BaseException as error:
@@ -102,6 +103,22 @@ class Worker:
             del item, task  # their buffers, while waiting for the next
             self._current = None
         team.close()
+
+    def _new_engine(self, scene: Scene, team: Team) -> Any:
+        """The engine (engine.py) for a scene; None if this is closed while kernels are compiled."""
+        # These import numba.
+        from renderer.trace.precompile import Precompilation, parts_of
+
+        compilation = Precompilation(parts_of(self._method, *self._effects))
+        try:
+            from renderer.trace.engine import new_engine
+
+            compilation.wait(lambda: self._closed)
+        finally:
+            compilation.end()
+        if self._closed:
+            return None
+        return new_engine(scene, team, self._method, *self._effects)
 
 
 # Threads must have left their kernels before the interpreter takes the memory away.
