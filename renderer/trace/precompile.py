@@ -9,6 +9,7 @@ Nothing depends on it: what is not in the cache afterwards is compiled here, at 
 from __future__ import annotations
 
 import contextlib
+import gc
 import hashlib
 import json
 import os
@@ -104,6 +105,7 @@ def main(part: str) -> None:
     threading.Thread(target=_end_with_parent, daemon=True).start()
     if hasattr(os, "nice"):
         os.nice(_NICENESS)
+    gc.disable()  # a tenth of the time, for 40 MB
     compile_part(part)
 
 
