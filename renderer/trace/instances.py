@@ -20,7 +20,14 @@ from renderer.scene.model import Mesh, Scene
 from renderer.trace.compiled import inlined
 from renderer.trace.simd import pointer
 from renderer.trace.team import Team
-from renderer.trace.wide import FIRST_LEAF, WIDTH, WideTree, tree_of_boxes, tree_of_mesh
+from renderer.trace.wide import (
+    FIRST_LEAF,
+    WIDTH,
+    WideTree,
+    aligned,
+    tree_of_boxes,
+    tree_of_mesh,
+)
 
 # Bits of an instance: its vertices have normals, have colours; its transform changes angles.
 HAS_NORMALS, HAS_COLORS, IS_STRETCHED = 1, 2, 4
@@ -157,8 +164,7 @@ class Instances:
             self._joined = parts[0]
         else:
             self._joined = tuple(
-                np.concatenate([part[k] for part in parts]) if parts else np.empty(0, dtype)
-                for k, dtype in enumerate(dtypes)
+                _concatenated([part[k] for part in parts], dtype) for k, dtype in enumerate(dtypes)
             )
 
     def _place(self, scene: Scene, flat: FlatScene) -> None:
@@ -210,6 +216,11 @@ class Instances:
             triangles=len(flat.faces),
             is_empty=not len(low),
         )
+
+
+def _concatenated(parts: list[np.ndarray], dtype: type) -> np.ndarray:
+    whole = aligned(sum(len(part) for part in parts), dtype)
+    return np.concatenate(parts, out=whole) if parts else whole
 
 
 def _meshes(scene: Scene) -> list[Mesh]:

@@ -35,6 +35,7 @@ from renderer.trace.simd import (
     load,
     pointer,
     select,
+    shifted,
     splat,
     store,
     store_square,
@@ -52,8 +53,10 @@ def trace_packets(view, world, scene, effects, image, stack_size, control):
     written. control: see control.py.
     """
     rows, columns = image.finished.shape
-    floats = np.empty(WAITING_DEPTHS + stack_size + LANES, np.float32)
-    ints = np.empty(WAITING_NODES + stack_size + LANES, np.int32)
+    floats = np.empty(WAITING_DEPTHS + stack_size + 2 * LANES, np.float32)
+    ints = np.empty(WAITING_NODES + stack_size + 2 * LANES, np.int32)
+    # Vectors within cache lines: what is stored there can be loaded again at once.
+    first_float, first_int = -(floats.ctypes.data // 4) % LANES, -(ints.ctypes.data // 4) % LANES
     view, world = view_pointers(view), world_pointers(world)
     scene, pixels = scene_pointers(scene), image_pointers(image)
     while True:
@@ -61,7 +64,8 @@ def trace_packets(view, world, scene, effects, image, stack_size, control):
         if block >= rows * columns:
             return
         # Here, not before: an array lives until its name is last used.
-        floats_at, ints_at = pointer(floats), pointer(ints)
+        floats_at = shifted(pointer(floats), first_float)
+        ints_at = shifted(pointer(ints), first_int)
         top, left = block // columns * BLOCK, block % columns * BLOCK
         for part in range(_ACROSS * _ACROSS):
             row, column = top + part // _ACROSS * TILE, left + part % _ACROSS * TILE

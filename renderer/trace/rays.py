@@ -13,7 +13,7 @@ from renderer.trace.compiled import inlined, kernel
 from renderer.trace.control import new_control
 from renderer.trace.instances import Instances, world_pointers
 from renderer.trace.rays_hit import any_hit, closest_hit
-from renderer.trace.simd import LANES, pointer
+from renderer.trace.simd import LANES, pointer, shifted
 from renderer.trace.team import Team
 from renderer.trace.wide import FIRST_LEAF
 
@@ -70,7 +70,8 @@ def _ray(vectors, i):
 
 @kernel
 def _closest(world, origins, directions, limits, t, primitive, stack_size, control):
-    floats, ints = np.empty(stack_size + LANES, np.float32), np.empty(stack_size, np.int32)
+    floats, ints = np.empty(stack_size + 2 * LANES, np.float32), np.empty(stack_size, np.int32)
+    aligned = -(floats.ctypes.data // 4) % LANES
     inner, t_min, t_max = world_pointers(world), limits[0], limits[1]
     while True:
         first = take_next(control) * _CHUNK
@@ -79,7 +80,13 @@ def _closest(world, origins, directions, limits, t, primitive, stack_size, contr
         for i in range(first, min(first + _CHUNK, len(origins))):
             origin, direction = _ray(origins, i), _ray(directions, i)
             t[i], slot, space = closest_hit(
-                inner, origin, direction, t_min, t_max, pointer(floats), pointer(ints)
+                inner,
+                origin,
+                direction,
+                t_min,
+                t_max,
+                shifted(pointer(floats), aligned),
+                pointer(ints),
             )
             if space >= 0:
                 primitive[i] = world.face[slot] + world.first_primitive[space]

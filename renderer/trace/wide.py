@@ -20,6 +20,7 @@ from renderer.trace.atomic import take_next
 from renderer.trace.bvh import MAX_DEPTH, Bvh, build
 from renderer.trace.compiled import kernel
 from renderer.trace.control import new_control
+from renderer.trace.simd import LANES
 from renderer.trace.team import Team
 
 WIDTH = 16  # children of a node, triangles of a leaf: the lanes of a vector
@@ -59,6 +60,16 @@ class WideTree(NamedTuple):
         return sum(array.nbytes for array in self if isinstance(array, np.ndarray))
 
 
+def aligned(count: int, dtype: type) -> NDArray:
+    """An empty array of 4-byte numbers whose vectors of 16 lie within cache lines, of 64 bytes.
+
+    NumPy's own arrays begin in the middle of a line: each vector would touch two.
+    """
+    room = np.empty(count + LANES - 1, dtype)
+    first = -room.ctypes.data // 4 % LANES
+    return room[first : first + count]
+
+
 def tree_of_mesh(
     vertices: NDArray[np.float32], faces: NDArray[np.int32], scene: FlatScene, team: Team
 ) -> WideTree:
@@ -69,9 +80,9 @@ def tree_of_mesh(
     mesh = scene._replace(vertices=vertices, faces=faces, spheres=scene.spheres[:0])
     binary = build(mesh, team, leaf_size=WIDTH)
     box, child, leaves, levels = collapse(binary)
-    corner = np.empty(len(leaves) * CORNERS, np.float32)
+    corner = aligned(len(leaves) * CORNERS, np.float32)
     face = np.empty(len(leaves) * WIDTH, np.int32)
-    normal = np.empty(len(leaves) * 3 * WIDTH, np.float32)
+    normal = aligned(len(leaves) * 3 * WIDTH, np.float32)
     chunks = -(-len(leaves) // _CHUNK)
     team.run(
         _fill_leaves, vertices, faces, binary.order, leaves, corner, face, normal, new_control(),
@@ -107,8 +118,10 @@ def collapse(binary: Bvh) -> tuple[NDArray, NDArray, NDArray, int]:
     box, child = np.empty((room, 6, WIDTH), np.float32), np.empty((room, WIDTH), np.int32)
     leaves = np.empty((nodes // 2 + 1, 2), np.int32)
     used, used_leaves, levels = _collapse(binary.bounds, binary.links, box, child, leaves)
+    flat_box = aligned(used * BOX, np.float32)
+    flat_box[:] = box[:used].reshape(-1)
     return (
-        box[:used].copy().reshape(-1),
+        flat_box,
         child[:used].copy().reshape(-1),
         leaves[:used_leaves],
         int(levels),
