@@ -65,7 +65,7 @@ def aligned(count: int, dtype: type) -> NDArray:
 
     NumPy's own arrays begin in the middle of a line: each vector would touch two.
     """
-    room = np.empty(count + LANES - 1, dtype)
+    room: NDArray = np.empty(count + LANES - 1, dtype)
     first = -room.ctypes.data // 4 % LANES
     return room[first : first + count]
 
