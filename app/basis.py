@@ -11,7 +11,7 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
-from renderer.camera import Camera, Vector
+from renderer.camera import Camera, Vector, volume
 
 Floats = NDArray[np.float64]
 
@@ -60,7 +60,7 @@ def with_vector(camera: Camera, name: str, vector: Floats) -> Camera:
     second = second / np.linalg.norm(second)
     third = np.cross(first, second)
     basis = {name: first, second_name: second, third_name: third}
-    if np.linalg.det(np.column_stack([basis[n] for n in "uvw"])) * camera.determinant < 0:
+    if volume(*(basis[n] for n in "uvw")) * camera.determinant < 0:
         basis[third_name] = -third
     return _with(camera, {n: _vector(basis[n]) for n in "uvw"})
 

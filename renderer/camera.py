@@ -148,7 +148,7 @@ class Camera:
     @property
     def determinant(self) -> float:
         """The basis's volume: negative for a left-handed basis."""
-        return float(np.linalg.det(self.basis))
+        return volume(self.u, self.v, self.w)
 
     @property
     def fov_y_deg(self) -> float:
@@ -277,6 +277,14 @@ class Camera:
         return replace(self, viewport=(left + dx, right + dx, bottom + dy, top + dy))
 
 
+def volume(u: ArrayLike, v: ArrayLike, w: ArrayLike) -> float:
+    """The volume that three vectors span: the determinant, negative if they are left-handed.
+
+    As a triple product: LAPACK's determinant warns of a division by zero at denormal numbers.
+    """
+    return float(np.dot(np.cross(u, v), np.asarray(w, float)))
+
+
 def _number(name: str, value: object) -> float:
     try:
         number = float(value)  # type: ignore[arg-type]
@@ -327,7 +335,7 @@ def _check_basis(u: Vector, v: Vector, w: Vector) -> None:
                 f"give {name} a part outside their plane",
             )
     unit = {name: vector / np.linalg.norm(vector) for name, vector in vectors.items()}
-    if abs(np.linalg.det(np.column_stack(list(unit.values())))) > SINGULAR:
+    if abs(volume(*unit.values())) > SINGULAR:
         return
     for first, second in (("u", "v"), ("u", "w"), ("v", "w")):
         if np.linalg.norm(np.cross(unit[first], unit[second])) <= math.sqrt(SINGULAR):

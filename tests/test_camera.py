@@ -9,6 +9,7 @@ from hypothesis import assume, given
 from hypothesis import strategies as st
 
 from renderer import Camera, LucidaError
+from renderer.camera import volume
 
 numbers = st.floats(-3, 3, allow_nan=False)
 vectors = st.tuples(numbers, numbers, numbers)
@@ -22,7 +23,7 @@ def cameras(draw):
     basis = np.array([draw(vectors) for _ in range(3)])
     lengths = np.linalg.norm(basis, axis=1)
     assume((lengths > 0.1).all())
-    assume(abs(np.linalg.det(basis / lengths[:, None])) > 0.02)
+    assume(abs(volume(*(basis / lengths[:, None]))) > 0.02)
     left, bottom = draw(numbers), draw(numbers)
     width, height = draw(st.floats(0.05, 4)), draw(st.floats(0.05, 4))
     return Camera(
@@ -163,6 +164,11 @@ def test_an_illegal_camera_names_field_value_and_remedy(changes, field, value):
     assert value in error.value.problem
     assert error.value.remedy
     assert "\n" not in str(error.value)
+
+
+def test_denormal_numbers_are_legal():
+    assert Camera(u=(1, 0, 5e-324), v=(0, 1, 0), w=(0, 0, 1)).determinant == 1
+    assert abs(volume((0, 0, 1), (0, 1, 0), (5e-324, 0, 1))) < 1e-300
 
 
 def test_dependent_vectors_are_named():

@@ -13,7 +13,7 @@ from dataclasses import dataclass, field
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from renderer.camera import LARGEST, Camera
+from renderer.camera import LARGEST, Camera, volume
 from renderer.errors import LucidaError
 
 Color = tuple[float, float, float]
@@ -178,7 +178,7 @@ class Mesh:
             raise LucidaError("transform", "is too large, or not affine", "scale it down")
         linear = transform[:3, :3]
         lengths = np.linalg.norm(linear, axis=0)
-        if not ((lengths > 1e-12).all() and abs(np.linalg.det(linear / lengths)) > 1e-9):
+        if not ((lengths > 1e-12).all() and abs(volume(*(linear / lengths).T)) > 1e-9):
             raise LucidaError("transform", "is not invertible", "give scales other than 0")
         object.__setattr__(self, "transform", transform)
 
