@@ -282,7 +282,8 @@ def volume(u: ArrayLike, v: ArrayLike, w: ArrayLike) -> float:
 
     As a triple product: LAPACK's determinant warns of a division by zero at denormal numbers.
     """
-    return float(np.dot(np.cross(u, v), np.asarray(w, float)))
+    across, up, back = (np.asarray(vector, float) for vector in (u, v, w))
+    return float(np.dot(np.cross(across, up), back))
 
 
 def _number(name: str, value: object) -> float:
