@@ -12,6 +12,7 @@ and layouts; each window only names its space. Knows nothing of what the windows
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 
 from imgui_bundle import hello_imgui, imgui
@@ -30,7 +31,7 @@ def side_by_side(
     """The default layout: the camera's panel, and the two images at the same size."""
     params = hello_imgui.DockingParams()
     params.layout_name = "Side by side"
-    camera = min(0.4, CAMERA_WIDTH_EM * em_px / window_width_px)
+    camera = camera_width_px(window_width_px, em_px) / window_width_px
     params.docking_splits = [
         _split("MainDockSpace", CAMERA_SPACE, imgui.Dir.left, camera),
         _split("MainDockSpace", RIGHT_SPACE, imgui.Dir.right, 0.5),
@@ -41,8 +42,14 @@ def side_by_side(
     return params
 
 
+def camera_width_px(window_width_px: float, em_px: float) -> float:
+    """What the camera's panel needs for its numbers, but never most of a small window."""
+    return min(0.4 * window_width_px, CAMERA_WIDTH_EM * em_px)
+
+
 class Proportion:
-    """Keeps the two images' shares of the room when the window is resized.
+    """Keeps the two images' shares of the room when the window is resized, and the camera's panel
+    as wide as its numbers are.
 
     ImGui would give all of the difference to one of them. The user's own division stays.
     """
@@ -54,9 +61,9 @@ class Proportion:
 
     def keep(self) -> None:
         """Call once a frame."""
-        params = hello_imgui.get_runner_params().docking_params
-        space = params.dock_space_id_from_name(RIGHT_SPACE)
-        node = imgui.internal.dock_builder_get_node(space) if space is not None else None
+        if not imgui.is_mouse_down(imgui.MouseButton_.left):
+            self._widen_camera()
+        node = _node(RIGHT_SPACE)
         parent = node.parent_node if node is not None else None
         if node is None or parent is None or not (parent.size.x > 0 and node.size.y > 0):
             return
@@ -70,6 +77,23 @@ class Proportion:
             self._settling -= 1
         elif parent.size.x > LEAST_ROOM_PX:
             self._share = node.size.x / parent.size.x
+
+    def _widen_camera(self) -> None:
+        """A window that was restored, or enlarged, may leave the panel less than it needs."""
+        node = _node(CAMERA_SPACE)
+        parent = node.parent_node if node is not None else None
+        if node is None or parent is None or not (parent.size.x > 0 and node.size.y > 0):
+            return
+        least = math.floor(camera_width_px(parent.size.x, imgui.get_font_size()))
+        if least >= 1 and node.size.x < least - 1:
+            imgui.internal.dock_builder_set_node_size(node.id_, (least, node.size.y))
+
+
+def _node(space: str) -> imgui.internal.DockNode | None:
+    """A dock space; None while it is not there."""
+    params = hello_imgui.get_runner_params().docking_params
+    number = params.dock_space_id_from_name(space)
+    return imgui.internal.dock_builder_get_node(number) if number is not None else None
 
 
 def _split(

@@ -27,6 +27,7 @@ os.environ.pop("WAYLAND_DISPLAY", None)
 from imgui_bundle import hello_imgui, imgui
 from PIL import Image
 
+from app.layout import CAMERA_SPACE
 from app.panels.images import framebuffer_scale
 from app.platform import start_platform
 from app.state import AppState, History
@@ -573,6 +574,16 @@ def drive_21_shadows_and_mirrors_are_the_ray_images_alone(d: Driver) -> None:
     assert verdict.text.startswith("not compared")
     d.window.undo()
     d.window.undo()
+    d.agreeing_images()
+
+
+def drive_22_the_camera_panel_stays_wide_enough_for_its_numbers(d: Driver) -> None:
+    params = d.run.params.docking_params
+    node = imgui.internal.dock_builder_get_node(params.dock_space_id_from_name(CAMERA_SPACE))
+    wide = node.size.x
+    imgui.internal.dock_builder_set_node_size(node.id_, (150, node.size.y))
+    d.ctx.yield_(4)
+    assert d.ctx.get_window_by_ref("//Camera").size.x > wide - 3
     d.agreeing_images()
 
 
