@@ -74,7 +74,9 @@ class Camera:
         _check_projection(self.projection)
         _check_basis(self.u, self.v, self.w)
         if not self.distance >= SMALLEST:
-            raise LucidaError("distance", f"{self.distance:g} is not above 0", "give e.g. 1.0")
+            limit = "0" if self.distance <= 0 else f"{SMALLEST:g}"
+            problem = f"{self.distance:g} is not above {limit}"
+            raise LucidaError("distance", problem, "give e.g. 1.0")
         _check_viewport(self.viewport)
         _check_clip(self.near, self.far)
 
