@@ -146,9 +146,9 @@ class Script:
         if self._dragging:
             self.measured.drag_starts_s.append(self._began_s)
             self.measured.drag_work_s.append(time.perf_counter() - self._began_s)
-            if self._window.ray_image is not self._seen:
+            if self._window.renderers.ray_image is not self._seen:
                 self.measured.drag_images += 1
-        self._seen = self._window.ray_image
+        self._seen = self._window.renderers.ray_image
         self._then()
 
     def _scene(self) -> Iterator[None]:
@@ -163,7 +163,7 @@ class Script:
         yield from self._settled(3)
         self._run.params.docking_params.layout_reset = True  # both images as large as each other
         yield from self._settled(20)
-        self.measured.size = self._window.size
+        self.measured.size = self._window.renderers.size
         yield from self._drag()
         for step in range(self._steps):
             yield from self._settled(20)
@@ -176,8 +176,8 @@ class Script:
             if time.perf_counter() > until_s:
                 raise RuntimeError("the images were not complete in time")
             yield
-            if self._window.failure is not None:
-                raise self._window.failure
+            if self._window.renderers.failure is not None:
+                raise self._window.renderers.failure
             quiet = quiet + 1 if self._window.settled else 0
 
     def _drag(self) -> Iterator[None]:
@@ -227,8 +227,8 @@ class Script:
         while self._began_s - start_s < SETTLE_AT_MOST_S:
             yield
             # What the frame before this one showed, until this one began.
-            image = window.ray_image
-            if image is None or image.request != window.request:
+            image = window.renderers.ray_image
+            if image is None or image.request != window.renderers.request(window.state):
                 continue
             elapsed_s = self._began_s - start_s
             frames = round((self._shown_s - start_s) / FRAME_S)
@@ -251,9 +251,8 @@ def _worker(mesh: str, seconds: float, steps: int) -> None:
 
     subject: Subject = SUBJECTS[mesh]() if mesh in SUBJECTS else model(mesh)
     view = View(easy_views(subject, HD)[0].camera, fit=True)
-    start_platform(want_display=False)
     state = AppState.for_scene(shaded_scene(subject), view)
-    run = WindowRun(state, WINDOW, remember=False)
+    run = WindowRun(start_platform(want_display=False), state, WINDOW, remember=False)
     run.params.fps_idling.enable_idling = False
     run.params.fps_idling.fps_max = 1 / FRAME_S
     script = Script(run, seconds, steps)
