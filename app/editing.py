@@ -14,7 +14,6 @@ from app.state import AppState
 from renderer.camera import Camera
 from renderer.errors import LucidaError
 
-VECTORS = ("eye", "u", "v", "w")
 BASIS = ("u", "v", "w")
 
 

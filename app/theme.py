@@ -11,7 +11,6 @@ from dataclasses import dataclass
 from imgui_bundle import ImVec2, ImVec4, hello_imgui, imgui
 
 TEXT_PX = 16.0
-SMALL_PX = 14.0
 
 
 def rgb(text: str, alpha: float = 1.0) -> ImVec4:

@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 
 from renderer.camera import Camera
 from renderer.edges import Lines
-from renderer.frame import Frame
+from renderer.frame import CHANNELS, Frame
 from renderer.images.display import encode_srgb
 from renderer.scene.flat import FlatScene, flatten
 from renderer.scene.model import Scene
@@ -28,7 +28,6 @@ DEPTH_RELATIVE = 1e-4
 NORMAL = 1e-3  # a component
 COLOR = 2 / 255  # after the display transform
 
-CHANNELS = ("color", "depth", "normal", "id", "primitive")
 CAUSES = ("outline", "meeting", "clip", "checker", "grazing")
 AGREE, UNEXPLAINED = 0, 255  # labels; a cause's label is its place in CAUSES plus 1
 MOST_EXAMINED = 1 << 20  # disagreeing pixels; more than that is not a matter of edges

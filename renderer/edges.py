@@ -19,14 +19,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from renderer.camera import Camera, Floats
-from renderer.scene.flat import CELL_X, SPECULAR_CHECKERED, FlatScene
+from renderer.scene.flat import CELL_NUDGE, CELL_X, SPECULAR_CHECKERED, FlatScene
 
 Ints = NDArray[np.integer]
 Numbers = NDArray[np.integer] | NDArray[np.floating]
 Function = Callable[[float, float], Floats]  # of an offset (rows, columns) in pixels
 
 STEP_PX = 1 / 256  # of the central differences: well inside the tolerance, far above rounding
-NUDGE = 1e-3  # cells: how far below the surface both renderers look up a checker's cell
 BEHIND = 1e-9  # outlines are clipped where the ray parameter falls below this part of its largest
 ROUNDING = 1e-12  # of the largest coordinate: what float64 cannot tell from the eye itself
 
@@ -96,7 +95,7 @@ class Lines:
             facing = self._facing(primitive, point, direction)
             inward = np.einsum("nrk,nk->nr", rows[:, :, :3], facing)
             with np.errstate(divide="ignore", invalid="ignore"):  # what is not hit
-                inward *= NUDGE / np.linalg.norm(inward, axis=1, keepdims=True)
+                inward *= CELL_NUDGE / np.linalg.norm(inward, axis=1, keepdims=True)
             here = np.einsum("nk,nk->n", rows[:, axis, :3], point) + rows[:, axis, 3]
             return here - inward[:, axis]
 

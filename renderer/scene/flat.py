@@ -32,6 +32,10 @@ I32 = NDArray[np.int32]
 # Rows of a material, each four numbers.
 DIFFUSE_SHININESS, SPECULAR_CHECKERED, CHECKER_DIFFUSE, CELL_X, CELL_Y, CELL_Z = range(6)
 
+# Cells: how far below the surface a checker is looked up, so that a face that lies in a cell's
+# border stays inside one cell. shaders/chunks/shading.glsl has the same number.
+CELL_NUDGE = 1e-3
+
 
 class FlatScene(NamedTuple):
     """float32 and int32 arrays, C order, read-only; any of them may have length 0.

@@ -13,6 +13,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from renderer.trace import shade
 from renderer.trace.compiled import inlined
 from renderer.trace.instances import HAS_COLORS, HAS_NORMALS, IS_STRETCHED
 from renderer.trace.packet_smooth import (
@@ -51,7 +52,7 @@ from renderer.trace.simd_math import (
 )
 from renderer.trace.wide import WIDTH
 
-GRAZING = np.float32(1e-3)  # the cosine that shading normals keep, at least, towards the viewer
+GRAZING = np.float32(shade.GRAZING)
 _X, _Y, _Z = np.arange(3)
 SINGLES = 3  # triangles that are taken one by one before the rest gather
 # Vectors of a square's surface in the scratch: geometric and shading normal, vertex colour.

@@ -36,7 +36,7 @@ DIFFUSE_SHININESS, SPECULAR_CHECKERED, CHECKER_DIFFUSE, CELL_X, CELL_Y, CELL_Z =
     )
 )
 FIRST, SECOND = np.int64(0), np.int64(1)
-CELL_NUDGE = 1e-3  # cells: keeps a face that lies in a cell's border inside one cell
+CELL_NUDGE = flat.CELL_NUDGE
 GRAZING = 1e-3  # the cosine that shading normals keep, at least, towards the viewer
 
 
