@@ -4,12 +4,20 @@ Knows nothing of renderers, cameras or windows: it is given frames and arrays.
 """
 
 from renderer.images.display import encode_srgb, from_srgb, gray_picture, picture, to_srgb8
-from renderer.images.files import ENDINGS, PICTURES, check_image_path, write_image, write_picture
+from renderer.images.files import (
+    ENDINGS,
+    PICTURES,
+    check_image_path,
+    encode_array,
+    write_image,
+    write_picture,
+)
 
 __all__ = [
     "ENDINGS",
     "PICTURES",
     "check_image_path",
+    "encode_array",
     "encode_srgb",
     "from_srgb",
     "gray_picture",

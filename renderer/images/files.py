@@ -81,6 +81,26 @@ def write_picture(path: str | Path, shown: Bytes) -> None:
         PICTURES[ending](file, content)
 
 
+def encode_array(array: NDArray, ending: str) -> bytes:
+    """The file that holds an array as it stands, with nothing shown or converted.
+
+    .pbm and .png take bool (height, width); .pgm and .png uint8 (height, width); .ppm and .png
+    uint8 (height, width, 3); .pfm float32; .exr float16 or float32 (height, width, 3); .npy any.
+    Raises LucidaError where the format cannot hold the array.
+    """
+    kind = (array.dtype.name, array.ndim)
+    if ending not in ENDINGS or (ending in HOLDS and kind not in HOLDS[ending]):
+        raise LucidaError(
+            "", f"{ending} cannot hold {kind[0]} of {kind[1]} dimensions", "choose another format"
+        )
+    content = io.BytesIO()
+    if ending in DATA:
+        DATA[ending](content, array, "color")
+    else:
+        PICTURES[ending](content, array)
+    return content.getvalue()
+
+
 def _write_png(file: BinaryIO, shown: Bytes) -> None:
     _write_by_pillow(file, shown, "PNG")
 
@@ -92,7 +112,7 @@ def _write_netpbm(file: BinaryIO, shown: Bytes) -> None:
 
 def _write_pbm(file: BinaryIO, gray: Bytes) -> None:
     """P4: one bit a pixel, black where the gray is below half."""
-    _write_by_pillow(file, gray >= HALF, "PPM")
+    _write_by_pillow(file, gray if gray.dtype == np.bool_ else gray >= HALF, "PPM")
 
 
 def _write_by_pillow(file: BinaryIO, array: NDArray, name: str) -> None:
@@ -140,3 +160,13 @@ DATA: dict[str, Callable[[BinaryIO, NDArray, str], None]] = {
     ".npy": _write_npy,
 }
 ENDINGS = (*PICTURES, *DATA)
+
+# What encode_array() takes: the type of the numbers, and the number of dimensions.
+HOLDS = {
+    ".png": {("bool", 2), ("uint8", 2), ("uint8", 3)},
+    ".ppm": {("uint8", 3)},
+    ".pgm": {("uint8", 2)},
+    ".pbm": {("bool", 2)},
+    ".pfm": {("float32", 2), ("float32", 3)},
+    ".exr": {("float16", 3), ("float32", 3)},
+}

@@ -1,0 +1,9 @@
+"""The image laboratory's core: one linear image in the representations that the lecture names.
+
+kinds       bitmap, grayscale, colour, half and single float: bits, bytes, what each is good for
+bitmaps     one bit a pixel: threshold, ordered dither, Floyd-Steinberg
+stored      an image as it is kept in a kind, and what is seen when it is exposed afterwards
+light       three projectors whose light adds; the subpixels of a display
+memory      the array itself: canvas[i, j], row-major order, memory offsets
+disk        the sizes of files, and files of what is stored
+"""

@@ -1,0 +1,87 @@
+"""How displays make colours: three projectors whose light adds, and subpixels side by side.
+
+Knows nothing of windows: pictures in, pictures out.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from renderer.images.display import Bytes, to_srgb8
+
+Offset = tuple[int, int]  # rows down, columns to the right
+
+# Where red, green and blue stand when they are moved apart by 1: an upright triangle.
+APART = ((-1.0, 0.0), (0.5, -0.866), (0.5, 0.866))
+CHANNELS = ("red", "green", "blue")
+
+
+def projector(color: ArrayLike, channel: int, exposure_ev: float = 0.0) -> Bytes:
+    """What one projector throws: the picture (H, W, 3) of a single channel, the others dark."""
+    linear = np.asarray(color, np.float32)
+    alone = np.zeros_like(linear)
+    alone[..., channel] = linear[..., channel]
+    return to_srgb8(alone, exposure_ev)
+
+
+def triangle(distance_px: float) -> tuple[Offset, Offset, Offset]:
+    """Offsets of the three pictures, each `distance_px` from the middle; 0: all aligned."""
+    red, green, blue = ((round(r * distance_px), round(c * distance_px)) for r, c in APART)
+    return red, green, blue
+
+
+def projected(
+    color: ArrayLike, offsets: tuple[Offset, Offset, Offset], exposure_ev: float = 0.0
+) -> Bytes:
+    """The wall: three single-colour pictures, moved apart, whose light adds.
+
+    color: linear, (H, W, 3). Gives uint8 (H + rows, W + columns, 3), as large as the three
+    pictures together reach; dark where none falls.
+    """
+    linear = np.asarray(color, np.float32)
+    height, width = linear.shape[:2]
+    rows = [row for row, _ in offsets]
+    columns = [column for _, column in offsets]
+    shape = (height + max(rows) - min(rows), width + max(columns) - min(columns), 3)
+    wall = np.zeros(shape, np.float32)
+    for channel, (row, column) in enumerate(offsets):
+        top, left = row - min(rows), column - min(columns)
+        wall[top : top + height, left : left + width, channel] = linear[..., channel]
+    return to_srgb8(wall, exposure_ev)
+
+
+def subpixels(picture: Bytes, side: int, gap: int = 0) -> Bytes:
+    """A picture (H, W, 3) as a display's subpixels: uint8 (H side, W side, 3).
+
+    Each pixel becomes side x side, three upright stripes of red, green and blue, each as bright as
+    its number. side: at least 3. gap: dark pixels right of each stripe and below each row.
+    """
+    column = np.arange(side)
+    stripe = column * 3 // side
+    lit = np.zeros((side, side, 3), np.uint8)
+    lit[:, column, stripe] = 1
+    if gap:
+        ends = [-(-(s + 1) * side // 3) for s in range(3)]  # where each stripe stops
+        for end in ends:
+            lit[:, max(0, end - gap) : end] = 0
+        lit[side - gap :] = 0
+    height, width = picture.shape[:2]
+    tiles = picture[:, None, :, None, :] * lit[None, :, None, :, :]
+    return tiles.reshape(height * side, width * side, 3)
+
+
+def magnified(picture: Bytes, side: int) -> Bytes:
+    """Each pixel of a picture (H, W, 3) as side x side equal ones."""
+    return np.repeat(np.repeat(picture, side, axis=0), side, axis=1)
+
+
+def window(image: NDArray, i: int, j: int, rows: int, columns: int) -> tuple[int, int, NDArray]:
+    """At most rows x columns pixels of an image about pixel (i, j), 0-based, moved inside it.
+
+    Gives the window's first row and column, and a view of its pixels.
+    """
+    height, width = image.shape[:2]
+    first = min(max(0, i - rows // 2), max(0, height - rows))
+    left = min(max(0, j - columns // 2), max(0, width - columns))
+    return first, left, image[first : first + rows, left : left + columns]

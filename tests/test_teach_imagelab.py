@@ -1,0 +1,287 @@
+"""The image laboratory's core, against plain loops and arithmetic by hand."""
+
+from __future__ import annotations
+
+import io
+
+import numpy as np
+import OpenEXR
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+from PIL import Image
+
+from app.teach.imagelab import bitmaps, disk, kinds, light, memory
+from app.teach.imagelab.stored import clipped, levels, recovered, shown, store
+from renderer.errors import LucidaError
+from renderer.frame import Frame
+from renderer.images import from_srgb, gray_picture, to_srgb8
+from renderer.images.display import luminance
+from renderer.scene.reading import size_text
+
+
+@pytest.fixture
+def color() -> np.ndarray:
+    """37 x 23 pixels of light, 0 to 3, smooth and rough, with pure colours at the corners."""
+    random = np.random.default_rng(4)
+    image = np.linspace(0, 3, 37 * 23).reshape(23, 37, 1) * random.uniform(0.3, 1, (23, 37, 3))
+    image[0, 0], image[0, -1], image[-1, 0] = (1, 0, 0), (0, 1, 0), (0, 0, 1)
+    return image.astype(np.float32)
+
+
+def plain_floyd_steinberg(gray: np.ndarray) -> np.ndarray:
+    """The textbook's loop, which hands each pixel's error on."""
+    values = np.clip(gray.astype(float), 0, 1).tolist()
+    height, width = gray.shape
+    shares = [[[0.0] * 4 for _ in range(width)] for _ in range(height)]
+    bits = np.zeros(gray.shape, bool)
+    for i in range(height):
+        for j in range(width):
+            value = values[i][j]
+            for share in shares[i][j]:  # from above left, above, above right, left
+                value += share
+            bits[i, j] = value >= 0.5
+            error = value - bits[i, j]
+            for di, dj, part, slot in ((0, 1, 7, 3), (1, -1, 3, 2), (1, 0, 5, 1), (1, 1, 1, 0)):
+                if i + di < height and 0 <= j + dj < width:
+                    shares[i + di][j + dj][slot] = error * (part / 16)
+    return bits
+
+
+class TestBitmaps:
+    @given(
+        st.integers(1, 19),
+        st.integers(1, 19),
+        st.integers(0, 2**32 - 1),
+        st.sampled_from([0.5, 1.0, 2.0]),
+    )
+    def test_error_diffusion_is_the_plain_loop_bit_by_bit(self, height, width, seed, power):
+        gray = np.random.default_rng(seed).uniform(0, 1, (height, width)) ** power
+        np.testing.assert_array_equal(bitmaps.floyd_steinberg(gray), plain_floyd_steinberg(gray))
+
+    def test_error_diffusion_of_a_larger_image(self):
+        i, j = np.mgrid[0:120, 0:200]
+        gray = 0.5 + 0.5 * np.sin(i / 17) * np.cos(j / 23)
+        np.testing.assert_array_equal(bitmaps.floyd_steinberg(gray), plain_floyd_steinberg(gray))
+
+    @pytest.mark.parametrize("method", ["ordered", "floyd-steinberg"])
+    @pytest.mark.parametrize("value", [0.0, 0.1, 0.25, 0.5, 0.8, 1.0])
+    def test_dithers_keep_the_mean_light(self, method, value):
+        bits = bitmaps.METHODS[method](np.full((64, 64), value))
+        assert bits.mean() == pytest.approx(value, abs=0.01)
+
+    def test_bayers_matrix(self):
+        np.testing.assert_array_equal(bitmaps.bayer(1), [[0, 2], [3, 1]])
+        np.testing.assert_array_equal(
+            bitmaps.bayer(2), [[0, 8, 2, 10], [12, 4, 14, 6], [3, 11, 1, 9], [15, 7, 13, 5]]
+        )
+        assert sorted(bitmaps.BAYER_8.ravel()) == list(range(64))
+
+    def test_ordered_dither_is_a_threshold_that_depends_on_the_place(self):
+        gray = np.random.default_rng(2).uniform(0, 1, (19, 13))
+        plain = [
+            [gray[i, j] > (bitmaps.BAYER_8[i % 8, j % 8] + 0.5) / 64 for j in range(13)]
+            for i in range(19)
+        ]
+        np.testing.assert_array_equal(bitmaps.ordered(gray), plain)
+
+    def test_the_threshold_is_the_pbm_writers(self, color):
+        written = gray_picture(Frame((37, 23), color)) >= 128
+        np.testing.assert_array_equal(store(color, kinds.BITMAP).array, written)
+
+    def test_nothing_is_lost_or_made_of_nan(self):
+        gray = np.array([[np.nan, 1.0], [0.0, 2.0]])
+        assert bitmaps.floyd_steinberg(gray).tolist() == [[False, True], [False, True]]
+
+
+class TestStorage:
+    def test_the_lectures_megapixel(self):
+        texts = [size_text(kind.storage_bytes(kinds.LECTURE_SIZE)) for kind in kinds.KINDS]
+        assert texts == ["128 KiB", "1 MiB", "3 MiB", "6 MiB", "12 MiB"]
+        assert [kind.bits for kind in kinds.KINDS] == [1, 8, 24, 48, 96]
+
+    def test_rows_of_bits_begin_at_a_byte(self):
+        assert kinds.BITMAP.storage_bytes((11, 5)) == 2 * 5
+
+    def test_gray_is_the_luminance_encoded(self, color):
+        y = 0.2126 * color[..., 0] + 0.7152 * color[..., 1] + 0.0722 * color[..., 2]
+        gray = store(color, kinds.GRAY).array.astype(int)
+        assert abs(gray - to_srgb8(y).astype(int)).max() <= 1
+        assert gray[0, 0] < gray[0, -1] and gray[-1, 0] < gray[0, 0]  # green, red, blue
+
+    @pytest.mark.parametrize("kind", kinds.KINDS, ids=lambda kind: kind.name)
+    def test_what_is_stored_has_the_kinds_bits(self, color, kind):
+        stored = store(color, kind)
+        bits = 1 if stored.array.dtype == bool else 8 * stored.array.dtype.itemsize
+        assert bits * stored.array.size == kind.bits * 37 * 23
+        assert stored.size == (37, 23)
+
+    def test_half_saturates_instead_of_overflowing(self):
+        wild = np.array([[[1e9, np.inf, np.nan]]], np.float32)
+        assert store(wild, kinds.HALF).array.tolist() == [[[65504.0, 65504.0, 0.0]]]
+
+
+class TestExposureAfterStorage:
+    def test_float_keeps_what_8_bits_lose(self, color):
+        bytes_kept = store(color, kinds.COLOR)
+        float_kept = store(color, kinds.FLOAT)
+        np.testing.assert_array_equal(shown(bytes_kept), shown(float_kept))
+        np.testing.assert_array_equal(shown(float_kept, -2.0), to_srgb8(color, -2.0))
+        # What was clipped stays one value: 1 darkened by two stops.
+        lost = clipped(color)
+        assert lost.any() and not lost.all()
+        white = shown(bytes_kept, -2.0)[(color > 1).all(axis=2)]
+        assert len(white) and (white == to_srgb8(0.25)).all()
+        assert levels(shown(float_kept, -2.0)) > levels(shown(bytes_kept, -2.0))
+
+    def test_8_bits_band_when_they_are_brightened(self):
+        ramp = np.repeat(np.linspace(0, 0.02, 4096, dtype=np.float32)[None, :, None], 3, axis=2)
+        kept = [shown(store(ramp, kind), 5.0) for kind in (kinds.COLOR, kinds.HALF, kinds.FLOAT)]
+        of_bytes, of_half, of_float = map(levels, kept)
+        assert of_bytes <= 40  # 0.02 is 39 of 255
+        assert of_half == of_float > 150
+
+    def test_the_exposure_it_was_taken_at(self, color):
+        for kind in kinds.KINDS[1:]:
+            taken = shown(store(color, kind, -1.5))
+            expected = to_srgb8(
+                np.repeat(luminance(color)[..., None], 3, axis=2) if kind is kinds.GRAY else color,
+                -1.5,
+            )
+            assert abs(taken.astype(int) - expected).max() <= 1
+        assert not clipped(color, -2.0).any()
+
+    def test_recovered_light(self, color):
+        np.testing.assert_array_equal(recovered(store(color, kinds.FLOAT)), color)
+        np.testing.assert_allclose(recovered(store(color, kinds.HALF)), color, rtol=5e-4, atol=1e-7)
+        back = recovered(store(color, kinds.COLOR))
+        np.testing.assert_array_equal(back, from_srgb(to_srgb8(color)))
+        assert set(np.unique(recovered(store(color, kinds.BITMAP)))) == {0.0, 1.0}
+
+
+class TestLight:
+    def test_aligned_projectors_give_the_picture(self, color):
+        whole = light.projected(color, light.triangle(0))
+        np.testing.assert_array_equal(whole, to_srgb8(color))
+        alone = [light.projector(color, channel) for channel in range(3)]
+        np.testing.assert_array_equal(np.sum(alone, axis=0), whole)
+
+    def test_light_adds_where_pictures_overlap(self):
+        white = np.ones((4, 6, 3), np.float32)
+        wall = light.projected(white, ((0, 0), (0, 2), (1, 2)))
+        assert wall.shape == (5, 8, 3)
+        assert wall[0, 0].tolist() == [255, 0, 0]
+        assert wall[0, 3].tolist() == [255, 255, 0]  # red and green: yellow
+        assert wall[2, 3].tolist() == [255, 255, 255]
+        assert wall[2, 7].tolist() == [0, 255, 255]
+        assert wall[4, 3].tolist() == [0, 0, 255]
+        assert wall[0, 7].tolist() == [0, 255, 0]
+        assert wall[4, 0].tolist() == [0, 0, 0]
+
+    def test_the_triangle_of_projectors(self):
+        assert light.triangle(10) == ((-10, 0), (5, -9), (5, 9))
+
+    def test_subpixels_are_three_stripes(self):
+        picture = np.array([[[10, 20, 30], [40, 50, 60]]], np.uint8)
+        image = light.subpixels(picture, 6)
+        assert image.shape == (6, 12, 3)
+        for row in image:
+            assert row[:, 0].tolist() == [10, 10, 0, 0, 0, 0, 40, 40, 0, 0, 0, 0]
+            assert row[:, 1].tolist() == [0, 0, 20, 20, 0, 0, 0, 0, 50, 50, 0, 0]
+            assert row[:, 2].tolist() == [0, 0, 0, 0, 30, 30, 0, 0, 0, 0, 60, 60]
+        gapped = light.subpixels(picture, 9, gap=1)
+        assert gapped[0, :9, 0].tolist() == [10, 10, 0, 0, 0, 0, 0, 0, 0]
+        assert gapped[0, :9, 2].tolist() == [0, 0, 0, 0, 0, 0, 30, 30, 0]
+        assert not gapped[8].any()
+
+    @pytest.mark.parametrize("side", [3, 4, 5, 7, 8])
+    def test_every_column_of_a_pixel_shines_in_one_colour(self, side):
+        image = light.subpixels(np.full((2, 2, 3), 255, np.uint8), side)
+        assert (image.sum(axis=2) == 255).all()
+
+    def test_magnified_pixels(self):
+        picture = np.arange(12, dtype=np.uint8).reshape(2, 2, 3)
+        large = light.magnified(picture, 4)
+        assert large.shape == (8, 8, 3)
+        np.testing.assert_array_equal(large[::4, ::4], picture)
+        np.testing.assert_array_equal(large[3::4, 3::4], picture)
+
+    def test_windows_stay_inside(self):
+        image = np.arange(35).reshape(5, 7)
+        assert light.window(image, 0, 0, 3, 3)[:2] == (0, 0)
+        first, left, part = light.window(image, 4, 6, 3, 3)
+        assert (first, left) == (2, 4)
+        np.testing.assert_array_equal(part, image[2:5, 4:7])
+        assert light.window(image, 2, 3, 50, 50)[2].shape == (5, 7)
+
+
+class TestMemory:
+    def test_offsets_are_numpys(self, color):
+        width = color.shape[1]
+        for i, j, channel in ((0, 0, 0), (0, 1, 0), (1, 0, 2), (22, 36, 1)):
+            offset = memory.offset_bytes(i, j, channel, width)
+            assert np.frombuffer(color.tobytes(), np.float32, 1, offset)[0] == color[i, j, channel]
+            assert offset == int(np.dot((i, j, channel), color.strides))
+
+    @pytest.mark.parametrize(
+        ("one_based", "first"), [(True, "canvas[11, 20]"), (False, "canvas[10, 19]")]
+    )
+    def test_a_window_of_the_array(self, color, one_based, first):
+        table = memory.table(color, 11, 20, 3, 4, one_based)
+        assert (table.i, table.j) == (10, 18)
+        assert len(table.rows) == 3 and {len(row) for row in table.rows} == {4}
+        cell = table.rows[0][1]
+        assert cell.label == first
+        assert cell.values == tuple(float(x) for x in color[10, 19])
+        assert cell.index == 10 * 37 + 19
+        assert cell.offset_bytes == (10 * 37 + 19) * 12
+        assert table.stride_bytes == (12, 37 * 12)
+
+    def test_other_arrays(self):
+        gray = np.arange(6, dtype=np.uint8).reshape(2, 3)
+        table = memory.table(gray, 0, 0, 9, 9, one_based=False)
+        assert table.rows[1][2].values == (5.0,)
+        assert table.rows[1][2].offset_bytes == 5
+        assert memory.formula(3, 1, 1, one_based=False) == "offset = (i * 3 + j) * 1 bytes"
+        assert memory.formula(640) == "offset = (((i - 1) * 640 + (j - 1)) * 3 + channel) * 4 bytes"
+
+
+class TestDisk:
+    def test_sizes_are_those_of_the_files(self, color, tmp_path):
+        entries = disk.sizes(color, method="ordered")
+        assert [entry.format for entry in entries] == list(disk.FORMATS)
+        for entry in entries:
+            path = tmp_path / f"{entry.format.kind.name}{entry.format.ending}"
+            written = disk.export(path, color, entry.format.kind, method="ordered")
+            assert path.stat().st_size == entry.file_bytes == written
+        sizes = {(e.format.kind.name, e.format.ending): e.file_bytes for e in entries}
+        header = len(b"P4\n37 23\n")
+        assert sizes["bitmap", ".pbm"] == header + 5 * 23
+        assert sizes["gray", ".pgm"] == len(b"P5\n37 23\n255\n") + 37 * 23
+        assert sizes["color", ".ppm"] == len(b"P6\n37 23\n255\n") + 3 * 37 * 23
+        assert sizes["float", ".pfm"] == len(b"PF\n37 23\n-1.0\n") + 12 * 37 * 23
+
+    def test_files_hold_what_is_stored(self, color):
+        for format in disk.FORMATS:
+            kept = store(color, format.kind, method="floyd-steinberg").array
+            content = io.BytesIO(disk.encoded(kept, format))
+            if format.ending == ".pfm":
+                values = np.frombuffer(content.getvalue()[-12 * 37 * 23 :], "<f4")
+                np.testing.assert_array_equal(values.reshape(kept.shape)[::-1], kept)
+            elif format.ending == ".exr":
+                with OpenEXR.File(content) as file:
+                    pixels = file.channels()["RGB"].pixels
+                assert pixels.dtype == kept.dtype
+                np.testing.assert_array_equal(pixels, kept)
+            else:
+                np.testing.assert_array_equal(np.asarray(Image.open(content)), kept)
+
+    def test_a_format_that_cannot_hold_the_kind(self, color, tmp_path):
+        with pytest.raises(LucidaError, match=r"\.ppm cannot hold"):
+            disk.export(tmp_path / "x.ppm", color, kinds.FLOAT)
+        with pytest.raises(LucidaError, match="cannot hold bool"):
+            disk.encoded(store(color, kinds.BITMAP).array, disk.FORMATS[4])
+        assert not list(tmp_path.iterdir())
+
+    def test_cancelling(self, color):
+        assert disk.sizes(color, cancelled=lambda: True) == ()
