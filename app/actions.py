@@ -12,8 +12,11 @@ from typing import Protocol
 
 from imgui_bundle import imgui
 
+from app.files import Files
+from app.focus import Focus
 from app.navigation import switched_projection
-from app.state import PIXEL_SIZES, AppState
+from app.options import PIXEL_SIZES
+from app.state import AppState
 from renderer.camera import Camera
 
 Key = imgui.Key
@@ -28,14 +31,14 @@ class Window(Protocol):
     @property
     def state(self) -> AppState: ...
     @property
-    def scene_center(self) -> tuple[float, float, float]: ...
+    def focus(self) -> Focus: ...
     def change(self, state: AppState) -> None: ...
     def undo(self) -> None: ...
     def redo(self) -> None: ...
     def can_undo(self) -> bool: ...
     def can_redo(self) -> bool: ...
-    def open_dialog(self) -> None: ...
-    def save_view_dialog(self) -> None: ...
+    @property
+    def files(self) -> Files: ...
     def toggle_help(self) -> None: ...
     def quit(self) -> None: ...
 
@@ -66,27 +69,35 @@ def _canonical(state: AppState) -> AppState:
 
 
 def _switch_projection(window: Window) -> None:
-    camera = switched_projection(window.state.camera, window.scene_center)
+    camera = switched_projection(window.state.camera, window.focus.center)
     window.change(window.state.with_camera(camera))
 
 
 def _exposure(stops: float) -> Callable[[AppState], AppState]:
-    return lambda state: replace(state, exposure_ev=state.exposure_ev + stops if stops else 0.0)
+    return lambda state: state.with_options(
+        images={"exposure_ev": state.images.exposure_ev + stops if stops else 0.0}
+    )
 
 
 def _pixel_size(size: int) -> Action:
     return Action(
         "View",
         f"Pixels {size} x {size}",
-        _change(lambda state: replace(state, pixel_size=size)),
-        is_on=lambda state: state.pixel_size == size,
+        _change(lambda state: state.with_options(images={"pixel_size": size})),
+        is_on=lambda state: state.images.pixel_size == size,
         separated=size == PIXEL_SIZES[0],
     )
 
 
 ACTIONS = (
-    Action("File", "Open...", lambda w: w.open_dialog(), "Ctrl+O", (CTRL | int(Key.o),)),
-    Action("File", "Save view...", lambda w: w.save_view_dialog(), "Ctrl+S", (CTRL | int(Key.s),)),
+    Action("File", "Open...", lambda w: w.files.open_dialog(), "Ctrl+O", (CTRL | int(Key.o),)),
+    Action(
+        "File",
+        "Save view...",
+        lambda w: w.files.save_view_dialog(w.state.view),
+        "Ctrl+S",
+        (CTRL | int(Key.s),),
+    ),
     Action("File", "Quit", lambda w: w.quit(), "Ctrl+Q", (CTRL | int(Key.q),), separated=True),
     Action(
         "Edit",
@@ -143,15 +154,15 @@ ACTIONS = (
     Action(
         "View",
         "Shadows (ray image only)",
-        _change(lambda state: replace(state, shadows=not state.shadows)),
-        is_on=lambda state: state.shadows,
+        _change(lambda state: state.with_options(shadows=not state.options.shadows)),
+        is_on=lambda state: state.options.shadows,
         separated=True,
     ),
     Action(
         "View",
         "Mirrors (ray image only)",
-        _change(lambda state: replace(state, mirrors=not state.mirrors)),
-        is_on=lambda state: state.mirrors,
+        _change(lambda state: state.with_options(mirrors=not state.options.mirrors)),
+        is_on=lambda state: state.options.mirrors,
     ),
     *(_pixel_size(size) for size in PIXEL_SIZES),
     Action(

@@ -1,50 +1,116 @@
-"""Where the windows are docked.
+"""Where the windows are docked: the layouts to choose from.
 
-Owns the names of the dock spaces and the default layout:
-
-    +----------+-----------------+-----------------+
-    |  camera  |      left       |      right      |
-    +----------+-----------------+-----------------+
-
-Further windows (outside view, instruments) get spaces below `left` and `right` by further splits
-and layouts; each window only names its space. Knows nothing of what the windows show.
+Owns the dock spaces and which view stands where in each layout. Knows nothing of what the views
+show. A layout is one table: its splits, and the space of each view; a view that a layout does not
+name is docked beside the last one of its INSTRUMENTS space, hidden.
 """
 
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
 
 from imgui_bundle import hello_imgui, imgui
 
+from app.views.base import View
+
+MAIN = "MainDockSpace"  # HelloImGui's own name for what is left over
 CAMERA_SPACE = "CameraSpace"
-LEFT_SPACE = "MainDockSpace"  # HelloImGui's own name for what is left over
-RIGHT_SPACE = "RightSpace"
+RIGHT_SPACE = "RightSpace"  # beside MAIN, at the same size
+LOWER_SPACE = "LowerSpace"  # below MAIN
+INSTRUMENTS = "InstrumentSpace"  # below or beside: tabs
 
 CAMERA_WIDTH_EM = 19.5
 LEAST_ROOM_PX = 200.0  # for both images; in less, ImGui's smallest sizes decide
 
+Split = tuple[str, str, imgui.Dir, float]  # space, new space, where, its part of the room
 
-def side_by_side(
-    windows: Sequence[hello_imgui.DockableWindow], window_width_px: float, em_px: float
-) -> hello_imgui.DockingParams:
-    """The default layout: the camera's panel, and the two images at the same size."""
-    params = hello_imgui.DockingParams()
-    params.layout_name = "Side by side"
+
+@dataclass(frozen=True)
+class Layout:
+    """places: view to space, for the views that it shows, in the tabs' order. equal: RIGHT_SPACE
+    and its neighbour keep their shares of the room when the window is resized.
+    """
+
+    name: str
+    splits: tuple[Split, ...]
+    places: dict[str, str]
+    equal: bool = False
+
+
+_CAMERA: Split = (MAIN, CAMERA_SPACE, imgui.Dir.left, 0.0)  # its width is the panel's
+
+LAYOUTS = (
+    Layout(
+        "Side by side",
+        (
+            _CAMERA,
+            (MAIN, INSTRUMENTS, imgui.Dir.down, 0.4),
+            (MAIN, RIGHT_SPACE, imgui.Dir.right, 0.5),
+        ),
+        {"Camera": CAMERA_SPACE, "Raster": MAIN, "Ray": RIGHT_SPACE},
+        equal=True,
+    ),
+    Layout(
+        "Four views",
+        (
+            _CAMERA,
+            (MAIN, RIGHT_SPACE, imgui.Dir.right, 0.5),
+            (MAIN, LOWER_SPACE, imgui.Dir.down, 0.5),
+            (RIGHT_SPACE, INSTRUMENTS, imgui.Dir.down, 0.5),
+        ),
+        {
+            "Camera": CAMERA_SPACE,
+            "Raster": MAIN,
+            "Ray": RIGHT_SPACE,
+            "Outside": LOWER_SPACE,
+            "Compare": INSTRUMENTS,
+        },
+        equal=True,
+    ),
+    Layout(
+        "Outside view",
+        (
+            _CAMERA,
+            (MAIN, INSTRUMENTS, imgui.Dir.right, 0.34),
+            (INSTRUMENTS, RIGHT_SPACE, imgui.Dir.up, 0.5),
+        ),
+        {"Camera": CAMERA_SPACE, "Outside": MAIN, "Raster": RIGHT_SPACE, "Ray": INSTRUMENTS},
+    ),
+    Layout(
+        "Compare",
+        (
+            _CAMERA,
+            (MAIN, INSTRUMENTS, imgui.Dir.right, 0.34),
+            (INSTRUMENTS, RIGHT_SPACE, imgui.Dir.up, 0.5),
+        ),
+        {"Camera": CAMERA_SPACE, "Compare": MAIN, "Raster": RIGHT_SPACE, "Ray": INSTRUMENTS},
+    ),
+)
+
+
+def docking(
+    views: Sequence[View],
+    draw: Callable[[View], Callable[[], None]],
+    window_width_px: float,
+    em_px: float,
+) -> list[hello_imgui.DockingParams]:
+    """Every layout, as HelloImGui takes it; the first is the default. draw: gives the function
+    that draws a view's window."""
     camera = camera_width_px(window_width_px, em_px) / window_width_px
-    params.docking_splits = [
-        _split("MainDockSpace", CAMERA_SPACE, imgui.Dir.left, camera),
-        _split("MainDockSpace", RIGHT_SPACE, imgui.Dir.right, 0.5),
-    ]
-    params.dockable_windows = list(windows)
-    # A tab has a close button already.
-    params.main_dock_space_node_flags = int(imgui.internal.DockNodeFlagsPrivate_.no_close_button)
-    return params
+    return [_docking(layout, views, draw, camera) for layout in LAYOUTS]
 
 
 def camera_width_px(window_width_px: float, em_px: float) -> float:
     """What the camera's panel needs for its numbers, but never most of a small window."""
     return min(0.4 * window_width_px, CAMERA_WIDTH_EM * em_px)
+
+
+def current() -> Layout:
+    """The layout that is shown."""
+    name = hello_imgui.current_layout_name()
+    return next((layout for layout in LAYOUTS if layout.name == name), LAYOUTS[0])
 
 
 class Proportion:
@@ -55,6 +121,7 @@ class Proportion:
     """
 
     def __init__(self) -> None:
+        self._layout = ""
         self._room = 0.0
         self._share = 0.5
         self._settling = 0  # frames until the new sizes are there
@@ -63,7 +130,11 @@ class Proportion:
         """Call once a frame."""
         if not imgui.is_mouse_down(imgui.MouseButton_.left):
             self._widen_camera()
-        node = _node(RIGHT_SPACE)
+        layout = current()
+        if layout.name != self._layout:
+            self._layout, self._room = layout.name, 0.0
+        node = _node(RIGHT_SPACE) if layout.equal else None
+        node = _side(node)
         parent = node.parent_node if node is not None else None
         if node is None or parent is None or not (parent.size.x > 0 and node.size.y > 0):
             return
@@ -87,6 +158,42 @@ class Proportion:
         least = math.floor(camera_width_px(parent.size.x, imgui.get_font_size()))
         if least >= 1 and node.size.x < least - 1:
             imgui.internal.dock_builder_set_node_size(node.id_, (least, node.size.y))
+
+
+def _side(node: imgui.internal.DockNode | None) -> imgui.internal.DockNode | None:
+    """The node, or the one round it, that stands beside another."""
+    while node is not None:
+        parent = node.parent_node
+        if parent is None or parent.split_axis == imgui.internal.Axis.x:
+            return node
+        node = parent
+    return None
+
+
+def _docking(
+    layout: Layout,
+    views: Sequence[View],
+    draw: Callable[[View], Callable[[], None]],
+    camera: float,
+) -> hello_imgui.DockingParams:
+    params = hello_imgui.DockingParams()
+    params.layout_name = layout.name
+    params.docking_splits = [
+        _split(space, new, direction, ratio or camera)
+        for space, new, direction, ratio in layout.splits
+    ]
+    windows = []
+    for view in views:
+        window = hello_imgui.DockableWindow(
+            view.label, layout.places.get(view.name, INSTRUMENTS), draw(view)
+        )
+        window.is_visible = view.name in layout.places
+        window.call_begin_end = False
+        windows.append(window)
+    params.dockable_windows = windows
+    # A tab has a close button already.
+    params.main_dock_space_node_flags = int(imgui.internal.DockNodeFlagsPrivate_.no_close_button)
+    return params
 
 
 def _node(space: str) -> imgui.internal.DockNode | None:

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import math
 import time
-from collections.abc import Callable, Collection
+from collections.abc import Callable
 
 import moderngl
 
@@ -40,6 +40,7 @@ class Renderers:
         self.pictures: Pictures | None = None
         self.ray_image: RayImage | None = None
         self.size = (0, 0)  # (width, height) of both images; (0, 0) before the first layout
+        self._panes_px: dict[str, tuple[int, int]] = {}
         self._arrived_s = 0.0
         self._compared: Request | None = None
         self._fitted: tuple[View, tuple[int, int], Camera] | None = None
@@ -57,11 +58,18 @@ class Renderers:
 
     # What is to be drawn.
 
-    def fit_into(self, panes_px: Collection[tuple[int, int]], pixel_size: int) -> None:
-        """Both images get the size of the smallest of these panes, (width, height) each."""
-        width, height = (max(1, min(pane[k] for pane in panes_px) // pixel_size) for k in (0, 1))
+    def fit_pane(self, name: str, pane_px: tuple[int, int], pixel_size: int) -> None:
+        """Says how large the window of an image is, (width, height) in framebuffer pixels: both
+        images get the size of the smallest of them."""
+        self._panes_px[name] = pane_px
+        panes = self._panes_px.values()
+        width, height = (max(1, min(pane[k] for pane in panes) // pixel_size) for k in (0, 1))
         width, height = min(width, LARGEST_SIDE), min(height, LARGEST_SIDE)
         self.size = (width, min(height, LARGEST_PIXELS // width))
+
+    def forget_pane(self, name: str) -> None:
+        """Says that an image's window is not to be seen."""
+        self._panes_px.pop(name, None)
 
     def camera(self, state: AppState) -> Camera:
         """The camera that both images of a state are drawn with."""
@@ -74,7 +82,9 @@ class Renderers:
         """The image that both renderers are to draw; None before the first layout."""
         if not min(self.size):
             return None
-        return Request(state.scene, self.camera(state), self.size, state.shadows, state.mirrors)
+        return Request(
+            state.scene, self.camera(state), self.size, state.options.shadows, state.options.mirrors
+        )
 
     def trace(self, state: AppState) -> None:
         """Tells the tracer what is wanted now."""
@@ -98,13 +108,13 @@ class Renderers:
         """The raster image's GL name, drawn anew if it must be; None where that failed."""
         assert self.pictures is not None
         wanted = Wanted(state.scene, self.camera(state), self.size)
-        texture = self.pictures.raster(wanted, state.exposure_ev, self._shown_px(state))
+        texture = self.pictures.raster(wanted, state.images.exposure_ev, self._shown_px(state))
         return texture.glo if texture is not None else None
 
     def ray_texture(self, state: AppState) -> int | None:
         """The GL name of the newest ray image that has arrived; None before the first."""
         assert self.pictures is not None
-        texture = self.pictures.ray(state.exposure_ev, self._shown_px(state))
+        texture = self.pictures.ray(state.images.exposure_ev, self._shown_px(state))
         return texture.glo if texture is not None else None
 
     def unfinished(self, state: AppState) -> bool:
@@ -192,7 +202,8 @@ class Renderers:
 
     def _shown_px(self, state: AppState) -> tuple[int, int]:
         """An image's size on the screen, in framebuffer pixels."""
-        return self.size[0] * state.pixel_size, self.size[1] * state.pixel_size
+        unit = state.images.pixel_size
+        return self.size[0] * unit, self.size[1] * unit
 
 
 def _make_tracer(request: Request) -> Tracer:

@@ -7,13 +7,13 @@ state and return a new one (dataclasses.replace); the viewer compares old and ne
 from __future__ import annotations
 
 from collections.abc import Hashable
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
+from typing import Any
 
+from app.options import CompareOptions, ImageOptions, Options, OutsideOptions, Pixel, Preferences
 from renderer.camera import Camera
 from renderer.scene.model import Scene, View
 
-PIXEL_SIZES = (1, 2, 4, 8, 16, 32)
-EXPOSURE_LIMIT_EV = 8.0
 MOST_UNDO_STEPS = 500
 ORTHONORMAL = 1e-6  # the largest deviation of a dot product or length
 
@@ -22,18 +22,14 @@ ORTHONORMAL = 1e-6  # the largest deviation of a dot product or length
 class AppState:
     """Everything that undo brings back. Scenes are compared by identity.
 
-    keep_orthonormal: edits of u, v or w keep the basis orthonormal.
-    exposure_ev: the display's brightness, in stops. pixel_size: screen pixels a side of an
-    image's pixel, so that a class can see them. shadows, mirrors: what only image order has.
+    keep_orthonormal: edits of u, v or w keep the basis orthonormal. options: see options.py;
+    the properties below name its parts.
     """
 
     scene: Scene
     view: View
     keep_orthonormal: bool = True
-    exposure_ev: float = 0.0
-    pixel_size: int = 1
-    shadows: bool = False
-    mirrors: bool = False
+    options: Options = field(default_factory=Options)
 
     @classmethod
     def for_scene(cls, scene: Scene, view: View | None = None) -> AppState:
@@ -45,6 +41,37 @@ class AppState:
     def camera(self) -> Camera:
         """The camera as the user edits it; view.for_size() gives the one to draw with."""
         return self.view.camera
+
+    @property
+    def images(self) -> ImageOptions:
+        return self.options.images
+
+    @property
+    def compare(self) -> CompareOptions:
+        return self.options.compare
+
+    @property
+    def outside(self) -> OutsideOptions:
+        return self.options.outside
+
+    @property
+    def preferences(self) -> Preferences:
+        return self.options.preferences
+
+    @property
+    def marked(self) -> Pixel | None:
+        return self.options.marked
+
+    def with_options(self, **changes: Any) -> AppState:
+        """The state with other options: fields of Options, or of one of its parts by its name,
+        as in with_options(images={"exposure_ev": 1.0}, shadows=True)."""
+        changes = {
+            name: replace(getattr(self.options, name), **value)
+            if isinstance(value, dict)
+            else value
+            for name, value in changes.items()
+        }
+        return replace(self, options=replace(self.options, **changes))
 
     def with_camera(self, camera: Camera) -> AppState:
         """The state with another camera; itself where nothing changes."""

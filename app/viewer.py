@@ -27,6 +27,7 @@ from app.platform import (
 from app.settings import settings_file
 from app.signals import ended_by_signals
 from app.state import AppState
+from app.views.base import View
 from app.window import MainWindow, title
 from renderer.atomic import atomic_write, check_writable
 from renderer.errors import LucidaError
@@ -141,8 +142,8 @@ class Run:
         if not self._platform.has_display:  # nothing else paces the frames
             params.fps_idling.fps_max = NULL_FPS
         params.fps_idling.time_active_after_last_event = 1.0
-        params.docking_params = layout.side_by_side(
-            self.window.dockable_windows(), size[0], theme.TEXT_PX
+        params.docking_params, *params.alternative_docking_layouts = layout.docking(
+            list(self.window.views.values()), self._draw, size[0], theme.TEXT_PX
         )
         callbacks = params.callbacks
         callbacks.load_additional_fonts = self._guarded(self.window.fonts.load)
@@ -154,9 +155,10 @@ class Run:
         callbacks.show_gui = self._guarded(self.window.frame)
         callbacks.after_swap = self._guarded(self._after_frame)
         callbacks.before_exit = self._guarded(self.window.end)
-        for dockable in params.docking_params.dockable_windows:
-            dockable.gui_function = self._guarded(dockable.gui_function)
         return params
+
+    def _draw(self, view: View) -> Callable[[], None]:
+        return self._guarded(lambda: self.window.draw_view(view))
 
     def _guarded(self, function: Callable[[], Any]) -> Callable[[], None]:
         """Exceptions must not go through C++: they end the run, which raises them."""

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import ast
+import functools
 import json
 import os
 import shutil
@@ -10,7 +11,7 @@ import signal
 import subprocess
 import sys
 import time
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from pathlib import Path
 
 import numpy as np
@@ -21,8 +22,9 @@ TESTS = Path(__file__).parent
 DRIVER = TESTS / "window_driver.py"
 LIMIT_S = 240  # the first run compiles the tracer
 DRIVES = [
-    node.name
-    for node in ast.parse(DRIVER.read_text()).body
+    (path.stem, node.name)
+    for path in sorted((TESTS / "drives").glob("*.py"))
+    for node in ast.parse(path.read_text()).body
     if isinstance(node, ast.FunctionDef) and node.name.startswith("drive_")
 ]
 
@@ -56,13 +58,14 @@ def drive(folder: Path, *names: str) -> dict[str, str]:
 
 
 @pytest.fixture(scope="module")
-def driven(tmp_path_factory: pytest.TempPathFactory) -> dict[str, str]:
-    return drive(tmp_path_factory.mktemp("window"))
+def driven(tmp_path_factory: pytest.TempPathFactory) -> Callable[[str], dict[str, str]]:
+    """Gives the results of a topic, whose drives share one window."""
+    return functools.cache(lambda topic: drive(tmp_path_factory.mktemp(topic), topic))
 
 
-@pytest.mark.parametrize("name", DRIVES)
-def test_the_window(driven: dict[str, str], name: str) -> None:
-    assert driven[name] == ""
+@pytest.mark.parametrize(("topic", "name"), DRIVES)
+def test_the_window(driven: Callable[[str], dict[str, str]], topic: str, name: str) -> None:
+    assert driven(topic)[name] == ""
 
 
 def test_closing_while_the_tracer_works(tmp_path: Path) -> None:

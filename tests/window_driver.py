@@ -1,9 +1,9 @@
 """Drives the real window with ImGui's test engine, on GLFW's null platform; a process of its own.
 
-    python window_driver.py REPORT.json FOLDER [PART OF A NAME ...]
+    python window_driver.py REPORT.json FOLDER TOPIC [PART OF A NAME ...]
 
-runs every function of this file whose name begins with `drive_` (or those named), in order, in
-one window, and writes a JSON object from their names to "" or the traceback of their failure.
+runs every function of drives/TOPIC.py whose name begins with `drive_` (or those named), in order,
+in one window, and writes a JSON object from their names to "" or the traceback of their failure.
 Pictures of the window are left in FOLDER. test_window.py runs it and tells the results.
 """
 
@@ -11,6 +11,7 @@ from __future__ import annotations
 
 import json
 import os
+import runpy
 import sys
 import threading
 import time
@@ -27,15 +28,15 @@ os.environ.pop("WAYLAND_DISPLAY", None)
 from imgui_bundle import hello_imgui, imgui
 from PIL import Image
 
-from app.layout import CAMERA_SPACE
 from app.panels.images import framebuffer_scale
 from app.platform import start_platform
 from app.state import AppState, History
 from app.viewer import Run
-from app.window import RASTER, RAY
-from renderer.scene import load_scene, save_view
+from app.views.pair import RASTER, RAY
+from renderer.scene import load_scene
 
 SIZE = (1100, 720)
+ATTEMPTS = 3  # a picture can be taken of a frame in which a window is still being laid out
 PATIENT_S = 120.0  # the first tracing compiles
 IMAGES = {name: f"//###{name}/image##{name}" for name in (RASTER, RAY)}
 Key = imgui.Key
@@ -108,13 +109,18 @@ class Driver:
         )
         assert verdict is not None
         assert verdict.unexplained == 0, verdict.text
-        raster, ray = self.images()
-        assert raster.shape == ray.shape
-        assert raster.shape[:2] == (self.window.renderers.size[1], self.window.renderers.size[0])
-        different = (np.abs(raster - ray).max(axis=2) > 3).mean()
-        assert different < 0.002, f"{different:.2%} of the pixels differ on the screen"
-        assert raster.std() > 5
-        return raster, ray
+        for attempt in range(ATTEMPTS):
+            raster, ray = self.images()
+            assert raster.shape == ray.shape
+            size = self.window.renderers.size
+            assert raster.shape[:2] == (size[1], size[0])
+            different = (np.abs(raster - ray).max(axis=2) > 3).mean()
+            if different < 0.002 and raster.std() > 5:
+                return raster, ray
+            print(f"attempt {attempt}: {different:.2%} differ in {self._pictures:02d}.png")
+            self.settle()
+        deviations = f"standard deviations {raster.std():.1f} and {ray.std():.1f}"
+        raise AssertionError(f"{different:.2%} of the pixels differ on the screen; {deviations}")
 
     def point(self, name: str, x: float, y: float) -> tuple[float, float]:
         """A place in an image, as parts of its width and height."""
@@ -151,442 +157,6 @@ def changed(before: np.ndarray, after: np.ndarray) -> float:
     return float((np.abs(before - after).max(axis=2) > 8).mean())
 
 
-def drive_01_a_slider_is_dragged(d: Driver) -> None:
-    before = d.agreeing_images()
-    center = d.ctx.item_info(d.field("w.x")).rect_full.get_center()
-    d.ctx.mouse_teleport_to_pos((center.x, center.y))
-    d.ctx.mouse_down(0)
-    seen = []
-    for step in range(1, 30):
-        d.ctx.mouse_teleport_to_pos((center.x + 2 * step, center.y))
-        d.ctx.yield_()
-        image = d.window.renderers.ray_image
-        seen.append(image.request.camera.eye)
-        shown = d.window.renderers.ray_texture(d.window.state)
-        assert shown is not None  # never nothing
-    d.ctx.mouse_up(0)
-    assert d.window.state.camera.w[0] > d.start.camera.w[0] + 0.05
-    after = d.agreeing_images()
-    assert changed(before[0], after[0]) > 0.1
-    assert changed(before[1], after[1]) > 0.1
-    assert len(d.window.history.past) == 1  # the whole drag
-    assert d.window.renderers.ray_image.factor == 1
-
-
-def drive_02_a_switch_is_clicked(d: Driver) -> None:
-    before = d.agreeing_images()
-    d.ctx.item_click("//Camera/parallel")
-    assert d.window.state.camera.projection == "parallel"
-    after = d.agreeing_images()
-    assert changed(before[0], after[0]) > 0.05
-    assert changed(before[1], after[1]) > 0.05
-    d.ctx.item_click("//Camera/perspective")
-    assert d.window.state.camera.projection == "perspective"
-    again = d.agreeing_images()
-    assert changed(before[0], again[0]) < 0.01
-
-
-def drive_03_a_number_is_typed(d: Driver) -> None:
-    before = d.agreeing_images()
-    d.type("eye.x", "-2.25")
-    assert d.window.state.camera.eye[0] == -2.25
-    d.type("distance", "1.1")
-    assert d.window.state.camera.distance == 1.1
-    d.type("left", "-0.9")
-    assert d.window.state.camera.viewport[0] == -0.9
-    after = d.agreeing_images()
-    assert changed(before[0], after[0]) > 0.1
-    assert changed(before[1], after[1]) > 0.1
-    assert len(d.window.history.past) == 3
-
-
-def drive_04_a_singular_basis_is_told_and_survived(d: Driver) -> None:
-    d.ctx.item_click("//Camera/keep orthonormal")
-    assert not d.window.state.keep_orthonormal
-    d.settle()
-    legal, before = d.window.state, d.images()
-    for axis in "xyz":
-        d.type(f"w.{axis}", "0")
-    draft = d.window._draft
-    assert draft.error is not None
-    assert draft.error.field == "w"
-    assert "independent" in str(draft.error)
-    assert d.window.state.camera.w[2] == legal.camera.w[2]  # only the legal steps were taken
-    assert d.ctx.item_exists("//Camera/Back to the camera shown")
-    shown = d.agreeing_images()
-    assert shown[0].std() > 5
-    d.type("distance", "-1")
-    assert d.window.state.camera.distance == legal.camera.distance
-    d.type("right", "-5")
-    assert d.window._draft.error is not None
-    d.ctx.item_click("//Camera/Back to the camera shown")
-    d.type("w.x", "0.34567")
-    d.type("w.y", "0.24567")
-    for name in ("u", "v", "w"):
-        d.type(f"{name}.z", "0")
-    assert "lies in the plane" in str(d.window._draft.error)  # the longest text there is
-    d.ctx.yield_(2)
-    assert d.ctx.get_window_by_ref("//Camera").scroll_max.y == 0
-    d.ctx.item_click("//Camera/Back to the camera shown")
-    d.ctx.yield_(2)
-    assert d.window._draft.error is None
-    assert d.window._draft.camera == d.window.state.camera
-    while d.window.state != legal and d.window.can_undo():
-        d.ctx.key_press(int(Key.mod_ctrl) | int(Key.z))
-    d.settle()
-    assert d.window.state == legal
-    assert changed(before[0], d.images()[0]) == 0
-
-
-def drive_05_a_left_handed_skewed_camera_agrees(d: Driver) -> None:
-    d.ctx.item_click("//Camera/keep orthonormal")
-    d.type("u.x", "-0.8")
-    d.type("u.y", "0.25")
-    d.type("v.y", "1.4")
-    d.agreeing_images()
-    d.ctx.item_click("//Camera/keep orthonormal")
-    assert d.window.state.camera.determinant < 0
-    basis = d.window.state.camera.basis
-    assert np.allclose(basis.T @ basis, np.eye(3))
-    d.agreeing_images()
-
-
-def drive_06_the_mouse_turns_moves_and_zooms(d: Driver) -> None:
-    window, start = d.window, d.start.camera
-    for name in (RASTER, RAY):
-        before = d.agreeing_images()
-        d.drag(d.point(name, 0.5, 0.5), d.point(name, 0.7, 0.45))
-        camera = window.state.camera
-        assert np.allclose(camera.basis.T @ camera.basis, np.eye(3))
-        assert abs(camera.u[1]) < 1e-9  # no roll
-        assert not np.allclose(camera.w, start.w)
-        after = d.agreeing_images()
-        assert min(changed(a, b) for a, b in zip(before, after, strict=True)) > 0.1
-        for button, key in ((1, 0), (2, 0), (0, int(Key.mod_shift))):
-            was = window.state.camera
-            pixel = (window.renderers.size[1] // 2, window.renderers.size[0] // 2)
-            parameter = window.renderers.depth_at(window.state, pixel)
-            ray = window.renderers.camera(window.state).ray(*pixel, window.renderers.size)
-            world = ray.origin + parameter * ray.direction
-            if key:
-                d.ctx.key_down(key)
-            x, y = d.point(name, 0, 0)
-            middle = (x + pixel[1] + 0.5, y + pixel[0] + 0.5)
-            d.drag(middle, (middle[0] + 37, middle[1] - 21), button)
-            if key:
-                d.ctx.key_up(key)
-            assert window.state.camera.w == was.w
-            assert window.state.camera.eye != was.eye
-            row, column, _ = window.renderers.camera(window.state).project(
-                world, window.renderers.size
-            )
-            assert abs(row - (pixel[0] - 21)) < 0.05
-            assert abs(column - (pixel[1] + 37)) < 0.05
-            d.settle()
-        was = window.state.camera
-        steps = len(window.history.past)
-        d.ctx.mouse_teleport_to_pos(d.point(name, 0.5, 0.6))
-        d.ctx.yield_()
-        d.ctx.mouse_wheel_y(2)
-        d.ctx.mouse_wheel_y(1)
-        d.ctx.yield_(2)
-        assert window.state.camera.eye != was.eye
-        assert len(window.history.past) == steps + 1
-        d.agreeing_images()
-        d.reset()
-    d.ctx.item_click("//Camera/parallel")
-    d.settle()
-    was = window.state.camera
-    d.ctx.mouse_teleport_to_pos(d.point(RAY, 0.3, 0.3))
-    d.ctx.yield_()
-    d.ctx.mouse_wheel_y(3)
-    d.ctx.yield_(2)
-    assert window.state.camera.eye == was.eye
-    assert window.state.camera.viewport[1] < was.viewport[1]
-    d.agreeing_images()
-
-
-def drive_07_undo_and_redo(d: Driver) -> None:
-    d.drag_field("eye.x", 40)
-    moved = d.window.state
-    d.drag(d.point(RAY, 0.5, 0.5), d.point(RAY, 0.6, 0.5))
-    turned = d.window.state
-    assert len(d.window.history.past) == 2
-    ctrl, shift = int(Key.mod_ctrl), int(Key.mod_shift)
-    d.ctx.key_press(ctrl | int(Key.z))
-    assert d.window.state == moved
-    d.ctx.key_press(ctrl | int(Key.z))
-    assert d.window.state == d.start
-    d.ctx.key_press(ctrl | shift | int(Key.z))
-    assert d.window.state == moved
-    d.ctx.key_press(ctrl | int(Key.y))
-    assert d.window.state == turned
-    d.ctx.menu_click("//##MainMenuBar/Edit/Undo")
-    assert d.window.state == moved
-    d.agreeing_images()
-
-
-def drive_08_keys_and_menus(d: Driver) -> None:
-    window = d.window
-    d.ctx.mouse_move(IMAGES[RASTER])
-    d.ctx.key_press(int(Key.p))
-    assert window.state.camera.is_parallel
-    d.ctx.key_press(int(Key.o))
-    assert not window.state.keep_orthonormal
-    d.ctx.key_press(int(Key.home))
-    assert window.state.view == d.start.view
-    d.ctx.menu_click("//##MainMenuBar/Camera/Canonical camera")
-    assert window.state.camera.eye == (0, 0, 0)
-    assert window.state.camera.viewport == (-0.5, 0.5, -0.5, 0.5)
-    d.ctx.menu_click("//##MainMenuBar/Camera/Fit to the image's aspect ratio")
-    d.settle()
-    assert window.renderers.camera(window.state).viewport == (-0.5, 0.5, -0.5, 0.5)
-    d.ctx.item_click("//Camera/Scene's view")
-    assert window.state.camera == d.start.camera
-    d.ctx.key_press(int(Key.f1))
-    d.ctx.yield_(2)
-    assert d.ctx.window_info("//Mouse and keys").id_ != 0
-    d.picture()
-    d.ctx.key_press(int(Key.escape))
-    d.ctx.yield_(2)
-    assert not window._help
-
-
-def drive_09_letters_typed_into_a_field_are_no_shortcuts(d: Driver) -> None:
-    d.ctx.item_double_click(d.field("eye.y"))
-    d.ctx.key_chars_replace("po")
-    d.ctx.key_press(int(Key.p))
-    d.ctx.key_press(int(Key.escape))
-    assert d.window.state == d.start
-
-
-def drive_10_pixels_can_be_large_and_are_marked(d: Driver) -> None:
-    before = d.window.renderers.size
-    d.ctx.menu_click("//##MainMenuBar/View/Pixels 8 x 8")
-    d.settle()
-    assert d.window.renderers.size == (before[0] // 8, before[1] // 8)
-    raster, ray = d.images()
-    assert raster.shape[:2] == (8 * d.window.renderers.size[1], 8 * d.window.renderers.size[0])
-    blocks = raster.reshape(d.window.renderers.size[1], 8, d.window.renderers.size[0], 8, 3)
-    assert (blocks == blocks[:, :1, :, :1]).all()  # nearest neighbour: no pixel is blurred
-    x, y, *_ = d.rect(RASTER)
-    d.ctx.mouse_teleport_to_pos((x + 8 * 20 + 4, y + 8 * 30 + 4))
-    d.ctx.yield_(3)
-    assert d.window._hovered == (RASTER, (30, 20))
-    d.stay = True
-    marked = d.images()[1]
-    places = np.argwhere(np.abs(marked - ray).max(axis=2) > 8)
-    assert places.min(axis=0).tolist() == [8 * 30 - 2, 8 * 20 - 2]
-    assert places.max(axis=0).tolist() == [8 * 31 + 1, 8 * 21 + 1]
-
-
-def drive_11_exposure_brightens_both(d: Driver) -> None:
-    before = d.agreeing_images()
-    d.type("exposure", "1")
-    after = d.agreeing_images()
-    for dark, bright in zip(before, after, strict=True):
-        assert bright.mean() > dark.mean() + 10
-    d.type("exposure", "99")
-    assert d.window.state.exposure_ev == 8.0
-
-
-def drive_12_files_are_opened_and_broken_ones_told(d: Driver) -> None:
-    window = d.window
-    window.open(str(d.folder / "missing.toml"))
-    d.until(lambda: bool(window.files.message))
-    assert "missing.toml" in window.files.message
-    assert window.state == d.start
-    d.ctx.yield_(3)
-    d.picture()
-    d.ctx.item_click("//##message/Close")
-    assert window.files.message == ""
-    os.environ["PATH"], path = "", os.environ["PATH"]  # no program that draws dialogs
-    d.ctx.key_press(int(Key.mod_ctrl) | int(Key.o))
-    d.ctx.yield_(2)
-    os.environ["PATH"] = path
-    if sys.platform.startswith("linux"):
-        assert "zenity" in window.files.message
-    broken = d.folder / "broken.obj"
-    broken.write_bytes(b"\x00\xff nothing of use")
-    window._dropped([str(broken)])
-    d.until(lambda: "broken.obj" in window.files.message)
-    assert window.state == d.start
-    window.open("spheres")
-    d.until(lambda: window.state.scene is not d.start.scene)
-    assert window.state.scene.name == "spheres"
-    d.agreeing_images()
-    view = d.folder / "view.toml"
-    save_view(view, d.start.view)
-    window.open(str(view))
-    d.until(lambda: window.state.view == d.start.view)
-    assert window.state.scene.name == "spheres"
-    d.ctx.key_press(int(Key.mod_ctrl) | int(Key.z), 2)
-    d.settle()
-    assert window.state == d.start
-
-
-def drive_13_a_failing_tracer_is_told_and_survived(d: Driver) -> None:
-    live = d.window.renderers.live
-    good = live._make_tracer
-
-    def bad(scene: object) -> Any:
-        raise MemoryError
-
-    live._make_tracer = bad
-    d.window.open("canonical")
-    d.until(lambda: live.error is not None)
-    d.ctx.yield_(3)
-    d.picture()
-    live._make_tracer = good
-    d.window.open("spheres")
-    d.until(lambda: d.window.state.scene.name == "spheres")
-    d.agreeing_images()
-
-
-def drive_14_no_frame_waits_for_the_tracer(d: Driver) -> None:
-    """The tracer's thread is held up: the window goes on, with the raster image of now."""
-    live, gate = d.window.renderers.live, threading.Event()
-    good = live._make_tracer
-
-    def slow(scene: object) -> Any:
-        gate.wait(PATIENT_S)
-        return good(scene)
-
-    live._make_tracer = slow
-    d.window.open("columns")
-    d.until(lambda: d.window.state.scene.name == "columns")
-    d.until(lambda: "preparing" in d.window.renderers.preparing())
-    before = d.images()[0]
-    d.drag_field("eye.x", 30)
-    d.until(lambda: not d.window.renderers.pictures.unfinished)
-    assert changed(before, d.images()[0]) > 0.05
-    assert d.window.renderers.live.busy
-    live._make_tracer = good
-    gate.set()
-    d.agreeing_images()
-
-
-def drive_15_windows_can_be_hidden(d: Driver) -> None:
-    both = d.window.renderers.size
-    d.ctx.window_close(f"//###{RAY}")
-    d.ctx.yield_(3)
-    d.until(lambda: d.window.renderers.size[0] > both[0])
-    d.ctx.menu_click("//##MainMenuBar/View/Ray  image order")
-    d.ctx.yield_(3)
-    d.ctx.menu_click("//##MainMenuBar/View/Reset the layout")
-    d.ctx.yield_(5)
-    d.agreeing_images()
-    assert abs(d.window.renderers.size[0] - both[0]) <= 2
-
-
-def drive_16_the_window_is_resized(d: Driver) -> None:
-    hello_imgui.change_window_size((1500, 640))
-    d.ctx.yield_(5)
-    d.agreeing_images()
-    widths = [width for width, _ in d.window._panes_px.values()]
-    assert abs(widths[0] - widths[1]) <= 2, "both images have half of the room"
-    hello_imgui.change_window_size(SIZE)
-    d.ctx.yield_(5)
-
-
-def drive_17_the_wheel_goes_through_nothing(d: Driver) -> None:
-    """Scrolling faster than images are finished: the point under the mouse stays the aim."""
-    window = d.window
-    pixel = (window.renderers.size[1] // 2 + 30, window.renderers.size[0] // 2)
-    x, y, *_ = d.rect(RASTER)
-    d.ctx.mouse_teleport_to_pos((x + pixel[1], y + pixel[0]))  # ImGui's mouse has whole numbers
-    d.ctx.yield_()
-    corner = pixel[0] - 0.5, pixel[1] - 0.5
-    ray = window.renderers.camera(window.state).ray(*corner, window.renderers.size)
-    aim = ray.origin + window.renderers.depth_at(window.state, pixel) * ray.direction
-    for _ in range(30):
-        d.ctx.mouse_wheel_y(3)
-    d.ctx.yield_(2)
-    to_aim = aim - np.asarray(window.state.camera.eye)
-    assert to_aim @ ray.direction > -0.01, "the eye has gone through what was under the mouse"
-    assert np.linalg.norm(to_aim) < 0.01, to_aim
-    for _ in range(20):
-        d.ctx.mouse_wheel_y(-10)
-    d.ctx.yield_(2)
-    assert 100 < np.linalg.norm(window.state.camera.eye) < 1e4
-    d.ctx.key_press(int(Key.home))
-    assert window.state == d.start
-
-
-def drive_18_keys_count_while_an_image_is_dragged(d: Driver) -> None:
-    window = d.window
-    d.ctx.mouse_teleport_to_pos(d.point(RAY, 0.5, 0.5))
-    d.ctx.yield_()
-    d.ctx.mouse_down(0)
-    d.ctx.mouse_teleport_to_pos(d.point(RAY, 0.6, 0.5))
-    d.ctx.yield_(2)
-    turned = window.state.camera
-    d.ctx.key_press(int(Key.p))
-    d.ctx.mouse_teleport_to_pos(d.point(RAY, 0.7, 0.5))
-    d.ctx.yield_(2)
-    assert window.state.camera.is_parallel
-    assert window.state.camera.w != turned.w  # and the drag goes on
-    assert len(window.history.past) == 3
-    d.ctx.key_press(int(Key.mod_ctrl) | int(Key.z), 3)
-    d.ctx.mouse_teleport_to_pos(d.point(RAY, 0.8, 0.5))
-    d.ctx.yield_(2)
-    assert window.state == d.start  # undone is undone
-    d.ctx.mouse_up(0)
-    d.ctx.yield_()
-    assert window.state == d.start
-    assert len(window.history.future) == 3
-
-
-def drive_19_the_distance_is_not_dragged_below_zero(d: Driver) -> None:
-    d.drag_field("distance", -280)
-    d.drag_field("distance", -280)
-    assert 0 < d.window.state.camera.distance < d.start.camera.distance
-    for _ in range(12):
-        d.drag_field("distance", -280)
-    assert d.window._draft.error is None
-    assert d.window.state.camera.distance > 0
-    d.type("distance", "0.00002")
-    assert d.window.state.camera.distance == 0.00002
-
-
-def drive_20_a_tiny_window_is_survived(d: Driver) -> None:
-    hello_imgui.change_window_size((300, 60))
-    d.ctx.yield_(5)
-    hello_imgui.change_window_size(SIZE)
-    d.ctx.yield_(5)
-    d.agreeing_images()
-    widths = [width for width, _ in d.window._panes_px.values()]
-    assert abs(widths[0] - widths[1]) <= 2, "both images have half of the room again"
-
-
-def drive_21_shadows_and_mirrors_are_the_ray_images_alone(d: Driver) -> None:
-    raster, ray = d.agreeing_images()
-    d.ctx.menu_click("//##MainMenuBar/View/Shadows (ray image only)")
-    d.settle()
-    raster_after, shaded = d.images()
-    assert (np.abs(raster_after - raster) <= 3).all()
-    assert (ray - shaded).max() > 30
-    d.ctx.menu_click("//##MainMenuBar/View/Mirrors (ray image only)")
-    d.settle()
-    assert np.abs(d.images()[1] - shaded).max() > 30
-    verdict = d.window.renderers.verdict(d.window.state)
-    assert verdict is not None
-    assert verdict.text.startswith("not compared")
-    d.window.undo()
-    d.window.undo()
-    d.agreeing_images()
-
-
-def drive_22_the_camera_panel_stays_wide_enough_for_its_numbers(d: Driver) -> None:
-    params = d.run.params.docking_params
-    node = imgui.internal.dock_builder_get_node(params.dock_space_id_from_name(CAMERA_SPACE))
-    wide = node.size.x
-    imgui.internal.dock_builder_set_node_size(node.id_, (150, node.size.y))
-    d.ctx.yield_(4)
-    assert d.ctx.get_window_by_ref("//Camera").size.x > wide - 3
-    d.agreeing_images()
-
-
 def close_at_work(report: Path, folder: Path) -> None:
     """Closes the window while a tracer prepares, which nothing can cancel."""
     driver = Driver(folder)
@@ -602,8 +172,15 @@ def close_at_work(report: Path, folder: Path) -> None:
     report.write_text(json.dumps({"close_at_work": "" if busy else "the tracer was not at work"}))
 
 
-def main(report: Path, folder: Path, only: list[str]) -> None:
-    tests = {name: test for name, test in globals().items() if name.startswith("drive_")}
+def drives(topic: str) -> dict[str, Callable[[Driver], None]]:
+    """The functions of drives/TOPIC.py, which import this module."""
+    sys.modules["window_driver"] = sys.modules[__name__]
+    found = runpy.run_path(str(Path(__file__).parent / "drives" / f"{topic}.py"))
+    return {name: test for name, test in found.items() if name.startswith("drive_")}
+
+
+def main(report: Path, folder: Path, topic: str, only: list[str]) -> None:
+    tests = drives(topic)
     tests = {n: t for n, t in tests.items() if not only or any(part in n for part in only)}
     results = dict.fromkeys(tests, "was not run")
     driver = Driver(folder)
@@ -647,4 +224,4 @@ if __name__ == "__main__":
     if sys.argv[3:] == ["close_at_work"]:
         close_at_work(Path(sys.argv[1]), Path(sys.argv[2]))
     else:
-        main(Path(sys.argv[1]), Path(sys.argv[2]), sys.argv[3:])
+        main(Path(sys.argv[1]), Path(sys.argv[2]), sys.argv[3], sys.argv[4:])

@@ -13,8 +13,9 @@ from app import theme
 from app.editing import BASIS, Draft, edit_component, edit_field
 from app.focus import Focus
 from app.navigation import switched_projection
+from app.options import EXPOSURE_LIMIT_EV
 from app.panels.fields import Scale, number_field, short_number
-from app.state import EXPOSURE_LIMIT_EV, AppState
+from app.state import AppState
 from renderer.camera import Camera
 
 ROLES = {
@@ -241,7 +242,7 @@ def _exposure(state: AppState, around: Surroundings) -> AppState:
     imgui.same_line(imgui.get_style().window_padding.x + label_px)
     changed, value = number_field(
         "exposure",
-        state.exposure_ev,
+        state.images.exposure_ev,
         imgui.get_content_region_avail().x,
         Scale(-4.0, 4.0),
         theme.PLAIN,
@@ -250,7 +251,7 @@ def _exposure(state: AppState, around: Surroundings) -> AppState:
     )
     if changed:
         value = min(max(value, -EXPOSURE_LIMIT_EV), EXPOSURE_LIMIT_EV) if value == value else 0.0
-        state = replace(state, exposure_ev=value)
+        state = state.with_options(images={"exposure_ev": value})
     return state
 
 

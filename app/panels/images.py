@@ -14,11 +14,10 @@ import numpy as np
 from imgui_bundle import ImVec2, imgui
 
 from app import navigation, theme
+from app.options import Pixel
 from app.state import AppState
 from renderer.camera import Camera, Vector
 from renderer.errors import LucidaError
-
-Pixel = tuple[int, int]  # (row, column)
 
 WHEEL_STEP = 1.15
 STILL_PX = 3.0  # a mouse that has moved less while the wheel turned points at the same thing
@@ -112,7 +111,7 @@ def image_pane(
 ) -> PaneResult:
     """Draws the image into the current window and follows the mouse over it. zoom: the last."""
     scale = framebuffer_scale()
-    unit = state.pixel_size / scale  # one image pixel in ImGui's coordinates
+    unit = state.images.pixel_size / scale  # one image pixel in ImGui's coordinates
     extent = ImVec2(pane.size[0] * unit, pane.size[1] * unit)
     corner, avail = imgui.get_cursor_screen_pos(), imgui.get_content_region_avail()
     origin = ImVec2(

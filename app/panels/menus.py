@@ -11,6 +11,7 @@ from imgui_bundle import ImVec2, hello_imgui, imgui
 
 from app import theme
 from app.actions import ACTIONS, MENUS, MOUSE, Window
+from app.layout import LAYOUTS
 
 
 def menu_bar(
@@ -64,6 +65,11 @@ def _windows() -> None:
     for dockable in hello_imgui.get_runner_params().docking_params.dockable_windows:
         label = dockable.label.partition("###")[0]
         _, dockable.is_visible = imgui.menu_item(label, "", dockable.is_visible)
+    imgui.separator()
+    for layout in LAYOUTS:
+        shown = layout.name == hello_imgui.current_layout_name()
+        if imgui.menu_item(f"Layout: {layout.name}", "", shown)[0]:
+            hello_imgui.switch_layout(layout.name)
     if imgui.menu_item("Reset the layout", "", False)[0]:
         hello_imgui.get_runner_params().docking_params.layout_reset = True
     imgui.separator()

@@ -1,0 +1,98 @@
+"""What the user has chosen beside scene and camera: small immutable values, kept in AppState.
+
+Owns their fields, defaults and limits. Knows nothing of windows, widgets or renderers.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from typing import Literal
+
+from renderer.camera import Camera
+
+Pixel = tuple[int, int]  # (row, column), 0-based, row 0 at the top
+
+PIXEL_SIZES = (1, 2, 4, 8, 16, 32)
+EXPOSURE_LIMIT_EV = 8.0
+
+Channel = Literal["color", "depth", "normal", "id"]
+Component = Literal["rgb", "red", "green", "blue"]
+Transfer = Literal["srgb", "linear"]
+
+
+@dataclass(frozen=True)
+class ImageOptions:
+    """How both images are drawn and shown.
+
+    exposure_ev: the display's brightness, in stops. transfer: how light becomes a display value.
+    component: all of a colour, or one of its channels. resolution: (width, height) of both
+    images, None for what fits the window at pixel_size screen pixels a side of an image's pixel.
+    magnification: screen pixels a side of an image's pixel where the user has zoomed into the
+    pixels, None to fit the whole image into its window; center: what is in the middle then, in
+    parts of the image's width and height.
+    """
+
+    channel: Channel = "color"
+    component: Component = "rgb"
+    transfer: Transfer = "srgb"
+    exposure_ev: float = 0.0
+    pixel_size: int = 1
+    resolution: tuple[int, int] | None = None
+    magnification: float | None = None
+    center: tuple[float, float] = (0.5, 0.5)
+
+
+@dataclass(frozen=True)
+class CompareOptions:
+    """The compare view. gain: what the difference is multiplied with before it gets a colour.
+
+    divider: the wipe's, in parts of the image's width: the raster image left of it.
+    """
+
+    mode: Literal["absolute", "signed", "wipe", "flip"] = "absolute"
+    gain: float = 1.0
+    divider: float = 0.5
+
+
+@dataclass(frozen=True)
+class OutsideOptions:
+    """The outside view. camera: the free camera that looks at the scene and the other camera;
+    None: one that sees both. bundle: rows and columns of the bundle of viewing rays; (0, 0): none.
+    gizmo: what the handles in the view do to the camera.
+    """
+
+    camera: Camera | None = None
+    volume: bool = True
+    image: bool = True
+    basis: bool = True
+    grid: bool = True
+    ray: bool = True
+    bundle: tuple[int, int] = (0, 0)
+    gizmo: Literal["none", "move", "turn"] = "none"
+
+
+@dataclass(frozen=True)
+class Preferences:
+    """How the window looks. font_scale: 0.75 to 3."""
+
+    theme: Literal["dark", "light"] = "dark"
+    presentation: bool = False
+    font_scale: float = 1.0
+
+
+@dataclass(frozen=True)
+class Options:
+    """All of them. marked: the pixel that the user has chosen, in every view; None: none.
+
+    shadows, mirrors: what only image order has. one_based: pixels are counted from 1, as in the
+    lecture, or from 0, as in arrays.
+    """
+
+    images: ImageOptions = field(default_factory=ImageOptions)
+    compare: CompareOptions = field(default_factory=CompareOptions)
+    outside: OutsideOptions = field(default_factory=OutsideOptions)
+    preferences: Preferences = field(default_factory=Preferences)
+    marked: Pixel | None = None
+    shadows: bool = False
+    mirrors: bool = False
+    one_based: bool = True

@@ -1,0 +1,91 @@
+"""What a view is: a window that can be docked, shown, hidden; and what it may ask of its host.
+
+Owns the two interfaces. Knows nothing of any one view.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Hashable
+from typing import ClassVar, Protocol
+
+import moderngl
+from imgui_bundle import ImVec2
+
+from app.files import Files
+from app.focus import Focus
+from app.options import Pixel
+from app.renderers import Renderers
+from app.state import AppState
+from app.theme import Fonts
+
+
+class Host(Protocol):
+    """The window as its views see it. All of it is used in the window's thread.
+
+    renderers: both images of the present state. files: opening and saving.
+    """
+
+    fonts: Fonts
+    files: Files
+    renderers: Renderers
+
+    @property
+    def state(self) -> AppState: ...
+
+    @property
+    def focus(self) -> Focus:
+        """The scene's middle and size."""
+
+    @property
+    def hovered(self) -> tuple[str, Pixel] | None:
+        """The pixel under the mouse, and the name of the view that it was found in."""
+
+    def hover(self, view: str, pixel: Pixel) -> None:
+        """Says that the mouse is over a pixel; for the next frame, in every view."""
+
+    def apply(self, state: AppState, gesture: Hashable = None) -> None:
+        """Makes a state the present one. Changes while an item is held are one step of undo; so
+        are those with an equal gesture that is not None."""
+
+    def change(self, state: AppState) -> None:
+        """Makes a state the present one, as a step of its own."""
+
+    def animate(self) -> None:
+        """Asks for a next frame at full rate: something is moving by itself."""
+
+
+class View:
+    """A view. name: unique, ImGui's id of the window. title: on its tab. padding, flags: of the
+    ImGui window; None and 0: as the style has them.
+
+    Methods are called in the window's thread, with its OpenGL context current.
+    """
+
+    name: ClassVar[str]
+    title: ClassVar[str]
+    padding: ClassVar[ImVec2 | None] = None
+    flags: ClassVar[int] = 0
+
+    @property
+    def label(self) -> str:
+        return f"{self.title}###{self.name}"
+
+    @property
+    def settled(self) -> bool:
+        """Whether nothing in the view will change by itself."""
+        return True
+
+    def begin(self, host: Host, context: moderngl.Context) -> None:
+        """Once, when there is a context."""
+
+    def draw(self, host: Host) -> None:
+        """Once a frame in which the view is to be seen, inside its ImGui window."""
+
+    def unseen(self, host: Host) -> None:
+        """Once a frame in which the view is hidden, or behind another tab."""
+
+    def cancel(self) -> None:
+        """Ends a drag under way: something else has changed the state."""
+
+    def end(self) -> None:
+        """Once, before the context goes."""

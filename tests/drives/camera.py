@@ -1,0 +1,139 @@
+"""The camera panel: numbers dragged and typed."""
+
+from __future__ import annotations
+
+import numpy as np
+from imgui_bundle import imgui
+from window_driver import Driver, Key, changed
+
+from app.layout import CAMERA_SPACE
+
+
+def drive_a_slider_is_dragged(d: Driver) -> None:
+    before = d.agreeing_images()
+    center = d.ctx.item_info(d.field("w.x")).rect_full.get_center()
+    d.ctx.mouse_teleport_to_pos((center.x, center.y))
+    d.ctx.mouse_down(0)
+    seen = []
+    for step in range(1, 30):
+        d.ctx.mouse_teleport_to_pos((center.x + 2 * step, center.y))
+        d.ctx.yield_()
+        image = d.window.renderers.ray_image
+        seen.append(image.request.camera.eye)
+        shown = d.window.renderers.ray_texture(d.window.state)
+        assert shown is not None  # never nothing
+    d.ctx.mouse_up(0)
+    assert d.window.state.camera.w[0] > d.start.camera.w[0] + 0.05
+    after = d.agreeing_images()
+    assert changed(before[0], after[0]) > 0.1
+    assert changed(before[1], after[1]) > 0.1
+    assert len(d.window.history.past) == 1  # the whole drag
+    assert d.window.renderers.ray_image.factor == 1
+
+
+def drive_a_switch_is_clicked(d: Driver) -> None:
+    before = d.agreeing_images()
+    d.ctx.item_click("//Camera/parallel")
+    assert d.window.state.camera.projection == "parallel"
+    after = d.agreeing_images()
+    assert changed(before[0], after[0]) > 0.05
+    assert changed(before[1], after[1]) > 0.05
+    d.ctx.item_click("//Camera/perspective")
+    assert d.window.state.camera.projection == "perspective"
+    again = d.agreeing_images()
+    assert changed(before[0], again[0]) < 0.01
+
+
+def drive_a_number_is_typed(d: Driver) -> None:
+    before = d.agreeing_images()
+    d.type("eye.x", "-2.25")
+    assert d.window.state.camera.eye[0] == -2.25
+    d.type("distance", "1.1")
+    assert d.window.state.camera.distance == 1.1
+    d.type("left", "-0.9")
+    assert d.window.state.camera.viewport[0] == -0.9
+    after = d.agreeing_images()
+    assert changed(before[0], after[0]) > 0.1
+    assert changed(before[1], after[1]) > 0.1
+    assert len(d.window.history.past) == 3
+
+
+def drive_a_singular_basis_is_told_and_survived(d: Driver) -> None:
+    d.ctx.item_click("//Camera/keep orthonormal")
+    assert not d.window.state.keep_orthonormal
+    d.settle()
+    legal, before = d.window.state, d.images()
+    for axis in "xyz":
+        d.type(f"w.{axis}", "0")
+    draft = d.window.views["Camera"]._draft
+    assert draft.error is not None
+    assert draft.error.field == "w"
+    assert "independent" in str(draft.error)
+    assert d.window.state.camera.w[2] == legal.camera.w[2]  # only the legal steps were taken
+    assert d.ctx.item_exists("//Camera/Back to the camera shown")
+    shown = d.agreeing_images()
+    assert shown[0].std() > 5
+    d.type("distance", "-1")
+    assert d.window.state.camera.distance == legal.camera.distance
+    d.type("right", "-5")
+    assert d.window.views["Camera"]._draft.error is not None
+    d.ctx.item_click("//Camera/Back to the camera shown")
+    d.type("w.x", "0.34567")
+    d.type("w.y", "0.24567")
+    for name in ("u", "v", "w"):
+        d.type(f"{name}.z", "0")
+    assert "lies in the plane" in str(d.window.views["Camera"]._draft.error)  # the longest text there is
+    d.ctx.yield_(2)
+    assert d.ctx.get_window_by_ref("//Camera").scroll_max.y == 0
+    d.ctx.item_click("//Camera/Back to the camera shown")
+    d.ctx.yield_(2)
+    assert d.window.views["Camera"]._draft.error is None
+    assert d.window.views["Camera"]._draft.camera == d.window.state.camera
+    while d.window.state != legal and d.window.can_undo():
+        d.ctx.key_press(int(Key.mod_ctrl) | int(Key.z))
+    d.settle()
+    assert d.window.state == legal
+    assert changed(before[0], d.images()[0]) == 0
+
+
+def drive_a_left_handed_skewed_camera_agrees(d: Driver) -> None:
+    d.ctx.item_click("//Camera/keep orthonormal")
+    d.type("u.x", "-0.8")
+    d.type("u.y", "0.25")
+    d.type("v.y", "1.4")
+    d.agreeing_images()
+    d.ctx.item_click("//Camera/keep orthonormal")
+    assert d.window.state.camera.determinant < 0
+    basis = d.window.state.camera.basis
+    assert np.allclose(basis.T @ basis, np.eye(3))
+    d.agreeing_images()
+
+
+def drive_letters_typed_into_a_field_are_no_shortcuts(d: Driver) -> None:
+    d.ctx.item_double_click(d.field("eye.y"))
+    d.ctx.key_chars_replace("po")
+    d.ctx.key_press(int(Key.p))
+    d.ctx.key_press(int(Key.escape))
+    assert d.window.state == d.start
+
+
+def drive_the_distance_is_not_dragged_below_zero(d: Driver) -> None:
+    d.drag_field("distance", -280)
+    d.drag_field("distance", -280)
+    assert 0 < d.window.state.camera.distance < d.start.camera.distance
+    for _ in range(12):
+        d.drag_field("distance", -280)
+    assert d.window.views["Camera"]._draft.error is None
+    assert d.window.state.camera.distance > 0
+    d.type("distance", "0.00002")
+    assert d.window.state.camera.distance == 0.00002
+
+
+def drive_the_camera_panel_stays_wide_enough_for_its_numbers(d: Driver) -> None:
+    params = d.run.params.docking_params
+    node = imgui.internal.dock_builder_get_node(params.dock_space_id_from_name(CAMERA_SPACE))
+    wide = node.size.x
+    imgui.internal.dock_builder_set_node_size(node.id_, (150, node.size.y))
+    d.ctx.yield_(4)
+    assert d.ctx.get_window_by_ref("//Camera").size.x > wide - 3
+    d.agreeing_images()

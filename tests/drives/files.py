@@ -1,0 +1,88 @@
+"""Files and failures: what is opened, what is broken, what takes long."""
+
+from __future__ import annotations
+
+import os
+import sys
+import threading
+from typing import Any
+
+from window_driver import PATIENT_S, Driver, Key, changed
+
+from renderer.scene import save_view
+
+
+def drive_files_are_opened_and_broken_ones_told(d: Driver) -> None:
+    window = d.window
+    window.open(str(d.folder / "missing.toml"))
+    d.until(lambda: bool(window.files.message))
+    assert "missing.toml" in window.files.message
+    assert window.state == d.start
+    d.ctx.yield_(3)
+    d.picture()
+    d.ctx.item_click("//##message/Close")
+    assert window.files.message == ""
+    os.environ["PATH"], path = "", os.environ["PATH"]  # no program that draws dialogs
+    d.ctx.key_press(int(Key.mod_ctrl) | int(Key.o))
+    d.ctx.yield_(2)
+    os.environ["PATH"] = path
+    if sys.platform.startswith("linux"):
+        assert "zenity" in window.files.message
+    broken = d.folder / "broken.obj"
+    broken.write_bytes(b"\x00\xff nothing of use")
+    window._dropped([str(broken)])
+    d.until(lambda: "broken.obj" in window.files.message)
+    assert window.state == d.start
+    window.open("spheres")
+    d.until(lambda: window.state.scene is not d.start.scene)
+    assert window.state.scene.name == "spheres"
+    d.agreeing_images()
+    view = d.folder / "view.toml"
+    save_view(view, d.start.view)
+    window.open(str(view))
+    d.until(lambda: window.state.view == d.start.view)
+    assert window.state.scene.name == "spheres"
+    d.ctx.key_press(int(Key.mod_ctrl) | int(Key.z), 2)
+    d.settle()
+    assert window.state == d.start
+
+
+def drive_a_failing_tracer_is_told_and_survived(d: Driver) -> None:
+    live = d.window.renderers.live
+    good = live._make_tracer
+
+    def bad(scene: object) -> Any:
+        raise MemoryError
+
+    live._make_tracer = bad
+    d.window.open("canonical")
+    d.until(lambda: live.error is not None)
+    d.ctx.yield_(3)
+    d.picture()
+    live._make_tracer = good
+    d.window.open("spheres")
+    d.until(lambda: d.window.state.scene.name == "spheres")
+    d.agreeing_images()
+
+
+def drive_no_frame_waits_for_the_tracer(d: Driver) -> None:
+    """The tracer's thread is held up: the window goes on, with the raster image of now."""
+    live, gate = d.window.renderers.live, threading.Event()
+    good = live._make_tracer
+
+    def slow(scene: object) -> Any:
+        gate.wait(PATIENT_S)
+        return good(scene)
+
+    live._make_tracer = slow
+    d.window.open("columns")
+    d.until(lambda: d.window.state.scene.name == "columns")
+    d.until(lambda: "preparing" in d.window.renderers.preparing())
+    before = d.images()[0]
+    d.drag_field("eye.x", 30)
+    d.until(lambda: not d.window.renderers.pictures.unfinished)
+    assert changed(before, d.images()[0]) > 0.05
+    assert d.window.renderers.live.busy
+    live._make_tracer = good
+    gate.set()
+    d.agreeing_images()
