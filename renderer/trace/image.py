@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 
 from renderer.errors import LucidaError
 from renderer.frame import Frame
+from renderer.trace.buffers import Buffers
 
 BLOCK = 32  # pixels: side of the square that a thread takes at a time
 
@@ -46,19 +47,26 @@ class Image(NamedTuple):
     has_primitive: bool
 
 
-def new_image(size: tuple[int, int], channels: tuple[str, ...]) -> Image:
-    """Buffers whose pixels hold anything as yet. Raises LucidaError where memory runs out."""
+def new_image(
+    size: tuple[int, int], channels: tuple[str, ...], buffers: Buffers | None = None
+) -> Image:
+    """Buffers whose pixels hold anything as yet. Raises LucidaError where memory runs out.
+
+    buffers: where their memory comes from, and goes; None: memory of their own.
+    """
     width, height = size
-    parts: dict[str, Any] = {}
+    layouts = [
+        ((height, width, *pixel) if name in channels else (0, 0, *pixel), dtype)
+        for name, (pixel, dtype, _) in _LAYOUT.items()
+    ]
     try:
-        for name, (pixel, dtype, _) in _LAYOUT.items():
-            shape = (height, width) if name in channels else (0, 0)
-            parts[name] = np.empty((*shape, *pixel), dtype)
-            parts[f"has_{name}"] = name in channels
+        arrays = (buffers or Buffers()).arrays(layouts)
     except MemoryError:
         raise LucidaError(
             "size", f"{width}x{height} exceeds the memory", "make it smaller"
         ) from None
+    parts: dict[str, Any] = dict(zip(_LAYOUT, arrays, strict=True))
+    parts |= {f"has_{name}": name in channels for name in _LAYOUT}
     finished = np.zeros((-(-height // BLOCK), -(-width // BLOCK)), np.uint8)
     return Image(width, height, finished, **parts)
 

@@ -13,6 +13,7 @@ from typing import Any
 
 from renderer.camera import Camera
 from renderer.frame import Frame
+from renderer.trace.buffers import Buffers
 from renderer.trace.control import DONE, Control, cancel, new_control
 from renderer.trace.image import Image, new_image, to_frame
 from renderer.trace.view import View
@@ -29,10 +30,11 @@ class Task:
         size: tuple[int, int],
         channels: tuple[str, ...],
         background: tuple[float, float, float],
+        buffers: Buffers,
     ) -> None:
         self.camera, self.size, self.channels = camera, size, channels
         self.finished = threading.Event()
-        self._background = background
+        self._background, self._buffers = background, buffers
         self._control = new_control()
         self._lock = threading.Lock()  # held for moments only, never while tracing
         self._tracing = False
@@ -50,7 +52,7 @@ class Task:
         """Traces the image, unless cancelled before. Called once, by the Tracer's thread."""
         if self.finished.is_set():
             return
-        image = new_image(self.size, self.channels)
+        image = new_image(self.size, self.channels, self._buffers)
         with self._lock:
             if self.finished.is_set():
                 return
@@ -90,7 +92,7 @@ class Task:
             if self._error is not None:
                 raise self._error
             if self._frame is None:
-                image = self._image or new_image(self.size, self.channels)
+                image = self._image or new_image(self.size, self.channels, self._buffers)
                 self._frame = to_frame(image, self._background, self._time_s)
             return self._frame
 

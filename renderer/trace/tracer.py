@@ -20,6 +20,7 @@ from renderer.frame import Frame, check_channels, check_size
 from renderer.samples import check_samples, supersampled
 from renderer.scene.model import Scene
 from renderer.trace.batch import RayBatch
+from renderer.trace.buffers import Buffers
 from renderer.trace.jobs import Task, TraceJob
 from renderer.trace.team import check_threads
 from renderer.trace.worker import Worker
@@ -59,6 +60,7 @@ class Tracer:
         self.method = method
         self.shadows, self.mirror_depth = bool(shadows), mirror_depth
         self._worker = Worker(self.threads, method, self.shadows, mirror_depth)
+        self._buffers = Buffers()
         weakref.finalize(self, self._worker.abandon)
 
     @property
@@ -104,7 +106,8 @@ class Tracer:
         Jobs begun before come first: cancel those that are no longer wanted.
         """
         scene = self._scene
-        task = Task(camera, check_size(size), check_channels(channels), scene.background)
+        size, channels = check_size(size), check_channels(channels)
+        task = Task(camera, size, channels, scene.background, self._buffers)
         self._worker.submit(scene, task)
         return TraceJob(task, self)
 
