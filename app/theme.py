@@ -1,16 +1,25 @@
-"""How the window looks: colours, fonts, spacing.
+"""How the window looks: colours, fonts, spacing, type size.
 
 Owns the colour language, the same in every place: u, v, w after Okabe and Ito, rays in orange,
-hits and the marked pixel in yellow. Knows nothing of what is shown.
+hits and the marked pixel in yellow; and its palettes, dark and light, each also for presenting.
+Colours are read as theme.RAY, theme.TEXT, ...: those of the palette in use, so read them when you
+draw, never at import. Knows nothing of what is shown.
 """
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+import functools
+from dataclasses import dataclass, fields, replace
+from typing import Any
 
 from imgui_bundle import ImVec2, ImVec4, hello_imgui, imgui
 
+from app.options import Preferences
+
 TEXT_PX = 16.0
+SMALLEST_SCALE, LARGEST_SCALE = 0.75, 3.0
+PRESENTED = 0.024  # the least size of text in presentation mode, in parts of the window's height
+LEGIBLE = 4.5  # the least contrast of text with what is behind it (WCAG 2.1, 1.4.3)
 
 
 def rgb(text: str, alpha: float = 1.0) -> ImVec4:
@@ -19,21 +28,144 @@ def rgb(text: str, alpha: float = 1.0) -> ImVec4:
     return ImVec4(red, green, blue, alpha)
 
 
+@dataclass(frozen=True, eq=False)
+class Palette:
+    """The colours of a look. LINE_WIDTH: what lines that teach are multiplied with."""
+
+    BASIS: dict[str, ImVec4]
+    RAY: ImVec4
+    MARK: ImVec4
+    PLAIN: ImVec4
+    TEXT: ImVec4
+    DIM: ImVec4
+    ERROR: ImVec4
+    GOOD: ImVec4
+    BACKGROUND: ImVec4
+    PANEL: ImVec4
+    POPUP: ImVec4
+    FRAME: ImVec4
+    FRAME_HOVERED: ImVec4
+    FRAME_ACTIVE: ImVec4
+    LINE: ImVec4
+    ACCENT: ImVec4
+    LINE_WIDTH: float = 1.0
+
+
 # Okabe and Ito's colours; blue is lightened, or it drowns in the dark background.
-BASIS = {"u": rgb("#d55e00"), "v": rgb("#009e73"), "w": rgb("#3f9be0")}
-RAY = rgb("#e69f00")
-MARK = rgb("#f0e442")
-PLAIN = rgb("#9aa3ad")
-TEXT = rgb("#e8eaed")
-DIM = rgb("#a3abb5")
-ERROR = rgb("#ff8a65")
-BACKGROUND = rgb("#16181b")
-PANEL = rgb("#1e2125")
-FRAME = rgb("#2b3036")
-FRAME_HOVERED = rgb("#373d45")
-FRAME_ACTIVE = rgb("#434b55")
-LINE = rgb("#3a4048")
-ACCENT = rgb("#4d6a86")
+DARK = Palette(
+    BASIS={"u": rgb("#d55e00"), "v": rgb("#009e73"), "w": rgb("#3f9be0")},
+    RAY=rgb("#e69f00"),
+    MARK=rgb("#f0e442"),
+    PLAIN=rgb("#9aa3ad"),
+    TEXT=rgb("#e8eaed"),
+    DIM=rgb("#a3abb5"),
+    ERROR=rgb("#ff8a65"),
+    GOOD=rgb("#35c497"),
+    BACKGROUND=rgb("#16181b"),
+    PANEL=rgb("#1e2125"),
+    POPUP=rgb("#24282d"),
+    FRAME=rgb("#2b3036"),
+    FRAME_HOVERED=rgb("#373d45"),
+    FRAME_ACTIVE=rgb("#434b55"),
+    LINE=rgb("#3a4048"),
+    ACCENT=rgb("#4d6a86"),
+)
+LIGHT = Palette(
+    BASIS={"u": rgb("#d55e00"), "v": rgb("#008a64"), "w": rgb("#0072b2")},
+    RAY=rgb("#e69f00"),
+    MARK=rgb("#f0e442"),
+    PLAIN=rgb("#717a84"),
+    TEXT=rgb("#16191c"),
+    DIM=rgb("#545c65"),
+    ERROR=rgb("#b3261e"),
+    GOOD=rgb("#00704f"),
+    BACKGROUND=rgb("#d9dde1"),
+    PANEL=rgb("#f6f7f8"),
+    POPUP=rgb("#ffffff"),
+    FRAME=rgb("#e2e6ea"),
+    FRAME_HOVERED=rgb("#d2d8de"),
+    FRAME_ACTIVE=rgb("#bfc8d1"),
+    LINE=rgb("#b9c0c8"),
+    ACCENT=rgb("#3d78ad"),
+)
+# A projector takes contrast away: the ends of the scale, and brighter colours.
+PRESENTED_DARK = replace(
+    DARK,
+    BASIS={"u": rgb("#ff7a1a"), "v": rgb("#1fc795"), "w": rgb("#56b4e9")},
+    RAY=rgb("#ffb000"),
+    TEXT=rgb("#ffffff"),
+    DIM=rgb("#d0d5db"),
+    BACKGROUND=rgb("#000000"),
+    PANEL=rgb("#0e1012"),
+    LINE=rgb("#68717c"),
+    LINE_WIDTH=2.0,
+)
+PRESENTED_LIGHT = replace(
+    LIGHT,
+    BASIS={"u": rgb("#c24e00"), "v": rgb("#00704f"), "w": rgb("#005c94")},
+    TEXT=rgb("#000000"),
+    DIM=rgb("#33393f"),
+    BACKGROUND=rgb("#e8ebee"),
+    PANEL=rgb("#ffffff"),
+    LINE=rgb("#8b949e"),
+    LINE_WIDTH=2.0,
+)
+
+
+@dataclass(frozen=True)
+class Look:
+    """What the style is made of. scale: of type and spacing, beside the display's own (DPI)."""
+
+    theme: str = "dark"
+    presentation: bool = False
+    scale: float = 1.0
+
+    @property
+    def palette(self) -> Palette:
+        if self.theme == "light":
+            return PRESENTED_LIGHT if self.presentation else LIGHT
+        return PRESENTED_DARK if self.presentation else DARK
+
+
+_NAMES = {field.name for field in fields(Palette)}
+_used: list[Look] = [Look()]  # one entry: the look in use, of the one window of a process
+
+
+def __getattr__(name: str) -> Any:
+    """The colours of the palette in use, as attributes of the module."""
+    if name in _NAMES:
+        return getattr(_used[0].palette, name)
+    raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+
+
+def look_of(preferences: Preferences, height_px: float, dpi_scale: float = 1.0) -> Look:
+    """The look that the preferences ask for in a window of this height, in ImGui's pixels."""
+    scale = min(max(preferences.font_scale, SMALLEST_SCALE), LARGEST_SCALE)
+    if preferences.presentation:
+        scale = max(scale, PRESENTED * height_px / (TEXT_PX * dpi_scale))
+        scale = round(scale, 2)
+    return Look(preferences.theme, preferences.presentation, scale)
+
+
+def follow(preferences: Preferences) -> None:
+    """Takes up a change of the preferences, or of the window's height; call before a frame."""
+    style = imgui.get_style()
+    height_px = imgui.get_io().display_size.y
+    look = look_of(preferences, height_px, style.font_scale_dpi)
+    if look == _used[0] or height_px <= 0:
+        return
+    _used[0] = look
+    kept = style.font_scale_dpi, style.font_size_base
+    _set_style()
+    style.font_scale_dpi, style.font_size_base = kept
+    style.scale_all_sizes(style.font_scale_dpi * look.scale)
+    style.font_scale_main = look.scale
+
+
+def begin(preferences: Preferences) -> None:
+    """The first style; HelloImGui scales it to the display's DPI, follow() to the preferences."""
+    _used[0] = Look(preferences.theme)
+    _set_style()
 
 
 @dataclass
@@ -53,14 +185,18 @@ class Fonts:
         self.mono = hello_imgui.load_font("fonts/Inconsolata-Medium.ttf", TEXT_PX, raised)
 
 
-def apply() -> None:
-    """Sets ImGui's style: dark, flat, aligned."""
-    hello_imgui.apply_theme(hello_imgui.ImGuiTheme_.darcula_darker)
+def _set_style() -> None:
+    """ImGui's style for the palette in use: flat, aligned; at 100 %."""
+    look = _used[0]
+    colors = look.palette
+    base = hello_imgui.ImGuiTheme_
+    hello_imgui.apply_theme(base.imgui_colors_light if look.theme == "light" else base.darcula_darker)
     style = imgui.get_style()
     style.window_padding = ImVec2(10, 8)
     style.frame_padding = ImVec2(6, 4)
     style.item_spacing = ImVec2(6, 5)
     style.item_inner_spacing = ImVec2(6, 4)
+    style.cell_padding = ImVec2(4, 2)
     style.window_menu_button_position = imgui.Dir.none
     style.frame_rounding = 3
     style.window_rounding = 4
@@ -68,46 +204,103 @@ def apply() -> None:
     style.tab_rounding = 3
     style.grab_rounding = 2
     style.window_border_size = 1
+    style.popup_border_size = 1
     style.frame_border_size = 0
     style.tab_bar_border_size = 1
     style.docking_separator_size = 2
     style.hover_stationary_delay = 0.3
-    colors = {
-        imgui.Col_.text: TEXT,
-        imgui.Col_.text_disabled: DIM,
-        imgui.Col_.window_bg: PANEL,
-        imgui.Col_.child_bg: PANEL,
-        imgui.Col_.popup_bg: rgb("#24282d"),
-        imgui.Col_.menu_bar_bg: BACKGROUND,
-        imgui.Col_.docking_empty_bg: BACKGROUND,
-        imgui.Col_.border: LINE,
-        imgui.Col_.separator: LINE,
-        imgui.Col_.frame_bg: FRAME,
-        imgui.Col_.frame_bg_hovered: FRAME_HOVERED,
-        imgui.Col_.frame_bg_active: FRAME_ACTIVE,
-        imgui.Col_.title_bg: BACKGROUND,
-        imgui.Col_.title_bg_active: BACKGROUND,
-        imgui.Col_.title_bg_collapsed: BACKGROUND,
-        imgui.Col_.tab: BACKGROUND,
-        imgui.Col_.tab_hovered: FRAME_HOVERED,
-        imgui.Col_.tab_selected: PANEL,
-        imgui.Col_.tab_dimmed: BACKGROUND,
-        imgui.Col_.tab_dimmed_selected: PANEL,
-        imgui.Col_.tab_selected_overline: ACCENT,
-        imgui.Col_.tab_dimmed_selected_overline: LINE,
-        imgui.Col_.button: FRAME,
-        imgui.Col_.button_hovered: FRAME_HOVERED,
-        imgui.Col_.button_active: FRAME_ACTIVE,
-        imgui.Col_.header: FRAME,
-        imgui.Col_.header_hovered: FRAME_HOVERED,
-        imgui.Col_.header_active: FRAME_ACTIVE,
-        imgui.Col_.check_mark: TEXT,
-        imgui.Col_.nav_cursor: ACCENT,
-    }
-    for slot, color in colors.items():
+    col = imgui.Col_
+    for slot, color in {
+        col.text: colors.TEXT,
+        col.text_disabled: colors.DIM,
+        col.window_bg: colors.PANEL,
+        col.child_bg: colors.PANEL,
+        col.popup_bg: colors.POPUP,
+        col.menu_bar_bg: colors.BACKGROUND,
+        col.docking_empty_bg: colors.BACKGROUND,
+        col.border: colors.LINE,
+        col.separator: colors.LINE,
+        col.frame_bg: colors.FRAME,
+        col.frame_bg_hovered: colors.FRAME_HOVERED,
+        col.frame_bg_active: colors.FRAME_ACTIVE,
+        col.title_bg: colors.BACKGROUND,
+        col.title_bg_active: colors.BACKGROUND,
+        col.title_bg_collapsed: colors.BACKGROUND,
+        col.tab: colors.BACKGROUND,
+        col.tab_hovered: colors.FRAME_HOVERED,
+        col.tab_selected: colors.PANEL,
+        col.tab_dimmed: colors.BACKGROUND,
+        col.tab_dimmed_selected: colors.PANEL,
+        col.tab_selected_overline: colors.ACCENT,
+        col.tab_dimmed_selected_overline: colors.LINE,
+        col.button: colors.FRAME,
+        col.button_hovered: colors.FRAME_HOVERED,
+        col.button_active: colors.FRAME_ACTIVE,
+        col.header: colors.FRAME,
+        col.header_hovered: colors.FRAME_HOVERED,
+        col.header_active: colors.FRAME_ACTIVE,
+        col.check_mark: colors.TEXT,
+        col.slider_grab: colors.ACCENT,
+        col.table_header_bg: colors.FRAME,
+        col.table_border_light: colors.LINE,
+        col.table_border_strong: colors.LINE,
+        col.scrollbar_bg: colors.PANEL,
+        col.scrollbar_grab: colors.FRAME_ACTIVE,
+        col.scrollbar_grab_hovered: colors.PLAIN,
+        col.scrollbar_grab_active: colors.PLAIN,
+        col.nav_cursor: colors.RAY,
+        col.text_selected_bg: ImVec4(colors.ACCENT.x, colors.ACCENT.y, colors.ACCENT.z, 0.5),
+    }.items():
         style.set_color_(slot, color)
 
 
 def u32(color: ImVec4, alpha: float = 1.0) -> int:
     """A colour as draw lists take it."""
     return imgui.get_color_u32(ImVec4(color.x, color.y, color.z, color.w * alpha))
+
+
+def px(at_100_percent: float) -> float:
+    """A length in ImGui's pixels that grows with the type: 16 is the height of a line's text."""
+    return at_100_percent * imgui.get_font_size() / TEXT_PX
+
+
+def line_px(at_100_percent: float = 1.0) -> float:
+    """The width of a line that teaches: scaled, and thicker in presentation mode."""
+    style = imgui.get_style()
+    width: float = at_100_percent * _used[0].palette.LINE_WIDTH
+    return width * style.font_scale_main * style.font_scale_dpi
+
+
+def legible(color: ImVec4) -> ImVec4:
+    """The colour as text on a panel: yellow and orange are darkened where panels are light."""
+    behind = _used[0].palette.PANEL
+    return ImVec4(*_legible((color.x, color.y, color.z), (behind.x, behind.y, behind.z)), color.w)
+
+
+Rgb = tuple[float, float, float]
+
+
+@functools.lru_cache(maxsize=256)
+def _legible(color: Rgb, behind: Rgb) -> Rgb:
+    end = 0.0 if _luminance(behind) > 0.18 else 1.0
+    for step in range(21):
+        part = step / 20
+        mixed = (
+            color[0] + part * (end - color[0]),
+            color[1] + part * (end - color[1]),
+            color[2] + part * (end - color[2]),
+        )
+        if contrast(mixed, behind) >= LEGIBLE:
+            return mixed
+    return (end, end, end)
+
+
+def contrast(one: Rgb, other: Rgb) -> float:
+    """The contrast ratio of two sRGB colours, 1 to 21 (WCAG 2.1)."""
+    dark, bright = sorted((_luminance(one), _luminance(other)))
+    return (bright + 0.05) / (dark + 0.05)
+
+
+def _luminance(color: Rgb) -> float:
+    linear = (c / 12.92 if c <= 0.04045 else ((c + 0.055) / 1.055) ** 2.4 for c in color)
+    return sum(w * c for w, c in zip((0.2126, 0.7152, 0.0722), linear, strict=True))

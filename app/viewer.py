@@ -147,7 +147,7 @@ class Run:
         )
         callbacks = params.callbacks
         callbacks.load_additional_fonts = self._guarded(self.window.fonts.load)
-        callbacks.setup_imgui_style = self._guarded(theme.apply)
+        callbacks.setup_imgui_style = self._guarded(lambda: theme.begin(state.preferences))
         callbacks.post_init = self._guarded(self._begin)
         callbacks.before_imgui_render = self._guarded(self._before_render)
         callbacks.show_menus = self._guarded(self.window.menus)
@@ -182,6 +182,7 @@ class Run:
         self.window.begin(context)
 
     def _before_render(self) -> None:
+        theme.follow(self.window.state.preferences)
         if self._canvas is not None:
             self._canvas.bind()
 

@@ -41,7 +41,7 @@ def status_line(status: Status, fonts: theme.Fonts) -> None:
         (f"raster {milliseconds(status.raster_s)}{coarseness}", theme.TEXT),
         (ray_text(status), theme.TEXT),
     ]
-    good = theme.rgb("#35c497") if status.agrees else theme.ERROR
+    good = theme.GOOD if status.agrees else theme.ERROR
     parts.append((status.agreement or "agree: ...", good if status.agreement else theme.DIM))
     parts.append((f"scene: {status.scene}", theme.TEXT))
     room = imgui.get_window_width() - 2 * imgui.get_style().window_padding.x
@@ -55,7 +55,7 @@ def status_line(status: Status, fonts: theme.Fonts) -> None:
     if rights[right]:
         left = imgui.get_style().window_padding.x + room - _width(rights[right])
         imgui.same_line(left)
-        imgui.text_colored(theme.TEXT if status.loading else theme.MARK, rights[right])
+        imgui.text_colored(theme.TEXT if status.loading else theme.legible(theme.MARK), rights[right])
     imgui.pop_font()
 
 
