@@ -1,6 +1,7 @@
 """Raster against ray: do the two images agree, and where not, is a line of the image the reason?
 
-Owns the promise of parity: the tolerances and the causes. Knows nothing of files or windows.
+Owns the promise of parity: the tolerances, the causes and the errors' numbers. Knows nothing of
+files or windows; what a difference is, and its colours, are difference.py's.
 
 Two pixels agree if object, ray parameter, normal and colour do, within the tolerances below. A
 disagreement is explained if the pixel's centre lies within TOLERANCE_PX of a line where the exact
@@ -10,13 +11,22 @@ Only lines of the two primitives that were seen count, never those of something 
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import asdict, dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
 from renderer.camera import Camera
+from renderer.difference import (
+    CAUSE_COLORS,
+    SHADING_COLOR,
+    UNEXPLAINED_COLOR,
+    false_color,
+    most,
+    signed_difference,
+)
 from renderer.edges import Lines
 from renderer.frame import CHANNELS, Frame
 from renderer.images.display import encode_srgb
@@ -29,31 +39,54 @@ NORMAL = 1e-3  # a component
 COLOR = 2 / 255  # after the display transform
 
 CAUSES = ("outline", "meeting", "clip", "checker", "grazing")
-AGREE, UNEXPLAINED = 0, 255  # labels; a cause's label is its place in CAUSES plus 1
+# Labels; a cause's label is its place in CAUSES plus 1. SHADING: the hit is the same in both, only
+# its colour differs, and no line explains it.
+AGREE, SHADING, UNEXPLAINED = 0, 254, 255
 MOST_EXAMINED = 1 << 20  # disagreeing pixels; more than that is not a matter of edges
 
-_SLOPE_OF_SRGB = 12.92  # the steepest: smaller linear differences need no closer look
+_SLOPE_OF_SRGB = 12.92  # the steepest
+_NEGLIGIBLE = 1e-5  # a display value; smaller differences are not worth a closer look
+
+Pixel = tuple[int, int]
+
+
+@dataclass(frozen=True)
+class ChannelError:
+    """The differences of one channel over the whole image, in difference.py's units.
+
+    largest, rms: of the finite ones. infinite: how many are not finite: hit in one image only, or
+    not a number. differing: how many are beyond the tolerance. worst: (row, column) of the largest
+    one, infinite ones first.
+    """
+
+    largest: float
+    rms: float
+    infinite: int
+    differing: int
+    worst: Pixel
 
 
 @dataclass(frozen=True, eq=False)
 class Comparison:
-    """Counts of pixels, the largest errors among the agreeing ones, and a label a pixel.
+    """Counts of pixels, the errors, and a label a pixel.
 
     explained: pixels by cause. "outline": at the edge of what one of the two saw. "meeting": where
     two surfaces meet. "clip": where near or far cuts. "checker": at a cell's border. "grazing": the
     surface is so oblique that TOLERANCE_PX moves its depth by more than the difference.
-    labels: uint8 (height, width). worst: (row, column) of the largest colour difference.
-    times_s: what each renderer took.
+    unexplained: all others; shading: those of them where only the colour differs.
+    max_...: the largest errors among the agreeing pixels; errors: by channel, over all pixels.
+    labels: uint8 (height, width). times_s: what each renderer took.
     """
 
     size: tuple[int, int]
     agree: int
     explained: dict[str, int]
     unexplained: int
+    shading: int
     max_depth_error: float
     max_normal_error: float
     max_color_error: float
-    worst: tuple[int, int]
+    errors: dict[str, ChannelError]
     times_s: dict[str, float]
     labels: NDArray[np.uint8]
     raster: Frame
@@ -63,6 +96,11 @@ class Comparison:
     def pixels(self) -> int:
         return self.size[0] * self.size[1]
 
+    @property
+    def worst(self) -> Pixel:
+        """(row, column) of the largest colour difference."""
+        return self.errors["color"].worst
+
     def to_dict(self) -> dict[str, object]:
         """Everything but the images, as plain numbers."""
         return {
@@ -71,10 +109,15 @@ class Comparison:
             "agree": self.agree,
             "explained": dict(self.explained),
             "unexplained": self.unexplained,
+            "shading": self.shading,
             "max_depth_error": self.max_depth_error,
             "max_normal_error": self.max_normal_error,
             "max_color_error": self.max_color_error,
             "worst": list(self.worst),
+            "errors": {
+                name: asdict(error) | {"worst": list(error.worst)}
+                for name, error in self.errors.items()
+            },
             "times_s": dict(self.times_s),
         }
 
@@ -82,13 +125,17 @@ class Comparison:
         """A few lines for the command line."""
         width, height = self.size
         causes = ", ".join(f"{name} {count}" for name, count in self.explained.items() if count)
+        color, (row, column) = self.errors["color"], self.worst
         return "\n".join(
             [
                 f"{width}x{height}: {self.agree} of {self.pixels} pixels agree",
                 f"explained:   {sum(self.explained.values())}" + (f" ({causes})" if causes else ""),
-                f"unexplained: {self.unexplained}",
+                f"unexplained: {self.unexplained}"
+                + (f" ({self.shading} in the colour alone)" if self.shading else ""),
                 f"largest errors where they agree: depth {self.max_depth_error:.1e} (relative), "
                 f"normal {self.max_normal_error:.1e}, color {self.max_color_error * 255:.2f}/255",
+                f"color everywhere: largest error {color.largest * 255:.1f}/255 "
+                f"at row {row}, column {column}, RMS {color.rms * 255:.3f}/255",
                 "raster {raster:.1f} ms, ray {ray:.1f} ms".format(
                     **{name: 1e3 * time for name, time in self.times_s.items()}
                 ),
@@ -105,13 +152,31 @@ class Comparison:
         return f"agree: all but {_pixels(edges, 'edge ')}"
 
     def difference_image(self) -> NDArray[np.uint8]:
-        """uint8 (height, width, 3): the raster image darkened, explained pixels in blue,
-        unexplained ones in vermilion."""
+        """uint8 (height, width, 3): the raster image darkened, differing pixels in their cause's
+        colour (difference.py), unexplained ones in vermilion."""
         gray = 0.35 * encode_srgb(self.raster.channel("color")).mean(axis=2, keepdims=True)
         image = np.repeat((255 * gray).astype(np.uint8), 3, axis=2)
-        image[(self.labels != AGREE) & (self.labels != UNEXPLAINED)] = (86, 180, 233)
-        image[self.labels == UNEXPLAINED] = (255, 94, 0)
+        marked = self.labels != AGREE
+        image[marked] = LABEL_COLORS[self.labels[marked]]
         return image
+
+    def false_color(
+        self, channel: str = "color", gain: float = 1.0, signed: bool = False
+    ) -> NDArray[np.uint8]:
+        """The difference of a channel as colours, uint8 (height, width, 3); see difference.py."""
+        difference = signed_difference(self.raster, self.ray, channel)
+        return false_color(difference, channel, gain, signed)
+
+
+def _label_colors() -> NDArray[np.uint8]:
+    colors = np.zeros((256, 3), np.uint8)
+    for label, name in enumerate(CAUSES, start=1):
+        colors[label] = CAUSE_COLORS[name]
+    colors[SHADING], colors[UNEXPLAINED] = SHADING_COLOR, UNEXPLAINED_COLOR
+    return colors
+
+
+LABEL_COLORS = _label_colors()  # uint8 (256, 3), by label
 
 
 def compare(
@@ -133,25 +198,45 @@ def compare(
 
 
 def compare_frames(
-    flat: FlatScene, camera: Camera, size: tuple[int, int], raster: Frame, ray: Frame
+    flat: FlatScene,
+    camera: Camera,
+    size: tuple[int, int],
+    raster: Frame,
+    ray: Frame,
+    effects: bool = False,
 ) -> Comparison:
-    """Compares two frames that hold all CHANNELS of the same view; size: (width, height)."""
-    disagree, errors, color_error = _disagreement(raster, ray)
-    labels = np.where(disagree, np.uint8(UNEXPLAINED), np.uint8(AGREE))
-    i, j = np.nonzero(disagree)
+    """Compares two frames that hold all CHANNELS of the same view; size: (width, height).
+
+    effects: the ray image has shadows or mirrors, so that many colours differ: no line is looked
+    for where only the colour does.
+    """
+    depth, normal, color = _differences(raster, ray)
+    same_hit = raster.channel("id") == ray.channel("id")
+    # Negated comparisons, so that NaN disagrees with everything.
+    same_hit &= ~(~(depth <= DEPTH_RELATIVE) | ~(normal <= NORMAL))
+    agree = same_hit & (color <= COLOR)
+    labels = np.where(agree, np.uint8(AGREE), np.uint8(UNEXPLAINED))
+    labels[same_hit & ~agree] = SHADING
+    i, j = np.nonzero(labels == UNEXPLAINED if effects else ~agree)
     if 0 < len(i) <= MOST_EXAMINED:
-        labels[i, j] = _explain(flat, camera, size, raster, ray, i, j)
+        causes = _explain(flat, camera, size, raster, ray, i, j)
+        labels[i, j] = np.where(causes == AGREE, labels[i, j], causes)
     counts = np.bincount(labels.ravel(), minlength=256)
-    row, column = np.unravel_index(int(np.argmax(color_error)), color_error.shape)
     return Comparison(
         size=size,
         agree=int(counts[AGREE]),
         explained={name: int(counts[k]) for k, name in enumerate(CAUSES, start=1)},
-        unexplained=int(counts[UNEXPLAINED]),
-        max_depth_error=errors[0],
-        max_normal_error=errors[1],
-        max_color_error=errors[2],
-        worst=(int(row), int(column)),
+        unexplained=int(counts[UNEXPLAINED] + counts[SHADING]),
+        shading=int(counts[SHADING]),
+        max_depth_error=float(depth[agree].max(initial=0)),
+        max_normal_error=float(normal[agree].max(initial=0)),
+        max_color_error=float(color[agree].max(initial=0)),
+        errors={
+            "color": _channel_error(color, COLOR),
+            "depth": _channel_error(depth, DEPTH_RELATIVE),
+            "normal": _channel_error(normal, NORMAL),
+            "id": _channel_error(signed_difference(raster, ray, "id"), 0.0),
+        },
         times_s={"raster": raster.time_s, "ray": ray.time_s},
         labels=labels,
         raster=raster,
@@ -159,30 +244,36 @@ def compare_frames(
     )
 
 
-def _disagreement(
+def _differences(
     raster: Frame, ray: Frame
-) -> tuple[NDArray[np.bool_], tuple[float, float, float], NDArray[np.float32]]:
-    """Where the frames disagree; the largest errors elsewhere; the colour error everywhere."""
-    depth_a, depth_b = raster.channel("depth"), ray.channel("depth")
+) -> tuple[NDArray[np.float32], NDArray[np.float32], NDArray[np.float32]]:
+    """Absolute differences of depth, normal and colour, float32 (height, width)."""
+    depth = np.abs(signed_difference(raster, ray, "depth"))
+    normal = np.abs(signed_difference(raster, ray, "normal"))
     color_a, color_b = raster.channel("color"), ray.channel("color")
     with np.errstate(invalid="ignore"):
-        both_missed = np.isposinf(depth_a) & np.isposinf(depth_b)
-        depth = np.where(both_missed, 0, np.abs(depth_a - depth_b) / depth_b)
-    normal = np.abs(raster.channel("normal") - ray.channel("normal")).max(axis=2)
-    color = np.abs(color_a - color_b).max(axis=2) * np.float32(_SLOPE_OF_SRGB)
+        color = np.abs(most(color_b - color_a)) * np.float32(_SLOPE_OF_SRGB)
     # The display transform is costly and shrinks most differences: only where it may matter.
-    near = color > COLOR
-    color[near] = np.abs(encode_srgb(color_a[near]) - encode_srgb(color_b[near])).max(axis=1)
-    disagree = raster.channel("id") != ray.channel("id")
-    # Negated comparisons, so that NaN disagrees with everything.
-    disagree |= ~(depth <= DEPTH_RELATIVE) | ~(normal <= NORMAL) | ~(color <= COLOR)
-    agree = ~disagree
-    errors = (
-        float(depth[agree].max(initial=0)),
-        float(normal[agree].max(initial=0)),
-        float(color[agree].max(initial=0)),
+    near = color > _NEGLIGIBLE
+    color[near] = np.abs(most(encode_srgb(color_b[near]) - encode_srgb(color_a[near])))
+    return depth, normal, color
+
+
+def _channel_error(difference: NDArray[np.float32], tolerance: float) -> ChannelError:
+    """difference: absolute, (height, width)."""
+    finite = np.isfinite(difference)
+    infinite = difference.size - int(np.count_nonzero(finite))
+    values = difference if not infinite else difference[finite]
+    squares = float(np.square(values, dtype=np.float64).mean()) if values.size else 0.0
+    sortable = difference if not infinite else np.where(finite, difference, np.inf)
+    row, column = np.unravel_index(int(np.argmax(sortable)), difference.shape)
+    return ChannelError(
+        largest=float(values.max(initial=0)),
+        rms=math.sqrt(squares),
+        infinite=infinite,
+        differing=int(np.count_nonzero(~(difference <= tolerance))),
+        worst=(int(row), int(column)),
     )
-    return disagree, errors, color
 
 
 def _explain(
@@ -194,7 +285,7 @@ def _explain(
     i: NDArray[np.intp],
     j: NDArray[np.intp],
 ) -> NDArray[np.uint8]:
-    """The labels of the disagreeing pixels (i, j)."""
+    """The labels of the disagreeing pixels (i, j); AGREE for those without a cause."""
     lines = Lines(flat, camera, size)
     seen = [
         (frame.channel("primitive")[i, j], frame.channel("depth")[i, j].astype(float))
@@ -215,7 +306,7 @@ def _explain(
         moved = difference / lines.slope(second, i, j, t)
     grazing = same & (difference > DEPTH_RELATIVE * t) & ~np.isnan(moved)
     distances.append(np.where(grazing, moved, np.inf))
-    labels = np.full(len(i), UNEXPLAINED, np.uint8)
+    labels = np.full(len(i), AGREE, np.uint8)
     for label in range(len(CAUSES), 0, -1):
         labels[distances[label - 1] <= TOLERANCE_PX] = label
     return labels

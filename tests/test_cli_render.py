@@ -150,6 +150,28 @@ class TestCompare:
         with Image.open("difference.png") as image:
             assert image.size == (96, 54)
 
+    def test_the_difference_as_false_colours(self, gl_backend):
+        arguments = [
+            "compare",
+            "spheres",
+            "--size",
+            "96x54",
+            "--backend",
+            gl_backend,
+            "-o",
+            "d.png",
+        ]
+        for show, nothing in (("absolute", (0, 0, 0)), ("signed", (255, 255, 255))):
+            assert main([*arguments, "--show", show]) == 0
+            with Image.open("d.png") as image:
+                colors = np.asarray(image)
+            assert ((colors == nothing).all(axis=2)).mean() > 0.95  # the images agree
+
+    def test_a_gain_that_is_none_is_refused(self, capsys):
+        for gain in ("0", "-3", "nan", "inf", "x"):
+            assert main(["compare", "spheres", f"--gain={gain}"]) == 2
+            assert "is not a gain" in capsys.readouterr().err
+
     def test_text_says_the_counts(self, capsys, gl_backend):
         assert main(["compare", "canonical", "--size", "48x48", "--backend", gl_backend]) == 0
         assert "unexplained: 0" in capsys.readouterr().out

@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import argparse
 import json
+import math
 
 from app.commands import arguments as common
 
@@ -18,12 +19,16 @@ A difference is explained where the pixel's centre lies within 1/128 pixel of a 
 the exact image jumps: a rasterizer snaps vertices to a grid that fine."""
 
 EPILOG = """\
-The picture shows the raster image dark, explained pixels blue, unexplained ones vermilion.
+The picture shows the raster image dark, with the differing pixels in their causes' colours:
+outline light blue, meeting green, clip purple, checker olive, grazing blue; unexplained vermilion,
+or pink where only the colour differs. Or the difference as false colours: absolute, black (none)
+to white; signed, blue (raster larger) over white (none) to orange (ray larger).
 exit status: 0 no unexplained pixels, 1 some, 2 a mistake or a failure, 130 interrupted
 
 examples:
   lucida compare spheres
   lucida compare bunny.obj --view corner.toml --size 640x480 -o difference.png
+  lucida compare spheres -o difference.png --show signed --gain 64
   lucida compare bunny.obj --json"""
 
 
@@ -42,6 +47,25 @@ def configure(parser: argparse.ArgumentParser) -> None:
         "-o", "--output", metavar="DIFF.png", help="write the picture (.png .ppm .pgm .pbm)"
     )
     parser.add_argument(
+        "--show",
+        choices=("causes", "absolute", "signed"),
+        default="causes",
+        help="what the picture shows (default: causes)",
+    )
+    parser.add_argument(
+        "--channel",
+        choices=("color", "depth", "normal", "id"),
+        default="color",
+        help="whose difference absolute and signed show (default: color)",
+    )
+    parser.add_argument(
+        "--gain",
+        type=_gain,
+        default=1.0,
+        metavar="G",
+        help="what the difference is multiplied with there (default: 1)",
+    )
+    parser.add_argument(
         "--backend", choices=common.BACKENDS, default="auto", help=common.BACKEND_HELP
     )
     parser.add_argument("--json", action="store_true", help="print one JSON object")
@@ -57,9 +81,26 @@ def run(arguments: argparse.Namespace) -> int:
     with common.progress_bar("compare") as progress:
         comparison = compare(scene, camera, arguments.size, arguments.backend, progress)
     if arguments.output is not None:
-        write_picture(arguments.output, comparison.difference_image())
+        picture = (
+            comparison.difference_image()
+            if arguments.show == "causes"
+            else comparison.false_color(
+                arguments.channel, arguments.gain, signed=arguments.show == "signed"
+            )
+        )
+        write_picture(arguments.output, picture)
     if arguments.json:
         print(json.dumps(comparison.to_dict(), indent=2, allow_nan=False))
     else:
         print(comparison.summary())
     return 0 if comparison.unexplained == 0 else 1
+
+
+def _gain(text: str) -> float:
+    try:
+        gain = float(text)
+    except ValueError:
+        gain = math.nan
+    if not 0 < gain < math.inf:
+        raise argparse.ArgumentTypeError(f"{text!r} is not a gain; give a number above 0, e.g. 16")
+    return gain
