@@ -48,7 +48,7 @@ class Rasterizer:
         self._platform = open_platform(backend, context)
         self._owner = Owner()
         self._data: SceneData | None = None
-        self._targets: Targets | None = None
+        self._targets: dict[str, Targets] = {}  # by place
         self._released = False
         try:
             with self.current() as gl:
@@ -81,15 +81,16 @@ class Rasterizer:
             if old is not None:
                 old.release()
 
-    def draw(self, camera: Camera, size: tuple[int, int]) -> Textures:
+    def draw(self, camera: Camera, size: tuple[int, int], place: str = "") -> Textures:
         """The image on the GPU, without reading it back. size: (width, height).
 
-        The textures are drawn over by the next draw(), and replaced where the size changes.
+        The textures are drawn over by the next draw() to the same place, and replaced where the
+        size changes; images of several cameras have places of their own, and one scene.
         Leaves bound the framebuffer that was bound before; depth test, culling and blending off.
         """
         size = check_size(size)
         with self.current() as gl:
-            return self._draw(gl, camera, size).textures
+            return self._draw(gl, camera, size, place).textures
 
     def render(
         self,
@@ -111,10 +112,10 @@ class Rasterizer:
         if self._released:
             return
         with self.current():
-            for part in (self._targets, self._data, self._owner):
+            for part in (*self._targets.values(), self._data, self._owner):
                 if part is not None:
                     part.release()
-        self._targets, self._data, self._released = None, None, True
+        self._targets, self._data, self._released = {}, None, True
         self._platform.release()
 
     def _frame(
@@ -133,12 +134,14 @@ class Rasterizer:
             progress(1.0)
         return Frame(size=size, time_s=time.perf_counter() - start, **arrays)
 
-    def _draw(self, gl: moderngl.Context, camera: Camera, size: tuple[int, int]) -> Targets:
+    def _draw(
+        self, gl: moderngl.Context, camera: Camera, size: tuple[int, int], place: str = ""
+    ) -> Targets:
         data = self._data
         assert data is not None  # current() has seen to that
         before = gl.detect_framebuffer()
         try:
-            targets = self._targets_of(gl, size)
+            targets = self._targets_of(gl, size, place)
             data.set_camera(camera, size)
             # A window's context comes in whatever state its owner has left it.
             gl.wireframe = False
@@ -153,11 +156,11 @@ class Rasterizer:
             before.use()
         return targets
 
-    def _targets_of(self, gl: moderngl.Context, size: tuple[int, int]) -> Targets:
-        targets = self._targets
+    def _targets_of(self, gl: moderngl.Context, size: tuple[int, int], place: str) -> Targets:
+        targets = self._targets.get(place)
         if targets is None or targets.size != size:
-            self._targets = None
             if targets is not None:
+                del self._targets[place]
                 targets.release()
-            self._targets = targets = Targets(gl, size)
+            self._targets[place] = targets = Targets(gl, size)
         return targets

@@ -1,0 +1,155 @@
+"""Lines and filled shapes over an image of a scene, hidden where the scene is nearer.
+
+Owns the drawing of what is already projected: positions in pixels, with their depths. Lines are
+rectangles on the screen, smooth at their edges and as wide as one likes: OpenGL's own need not be
+wider than a pixel. Knows nothing of cameras, and of what the lines mean.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any
+
+import moderngl
+import numpy as np
+from numpy.typing import NDArray
+
+from renderer.raster.programs import set_uniform
+from renderer.raster.resources import Owner
+from renderer.raster.sources import link
+
+# Flags of both.
+ON_PLANE = 1  # part of the image plane, which does not hide it
+ROUND_START, ROUND_END = 2, 4  # a segment ends in half a disc; else it is cut off
+DASHED = 8  # even where it is not hidden
+
+# start, end: pixels from the target's upper left corner, y down. depth: s at both ends, 1 / t in
+# perspective and t in parallel projection, which are affine on the screen. color: not linear, with
+# its opacity. width: pixels. before: pixels of the line before this segment, for dashes. hidden: a
+# factor of the opacity where something is nearer. flags: above. A segment of no length is a disc.
+SEGMENT = np.dtype(
+    [
+        ("start", np.float32, 2),
+        ("end", np.float32, 2),
+        ("depth", np.float32, 2),
+        ("color", np.float32, 4),
+        ("width", np.float32),
+        ("before", np.float32),
+        ("hidden", np.float32),
+        ("flags", np.float32),
+    ]
+)
+
+# A corner of a triangle.
+CORNER = np.dtype(
+    [
+        ("corner", np.float32, 2),
+        ("depth", np.float32),
+        ("color", np.float32, 4),
+        ("hidden", np.float32),
+        ("flags", np.float32),
+    ]
+)
+
+# Shapes and lines that are drawn together: shapes first.
+Layer = tuple[NDArray[Any], NDArray[Any]]  # of CORNER, of SEGMENT
+
+
+class Lines:
+    """Draws layers into the bound framebuffer of a context, which must be current.
+
+    Uniforms of chunks/outside.glsl are given through set(), for all of them.
+    """
+
+    def __init__(self, context: moderngl.Context) -> None:
+        self._gl = context
+        self._owner = Owner()
+        own = self._owner.own
+        self._lines = own(link(context, "line.vert", "line.frag"))
+        self._fills = own(link(context, "fill.vert", "fill.frag"))
+        self._segments = _Stream(
+            context, self._lines, SEGMENT, "2f4 2f4 2f4 4f4 4f4/i", _SEGMENT_NAMES
+        )
+        self._corners = _Stream(context, self._fills, CORNER, "2f4 1f4 4f4 2f4", _CORNER_NAMES)
+
+    def set(self, uniforms: dict[str, Any]) -> None:
+        """Values of the uniforms that both kinds share."""
+        for name, value in uniforms.items():
+            set_uniform(self._lines, name, value)
+            set_uniform(self._fills, name, value)
+
+    def draw(
+        self,
+        layers: Sequence[Layer],
+        dash_px: float,
+        casing_px: float,
+        casing: tuple[float, float, float, float],
+    ) -> None:
+        """The layers, one over the other. Lines have a casing, an edge of another colour, so that
+        they are seen on any ground and one sees which is in front."""
+        gl = self._gl
+        gl.enable_only(moderngl.BLEND)
+        gl.blend_func = (
+            moderngl.SRC_ALPHA,
+            moderngl.ONE_MINUS_SRC_ALPHA,
+            moderngl.ONE,
+            moderngl.ONE_MINUS_SRC_ALPHA,
+        )
+        set_uniform(self._lines, "dash", dash_px)
+        set_uniform(self._lines, "edge_color", casing)
+        for corners, segments in layers:
+            if len(corners):
+                self._corners.write(corners)
+                self._corners.array.render(moderngl.TRIANGLES, vertices=len(corners))
+            if not len(segments):
+                continue
+            self._segments.write(segments)
+            for edge in (casing_px, 0.0) if casing_px > 0 else (0.0,):
+                set_uniform(self._lines, "edge", edge)
+                self._segments.array.render(
+                    moderngl.TRIANGLE_STRIP, vertices=4, instances=len(segments)
+                )
+        gl.blend_func = moderngl.DEFAULT_BLENDING
+        gl.enable_only(moderngl.NOTHING)
+
+    def release(self) -> None:
+        self._segments.release()
+        self._corners.release()
+        self._owner.release()
+
+
+_SEGMENT_NAMES = ("start", "end", "depth", "color", "style")
+_CORNER_NAMES = ("corner", "depth", "color", "style")
+
+
+class _Stream:
+    """A buffer that grows, and the vertex array over it."""
+
+    def __init__(
+        self,
+        context: moderngl.Context,
+        program: moderngl.Program,
+        dtype: np.dtype[Any],
+        layout: str,
+        names: tuple[str, ...],
+    ) -> None:
+        self._gl, self._program, self._dtype = context, program, dtype
+        self._layout, self._names = layout, names
+        self._reserve(64)
+
+    def write(self, rows: NDArray[Any]) -> None:
+        data = np.ascontiguousarray(rows, self._dtype)
+        if data.nbytes > self._buffer.size:
+            self.release()
+            self._reserve(2 * len(data))
+        self._buffer.orphan()
+        self._buffer.write(data)
+
+    def _reserve(self, rows: int) -> None:
+        self._buffer = self._gl.buffer(reserve=rows * self._dtype.itemsize, dynamic=True)
+        content = [(self._buffer, self._layout, *self._names)]
+        self.array = self._gl.vertex_array(self._program, content)
+
+    def release(self) -> None:
+        self.array.release()
+        self._buffer.release()

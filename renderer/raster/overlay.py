@@ -1,0 +1,166 @@
+"""The outside view's picture: a scene, another camera's picture standing in it, and lines.
+
+Owns the 8-bit target of one size that all of it is drawn into. Knows nothing of windows, of how
+the lines were made, and of who draws the scene.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import moderngl
+import numpy as np
+from numpy.typing import NDArray
+
+from renderer.camera import Camera
+from renderer.raster.lines import Layer, Lines
+from renderer.raster.programs import set_uniform
+from renderer.raster.resources import Owner, check, new_texture
+from renderer.raster.sources import link
+from renderer.raster.targets import Textures
+
+Size = tuple[int, int]
+_THINNEST = 1e-7  # an image plane seen more nearly edge on shows nothing of its picture
+
+
+@dataclass(frozen=True)
+class Plane:
+    """An image plane on the screen. from_screen (3, 3): (X q, Y q, q) of (x, y, 1), pixels from the
+    image's middle, x right, y down; X and Y run from 0 to 1 rightwards and downwards over the
+    picture. depth (3,): s of (x, y, 1). is_front: seen from the side on which its eye is."""
+
+    from_screen: NDArray[np.float64]
+    depth: NDArray[np.float64]
+    is_front: bool
+
+
+def screen_from_world(camera: Camera, size: Size) -> NDArray[np.float64]:
+    """(3, 4): of a world point (x, y, z, 1), pixels from the image's middle, x right, y down, and
+    t; in perspective the first two are multiplied by t."""
+    left, right, bottom, top = camera.viewport
+    rows = camera.camera_from_world[:3].copy()
+    t = -rows[2] if camera.is_parallel else -rows[2] / camera.distance
+    unit = np.array([0.0, 0.0, 0.0, 1.0]) if camera.is_parallel else t
+    x = (rows[0] - (left + right) / 2 * unit) * (size[0] / (right - left))
+    y = (rows[1] - (bottom + top) / 2 * unit) * (size[1] / (top - bottom))
+    return np.stack([x, -y, t])
+
+
+def plane_on_screen(
+    camera: Camera, size: Size, corners: NDArray[np.float64], eye: NDArray[np.float64]
+) -> Plane | None:
+    """The plane of three corners (3, 3) of a picture: upper left, upper right, lower left; None
+    where it is seen edge on. eye: a point on the side from which the picture is seen upright."""
+    first, across, down = corners[0], corners[1] - corners[0], corners[2] - corners[0]
+    matrix = screen_from_world(camera, size)
+    of_plane = np.column_stack([matrix[:, :3] @ across, matrix[:, :3] @ down, matrix @ [*first, 1]])
+    t_row = of_plane[2].copy()
+    if camera.is_parallel:
+        of_plane[2] = 0, 0, 1
+    lengths = np.linalg.norm(of_plane, axis=0)
+    if not np.isfinite(of_plane).all() or not (lengths > 0).all():
+        return None
+    if abs(np.linalg.det(of_plane / lengths)) < _THINNEST:
+        return None
+    from_screen = np.linalg.inv(of_plane)
+    if not np.isfinite(from_screen).all():
+        return None
+    depth = t_row @ from_screen if camera.is_parallel else from_screen[2].copy()
+    normal = np.cross(across, down)
+    toward = np.asarray(camera.w) if camera.is_parallel else np.asarray(camera.eye) - first
+    is_front = bool((normal @ toward) * (normal @ (np.asarray(eye) - first)) >= 0)
+    if not camera.is_parallel:  # a common factor cancels: floats stay in range
+        from_screen = from_screen / np.abs(from_screen).max()
+    return Plane(from_screen, depth, is_front)
+
+
+class Overlay:
+    """Draws outside views in a context, which must be current. Raises LucidaError."""
+
+    def __init__(self, context: moderngl.Context) -> None:
+        self._gl = context
+        self._owner = Owner()
+        self._ground = self._owner.own(link(context, "screen.vert", "outside.frag"))
+        self._screen = self._owner.own(context.vertex_array(self._ground, []))
+        self._lines = self._owner.own(Lines(context))
+        self._target: tuple[moderngl.Texture, moderngl.Framebuffer] | None = None
+
+    def draw(
+        self,
+        scene: Textures,
+        camera: Camera,
+        size: Size,
+        layers: Sequence[Layer],
+        plane: Plane | None = None,
+        picture: moderngl.Texture | None = None,
+        exposure_ev: float = 0.0,
+        opacity: float = 1.0,
+        unit_px: float = 1.0,
+    ) -> moderngl.Texture:
+        """The view as an 8-bit texture of `size`, drawn over by the next call.
+
+        scene: as drawn by `camera` at `size` or a multiple of it, which then is averaged. plane,
+        picture: what stands in the scene, in linear light; the plane alone hides nothing. unit_px:
+        the size of dashes and edges.
+        """
+        gl = self._gl
+        samples = max(1, scene.color.width // size[0])
+        texture, framebuffer = self._of_size(size)
+        before = gl.detect_framebuffer()
+        shared = {
+            "surface": 1,
+            "samples": samples,
+            "perspective": float(not camera.is_parallel),
+            "half_size": (size[0] / 2, size[1] / 2),
+            "has_plane": plane is not None and picture is not None,
+        }
+        if plane is not None:
+            # Matrices go column by column, as NumPy has the transposed one.
+            shared["plane_from_screen"] = tuple(plane.from_screen.T.ravel().tolist())
+            shared["plane_depth"] = tuple(plane.depth.tolist())
+        try:
+            gl.enable_only(moderngl.NOTHING)
+            gl.wireframe = False
+            gl.clear_samplers(0, 3)
+            framebuffer.use()
+            scene.color.use(0)
+            scene.surface.use(1)
+            (picture or scene.color).use(2)
+            exposure = 2.0 ** min(max(exposure_ev, -100.0), 100.0)
+            ground = {
+                "linear_color": 0,
+                "picture": 2,
+                "window_depth": 0.5,
+                "exposure": exposure,
+                "opacity": opacity,
+                "picture_light": 1.0 if plane is None or plane.is_front else 0.55,
+            }
+            for name, value in (shared | ground).items():
+                set_uniform(self._ground, name, value)
+            self._screen.render(moderngl.TRIANGLES, vertices=3)
+            self._lines.set(shared)
+            self._lines.draw(layers, 7.0 * unit_px, 1.25 * unit_px, (0.03, 0.035, 0.04, 0.6))
+        finally:
+            gl.enable_only(moderngl.NOTHING)
+            before.use()
+        return texture
+
+    def release(self) -> None:
+        self._drop()
+        self._owner.release()
+
+    def _of_size(self, size: Size) -> tuple[moderngl.Texture, moderngl.Framebuffer]:
+        if self._target is None or self._target[0].size != size:
+            self._drop()
+            texture = new_texture(self._gl, size, 4, "uint8")
+            self._target = texture, self._gl.framebuffer([texture])
+            check(self._gl, "the outside view")
+        return self._target
+
+    def _drop(self) -> None:
+        if self._target is not None:
+            texture, framebuffer = self._target
+            self._target = None
+            framebuffer.release()
+            texture.release()

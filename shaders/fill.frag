@@ -1,0 +1,16 @@
+#version 330 core
+// A filled shape's pixels; paler where they are hidden.
+
+#include "chunks/outside.glsl"
+
+in vec2 position;
+in float s;
+flat in vec4 fill_color;
+flat in vec2 fill_style;
+
+out vec4 color;
+
+void main() {
+    bool hidden = is_hidden(position, s, (int(fill_style.y + 0.5) & 1) != 0);
+    color = vec4(fill_color.rgb, fill_color.a * (hidden ? fill_style.x : 1.0));
+}
