@@ -115,7 +115,7 @@ class TestMeasure:
     def test_calls_take_turns(self):
         order: list[str] = []
         calls = {name: lambda name=name: order.append(name) for name in "ab"}
-        plan = measure.Plan(rounds=2, repeats=2, slow_s=math.inf, budget_s=math.inf)
+        plan = measure.Plan(rounds=2, warm_s=-1.0, repeats=2, slow_s=math.inf, budget_s=math.inf)
         timings = measure.interleaved(calls, plan)
         # One call of each first; then in each round an untimed and two timed ones.
         assert "".join(order) == "ab" + "aaabbb" * 2

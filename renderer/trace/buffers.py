@@ -52,7 +52,7 @@ class Buffers:
         ]
 
     def _block(self, size: int) -> Block:
-        """An idle block of that size, or a new one: the last used first, of which most is cached."""
+        """An idle block of that size, the last used one, of which most is cached; or a new one."""
         for _ in range(KEPT):
             try:
                 block = self._idle.pop()

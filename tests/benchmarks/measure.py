@@ -49,12 +49,16 @@ class Timing:
 
 @dataclass(frozen=True)
 class Plan:
-    """rounds: how often each call has its turn. repeats: timed calls in a turn, of fast calls;
-    slow_s: a call that takes longer is timed once a turn. budget_s: no new round after that long,
-    once there were least_rounds."""
+    """rounds: how often each call has its turn. quiet_s: before each turn nothing is called:
+    the threads of Embree, TBB and the like wait for more work for milliseconds, and would keep a
+    processor from the next. warm_s: how long a turn is not timed at first. repeats: timed calls
+    in a turn, of fast calls; slow_s: a call that takes longer is timed once a turn. budget_s: no
+    new round after that long, once there were least_rounds."""
 
-    rounds: int = 7
-    repeats: int = 3
+    rounds: int = 9
+    quiet_s: float = 0.01
+    warm_s: float = 0.04
+    repeats: int = 5
     slow_s: float = 0.15
     budget_s: float = 20.0
     least_rounds: int = 3
@@ -75,8 +79,9 @@ def seconds(call: Call) -> float:
 def interleaved(calls: Mapping[str, Call], plan: Plan) -> dict[str, Timing]:
     """Times of all calls: round after round, each has one turn.
 
-    A turn is an untimed call, which finds the caches full of another's data, and then timed ones;
-    the first round is preceded by an untimed call of each, which may compile.
+    A turn is a pause; untimed calls, which find the caches full of another's data and a processor
+    that has slept; and then timed ones. The first round is preceded by an untimed call of each,
+    which may compile.
     """
     samples: dict[str, list[float]] = {name: [] for name in calls}
     for call in calls.values():
@@ -96,7 +101,12 @@ def interleaved(calls: Mapping[str, Call], plan: Plan) -> dict[str, Timing]:
 
 
 def _turn(call: Call, plan: Plan) -> list[float]:
-    first_s = seconds(call)
-    if first_s > plan.slow_s:
-        return [first_s]
+    time.sleep(plan.quiet_s)
+    start = time.perf_counter()
+    while True:
+        last_s = seconds(call)
+        if last_s > plan.slow_s:
+            return [last_s]
+        if time.perf_counter() - start > plan.warm_s:
+            break
     return [seconds(call) for _ in range(plan.repeats)]
