@@ -9,6 +9,7 @@ from dataclasses import dataclass, field
 from typing import Literal
 
 from renderer.camera import Camera
+from renderer.scene.model import View
 
 Pixel = tuple[int, int]  # (row, column), 0-based, row 0 at the top
 
@@ -72,6 +73,22 @@ class OutsideOptions:
 
 
 @dataclass(frozen=True)
+class LaboratoryOptions:
+    """The image laboratory. page: what of an image it shows. method: how a bitmap is made.
+
+    after_ev: the exposure, in stops, of an image that has been stored. apart: how far the three
+    projectors' pictures are moved apart, in parts of the image's height. side_px: screen pixels a
+    side of a magnified pixel.
+    """
+
+    page: Literal["kinds", "bitmaps", "exposure", "projectors", "subpixels", "array"] = "kinds"
+    method: Literal["threshold", "ordered", "floyd-steinberg"] = "floyd-steinberg"
+    after_ev: float = 0.0
+    apart: float = 0.0
+    side_px: int = 36
+
+
+@dataclass(frozen=True)
 class Preferences:
     """How the window looks. font_scale: 0.75 to 3."""
 
@@ -81,18 +98,29 @@ class Preferences:
 
 
 @dataclass(frozen=True)
+class Bookmark:
+    """A view to come back to. number: its key, 1 to 9."""
+
+    number: int
+    name: str
+    view: View
+
+
+@dataclass(frozen=True)
 class Options:
     """All of them. marked: the pixel that the user has chosen, in every view; None: none.
 
     shadows, mirrors: what only image order has. one_based: pixels are counted from 1, as in the
-    lecture, or from 0, as in arrays.
+    lecture, or from 0, as in arrays. bookmarks: in the order of their numbers.
     """
 
     images: ImageOptions = field(default_factory=ImageOptions)
     compare: CompareOptions = field(default_factory=CompareOptions)
     outside: OutsideOptions = field(default_factory=OutsideOptions)
+    laboratory: LaboratoryOptions = field(default_factory=LaboratoryOptions)
     preferences: Preferences = field(default_factory=Preferences)
     marked: Pixel | None = None
     shadows: bool = False
     mirrors: bool = False
     one_based: bool = True
+    bookmarks: tuple[Bookmark, ...] = ()
