@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 from app.background import Background
 from app.live import RayImage, Request
@@ -14,14 +15,22 @@ from renderer.frame import Frame
 from renderer.scene.flat import FlatScene, flatten
 from renderer.scene.model import Scene
 
+if TYPE_CHECKING:
+    from renderer.compare import Comparison
+
 
 @dataclass(frozen=True, eq=False)
 class Verdict:
-    """text: for the status line. unexplained: pixels that differ for no good reason."""
+    """text: for the status line. unexplained: pixels that differ for no good reason.
+
+    comparison: counts, errors and a label a pixel, also where shadows and mirrors, which only rays
+    find, make the images differ.
+    """
 
     request: Request
     text: str
     unexplained: int
+    comparison: Comparison
 
 
 class Agreement:
@@ -67,9 +76,13 @@ class Agreement:
     def _compare(self, request: Request, raster: Frame, ray: Frame) -> Verdict:
         from renderer.compare import compare_frames
 
-        if request.has_effects:
-            return Verdict(request, "not compared: only rays find shadows and mirrors", 0)
         if self._flat is None or self._flat[0] is not request.scene:
             self._flat = (request.scene, flatten(request.scene))
-        comparison = compare_frames(self._flat[1], request.camera, request.size, raster, ray)
-        return Verdict(request, comparison.summary_short(), comparison.unexplained)
+        comparison = compare_frames(
+            self._flat[1], request.camera, request.size, raster, ray, effects=request.has_effects
+        )
+        if request.has_effects:
+            return Verdict(
+                request, "not compared: only rays find shadows and mirrors", 0, comparison
+            )
+        return Verdict(request, comparison.summary_short(), comparison.unexplained, comparison)
