@@ -1,0 +1,161 @@
+"""How numbers and vectors are written in formulas: as LaTeX, and as plain text.
+
+Owns the lines that formulas consist of. Knows nothing of what they say, nor how they are drawn.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass
+from enum import Enum
+
+DECIMALS = 4
+
+
+class Indexing(Enum):
+    """How pixels are counted: from 1, as the lecture does, or from 0, as arrays do."""
+
+    LECTURE = 1
+    ARRAY = 0
+
+    @property
+    def offset(self) -> str:
+        """What takes a pixel's number to its middle."""
+        return "- 0.5" if self is Indexing.LECTURE else "+ 0.5"
+
+
+@dataclass(frozen=True)
+class Line:
+    """One step: in symbols, then with a pixel's numbers, which goes on after the symbols.
+
+    key: names the step, the same for every pixel. name: in words. latex, text: `u = ...`.
+    latex_numbers, text_numbers: `= ... = 0.125`. value: the result, as numbers.
+    """
+
+    key: str
+    name: str
+    latex: str
+    latex_numbers: str
+    text: str
+    text_numbers: str
+    value: tuple[float, ...] = ()
+
+
+@dataclass(frozen=True)
+class Slot:
+    """A quantity of a formula: its symbol and its value, each as LaTeX and as text."""
+
+    latex: str
+    text: str
+    latex_value: str
+    text_value: str
+
+
+def scalar_slot(latex: str, value: float, text: str | None = None, factor: bool = False) -> Slot:
+    """A number; factor: it stands before or after another one, negative ones in brackets."""
+    shown, plain = latex_number(value), number(value)
+    if factor and (value < 0 or "e" in plain):
+        shown, plain = rf"({shown})", f"({plain})"
+    return Slot(latex, latex if text is None else text, shown, plain)
+
+
+def vector_slot(name: str, value: Iterable[float], text: str | None = None) -> Slot:
+    r"""A vector, bold: `\mathbf{name}`, as text `vec(name)`."""
+    value = tuple(value)
+    plain = f"vec({name})" if text is None else text
+    return Slot(bold(name), plain, latex_tuple(value), text_tuple(value))
+
+
+def formula(
+    key: str,
+    name: str,
+    left: tuple[str, str],
+    right: tuple[str, str],
+    slots: Mapping[str, Slot],
+    value: float | Iterable[float],
+    result: tuple[str, str] | None = None,
+) -> Line:
+    """A line `left = right`. left, right: as LaTeX and as text; of the right side, `<name>` stands
+    for a slot. result: how the value is written, where not as a number or a tuple."""
+    values = (value,) if isinstance(value, int | float) else tuple(value)
+    if result is None:
+        result = results(values)
+    latex, latex_numbers = (_filled(right[0], slots, kind) for kind in ("latex", "latex_value"))
+    text, text_numbers = (_filled(right[1], slots, kind) for kind in ("text", "text_value"))
+    return Line(
+        key,
+        name,
+        f"{left[0]} = {latex}",
+        _equal(latex_numbers if slots else "", result[0]),
+        f"{left[1]} = {text}",
+        _equal(text_numbers if slots else "", result[1]),
+        values,
+    )
+
+
+def results(values: Iterable[float]) -> tuple[str, str]:
+    """A number, or a tuple, that was computed: as LaTeX and as text.
+
+    Always of four decimals, so that nothing jumps while it changes; exact ones are shorter.
+    """
+    values = _rounded(values)
+    fixed = any(abs(value - round(value, DECIMALS)) > 1e-9 * abs(value) for value in values)
+    if len(values) == 1:
+        return latex_number(values[0], fixed), number(values[0], fixed)
+    return latex_tuple(values, fixed), text_tuple(values, fixed)
+
+
+def bold(name: str) -> str:
+    """`n_1` as a bold n with a plain index."""
+    letter, _, index = name.partition("_")
+    return rf"\mathbf{{{letter}}}" + (f"_{{{index}}}" if index else "")
+
+
+def number(value: float, fixed: bool = False) -> str:
+    """At most four decimals; fixed: always four. Very small and large ones as 1.23e-05."""
+    if not math.isfinite(value):
+        return {math.inf: "inf", -math.inf: "-inf"}.get(value, "none")
+    if value != 0 and not 5e-4 <= abs(value) < 1e6:
+        return f"{value:.3g}" if not fixed else f"{value:.2e}"
+    text = f"{value:.{DECIMALS}f}"
+    if not fixed:
+        text = text.rstrip("0").rstrip(".")
+    return text.removeprefix("-") if float(text) == 0 else text
+
+
+def latex_number(value: float, fixed: bool = False) -> str:
+    r"""The same; exponents as powers of ten, infinity as \infty."""
+    text = number(value, fixed)
+    if text in ("inf", "-inf"):
+        return text.replace("inf", r"\infty")
+    if text == "none":
+        return r"\mathrm{none}"
+    digits, _, exponent = text.partition("e")
+    return rf"{digits} \cdot 10^{{{int(exponent)}}}" if exponent else digits
+
+
+def latex_tuple(values: Iterable[float], fixed: bool = False) -> str:
+    return "(" + r",\ ".join(latex_number(value, fixed) for value in _rounded(values)) + ")"
+
+
+def text_tuple(values: Iterable[float], fixed: bool = False) -> str:
+    return "(" + ", ".join(number(value, fixed) for value in _rounded(values)) + ")"
+
+
+def _rounded(values: Iterable[float]) -> tuple[float, ...]:
+    """What is only rounding beside the largest is 0."""
+    values = tuple(values)
+    least = 1e-12 * max(map(abs, values))
+    return tuple(0.0 if abs(value) <= least else value for value in values)
+
+
+def _filled(template: str, slots: Mapping[str, Slot], kind: str) -> str:
+    for name, slot in slots.items():
+        template = template.replace(f"<{name}>", getattr(slot, kind))
+    return template
+
+
+def _equal(expression: str, result: str) -> str:
+    """`= expression = result`, or only the result."""
+    return f"= {result}" if expression in ("", result) else f"= {expression} = {result}"
