@@ -2,7 +2,8 @@
 
 Owns the dock spaces and which view stands where in each layout. Knows nothing of what the views
 show. A layout is one table: its splits, and the space of each view; a view that a layout does not
-name is docked beside the last one of its INSTRUMENTS space, hidden.
+name is docked beside the last one of its INSTRUMENTS space, hidden. HelloImGui keeps the user's
+changes of each layout, also between runs.
 """
 
 from __future__ import annotations
@@ -22,6 +23,7 @@ LOWER_SPACE = "LowerSpace"  # below MAIN
 INSTRUMENTS = "InstrumentSpace"  # below or beside: tabs
 
 CAMERA_WIDTH_EM = 19.5
+PRESENTATION = "Presentation"  # what presentation mode shows
 LEAST_ROOM_PX = 200.0  # for both images; in less, ImGui's smallest sizes decide
 
 Split = tuple[str, str, imgui.Dir, float]  # space, new space, where, its part of the room
@@ -87,6 +89,23 @@ LAYOUTS = (
         ),
         {"Camera": CAMERA_SPACE, "Compare": MAIN, "Raster": RIGHT_SPACE, "Ray": INSTRUMENTS},
     ),
+    Layout(
+        "Lecture",
+        (
+            (MAIN, RIGHT_SPACE, imgui.Dir.right, 0.4),
+            (RIGHT_SPACE, INSTRUMENTS, imgui.Dir.down, 0.4),
+        ),
+        {"Raster": MAIN, "Ray": MAIN, "Outside": MAIN, "Lecture": RIGHT_SPACE},
+    ),
+    Layout(
+        PRESENTATION,
+        (
+            (MAIN, INSTRUMENTS, imgui.Dir.down, 0.4),
+            (MAIN, RIGHT_SPACE, imgui.Dir.right, 0.5),
+        ),
+        {"Raster": MAIN, "Ray": RIGHT_SPACE},
+        equal=True,
+    ),
 )
 
 
@@ -113,6 +132,25 @@ def current() -> Layout:
     return next((layout for layout in LAYOUTS if layout.name == name), LAYOUTS[0])
 
 
+def switch(name: str) -> None:
+    """Shows another layout, as the user left it."""
+    if name != hello_imgui.current_layout_name() and any(name == one.name for one in LAYOUTS):
+        hello_imgui.switch_layout(name)
+
+
+def reset() -> None:
+    """The layout that is shown, as it was made."""
+    hello_imgui.get_runner_params().docking_params.layout_reset = True
+
+
+def window_of(view: View) -> hello_imgui.DockableWindow:
+    """What HelloImGui knows of a view in the layout that is shown: whether it is to be seen."""
+    params = hello_imgui.get_runner_params().docking_params
+    window = params.dockable_window_of_name(view.label)
+    assert window is not None, view.label
+    return window
+
+
 class Proportion:
     """Keeps the two images' shares of the room when the window is resized, and the camera's panel
     as wide as its numbers are.
@@ -125,6 +163,7 @@ class Proportion:
         self._room = 0.0
         self._share = 0.5
         self._settling = 0  # frames until the new sizes are there
+        self._em_px = 0.0
 
     def keep(self) -> None:
         """Call once a frame."""
@@ -150,14 +189,20 @@ class Proportion:
             self._share = node.size.x / parent.size.x
 
     def _widen_camera(self) -> None:
-        """A window that was restored, or enlarged, may leave the panel less than it needs."""
+        """A window that was restored, or enlarged, may leave the panel less than it needs; larger or
+        smaller type takes its width along."""
         node = _node(CAMERA_SPACE)
         parent = node.parent_node if node is not None else None
         if node is None or parent is None or not (parent.size.x > 0 and node.size.y > 0):
             return
-        least = math.floor(camera_width_px(parent.size.x, imgui.get_font_size()))
-        if least >= 1 and node.size.x < least - 1:
-            imgui.internal.dock_builder_set_node_size(node.id_, (least, node.size.y))
+        em_px = imgui.get_font_size()
+        least = math.floor(camera_width_px(parent.size.x, em_px))
+        width = node.size.x * (em_px / self._em_px if self._em_px else 1.0)
+        follows = em_px != self._em_px and self._em_px > 0  # the type's size has changed
+        self._em_px = em_px
+        if least >= 1 and (follows or node.size.x < least - 1):
+            width = max(width if follows else 0.0, least)
+            imgui.internal.dock_builder_set_node_size(node.id_, (width, node.size.y))
 
 
 def _side(node: imgui.internal.DockNode | None) -> imgui.internal.DockNode | None:
@@ -179,14 +224,13 @@ def _docking(
     params = hello_imgui.DockingParams()
     params.layout_name = layout.name
     params.docking_splits = [
-        _split(space, new, direction, ratio or camera)
+        _split(_own(layout, space), _own(layout, new), direction, ratio or camera)
         for space, new, direction, ratio in layout.splits
     ]
     windows = []
     for view in views:
-        window = hello_imgui.DockableWindow(
-            view.label, layout.places.get(view.name, INSTRUMENTS), draw(view)
-        )
+        space = _own(layout, layout.places.get(view.name, INSTRUMENTS))
+        window = hello_imgui.DockableWindow(view.label, space, draw(view))
         window.is_visible = view.name in layout.places
         window.call_begin_end = False
         windows.append(window)
@@ -196,10 +240,15 @@ def _docking(
     return params
 
 
+def _own(layout: Layout, space: str) -> str:
+    """A layout's own name of a space: HelloImGui keeps one table of names for all layouts."""
+    return MAIN if space == MAIN else f"{space} of {layout.name}"
+
+
 def _node(space: str) -> imgui.internal.DockNode | None:
-    """A dock space; None while it is not there."""
+    """A dock space of the layout that is shown; None while it is not there."""
     params = hello_imgui.get_runner_params().docking_params
-    number = params.dock_space_id_from_name(space)
+    number = params.dock_space_id_from_name(_own(current(), space))
     return imgui.internal.dock_builder_get_node(number) if number is not None else None
 
 

@@ -190,7 +190,9 @@ def _set_style() -> None:
     look = _used[0]
     colors = look.palette
     base = hello_imgui.ImGuiTheme_
-    hello_imgui.apply_theme(base.imgui_colors_light if look.theme == "light" else base.darcula_darker)
+    hello_imgui.apply_theme(
+        base.imgui_colors_light if look.theme == "light" else base.darcula_darker
+    )
     style = imgui.get_style()
     style.window_padding = ImVec2(10, 8)
     style.frame_padding = ImVec2(6, 4)

@@ -6,6 +6,7 @@
     files       scene files (.toml); their format: schema
     models      model files (.obj .ply .stl .off .glb .gltf)
     views       view files: a camera written down
+    saving      a scene written down
     flat        a scene as flat arrays, the form that both renderers read
 
 Knows nothing of renderers, pixels or windows.
@@ -20,6 +21,7 @@ from renderer.scene.model import (
     DirectionalLight,
     Material,
     Mesh,
+    Origin,
     PointLight,
     Scene,
     SceneObject,
@@ -27,6 +29,7 @@ from renderer.scene.model import (
     Sphere,
     View,
 )
+from renderer.scene.saving import save_scene
 from renderer.scene.views import load_view, save_view, view_from_toml, view_to_toml
 
 __all__ = [
@@ -38,6 +41,7 @@ __all__ = [
     "FlatScene",
     "Material",
     "Mesh",
+    "Origin",
     "PointLight",
     "Scene",
     "SceneObject",
@@ -47,6 +51,7 @@ __all__ = [
     "flatten",
     "load_scene",
     "load_view",
+    "save_scene",
     "save_view",
     "shapes",
     "view_from_toml",

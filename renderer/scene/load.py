@@ -6,11 +6,12 @@ Owns the choice between them, by name and by ending. Knows nothing of what is in
 from __future__ import annotations
 
 import difflib
+from dataclasses import replace
 from pathlib import Path
 
 from renderer.errors import LucidaError
 from renderer.scene.files import read_scene_file
-from renderer.scene.model import Scene
+from renderer.scene.model import Origin, Scene
 from renderer.scene.models import MODEL_ENDINGS, model_scene
 from renderer.scene.reading import neighbours, suggestion
 
@@ -34,15 +35,15 @@ def load_scene(source: str | Path) -> Scene:
     file, the field and the remedy.
     """
     if source in BUILTIN_SCENES:
-        return read_scene_file(_BUILTIN_FOLDER / f"{source}.toml")
+        return _from(str(source), read_scene_file(_BUILTIN_FOLDER / f"{source}.toml"))
     if not str(source):
         raise LucidaError("scene", "'' is empty", suggestion("", BUILTIN_SCENES))
     path = Path(source)
     ending = path.suffix.lower()
     if ending == ".toml":
-        return read_scene_file(path)
+        return _from(str(path.absolute()), read_scene_file(path))
     if ending in MODEL_ENDINGS:
-        return model_scene(path)
+        return _from(str(path.absolute()), model_scene(path))
     endings = f"files ending in {' '.join(SCENE_ENDINGS)}"
     if _exists(path):
         raise LucidaError(
@@ -60,6 +61,10 @@ def load_scene(source: str | Path) -> Scene:
         f"{guess}built-in scenes are {', '.join(BUILTIN_SCENES)}; files end in "
         + " ".join(SCENE_ENDINGS),
     )
+
+
+def _from(source: str, scene: Scene) -> Scene:
+    return replace(scene, origin=replace(scene.origin or Origin(""), source=source))
 
 
 def _exists(path: Path) -> bool:

@@ -9,6 +9,8 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable
 from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -208,8 +210,22 @@ class View:
 
 
 @dataclass(frozen=True, eq=False)
+class Origin:
+    """Where a scene came from, so that it can be written down again.
+
+    source: what load_scene takes, a built-in scene's name or an absolute path; "" for neither.
+    tables: of its scene file, as read; None for a model alone. folder: where its paths begin.
+    """
+
+    source: str
+    tables: dict[str, Any] | None = None
+    folder: Path = Path()
+
+
+@dataclass(frozen=True, eq=False)
 class Scene:
-    """Objects in the order of their ids, lights, and a view to begin with."""
+    """Objects in the order of their ids, lights, and a view to begin with. origin: None for a
+    scene that was made in Python."""
 
     objects: tuple[SceneObject, ...]
     lights: tuple[PointLight | DirectionalLight, ...] = ()
@@ -217,6 +233,7 @@ class Scene:
     background: Color = (0.0, 0.0, 0.0)
     view: View = View(Camera.canonical(), fit=True)
     name: str = ""
+    origin: Origin | None = None
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "objects", tuple(self.objects))

@@ -50,6 +50,16 @@ def view_to_toml(view: View) -> str:
     return "\n".join(lines) + "\n"
 
 
+def view_table(view: View) -> dict[str, Any]:
+    """A view as a [camera] table, in which nothing is left to a default."""
+    table: dict[str, Any] = {}
+    for name in _CAMERA:
+        value = getattr(view.camera, name)
+        if value is not None:
+            table[name] = list(value) if isinstance(value, tuple) else value
+    return table | {"fit": view.fit}
+
+
 def view_from_toml(text: str, source: str = "") -> View:
     """The view in the text of a view file. source: the file's name, for errors."""
     try:

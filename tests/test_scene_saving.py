@@ -1,0 +1,108 @@
+"""Scenes written down: what is read back is the same scene."""
+
+from __future__ import annotations
+
+import os
+import tomllib
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from renderer.camera import Camera
+from renderer.errors import LucidaError
+from renderer.scene import (
+    BUILTIN_SCENES,
+    Checker,
+    DirectionalLight,
+    Material,
+    PointLight,
+    Scene,
+    SceneObject,
+    Sphere,
+    View,
+    load_scene,
+    save_scene,
+    shapes,
+)
+
+OBJ = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"
+
+
+def same(one: Scene, other: Scene) -> bool:
+    """Whether all that is drawn is equal, number by number."""
+    values = ("lights", "ambient", "background", "view", "name")
+    if any(getattr(one, name) != getattr(other, name) for name in values):
+        return False
+    if len(one.objects) != len(other.objects):
+        return False
+    for a, b in zip(one.objects, other.objects, strict=True):
+        if (a.material, a.name, type(a.shape)) != (b.material, b.name, type(b.shape)):
+            return False
+        if isinstance(a.shape, Sphere):
+            if a.shape != b.shape:
+                return False
+            continue
+        for name in ("vertices", "faces", "normals", "colors", "transform"):
+            left, right = getattr(a.shape, name), getattr(b.shape, name)
+            if (left is None) != (right is None) or not np.array_equal(left, right):
+                return False
+    return True
+
+
+@pytest.mark.parametrize("name", BUILTIN_SCENES)
+def test_builtin_scenes_come_back(tmp_path, name):
+    scene = load_scene(name)
+    save_scene(tmp_path / "scene.toml", scene)
+    assert same(load_scene(tmp_path / "scene.toml"), scene)
+
+
+def test_the_view_of_the_window_becomes_the_files(tmp_path):
+    camera = Camera((1 / 3, 2, 3), distance=0.1, viewport=(-0.2, 0.7, -0.5, 0.5), near=0.25)
+    for view in (View(camera, fit=True), View(camera, fit=False)):
+        save_scene(tmp_path / "scene.toml", load_scene("spheres"), view)
+        assert load_scene(tmp_path / "scene.toml").view == view
+
+
+def test_models_are_named_by_where_they_are(tmp_path):
+    (tmp_path / "models").mkdir()
+    (tmp_path / "elsewhere").mkdir()
+    (tmp_path / "models" / "a b.obj").write_text(OBJ)
+    first = tmp_path / "first.toml"
+    first.write_text(
+        '[[objects]]\ntype = "model"\nfile = "models/a b.obj"\ntranslate = [1, 2, 3]\n'
+    )
+    scene = load_scene(first)
+    beside, away = tmp_path / "second.toml", tmp_path / "elsewhere" / "third.toml"
+    save_scene(beside, scene)
+    assert tomllib.loads(beside.read_text())["objects"][0]["file"] == "models/a b.obj"
+    save_scene(away, scene)
+    assert os.path.isabs(tomllib.loads(away.read_text())["objects"][0]["file"])
+    for path in (beside, away):
+        assert same(replace(load_scene(path), name=""), replace(scene, name=""))
+
+
+def test_a_model_alone_becomes_a_scene(tmp_path):
+    (tmp_path / "model.obj").write_text(OBJ)
+    scene = load_scene(tmp_path / "model.obj")
+    save_scene(tmp_path / "scene.toml", scene)
+    assert same(load_scene(tmp_path / "scene.toml"), scene)
+
+
+def test_scenes_made_in_python_are_written_by_their_parts(tmp_path):
+    material = Material((0.1, 0.2, 0.3), (1, 1, 1), 7.0, Checker((1, 0, 0), 0.5))
+    lights = (PointLight((1, 2, 3), (0.5, 0.25, 1)), DirectionalLight((0, -1, 0)))
+    name = 'quotes " and \\ and \x7f and é'
+    scene = Scene((SceneObject(Sphere((1, 2, 3), 0.5), material, name),), lights, name=name)
+    save_scene(tmp_path / "scene.toml", scene)
+    assert same(load_scene(tmp_path / "scene.toml"), scene)
+    bare = Scene((SceneObject(Sphere()),), lights=())
+    save_scene(tmp_path / "scene.toml", bare)
+    assert load_scene(tmp_path / "scene.toml").lights == ()
+
+
+def test_what_the_format_cannot_hold_is_said_and_nothing_written(tmp_path):
+    scene = Scene((SceneObject(shapes.box(), name="crate"),))
+    with pytest.raises(LucidaError, match=r"objects\[0\].*crate.*made in Python"):
+        save_scene(tmp_path / "scene.toml", scene)
+    assert list(tmp_path.iterdir()) == []
