@@ -18,6 +18,7 @@ from renderer.camera import Camera
 from renderer.errors import LucidaError
 from renderer.frame import CHANNELS, Frame
 from renderer.raster import Rasterizer
+from renderer.raster.targets import Textures
 from renderer.scene.model import Scene
 
 MOVING_S = 0.1  # after a change; a raster image that is too slow for the display is coarse then
@@ -45,6 +46,8 @@ class Pictures:
         self._timed_pixels = 0  # of the image whose time is still to be read
         self._pixel_s = 0.0
         self._wanted: Wanted | None = None
+        self._linear: moderngl.Texture | None = None
+        self._drawn = 0
         self._changed_s = 0.0
         self.raster_factor = 1
         self.raster_s = 0.0
@@ -59,13 +62,8 @@ class Pictures:
         None where that failed, see raster_error. Where OpenGL runs on the CPU, the image is coarse
         while things move, and full soon after.
         """
-        self._read_time()
         try:
-            if wanted != self._wanted:
-                self._changed_s = time.monotonic()
-                self._draw(wanted, self._moving_factor(wanted.size))
-            elif self.raster_factor > 1 and time.monotonic() - self._changed_s > MOVING_S:
-                self._draw(wanted, 1)
+            self._follow(wanted)
             texture = self._raster.texture(exposure_ev, size_px)
             self.raster_error = None
         except (LucidaError, moderngl.Error) as error:  # shown in the window, which goes on
@@ -73,6 +71,19 @@ class Pictures:
             self._wanted, self.raster_error, self.raster_factor = None, error, 1
             return None
         return texture
+
+    def linear(self, wanted: Wanted) -> tuple[moderngl.Texture, int]:
+        """The raster image in linear light, drawn anew if it must be, and how many have been drawn:
+        the number changes with the image. Raises LucidaError."""
+        self._follow(wanted)
+        assert self._linear is not None
+        return self._linear, self._drawn
+
+    def beside(self, wanted: Wanted, place: str) -> Textures:
+        """Another camera's image of the scene, kept beside the raster image, which stays. Drawn
+        by each call; place: see Rasterizer.draw. Raises LucidaError."""
+        self._show(wanted.scene)
+        return self._rasterizer.draw(wanted.camera, wanted.size, place)
 
     def take_ray(self, image: RayImage) -> None:
         """Puts a traced image on the GPU; where that fails, see ray_error."""
@@ -114,11 +125,21 @@ class Pictures:
             self._raster.release()
             self._ray.release()
 
+    def _follow(self, wanted: Wanted) -> None:
+        self._read_time()
+        if wanted != self._wanted:
+            self._changed_s = time.monotonic()
+            self._draw(wanted, self._moving_factor(wanted.size))
+        elif self.raster_factor > 1 and time.monotonic() - self._changed_s > MOVING_S:
+            self._draw(wanted, 1)
+
     def _draw(self, wanted: Wanted, factor: int) -> None:
         self._show(wanted.scene)
         size = reduced(wanted.size, factor)
         with self._timer:
-            self._raster.set_linear(self._rasterizer.draw(wanted.camera, size).color)
+            self._linear = self._rasterizer.draw(wanted.camera, size).color
+            self._raster.set_linear(self._linear)
+        self._drawn += 1
         self._wanted = wanted
         self._timed_pixels, self.raster_factor = size[0] * size[1], factor
 
