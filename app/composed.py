@@ -1,0 +1,284 @@
+"""The pictures of the compare view, made on the GPU: difference, wipe, marked pixels.
+
+Owns their shaders and textures, all at the images' own size, and redoes only what has changed.
+Knows nothing of widgets, of the tracer, and of why pixels differ.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Hashable
+from dataclasses import dataclass
+from typing import Any
+
+import moderngl
+import numpy as np
+from numpy.typing import NDArray
+
+from renderer.compare import AGREE, LABEL_COLORS, SHADING
+from renderer.difference import ABSOLUTE_COLORS, CHANNELS, FULL_SCALE, SIGNED_COLORS
+from renderer.frame import Frame
+from renderer.raster.programs import set_uniform
+from renderer.raster.resources import Owner, new_texture
+from renderer.raster.sources import link
+from renderer.raster.targets import Textures
+
+RIM = 250  # a label: the dark border of a mark
+MOST_ENLARGED = 0.01  # of the pixels; more marks than that are not enlarged
+COMPONENTS = {"rgb": -1, "red": 0, "green": 1, "blue": 2}
+
+
+@dataclass(frozen=True)
+class Mapping:
+    """How a difference becomes a colour; see renderer/difference.py."""
+
+    channel: str = "color"
+    component: str = "rgb"
+    gain: float = 1.0
+    signed: bool = False
+
+
+class Target:
+    """A texture of 8 bits to draw into, of the size that was asked for last."""
+
+    def __init__(self, context: moderngl.Context) -> None:
+        self._gl = context
+        self._made: tuple[moderngl.Texture, moderngl.Framebuffer] | None = None
+
+    def of_size(self, size: tuple[int, int]) -> tuple[moderngl.Texture, moderngl.Framebuffer]:
+        """Raises LucidaError where there is no memory."""
+        if self._made is None or self._made[0].size != size:
+            self.release()
+            texture = new_texture(self._gl, size, 4, "uint8")
+            self._made = texture, self._gl.framebuffer([texture])
+        return self._made
+
+    def release(self) -> None:
+        if self._made is not None:
+            texture, framebuffer = self._made
+            self._made = None
+            framebuffer.release()
+            texture.release()
+
+
+class Pass:
+    """A fragment shader over a whole picture, done again only where its inputs have changed."""
+
+    def __init__(self, context: moderngl.Context, fragment: str) -> None:
+        self._gl = context
+        self._program = link(context, "screen.vert", fragment)
+        self._screen = context.vertex_array(self._program, [])
+        self._target = Target(context)
+        self._drawn: Hashable = None
+
+    def draw(
+        self,
+        size: tuple[int, int],
+        key: Hashable,
+        textures: dict[str, moderngl.Texture],
+        **uniforms: Any,
+    ) -> moderngl.Texture:
+        """key: what the textures hold, besides their names; the uniforms are compared here."""
+        made = (size, key, tuple((n, t.glo) for n, t in textures.items()), *uniforms.items())
+        texture, framebuffer = self._target.of_size(size)
+        if made == self._drawn:
+            return texture
+        gl = self._gl
+        before = gl.detect_framebuffer()
+        try:
+            gl.enable_only(moderngl.NOTHING)
+            gl.wireframe = False
+            gl.clear_samplers(0, len(textures))
+            framebuffer.use()
+            for unit, (name, source) in enumerate(textures.items()):
+                source.use(unit)
+                set_uniform(self._program, name, unit)
+            set_uniform(self._program, "window_depth", 0.5)
+            for name, value in uniforms.items():
+                set_uniform(self._program, name, value)
+            self._screen.render(moderngl.TRIANGLES, vertices=3)
+        finally:
+            before.use()
+        self._drawn = made
+        return texture
+
+    def forget(self) -> None:
+        """The next draw() draws, whatever its inputs."""
+        self._drawn = None
+
+    def release(self) -> None:
+        self._target.release()
+        self._screen.release()
+        self._program.release()
+
+
+class Composed:
+    """In a context, which must be current in every call. Raises LucidaError."""
+
+    def __init__(self, context: moderngl.Context) -> None:
+        self._gl = context
+        self._difference = Pass(context, "difference.frag")
+        self._compose = Pass(context, "compose.frag")
+        self._owner = Owner()
+        self._maps = {
+            False: self._row(ABSOLUTE_COLORS),
+            True: self._row(SIGNED_COLORS),
+        }
+        self._label_colors = self._row(LABEL_COLORS)
+        self._ray: dict[str, moderngl.Texture] = {}
+        self._ray_frame: Frame | None = None
+        self._no_ids = self._owner.own(new_texture(context, (1, 1), 1, np.int32))
+        self._marks: moderngl.Texture | None = None
+        self._marked: tuple[NDArray[np.uint8], bool] | None = None
+
+    def color_map(self, signed: bool) -> moderngl.Texture:
+        """The colour map as one row of pixels, for a colour bar."""
+        return self._maps[signed]
+
+    def difference(
+        self, raster: Textures, drawn: Hashable, ray: Frame, mapping: Mapping
+    ) -> moderngl.Texture:
+        """False colours, RGBA8 at the frame's size, which must be the textures' too.
+
+        drawn: what the raster textures hold, for telling whether they have changed.
+        """
+        if ray is not self._ray_frame:
+            self._drop_ray()
+            self._ray_frame = ray
+        channel = mapping.channel
+        is_id = channel == "id"
+        first = raster.color if channel == "color" else raster.surface
+        return self._difference.draw(
+            ray.size,
+            (drawn, _Same(ray)),
+            {
+                "raster": first,
+                "ray": first if is_id else self._of_ray(channel),
+                "raster_object": raster.object if is_id else self._no_ids,
+                "ray_object": self._of_ray("id") if is_id else self._no_ids,
+                "colors": self._maps[mapping.signed and not is_id],
+            },
+            channel=CHANNELS.index(channel),
+            component=COMPONENTS[mapping.component] if channel == "color" else -1,
+            gain=mapping.gain / FULL_SCALE[channel],
+            has_sign=mapping.signed and not is_id,
+        )
+
+    def compose(
+        self,
+        size: tuple[int, int],
+        key: Hashable,
+        left: moderngl.Texture,
+        right: moderngl.Texture | None = None,
+        divider: int = 0,
+        muted: bool = False,
+        labels: NDArray[np.uint8] | None = None,
+        enlarged: bool = True,
+    ) -> moderngl.Texture:
+        """A picture of (width, height): `left` up to the column `divider`, `right` from there on;
+        without `right`, `left` everywhere. key: what the two hold.
+
+        muted: gray and dark. labels: renderer/compare.py's, uint8 (height, width): pixels to mark
+        in their causes' colours; enlarged: with a border, so that they can be seen from afar.
+        """
+        marks = self._upload_marks(labels, enlarged)
+        return self._compose.draw(
+            size,
+            (key, _Same(labels), enlarged),
+            {
+                "left": left,
+                "right": right or left,
+                "marks": marks or self._label_colors,
+                "colors": self._label_colors,
+            },
+            extent=(float(size[0]), float(size[1])),
+            divider=float(divider),
+            muted=float(muted),
+            has_marks=marks is not None,
+        )
+
+    def release(self) -> None:
+        self._drop_ray()
+        if self._marks is not None:
+            self._marks.release()
+        self._owner.release()
+        self._compose.release()
+        self._difference.release()
+
+    def _row(self, colors: NDArray[np.uint8]) -> moderngl.Texture:
+        rgba = np.full((1, len(colors), 4), 255, np.uint8)
+        rgba[0, :, :3] = colors
+        texture = self._owner.own(new_texture(self._gl, (len(colors), 1), 4, np.uint8))
+        texture.write(rgba)
+        return texture
+
+    def _of_ray(self, channel: str) -> moderngl.Texture:
+        assert self._ray_frame is not None
+        if channel not in self._ray:
+            values = np.ascontiguousarray(self._ray_frame.channel(channel))
+            height, width = values.shape[:2]
+            components = values.shape[2] if values.ndim == 3 else 1
+            texture = new_texture(self._gl, (width, height), components, values.dtype)
+            texture.write(values)
+            self._ray[channel] = texture
+        return self._ray[channel]
+
+    def _drop_ray(self) -> None:
+        for texture in self._ray.values():
+            texture.release()
+        self._ray.clear()
+        self._difference.forget()  # a new texture may get an old one's name
+
+    def _upload_marks(
+        self, labels: NDArray[np.uint8] | None, enlarged: bool
+    ) -> moderngl.Texture | None:
+        if labels is None:
+            return None
+        if self._marked is None or self._marked[0] is not labels or self._marked[1] != enlarged:
+            height, width = labels.shape
+            if self._marks is None or self._marks.size != (width, height):
+                if self._marks is not None:
+                    self._marks.release()
+                    self._marks = None
+                self._marks = new_texture(self._gl, (width, height), 1, np.uint8)
+            self._marks.write(marks(labels) if enlarged else np.ascontiguousarray(labels))
+            self._marked = labels, enlarged
+            self._compose.forget()
+        return self._marks
+
+
+class _Same:
+    """An object as a part of a key: equal to itself only, and kept while the key is."""
+
+    def __init__(self, thing: object) -> None:
+        self._thing = thing
+
+    def __eq__(self, other: object) -> bool:
+        return isinstance(other, _Same) and other._thing is self._thing
+
+    def __hash__(self) -> int:
+        return id(self._thing)
+
+
+def marks(labels: NDArray[np.uint8]) -> NDArray[np.uint8]:
+    """The labels with each differing pixel enlarged to 3 x 3, in a border of RIM; where there
+    are so many of them that they would hide the image, the labels themselves.
+
+    Unexplained pixels are never covered by explained ones.
+    """
+    i, j = np.nonzero(labels)
+    if not 0 < len(i) <= MOST_ENLARGED * labels.size:
+        return np.ascontiguousarray(labels)
+    height, width = labels.shape
+    found = labels[i, j]
+    bad = found >= SHADING
+    grown = np.full((height + 4, width + 4), AGREE, np.uint8)  # a border, so that nothing wraps
+    for di in range(5):
+        for dj in range(5):
+            grown[i + di, j + dj] = RIM
+    for chosen in (~bad, bad):
+        for di in (1, 2, 3):
+            for dj in (1, 2, 3):
+                grown[i[chosen] + di, j[chosen] + dj] = found[chosen]
+    grown = grown[2:-2, 2:-2]
+    grown[i, j] = found  # neighbours that are enlarged do not hide what is there
+    return np.ascontiguousarray(grown)
