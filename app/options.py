@@ -90,11 +90,13 @@ class LaboratoryOptions:
 
 @dataclass(frozen=True)
 class Preferences:
-    """How the window looks. font_scale: 0.75 to 3."""
+    """How the window looks. font_scale: 0.75 to 3. reduced_motion: the camera jumps, without a
+    passage."""
 
     theme: Literal["dark", "light"] = "dark"
     presentation: bool = False
     font_scale: float = 1.0
+    reduced_motion: bool = False
 
 
 @dataclass(frozen=True)
