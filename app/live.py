@@ -111,6 +111,7 @@ class LiveTrace:
         self._error: Exception | None = None
         self._began_s = 0.0
         self._first_ever = True
+        self._ready: tuple[Scene, Tracer] | None = None
         self._thread = threading.Thread(target=self._run, name="lucida-live", daemon=True)
         self._thread.start()
 
@@ -161,6 +162,14 @@ class LiveTrace:
         """Whether no image at all has arrived: preparing then includes compiling."""
         return self._first_ever
 
+    def tracer_of(self, scene: Scene) -> Tracer | None:
+        """The tracer that has prepared a scene, for rays of one's own; None until there is one.
+
+        It is closed when the scene changes: what it was asked then ends by an error.
+        """
+        ready = self._ready
+        return ready[1] if ready is not None and ready[0] is scene else None
+
     def close(self, timeout_s: float = 2.0) -> None:
         """Cancels. A compilation cannot be cancelled: its daemon thread is left to the exit."""
         with self._changed:
@@ -181,14 +190,16 @@ class LiveTrace:
         while (request := self._next()) is not None:
             try:
                 if tracer is None or not request.is_served_by(made_for):
+                    self._ready = None
                     if tracer is not None:
                         tracer.close()
                     with self._changed:
                         self._began_s = time.monotonic()
                     tracer, made_for, pixel_s = self._make_tracer(request), request, 0.0
+                    self._ready = (request.scene, tracer)
                 pixel_s = self._trace(tracer, request, pixel_s)
             except Exception as error:  # shown in the window, which goes on
-                tracer = None
+                tracer, self._ready = None, None
                 with self._changed:
                     self._job, self._refining, self._began_s = None, False, 0.0
                     self._error, self._finished = error, request
