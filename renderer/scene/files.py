@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import contextlib
 from collections.abc import Iterator
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -20,6 +21,7 @@ from renderer.scene.model import (
     DirectionalLight,
     Material,
     Mesh,
+    Origin,
     PointLight,
     Scene,
     SceneObject,
@@ -63,9 +65,15 @@ def scene_from_toml(text: str, folder: Path, source: str = "", name: str = "") -
     name: the scene's, where the file gives none.
     """
     try:
-        return _scene(to_struct(parse_toml(text), SceneFile), folder, name)
+        return scene_from_tables(parse_toml(text), folder, name)
     except LucidaError as error:
         raise error.in_file(source) from None
+
+
+def scene_from_tables(tables: dict[str, Any], folder: Path, name: str = "") -> Scene:
+    """The scene in tables as a scene file has them: for scenes inside other files."""
+    scene = _scene(to_struct(tables, SceneFile), folder, name)
+    return replace(scene, origin=Origin("", tables, folder))
 
 
 def _scene(tables: SceneFile, folder: Path, name: str) -> Scene:

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import re
 import tomllib
-from typing import Any
+from typing import Any, Literal, get_args, get_origin
 
 import msgspec
 
@@ -100,6 +100,10 @@ def _explained(message: str, value: Any, kind: Any, prefix: str) -> LucidaError:
         )
     if invalid := re.fullmatch(r"Invalid value '(.*)'", text, re.DOTALL):
         return LucidaError(field, f"{invalid[1]!r} is unknown", suggestion(invalid[1], _tags(kind)))
+    if choice := re.fullmatch(r"Invalid enum value (.*)", text, re.DOTALL):
+        choices = [str(c) for c in _choices(value, kind, path)]
+        remedy = suggestion(choice[1].strip("'"), choices)
+        return LucidaError(field, f"{choice[1]} is unknown", remedy)
     if length := re.fullmatch(r"Expected `array` of length (\d+), got (\d+)", text):
         return LucidaError(field, f"has {length[2]} entries", f"give {length[1]}")
     if wrong := re.fullmatch(r"Expected `(.*)`, got `(.*)`", text):
@@ -111,17 +115,30 @@ def _explained(message: str, value: Any, kind: Any, prefix: str) -> LucidaError:
 
 def _fields(value: Any, kind: Any, path: str) -> list[str]:
     """The fields that the structure at `path` below `kind` may have, for suggestions."""
+    value, kind = _at(value, kind, path)
+    names: list[str] = []
+    for struct in _structs(kind, value):
+        tag = struct.__struct_config__.tag_field
+        names += ([tag] if tag else []) + list(struct.__struct_fields__)
+    return names
+
+
+def _choices(value: Any, kind: Any, path: str) -> list[Any]:
+    """What the Literal at `path` below `kind` allows, for suggestions."""
+    found = _at(value, kind, path)[1]
+    literals = [found, *getattr(found, "__args__", ())]
+    return [c for k in literals if get_origin(k) is Literal for c in get_args(k)]
+
+
+def _at(value: Any, kind: Any, path: str) -> tuple[Any, Any]:
+    """The value at `path`, and the type that it should have."""
     for name in re.findall(r"[^.\[\]]+", path):
         if name.isdigit():
             value = value[int(name)]
         else:
             kind = _field_type(_structs(kind, value), name)
             value = value[name]
-    names: list[str] = []
-    for struct in _structs(kind, value):
-        tag = struct.__struct_config__.tag_field
-        names += ([tag] if tag else []) + list(struct.__struct_fields__)
-    return names
+    return value, kind
 
 
 def _field_type(structs: list[type[msgspec.Struct]], name: str) -> Any:

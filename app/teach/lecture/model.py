@@ -1,0 +1,62 @@
+"""A lecture: its steps, its parts, its outline.
+
+Owns the structures that reading.py makes of a file. Knows nothing of files or windows.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+from app.teach.lecture.exercises import Exercise
+from app.teach.lecture.text import Block
+from renderer.scene.model import Scene, View
+
+
+@dataclass(frozen=True, eq=False)
+class Step:
+    """One step. part: the part of the lecture that it belongs to. views: names of the views to
+    show, the main one first. options: changes of options.Options from its defaults, by part.
+    pixel: the marked one, (row, column), 0-based. highlight: names of controls to point out.
+    line: where it begins in the file."""
+
+    title: str
+    part: str
+    text: str
+    blocks: tuple[Block, ...]
+    scene: Scene
+    view: View
+    views: tuple[str, ...]
+    options: dict[str, Any]
+    pixel: tuple[int, int] | None = None
+    highlight: tuple[str, ...] = ()
+    exercise: Exercise | None = None
+    line: int = 0
+
+
+@dataclass(frozen=True, eq=False)
+class Lecture:
+    """source: the file it comes from."""
+
+    title: str
+    author: str
+    steps: tuple[Step, ...]
+    source: str
+
+    def outline(self) -> list[tuple[str, list[int]]]:
+        """The parts in their order, each with the numbers of its steps, from 0."""
+        parts: list[tuple[str, list[int]]] = []
+        for number, step in enumerate(self.steps):
+            if not parts or parts[-1][0] != step.part:
+                parts.append((step.part, []))
+            parts[-1][1].append(number)
+        return parts
+
+    def followed(self, number: int, newer: Lecture) -> int:
+        """Where to go on in a newer version of this lecture: at the step of the same title that
+        is nearest, otherwise at the same number."""
+        title = self.steps[number].title
+        same = [k for k, step in enumerate(newer.steps) if step.title == title]
+        if same:
+            return min(same, key=lambda k: abs(k - number))
+        return min(number, len(newer.steps) - 1)

@@ -1,0 +1,248 @@
+"""A lecture file into a lecture; every mistake with the file, the line and the field.
+
+Owns the way from the tables of schema.py to steps. Knows nothing of windows.
+"""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+from app.teach.lecture import text as texts
+from app.teach.lecture.exercises import (
+    ChoiceExercise,
+    Exercise,
+    Option,
+    RayExercise,
+    VectorExercise,
+    Wanted,
+)
+from app.teach.lecture.model import Lecture, Step
+from app.teach.lecture.options import options_from_table
+from app.teach.lecture.places import Places, located
+from app.teach.lecture.schema import (
+    HIGHLIGHTS,
+    PANEL,
+    VIEWS,
+    AnyExercise,
+    ChoiceTable,
+    LectureFile,
+    RayTable,
+    StepTable,
+    VectorTable,
+)
+from app.teach.lecture.under import under
+from renderer.errors import LucidaError
+from renderer.frame import check_size
+from renderer.scene.files import scene_from_tables
+from renderer.scene.limits import TOML_BYTES
+from renderer.scene.load import BUILTIN_SCENES, load_scene
+from renderer.scene.model import Scene, View
+from renderer.scene.reading import decode_text, read_file, suggestion
+from renderer.scene.tables import parse_toml, to_struct
+from renderer.scene.views import load_view, view_from_table
+
+BUILTIN = Path(__file__).parents[2] / "lectures" / "images-rays-cameras.toml"
+STEPS = 1000
+
+
+def load_lecture(path: str | Path) -> Lecture:
+    """The lecture in a file. Raises LucidaError: `file:line: field: problem; remedy`."""
+    data = read_file(Path(path), TOML_BYTES)
+    return lecture_from_toml(decode_text(data, str(path)), Path(path).parent, str(path))
+
+
+def lecture_from_toml(text: str, folder: Path, source: str) -> Lecture:
+    """The lecture in a text. folder: where the paths of its scenes and views begin. source: the
+    file's name, for errors."""
+    try:
+        tables = parse_toml(text)
+    except LucidaError as error:
+        raise error.in_file(source) from None
+    places = Places(text)
+    try:
+        return _Reader(folder, source, places).lecture(tables)
+    except texts.TextError as error:
+        where = f"{source}:{places.line(error.field) + error.line}"
+        raise LucidaError(error.field, error.problem, error.remedy, where) from None
+    except LucidaError as error:
+        raise located(error, places, source) from None
+
+
+class _Reader:
+    """Reads one file; keeps its scenes, each of which is read once."""
+
+    def __init__(self, folder: Path, source: str, places: Places) -> None:
+        self._folder, self._source, self._places = folder, source, places
+        self._scenes: dict[str, Scene] = {}
+
+    def lecture(self, tables: dict[str, Any]) -> Lecture:
+        file: LectureFile = to_struct(tables, LectureFile)
+        if not file.title.strip():
+            raise LucidaError("title", "is empty", "give the lecture's title")
+        if not 1 <= len(file.steps) <= STEPS:
+            raise LucidaError("steps", f"holds {len(file.steps)} steps", f"give 1 to {STEPS}")
+        for name, scene in file.scenes.items():
+            with under(f"scenes.{name}"):
+                self._scenes[name] = self._own_scene(scene, name)
+        steps: list[Step] = []
+        part = ""
+        for number, table in enumerate(file.steps):
+            field = f"steps[{number}]"
+            entry: StepTable = to_struct(table, StepTable, field)
+            part = entry.part or part
+            with under(field):
+                steps.append(self._step(entry, part, self._places.line(field)))
+        return Lecture(file.title, file.author, tuple(steps), self._source)
+
+    def _own_scene(self, table: Any, name: str) -> Scene:
+        if name in BUILTIN_SCENES:
+            raise LucidaError("", "is the name of a built-in scene", "give it another")
+        if not isinstance(table, dict):
+            raise LucidaError("", "is not a table", f"write it as [scenes.{name}]")
+        return scene_from_tables(table, self._folder, name)
+
+    def _step(self, table: StepTable, part: str, line: int) -> Step:
+        if not table.title.strip():
+            raise LucidaError("title", "is empty", "give the step's title")
+        with under("text"):
+            blocks = texts.parse(table.text)
+        scene = self._scene(table.scene or BUILTIN_SCENES[0])
+        view = scene.view if table.camera is None else self._view(table.camera)
+        with under("options"):
+            options = options_from_table(table.options)
+        exercise = None
+        if table.exercise is not None:
+            with under("exercise"):
+                exercise = _exercise(table.exercise, view)
+        return Step(
+            table.title,
+            part,
+            table.text,
+            blocks,
+            scene,
+            view,
+            _views(table.views),
+            options,
+            None if table.pixel is None else _pixel(table.pixel),
+            tuple(_known(f"highlight[{k}]", n, HIGHLIGHTS) for k, n in enumerate(table.highlight)),
+            exercise,
+            line,
+        )
+
+    def _scene(self, name: str) -> Scene:
+        if name not in self._scenes:
+            known = name in BUILTIN_SCENES
+            if not known and not Path(name).suffix:
+                names = (*self._scenes, *BUILTIN_SCENES)
+                names = tuple(dict.fromkeys(names))
+                raise LucidaError("scene", f"{name!r} is unknown", suggestion(name, names))
+            try:
+                self._scenes[name] = load_scene(name if known else self._folder / name)
+            except LucidaError as error:
+                raise _of_file(error, "scene") from None
+        return self._scenes[name]
+
+    def _view(self, camera: dict[str, Any] | str) -> View:
+        if not isinstance(camera, str):
+            return view_from_table(camera)
+        try:
+            return load_view(self._folder / camera)
+        except LucidaError as error:
+            raise _of_file(error, "camera") from None
+
+
+def _views(names: list[str]) -> tuple[str, ...]:
+    for number, name in enumerate(names):
+        _known(f"views[{number}]", name, (*VIEWS, PANEL))
+    if len(set(names)) < len(names):
+        raise LucidaError("views", "names one twice", "name each view once")
+    pictures = [name for name in names if name != PANEL]
+    if not 1 <= len(pictures) <= 2:
+        raise LucidaError(
+            "views",
+            f"names {len(pictures)} besides {PANEL!r}",
+            "give one or two: a class looks at one thing at a time",
+        )
+    return tuple(names)
+
+
+def _exercise(table: Any, view: View) -> Exercise:
+    entry: RayTable | VectorTable | ChoiceTable = to_struct(table, AnyExercise)
+    if not entry.question.strip():
+        raise LucidaError("question", "is empty", "ask something")
+    with under("question"):
+        texts.parse(entry.question)
+    match entry:
+        case RayTable():
+            return _ray_exercise(entry, view)
+        case VectorTable():
+            return _vector_exercise(entry)
+    return _choice_exercise(entry)
+
+
+def _ray_exercise(entry: RayTable, view: View) -> RayExercise:
+    size = check_size(entry.size)
+    pixel = _pixel(entry.pixel)
+    if pixel[0] >= size[1] or pixel[1] >= size[0]:
+        raise LucidaError(
+            "pixel",
+            f"{list(entry.pixel)} is not in an image of {size[0]}x{size[1]}",
+            f"give a row up to {size[1]} and a column up to {size[0]}",
+        )
+    camera = view.camera if entry.camera is None else view_from_table(entry.camera).camera
+    tolerance = _tolerance(entry.tolerance)
+    return RayExercise(entry.question, camera, pixel, size, entry.scaled, tolerance)
+
+
+def _vector_exercise(entry: VectorTable) -> VectorExercise:
+    if not entry.answers:
+        raise LucidaError("answers", "is empty", "give at least one vector")
+    wanted: list[Wanted] = []
+    for number, answer in enumerate(entry.answers):
+        if any(answer.name == other.name for other in wanted):
+            field = f"answers[{number}].name"
+            raise LucidaError(field, f"{answer.name!r} is there already", "give another name")
+        wrong = tuple((known.value, known.feedback) for known in answer.wrong)
+        wanted.append(Wanted(answer.name, answer.value, answer.scaled, wrong))
+    return VectorExercise(entry.question, tuple(wanted), _tolerance(entry.tolerance))
+
+
+def _choice_exercise(entry: ChoiceTable) -> ChoiceExercise:
+    right = sum(option.right for option in entry.options)
+    if len(entry.options) < 2:
+        raise LucidaError("options", f"holds {len(entry.options)}", "give at least two")
+    if right != 1:
+        raise LucidaError("options", f"has {right} right ones", "set right = true in exactly one")
+    for number, option in enumerate(entry.options):
+        with under(f"options[{number}].text"):
+            texts.parse(option.text)
+        with under(f"options[{number}].feedback"):
+            texts.parse(option.feedback)
+    options = tuple(Option(o.text, o.feedback, o.right) for o in entry.options)
+    return ChoiceExercise(entry.question, options)
+
+
+def _tolerance(value: float) -> float:
+    if not 0 < value <= 0.1:
+        raise LucidaError("tolerance", f"{value:g} is out of range", "give up to 0.1, e.g. 0.002")
+    return value
+
+
+def _pixel(pixel: tuple[int, int]) -> tuple[int, int]:
+    """Row and column from 1, as the lecture counts, to row and column from 0."""
+    if min(pixel) < 1:
+        raise LucidaError("pixel", f"{list(pixel)} is no pixel", "give row and column, from 1")
+    return pixel[0] - 1, pixel[1] - 1
+
+
+def _known(field: str, name: str, names: tuple[str, ...]) -> str:
+    if name not in names:
+        raise LucidaError(field, f"{name[:40]!r} is unknown", suggestion(name, names))
+    return name
+
+
+def _of_file(error: LucidaError, field: str) -> LucidaError:
+    """An error in another file, told as the problem of the field that names the file."""
+    parts = [part for part in (error.source, error.field) if part and part != field]
+    return LucidaError(field, ": ".join([*parts, error.problem]), error.remedy)

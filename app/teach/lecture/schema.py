@@ -1,0 +1,113 @@
+"""The tables of a lecture file, as msgspec structures; docs/lectures.md explains them.
+
+Owns the fields' names, types and defaults. What the values must fulfil beyond that is checked by
+reading.py.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+from msgspec import field
+
+from renderer.scene.schema import Numbers3, Table
+
+# What a step can show. A view of the window has the name with a capital.
+VIEWS = ("raster", "ray", "outside", "compare", "probe", "stepper", "costs", "laboratory")
+PANEL = "camera"  # may stand beside them
+
+# What a step can point out: fields of the camera's panel, and views.
+HIGHLIGHTS = (
+    "projection",
+    "eye",
+    "u",
+    "v",
+    "w",
+    "distance",
+    "viewport",
+    "near",
+    "far",
+    "keep_orthonormal",
+    "fit",
+    *VIEWS,
+)
+
+
+class StepTable(Table, kw_only=True):
+    """[[steps]]. pixel: the marked pixel, row and column from 1."""
+
+    title: str
+    part: str = ""
+    text: str = ""
+    scene: str = ""
+    camera: dict[str, Any] | str | None = None
+    views: list[str] = field(default_factory=lambda: ["raster"])
+    options: dict[str, Any] = field(default_factory=dict)
+    pixel: tuple[int, int] | None = None
+    highlight: list[str] = field(default_factory=list)
+    exercise: dict[str, Any] | None = None
+
+
+class RayTable(Table, kw_only=True, tag_field="kind", tag="ray"):
+    """[steps.exercise] kind = "ray": the ray of a pixel of the step's camera, or of `camera`.
+
+    pixel: row and column from 1. size: width and height of the image.
+    """
+
+    question: str
+    pixel: tuple[int, int]
+    size: tuple[int, int]
+    camera: dict[str, Any] | None = None
+    scaled: bool = True
+    tolerance: float = 2e-3
+
+
+class WrongTable(Table):
+    """An answer that is known to be wrong, and what to tell."""
+
+    value: Numbers3
+    feedback: str
+
+
+class WantedTable(Table):
+    """A vector that is asked for."""
+
+    name: str
+    value: Numbers3
+    scaled: bool = False
+    wrong: list[WrongTable] = field(default_factory=list)
+
+
+class VectorTable(Table, kw_only=True, tag_field="kind", tag="vector"):
+    """[steps.exercise] kind = "vector": one vector or several."""
+
+    question: str
+    answers: list[WantedTable]
+    tolerance: float = 2e-3
+
+
+class OptionTable(Table):
+    """An answer to choose."""
+
+    text: str
+    feedback: str
+    right: bool = False
+
+
+class ChoiceTable(Table, kw_only=True, tag_field="kind", tag="choice"):
+    """[steps.exercise] kind = "choice": one of several answers."""
+
+    question: str
+    options: list[OptionTable]
+
+
+AnyExercise = RayTable | VectorTable | ChoiceTable
+
+
+class LectureFile(Table, kw_only=True):
+    """A lecture file. scenes: scenes as scene files hold them, by name, for the steps below."""
+
+    title: str
+    author: str = ""
+    scenes: dict[str, Any] = field(default_factory=dict)
+    steps: list[Any]

@@ -1,0 +1,22 @@
+"""From a step to the state of the window.
+
+Pure. Knows nothing of how a view is shown: that is the window's part of a step (views/lecture.py).
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+from app.options import Options
+from app.state import AppState, is_orthonormal
+from app.teach.lecture.model import Step
+
+
+def state_of(step: Step, base: AppState) -> AppState:
+    """The step's own state: its scene, its view and its options, whatever was there before.
+
+    base: the present state, of which only what is the user's own stays: preferences.
+    """
+    options = replace(Options(), preferences=base.preferences, marked=step.pixel)
+    state = AppState(step.scene, step.view, is_orthonormal(step.view.camera), options)
+    return state.with_options(**step.options)

@@ -1,0 +1,266 @@
+r"""Markdown with formulas, into blocks to draw.
+
+Owns what of Markdown a lecture may use: headings (#), paragraphs, lists (- or 1.), code (```),
+questions to the class (>), **bold**, *italic*, `code`, $formulas$ and $$displayed formulas$$.
+\$ is a dollar sign. Knows nothing of fonts or of how a formula is set.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+from renderer.errors import LucidaError
+
+
+@dataclass(frozen=True)
+class Words:
+    """A run of text in one style."""
+
+    text: str
+    bold: bool = False
+    italic: bool = False
+    code: bool = False
+
+
+@dataclass(frozen=True)
+class Math:
+    """A formula in the line, as LaTeX."""
+
+    latex: str
+
+
+Span = Words | Math
+Line = tuple[Span, ...]
+
+
+@dataclass(frozen=True)
+class Heading:
+    level: int
+    line: Line
+
+
+@dataclass(frozen=True)
+class Paragraph:
+    line: Line
+
+
+@dataclass(frozen=True)
+class Question:
+    """What is asked of the class."""
+
+    line: Line
+
+
+@dataclass(frozen=True)
+class Listing:
+    """A list; numbered from 1, or with bullets."""
+
+    items: tuple[Line, ...]
+    numbered: bool = False
+
+
+@dataclass(frozen=True)
+class Code:
+    """Lines of code, as they stand. language: what the fence says, or empty."""
+
+    text: str
+    language: str = ""
+
+
+@dataclass(frozen=True)
+class Formula:
+    """A displayed formula, as LaTeX."""
+
+    latex: str
+
+
+Block = Heading | Paragraph | Question | Listing | Code | Formula
+
+
+class TextError(LucidaError):
+    """A mistake in a text. line: where, 0 for the text's first line."""
+
+    def __init__(self, line: int, problem: str, remedy: str) -> None:
+        super().__init__("", problem, remedy)
+        self.line = line
+
+
+_ITEM = re.compile(r"(?:[-*]|(\d+)\.)\s+(.*)")
+_SPAN = re.compile(
+    r"\\([\\$*`>#-])"  # 1: a sign that means itself
+    r"|`([^`]+)`"  # 2: code
+    r"|\$((?:[^$\\]|\\.)+)\$"  # 3: a formula
+    r"|\*\*(.+?)\*\*(?!\*)"  # 4: bold
+    r"|\*(?![\s*])(.+?)(?<!\s)\*"  # 5: italic
+)
+
+
+def parse(text: str) -> tuple[Block, ...]:
+    """The blocks of a text. Raises TextError where a fence or a formula does not end."""
+    return tuple(_blocks(text.splitlines()))
+
+
+def plain(blocks: tuple[Block, ...]) -> str:
+    """The words of a text without their marks; formulas as their LaTeX."""
+    parts = []
+    for block in blocks:
+        match block:
+            case Listing():
+                parts += [words(item) for item in block.items]
+            case Code():
+                parts.append(block.text)
+            case Formula():
+                parts.append(block.latex)
+            case _:
+                parts.append(words(block.line))
+    return "\n".join(parts)
+
+
+def words(line: Line) -> str:
+    """A line's words without their marks."""
+    return "".join(span.text if isinstance(span, Words) else span.latex for span in line)
+
+
+def formulas(blocks: tuple[Block, ...]) -> tuple[str, ...]:
+    """All formulas of a text, as LaTeX."""
+    found = []
+    for block in blocks:
+        if isinstance(block, Formula):
+            found.append(block.latex)
+        elif not isinstance(block, Code):
+            lines = block.items if isinstance(block, Listing) else (block.line,)
+            found += [span.latex for line in lines for span in line if isinstance(span, Math)]
+    return tuple(found)
+
+
+def _blocks(lines: list[str]) -> Iterator[Block]:
+    number = 0
+    while number < len(lines):
+        line = lines[number].strip()
+        start = number
+        number += 1
+        if not line:
+            continue
+        if line.startswith("```"):
+            while number < len(lines) and lines[number].strip() != "```":
+                number += 1
+            if number == len(lines):
+                raise TextError(start, "the code does not end", "close it by a line of ```")
+            yield Code("\n".join(lines[start + 1 : number]), line[3:].strip())
+            number += 1
+        elif line.startswith("$$"):
+            while not (
+                lines[number - 1].rstrip().endswith("$$") and _text_of(lines, start, number)
+            ):
+                if number == len(lines):
+                    raise TextError(start, "the formula does not end", "close it by $$")
+                number += 1
+            yield Formula(_balanced(_text_of(lines, start, number), start))
+        elif line.startswith("#"):
+            level = len(line) - len(line.lstrip("#"))
+            yield Heading(level, _line(line[level:].strip(), start))
+        elif _ITEM.fullmatch(line):
+            items, number = _items(lines, start)
+            numbered = line[0].isdigit()
+            yield Listing(tuple(_line(item, start + k) for k, item in items), numbered)
+        else:
+            asked = line.startswith(">")
+            while number < len(lines) and _goes_on(lines[number], asked):
+                number += 1
+            content = " ".join(part.strip().lstrip(">").strip() for part in lines[start:number])
+            spans = _line(content, start)
+            yield Question(spans) if asked else Paragraph(spans)
+
+
+def _items(lines: list[str], start: int) -> tuple[list[tuple[int, str]], int]:
+    """A list's items, each with its line after `start`, and the number of the line behind it."""
+    items: list[tuple[int, str]] = []
+    number = start
+    while number < len(lines) and lines[number].strip():
+        item = _ITEM.fullmatch(lines[number].strip())
+        if item:
+            items.append((number - start, item[2]))
+        else:  # a line that goes on with the item above it
+            where, text = items[-1]
+            items[-1] = (where, f"{text} {lines[number].strip()}")
+        number += 1
+    return items, number
+
+
+def _goes_on(line: str, asked: bool) -> bool:
+    """Whether a paragraph, or a question, goes on with this line."""
+    line = line.strip()
+    if asked:
+        return line.startswith(">")
+    begins = line.startswith(("```", "$$", "#", ">")) or _ITEM.fullmatch(line)
+    return bool(line) and not begins
+
+
+def _text_of(lines: list[str], start: int, end: int) -> str:
+    """What is between the $$ of a displayed formula; empty where it is not closed yet."""
+    whole = "\n".join(lines[start:end]).strip()
+    return whole[2:-2].strip() if len(whole) > 4 and whole.endswith("$$") else ""
+
+
+def _line(text: str, number: int) -> Line:
+    return tuple(_merged(_spans(text, number)))
+
+
+def _spans(text: str, number: int, bold: bool = False, italic: bool = False) -> Iterator[Span]:
+    at = 0
+    for match in _SPAN.finditer(text):
+        yield from _plain(text[at : match.start()], number, bold, italic)
+        at = match.end()
+        sign, code, latex, strong, slanted = match.groups()
+        if sign:
+            yield Words(sign, bold, italic)
+        elif code:
+            yield Words(code, bold, italic, code=True)
+        elif latex:
+            yield Math(_balanced(latex.strip(), number))
+        elif strong:
+            yield from _spans(strong, number, True, italic)
+        else:
+            yield from _spans(slanted, number, bold, True)
+    yield from _plain(text[at:], number, bold, italic)
+
+
+def _plain(text: str, number: int, bold: bool, italic: bool) -> Iterator[Span]:
+    if "$" in text:
+        raise TextError(
+            number, "a formula does not end", r"close it by $, or write \$ for a dollar"
+        )
+    if text:
+        yield Words(text, bold, italic)
+
+
+def _merged(spans: Iterator[Span]) -> Iterator[Span]:
+    """Neighbours of one style as one."""
+    last: Span | None = None
+    for span in spans:
+        if (
+            isinstance(span, Words)
+            and isinstance(last, Words)
+            and (span.bold, span.italic, span.code) == (last.bold, last.italic, last.code)
+        ):
+            last = Words(last.text + span.text, span.bold, span.italic, span.code)
+            continue
+        if last is not None:
+            yield last
+        last = span
+    if last is not None:
+        yield last
+
+
+def _balanced(latex: str, number: int) -> str:
+    """The formula, if its braces match."""
+    depth = 0
+    for sign in re.sub(r"\\[{}\\]", "", latex):
+        depth += (sign == "{") - (sign == "}")
+        if depth < 0:
+            break
+    if depth:
+        raise TextError(number, f"the braces of {latex[:40]!r} do not match", "correct the formula")
+    return latex

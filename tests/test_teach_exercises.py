@@ -1,0 +1,188 @@
+"""Typed answers, and what exercises say to right and wrong ones."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from app.teach.lecture.answers import number, text_of, vector, vector_text
+from app.teach.lecture.exercises import (
+    ChoiceExercise,
+    Option,
+    RayExercise,
+    VectorExercise,
+    Wanted,
+)
+from app.teach.lecture.mistakes import mistakes
+from renderer.camera import Camera
+from renderer.errors import LucidaError
+
+
+class TestAnswers:
+    @pytest.mark.parametrize(
+        ("text", "value"),
+        [
+            ("1/8", 0.125),
+            (" -0.25 ", -0.25),
+            ("\u22121/4", -0.25),
+            ("(6 - 0.5)/8 - 0.5", 0.1875),
+            ("1/sqrt(2)", math.sqrt(0.5)),
+            ("\u221a(2)/2", math.sqrt(0.5)),
+            ("2e-3", 0.002),
+            ("+3", 3.0),
+        ],
+    )
+    def test_numbers(self, text, value):
+        assert number(text) == pytest.approx(value)
+
+    @pytest.mark.parametrize(
+        "text",
+        [
+            "", "x", "1/0", "1e999", "2**9999", "__import__('os')", "sqrt(-1)", "sqrt(1, 2)",
+            "1 2", "True", "(" * 60 + ")" * 10, "9" * 81, "1j", "'1'", "sqrt", "[1]",
+        ],
+    )  # fmt: skip
+    def test_what_is_no_number(self, text):
+        with pytest.raises(LucidaError):
+            number(text)
+
+    @pytest.mark.parametrize(
+        "text", ["(1/8, 0, -1)", "1/8, 0, -1", "[0.125; 0; -1]", "1/8 0 -1", "(1/8), 0, (-1)"]
+    )
+    def test_vectors(self, text):
+        assert vector(text).tolist() == [0.125, 0.0, -1.0]
+
+    @pytest.mark.parametrize("text", ["", "1, 2", "1, 2, 3, 4", "1, , 3", "a b c"])
+    def test_what_is_no_vector(self, text):
+        with pytest.raises(LucidaError):
+            vector(text)
+
+    def test_how_solutions_are_written(self):
+        assert [text_of(x) for x in (0.125, -0.0, 3.0, -2 / 3, 5 / 16, 0.70710678)] == [
+            "1/8", "0", "3", "-2/3", "5/16", "0.7071",
+        ]  # fmt: skip
+        assert vector_text(np.array([0.5, 0, -1])) == "(1/2, 0, -1)"
+
+
+CANONICAL = RayExercise("Which?", Camera.canonical(), (1, 5), (8, 8))
+ANY = RayExercise(
+    "Which?",
+    Camera((4, 1, 0), (0, 0, -1), (0, 1, 0), (1, 0, 0), 2.0, (-0.5, 0.5, -0.4, 0.6)),
+    (0, 2),
+    (4, 3),
+    scaled=False,
+)
+PARALLEL = RayExercise(
+    "Which?", replace(ANY.camera, projection="parallel"), (0, 2), (4, 3), scaled=False
+)
+
+
+def answer(origin: object, direction: object) -> dict[str, str]:
+    return {
+        "origin": ", ".join(map(repr, map(float, origin))),
+        "direction": ", ".join(map(repr, map(float, direction))),
+    }
+
+
+class TestRays:
+    def test_by_hand(self):
+        # Row 2, column 6 of 8: u = 5.5/8 - 0.5, v = -(1.5/8 - 0.5).
+        right = CANONICAL.check({"origin": "(0, 0, 0)", "direction": "3/16, 5/16, -1"})
+        assert right.right
+        assert CANONICAL.check({"origin": "0 0 0", "direction": "(3, 5, -16)"}).right
+        rounded = CANONICAL.check({"origin": "0,0,0", "direction": "0.188, 0.313, -1"})
+        assert rounded.right
+
+    @pytest.mark.parametrize("exercise", [CANONICAL, ANY, PARALLEL])
+    def test_the_renderers_ray_is_right_and_nothing_near_it(self, exercise):
+        ray = exercise.camera.ray(*exercise.pixel, exercise.size)
+        assert exercise.check(answer(*ray)).right
+        for part in range(3):
+            for where in (0, 1):
+                wrong = [np.array(ray.origin), np.array(ray.direction)]
+                wrong[where][part] += 0.05
+                verdict = exercise.check(answer(*wrong))
+                assert not verdict.right
+                assert verdict.field == ("origin", "direction")[where]
+
+    @pytest.mark.parametrize("exercise", [CANONICAL, ANY, PARALLEL])
+    def test_every_classic_mistake_is_told_by_its_own_hint(self, exercise):
+        camera, pixel, size = exercise.camera, exercise.pixel, exercise.size
+        right = camera.ray(*pixel, size)
+        told = set()
+        for mistake in mistakes(camera, *pixel, size):
+            same = np.allclose(mistake.ray.origin, right.origin) and np.allclose(
+                mistake.ray.direction, right.direction
+            )
+            verdict = exercise.check(answer(*mistake.ray))
+            assert verdict.right == same, mistake.name
+            if not same:
+                told.add(verdict.text)
+                alike = [
+                    other.hint
+                    for other in mistakes(camera, *pixel, size)
+                    if np.allclose(other.ray.origin, mistake.ray.origin)
+                    and np.allclose(other.ray.direction, mistake.ray.direction)
+                ]
+                assert verdict.text == alike[0], mistake.name
+        assert len(told) >= 6
+
+    def test_mistakes_by_hand(self):
+        def hint(direction: str) -> str:
+            return CANONICAL.check({"origin": "0, 0, 0", "direction": direction}).text
+
+        assert "minus sign" in hint("3/16, -5/16, -1")
+        assert "-d w" in hint("3/16, 5/16, 1")
+        assert "count from 1" in hint("6/8 - 1/2, 1/2 - 2/8, -1")
+        assert "corner" in hint("5/8 - 1/2, 1/2 - 1/8, -1")
+        assert "row, column" in hint("1.5/8 - 1/2, 1/2 - 5.5/8, -1")
+        assert "backwards" in hint("-3/16, -5/16, 1")
+        assert "parallel ray" in hint("0, 0, -1")
+
+    def test_length_counts_where_the_question_says_so(self):
+        strict = replace(CANONICAL, scaled=False)
+        verdict = strict.check({"origin": "0, 0, 0", "direction": "3, 5, -16"})
+        assert not verdict.right and "length" in verdict.text
+
+    def test_what_is_no_vector_is_told_with_its_field(self):
+        verdict = CANONICAL.check({"origin": "0, 0, 0", "direction": "left"})
+        assert (verdict.right, verdict.field) == (False, "direction")
+        assert "is not three numbers" in verdict.text
+        assert CANONICAL.check({}).field == "origin"
+        assert not CANONICAL.check({"origin": "0 0 0", "direction": "0 0 0"}).right
+
+    def test_the_solution(self):
+        text = CANONICAL.solution()
+        assert "Pixel (2, 6)" in text and "(3/16, 5/16, -1)" in text
+        assert r"\mathbf{p} = \mathbf{e} + u" in PARALLEL.solution()
+
+
+class TestVectors:
+    exercise = VectorExercise(
+        "u and w?",
+        (
+            Wanted("w", (1, 0, 0), wrong=(((-1.0, 0.0, 0.0), "w points back."),)),
+            Wanted("u", (0, 0, -1), scaled=True),
+        ),
+    )
+
+    def test_verdicts(self):
+        check = self.exercise.check
+        assert check({"w": "1, 0, 0", "u": "0 0 -5"}).right
+        assert check({"w": "-1, 0, 0", "u": "0 0 -5"}).text == "w points back."
+        assert "length" in check({"w": "2, 0, 0", "u": "0 0 -5"}).text
+        other_way = check({"w": "1, 0, 0", "u": "0 0 1"})
+        assert other_way.field == "u" and "other way" in other_way.text
+        assert "not right" in check({"w": "1, 0, 0", "u": "1 0 0"}).text
+        assert check({"w": "1, 0, 0"}).field == "u"
+        assert "(0, 0, -1)" in self.exercise.solution()
+
+
+def test_choices_have_feedback_for_each():
+    exercise = ChoiceExercise("Which?", (Option("a", "No."), Option("b", "Yes.", right=True)))
+    assert [exercise.check(k).right for k in (0, 1)] == [False, True]
+    assert [exercise.check(k).text for k in (0, 1)] == ["No.", "Yes."]
+    assert exercise.solution() == "b\n\nYes."

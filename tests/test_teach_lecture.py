@@ -1,0 +1,362 @@
+"""Lecture files: what they hold, and mistakes with file, line and field; the built-in lecture."""
+
+from __future__ import annotations
+
+import re
+from dataclasses import fields
+from pathlib import Path
+
+import pytest
+
+from app.options import Options
+from app.state import AppState
+from app.teach.lecture import text as texts
+from app.teach.lecture.exercises import ChoiceExercise, RayExercise, VectorExercise
+from app.teach.lecture.options import ELSEWHERE
+from app.teach.lecture.places import Places, parsed_path
+from app.teach.lecture.reading import BUILTIN, lecture_from_toml, load_lecture
+from app.teach.lecture.states import state_of
+from app.teach.lecture.watching import Watch, signature
+from renderer.camera import Camera
+from renderer.errors import LucidaError
+from renderer.scene import load_scene
+
+FILE = '''\
+lucida = 1
+title = "A lecture"
+author = "A. Speaker"
+
+[scenes.ball]
+objects = [
+    { type = "sphere" },
+]
+
+[[steps]]
+title = "One"
+part = "First"
+text = """
+# Hello
+A **bold** word and $u = 1$.
+
+- one
+"""
+scene = "ball"
+camera = { eye = [0, 0, 5] }
+views = ["outside", "camera"]
+options.images.pixel_size = 8
+options.images.channel = "depth"
+options.outside.bundle = [4, 4]
+options.outside.camera = { eye = [5, 5, 5], target = [0, 0, 0] }
+options.shadows = true
+pixel = [2, 3]
+highlight = ["eye", "outside"]
+
+[steps.exercise]
+kind = "ray"
+question = "Which ray?"
+pixel = [1, 3]
+size = [4, 3]
+
+[[steps]]
+title = "Two"
+
+[[steps]]
+title = "Three"
+part = "Second"
+exercise.kind = "choice"
+exercise.question = "Which?"
+exercise.options = [
+    { text = "this", feedback = "No." },
+    { text = "that", feedback = "Yes.", right = true },
+]
+'''
+
+
+def read(text: str = FILE, folder: Path = Path()):
+    return lecture_from_toml(text, folder, "x.toml")
+
+
+class TestReading:
+    def test_a_whole_file(self):
+        lecture = read()
+        assert (lecture.title, lecture.author) == ("A lecture", "A. Speaker")
+        assert lecture.outline() == [("First", [0, 1]), ("Second", [2])]
+        one, two, three = lecture.steps
+        assert [step.line for step in lecture.steps] == [10, 36, 39]
+        assert one.scene.name == "ball"
+        assert one.view.camera == Camera(eye=(0, 0, 5))
+        assert one.views == ("outside", "camera")
+        assert one.pixel == (1, 2)  # row 2, column 3
+        assert one.highlight == ("eye", "outside")
+        assert one.options["images"] == {"pixel_size": 8, "channel": "depth"}
+        assert one.options["outside"]["bundle"] == (4, 4)
+        assert one.options["outside"]["camera"] == Camera.look_at((5, 5, 5), (0, 0, 0))
+        assert isinstance(one.exercise, RayExercise)
+        assert (one.exercise.pixel, one.exercise.size) == ((0, 2), (4, 3))
+        assert one.exercise.camera == one.view.camera
+        assert isinstance(three.exercise, ChoiceExercise)
+        assert [option.right for option in three.exercise.options] == [False, True]
+        # What a step leaves out.
+        assert two.views == ("raster",) and two.part == "First"
+        assert two.pixel is None and two.exercise is None and not two.options
+        assert two.scene.name == "still life" and two.view == two.scene.view
+
+    def test_a_step_is_a_state_whatever_was_before(self):
+        one, two, _ = read().steps
+        before = AppState.for_scene(load_scene("columns"))
+        before = before.with_options(
+            preferences={"presentation": True}, mirrors=True, images={"exposure_ev": 2.0}
+        )
+        state = state_of(one, before)
+        assert state.scene is one.scene and state.camera == one.view.camera
+        assert state.images.pixel_size == 8 and state.images.channel == "depth"
+        assert state.marked == (1, 2) and state.options.shadows
+        assert not state.options.mirrors and state.images.exposure_ev == 0.0
+        assert state.preferences.presentation  # the speaker's own
+        assert state_of(one, state_of(two, before)) == state
+
+    def test_every_option_is_known_to_a_step(self):
+        lines = [line for line in FILE.splitlines() if not line.startswith("options.")]
+        for name in {entry.name for entry in fields(Options)} - set(ELSEWHERE):
+            broken = "\n".join([*lines[:20], f"options.{name} = []", *lines[20:]])
+            with pytest.raises(LucidaError, match=rf"x\.toml:21: steps\[0\]\.options\.{name}: "):
+                read(broken)
+
+    def test_scenes_and_views_beside_the_file(self, tmp_path):
+        (tmp_path / "one.toml").write_text('[[objects]]\ntype = "box"\n')
+        (tmp_path / "eye.toml").write_text("[camera]\neye = [1, 2, 3]\n")
+        text = FILE.replace('"ball"', '"one.toml"').replace("{ eye = [0, 0, 5] }", '"eye.toml"')
+        step = read(text, tmp_path).steps[0]
+        assert step.scene.name == "one" and step.view.camera.eye == (1, 2, 3)
+        (tmp_path / "one.toml").write_text('[[objects]]\ntype = "bax"\n')
+        with pytest.raises(LucidaError) as told:
+            read(text, tmp_path)
+        assert str(told.value).startswith("x.toml:19: steps[0].scene: ")
+        assert "one.toml: objects[0].type: 'bax' is unknown; did you mean 'box'?" in str(told.value)
+
+    @pytest.mark.parametrize(
+        ("old", "new", "line", "told"),
+        [
+            ('"depth"', '"depht"', 23, "options.images.channel: 'depht' is unknown; did you mean"),
+            ("bundle", "bundel", 24, "options.outside.bundel: is unknown; did you mean 'bundle'?"),
+            ("[4, 4]", "[4, 400]", 24, "options.outside.bundle: is out of range"),
+            ("size = 8", "size = 7", 22, "options.images.pixel_size: 7 is not possible"),
+            ("pixel_size = 8", "exposure_ev = 9", 22, "options.images.exposure_ev: 9 is out of"),
+            ("pixel_size = 8", "resolution = [0, 1]", 22, "options.images.resolution: 0x1 has no"),
+            ("options.shadows", "options.preferences", 26, "options.preferences: is unknown"),
+            ("[0, 0, 5]", "[0, 0]", 20, "camera.eye: has 2 entries; give 3"),
+            ("[0, 0, 0]", "[5, 5, 5]", 25, "options.outside.camera.target: (5, 5, 5) is the eye"),
+            ('"ball"', '"bal"', 19, "scene: 'bal' is unknown; did you mean 'ball'?"),
+            ('"ball"', '"gone.toml"', 19, "scene: gone.toml: does not exist"),
+            ("{ eye = [0, 0, 5] }", '"gone.toml"', 20, "camera: gone.toml: does not exist"),
+            ('"outside", "', '"outsid", "', 21, "views[0]: 'outsid' is unknown; did you mean"),
+            ('"outside", "', '"ray", "probe", "raster", "', 21, "views: names 3 besides 'camera'"),
+            ('"outside", "camera"]', '"ray", "ray"]', 21, "views: names one twice"),
+            ("[2, 3]", "[0, 3]", 27, "pixel: [0, 3] is no pixel; give row and column, from 1"),
+            ('"eye", "', '"eyes", "', 28, "highlight[0]: 'eyes' is unknown; did you mean 'eye'?"),
+            ('title = "One"', 'titel = "One"', 11, "titel: is unknown; did you mean 'title'?"),
+            ('title = "Two"', "", 36, "title: is missing; give it"),
+            ('title = "Two"', 'title = " "', 37, "title: is empty"),
+            ("$u = 1$", "$u = 1", 15, "text: a formula does not end"),
+            ("$u = 1$", "$\\\\frac{1}{2$", 15, "text: the braces of "),
+            ("- one", "```", 17, "text: the code does not end"),
+            ("[4, 3]", "[2, 3]", 33, "exercise.pixel: [1, 3] is not in an image of 2x3"),
+            ('"Which ray?"', '""', 32, "exercise.question: is empty"),
+            ('kind = "ray"', 'kind = "rya"', 31, "exercise.kind: 'rya' is unknown; did you"),
+            (", right = true", "", 44, "exercise.options: has 0 right ones"),
+            ('"that", ', '"$that", ', 46, "exercise.options[1].text: a formula does not end"),
+            ('"sphere"', '"sphre"', 7, "objects[0].type: 'sphre' is unknown; did you mean"),
+            ("scenes.ball", "scenes.spheres", 5, "scenes.spheres: is the name of a built-in"),
+        ],
+    )  # fmt: skip
+    def test_mistakes_name_file_line_and_field(self, old, new, line, told):
+        assert old in FILE
+        with pytest.raises(LucidaError) as error:
+            read(FILE.replace(old, new, 1))
+        assert str(error.value).startswith(f"x.toml:{line}: "), error.value
+        assert told in str(error.value)
+
+    def test_mistakes_of_the_whole(self, tmp_path):
+        for text, told in (
+            ('title = "x"\nsteps = []', "x.toml:2: steps: holds 0 steps"),
+            ('title = "x"', "x.toml:1: steps: is missing"),
+            ('title = "x"\nsteps = [1]', r"x.toml:2: steps[0]: is a whole number; give a table"),
+            ('title = ""\n[[steps]]\ntitle = "x"', "x.toml:1: title: is empty"),
+            ("title = ", "x.toml: line 1, column 9: invalid value"),
+            ("lucida = 2", "x.toml: lucida: the file is of version 2"),
+        ):
+            with pytest.raises(LucidaError) as error:
+                read(text)
+            assert str(error.value).startswith(told)
+        with pytest.raises(LucidaError, match="does not exist"):
+            load_lecture(tmp_path / "none.toml")
+
+
+class TestPlaces:
+    def test_every_form_of_toml(self):
+        text = (
+            "a = 1 # [x]\n"  # 1
+            "'b c'.d = { e = [1, { f = 2 }], g = '}' }\n"  # 2
+            "\n"
+            "[t] # comment\n"  # 4
+            'x."y".z = "# not a comment ] ["\n'  # 5
+            "list = [\n  1, # one\n  [2,\n   3],\n]\n"  # 6 to 10
+            'long = """\nfirst\n\\"""\nlast"""\n'  # 11 to 14
+            "same = '''one\ntwo'''\n"  # 15, 16
+            "[[t.many]]\nk = 1\n"  # 17
+            "[[t.many]]\n"  # 19
+            "[t.many.in]\nk = 2\n"  # 20
+            "[[t.many.in.deep]]\n[[t.many.in.deep]]\nlast = 1979-05-27T07:32:00Z\n"  # 22, 23
+        )
+        places = Places(text)
+        lines = {
+            "a": 1, "b c": 2, "b c.d": 2, "b c.d.e[1].f": 2, "b c.d.g": 2, "t": 4, "t.x.y.z": 5,
+            "t.list": 6, "t.list[0]": 7, "t.list[1]": 8, "t.list[1][1]": 9, "t.long": 12,
+            "t.same": 15, "t.many[0]": 17, "t.many[0].k": 18, "t.many[1]": 19, "t.many[1].in": 20,
+            "t.many[1].in.k": 21, "t.many[1].in.deep[1]": 23, "t.many[1].in.deep[1].last": 24,
+        }  # fmt: skip
+        assert {field: places.line(field) for field in lines} == lines
+        # What is not there is where it should be.
+        assert places.line("t.many[1].in.missing") == 20
+        assert places.line("nothing") == 1
+
+    def test_paths(self):
+        assert parsed_path("steps[3].camera.w") == ("steps", 3, "camera", "w")
+        assert parsed_path("") == ()
+
+    @pytest.mark.parametrize("text", ["a = [1", "[[", '"', "{", "a = {", "= = =", "'''", "a.b.c"])
+    def test_what_is_no_toml_ends_too(self, text):
+        assert Places(text).line("a") >= 1
+
+
+class TestText:
+    def test_blocks(self):
+        blocks = texts.parse(
+            "# One\n\nA *slanted* **bold $x$** `code`\ngoes on.\n> Why\n> so?\n"
+            "- a\n- b\n  c\n\n1. x\n2. y\n\n$$\na\nb\n$$\n$$ c $$\n```python\n  x = $1\n```\n"
+        )
+        words = texts.Words
+        assert blocks == (
+            texts.Heading(1, (words("One"),)),
+            texts.Paragraph(
+                (
+                    words("A "),
+                    words("slanted", italic=True),
+                    words(" "),
+                    words("bold ", bold=True),
+                    texts.Math("x"),
+                    words(" "),
+                    words("code", code=True),
+                    words(" goes on."),
+                )
+            ),
+            texts.Question((words("Why so?"),)),
+            texts.Listing(((words("a"),), (words("b c"),))),
+            texts.Listing(((words("x"),), (words("y"),)), numbered=True),
+            texts.Formula("a\nb"),
+            texts.Formula("c"),
+            texts.Code("  x = $1", "python"),
+        )
+        assert texts.formulas(blocks) == ("x", "a\nb", "c")
+        assert "slanted" in texts.plain(blocks) and "*" not in texts.plain(blocks)
+
+    def test_signs_that_mean_themselves(self):
+        (paragraph,) = texts.parse(r"\$5 and 3 * 4 * 5 and \*, `a*b*c`")
+        assert texts.words(paragraph.line) == "$5 and 3 * 4 * 5 and *, a*b*c"
+
+    @pytest.mark.parametrize(
+        ("text", "line"), [("a\n\n$x", 2), ("a\n$$\nb", 1), ("x\n\n```\ny", 2), ("- a\n- $", 1)]
+    )
+    def test_mistakes_have_a_line(self, text, line):
+        with pytest.raises(texts.TextError) as error:
+            texts.parse(text)
+        assert error.value.line == line
+
+
+class TestWatching:
+    def test_a_change_is_told_once_it_rests(self):
+        watch = Watch((1, 1, 1), rest_s=0.15)
+        assert not watch.changed((1, 1, 1), 0.0)
+        assert not watch.changed((2, 1, 1), 1.0) and watch.waiting
+        assert not watch.changed((3, 2, 1), 1.1)  # still being written
+        assert not watch.changed((3, 2, 1), 1.2)
+        assert watch.changed((3, 2, 1), 1.26)
+        assert not watch.changed((3, 2, 1), 2.0) and not watch.waiting
+
+    def test_a_file_that_is_replaced(self):
+        watch = Watch((1, 1, 1), rest_s=0.15)
+        assert not watch.changed(None, 1.0)
+        assert not watch.changed((5, 1, 2), 1.1)
+        assert watch.changed((5, 1, 2), 1.3)
+        # Changed and changed back before it rested: nothing to do.
+        assert not watch.changed((6, 1, 2), 2.0)
+        assert not watch.changed((5, 1, 2), 2.1)
+        assert not watch.changed((6, 1, 2), 2.2)
+        assert not watch.changed((6, 1, 2), 2.3)
+
+    def test_signatures(self, tmp_path):
+        path = tmp_path / "x"
+        assert signature(path) is None
+        path.write_text("a")
+        first = signature(path)
+        assert first is not None and signature(path) == first
+        path.write_text("ab")
+        assert signature(path) != first
+
+    def test_going_on_in_a_newer_version(self):
+        old = read()
+        titles = [f'[[steps]]\ntitle = "{name}"\n' for name in ("Zero", "One", "New", "Three")]
+        newer = read('title = "x"\n' + "".join(titles))
+        assert old.followed(0, newer) == 1
+        assert old.followed(2, newer) == 3
+        assert old.followed(1, newer) == 1  # "Two" is gone: the same number
+        assert newer.followed(3, read('title = "x"\n[[steps]]\ntitle = "Only"')) == 0
+
+
+class TestTheBuiltInLecture:
+    lecture = load_lecture(BUILTIN)
+
+    def test_it_covers_the_lecture_in_its_order(self):
+        parts = [part for part, _ in self.lecture.outline()]
+        assert parts == [
+            "Rendering",
+            "What is an image?",
+            "Representations",
+            "Two algorithms",
+            "Losing a dimension",
+            "Rays",
+            "The camera",
+            "One camera, two renderers",
+        ]
+        titles = [step.title for step in self.lecture.steps]
+        order = [
+            "What is an image?", "Kinds of raster image", "Object order: rasterization",
+            "The camera conundrum", "Perspective projection", "Parallel projection",
+            "A ray is half a line", "A simple camera", "From pixel to ray", "Any camera",
+            "The program", "One camera, two renderers",
+        ]  # fmt: skip
+        assert [title for title in titles if title in order] == order
+        assert 20 <= len(titles) == len(set(titles))
+
+    def test_it_fits_a_slide(self):
+        for step in self.lecture.steps:
+            words = len(re.findall(r"\w+", texts.plain(step.blocks)))
+            assert 5 <= words <= 85, (step.title, words)
+
+    def test_every_kind_of_exercise_is_in_it(self):
+        kinds = {type(step.exercise) for step in self.lecture.steps} - {type(None)}
+        assert kinds == {RayExercise, VectorExercise, ChoiceExercise}
+
+    def test_marked_pixels_are_in_their_images(self):
+        marked = [step for step in self.lecture.steps if step.pixel]
+        assert len(marked) > 5
+        for step in marked:
+            width, height = step.options["images"]["resolution"]
+            assert step.pixel[0] < height and step.pixel[1] < width, step.title
+
+    def test_rays_that_are_asked_for_are_the_ones_shown(self):
+        for step in self.lecture.steps:
+            if isinstance(step.exercise, RayExercise):
+                assert step.pixel == step.exercise.pixel
+                assert step.options["images"]["resolution"] == step.exercise.size
+                assert step.view.for_size(step.exercise.size) == step.exercise.camera
