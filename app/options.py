@@ -19,6 +19,7 @@ EXPOSURE_LIMIT_EV = 8.0
 Channel = Literal["color", "depth", "normal", "id"]
 Component = Literal["rgb", "red", "green", "blue"]
 Transfer = Literal["srgb", "linear"]
+CompareMode = Literal["absolute", "signed", "wipe", "flip"]
 
 
 @dataclass(frozen=True)
@@ -47,12 +48,15 @@ class ImageOptions:
 class CompareOptions:
     """The compare view. gain: what the difference is multiplied with before it gets a colour.
 
-    divider: the wipe's, in parts of the image's width: the raster image left of it.
+    divider: the wipe's, in parts of the image's width: the raster image left of it. flipped: flip
+    shows the ray image. causes: differing pixels are marked in the colours of their causes.
     """
 
-    mode: Literal["absolute", "signed", "wipe", "flip"] = "absolute"
+    mode: CompareMode = "absolute"
     gain: float = 1.0
     divider: float = 0.5
+    flipped: bool = False
+    causes: bool = False
 
 
 @dataclass(frozen=True)
