@@ -10,13 +10,15 @@ from dataclasses import replace
 from app.options import Options
 from app.state import AppState, is_orthonormal
 from app.teach.lecture.model import Step
+from app.teach.lecture.options import OWN
 
 
 def state_of(step: Step, base: AppState) -> AppState:
     """The step's own state: its scene, its view and its options, whatever was there before.
 
-    base: the present state, of which only what is the user's own stays: preferences.
+    base: the present state, of which only what is the user's own stays.
     """
-    options = replace(Options(), preferences=base.preferences, marked=step.pixel)
+    kept = {name: getattr(base.options, name) for name in OWN}
+    options = replace(Options(), **kept, marked=step.pixel)
     state = AppState(step.scene, step.view, is_orthonormal(step.view.camera), options)
     return state.with_options(**step.options)
