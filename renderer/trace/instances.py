@@ -29,8 +29,9 @@ from renderer.trace.wide import (
     tree_of_mesh,
 )
 
-# Bits of an instance: its vertices have normals, have colours; its transform changes angles.
-HAS_NORMALS, HAS_COLORS, IS_STRETCHED = 1, 2, 4
+# Bits of an instance: its vertices have normals, have colours; its transform changes angles; it is
+# the identity.
+HAS_NORMALS, HAS_COLORS, IS_STRETCHED, IS_UNMOVED = 1, 2, 4, 8
 _SQUASHED = 1e-6  # a transform that changes angles by less counts as a similarity
 _NO_HIGHLIGHT = 2.0**-40  # a highlight smaller than this is none, in any light
 _OUTWARDS = 4e-7  # of the coordinates: more than the rounding of bounds to float32
@@ -47,7 +48,7 @@ class World(NamedTuple):
     object_from_world: float64, 12 an instance: the upper three rows of the matrix.
     normal_matrix: float32, 9 an instance, row by row: takes a normal to world space and keeps it on
         the winding's side; its length changes only where the transform changes angles.
-    attributes: int32, HAS_NORMALS, HAS_COLORS, IS_STRETCHED.
+    attributes: int32, HAS_NORMALS, HAS_COLORS, IS_STRETCHED, IS_UNMOVED.
     dark_cosine: float32, for each object the cosine below which its highlights are nothing.
     spheres: float64, 4 a sphere: centre, radius. sphere_object: int32.
     instances, triangles: how many; sphere k has the primitive number triangles + k.
@@ -251,6 +252,7 @@ def _attributes(meshes: list[Mesh], is_stretched: NDArray[np.bool_]) -> NDArray[
         HAS_NORMALS * (mesh.normals is not None)
         + HAS_COLORS * (mesh.colors is not None)
         + IS_STRETCHED * bool(stretched)
+        + IS_UNMOVED * np.array_equal(mesh.transform, np.eye(4))
         for mesh, stretched in zip(meshes, is_stretched, strict=True)
     ]
     return np.array(bits, np.int32)

@@ -12,7 +12,12 @@ from renderer.trace.atomic import take_next
 from renderer.trace.compiled import inlined, kernel
 from renderer.trace.control import new_control
 from renderer.trace.instances import Instances, world_pointers
-from renderer.trace.rays_hit import any_hit, closest_hit
+from renderer.trace.rays_hit import (
+    any_hit,
+    any_hit_of_one,
+    closest_hit,
+    closest_hit_of_one,
+)
 from renderer.trace.simd import LANES, pointer, shifted
 from renderer.trace.team import Team
 from renderer.trace.wide import FIRST_LEAF
@@ -73,21 +78,22 @@ def _closest(world, origins, directions, limits, t, primitive, stack_size, contr
     floats, ints = np.empty(stack_size + 2 * LANES, np.float32), np.empty(stack_size, np.int32)
     aligned = -(floats.ctypes.data // 4) % LANES
     inner, t_min, t_max = world_pointers(world), limits[0], limits[1]
+    is_single = world.instances == 1 and world.top < 0
     while True:
         first = take_next(control) * _CHUNK
         if first >= len(origins):
             return
         for i in range(first, min(first + _CHUNK, len(origins))):
             origin, direction = _ray(origins, i), _ray(directions, i)
-            t[i], slot, space = closest_hit(
-                inner,
-                origin,
-                direction,
-                t_min,
-                t_max,
-                shifted(pointer(floats), aligned),
-                pointer(ints),
-            )
+            floats_at = shifted(pointer(floats), aligned)
+            if is_single:
+                t[i], slot, space = closest_hit_of_one(
+                    inner, origin, direction, t_min, t_max, floats_at, pointer(ints)
+                )
+            else:
+                t[i], slot, space = closest_hit(
+                    inner, origin, direction, t_min, t_max, floats_at, pointer(ints)
+                )
             if space >= 0:
                 primitive[i] = world.face[slot] + world.first_primitive[space]
             else:
@@ -98,10 +104,14 @@ def _closest(world, origins, directions, limits, t, primitive, stack_size, contr
 def _any(world, origins, directions, limits, hit, stack_size, control):
     ints = np.empty(stack_size, np.int32)
     inner, t_min, t_max = world_pointers(world), limits[0], limits[1]
+    is_single = world.instances == 1 and world.top < 0
     while True:
         first = take_next(control) * _CHUNK
         if first >= len(origins):
             return
         for i in range(first, min(first + _CHUNK, len(origins))):
             origin, direction = _ray(origins, i), _ray(directions, i)
-            hit[i] = any_hit(inner, origin, direction, t_min, t_max, pointer(ints))
+            if is_single:
+                hit[i] = any_hit_of_one(inner, origin, direction, t_min, t_max, pointer(ints))
+            else:
+                hit[i] = any_hit(inner, origin, direction, t_min, t_max, pointer(ints))

@@ -18,6 +18,7 @@ from typing import NamedTuple
 import numpy as np
 
 from renderer.trace.compiled import inlined
+from renderer.trace.instances import IS_UNMOVED
 from renderer.trace.simd import (
     LANES,
     bits,
@@ -157,6 +158,8 @@ def _sheared(corner, at, ray):
 @inlined
 def instance_ray(world, space, origin, direction):
     """The ray in an instance's space; t stays what it is."""
+    if world.attributes[space] & IS_UNMOVED:
+        return space_ray(origin, direction)
     m, at = world.object_from_world, 12 * space
     ox, oy, oz = origin
     dx, dy, dz = direction
@@ -289,6 +292,15 @@ def closest_hit(world, origin, direction, t_min, t_max, floats, ints):
 
 
 @inlined
+def closest_hit_of_one(world, origin, direction, t_min, t_max, floats, ints):
+    """closest_hit() for a world of one instance and nothing else: there is no upper tree."""
+    ray = instance_ray(world, 0, origin, direction)
+    t, slot = closest_in_instance(world, ray, world.root[0], 0, t_min, t_max, floats, ints)
+    found = slot >= 0
+    return (t if found else np.float32(np.inf)), slot, np.int64(found) - 1
+
+
+@inlined
 def any_in_instance(world, ray, root, base, t_min, t_max, ints):
     """Whether the ray meets any triangle of an instance."""
     ints[base] = root
@@ -338,3 +350,10 @@ def any_hit(world, origin, direction, t_min, t_max, ints):
         if any_in_instance(world, inner, world.root[item], top, t_min, t_max, ints):
             return True
     return False
+
+
+@inlined
+def any_hit_of_one(world, origin, direction, t_min, t_max, ints):
+    """any_hit() for a world of one instance and nothing else."""
+    ray = instance_ray(world, 0, origin, direction)
+    return any_in_instance(world, ray, world.root[0], 0, t_min, t_max, ints)
