@@ -1,44 +1,87 @@
-"""What a scene is about: a point to turn around, and how far things reach.
+"""What a scene is about: a point to turn around, how far things reach, and what to frame.
 
-Pure; knows nothing of windows. A floor or a sky counts as one object among others, however large.
+Pure; knows nothing of windows. A floor or a sky is not framed: it is there for the other things.
 """
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
+from itertools import product
 
 import numpy as np
+from numpy.typing import NDArray
 
 from renderer.camera import Vector
 from renderer.scene.model import Scene, SceneObject, Sphere
 
+Points = NDArray[np.float64]
+
+SURROUNDING = 3.0  # times the usual object's size: what is larger, and holds the rest, is a floor
+
+
+def _nothing() -> Points:
+    return np.zeros((0, 3))
+
 
 @dataclass(frozen=True)
 class Focus:
-    """center: world space. reach: how far numbers of the eye sensibly go, world units."""
+    """center: world space. reach: how far numbers of the eye sensibly go, world units.
+
+    framed: corners (n, 3) of what a picture of the scene must hold. bounds: the 8 corners of a
+    box round everything. World space; both empty in an empty scene.
+    """
 
     center: Vector = (0.0, 0.0, 0.0)
     reach: float = 2.0
+    framed: Points = field(default_factory=_nothing, compare=False)
+    bounds: Points = field(default_factory=_nothing, compare=False)
 
 
 def scene_focus(scene: Scene) -> Focus:
     """The median of the objects' centres, and half again the scene's own eye or extent."""
     if not scene.objects:
         return Focus()
-    balls = [_ball(entry) for entry in scene.objects]
+    corners = [object_corners(entry) for entry in scene.objects]
+    balls = [_ball(entry, box) for entry, box in zip(scene.objects, corners, strict=True)]
     center = np.median([middle for middle, _ in balls], axis=0)
     extents = [float(np.linalg.norm(middle - center)) + radius for middle, radius in balls]
     reach = 1.5 * max(float(np.median(extents)), *(abs(x) for x in scene.view.camera.eye))
     x, y, z = center.tolist()
-    return Focus((x, y, z), float(f"{reach:.2g}"))
+    everything = np.concatenate(corners)
+    return Focus(
+        (x, y, z),
+        float(f"{reach:.2g}"),
+        np.concatenate([corners[k] for k in _things([radius for _, radius in balls], corners)]),
+        _box(everything.min(axis=0), everything.max(axis=0)),
+    )
 
 
-def _ball(entry: SceneObject) -> tuple[np.ndarray, float]:
-    """A ball round an object."""
+def object_corners(entry: SceneObject) -> Points:
+    """The corners (8, 3) of a box round an object, in world space; a mesh's lies as it does."""
     shape = entry.shape
     if isinstance(shape, Sphere):
-        return np.asarray(shape.center, float), shape.radius
-    low, high = shape.vertices.min(axis=0), shape.vertices.max(axis=0)
-    linear, offset = shape.transform[:3, :3], shape.transform[:3, 3]
-    half = np.abs(linear) @ ((high - low) / 2)
-    return linear @ ((low + high) / 2) + offset, float(np.linalg.norm(half))
+        center = np.asarray(shape.center, float)
+        return _box(center - shape.radius, center + shape.radius)
+    box = _box(shape.vertices.min(axis=0), shape.vertices.max(axis=0))
+    return box @ shape.transform[:3, :3].T + shape.transform[:3, 3]
+
+
+def _things(radii: list[float], corners: list[Points]) -> list[int]:
+    """The indices of the objects that are no floor, ground or sky; all, if there is no other."""
+    usual = sorted(radii)[(len(radii) - 1) // 2]
+    kept = [k for k, radius in enumerate(radii) if radius <= SURROUNDING * usual]
+    rest = np.concatenate([corners[k] for k in kept])
+    size = float(np.linalg.norm(rest.max(axis=0) - rest.min(axis=0))) / 2
+    return [k for k, radius in enumerate(radii) if k in set(kept) or radius < size]
+
+
+def _ball(entry: SceneObject, corners: Points) -> tuple[Points, float]:
+    """A ball round an object."""
+    if isinstance(entry.shape, Sphere):
+        return np.asarray(entry.shape.center, float), entry.shape.radius
+    low, high = corners.min(axis=0), corners.max(axis=0)
+    return (low + high) / 2, float(np.linalg.norm(high - low)) / 2
+
+
+def _box(low: Points, high: Points) -> Points:
+    return np.array(list(product(*zip(low.tolist(), high.tolist(), strict=True))), float)

@@ -1,4 +1,4 @@
-"""Moving the camera with the mouse: orbit, pan, zoom, and the switch of projection.
+"""Moving the camera: orbit, pan, zoom, fly, look around, and the switch of projection.
 
 Pure functions from a camera to a camera; they hold for skewed, scaled and left-handed bases, which
 turn rigidly. Owns no widgets and no state. Raises LucidaError (from Camera) where a motion leaves
@@ -16,6 +16,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from renderer.camera import Camera, Vector
+from renderer.errors import LucidaError
 
 Floats = NDArray[np.float64]
 Point = tuple[float, float]
@@ -100,6 +101,82 @@ def zoomed_viewport(camera: Camera, at: Point, factor: float) -> Camera:
         y + (top - y) / factor,
     )
     return replace(camera, viewport=viewport)
+
+
+def flown(camera: Camera, right: float, up: float, forward: float) -> Camera:
+    """The camera moved along its own axes by lengths in world units.
+
+    forward: along -w, the view direction, through the middle of an on-axis image; whatever the
+    axes' lengths and angles are. Parallel rays move too: what is behind their plane is not seen.
+    """
+    directions = (
+        np.asarray(axis) / np.linalg.norm(axis) for axis in (camera.u, camera.v, camera.w)
+    )
+    u, v, w = directions
+    return moved(camera, right * u + up * v - forward * w)
+
+
+def looked(camera: Camera, right_rad: float, up_rad: float) -> Camera:
+    """The camera turned about its own eye: the view direction goes to the image's right (about the
+    world's up) and upwards, by these angles, and stops short of the poles."""
+    return orbited(camera, camera.eye, right_rad, up_rad)
+
+
+def dollied(camera: Camera, focus: ArrayLike, distance: float) -> Camera:
+    """The dolly zoom: another distance, and the eye moved along w so that what is as far off as
+    `focus` keeps its size and place in the image.
+
+    Seen at d x / z, a point keeps its place where z grows as d does. Only in perspective, and only
+    with the focus in front of the eye; otherwise the distance alone changes.
+    """
+    changed = replace(camera, distance=distance)
+    z = -float((camera.camera_from_world @ [*np.asarray(focus, float), 1.0])[2])
+    if camera.is_parallel or not z > 1e-9:
+        return changed
+    return moved(changed, z * (distance / camera.distance - 1) * np.asarray(camera.w))
+
+
+def distance_for(camera: Camera, fov_y_deg: float) -> float:
+    """The distance at which the viewport as it stands has a vertical field of view; any basis.
+
+    The angle between bottom v - d w and top v - d w, tan = |cross| / dot, is a quadratic equation
+    in d; of two distances, the larger. Raises LucidaError where no distance has that angle (a
+    viewport that is all above, or all below, the eye's axis).
+    """
+    if not 0 < fov_y_deg < 180:
+        raise LucidaError(
+            "field of view", f"{fov_y_deg:g} is not between 0 and 180", "give e.g. 40"
+        )
+    bottom, top = camera.viewport[2:]
+    v, w = np.asarray(camera.v), np.asarray(camera.w)
+    sine, cosine = math.sin(math.radians(fov_y_deg)), math.cos(math.radians(fov_y_deg))
+    a = sine * float(w @ w)
+    b = -sine * (bottom + top) * float(v @ w) - cosine * (top - bottom) * float(
+        np.linalg.norm(np.cross(v, w))
+    )
+    c = sine * bottom * top * float(v @ v)
+    root = b * b - 4 * a * c
+    distance = (-b + math.sqrt(root)) / (2 * a) if root >= 0 else 0.0
+    if not distance > 0:
+        raise LucidaError(
+            "field of view",
+            f"{fov_y_deg:g} is more than this off-axis viewport has at any distance",
+            "give less",
+        )
+    return distance
+
+
+def with_shift(camera: Camera, axis: int, value: float) -> Camera:
+    """The viewport moved so that its middle is at `value` along u (axis 0) or v (1); its size
+    stays."""
+    left, right, bottom, top = camera.viewport
+    low, high = ((left, right), (bottom, top))[axis]
+    half = (high - low) / 2
+    moved_edges = (value - half, value + half)
+    return replace(
+        camera,
+        viewport=(*moved_edges, bottom, top) if axis == 0 else (left, right, *moved_edges),
+    )
 
 
 def may_zoom(

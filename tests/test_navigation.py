@@ -194,3 +194,83 @@ def test_from_beyond_every_limit_the_wheel_leads_back() -> None:
     far = Camera(eye=(0, 0, 1e9))
     near = navigation.zoomed(far, (0, 0), 1.15, 1e9)
     assert navigation.may_zoom(far, near, (0, 0, 0), (0, 0, 0), 1.0)
+
+
+@given(cameras(), st.floats(-2, 2), st.floats(-2, 2), st.floats(-2, 2))
+def test_flying_goes_along_the_camera_s_own_axes(
+    camera: Camera, right: float, up: float, forward: float
+) -> None:
+    after = navigation.flown(camera, right, up, forward)
+    assert (after.u, after.v, after.w) == (camera.u, camera.v, camera.w)
+    lengths = np.linalg.norm(camera.basis, axis=0)
+    local = np.linalg.solve(camera.basis, np.subtract(after.eye, camera.eye))
+    assert local * lengths == pytest.approx(np.array([right, up, -forward]), abs=1e-7)
+
+
+@given(cameras(), st.floats(-1, 1), st.floats(-1, 1))
+def test_looking_around_turns_about_the_eye(camera: Camera, right: float, up: float) -> None:
+    after = navigation.looked(camera, right, up)
+    assert after.eye == pytest.approx(camera.eye, abs=1e-9)
+    assert np.allclose(after.basis.T @ after.basis, camera.basis.T @ camera.basis, atol=1e-9)
+
+
+def test_looking_to_the_right_and_up_does_that() -> None:
+    camera = Camera(eye=(1, 2, 3))
+    assert navigation.looked(camera, 0.3, 0.0).w[0] < -0.2  # the view direction is -w
+    assert navigation.looked(camera, 0.0, 0.3).w[1] < -0.2
+    assert navigation.looked(camera, 0.3, 0.0).v == pytest.approx((0, 1, 0))
+
+
+@given(cameras(), st.floats(0.05, 20), st.floats(0.2, 20), points)
+def test_the_dolly_zoom_keeps_what_is_as_far_off_as_the_focus(
+    camera: Camera, distance: float, parameter: float, at: tuple[float, float]
+) -> None:
+    camera = replace(camera, projection="perspective")
+    focus = seen_at(camera, at, parameter)
+    after = navigation.dollied(camera, focus, distance)
+    assert after.distance == distance
+    for offset in (np.zeros(3), camera.u, camera.v):
+        point = focus + np.asarray(offset)
+        assert image_point(after, point) == pytest.approx(image_point(camera, point), abs=1e-5)
+    deeper = focus - np.asarray(camera.w)
+    assume(abs(distance - camera.distance) > 0.1)
+    assert navigation.dollied(after, focus, camera.distance).eye == pytest.approx(
+        camera.eye, abs=1e-6
+    )
+    assert after.project(deeper, SIZE).parameter > 0
+
+
+def test_the_dolly_zoom_without_a_focus_in_front_changes_the_distance_alone() -> None:
+    for camera in (Camera(), Camera(projection="parallel")):
+        after = navigation.dollied(camera, (0, 0, 5), 2.0)
+        assert after == replace(camera, distance=2.0)
+
+
+@given(cameras(), st.floats(1, 179))
+def test_the_distance_for_a_field_of_view_has_it(camera: Camera, fov_y_deg: float) -> None:
+    try:
+        distance = navigation.distance_for(camera, fov_y_deg)
+    except LucidaError:
+        # Both edges on one side of the eye's axis: there is a largest angle.
+        bottom, top = camera.viewport[2:]
+        assume(bottom * top < -1e-6)
+        raise
+    assume(1e-9 < distance < 1e9)
+    assert replace(camera, distance=distance).fov_y_deg == pytest.approx(fov_y_deg, abs=1e-4)
+
+
+@pytest.mark.parametrize("fov_y_deg", [0.0, -3.0, 180.0, math.nan, math.inf])
+def test_no_distance_has_an_impossible_field_of_view(fov_y_deg: float) -> None:
+    with pytest.raises(LucidaError, match="field of view"):
+        navigation.distance_for(Camera(), fov_y_deg)
+
+
+@given(cameras(), st.sampled_from((0, 1)), st.floats(-3, 3))
+def test_a_shift_keeps_the_viewport_s_size(camera: Camera, axis: int, value: float) -> None:
+    after = navigation.with_shift(camera, axis, value)
+    low, high = after.viewport[2 * axis : 2 * axis + 2]
+    was_low, was_high = camera.viewport[2 * axis : 2 * axis + 2]
+    assert (low + high) / 2 == pytest.approx(value)
+    assert high - low == pytest.approx(was_high - was_low)
+    other = 2 - 2 * axis
+    assert after.viewport[other : other + 2] == camera.viewport[other : other + 2]

@@ -1,0 +1,268 @@
+"""The passage from one camera to another, as a pure function of time.
+
+Owns the path. Knows nothing of clocks, frames or widgets (travel.py has those).
+
+Both cameras are described by what they do to the focus, a world point: where it is in the picture,
+how large the plane through it (the focus plane, parallel to u and v) is seen, and how strongly
+things before and behind that plane differ in size: k = 1 / (the eye's distance from the plane), 0
+for parallel rays. All of that passes evenly, and in between it is a camera again: a true one of
+each kind, whatever the basis. From perspective to parallel, k goes to 0: the eye draws back and the
+distance grows (a dolly zoom), until parallel rays make no visible difference.
+
+The basis B = R S (polar decomposition): R turns evenly about one axis (slerp; Shoemake 1985), the
+stretch S = V exp(L) V^T passes in its logarithm, so that no basis on the way is singular. Mirrored
+cameras cannot pass into one another without a singular basis: there is no passage, and the
+caller jumps (`possible`).
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, replace
+from typing import TypeVar
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from renderer.camera import SMALLEST, Camera, Vector
+from renderer.errors import LucidaError
+from renderer.scene.model import View
+
+Floats = NDArray[np.float64]
+Number = TypeVar("Number", float, Floats)
+
+INVISIBLE_PX = 0.2  # what parallel rays may move in the picture when they take over
+LEAST_DEPTH = 1e-6  # of a focus in front of the eye, in distances to the image plane
+
+
+@dataclass(frozen=True)
+class Pose:
+    """A camera as seen from the focus. Lengths in units of u, v and w.
+
+    turn, stretch: B = turn @ expm(stretch), (3, 3). at: the focus, from the foot of the eye, in
+    half widths and heights of `half`, the focus plane's visible half size; center: of that, in
+    the same units. k: 1 / depth of the focus; 0: parallel. start: how far in front of the focus
+    rays begin; end: the same for far, or None. height: the viewport's own half height (as numbers).
+    """
+
+    turn: Floats
+    stretch: Floats
+    at: Floats
+    half: Floats
+    center: Floats
+    k: float
+    start: float
+    end: float | None
+    depth: float
+    near: float | None
+    height: float
+    distance: float
+
+
+class Passage:
+    """From one view to another. focus: the world point whose plane keeps, or evenly changes, its
+    size. bounds: world points (n, 3) round the scene. size: the images' (width, height)."""
+
+    def __init__(
+        self, start: View, end: View, focus: Vector, bounds: ArrayLike, size: tuple[int, int]
+    ) -> None:
+        self.start, self.end = start, end
+        # Views that differ in fitting pass as they are drawn.
+        self._fit = start.fit and end.fit
+        same = start.fit == end.fit
+        first, last = (v.camera if same else v.for_size(size) for v in (start, end))
+        self._cameras = first, last
+        self.possible = first.determinant * last.determinant > 0
+        self._bounds = np.asarray(bounds, float).reshape(-1, 3)
+        self._focus = _common_focus(first, last, np.asarray(focus, float))
+        if self._focus is None or not self.possible:
+            return
+        self._poses = _pose(first, self._focus), _pose(last, self._focus)
+        self._least_k = self._invisible_k(size)
+
+    def at(self, part: float) -> View:
+        """The view at 0 (start) to 1 (end) of the time: slowly out of the one and into the other.
+
+        Both ends are exact; all between are legal.
+        """
+        if part <= 0:
+            return self.start
+        if part >= 1 or not self.possible:
+            return self.end
+        eased = part * part * (3 - 2 * part)
+        try:
+            camera = self._plain(eased) if self._focus is None else self._between(eased)
+        except (LucidaError, OverflowError, FloatingPointError):  # beyond the legal range
+            return self.start if part < 0.5 else self.end
+        return View(camera, self._fit)
+
+    def _between(self, s: float) -> Camera:
+        assert self._focus is not None
+        one, two = self._poses
+        turn = _slerp(one.turn, two.turn, s)
+        basis = turn @ _expm(_lerp(one.stretch, two.stretch, s))
+        half = np.exp(_lerp(np.log(one.half), np.log(two.half), s))
+        at, center = _lerp(one.at, two.at, s) * half, _lerp(one.center, two.center, s) * half
+        k = _lerp(one.k, two.k, s)
+        start = _lerp(one.start, two.start, s)
+        parallel = k <= self._least_k
+        depth = _lerp(one.depth, two.depth, s) if parallel else 1.0 / k
+        near = depth - start
+        if parallel and one.near is None and two.near is None:
+            near = 0.0
+        elif not (parallel or (one.near and two.near)) and self._all_behind(basis, start):
+            near = 0.0  # a plane that cuts nothing off
+        far = None
+        if one.end is not None and two.end is not None:
+            far = depth - _lerp(one.end, two.end, s)
+        scale, distance = 1.0, math.exp(_lerp(math.log(one.distance), math.log(two.distance), s))
+        if not parallel:
+            scale = math.exp(_lerp(math.log(one.height), math.log(two.height), s)) / half[1]
+            distance = scale * depth
+        eye = self._focus - basis @ np.array([at[0], at[1], -depth])
+        low, high = (center - half) * scale, (center + half) * scale
+        u, v, w = basis.T
+        return Camera(
+            _vector(eye),
+            _vector(u),
+            _vector(v),
+            _vector(w),
+            distance,
+            (float(low[0]), float(high[0]), float(low[1]), float(high[1])),
+            "parallel" if parallel else "perspective",
+            near if near > max(SMALLEST, 1e-6 * abs(depth)) else None,
+            far,
+        )
+
+    def _plain(self, s: float) -> Camera:
+        """Where no focus is in front of both eyes: the eye goes straight."""
+        one, two = self._cameras
+        first, last = _polar(one.basis), _polar(two.basis)
+        u, v, w = (_slerp(first[0], last[0], s) @ _expm(_lerp(first[1], last[1], s))).T
+        left, right, bottom, top = _lerp(np.array(one.viewport), np.array(two.viewport), s).tolist()
+        distance = math.exp(_lerp(math.log(one.distance), math.log(two.distance), s))
+        eye = _lerp(np.asarray(one.eye), np.asarray(two.eye), s)
+        camera = replace(
+            one,
+            eye=_vector(eye),
+            u=_vector(u),
+            v=_vector(v),
+            w=_vector(w),
+            distance=distance,
+            viewport=(left, right, bottom, top),
+            near=None,
+            far=None,
+        )
+        for name in ("near", "far"):
+            ends = getattr(one, name), getattr(two, name)
+            if None not in ends:
+                camera = replace(camera, **{name: _lerp(*ends, s)})
+        return camera
+
+    def _all_behind(self, basis: Floats, start: float) -> bool:
+        """Whether nothing of the scene lies before the plane in which rays begin: no clip plane
+        is needed then."""
+        if not len(self._bounds):
+            return True
+        heights = (self._bounds - self._focus) @ np.linalg.inv(basis).T[:, 2]
+        return float(heights.max()) < start
+
+    def _invisible_k(self, size: tuple[int, int]) -> float:
+        """Below this k, parallel rays look the same.
+
+        A point h before the focus plane, seen r pixels from the foot of the eye, moves by r h k.
+        """
+        least = math.inf
+        for pose, camera in zip(self._poses, self._cameras, strict=True):
+            corners = np.abs(pose.center) + 1.0
+            if self._fit:
+                left, right, bottom, top = camera.viewport
+                fitted = camera.fitted(size).viewport
+                corners = corners * [
+                    (fitted[1] - fitted[0]) / (right - left),
+                    (fitted[3] - fitted[2]) / (top - bottom),
+                ]
+            radius_px = float(np.linalg.norm(corners * size / 2))
+            heights = (self._bounds - self._focus) @ np.linalg.inv(camera.basis).T[:, 2]
+            height = max(float(np.abs(heights).max(initial=0.0)), abs(pose.start))
+            least = min(least, INVISIBLE_PX / (radius_px * height))
+        return least
+
+
+def _common_focus(one: Camera, two: Camera, focus: Floats) -> Floats | None:
+    """The focus, or else a point on the image plane of one, that no eye in perspective has
+    behind it; None where there is no such point."""
+    middle = [np.asarray(c.eye) - c.distance * np.asarray(c.w) for c in (one, two)]
+    for point in (focus, *middle):
+        depths = [_depth(c, point) / c.distance for c in (one, two) if not c.is_parallel]
+        if all(depth > LEAST_DEPTH for depth in depths):
+            return point
+    return None
+
+
+def _depth(camera: Camera, point: Floats) -> float:
+    return -float((camera.camera_from_world @ [*point, 1.0])[2])
+
+
+def _pose(camera: Camera, focus: Floats) -> Pose:
+    turn, stretch = _polar(camera.basis)
+    x, y, z = (camera.camera_from_world @ [*focus, 1.0])[:3].tolist()
+    left, right, bottom, top = camera.viewport
+    scale = 1.0 if camera.is_parallel else -z / camera.distance
+    half = np.array([right - left, top - bottom]) / 2 * scale
+    center = np.array([left + right, bottom + top]) / 2 * scale
+    near, far = camera.near, camera.far
+    return Pose(
+        turn,
+        stretch,
+        np.array([x, y]) / half,
+        half,
+        center / half,
+        0.0 if camera.is_parallel else -1.0 / z,
+        -z - (near or 0.0),
+        None if far is None else -z - far,
+        -z,
+        near,
+        (top - bottom) / 2,
+        camera.distance,
+    )
+
+
+def _polar(basis: Floats) -> tuple[Floats, Floats]:
+    """(R, L) with basis = R expm(L): orthogonal, and symmetric; by singular values."""
+    left, values, right = np.linalg.svd(basis)
+    return left @ right, right.T @ (np.log(values)[:, None] * right)
+
+
+def _expm(symmetric: Floats) -> Floats:
+    values, vectors = np.linalg.eigh(symmetric)
+    return vectors @ (np.exp(values)[:, None] * vectors.T)
+
+
+def _slerp(start: Floats, end: Floats, s: float) -> Floats:
+    """The rotation that leads evenly from one orthogonal matrix to another of its handedness."""
+    turn = end @ start.T
+    sines = np.array([turn[2, 1] - turn[1, 2], turn[0, 2] - turn[2, 0], turn[1, 0] - turn[0, 1]])
+    sine, cosine = float(np.linalg.norm(sines)) / 2, (float(np.trace(turn)) - 1) / 2
+    if sine > 1e-7:
+        axis = sines / np.linalg.norm(sines)
+    elif cosine > 0:
+        return start + s * (end - start)
+    else:  # half a turn: (R + 1) / 2 is axis axis^T; of the two ways, the one about the upper half
+        outer = (turn + np.eye(3)) / 2
+        axis = outer[:, int(np.argmax(np.diag(outer)))]
+        axis = axis / np.linalg.norm(axis) * (-1.0 if axis[1] < 0 else 1.0)
+    angle = s * math.atan2(sine, cosine)
+    x, y, z = axis
+    cross = np.array([[0, -z, y], [z, 0, -x], [-y, x, 0]])
+    rotation = np.eye(3) + math.sin(angle) * cross + (1 - math.cos(angle)) * cross @ cross
+    return rotation @ start
+
+
+def _lerp(start: Number, end: Number, s: float) -> Number:
+    return start + s * (end - start)
+
+
+def _vector(values: Floats) -> Vector:
+    x, y, z = values.tolist()
+    return x, y, z

@@ -1,0 +1,196 @@
+"""The classic cameras: six sides, axonometric and oblique views; and the framing of things.
+
+Pure functions; knows nothing of widgets, nor of how one passes from one camera to another.
+
+Sources: Carlbom and Paciorek 1978, "Planar geometric projections and viewing transformations"
+(isometric, cavalier, cabinet); ISO 5456-3 (dimetric: 7 and 42 degrees, 1 : 1 : 1/2).
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from renderer.camera import Camera, Floats, Vector
+from renderer.errors import LucidaError
+from renderer.scene.model import View
+
+MARGIN = 1.1  # of the picture round what it frames
+FOV_Y_DEG = 35.0  # of the presets in perspective
+SMALLEST = 1e-9  # an extent, of the distance to the world's origin, that can still be framed
+
+AXES = {"x": (1.0, 0.0, 0.0), "y": (0.0, 1.0, 0.0), "z": (0.0, 0.0, 1.0)}
+
+
+@dataclass(frozen=True)
+class Preset:
+    """A basis with a name. oblique: w is not at right angles to u and v, which has a meaning
+    only for parallel rays. note: one line that says what it is."""
+
+    name: str
+    u: Vector
+    v: Vector
+    w: Vector
+    note: str
+    oblique: bool = False
+
+
+def _looking_along(w: Vector) -> tuple[Vector, Vector, Vector]:
+    """The orthonormal basis of a camera that looks along -w, with y upwards."""
+    camera = Camera.look_at(w, (0.0, 0.0, 0.0))
+    return camera.u, camera.v, camera.w
+
+
+def _receding(factor: float) -> Vector:
+    """The w of an oblique view of the xy plane: the point (0, 0, -1) is seen at `factor` times
+    (cos 45 deg, sin 45 deg), for (0, 0, -1) = x u + y v - w."""
+    part = factor * math.sqrt(0.5)
+    return (part, part, 1.0)
+
+
+PRESETS = (
+    Preset("Front", (1, 0, 0), (0, 1, 0), (0, 0, 1), "From +z: x to the right, y up."),
+    Preset("Back", (-1, 0, 0), (0, 1, 0), (0, 0, -1), "From -z: -x to the right, y up."),
+    Preset("Left", (0, 0, 1), (0, 1, 0), (-1, 0, 0), "From -x: z to the right, y up."),
+    Preset("Right", (0, 0, -1), (0, 1, 0), (1, 0, 0), "From +x: -z to the right, y up."),
+    Preset("Top", (1, 0, 0), (0, 0, -1), (0, 1, 0), "From above, +y: x to the right, -z up."),
+    Preset(
+        "Bottom",
+        (1, 0, 0),
+        (0, 0, 1),
+        (0, -1, 0),
+        "From below, -y: x to the right, z up. A floor hides the rest; near cuts it away.",
+    ),
+    Preset(
+        "Isometric",
+        *_looking_along((1.0, 1.0, 1.0)),
+        "From (1, 1, 1): x, y and z are foreshortened alike, at 120 degrees to one another.",
+    ),
+    Preset(
+        "Dimetric",
+        *_looking_along((1.0, 1.0, math.sqrt(7.0))),
+        "From (1, 1, sqrt 7): x at 7 degrees and y at full length, z at 42 degrees and half.",
+    ),
+    Preset(
+        "Cavalier",
+        AXES["x"],
+        AXES["y"],
+        _receding(1.0),
+        "Oblique: x and y as they are; z recedes at 45 degrees and full length.",
+        oblique=True,
+    ),
+    Preset(
+        "Cabinet",
+        AXES["x"],
+        AXES["y"],
+        _receding(0.5),
+        "Oblique: x and y as they are; z recedes at 45 degrees and half length.",
+        oblique=True,
+    ),
+)
+
+
+def preset_named(name: str) -> Preset:
+    return next(preset for preset in PRESETS if preset.name == name)
+
+
+def preset_view(
+    preset: Preset,
+    view: View,
+    framed_points: ArrayLike,
+    everything: ArrayLike,
+    aspect: float,
+    perspective: bool = False,
+) -> View:
+    """The preset's camera with the scene in the picture, in place of the view's.
+
+    framed_points, everything: (n, 3), world space, as in Focus. aspect: the image's, width over
+    height. perspective: not parallel, where the preset allows that. Raises LucidaError where the
+    scene is too large for a camera.
+    """
+    perspective = perspective and not preset.oblique
+    camera = Camera(
+        u=preset.u,
+        v=preset.v,
+        w=preset.w,
+        distance=0.5 / math.tan(math.radians(FOV_Y_DEG) / 2) if perspective else 1.0,
+        viewport=(-aspect / 2, aspect / 2, -0.5, 0.5),
+        projection="perspective" if perspective else "parallel",
+    )
+    return replace(view, camera=framed(camera, framed_points, everything))
+
+
+def framed(camera: Camera, points: ArrayLike, everything: ArrayLike = ()) -> Camera:
+    """The camera moved so that `points` (n, 3) fill its viewport, their middle in its middle.
+
+    The basis and the viewport's shape stay; in perspective the eye finds its place, in parallel
+    projection the viewport its size. everything: points that must lie in front of a parallel
+    camera too. Without points: the camera itself. Any basis. Raises LucidaError.
+    """
+    world = np.asarray(points, float).reshape(-1, 3)
+    if not len(world):
+        return camera
+    linear = camera.camera_from_world[:3, :3]
+    local = world @ linear.T
+    low, high = local.min(axis=0), local.max(axis=0)
+    middle = (low + high) / 2
+    least = SMALLEST * (1.0 + float(np.abs(local).max()))
+    left, right, bottom, top = camera.viewport
+    center = np.array([left + right, bottom + top]) / 2
+    half = np.array([right - left, top - bottom]) / 2 / MARGIN
+    if camera.is_parallel:
+        scale = float(max(((high - low)[:2] / 2 / half).max(), (least / half).max()))
+        edges = (np.array(camera.viewport) * scale).tolist()
+        heights = np.concatenate([local, np.asarray(everything, float).reshape(-1, 3) @ linear.T])
+        back = float(heights[:, 2].max())
+        z = back + max(0.25 * (back - float(heights[:, 2].min())), least)
+        at = np.append(middle[:2] - center * scale, z)
+        return replace(camera, eye=_world(camera, at), viewport=tuple(edges))
+    # A point at local (X, Y, Z) is seen at d (X - ex) / (ez - Z), with ex so that the middle is
+    # seen at the centre. |d (X - mx) + cx (Z - mz)| <= half (ez - Z) gives the least ez.
+    aside = np.abs(camera.distance * (local - middle)[:, :2] + center * (local - middle)[:, 2:])
+    needed = local[:, 2] + np.maximum(aside / half, least).max(axis=1)
+    z = max(float(needed.max()), float(high[2]) + 0.05 * float(high[2] - low[2]) + least)
+    at = np.append(middle[:2] - center / camera.distance * (z - middle[2]), z)
+    return replace(camera, eye=_world(camera, at))
+
+
+def look_at(view: View, eye: Iterable[float], target: Iterable[float], up: Iterable[float]) -> View:
+    """The view from `eye` towards `target`, with `up` upwards; all else stays as it is.
+
+    Raises LucidaError naming eye, target or up.
+    """
+    camera = Camera.look_at(eye, target, up)
+    return replace(
+        view, camera=replace(view.camera, eye=camera.eye, u=camera.u, v=camera.v, w=camera.w)
+    )
+
+
+def clip_around(camera: Camera, points: ArrayLike) -> tuple[float, float]:
+    """A near and a far, in units of w, that cut nothing off `points` (n, 3): where planes that
+    are switched on begin. Rounded to three digits."""
+    world = np.asarray(points, float).reshape(-1, 3)
+    matrix = camera.camera_from_world
+    depths = -(world @ matrix[2, :3] + matrix[2, 3])
+    farthest = float(depths.max()) if len(depths) else 0.0
+    if not farthest > 0:
+        return 0.1, 100.0
+    far = _outwards(1.01 * farthest, math.ceil)
+    nearest = 0.99 * float(depths.min())
+    return (_outwards(nearest, math.floor) if nearest > far / 1000 else far / 1000), far
+
+
+def _outwards(value: float, rounding: object) -> float:
+    digits = 10.0 ** (math.floor(math.log10(value)) - 2)
+    return float(f"{rounding(value / digits) * digits:.3g}")  # type: ignore[operator]
+
+
+def _world(camera: Camera, local: Floats) -> Vector:
+    x, y, z = (camera.basis @ local).tolist()
+    if not all(map(math.isfinite, (x, y, z))):
+        raise LucidaError("eye", "would be infinitely far", "scale the scene")
+    return x, y, z

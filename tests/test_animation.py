@@ -1,0 +1,296 @@
+"""The passage between two cameras: legal everywhere, exact at the ends, without a jump."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from hypothesis import assume, given, settings
+from hypothesis import strategies as st
+
+from app.animation import INVISIBLE_PX, Passage
+from app.focus import Focus, scene_focus
+from app.navigation import switched_projection
+from app.presets import PRESETS, preset_named, preset_view
+from app.state import AppState, History, is_orthonormal
+from app.travel import DURATION_S, Traveller
+from renderer.camera import Camera, volume
+from renderer.scene import load_scene
+from renderer.scene.model import Scene, View
+
+SIZE = (960, 540)
+FOCUS = (0.0, 0.5, -0.5)
+BOUNDS = np.array([[x, y, z] for x in (-2, 2) for y in (-1, 2) for z in (-3, 2)], float)
+INSIDE = np.stack(
+    np.meshgrid(np.linspace(-2, 2, 9), np.linspace(-1, 2, 7), np.linspace(-3, 2, 11)), axis=-1
+).reshape(-1, 3)
+parts = st.floats(0, 1)
+numbers = st.floats(-3, 3)
+vectors = st.tuples(numbers, numbers, numbers)
+
+
+@st.composite
+def cameras(draw: st.DrawFn, projection: str | None = None) -> Camera:
+    """Any legal camera: skewed, scaled, left-handed, off-axis, with clip planes or without."""
+    basis = np.array([draw(vectors) for _ in range(3)])
+    lengths = np.linalg.norm(basis, axis=1)
+    assume((lengths > 0.1).all())
+    assume(abs(volume(*(basis / lengths[:, None]))) > 0.02)
+    left, bottom = draw(numbers), draw(numbers)
+    near = draw(st.none() | st.floats(0.01, 3))
+    far = draw(st.none() | st.floats(3.5, 50))
+    return Camera(
+        draw(vectors),
+        *(tuple(row) for row in basis.tolist()),
+        draw(st.floats(0.1, 5)),
+        (left, left + draw(st.floats(0.05, 4)), bottom, bottom + draw(st.floats(0.05, 4))),
+        projection or draw(st.sampled_from(("perspective", "parallel"))),
+        near,
+        far,
+    )
+
+
+@st.composite
+def lookers(draw: st.DrawFn) -> Camera:
+    """Orthonormal cameras that see the focus in front of them."""
+    eye = np.add(draw(vectors), (0, 0, 6))
+    camera = Camera.look_at(eye, FOCUS, fov_y_deg=draw(st.floats(5, 100)))
+    return replace(camera, near=draw(st.none() | st.floats(0.01, 1)))
+
+
+@given(cameras(), cameras(), parts, st.booleans(), st.booleans())
+@settings(max_examples=300)
+def test_every_camera_on_the_way_is_legal_and_the_ends_are_exact(
+    one: Camera, two: Camera, part: float, fit_one: bool, fit_two: bool
+) -> None:
+    start, end = View(one, fit_one), View(two, fit_two)
+    passage = Passage(start, end, FOCUS, BOUNDS, SIZE)
+    assert passage.at(0.0) == start
+    assert passage.at(1.0) == end
+    between = passage.at(part).camera
+    assert replace(between) == between  # checks itself again
+    if passage.possible:
+        assert math.copysign(1, between.determinant) == math.copysign(1, one.determinant)
+    else:
+        assert one.determinant * two.determinant < 0
+        assert passage.at(0.01) == end
+
+
+@given(lookers(), lookers(), parts)
+def test_between_orthonormal_cameras_the_basis_stays_orthonormal(
+    one: Camera, two: Camera, part: float
+) -> None:
+    camera = Passage(View(one), View(two), FOCUS, BOUNDS, SIZE).at(part).camera
+    assert is_orthonormal(camera)
+    assert camera.determinant > 0
+
+
+def seen(camera: Camera, point: np.ndarray) -> np.ndarray:
+    projected = camera.project(point, SIZE)
+    return np.stack([projected.row, projected.column], axis=-1)
+
+
+@given(lookers(), parts, st.booleans(), st.booleans())
+def test_between_the_projections_the_plane_of_the_focus_stands_still(
+    camera: Camera, part: float, back: bool, fit: bool
+) -> None:
+    """The eye draws back as the distance grows; what is as far off as the focus keeps its size."""
+    other = switched_projection(camera, FOCUS)
+    ends = (other, camera) if back else (camera, other)
+    passage = Passage(View(ends[0], fit), View(ends[1], fit), FOCUS, BOUNDS, SIZE)
+    plane = np.asarray(FOCUS) + np.array(
+        [np.zeros(3), np.asarray(camera.u), -0.5 * np.asarray(camera.v)]
+    )
+    between = passage.at(part)
+    assert np.allclose(
+        seen(between.for_size(SIZE), plane),
+        seen(View(camera, fit).for_size(SIZE), plane),
+        atol=1e-4,
+    )
+    drawn = between.camera
+    if not drawn.is_parallel:
+        drawn_back = np.linalg.norm(np.subtract(drawn.eye, FOCUS))
+        assert drawn_back >= np.linalg.norm(np.subtract(camera.eye, FOCUS)) - 1e-9
+        assert drawn.distance >= camera.distance - 1e-9
+
+
+@given(lookers(), st.booleans())
+@settings(max_examples=30)
+def test_the_step_to_parallel_rays_is_invisible(camera: Camera, fit: bool) -> None:
+    start = View(camera, fit)
+    end = View(switched_projection(camera, FOCUS), fit)
+    passage = Passage(start, end, FOCUS, BOUNDS, SIZE)
+    low, high = 0.0, 1.0
+    for _ in range(60):  # the moment at which the rays become parallel
+        middle = (low + high) / 2
+        if passage.at(middle).camera.is_parallel:
+            high = middle
+        else:
+            low = middle
+    before, after = (passage.at(part).for_size(SIZE) for part in (low, high))
+    assert not before.is_parallel
+    assert after.is_parallel
+    a, b = seen(before, INSIDE), seen(after, INSIDE)
+    inside = ((b > -1) & (b < np.array([SIZE[1], SIZE[0]]))).all(axis=1)
+    assert inside.any()
+    assert np.abs(a - b)[inside].max(initial=0.0) < 0.25
+    assert INVISIBLE_PX < 0.25
+
+
+@pytest.mark.parametrize("fit", [True, False])
+@pytest.mark.parametrize("preset", PRESETS, ids=lambda preset: preset.name)
+def test_no_point_of_the_scene_jumps(preset, fit: bool) -> None:
+    """In 1000 steps, nothing that is in front of the eye moves far in any of them."""
+    scene = load_scene("still-life")
+    focus = scene_focus(scene)
+    start = View(scene.view.camera, fit)
+    end = preset_view(preset, start, focus.framed, focus.bounds, 16 / 9)
+    passage = Passage(start, end, focus.center, focus.bounds, SIZE)
+    points = focus.framed
+    last = None
+    for part in np.linspace(0, 1, 1001):
+        now = seen(passage.at(float(part)).for_size(SIZE), points)
+        assert np.isfinite(now).all()  # all in front of the eye, all the way
+        if last is not None:
+            assert np.abs(now - last).max() < 12
+        last = now
+
+
+def test_what_lies_behind_the_first_eye_is_not_seen_while_the_eye_draws_back() -> None:
+    camera = Camera(eye=(0.0, 0.0, 1.0))  # the scene reaches to z = 2
+    end = switched_projection(camera, (0, 0, -1))
+    passage = Passage(View(camera), View(end), (0, 0, -1), BOUNDS, SIZE)
+    for part in (0.1, 0.4, 0.7):
+        between = passage.at(part).camera
+        assert between.near is not None
+        assert between.eye[2] - between.near == pytest.approx(1.0)
+    nothing_behind = replace(camera, eye=(0.0, 0.0, 5.0))
+    end = switched_projection(nothing_behind, (0, 0, -1))
+    passage = Passage(View(nothing_behind), View(end), (0, 0, -1), BOUNDS, SIZE)
+    assert passage.at(0.5).camera.near is None
+
+
+def test_half_a_turn_goes_about_the_upright_axis() -> None:
+    scene = load_scene("spheres")
+    focus = scene_focus(scene)
+    front, back = (
+        preset_view(preset_named(name), scene.view, focus.framed, focus.bounds, 1.0)
+        for name in ("Front", "Back")
+    )
+    for part in (0.2, 0.5, 0.9):
+        camera = Passage(front, back, focus.center, focus.bounds, SIZE).at(part).camera
+        assert camera.v == pytest.approx((0, 1, 0))
+
+
+def test_without_a_common_focus_the_eye_goes_straight() -> None:
+    """Each looks away from the other: no point is in front of both."""
+    one = Camera(eye=(0, 0, -5), near=1.0)
+    two = Camera(eye=(0, 0, 5), u=(-1, 0, 0), w=(0, 0, -1), near=3.0)
+    passage = Passage(View(one), View(two), (0, 0, 0), BOUNDS, SIZE)
+    middle = passage.at(0.5).camera
+    assert middle.eye == pytest.approx((0, 0, 0))
+    assert middle.near == 2.0
+    assert is_orthonormal(middle)
+
+
+class Clock:
+    """A clock that goes on when it is told to."""
+
+    def __init__(self) -> None:
+        self.s = 100.0
+
+    def __call__(self) -> float:
+        return self.s
+
+
+@pytest.fixture(scope="module")
+def scene() -> Scene:
+    return load_scene("spheres")
+
+
+def target_of(state: AppState, name: str) -> AppState:
+    focus = scene_focus(state.scene)
+    view = preset_view(preset_named(name), state.view, focus.framed, focus.bounds, 1.0)
+    return replace(state.with_view(view), keep_orthonormal=is_orthonormal(view.camera))
+
+
+class TestTraveller:
+    def begin(self, scene: Scene, name: str = "Front") -> tuple[Clock, Traveller, AppState]:
+        clock, state = Clock(), AppState.for_scene(scene)
+        traveller = Traveller(clock)
+        target = target_of(state, name)
+        shown = traveller.begin(state, target, scene_focus(scene), SIZE)
+        assert shown is state
+        return clock, traveller, target
+
+    def test_it_arrives_after_its_time_whatever_the_frame_rate(self, scene: Scene) -> None:
+        for frames in (1, 7, 300):
+            clock, traveller, target = self.begin(scene, "Cabinet")
+            state = AppState.for_scene(scene)
+            middle = None
+            for number in range(frames + 1):
+                clock.s = 100.0 + DURATION_S * number / frames
+                state = traveller.step(state)
+                if number == frames // 2:
+                    middle = state
+            assert state == target
+            assert not state.keep_orthonormal
+            assert not traveller.under_way
+            assert frames == 1 or middle not in (target, AppState.for_scene(scene))
+
+    def test_the_same_moment_has_the_same_camera(self, scene: Scene) -> None:
+        seen = []
+        for steps in (1, 5):
+            clock, traveller, _ = self.begin(scene)
+            state = AppState.for_scene(scene)
+            for number in range(steps):
+                clock.s = 100.0 + 0.6 * DURATION_S * (number + 1) / steps
+                state = traveller.step(state)
+            seen.append(state.camera)
+        assert seen[0] == seen[1]
+
+    def test_another_change_of_the_view_ends_it_there(self, scene: Scene) -> None:
+        clock, traveller, _ = self.begin(scene)
+        clock.s += 0.1
+        state = traveller.step(AppState.for_scene(scene))
+        moved = state.with_camera(replace(state.camera, eye=(1, 2, 3)))
+        clock.s += 0.1
+        assert traveller.step(moved) is moved
+        assert not traveller.under_way
+
+    def test_another_option_does_not(self, scene: Scene) -> None:
+        clock, traveller, target = self.begin(scene)
+        clock.s += 0.1
+        state = traveller.step(AppState.for_scene(scene)).with_options(shadows=True)
+        clock.s += DURATION_S
+        state = traveller.step(state)
+        assert state == target.with_options(shadows=True)
+
+    def test_all_of_it_is_one_step_of_undo(self, scene: Scene) -> None:
+        clock, traveller, target = self.begin(scene)
+        history = History(AppState.for_scene(scene))
+        for _ in range(10):
+            clock.s += DURATION_S / 9
+            state = traveller.step(history.present)
+            history = history.change(state, traveller.gesture)
+        assert history.present == target
+        assert len(history.past) == 1
+
+    @pytest.mark.parametrize("how", ["instant", "reduced", "mirrored", "scene", "no window"])
+    def test_where_nothing_is_to_be_seen_it_is_there_at_once(self, scene: Scene, how: str) -> None:
+        state, traveller, size = AppState.for_scene(scene), Traveller(Clock()), SIZE
+        target = target_of(state, "Left")
+        if how == "instant":
+            traveller.instant = True
+        elif how == "reduced":
+            state = state.with_options(preferences={"reduced_motion": True})
+        elif how == "mirrored":
+            target = target.with_camera(replace(target.camera, u=(0.0, 0.0, -1.0)))
+        elif how == "scene":
+            target = target.with_scene(load_scene("canonical"))
+        else:
+            size = (0, 0)
+        assert traveller.begin(state, target, Focus(), size) is target
+        assert not traveller.under_way
