@@ -16,17 +16,21 @@ from imgui_bundle import hello_imgui, imgui
 from app import __version__, layout, theme
 from app.actions import run_shortcuts
 from app.files import Files, Opened, describe
-from app.focus import Focus, scene_focus
+from app.fly import Fly
+from app.focus import Focus, object_corners, scene_focus
 from app.options import Pixel
 from app.panels.menus import help_sheet, menu_bar
 from app.panels.messages import message_box
 from app.panels.status import Status, status_line
 from app.platform import on_drop, set_title
+from app.presets import framed
 from app.renderers import Renderers
 from app.state import AppState, History
+from app.travel import Traveller
 from app.views.base import View
 from app.views.camera import CameraView
-from app.views.pair import Linked, RasterView, RayView
+from app.views.pair import RASTER, Linked, RasterView, RayView
+from renderer.errors import LucidaError
 from renderer.scene import BUILTIN_SCENES, Scene
 
 
@@ -57,6 +61,11 @@ class MainWindow:
         self._was_active = False
         self._help = False
         self._focused: tuple[Scene, Focus] | None = None
+        self.traveller = Traveller()
+        self.traveller.instant = not smooth
+        self._fly = Fly()
+        self._over: View | None = None
+        self._next_over: View | None = None
 
     # What actions and views ask for.
 
@@ -78,7 +87,8 @@ class MainWindow:
     def settled(self) -> bool:
         """Whether nothing will change by itself: both images are complete and compared."""
         views = all(view.settled for view in self.views.values())
-        return views and self.renderers.settled(self.state) and not self.files.busy
+        moving = self.files.busy or self.traveller.under_way
+        return views and self.renderers.settled(self.state) and not moving
 
     def hover(self, view: str, pixel: Pixel) -> None:
         self._next_hovered = (view, pixel)
@@ -93,15 +103,39 @@ class MainWindow:
     def change(self, state: AppState) -> None:
         self.history = self.history.change(state)
 
+    def travel(self, state: AppState) -> None:
+        shown = self.traveller.begin(self.state, state, self.focus, self.renderers.size)
+        if shown is state:
+            self.change(state)
+        self.animate()
+
+    def focus_object(self) -> None:
+        """Frames the object under the mouse, in the view that the mouse is over; all of the
+        scene where there is none."""
+        view = self._over or self.views[RASTER]
+        camera, number = view.flown(self), view.object_under(self)
+        if camera is None:
+            return
+        points = self.focus.framed
+        if number is not None:
+            points = object_corners(self.state.scene.objects[number])
+        try:
+            camera = framed(camera, points, self.focus.bounds)
+        except LucidaError:  # too large for numbers
+            return
+        self.travel(view.with_flown(self.state, camera))
+
     def animate(self) -> None:
         hello_imgui.request_refresh()
 
     def undo(self) -> None:
         self._cancel_drags()
+        self.traveller.stop()
         self.history = self.history.undo()
 
     def redo(self) -> None:
         self._cancel_drags()
+        self.traveller.stop()
         self.history = self.history.redo()
 
     def can_undo(self) -> bool:
@@ -138,10 +172,13 @@ class MainWindow:
             self._gesture += 1
         self._was_active = active
         self._hovered, self._next_hovered = self._next_hovered, None
+        self._over, self._next_over = self._next_over, None
+        self._move_by_itself(active)
         opened = self.files.poll()
         if opened is not None:
             self._take_opened(opened)
-        self.renderers.update(self.state, moving=active)
+        moving = active or self.traveller.under_way or self._fly.under_way
+        self.renderers.update(self.state, moving)
         self._proportion.keep()
         run_shortcuts(self)
         if self._help:
@@ -166,6 +203,8 @@ class MainWindow:
             imgui.pop_style_var()
         try:
             if opened:
+                if imgui.is_window_hovered(imgui.HoveredFlags_.root_and_child_windows):
+                    self._next_over = view
                 view.draw(self)
             else:
                 view.unseen(self)
@@ -201,6 +240,18 @@ class MainWindow:
             view.end()
         self.renderers.end()
         self.files.close()
+
+    def _move_by_itself(self, active: bool) -> None:
+        """The camera under way, and keys that are held. A press of the mouse on anything ends the
+        passage where it is."""
+        if active and any(imgui.is_mouse_clicked(button) for button in range(3)):
+            self.traveller.stop()
+        state = self.traveller.step(self.state)
+        if state is not self.state:
+            self.history = self.history.change(state, self.traveller.gesture)
+        self._fly.frame(self, self._over)
+        if self.traveller.under_way:
+            self.animate()
 
     def _cancel_drags(self) -> None:
         for view in self.views.values():

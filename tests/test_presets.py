@@ -185,7 +185,7 @@ def test_the_corners_of_a_mesh_move_with_it() -> None:
     moved = np.array(box.shape.transform)
     moved[:3, 3] += (1, 2, 3)
     other = replace(box, shape=replace(box.shape, transform=moved))
-    assert object_corners(other) == pytest.approx(object_corners(box) + [1, 2, 3])
+    assert object_corners(other) == pytest.approx(object_corners(box) + np.array([1, 2, 3]))
 
 
 class TestLookAt:

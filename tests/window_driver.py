@@ -28,7 +28,7 @@ os.environ.pop("WAYLAND_DISPLAY", None)
 from imgui_bundle import hello_imgui, imgui
 from PIL import Image
 
-from app.panels.images import framebuffer_scale
+from app.panels.screen import framebuffer_scale
 from app.platform import start_platform
 from app.state import AppState, History
 from app.viewer import Run
@@ -59,6 +59,8 @@ class Driver:
         """Every test begins with the same state, at rest."""
         self.window.history = History(self.start)
         self.window.files.message = ""
+        self.window.traveller.stop()
+        self.window.traveller.instant = True  # no passage unless a test wants one
         self.stay = False
         self.ctx.mouse_teleport_to_pos((3, SIZE[1] - 3))
         self.settle()

@@ -17,6 +17,7 @@ from app.options import Pixel
 from app.renderers import Renderers
 from app.state import AppState
 from app.theme import Fonts
+from renderer.camera import Camera
 
 
 class Host(Protocol):
@@ -49,6 +50,10 @@ class Host(Protocol):
 
     def change(self, state: AppState) -> None:
         """Makes a state the present one, as a step of its own."""
+
+    def travel(self, state: AppState) -> None:
+        """Makes a state the present one, as a step of its own, by a smooth passage of its camera
+        where that is to be seen."""
 
     def animate(self) -> None:
         """Asks for a next frame at full rate: something is moving by itself."""
@@ -83,6 +88,19 @@ class View:
 
     def unseen(self, host: Host) -> None:
         """Once a frame in which the view is hidden, or behind another tab."""
+
+    def flown(self, host: Host) -> Camera | None:
+        """The camera that the keys move while the mouse is over the view; None: there is none."""
+        return None
+
+    def with_flown(self, state: AppState, camera: Camera) -> AppState:
+        """The state with that camera moved."""
+        return state
+
+    def object_under(self, host: Host) -> int | None:
+        """The index of the scene's object under the mouse; None for the background, and where
+        that is not known."""
+        return None
 
     def cancel(self) -> None:
         """Ends a drag under way: something else has changed the state."""

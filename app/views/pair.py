@@ -15,6 +15,7 @@ from app.files import describe
 from app.panels.images import Grab, Pane, Zoom, available_px, image_pane
 from app.state import AppState
 from app.views.base import Host, View
+from renderer.camera import Camera
 
 RASTER, RAY = "Raster", "Ray"
 WHEEL_PAUSE_S = 0.5  # turns of the wheel closer together are one step of undo
@@ -48,6 +49,22 @@ class ImageView(View):
 
     def cancel(self) -> None:
         self._linked.grab = None
+
+    def flown(self, host: Host) -> Camera | None:
+        return host.state.camera
+
+    def with_flown(self, state: AppState, camera: Camera) -> AppState:
+        return state.with_camera(camera)
+
+    def object_under(self, host: Host) -> int | None:
+        if host.hovered is None or host.hovered[0] != self.name:
+            return None
+        row, column = host.hovered[1]
+        frame = host.renderers.agreement.frame_of(host.renderers.request(host.state))
+        if frame is None or row >= frame.size[1] or column >= frame.size[0]:
+            return None
+        number = int(frame.channel("id")[row, column])
+        return number if number >= 0 else None
 
     def _pane(
         self,
