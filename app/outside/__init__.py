@@ -1,0 +1,10 @@
+"""The outside view's geometry: a camera and its rays as lines in the world, and on the screen.
+
+    extent      how far a scene reaches; the outside camera that sees it and the other camera
+    solid       the other camera's image plane and view volume in the world
+    diagram     what is drawn, as lines, arrows, faces and labels in the world
+    projected   the same on the screen: clipped, in pixels, with depths
+    paint       as the rasterizer's overlay takes it, in the theme's colours
+
+Pure but for paint: nothing else here knows of windows, themes or OpenGL.
+"""

@@ -1,0 +1,140 @@
+"""How far a scene reaches, and the outside camera that sees it together with the other camera.
+
+Pure; knows nothing of windows.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable
+
+import numpy as np
+from numpy.typing import NDArray
+
+from renderer.camera import LARGEST, Camera, Vector
+from renderer.errors import LucidaError
+from renderer.scene.model import Scene, Sphere
+
+Floats = NDArray[np.float64]
+
+VAST = 4.0  # times the median object: a floor, a sky; pictures are not made to hold it
+FOV_Y_DEG = 45.0
+MARGIN = 1.12  # of the framed points' own room
+# From which side one looks, in the other camera's terms: its right, the world's up, its back.
+FROM_RIGHT, FROM_ABOVE, FROM_BEHIND = 0.9, 0.55, 1.0
+
+
+def object_boxes(scene: Scene) -> Floats:
+    """Each object's bounds in world space, (objects, 2, 3): lowest and highest corner."""
+    boxes = np.zeros((len(scene.objects), 2, 3))
+    for box, entry in zip(boxes, scene.objects, strict=True):
+        shape = entry.shape
+        if isinstance(shape, Sphere):
+            center = np.asarray(shape.center, float)
+            box[:] = center - shape.radius, center + shape.radius
+            continue
+        vertices = np.asarray(shape.vertices, float)
+        low, high = vertices.min(axis=0), vertices.max(axis=0)
+        linear, offset = shape.transform[:3, :3], shape.transform[:3, 3]
+        middle = linear @ ((low + high) / 2) + offset
+        half = np.abs(linear) @ ((high - low) / 2)
+        box[:] = middle - half, middle + half
+    return boxes
+
+
+def main_points(boxes: Floats) -> Floats:
+    """Points (n, 3) around what the scene is about: corners of the boxes of all objects but vast
+    ones; none for an empty scene."""
+    if not len(boxes):
+        return np.zeros((0, 3))
+    radii = np.linalg.norm(boxes[:, 1] - boxes[:, 0], axis=1) / 2
+    ordinary = boxes[radii <= VAST * max(float(np.median(radii)), 1e-12)]
+    pick = np.array(np.meshgrid([0, 1], [0, 1], [0, 1])).reshape(3, -1)  # eight corners
+    return np.stack([ordinary[:, pick[axis], axis] for axis in range(3)], axis=-1).reshape(-1, 3)
+
+
+def end_parameter(camera: Camera, points: Floats) -> float:
+    """The ray parameter at which the scene ends for a camera; some way beyond its image plane
+    where nothing is in front of it."""
+    least = 1.0 / float(np.linalg.norm(camera.w)) if camera.is_parallel else 1.6
+    if not len(points):
+        return 2 * least
+    matrix = camera.camera_from_world
+    t = -(points @ matrix[2, :3] + matrix[2, 3]) / (1.0 if camera.is_parallel else camera.distance)
+    return float(max(1.04 * t.max(), least))
+
+
+def outside_camera(seen: Iterable[Floats], home: Camera, aspect: float) -> Camera:
+    """A camera that has all points in its picture, as large as they can be, looking from the right
+    and behind of the camera `home`, from above; fitted to width / height = aspect.
+
+    seen: arrays (n, 3) of points. Not finite ones are passed over.
+    """
+    points = np.concatenate([np.reshape(part, (-1, 3)) for part in seen])
+    points = points[np.isfinite(points).all(axis=1) & (np.abs(points).max(axis=1) < LARGEST / 1e3)]
+    if not len(points):
+        points = np.zeros((1, 3))
+    right, up, back = level_frame(home)
+    toward = FROM_RIGHT * right + FROM_ABOVE * up + FROM_BEHIND * back
+    return framed(points, toward / np.linalg.norm(toward), aspect)
+
+
+def level_frame(camera: Camera) -> tuple[Floats, Floats, Floats]:
+    """A camera's right and back in the horizontal plane, with the world's up; unit vectors."""
+    up = np.array([0.0, 1.0, 0.0])
+    back = np.asarray(camera.w) / np.linalg.norm(camera.w)
+    level = back - (back @ up) * up
+    if np.linalg.norm(level) < 0.05:  # looking straight up or down: the top of its image
+        top = np.asarray(camera.v) / np.linalg.norm(camera.v)
+        level = -math.copysign(1.0, back @ up) * (top - (top @ up) * up)
+    if np.linalg.norm(level) < 1e-6:
+        level = np.array([0.0, 0.0, 1.0])
+    level = level / np.linalg.norm(level)
+    return np.cross(up, level), up, level
+
+
+def framed(
+    points: Floats,
+    toward: Floats,
+    aspect: float,
+    projection: str = "perspective",
+    up: Iterable[float] = (0.0, 1.0, 0.0),
+) -> Camera:
+    """The camera in direction `toward` of the points, unit length, that sees them all as large as
+    possible. Each plane of a view pyramid bounds the eye linearly: the nearest eye that satisfies
+    all four is exact. Points: (n, 3), at least one.
+    """
+    center = (points.min(axis=0) + points.max(axis=0)) / 2
+    upward = np.asarray(tuple(up), float)
+    if np.linalg.norm(np.cross(upward, toward)) < 1e-3:
+        upward = np.array([0.0, 0.0, -1.0])
+    camera = Camera.look_at(center + toward, center, upward, fov_y_deg=FOV_Y_DEG, aspect=aspect)
+    x, y, z = ((points - center) @ np.asarray(axis) for axis in (camera.u, camera.v, camera.w))
+    radius = max(float(np.linalg.norm(points - center, axis=1).max()), 1e-9)
+    tan_y = math.tan(math.radians(FOV_Y_DEG) / 2) / MARGIN
+    offsets, depths = [], [1.02 * float(z.max()) + 0.05 * radius]
+    for across, tangent in ((x, tan_y * aspect), (y, tan_y)):
+        high, low = float((across + tangent * z).max()), float((across - tangent * z).min())
+        depths.append((high - low) / (2 * tangent))
+        offsets.append((high + low) / 2)
+    depth = max(depths)
+    right, top, back = (np.asarray(axis) for axis in (camera.u, camera.v, camera.w))
+    try:
+        eye = center + offsets[0] * right + offsets[1] * top + depth * back
+        found = Camera.look_at(eye, eye - toward, upward, fov_y_deg=FOV_Y_DEG, aspect=aspect)
+        if projection != "parallel":
+            return found
+        half = max(np.ptp(y) / 2, np.ptp(x) / 2 / aspect, 1e-9) * MARGIN
+        eye = center + (x.max() + x.min()) / 2 * right + (y.max() + y.min()) / 2 * top
+        eye = eye + (float(z.max()) + radius) * back
+        return Camera(
+            _vector(eye), found.u, found.v, found.w, 1.0,
+            (-half * aspect, half * aspect, -half, half), "parallel",
+        )  # fmt: skip
+    except LucidaError:  # a scene at the very ends of the numbers
+        return Camera.look_at((3.0, 2.0, 5.0), (0.0, 0.0, 0.0), fov_y_deg=FOV_Y_DEG, aspect=aspect)
+
+
+def _vector(values: Floats) -> Vector:
+    x, y, z = values.tolist()
+    return x, y, z

@@ -1,0 +1,105 @@
+"""Where viewing rays end: asked for without waiting, answered some frames later.
+
+Owns a thread that asks a tracer, and its last answer. Knows nothing of how rays are drawn.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, field
+from typing import Any
+
+import numpy as np
+
+from app.background import Background
+from app.options import Pixel
+from app.outside.diagram import Hit
+from renderer.camera import Camera
+from renderer.errors import LucidaError
+from renderer.scene.model import Scene
+
+Size = tuple[int, int]
+
+
+@dataclass(frozen=True)
+class Question:
+    """Which rays: of these pixels of an image of `size`."""
+
+    scene: Scene
+    camera: Camera
+    size: Size
+    pixels: tuple[Pixel, ...]
+
+
+@dataclass(frozen=True, eq=False)
+class Answer:
+    """t of each pixel's ray: inf where it meets nothing."""
+
+    question: Question
+    t: dict[Pixel, float] = field(default_factory=dict)
+
+
+class RayHits:
+    """wake: called from the thread when an answer is there.
+
+    An answer to the last question stands in for the one to the next until that comes: while a
+    camera is dragged, its rays end where they ended some frames ago.
+    """
+
+    def __init__(self, wake: Callable[[], None]) -> None:
+        self._background: Background[Answer] = Background("lucida-outside-rays", wake)
+        self._asked: Question | None = None
+        self._answer: Answer | None = None
+        self._own: tuple[Scene, Any] | None = None  # a tracer, of the thread; used in it only
+
+    @property
+    def busy(self) -> bool:
+        return self._background.busy
+
+    def ask(self, question: Question, tracer: Any | None) -> dict[Pixel, float | None]:
+        """t of each pixel's ray as far as it is known; None where it is not yet. tracer: one that
+        has prepared the scene, None for one of its own."""
+        outcome = self._background.poll()
+        if outcome is not None and outcome.value is not None:
+            self._answer = outcome.value
+        elif outcome is not None and isinstance(outcome.error, LucidaError):
+            self._asked = None  # the tracer was closed meanwhile: ask the next one
+        if question != self._asked and question.pixels:
+            self._asked = question
+            self._background.submit(lambda: self._trace(question, tracer))
+        answer = self._answer
+        if answer is None or answer.question.scene is not question.scene:
+            return dict.fromkeys(question.pixels)
+        return {pixel: answer.t.get(pixel) for pixel in question.pixels}
+
+    def close(self) -> None:
+        self._background.close()
+        if self._own is not None:
+            self._own[1].close()
+
+    def _trace(self, question: Question, tracer: Any | None) -> Answer:
+        if tracer is None:
+            tracer = self._own_tracer(question.scene)
+        elif self._own is not None:
+            self._own[1].close()
+            self._own = None
+        pixels = np.array(question.pixels)
+        ray = question.camera.ray(pixels[:, 0], pixels[:, 1], question.size)
+        t, _ = tracer.closest_hits(ray.origin, ray.direction, *question.camera.t_range)
+        return Answer(question, dict(zip(question.pixels, t.astype(float).tolist(), strict=True)))
+
+    def _own_tracer(self, scene: Scene) -> Any:
+        if self._own is None or self._own[0] is not scene:
+            from renderer.trace import Tracer  # here: it loads the compiler
+
+            if self._own is not None:
+                self._own[1].close()
+            self._own = (scene, Tracer(scene))
+        return self._own[1]
+
+
+def known_hits(
+    pixels: Sequence[Pixel], seen: dict[Pixel, float | None], asked: dict[Pixel, float | None]
+) -> list[Hit]:
+    """Hits of pixels: what was seen in an image first, else what was asked for."""
+    return [Hit(pixel, seen.get(pixel, asked.get(pixel))) for pixel in pixels]

@@ -1,0 +1,91 @@
+"""A projected diagram as the rasterizer's overlay takes it, in the theme's colours.
+
+Owns which colour a role has. Knows nothing of cameras.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+
+import numpy as np
+from imgui_bundle import ImVec4
+
+from app import theme
+from app.outside.diagram import Role
+from app.outside.projected import Primitive, Shape, Strokes
+from renderer.raster.lines import (
+    CORNER,
+    DASHED,
+    ON_PLANE,
+    ROUND_END,
+    ROUND_START,
+    SEGMENT,
+    Layer,
+)
+
+Rgba = tuple[float, float, float, float]
+
+
+def role_color(role: Role) -> ImVec4:
+    """The colour of a role in the theme in use."""
+    if role in theme.BASIS:
+        return theme.BASIS[role]
+    colors = {
+        "ray": theme.RAY,
+        "mark": theme.MARK,
+        "plane": theme.rgb("#f2f5f8"),
+        "volume": theme.rgb("#b9cbe0"),
+        "grid": theme.rgb("#ffffff"),
+        "eye": theme.rgb("#f4f1ea"),
+        "text": theme.rgb("#eef1f4"),
+        "extra": theme.rgb("#cc79a7"),  # the reddish purple of the same palette
+    }
+    return colors[role]
+
+
+def layers(primitives: Iterable[Primitive]) -> list[Layer]:
+    """What Overlay.draw() takes: by layer, the lowest first; texts are left out."""
+    shapes: dict[int, list[np.ndarray]] = {}
+    strokes: dict[int, list[np.ndarray]] = {}
+    for part in primitives:
+        if isinstance(part, Strokes):
+            strokes.setdefault(part.layer, []).append(_segments(part))
+        elif isinstance(part, Shape):
+            shapes.setdefault(part.layer, []).append(_corners(part))
+    return [
+        (
+            np.concatenate(shapes.get(layer, [np.empty(0, CORNER)])),
+            np.concatenate(strokes.get(layer, [np.empty(0, SEGMENT)])),
+        )
+        for layer in sorted(shapes.keys() | strokes.keys())
+    ]
+
+
+def _segments(part: Strokes) -> np.ndarray:
+    rows = np.zeros(len(part.points), SEGMENT)
+    rows["start"], rows["end"] = part.points[:, 0], part.points[:, 1]
+    rows["depth"], rows["before"] = part.depth, part.before
+    rows["color"] = _color(part.role, part.opacity, part.tint)
+    rows["width"], rows["hidden"] = part.width_px, part.hidden
+    # Round ends of pale lines would show where they meet.
+    ends = ROUND_START | ROUND_END if part.opacity == 1 else 0
+    rows["flags"] = ends | (ON_PLANE * part.on_plane) | (DASHED * part.dashed)
+    return rows
+
+
+def _corners(part: Shape) -> np.ndarray:
+    count = len(part.points) - 2
+    fan = np.stack([np.zeros(count, int), np.arange(count) + 1, np.arange(count) + 2], axis=1)
+    rows = np.zeros(3 * count, CORNER)
+    rows["corner"] = part.points[fan.ravel()]
+    rows["depth"] = part.depth[fan.ravel()]
+    rows["color"] = _color(part.role, part.opacity, part.tint)
+    rows["hidden"], rows["flags"] = part.hidden, ON_PLANE * part.on_plane
+    return rows
+
+
+def _color(role: Role, opacity: float, tint: float) -> Rgba:
+    color = role_color(role)
+    end = 1.0 if tint > 0 else 0.0
+    red, green, blue = (part + abs(tint) * (end - part) for part in (color.x, color.y, color.z))
+    return red, green, blue, color.w * opacity

@@ -1,0 +1,354 @@
+"""The outside view: the scene and the camera in it, seen by a second, free camera.
+
+Owns what is kept from frame to frame: the scene's picture from outside, the diagram over it, the
+rays' hits. What is drawn is app/outside/'s, how is renderer/raster/overlay.py's; the mouse, the
+handles and the legend have modules beside this one.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from typing import Any
+
+import moderngl
+import numpy as np
+from imgui_bundle import ImVec2, imgui
+from numpy.typing import NDArray
+
+from app import theme
+from app.files import describe
+from app.options import OutsideOptions, Pixel
+from app.outside.diagram import Hit, Item, diagram
+from app.outside.extent import end_parameter, framed, main_points, object_boxes, outside_camera
+from app.outside.hits import Question, RayHits
+from app.outside.paint import layers
+from app.outside.projected import NEAREST, Primitive, Screen, project
+from app.outside.solid import bundle_pixels, pixel_seen, plane_corners
+from app.panels.images import available_px, framebuffer_scale
+from app.pictures import Wanted
+from app.state import AppState
+from app.views.base import Host, View
+from app.views.outside_gizmo import Gizmo
+from app.views.outside_mouse import Mouse, Scope
+from app.views.outside_tools import AXES, labels, legend, triad
+from renderer.camera import Camera, Vector
+from renderer.errors import LucidaError
+from renderer.frame import LARGEST_PIXELS, LARGEST_SIDE
+from renderer.raster.overlay import Overlay, plane_on_screen
+from renderer.raster.targets import Textures
+from renderer.scene.model import Scene
+
+Floats = NDArray[np.float64]
+Size = tuple[int, int]
+
+OUTSIDE = "Outside"
+SMALLEST_PX = 24  # a view that is smaller shows nothing
+IMAGE_SIZE = (640, 480)  # of the camera's image while no other view shows it
+
+
+@dataclass(frozen=True, eq=False)
+class _Surroundings:
+    """What of the scene the view needs. points: around what it is about."""
+
+    scene: Scene
+    points: Floats
+
+
+@dataclass(frozen=True, eq=False)
+class _Made:
+    """The last picture, and what it was made from."""
+
+    key: tuple[Any, ...]
+    texture: moderngl.Texture
+    primitives: list[Primitive]
+
+
+class OutsideView(View):
+    """extra: lines of other instruments, by their names; set by show()."""
+
+    name = OUTSIDE
+    title = "Outside view"
+    padding = ImVec2(1, 1)
+    flags = int(
+        imgui.WindowFlags_.no_scrollbar
+        | imgui.WindowFlags_.no_scroll_with_mouse
+        | imgui.WindowFlags_.no_background
+    )
+
+    def __init__(self) -> None:
+        self._mouse, self._gizmo = Mouse(), Gizmo()
+        self._overlay: Overlay | None = None
+        self._hits: RayHits | None = None
+        self._around: _Surroundings | None = None
+        self._ground: tuple[Wanted, Textures] | None = None
+        self._made: _Made | None = None
+        self._extra: dict[str, tuple[Item, ...]] = {}
+        self._over_tools = False
+
+    @property
+    def settled(self) -> bool:
+        return self._hits is None or not self._hits.busy
+
+    @property
+    def primitives(self) -> Sequence[Primitive]:
+        """The diagram as it was last drawn, in pixels of the view: for vector pictures."""
+        return self._made.primitives if self._made is not None else ()
+
+    def show(self, source: str, items: Sequence[Item]) -> None:
+        """Adds lines, arrows, labels, ... of another instrument; the last ones of each source
+        stay until it gives others, or none."""
+        if items:
+            self._extra[source] = tuple(items)
+        else:
+            self._extra.pop(source, None)
+
+    def begin(self, host: Host, context: moderngl.Context) -> None:
+        self._overlay = Overlay(context)
+        self._hits = RayHits(host.animate)
+
+    def end(self) -> None:
+        if self._hits is not None:
+            self._hits.close()
+        if self._overlay is not None:
+            self._overlay.release()
+
+    def cancel(self) -> None:
+        self._mouse.cancel()
+        self._gizmo.cancel()
+
+    def unseen(self, host: Host) -> None:
+        host.renderers.forget_pane(self.name)
+        self._ground = self._made = None
+
+    def draw(self, host: Host) -> None:
+        size = available_px()
+        if min(size) < SMALLEST_PX:
+            return
+        size = min(size[0], LARGEST_SIDE), min(size[1], LARGEST_SIDE, LARGEST_PIXELS // size[0])
+        if not min(host.renderers.size):
+            host.renderers.fit_pane(self.name, IMAGE_SIZE, 1)
+        scale = framebuffer_scale()
+        origin = imgui.get_cursor_screen_pos()
+        extent = ImVec2(size[0] / scale, size[1] / scale)
+        scope = self._follow_mouse(host, size, origin, extent)
+        texture = self._texture(host, scope.shown, size, scope)
+        draw = imgui.get_window_draw_list()
+        far = ImVec2(origin.x + extent.x, origin.y + extent.y)
+        if texture is None:
+            draw.add_rect_filled(origin, far, theme.u32(theme.BACKGROUND))
+            return
+        draw.add_image(imgui.ImTextureRef(texture.glo), origin, far)
+        draw.push_clip_rect(origin, far, True)
+        assert self._made is not None
+        labels(self._made.primitives, origin, scale, host.fonts)
+        self._handles(host, scope)
+        self._tools(host, scope)
+        draw.pop_clip_rect()
+
+    # What the mouse does.
+
+    def _follow_mouse(self, host: Host, size: Size, origin: ImVec2, extent: ImVec2) -> Scope:
+        scope = self._scope(host, size, origin, extent)
+        imgui.set_cursor_screen_pos(origin)
+        if self._gizmo.over and host.state.outside.gizmo != "none":
+            imgui.dummy(extent)  # ImGuizmo takes no click where an item is under the mouse
+            return scope
+        buttons = imgui.ButtonFlags_
+        imgui.set_next_item_allow_overlap()
+        imgui.invisible_button(
+            f"image##{self.name}",
+            extent,
+            buttons.mouse_button_left | buttons.mouse_button_right | buttons.mouse_button_middle,
+        )
+        was_dragging = self._mouse.dragging
+        camera, gesture = self._mouse.follow(scope)
+        state = host.state
+        if camera != scope.camera:
+            state = state.with_options(outside={"camera": camera})
+            host.apply(state, gesture)
+        pixel = None
+        if imgui.is_item_hovered() or self._mouse.clicked():
+            pixel = self._pixel_under(host, scope)
+        if pixel is not None:
+            if self._mouse.clicked():
+                host.change(host.state.with_options(marked=pixel))
+            elif not was_dragging:
+                host.hover(self.name, pixel)
+        return self._scope(host, size, origin, extent)
+
+    def _scope(self, host: Host, size: Size, origin: ImVec2, extent: ImVec2) -> Scope:
+        state = host.state
+        points = self._points(host)
+        center = (points.min(axis=0) + points.max(axis=0)) / 2
+        reach = float(np.linalg.norm(points.max(axis=0) - points.min(axis=0))) / 2
+        aspect = size[0] / size[1]
+        camera = state.outside.camera
+        if camera is None:
+            camera = outside_camera([points], state.scene.view.camera, aspect)
+        x, y, z = center.tolist()
+        return Scope(camera, camera.fitted(size), origin, extent, (x, y, z), max(reach, 1e-9))
+
+    def _points(self, host: Host) -> Floats:
+        """Around what there is to see: the scene, the camera, and where the scene has put it."""
+        state = host.state
+        if self._around is None or self._around.scene is not state.scene:
+            self._around = _Surroundings(state.scene, main_points(object_boxes(state.scene)))
+        home = state.scene.view.for_size(host.renderers.size)
+        parts = [self._around.points, gear(home), gear(host.renderers.camera(state))]
+        points = np.concatenate(parts)
+        return points[np.isfinite(points).all(axis=1)]
+
+    def _pixel_under(self, host: Host, scope: Scope) -> Pixel | None:
+        outside = host.state.outside
+        if not (outside.image or outside.grid):
+            return None
+        camera, mouse = host.renderers.camera(host.state), imgui.get_io().mouse_pos
+        return pixel_seen(camera, host.renderers.size, *scope.ray(mouse))
+
+    def _handles(self, host: Host, scope: Scope) -> None:
+        kind = host.state.outside.gizmo
+        if kind == "none":
+            self._gizmo.over = False
+            self._gizmo.cancel()
+            return
+        state = host.state
+        camera = self._gizmo.draw(scope, state.camera, kind, state.keep_orthonormal)
+        if camera != state.camera:
+            host.apply(state.with_camera(camera), self._gizmo.gesture)
+        if self._gizmo.dragging:
+            host.animate()
+
+    def _tools(self, host: Host, scope: Scope) -> None:
+        state = host.state
+        options, clicked = legend(state.outside, scope.origin, scope.extent.x)
+        axis = triad(scope.shown, scope.origin, scope.extent)
+        if clicked == "reset":
+            options = replace(options, camera=None)
+        elif clicked == "camera":
+            options = replace(options, camera=host.renderers.camera(state))
+        elif axis is not None:
+            options = replace(options, camera=self._along(host, scope, axis))
+        if options != state.outside:
+            host.apply(with_outside(state, options))
+
+    def _along(self, host: Host, scope: Scope, axis: str) -> Camera:
+        """The view along an axis that sees everything."""
+        way = np.asarray(AXES[axis[-1]]) * (-1.0 if axis.startswith("-") else 1.0)
+        aspect = scope.extent.x / max(scope.extent.y, 1.0)
+        return framed(self._points(host), way, aspect, scope.camera.projection)
+
+    # The picture.
+
+    def _texture(
+        self, host: Host, camera: Camera, size: Size, scope: Scope
+    ) -> moderngl.Texture | None:
+        """The view's picture, made anew if anything of it has changed; None where that failed."""
+        both, state = host.renderers, host.state
+        assert self._overlay is not None
+        assert both.pictures is not None
+        inner, image_size = both.camera(state), both.size
+        options = state.outside
+        marked, hits = self._rays(host, inner, image_size)
+        try:
+            picture, drawn = None, 0
+            if options.image:
+                picture, drawn = both.pictures.linear(Wanted(state.scene, inner, image_size))
+            unit_px = theme.line_px(framebuffer_scale())
+            key = (
+                state.scene, camera, size, inner, image_size, replace(options, camera=None),
+                marked, tuple(hits), drawn, state.images.exposure_ev, unit_px,
+                state.preferences, tuple(self._extra.items()),
+            )  # fmt: skip
+            if self._made is not None and self._made.key == key:
+                return self._made.texture
+            end = end_parameter(inner, self._around.points if self._around else np.zeros((0, 3)))
+            items = diagram(inner, image_size, options, end, hits, marked)
+            for extra in self._extra.values():
+                items += extra
+            screen = Screen(camera, size, self._near(camera, scope), unit_px)
+            primitives = project(items, screen)
+            corners = plane_corners(inner)[[0, 1, 3]]
+            behind = corners[0] + np.asarray(inner.w)  # the side of the image plane to look from
+            plane = plane_on_screen(camera, size, corners, behind)
+            texture = self._overlay.draw(
+                self._scene_picture(host, camera, size),
+                camera,
+                size,
+                layers(primitives),
+                plane,
+                picture,
+                state.images.exposure_ev,
+                opacity=0.94,
+                unit_px=unit_px,
+            )
+        except (LucidaError, moderngl.Error) as error:
+            self._ground = self._made = None
+            self._fail(error)
+            return None
+        self._made = _Made(key, texture, primitives)
+        return texture
+
+    def _fail(self, error: Exception) -> None:
+        imgui.text_wrapped(describe(error))
+
+    def _near(self, camera: Camera, scope: Scope) -> float:
+        """The least t of lines that are drawn: a small part of the distance to the middle."""
+        unit = 1.0 if camera.is_parallel else camera.distance
+        away = scope.reach / float(np.linalg.norm(camera.w)) / unit
+        z = float((camera.camera_from_world @ [*scope.center, 1.0])[2])
+        return NEAREST * max(-z / unit, away)
+
+    def _scene_picture(self, host: Host, camera: Camera, size: Size) -> Textures:
+        """The scene from outside, which stays while only the other camera moves."""
+        assert host.renderers.pictures is not None
+        wanted = Wanted(host.state.scene, camera, size)
+        if self._ground is None or self._ground[0] != wanted:
+            self._ground = None
+            self._ground = wanted, host.renderers.pictures.beside(wanted, "outside")
+        return self._ground[1]
+
+    def _rays(self, host: Host, camera: Camera, size: Size) -> tuple[Hit | None, list[Hit]]:
+        """The marked pixel's ray and the bundle's, as far as their ends are known."""
+        both, state = host.renderers, host.state
+        assert self._hits is not None
+        options = state.outside
+        pixel = ray_pixel(host) if options.ray else None
+        pixels = [(int(i), int(j)) for i, j in bundle_pixels(size, options.bundle)]
+        asked = pixels + ([pixel] if pixel is not None else [])
+        question = Question(state.scene, camera, size, tuple(asked))
+        tracer = both.live.tracer_of(state.scene) if asked else None
+        known = self._hits.ask(question, tracer)
+        hits = [Hit(entry, known[entry]) for entry in pixels]
+        if pixel is None:
+            return None, hits
+        seen = both.depth_at(state, pixel)
+        return Hit(pixel, known[pixel] if seen is None else seen), hits
+
+
+def with_outside(state: AppState, options: OutsideOptions) -> AppState:
+    """The state with other options of this view."""
+    return replace(state, options=replace(state.options, outside=options))
+
+
+def ray_pixel(host: Host) -> Pixel | None:
+    """The pixel whose ray is drawn: the marked one, else the one under the mouse."""
+    pixel = host.state.marked
+    if pixel is None and host.hovered is not None:
+        pixel = host.hovered[1]
+    width, height = host.renderers.size
+    if pixel is None or not (0 <= pixel[0] < height and 0 <= pixel[1] < width):
+        return None
+    return pixel
+
+
+def gear(camera: Camera) -> Floats:
+    """Points around a camera: its eye, its image plane, its basis; (n, 3)."""
+    eye = np.asarray(camera.eye)
+    tips = [eye + np.asarray(vector) for vector in (camera.u, camera.v, camera.w)]
+    return np.array([eye, *tips, *plane_corners(camera)])
+
+
+def vector(values: Floats) -> Vector:
+    x, y, z = values.tolist()
+    return x, y, z

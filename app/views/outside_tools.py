@@ -1,0 +1,254 @@
+"""What stands over the outside view's picture: its legend of switches, the axes that turn it, and
+the labels of the diagram.
+
+Owns their look and their clicks. Knows nothing of how the picture is made.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable
+from dataclasses import dataclass, replace
+from typing import Any
+
+import numpy as np
+from imgui_bundle import ImVec2, ImVec4, imgui
+
+from app import theme
+from app.options import OutsideOptions
+from app.outside.diagram import Role
+from app.outside.paint import role_color
+from app.outside.projected import Primitive, Text
+from renderer.camera import Camera, Vector
+
+BUNDLE = (4, 5)  # rows and columns of the bundle when it is switched on
+MOST_BUNDLE = 16
+AXES: dict[str, Vector] = {"x": (1.0, 0.0, 0.0), "y": (0.0, 1.0, 0.0), "z": (0.0, 0.0, 1.0)}
+AXIS_NAMES = {
+    "x": "from the right (+x)",
+    "-x": "from the left (-x)",
+    "y": "from above (+y)",
+    "-y": "from below (-y)",
+    "z": "from the front (+z)",
+    "-z": "from behind (-z)",
+}
+
+
+@dataclass(frozen=True)
+class Switch:
+    """One of the legend's: a field of OutsideOptions, its name, its tooltip, the colour's role."""
+
+    field: str
+    name: str
+    tip: str
+    role: Role
+
+
+SWITCHES = (
+    Switch("basis", "basis", "the basis vectors u, v, w at the eye, at their true lengths", "w"),
+    Switch("image", "image", "the live image on the image plane", "plane"),
+    Switch("grid", "grid", "the pixel grid on the image plane", "grid"),
+    Switch("volume", "volume", "the view volume: what the camera can see", "volume"),
+    Switch("ray", "ray", "the viewing ray of the marked pixel, or the one under the mouse", "ray"),
+    Switch("bundle", "bundle", "viewing rays spread over the image (right-click: how many)", "ray"),
+)
+
+
+def is_on(options: OutsideOptions, field: str) -> bool:
+    value = getattr(options, field)
+    return bool(min(value)) if isinstance(value, tuple) else bool(value)
+
+
+def toggled(options: OutsideOptions, field: str) -> OutsideOptions:
+    """The options with a switch thrown."""
+    value: Any = not is_on(options, field)
+    if field == "bundle":
+        value = BUNDLE if value else (0, 0)
+    return replace(options, **{field: value})
+
+
+def legend(options: OutsideOptions, origin: ImVec2, width: float) -> tuple[OutsideOptions, str]:
+    """The switches over the view's upper left corner; in a narrow one, one button with a menu.
+
+    Gives the options, and what else was clicked: "reset", "camera" or "".
+    """
+    pad = theme.px(6)
+    imgui.set_cursor_screen_pos(ImVec2(origin.x + pad, origin.y + pad))
+    room = width - theme.px(120)
+    chips = sum(_chip_width(switch.name) for switch in SWITCHES)
+    chips += sum(_chip_width(name) for name in ("move", "turn", "fit")) + theme.px(30)
+    if chips <= room:
+        return _row(options)
+    if imgui.button("Show##outside"):
+        imgui.open_popup("outside legend")
+    clicked = ""
+    if imgui.begin_popup("outside legend"):
+        for switch in SWITCHES:
+            if imgui.menu_item(switch.name, "", is_on(options, switch.field))[0]:
+                options = toggled(options, switch.field)
+            imgui.set_item_tooltip(switch.tip)
+        options = _bundle_fields(options)
+        imgui.separator()
+        for kind, name in (("move", "move the eye"), ("turn", "turn the basis")):
+            if imgui.menu_item(name, "", options.gizmo == kind)[0]:
+                options = _with_gizmo(options, kind)
+        imgui.separator()
+        if imgui.menu_item("fit all", "", False)[0]:
+            clicked = "reset"
+        if imgui.menu_item("look from the camera", "", False)[0]:
+            clicked = "camera"
+        imgui.end_popup()
+    return options, clicked
+
+
+def _row(options: OutsideOptions) -> tuple[OutsideOptions, str]:
+    clicked = ""
+    for switch in SWITCHES:
+        color = role_color(switch.role)
+        if _chip(switch.name, color, is_on(options, switch.field), switch.tip):
+            options = toggled(options, switch.field)
+        if switch.field == "bundle" and imgui.begin_popup_context_item("bundle size"):
+            options = _bundle_fields(options)
+            imgui.end_popup()
+        imgui.same_line(0, theme.px(4))
+    imgui.dummy(ImVec2(theme.px(6), 1))
+    for kind, tip in (
+        ("move", "handles that move the eye of the camera (again: none)"),
+        ("turn", "handles that turn the basis of the camera (again: none)"),
+    ):
+        imgui.same_line(0, theme.px(4))
+        if _chip(kind, theme.TEXT, options.gizmo == kind, tip):
+            options = _with_gizmo(options, kind)
+    imgui.same_line(0, theme.px(4))
+    if _chip("fit", None, False, "a view that sees the scene and the camera"):
+        clicked = "reset"
+    return options, clicked
+
+
+def _with_gizmo(options: OutsideOptions, kind: str) -> OutsideOptions:
+    value: Any = "none" if options.gizmo == kind else kind
+    return replace(options, gizmo=value)
+
+
+def _bundle_fields(options: OutsideOptions) -> OutsideOptions:
+    rows, columns = options.bundle
+    imgui.set_next_item_width(theme.px(110))
+    changed, values = imgui.slider_int2("rows, columns", [rows, columns], 0, MOST_BUNDLE)
+    if changed:
+        return replace(options, bundle=(int(values[0]), int(values[1])))
+    return options
+
+
+def _chip_width(name: str) -> float:
+    return imgui.calc_text_size(name).x + theme.px(28) + theme.px(4)
+
+
+def _chip(name: str, color: ImVec4 | None, on: bool, tip: str) -> bool:
+    """A small button with a dot of its colour: filled where it is on."""
+    height = imgui.get_frame_height()
+    dot = theme.px(16) if color is not None else 0.0
+    size = ImVec2(imgui.calc_text_size(name).x + dot + theme.px(12), height)
+    at = imgui.get_cursor_screen_pos()
+    clicked = imgui.invisible_button(f"{name}##outside", size)
+    hovered = imgui.is_item_hovered()
+    imgui.set_item_tooltip(tip)
+    draw = imgui.get_window_draw_list()
+    far = ImVec2(at.x + size.x, at.y + size.y)
+    back = theme.FRAME_HOVERED if hovered else theme.PANEL
+    draw.add_rect_filled(at, far, theme.u32(back, 0.94 if on or hovered else 0.7), theme.px(4))
+    middle = at.y + height / 2
+    if color is not None:
+        spot = ImVec2(at.x + theme.px(12), middle)
+        if on:
+            draw.add_circle_filled(spot, theme.px(4.5), theme.u32(color))
+        draw.add_circle(spot, theme.px(4.5), theme.u32(color, 1.0 if on else 0.6))
+    text = ImVec2(at.x + dot + theme.px(6), middle - imgui.get_text_line_height() / 2)
+    draw.add_text(text, theme.u32(theme.TEXT if on or color is None else theme.DIM), name)
+    if imgui.is_item_focused():
+        draw.add_rect(at, far, theme.u32(theme.ACCENT), theme.px(4))
+    return bool(clicked)
+
+
+def triad(camera: Camera, origin: ImVec2, extent: ImVec2) -> str | None:
+    """The world's axes in the upper right corner, as the camera sees them; gives the one that was
+    clicked: "x", "-x", ..."""
+    radius, ball = theme.px(30), theme.px(9.5)
+    middle = ImVec2(
+        origin.x + extent.x - radius - ball - theme.px(8), origin.y + radius + ball + theme.px(8)
+    )
+    back = np.asarray(camera.w) / np.linalg.norm(camera.w)
+    right = np.asarray(camera.u) - (back @ camera.u) * back
+    right = right / np.linalg.norm(right)
+    up = np.cross(back, right)
+    if up @ np.asarray(camera.v) < 0:
+        up = -up
+    ends = []
+    for name, axis in AXES.items():
+        for sign in (1.0, -1.0):
+            way = sign * np.asarray(axis)
+            spot = ImVec2(
+                middle.x + radius * float(way @ right), middle.y - radius * float(way @ up)
+            )
+            ends.append((float(way @ back), name if sign > 0 else f"-{name}", spot))
+    draw = imgui.get_window_draw_list()
+    disc = radius + ball + theme.px(3)
+    draw.add_circle_filled(middle, disc, theme.u32(theme.rgb("#0c0d0f", 0.45)), 48)
+    clicked = None
+    for depth, name, spot in sorted(ends, key=lambda end: end[0]):
+        light = 0.55 + 0.225 * (1 + depth)
+        color = _axis_color(name[-1], light)
+        if not name.startswith("-"):
+            draw.add_line(middle, spot, theme.u32(color), theme.px(2.2))
+        size = ball if not name.startswith("-") else 0.72 * ball
+        imgui.set_cursor_screen_pos(ImVec2(spot.x - size, spot.y - size))
+        if imgui.invisible_button(f"axis {name}##outside", ImVec2(2 * size, 2 * size)):
+            clicked = name
+        hovered = imgui.is_item_hovered()
+        imgui.set_item_tooltip(f"look {AXIS_NAMES[name]}")
+        if name.startswith("-"):
+            draw.add_circle_filled(spot, size, theme.u32(theme.rgb("#1a1d21", 0.85)))
+            draw.add_circle(spot, size, theme.u32(color), 0, theme.px(1.5))
+        else:
+            draw.add_circle_filled(spot, size, theme.u32(color))
+            text = imgui.calc_text_size(name)
+            at = ImVec2(spot.x - text.x / 2, spot.y - text.y / 2 - theme.px(1))
+            draw.add_text(at, theme.u32(theme.rgb("#101215")), name)
+        if hovered:
+            draw.add_circle(spot, size + theme.px(1.5), theme.u32(theme.MARK), 0, theme.px(2))
+    return clicked
+
+
+def _axis_color(name: str, light: float) -> ImVec4:
+    """Greys of the world's axes: the colours are the basis's."""
+    base = {"x": 0.86, "y": 0.95, "z": 0.76}[name] * light
+    return ImVec4(base, base, base, 1.0)
+
+
+def labels(
+    primitives: Iterable[Primitive], origin: ImVec2, scale: float, fonts: theme.Fonts
+) -> None:
+    """Draws the texts of a diagram. scale: framebuffer pixels in one of ImGui's units."""
+    draw = imgui.get_window_draw_list()
+    shadow = theme.u32(theme.rgb("#07080a", 0.62))
+    for part in primitives:
+        if not isinstance(part, Text):
+            continue
+        font = fonts.bold if part.strong else fonts.text
+        size = imgui.get_font_size() * (1.5 if part.strong else 1.0)
+        imgui.push_font(font, 0.0)
+        box = imgui.calc_text_size(part.text)
+        ratio = size / imgui.get_font_size()
+        imgui.pop_font()
+        width, height = box.x * ratio, box.y * ratio
+        dx, dy = part.toward
+        # The text's box touches a circle round the point from outside.
+        room = theme.px(7 if part.strong else 13) + abs(dx) * width / 2 + abs(dy) * height / 2
+        x = math.floor(origin.x + part.at[0] / scale + dx * room - width / 2)
+        y = math.floor(origin.y + part.at[1] / scale + dy * room - height / 2)
+        assert font is not None
+        offset = theme.px(1.25)
+        for k in range(8):
+            angle = k * math.pi / 4
+            at = ImVec2(x + offset * math.cos(angle), y + offset * math.sin(angle))
+            draw.add_text(font, size, at, shadow, part.text)
+        draw.add_text(font, size, ImVec2(x, y), theme.u32(role_color(part.role)), part.text)
