@@ -12,15 +12,20 @@ from typing import Protocol
 
 from imgui_bundle import imgui
 
+from app import comparing
 from app.files import Files
 from app.focus import Focus
 from app.navigation import switched_projection
-from app.options import PIXEL_SIZES
+from app.options import PIXEL_SIZES, CompareMode
+from app.renderers import Renderers
 from app.state import AppState
 from renderer.camera import Camera
+from renderer.compare import Comparison
 
 Key = imgui.Key
 CTRL, SHIFT = int(Key.mod_ctrl), int(Key.mod_shift)
+
+FLIP_KEY = Key.x  # held, it shows the other image; read by the compare view
 
 MENUS = ("File", "Edit", "Camera", "View", "Help")
 
@@ -39,6 +44,8 @@ class Window(Protocol):
     def can_redo(self) -> bool: ...
     @property
     def files(self) -> Files: ...
+    @property
+    def renderers(self) -> Renderers: ...
     def toggle_help(self) -> None: ...
     def quit(self) -> None: ...
 
@@ -88,6 +95,101 @@ def _pixel_size(size: int) -> Action:
         separated=size == PIXEL_SIZES[0],
     )
 
+
+def _differing(change: Callable[[AppState, Comparison], AppState]) -> Callable[[Window], None]:
+    """A change that needs to know where the images differ; nothing happens until it is known."""
+
+    def run(window: Window) -> None:
+        verdict = window.renderers.verdict(window.state)
+        if verdict is not None:
+            window.change(change(window.state, verdict.comparison))
+
+    return run
+
+
+def _differ(window: Window) -> bool:
+    verdict = window.renderers.verdict(window.state)
+    return verdict is not None and verdict.comparison.agree < verdict.comparison.pixels
+
+
+def _comparing(number: int, mode: CompareMode, name: str) -> Action:
+    return Action(
+        "View",
+        f"Compare: {name.lower()}",
+        _change(lambda state: comparing.with_mode(state, mode)),
+        f"F{5 + number}",
+        (int(Key.f5) + number,),
+        is_on=lambda state: state.compare.mode == mode,
+        separated=number == 0,
+    )
+
+
+def _gain(factor: float) -> Callable[[AppState], AppState]:
+    return lambda state: comparing.with_gain(state, state.compare.gain * factor)
+
+
+def _divider(step: float) -> Callable[[AppState], AppState]:
+    return lambda state: comparing.with_divider(state, state.compare.divider + step)
+
+
+COMPARING = (
+    *(_comparing(number, mode, name) for number, (mode, name, _) in enumerate(comparing.MODES)),
+    Action(
+        "View",
+        "Compare: the other image (hold the key)",
+        _change(lambda state: state.with_options(compare={"flipped": not state.compare.flipped})),
+        "X",
+        is_on=lambda state: state.compare.flipped,
+    ),
+    Action(
+        "View",
+        "Compare: mark the causes",
+        _change(lambda state: state.with_options(compare={"causes": not state.compare.causes})),
+        "K",
+        (int(Key.k),),
+        is_on=lambda state: state.compare.causes,
+    ),
+    Action("View", "Compare: more gain", _change(_gain(2.0)), "]", (int(Key.right_bracket),)),
+    Action("View", "Compare: less gain", _change(_gain(0.5)), "[", (int(Key.left_bracket),)),
+    Action(
+        "View",
+        "Compare: divider to the right",
+        _change(_divider(comparing.DIVIDER_STEP)),
+        "Shift+]",
+        (SHIFT | int(Key.right_bracket),),
+    ),
+    Action(
+        "View",
+        "Compare: divider to the left",
+        _change(_divider(-comparing.DIVIDER_STEP)),
+        "Shift+[",
+        (SHIFT | int(Key.left_bracket),),
+    ),
+    Action(
+        "View",
+        "Compare: next differing pixel",
+        _differing(comparing.stepped),
+        "N",
+        (int(Key.n),),
+        can=_differ,
+    ),
+    Action(
+        "View",
+        "Compare: previous differing pixel",
+        _differing(lambda state, comparison: comparing.stepped(state, comparison, forward=False)),
+        "Shift+N",
+        (SHIFT | int(Key.n),),
+        can=_differ,
+    ),
+    Action(
+        "View",
+        "Compare: worst pixel",
+        _differing(comparing.at_worst),
+        "Shift+M",
+        (SHIFT | int(Key.m),),
+        can=_differ,
+    ),
+)
 
 ACTIONS = (
     Action("File", "Open...", lambda w: w.files.open_dialog(), "Ctrl+O", (CTRL | int(Key.o),)),
@@ -165,6 +267,7 @@ ACTIONS = (
         is_on=lambda state: state.options.mirrors,
     ),
     *(_pixel_size(size) for size in PIXEL_SIZES),
+    *COMPARING,
     Action(
         "Help",
         "Mouse and keys",

@@ -1,0 +1,324 @@
+"""The compare view's controls and numbers: modes, gain, colour bar, causes, errors, steps.
+
+Owns their look and their order, and how many of them have room. Gets a state and returns a new
+one. Knows nothing of the image between them.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+from imgui_bundle import ImVec2, ImVec4, imgui
+
+from app import comparing, theme
+from app.comparing import LABELS, MODES, Scale
+from app.options import Pixel
+from app.state import AppState
+from renderer.compare import LABEL_COLORS, Comparison
+from renderer.difference import LARGEST_GAIN
+
+IMAGE_LEAST = 0.5  # the part of the view's height that stays for the image, come what may
+DIGITS = 6  # of a count
+
+
+@dataclass(frozen=True)
+class Told:
+    """What there is to tell. comparison: None while it is not known. headline: one line; color:
+    its colour. pixel: the one whose values are shown.
+    """
+
+    headline: str
+    color: ImVec4
+    comparison: Comparison | None = None
+    pixel: Pixel | None = None
+
+
+@dataclass(frozen=True)
+class Wish:
+    """What was clicked. step: to the next differing pixel (1) or the one before (-1), of `label`
+    or, for None, of any. worst: to the pixel of the largest error."""
+
+    state: AppState
+    step: int = 0
+    label: int | None = None
+    worst: bool = False
+
+
+def toolbar(state: AppState) -> AppState:
+    """Modes, gain and the switch of the causes, in as many lines as they need."""
+    options = state.compare
+    flow = Flow()
+    for mode, name, told in MODES:
+        flow.next(_button_width(name))
+        if _choice(name, options.mode == mode):
+            state = comparing.with_mode(state, mode)
+        imgui.set_item_tooltip(told)
+    flow.next(_check_width("causes"))
+    changed, on = imgui.checkbox("causes", options.causes)
+    if changed:
+        state = state.with_options(compare={"causes": on})
+    imgui.set_item_tooltip("Mark the pixels that differ, in the colours of their causes.")
+    width = 9 * imgui.get_font_size()
+    flow.next(width)
+    imgui.set_next_item_width(width)
+    has_gain = options.mode in ("absolute", "signed") and state.images.channel != "id"
+    imgui.begin_disabled(not has_gain)
+    changed, gain = imgui.slider_float(
+        "##gain", options.gain, 1.0, LARGEST_GAIN, "gain %.3g", imgui.SliderFlags_.logarithmic
+    )
+    if changed:
+        state = comparing.with_gain(state, gain)
+    imgui.set_item_tooltip("What the difference is multiplied with. Keys [ and ]")
+    imgui.end_disabled()
+    return state
+
+
+def toolbar_height(state: AppState) -> float:
+    """Of toolbar(), in the present window."""
+    widths = [_button_width(name) for _, name, _ in MODES]
+    widths += [_check_width("causes"), 9 * imgui.get_font_size()]
+    return lines(widths) * imgui.get_frame_height_with_spacing()
+
+
+@dataclass(frozen=True)
+class Footer:
+    """The lines below the image that have room. counts: lines of them. height: of all."""
+
+    counts: int
+    errors: bool
+    values: bool
+    height: float
+
+
+def footer_plan(available: float) -> Footer:
+    """What has room in a view of that height: the headline and the scale always, then the counts,
+    the errors, the values of a pixel. Depends on sizes alone, so that nothing jumps."""
+    line, row = imgui.get_text_line_height_with_spacing(), imgui.get_frame_height_with_spacing()
+    height = line + _scale_height()
+    room = (1 - IMAGE_LEAST) * available - height
+    wanted = lines([_count_width(cause.name) for cause in LABELS])
+    counts = wanted if wanted * row <= room else 0
+    errors = counts > 0 and (counts + 1) * row <= room
+    values = errors and (counts + 1) * row + 2 * line <= room
+    return Footer(counts, errors, values, height + (counts + errors) * row + values * 2 * line)
+
+
+def footer(
+    state: AppState,
+    told: Told,
+    plan: Footer,
+    fonts: theme.Fonts,
+    draw_map: Callable[[ImVec2, ImVec2], None],
+) -> Wish:
+    """Everything below the image. draw_map: draws the colour map between two corners."""
+    imgui.push_font(fonts.bold, 0.0)
+    imgui.text_colored(told.color, told.headline)
+    imgui.pop_font()
+    state = _scale_row(state, draw_map)
+    wish = Wish(state)
+    if plan.counts:
+        wish = _counts(wish, told.comparison, fonts)
+    if plan.errors:
+        wish = _errors(wish, told.comparison, fonts)
+    if plan.values:
+        _values(state, told, fonts)
+    return wish
+
+
+class Flow:
+    """Puts items beside each other, and begins a line where there is no room."""
+
+    def __init__(self) -> None:
+        self._room = imgui.get_content_region_avail().x
+        self._used = 0.0
+
+    def next(self, width: float) -> None:
+        """Call before an item of that width."""
+        spacing = imgui.get_style().item_spacing.x
+        if self._used and self._used + spacing + width <= self._room:
+            imgui.same_line()
+            self._used += spacing + width
+        else:
+            self._used = width
+
+
+def lines(widths: list[float]) -> int:
+    """How many lines Flow needs."""
+    spacing, room = imgui.get_style().item_spacing.x, imgui.get_content_region_avail().x
+    count, used = 0, 0.0
+    for width in widths:
+        if count and used + spacing + width <= room:
+            used += spacing + width
+        else:
+            count, used = count + 1, width
+    return count
+
+
+def _scale_row(state: AppState, draw_map: Callable[[ImVec2, ImVec2], None]) -> AppState:
+    """The colour bar; in the other modes what takes its place, of the same height."""
+    top = imgui.get_cursor_pos_y()
+    options = state.compare
+    if options.mode in ("absolute", "signed"):
+        signed = options.mode == "signed"
+        _color_bar(comparing.scale(state.images.channel, options.gain, signed), signed, draw_map)
+    elif options.mode == "wipe":
+        imgui.set_next_item_width(-1)
+        changed, percent = imgui.slider_float(
+            "##divider", 100 * options.divider, 0.0, 100.0, "raster %.0f %% | ray"
+        )
+        if changed:
+            state = comparing.with_divider(state, percent / 100)
+        imgui.set_item_tooltip("Where the divider stands. It can be dragged in the image, too.")
+    else:
+        for flipped, name in ((False, "raster"), (True, "ray")):
+            if flipped:
+                imgui.same_line()
+            if _choice(f"show {name}", options.flipped == flipped):
+                state = state.with_options(compare={"flipped": flipped})
+        imgui.same_line()
+        imgui.align_text_to_frame_padding()
+        imgui.text_disabled("hold X: the other one")
+    imgui.set_cursor_pos_y(top + _scale_height())
+    imgui.dummy(ImVec2(0, 0))
+    imgui.set_cursor_pos_y(top + _scale_height())
+    return state
+
+
+def _scale_height() -> float:
+    return 2 * imgui.get_text_line_height_with_spacing() + imgui.get_style().item_spacing.y
+
+
+def _color_bar(scale: Scale, signed: bool, draw_map: Callable[[ImVec2, ImVec2], None]) -> None:
+    """The map from end to end, and below it what its ends and its middle mean."""
+    at, width = imgui.get_cursor_screen_pos(), imgui.get_content_region_avail().x
+    height = imgui.get_text_line_height()
+    end = ImVec2(at.x + width, at.y + height)
+    draw_map(at, end)
+    draw = imgui.get_window_draw_list()
+    draw.add_rect(at, end, theme.u32(theme.DIM))
+    imgui.dummy(ImVec2(width, height))
+    imgui.set_item_tooltip(
+        "Colours are compared as display values (sRGB, exposure 0), by the channel of light that\n"
+        "differs most; depths relative to the ray image's."
+    )
+    below = imgui.get_cursor_screen_pos()
+    texts = [(scale.low, 0.0), (scale.high, 1.0), (scale.middle, 0.5 if signed else 0.0)]
+    for text, part in texts:
+        _text_at(draw, below, width, text, part)
+    if signed:
+        return
+    _text_at(draw, below, width, scale.title, 0.5)
+
+
+def _text_at(draw: imgui.ImDrawList, at: ImVec2, width: float, text: str, part: float) -> None:
+    """Text in a line: at its left end (0), its middle, or its right end (1)."""
+    left = at.x + part * (width - imgui.calc_text_size(text).x)
+    draw.add_text(ImVec2(left, at.y), theme.u32(theme.TEXT), text)
+
+
+def _counts(wish: Wish, comparison: Comparison | None, fonts: theme.Fonts) -> Wish:
+    """Each cause with its colour and its pixels; a click goes to the next of them."""
+    found = comparing.counts(comparison) if comparison is not None else {}
+    flow = Flow()
+    draw = imgui.get_window_draw_list()
+    for cause in LABELS:
+        flow.next(_count_width(cause.name))
+        count = found.get(cause.label, 0)
+        text = str(count) if comparison is not None else "..."
+        at, size = imgui.get_cursor_screen_pos(), imgui.get_frame_height()
+        imgui.begin_disabled(not count)
+        width = _count_width(cause.name)
+        if imgui.button(f"##{cause.name}", ImVec2(width, size)):
+            step = -1 if imgui.get_io().key_shift else 1
+            wish = Wish(wish.state, step, cause.label)
+        imgui.end_disabled()
+        imgui.set_item_tooltip(f"{cause.told}\nClick: the next of these pixels; Shift: the last.")
+        red, green, blue = (int(c) / 255 for c in LABEL_COLORS[cause.label])
+        pad = imgui.get_style().frame_padding
+        edge = size - 2 * pad.y
+        low = ImVec2(at.x + pad.x, at.y + pad.y)
+        draw.add_rect_filled(
+            low, ImVec2(low.x + edge, low.y + edge), theme.u32(ImVec4(red, green, blue, 1)), 2.0
+        )
+        color = theme.u32(theme.TEXT if count else theme.DIM)
+        draw.add_text(ImVec2(low.x + edge + pad.x, low.y), color, cause.name)
+        imgui.push_font(fonts.mono, 0.0)
+        right = at.x + width - pad.x - imgui.calc_text_size(text).x
+        draw.add_text(ImVec2(right, low.y), color, text)
+        imgui.pop_font()
+    return wish
+
+
+def _count_width(name: str) -> float:
+    style, height = imgui.get_style(), imgui.get_text_line_height()
+    digits = imgui.calc_text_size("0" * DIGITS).x
+    return height + imgui.calc_text_size(name).x + digits + 4 * style.frame_padding.x
+
+
+def _errors(wish: Wish, comparison: Comparison | None, fonts: theme.Fonts) -> Wish:
+    """Buttons that go to pixels, and the errors over the whole image."""
+    channel, one_based = wish.state.images.channel, wish.state.options.one_based
+    differ = comparison is not None and comparison.agree < comparison.pixels
+    imgui.begin_disabled(not differ)
+    if imgui.button("next pixel"):
+        wish = Wish(wish.state, -1 if imgui.get_io().key_shift else 1)
+    imgui.end_disabled()
+    imgui.set_item_tooltip("Mark the next pixel that differs, and magnify there. Keys N, Shift+N")
+    imgui.same_line()
+    worst = comparison.errors[channel].worst if comparison is not None else (0, 0)
+    imgui.begin_disabled(comparison is None)
+    imgui.push_font(fonts.mono, 0.0)
+    if imgui.button(f"worst {comparing.pixel_text(worst, one_based)}###worst"):
+        wish = Wish(wish.state, worst=True)
+    imgui.pop_font()
+    imgui.end_disabled()
+    imgui.set_item_tooltip("Mark the pixel of the largest error, and magnify there. Shift+M")
+    imgui.same_line()
+    imgui.push_font(fonts.mono, 0.0)
+    text = comparing.error_text(comparison, channel) if comparison is not None else "..."
+    imgui.align_text_to_frame_padding()
+    imgui.text(text)
+    imgui.pop_font()
+    return wish
+
+
+def _values(state: AppState, told: Told, fonts: theme.Fonts) -> None:
+    """What both images have at a pixel, one above the other; the lines are kept without one."""
+    line = imgui.get_text_line_height_with_spacing()
+    if told.comparison is None or told.pixel is None:
+        imgui.dummy(ImVec2(1, 2 * line - imgui.get_style().item_spacing.y))
+        return
+    raster, ray, difference = comparing.pixel_values(
+        told.comparison, told.pixel, state.images.channel
+    )
+    cause = comparing.cause_at(told.comparison, told.pixel)
+    imgui.push_font(fonts.mono, 0.0)
+    pixel = comparing.pixel_text(told.pixel, state.options.one_based)
+    name = cause.name if cause is not None else "agree"
+    imgui.text(f"raster {raster:24} pixel {pixel}: {name}")
+    imgui.text(f"ray    {ray:24} ray - raster {difference}" if difference else f"ray    {ray}")
+    imgui.pop_font()
+
+
+def _choice(name: str, on: bool) -> bool:
+    """A button that is one of several; lit where it is the chosen one."""
+    if on:
+        imgui.push_style_color(imgui.Col_.button, theme.ACCENT)
+        imgui.push_style_color(imgui.Col_.button_hovered, theme.ACCENT)
+    pressed = imgui.button(name)
+    if on:
+        imgui.pop_style_color(2)
+    return pressed
+
+
+def _button_width(name: str) -> float:
+    return imgui.calc_text_size(name).x + 2 * imgui.get_style().frame_padding.x
+
+
+def _check_width(name: str) -> float:
+    return (
+        imgui.get_frame_height()
+        + imgui.get_style().item_inner_spacing.x
+        + (imgui.calc_text_size(name).x)
+    )
