@@ -130,7 +130,14 @@ def collapse(binary: Bvh) -> tuple[NDArray, NDArray, NDArray, int]:
 
 @kernel
 def _collapse(bounds, links, box, child, leaves):
-    """Gathers the binary tree's nodes into wide ones; gives how many nodes, leaves and levels."""
+    """Gathers the binary tree's nodes into wide ones; gives how many nodes, leaves and levels.
+
+    A subtree of up to 16 leaves becomes one node. It is not opened by the node above, which would
+    leave behind many nodes of few leaves: each takes as long to test as a full one.
+    """
+    below = np.empty(len(links), np.int32)  # leaves below each binary node
+    for m in range(len(links) - 1, -1, -1):  # children come after their parents
+        below[m] = 1 if links[m, 1] != 0 else below[links[m, 0]] + below[links[m, 0] + 1]
     waiting = np.empty((WIDTH * _LEVELS, 3), np.int64)  # binary node, wide node, level
     member = np.empty(WIDTH, np.int64)
     waiting[0, 0], waiting[0, 1], waiting[0, 2] = 0, 0, 1
@@ -142,11 +149,12 @@ def _collapse(bounds, links, box, child, leaves):
         # Replace the member of the largest surface by its two children, until there are 16.
         member[0] = waiting[top, 0]
         count = 1
+        opened = 1 if below[member[0]] <= WIDTH else WIDTH  # up to how many leaves stay closed
         while count < WIDTH:
             widest, area = -1, np.float32(-1)
             for i in range(count):
                 m = member[i]
-                if links[m, 1] == 0:
+                if below[m] > opened:
                     dx = bounds[m, 3] - bounds[m, 0]
                     dy = bounds[m, 4] - bounds[m, 1]
                     dz = bounds[m, 5] - bounds[m, 2]
