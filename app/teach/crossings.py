@@ -21,6 +21,9 @@ ROUNDING = 1e-12  # of the coordinates: what boxes are larger
 SAME = 1e-9  # relative: crossings of one object nearer to each other are one (a common edge)
 
 
+ALL = slice(None)
+
+
 class Crossings(NamedTuple):
     """Of one line, sorted by t: arrays (n,).
 
@@ -43,6 +46,8 @@ class Index:
         self._order = _neighbours_in_order(flat)
         runs = [np.arange(first, first + count, RUN) for first, count in flat.object_faces if count]
         self._starts = np.concatenate(runs) if runs else np.zeros(0, np.int64)
+        self._first_run = np.searchsorted(self._starts, flat.object_faces[:, 0])
+        self._after_runs = np.searchsorted(self._starts, flat.object_faces.sum(axis=1))
         self._ends = np.append(self._starts[1:], len(flat.faces))
         self._low, self._high = self._boxes()
 
@@ -67,6 +72,21 @@ class Index:
         t = t[(t > t_min) & (t < t_max)]
         return float(t[0]) if len(t) else np.inf
 
+    def mesh_hit(
+        self, number: int, origin: ArrayLike, direction: ArrayLike, t_min: float, t_max: float
+    ) -> tuple[float, int, float, float] | None:
+        """(t, primitive, b1, b2) of the closest hit with one mesh within (t_min, t_max)."""
+        runs = slice(self._first_run[number], self._after_runs[number])
+        with np.errstate(all="ignore"):
+            t, primitive, b1, b2 = self._triangles(
+                np.asarray(origin, float), np.asarray(direction, float), runs
+            )
+        inside = np.flatnonzero((t > t_min) & (t < t_max))
+        if not len(inside):
+            return None
+        best = inside[np.lexsort((primitive[inside], t[inside]))[0]]
+        return float(t[best]), int(primitive[best]), float(b1[best]), float(b2[best])
+
     def _boxes(self) -> tuple[Floats, Floats]:
         """The lowest and highest corner of each run, (runs, 3), with slack for rounding."""
         if not len(self._starts):
@@ -77,9 +97,12 @@ class Index:
         slack = ROUNDING * np.maximum(np.abs(low), np.abs(high)).max()
         return low - slack, high + slack
 
-    def _triangles(self, p: Floats, d: Floats) -> tuple[Floats, NDArray[np.int64], Floats, Floats]:
-        """(t, primitive, b1, b2) of the triangles that the line meets."""
-        numbers = self._candidates(p, d)
+    def _triangles(
+        self, p: Floats, d: Floats, runs: slice = ALL
+    ) -> tuple[Floats, NDArray[np.int64], Floats, Floats]:
+        """(t, primitive, b1, b2) of the triangles, among those of these runs, that the line
+        meets."""
+        numbers = self._candidates(p, d, runs)
         corners = self.flat.vertices[self.flat.faces[numbers]].astype(float) - p
         # The axis along which the line goes farthest becomes z; the other two follow it.
         z = int(np.argmax(np.abs(d)))
@@ -95,16 +118,18 @@ class Index:
         hit = inside & (area != 0) & np.isfinite(t)
         return t[hit], numbers[hit], (e1 / area)[hit], (e2 / area)[hit]
 
-    def _candidates(self, p: Floats, d: Floats) -> NDArray[np.int64]:
+    def _candidates(self, p: Floats, d: Floats, runs: slice) -> NDArray[np.int64]:
         """The triangles of the runs whose boxes the line meets."""
         reach = ROUNDING * np.abs(p).max()
-        to_low, to_high = (self._low - reach - p) / d, (self._high + reach - p) / d
+        low, high = self._low[runs], self._high[runs]
+        to_low, to_high = (low - reach - p) / d, (high + reach - p) / d
         # 0 / 0: the line runs in a box's face, which excludes nothing.
         enter = np.where(np.isnan(to_low) | np.isnan(to_high), -np.inf, np.fmin(to_low, to_high))
         leave = np.where(np.isnan(to_low) | np.isnan(to_high), np.inf, np.fmax(to_low, to_high))
         first, last = enter.max(axis=1, initial=-np.inf), leave.min(axis=1, initial=np.inf)
         met = first <= last + 1e-9 * np.abs(last)
-        starts, counts = self._starts[met], (self._ends - self._starts)[met]
+        starts = self._starts[runs][met]
+        counts = self._ends[runs][met] - starts
         # All of start, start + 1, ..., start + count - 1, one after another.
         skipped = np.repeat(starts - np.cumsum(counts) + counts, counts)
         return self._order[skipped + np.arange(counts.sum())]

@@ -1,0 +1,117 @@
+"""How far an object's projection extends on the image plane, exactly: spheres, and meshes.
+
+Owns the clipping at the eye. Knows nothing of pixels but their centres.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import NamedTuple
+
+import numpy as np
+
+from renderer.camera import Camera, Floats, Size
+
+NEAREST = 1e-9  # parts of the largest parameter: what is nearer to the eye's plane is cut off
+ROUNDING_PX = 1e-6  # a centre that lies on the edge counts
+
+
+class Extent(NamedTuple):
+    """left, right, bottom, top on the image plane, in units of u and v; infinite where an object
+    reaches around the eye."""
+
+    left: float
+    right: float
+    bottom: float
+    top: float
+
+
+NOTHING = Extent(math.inf, -math.inf, math.inf, -math.inf)
+EVERYTHING = Extent(-math.inf, math.inf, -math.inf, math.inf)
+
+
+def sphere_extent(center: Floats, radius: float, camera: Camera) -> Extent:
+    """Of a sphere, world space. Any basis: in camera coordinates it is an ellipsoid.
+
+    Source: Hartley and Zisserman, Multiple View Geometry, "The action of a projective camera on
+    quadrics": the outline's dual conic touches the extent's four lines.
+    """
+    linear = camera.camera_from_world[:3, :3]
+    x, y, z = linear @ (center - camera.eye)
+    reach_x, reach_y, reach_z = radius * np.linalg.norm(linear, axis=1)
+    unit = 1.0 if camera.is_parallel else camera.distance
+    if _is_outside((-z - reach_z) / unit, (-z + reach_z) / unit, camera):
+        return NOTHING
+    if camera.is_parallel:
+        return Extent(x - reach_x, x + reach_x, y - reach_y, y + reach_y)
+    if -z <= reach_z * (1 + NEAREST):
+        return EVERYTHING
+    image = np.diag([1.0, 1.0, -1.0 / unit])
+    middle = image @ (x, y, z)
+    outline = image @ (radius * linear)
+    conic = outline @ outline.T - np.outer(middle, middle)
+    sides = []
+    for k in (0, 1):
+        a, b, c = conic[2, 2], conic[k, 2], conic[k, k]
+        root = math.sqrt(max(0.0, b * b - a * c))
+        sides += sorted([(b - root) / a, (b + root) / a])
+    return Extent(*sides)
+
+
+def mesh_extent(vertices: Floats, faces: np.ndarray, camera: Camera) -> Extent:
+    """Of triangles: vertices (n, 3), world space, and their numbers (m, 3)."""
+    matrix = camera.camera_from_world
+    local = vertices @ matrix[:3, :3].T + matrix[:3, 3]
+    unit = 1.0 if camera.is_parallel else camera.distance
+    t = -local[:, 2] / unit
+    if _is_outside(float(t.min()), float(t.max()), camera):
+        return NOTHING
+    points = local[:, :2]
+    if not camera.is_parallel:
+        least = max(NEAREST * float(np.abs(t).max()), camera.t_range[0])
+        ahead = t > least
+        points = local[ahead, :2] / t[ahead, None]
+        if not ahead.all():
+            points = np.concatenate([points, _cut(local, t, faces, least)])
+    if not len(points):
+        return NOTHING
+    (left, bottom), (right, top) = points.min(axis=0), points.max(axis=0)
+    return Extent(float(left), float(right), float(bottom), float(top))
+
+
+def pixels_of(extent: Extent, camera: Camera, size: Size) -> tuple[range, range]:
+    """The rows and columns whose pixels' centres lie within an extent; see Camera.image_point."""
+    width, height = size
+    left, right, bottom, top = camera.viewport
+    columns = _whole(
+        (extent.left - left) / (right - left) * width - 0.5,
+        (extent.right - left) / (right - left) * width - 0.5,
+        width,
+    )
+    rows = _whole(
+        (top - extent.top) / (top - bottom) * height - 0.5,
+        (top - extent.bottom) / (top - bottom) * height - 0.5,
+        height,
+    )
+    return (rows, columns) if rows and columns else (range(0), range(0))
+
+
+def _is_outside(t_low: float, t_high: float, camera: Camera) -> bool:
+    """Whether ray parameters from t_low to t_high all lie behind the eye, or are clipped."""
+    t_min, t_max = camera.t_range
+    return t_high <= t_min or t_low >= t_max
+
+
+def _cut(local: Floats, t: Floats, faces: np.ndarray, least: float) -> Floats:
+    """Where the triangles' sides cross the plane t = least: on the image plane, (n, 2)."""
+    sides = faces[:, [0, 1, 1, 2, 2, 0]].reshape(-1, 2)
+    a, b = sides[(t[sides[:, 0]] > least) != (t[sides[:, 1]] > least)].T
+    part = (least - t[a]) / (t[b] - t[a])
+    return (local[a, :2] + part[:, None] * (local[b, :2] - local[a, :2])) / least
+
+
+def _whole(low: float, high: float, count: int) -> range:
+    """The whole numbers from low to high that are within 0 to count - 1."""
+    first = math.ceil(min(max(low - ROUNDING_PX, 0.0), count))
+    last = math.floor(max(min(high + ROUNDING_PX, count - 1.0), -1.0))
+    return range(first, max(first, last + 1))

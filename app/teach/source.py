@@ -1,0 +1,100 @@
+"""The source of a teaching renderer as the stepper shows it, and which of its lines are which.
+
+Owns the reading of a function's source. Knows nothing of what the function does.
+"""
+
+from __future__ import annotations
+
+import ast
+import inspect
+import textwrap
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Any
+
+
+@dataclass(frozen=True)
+class Loop:
+    """A loop's lines: header, the first and the last of its body; numbers in Source.lines."""
+
+    header: int
+    first: int
+    last: int
+
+    def runs(self, line: int) -> bool:
+        """Whether a line belongs to the body."""
+        return self.first <= line <= self.last
+
+
+@dataclass(frozen=True, eq=False)
+class Source:
+    """A function's text. lines: without its docstring. first_line: what is to be subtracted from
+    Python's line numbers; shown: the number in `lines` of each of Python's, -1 for the docstring.
+
+    pixels: the loop over columns j, within that over rows. objects: the loop over objects. test:
+    the line that intersects an object; write: the one that sets a pixel of the canvas.
+    """
+
+    name: str
+    lines: tuple[str, ...]
+    first_line: int
+    shown: tuple[int, ...]
+    pixels: Loop
+    objects: Loop
+    test: int
+    write: int
+
+
+def source_of(function: Callable[..., Any]) -> Source:
+    """The source of object_order or image_order, or of a function with the same parts."""
+    text = textwrap.dedent(inspect.getsource(function))
+    tree = ast.parse(text).body[0]
+    assert isinstance(tree, ast.FunctionDef)
+    all_lines = text.rstrip("\n").split("\n")
+    hidden = _docstring_lines(tree)
+    shown: list[int] = []
+    lines: list[str] = []
+    for number, line in enumerate(all_lines):
+        shown.append(-1 if number in hidden else len(lines))
+        if number not in hidden:
+            lines.append(line)
+    loops = {
+        ast.unparse(node.target): Loop(
+            shown[node.lineno - 1], shown[node.body[0].lineno - 1], shown[_end(node) - 1]
+        )
+        for node in ast.walk(tree)
+        if isinstance(node, ast.For)
+    }
+    test = next(
+        node.lineno
+        for node in ast.walk(tree)
+        if isinstance(node, ast.Call) and ast.unparse(node.func) == "intersect"
+    )
+    write = next(
+        node.lineno
+        for node in ast.walk(tree)
+        if isinstance(node, ast.Assign) and ast.unparse(node.targets[0]).startswith("canvas[")
+    )
+    return Source(
+        name=function.__name__,
+        lines=tuple(lines),
+        first_line=function.__code__.co_firstlineno,
+        shown=tuple(shown),
+        pixels=loops["j"],
+        objects=loops["object"],
+        test=shown[test - 1],
+        write=shown[write - 1],
+    )
+
+
+def _end(node: ast.stmt) -> int:
+    assert node.end_lineno is not None
+    return node.end_lineno
+
+
+def _docstring_lines(tree: ast.FunctionDef) -> set[int]:
+    """The lines of the docstring, counted from 0."""
+    if ast.get_docstring(tree) is None:
+        return set()
+    node = tree.body[0]
+    return set(range(node.lineno - 1, _end(node)))
