@@ -64,12 +64,12 @@ def headline(comparison: Comparison, effects: str = "") -> tuple[str, bool]:
     """The result in one line, and whether it is good news. effects: see effects_of()."""
     differing = comparison.pixels - comparison.agree
     if effects:
-        return f"Not comparable with {effects}: {_pixels(differing)} differ", False
+        return f"Not comparable with {effects}: {differing} of {comparison.pixels} differ", False
     if not differing:
         return "All pixels agree", True
     if not comparison.unexplained:
         causes = [label.name for label in LABELS if counts(comparison)[label.label]]
-        return f"Agree: {_pixels(differing)} differ, explained by {_listed(causes)}", True
+        return f"Agree but for {_pixels(differing)}: {_listed(causes)}", True
     return f"Disagree: {_pixels(comparison.unexplained)} without an explanation", False
 
 

@@ -61,7 +61,10 @@ class Target:
 
 
 class Pass:
-    """A fragment shader over a whole picture, done again only where its inputs have changed."""
+    """A fragment shader over a whole picture, done again only where its inputs have changed.
+
+    count: how often it was done.
+    """
 
     def __init__(self, context: moderngl.Context, fragment: str) -> None:
         self._gl = context
@@ -69,6 +72,7 @@ class Pass:
         self._screen = context.vertex_array(self._program, [])
         self._target = Target(context)
         self._drawn: Hashable = None
+        self.count = 0
 
     def draw(
         self,
@@ -99,6 +103,7 @@ class Pass:
         finally:
             before.use()
         self._drawn = made
+        self.count += 1
         return texture
 
     def forget(self) -> None:
@@ -129,6 +134,11 @@ class Composed:
         self._no_ids = self._owner.own(new_texture(context, (1, 1), 1, np.int32))
         self._marks: moderngl.Texture | None = None
         self._marked: tuple[NDArray[np.uint8], bool] | None = None
+
+    @property
+    def version(self) -> int:
+        """How often compose() has drawn: another number, another picture."""
+        return self._compose.count
 
     def color_map(self, signed: bool) -> moderngl.Texture:
         """The colour map as one row of pixels, for a colour bar."""

@@ -18,6 +18,8 @@ from app.state import AppState
 from renderer.compare import LABEL_COLORS, Comparison
 from renderer.difference import LARGEST_GAIN
 
+DrawMap = Callable[[ImVec2, ImVec2, bool], None]  # two corners; whether the signed map
+
 IMAGE_LEAST = 0.5  # the part of the view's height that stays for the image, come what may
 DIGITS = 6  # of a count
 
@@ -109,7 +111,7 @@ def footer(
     told: Told,
     plan: Footer,
     fonts: theme.Fonts,
-    draw_map: Callable[[ImVec2, ImVec2], None],
+    draw_map: DrawMap,
 ) -> Wish:
     """Everything below the image. draw_map: draws the colour map between two corners."""
     imgui.push_font(fonts.bold, 0.0)
@@ -155,7 +157,7 @@ def lines(widths: list[float]) -> int:
     return count
 
 
-def _scale_row(state: AppState, draw_map: Callable[[ImVec2, ImVec2], None]) -> AppState:
+def _scale_row(state: AppState, draw_map: DrawMap) -> AppState:
     """The colour bar; in the other modes what takes its place, of the same height."""
     top = imgui.get_cursor_pos_y()
     options = state.compare
@@ -189,12 +191,12 @@ def _scale_height() -> float:
     return 2 * imgui.get_text_line_height_with_spacing() + imgui.get_style().item_spacing.y
 
 
-def _color_bar(scale: Scale, signed: bool, draw_map: Callable[[ImVec2, ImVec2], None]) -> None:
+def _color_bar(scale: Scale, signed: bool, draw_map: DrawMap) -> None:
     """The map from end to end, and below it what its ends and its middle mean."""
     at, width = imgui.get_cursor_screen_pos(), imgui.get_content_region_avail().x
     height = imgui.get_text_line_height()
     end = ImVec2(at.x + width, at.y + height)
-    draw_map(at, end)
+    draw_map(at, end, signed)
     draw = imgui.get_window_draw_list()
     draw.add_rect(at, end, theme.u32(theme.DIM))
     imgui.dummy(ImVec2(width, height))

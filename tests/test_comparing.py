@@ -1,0 +1,184 @@
+"""What the compare view says and does: words, units, steps from pixel to pixel."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from app import comparing
+from app.state import AppState
+from renderer import Camera, Frame, load_scene
+from renderer.compare import CAUSES, SHADING, UNEXPLAINED, compare_frames
+from renderer.difference import LARGEST_GAIN
+from renderer.scene.flat import flatten
+from renderer.scene.model import Scene
+
+SIZE = (8, 6)
+
+
+def image(**values):
+    shape = SIZE[::-1]
+    frame = {
+        "color": np.full((*shape, 3), 0.5, np.float32),
+        "depth": np.full(shape, 2, np.float32),
+        "normal": np.full((*shape, 3), (0, 0, 1), np.float32),
+        "id": np.zeros(shape, np.int32),
+        "primitive": np.full(shape, -1, np.int32),
+    }
+    for name, (where, value) in values.items():
+        frame[name][where] = value
+    return Frame(size=SIZE, **frame)
+
+
+def compared(effects=False, **values):
+    """Of an image that is flat, and one with other values in some pixels."""
+    scene = flatten(Scene(()))
+    return compare_frames(scene, Camera(), SIZE, image(), image(**values), effects)
+
+
+@pytest.fixture(scope="module")
+def state():
+    return AppState.for_scene(load_scene("spheres"))
+
+
+def test_the_headline_says_what_matters():
+    assert comparing.headline(compared()) == ("All pixels agree", True)
+    one = compared(color=((3, 4), 0.9))
+    assert comparing.headline(one) == ("Disagree: 1 pixel without an explanation", False)
+    assert comparing.headline(one, "shadows") == (
+        "Not comparable with shadows: 1 of 48 differ",
+        False,
+    )
+    explained = replace(
+        one, unexplained=0, shading=0, explained=dict.fromkeys(CAUSES, 0) | {"outline": 1}
+    )
+    assert comparing.headline(explained) == ("Agree but for 1 pixel: edge", True)
+    two = replace(
+        explained, agree=45, explained=dict.fromkeys(CAUSES, 0) | {"outline": 1, "meeting": 2}
+    )
+    assert comparing.headline(two) == ("Agree but for 3 pixels: edge and meeting", True)
+
+
+def test_pixels_are_counted_by_cause():
+    comparison = compared(color=((3, slice(0, 3)), 0.9), id=((0, 0), 4))
+    counts = comparing.counts(comparison)
+    assert set(counts) == {cause.label for cause in comparing.LABELS}
+    assert counts[SHADING] == 3
+    assert counts[UNEXPLAINED] == 1
+    assert sum(counts.values()) == comparison.pixels - comparison.agree
+    cause = comparing.cause_at(comparison, (0, 0))
+    assert cause is not None and cause.name == "unexplained"
+    assert comparing.cause_at(comparison, (5, 5)) is None
+
+
+def test_with_effects_the_colour_alone_is_not_examined():
+    comparison = compared(effects=True, color=((3, 4), 0.9), depth=((1, 1), 5))
+    assert comparing.counts(comparison)[SHADING] == 1
+    assert comparing.counts(comparison)[UNEXPLAINED] == 1
+
+
+def test_the_next_pixel_is_the_next_one_in_the_order_of_reading():
+    comparison = compared(color=(([1, 1, 4], [2, 6, 0]), 0.9), id=((2, 3), 4))
+    found, pixel = [], None
+    for _ in range(5):
+        pixel = comparing.next_differing(comparison, pixel)
+        found.append(pixel)
+    assert found == [(1, 2), (1, 6), (2, 3), (4, 0), (1, 2)]
+    back = []
+    for _ in range(4):
+        pixel = comparing.next_differing(comparison, pixel, forward=False)
+        back.append(pixel)
+    assert back == [(4, 0), (2, 3), (1, 6), (1, 2)]
+    assert comparing.next_differing(comparison, None, forward=False) == (4, 0)
+    assert comparing.next_differing(comparison, (1, 4)) == (1, 6)
+    assert comparing.next_differing(comparison, (1, 2), label=UNEXPLAINED) == (2, 3)
+    assert comparing.next_differing(comparison, (2, 3), label=UNEXPLAINED) == (2, 3)
+    assert comparing.next_differing(comparison, None, label=1) is None
+    assert comparing.next_differing(compared(), None) is None
+
+
+def test_a_step_marks_and_magnifies(state):
+    comparison = compared(color=((3, 4), 0.9))
+    after = comparing.stepped(state, comparison)
+    assert after.marked == (3, 4)
+    assert after.images.magnification == comparing.MARKED_MAGNIFICATION
+    assert after.images.center == (4.5 / 8, 3.5 / 6)
+    closer = state.with_options(images={"magnification": 64.0})
+    assert comparing.stepped(closer, comparison).images.magnification == 64.0
+    assert comparing.stepped(state, compared()) is state
+
+
+def test_the_worst_pixel_is_the_channels(state):
+    comparison = compared(color=((3, 4), 0.9), depth=((1, 1), 5), normal=((2, 7), (1, 0, 0)))
+    worst = {
+        channel: comparing.at_worst(
+            state.with_options(images={"channel": channel}), comparison
+        ).marked
+        for channel in ("color", "depth", "normal")
+    }
+    assert worst == {"color": (3, 4), "depth": (1, 1), "normal": (2, 7)}
+
+
+def test_gain_and_divider_stay_within_their_limits(state):
+    assert comparing.with_gain(state, 0.1).compare.gain == 1
+    assert comparing.with_gain(state, 1e9).compare.gain == LARGEST_GAIN
+    assert comparing.with_gain(state, 16).compare.gain == 16
+    assert comparing.with_divider(state, -1).compare.divider == 0
+    assert comparing.with_divider(state, 2).compare.divider == 1
+
+
+@pytest.mark.parametrize(
+    ("channel", "gain", "full"),
+    [
+        ("color", 1, "255"),
+        ("color", 1024, "0.249"),
+        ("depth", 1, "100 %"),
+        ("depth", 64, "1.56 %"),
+        ("normal", 1, "2"),
+    ],
+)
+def test_a_scale_has_its_units_and_says_which_image_has_more(channel, gain, full):
+    absolute = comparing.scale(channel, gain, signed=False)
+    assert (absolute.low, absolute.middle, absolute.high) == ("", "0", full)
+    signed = comparing.scale(channel, gain, signed=True)
+    assert signed.low.startswith(full) and "raster" in signed.low
+    assert signed.high.endswith(full) and "ray" in signed.high
+
+
+def test_objects_are_the_same_or_not():
+    assert comparing.scale("id", 7, signed=True) == comparing.scale("id", 1, signed=False)
+
+
+def test_errors_are_told_with_their_units():
+    comparison = compared(
+        color=((3, 4), 1.0), depth=((1, 1), 4), normal=((2, 7), (0, 0, 0)), id=((0, slice(2)), 3)
+    )
+    # Linear light 0.5 is shown as 187.5 of 255.
+    assert comparing.error_text(comparison, "color").startswith("max  67.5  RMS   9.740")
+    assert comparing.error_text(comparison, "depth").startswith("max 50 %  RMS 7.22 %")
+    assert comparing.error_text(comparison, "normal").startswith("max 1  RMS 0.144")
+    assert comparing.error_text(comparison, "id") == "another object in 2 pixels"
+    missed = compared(depth=((1, slice(3)), np.inf))
+    assert comparing.error_text(missed, "depth").endswith("hit in one image only: 3")
+
+
+def test_a_pixels_values():
+    comparison = compared(color=((3, 4), 1.0), depth=((1, 1), np.inf), id=((2, 2), -1))
+    raster, ray, difference = comparing.pixel_values(comparison, (3, 4), "color")
+    assert raster.split() == ["0.500"] * 3
+    assert ray.split() == ["1.000"] * 3
+    assert difference == "+67.5 /255"
+    assert comparing.pixel_values(comparison, (1, 1), "depth") == ("2", "no hit", "+inf %")
+    assert comparing.pixel_values(comparison, (2, 2), "id") == ("object 0", "none", "")
+
+
+def test_pixels_are_counted_from_where_the_user_likes():
+    assert comparing.pixel_text((0, 11), one_based=True) == "(1, 12)"
+    assert comparing.pixel_text((0, 11), one_based=False) == "(0, 11)"
+
+
+def test_effects_have_names(state):
+    assert comparing.effects_of(state) == ""
+    both = state.with_options(shadows=True, mirrors=True)
+    assert comparing.effects_of(both) == "shadows and mirrors"
+    assert comparing.effects_of(state.with_options(mirrors=True)) == "mirrors"
