@@ -1,0 +1,257 @@
+"""What an image costs: both fast renderers' times against the number of triangles and of pixels.
+
+Owns the scenes that are measured and the measuring, in a thread of its own. Knows nothing of how
+times are plotted. The rasterizer gets an OpenGL context of its own there: no window waits for it.
+"""
+
+from __future__ import annotations
+
+import math
+import threading
+from collections.abc import Callable, Iterable
+from dataclasses import dataclass
+from functools import lru_cache
+from typing import Literal, Protocol
+
+from app.teach.notation import number
+from renderer.camera import Camera, Size
+from renderer.errors import LucidaError
+from renderer.frame import Frame
+from renderer.scene import shapes
+from renderer.scene.limits import SEGMENTS
+from renderer.scene.model import DirectionalLight, Material, Mesh, Scene, SceneObject
+
+Renderer = Literal["raster", "ray"]
+RENDERERS: tuple[Renderer, ...] = ("raster", "ray")
+LEAST_TRIANGLES, MOST_TRIANGLES = 18, 2 * SEGMENTS * (SEGMENTS // 2)
+LEAST_PIXELS, MOST_PIXELS = 64, 1 << 22
+ROUNDS = 5  # times that each case is drawn; the least counts, others had company
+
+
+@dataclass(frozen=True)
+class Case:
+    """What is to be measured. pixels: of an image of about 4 : 3."""
+
+    renderer: Renderer
+    triangles: int
+    pixels: int
+
+    def __post_init__(self) -> None:
+        for name, value, least, most in (
+            ("triangles", self.triangles, LEAST_TRIANGLES, MOST_TRIANGLES),
+            ("pixels", self.pixels, LEAST_PIXELS, MOST_PIXELS),
+        ):
+            if not least <= value <= most:
+                raise LucidaError(name, f"{value} is not in {least} to {most}", "give e.g. 10000")
+
+    @property
+    def size(self) -> Size:
+        """(width, height)"""
+        width = max(1, round(math.sqrt(self.pixels * 4 / 3)))
+        return width, max(1, round(self.pixels / width))
+
+
+@dataclass(frozen=True)
+class Sample:
+    """What a case took. triangles, pixels: as many as there really were."""
+
+    case: Case
+    triangles: int
+    pixels: int
+    time_s: float
+
+
+class Drawing(Protocol):
+    """What is measured: a Rasterizer or a Tracer."""
+
+    def set_scene(self, scene: Scene) -> None: ...
+
+    def render(self, camera: Camera, size: Size, channels: tuple[str, ...]) -> Frame: ...
+
+
+def torus_of(triangles: int) -> Scene:
+    """A lit torus that fills the canonical camera's image, of about that many triangles."""
+    sides = min(SEGMENTS, max(3, round(math.sqrt(triangles) / 2)))
+    segments = min(SEGMENTS, max(3, round(triangles / (2 * sides))))
+    return _torus(segments, sides)
+
+
+def count(scene: Scene) -> int:
+    """The triangles of a scene that torus_of made."""
+    return sum(len(e.shape.faces) for e in scene.objects if isinstance(e.shape, Mesh))
+
+
+@lru_cache(maxsize=4)
+def _torus(segments: int, sides: int) -> Scene:
+    mesh = shapes.torus(0.62, 0.3, segments, sides)
+    mesh = shapes.translate(shapes.rotate(mesh, (55, 0, 20)), (0, 0, -2))
+    material = Material((0.8, 0.5, 0.2), (0.3, 0.3, 0.3), 40)
+    return Scene((SceneObject(mesh, material, "torus"),), (DirectionalLight((-1, -1, -1)),))
+
+
+def cases(
+    triangles: Iterable[int], pixels: Iterable[int], renderers: Iterable[Renderer] = RENDERERS
+) -> list[Case]:
+    """All combinations, so that a scene is prepared once."""
+    renderers = tuple(renderers)
+    pixels = tuple(pixels)
+    return [
+        Case(renderer, number_of, pixel_count)
+        for number_of in triangles
+        for renderer in renderers
+        for pixel_count in pixels
+    ]
+
+
+def steps(least: int, most: int, how_many: int) -> list[int]:
+    """Numbers from least to most, each about the same factor larger than the one before."""
+    ratio = (most / least) ** (1 / max(1, how_many - 1))
+    return sorted({round(least * ratio**k) for k in range(how_many)} | {least, most})
+
+
+def measure(case: Case, drawing: Drawing) -> Sample:
+    """Draws a case ROUNDS times, after once for warming up, and takes the least time."""
+    scene = torus_of(case.triangles)
+    drawing.set_scene(scene)
+    camera = Camera.canonical().fitted(case.size)
+    width, height = case.size
+    times = [
+        drawing.render(camera, case.size, channels=("color",)).time_s for _ in range(1 + ROUNDS)
+    ]
+    return Sample(case, count(scene), width * height, min(times[1:]))
+
+
+class Meter:
+    """Measures in the background. changed: called from its thread after each sample.
+
+    make: how the renderers are made there; for tests.
+    """
+
+    def __init__(
+        self,
+        changed: Callable[[], None],
+        make: Callable[[Renderer], Drawing] | None = None,
+    ) -> None:
+        self._changed = changed
+        self._make = make or _make
+        self._lock = threading.Lock()
+        self._wanted: list[Case] = []
+        self._samples: list[Sample] = []
+        self._problems: dict[Renderer, str] = {}
+        self._thread: threading.Thread | None = None
+        self._closed = False
+
+    @property
+    def samples(self) -> tuple[Sample, ...]:
+        """Those so far, in the order in which they came."""
+        with self._lock:
+            return tuple(self._samples)
+
+    @property
+    def problems(self) -> dict[Renderer, str]:
+        """Why a renderer cannot be measured."""
+        with self._lock:
+            return dict(self._problems)
+
+    @property
+    def waiting(self) -> int:
+        """How many cases are not yet measured."""
+        with self._lock:
+            return len(self._wanted)
+
+    @property
+    def busy(self) -> bool:
+        with self._lock:
+            return self._thread is not None
+
+    def ask(self, wanted: Iterable[Case]) -> None:
+        """Measures these cases next, instead of those that were waiting. Known ones are kept."""
+        with self._lock:
+            known = {sample.case for sample in self._samples}
+            self._wanted = [case for case in wanted if case not in known]
+            if self._wanted and self._thread is None and not self._closed:
+                self._thread = threading.Thread(target=self._run, name="lucida costs", daemon=True)
+                self._thread.start()
+
+    def clear(self) -> None:
+        """Forgets all samples, and measures no more."""
+        with self._lock:
+            self._wanted, self._samples, self._problems = [], [], {}
+
+    def close(self, timeout_s: float = 2.0) -> None:
+        """Ends after the case under way."""
+        with self._lock:
+            self._wanted, self._closed = [], True
+            thread = self._thread
+        if thread is not None:
+            thread.join(timeout_s)
+
+    def _run(self) -> None:
+        drawings: dict[Renderer, Drawing] = {}
+        try:
+            while (case := self._next()) is not None:
+                self._measure(case, drawings)
+                self._changed()
+        finally:
+            for drawing in drawings.values():
+                _release(drawing)
+
+    def _next(self) -> Case | None:
+        with self._lock:
+            # Decided and said under one lock: whoever asks later starts another thread.
+            if not self._wanted:
+                self._thread = None
+                return None
+            return self._wanted[0]
+
+    def _measure(self, case: Case, drawings: dict[Renderer, Drawing]) -> None:
+        sample, problem = None, self.problems.get(case.renderer, "")
+        try:
+            if not problem:
+                if case.renderer not in drawings:
+                    drawings[case.renderer] = self._make(case.renderer)
+                sample = measure(case, drawings[case.renderer])
+        except Exception as error:  # said beside the plot, which goes on with the other renderer
+            problem = str(error) or type(error).__name__
+        with self._lock:
+            if case in self._wanted:  # else it was taken back meanwhile
+                self._wanted.remove(case)
+                if sample is not None:
+                    self._samples.append(sample)
+            if problem:
+                self._problems[case.renderer] = problem
+
+
+def growth(samples: Iterable[Sample], of: Literal["triangles", "pixels"]) -> float | None:
+    """The exponent k of time ~ n^k that fits best: 1 for a loop over n, near 0 where n does not
+    matter. None for fewer than two different n."""
+    points = [(math.log(getattr(one, of)), math.log(max(one.time_s, 1e-9))) for one in samples]
+    if len({x for x, _ in points}) < 2:
+        return None
+    mean_x = sum(x for x, _ in points) / len(points)
+    mean_y = sum(y for _, y in points) / len(points)
+    return sum((x - mean_x) * (y - mean_y) for x, y in points) / sum(
+        (x - mean_x) ** 2 for x, _ in points
+    )
+
+
+def growth_text(samples: Iterable[Sample], of: Literal["triangles", "pixels"]) -> str:
+    """`~ triangles^0.9`, or nothing while it is not known."""
+    exponent = growth(samples, of)
+    return "" if exponent is None else f"~ {of}^{number(round(exponent, 1))}"
+
+
+def _make(renderer: Renderer) -> Drawing:
+    if renderer == "ray":
+        from renderer.trace import Tracer  # here, in the thread: it loads the compiler
+
+        return Tracer(Scene(()))
+    from renderer.raster import Rasterizer
+
+    return Rasterizer(Scene(()))
+
+
+def _release(drawing: Drawing) -> None:
+    for name in ("release", "close"):
+        if (end := getattr(drawing, name, None)) is not None:
+            end()
