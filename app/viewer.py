@@ -32,6 +32,7 @@ from app.window import MainWindow, title
 from renderer.atomic import atomic_write, check_writable
 from renderer.errors import LucidaError
 from renderer.scene import BUILTIN_SCENES, load_scene, load_view
+from renderer.scene import View as SceneView
 
 DEFAULT_SIZE = (1280, 720)
 DEFAULT_PICTURE = Path("lucida.png")
@@ -46,15 +47,18 @@ def run_viewer(
     *,
     size: tuple[int, int] | None = None,
     view: str | Path | None = None,
+    change: Callable[[SceneView], SceneView] | None = None,
 ) -> int:
     """Opens the window on a scene and returns when it is closed; gives the exit status.
 
     screenshot: draw the whole window once, with both images complete, save it there as PNG, and
     return. With no display that is done in any case, into lucida.png, and one line says so.
-    size: the window's (width, height). view: a view file. Raises LucidaError.
+    size: the window's (width, height). view: a view file. change: what else the command line says
+    about the view. Raises LucidaError.
     """
     scene = load_scene(scene_source or BUILTIN_SCENES[0])
-    state = AppState.for_scene(scene, None if view is None else load_view(view))
+    own_view = scene.view if view is None else load_view(view)
+    state = AppState.for_scene(scene, own_view if change is None else change(own_view))
     if screenshot is not None:
         check_writable(screenshot)
     platform = start_platform(want_display=screenshot is None)

@@ -10,17 +10,19 @@ import contextlib
 import math
 import sys
 from collections.abc import Callable, Iterator
+from dataclasses import replace
 from typing import TYPE_CHECKING, NoReturn
 
 from renderer.errors import LucidaError, one_line
 
 if TYPE_CHECKING:
     from renderer.camera import Camera
-    from renderer.scene.model import Scene
+    from renderer.scene.model import Scene, View
 
 DEFAULT_SIZE = (1280, 720)
 BACKENDS = ("auto", "egl", "osmesa")
 SAMPLES = tuple(k * k for k in range(1, 9))
+CAMERA_OPTIONS = ("eye", "u", "v", "w", "distance", "viewport", "projection", "near", "far", "fit")
 TRACEBACK_VARIABLE = "LUCIDA_TRACEBACK"
 
 SCENE_HELP = """\
@@ -89,13 +91,79 @@ def exposure_ev(text: str) -> float:
     return value
 
 
-def scene_and_camera(source: str, view: str | None, size: tuple[int, int]) -> tuple[Scene, Camera]:
-    """The scene, and the camera of the view file or else of the scene, for that (width, height)."""
+def numbers(count: int) -> Callable[[str], tuple[float, ...]]:
+    """Gives a function that reads `count` numbers with commas between them."""
+
+    def read(text: str) -> tuple[float, ...]:
+        try:
+            values = tuple(float(part) for part in text.replace(",", " ").split())
+        except ValueError:
+            values = ()
+        if len(values) != count:
+            example = "0,0,5" if count == 3 else "-0.5,0.5,-0.5,0.5"
+            raise argparse.ArgumentTypeError(
+                f"{text!r} is not {count} numbers; give e.g. {example}"
+            )
+        return values
+
+    return read
+
+
+def number(text: str) -> float:
+    """One number."""
+    try:
+        return float(text)
+    except ValueError:
+        raise argparse.ArgumentTypeError(f"{text!r} is not a number; give e.g. 1.5") from None
+
+
+def add_camera_options(parser: argparse.ArgumentParser) -> None:
+    """The camera's fields as options: each replaces the view's own."""
+    group = parser.add_argument_group("camera", "each number replaces the scene's or view's own")
+    three, four = numbers(3), numbers(4)
+    group.add_argument("--eye", type=three, metavar="X,Y,Z", help="the position: --eye=0,0,5")
+    for name, role in (("u", "right"), ("v", "up"), ("w", "back")):
+        group.add_argument(f"--{name}", type=three, metavar="X,Y,Z", help=f"the basis: {role}")
+    group.add_argument("--distance", type=number, metavar="D", help="of the viewport, along -w")
+    group.add_argument(
+        "--viewport", type=four, metavar="L,R,B,T", help="left, right, bottom, top, as it stands"
+    )
+    group.add_argument("--projection", choices=("perspective", "parallel"), help="of the rays")
+    group.add_argument("--near", type=number, metavar="N", help="clip plane, in units of w")
+    group.add_argument("--far", type=number, metavar="F", help="clip plane, in units of w")
+    group.add_argument(
+        "--fit",
+        action=argparse.BooleanOptionalAction,
+        help="widen or heighten the viewport to the image's shape",
+    )
+
+
+def with_camera_options(arguments: argparse.Namespace, view: View) -> View:
+    """The view with the fields that the options name. A viewport stands as it is, whatever the
+    image's shape, without --fit. Raises LucidaError."""
+    given = {name: getattr(arguments, name) for name in CAMERA_OPTIONS}
+    given = {name: value for name, value in given.items() if value is not None}
+    fit = given.pop("fit", view.fit and "viewport" not in given)
+    if not given and fit == view.fit:
+        return view
+    try:
+        return replace(view, camera=replace(view.camera, **given), fit=fit)
+    except LucidaError as error:
+        raise LucidaError(f"--{error.field}", error.problem, error.remedy) from None
+
+
+def scene_and_camera(arguments: argparse.Namespace) -> tuple[Scene, Camera]:
+    """The scene, and the camera of the view file or else of the scene, with the camera's options,
+    for the image's size."""
     from renderer.scene import load_scene, load_view
 
-    own_view = load_view(view) if view is not None else None  # the quick mistakes first
-    scene = load_scene(source)
-    return scene, (own_view or scene.view).for_size(size)
+    # The quick mistakes first.
+    own_view = load_view(arguments.view) if arguments.view is not None else None
+    if own_view is not None:
+        own_view = with_camera_options(arguments, own_view)
+    scene = load_scene(arguments.scene)
+    view = own_view or with_camera_options(arguments, scene.view)
+    return scene, view.for_size(arguments.size)
 
 
 @contextlib.contextmanager

@@ -36,6 +36,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
     parser.description, parser.epilog = DESCRIPTION, EPILOG
     parser.add_argument("scene", metavar="SCENE", help=common.SCENE_HELP)
     parser.add_argument("--view", metavar="VIEW.toml", help=common.VIEW_HELP)
+    common.add_camera_options(parser)
     parser.add_argument(
         "--size",
         type=common.size,
@@ -77,7 +78,7 @@ def run(arguments: argparse.Namespace) -> int:
 
     if arguments.output is not None:
         check_image_path(arguments.output, PICTURES)
-    scene, camera = common.scene_and_camera(arguments.scene, arguments.view, arguments.size)
+    scene, camera = common.scene_and_camera(arguments)
     with common.progress_bar("compare") as progress:
         comparison = compare(scene, camera, arguments.size, arguments.backend, progress)
     if arguments.output is not None:

@@ -76,6 +76,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
         help="colour samples a pixel: 1, 4, 9, 16, 25, 36, 49 or 64 (default: 1)",
     )
     parser.add_argument("--view", metavar="VIEW.toml", help=common.VIEW_HELP)
+    common.add_camera_options(parser)
     parser.add_argument(
         "--exposure",
         type=common.exposure_ev,
@@ -110,7 +111,7 @@ def run(arguments: argparse.Namespace) -> int:
     if arguments.renderer != "ray":
         _check_effects(arguments)
     check_image_path(arguments.output)
-    scene, camera = common.scene_and_camera(arguments.scene, arguments.view, arguments.size)
+    scene, camera = common.scene_and_camera(arguments)
     frame = draw(scene, camera, arguments)
     if not frame.complete:
         raise KeyboardInterrupt

@@ -9,7 +9,13 @@ import argparse
 from pathlib import Path
 
 from app import __version__
-from app.commands.arguments import SCENE_HELP, VIEW_HELP, size
+from app.commands.arguments import (
+    SCENE_HELP,
+    VIEW_HELP,
+    add_camera_options,
+    size,
+    with_camera_options,
+)
 
 NAME = "view"
 SMALLEST_SIDE = 64  # of the window, in pixels
@@ -30,6 +36,7 @@ examples:
   lucida                                  the built-in scene
   lucida bunny.obj                        a model, lit and framed
   lucida spheres --view corner.toml       a built-in scene, seen by another camera
+  lucida spheres --eye=0,2,6              the scene's own camera, moved
   lucida --screenshot window.png          draw the window once, save it, leave
 
 With no display, lucida draws the window once, saves the picture and says where.
@@ -46,6 +53,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--size", type=window_size, metavar="WxH", help="the window's size in pixels"
     )
+    add_camera_options(parser)
     parser.add_argument("--version", action="version", version=f"lucida {__version__}")
 
 
@@ -69,4 +77,10 @@ def run(arguments: argparse.Namespace) -> int:
         screenshot = Path(arguments.screenshot)
     from app.viewer import run_viewer  # after the quick mistakes: it loads the whole window
 
-    return run_viewer(arguments.scene, screenshot, size=arguments.size, view=arguments.view)
+    return run_viewer(
+        arguments.scene,
+        screenshot,
+        size=arguments.size,
+        view=arguments.view,
+        change=lambda view: with_camera_options(arguments, view),
+    )

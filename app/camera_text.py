@@ -1,0 +1,107 @@
+"""A camera as text to copy: a view file, a command line, Python, OpenGL matrices.
+
+Owns the forms, of which each is read back by camera_reader.py. Knows nothing of clipboards.
+"""
+
+from __future__ import annotations
+
+import shlex
+from collections.abc import Iterable
+from dataclasses import dataclass
+from typing import Literal, get_args
+
+from app.presets import clip_around
+from renderer.camera import Camera, Floats
+from renderer.scene import view_to_toml
+from renderer.scene.model import View
+
+Form = Literal["view file", "command line", "Python", "OpenGL matrices"]
+FORMS: tuple[Form, ...] = get_args(Form)
+
+FITTED = "fitted to the scene"  # what the reader knows near and far by that are not the camera's
+
+
+@dataclass(frozen=True)
+class Subject:
+    """What is written down. source: the scene, as the command line takes it. shown: the camera as
+    drawn, whose viewport is fitted to the image. bounds: (n, 3) round the scene."""
+
+    view: View
+    shown: Camera
+    source: str
+    bounds: Floats
+
+
+def as_text(form: Form, subject: Subject) -> str:
+    """The camera in one of the forms."""
+    if form == "view file":
+        return view_to_toml(subject.view)
+    if form == "command line":
+        return command_line(subject.view, subject.source)
+    if form == "Python":
+        return python(subject.view)
+    return matrices(subject.shown, subject.bounds)
+
+
+def command_line(view: View, source: str) -> str:
+    """`lucida render ...`, for a shell; without `render` and `-o` it opens the window."""
+    camera = view.camera
+    words = ["lucida", "render", shlex.quote(source), "-o", "image.png"]
+    words += [f"--{name}={_numbers(getattr(camera, name), ',')}" for name in ("eye", "u", "v", "w")]
+    words.append(f"--distance={camera.distance!r}")
+    words.append(f"--viewport={_numbers(camera.viewport, ',')}")
+    words.append(f"--projection={camera.projection}")
+    words += [
+        f"--{name}={getattr(camera, name)!r}"
+        for name in ("near", "far")
+        if getattr(camera, name) is not None
+    ]
+    return " ".join([*words, "--fit"] if view.fit else words)
+
+
+def python(view: View) -> str:
+    """A program that makes the camera, and the view where its viewport is fitted."""
+    camera = view.camera
+    lines = ["from renderer import Camera"]
+    lines += ["from renderer.scene import View"] * view.fit
+    lines += ["", "camera = Camera("]
+    lines += [f"    {name}=({_numbers(getattr(camera, name))})," for name in ("eye", "u", "v", "w")]
+    lines.append(f"    distance={camera.distance!r},")
+    lines.append(f"    viewport=({_numbers(camera.viewport)}),")
+    lines.append(f'    projection="{camera.projection}",')
+    lines += [
+        f"    {name}={getattr(camera, name)!r},"
+        for name in ("near", "far")
+        if getattr(camera, name) is not None
+    ]
+    lines.append(")")
+    if view.fit:
+        lines += ["view = View(camera, fit=True)", "# view.for_size((width, height)): as drawn"]
+    return "\n".join(lines) + "\n"
+
+
+def matrices(shown: Camera, bounds: Floats) -> str:
+    """camera_from_world (OpenGL's view matrix) and clip_from_camera (its projection), for column
+    vectors, column by column."""
+    near, far = clip_around(shown, bounds)
+    note = f"# near = {near!r}, far = {far!r}: {FITTED}"
+    if shown.near is not None or shown.far is not None:
+        near = (
+            min(near, shown.far / 1000 if shown.far else near) if shown.near is None else shown.near
+        )
+        far = max(far, 1000 * near) if shown.far is None else shown.far
+        note = f"# near = {near!r}, far = {far!r}"
+    tables = {
+        "camera_from_world": shown.camera_from_world,
+        "clip_from_camera": shown.clip_from_camera(near, far),
+    }
+    lines = ["# OpenGL matrices for column vectors, column-major: each line is a column", note]
+    for name, matrix in tables.items():
+        # + 0.0: no negative zeros
+        columns = [f"    {_numbers(column)}," for column in (matrix.T + 0.0).tolist()]
+        lines += [f"{name} = [", *columns, "]"]
+    return "\n".join(lines) + "\n"
+
+
+def _numbers(values: Iterable[float], separator: str = ", ") -> str:
+    return separator.join(repr(float(value)) for value in values)
