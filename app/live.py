@@ -12,7 +12,7 @@ from __future__ import annotations
 import threading
 import time
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, field, replace
 from typing import Protocol
 
 from renderer.camera import Camera
@@ -22,17 +22,18 @@ from renderer.scene.model import Scene
 COARSEST = 8  # image pixels a side that one traced pixel stands for
 COARSE_S = 0.012  # what a coarse image may take
 REFINE_S = 0.15  # a full image that takes longer is preceded by another coarse one
-SETTLE_S = 0.04  # without a change, before refining: while dragging, the cores stay free
+SETTLE_S = 0.04  # without a change, at most, before refining: while dragging, the cores stay free
+LAUNCH_S = 4e-4  # of an image's time, what does not grow with its pixels
 PATIENCE_S = 0.1  # for a coarse image, before a change cancels it too
-
-COARSE_CHANNELS = ("color",)
 
 
 @dataclass(frozen=True)
 class Request:
     """An image to trace. size: (width, height) of the full one.
 
-    shadows, mirrors: with these the ray image shows what the raster image cannot.
+    shadows, mirrors: with these the ray image shows what the raster image cannot. channel: what is
+    looked at: coarse images have no other, so that they are quick; a full one has all, and serves
+    requests for any.
     """
 
     scene: Scene
@@ -40,18 +41,15 @@ class Request:
     size: tuple[int, int]
     shadows: bool = False
     mirrors: bool = False
+    channel: str = field(default="color", compare=False)
 
     @property
     def has_effects(self) -> bool:
         return self.shadows or self.mirrors
 
     def is_served_by(self, other: Request | None) -> bool:
-        """Whether the Tracer that was made for another request serves this one."""
-        return (
-            other is not None
-            and self.scene is other.scene
-            and (self.shadows, self.mirrors) == (other.shadows, other.mirrors)
-        )
+        """Whether the Tracer that was made for another request can serve this one."""
+        return other is not None and (self.shadows, self.mirrors) == (other.shadows, other.mirrors)
 
 
 @dataclass(frozen=True, eq=False)
@@ -65,6 +63,14 @@ class RayImage:
 
 class Job(Protocol):
     """renderer.trace.TraceJob."""
+
+    def retry(self) -> None:
+        """Asks again for the newest request, where that has failed."""
+        with self._changed:
+            if self._error is not None and self._newest is not None:
+                self._newest = replace(self._newest)  # another object: one not served yet
+                self._error = None
+                self._changed.notify()
 
     @property
     def progress(self) -> float: ...
@@ -81,6 +87,7 @@ class Tracer(Protocol):
     def start(
         self, camera: Camera, size: tuple[int, int], channels: tuple[str, ...] = ...
     ) -> Job: ...
+    def set_scene(self, scene: Scene) -> None: ...
     def close(self) -> None: ...
 
 
@@ -120,7 +127,7 @@ class LiveTrace:
     def request(self, request: Request) -> None:
         """Asks for an image; nothing happens if it is the one asked for last."""
         with self._changed:
-            if request == self._newest or self._closed:
+            if self._closed or (request == self._newest and self._has_channel(request)):
                 return
             self._newest = request
             if self._refining and self._job is not None:
@@ -165,7 +172,8 @@ class LiveTrace:
     def tracer_of(self, scene: Scene) -> Tracer | None:
         """The tracer that has prepared a scene, for rays of one's own; None until there is one.
 
-        It is closed when the scene changes: what it was asked then ends by an error.
+        It goes on to the next scene when that changes, and is closed when the effects do: what it
+        was asked too late is answered for the next scene, or ends by an error.
         """
         ready = self._ready
         return ready[1] if ready is not None and ready[0] is scene else None
@@ -189,14 +197,16 @@ class LiveTrace:
         pixel_s = 0.0
         while (request := self._next()) is not None:
             try:
+                if made_for is None or request.scene is not made_for.scene:
+                    self._prepare()
+                    if tracer is not None:
+                        tracer.set_scene(request.scene)  # what has not changed stays prepared
                 if tracer is None or not request.is_served_by(made_for):
-                    self._ready = None
+                    self._prepare()
                     if tracer is not None:
                         tracer.close()
-                    with self._changed:
-                        self._began_s = time.monotonic()
-                    tracer, made_for, pixel_s = self._make_tracer(request), request, 0.0
-                    self._ready = (request.scene, tracer)
+                    tracer, pixel_s = self._make_tracer(request), 0.0
+                made_for, self._ready = request, (request.scene, tracer)
                 pixel_s = self._trace(tracer, request, pixel_s)
             except Exception as error:  # shown in the window, which goes on
                 tracer, self._ready = None, None
@@ -206,6 +216,12 @@ class LiveTrace:
                 self._wake()
         if tracer is not None:
             tracer.close()
+
+    def _prepare(self) -> None:
+        """Notes that another scene or Tracer is begun, whose first image may take long."""
+        self._ready = None
+        with self._changed:
+            self._began_s = time.monotonic()
 
     def _next(self) -> Request | None:
         """Waits for a request that has not been served; None: closed."""
@@ -225,7 +241,9 @@ class LiveTrace:
         refining = False
         while True:
             size = reduced(request.size, factor)
-            job = tracer.start(request.camera, size, CHANNELS if factor == 1 else COARSE_CHANNELS)
+            job = tracer.start(
+                request.camera, size, CHANNELS if factor == 1 else (request.channel,)
+            )
             frame = self._finish(job, request, refining)
             with self._changed:
                 self._job, self._refining = None, False
@@ -236,12 +254,14 @@ class LiveTrace:
                 if factor == 1:
                     self._finished = request
             self._wake()
-            measured = max(frame.time_s, 1e-6) / (size[0] * size[1])
+            measured = max(frame.time_s - LAUNCH_S, 1e-6) / (size[0] * size[1])
             pixel_s = measured if factor == 1 or not pixel_s else 0.5 * (pixel_s + measured)
             if factor == 1:
                 return pixel_s
             with self._changed:
-                if self._changed.wait_for(lambda: self._is_stale(request), SETTLE_S):
+                if self._changed.wait_for(
+                    lambda: self._is_stale(request), settle_s(request.size, pixel_s)
+                ):
                     return pixel_s
             factor = next_factor(factor, request.size, pixel_s)
             refining = True
@@ -259,6 +279,11 @@ class LiveTrace:
             job.cancel()
         return job.result()
 
+    def _has_channel(self, request: Request) -> bool:
+        """Whether the newest request, or the full image that it got, has the channel of this."""
+        newest = self._newest
+        return newest is None or newest is self._finished or newest.channel == request.channel
+
     def _is_stale(self, request: Request) -> bool:
         return self._closed or self._newest is not request
 
@@ -271,6 +296,12 @@ def first_factor(size: tuple[int, int], pixel_s: float) -> int:
     while factor < COARSEST and pixel_s * size[0] * size[1] / factor**2 > COARSE_S:
         factor *= 2
     return factor
+
+
+def settle_s(size: tuple[int, int], pixel_s: float) -> float:
+    """How long to wait for a change before the full image: as long as it takes, at most, so that
+    an image traced in vain costs no more than the waiting."""
+    return min(SETTLE_S, pixel_s * size[0] * size[1])
 
 
 def next_factor(factor: int, size: tuple[int, int], pixel_s: float) -> int:

@@ -73,6 +73,9 @@ class Tracer:
             job.ended.set()
         return job
 
+    def set_scene(self, scene: Scene) -> None:
+        self.scene = scene
+
     def close(self) -> None:
         self.closed = True
 
@@ -129,7 +132,7 @@ def test_coarse_then_full(rig: Rig) -> None:
     assert images[0].frame.size == (10, 8)
     assert images[1].frame.size == SIZE
     jobs = rig.tracers[0].jobs
-    assert [job.channels for job in jobs] == [live.COARSE_CHANNELS, CHANNELS]
+    assert [job.channels for job in jobs] == [("color",), CHANNELS]
 
 
 def test_a_quick_tracer_goes_to_full_at_once(rig: Rig) -> None:
@@ -199,14 +202,43 @@ def test_a_coarse_image_that_takes_too_long_is_cancelled(rig: Rig, monkeypatch) 
     assert rig.live.first_ever
 
 
-def test_another_scene_gets_another_tracer(rig: Rig) -> None:
+def test_another_scene_is_followed_by_the_same_tracer(rig: Rig) -> None:
     rig.live.request(request())
     rig.images()
     rig.live.request(request(scene=OTHER))
-    assert [image.request.scene for image in rig.images()][-1] is OTHER
-    assert [tracer.closed for tracer in rig.tracers] == [True, False]
+    images = rig.images()
+    # Its speed is known: the full image comes at once.
+    assert [(image.request.scene, image.factor) for image in images] == [(OTHER, 1)]
+    assert [(tracer.scene, tracer.closed) for tracer in rig.tracers] == [(OTHER, False)]
     assert not rig.live.first_ever
     assert rig.live.preparing_s == 0
+
+
+def test_other_effects_get_another_tracer(rig: Rig) -> None:
+    rig.live.request(request())
+    rig.images()
+    rig.live.request(replace(request(), shadows=True))
+    assert rig.images()[-1].request.shadows
+    assert [tracer.closed for tracer in rig.tracers] == [True, False]
+
+
+def test_a_scene_that_takes_long_is_being_prepared(rig: Rig) -> None:
+    rig.live.request(request())
+    rig.images()
+    tracer = rig.tracers[0]
+    tracer.held = True
+    rig.live.request(request(scene=OTHER))
+    rig.until(lambda: rig.live.preparing_s > 0)
+    rig.until(lambda: len(tracer.jobs) == 3)
+    tracer.jobs[-1].ended.set()
+    rig.images()
+    assert rig.live.preparing_s == 0
+
+
+def test_waiting_before_a_full_image_is_no_longer_than_the_image() -> None:
+    assert live.settle_s((100, 100), 0.0) == 0.0
+    assert live.settle_s((100, 100), 1e-6) == pytest.approx(0.01)
+    assert live.settle_s((1000, 1000), 1e-6) == live.SETTLE_S
 
 
 def test_an_error_is_kept_and_the_next_request_tries_again(rig: Rig) -> None:
