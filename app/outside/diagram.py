@@ -17,6 +17,7 @@ from numpy.typing import NDArray
 
 from app.options import OutsideOptions, Pixel
 from app.outside.solid import (
+    MOST_GRID_LINES,
     Size,
     grid,
     pixel_corners,
@@ -138,9 +139,11 @@ def diagram(
     end: float,
     hits: Sequence[Hit] = (),
     marked: Hit | None = None,
+    grid_parts: int = MOST_GRID_LINES,
 ) -> list[Item]:
     """Everything that the options ask for. camera: fitted to its image of `size` pixels. end: the
-    parameter at which the scene ends. hits: of the bundle's rays."""
+    parameter at which the scene ends. hits: of the bundle's rays. grid_parts: the most parts of a
+    side that the grid divides it into."""
     items: list[Item] = []
     if options.volume:
         items += _volume(camera, end)
@@ -150,7 +153,16 @@ def diagram(
         )
     if options.grid:
         items.append(
-            Lines("grid", "grid", grid(camera, size), 0.75, 0.4, 0.1, on_plane=True, layer=0)
+            Lines(
+                "grid",
+                "grid",
+                grid(camera, size, grid_parts),
+                0.75,
+                0.4,
+                0.1,
+                on_plane=True,
+                layer=0,
+            )
         )
     for hit in hits:
         items += _ray(camera, size, hit, end, 1.25, f"bundle {hit.pixel[0]} {hit.pixel[1]}")
@@ -211,8 +223,8 @@ def _basis(camera: Camera) -> list[Item]:
 def _ray(camera: Camera, size: Size, hit: Hit, end: float, width: float, name: str) -> list[Item]:
     """A ray from its origin to its hit, or as far as the scene where it hits nothing."""
     x, y = (float(part) for part in camera.image_point(*hit.pixel, size))
-    known = hit.t is not None and np.isfinite(hit.t)
-    t = float(hit.t) if known else end
+    known = hit.t is not None and bool(np.isfinite(hit.t))
+    t = hit.t if hit.t is not None and known else end
     segment = point_at(camera, [x, x], [y, y], [0.0, t])[None]
     items: list[Item] = [
         Lines(name, "ray", segment, width, 0.9 if known else 0.4, 0.3 if known else 0.15, layer=2)

@@ -13,44 +13,13 @@ from numpy.typing import NDArray
 
 from renderer.camera import LARGEST, Camera, Vector
 from renderer.errors import LucidaError
-from renderer.scene.model import Scene, Sphere
 
 Floats = NDArray[np.float64]
 
-VAST = 4.0  # times the median object: a floor, a sky; pictures are not made to hold it
-FOV_Y_DEG = 45.0
-MARGIN = 1.12  # of the framed points' own room
+FOV_Y_DEG = 50.0
+MARGIN = 1.08  # of the framed points' own room
 # From which side one looks, in the other camera's terms: its right, the world's up, its back.
-FROM_RIGHT, FROM_ABOVE, FROM_BEHIND = 0.9, 0.55, 1.0
-
-
-def object_boxes(scene: Scene) -> Floats:
-    """Each object's bounds in world space, (objects, 2, 3): lowest and highest corner."""
-    boxes = np.zeros((len(scene.objects), 2, 3))
-    for box, entry in zip(boxes, scene.objects, strict=True):
-        shape = entry.shape
-        if isinstance(shape, Sphere):
-            center = np.asarray(shape.center, float)
-            box[:] = center - shape.radius, center + shape.radius
-            continue
-        vertices = np.asarray(shape.vertices, float)
-        low, high = vertices.min(axis=0), vertices.max(axis=0)
-        linear, offset = shape.transform[:3, :3], shape.transform[:3, 3]
-        middle = linear @ ((low + high) / 2) + offset
-        half = np.abs(linear) @ ((high - low) / 2)
-        box[:] = middle - half, middle + half
-    return boxes
-
-
-def main_points(boxes: Floats) -> Floats:
-    """Points (n, 3) around what the scene is about: corners of the boxes of all objects but vast
-    ones; none for an empty scene."""
-    if not len(boxes):
-        return np.zeros((0, 3))
-    radii = np.linalg.norm(boxes[:, 1] - boxes[:, 0], axis=1) / 2
-    ordinary = boxes[radii <= VAST * max(float(np.median(radii)), 1e-12)]
-    pick = np.array(np.meshgrid([0, 1], [0, 1], [0, 1])).reshape(3, -1)  # eight corners
-    return np.stack([ordinary[:, pick[axis], axis] for axis in range(3)], axis=-1).reshape(-1, 3)
+FROM_RIGHT, FROM_ABOVE, FROM_BEHIND = 0.75, 0.5, 1.25
 
 
 def end_parameter(camera: Camera, points: Floats) -> float:

@@ -48,9 +48,9 @@ def plane_corners(camera: Camera) -> Floats:
     return rectangle(camera, plane_parameter(camera))
 
 
-def grid_step(size: Size) -> int:
-    """Every how many pixels a grid has a line, so that no side has more than MOST_GRID_LINES."""
-    least = max(size) / MOST_GRID_LINES
+def grid_step(size: Size, most: int = MOST_GRID_LINES) -> int:
+    """Every how many pixels a grid has a line, so that no side has more than `most` parts."""
+    least = max(size) / max(1, min(most, MOST_GRID_LINES))
     power = 1
     while True:
         for step in STEPS:
@@ -59,10 +59,11 @@ def grid_step(size: Size) -> int:
         power *= 10
 
 
-def grid(camera: Camera, size: Size) -> Floats:
-    """The pixel grid's inner lines on the image plane, (n, 2, 3). size: of the image."""
+def grid(camera: Camera, size: Size, most: int = MOST_GRID_LINES) -> Floats:
+    """The pixel grid's inner lines on the image plane, (n, 2, 3). size: of the image. most: parts
+    of a side."""
     left, right, bottom, top = camera.viewport
-    step, t = grid_step(size), plane_parameter(camera)
+    step, t = grid_step(size, most), plane_parameter(camera)
     x = left + np.arange(step, size[0], step) / size[0] * (right - left)
     y = top - np.arange(step, size[1], step) / size[1] * (top - bottom)
     columns = np.stack([point_at(camera, x, top, t), point_at(camera, x, bottom, t)], axis=1)

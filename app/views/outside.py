@@ -20,39 +20,31 @@ from app import theme
 from app.files import describe
 from app.options import OutsideOptions, Pixel
 from app.outside.diagram import Hit, Item, diagram
-from app.outside.extent import end_parameter, framed, main_points, object_boxes, outside_camera
+from app.outside.extent import end_parameter, framed, outside_camera
 from app.outside.hits import Question, RayHits
 from app.outside.paint import layers
 from app.outside.projected import NEAREST, Primitive, Screen, project
 from app.outside.solid import bundle_pixels, pixel_seen, plane_corners
-from app.panels.images import available_px, framebuffer_scale
+from app.panels.screen import available_px, framebuffer_scale
 from app.pictures import Wanted
 from app.state import AppState
 from app.views.base import Host, View
 from app.views.outside_gizmo import Gizmo
 from app.views.outside_mouse import Mouse, Scope
 from app.views.outside_tools import AXES, labels, legend, triad
-from renderer.camera import Camera, Vector
+from renderer.camera import Camera
 from renderer.errors import LucidaError
 from renderer.frame import LARGEST_PIXELS, LARGEST_SIDE
 from renderer.raster.overlay import Overlay, plane_on_screen
 from renderer.raster.targets import Textures
-from renderer.scene.model import Scene
 
 Floats = NDArray[np.float64]
 Size = tuple[int, int]
 
 OUTSIDE = "Outside"
 SMALLEST_PX = 24  # a view that is smaller shows nothing
+GRID_PX = 7.0  # the least distance of the grid's lines, in widths of a line
 IMAGE_SIZE = (640, 480)  # of the camera's image while no other view shows it
-
-
-@dataclass(frozen=True, eq=False)
-class _Surroundings:
-    """What of the scene the view needs. points: around what it is about."""
-
-    scene: Scene
-    points: Floats
 
 
 @dataclass(frozen=True, eq=False)
@@ -80,11 +72,10 @@ class OutsideView(View):
         self._mouse, self._gizmo = Mouse(), Gizmo()
         self._overlay: Overlay | None = None
         self._hits: RayHits | None = None
-        self._around: _Surroundings | None = None
         self._ground: tuple[Wanted, Textures] | None = None
         self._made: _Made | None = None
         self._extra: dict[str, tuple[Item, ...]] = {}
-        self._over_tools = False
+        self._camera: Camera | None = None  # the one that looks, as it was last drawn
 
     @property
     def settled(self) -> bool:
@@ -121,13 +112,19 @@ class OutsideView(View):
         host.renderers.forget_pane(self.name)
         self._ground = self._made = None
 
+    def flown(self, host: Host) -> Camera | None:
+        return self._camera
+
+    def with_flown(self, state: AppState, camera: Camera) -> AppState:
+        return state.with_options(outside={"camera": camera})
+
     def draw(self, host: Host) -> None:
         size = available_px()
         if min(size) < SMALLEST_PX:
             return
         size = min(size[0], LARGEST_SIDE), min(size[1], LARGEST_SIDE, LARGEST_PIXELS // size[0])
         if not min(host.renderers.size):
-            host.renderers.fit_pane(self.name, IMAGE_SIZE, 1)
+            host.renderers.fit_pane(self.name, IMAGE_SIZE, host.state.images)
         scale = framebuffer_scale()
         origin = imgui.get_cursor_screen_pos()
         extent = ImVec2(size[0] / scale, size[1] / scale)
@@ -186,16 +183,14 @@ class OutsideView(View):
         camera = state.outside.camera
         if camera is None:
             camera = outside_camera([points], state.scene.view.camera, aspect)
+        self._camera = camera
         x, y, z = center.tolist()
         return Scope(camera, camera.fitted(size), origin, extent, (x, y, z), max(reach, 1e-9))
 
     def _points(self, host: Host) -> Floats:
         """Around what there is to see: the scene, the camera, and where the scene has put it."""
-        state = host.state
-        if self._around is None or self._around.scene is not state.scene:
-            self._around = _Surroundings(state.scene, main_points(object_boxes(state.scene)))
-        home = state.scene.view.for_size(host.renderers.size)
-        parts = [self._around.points, gear(home), gear(host.renderers.camera(state))]
+        home = host.state.scene.view.for_size(host.renderers.size)
+        parts = [host.focus.framed, gear(home), gear(host.renderers.camera(host.state))]
         points = np.concatenate(parts)
         return points[np.isfinite(points).all(axis=1)]
 
@@ -262,11 +257,12 @@ class OutsideView(View):
             )  # fmt: skip
             if self._made is not None and self._made.key == key:
                 return self._made.texture
-            end = end_parameter(inner, self._around.points if self._around else np.zeros((0, 3)))
-            items = diagram(inner, image_size, options, end, hits, marked)
+            end = end_parameter(inner, host.focus.framed)
+            screen = Screen(camera, size, self._near(camera, scope), unit_px)
+            parts = int(widest_px(screen, plane_corners(inner)) / (GRID_PX * unit_px))
+            items = diagram(inner, image_size, options, end, hits, marked, parts)
             for extra in self._extra.values():
                 items += extra
-            screen = Screen(camera, size, self._near(camera, scope), unit_px)
             primitives = project(items, screen)
             corners = plane_corners(inner)[[0, 1, 3]]
             behind = corners[0] + np.asarray(inner.w)  # the side of the image plane to look from
@@ -349,6 +345,7 @@ def gear(camera: Camera) -> Floats:
     return np.array([eye, *tips, *plane_corners(camera)])
 
 
-def vector(values: Floats) -> Vector:
-    x, y, z = values.tolist()
-    return x, y, z
+def widest_px(screen: Screen, corners: Floats) -> float:
+    """The longest side of a polygon (n, 3) on the screen, as far as it is to be seen."""
+    points, _, _ = screen.segments(np.stack([corners, np.roll(corners, -1, axis=0)], axis=1))
+    return float(np.linalg.norm(points[:, 1] - points[:, 0], axis=1).max(initial=0.0))
