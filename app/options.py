@@ -14,6 +14,11 @@ from renderer.scene.model import View
 Pixel = tuple[int, int]  # (row, column), 0-based, row 0 at the top
 
 PIXEL_SIZES = (1, 2, 4, 8, 16, 32)
+RESOLUTIONS = (
+    *((16, 9), (64, 36), (160, 90), (320, 180), (640, 360), (1280, 720), (1920, 1080)),
+    *((3840, 2160), (4096, 2160), (4, 3), (16, 16), (64, 64), (256, 256), (512, 512)),
+)
+MAGNIFICATIONS = (1, 2, 4, 8, 16, 32, 64)
 EXPOSURE_LIMIT_EV = 8.0
 
 Channel = Literal["color", "depth", "normal", "id"]
@@ -31,7 +36,9 @@ class ImageOptions:
     images, None for what fits the window at pixel_size screen pixels a side of an image's pixel.
     magnification: screen pixels a side of an image's pixel where the user has zoomed into the
     pixels, None to fit the whole image into its window; center: what is in the middle then, in
-    parts of the image's width and height.
+    parts of the image's width and height. tinted: a single component in its own colour, else gray.
+    grid: lines between pixels, and their numbers, where those are large enough. values: how the
+    numbers of a colour are written.
     """
 
     channel: Channel = "color"
@@ -42,6 +49,9 @@ class ImageOptions:
     resolution: tuple[int, int] | None = None
     magnification: float | None = None
     center: tuple[float, float] = (0.5, 0.5)
+    tinted: bool = False
+    grid: bool = True
+    values: Literal["bytes", "floats"] = "bytes"
 
 
 @dataclass(frozen=True)
@@ -93,6 +103,39 @@ class LaboratoryOptions:
 
 
 @dataclass(frozen=True)
+class ProbeOptions:
+    """The pixel probe. pins: pixels that are kept at hand. rays: which viewing rays the outside
+    view shows beside the marked pixel's: none, or those of its row or column."""
+
+    pins: tuple[Pixel, ...] = ()
+    rays: Literal["pixel", "row", "column"] = "pixel"
+
+
+@dataclass(frozen=True)
+class StepperOptions:
+    """The loop stepper. canvas: (width, height), up to 64 x 48. order: which algorithms are shown.
+
+    steps: where the run in object order stands, and the one in image order; those that a run does
+    not have are its last. speed: steps a second while it plays.
+    """
+
+    canvas: tuple[int, int] = (16, 12)
+    order: Literal["both", "object", "image"] = "both"
+    steps: tuple[int, int] = (0, 0)
+    speed: float = 8.0
+
+
+@dataclass(frozen=True)
+class CostOptions:
+    """The cost plot. against: what the times are plotted against. triangles, pixels: of the image
+    that is measured; what they are plotted against grows."""
+
+    against: Literal["triangles", "pixels"] = "triangles"
+    triangles: int = 10_000
+    pixels: int = 76_800
+
+
+@dataclass(frozen=True)
 class Preferences:
     """How the window looks. font_scale: 0.75 to 3. reduced_motion: the camera jumps, without a
     passage."""
@@ -124,6 +167,9 @@ class Options:
     compare: CompareOptions = field(default_factory=CompareOptions)
     outside: OutsideOptions = field(default_factory=OutsideOptions)
     laboratory: LaboratoryOptions = field(default_factory=LaboratoryOptions)
+    probe: ProbeOptions = field(default_factory=ProbeOptions)
+    stepper: StepperOptions = field(default_factory=StepperOptions)
+    costs: CostOptions = field(default_factory=CostOptions)
     preferences: Preferences = field(default_factory=Preferences)
     marked: Pixel | None = None
     shadows: bool = False
