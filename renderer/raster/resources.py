@@ -39,11 +39,13 @@ class Owner:
 def new_texture(
     context: moderngl.Context, size: tuple[int, int], components: int, dtype: Any
 ) -> moderngl.Texture:
-    """A texture without filtering. dtype: float32, int32, or uint8 (0 to 255 for 0 to 1).
+    """A texture without filtering. dtype: float32, float16, int32, or uint8 (0 to 255 for
+    0 to 1).
 
     Raises LucidaError where there is no memory for it.
     """
-    kind = {"float32": "f4", "int32": "i4", "uint8": "f1"}[np.dtype(dtype).name]
+    kinds = {"float32": "f4", "float16": "f2", "int32": "i4", "uint8": "f1"}
+    kind = kinds[np.dtype(dtype).name]
     texture = context.texture(size, components, dtype=kind)
     try:
         check(context, f"a texture of {size[0]}x{size[1]}")
