@@ -1,0 +1,71 @@
+"""What an action is: something that a menu, a key or the command palette does.
+
+Owns the structure, and what actions may ask of the window. The actions are in actions.py.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Protocol
+
+from imgui_bundle import imgui
+
+from app.files import Files
+from app.focus import Focus
+from app.renderers import Renderers
+from app.state import AppState
+
+if TYPE_CHECKING:
+    from app.shell import Shell
+
+Key = imgui.Key
+CTRL, SHIFT, ALT = int(Key.mod_ctrl), int(Key.mod_shift), int(Key.mod_alt)
+
+
+class Window(Protocol):
+    """What actions ask of the window. shell: what stands around the views."""
+
+    @property
+    def state(self) -> AppState: ...
+    @property
+    def focus(self) -> Focus: ...
+    def change(self, state: AppState) -> None: ...
+    def travel(self, state: AppState) -> None: ...
+    def focus_object(self) -> None: ...
+    def undo(self) -> None: ...
+    def redo(self) -> None: ...
+    def can_undo(self) -> bool: ...
+    def can_redo(self) -> bool: ...
+    @property
+    def files(self) -> Files: ...
+    @property
+    def renderers(self) -> Renderers: ...
+    @property
+    def shell(self) -> Shell: ...
+    def ask_resolution(self) -> None: ...
+    def retry(self) -> None: ...
+    def quit(self) -> None: ...
+
+
+@dataclass(frozen=True)
+class Action:
+    """menu: where it stands, such as "View" or, for a submenu, "View/Pixels". keys: as shown;
+    chords: as ImGui takes them, any of them.
+
+    is_on: for switches. can: whether it is possible now. separated: a line above it.
+    """
+
+    menu: str
+    name: str
+    run: Callable[[Window], None]
+    keys: str = ""
+    chords: tuple[int, ...] = ()
+    is_on: Callable[[AppState], bool] | None = None
+    can: Callable[[Window], bool] | None = None
+    separated: bool = False
+
+
+def changing(change: Callable[[AppState], AppState]) -> Callable[[Window], None]:
+    """What runs a change of the state, as a step of its own."""
+    return lambda window: window.change(change(window.state))

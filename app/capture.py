@@ -1,0 +1,124 @@
+"""Pictures of the window, or of one view, while it is open: into a file, or the clipboard.
+
+Owns the reading of the pixels, the default names and the encoding, which is done in a thread.
+Knows nothing of widgets. The clipboard's programs are clipboard.py's.
+"""
+
+from __future__ import annotations
+
+import datetime
+import io
+from collections.abc import Callable
+from dataclasses import dataclass
+from pathlib import Path
+
+import moderngl
+import numpy as np
+
+from app.background import Background
+from app.clipboard import copy_png
+from renderer.atomic import atomic_write
+from renderer.errors import LucidaError
+
+Rect = tuple[float, float, float, float]  # left, top, right, bottom
+
+
+@dataclass(frozen=True)
+class Asked:
+    """rect: what to cut out, in framebuffer pixels; None for the whole window. path: the file;
+    None for the clipboard."""
+
+    rect: Rect | None
+    path: Path | None
+
+
+class Captures:
+    """wake: called from a thread when a picture has been saved or copied.
+
+    folder: where pictures go that nobody named; None for the user's folder of pictures.
+    """
+
+    def __init__(self, wake: Callable[[], None], folder: Path | None = None) -> None:
+        self._work: Background[str] = Background("lucida-capture", wake)
+        self._asked: Asked | None = None
+        self.folder = folder
+
+    @property
+    def busy(self) -> bool:
+        return self._asked is not None or self._work.busy
+
+    def ask(self, rect: Rect | None, path: Path | None) -> None:
+        """Asks for a picture of what is drawn next."""
+        self._asked = Asked(rect, path)
+
+    def default_path(self, what: str) -> Path:
+        """A free name for a picture: lucida raster 2026-01-31 10.15.59.png. Raises LucidaError."""
+        folder = self.folder or pictures_folder()
+        now = datetime.datetime.now().strftime("%Y-%m-%d %H.%M.%S")
+        name = f"lucida {what} {now}".replace("  ", " ")
+        path = folder / f"{name}.png"
+        number = 2
+        while path.exists():
+            path, number = folder / f"{name} {number}.png", number + 1
+        return path
+
+    def after_drawing(self, framebuffer: moderngl.Framebuffer) -> None:
+        """Takes the picture that was asked for; call when all is drawn, before the swap."""
+        if self._asked is None:
+            return
+        asked, self._asked = self._asked, None
+        width, height = framebuffer.size
+        data = framebuffer.read(components=3, alignment=1)
+        pixels = np.frombuffer(data, np.uint8).reshape(height, width, 3)[::-1]
+        self._work.submit(lambda: _finish(pixels, asked))
+
+    def poll(self) -> tuple[str, bool] | None:
+        """What became of the last picture: a line to show, and whether it is good news."""
+        outcome = self._work.poll()
+        if outcome is None:
+            return None
+        if outcome.error is not None:
+            return str(outcome.error), False
+        return outcome.value or "", True
+
+    def close(self) -> None:
+        self._work.close(5.0)
+
+
+def pictures_folder() -> Path:
+    """The user's folder of pictures, made if it must be. Raises LucidaError."""
+    import platformdirs
+
+    try:
+        folder = platformdirs.user_pictures_path()
+        folder.mkdir(parents=True, exist_ok=True)
+        return folder
+    except (OSError, RuntimeError) as error:
+        raise LucidaError("pictures", f"cannot be kept: {error}", "save to a named file") from None
+
+
+def cut(pixels: np.ndarray, rect: Rect | None) -> np.ndarray:
+    """A part of a picture, uint8 (height, width, 3); at least one pixel of it."""
+    if rect is None:
+        return pixels
+    height, width = pixels.shape[:2]
+    left, right = (min(max(round(x), 0), width) for x in (rect[0], rect[2]))
+    top, bottom = (min(max(round(y), 0), height) for y in (rect[1], rect[3]))
+    left, top = min(left, width - 1), min(top, height - 1)
+    return pixels[top : max(bottom, top + 1), left : max(right, left + 1)]
+
+
+def _finish(pixels: np.ndarray, asked: Asked) -> str:
+    """Encodes the picture and puts it where it is to go; gives a line that says so."""
+    from PIL import Image
+
+    picture = np.ascontiguousarray(cut(pixels, asked.rect))
+    buffer = io.BytesIO()
+    Image.fromarray(picture).save(buffer, format="PNG")
+    size = f"{picture.shape[1]} x {picture.shape[0]}"
+    if asked.path is None:
+        copy_png(buffer.getvalue())
+        return f"Copied to the clipboard: a picture of {size} pixels."
+    with atomic_write(asked.path) as file:
+        file.write(buffer.getvalue())
+    return f"Saved {asked.path} ({size})."

@@ -1,0 +1,109 @@
+"""The command palette's list: everything that can be done, found by a few letters of its name.
+
+Owns the entries, the search and their order. Knows nothing of how they are drawn
+(panels/palette.py). The bundle's own palette shows no keys and no menus, and lets exceptions pass
+through C++.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Sequence
+from dataclasses import dataclass
+
+CONSECUTIVE, WORD, FIRST = 8, 10, 6  # what a letter is worth after another, at a word, in front
+
+
+@dataclass(frozen=True)
+class Entry:
+    """Something to do. where: its menu path. keys: as shown. key: what it is remembered by."""
+
+    name: str
+    where: str
+    run: Callable[[], None]
+    keys: str = ""
+    enabled: bool = True
+
+    @property
+    def key(self) -> str:
+        return f"{self.where} > {self.name}"
+
+
+@dataclass(frozen=True)
+class Match:
+    """letters: the places in the entry's name that were searched for."""
+
+    entry: Entry
+    letters: tuple[int, ...] = ()
+
+
+def found(query: str, entries: Iterable[Entry], recent: Sequence[str] = ()) -> list[Match]:
+    """The entries that hold the query's letters in their order, the best first.
+
+    recent: keys of what was chosen last, the newest first; among equals, and without a query,
+    they stand in front.
+    """
+    rank = {key: position for position, key in enumerate(recent)}
+    matches = []
+    for order, entry in enumerate(entries):
+        result = score(query, entry.name)
+        if result is None:
+            whole = score(query, f"{entry.where} {entry.name}")
+            result = None if whole is None else (whole[0] - 1000, ())
+        if result is not None:
+            points, letters = result
+            place = rank.get(entry.key, len(rank))
+            matches.append((-points if query else 0, place, order, Match(entry, letters)))
+    return [match for *_, match in sorted(matches, key=lambda row: row[:3])]
+
+
+def score(query: str, text: str) -> tuple[int, tuple[int, ...]] | None:
+    """How well the query's letters, in order, are found in a text, and where; None if not."""
+    wanted = [letter for letter in query.lower() if not letter.isspace()]
+    lower = text.lower()
+    if len(lower) != len(text):  # a letter that has no lower case of one letter
+        lower = text
+    best: tuple[int, tuple[int, ...]] | None = None
+    # Each occurrence of the first letter is a beginning; after it, the nearest letters are taken,
+    # those that begin a word before others.
+    for start, letter in enumerate(lower):
+        if wanted and letter != wanted[0]:
+            continue
+        places = _places(wanted, lower, start)
+        if places is not None:
+            points = _points(places, lower)
+            if best is None or points > best[0]:
+                best = points, places
+        if not wanted:
+            return 0, ()
+    return best if lower or wanted else (0, ())
+
+
+def _places(wanted: list[str], text: str, start: int) -> tuple[int, ...] | None:
+    places: list[int] = []
+    at = start
+    for letter in wanted:
+        nearest = text.find(letter, at)
+        if nearest < 0:
+            return None
+        if places and nearest != places[-1] + 1:
+            word = next((k for k in range(nearest, len(text)) if _at_word(text, k, letter)), -1)
+            nearest = word if word >= 0 else nearest
+        places.append(nearest)
+        at = nearest + 1
+    return tuple(places)
+
+
+def _at_word(text: str, place: int, letter: str) -> bool:
+    return text[place] == letter and (place == 0 or not text[place - 1].isalnum())
+
+
+def _points(places: tuple[int, ...], text: str) -> int:
+    points = -len(text) // 4 - (places[0] if places else 0) // 2
+    for index, place in enumerate(places):
+        if index and place == places[index - 1] + 1:
+            points += CONSECUTIVE
+        if place == 0 or not text[place - 1].isalnum():
+            points += WORD
+        if place == index:
+            points += FIRST
+    return points

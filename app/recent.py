@@ -1,0 +1,110 @@
+"""The files that were opened last, the newest first; shared by all windows of a user.
+
+Owns their list and its file. Each change reads the file again and writes it whole, so that two
+windows do not take each other's entries away. Knows nothing of what is in the files.
+"""
+
+from __future__ import annotations
+
+import contextlib
+from collections import deque
+from collections.abc import Callable
+from dataclasses import dataclass
+from pathlib import Path
+
+import msgspec
+
+from app.background import Background
+from renderer.atomic import atomic_write
+from renderer.errors import LucidaError
+from renderer.scene.reading import read_file
+
+MOST = 12
+LARGEST_BYTES = 1 << 18
+LONGEST = 4096  # characters of a path
+
+Change = Callable[[list[str]], list[str]]
+
+
+@dataclass(frozen=True)
+class Recent:
+    """path: absolute. missing: it was not there when it was last looked for."""
+
+    path: str
+    missing: bool = False
+
+    @property
+    def name(self) -> str:
+        return Path(self.path).name
+
+
+class RecentFiles:
+    """folder: where the list is kept; None keeps it for this run. wake: called from a thread.
+
+    Files are looked for in a thread: a disk that sleeps holds no frame up.
+    """
+
+    def __init__(self, folder: Path | None, wake: Callable[[], None]) -> None:
+        self._file = folder / "recent.json" if folder is not None else None
+        self._work: Background[tuple[Recent, ...]] = Background("lucida-recent", wake)
+        self._entries: tuple[Recent, ...] = ()
+        self._changes: deque[Change] = deque()
+        self.look()
+
+    @property
+    def entries(self) -> tuple[Recent, ...]:
+        outcome = self._work.poll()
+        if outcome is not None and outcome.value is not None:
+            self._entries = outcome.value
+        return self._entries
+
+    def add(self, path: str) -> None:
+        """Puts a file at the top of the list."""
+        self._change(lambda paths: [path, *(other for other in paths if other != path)])
+
+    def clear(self) -> None:
+        self._change(lambda paths: [])
+
+    def look(self) -> None:
+        """Reads the list again, and looks which files are there."""
+        self._change(None)
+
+    def close(self) -> None:
+        self._work.close()
+
+    def _change(self, change: Change | None) -> None:
+        entries = self.entries
+        if change is not None:
+            self._entries = tuple(Recent(path) for path in change([e.path for e in entries])[:MOST])
+            self._changes.append(change)  # the thread may come later, for several at once
+        known = [entry.path for entry in self._entries]
+        self._work.submit(lambda: self._done(known))
+
+    def _done(self, known: list[str]) -> tuple[Recent, ...]:
+        """In the thread: what is to be changed, and how the list is then."""
+        changed = False
+        paths = _read(self._file) if self._file is not None else known
+        while self._changes:
+            paths, changed = self._changes.popleft()(paths)[:MOST], True
+        if changed and self._file is not None:
+            with contextlib.suppress(LucidaError, OSError):
+                self._file.parent.mkdir(parents=True, exist_ok=True)
+                with atomic_write(self._file) as file:
+                    file.write(msgspec.json.encode(paths))
+        return tuple(Recent(path, not _exists(path)) for path in paths)
+
+
+def _read(file: Path) -> list[str]:
+    """The paths in a list's file; none where it is of no use: it is only a convenience."""
+    try:
+        paths = msgspec.json.decode(read_file(file, LARGEST_BYTES), type=list[str])
+    except (LucidaError, msgspec.DecodeError, UnicodeDecodeError, RecursionError):
+        return []
+    return [path for path in paths[:MOST] if 0 < len(path) <= LONGEST and "\0" not in path]
+
+
+def _exists(path: str) -> bool:
+    try:
+        return Path(path).exists()
+    except (OSError, ValueError):
+        return False

@@ -1,0 +1,142 @@
+"""What was open, as the text of a session file, and back.
+
+Owns the file's format: versioned JSON of the state and of the arrangement of the windows. Knows
+nothing of where the file lies (session_store.py), nor of windows. Options that a session does not
+hold, because it is older, have their defaults.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from dataclasses import dataclass, field, fields, is_dataclass
+from typing import Any
+
+import msgspec
+
+from app.options import EXPOSURE_LIMIT_EV, PIXEL_SIZES, Options
+from app.state import AppState
+from renderer.errors import LucidaError
+from renderer.frame import LARGEST_SIDE
+from renderer.scene import BUILTIN_SCENES, Scene, View
+
+VERSION = 1  # of the format: the key `lucida_session`
+LARGEST_BYTES = 4 << 20
+MOST_ENTRIES = 4096  # of a list in the options
+LARGEST_NUMBER = 1e12
+
+
+class NewerVersionError(LucidaError):
+    """The file was written by a newer Lucida."""
+
+
+@dataclass(frozen=True)
+class Arrangement:
+    """Where the windows inside the window are. layout: its name. visible: the names of the views
+    that are shown. windows: places and docks, as ImGui writes them."""
+
+    layout: str = ""
+    visible: tuple[str, ...] = ()
+    windows: str = ""
+
+
+@dataclass(frozen=True)
+class Session:
+    """A session file. scene: what load_scene takes. The rest as in AppState."""
+
+    scene: str
+    view: View
+    keep_orthonormal: bool = True
+    options: Options = field(default_factory=Options)
+    arrangement: Arrangement = field(default_factory=Arrangement)
+
+    def state(self, scene: Scene) -> AppState:
+        """The state that was kept, in the scene that was loaded for it."""
+        return AppState(scene, self.view, self.keep_orthonormal, self.options)
+
+
+def session_of(state: AppState, arrangement: Arrangement) -> Session:
+    """What to keep of a state. A scene from no file is not kept: the first built-in one is."""
+    origin = state.scene.origin
+    source = origin.source if origin is not None and origin.source else BUILTIN_SCENES[0]
+    return Session(source, state.view, state.keep_orthonormal, state.options, arrangement)
+
+
+def to_bytes(session: Session) -> bytes:
+    """The file's content: JSON, indented, for whoever looks into it."""
+    table = {"lucida_session": VERSION, **msgspec.to_builtins(session)}
+    return msgspec.json.format(msgspec.json.encode(table), indent=1) + b"\n"
+
+
+def from_bytes(data: bytes, source: str = "") -> Session:
+    """The session in a file. Raises LucidaError, NewerVersionError for a newer file."""
+    try:
+        return _session(data)
+    except LucidaError as error:
+        error.source = error.source or source
+        raise
+
+
+def _session(data: bytes) -> Session:
+    remedy = "Lucida starts afresh"
+    if len(data) > LARGEST_BYTES:
+        raise LucidaError("", f"holds {len(data)} bytes, more than a session has", remedy)
+    try:
+        table = msgspec.json.decode(data)
+    except (msgspec.DecodeError, UnicodeDecodeError, RecursionError, ValueError) as error:
+        raise LucidaError("", f"is no session: {error}", remedy) from None
+    version = table.pop("lucida_session", None) if isinstance(table, dict) else None
+    if isinstance(version, bool) or not isinstance(version, int) or version < 1:
+        raise LucidaError("lucida_session", "is missing: this is no session", remedy)
+    if version > VERSION:
+        raise NewerVersionError(
+            "lucida_session",
+            f"the session is of version {version}, this program reads up to {VERSION}",
+            "update Lucida to go on with it",
+        )
+    try:
+        session = msgspec.convert(table, Session)
+    except (msgspec.ValidationError, RecursionError) as error:
+        raise LucidaError("", f"is damaged: {error}", remedy) from None
+    _check(session)
+    return session
+
+
+def _check(session: Session) -> None:
+    """What types do not say: no number that would hang or crash what it is given to."""
+    images, preferences = session.options.images, session.options.preferences
+    sizes = images.resolution or (1, 1)
+    numbers = list(_numbers(session.options, "options"))
+    for name, value, good in (
+        ("pixel_size", images.pixel_size, images.pixel_size in PIXEL_SIZES),
+        ("exposure_ev", images.exposure_ev, abs(images.exposure_ev) <= EXPOSURE_LIMIT_EV),
+        ("resolution", sizes, all(1 <= side <= LARGEST_SIDE for side in sizes)),
+        ("magnification", images.magnification, (images.magnification or 1.0) > 0),
+        ("font_scale", preferences.font_scale, 0.1 <= preferences.font_scale <= 10),
+        ("marked", session.options.marked, min(session.options.marked or (0,)) >= 0),
+        ("bundle", session.options.outside.bundle, max(session.options.outside.bundle) <= 1024),
+        (
+            "bookmarks",
+            [mark.number for mark in session.options.bookmarks],
+            all(1 <= mark.number <= 9 for mark in session.options.bookmarks),
+        ),
+        *((where, number, abs(number) <= LARGEST_NUMBER) for number, where, _ in numbers),
+        *((where, f"a list of {count}", count <= MOST_ENTRIES) for _, where, count in numbers),
+    ):
+        if not good:
+            raise LucidaError(name, f"{value!r} is not possible", "Lucida starts afresh")
+
+
+def _numbers(value: Any, where: str) -> Iterator[tuple[float, str, int]]:
+    """All numbers in nested dataclasses and tuples, with their field and its number of entries."""
+    if isinstance(value, bool):
+        return
+    if isinstance(value, int | float):
+        yield (value if math.isfinite(value) else math.inf), where, 1
+    elif is_dataclass(value):
+        for part in fields(value):
+            yield from _numbers(getattr(value, part.name), part.name)
+    elif isinstance(value, tuple):
+        yield 0.0, where, len(value)
+        for entry in value[:MOST_ENTRIES]:
+            yield from _numbers(entry, where)

@@ -1,0 +1,179 @@
+"""Where sessions are kept: one file for each window that is open at a time.
+
+Owns the files' places, the locks that keep two windows apart, and the saving in the background.
+Knows nothing of what is in a session (session.py). A window takes the first place that no other
+one holds: so the first window's session is the one that comes back, whatever a second one did. A
+lock ends with its process, however that ends.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import os
+import sys
+import time
+from collections.abc import Callable
+from dataclasses import dataclass
+from pathlib import Path
+
+from app.background import Background
+from app.session import LARGEST_BYTES, NewerVersionError, Session, from_bytes, to_bytes
+from renderer.atomic import atomic_write
+from renderer.errors import LucidaError
+from renderer.scene.reading import read_file
+
+MOST_WINDOWS = 16
+QUIET_S = 2.0  # after the last change, before a session is saved
+LONGEST_S = 10.0  # while changes go on
+
+
+@dataclass(frozen=True)
+class Found:
+    """What a window begins with. session: None to start afresh. message: what the user is told
+    about that; empty where there was nothing to restore, or all was well."""
+
+    session: Session | None = None
+    message: str = ""
+
+
+class Place:
+    """A session file that this process has for itself."""
+
+    def __init__(self, path: Path, lock: int) -> None:
+        self.path = path
+        self._lock = lock
+
+    def load(self) -> Found:
+        """The session that was left here. What cannot be used is kept aside, and told."""
+        if not self.path.exists():
+            return Found()
+        try:
+            return Found(from_bytes(read_file(self.path, LARGEST_BYTES), str(self.path)))
+        except LucidaError as error:
+            ending = "newer" if isinstance(error, NewerVersionError) else "broken"
+            kept = self._put_aside(ending)
+            where = f" It is kept as {kept}." if kept else ""
+            return Found(None, f"The last session could not be restored. {error}.{where}")
+
+    def save(self, data: bytes) -> None:
+        """Raises LucidaError; the old file then stays as it was."""
+        with atomic_write(self.path) as file:
+            file.write(data)
+
+    def release(self) -> None:
+        if self._lock >= 0:
+            os.close(self._lock)
+            self._lock = -1
+
+    def _put_aside(self, ending: str) -> Path | None:
+        """Moves the file to a name that is free: nothing that was put aside is lost."""
+        for number in range(1, 1000):
+            target = self.path.with_suffix(f".{ending}-{number}.json")
+            if not target.exists():
+                with contextlib.suppress(OSError):
+                    self.path.rename(target)
+                    return target
+                return None
+        return None
+
+
+def take_place(folder: Path | None = None) -> Place | None:
+    """The first place that no other window has; None where sessions cannot be kept.
+
+    folder: where the files are; None for the user's settings folder, which is made if it must be.
+    """
+    try:
+        folder = folder or settings_folder()
+        folder.mkdir(parents=True, exist_ok=True)
+        for number in range(1, MOST_WINDOWS + 1):
+            lock = _locked(folder / f"session-{number}.lock")
+            if lock is not None:
+                return Place(folder / f"session-{number}.json", lock)
+    except (OSError, RuntimeError):  # RuntimeError: there is no home
+        pass
+    return None
+
+
+def settings_folder() -> Path:
+    """The user's settings folder, whether it is there or not."""
+    import platformdirs
+
+    return platformdirs.user_config_path("lucida", appauthor=False)
+
+
+def _locked(path: Path) -> int | None:
+    """An open, locked file; None if another process holds it. Raises OSError."""
+    file = os.open(path, os.O_RDWR | os.O_CREAT, 0o600)
+    try:
+        if sys.platform == "win32":
+            import msvcrt
+
+            msvcrt.locking(file, msvcrt.LK_NBLCK, 1)
+        else:
+            import fcntl
+
+            fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
+    except OSError:
+        os.close(file)
+        return None
+    return file
+
+
+class Keeper:
+    """Saves a session some seconds after the last change, in a thread of its own, and at the end.
+
+    wake: called from that thread when a save has failed. A failure is told once: message.
+    """
+
+    def __init__(self, place: Place, wake: Callable[[], None]) -> None:
+        self._place = place
+        self._saving: Background[bytes] = Background("lucida-session", wake)
+        self._saved: bytes | None = None
+        self._marked_s: float | None = None  # when the first unsaved change was seen
+        self._changed_s = 0.0
+        self._failed = False
+        self.message = ""
+
+    def mark(self) -> None:
+        """Says that something has changed."""
+        self._changed_s = time.monotonic()
+        if self._marked_s is None:
+            self._marked_s = self._changed_s
+
+    def due(self) -> bool:
+        """Whether it is time to save."""
+        self._poll()
+        if self._marked_s is None or self._saving.busy:
+            return False
+        now_s = time.monotonic()
+        return now_s - self._changed_s > QUIET_S or now_s - self._marked_s > LONGEST_S
+
+    def save(self, session: Session) -> None:
+        """Saves in the background."""
+        self._marked_s = None
+        data = to_bytes(session)
+        if data != self._saved:
+            self._saving.submit(lambda: self._write(data))
+
+    def close(self, session: Session) -> None:
+        """Saves at once, and gives the place back."""
+        self._saving.close(5.0)
+        data = to_bytes(session)
+        with contextlib.suppress(LucidaError):
+            if data != self._saved:
+                self._place.save(data)
+        self._place.release()
+
+    def _write(self, data: bytes) -> bytes:
+        self._place.save(data)
+        return data
+
+    def _poll(self) -> None:
+        outcome = self._saving.poll()
+        if outcome is None:
+            return
+        if outcome.error is None:
+            self._saved, self._failed = outcome.value, False
+        elif not self._failed:
+            self._failed = True
+            self.message = f"The session cannot be saved. {outcome.error}"

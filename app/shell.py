@@ -1,0 +1,214 @@
+"""What stands around the views: palette, sheet, dialogs, notifications, pictures, the session.
+
+Owns these, and what Escape means. Knows nothing of what views show, nor of how anything is drawn.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import Path
+
+import moderngl
+from imgui_bundle import hello_imgui, imgui
+
+from app import __version__
+from app.action import Window
+from app.capture import Captures, Rect
+from app.commanding import entries
+from app.files import Files, describe
+from app.panels.loading import loading_box
+from app.panels.messages import Message, message_box
+from app.panels.palette import Palette
+from app.panels.sheet import help_sheet
+from app.panels.toasts import Toasts
+from app.platform import toggle_full_screen
+from app.renderers import Renderers
+from app.session import session_of
+from app.session_store import Keeper
+from app.stage import Stage
+from app.state import AppState
+from app.theme import Fonts
+from app.views.base import View
+from renderer.errors import LucidaError
+
+
+class Shell:
+    """One for a window. keeper: what saves the session; None where none is kept.
+
+    wake: may be called from any thread: asks for a frame.
+    """
+
+    def __init__(
+        self,
+        views: list[View],
+        files: Files,
+        fonts: Fonts,
+        wake: Callable[[], None],
+        keeper: Keeper | None = None,
+    ) -> None:
+        self.stage = Stage(views)
+        self.palette = Palette()
+        self.toasts = Toasts()
+        self.captures = Captures(wake)
+        self.files = files
+        self.help = False
+        self._fonts = fonts
+        self._keeper = keeper
+        self._kept: AppState | None = None
+        self._failure: Exception | None = None  # the one whose message was closed
+
+    @property
+    def busy(self) -> bool:
+        """Whether something is under way that will be told."""
+        return self.captures.busy
+
+    # What actions ask for.
+
+    def toggle_help(self) -> None:
+        self.help = not self.help
+
+    def toggle_full_screen(self) -> None:
+        toggle_full_screen()
+
+    def picture(self, view: bool = False, copy: bool = False) -> None:
+        """A picture of the window, or of the view in use, into the folder of pictures, or the
+        clipboard."""
+        try:
+            what = self._view_in_use() if view else ""
+            path = None if copy else self.captures.default_path(what.lower())
+            self.captures.ask(self._rect(what), path)
+        except LucidaError as error:
+            self.toasts.add(describe(error), good=False)
+
+    def picture_as(self, view: bool = False) -> None:
+        """The same into a file that the user names."""
+        what = self._view_in_use() if view else ""
+        name = f"lucida {what.lower()}".strip().replace(" ", "-") + ".png"
+        self.files.save_picture_dialog(name, lambda path: self._picture_to(what, path))
+
+    def escape(self, window: Window) -> None:
+        """Ends the nearest thing: what lies on top, then what is large, then what takes long."""
+        if self.palette.open:
+            self.palette.open = False
+        elif self.files.dialog.is_open:
+            self.files.dialog.cancel()
+        elif self.files.message:
+            self.files.message = ""
+        elif self._told(window.renderers):
+            self._failure = window.renderers.failure
+        elif self.help:
+            self.help = False
+        elif self.files.loading:
+            self.files.cancel()
+        elif self.stage.maximised:
+            self.stage.maximise()
+        elif window.state.preferences.presentation:
+            window.change(window.state.with_options(preferences={"presentation": False}))
+        else:
+            self.toasts.clear()
+
+    # The frame.
+
+    def frame(self, window: Window) -> None:
+        """Once a frame, before the views."""
+        self.stage.follow(window.state.preferences)
+        self._keep(window.state)
+        for said in self.files.poll_said():
+            self.toasts.add(said)
+        done = self.captures.poll()
+        if done is not None:
+            self.toasts.add(*done)
+
+    def draw(self, window: Window) -> None:
+        """Once a frame: what lies over the views."""
+        if imgui.shortcut(int(imgui.Key.escape), imgui.InputFlags_.route_global):
+            self.escape(window)
+        if self.help:
+            self.help = help_sheet(self._fonts, __version__)
+        self.files.dialog.draw()
+        if self.files.loading and loading_box(self.files.loading, self.files.loading_s):
+            self.files.cancel()
+        self._messages(window)
+        self.palette.draw(lambda: entries(window), self._fonts)
+        self.toasts.draw()
+
+    def after_drawing(self, framebuffer: moderngl.Framebuffer) -> None:
+        """Once a frame, when all is drawn, before it is shown."""
+        self.captures.after_drawing(framebuffer)
+
+    def end(self, state: AppState) -> None:
+        """Once, at the end."""
+        self.captures.close()
+        if self._keeper is not None:
+            self._keeper.close(session_of(state, self.stage.arrangement()))
+
+    def _messages(self, window: Window) -> None:
+        """One message at a time: what was asked for first, then what failed by itself."""
+        if self._keeper is not None and self._keeper.message:
+            self.toasts.add(self._keeper.message, good=False)
+            self._keeper.message = ""
+        if self.files.message:
+            if message_box(Message(self.files.message)) == "Close":
+                self.files.message = ""
+            return
+        failure = self._told(window.renderers)
+        if failure is None:
+            return
+        text = f"{_who(window.renderers, failure)} {describe(failure)}"
+        answer = message_box(Message(text, ("Try again", "Undo", "Close")))
+        if answer == "Try again":
+            window.retry()
+        elif answer == "Undo":
+            window.undo()
+        elif answer == "Close":
+            self._failure = failure
+
+    def _told(self, renderers: Renderers) -> Exception | None:
+        """A failure that the user has not answered yet."""
+        failure = renderers.failure
+        if failure is None:
+            self._failure = None  # the next one is told, even if it is the same again
+        return failure if failure is not self._failure else None
+
+    def _keep(self, state: AppState) -> None:
+        keeper = self._keeper
+        if keeper is None:
+            return
+        io = imgui.get_io()
+        if state is not self._kept or io.want_save_ini_settings:
+            self._kept, io.want_save_ini_settings = state, False
+            keeper.mark()
+        if keeper.due():
+            keeper.save(session_of(state, self.stage.arrangement()))
+
+    def _view_in_use(self) -> str:
+        stage = self.stage
+        if stage.maximised:
+            return stage.maximised
+        if stage.focused in stage.rects:
+            return stage.focused
+        if not stage.rects:
+            raise LucidaError("picture", "no view is shown", "show one in the menu View")
+        return next(iter(stage.rects))
+
+    def _rect(self, view: str) -> Rect | None:
+        """Where a view's content is, in framebuffer pixels; None for the whole window."""
+        if not view:
+            return None
+        scale = imgui.get_io().display_framebuffer_scale.x
+        left, top, right, bottom = (edge * scale for edge in self.stage.rects[view])
+        return left, top, right, bottom
+
+    def _picture_to(self, view: str, path: Path) -> None:
+        ending = path if path.suffix.lower() == ".png" else Path(f"{path}.png")
+        self.captures.ask(self._rect(view) if view in self.stage.rects else None, ending)
+        hello_imgui.request_refresh()
+
+
+def _who(renderers: Renderers, failure: Exception) -> str:
+    """Who failed, as the beginning of a sentence."""
+    if failure is renderers.raster_error:
+        return "The rasterizer failed."
+    if failure is renderers.ray_error:
+        return "The ray tracer failed."
+    return "The comparison failed."

@@ -1,0 +1,203 @@
+"""Which views are to be seen: shown, hidden, in front, or one of them over all the others.
+
+Owns the views' ImGui windows and what is transient about them: the focus, the one that is
+maximised, where each stands. Knows nothing of what views show. Layouts are layout.py's.
+"""
+
+from __future__ import annotations
+
+from imgui_bundle import imgui
+
+from app import layout
+from app.options import Preferences
+from app.session import Arrangement
+from app.views.base import Host, View
+
+Rect = tuple[float, float, float, float]  # left, top, right, bottom, ImGui's pixels
+
+
+class Stage:
+    """All views of a window. maximised: the name of the one that covers the others, or "".
+
+    focused: the name of the one that has the keyboard, or "". rects: what each one's content
+    takes, of those that were drawn in this frame or the one before.
+    """
+
+    def __init__(self, views: list[View]) -> None:
+        self.views = {view.name: view for view in views}
+        self.maximised = ""
+        self.focused = ""
+        self.rects: dict[str, Rect] = {}
+        self._next_focus = ""
+        self._hovered: View | None = None
+        self._restoring: Arrangement | None = None
+        self._presenting = False
+        self._before = layout.LAYOUTS[0].name
+        self._frames = 0
+
+    # What actions ask for.
+
+    @property
+    def shown(self) -> list[View]:
+        """The views that are to be seen, or are tabs behind others."""
+        return [view for view in self.views.values() if layout.window_of(view).is_visible]
+
+    def is_shown(self, name: str) -> bool:
+        return layout.window_of(self.views[name]).is_visible
+
+    def show(self, name: str, shown: bool = True) -> None:
+        """Shows a view and gives it the keyboard; or hides it."""
+        layout.window_of(self.views[name]).is_visible = shown
+        if shown:
+            self._next_focus = name
+        elif self.maximised == name:
+            self.maximised = ""
+
+    def focus_next(self, step: int) -> None:
+        """Gives the keyboard to the next view, or the one before (step -1)."""
+        names = [view.name for view in self.shown]
+        if names:
+            here = names.index(self.focused) if self.focused in names else -max(step, 0)
+            self._next_focus = names[(here + step) % len(names)]
+
+    def maximise(self, name: str = "") -> None:
+        """Lets a view cover all others, or ends that. name: "" for the one that has the focus."""
+        name = name or self.focused or self.maximised
+        was = self.maximised
+        self.maximised = "" if was or not name else name
+        self._next_focus = self.maximised or was
+
+    def follow(self, preferences: Preferences) -> None:
+        """Presentation mode has a layout of its own; call once a frame, before the views."""
+        self._frames += 1
+        self._restore()
+        if preferences.presentation != self._presenting:
+            self._presenting = preferences.presentation
+            if self._presenting:
+                self._before = layout.current().name
+                layout.switch(layout.PRESENTATION)
+            elif layout.current().name == layout.PRESENTATION:
+                back = self._before != layout.PRESENTATION
+                layout.switch(self._before if back else layout.LAYOUTS[0].name)
+        if self._next_focus:
+            name, self._next_focus = self._next_focus, ""
+            if self.maximised and self.maximised != name:
+                self.maximised = name
+            view = self.views[name]
+            imgui.set_window_focus(_large_label(view) if self.maximised else view.label)
+
+    def take_hovered(self) -> View | None:
+        """The view that the mouse was over in the last frame; call once a frame."""
+        hovered, self._hovered = self._hovered, None
+        return hovered
+
+    # Sessions.
+
+    def arrangement(self) -> Arrangement:
+        """Where everything stands now."""
+        visible = tuple(view.name for view in self.shown)
+        return Arrangement(layout.current().name, visible, imgui.save_ini_settings_to_memory())
+
+    def restore(self, arrangement: Arrangement, presenting: bool) -> None:
+        """Puts everything where it stood; in the next frames."""
+        self._restoring = arrangement
+        self._presenting = presenting
+
+    def _restore(self) -> None:
+        if self._restoring is None or self._frames < 2:
+            return
+        if self._frames == 2 and self._restoring.layout:
+            layout.switch(self._restoring.layout)
+            return
+        if layout.current().name == self._restoring.layout:
+            for view in self.views.values():
+                visible = view.name in self._restoring.visible
+                layout.window_of(view).is_visible = visible
+        self._restoring = None
+
+    def before_frame(self) -> None:
+        """Between two frames, when ImGui takes settings."""
+        waiting = self._restoring
+        if waiting is not None and self._frames == 2 and waiting.windows:
+            imgui.load_ini_settings_from_memory(waiting.windows)
+
+    # Drawing.
+
+    def draw(self, view: View, host: Host) -> None:
+        """A view's ImGui window, where it is shown."""
+        window = layout.window_of(view)
+        if not window.is_visible:
+            self.rects.pop(view.name, None)
+            view.unseen(host)
+            return
+        large = self.maximised == view.name
+        padding = view.padding
+        if padding is not None:
+            imgui.push_style_var(imgui.StyleVar_.window_padding, padding)
+        opened, visible = imgui.begin(view.label, True, view.flags)
+        window.is_visible = bool(visible)
+        if padding is not None:
+            imgui.pop_style_var()
+        try:
+            if imgui.is_item_hovered() and imgui.is_mouse_double_clicked(imgui.MouseButton_.left):
+                self.maximise(view.name)  # the last item is the tab
+            self._note_focus(view)
+            if opened and not self.maximised:
+                self._draw_content(view, host)
+            elif not large:
+                self.rects.pop(view.name, None)
+                view.unseen(host)
+        finally:
+            imgui.end()
+        if large:
+            self._draw_large(view, host)
+
+    def _draw_large(self, view: View, host: Host) -> None:
+        """The view over all the others; with another id, so that its dock stays as it is."""
+        place = layout.whole()
+        if place is None:
+            return
+        imgui.set_next_window_pos(place[0])
+        imgui.set_next_window_size(place[1])
+        if view.padding is not None:
+            imgui.push_style_var(imgui.StyleVar_.window_padding, view.padding)
+        imgui.push_style_var(imgui.StyleVar_.window_rounding, 0.0)
+        flags = imgui.WindowFlags_
+        _, still_open = imgui.begin(
+            _large_label(view),
+            True,
+            view.flags
+            | flags.no_docking
+            | flags.no_collapse
+            | flags.no_resize
+            | flags.no_move
+            | flags.no_saved_settings,
+        )
+        imgui.pop_style_var(1 if view.padding is None else 2)
+        try:
+            if imgui.is_item_hovered() and imgui.is_mouse_double_clicked(imgui.MouseButton_.left):
+                still_open = False
+            if imgui.is_window_focused(imgui.FocusedFlags_.root_and_child_windows):
+                self.focused = view.name
+            self._draw_content(view, host)
+        finally:
+            imgui.end()
+        if not still_open:
+            self.maximise()
+
+    def _draw_content(self, view: View, host: Host) -> None:
+        corner, room = imgui.get_cursor_screen_pos(), imgui.get_content_region_avail()
+        if imgui.is_window_hovered(imgui.HoveredFlags_.root_and_child_windows):
+            self._hovered = view
+        self.rects[view.name] = (corner.x, corner.y, corner.x + room.x, corner.y + room.y)
+        view.draw(host)
+
+    def _note_focus(self, view: View) -> None:
+        if imgui.is_window_focused(imgui.FocusedFlags_.root_and_child_windows):
+            self.focused = view.name
+            if self.maximised and self.maximised != view.name:
+                self.maximised = self._next_focus = view.name  # by Ctrl+Tab, for instance
+
+
+def _large_label(view: View) -> str:
+    return f"{view.title}###{view.name} maximised"
