@@ -1,116 +1,239 @@
 """Opening and saving from the window: dialogs, dropped files, loading in the background.
 
-Owns the dialogs and the loading thread. Knows nothing of what is done with a scene.
+Owns the dialogs (the system's, or the window's own where there is none), and the threads that load
+and save. Knows nothing of what is done with a scene.
 """
 
 from __future__ import annotations
 
 import shutil
 import sys
-from collections.abc import Callable
+import time
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
 from imgui_bundle import portable_file_dialogs as dialogs
 
 from app.background import Background
+from app.panels.dialog import FileDialog, Question
+from app.recent import RecentFiles
 from renderer.errors import LucidaError
-from renderer.scene import BUILTIN_SCENES, SCENE_ENDINGS, Scene, View, load_scene, load_view
+from renderer.scene import (
+    BUILTIN_SCENES,
+    SCENE_ENDINGS,
+    Scene,
+    View,
+    load_scene,
+    load_view,
+    save_scene,
+    save_view,
+)
 
 SNIFFED_BYTES = 1 << 20
 LINUX_DIALOGS = ("zenity", "kdialog", "matedialog", "qarma")  # what the dialogs are drawn by
 
+Paths = Callable[[list[str]], None]
+
 
 @dataclass(frozen=True)
 class Opened:
-    """What a source held: a scene, or a view alone."""
+    """What sources held: a scene, a view, or both. sources: of those that could be read.
 
-    source: str
+    problems: one line for each of the others.
+    """
+
+    sources: tuple[str, ...] = ()
     scene: Scene | None = None
     view: View | None = None
+    problems: tuple[str, ...] = ()
 
 
 class Files:
-    """wake: called from another thread when something has been loaded."""
+    """wake: called from another thread when something has been loaded.
 
-    def __init__(self, wake: Callable[[], None]) -> None:
+    message: what went wrong; said: what was done, for poll_said(). folder: where the list of
+    recent files is kept; None: nowhere. native: whether the system's dialogs may be used.
+    """
+
+    def __init__(
+        self, wake: Callable[[], None], folder: Path | None = None, native: bool = True
+    ) -> None:
+        self._wake = wake
         self._loading: Background[Opened] = Background("lucida-load", wake)
-        self._open: dialogs.open_file | None = None
-        self._save: dialogs.save_file | None = None
-        self._view: View | None = None
+        self._saving: Background[str] = Background("lucida-save", wake)
+        self._asking: tuple[dialogs.open_file | dialogs.save_file, Paths] | None = None
+        self._native = native
         self._source = ""
+        self._began_s = 0.0
+        self.dialog = FileDialog(wake)
+        self.recent = RecentFiles(folder, wake)
         self.message = ""
+        self._said: list[str] = []
 
     @property
     def busy(self) -> bool:
-        """Whether something is being loaded, or a dialog is open."""
-        return self._loading.busy or self._open is not None or self._save is not None
+        """Whether something is being loaded or saved, or a dialog of the system's is open."""
+        return self._loading.busy or self._saving.busy or self._asking is not None
 
     @property
     def loading(self) -> str:
         """The name of what is being loaded; empty while nothing is."""
         return self._source if self._loading.busy else ""
 
+    @property
+    def loading_s(self) -> float:
+        """For how long."""
+        return time.monotonic() - self._began_s if self._loading.busy else 0.0
+
     def open(self, source: str) -> None:
         """Loads a built-in scene, a scene file, a model or a view file in the background."""
+        self.open_all([source])
+
+    def open_all(self, sources: Sequence[str]) -> None:
+        """Loads the first scene and the first view among several."""
+        if not sources:
+            return
         self.message = ""
-        self._source = Path(source).name
-        self._loading.submit(lambda: open_source(source))
+        self._source = Path(sources[0]).name
+        self._began_s = time.monotonic()
+        self._loading.submit(lambda: open_sources(sources))
+
+    def cancel(self) -> None:
+        """Ends the waiting for what is being loaded. Its thread is left alone; what it still
+        brings is dropped."""
+        if self._loading.busy:
+            self._loading.close(0.0)
+            self._loading = Background("lucida-load", self._wake)
+            self._said.append(f"Loading {self._source} was cancelled.")
 
     def open_dialog(self) -> None:
         endings = " ".join(f"*{ending}" for ending in SCENE_ENDINGS)
-        if self._open is None and self._can_ask("drop the file on the window"):
-            filters = ["Scenes, views and models", endings, "All files", "*"]
-            self._open = dialogs.open_file("Open a scene, a view or a model", "", filters)
+        self._ask(
+            Question("Open a scene, a view or a model", False, SCENE_ENDINGS, "", self.open_all),
+            ["Scenes, views and models", endings, "All files", "*"],
+        )
 
     def save_view_dialog(self, view: View) -> None:
-        if self._save is None and self._can_ask("kdialog"):
-            self._view = view
-            filters = ["View files", "*.toml"]
-            self._save = dialogs.save_file("Save the view", "view.toml", filters)
+        def store(path: str) -> str:
+            save_view(path, view)
+            return f"Saved the view as {path}."
+
+        self.save_as_dialog("Save the view", "view.toml", ("View files", ".toml"), store)
+
+    def save_scene_dialog(self, scene: Scene, view: View) -> None:
+        """view: what becomes the scene's own."""
+
+        def store(path: str) -> str:
+            save_scene(path, scene, view)
+            self.recent.add(str(Path(path).absolute()))
+            return f"Saved the scene as {path}."
+
+        name = "".join(c if c.isalnum() or c in " -_" else "-" for c in scene.name) or "scene"
+        self.save_as_dialog("Save the scene", f"{name}.toml", ("Scene files", ".toml"), store)
+
+    def save_picture_dialog(self, name: str, chosen: Callable[[Path], None]) -> None:
+        """Asks where a picture is to go."""
+        self._ask(
+            Question("Save the picture", True, (".png",), name, lambda p: chosen(Path(p[0]))),
+            ["Pictures", "*.png"],
+        )
 
     def poll(self) -> Opened | None:
         """What has been loaded since the last call; errors become the message."""
-        if self._open is not None and self._open.ready(0):
-            chosen, self._open = self._open.result(), None
-            if chosen:
-                self.open(chosen[0])
-        if self._save is not None and self._save.ready(0):
-            path, self._save = self._save.result(), None
-            if path and self._view is not None:
-                self._store(path, self._view)
+        if self._asking is not None and self._asking[0].ready(0):
+            (asked, chosen), self._asking = self._asking, None
+            result = asked.result()
+            paths = [result] if isinstance(result, str) else list(result)
+            if any(paths):
+                chosen(paths)
+        saved = self._saving.poll()
+        if saved is not None:
+            if saved.error is not None:
+                self.message = describe(saved.error)
+            else:
+                self._said.append(saved.value or "")
         outcome = self._loading.poll()
         if outcome is None:
             return None
         if outcome.error is not None:
             self.message = describe(outcome.error)
+        elif outcome.value is not None:
+            self._note(outcome.value)
         return outcome.value
+
+    def poll_said(self) -> list[str]:
+        """What was done since the last call, in words."""
+        said, self._said = self._said, []
+        return said
 
     def close(self) -> None:
         self._loading.close()
+        self._saving.close(5.0)
+        self.dialog.close()
+        self.recent.close()
 
-    def _can_ask(self, otherwise: str) -> bool:
-        """Whether the system has file dialogs; if not, the message says what to do."""
-        if sys.platform.startswith("linux") and not any(map(shutil.which, LINUX_DIALOGS)):
-            self.message = f"no file dialog on this system: install zenity, or {otherwise}"
-            return False
-        return True
+    def _note(self, opened: Opened) -> None:
+        for source in reversed(opened.sources):
+            if source not in BUILTIN_SCENES:
+                self.recent.add(str(Path(source).absolute()))
+        self.message = "\n".join(opened.problems)
 
-    def _store(self, path: str, view: View) -> None:
-        from renderer.scene import save_view
+    def save_as_dialog(
+        self, title: str, name: str, kind: tuple[str, str], store: Callable[[str], str]
+    ) -> None:
+        """Asks where something is to go, and stores it there in the background.
 
-        try:
-            save_view(path if path.endswith(".toml") else f"{path}.toml", view)
+        kind: in words, and the ending. store: does it, and says what it did.
+        """
+        words, ending = kind
+
+        def chosen(paths: list[str]) -> None:
+            path = paths[0] if paths[0].lower().endswith(ending) else paths[0] + ending
             self.message = ""
-        except (LucidaError, OSError) as error:
-            self.message = describe(error)
+            self._saving.submit(lambda: store(path))
+
+        self._ask(Question(title, True, (ending,), name, chosen), [words, f"*{ending}"])
+
+    def _ask(self, question: Question, filters: list[str]) -> None:
+        if self._asking is not None or self.dialog.is_open:
+            return
+        if not (self._native and has_dialogs()):
+            self.dialog.ask(question)
+        elif question.saves:
+            chooser = dialogs.save_file(question.title, question.name, filters)
+            self._asking = chooser, question.chosen
+        else:
+            several = dialogs.opt.multiselect
+            self._asking = dialogs.open_file(question.title, "", filters, several), question.chosen
 
 
-def open_source(source: str) -> Opened:
-    """Loads a scene, or a view where a .toml file has a camera only. Raises LucidaError."""
-    if source not in BUILTIN_SCENES and _is_view(Path(source)):
-        return Opened(source, view=load_view(source))
-    return Opened(source, scene=load_scene(source))
+def has_dialogs() -> bool:
+    """Whether the system has file dialogs."""
+    return not sys.platform.startswith("linux") or any(map(shutil.which, LINUX_DIALOGS))
+
+
+def open_sources(sources: Sequence[str]) -> Opened:
+    """Loads the first scene and the first view among sources.
+
+    Raises LucidaError where there is but one and it cannot be read.
+    """
+    scene, view = None, None
+    good, problems = [], []
+    for source in sources:
+        try:
+            if source not in BUILTIN_SCENES and _is_view(Path(source)):
+                view = view or load_view(source)
+            elif scene is None:
+                scene = load_scene(source)
+            else:
+                continue  # one scene at a time
+            good.append(source)
+        except LucidaError as error:
+            if len(sources) == 1:
+                raise
+            problems.append(describe(error))
+    return Opened(tuple(good), scene, view, tuple(problems))
 
 
 def describe(error: Exception) -> str:

@@ -151,6 +151,18 @@ def window_of(view: View) -> hello_imgui.DockableWindow:
     return window
 
 
+def whole() -> tuple[tuple[float, float], tuple[float, float]] | None:
+    """Where all views together stand, and how large that is; in ImGui's pixels."""
+    params = hello_imgui.get_runner_params().docking_params
+    number = params.dock_space_id_from_name(MAIN)
+    node = imgui.internal.dock_builder_get_node(number) if number is not None else None
+    if node is None:
+        return None
+    while parent := node.parent_node:
+        node = parent
+    return (node.pos.x, node.pos.y), (node.size.x, node.size.y)
+
+
 class Proportion:
     """Keeps the two images' shares of the room when the window is resized, and the camera's panel
     as wide as its numbers are.
@@ -189,8 +201,8 @@ class Proportion:
             self._share = node.size.x / parent.size.x
 
     def _widen_camera(self) -> None:
-        """A window that was restored, or enlarged, may leave the panel less than it needs; larger or
-        smaller type takes its width along."""
+        """A window that was restored, or enlarged, may leave the panel less than it needs; its
+        width follows the type's size."""
         node = _node(CAMERA_SPACE)
         parent = node.parent_node if node is not None else None
         if node is None or parent is None or not (parent.size.x > 0 and node.size.y > 0):
@@ -201,7 +213,7 @@ class Proportion:
         follows = em_px != self._em_px and self._em_px > 0  # the type's size has changed
         self._em_px = em_px
         if least >= 1 and (follows or node.size.x < least - 1):
-            width = max(width if follows else 0.0, least)
+            width = max(min(width, 0.5 * parent.size.x) if follows else 0.0, least)
             imgui.internal.dock_builder_set_node_size(node.id_, (width, node.size.y))
 
 

@@ -111,6 +111,47 @@ def set_size(size: tuple[int, int]) -> None:
         glfw.set_window_size(window, *size)
 
 
+def toggle_full_screen() -> None:
+    """Lets the current window cover its monitor, or gives it back its place."""
+    window = glfw.get_current_context()
+    if not window:
+        return
+    if glfw.get_window_monitor(window):
+        left, top, width, height = _windowed.pop(0) if _windowed else (50, 50, 1280, 720)
+        glfw.set_window_monitor(window, None, left, top, width, height, glfw.DONT_CARE)
+        return
+    _windowed[:] = [(*glfw.get_window_pos(window), *glfw.get_window_size(window))]
+    monitor = _monitor_of(_windowed[0])
+    if monitor:
+        mode = glfw.get_video_mode(monitor)
+        glfw.set_window_monitor(
+            window, monitor, 0, 0, mode.size.width, mode.size.height, mode.refresh_rate
+        )
+
+
+def is_full_screen() -> bool:
+    """Whether the current window covers its monitor."""
+    window = glfw.get_current_context()
+    return bool(window and glfw.get_window_monitor(window))
+
+
+_windowed: list[tuple[int, int, int, int]] = []  # left, top, width, height before full screen
+
+
+def _monitor_of(place: tuple[int, int, int, int]) -> Any:
+    """The monitor that most of a window lies on."""
+    left, top, width, height = place
+
+    def shared(monitor: Any) -> int:
+        x, y = glfw.get_monitor_pos(monitor)
+        size = glfw.get_video_mode(monitor).size
+        wide = min(left + width, x + size.width) - max(left, x)
+        high = min(top + height, y + size.height) - max(top, y)
+        return max(wide, 0) * max(high, 0)
+
+    return max(glfw.get_monitors(), key=shared, default=None)
+
+
 class Canvas:
     """What the window is drawn into on the null platform: a framebuffer of any size.
 
@@ -130,6 +171,11 @@ class Canvas:
             color = self._context.renderbuffer(size, 4)
             self._target = self._context.framebuffer([color])
         self._target.use()
+
+    @property
+    def framebuffer(self) -> moderngl.Framebuffer | None:
+        """What was drawn into; None before the first frame."""
+        return self._target
 
     def release(self) -> None:
         if self._target is not None:

@@ -46,8 +46,8 @@ class Shell:
         wake: Callable[[], None],
         keeper: Keeper | None = None,
     ) -> None:
-        self.stage = Stage(views)
-        self.palette = Palette()
+        self.stage: Stage = Stage(views)
+        self.palette: Palette = Palette()
         self.toasts = Toasts()
         self.captures = Captures(wake)
         self.files = files

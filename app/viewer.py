@@ -9,11 +9,13 @@ from __future__ import annotations
 import sys
 import time
 from collections.abc import Callable
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
+import moderngl
 import numpy as np
-from imgui_bundle import hello_imgui, immapp
+from imgui_bundle import hello_imgui, imgui, immapp
 
 from app import layout, theme
 from app.platform import (
@@ -24,6 +26,8 @@ from app.platform import (
     set_size,
     start_platform,
 )
+from app.session import Session
+from app.session_store import Found, Keeper, settings_folder, take_place
 from app.settings import settings_file
 from app.signals import ended_by_signals
 from app.state import AppState
@@ -48,26 +52,32 @@ def run_viewer(
     size: tuple[int, int] | None = None,
     view: str | Path | None = None,
     change: Callable[[SceneView], SceneView] | None = None,
+    fresh: bool = False,
 ) -> int:
     """Opens the window on a scene and returns when it is closed; gives the exit status.
 
+    Without a scene, a view, a screenshot and `fresh`, the last session is gone on with.
     screenshot: draw the whole window once, with both images complete, save it there as PNG, and
     return. With no display that is done in any case, into lucida.png, and one line says so.
     size: the window's (width, height). view: a view file. change: what else the command line says
     about the view. Raises LucidaError.
     """
-    scene = load_scene(scene_source or BUILTIN_SCENES[0])
-    own_view = scene.view if view is None else load_view(view)
-    state = AppState.for_scene(scene, own_view if change is None else change(own_view))
     if screenshot is not None:
         check_writable(screenshot)
+    goes_on = scene_source is None and view is None and change is None and screenshot is None
+    state = None if goes_on else _state(scene_source, view, change)
     platform = start_platform(want_display=screenshot is None)
     picture = screenshot
     if not platform.has_display and picture is None:
         picture = DEFAULT_PICTURE
         check_writable(picture)
         print(f"lucida: no display ({platform.reason}): drawing the window once, into {picture}")
-    run = Run(platform, state, size or DEFAULT_SIZE, take_picture=picture is not None)
+    start = Start(state or _state(None, None, None))
+    if goes_on and picture is None:
+        start = begin_session(fresh)
+    elif picture is None and scene_source is not None:
+        start = replace(start, opened=scene_source)
+    run = Run(platform, start.state, size or DEFAULT_SIZE, picture is not None, start=start)
     pixels = run.run()
     if picture is not None:
         save_png(picture, pixels)
@@ -76,10 +86,52 @@ def run_viewer(
     return 0
 
 
+@dataclass(frozen=True)
+class Start:
+    """What a window begins with. session: what it goes on with, None for nothing. keeper: what
+    saves it. message: what the user is told about it. opened: a scene for the recent files."""
+
+    state: AppState
+    session: Session | None = None
+    keeper: Keeper | None = None
+    message: str = ""
+    opened: str = ""
+
+
+def begin_session(fresh: bool = False, folder: Path | None = None) -> Start:
+    """The last session, or an empty one. fresh: the last one is put aside unread.
+
+    folder: where sessions are; None for the user's settings folder. A scene that is not there any
+    more, or that cannot be read, is told; the rest of the session stays.
+    """
+    place = take_place(folder)
+    if place is None:
+        return Start(_state(None, None, None))
+    keeper = Keeper(place, hello_imgui.request_refresh)
+    found = Found() if fresh else place.load()
+    session = found.session
+    if session is None:
+        return Start(_state(None, None, None), None, keeper, found.message)
+    try:
+        return Start(session.state(load_scene(session.scene)), session, keeper)
+    except LucidaError as error:
+        message = f"The last session's scene could not be opened. {error}"
+        return Start(session.state(load_scene(BUILTIN_SCENES[0])), session, keeper, message)
+
+
+def _state(
+    source: str | None, view: str | Path | None, change: Callable[[SceneView], SceneView] | None
+) -> AppState:
+    scene = load_scene(source or BUILTIN_SCENES[0])
+    own_view = scene.view if view is None else load_view(view)
+    return AppState.for_scene(scene, own_view if change is None else change(own_view))
+
+
 class Run:
     """One run of the window. params may be changed before run(), as tests do.
 
     take_picture: leave once both images are complete, and use no settings of the user's.
+    remember: keep the layout, in the user's settings. start: the session; None for none.
     """
 
     def __init__(
@@ -89,11 +141,18 @@ class Run:
         size: tuple[int, int],
         take_picture: bool = False,
         remember: bool = True,
+        start: Start | None = None,
     ) -> None:
-        self.window = MainWindow(state, smooth=not take_picture)
+        keeper = start.keeper if start is not None else None
+        keeps = start is not None and remember and not take_picture
+        folder = _folder() if keeps else None
+        self.window = MainWindow(state, not take_picture, keeper, folder)
+        if start is not None:
+            self._take(start)
         self._platform = platform
         self._size = size
         self._canvas: Canvas | None = None
+        self._context: moderngl.Context | None = None
         self.take_picture = take_picture
         self._error: BaseException | None = None
         self._quiet_frames = 0
@@ -118,6 +177,14 @@ class Run:
         if self._error is not None:
             raise self._error
         return np.ascontiguousarray(hello_imgui.final_app_window_screenshot()[..., :3])
+
+    def _take(self, start: Start) -> None:
+        if start.session is not None:
+            presenting = start.state.preferences.presentation
+            self.window.shell.stage.restore(start.session.arrangement, presenting)
+        self.window.files.message = start.message
+        if start.opened and start.opened not in BUILTIN_SCENES:
+            self.window.files.recent.add(str(Path(start.opened).absolute()))
 
     def _end(self) -> None:
         self.params.app_shall_exit = True
@@ -150,9 +217,12 @@ class Run:
             list(self.window.views.values()), self._draw, size[0], theme.TEXT_PX
         )
         callbacks = params.callbacks
+        callbacks.setup_imgui_config = _configure
         callbacks.load_additional_fonts = self._guarded(self.window.fonts.load)
         callbacks.setup_imgui_style = self._guarded(lambda: theme.begin(state.preferences))
         callbacks.post_init = self._guarded(self._begin)
+        callbacks.pre_new_frame = self._guarded(self.window.shell.stage.before_frame)
+        callbacks.before_swap = self._guarded(self._before_swap)
         callbacks.before_imgui_render = self._guarded(self._before_render)
         callbacks.show_menus = self._guarded(self.window.menus)
         callbacks.show_status = self._guarded(self.window.status)
@@ -179,7 +249,7 @@ class Run:
         return call
 
     def _begin(self) -> None:
-        context = create_context()
+        self._context = context = create_context()
         if not self._platform.has_display:
             set_size(self._size)
             self._canvas = Canvas(context)
@@ -189,6 +259,13 @@ class Run:
         theme.follow(self.window.state.preferences)
         if self._canvas is not None:
             self._canvas.bind()
+
+    def _before_swap(self) -> None:
+        drawn = self._canvas.framebuffer if self._canvas is not None else None
+        if drawn is None and self._context is not None:
+            drawn = self._context.detect_framebuffer(0)
+        if drawn is not None:
+            self.window.shell.after_drawing(drawn)
 
     def _after_frame(self) -> None:
         if not self._platform.has_display:
@@ -209,12 +286,26 @@ class Run:
             )
 
 
+def _configure() -> None:
+    """HelloImGui's configuration; and everything can be reached with the keyboard."""
+    hello_imgui.imgui_default_settings.setup_default_imgui_config()
+    imgui.get_io().config_flags |= int(imgui.ConfigFlags_.nav_enable_keyboard)
+
+
 def save_png(path: Path, pixels: np.ndarray) -> None:
     """Writes uint8 (height, width, 3), row 0 at the top; whole or not at all."""
     from PIL import Image
 
     with atomic_write(path) as file:
         Image.fromarray(pixels).save(file, format="PNG")
+
+
+def _folder() -> Path | None:
+    """The user's settings folder; None where there is no home."""
+    try:
+        return settings_folder()
+    except RuntimeError:
+        return None
 
 
 def _settings(params: hello_imgui.RunnerParams, remember: bool) -> None:

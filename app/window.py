@@ -9,63 +9,77 @@ one; here it is kept, and the renderers are told. Knows nothing of how the windo
 from __future__ import annotations
 
 from collections.abc import Hashable
+from pathlib import Path
 
 import moderngl
 from imgui_bundle import hello_imgui, imgui
 
-from app import __version__, layout, theme
+from app import layout, theme
 from app.actions import run_shortcuts
 from app.files import Files, Opened, describe
 from app.fly import Fly
 from app.focus import Focus, object_corners, scene_focus
 from app.options import Pixel
-from app.panels.menus import help_sheet, menu_bar
-from app.panels.messages import message_box
+from app.panels.menus import menu_bar
+from app.panels.resolution import Asked, asked, resolution_box
 from app.panels.status import Status, status_line
 from app.platform import on_drop, set_title
 from app.presets import framed
 from app.renderers import Renderers
+from app.session_store import Keeper
+from app.shell import Shell
 from app.state import AppState, History
 from app.travel import Traveller
 from app.views.base import View
 from app.views.camera import CameraView
+from app.views.compare import CompareView
+from app.views.outside import OutsideView
 from app.views.pair import RASTER, Linked, RasterView, RayView
 from renderer.errors import LucidaError
-from renderer.scene import BUILTIN_SCENES, Scene
+from renderer.scene import Scene
 
 
 def make_views() -> list[View]:
     """All views, in the order in which they are drawn: the camera's panel first, so that the
     images show what it changed in the same frame."""
     linked = Linked()
-    return [CameraView(), RasterView(linked), RayView(linked)]
+    return [CameraView(), RasterView(linked), RayView(linked), CompareView(linked), OutsideView()]
 
 
 class MainWindow:
     """Everything behind the window; the Host of its views. Methods are called in its thread, in
     its context.
 
-    smooth: keep the display's rate while tracing; not needed for a picture.
+    smooth: keep the display's rate while tracing; not needed for a picture. keeper: what saves the
+    session. folder: where the list of recent files is kept. None: they are not kept.
     """
 
-    def __init__(self, state: AppState, smooth: bool = True) -> None:
+    def __init__(
+        self,
+        state: AppState,
+        smooth: bool = True,
+        keeper: Keeper | None = None,
+        folder: Path | None = None,
+    ) -> None:
         self.history = History(state)
         self.fonts = theme.Fonts()
-        self.files = Files(hello_imgui.request_refresh)
+        self.files = Files(hello_imgui.request_refresh, folder)
         self.renderers = Renderers(hello_imgui.request_refresh, smooth)
         self.views = {view.name: view for view in make_views()}
+        wake = hello_imgui.request_refresh
+        self.shell = Shell(list(self.views.values()), self.files, self.fonts, wake, keeper)
         self._proportion = layout.Proportion()
         self._hovered: tuple[str, Pixel] | None = None
         self._next_hovered: tuple[str, Pixel] | None = None
+        self._titled = state.scene
         self._gesture = 0
         self._was_active = False
-        self._help = False
+        self._asked: Asked | None = None
         self._focused: tuple[Scene, Focus] | None = None
         self.traveller = Traveller()
         self.traveller.instant = not smooth
         self._fly = Fly()
         self._over: View | None = None
-        self._next_over: View | None = None
 
     # What actions and views ask for.
 
@@ -102,6 +116,13 @@ class MainWindow:
 
     def change(self, state: AppState) -> None:
         self.history = self.history.change(state)
+
+    def amend(self, state: AppState) -> None:
+        self.history = self.history.amended(state)
+
+    def ask_resolution(self) -> None:
+        """Opens the box to type the images' resolution into."""
+        self._asked = asked(self.state, self.renderers.size)
 
     def travel(self, state: AppState) -> None:
         shown = self.traveller.begin(self.state, state, self.focus, self.renderers.size)
@@ -147,8 +168,10 @@ class MainWindow:
     def open(self, source: str) -> None:
         self.files.open(source)
 
-    def toggle_help(self) -> None:
-        self._help = not self._help
+    def retry(self) -> None:
+        """Tries again what a renderer has failed at."""
+        self.renderers.retry()
+        self.animate()
 
     def quit(self) -> None:
         hello_imgui.get_runner_params().app_shall_exit = True
@@ -163,7 +186,7 @@ class MainWindow:
         on_drop(self._dropped)
 
     def menus(self) -> None:
-        menu_bar(self, BUILTIN_SCENES, self.open)
+        menu_bar(self, self.history)
 
     def frame(self) -> None:
         """The beginning of each frame: what has come from the threads, and the keys."""
@@ -172,7 +195,10 @@ class MainWindow:
             self._gesture += 1
         self._was_active = active
         self._hovered, self._next_hovered = self._next_hovered, None
-        self._over, self._next_over = self._next_over, None
+        if self.state.scene is not self._titled:  # also by undo
+            self._titled = self.state.scene
+            set_title(title(self._titled))
+        self._over = self.shell.stage.take_hovered()
         self._move_by_itself(active)
         opened = self.files.poll()
         if opened is not None:
@@ -180,36 +206,18 @@ class MainWindow:
         moving = active or self.traveller.under_way or self._fly.under_way
         self.renderers.update(self.state, moving)
         self._proportion.keep()
+        self.shell.frame(self)
         run_shortcuts(self)
-        if self._help:
-            help_sheet(self, self.fonts, __version__)
-        if self.files.message and message_box(self.files.message):
-            self.files.message = ""
+        if self._asked is not None:
+            self._asked, state = resolution_box(self._asked, self.state)
+            self.change(state)
+        self.shell.draw(self)
         if self.files.busy or self.renderers.unfinished(self.state):
             hello_imgui.request_refresh()
 
     def draw_view(self, view: View) -> None:
         """A view's ImGui window, where it is shown."""
-        params = hello_imgui.get_runner_params().docking_params
-        dockable = params.dockable_window_of_name(view.label)
-        if dockable is None or not dockable.is_visible:
-            view.unseen(self)
-            return
-        if view.padding is not None:
-            imgui.push_style_var(imgui.StyleVar_.window_padding, view.padding)
-        opened, visible = imgui.begin(view.label, True, view.flags)
-        dockable.is_visible = bool(visible)
-        if view.padding is not None:
-            imgui.pop_style_var()
-        try:
-            if opened:
-                if imgui.is_window_hovered(imgui.HoveredFlags_.root_and_child_windows):
-                    self._next_over = view
-                view.draw(self)
-            else:
-                view.unseen(self)
-        finally:
-            imgui.end()
+        self.shell.stage.draw(view, self)
 
     def status(self) -> None:
         both, state = self.renderers, self.state
@@ -236,6 +244,7 @@ class MainWindow:
 
     def end(self) -> None:
         """Once, before the context goes."""
+        self.shell.end(self.state)
         for view in self.views.values():
             view.end()
         self.renderers.end()
@@ -259,15 +268,13 @@ class MainWindow:
 
     def _take_opened(self, opened: Opened) -> None:
         if opened.scene is not None:
-            self.change(self.state.with_scene(opened.scene))
-            set_title(title(opened.scene))
+            self.change(self.state.with_scene(opened.scene, opened.view))
         elif opened.view is not None:
             self.change(self.state.with_view(opened.view))
 
     def _dropped(self, paths: list[str]) -> None:
-        if paths:
-            self.open(paths[0])
-            hello_imgui.request_refresh()
+        self.files.open_all(paths)
+        hello_imgui.request_refresh()
 
 
 def title(scene: Scene) -> str:

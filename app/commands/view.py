@@ -10,6 +10,7 @@ from pathlib import Path
 
 from app import __version__
 from app.commands.arguments import (
+    CAMERA_OPTIONS,
     SCENE_HELP,
     VIEW_HELP,
     add_camera_options,
@@ -33,7 +34,7 @@ commands:
 
 EPILOG = """\
 examples:
-  lucida                                  the built-in scene
+  lucida                                  what was open last time; at first, the built-in scene
   lucida bunny.obj                        a model, lit and framed
   lucida spheres --view corner.toml       a built-in scene, seen by another camera
   lucida spheres --eye=0,2,6              the scene's own camera, moved
@@ -52,6 +53,9 @@ def configure(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--view", metavar="VIEW.toml", help=VIEW_HELP)
     parser.add_argument(
         "--size", type=window_size, metavar="WxH", help="the window's size in pixels"
+    )
+    parser.add_argument(
+        "--fresh", action="store_true", help="begin without what was open last time"
     )
     add_camera_options(parser)
     parser.add_argument("--version", action="version", version=f"lucida {__version__}")
@@ -75,6 +79,7 @@ def run(arguments: argparse.Namespace) -> int:
     if arguments.screenshot is not None:
         check_image_path(arguments.screenshot, (".png",))
         screenshot = Path(arguments.screenshot)
+    any_camera = any(getattr(arguments, name) is not None for name in CAMERA_OPTIONS)
     from app.viewer import run_viewer  # after the quick mistakes: it loads the whole window
 
     return run_viewer(
@@ -82,5 +87,6 @@ def run(arguments: argparse.Namespace) -> int:
         screenshot,
         size=arguments.size,
         view=arguments.view,
-        change=lambda view: with_camera_options(arguments, view),
+        change=(lambda view: with_camera_options(arguments, view)) if any_camera else None,
+        fresh=arguments.fresh,
     )

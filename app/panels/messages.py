@@ -1,33 +1,52 @@
-"""A message over the window: one thing that went wrong, until it is closed.
+"""A message over the window: one thing that went wrong, until it is answered.
 
 Owns its place and look.
 """
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+
 from imgui_bundle import ImVec2, imgui
 
 from app import theme
 
+WIDTH_EM = 40.0
 
-def message_box(text: str) -> bool:
-    """Draws the message; gives whether it was closed."""
+
+@dataclass(frozen=True)
+class Message:
+    """answers: the words on the buttons."""
+
+    text: str
+    answers: tuple[str, ...] = ("Close",)
+
+
+def message_box(message: Message) -> str:
+    """Draws the message; gives the answer that was chosen, or ""."""
     viewport = imgui.get_main_viewport()
-    width = min(640.0, viewport.work_size.x * 0.8)
-    top = ImVec2(viewport.get_center().x, viewport.work_pos.y + 48)
+    em = imgui.get_font_size()
+    width = min(WIDTH_EM * em, viewport.work_size.x * 0.8)
+    top = ImVec2(viewport.get_center().x, viewport.work_pos.y + 3 * em)
     imgui.set_next_window_pos(top, imgui.Cond_.always, ImVec2(0.5, 0.0))
     imgui.set_next_window_size(ImVec2(width, 0))
     flags = imgui.WindowFlags_
+    imgui.push_style_color(imgui.Col_.window_bg, theme.POPUP)
     imgui.push_style_color(imgui.Col_.border, theme.ERROR)
     imgui.begin(
         "##message",
         None,
         flags.no_decoration | flags.no_docking | flags.no_saved_settings | flags.no_move,
     )
-    imgui.pop_style_color()
+    imgui.pop_style_color(2)
     imgui.push_text_wrap_pos(0.0)
-    imgui.text(text)
+    imgui.text(message.text)
     imgui.pop_text_wrap_pos()
-    closed = imgui.button("Close") or imgui.is_key_pressed(imgui.Key.escape)
+    chosen = ""
+    for index, answer in enumerate(message.answers):
+        if index:
+            imgui.same_line()
+        if imgui.button(answer):
+            chosen = answer
     imgui.end()
-    return closed
+    return chosen

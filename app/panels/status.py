@@ -55,7 +55,8 @@ def status_line(status: Status, fonts: theme.Fonts) -> None:
     if rights[right]:
         left = imgui.get_style().window_padding.x + room - _width(rights[right])
         imgui.same_line(left)
-        imgui.text_colored(theme.TEXT if status.loading else theme.legible(theme.MARK), rights[right])
+        color = theme.TEXT if status.loading else theme.legible(theme.MARK)
+        imgui.text_colored(color, rights[right])
     imgui.pop_font()
 
 
