@@ -14,7 +14,6 @@ from app.options import Channel, CompareMode, Pixel
 from app.state import AppState
 from renderer.compare import AGREE, CAUSES, SHADING, UNEXPLAINED, Comparison
 from renderer.difference import FULL_SCALE, LARGEST_GAIN, signed_difference
-from renderer.frame import Frame
 
 MODES: tuple[tuple[CompareMode, str, str], ...] = (
     ("absolute", "Absolute", "How much the two images differ: black is no difference."),
@@ -129,9 +128,8 @@ def pixel_text(pixel: Pixel, one_based: bool) -> str:
 
 def pixel_values(comparison: Comparison, pixel: Pixel, channel: Channel) -> tuple[str, str, str]:
     """What both images have at a pixel, and their difference, as texts."""
-    difference = signed_difference(
-        _one(comparison.raster, pixel), _one(comparison.ray, pixel), channel
-    )
+    at = np.s_[pixel[0] : pixel[0] + 1, pixel[1] : pixel[1] + 1]
+    difference = signed_difference(comparison.raster.part(at), comparison.ray.part(at), channel)
     number = float(difference[0, 0])
     unit, factor = {"color": (" /255", 255.0), "depth": (" %", 100.0)}.get(channel, ("", 1.0))
     told = "" if channel == "id" else f"{factor * number:+.3g}{unit}"
@@ -208,17 +206,6 @@ def marked_at(state: AppState, pixel: Pixel, size: tuple[int, int]) -> AppState:
     center = ((pixel[1] + 0.5) / size[0], (pixel[0] + 0.5) / size[1])
     changed = state.with_options(images={"magnification": magnification, "center": center})
     return replace(changed, options=replace(changed.options, marked=pixel))
-
-
-def _one(frame: Frame, pixel: Pixel) -> Frame:
-    """A frame of one pixel of another."""
-    at = np.s_[pixel[0] : pixel[0] + 1, pixel[1] : pixel[1] + 1]
-    channels = {
-        name: getattr(frame, name)[at]
-        for name in ("color", "depth", "normal", "id")
-        if getattr(frame, name) is not None
-    }
-    return Frame(size=(1, 1), **channels)
 
 
 def _value(value: object) -> str:

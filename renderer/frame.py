@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -45,6 +46,16 @@ class Frame:
         if array is None:
             raise LucidaError("channel", f"{name!r} was not rendered", "ask the renderer for it")
         return array
+
+    def part(self, rows_and_columns: tuple[slice, slice]) -> Frame:
+        """A frame of some of the pixels; its channels are views of this one's."""
+        channels: dict[str, Any] = {
+            name: array[rows_and_columns]
+            for name in CHANNELS
+            if (array := getattr(self, name)) is not None
+        }
+        height, width = next(iter(channels.values())).shape[:2] if channels else (0, 0)
+        return Frame((width, height), **channels, time_s=self.time_s, complete=self.complete)
 
 
 def check_channels(channels: Iterable[str]) -> tuple[str, ...]:
