@@ -1,12 +1,12 @@
-"""Editing one component of the basis while it stays orthonormal.
+"""The basis: editing one component while it stays orthonormal, and what can be measured on it.
 
-Pure functions on Camera; knows nothing of widgets.
+Pure functions; knows nothing of widgets.
 """
 
 from __future__ import annotations
 
 import math
-from dataclasses import replace
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -63,6 +63,35 @@ def with_vector(camera: Camera, name: str, vector: Floats) -> Camera:
     if volume(*(basis[n] for n in "uvw")) * camera.determinant < 0:
         basis[third_name] = -third
     return _with(camera, {n: _vector(basis[n]) for n in "uvw"})
+
+
+@dataclass(frozen=True)
+class Measures:
+    """Of three vectors u, v, w. lengths: |u|, |v|, |w|. angles_deg: between u and v, v and w, w
+    and u; NaN where one has no length. determinant: the volume, negative if they are left-handed;
+    0 (and NaN where numbers are not finite) for a basis that is none.
+    """
+
+    lengths: Vector
+    angles_deg: Vector
+    determinant: float
+
+
+def measures(u: Vector, v: Vector, w: Vector) -> Measures:
+    """What can be measured on three vectors, whether they are a basis or not."""
+    vectors = [np.asarray(vector, float) for vector in (u, v, w)]
+    with np.errstate(all="ignore"):
+        lengths = [float(np.linalg.norm(vector)) for vector in vectors]
+        angles = []
+        for first, second in ((0, 1), (1, 2), (2, 0)):
+            one, two = vectors[first], vectors[second]
+            cross, dot = np.linalg.norm(np.cross(one, two)), one @ two
+            known = lengths[first] > 0 and lengths[second] > 0
+            angles.append(math.degrees(math.atan2(cross, dot)) if known else math.nan)
+        determinant = volume(u, v, w)
+    return Measures(
+        (lengths[0], lengths[1], lengths[2]), (angles[0], angles[1], angles[2]), determinant
+    )
 
 
 def _with(camera: Camera, basis: dict[str, Vector]) -> Camera:

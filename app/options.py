@@ -175,4 +175,5 @@ class Options:
     shadows: bool = False
     mirrors: bool = False
     one_based: bool = True
+    presets_in_perspective: bool = False
     bookmarks: tuple[Bookmark, ...] = ()

@@ -1,4 +1,5 @@
-"""Number fields: dragged like a slider, or typed; with a level that shows where the value is.
+"""Number fields: dragged like a slider, or typed; with a level that shows where the value is, and
+a menu to reset, copy and paste it.
 
 Owns the look and the manner of one field. Knows nothing of cameras.
 """
@@ -14,19 +15,22 @@ from app import theme
 
 LEAST = 1e-3  # where dragging a logarithmic value ends
 FLT_MAX = 3.4e38
-HINT = "drag, or double-click to type; Shift: faster, Alt: slower"
+HINT = "drag, or double-click to type; Shift: faster, Alt: slower; right-click: reset, copy, paste"
 
 
 @dataclass(frozen=True)
 class Scale:
     """What a field's level and its drag refer to: low to high; values outside can be reached.
 
-    logarithmic: for values above 0 that differ by factors.
+    logarithmic: for values above 0 that differ by factors. least, most: where dragging ends;
+    typing is free.
     """
 
     low: float
     high: float
     logarithmic: bool = False
+    least: float = -FLT_MAX
+    most: float = FLT_MAX
 
     def place(self, value: float) -> float:
         """Where a value is between low (0) and high (1), cut to that."""
@@ -44,6 +48,13 @@ class Scale:
         if self.logarithmic:
             return max(abs(value), LEAST) * math.log(self.high / self.low) / 500
         return (self.high - self.low) / 400
+
+    @property
+    def limits(self) -> tuple[float, float]:
+        """Where dragging ends; (0, 0): nowhere."""
+        if self.logarithmic:
+            return max(LEAST, self.least), self.most
+        return (0.0, 0.0) if self.least == -FLT_MAX else (self.least, self.most)
 
 
 def number_format(value: float, scale: Scale) -> str:
@@ -72,17 +83,19 @@ def number_field(
     mono: imgui.ImFont | None,
     tooltip: str = "",
     marked: bool = False,
+    reset: float | None = None,
 ) -> tuple[bool, float]:
-    """One field: (whether it changed, its value). label: the id, not shown. marked: an error's."""
+    """One field: (whether it changed, its value). label: the id, not shown. marked: an error's.
+
+    reset: what its menu resets it to; None: without that entry.
+    """
     imgui.set_next_item_width(width_px)
     imgui.push_font(mono, 0.0)
     if marked:
-        imgui.push_style_var(imgui.StyleVar_.frame_border_size, 1.5)
+        imgui.push_style_var(imgui.StyleVar_.frame_border_size, 0.1 * imgui.get_font_size())
         imgui.push_style_color(imgui.Col_.border, theme.ERROR)
-    # A logarithmic value is dragged up to its end, and not below 0; typing is free.
-    least, most = (LEAST, FLT_MAX) if scale.logarithmic else (0.0, 0.0)
     changed, new = imgui.drag_float(
-        f"##{label}", value, scale.speed(value), least, most, number_format(value, scale)
+        f"##{label}", value, scale.speed(value), *scale.limits, number_format(value, scale)
     )
     if marked:
         imgui.pop_style_color()
@@ -92,19 +105,52 @@ def number_field(
         _draw_level(value, scale, color)
     if tooltip and not imgui.is_item_active():
         imgui.set_item_tooltip(f"{tooltip}\n{HINT}")
+    chosen = _menu(label, value, reset)
+    if chosen is not None:
+        return chosen != value, chosen
     # float32 in the widget: what was typed, not its nearest neighbour.
     return changed, float(f"{new:.7g}") if changed and math.isfinite(new) else new
+
+
+def pasted_number() -> float | None:
+    """The clipboard's text as one finite number; None where it is something else."""
+    try:
+        value = float(imgui.get_clipboard_text().strip())
+    except (ValueError, RuntimeError):  # RuntimeError: there is no clipboard
+        return None
+    return value if math.isfinite(value) else None
+
+
+def _menu(label: str, value: float, reset: float | None) -> float | None:
+    """The field's menu, opened by the right mouse button; gives what was chosen."""
+    chosen = None
+    if imgui.begin_popup_context_item(f"menu##{label}"):
+        imgui.text_disabled(f"{label} = {value:.7g}")
+        imgui.separator()
+        if reset is not None and imgui.menu_item(f"Reset to {reset:.7g}###reset", "", False)[0]:
+            chosen = reset
+        if imgui.menu_item("Copy", "", False)[0]:
+            imgui.set_clipboard_text(repr(value))
+        held = pasted_number()
+        if imgui.menu_item("Paste", "", False, held is not None)[0]:
+            chosen = held
+        imgui.end_popup()
+    return chosen
 
 
 def _draw_level(value: float, scale: Scale, color: ImVec4) -> None:
     """A line along the field's lower edge, from zero to the value, and a grab at its end."""
     low, high = imgui.get_item_rect_min(), imgui.get_item_rect_max()
-    left, width = low.x + 3, high.x - low.x - 6
+    unit = imgui.get_font_size() / 8
+    left, width = low.x + 1.5 * unit, high.x - low.x - 3 * unit
     zero = 0.0 if scale.logarithmic else scale.place(0.0)
     start, end = left + zero * width, left + scale.place(value) * width
     draw = imgui.get_window_draw_list()
-    bottom = high.y
     draw.add_rect_filled(
-        ImVec2(min(start, end), bottom - 2), ImVec2(max(start, end), bottom), theme.u32(color, 0.8)
+        ImVec2(min(start, end), high.y - unit),
+        ImVec2(max(start, end), high.y),
+        theme.u32(color, 0.8),
     )
-    draw.add_rect_filled(ImVec2(end - 2, bottom - 4), ImVec2(end + 2, bottom), theme.u32(color))
+    draw.add_rect_filled(
+        ImVec2(end - unit, high.y - 2 * unit), ImVec2(end + unit, high.y), theme.u32(color)
+    )
