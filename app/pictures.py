@@ -11,24 +11,30 @@ import time
 from dataclasses import dataclass
 
 import moderngl
+from numpy.typing import NDArray
 
 from app.live import RayImage, reduced
-from app.shown import ShownImage
+from app.placement import Placement
+from app.reading import Reading, Region
+from app.shown import Range, ShownImage, whole
 from renderer.camera import Camera
 from renderer.errors import LucidaError
-from renderer.frame import CHANNELS, Frame
-from renderer.raster import Rasterizer
+from renderer.frame import Frame
+from renderer.raster import DepthRange, Look, Rasterizer, upload
 from renderer.raster.targets import Textures
 from renderer.scene.model import Scene
 
 MOVING_S = 0.1  # after a change; a raster image that is too slow for the display is coarse then
 FRAME_S = 0.008  # what a raster image may take of a frame while the camera moves
 COARSEST = 4
+ATTEMPTS = 3  # at putting an image on the GPU, one a frame
+
+PANE, WHOLE = "pane", "whole"
 
 
 @dataclass(frozen=True)
 class Wanted:
-    """What a raster image depends on, but for the exposure. size: (width, height)."""
+    """What a raster image depends on, but for how it is shown. size: (width, height)."""
 
     scene: Scene
     camera: Camera
@@ -39,45 +45,76 @@ class Pictures:
     """Both images, in the window's context, which must be current in every call."""
 
     def __init__(self, context: moderngl.Context, scene: Scene) -> None:
+        self._gl = context
         self._raster, self._ray = ShownImage(context), ShownImage(context)
+        self._range = DepthRange(context)
         self._rasterizer = Rasterizer(scene, context=context)
         self._scene = scene
         self._timer = context.query(time=True)
         self._timed_pixels = 0  # of the image whose time is still to be read
         self._pixel_s = 0.0
         self._wanted: Wanted | None = None
-        self._linear: moderngl.Texture | None = None
+        self._textures: Textures | None = None
         self._drawn = 0
+        self._values: tuple[object, NDArray] | None = None
         self._changed_s = 0.0
+        self._reading: Reading | None = None
+        self._depths: Range | None = None
+        self._depths_of: object = None  # the image whose range that is
+        self._frame = 0
+        self._raster_frame = -1  # the last one that showed the raster image
+        self._image: RayImage | None = None
+        self._ray_texture: moderngl.Texture | None = None
+        self._uploaded: tuple[RayImage, str] | None = None
+        self._failures = 0
         self.raster_factor = 1
         self.raster_s = 0.0
         self.raster_error: Exception | None = None
         self.ray_error: Exception | None = None
 
+    def begin_frame(self) -> None:
+        """Once a frame, before anything else."""
+        self._frame += 1
+        self._raster.begin_frame()
+        self._ray.begin_frame()
+
     def raster(
-        self, wanted: Wanted, exposure_ev: float, size_px: tuple[int, int]
+        self, wanted: Wanted, look: Look, placement: Placement | None = None
     ) -> moderngl.Texture | None:
-        """The raster image to show at size_px framebuffer pixels, drawn anew if it must be.
+        """The raster image as it is seen in a window, drawn anew if it must be; without a
+        placement, all of it at its own size.
 
         None where that failed, see raster_error. Where OpenGL runs on the CPU, the image is coarse
         while things move, and full soon after.
         """
         try:
-            self._follow(wanted)
-            texture = self._raster.texture(exposure_ev, size_px)
+            drawn = self._follow(wanted)
+            self._raster_frame = self._frame
+            if look.channel == "depth":
+                self._measure(self._drawn, drawn.surface)
+            name = WHOLE if placement is None else PANE
+            texture = self._raster.picture(
+                name, look, placement or whole(wanted.size), self._depths
+            )
             self.raster_error = None
         except (LucidaError, moderngl.Error) as error:  # shown in the window, which goes on
-            self._raster.set_linear(None)
-            self._wanted, self.raster_error, self.raster_factor = None, error, 1
+            self._raster.set_channels({})
+            self._wanted, self._textures = None, None
+            self.raster_error, self.raster_factor = error, 1
             return None
         return texture
+
+    def textures(self, wanted: Wanted) -> tuple[Textures, int] | None:
+        """All channels of the raster image, if that is drawn, and full; and its number, as linear()
+        gives it. They are drawn over by the next image."""
+        if wanted != self._wanted or self._textures is None or self.raster_factor > 1:
+            return None
+        return self._textures, self._drawn
 
     def linear(self, wanted: Wanted) -> tuple[moderngl.Texture, int]:
         """The raster image in linear light, drawn anew if it must be, and how many have been drawn:
         the number changes with the image. Raises LucidaError."""
-        self._follow(wanted)
-        assert self._linear is not None
-        return self._linear, self._drawn
+        return self._follow(wanted).color, self._drawn
 
     def beside(self, wanted: Wanted, place: str) -> Textures:
         """Another camera's image of the scene, kept beside the raster image, which stays. Drawn
@@ -86,33 +123,67 @@ class Pictures:
         return self._rasterizer.draw(wanted.camera, wanted.size, place)
 
     def take_ray(self, image: RayImage) -> None:
-        """Puts a traced image on the GPU; where that fails, see ray_error."""
+        """The traced image to show from now on."""
+        self._image, self._failures = image, 0
+
+    def ray(self, look: Look, placement: Placement | None = None) -> moderngl.Texture | None:
+        """The last traced image as it is seen in a window; without a placement, all of it at its
+        own size. None before the first, and where putting it on the GPU failed, see ray_error."""
+        image = self._image
+        if image is None or self._failures >= ATTEMPTS:
+            return None
         try:
-            self._ray.upload(image.frame.channel("color"))
+            self._upload(image, look.channel)
+            if look.channel == "depth" and self._raster_frame < self._frame - 1:
+                self._measure(self._uploaded, self._ray_texture)  # the raster image is not seen
+            name = WHOLE if placement is None else PANE
+            placement = placement or whole(image.request.size)
+            texture = self._ray.picture(name, look, placement, self._depths)
             self.ray_error = None
         except (LucidaError, moderngl.Error) as error:
-            self.ray_error = error
-
-    def ray(self, exposure_ev: float, size_px: tuple[int, int]) -> moderngl.Texture | None:
-        """The last traced image to show at size_px framebuffer pixels; None before the first."""
-        try:
-            return self._ray.texture(exposure_ev, size_px)
-        except (LucidaError, moderngl.Error) as error:
-            self._ray.set_linear(None)
-            self.ray_error = error
+            self._ray.set_channels({})
+            self._uploaded, self.ray_error = None, error
+            self._failures += 1
             return None
+        return texture
+
+    def depths(self) -> tuple[float, float] | None:
+        """The ray parameters shown white and darkest, of the frame before; None: nothing is hit."""
+        return self._range.numbers()
 
     @property
     def unfinished(self) -> bool:
-        """Whether the next frames have something to do: refine, or read the last image's time."""
-        return self.raster_factor > 1 or self._timed_pixels > 0
+        """Whether the next frames have something to do: refine, try again, or read what the last
+        one has measured."""
+        return (
+            self.raster_factor > 1
+            or self._timed_pixels > 0
+            or 0 < self._failures < ATTEMPTS
+            or self._range.unfinished
+        )
 
-    def read_back(self, wanted: Wanted) -> Frame:
-        """All channels of a raster image as arrays. Raises LucidaError."""
-        self._show(wanted.scene)
-        self._wanted = None  # the textures are drawn over
-        self._raster.set_linear(None)
-        return self._rasterizer.render(wanted.camera, wanted.size, CHANNELS)
+    def read_back(self, wanted: Wanted) -> Frame | None:
+        """All channels of the full raster image as arrays, a part a call: None until the last.
+        Raises LucidaError."""
+        if wanted != self._wanted or self.raster_factor > 1:
+            self._draw(wanted, 1)
+        if self._reading is None or self._reading.of != wanted:
+            self._reading = Reading(wanted, wanted.size, self._rasterizer.read)
+        frame = self._reading.go_on()
+        if frame is not None:
+            self._reading = None
+        return frame
+
+    def raster_values(self, wanted: Wanted, channel: str, region: Region) -> NDArray | None:
+        """A channel's values in some pixels of the raster image, if that is drawn, and full; else
+        None. region: first row and column, one past the last of each. Waits for the GPU."""
+        if wanted != self._wanted or self.raster_factor > 1:
+            return None
+        if self._values is not None and self._values[0] == (self._drawn, channel, region):
+            return self._values[1]
+        values = self._rasterizer.read((channel,), region)[channel]
+        self._values = ((self._drawn, channel, region), values)
+        return values
 
     @property
     def platform(self) -> str:
@@ -124,24 +195,57 @@ class Pictures:
             self._rasterizer.release()
             self._raster.release()
             self._ray.release()
+            self._range.release()
+            if self._ray_texture is not None:
+                self._ray_texture.release()
 
-    def _follow(self, wanted: Wanted) -> None:
+    def _follow(self, wanted: Wanted) -> Textures:
         self._read_time()
-        if wanted != self._wanted:
+        if wanted != self._wanted or self._textures is None:
             self._changed_s = time.monotonic()
-            self._draw(wanted, self._moving_factor(wanted.size))
-        elif self.raster_factor > 1 and time.monotonic() - self._changed_s > MOVING_S:
-            self._draw(wanted, 1)
+            return self._draw(wanted, self._moving_factor(wanted.size))
+        if self.raster_factor > 1 and time.monotonic() - self._changed_s > MOVING_S:
+            return self._draw(wanted, 1)
+        return self._textures
 
-    def _draw(self, wanted: Wanted, factor: int) -> None:
+    def _draw(self, wanted: Wanted, factor: int) -> Textures:
         self._show(wanted.scene)
+        self._reading = None  # the textures are drawn over
         size = reduced(wanted.size, factor)
         with self._timer:
-            self._linear = self._rasterizer.draw(wanted.camera, size).color
-            self._raster.set_linear(self._linear)
+            drawn = self._rasterizer.draw(wanted.camera, size)
+        self._raster.set_channels(
+            {
+                "color": drawn.color,
+                "depth": drawn.surface,
+                "normal": drawn.surface,
+                "id": drawn.object,
+            }
+        )
         self._drawn += 1
-        self._wanted = wanted
+        self._wanted, self._textures = wanted, drawn
         self._timed_pixels, self.raster_factor = size[0] * size[1], factor
+        return drawn
+
+    def _upload(self, image: RayImage, channel: str) -> None:
+        """Only what is shown: a channel of a large image is 100 MB."""
+        if getattr(image.frame, channel) is None:  # coarse, and begun before the channel was
+            if self._uploaded is not None:  # chosen: the last image stays a moment longer
+                return
+            channel = "color"
+        if self._uploaded == (image, channel):
+            return
+        texture, self._ray_texture = self._ray_texture, None
+        self._ray_texture = upload(self._gl, image.frame.channel(channel), texture)
+        self._ray.set_channels({channel: self._ray_texture})
+        self._uploaded = (image, channel)
+
+    def _measure(self, image: object, texture: moderngl.Texture | None) -> None:
+        if texture is None or self._depths_of == image:
+            return
+        number = self._depths.number + 1 if self._depths is not None else 0
+        self._depths = Range(self._range.measure(texture), number)
+        self._depths_of = image
 
     def _read_time(self) -> None:
         """A frame later: at once, it would wait for the GPU."""

@@ -11,15 +11,20 @@ import time
 from collections.abc import Callable
 
 import moderngl
+from numpy.typing import NDArray
 
 from app.agreement import Agreement, Verdict
 from app.live import LiveTrace, RayImage, Request, Tracer
+from app.options import ImageOptions
 from app.pictures import Pictures, Wanted
+from app.placement import Placement, place
 from app.platform import lower_priority
+from app.reading import Region
 from app.state import AppState
 from renderer.camera import Camera
 from renderer.errors import LucidaError
 from renderer.frame import LARGEST_PIXELS, LARGEST_SIDE, Frame
+from renderer.raster import Look
 from renderer.scene.model import Scene, View
 
 NOTE_AFTER_S = 0.3
@@ -58,14 +63,26 @@ class Renderers:
 
     # What is to be drawn.
 
-    def fit_pane(self, name: str, pane_px: tuple[int, int], pixel_size: int) -> None:
+    def fit_pane(self, name: str, pane_px: tuple[int, int], options: ImageOptions) -> None:
         """Says how large the window of an image is, (width, height) in framebuffer pixels: both
-        images get the size of the smallest of them."""
+        images get the size of the smallest of them, or the resolution that was chosen."""
         self._panes_px[name] = pane_px
+        if options.resolution is not None:
+            self.size = options.resolution
+            return
+        pixel_size = options.pixel_size
         panes = self._panes_px.values()
         width, height = (max(1, min(pane[k] for pane in panes) // pixel_size) for k in (0, 1))
         width, height = min(width, LARGEST_SIDE), min(height, LARGEST_SIDE)
         self.size = (width, min(height, LARGEST_PIXELS // width))
+
+    def placement(self, state: AppState) -> Placement | None:
+        """Where the images stand in the smallest of their windows; None where there is none."""
+        panes = self._panes_px.values()
+        if not panes or not min(self.size):
+            return None
+        room = min(pane[0] for pane in panes), min(pane[1] for pane in panes)
+        return place(state.images, self.size, room)
 
     def forget_pane(self, name: str) -> None:
         """Says that an image's window is not to be seen."""
@@ -83,7 +100,12 @@ class Renderers:
         if not min(self.size):
             return None
         return Request(
-            state.scene, self.camera(state), self.size, state.options.shadows, state.options.mirrors
+            state.scene,
+            self.camera(state),
+            self.size,
+            state.options.shadows,
+            state.options.mirrors,
+            state.images.channel,
         )
 
     def trace(self, state: AppState) -> None:
@@ -94,6 +116,7 @@ class Renderers:
     def update(self, state: AppState, moving: bool) -> None:
         """Once a frame: takes what has come from the threads. moving: something is dragged."""
         assert self.pictures is not None
+        self.pictures.begin_frame()
         image = self.live.poll()
         if image is not None:
             self.pictures.take_ray(image)
@@ -104,18 +127,42 @@ class Renderers:
 
     # What is there.
 
-    def raster_texture(self, state: AppState) -> int | None:
-        """The raster image's GL name, drawn anew if it must be; None where that failed."""
+    def raster_texture(self, state: AppState, placement: Placement | None = None) -> int | None:
+        """The GL name of what is seen of the raster image in a window, drawn anew if it must be;
+        without a placement, of all of it at its own size. None where that failed."""
         assert self.pictures is not None
         wanted = Wanted(state.scene, self.camera(state), self.size)
-        texture = self.pictures.raster(wanted, state.images.exposure_ev, self._shown_px(state))
+        texture = self.pictures.raster(wanted, look_of(state.images), placement)
         return texture.glo if texture is not None else None
 
-    def ray_texture(self, state: AppState) -> int | None:
-        """The GL name of the newest ray image that has arrived; None before the first."""
+    def ray_texture(self, state: AppState, placement: Placement | None = None) -> int | None:
+        """Likewise of the newest ray image that has arrived; None before the first."""
         assert self.pictures is not None
-        texture = self.pictures.ray(state.images.exposure_ev, self._shown_px(state))
+        texture = self.pictures.ray(look_of(state.images), placement)
         return texture.glo if texture is not None else None
+
+    def depths(self) -> tuple[float, float] | None:
+        """The ray parameters that are shown white and darkest; None where nothing is hit."""
+        return self.pictures.depths() if self.pictures is not None else None
+
+    def raster_values(self, state: AppState, channel: str, region: Region) -> NDArray | None:
+        """A channel's values in some pixels of the raster image as it is shown; None while that
+        is coarse. region: first row and column, one past the last of each."""
+        assert self.pictures is not None
+        wanted = Wanted(state.scene, self.camera(state), self.size)
+        try:
+            return self.pictures.raster_values(wanted, channel, region)
+        except (LucidaError, moderngl.Error):  # whatever it is, drawing tells it too
+            return None
+
+    def ray_values(self, state: AppState, channel: str, region: Region) -> NDArray | None:
+        """Likewise of the ray image; None where the one that is shown is coarse, or of another
+        size."""
+        image = self.ray_image
+        if image is None or image.factor > 1 or image.request.size != self.size:
+            return None
+        top, left, bottom, right = region
+        return image.frame.channel(channel)[top:bottom, left:right]
 
     def unfinished(self, state: AppState) -> bool:
         """Whether coming frames have something to do that no thread will call for."""
@@ -145,6 +192,12 @@ class Renderers:
     def failure(self) -> Exception | None:
         """What keeps the images from being complete and compared."""
         return self.raster_error or self.ray_error or self.agreement.error
+
+    def retry(self) -> None:
+        """Tries again what has failed; the rasterizer does so by itself."""
+        self.live.retry()
+        self.agreement.error = None
+        self._compared = None
 
     def preparing(self) -> str:
         """What the tracer does before its first image of a scene; empty if that is quick."""
@@ -187,23 +240,29 @@ class Renderers:
         assert request is not None
         assert image is not None
         assert self.pictures is not None
-        self._compared = request
+        wanted = Wanted(request.scene, request.camera, request.size)
         try:
-            raster = self.pictures.read_back(Wanted(request.scene, request.camera, request.size))
+            raster = self.pictures.read_back(wanted)
+            if raster is None:  # goes on in the next frame
+                return
             self.agreement.submit(image, raster)
         except (LucidaError, moderngl.Error) as error:
             self.agreement.error = error
+        self._compared = request
 
     def _frame_with(self, state: AppState, pixel: tuple[int, int]) -> Frame | None:
-        frame = self.agreement.frame_of(self.request(state))
+        image = self.ray_image
+        frame = image.frame if image is not None and self._has_full(state) else None
         if frame is None or pixel[0] >= frame.size[1] or pixel[1] >= frame.size[0]:
             return None
         return frame
 
-    def _shown_px(self, state: AppState) -> tuple[int, int]:
-        """An image's size on the screen, in framebuffer pixels."""
-        unit = state.images.pixel_size
-        return self.size[0] * unit, self.size[1] * unit
+
+def look_of(options: ImageOptions) -> Look:
+    """How both images are shown."""
+    return Look(
+        options.channel, options.exposure_ev, options.transfer, options.component, options.tinted
+    )
 
 
 def _make_tracer(request: Request) -> Tracer:

@@ -1,106 +1,126 @@
-"""One image on its way to the screen: linear light, display transform, the size it is shown at.
+"""One image on its way to the screen: its channels, how they look, and the part that is seen.
 
-Owns the last two steps and their textures; redoes them only when something has changed. Knows
-nothing of where the image comes from.
+Owns the last step and its textures; redoes it only when something has changed. Knows nothing of
+where the image comes from.
 
 ImGui samples every texture linearly. A picture of the very size that it has on the screen comes
-out exact, so that enlarged pixels are squares and nothing is blurred.
+out exact, so that enlarged pixels are squares and nothing is blurred; and of a magnified image,
+only what is seen is drawn.
 """
 
 from __future__ import annotations
 
-import moderngl
-from numpy import float32
-from numpy.typing import NDArray
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
 
-from renderer.raster import Display
+import moderngl
+
+from app.placement import Placement, Size
+from renderer.raster import Display, Look, Section
 from renderer.raster.resources import new_texture
-from renderer.raster.sources import link
+
+
+@dataclass(frozen=True)
+class Range:
+    """The depths from white to the darkest gray, on the GPU. number: of the measurement."""
+
+    texture: moderngl.Texture
+    number: int
+
+
+@dataclass(eq=False)
+class _Picture:
+    texture: moderngl.Texture
+    framebuffer: moderngl.Framebuffer
+    made: object = None
 
 
 class ShownImage:
     """An image in a context, which must be current in every call. Raises LucidaError."""
 
     def __init__(self, context: moderngl.Context) -> None:
-        # A Display of its own: each keeps only the pictures that were drawn last.
-        self._display, self._magnifier = Display(context), Magnifier(context)
-        self._linear: moderngl.Texture | None = None
-        self._made: tuple[float, tuple[int, int]] | None = None
-        self._texture: moderngl.Texture | None = None
+        self._gl = context
+        self._display = Display(context)
+        self._channels: dict[str, moderngl.Texture] = {}
+        self._version = 0
+        self._pictures: dict[str, _Picture] = {}
+        self._retired: list[_Picture] = []
 
-    def set_linear(self, texture: moderngl.Texture | None) -> None:
-        """The image, in linear light: the caller's texture, or nothing."""
-        self._linear, self._made, self._texture = texture, None, None
+    def set_channels(self, channels: Mapping[str, moderngl.Texture]) -> None:
+        """The image: the caller's textures, as Display.show() takes them. None: no image."""
+        self._channels = dict(channels)
+        self._version += 1
 
-    def upload(self, color: NDArray[float32]) -> None:
-        """The image as an array, float32 (height, width, 3), linear light."""
-        self.set_linear(None)
-        self.set_linear(self._display.upload(color))
+    @property
+    def is_empty(self) -> bool:
+        return not self._channels
 
-    def texture(self, exposure_ev: float, size_px: tuple[int, int]) -> moderngl.Texture | None:
-        """What to show at (width, height) framebuffer pixels; None without an image."""
-        if self._linear is not None and self._made != (exposure_ev, size_px):
-            picture = self._display.draw(self._linear, exposure_ev)
-            self._texture = self._magnifier.show(picture, size_px)
-            self._made = exposure_ev, size_px
-        return self._texture
+    def picture(
+        self, name: str, look: Look, placement: Placement, depths: Range | None = None
+    ) -> moderngl.Texture | None:
+        """What is seen of the image in a window; None without an image. Where the look's channel
+        is not there, another one is shown.
+
+        name: of the picture: each is drawn over by the next call with the same name. The texture
+        stays until the frame after the next, also where another takes its place.
+        """
+        if not self._channels:
+            return None
+        if look.channel not in self._channels:
+            look = replace(look, channel=next(iter(self._channels)))  # type: ignore[arg-type]
+        source = self._channels[look.channel]
+        left, top, right, bottom = placement.visible
+        needed = depths if look.channel == "depth" else None
+        wanted = (self._version, look, placement, needed and needed.number)
+        picture = self._of_size(name, (right - left, bottom - top))
+        if picture.made != wanted:
+            section = section_of(placement, source.size)
+            texture = needed.texture if needed is not None else None
+            self._display.show(source, look, section, picture.framebuffer, texture)
+            picture.made = wanted
+        return picture.texture
+
+    def begin_frame(self) -> None:
+        """Once a frame: gives back what the frame before the last may still have shown."""
+        for picture in self._retired:
+            picture.framebuffer.release()
+            picture.texture.release()
+        self._retired.clear()
 
     def release(self) -> None:
-        self.set_linear(None)
-        self._magnifier.release()
+        self._channels.clear()
+        self._retired += self._pictures.values()
+        self._pictures.clear()
+        self.begin_frame()
         self._display.release()
 
+    def _of_size(self, name: str, size: Size) -> _Picture:
+        picture = self._pictures.get(name)
+        if picture is None or picture.texture.size != size:
+            # The window may show the old one in this very frame: its name must not be used again.
+            if picture is not None:
+                self._retired.append(self._pictures.pop(name))
+            texture = new_texture(self._gl, size, 4, "uint8")
+            picture = _Picture(texture, self._gl.framebuffer([texture]))
+            self._pictures[name] = picture
+        return picture
 
-class Magnifier:
-    """Shows one picture in a context, which must be current in every call."""
 
-    def __init__(self, context: moderngl.Context) -> None:
-        self._gl = context
-        self._program = link(context, "screen.vert", "magnify.frag")
-        self._screen = context.vertex_array(self._program, [])
-        self._target: tuple[moderngl.Texture, moderngl.Framebuffer] | None = None
+def section_of(placement: Placement, texels: Size) -> Section:
+    """What a target of the visible part's size shows of an image's texture.
 
-    def show(self, picture: moderngl.Texture, size_px: tuple[int, int]) -> moderngl.Texture:
-        """The picture at (width, height) framebuffer pixels; itself if it has that size.
+    texels: (width, height) of the texture: less than the image's where that is coarse. The
+    nearest texel where pixels are magnified to whole squares, or stand for several; the mean of
+    what a screen pixel covers where several pixels share it, wholly or in part.
+    """
+    left, top, *_ = placement.visible
+    per_pixel = texels[0] / placement.extent[0], texels[1] / placement.extent[1]
+    coarse = texels != placement.size
+    averaged = max(per_pixel) > 1.0001 or not (coarse or placement.whole)
+    origin = float(placement.origin[0] - left), float(placement.origin[1] - top)
+    return Section(origin, per_pixel, averaged)
 
-        The texture is drawn over by the next call. Raises LucidaError where there is no memory.
-        """
-        if picture.size == size_px:
-            return picture
-        gl = self._gl
-        texture, framebuffer = self._of_size(size_px)
-        before = gl.detect_framebuffer()
-        try:
-            gl.enable_only(moderngl.NOTHING)
-            gl.clear_samplers(0, 1)
-            framebuffer.use()
-            picture.use(0)
-            self._program["picture"] = 0
-            self._program["window_depth"] = 0.5
-            self._program["texels_per_pixel"] = (
-                picture.width / size_px[0],
-                picture.height / size_px[1],
-            )
-            self._screen.render(moderngl.TRIANGLES, vertices=3)
-        finally:
-            before.use()
-        return texture
 
-    def release(self) -> None:
-        self._drop()
-        self._screen.release()
-        self._program.release()
-
-    def _of_size(self, size_px: tuple[int, int]) -> tuple[moderngl.Texture, moderngl.Framebuffer]:
-        if self._target is None or self._target[0].size != size_px:
-            self._drop()
-            texture = new_texture(self._gl, size_px, 4, "uint8")
-            self._target = texture, self._gl.framebuffer([texture])
-        return self._target
-
-    def _drop(self) -> None:
-        if self._target is not None:
-            texture, framebuffer = self._target
-            self._target = None
-            framebuffer.release()
-            texture.release()
+def whole(size: Size) -> Placement:
+    """An image at its own size."""
+    return Placement(size, size, 1.0, (0, 0), size)

@@ -122,6 +122,11 @@ class History:
         past = (*self.past, self.present)[-MOST_UNDO_STEPS:]
         return History(state, past, (), gesture)
 
+    def amended(self, state: AppState) -> History:
+        """The history with another present, and no step: what follows from a change of the window
+        and is nothing that the user has done."""
+        return self if state == self.present else replace(self, present=state)
+
     def undo(self) -> History:
         """One step back; itself at the beginning."""
         if not self.past:

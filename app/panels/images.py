@@ -25,19 +25,22 @@ from app.state import AppState
 @dataclass(frozen=True)
 class Pane:
     """One image's window. texture: gives the GL name of what is seen of a state's image, None for
-    no image; asked after the mouse has moved the camera. values: of some pixels, likewise.
+    no image; asked after the mouse has moved the camera. values: of some pixels,
+    likewise; None: they are not written.
 
     note: text over the image. progress: of the image under way, 1 for none. hovered: the pixel
-    under the mouse, to be marked here. depths: that are shown white and darkest.
+    under the mouse, to be marked here. depths: that are shown white and darkest. legend: whether
+    the channel's colours are explained.
     """
 
     seen: Seen
     texture: Callable[[AppState, Placement], int | None]
-    values: Values
+    values: Values | None
     fonts: theme.Fonts
     note: str = ""
     is_error: bool = False
     progress: float = 1.0
+    legend: bool = True
     hovered: Pixel | None = None
     depths: tuple[float, float] | None = None
 
@@ -108,7 +111,8 @@ def _draw(pane: Pane, state: AppState, screen: Screen, grab: Grab | None) -> Non
         end = ImVec2(low.x + (high.x - low.x) * pane.progress, high.y)
         draw.add_rect_filled(ImVec2(low.x, high.y - 3), end, theme.u32(theme.RAY))
     if texture is not None:
-        draw_legend(draw, screen, state, pane.depths, pane.fonts)
+        if pane.legend:
+            draw_legend(draw, screen, state, pane.depths, pane.fonts)
         draw_corner(draw, screen, state, pane.fonts)
     if pane.note:
         draw_note(draw, screen, pane.note, pane.is_error)

@@ -51,6 +51,12 @@ class Host(Protocol):
     def change(self, state: AppState) -> None:
         """Makes a state the present one, as a step of its own."""
 
+    def amend(self, state: AppState) -> None:
+        """Makes a state the present one, without a step of undo: not the user has changed it."""
+
+    def ask_resolution(self) -> None:
+        """Opens the box to type the images' resolution into."""
+
     def travel(self, state: AppState) -> None:
         """Makes a state the present one, as a step of its own, by a smooth passage of its camera
         where that is to be seen."""

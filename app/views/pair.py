@@ -1,6 +1,7 @@
 """The raster and the ray image, side by side and linked: one class, made twice.
 
-Owns what both share: the drag under way, what the wheel zooms at, the size of their windows.
+Owns what both share: the drag under way, what the wheel zooms at, the mark's place while the size
+of the images changes, and the size of their windows.
 """
 
 from __future__ import annotations
@@ -12,23 +13,37 @@ from dataclasses import dataclass
 from imgui_bundle import ImVec2, imgui
 
 from app.files import describe
-from app.panels.images import Grab, Pane, Zoom, available_px, image_pane
+from app.marking import Anchor, followed
+from app.panels.grips import Grab, Seen, Zoom
+from app.panels.images import Pane, image_pane
+from app.panels.marks import walked
+from app.panels.pixelgrid import Values
+from app.panels.screen import Screen, available_px
+from app.panels.strip import Strip, image_strip
+from app.placement import Placement, place, shown_pixel
 from app.state import AppState
 from app.views.base import Host, View
 from renderer.camera import Camera
 
 RASTER, RAY = "Raster", "Ray"
-WHEEL_PAUSE_S = 0.5  # turns of the wheel closer together are one step of undo
+PAUSE_S = 0.5  # turns of the wheel, or keys, closer together are one step of undo
+STEADY = 6  # frames of one size, two panes each
+NARROW_CELL = 4.0  # a hovered pixel that large gets a frame in the image under the mouse too
 
 
 @dataclass
 class Linked:
-    """What the two images share."""
+    """What the two images share. walked_frame: the last one in which a key has moved the mark.
+    size, steady_frames: of the images, and how often they were drawn at that size."""
 
     grab: Grab | None = None
     zoom: Zoom | None = None
-    wheel_number: int = 0
-    wheel_s: float = 0.0
+    anchor: Anchor | None = None
+    gesture_number: int = 0
+    gesture_s: float = 0.0
+    walked_frame: int = -1
+    size: tuple[int, int] = (0, 0)
+    steady_frames: int = 0
 
 
 class ImageView(View):
@@ -69,43 +84,112 @@ class ImageView(View):
     def _pane(
         self,
         host: Host,
-        texture: Callable[[AppState], int | None],
+        texture: Callable[[AppState, Placement], int | None],
+        values: Values | None,
         error: Exception | None,
         note: str = "",
         progress: float = 1.0,
+        legend: bool = True,
     ) -> None:
-        both, shared, state = host.renderers, self._linked, host.state
-        both.fit_pane(self.name, available_px(), state.images.pixel_size)
-        marked = None
-        if host.hovered is not None and (
-            host.hovered[0] != self.name or state.images.pixel_size > 4
-        ):
-            marked = host.hovered[1]
-        pane = Pane(
+        """Draws an image into what is left of the window. values: of its channel's pixels; None
+        where what is seen is no channel, which then has no legend either."""
+        both, shared = host.renderers, self._linked
+        self._strip(host)
+        room_px = available_px()
+        both.fit_pane(self.name, room_px, host.state.images)
+        self._keep_mark(host)
+        corner = imgui.get_cursor_screen_pos()
+        self._before_image(host, Screen.here(place(host.state.images, both.size, room_px)))
+        imgui.set_cursor_screen_pos(corner)
+        state = host.state
+        seen = Seen(
             name=self.name,
-            texture=texture,
             shown=both.camera(state),
             size=both.size,
             center=host.focus.center,
             reach=host.focus.reach,
             depth_at=lambda pixel: both.depth_at(state, pixel),
+        )
+        pane = Pane(
+            seen=seen,
+            texture=texture,
+            values=values,
+            fonts=host.fonts,
             note=describe(error) if error else note,
             is_error=error is not None,
             progress=progress,
-            marked=marked,
+            legend=legend,
+            hovered=self._hovered(host, room_px),
+            depths=both.depths() if state.images.channel == "depth" else None,
         )
-        result = image_pane(pane, state, shared.grab, shared.zoom)
+        result = image_pane(pane, state, room_px, shared.grab, shared.zoom)
         shared.grab, shared.zoom = result.grab, result.zoom or shared.zoom
         if result.hovered is not None:
             host.hover(self.name, result.hovered)
-        host.apply(result.state, self._wheel() if result.zoom is not None else None)
+        turned = result.zoom is not None or result.magnified
+        kind = "magnify" if result.magnified else "wheel"
+        host.apply(result.state, self._gesture(kind) if turned else None)
+        self._walk(host, room_px)
+        imgui.set_cursor_screen_pos(corner)
+        self._over_image(host, Screen.here(place(host.state.images, both.size, room_px)))
 
-    def _wheel(self) -> tuple[str, int]:
-        """The gesture that a turn of the wheel belongs to."""
+    def _before_image(self, host: Host, screen: Screen) -> None:
+        """For items that take the mouse before the image does."""
+
+    def _over_image(self, host: Host, screen: Screen) -> None:
+        """For what is drawn over the image."""
+
+    def _strip(self, host: Host) -> None:
+        if not host.state.preferences.presentation:
+            host.apply(image_strip(Strip(self.name, host.ask_resolution), host.state))
+
+    def _hovered(self, host: Host, room_px: tuple[int, int]) -> tuple[int, int] | None:
+        """The pixel to frame: in the other image always, in this one where it can be seen."""
+        if host.hovered is None:
+            return None
+        size = host.renderers.size
+        cell = place(host.state.images, size, room_px).magnification
+        if host.hovered[0] == self.name and cell <= NARROW_CELL:
+            return None
+        row, column = host.hovered[1]
+        return (row, column) if row < size[1] and column < size[0] else None
+
+    def _keep_mark(self, host: Host) -> None:
+        """Where the images have another size, the mark is where the same ray is."""
+        shared, state, size = self._linked, host.state, host.renderers.size
+        shared.steady_frames = shared.steady_frames + 1 if size == shared.size else 0
+        shared.size = size
+        if shared.anchor is None and shared.steady_frames < STEADY:
+            return  # a session's mark belongs to the size that comes when the layout is done
+        marked, shared.anchor = followed(state.marked, shared.anchor, state.view, size)
+        if marked != state.marked:
+            host.amend(state.with_options(marked=marked))
+
+    def _walk(self, host: Host, room_px: tuple[int, int]) -> None:
+        """The arrow keys move the mark, which stays in sight."""
+        shared, frame = self._linked, imgui.get_frame_count()
+        if shared.walked_frame == frame or imgui.get_io().nav_visible:
+            return
+        hovering = host.hovered is not None and host.hovered[0] == self.name
+        if not (hovering or imgui.is_window_focused()):
+            return
+        state, size = host.state, host.renderers.size
+        middle = (size[1] // 2, size[0] // 2)
+        start = host.hovered[1] if host.hovered is not None else middle
+        pixel = walked(state.marked, size, start)
+        if pixel is None:
+            return
+        shared.walked_frame = frame
+        moved = shown_pixel(place(state.images, size, room_px), pixel)
+        state = state.with_options(marked=pixel, images=moved)
+        host.apply(state, self._gesture("walk"))
+
+    def _gesture(self, kind: str) -> tuple[str, int]:
+        """The gesture that a turn of the wheel, or a key, belongs to."""
         shared, now_s = self._linked, time.monotonic()
-        shared.wheel_number += now_s - shared.wheel_s > WHEEL_PAUSE_S
-        shared.wheel_s = now_s
-        return ("wheel", shared.wheel_number)
+        shared.gesture_number += now_s - shared.gesture_s > PAUSE_S
+        shared.gesture_s = now_s
+        return (kind, shared.gesture_number)
 
 
 class RasterView(ImageView):
@@ -113,7 +197,8 @@ class RasterView(ImageView):
     title = "Raster  object order"
 
     def draw(self, host: Host) -> None:
-        self._pane(host, host.renderers.raster_texture, host.renderers.raster_error)
+        both = host.renderers
+        self._pane(host, both.raster_texture, both.raster_values, both.raster_error)
 
 
 class RayView(ImageView):
@@ -124,5 +209,6 @@ class RayView(ImageView):
         both, image = host.renderers, host.renderers.ray_image
         refining = image is not None and image.factor > 1
         progress = both.live.progress if refining else 1.0
-        self._pane(host, both.ray_texture, both.ray_error, both.preparing(), progress)
+        note = both.preparing()
+        self._pane(host, both.ray_texture, both.ray_values, both.ray_error, note, progress)
         both.trace(host.state)

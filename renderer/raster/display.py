@@ -1,9 +1,13 @@
-"""The display transform on the GPU: from linear light to what a screen shows.
+"""The display transform on the GPU: from an image's channels to what a screen shows.
 
-Owns 8-bit textures for the screen. Knows nothing of scenes or of who shows them.
+Owns 8-bit textures for the screen, and the arithmetic of false colours there. Knows nothing of
+scenes or of who shows them.
 """
 
 from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Literal
 
 import moderngl
 import numpy as np
@@ -15,11 +19,39 @@ from renderer.raster.sources import link
 
 MOST_PICTURES = 8
 
+_CHANNELS = {"color": 0, "depth": 1, "normal": 2, "id": 3}
+_COMPONENTS = {"rgb": -1, "red": 0, "green": 1, "blue": 2}
+
+
+@dataclass(frozen=True)
+class Look:
+    """How an image is shown. channel, component: what of it.
+
+    exposure_ev, transfer: of the colour. tinted: a single component in its own colour, else gray.
+    """
+
+    channel: Literal["color", "depth", "normal", "id"] = "color"
+    exposure_ev: float = 0.0
+    transfer: Literal["srgb", "linear"] = "srgb"
+    component: Literal["rgb", "red", "green", "blue"] = "rgb"
+    tinted: bool = False
+
+
+@dataclass(frozen=True)
+class Section:
+    """Which part of an image a target shows. origin: the image's upper left corner in the target,
+    in its pixels. texels_per_pixel: along x and y. averaged: means by area, else the nearest.
+    """
+
+    origin: tuple[float, float] = (0.0, 0.0)
+    texels_per_pixel: tuple[float, float] = (1.0, 1.0)
+    averaged: bool = False
+
 
 class Display:
-    """Draws linear textures as 8-bit sRGB ones in a context, which must be current.
+    """Draws images for the screen in a context, which must be current.
 
-    Each source texture has a picture of its own, so that several can be on the screen at once;
+    draw() keeps a picture for each source texture, so that several can be on the screen at once;
     the MOST_PICTURES last used are kept.
     """
 
@@ -35,33 +67,59 @@ class Display:
 
         The texture returned is drawn over by the next draw() of the same source.
         """
-        gl = self._gl
         picture, framebuffer = self._picture(texture)
+        self.show(texture, Look(exposure_ev=exposure_ev), Section(), framebuffer)
+        return picture
+
+    def show(
+        self,
+        source: moderngl.Texture,
+        look: Look,
+        section: Section,
+        target: moderngl.Framebuffer,
+        depth_range: moderngl.Texture | None = None,
+    ) -> None:
+        """Draws an image into a target of 8-bit colours. source: of the look's channel: linear
+        light, the ray parameter in its fourth component, the normal, or objects as int32.
+
+        depth_range: of one pixel, see DepthRange; needed for the depth. Leaves bound the
+        framebuffer that was bound before; depth test, culling and blending off.
+        """
+        gl, program = self._gl, self._program
         before = gl.detect_framebuffer()
         try:
             gl.enable_only(moderngl.NOTHING)
             gl.wireframe = False
-            gl.clear_samplers(0, 1)
-            framebuffer.use()
-            texture.use(0)
-            set_uniform(self._program, "linear_color", 0)
-            set_uniform(self._program, "window_depth", 0.5)
-            exposure = 2.0 ** min(max(exposure_ev, -100.0), 100.0)
-            set_uniform(self._program, "exposure", exposure)
+            gl.clear_samplers(0, 3)
+            target.use()
+            # Samplers of different kinds must not share a unit, used or not.
+            source.use(1 if look.channel == "id" else 0)
+            if depth_range is not None:
+                depth_range.use(2)
+            exposure = 2.0 ** min(max(look.exposure_ev, -100.0), 100.0)
+            uniforms = {
+                "values": 0,
+                "numbers": 1,
+                "depth_range": 2,
+                "channel": _CHANNELS[look.channel],
+                "exposure": exposure,
+                "is_linear": look.transfer == "linear",
+                "component": _COMPONENTS[look.component],
+                "tinted": look.tinted,
+                "origin": section.origin,
+                "texels_per_pixel": section.texels_per_pixel,
+                "averaged": section.averaged,
+                "window_depth": 0.5,
+            }
+            for name, value in uniforms.items():
+                set_uniform(program, name, value)
             self._screen.render(moderngl.TRIANGLES, vertices=3)
         finally:
             before.use()
-        return picture
 
     def upload(self, color: NDArray[np.float32]) -> moderngl.Texture:
         """A frame's color, float32 (height, width, 3), as a texture for draw(); one at a time."""
-        height, width = color.shape[:2]
-        if self._uploaded is None or self._uploaded.size != (width, height):
-            if self._uploaded is not None:
-                self._uploaded.release()
-                self._uploaded = None
-            self._uploaded = new_texture(self._gl, (width, height), 3, "float32")
-        self._uploaded.write(np.ascontiguousarray(color, np.float32))
+        self._uploaded = upload(self._gl, color, self._uploaded)
         return self._uploaded
 
     def release(self) -> None:
@@ -91,3 +149,30 @@ class Display:
         texture, framebuffer = self._pictures.pop(glo)
         framebuffer.release()
         texture.release()
+
+
+def upload(
+    context: moderngl.Context, array: NDArray, texture: moderngl.Texture | None = None
+) -> moderngl.Texture:
+    """A channel of a frame (renderer/frame.py) as a texture for Display.show().
+
+    texture: one to be written over, or given back where it does not fit. Raises LucidaError where
+    there is no memory for it; the old one is given back then too.
+    """
+    height, width = array.shape[:2]
+    components = 1 if array.ndim == 2 else array.shape[2]
+    kind = "i4" if array.dtype == np.int32 else "f4"
+    if texture is not None and (texture.size, texture.components, texture.dtype) != (
+        (width, height),
+        components,
+        kind,
+    ):
+        texture.release()
+        texture = None
+    if texture is None:
+        dtype = np.int32 if kind == "i4" else np.float32
+        texture = new_texture(context, (width, height), components, dtype)
+        if components == 1 and kind == "f4":
+            texture.swizzle = "RRRR"  # the ray parameter is read where the rasterizer has it
+    texture.write(np.ascontiguousarray(array))
+    return texture

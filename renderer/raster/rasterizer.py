@@ -22,7 +22,7 @@ from renderer.raster.contexts import open_platform
 from renderer.raster.programs import Programs
 from renderer.raster.resources import Owner, check
 from renderer.raster.scene_data import SceneData
-from renderer.raster.targets import Targets, Textures
+from renderer.raster.targets import Region, Targets, Textures
 from renderer.samples import Progress, check_samples, supersampled
 from renderer.scene.flat import flatten
 from renderer.scene.model import Scene
@@ -106,6 +106,22 @@ class Rasterizer:
         """
         size, channels, samples = check_size(size), check_channels(channels), check_samples(samples)
         return supersampled(self._frame, camera, size, channels, samples, progress)
+
+    def read(
+        self,
+        channels: Iterable[str] = DEFAULT_CHANNELS,
+        region: Region | None = None,
+        place: str = "",
+    ) -> dict[str, Any]:
+        """Channels of the image that draw() drew last, or of a part of it, as arrays by name (see
+        Frame); waits until it is drawn. region: first row and column, one past the last of each.
+        place: as in draw(), which must have been called. Raises LucidaError."""
+        channels = check_channels(channels)
+        with self.current() as gl:
+            targets = self._targets[place]
+            arrays = {name: targets.read(name, region) for name in channels}
+            check(gl, f"reading an image of {targets.size[0]}x{targets.size[1]}")
+        return arrays
 
     def release(self) -> None:
         """Gives everything back. Twice does no harm."""

@@ -46,6 +46,7 @@ def new_texture(
     """
     kinds = {"float32": "f4", "float16": "f2", "int32": "i4", "uint8": "f1"}
     kind = kinds[np.dtype(dtype).name]
+    _ = context.error  # what somebody else in a window's context has left is not this texture's
     texture = context.texture(size, components, dtype=kind)
     try:
         check(context, f"a texture of {size[0]}x{size[1]}")

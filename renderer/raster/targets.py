@@ -14,6 +14,8 @@ from numpy.typing import NDArray
 from renderer.errors import LucidaError
 from renderer.raster.resources import Owner, check, new_texture
 
+Region = tuple[int, int, int, int]
+
 
 @dataclass(frozen=True, eq=False)
 class Textures:
@@ -72,17 +74,26 @@ class Targets:
         self.shaded = own(context.framebuffer(shaded, depth))
         self.shaded.depth_mask = False
 
-    def read(self, channel: str) -> NDArray[np.float32] | NDArray[np.int32]:
-        """A channel (renderer/frame.py) of the last image; waits until it is drawn."""
-        width, height = self.size
+    def read(
+        self, channel: str, region: Region | None = None
+    ) -> NDArray[np.float32] | NDArray[np.int32]:
+        """A channel (renderer/frame.py) of the last image, or of a part of it; waits until it is
+        drawn. region: first row and column, one past the last of each."""
+        top, left, bottom, right = region or (0, 0, self.size[1], self.size[0])
+        width, height = right - left, bottom - top
+        where = (left, top, width, height)
         if channel in ("id", "primitive"):
             numbers = np.empty((height, width), np.int32)
             source, attachment = (self.shaded, 2) if channel == "id" else (self.seen, 0)
-            source.read_into(numbers, components=1, attachment=attachment, dtype="i4")
+            source.read_into(
+                numbers, viewport=where, components=1, attachment=attachment, dtype="i4"
+            )
             return numbers
         values = np.empty((height, width, 4), np.float32)
         attachment = 0 if channel == "color" else 1
-        self.shaded.read_into(values, components=4, attachment=attachment, dtype="f4")
+        self.shaded.read_into(
+            values, viewport=where, components=4, attachment=attachment, dtype="f4"
+        )
         return np.ascontiguousarray(values[..., 3] if channel == "depth" else values[..., :3])
 
     def release(self) -> None:

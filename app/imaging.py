@@ -1,0 +1,90 @@
+"""What can be chosen for both images: channels, components, resolutions, magnifications.
+
+Owns the names, and the changes of the state behind the menus, keys and strips. Knows nothing of
+windows and widgets.
+"""
+
+from __future__ import annotations
+
+import re
+from typing import get_args
+
+from app.options import Channel, Component, ImageOptions
+from app.state import AppState
+from renderer.errors import LucidaError
+from renderer.frame import check_size
+
+CHANNELS: dict[Channel, tuple[str, str]] = {
+    "color": ("Colour", "the shaded colour of each pixel"),
+    "depth": ("Depth", "the ray parameter t of the hit: the nearest is white"),
+    "normal": ("Normal", "the surface's normal n, world space: (n + 1) / 2 as red, green, blue"),
+    "id": ("Object", "which object is seen: a colour for each"),
+}
+COMPONENTS: dict[Component, tuple[str, str]] = {
+    "rgb": ("RGB", "all three channels of a colour"),
+    "red": ("Red", "the red channel only, as gray"),
+    "green": ("Green", "the green channel only, as gray"),
+    "blue": ("Blue", "the blue channel only, as gray"),
+}
+TRANSFERS = {
+    "srgb": ("sRGB", "linear light through sRGB's curve, as screens expect it"),
+    "linear": ("linear", "linear light as it is, without sRGB's curve: too dark"),
+}
+_SIZE = re.compile(r"\s*(\d{1,6})\s*[x*,; \N{MULTIPLICATION SIGN}]\s*(\d{1,6})\s*", re.IGNORECASE)
+
+assert set(CHANNELS) == set(get_args(Channel))
+
+
+def size_text(size: tuple[int, int]) -> str:
+    """`1280 x 720`."""
+    return f"{size[0]} x {size[1]}"
+
+
+def parsed_size(text: str) -> tuple[int, int]:
+    """A typed resolution, (width, height). Raises LucidaError."""
+    match = _SIZE.fullmatch(text)
+    if match is None:
+        raise LucidaError("resolution", f"{text!r} is not a size", "type e.g. 1280 x 720")
+    return check_size((int(match.group(1)), int(match.group(2))))
+
+
+def with_channel(state: AppState, channel: Channel) -> AppState:
+    return state.with_options(images={"channel": channel})
+
+
+def with_component(state: AppState, component: Component) -> AppState:
+    """That channel of the colour alone; asked for again, all of them."""
+    if state.images.component == component:
+        component = "rgb"
+    return state.with_options(images={"component": component})
+
+
+def with_transfer_switched(state: AppState) -> AppState:
+    transfer = "linear" if state.images.transfer == "srgb" else "srgb"
+    return state.with_options(images={"transfer": transfer})
+
+
+def with_resolution(state: AppState, resolution: tuple[int, int] | None) -> AppState:
+    """Images of that size, all of them in sight; None: as large as the window."""
+    whole = {"magnification": None, "center": (0.5, 0.5)}
+    return state.with_options(images={"resolution": resolution, **whole})
+
+
+def with_pixel_size(state: AppState, pixel_size: int) -> AppState:
+    """Images as large as the window, with pixels of that many screen pixels a side."""
+    return with_resolution(state.with_options(images={"pixel_size": pixel_size}), None)
+
+
+def with_magnification(state: AppState, magnification: float | None) -> AppState:
+    """The middle stays, or the marked pixel comes there; None: the whole image."""
+    if magnification is None:
+        return state.with_options(images={"magnification": None, "center": (0.5, 0.5)})
+    return state.with_options(images={"magnification": float(magnification)})
+
+
+def resolution_text(options: ImageOptions) -> str:
+    """What the strip and the menu call it."""
+    if options.resolution is not None:
+        return size_text(options.resolution)
+    size = options.pixel_size
+    return "Window" if size == 1 else f"Window / {size}"

@@ -1,0 +1,84 @@
+"""The pixel under the mouse, and the one that the user has marked.
+
+Owns how they look, and the keys that move the mark. Knows nothing of how pixels are drawn.
+"""
+
+from __future__ import annotations
+
+from imgui_bundle import ImVec2, imgui
+
+from app import theme
+from app.options import Pixel
+from app.panels.screen import Screen
+
+SMALLEST_FRAMED = 6  # a pixel as large as that gets a frame of its own size
+TICK = 9.0  # the lines that point at a marked pixel
+LEAP = 10  # with Shift
+
+_KEYS = {
+    imgui.Key.left_arrow: (0, -1),
+    imgui.Key.right_arrow: (0, 1),
+    imgui.Key.up_arrow: (-1, 0),
+    imgui.Key.down_arrow: (1, 0),
+}
+
+
+def draw_hovered(draw: imgui.ImDrawList, screen: Screen, pixel: Pixel) -> None:
+    """A frame round a pixel: its own border where that is large enough to see."""
+    middle, half = _middle(screen, pixel)
+    for grow, color in ((2.0, theme.rgb("#000000", 0.7)), (1.0, theme.MARK)):
+        low, high = _square(middle, half, grow)
+        draw.add_rect(low, high, theme.u32(color), 0.0, 1.0)
+
+
+def draw_marked(draw: imgui.ImDrawList, screen: Screen, pixel: Pixel) -> None:
+    """A heavier frame, with a line towards it from each side: it is found at a glance."""
+    middle, half = _middle(screen, pixel)
+    for width, color in ((5.0, theme.rgb("#000000", 0.75)), (2.0, theme.MARK)):
+        low, high = _square(middle, half, 1.5)
+        draw.add_rect(low, high, theme.u32(color), 0.0, width)
+        for dx, dy in ((-1, 0), (1, 0), (0, -1), (0, 1)):
+            start, end = half[0 if dx else 1] + 2.0, half[0 if dx else 1] + 2.0 + TICK
+            draw.add_line(
+                ImVec2(middle.x + dx * start, middle.y + dy * start),
+                ImVec2(middle.x + dx * end, middle.y + dy * end),
+                theme.u32(color),
+                width,
+            )
+
+
+def walked(pixel: Pixel | None, size: tuple[int, int], start: Pixel) -> Pixel | None:
+    """The marked pixel after the arrow keys of this frame; None where none was pressed.
+
+    size: (width, height) of the image, which is not left. start: where a first mark is set.
+    """
+    io = imgui.get_io()
+    if io.want_text_input or io.key_ctrl or io.key_alt or io.key_super:
+        return None
+    rows = columns = pressed = 0
+    for key, (down, right) in _KEYS.items():
+        if imgui.is_key_pressed(key):
+            step = LEAP if io.key_shift else 1
+            rows, columns, pressed = rows + step * down, columns + step * right, 1
+    if not pressed:
+        return None
+    if pixel is None:
+        return start
+    return (
+        min(max(pixel[0] + rows, 0), size[1] - 1),
+        min(max(pixel[1] + columns, 0), size[0] - 1),
+    )
+
+
+def _middle(screen: Screen, pixel: Pixel) -> tuple[ImVec2, tuple[float, float]]:
+    """A pixel's centre on the screen, and half its width and height as framed."""
+    half = [side / 2 if side >= SMALLEST_FRAMED else 5.0 for side in screen.cell]
+    return screen.point(pixel[0] + 0.5, pixel[1] + 0.5), (half[0], half[1])
+
+
+def _square(middle: ImVec2, half: tuple[float, float], grow: float) -> tuple[ImVec2, ImVec2]:
+    width, height = half[0] + grow, half[1] + grow
+    return (
+        ImVec2(middle.x - width, middle.y - height),
+        ImVec2(middle.x + width, middle.y + height),
+    )

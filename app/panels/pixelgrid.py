@@ -1,0 +1,155 @@
+"""What is drawn between and into magnified pixels: lines, the numbers of rows and columns, values.
+
+Owns from which size on each is drawn, and thins out what would not be legible. Asks for the values
+of the pixels that are seen, and of no others.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+from imgui_bundle import ImVec2, imgui
+from numpy.typing import NDArray
+
+from app import theme
+from app.panels.screen import Screen
+from app.pixelvalues import Depths, is_dark, line_count, pixel_name, shown_bytes, value_lines
+from app.reading import Region
+from app.state import AppState
+
+LINES_FROM, VALUES_FROM = 8.0, 32.0  # screen pixels a side of an image's pixel
+NAMES_FROM = 44.0  # units: each pixel has its own row and column, beside those at the edges
+MOST_VALUES = 1200  # more are thinned out: nobody reads them, and a frame would take too long
+LEAST_TEXT, MOST_TEXT = 8.5, 30.0
+ADVANCE = 0.5  # of the fixed-width font, in its size
+LEADING = 1.05
+
+Values = Callable[[AppState, str, Region], NDArray | None]  # of a channel's pixels
+
+
+def draw_pixel_grid(
+    draw: imgui.ImDrawList,
+    screen: Screen,
+    state: AppState,
+    values: Values | None,
+    depths: Depths,
+    fonts: theme.Fonts,
+) -> None:
+    """Everything that the magnification leaves room for."""
+    side_px = min(screen.placement.unit)
+    if side_px < LINES_FROM:
+        return
+    _lines(draw, screen)
+    if side_px >= VALUES_FROM and values is not None:
+        _values(draw, screen, state, values, depths, fonts)
+    _rulers(draw, screen, state, fonts)
+
+
+def thinning(cell: float, needed: float) -> int:
+    """Every how many pixels a text has room: 1, 2, 5, 10, 20 ..."""
+    factor = 1
+    while True:
+        for step in (1, 2, 5):
+            if factor * step * cell >= needed:
+                return factor * step
+        factor *= 10
+
+
+def _lines(draw: imgui.ImDrawList, screen: Screen) -> None:
+    low, high = screen.visible
+    top, left, bottom, right = screen.placement.visible_pixels
+    width = 1 / screen.scale
+    # Gray is seen on black and on white.
+    color = theme.u32(theme.rgb("#808080", 0.55))
+    for column in range(max(left, 1), right):
+        x = screen.point(0, column).x
+        draw.add_rect_filled(ImVec2(x, low.y), ImVec2(x + width, high.y), color)
+    for row in range(max(top, 1), bottom):
+        y = screen.point(row, 0).y
+        draw.add_rect_filled(ImVec2(low.x, y), ImVec2(high.x, y + width), color)
+
+
+def _rulers(draw: imgui.ImDrawList, screen: Screen, state: AppState, fonts: theme.Fonts) -> None:
+    """Columns along the upper edge, rows along the left one, on dark bands."""
+    low, high = screen.visible
+    (width, height), (columns, rows) = screen.cell, screen.placement.size
+    top, left, bottom, right = screen.placement.visible_pixels
+    base, size = int(state.options.one_based), max(13.0, 0.85 * imgui.get_font_size())
+    digit = ADVANCE * size
+    band_x, band_y = digit * len(str(rows)) + 6, size + 2
+    if high.x - low.x < 4 * band_x or high.y - low.y < 4 * band_y:
+        return
+    band, plain = theme.u32(theme.rgb("#0c0d0f", 0.7)), theme.u32(theme.rgb("#e8eaed"))
+    draw.add_rect_filled(low, ImVec2(high.x, low.y + band_y), band)
+    draw.add_rect_filled(ImVec2(low.x, low.y + band_y), ImVec2(low.x + band_x, high.y), band)
+    marked = state.marked
+    draw.push_clip_rect(low, high, intersect_with_current_clip_rect=True)
+    step = thinning(width, digit * (len(str(columns)) + 1))
+    for column in range(left, right):
+        text, x = str(column + base), screen.point(0, column + 0.5).x
+        if (column + base) % step and not (column == 0 and step > 1):
+            continue
+        x -= digit * len(text) / 2
+        if low.x + band_x <= x <= high.x - digit * len(text):
+            on = marked is not None and marked[1] == column
+            color = theme.u32(theme.MARK) if on else plain
+            draw.add_text(fonts.mono, size, ImVec2(x, low.y + 1), color, text)
+    step = thinning(height, size + 2)
+    for row in range(top, bottom):
+        text, y = str(row + base), screen.point(row + 0.5, 0).y - size / 2
+        if (row + base) % step and not (row == 0 and step > 1):
+            continue
+        if low.y + band_y <= y <= high.y - size:
+            x = low.x + band_x - 3 - digit * len(text)
+            on = marked is not None and marked[0] == row
+            color = theme.u32(theme.MARK) if on else plain
+            draw.add_text(fonts.mono, size, ImVec2(x, y), color, text)
+    draw.pop_clip_rect()
+
+
+def _values(
+    draw: imgui.ImDrawList,
+    screen: Screen,
+    state: AppState,
+    values: Values,
+    depths: Depths,
+    fonts: theme.Fonts,
+) -> None:
+    """Each pixel's value, and from NAMES_FROM on its row and column."""
+    options, (width, height) = state.images, screen.cell
+    region = screen.placement.visible_pixels
+    top, left, bottom, right = region
+    array = values(state, options.channel, region)
+    if array is None or array.size == 0:
+        return
+    texts = value_lines(array, options)
+    dark = is_dark(shown_bytes(array, options, depths)).tolist()
+    named = min(width, height) >= NAMES_FROM
+    longest = max((len(line) for text in texts for line in text[0].split("\n")), default=1)
+    longest = max(longest, max(len(line) for row in texts for line in row[-1].split("\n")))
+    if named:
+        name = pixel_name((bottom - 1, right - 1), state.options.one_based)
+        longest = max(longest, len(name))
+    lines = line_count(options) + named
+    size = min(width / ((longest + 0.6) * ADVANCE), height / ((lines + 0.3) * LEADING), MOST_TEXT)
+    skip = 1
+    if size < LEAST_TEXT:  # a text reaches over its neighbours, which get none
+        skip, size = thinning(size, LEAST_TEXT), LEAST_TEXT
+    while (bottom - top) * (right - left) / skip**2 > MOST_VALUES:
+        skip += 1
+    black, white = theme.u32(theme.rgb("#000000")), theme.u32(theme.rgb("#ffffff"))
+    dim = {False: theme.u32(theme.rgb("#000000", 0.6)), True: theme.u32(theme.rgb("#ffffff", 0.65))}
+    for row in range(top + -top % skip, bottom, skip):
+        y = screen.point(row + 0.5, 0).y - lines * LEADING * size / 2
+        for column in range(left + -left % skip, right, skip):
+            text, on_dark = texts[row - top][column - left], dark[row - top][column - left]
+            x = screen.point(0, column + 0.5).x
+            below = y
+            if named:
+                name = pixel_name((row, column), state.options.one_based)
+                at = ImVec2(x - ADVANCE * size * len(name) / 2, y)
+                draw.add_text(fonts.mono, size, at, dim[on_dark], name)
+                below += LEADING * size
+            wide = text.find("\n") if "\n" in text else len(text)
+            at = ImVec2(x - ADVANCE * size * wide / 2, below)
+            draw.add_text(fonts.mono, size, at, white if on_dark else black, text)

@@ -1,0 +1,70 @@
+"""A box to type a resolution into.
+
+Owns its look and the text while it is typed. Which sizes are legal says imaging.py.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+from imgui_bundle import ImVec2, imgui
+
+from app import theme
+from app.imaging import parsed_size, size_text, with_resolution
+from app.state import AppState
+from renderer.errors import LucidaError
+
+TITLE = "Resolution of both images"
+
+
+@dataclass(frozen=True)
+class Asked:
+    """text: as typed so far. problem: why it was not taken. appearing: in its first frame."""
+
+    text: str
+    problem: str = ""
+    appearing: bool = True
+
+
+def asked(state: AppState, size: tuple[int, int]) -> Asked:
+    """The box as it opens. size: of the images now."""
+    return Asked(size_text(state.images.resolution or size))
+
+
+def resolution_box(box: Asked, state: AppState) -> tuple[Asked | None, AppState]:
+    """Draws the box in the middle of the window; None once it is closed."""
+    center = imgui.get_main_viewport().get_center()
+    imgui.set_next_window_pos(center, imgui.Cond_.appearing, ImVec2(0.5, 0.5))
+    flags = imgui.WindowFlags_
+    opened, still_open = imgui.begin(
+        TITLE,
+        True,
+        flags.no_docking | flags.always_auto_resize | flags.no_collapse | flags.no_saved_settings,
+    )
+    done = False
+    if opened:
+        imgui.text("Width x height, in pixels:")
+        if box.appearing:
+            imgui.set_keyboard_focus_here()
+        imgui.set_next_item_width(12 * imgui.get_font_size())
+        entered, text = imgui.input_text(
+            "##size",
+            box.text,
+            int(imgui.InputTextFlags_.enter_returns_true | imgui.InputTextFlags_.auto_select_all),
+        )
+        box = replace(box, text=text, appearing=False)
+        imgui.same_line()
+        done = imgui.button("Draw") or entered
+        imgui.text_colored(
+            theme.ERROR if box.problem else theme.DIM,
+            box.problem or "16 x 9 to 4096 x 2160 and beyond; 4 x 3 as on the blackboard",
+        )
+    imgui.end()
+    if done:
+        try:
+            return None, with_resolution(state, parsed_size(box.text))
+        except LucidaError as error:
+            return replace(box, problem=str(error), appearing=True), state
+    if not still_open or imgui.is_key_pressed(imgui.Key.escape):
+        return None, state
+    return box, state

@@ -1,0 +1,101 @@
+"""The numbers that stand in magnified pixels, and the colours that they stand on.
+
+Owns how a channel's values are written, and the display transform of a few pixels on the CPU (the
+window's shader computes the same). Knows nothing of windows. Arrays have a few hundred pixels.
+"""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+from numpy.typing import NDArray
+
+from app.options import ImageOptions, Pixel
+from renderer.images.display import FARTHEST_GRAY, ID_PALETTE, LUMINANCE, from_srgb, to_srgb8
+
+Bytes = NDArray[np.uint8]
+Depths = tuple[float, float] | None  # that are shown white and darkest
+
+_COMPONENTS = ("red", "green", "blue")
+DARK = 0.179  # of luminance: there black and white are as easy to read. Source: WCAG 2, contrast
+
+
+def pixel_name(pixel: Pixel, one_based: bool) -> str:
+    """`3,12`: row and column, counted as the user has chosen."""
+    return f"{pixel[0] + one_based},{pixel[1] + one_based}"
+
+
+def shown_bytes(values: NDArray, options: ImageOptions, depths: Depths) -> Bytes:
+    """A channel's values (renderer/frame.py) as the screen shows them: uint8 (height, width, 3)."""
+    if options.channel == "depth":
+        return np.repeat(_gray(values, depths)[..., None], 3, axis=2)
+    if options.channel == "id":
+        colors = ID_PALETTE[np.maximum(values, 0) % len(ID_PALETTE)]
+        return np.where((values >= 0)[..., None], colors, np.uint8(0))
+    if options.channel == "normal":
+        hit = (values != 0).any(axis=-1, keepdims=True)
+        unit = np.clip(np.nan_to_num(values) * np.float32(0.5) + np.float32(0.5), 0, 1)
+        shown = (np.where(hit, unit, 0) * 255 + 0.5).astype(np.uint8)
+    else:
+        shown = _color_bytes(values, options)
+    if options.component == "rgb":
+        return shown
+    index = _COMPONENTS.index(options.component)
+    if options.tinted:
+        return shown * (np.arange(3) == index).astype(np.uint8)
+    return np.repeat(shown[..., index : index + 1], 3, axis=2)
+
+
+def is_dark(shown: Bytes) -> NDArray[np.bool_]:
+    """Where white is easier to read than black: (height, width)."""
+    return from_srgb(shown) @ LUMINANCE < DARK
+
+
+def value_lines(
+    values: NDArray, options: ImageOptions, names: tuple[str, ...] = ()
+) -> list[list[str]]:
+    """What is written into each pixel, by rows and columns; its lines parted by newlines, all of
+    one width. names: of the scene's objects."""
+    channel = options.channel
+    if channel == "depth":
+        return [[_depth(t) for t in row] for row in values.tolist()]
+    if channel == "id":
+        return [[str(k) if k >= 0 else "-" for k in row] for row in values.tolist()]
+    if channel == "color" and options.values == "bytes":
+        numbers, form = _color_bytes(values, options), "{:3d}"
+    else:
+        numbers, form = values, "{:+.2f}" if channel == "normal" else "{:.2f}"
+    if options.component != "rgb":
+        index = _COMPONENTS.index(options.component)
+        numbers = numbers[..., index : index + 1]
+    return [["\n".join(map(form.format, pixel)) for pixel in row] for row in numbers.tolist()]
+
+
+def line_count(options: ImageOptions) -> int:
+    """How many lines value_lines() gives for a pixel."""
+    several = options.channel in ("color", "normal") and options.component == "rgb"
+    return 3 if several else 1
+
+
+def _color_bytes(values: NDArray, options: ImageOptions) -> Bytes:
+    if options.transfer == "srgb":
+        return to_srgb8(values, options.exposure_ev)
+    exposed = np.nan_to_num(np.asarray(values, np.float32)) * np.float32(2.0**options.exposure_ev)
+    return (np.clip(exposed, 0, 1) * 255 + 0.5).astype(np.uint8)
+
+
+def _depth(t: float) -> str:
+    if not math.isfinite(t):
+        return "-"
+    return f"{t:.3g}" if t < 1000 else f"{t:.0e}"
+
+
+def _gray(depth: NDArray, depths: Depths) -> Bytes:
+    hit = np.isfinite(depth)
+    near, far = depths or (0.0, 0.0)
+    if far > near:
+        behind = np.clip((np.where(hit, depth, near) - near) / (far - near), 0, 1)
+    else:
+        behind = np.zeros(depth.shape)
+    return np.where(hit, np.rint((1 - (1 - FARTHEST_GRAY) * behind) * 255), 0).astype(np.uint8)

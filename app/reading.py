@@ -1,0 +1,50 @@
+"""Reading a large image back from the GPU, a part a frame.
+
+Owns the arrays while they fill. Knows nothing of what reads and of who wants them. Reading back
+waits for the GPU and copies: 4096 x 2160 pixels of all channels take longer than a frame may.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from renderer.frame import CHANNELS, Frame
+
+PART_PIXELS = 1 << 20
+
+Region = tuple[int, int, int, int]  # first row and column, one past the last of each
+Read = Callable[[tuple[str, ...], Region], Mapping[str, NDArray]]
+
+
+class Reading:
+    """The reading of one image. of: whatever names it. size: (width, height)."""
+
+    def __init__(self, of: object, size: tuple[int, int], read: Read) -> None:
+        self.of = of
+        self._size = size
+        self._read = read
+        self._row = 0
+        self._arrays: dict[str, NDArray] = {}
+
+    def go_on(self) -> Frame | None:
+        """Reads the next rows; the frame, once all are there."""
+        width, height = self._size
+        last = min(self._row + max(1, PART_PIXELS // width), height)
+        part = self._read(CHANNELS, (self._row, 0, last, width))
+        if self._row == 0 and last == height:
+            self._arrays = dict(part)
+        else:
+            for name, values in part.items():
+                if name not in self._arrays:
+                    shape = (height, *values.shape[1:])
+                    self._arrays[name] = np.empty(shape, values.dtype)
+                self._arrays[name][self._row : last] = values
+        self._row = last
+        if last < height:
+            return None
+        arrays: dict[str, Any] = self._arrays
+        return Frame(size=self._size, **arrays)

@@ -1,0 +1,94 @@
+"""The range of an image's finite depths, found on the GPU and left there.
+
+Owns the textures that shrink an image to one pixel. Knows nothing of what the range is for. The
+false colours read it from its texture, so that nothing waits for the GPU; whoever wants the
+numbers gets them a frame later.
+"""
+
+from __future__ import annotations
+
+import moderngl
+import numpy as np
+
+from renderer.raster.programs import set_uniform
+from renderer.raster.resources import new_texture
+from renderer.raster.sources import link
+
+SIDE = 16  # of the blocks in range.frag
+FARTHEST = 3e38
+
+
+class DepthRange:
+    """The range of one image at a time, in a context, which must be current."""
+
+    def __init__(self, context: moderngl.Context) -> None:
+        self._gl = context
+        self._program = link(context, "screen.vert", "range.frag")
+        self._screen = context.vertex_array(self._program, [])
+        self._levels: list[tuple[moderngl.Texture, moderngl.Framebuffer]] = []
+        self._measured: tuple[int, int] | None = None
+        self._buffer = context.buffer(reserve=8)
+        self._asked = False
+        self._numbers: tuple[float, float] | None = None
+
+    def measure(self, texture: moderngl.Texture) -> moderngl.Texture:
+        """One pixel, RG32F: the least and the greatest finite value of a texture's fourth
+        component. Drawn over by the next call. Raises LucidaError."""
+        gl = self._gl
+        self._resize(texture.size)
+        before = gl.detect_framebuffer()
+        try:
+            gl.enable_only(moderngl.NOTHING)
+            gl.wireframe = False
+            gl.clear_samplers(0, 1)
+            source = texture
+            for level, framebuffer in self._levels:
+                framebuffer.use()
+                source.use(0)
+                set_uniform(self._program, "source", 0)
+                set_uniform(self._program, "is_range", source is not texture)
+                set_uniform(self._program, "window_depth", 0.5)
+                self._screen.render(moderngl.TRIANGLES, vertices=3)
+                source = level
+        finally:
+            before.use()
+        source.read_into(self._buffer)  # into a buffer of the GPU: nobody waits
+        self._asked = True
+        return source
+
+    @property
+    def unfinished(self) -> bool:
+        """Whether numbers() has not been asked since the last measurement."""
+        return self._asked
+
+    def numbers(self) -> tuple[float, float] | None:
+        """The last range, nearest and farthest; None where nothing was hit, or measured. Ask a
+        frame later: at once, it would wait for the GPU."""
+        if self._asked:
+            low, high = np.frombuffer(self._buffer.read(), np.float32).tolist()
+            self._numbers = (low, high) if low <= high < FARTHEST else None
+            self._asked = False
+        return self._numbers
+
+    def release(self) -> None:
+        self._drop()
+        for resource in (self._buffer, self._screen, self._program):
+            resource.release()
+
+    def _resize(self, size: tuple[int, int]) -> None:
+        if self._measured == size:
+            return
+        self._drop()
+        width, height = size
+        while not self._levels or (width, height) != (1, 1):
+            width, height = -(-width // SIDE), -(-height // SIDE)
+            texture = new_texture(self._gl, (width, height), 2, np.float32)
+            self._levels.append((texture, self._gl.framebuffer([texture])))
+        self._measured = size
+
+    def _drop(self) -> None:
+        self._measured = None
+        while self._levels:
+            texture, framebuffer = self._levels.pop()
+            framebuffer.release()
+            texture.release()

@@ -1,0 +1,150 @@
+"""What is chosen for both images, the numbers in their pixels, and the mark that stays."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from app import imaging
+from app.marking import followed, moved
+from app.options import Channel, ImageOptions
+from app.pixelvalues import is_dark, line_count, pixel_name, shown_bytes, value_lines
+from app.state import AppState
+from renderer.camera import Camera
+from renderer.errors import LucidaError
+from renderer.frame import Frame
+from renderer.images import to_srgb8
+from renderer.images.display import picture
+from renderer.scene.model import Scene, View
+
+COLOR = ImageOptions()
+
+
+@pytest.mark.parametrize(
+    "text", ["1280x720", " 1280 X 720 ", "1280*720", "1280 720", "1280\u00d7720"]
+)
+def test_resolutions_as_people_type_them(text):
+    assert imaging.parsed_size(text) == (1280, 720)
+
+
+@pytest.mark.parametrize(
+    "text", ["", "1280", "0x9", "x", "-4x3", "99999x99999", "1e3x7", "nan x 3"]
+)
+def test_what_is_no_resolution_is_told(text):
+    with pytest.raises(LucidaError):
+        imaging.parsed_size(text)
+
+
+def test_a_resolution_is_seen_whole():
+    state = AppState.for_scene(Scene(()))
+    state = state.with_options(images={"magnification": 8.0, "center": (0.1, 0.1)})
+    state = imaging.with_resolution(state, (64, 36))
+    assert state.images.magnification is None
+    assert imaging.with_pixel_size(state, 4).images.resolution is None
+    assert imaging.resolution_text(state.images) == "64 x 36"
+
+
+def test_one_component_and_back():
+    state = AppState.for_scene(Scene(()))
+    red = imaging.with_component(state, "red")
+    assert red.images.component == "red"
+    assert imaging.with_component(red, "red") == state
+    assert imaging.with_component(red, "blue").images.component == "blue"
+
+
+def frame() -> Frame:
+    rng = np.random.default_rng(4)
+    normal = rng.normal(size=(5, 7, 3)).astype(np.float32)
+    normal /= np.linalg.norm(normal, axis=2, keepdims=True)
+    depth = rng.uniform(2, 9, (5, 7)).astype(np.float32)
+    number = rng.integers(-1, 12, (5, 7)).astype(np.int32)
+    depth[number < 0], normal[number < 0] = np.inf, 0
+    color = rng.uniform(0, 1.4, (5, 7, 3)).astype(np.float32)
+    return Frame((7, 5), color, depth, normal, number)
+
+
+@pytest.mark.parametrize("channel", ["color", "depth", "normal", "id"])
+def test_pixels_have_the_colours_of_the_saved_pictures(channel: Channel):
+    image = frame()
+    finite = image.depth[np.isfinite(image.depth)]
+    options = replace(COLOR, channel=channel, exposure_ev=0.5)
+    shown = shown_bytes(image.channel(channel), options, (finite.min(), finite.max()))
+    assert np.abs(shown.astype(int) - picture(image, channel, 0.5)).max() <= 1
+
+
+def test_components_and_linear_light():
+    color = frame().color
+    plain = to_srgb8(color)
+    red = shown_bytes(color, replace(COLOR, component="red"), None)
+    assert (red == plain[..., :1]).all()
+    tinted = shown_bytes(color, replace(COLOR, component="blue", tinted=True), None)
+    assert (tinted == plain * np.array([0, 0, 1])).all()
+    linear = shown_bytes(color, replace(COLOR, transfer="linear"), None)
+    assert np.abs(linear - np.clip(color, 0, 1) * 255).max() <= 0.51
+
+
+def test_values_are_written_as_the_channel_needs():
+    color = np.array([[[0, 0.5, 2.0]]], np.float32)
+    assert value_lines(color, COLOR) == [["  0\n188\n255"]]
+    assert value_lines(color, replace(COLOR, values="floats")) == [["0.00\n0.50\n2.00"]]
+    assert value_lines(color, replace(COLOR, component="green")) == [["188"]]
+    depth = replace(COLOR, channel="depth")
+    assert value_lines(np.array([[3.14159, np.inf, 12345.0]]), depth) == [["3.14", "-", "1e+04"]]
+    normal = replace(COLOR, channel="normal")
+    assert value_lines(np.array([[[1, 0, -0.5]]]), normal) == [["+1.00\n+0.00\n-0.50"]]
+    assert value_lines(np.array([[4, -1]]), replace(COLOR, channel="id")) == [["4", "-"]]
+    for options in (COLOR, depth, normal, replace(COLOR, component="red")):
+        array = np.zeros((1, 1) if options.channel == "depth" else (1, 1, 3), np.float32)
+        assert value_lines(array, options)[0][0].count("\n") + 1 == line_count(options)
+
+
+def test_pixels_are_counted_as_chosen():
+    assert pixel_name((0, 11), one_based=True) == "1,12"
+    assert pixel_name((0, 11), one_based=False) == "0,11"
+
+
+def test_text_is_read_on_every_colour():
+    """WCAG 2 asks for a contrast of 4.5 : 1 for text."""
+    values = np.arange(0, 256, 15, dtype=np.uint8)
+    colors = np.stack(np.meshgrid(values, values, values), axis=-1).reshape(1, -1, 3)
+    linear = ((colors / 255 + 0.055) / 1.055) ** 2.4
+    linear = np.where(colors / 255 <= 0.04045, colors / 255 / 12.92, linear)
+    luminance = linear @ [0.2126, 0.7152, 0.0722]
+    text = np.where(is_dark(colors), 1.0, 0.0)
+    high, low = np.maximum(text, luminance), np.minimum(text, luminance)
+    assert ((high + 0.05) / (low + 0.05)).min() >= 4.5
+
+
+VIEW = View(Camera(), fit=True)
+
+
+def test_the_mark_keeps_its_ray():
+    for size, new in [((64, 36), (1280, 720)), ((64, 36), (50, 90)), ((500, 300), (4, 3))]:
+        for pixel in [(0, 0), (size[1] // 2, size[0] // 3), (size[1] - 1, size[0] - 1)]:
+            there = moved(pixel, size, VIEW, new)
+            x, y = VIEW.for_size(size).image_point(*pixel, size)
+            left, right, bottom, top = VIEW.for_size(new).viewport
+            half = (right - left) / new[0] / 2, (top - bottom) / new[1] / 2
+            at = VIEW.for_size(new).image_point(*there, new)
+            if left < x < right:
+                assert abs(at[0] - x) <= half[0] * 1.001
+            if bottom < y < top:
+                assert abs(at[1] - y) <= half[1] * 1.001
+
+
+def test_the_mark_is_not_carried_away_by_many_sizes():
+    mark, anchor = followed((17, 33), None, VIEW, (64, 36))
+    for width in [*range(63, 3, -1), *range(4, 65)]:
+        mark, anchor = followed(mark, anchor, VIEW, (width, 36))
+        assert mark[1] < width
+    assert mark == (17, 33)
+
+
+def test_a_new_mark_counts_from_where_it_is_set():
+    mark, anchor = followed((17, 33), None, VIEW, (64, 36))
+    mark, anchor = followed((2, 3), anchor, VIEW, (64, 36))
+    assert (mark, anchor.pixel) == ((2, 3), (2, 3))
+    assert followed(None, anchor, VIEW, (64, 36)) == (None, None)
+    assert followed((99, 99), None, VIEW, (64, 36))[0] == (35, 63)

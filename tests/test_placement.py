@@ -1,0 +1,147 @@
+"""Where images stand in their windows: fitting, magnifying at a point, panning, thinning."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import pytest
+from hypothesis import assume, given
+from hypothesis import strategies as st
+
+from app import placement
+from app.options import MAGNIFICATIONS, ImageOptions
+from app.panels.pixelgrid import thinning
+from app.placement import magnification_text, place, shown_pixel, step_from, stepped, zoomed_at
+from app.shown import section_of, whole
+
+SIZES = st.tuples(st.integers(1, 4096), st.integers(1, 4096))
+PANES = st.tuples(st.integers(1, 2500), st.integers(1, 2500))
+CENTERS = st.tuples(st.floats(0, 1), st.floats(0, 1))
+FIXED = ImageOptions(resolution=(64, 36))
+
+
+def placed(size, pane, **options):
+    return place(ImageOptions(resolution=size, **options), size, pane)
+
+
+@pytest.mark.parametrize(
+    ("size", "pane", "magnification"),
+    [
+        ((64, 36), (480, 400), 7.0),  # 7.5: a whole number, so that all pixels are alike
+        ((640, 360), (1000, 800), 1.5625),
+        ((4096, 2160), (512, 512), 0.125),
+        ((512, 512), (512, 600), 1.0),
+        ((4, 3), (400, 400), 100.0),
+    ],
+)
+def test_fixed_images_are_fitted(size, pane, magnification):
+    at = placed(size, pane)
+    assert at.magnification == magnification
+    assert at.sees_all
+    assert at.visible_pixels == (0, 0, size[1], size[0])
+    for k in (0, 1):  # in the middle
+        assert abs(2 * at.origin[k] + at.extent[k] - pane[k]) <= 1
+
+
+def test_images_as_large_as_the_window_have_pixels_of_the_size_chosen():
+    at = place(ImageOptions(pixel_size=8), (60, 50), (487, 404))
+    assert at.magnification == 8
+    assert at.extent == (480, 400)
+    assert at.whole
+
+
+@given(SIZES, PANES, CENTERS, st.sampled_from(MAGNIFICATIONS))
+def test_nothing_of_the_window_is_left_empty(size, pane, center, magnification):
+    at = placed(size, pane, magnification=magnification, center=center)
+    left, top, right, bottom = at.visible
+    for k, (low, high) in enumerate(((left, right), (top, bottom))):
+        assert high - low == min(at.extent[k], pane[k])
+    first_row, first_column, last_row, last_column = at.visible_pixels
+    assert 0 <= first_row < last_row <= size[1]
+    assert 0 <= first_column < last_column <= size[0]
+    assert at.whole
+
+
+@given(SIZES, PANES, CENTERS, st.sampled_from(MAGNIFICATIONS), st.data())
+def test_a_pixel_is_found_where_it_is_drawn(size, pane, center, magnification, data):
+    at = placed(size, pane, magnification=magnification, center=center)
+    top, left, bottom, right = at.visible_pixels
+    row = data.draw(st.integers(top, bottom - 1))
+    column = data.draw(st.integers(left, right - 1))
+    x, y = at.corner_of(row, column)
+    inside = 0.5 if magnification == 1 else magnification / 2
+    assert at.pixel_at(x + inside, y + inside) == (row, column)
+    assert at.image_position(x + magnification / 2, y + magnification / 2) == pytest.approx(
+        (row, column), abs=1e-6
+    )
+
+
+@given(SIZES, PANES, CENTERS, st.sampled_from(MAGNIFICATIONS[:-1]), st.data())
+def test_magnifying_keeps_what_is_under_the_pointer(size, pane, center, factor, data):
+    at = placed(size, pane, magnification=factor, center=center)
+    left, top, right, bottom = at.visible
+    x, y = (
+        data.draw(st.integers(left, right - 1)) + 0.5,
+        data.draw(st.integers(top, bottom - 1)) + 0.5,
+    )
+    options = replace(ImageOptions(resolution=size), magnification=factor, center=center)
+    closer = place(replace(options, **zoomed_at(at, x, y, 2.0 * factor)), size, pane)
+    assume(all(e > p for e, p in zip(at.extent, pane, strict=True)))
+    assert closer.part_at(x, y) == pytest.approx(at.part_at(x, y), abs=2 / (factor * min(size)))
+
+
+def test_panning_brings_the_part_to_the_pointer():
+    at = placed((640, 360), (400, 300), magnification=8.0, center=(0.5, 0.5))
+    part = at.part_at(200, 150)
+    changes = placement.panned(at, part, 230, 130)
+    moved = place(replace(ImageOptions(resolution=(640, 360)), **changes), (640, 360), (400, 300))
+    assert moved.origin == (at.origin[0] + 30, at.origin[1] - 20)
+
+
+def test_steps_end_at_the_fit_and_at_the_most():
+    assert stepped(8, 1, 1) == 12
+    assert stepped(8, -2, 1) == 4
+    assert stepped(2, -1, 1) is None  # all is seen again
+    assert stepped(8, -1, 7) is None
+    assert stepped(1, -1, 7) == 1  # smaller than the fit already: stays
+    assert stepped(100, 9, 1) == placement.MOST
+    at = placed((4096, 2160), (512, 512))
+    assert step_from(at, ImageOptions(resolution=(4096, 2160)), 1) == 1 / 6
+
+
+def test_a_pixel_out_of_sight_is_brought_into_the_middle():
+    options = ImageOptions(resolution=(640, 360), magnification=16.0, center=(0.5, 0.5))
+    at = place(options, (640, 360), (320, 320))
+    assert shown_pixel(at, (180, 320)) == {}
+    moved = place(replace(options, **shown_pixel(at, (180, 100))), (640, 360), (320, 320))
+    assert moved.origin[1] == at.origin[1], "it was in sight along this axis"
+    top, left, bottom, right = moved.visible_pixels
+    assert top <= 180 < bottom
+    assert left <= 100 < right
+
+
+@pytest.mark.parametrize(
+    ("magnification", "text"),
+    [(1, "1:1"), (8, "8x"), (0.25, "1/4"), (1.5625, "1.56x"), (0.3, "0.3x")],
+)
+def test_magnifications_in_words(magnification, text):
+    assert magnification_text(magnification) == text
+
+
+def test_sections_are_nearest_where_pixels_are_whole_and_means_elsewhere():
+    at = placed((64, 36), (480, 400))
+    assert not section_of(at, (64, 36)).averaged
+    assert section_of(at, (64, 36)).texels_per_pixel == (1 / 7, 1 / 7)
+    assert not section_of(at, (16, 9)).averaged, "a coarse image is made of larger squares"
+    assert section_of(placed((640, 360), (1000, 800)), (640, 360)).averaged
+    assert section_of(placed((4096, 2160), (512, 512)), (4096, 2160)).averaged
+    assert not section_of(whole((640, 360)), (640, 360)).averaged
+    cut = placed((640, 360), (400, 300), magnification=8.0, center=(0.5, 0.5))
+    assert section_of(cut, (640, 360)).origin == cut.origin
+
+
+@given(st.floats(1, 200), st.floats(1, 400))
+def test_texts_are_thinned_out_until_they_have_room(cell, needed):
+    step = thinning(cell, needed)
+    assert step * cell >= needed
+    assert step == 1 or step * cell < 2.6 * needed
