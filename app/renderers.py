@@ -49,6 +49,7 @@ class Renderers:
         self._arrived_s = 0.0
         self._compared: Request | None = None
         self._fitted: tuple[View, tuple[int, int], Camera] | None = None
+        self._tracing = self._to_trace = False  # whether a view wants the ray image: last, this frame
 
     def begin(self, context: moderngl.Context, scene: Scene) -> None:
         """Once, when there is a context."""
@@ -109,7 +110,8 @@ class Renderers:
         )
 
     def trace(self, state: AppState) -> None:
-        """Tells the tracer what is wanted now."""
+        """Tells the tracer what is wanted now; call it in each frame that shows the ray image."""
+        self._to_trace = True
         if (request := self.request(state)) is not None:
             self.live.request(request)
 
@@ -117,6 +119,7 @@ class Renderers:
         """Once a frame: takes what has come from the threads. moving: something is dragged."""
         assert self.pictures is not None
         self.pictures.begin_frame()
+        self._tracing, self._to_trace = self._to_trace, False
         image = self.live.poll()
         if image is not None:
             self.pictures.take_ray(image)
@@ -169,12 +172,11 @@ class Renderers:
         return self._to_compare(state) or (self.pictures is not None and self.pictures.unfinished)
 
     def settled(self, state: AppState) -> bool:
-        """Whether both images are complete and compared: nothing will change by itself."""
-        return (
-            self._has_full(state)
-            and self.verdict(state) is not None
-            and not (self.live.busy or self.agreement.busy or self.unfinished(state))
-        )
+        """Whether the images that are to be seen are complete, and compared if both are: nothing
+        will change by itself."""
+        if self.live.busy or self.agreement.busy or self.unfinished(state):
+            return False
+        return not self._tracing or (self._has_full(state) and self.verdict(state) is not None)
 
     def verdict(self, state: AppState) -> Verdict | None:
         """Whether the images of this state agree; None until that is known."""
