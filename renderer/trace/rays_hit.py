@@ -202,27 +202,41 @@ def sphere_on_ray(world, sphere, origin, direction, t_min, t_max):
 
 
 @inlined
-def _push(found, depth, child, node, top, floats, ints):
-    """Puts the children in `found` on the stack, the nearest on top; gives its new height."""
+def _nearest_child(found, depth, child, node, top, floats, ints):
+    """(the nearest of the children in `found`, the stack's height with the others on it).
+
+    On the stack, nearer ones are above farther ones.
+    """
     lane = lowest_bit(found)
-    if found & (found - 1) == 0:
-        floats[_WAITING_DEPTHS + top] = np.float32(-np.inf)  # it is next: no need to look
-        ints[top] = child[node * WIDTH + lane]
-        return top + 1
+    found &= found - 1
+    nearest = child[node * WIDTH + lane]
+    if found == 0:
+        return np.int64(nearest), top
     store(floats, _DEPTHS, depth)
-    base = top
+    least, base = floats[_DEPTHS + lane], top
     while found != 0:
         lane = lowest_bit(found)
         found &= found - 1
-        t = floats[_DEPTHS + lane]
+        t, other = floats[_DEPTHS + lane], child[node * WIDTH + lane]
+        if t < least:
+            t, least = least, t
+            other, nearest = nearest, other
+        # By insertion: there are few.
         i = top
         while i > base and floats[_WAITING_DEPTHS + i - 1] < t:
             floats[_WAITING_DEPTHS + i] = floats[_WAITING_DEPTHS + i - 1]
             ints[i] = ints[i - 1]
             i -= 1
-        floats[_WAITING_DEPTHS + i] = t
-        ints[i] = child[node * WIDTH + lane]
+        floats[_WAITING_DEPTHS + i], ints[i] = t, other
         top += 1
+    return np.int64(nearest), top
+
+
+@inlined
+def _without_farther(top, base, closest, floats):
+    """The stack's height without the nodes on top that begin behind `closest`."""
+    while top > base and floats[_WAITING_DEPTHS + top - 1] >= closest:
+        top -= 1
     return top
 
 
@@ -230,25 +244,25 @@ def _push(found, depth, child, node, top, floats, ints):
 def closest_in_instance(world, ray, root, base, t_min, t_max, floats, ints):
     """(t, slot) of the closest triangle of an instance; (t_max, -1): none."""
     closest, slot = t_max, np.int64(-1)
-    floats[_WAITING_DEPTHS + base], ints[base] = np.float32(-np.inf), root
-    top = base + 1
-    while top > base:
-        top -= 1
-        if floats[_WAITING_DEPTHS + top] >= closest:
-            continue
-        node = np.int64(ints[top])
+    node, top = np.int64(root), base
+    while True:
         if node >= 0:
             inside, depth = children_on_ray(world.box, node, ray, t_min, closest)
             found = bits(inside)
             if found != 0:
-                top = _push(found, depth, world.child, node, top, floats, ints)
-            continue
-        leaf = FIRST_LEAF - node
-        found, t = triangles_on_ray(world.corner, leaf, ray, t_min, closest)
-        if found != 0:
-            closest = smallest(t)
-            slot = leaf * WIDTH + lowest_bit(bits(t == closest))
-    return closest, slot
+                node, top = _nearest_child(found, depth, world.child, node, top, floats, ints)
+                continue
+        else:
+            leaf = FIRST_LEAF - node
+            found, t = triangles_on_ray(world.corner, leaf, ray, t_min, closest)
+            if found != 0:
+                closest = smallest(t)
+                slot = leaf * WIDTH + lowest_bit(bits(t == closest))
+        top = _without_farther(top, base, closest, floats)
+        if top == base:
+            return closest, slot
+        top -= 1
+        node = np.int64(ints[top])
 
 
 @inlined
@@ -273,7 +287,9 @@ def closest_hit(world, origin, direction, t_min, t_max, floats, ints):
             inside, depth = children_on_ray(world.top_box, node, ray, t_min, closest)
             found = bits(inside)
             if found != 0:
-                top = _push(found, depth, world.top_child, node, top, floats, ints)
+                node, top = _nearest_child(found, depth, world.top_child, node, top, floats, ints)
+                floats[_WAITING_DEPTHS + top], ints[top] = np.float32(-np.inf), node
+                top += 1
             continue
         item = FIRST_LEAF - node
         if item >= world.instances:
