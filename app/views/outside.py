@@ -7,6 +7,7 @@ handles and the legend have modules beside this one.
 
 from __future__ import annotations
 
+import time
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from typing import Any
@@ -27,6 +28,7 @@ from app.outside.projected import NEAREST, Primitive, Screen, project
 from app.outside.solid import bundle_pixels, pixel_seen, plane_corners
 from app.panels.screen import available_px, framebuffer_scale
 from app.pictures import Wanted
+from app.renderers import look_of
 from app.state import AppState
 from app.views.base import Host, View
 from app.views.outside_gizmo import Gizmo
@@ -43,8 +45,29 @@ Size = tuple[int, int]
 
 OUTSIDE = "Outside"
 SMALLEST_PX = 24  # a view that is smaller shows nothing
+STILL_S = 0.15  # without a change of the view, before its edges are made smooth
+SLOW_S = 0.06  # a scene that takes longer to prepare for a camera keeps its edges as they are
+# Parts of a pixel by which the pictures of a mean are shifted: no two in a row or column. The last
+# is not, so that what lies behind is decided at the pixels' centres.
+SHIFTS = ((-0.125, -0.375), (0.375, -0.125), (0.125, 0.375), (-0.375, 0.125), (0.0, 0.0))
 GRID_PX = 7.0  # the least distance of the grid's lines, in widths of a line
 IMAGE_SIZE = (640, 480)  # of the camera's image while no other view shows it
+
+
+@dataclass(frozen=True, eq=False)
+class _Ground:
+    """The scene from outside. parts: how many of the SHIFTS are in its mean; all of them also
+    where there will be none."""
+
+    wanted: Wanted
+    textures: Textures
+    drawn_s: float
+    parts: int
+    mean: moderngl.Texture | None = None
+
+    @property
+    def smooth(self) -> bool:
+        return self.mean is not None and self.parts == len(SHIFTS)
 
 
 @dataclass(frozen=True, eq=False)
@@ -72,14 +95,21 @@ class OutsideView(View):
         self._mouse, self._gizmo = Mouse(), Gizmo()
         self._overlay: Overlay | None = None
         self._hits: RayHits | None = None
-        self._ground: tuple[Wanted, Textures] | None = None
+        self._ground: _Ground | None = None
         self._made: _Made | None = None
         self._extra: dict[str, tuple[Item, ...]] = {}
-        self._camera: Camera | None = None  # the one that looks, as it was last drawn
+        self.scope: Scope | None = None  # the view as it was last drawn
 
     @property
     def settled(self) -> bool:
-        return self._hits is None or not self._hits.busy
+        ground = self._ground
+        smooth = ground is None or ground.parts == len(SHIFTS)
+        return smooth and (self._hits is None or not self._hits.busy)
+
+    @property
+    def over_handle(self) -> bool:
+        """Whether the mouse is over one of the handles, or drags it."""
+        return self._gizmo.over
 
     @property
     def primitives(self) -> Sequence[Primitive]:
@@ -113,7 +143,7 @@ class OutsideView(View):
         self._ground = self._made = None
 
     def flown(self, host: Host) -> Camera | None:
-        return self._camera
+        return self.scope.camera if self.scope is not None else None
 
     def with_flown(self, state: AppState, camera: Camera) -> AppState:
         return state.with_options(outside={"camera": camera})
@@ -183,9 +213,10 @@ class OutsideView(View):
         camera = state.outside.camera
         if camera is None:
             camera = outside_camera([points], state.scene.view.camera, aspect)
-        self._camera = camera
         x, y, z = center.tolist()
-        return Scope(camera, camera.fitted(size), origin, extent, (x, y, z), max(reach, 1e-9))
+        middle, reach = (x, y, z), max(reach, 1e-9)
+        self.scope = Scope(camera, camera.fitted(size), origin, extent, middle, reach)
+        return self.scope
 
     def _points(self, host: Host) -> Floats:
         """Around what there is to see: the scene, the camera, and where the scene has put it."""
@@ -216,9 +247,9 @@ class OutsideView(View):
 
     def _tools(self, host: Host, scope: Scope) -> None:
         state = host.state
-        options, clicked = legend(state.outside, scope.origin, scope.extent.x)
+        options, clicked = legend(state.outside, scope.origin, scope.extent)
         axis = triad(scope.shown, scope.origin, scope.extent)
-        if clicked == "reset":
+        if clicked == "fit":
             options = replace(options, camera=None)
         elif clicked == "camera":
             options = replace(options, camera=host.renderers.camera(state))
@@ -248,11 +279,14 @@ class OutsideView(View):
         try:
             picture, drawn = None, 0
             if options.image:
-                picture, drawn = both.pictures.linear(Wanted(state.scene, inner, image_size))
+                wanted = Wanted(state.scene, inner, image_size)
+                _, drawn = both.pictures.linear(wanted)
+                picture = both.pictures.raster(wanted, look_of(state.images))
+            ground = self._scene_picture(host, camera, size)
             unit_px = theme.line_px(framebuffer_scale())
             key = (
                 state.scene, camera, size, inner, image_size, replace(options, camera=None),
-                marked, tuple(hits), drawn, state.images.exposure_ev, unit_px,
+                marked, tuple(hits), drawn, state.images, unit_px, ground.smooth,
                 state.preferences, tuple(self._extra.items()),
             )  # fmt: skip
             if self._made is not None and self._made.key == key:
@@ -268,7 +302,7 @@ class OutsideView(View):
             behind = corners[0] + np.asarray(inner.w)  # the side of the image plane to look from
             plane = plane_on_screen(camera, size, corners, behind)
             texture = self._overlay.draw(
-                self._scene_picture(host, camera, size),
+                ground.textures,
                 camera,
                 size,
                 layers(primitives),
@@ -277,6 +311,7 @@ class OutsideView(View):
                 state.images.exposure_ev,
                 opacity=0.94,
                 unit_px=unit_px,
+                mean=ground.mean if ground.smooth else None,
             )
         except (LucidaError, moderngl.Error) as error:
             self._ground = self._made = None
@@ -295,14 +330,30 @@ class OutsideView(View):
         z = float((camera.camera_from_world @ [*scope.center, 1.0])[2])
         return NEAREST * max(-z / unit, away)
 
-    def _scene_picture(self, host: Host, camera: Camera, size: Size) -> Textures:
-        """The scene from outside, which stays while only the other camera moves."""
-        assert host.renderers.pictures is not None
-        wanted = Wanted(host.state.scene, camera, size)
-        if self._ground is None or self._ground[0] != wanted:
+    def _scene_picture(self, host: Host, camera: Camera, size: Size) -> _Ground:
+        """The scene from outside, which stays while only the other camera moves. Drawn at once;
+        when it has been still, again with smooth edges, a part of that in each frame."""
+        pictures, now_s = host.renderers.pictures, time.monotonic()
+        assert pictures is not None
+        assert self._overlay is not None
+        wanted, ground = Wanted(host.state.scene, camera, size), self._ground
+        if ground is None or ground.wanted != wanted:
             self._ground = None
-            self._ground = wanted, host.renderers.pictures.beside(wanted, "outside")
-        return self._ground[1]
+            textures = pictures.beside(wanted, OUTSIDE)
+            slow = time.monotonic() - now_s > SLOW_S
+            parts = len(SHIFTS) if slow else 0
+            self._ground = ground = _Ground(wanted, textures, now_s, parts)
+        if ground.parts < len(SHIFTS):
+            host.animate()
+            if now_s - ground.drawn_s > STILL_S:
+                shifted = replace(wanted, camera=camera.shifted(*SHIFTS[ground.parts], size))
+                textures = pictures.beside(shifted, OUTSIDE)
+                first, weight = ground.parts == 0, 1 / len(SHIFTS)
+                mean = self._overlay.gather(textures, first, weight)
+                self._ground = ground = replace(
+                    ground, textures=textures, parts=ground.parts + 1, mean=mean
+                )
+        return ground
 
     def _rays(self, host: Host, camera: Camera, size: Size) -> tuple[Hit | None, list[Hit]]:
         """The marked pixel's ray and the bundle's, as far as their ends are known."""
@@ -339,9 +390,9 @@ def ray_pixel(host: Host) -> Pixel | None:
 
 
 def gear(camera: Camera) -> Floats:
-    """Points around a camera: its eye, its image plane, its basis; (n, 3)."""
+    """Points around a camera: its eye, its image plane, its basis with its letters; (n, 3)."""
     eye = np.asarray(camera.eye)
-    tips = [eye + np.asarray(vector) for vector in (camera.u, camera.v, camera.w)]
+    tips = [eye + 1.2 * np.asarray(vector) for vector in (camera.u, camera.v, camera.w)]
     return np.array([eye, *tips, *plane_corners(camera)])
 
 

@@ -53,6 +53,15 @@ SWITCHES = (
     Switch("bundle", "bundle", "viewing rays spread over the image (right-click: how many)", "ray"),
 )
 
+HANDLES = (
+    ("move", "move eye", "handles that move the eye of the camera"),
+    ("turn", "turn basis", "handles that turn the basis of the camera"),
+)
+VIEWS = (
+    ("fit", "fit all", "a view that sees the scene and the camera"),
+    ("camera", "from camera", "look from the camera: what it sees"),
+)
+
 
 def is_on(options: OutsideOptions, field: str) -> bool:
     value = getattr(options, field)
@@ -67,61 +76,63 @@ def toggled(options: OutsideOptions, field: str) -> OutsideOptions:
     return replace(options, **{field: value})
 
 
-def legend(options: OutsideOptions, origin: ImVec2, width: float) -> tuple[OutsideOptions, str]:
-    """The switches over the view's upper left corner; in a narrow one, one button with a menu.
+def legend(options: OutsideOptions, origin: ImVec2, extent: ImVec2) -> tuple[OutsideOptions, str]:
+    """The switches over the view's upper left corner, the handles' and the view's own over its
+    lower left one; in a narrow view one button with all of them.
 
-    Gives the options, and what else was clicked: "reset", "camera" or "".
+    Gives the options, and what else was clicked: "fit", "camera" or "".
     """
     pad = theme.px(6)
     imgui.set_cursor_screen_pos(ImVec2(origin.x + pad, origin.y + pad))
-    room = width - theme.px(120)
-    chips = sum(_chip_width(switch.name) for switch in SWITCHES)
-    chips += sum(_chip_width(name) for name in ("move", "turn", "fit")) + theme.px(30)
-    if chips <= room:
-        return _row(options)
-    if imgui.button("Show##outside"):
-        imgui.open_popup("outside legend")
-    clicked = ""
-    if imgui.begin_popup("outside legend"):
-        for switch in SWITCHES:
-            if imgui.menu_item(switch.name, "", is_on(options, switch.field))[0]:
-                options = toggled(options, switch.field)
-            imgui.set_item_tooltip(switch.tip)
-        options = _bundle_fields(options)
-        imgui.separator()
-        for kind, name in (("move", "move the eye"), ("turn", "turn the basis")):
-            if imgui.menu_item(name, "", options.gizmo == kind)[0]:
-                options = _with_gizmo(options, kind)
-        imgui.separator()
-        if imgui.menu_item("fit all", "", False)[0]:
-            clicked = "reset"
-        if imgui.menu_item("look from the camera", "", False)[0]:
-            clicked = "camera"
-        imgui.end_popup()
-    return options, clicked
-
-
-def _row(options: OutsideOptions) -> tuple[OutsideOptions, str]:
-    clicked = ""
-    for switch in SWITCHES:
+    room = extent.x - theme.px(110)
+    if sum(_chip_width(switch.name) for switch in SWITCHES) > room:
+        return _popup(options)
+    for number, switch in enumerate(SWITCHES):
+        if number:
+            imgui.same_line(0, theme.px(4))
         color = role_color(switch.role)
         if _chip(switch.name, color, is_on(options, switch.field), switch.tip):
             options = toggled(options, switch.field)
         if switch.field == "bundle" and imgui.begin_popup_context_item("bundle size"):
             options = _bundle_fields(options)
             imgui.end_popup()
-        imgui.same_line(0, theme.px(4))
-    imgui.dummy(ImVec2(theme.px(6), 1))
-    for kind, tip in (
-        ("move", "handles that move the eye of the camera (again: none)"),
-        ("turn", "handles that turn the basis of the camera (again: none)"),
-    ):
-        imgui.same_line(0, theme.px(4))
-        if _chip(kind, theme.TEXT, options.gizmo == kind, tip):
+    below = origin.y + extent.y - pad - imgui.get_frame_height()
+    imgui.set_cursor_screen_pos(ImVec2(origin.x + pad, below))
+    for kind, name, tip in HANDLES:
+        if _chip(name, theme.TEXT, options.gizmo == kind, tip):
             options = _with_gizmo(options, kind)
-    imgui.same_line(0, theme.px(4))
-    if _chip("fit", None, False, "a view that sees the scene and the camera"):
-        clicked = "reset"
+        imgui.same_line(0, theme.px(4))
+    clicked = ""
+    for name, title, tip in VIEWS:
+        if _chip(title, None, False, tip):
+            clicked = name
+        imgui.same_line(0, theme.px(4))
+    imgui.new_line()
+    return options, clicked
+
+
+def _popup(options: OutsideOptions) -> tuple[OutsideOptions, str]:
+    if _chip("show ...", None, False, "what is drawn, and the handles"):
+        imgui.open_popup("outside legend")
+    clicked = ""
+    if not imgui.begin_popup("outside legend"):
+        return options, clicked
+    for switch in SWITCHES:
+        if imgui.menu_item(switch.name, "", is_on(options, switch.field))[0]:
+            options = toggled(options, switch.field)
+        imgui.set_item_tooltip(switch.tip)
+    options = _bundle_fields(options)
+    imgui.separator()
+    for kind, name, tip in HANDLES:
+        if imgui.menu_item(name, "", options.gizmo == kind)[0]:
+            options = _with_gizmo(options, kind)
+        imgui.set_item_tooltip(tip)
+    imgui.separator()
+    for name, title, tip in VIEWS:
+        if imgui.menu_item(title, "", False)[0]:
+            clicked = name
+        imgui.set_item_tooltip(tip)
+    imgui.end_popup()
     return options, clicked
 
 

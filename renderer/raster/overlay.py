@@ -21,6 +21,7 @@ from renderer.raster.sources import link
 from renderer.raster.targets import Textures
 
 Size = tuple[int, int]
+Rgba = tuple[float, float, float, float]
 _THINNEST = 1e-7  # an image plane seen more nearly edge on shows nothing of its picture
 
 
@@ -83,8 +84,34 @@ class Overlay:
         self._owner = Owner()
         self._ground = self._owner.own(link(context, "screen.vert", "outside.frag"))
         self._screen = self._owner.own(context.vertex_array(self._ground, []))
+        self._gathering = self._owner.own(link(context, "screen.vert", "gather.frag"))
+        self._gather = self._owner.own(context.vertex_array(self._gathering, []))
         self._lines = self._owner.own(Lines(context))
-        self._target: tuple[moderngl.Texture, moderngl.Framebuffer] | None = None
+        self._targets: dict[str, tuple[moderngl.Texture, moderngl.Framebuffer]] = {}
+
+    def gather(self, scene: Textures, first: bool, weight: float) -> moderngl.Texture:
+        """Adds a picture of the scene, multiplied by weight, to those since the last first one:
+        pictures that are shifted by parts of a pixel have a mean with smooth edges. The texture,
+        in linear light, is written to by each call."""
+        gl = self._gl
+        texture, framebuffer = self._of_size("mean", scene.color.size, "float16")
+        before = gl.detect_framebuffer()
+        try:
+            gl.enable_only(moderngl.NOTHING if first else moderngl.BLEND)
+            gl.blend_func = moderngl.ONE, moderngl.ONE
+            gl.wireframe = False
+            gl.clear_samplers(0, 1)
+            framebuffer.use()
+            scene.color.use(0)
+            set_uniform(self._gathering, "linear_color", 0)
+            set_uniform(self._gathering, "window_depth", 0.5)
+            set_uniform(self._gathering, "weight", weight)
+            self._gather.render(moderngl.TRIANGLES, vertices=3)
+        finally:
+            gl.blend_func = moderngl.DEFAULT_BLENDING
+            gl.enable_only(moderngl.NOTHING)
+            before.use()
+        return texture
 
     def draw(
         self,
@@ -97,20 +124,21 @@ class Overlay:
         exposure_ev: float = 0.0,
         opacity: float = 1.0,
         unit_px: float = 1.0,
+        mean: moderngl.Texture | None = None,
+        casing: Rgba = (0.03, 0.035, 0.04, 0.6),
     ) -> moderngl.Texture:
         """The view as an 8-bit texture of `size`, drawn over by the next call.
 
-        scene: as drawn by `camera` at `size` or a multiple of it, which then is averaged. plane,
-        picture: what stands in the scene, in linear light; the plane alone hides nothing. unit_px:
-        the size of dashes and edges.
+        scene: as drawn by `camera` at `size`. mean: its colour with smooth edges, from gather().
+        plane, picture: what stands in the scene; the picture as it is to be seen (not linear).
+        The plane alone hides nothing. unit_px: the size of dashes and edges. casing: the colour
+        of lines' edges.
         """
         gl = self._gl
-        samples = max(1, scene.color.width // size[0])
-        texture, framebuffer = self._of_size(size)
+        texture, framebuffer = self._of_size("shown", size, "uint8")
         before = gl.detect_framebuffer()
         shared = {
             "surface": 1,
-            "samples": samples,
             "perspective": float(not camera.is_parallel),
             "half_size": (size[0] / 2, size[1] / 2),
             "has_plane": plane is not None and picture is not None,
@@ -124,7 +152,7 @@ class Overlay:
             gl.wireframe = False
             gl.clear_samplers(0, 3)
             framebuffer.use()
-            scene.color.use(0)
+            (mean or scene.color).use(0)
             scene.surface.use(1)
             (picture or scene.color).use(2)
             exposure = 2.0 ** min(max(exposure_ev, -100.0), 100.0)
@@ -140,27 +168,29 @@ class Overlay:
                 set_uniform(self._ground, name, value)
             self._screen.render(moderngl.TRIANGLES, vertices=3)
             self._lines.set(shared)
-            self._lines.draw(layers, 7.0 * unit_px, 1.25 * unit_px, (0.03, 0.035, 0.04, 0.6))
+            self._lines.draw(layers, 7.0 * unit_px, 1.25 * unit_px, casing)
         finally:
             gl.enable_only(moderngl.NOTHING)
             before.use()
         return texture
 
     def release(self) -> None:
-        self._drop()
+        for name in list(self._targets):
+            self._drop(name)
         self._owner.release()
 
-    def _of_size(self, size: Size) -> tuple[moderngl.Texture, moderngl.Framebuffer]:
-        if self._target is None or self._target[0].size != size:
-            self._drop()
-            texture = new_texture(self._gl, size, 4, "uint8")
-            self._target = texture, self._gl.framebuffer([texture])
+    def _of_size(
+        self, name: str, size: Size, dtype: str
+    ) -> tuple[moderngl.Texture, moderngl.Framebuffer]:
+        if name not in self._targets or self._targets[name][0].size != size:
+            self._drop(name)
+            texture = new_texture(self._gl, size, 4, dtype)
+            self._targets[name] = texture, self._gl.framebuffer([texture])
             check(self._gl, "the outside view")
-        return self._target
+        return self._targets[name]
 
-    def _drop(self) -> None:
-        if self._target is not None:
-            texture, framebuffer = self._target
-            self._target = None
+    def _drop(self, name: str) -> None:
+        if name in self._targets:
+            texture, framebuffer = self._targets.pop(name)
             framebuffer.release()
             texture.release()

@@ -2,7 +2,6 @@
 // Positions are in pixels of the target, y down; t counts along the outside camera's rays.
 
 uniform sampler2D surface;      // the scene's: t in w
-uniform int samples;            // texels of surface a side of a pixel
 uniform float perspective;      // 1: depth s is 1 / t, 0: it is t; both are affine on the screen
 uniform vec2 half_size;         // of the target, in pixels
 uniform bool has_plane;
@@ -36,7 +35,7 @@ bool may_be_on_plane(vec2 position) {
 // the image plane, behind the picture.
 bool is_hidden(vec2 position, float s, bool on_plane) {
     ivec2 last = textureSize(surface, 0) - 1;
-    ivec2 texel = clamp(ivec2(floor(position * float(samples))), ivec2(0), last);
+    ivec2 texel = clamp(ivec2(floor(position)), ivec2(0), last);
     float t = t_of(s);
     if (t > 1.001 * texelFetch(surface, texel, 0).w) {
         return true;

@@ -1,0 +1,260 @@
+"""The outside view: its camera, its handles, its switches, and the pixels that it shares."""
+
+from __future__ import annotations
+
+import numpy as np
+from imgui_bundle import hello_imgui
+from window_driver import SIZE, Driver, Key
+
+from app.outside.projected import Screen, Strokes
+from app.outside.solid import plane_corners
+from app.views.outside import OUTSIDE, OutsideView
+from app.views.outside_mouse import Scope
+
+IMAGE = f"//###{OUTSIDE}/image##{OUTSIDE}"
+
+
+def view(d: Driver) -> OutsideView:
+    found = d.window.views[OUTSIDE]
+    assert isinstance(found, OutsideView)
+    return found
+
+
+def enter(d: Driver, layout: str = "Outside view") -> None:
+    if hello_imgui.current_layout_name() != layout:
+        hello_imgui.switch_layout(layout)
+        d.ctx.yield_(5)
+    d.settle()
+
+
+def scope(d: Driver) -> Scope:
+    found = view(d).scope
+    assert found is not None
+    return found
+
+
+def place(d: Driver, point: np.ndarray) -> tuple[float, float]:
+    """Where a world point is in the window."""
+    at = scope(d)
+    size = max(1, round(at.extent.x)), max(1, round(at.extent.y))
+    found = Screen(at.shown, size).spot(np.asarray(point, float))
+    assert found is not None
+    return at.origin.x + float(found[0][0]), at.origin.y + float(found[0][1])
+
+
+def empty_place(d: Driver) -> tuple[float, float]:
+    """Over the view, and neither over the image plane nor a tool."""
+    at = scope(d)
+    return at.origin.x + 0.62 * at.extent.x, at.origin.y + 0.85 * at.extent.y
+
+
+def press(d: Driver, name: str) -> None:
+    d.ctx.item_click(f"//###{OUTSIDE}/{name}##outside")
+    d.ctx.yield_(2)
+
+
+def strokes(d: Driver, name: str) -> list[Strokes]:
+    return [p for p in view(d).primitives if isinstance(p, Strokes) and p.name == name]
+
+
+def drive_the_mouse_moves_the_camera_that_looks(d: Driver) -> None:
+    enter(d)
+    window, inner = d.window, d.window.state.camera
+    assert window.state.outside.camera is None
+    x, y = empty_place(d)
+    before = scope(d).camera
+    steps = len(window.history.past)
+    d.drag((x, y), (x + 80, y + 30))
+    turned = window.state.outside.camera
+    assert turned is not None
+    assert turned.w != before.w
+    assert abs(turned.u[1]) < 1e-9  # no roll
+    assert len(window.history.past) == steps + 1
+    for button, key in ((1, 0), (2, 0), (0, int(Key.mod_shift))):
+        was = window.state.outside.camera
+        if key:
+            d.ctx.key_down(key)
+        d.drag((x, y), (x - 40, y - 20), button)
+        if key:
+            d.ctx.key_up(key)
+        moved = window.state.outside.camera
+        assert (moved.u, moved.v, moved.w) == (was.u, was.v, was.w)
+        assert moved.eye != was.eye
+    was = window.state.outside.camera
+    d.ctx.mouse_teleport_to_pos((x, y))
+    d.ctx.yield_()
+    d.ctx.mouse_wheel_y(2)
+    d.ctx.yield_(2)
+    closer = window.state.outside.camera
+    middle = np.asarray(scope(d).center)
+    assert np.linalg.norm(closer.eye - middle) < np.linalg.norm(was.eye - middle)
+    assert window.state.camera == inner  # the other camera stays
+    press(d, "fit all")
+    assert window.state.outside.camera is None
+    d.window.undo()
+    assert window.state.outside.camera == closer
+
+
+def drive_the_axes_turn_the_view(d: Driver) -> None:
+    enter(d)
+    for name, back in (("x", (1, 0, 0)), ("y", (0, 1, 0)), ("z", (0, 0, 1))):
+        press(d, f"axis {name}")
+        assert np.allclose(d.window.state.outside.camera.w, back)
+        d.settle()
+        d.reset()
+        enter(d)
+    press(d, "axis -x")
+    assert np.allclose(d.window.state.outside.camera.w, (-1, 0, 0))
+    press(d, "from camera")
+    shown = d.window.renderers.camera(d.window.state)
+    assert d.window.state.outside.camera == shown
+    d.settle()
+
+
+def drive_a_pixel_is_the_same_in_all_views(d: Driver) -> None:
+    enter(d)
+    window = d.window
+    camera, size = window.renderers.camera(window.state), window.renderers.size
+    corners = plane_corners(camera)
+    target = (size[1] // 3, size[0] // 4)
+    part = (target[1] + 0.5) / size[0], (target[0] + 0.5) / size[1]
+    point = corners[0] + part[0] * (corners[1] - corners[0]) + part[1] * (corners[3] - corners[0])
+    d.ctx.mouse_teleport_to_pos(place(d, point))
+    d.ctx.yield_(3)
+    name, pixel = window.hovered
+    assert name == OUTSIDE
+    near = 3 + size[0] / 60  # ImGui's mouse has whole numbers, and the plane is small on the screen
+    assert max(abs(pixel[0] - target[0]), abs(pixel[1] - target[1])) < near
+    steps = len(window.history.past)
+    d.ctx.mouse_click(0)
+    d.ctx.yield_(2)
+    assert window.state.marked == pixel
+    assert len(window.history.past) == steps + 1
+    d.settle()
+    # Its ray goes from the eye through the pixel's centre to what the ray image has seen there.
+    (ray,) = strokes(d, "ray")
+    t = window.renderers.depth_at(window.state, pixel)
+    assert t is not None
+    drawn = camera.ray(*pixel, size)
+    x, y = place(d, drawn.origin + t * drawn.direction)
+    at = scope(d)
+    end = ray.points[0, 1] + (at.origin.x, at.origin.y)
+    assert np.allclose(end, (x, y), atol=1.0)
+    start = place(d, np.asarray(camera.eye))
+    assert np.allclose(ray.points[0, 0] + (at.origin.x, at.origin.y), start, atol=1.0)
+
+
+def drive_the_legend_switches(d: Driver) -> None:
+    enter(d)
+    window = d.window
+    for name in ("basis", "image", "grid", "volume", "ray"):
+        press(d, name)
+        assert not getattr(window.state.outside, name)
+        d.ctx.yield_(2)
+        assert not strokes(d, {"basis": "u", "image": "none", "volume": "edges"}.get(name, name))
+        press(d, name)
+        assert getattr(window.state.outside, name)
+    press(d, "bundle")
+    rows, columns = window.state.outside.bundle
+    d.settle()
+    rays = {
+        p.name for p in view(d).primitives if p.name.startswith("bundle") and "hit" not in p.name
+    }
+    assert len(rays) == rows * columns
+    assert view(d).settled
+    d.window.undo()
+    assert window.state.outside.bundle == (0, 0)
+
+
+def drive_handles_move_the_eye_and_turn_the_basis(d: Driver) -> None:
+    enter(d)
+    window = d.window
+    start = window.state.camera
+    press(d, "move eye")
+    assert window.state.outside.gizmo == "move"
+    d.ctx.yield_(2)
+    at = scope(d)
+    x, y = place(d, np.asarray(start.eye))
+    # Along the handle of the world's y axis: upwards, since there is no roll.
+    up = place(d, np.add(start.eye, (0, 0.1 * at.reach, 0)))
+    way = np.array([up[0] - x, up[1] - y])
+    way = way / np.linalg.norm(way)
+    grip = np.array([x, y]) + 0.075 * at.extent.x * way
+    steps = len(window.history.past)
+    d.ctx.mouse_teleport_to_pos(tuple(grip))
+    d.ctx.yield_(3)
+    d.drag(tuple(grip), tuple(grip + 60 * way))
+    moved = window.state.camera
+    assert moved.eye[1] > start.eye[1] + 0.1
+    assert abs(moved.eye[0] - start.eye[0]) < 1e-3
+    assert (moved.u, moved.v, moved.w) == (start.u, start.v, start.w)
+    assert window.state.outside.camera is None  # the view was not turned by it
+    assert len(window.history.past) == steps + 1
+    d.settle()
+    window.undo()
+    assert window.state.camera == start
+    press(d, "turn basis")
+    d.ctx.yield_(2)
+    x, y = place(d, np.asarray(start.eye))
+    for angle in np.linspace(0.0, 2 * np.pi, 16, endpoint=False):
+        turned = _turn_by(d, np.array([x, y]), angle)
+        if turned:
+            break
+    camera = window.state.camera
+    assert camera.eye == start.eye
+    assert np.abs(np.asarray(camera.w) - start.w).max() > 1e-3
+    assert np.allclose(camera.basis.T @ camera.basis, np.eye(3))
+    assert camera.determinant > 0
+    d.settle()
+
+
+def _turn_by(d: Driver, middle: np.ndarray, angle: float) -> bool:
+    """Drags the ring of handles at an angle; whether there was one."""
+    before = d.window.state.camera
+    radius = 0.5 * 0.16 * scope(d).extent.x
+    for part in (0.7, 0.85, 1.0, 1.1):
+        grip = middle + part * radius * np.array([np.cos(angle), np.sin(angle)])
+        d.ctx.mouse_teleport_to_pos(tuple(grip))
+        d.ctx.yield_(2)
+        if not view(d).over_handle:
+            continue
+        d.drag(tuple(grip), tuple(grip + 30 * np.array([-np.sin(angle), np.cos(angle)])))
+        if d.window.state.camera.w != before.w:
+            return True
+        d.window.history = type(d.window.history)(d.window.state)
+    return False
+
+
+def drive_layouts_and_cameras(d: Driver) -> None:
+    """Every layout with the view, and cameras of all kinds: nothing but numbers, and a picture."""
+    from dataclasses import replace
+
+    base = d.start.camera
+    cameras = (
+        replace(base, projection="parallel", viewport=(-3.0, 3.0, -2.0, 2.0)),
+        replace(base, u=(-1.0, 0.2, 0.0)),  # left-handed and skewed
+        replace(base, viewport=(0.1, 0.6, -0.2, 0.9), near=3.0, far=12.0),
+        replace(base, eye=(0.0, 0.77, 0.3)),  # inside an object or close to one
+        replace(base, eye=(1e6, 0.0, 0.0)),
+        replace(base, distance=1e-6),
+    )
+    for layout in ("Four views", "Outside view"):
+        enter(d, layout)
+        for camera in cameras:
+            d.window.change(d.window.state.with_camera(camera).with_options(marked=(5, 5)))
+            d.settle()
+            for part in view(d).primitives:
+                if isinstance(part, Strokes):
+                    assert np.isfinite(part.points).all()
+                    assert np.isfinite(part.depth).all()
+            left, top, right, bottom = (round(x) for x in rect(d))
+            picture = d.picture()[top:bottom, left:right]
+            assert picture.std() > 3
+    hello_imgui.switch_layout("Side by side")
+    d.ctx.yield_(5)
+
+
+def rect(d: Driver) -> tuple[float, float, float, float]:
+    box = d.ctx.item_info(IMAGE).rect_full
+    assert box.max.x <= SIZE[0]
+    return box.min.x, box.min.y, box.max.x, box.max.y
