@@ -11,6 +11,7 @@ from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
 
 CONSECUTIVE, WORD, FIRST = 8, 10, 6  # what a letter is worth after another, at a word, in front
+RECENT = 5
 
 
 @dataclass(frozen=True)
@@ -52,6 +53,7 @@ def found(query: str, entries: Iterable[Entry], recent: Sequence[str] = ()) -> l
         if result is not None:
             points, letters = result
             place = rank.get(entry.key, len(rank))
+            points += RECENT if entry.key in rank else 0
             matches.append((-points if query else 0, place, order, Match(entry, letters)))
     return [match for *_, match in sorted(matches, key=lambda row: row[:3])]
 

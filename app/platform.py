@@ -118,7 +118,15 @@ def toggle_full_screen() -> None:
         return
     if glfw.get_window_monitor(window):
         left, top, width, height = _windowed.pop(0) if _windowed else (50, 50, 1280, 720)
-        glfw.set_window_monitor(window, None, left, top, width, height, glfw.DONT_CARE)
+        glfw.set_window_monitor(
+            window,
+            None,  # type: ignore[arg-type]
+            left,
+            top,
+            width,
+            height,
+            glfw.DONT_CARE,
+        )
         return
     _windowed[:] = [(*glfw.get_window_pos(window), *glfw.get_window_size(window))]
     monitor = _monitor_of(_windowed[0])

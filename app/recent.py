@@ -71,6 +71,8 @@ class RecentFiles:
 
     def close(self) -> None:
         self._work.close()
+        if self._changes:  # the thread did not come to it
+            self._done([])
 
     def _change(self, change: Change | None) -> None:
         entries = self.entries

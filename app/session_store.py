@@ -88,7 +88,10 @@ def take_place(folder: Path | None = None) -> Place | None:
         for number in range(1, MOST_WINDOWS + 1):
             lock = _locked(folder / f"session-{number}.lock")
             if lock is not None:
-                return Place(folder / f"session-{number}.json", lock)
+                path = folder / f"session-{number}.json"
+                for part in folder.glob(f".{path.name}.*.part"):  # of a window that was killed
+                    part.unlink(missing_ok=True)
+                return Place(path, lock)
     except (OSError, RuntimeError):  # RuntimeError: there is no home
         pass
     return None

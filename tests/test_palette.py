@@ -1,0 +1,102 @@
+"""The command palette's search, and the words for what undo does."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import pytest
+
+from app.actions import ACTIONS, MENUS
+from app.changes import change
+from app.palette import Entry, found, score
+from app.panels.sheet import in_columns, sections
+from app.state import AppState
+from renderer.scene import load_scene
+
+ENTRIES = [
+    Entry("Parallel projection", "Camera", lambda: None, "P"),
+    Entry("Save a picture of the window", "File > Picture", lambda: None, "F12"),
+    Entry("Presentation", "View", lambda: None, "F9"),
+    Entry("Dark theme", "View > Look", lambda: None),
+    Entry("Light theme", "View > Look", lambda: None),
+    Entry("Scene: spheres", "File > Built-in scenes", lambda: None),
+]
+
+
+def names(query: str, recent: tuple[str, ...] = ()) -> list[str]:
+    return [match.entry.name for match in found(query, ENTRIES, recent)]
+
+
+@pytest.mark.parametrize(
+    ("query", "first"),
+    [
+        ("pres", "Presentation"),
+        ("par", "Parallel projection"),
+        ("pp", "Parallel projection"),
+        ("spw", "Save a picture of the window"),
+        ("picture", "Save a picture of the window"),
+        ("LIGHT", "Light theme"),
+        ("spheres", "Scene: spheres"),
+        ("built in spheres", "Scene: spheres"),
+    ],
+)
+def test_a_few_letters_find_it(query, first):
+    assert names(query)[0] == first
+
+
+def test_everything_is_there_without_a_query_and_nothing_for_nonsense():
+    assert names("") == [entry.name for entry in ENTRIES]
+    assert names("xyzzy") == []
+
+
+def test_recently_used_stand_first():
+    recent = (ENTRIES[4].key, ENTRIES[2].key)
+    assert names("", recent)[:2] == ["Light theme", "Presentation"]
+    assert names("theme", recent)[0] == "Light theme"
+    assert names("dark", recent)[0] == "Dark theme"  # what fits better wins
+
+
+def test_letters_are_told_for_marking():
+    assert score("pp", "Parallel projection") is not None
+    assert score("pp", "Parallel projection")[1] == (0, 9)
+    assert score("", "anything") == (0, ())
+    assert score("b", "") is None
+    assert score("i", "İstanbul") is None or len(score("i", "İstanbul")[1]) == 1
+
+
+def test_all_queries_made_of_a_names_letters_find_it():
+    for action in ACTIONS:
+        for length in (1, 3, 7, len(action.name)):
+            assert score(action.name[:length], action.name) is not None
+
+
+def test_every_key_is_bound_once_and_every_action_is_in_a_menu():
+    chords = [chord for action in ACTIONS for chord in action.chords]
+    assert len(chords) == len(set(chords))
+    assert {action.menu.split("/")[0] for action in ACTIONS} <= set(MENUS)
+    full = [(action.menu, action.name) for action in ACTIONS]
+    assert len(full) == len(set(full))
+
+
+def test_the_sheet_holds_every_key_and_fits_columns():
+    parts = sections()
+    text = " ".join(keys for _, rows in parts for keys, _ in rows)
+    for action in ACTIONS:
+        if action.keys and not any(c.isdigit() for c in action.name):
+            assert action.keys in text, action
+    assert "1 to 9" in text
+    for columns in (1, 2, 3):
+        placed = in_columns(parts, columns)
+        assert len(placed) <= columns
+        assert [part for column in placed for part in column] == parts
+
+
+def test_steps_of_undo_have_words():
+    state = AppState.for_scene(load_scene("spheres"))
+    moved = state.with_camera(replace(state.camera, eye=(1, 2, 3)))
+    assert change(state, moved) == "camera: eye"
+    assert change(state, state.with_options(images={"exposure_ev": 1.0})) == "exposure"
+    assert change(state, state.with_options(preferences={"theme": "light"})) == "theme"
+    assert change(state, state.with_scene(load_scene("canonical"))).startswith("scene: ")
+    assert change(state, state.with_fit(not state.view.fit)) == "fit to the aspect ratio"
+    assert change(state, state) == "nothing to be seen"
