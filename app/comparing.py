@@ -95,14 +95,14 @@ def scale(channel: Channel, gain: float, signed: bool) -> Scale:
     if channel == "id":
         return Scale("object", "", "the same", "another one")
     what, number, longer = {
-        "color": ("colour, of 255", f"{255 * full:.3g}", "brighter"),
+        "color": ("colour", f"{255 * full:.3g}/255", "brighter"),
         "depth": ("ray parameter t", f"{100 * full:.3g} %", "farther"),
-        "normal": ("normal, a component", f"{full:.3g}", "larger"),
+        "normal": ("normal", f"{full:.3g}", "larger"),
     }[channel]
     if signed:
-        low, high = f"{number}  raster {longer}", f"ray {longer}  {number}"
+        low, high = f"raster {longer} by {number}", f"ray {longer} by {number}"
         return Scale(f"ray - raster: {what}", low, "0", high)
-    return Scale(f"|ray - raster|: {what}", "", "0", number)
+    return Scale(f"difference of the {what}", "", "0", number)
 
 
 def error_text(comparison: Comparison, channel: Channel) -> str:
@@ -111,7 +111,7 @@ def error_text(comparison: Comparison, channel: Channel) -> str:
     if channel == "id":
         return f"another object in {_pixels(error.differing)}"
     if channel == "color":
-        numbers = f"max {255 * error.largest:5.1f}  RMS {255 * error.rms:7.3f}  of 255"
+        numbers = f"max {255 * error.largest:5.1f}/255  RMS {255 * error.rms:7.3f}/255"
     elif channel == "depth":
         numbers = f"max {100 * error.largest:.3g} %  RMS {100 * error.rms:.3g} %"
     else:

@@ -23,7 +23,7 @@ from renderer.raster.sources import link
 from renderer.raster.targets import Textures
 
 RIM = 250  # a label: the dark border of a mark
-MOST_ENLARGED = 0.01  # of the pixels; more marks than that are not enlarged
+MOST_ENLARGED = 0.002  # of the pixels; a cause that has more is not enlarged
 COMPONENTS = {"rgb": -1, "red": 0, "green": 1, "blue": 2}
 
 
@@ -270,18 +270,21 @@ class _Same:
 
 
 def marks(labels: NDArray[np.uint8]) -> NDArray[np.uint8]:
-    """The labels with each differing pixel enlarged to 3 x 3, in a border of RIM; where there
-    are so many of them that they would hide the image, the labels themselves.
+    """The labels with each differing pixel enlarged to 3 x 3, in a border of RIM, so that it is
+    seen from afar; but not those of a cause that has very many: they are seen anyway.
 
     Unexplained pixels are never covered by explained ones.
     """
     i, j = np.nonzero(labels)
-    if not 0 < len(i) <= MOST_ENLARGED * labels.size:
+    found = labels[i, j]
+    few = np.bincount(found, minlength=256)[found] <= MOST_ENLARGED * labels.size
+    i, j, found = i[few], j[few], found[few]
+    if not len(i):
         return np.ascontiguousarray(labels)
     height, width = labels.shape
-    found = labels[i, j]
     bad = found >= SHADING
     grown = np.full((height + 4, width + 4), AGREE, np.uint8)  # a border, so that nothing wraps
+    grown[2:-2, 2:-2] = labels
     for di in range(5):
         for dj in range(5):
             grown[i + di, j + dj] = RIM

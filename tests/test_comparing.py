@@ -130,8 +130,8 @@ def test_gain_and_divider_stay_within_their_limits(state):
 @pytest.mark.parametrize(
     ("channel", "gain", "full"),
     [
-        ("color", 1, "255"),
-        ("color", 1024, "0.249"),
+        ("color", 1, "255/255"),
+        ("color", 1024, "0.249/255"),
         ("depth", 1, "100 %"),
         ("depth", 64, "1.56 %"),
         ("normal", 1, "2"),
@@ -141,7 +141,7 @@ def test_a_scale_has_its_units_and_says_which_image_has_more(channel, gain, full
     absolute = comparing.scale(channel, gain, signed=False)
     assert (absolute.low, absolute.middle, absolute.high) == ("", "0", full)
     signed = comparing.scale(channel, gain, signed=True)
-    assert signed.low.startswith(full) and "raster" in signed.low
+    assert signed.low.endswith(full) and "raster" in signed.low
     assert signed.high.endswith(full) and "ray" in signed.high
 
 
@@ -154,7 +154,7 @@ def test_errors_are_told_with_their_units():
         color=((3, 4), 1.0), depth=((1, 1), 4), normal=((2, 7), (0, 0, 0)), id=((0, slice(2)), 3)
     )
     # Linear light 0.5 is shown as 187.5 of 255.
-    assert comparing.error_text(comparison, "color").startswith("max  67.5  RMS   9.740")
+    assert comparing.error_text(comparison, "color").startswith("max  67.5/255  RMS   9.740/255")
     assert comparing.error_text(comparison, "depth").startswith("max 50 %  RMS 7.22 %")
     assert comparing.error_text(comparison, "normal").startswith("max 1  RMS 0.144")
     assert comparing.error_text(comparison, "id") == "another object in 2 pixels"

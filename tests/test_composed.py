@@ -165,6 +165,10 @@ def test_many_marks_are_not_enlarged():
     labels = np.zeros((40, 50), np.uint8)
     labels[10:20] = SHADING
     assert (marks(labels) == labels).all()
+    labels[30, 30] = 1
+    large = marks(labels)
+    assert (large[10:20] == SHADING).all()
+    assert (large[29:32, 29:32] == 1).all()
 
 
 def test_nothing_is_left(gl, upload):

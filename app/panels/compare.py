@@ -263,7 +263,7 @@ def _errors(wish: Wish, comparison: Comparison | None, fonts: theme.Fonts) -> Wi
     channel, one_based = wish.state.images.channel, wish.state.options.one_based
     differ = comparison is not None and comparison.agree < comparison.pixels
     imgui.begin_disabled(not differ)
-    if imgui.button("next pixel"):
+    if imgui.button("next"):
         wish = Wish(wish.state, -1 if imgui.get_io().key_shift else 1)
     imgui.end_disabled()
     imgui.set_item_tooltip("Mark the next pixel that differs, and magnify there. Keys N, Shift+N")
@@ -289,6 +289,10 @@ def _values(state: AppState, told: Told, fonts: theme.Fonts) -> None:
     """What both images have at a pixel, one above the other; the lines are kept without one."""
     line = imgui.get_text_line_height_with_spacing()
     if told.comparison is None or told.pixel is None:
+        top = imgui.get_cursor_pos_y()
+        if told.comparison is not None:
+            imgui.text_disabled("Point at a pixel, or click it: its values in both images")
+        imgui.set_cursor_pos_y(top)
         imgui.dummy(ImVec2(1, 2 * line - imgui.get_style().item_spacing.y))
         return
     raster, ray, difference = comparing.pixel_values(
