@@ -35,6 +35,7 @@ from app.views.camera import CameraView
 from app.views.compare import CompareView
 from app.views.outside import OutsideView
 from app.views.pair import RASTER, Linked, RasterView, RayView
+from app.views.probe import ProbeView
 from renderer.errors import LucidaError
 from renderer.scene import Scene
 
@@ -43,7 +44,15 @@ def make_views() -> list[View]:
     """All views, in the order in which they are drawn: the camera's panel first, so that the
     images show what it changed in the same frame."""
     linked = Linked()
-    return [CameraView(), RasterView(linked), RayView(linked), CompareView(linked), OutsideView()]
+    outside = OutsideView()
+    return [
+        CameraView(),
+        RasterView(linked),
+        RayView(linked),
+        CompareView(linked),
+        outside,
+        ProbeView(outside),
+    ]
 
 
 class MainWindow:

@@ -2,16 +2,47 @@
 
 Owns how a compiled function becomes a plain one. For whoever asks about a single pixel: what is
 computed is the shading model and the intersections of renderer/trace, line by line, in float64.
+The tracer's modules, and with them its compiler, are loaded when a function is first used.
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable
 from functools import cache
+from importlib import import_module
 from types import FunctionType
 from typing import Any
 
-from renderer.trace import intersect, shade, vectors
+_HOME = {
+    "hit_sphere": "intersect",
+    "normals_at": "shade",
+    "albedo_at": "shade",
+    "color_at": "shade",
+    "object_of": "shade",
+    "point_on": "shade",
+    "plus": "vectors",
+    "minus": "vectors",
+    "times": "vectors",
+    "each_times": "vectors",
+    "dot": "vectors",
+    "length": "vectors",
+    "normalized": "vectors",
+}
+
+
+def __getattr__(name: str) -> Callable[..., Any]:
+    if name not in _HOME:
+        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+    module = import_module(f"renderer.trace.{_HOME[name]}")
+    function = _plain(getattr(module, name))
+    globals()[name] = function  # found without this from now on
+    return function
+
+
+def load() -> None:
+    """Loads everything now, in this thread: it takes a part of a second."""
+    for name in _HOME:
+        __getattr__(name)
 
 
 @cache
@@ -25,20 +56,3 @@ def _plain(compiled: Any) -> Callable[..., Any]:
     }
     names["__builtins__"] = source.__globals__["__builtins__"]
     return FunctionType(source.__code__, names, source.__name__, source.__defaults__)
-
-
-sheared_ray = _plain(intersect.sheared_ray)
-hit_triangle = _plain(intersect.hit_triangle)
-hit_sphere = _plain(intersect.hit_sphere)
-normals_at = _plain(shade.normals_at)
-albedo_at = _plain(shade.albedo_at)
-color_at = _plain(shade.color_at)
-object_of = _plain(shade.object_of)
-point_on = _plain(shade.point_on)
-plus = _plain(vectors.plus)
-minus = _plain(vectors.minus)
-times = _plain(vectors.times)
-each_times = _plain(vectors.each_times)
-dot = _plain(vectors.dot)
-length = _plain(vectors.length)
-normalized = _plain(vectors.normalized)

@@ -6,6 +6,7 @@ Owns which pixels and the arrays. Knows nothing of how rays are drawn.
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
@@ -13,7 +14,9 @@ from numpy.typing import NDArray
 from app.teach.probe import Probe, winner_of
 from renderer.camera import Camera, Floats, Size
 from renderer.errors import LucidaError
-from renderer.trace.tracer import Tracer
+
+if TYPE_CHECKING:  # it loads the compiler
+    from renderer.trace import Tracer
 
 MOST_RAYS = 4096  # of a bundle without a tracer
 

@@ -60,6 +60,7 @@ class Model:
     """A scene, prepared for the loops."""
 
     def __init__(self, scene: Scene, index: Index | None = None) -> None:
+        scalar.load()
         self.scene = scene
         self.index = Index(flatten(scene)) if index is None else index
         self.flat: FlatScene = self.index.flat

@@ -24,13 +24,13 @@ from app.teach.reading import (
     Reading,
 )
 from app.teach.shading import Hit, LitTest, Shading, hit_at, shade
+from renderer import scalar
 from renderer.camera import Camera, Size, Vector
 from renderer.errors import LucidaError
 from renderer.frame import check_size
 from renderer.images.display import encode_srgb
 from renderer.scene.flat import FlatScene, flatten
 from renderer.scene.model import Color, Scene, Sphere
-from renderer.trace.packet_effects import effects_of
 
 
 class Probe:
@@ -43,6 +43,7 @@ class Probe:
         self.scene = scene
         self.flat = flatten(scene) if flat is None else flat
         self.index = Index(self.flat)
+        scalar.load()
 
     def at(
         self,
@@ -143,6 +144,8 @@ class Probe:
 
     def _away(self, camera: Camera) -> float:
         """How far off a surface its rays start, world units."""
+        from renderer.trace.packet_effects import effects_of  # here: it loads the compiler
+
         effects = effects_of(True, 0, self.flat.bounds, camera.eye)
         assert effects is not None
         return float(effects.away)

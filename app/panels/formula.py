@@ -1,0 +1,166 @@
+"""Formulas, typeset and wrapped to the window's width; plain text where they cannot be.
+
+Owns the pictures of formulas and where a long one may be broken. Knows nothing of what they say.
+MicroTeX needs the locale en_US.UTF-8: without it the text stands in.
+"""
+
+from __future__ import annotations
+
+import functools
+from collections.abc import Callable, Iterable
+from dataclasses import dataclass
+from pathlib import Path
+
+import imgui_bundle
+from imgui_bundle import ImVec2, ImVec4, imgui, imgui_microtex
+
+from app import theme
+from app.panels.screen import framebuffer_scale
+
+ROW_GAP = 0.35  # between the rows of one formula, in parts of its type's size
+_BREAKS = (" = ", " + ", " - ")
+_OPENING, _CLOSING = "({", ")}"
+
+
+@dataclass(frozen=True)
+class Formula:
+    """As LaTeX, without dollar signs, and as text."""
+
+    latex: str
+    text: str
+
+
+@dataclass(frozen=True)
+class _Piece:
+    """Part of a row. baseline: below its upper edge."""
+
+    width: float
+    height: float
+    baseline: float
+    draw: Callable[[ImVec2], None]
+
+
+@functools.cache
+def available() -> bool:
+    """Whether formulas can be typeset here."""
+    folder = Path(imgui_bundle.__file__).parent / "assets" / "fonts" / "latex"
+    try:
+        imgui_microtex.init(
+            str(folder / "latinmodern-math.clm1"), str(folder / "latinmodern-math.otf")
+        )
+    except RuntimeError:
+        return False
+    return True
+
+
+def release() -> None:
+    """Gives the pictures back; call while there is a context."""
+    if available():
+        imgui_microtex.release()
+
+
+def formula(parts: Iterable[Formula], size_px: float, color: ImVec4 | None = None) -> None:
+    """Draws formulas one after another, as many in a row as have room. size_px: of the type.
+
+    color: of what has no colour of its own; None: the text's.
+    """
+    color = theme.TEXT if color is None else color
+    room = max(1.0, imgui.get_content_region_avail().x)
+    rows: list[list[_Piece]] = [[]]
+    gap = 0.22 * size_px
+    for part in parts:
+        pieces = [_piece(cut, size_px, color, room) for cut in _cuts(part)]
+        whole = sum(piece.width for piece in pieces) + gap * (len(pieces) - 1)
+        # A part that has room in a row of its own is not broken for the sake of the last one.
+        if rows[-1] and _width(rows[-1], gap) + gap + whole > room >= whole:
+            rows.append([])
+        for piece in pieces:
+            if rows[-1] and _width(rows[-1], gap) + gap + piece.width > room:
+                rows.append([])
+            rows[-1].append(piece)
+    _draw_rows(rows, gap, ROW_GAP * size_px)
+
+
+def breakable(formula_text: str) -> list[str]:
+    """Where a formula may be broken: before an equals sign, a plus or a minus that is in no
+    brackets. Joined by single spaces, the parts are the whole."""
+    parts, depth, start = [], 0, 0
+    for at, letter in enumerate(formula_text):
+        depth += (letter in _OPENING) - (letter in _CLOSING)
+        if depth == 0 and at > start and formula_text[at : at + 3] in _BREAKS:
+            parts.append(formula_text[start:at])
+            start = at + 1
+    return [*parts, formula_text[start:]]
+
+
+def tinted(latex: str) -> str:
+    """The formula in the colour language: u, v, w, the ray, the hit."""
+    colors = {name: color for name, color in theme.BASIS.items()}
+    colors |= dict.fromkeys("pdr", theme.RAY) | {"x": theme.MARK}
+    for name, color in colors.items():
+        symbol = rf"\mathbf{{{name}}}"
+        latex = latex.replace(symbol, rf"\fgcolor{{{_hex(theme.legible(color))}}}{{{symbol}}}")
+    return latex
+
+
+def _cuts(part: Formula) -> list[Formula]:
+    if available():
+        return [Formula(latex, "") for latex in breakable(part.latex)]
+    return [Formula("", text) for text in breakable(part.text)]
+
+
+def _piece(part: Formula, size_px: float, color: ImVec4, room: float) -> _Piece:
+    if not available():
+        return _text_piece(part.text, color)
+    scale = framebuffer_scale()
+    # An empty group before it makes a plus a sum's, with its spaces.
+    latex = "{}" + part.latex if part.latex[:2] in ("+ ", "- ") else part.latex
+    picture = imgui_microtex.render_to_texture(
+        tinted(latex), size_px * scale, color, imgui_microtex.TexStyle.display
+    )
+    # What is too wide for any row is drawn smaller.
+    shrunk = min(1.0, room * scale / max(1, picture.width)) / scale
+    width, height = picture.width * shrunk, picture.height * shrunk
+    number = picture.texture_id()
+
+    def draw(at: ImVec2) -> None:
+        corner = ImVec2(round(at.x * scale) / scale, round(at.y * scale) / scale)
+        imgui.get_window_draw_list().add_image(
+            imgui.ImTextureRef(number), corner, ImVec2(corner.x + width, corner.y + height)
+        )
+
+    return _Piece(width, height, picture.baseline_y * shrunk, draw)
+
+
+def _text_piece(text: str, color: ImVec4) -> _Piece:
+    size = imgui.calc_text_size(text)
+
+    def draw(at: ImVec2) -> None:
+        imgui.get_window_draw_list().add_text(at, theme.u32(color), text)
+
+    return _Piece(size.x, size.y, 0.8 * size.y, draw)
+
+
+def _width(row: list[_Piece], gap: float) -> float:
+    return sum(piece.width for piece in row) + gap * (len(row) - 1)
+
+
+def _draw_rows(rows: list[list[_Piece]], gap: float, row_gap: float) -> None:
+    corner = imgui.get_cursor_screen_pos()
+    y = corner.y
+    widest = 0.0
+    for row in rows:
+        if not row:
+            continue
+        above = max(piece.baseline for piece in row)
+        x = corner.x
+        for piece in row:
+            piece.draw(ImVec2(x, y + above - piece.baseline))
+            x += piece.width + gap
+        y += above + max(piece.height - piece.baseline for piece in row) + row_gap
+        widest = max(widest, x - gap - corner.x)
+    imgui.dummy(ImVec2(widest, max(0.0, y - row_gap - corner.y)))
+
+
+def _hex(color: ImVec4) -> str:
+    return "#" + "".join(f"{round(255 * part):02x}" for part in (color.x, color.y, color.z))

@@ -1,0 +1,335 @@
+"""The probe's panel: a pixel's formulas, the table of intersections, how its colour came about.
+
+Owns how a reading is laid out. Gets a state and a reading, returns a new state. What the numbers
+are is teach/probe.py's.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable
+from dataclasses import dataclass
+
+import numpy as np
+from imgui_bundle import ImVec2, ImVec4, imgui
+
+from app import theme
+from app.lettering import hall_px, lettering
+from app.options import Pixel
+from app.panels.formula import Formula, formula
+from app.state import AppState
+from app.teach.color_formulas import color_lines
+from app.teach.copying import as_latex, as_python, as_text
+from app.teach.formulas import hit_lines, ray_lines
+from app.teach.notation import Indexing, Line, number
+from app.teach.reading import SEEN, Crossing, Meeting, Reading
+from app.theme import Fonts
+from renderer.camera import Size
+from renderer.images.display import encode_srgb
+
+LETTERS = 74.0  # a line over the whole panel
+WIDE_EM, NAMES_EM = 44.0, 10.0  # from this width on, names stand in a column of their own
+MOST_ALSO = 3  # further intersections of an object that are listed
+COPIES: tuple[tuple[str, Callable[[Reading, Indexing], str]], ...] = (
+    ("Text", as_text),
+    ("LaTeX", as_latex),
+    ("Python", as_python),
+)
+RAYS = {"pixel": "this pixel", "row": "its row", "column": "its column"}
+# Lines whose value is a colour, which is shown beside them.
+_SWATCHED = ("ambient", "diffuse", "specular", "mirror", "sum", "reflectance", "background", "k_s")
+
+
+@dataclass(frozen=True)
+class Pin:
+    """A pixel that is kept, and the colour that it has now, 0..255; None while not known."""
+
+    pixel: Pixel
+    color: tuple[int, int, int] | None
+
+
+def indexing_of(state: AppState) -> Indexing:
+    return Indexing.LECTURE if state.options.one_based else Indexing.ARRAY
+
+
+def pixel_name(pixel: Pixel, indexing: Indexing) -> str:
+    return f"({pixel[0] + indexing.value}, {pixel[1] + indexing.value})"
+
+
+# The tools above.
+
+
+def toolbar(state: AppState, pixel: Pixel | None, size: Size, reading: Reading | None) -> AppState:
+    """Which pixel, counted how, the rays, the copies. pixel: the marked one, or under the mouse."""
+    indexing = indexing_of(state)
+    state = _pixel_fields(state, pixel, size, indexing)
+    _follow(imgui.calc_text_size("from 1").x + 1.6 * imgui.get_frame_height())
+    changed, one_based = imgui.checkbox("from 1", state.options.one_based)
+    imgui.set_item_tooltip("count rows and columns from 1, as in the lecture, or from 0, as arrays")
+    if changed:
+        state = state.with_options(one_based=one_based)
+    state = _rays_field(state)
+    pins = state.options.probe.pins
+    _follow(_button_width("Pin"))
+    imgui.begin_disabled(pixel is None or pixel in pins)
+    if imgui.button("Pin") and pixel is not None:
+        state = state.with_options(probe={"pins": (*pins, pixel)})
+    imgui.end_disabled()
+    imgui.set_item_tooltip("keep this pixel at hand, and its ray in the outside view")
+    _follow(_button_width("Copy ..."))
+    imgui.begin_disabled(reading is None)
+    if imgui.button("Copy ..."):
+        imgui.open_popup("copy")
+    imgui.end_disabled()
+    if imgui.begin_popup("copy"):
+        for name, written in COPIES:
+            if imgui.menu_item_simple(name) and reading is not None:
+                imgui.set_clipboard_text(written(reading, indexing))
+        imgui.end_popup()
+    return state
+
+
+def pin_row(state: AppState, pins: Iterable[Pin], pixel: Pixel | None) -> AppState:
+    """The kept pixels as buttons: a click goes there, a right click lets one go."""
+    indexing = indexing_of(state)
+    for count, pin in enumerate(pins):
+        name = pixel_name(pin.pixel, indexing)
+        side = imgui.get_frame_height()
+        if count:
+            _follow(_button_width(name) + side)
+        if pin.color is not None:
+            _swatch(tuple(part / 255 for part in pin.color), side)
+            imgui.same_line(0, 0)
+        if pin.pixel == pixel:
+            imgui.push_style_color(imgui.Col_.text, theme.legible(theme.MARK))
+        if imgui.button(f"{name}##pin{count}"):
+            state = state.with_options(marked=pin.pixel)
+        if pin.pixel == pixel:
+            imgui.pop_style_color()
+        if imgui.is_item_clicked(imgui.MouseButton_.right):
+            kept = tuple(one for one in state.options.probe.pins if one != pin.pixel)
+            state = state.with_options(probe={"pins": kept})
+        imgui.set_item_tooltip("click: go to this pixel; right-click: let it go")
+    return state
+
+
+def _pixel_fields(state: AppState, pixel: Pixel | None, size: Size, indexing: Indexing) -> AppState:
+    first = indexing.value
+    shown = (first, first) if pixel is None else (pixel[0] + first, pixel[1] + first)
+    width = imgui.calc_text_size("00000").x + 2 * imgui.get_style().frame_padding.x
+    chosen = list(shown)
+    edited = False
+    imgui.begin_disabled(pixel is None)
+    for k, name in enumerate(("row i", "column j")):
+        if k:
+            _follow(width + imgui.calc_text_size(name).x + theme.px(12))
+        imgui.align_text_to_frame_padding()
+        imgui.text(name)
+        imgui.same_line()
+        imgui.set_next_item_width(width)
+        changed, value = imgui.drag_int(
+            f"##{name}", shown[k], 0.2, first, size[1 - k] - 1 + first, "%d",
+            imgui.SliderFlags_.always_clamp,
+        )  # fmt: skip
+        imgui.set_item_tooltip(
+            "drag or double-click to type; the arrow keys walk, Shift: 10 pixels"
+        )
+        if changed:
+            chosen[k], edited = value, True
+    imgui.end_disabled()
+    if not edited:
+        return state
+    row, column = (
+        min(max(part - first, 0), most - 1)
+        for part, most in zip(chosen, (size[1], size[0]), strict=True)
+    )
+    return state.with_options(marked=(row, column))
+
+
+def _rays_field(state: AppState) -> AppState:
+    name = f"Rays: {RAYS[state.options.probe.rays]}"
+    widest = max(_button_width(f"Rays: {text}") for text in RAYS.values())
+    _follow(widest)
+    if imgui.button(f"{name}###rays", ImVec2(widest, 0)):
+        imgui.open_popup("rays")
+    imgui.set_item_tooltip("which viewing rays the outside view shows")
+    if imgui.begin_popup("rays"):
+        for key, text in RAYS.items():
+            if imgui.menu_item(f"of {text}", "", key == state.options.probe.rays)[0]:
+                state = state.with_options(probe={"rays": key})
+        imgui.end_popup()
+    return state
+
+
+# The reading.
+
+
+def reading_panel(reading: Reading, indexing: Indexing, fonts: Fonts) -> None:
+    """All of it, in a column whose type grows with its width."""
+    size_px = hall_px(imgui.get_content_region_avail().x, LETTERS)
+    with lettering(None, size_px):
+        if _section("Ray", fonts):
+            _lines(ray_lines(reading, indexing), size_px)
+        if _section("Objects along the ray", fonts):
+            _table(reading, fonts)
+        if reading.hit is not None and _section("Hit", fonts):
+            _lines(hit_lines(reading), size_px)
+        if _section("Colour", fonts):
+            _result(reading, fonts)
+            _lines(color_lines(reading), size_px, swatches=reading)
+
+
+def _section(name: str, fonts: Fonts) -> bool:
+    imgui.push_font(fonts.bold, 0.0)
+    opened = imgui.collapsing_header(name, imgui.TreeNodeFlags_.default_open)
+    imgui.pop_font()
+    return opened
+
+
+def _lines(lines: Iterable[Line], size_px: float, swatches: Reading | None = None) -> None:
+    """Names beside the formulas where there is room, else above."""
+    beside = imgui.get_content_region_avail().x > WIDE_EM * size_px
+    if not beside:
+        for line in lines:
+            _name(line, swatches)
+            imgui.indent(0.6 * size_px)
+            _formula(line, size_px)
+            imgui.unindent(0.6 * size_px)
+        return
+    flags = imgui.TableFlags_
+    if not imgui.begin_table("lines", 2, flags.no_saved_settings):
+        return
+    imgui.table_setup_column("", imgui.TableColumnFlags_.width_fixed, NAMES_EM * size_px)
+    imgui.table_setup_column("", imgui.TableColumnFlags_.width_stretch)
+    for line in lines:
+        imgui.table_next_row()
+        imgui.table_next_column()
+        imgui.push_text_wrap_pos(0.0)
+        _name(line, swatches)
+        imgui.pop_text_wrap_pos()
+        imgui.table_next_column()
+        _formula(line, size_px)
+    imgui.end_table()
+
+
+def _name(line: Line, swatches: Reading | None) -> None:
+    """What the line is; and the colour, where it gives one."""
+    imgui.text_colored(theme.DIM, line.name)
+    if swatches is not None and line.key.split(" ")[0] in _SWATCHED and len(line.value) == 3:
+        light = np.array(line.value) * 2.0**swatches.exposure_ev
+        side = 0.85 * imgui.get_text_line_height()
+        imgui.same_line()
+        _swatch(tuple(float(part) for part in encode_srgb(light)), side)
+
+
+def _formula(line: Line, size_px: float) -> None:
+    parts = [Formula(line.latex, line.text)]
+    if line.latex_numbers:
+        parts.append(Formula(line.latex_numbers, line.text_numbers))
+    formula(parts, size_px)
+    imgui.dummy(ImVec2(0, 0.2 * size_px))
+
+
+def _table(reading: Reading, fonts: Fonts) -> None:
+    met = [meeting for meeting in reading.meetings if meeting.nearest is not None]
+    flags = imgui.TableFlags_
+    if met and imgui.begin_table(
+        "objects", 4, flags.sizing_fixed_fit | flags.borders_inner_h | flags.no_host_extend_x
+    ):
+        for name in ("object", "t", "", "also at"):
+            imgui.table_setup_column(name)
+        imgui.table_headers_row()
+        for meeting in met:
+            _row(meeting, fonts)
+        imgui.end_table()
+    missed = [meeting.name for meeting in reading.meetings if meeting.nearest is None]
+    if missed:
+        count = "no object is" if not met else f"{len(missed)} other{'s' * (len(missed) > 1)}"
+        text = "The ray meets no object." if not met else f"{count} not met by the ray"
+        imgui.text_colored(theme.DIM, text)
+        imgui.set_item_tooltip("\n".join(missed[:40]) + ("\n..." if len(missed) > 40 else ""))
+    elif not reading.meetings:
+        imgui.text_colored(theme.DIM, "The scene has no objects.")
+
+
+def _row(meeting: Meeting, fonts: Fonts) -> None:
+    nearest = meeting.nearest
+    assert nearest is not None
+    wins = nearest.standing == SEEN
+    color = theme.legible(theme.MARK) if wins else theme.TEXT if meeting.is_on_ray else theme.DIM
+    imgui.table_next_row()
+    imgui.table_next_column()
+    imgui.push_font(fonts.bold if wins else None, 0.0)
+    imgui.text_colored(color, meeting.name)
+    imgui.pop_font()
+    imgui.table_next_column()
+    _parameter(nearest, color, meeting.is_on_ray, fonts)
+    imgui.table_next_column()
+    imgui.text_colored(color, "nearest" if wins else nearest.standing)
+    imgui.table_next_column()
+    others = [one for one in meeting.crossings if one is not nearest]
+    for count, crossing in enumerate(others[:MOST_ALSO]):
+        if count:
+            imgui.same_line()
+        on_ray = crossing.standing not in ("behind", "before near", "beyond far")
+        _parameter(crossing, theme.DIM, on_ray, fonts)
+    if len(others) > MOST_ALSO:
+        imgui.same_line()
+        imgui.text_colored(theme.DIM, f"and {len(others) - MOST_ALSO} more")
+
+
+def _parameter(crossing: Crossing, color: ImVec4, on_ray: bool, fonts: Fonts) -> None:
+    """A t, nine characters wide; struck out where it does not count."""
+    text = f"{number(crossing.t, fixed=True):>9}"
+    imgui.push_font(fonts.mono, 0.0)
+    imgui.text_colored(color, text)
+    blank = imgui.calc_text_size(text[: len(text) - len(text.lstrip())]).x
+    imgui.pop_font()
+    if not on_ray:
+        low, high = imgui.get_item_rect_min(), imgui.get_item_rect_max()
+        y = 0.5 * (low.y + high.y) + theme.px(1)
+        imgui.get_window_draw_list().add_line(
+            ImVec2(low.x + blank - theme.px(2), y), ImVec2(high.x + theme.px(2), y),
+            theme.u32(theme.ERROR), theme.line_px(1.6),
+        )  # fmt: skip
+
+
+def _result(reading: Reading, fonts: Fonts) -> None:
+    """The colour as it is shown, and its bytes."""
+    side = 1.4 * imgui.get_text_line_height()
+    _swatch(reading.display, side)
+    imgui.same_line()
+    imgui.push_font(fonts.mono, 0.0)
+    imgui.align_text_to_frame_padding()
+    imgui.text("{:3d} {:3d} {:3d}".format(*reading.bytes))
+    imgui.pop_font()
+    imgui.same_line()
+    seen = reading.winner.name if reading.winner is not None else "background"
+    imgui.text_colored(theme.DIM, f"{seen}, as sRGB bytes" * (reading.transfer == "srgb") or seen)
+
+
+# Parts.
+
+
+def _swatch(color: Iterable[float], side: float) -> None:
+    """A square of a colour, 0..1."""
+    red, green, blue = color
+    at = imgui.get_cursor_screen_pos()
+    far = ImVec2(at.x + side, at.y + side)
+    draw = imgui.get_window_draw_list()
+    draw.add_rect_filled(at, far, theme.u32(ImVec4(red, green, blue, 1.0)))
+    draw.add_rect(at, far, theme.u32(theme.PLAIN))
+    imgui.dummy(ImVec2(side, side))
+
+
+def _follow(width: float) -> None:
+    """The next item in this row, where it has room; else in the next one."""
+    spacing = imgui.get_style().item_spacing.x
+    end = imgui.get_item_rect_max().x + spacing + width
+    edge = imgui.get_cursor_screen_pos().x + imgui.get_content_region_avail().x
+    if end <= edge:
+        imgui.same_line()
+
+
+def _button_width(text: str) -> float:
+    shown = text.partition("##")[0]
+    return imgui.calc_text_size(shown).x + 2 * imgui.get_style().frame_padding.x
