@@ -1,0 +1,29 @@
+"""Text of any size in any of the window's fonts.
+
+Owns the way from a size on the screen to ImGui's own, which scales it. Knows nothing of what is
+written.
+"""
+
+from __future__ import annotations
+
+import contextlib
+from collections.abc import Iterator
+
+from imgui_bundle import imgui
+
+
+@contextlib.contextmanager
+def lettering(font: imgui.ImFont | None, size_px: float) -> Iterator[None]:
+    """Text inside is of this font and size, in ImGui's pixels; None: the present font."""
+    style = imgui.get_style()
+    imgui.push_font(font, size_px / (style.font_scale_main * style.font_scale_dpi))
+    try:
+        yield
+    finally:
+        imgui.pop_font()
+
+
+def hall_px(width_px: float, letters: float) -> float:
+    """A size at which a column has about so many letters a line; never below the window's own,
+    so that what is wide can be read from afar."""
+    return max(imgui.get_font_size(), min(2.2 * width_px / letters, 3 * imgui.get_font_size()))

@@ -1,0 +1,308 @@
+"""The image laboratory: the current image in the representations that the lecture names.
+
+Owns the way from the state to the pages' pictures: the image is drawn by the rasterizer at the
+pages' own size, a thread makes what they show of it (teach/imagelab/), here it is put on the
+screen. The table of sizes and the array's cells are laboratory_tables.py's.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+import moderngl
+import numpy as np
+from imgui_bundle import ImVec2, imgui
+
+from app import theme
+from app.background import Background
+from app.files import describe
+from app.lettering import hall_px, lettering
+from app.options import LaboratoryOptions, Pixel
+from app.panels.screen import available_px, framebuffer_scale
+from app.pictures import Wanted
+from app.state import AppState
+from app.teach.imagelab import disk
+from app.teach.imagelab.pages import Image, Panel, Plan, panels, plan
+from app.views.base import Host, View
+from app.views.laboratory_tables import array_cells, luminance_weights, sizes_table
+from app.views.laboratory_tools import toolbar
+from app.views.uploads import Uploads
+from renderer.errors import LucidaError
+
+LABORATORY = "Laboratory"
+SMALLEST_PX = 60
+LETTERS = 105.0  # a line over the whole view
+GAP_EM = 0.6
+
+
+@dataclass(frozen=True, eq=False)
+class _Source:
+    """The linear image that the pages are made of, and what it was drawn from."""
+
+    wanted: Wanted
+    color: Image
+
+
+@dataclass(frozen=True, eq=False)
+class _Made:
+    """What the thread has made, and of what."""
+
+    key: tuple[Any, ...]
+    plan: Plan
+    panels: tuple[Panel, ...]
+
+
+class LaboratoryView(View):
+    name = LABORATORY
+    title = "Image laboratory"
+
+    def __init__(self) -> None:
+        self._uploads: Uploads | None = None
+        self._work: Background[_Made] | None = None
+        self._sizing: Background[tuple[tuple[Any, ...], tuple[disk.Entry, ...]]] | None = None
+        self._source: _Source | None = None
+        self._asked: tuple[Any, ...] = ()
+        self._made: _Made | None = None
+        self._sizes_asked: tuple[Any, ...] = ()
+        self._sizes: tuple[disk.Entry, ...] = ()
+        self._error = ""
+        self._seen = False
+        self._others = (0, 0)  # the size of the other views' images
+
+    @property
+    def settled(self) -> bool:
+        if not self._seen or self._error:
+            return True
+        busy = any(work is not None and work.busy for work in (self._work, self._sizing))
+        return not busy and self._made is not None and self._made.key == self._asked
+
+    @property
+    def made(self) -> tuple[Panel, ...]:
+        """What is shown."""
+        return self._made.panels if self._made is not None else ()
+
+    @property
+    def sizes(self) -> tuple[disk.Entry, ...]:
+        """The files' sizes, as far as they are known."""
+        return self._sizes
+
+    def begin(self, host: Host, context: moderngl.Context) -> None:
+        self._uploads = Uploads(context)
+        self._work = Background("lucida-laboratory", host.animate)
+        self._sizing = Background("lucida-sizes", host.animate)
+
+    def end(self) -> None:
+        for work in (self._work, self._sizing):
+            if work is not None:
+                work.close()
+        if self._uploads is not None:
+            self._uploads.release()
+
+    def unseen(self, host: Host) -> None:
+        self._seen = False
+        self._source = None  # a large array; drawn anew when it is seen
+
+    def draw(self, host: Host) -> None:
+        assert self._uploads is not None
+        self._seen = True
+        self._uploads.begin_frame()
+        if min(available_px()) < SMALLEST_PX:
+            return
+        with lettering(None, hall_px(imgui.get_content_region_avail().x, LETTERS)):
+            self._others = host.renderers.size
+            options = toolbar(host)
+            self._page(host, options)
+
+    # The page.
+
+    def _page(self, host: Host, options: LaboratoryOptions) -> None:
+        state, scale, em = host.state, framebuffer_scale(), imgui.get_font_size()
+        corner, avail = imgui.get_cursor_screen_pos(), imgui.get_content_region_avail()
+        below = self._below_px(options.page)
+        room = max(1, int(avail.x * scale)), max(1, int((avail.y - below) * scale))
+        heading = round(2.5 * em * scale)
+        divided = plan(
+            options.page, room, heading, round(GAP_EM * em * scale), state.images.resolution
+        )
+        self._follow(host, divided, options)
+        if self._error:
+            imgui.push_text_wrap_pos(0.0)
+            imgui.text_colored(theme.ERROR, self._error)
+            imgui.pop_text_wrap_pos()
+            return
+        if self._made is None or self._source is None:
+            return
+        made = self._made.plan
+
+        def place(number: int) -> ImVec2:
+            row, column = divmod(number, made.columns)
+            return ImVec2(
+                corner.x + column * (made.cell[0] / scale + GAP_EM * em),
+                corner.y + row * (made.cell[1] / scale + 2.5 * em + GAP_EM * em),
+            )
+
+        for number, panel in enumerate(self._made.panels):
+            self._panel(host, number, panel, place(number), made)
+        if options.page == "array":
+            at = place(len(self._made.panels))
+            extent = ImVec2(made.cell[0] / scale, made.cell[1] / scale + 2.5 * em)
+            chosen = array_cells(
+                self._source.color, self._pixel(state, made), at, extent, state, host.fonts
+            )
+            if chosen is not None:
+                self._choose(host, chosen, made)
+        if options.page == "kinds":
+            luminance_weights(place(len(self._made.panels)), made.cell[0] / scale, host.fonts)
+            imgui.set_cursor_screen_pos(ImVec2(corner.x, corner.y + avail.y - below + 0.4 * em))
+            picked = sizes_table(made.image, self._sizes, host.fonts)
+            if picked is not None:
+                self._export(host, picked)
+
+    def _panel(self, host: Host, number: int, panel: Panel, at: ImVec2, made: Plan) -> None:
+        assert self._uploads is not None
+        scale, em = framebuffer_scale(), imgui.get_font_size()
+        draw = imgui.get_window_draw_list()
+        with lettering(host.fonts.bold, em):
+            draw.add_text(at, theme.u32(theme.TEXT), panel.title)
+        draw.add_text(ImVec2(at.x, at.y + 1.15 * em), theme.u32(theme.DIM), panel.caption)
+        texture = self._uploads.get(f"panel {number}")
+        if texture is None:
+            return
+        origin = ImVec2(np.floor(at.x * scale) / scale, np.floor((at.y + 2.5 * em) * scale) / scale)
+        extent = ImVec2(texture.size[0] / scale, texture.size[1] / scale)
+        far = ImVec2(origin.x + extent.x, origin.y + extent.y)
+        imgui.set_cursor_screen_pos(origin)
+        imgui.invisible_button(f"panel {number}", extent)
+        draw.add_image(imgui.ImTextureRef(texture.glo), origin, far)
+        if not panel.magnification:
+            return
+        unit = panel.magnification / scale
+        if imgui.is_item_active() and _is_about_a_pixel(host.state.options.laboratory.page):
+            mouse = imgui.get_io().mouse_pos
+            row = panel.first[0] + int((mouse.y - origin.y) / unit)
+            column = panel.first[1] + int((mouse.x - origin.x) / unit)
+            inside = (
+                min(max(row, 0), made.image[1] - 1),
+                min(max(column, 0), made.image[0] - 1),
+            )
+            self._choose(host, inside, made)
+        if panel.region is not None:
+            first, left, rows, columns = panel.region
+            low = ImVec2(
+                origin.x + (left - panel.first[1]) * unit,
+                origin.y + (first - panel.first[0]) * unit,
+            )
+            high = ImVec2(low.x + columns * unit, low.y + rows * unit)
+            draw.add_rect(low, high, theme.u32(theme.rgb("#000000", 0.8)), 0.0, 4.0)
+            draw.add_rect(low, high, theme.u32(theme.MARK), 0.0, 2.0)
+
+    # From the state to the pictures.
+
+    def _follow(self, host: Host, divided: Plan, options: LaboratoryOptions) -> None:
+        assert self._uploads is not None
+        assert self._work is not None
+        state = host.state
+        wanted = Wanted(state.scene, state.view.for_size(divided.image), divided.image)
+        try:
+            if self._source is None or self._source.wanted != wanted:
+                self._source = _Source(wanted, _drawn(host, wanted))
+            outcome = self._work.poll()
+            if outcome is not None and outcome.error is not None:
+                raise outcome.error
+            if outcome is not None and outcome.value is not None:
+                self._made = outcome.value
+                for number, panel in enumerate(self._made.panels):
+                    self._uploads.put(f"panel {number}", panel.picture)
+            self._error = ""
+        except (LucidaError, moderngl.Error) as error:
+            self._error = describe(error)
+            return
+        color, taken_ev = self._source.color, state.images.exposure_ev
+        pixel = self._pixel(state, divided)
+        # The other pages' options are none of this one's.
+        key = (id(color), divided, options, taken_ev, pixel)
+        if key != self._asked:
+            self._asked = key
+            page = options.page
+            self._work.submit(
+                lambda: _Made(key, divided, panels(page, color, divided, options, taken_ev, pixel))
+            )
+        if options.page == "kinds":
+            self._follow_sizes(color, options.method, taken_ev)
+
+    def _follow_sizes(self, color: Image, method: str, taken_ev: float) -> None:
+        """The files' sizes, encoded in a thread of their own; a newer image ends the old one's."""
+        assert self._sizing is not None
+        outcome = self._sizing.poll()
+        if (
+            outcome is not None
+            and outcome.value is not None
+            and outcome.value[0] == self._sizes_asked
+        ):
+            self._sizes = outcome.value[1]
+        key = (id(color), method, taken_ev)
+        if key != self._sizes_asked:
+            self._sizes_asked = key
+            self._sizing.submit(
+                lambda: (
+                    key,
+                    disk.sizes(color, taken_ev, method, lambda: self._sizes_asked != key),
+                )
+            )
+
+    def _pixel(self, state: AppState, divided: Plan) -> Pixel:
+        """The marked pixel in this image, which may have another size than the other views'."""
+        width, height = divided.image
+        if state.marked is None:
+            return height // 2, width // 2
+        row, column = state.marked
+        if state.images.resolution is None and min(self._others):
+            row = int((row + 0.5) / self._others[1] * height)
+            column = int((column + 0.5) / self._others[0] * width)
+        return min(row, height - 1), min(column, width - 1)
+
+    def _choose(self, host: Host, pixel: Pixel, divided: Plan) -> None:
+        """Marks a pixel of this image in all views."""
+        row, column = pixel
+        if host.state.images.resolution is None and min(self._others):
+            row = int((row + 0.5) / divided.image[1] * self._others[1])
+            column = int((column + 0.5) / divided.image[0] * self._others[0])
+        host.apply(host.state.with_options(marked=(row, column)))
+
+    # Beside the pictures.
+
+    def _below_px(self, page: str) -> float:
+        return 7.6 * imgui.get_text_line_height_with_spacing() if page == "kinds" else 0.0
+
+    def _export(self, host: Host, format: disk.Format) -> None:
+        """Asks where, and writes the image that is shown there, as it is stored."""
+        assert self._source is not None
+        color, options = self._source.color, host.state.options.laboratory
+        taken_ev = host.state.images.exposure_ev
+
+        def store(path: str) -> str:
+            count = disk.export(path, color, format.kind, taken_ev, options.method)
+            return f"Saved {path}, {count} bytes."
+
+        host.files.save_as_dialog(
+            f"Save the image as {format.kind.title.lower()}",
+            f"{format.kind.name}{format.ending}",
+            (f"{format.name} files", format.ending),
+            store,
+        )
+
+
+def _is_about_a_pixel(page: str) -> bool:
+    """Whether a page is about one pixel, which a click chooses."""
+    return page in ("subpixels", "array")
+
+
+def _drawn(host: Host, wanted: Wanted) -> Image:
+    """The rasterizer's image in linear light: float32 (H, W, 3)."""
+    pictures = host.renderers.pictures
+    assert pictures is not None
+    texture = pictures.beside(wanted, LABORATORY).color
+    width, height = wanted.size
+    values = np.frombuffer(texture.read(), np.float32).reshape(height, width, 4)
+    return np.ascontiguousarray(values[..., :3])

@@ -1,0 +1,79 @@
+"""The laboratory's switches: which page, and what can be changed on it.
+
+Knows nothing of pictures.
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+from imgui_bundle import imgui
+
+from app.options import LaboratoryOptions
+from app.teach.imagelab.bitmaps import TITLES
+from app.teach.imagelab.pages import LARGEST_APART, PAGE_TITLES
+from app.views.base import Host
+
+LARGEST_AFTER_EV = 6.0
+SIDES_PX = (6, 120)
+FIRST = ["rows and columns from 1 (lecture)", "from 0 (array)"]
+
+
+def toolbar(host: Host) -> LaboratoryOptions:
+    """Draws the switches and gives the options as they are now."""
+    options = host.state.options.laboratory
+    changed = _pages(options)
+    imgui.push_item_width(14 * imgui.get_font_size())
+    match changed.page:
+        case "kinds":
+            changed = _bitmap(_exposure(changed))
+        case "exposure":
+            changed = _exposure(changed)
+        case "projectors":
+            moved, apart = imgui.slider_float(
+                "apart##apart", options.apart, 0.0, LARGEST_APART, "%.2f"
+            )
+            changed = replace(changed, apart=apart) if moved else changed
+        case "subpixels":
+            moved, side_px = imgui.slider_int(
+                "a pixel on the screen##side", options.side_px, *SIDES_PX
+            )
+            changed = replace(changed, side_px=side_px) if moved else changed
+        case "array":
+            imgui.set_next_item_width(18 * imgui.get_font_size())
+            number = 0 if host.state.options.one_based else 1
+            moved, number = imgui.combo("##base", number, FIRST)
+            if moved:
+                host.apply(host.state.with_options(one_based=number == 0))
+    imgui.pop_item_width()
+    imgui.spacing()
+    if changed != options:
+        host.apply(host.state.with_options(laboratory=changed))
+    return changed
+
+
+def _pages(options: LaboratoryOptions) -> LaboratoryOptions:
+    page: str = options.page
+    for name, title in PAGE_TITLES.items():
+        if imgui.radio_button(f"{title}##page", name == page):
+            page = name
+        imgui.same_line(0, imgui.get_font_size())
+    imgui.new_line()
+    return replace(options, page=page)  # type: ignore[arg-type]
+
+
+def _exposure(options: LaboratoryOptions) -> LaboratoryOptions:
+    limit = LARGEST_AFTER_EV
+    moved, value = imgui.slider_float(
+        "exposure after storage##after", options.after_ev, -limit, limit, "%+.1f EV"
+    )
+    return replace(options, after_ev=value) if moved else options
+
+
+def _bitmap(options: LaboratoryOptions) -> LaboratoryOptions:
+    imgui.same_line(0, imgui.get_font_size())
+    methods = list(TITLES)
+    moved, number = imgui.combo(
+        "bitmap##method", methods.index(options.method), list(TITLES.values())
+    )
+    return replace(options, method=methods[number]) if moved else options  # type: ignore[arg-type]

@@ -1,0 +1,59 @@
+"""Pictures that were made as arrays, as textures that ImGui can show.
+
+Owns the textures. Knows nothing of what is in them.
+"""
+
+from __future__ import annotations
+
+import moderngl
+import numpy as np
+from numpy.typing import NDArray
+
+from renderer.raster.resources import check
+
+KEPT_FRAMES = 3  # the window may still show a texture in the frame in which it was replaced
+
+
+class Uploads:
+    """Textures by name, in a context, which must be current in every call."""
+
+    def __init__(self, context: moderngl.Context) -> None:
+        self._gl = context
+        self._textures: dict[str, moderngl.Texture] = {}
+        self._retired: list[tuple[int, moderngl.Texture]] = []
+        self._frame = 0
+
+    def put(self, name: str, picture: NDArray[np.uint8]) -> None:
+        """A picture (H, W, 3), sRGB, row 0 at the top, in place of the last of that name. Raises
+        LucidaError where there is no memory for it."""
+        self.drop(name)
+        height, width = picture.shape[:2]
+        _ = self._gl.error  # what somebody else has left is not this texture's
+        texture = self._gl.texture(
+            (width, height), 3, np.ascontiguousarray(picture).tobytes(), alignment=1
+        )
+        check(self._gl, f"a texture of {width}x{height}")
+        texture.filter = moderngl.NEAREST, moderngl.NEAREST
+        texture.repeat_x = texture.repeat_y = False
+        self._textures[name] = texture
+
+    def get(self, name: str) -> moderngl.Texture | None:
+        return self._textures.get(name)
+
+    def drop(self, name: str) -> None:
+        texture = self._textures.pop(name, None)
+        if texture is not None:
+            self._retired.append((self._frame, texture))
+
+    def begin_frame(self) -> None:
+        """Once a frame: gives back what no frame shows any more."""
+        self._frame += 1
+        while self._retired and self._frame - self._retired[0][0] > KEPT_FRAMES:
+            self._retired.pop(0)[1].release()
+
+    def release(self) -> None:
+        for name in list(self._textures):
+            self.drop(name)
+        for _, texture in self._retired:
+            texture.release()
+        self._retired.clear()
