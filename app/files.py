@@ -167,6 +167,11 @@ class Files:
         said, self._said = self._said, []
         return said
 
+    def say(self, text: str) -> None:
+        """Something else was done, which poll_said() tells."""
+        self._said.append(text)
+        self._wake()
+
     def close(self) -> None:
         self._loading.close()
         self._saving.close(5.0)
