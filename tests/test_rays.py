@@ -39,7 +39,16 @@ def stretched() -> Scene:
     return Scene(tuple(objects))
 
 
-@pytest.mark.parametrize("make", [crowd, stretched])
+def alone() -> Scene:
+    """One object where its mesh is, for which there is neither an upper tree nor a transform."""
+    return Scene((SceneObject(ball(40, 60)),))
+
+
+def alone_and_moved() -> Scene:
+    return Scene(stretched().objects[2:3])
+
+
+@pytest.mark.parametrize("make", [crowd, stretched, alone, alone_and_moved])
 def test_the_closest_hit_is_the_references(make, team) -> None:
     scene = make()
     flat = flatten(scene)
@@ -58,7 +67,7 @@ def test_the_closest_hit_is_the_references(make, team) -> None:
         # What differs is grazed, or met within rounding of a limit or of an edge.
         assert np.count_nonzero(~same) < 12
         hit = same & (primitive >= 0)
-        assert np.count_nonzero(hit) > 500
+        assert np.count_nonzero(hit) > 100
         error = np.abs(t[hit] / exact_t[hit] - 1)
         assert np.quantile(error, 0.98) < T_RELATIVE
         assert np.quantile(error, 0.999) < T_GRAZING
