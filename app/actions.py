@@ -7,19 +7,18 @@ names and keys. Knows nothing of how menus are drawn.
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import replace
 
 from imgui_bundle import imgui
 
 from app import comparing
 from app.action import CTRL, SHIFT, Action, Key, Window, changing
+from app.camera_actions import CAMERA, EDIT
+from app.camera_actions import MOUSE as CAMERA_MOUSE
 from app.image_actions import IMAGE
 from app.image_actions import MOUSE as IMAGE_MOUSE
-from app.navigation import switched_projection
 from app.options import CompareMode
 from app.shell_actions import BOOKMARKS, FILE, HELP, LOOK
 from app.state import AppState
-from renderer.camera import Camera
 from renderer.compare import Comparison
 
 FLIP_KEY = Key.x  # held, it shows the other image; read by the compare view
@@ -28,15 +27,6 @@ MENUS = ("File", "Edit", "Camera", "Image", "View", "Help")
 
 
 _change = changing
-
-
-def _canonical(state: AppState) -> AppState:
-    return state.with_view(replace(state.view, camera=Camera.canonical()))
-
-
-def _switch_projection(window: Window) -> None:
-    camera = switched_projection(window.state.camera, window.focus.center)
-    window.change(window.state.with_camera(camera))
 
 
 def _differing(change: Callable[[AppState, Comparison], AppState]) -> Callable[[Window], None]:
@@ -151,37 +141,8 @@ ACTIONS = (
         (CTRL | SHIFT | int(Key.z), CTRL | int(Key.y)),
         can=lambda w: w.can_redo(),
     ),
-    Action(
-        "Camera",
-        "Parallel projection",
-        _switch_projection,
-        "P",
-        (int(Key.p),),
-        is_on=lambda state: state.camera.is_parallel,
-    ),
-    Action(
-        "Camera",
-        "Keep orthonormal",
-        _change(lambda state: state.with_keep_orthonormal(not state.keep_orthonormal)),
-        "O",
-        (int(Key.o),),
-        is_on=lambda state: state.keep_orthonormal,
-    ),
-    Action(
-        "Camera",
-        "Fit to the image's aspect ratio",
-        _change(lambda state: state.with_fit(not state.view.fit)),
-        is_on=lambda state: state.view.fit,
-    ),
-    Action(
-        "Camera",
-        "Scene's view",
-        _change(lambda state: state.with_view(state.scene.view)),
-        "Home",
-        (int(Key.home),),
-        separated=True,
-    ),
-    Action("Camera", "Canonical camera", _change(_canonical)),
+    *EDIT,
+    *CAMERA,
     *BOOKMARKS,
     *LOOK,
     *IMAGE,
@@ -207,6 +168,7 @@ MOUSE = (
     ("Shift+drag, right or middle drag", "move the camera; the point follows the pointer"),
     ("wheel", "closer and farther (parallel: a smaller or larger viewport)"),
     *IMAGE_MOUSE,
+    *CAMERA_MOUSE,
     ("drag a number", "change it; Shift: faster, Alt: slower"),
     ("double-click a number", "type it"),
 )

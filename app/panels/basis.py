@@ -12,6 +12,7 @@ from imgui_bundle import ImVec2, ImVec4, imgui
 
 from app import theme
 from app.basis import Measures
+from app.panels import rows
 
 USUAL = 1e-6  # the largest deviation of a length, a determinant, or an angle in radians
 SINGULAR = 1e-9
@@ -23,21 +24,18 @@ The volume that u, v and w span. 0: they are no basis. Negative: left-handed, th
 positive: right-handed. Orthonormal: 1 or -1."""
 
 
-def basis_readout(
-    found: Measures, label_px: float, field_px: float, mono: imgui.ImFont | None
-) -> None:
+def basis_readout(found: Measures, mono: imgui.ImFont | None) -> None:
     """Three lines into the current window, in the columns of the fields above."""
-    left = imgui.get_style().window_padding.x
-    step = field_px + imgui.get_style().item_inner_spacing.x
+    thirds = rows.Thirds()
 
     def row(name: str, tooltip: str) -> None:
         imgui.text_colored(theme.DIM, name)
         imgui.set_item_tooltip(tooltip)
 
     def cell(column: int, text: str, usual: bool, tooltip: str, wrong: bool = False) -> None:
-        imgui.same_line(left + label_px + column * step)
+        thirds.go(column)
         imgui.push_font(mono, 0.0)
-        _value(text, usual, wrong, field_px)
+        _value(text, usual, wrong, thirds.field_px)
         imgui.pop_font()
         imgui.set_item_tooltip(tooltip)
 

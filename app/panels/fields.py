@@ -84,10 +84,11 @@ def number_field(
     tooltip: str = "",
     marked: bool = False,
     reset: float | None = None,
+    unit: str = "",
 ) -> tuple[bool, float]:
     """One field: (whether it changed, its value). label: the id, not shown. marked: an error's.
 
-    reset: what its menu resets it to; None: without that entry.
+    reset: what its menu resets it to; None: without that entry. unit: shown after the number.
     """
     imgui.set_next_item_width(width_px)
     imgui.push_font(mono, 0.0)
@@ -95,7 +96,7 @@ def number_field(
         imgui.push_style_var(imgui.StyleVar_.frame_border_size, 0.1 * imgui.get_font_size())
         imgui.push_style_color(imgui.Col_.border, theme.ERROR)
     changed, new = imgui.drag_float(
-        f"##{label}", value, scale.speed(value), *scale.limits, number_format(value, scale)
+        f"##{label}", value, scale.speed(value), *scale.limits, number_format(value, scale) + unit
     )
     if marked:
         imgui.pop_style_color()

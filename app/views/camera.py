@@ -1,13 +1,23 @@
 """The camera's panel as a view.
 
-Owns the draft of numbers that are no camera yet. The panel itself is panels/camera.py.
+Owns the draft of numbers that are no camera yet, and what the panel's sections ask for: a passage
+to a preset, copying, pasting. The panel itself is panels/camera.py.
 """
 
 from __future__ import annotations
 
+from dataclasses import replace
+
+from imgui_bundle import imgui
+
+from app import camera_actions
 from app.editing import Draft
-from app.panels.camera import Surroundings, camera_panel
+from app.panels.camera import Panel, camera_panel
+from app.panels.camera_sections import Asked, Sections
+from app.panels.lens import Surroundings
+from app.state import AppState
 from app.views.base import Host, View
+from renderer.camera import Vector
 
 CAMERA = "Camera"
 
@@ -18,9 +28,43 @@ class CameraView(View):
 
     def __init__(self) -> None:
         self._draft: Draft | None = None
+        self._sections = Sections()
+        self._dolly: Vector | None = None
 
     def draw(self, host: Host) -> None:
-        around = Surroundings(host.fonts, host.renderers.camera(host.state), host.focus)
-        draft = self._draft or Draft.of(host.state.camera)
-        state, self._draft = camera_panel(host.state, draft, around)
+        state = host.state
+        if self._dolly is None or not imgui.is_any_item_active():  # while it is dragged, it stays
+            self._dolly = _focus_point(host, state)
+        shown = host.renderers.camera(state)
+        around = Surroundings(host.fonts, shown, host.focus, self._dolly)
+        panel = Panel(self._draft or Draft.of(state.camera), self._sections)
+        state, panel = camera_panel(state, panel, around)
+        self._draft, self._sections = panel.draft, panel.sections
         host.apply(state)
+        if panel.target is not None:
+            host.travel(panel.target)
+        self._do(host, panel.asked)
+
+    def _do(self, host: Host, asked: Asked) -> None:
+        if asked.preset is not None:
+            perspective = host.state.options.presets_in_perspective
+            camera_actions.go_to_preset(host, asked.preset, perspective)
+        elif asked.view is not None:
+            host.travel(camera_actions.with_its_basis(host.state.with_view(asked.view)))
+        elif asked.copy is not None:
+            camera_actions.copy(host, asked.copy)
+            self._sections = replace(self._sections, said=f"{asked.copy} copied")
+        elif asked.paste:
+            pasted = camera_actions.paste(host)
+            self._sections = replace(self._sections, said="pasted" if pasted else "")
+
+
+def _focus_point(host: Host, state: AppState) -> Vector:
+    """What the dolly zoom keeps: the point that the marked pixel shows, or the scene's middle."""
+    if state.marked is not None:
+        parameter = host.renderers.depth_at(state, state.marked)
+        if parameter is not None:
+            ray = host.renderers.camera(state).ray(*state.marked, host.renderers.size)
+            x, y, z = (ray.origin + parameter * ray.direction).tolist()
+            return x, y, z
+    return host.focus.center

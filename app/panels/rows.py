@@ -1,0 +1,99 @@
+"""How a panel of numbers is laid out: labels, columns, lines; all in parts of the type's size.
+
+Owns the places. Knows nothing of what the numbers mean.
+"""
+
+from __future__ import annotations
+
+from imgui_bundle import ImVec4, imgui
+
+from app import theme
+
+LABEL_EM, WIDE_LABEL_EM = 4.4, 5.6  # beside three fields, beside one
+HALF_LABEL_EM = 4.0  # in a line of two fields
+
+
+class Thirds:
+    """Lines of a label and three fields. Make one at the beginning of the first of them.
+
+    field_px: the width of one field.
+    """
+
+    def __init__(self) -> None:
+        label = LABEL_EM * imgui.get_font_size()
+        self._spacing = imgui.get_style().item_inner_spacing.x
+        self._left = imgui.get_style().window_padding.x + label
+        self.field_px = (imgui.get_content_region_avail().x - label - 2 * self._spacing) / 3
+
+    def go(self, column: int) -> None:
+        """Goes to one of the fields, 0 to 2, in the line of the label."""
+        imgui.same_line(self._left + column * (self.field_px + self._spacing))
+
+
+def label(text: str, role: str, color: ImVec4, fonts: theme.Fonts, tooltip: str) -> None:
+    """A name in bold, and in plain type what it stands for."""
+    imgui.begin_group()
+    imgui.align_text_to_frame_padding()
+    imgui.push_font(fonts.bold, 0.0)
+    imgui.text_colored(color, text)
+    imgui.pop_font()
+    if role:
+        imgui.same_line(0, 0.4 * imgui.get_font_size())
+        imgui.align_text_to_frame_padding()
+        imgui.text_colored(theme.DIM, role)
+    imgui.end_group()
+    imgui.set_item_tooltip(tooltip)
+
+
+def row(text: str, role: str, tooltip: str, fonts: theme.Fonts, derived: bool = False) -> float:
+    """The label of a line with one field; gives the field's width. derived: not one of the
+    camera's own numbers."""
+    if derived:
+        imgui.align_text_to_frame_padding()
+        imgui.text_colored(theme.DIM, text)
+        imgui.set_item_tooltip(tooltip)
+    else:
+        label(text, role, theme.TEXT, fonts, tooltip)
+    imgui.same_line(imgui.get_style().window_padding.x + WIDE_LABEL_EM * imgui.get_font_size())
+    return imgui.get_content_region_avail().x
+
+
+def instead(text: str) -> None:
+    """In the place of a field: why there is none."""
+    imgui.align_text_to_frame_padding()
+    imgui.text_colored(theme.DIM, text)
+
+
+class Halves:
+    """Lines of two fields. Make one at the beginning of the first of them."""
+
+    def __init__(self) -> None:
+        self._left = imgui.get_style().window_padding.x
+        self._half = imgui.get_content_region_avail().x / 2
+
+    def begin(self, column: int) -> None:
+        """Goes to where the label stands, in the first (0) or second (1) half of a line."""
+        if column:
+            imgui.same_line(self._left + self._half)
+
+    def field(self, column: int) -> float:
+        """Goes from the label to the field; gives the field's width."""
+        label = HALF_LABEL_EM * imgui.get_font_size()
+        imgui.same_line(self._left + column * self._half + label)
+        spacing = imgui.get_style().item_inner_spacing.x
+        return self._half - label - (0.0 if column else spacing)
+
+    def label(self, column: int, text: str, tooltip: str) -> float:
+        """A label in plain type and the way to its field; gives the field's width."""
+        self.begin(column)
+        imgui.align_text_to_frame_padding()
+        imgui.text(text)
+        imgui.set_item_tooltip(tooltip)
+        return self.field(column)
+
+
+def line() -> None:
+    """A separator."""
+    imgui.dummy((0, 0))
+    imgui.separator()
+    imgui.dummy((0, 0))
