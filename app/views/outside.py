@@ -199,7 +199,8 @@ class OutsideView(View):
             pixel = self._pixel_under(host, scope)
         if pixel is not None:
             if self._mouse.clicked():
-                host.change(host.state.with_options(marked=pixel))
+                marked = None if host.state.marked == pixel else pixel
+                host.change(host.state.with_options(marked=marked))
             elif not was_dragging:
                 host.hover(self.name, pixel)
         return self._scope(host, size, origin, extent)

@@ -19,7 +19,7 @@ from renderer.errors import LucidaError
 gizmo = imguizmo.im_guizmo
 Floats = NDArray[np.float64]
 
-SMALL = 0.16  # of the view: the handles' length in clip space
+LENGTH = 0.2  # of the view: the handles' length in clip space
 NEAREST = 0.02  # of the view's distance: an eye that is nearer has no handles
 
 
@@ -64,24 +64,20 @@ class Gizmo:
             self.over, self._drag = False, None
             return camera
         view, projection = matrices
-        if self._drag is None:
-            frame = rotation_of(camera) if kind == "turn" else np.eye(3)
-        else:
-            frame = self._drag.frame
+        frame = rotation_of(camera) if self._drag is None else self._drag.frame
+        if self._drag is not None:
+            frame = rotation_between(self._drag.camera, camera) @ frame
         placed = np.eye(4)
         placed[:3, :3], placed[:3, 3] = frame, camera.eye
         matrix = _matrix16(placed)
+        gizmo.begin_frame()
         gizmo.set_orthographic(scope.shown.is_parallel)
         gizmo.set_drawlist()
         gizmo.set_rect(scope.origin.x, scope.origin.y, scope.extent.x, scope.extent.y)
-        gizmo.set_gizmo_size_clip_space(SMALL)
+        gizmo.set_gizmo_size_clip_space(LENGTH)
         gizmo.allow_axis_flip(False)
         operation = gizmo.OPERATION.translate if kind == "move" else gizmo.OPERATION.rotate
-        mode = gizmo.MODE.world if kind == "move" else gizmo.MODE.local
-        if self._drag is not None and kind == "turn":
-            turned_frame = rotation_between(self._drag.camera, camera) @ self._drag.frame
-            placed[:3, :3] = turned_frame
-            matrix = _matrix16(placed)
+        mode = gizmo.MODE.local  # its red, green and blue are then u, v and w
         moved = gizmo.manipulate(_matrix16(view), _matrix16(projection), operation, mode, matrix)
         using = gizmo.is_using()
         self.over = using or gizmo.is_over()

@@ -15,6 +15,7 @@ from dataclasses import dataclass, replace
 from imgui_bundle import ImVec2, imgui
 
 from app import navigation
+from app.fly import held
 from renderer.camera import Camera, Vector
 from renderer.errors import LucidaError
 
@@ -54,7 +55,7 @@ class Scope:
 
 @dataclass(frozen=True)
 class _Grab:
-    kind: str  # "orbit" or "pan"
+    kind: str  # "orbit", "pan" or "look"
     camera: Camera
     start: tuple[float, float]
     point: tuple[float, float]
@@ -97,8 +98,7 @@ class Mouse:
     def _drag(self, scope: Scope, io: imgui.IO) -> Camera:
         mouse, camera = io.mouse_pos, scope.camera
         if imgui.is_item_activated():
-            left = imgui.is_mouse_down(imgui.MouseButton_.left) and not io.key_shift
-            self._grab = self._begin(scope, "orbit" if left else "pan", mouse)
+            self._grab = self._begin(scope, _kind(io), mouse)
             return camera
         grab = self._grab
         if grab is None:
@@ -106,18 +106,25 @@ class Mouse:
         if not imgui.is_item_active():
             self._grab = None
             return camera
-        if camera != grab.latest:  # something else has changed it: go on from there
+        if (
+            camera != grab.latest and grab.kind != "look"
+        ):  # something else has changed it: go on from there
             self._grab = self._begin(scope, grab.kind, mouse)
             return camera
         right, up = mouse.x - grab.start[0], grab.start[1] - mouse.y
         if math.hypot(right, up) < STILL_PX and camera == grab.camera:
             return camera
+        angle = HALF_TURN / max(scope.extent.y, 1.0)
         try:
+            if grab.kind == "look":  # by steps: flying moves the camera in between
+                x, y = io.mouse_delta.x * angle, -io.mouse_delta.y * angle
+                camera = navigation.looked(camera, x, y)
+                self._grab = replace(grab, latest=camera)
+                return camera
             if grab.kind == "pan":
                 end = scope.image_point(mouse)
                 camera = navigation.panned(grab.camera, grab.point, end, grab.parameter)
             else:
-                angle = HALF_TURN / max(scope.extent.y, 1.0)
                 camera = navigation.orbited(grab.camera, scope.center, right * angle, up * angle)
         except LucidaError:  # too far out: the camera stays
             return scope.camera
@@ -148,3 +155,9 @@ class Mouse:
         except (LucidaError, OverflowError):
             pass
         return scope.camera
+
+
+def _kind(io: imgui.IO) -> str:
+    if not imgui.is_mouse_down(imgui.MouseButton_.left) or io.key_shift:
+        return "pan"
+    return "look" if io.key_alt or any(held()) else "orbit"

@@ -9,6 +9,7 @@ from window_driver import SIZE, Driver, Key
 from app.outside.projected import Screen, Strokes
 from app.outside.solid import plane_corners
 from app.views.outside import OUTSIDE, OutsideView
+from app.views.outside_gizmo import LENGTH
 from app.views.outside_mouse import Scope
 
 IMAGE = f"//###{OUTSIDE}/image##{OUTSIDE}"
@@ -116,7 +117,7 @@ def drive_a_pixel_is_the_same_in_all_views(d: Driver) -> None:
     window = d.window
     camera, size = window.renderers.camera(window.state), window.renderers.size
     corners = plane_corners(camera)
-    target = (size[1] // 3, size[0] // 4)
+    target = (2 * size[1] // 3, size[0] // 4)
     part = (target[1] + 0.5) / size[0], (target[0] + 0.5) / size[1]
     point = corners[0] + part[0] * (corners[1] - corners[0]) + part[1] * (corners[3] - corners[0])
     d.ctx.mouse_teleport_to_pos(place(d, point))
@@ -175,18 +176,18 @@ def drive_handles_move_the_eye_and_turn_the_basis(d: Driver) -> None:
     d.ctx.yield_(2)
     at = scope(d)
     x, y = place(d, np.asarray(start.eye))
-    # Along the handle of the world's y axis: upwards, since there is no roll.
-    up = place(d, np.add(start.eye, (0, 0.1 * at.reach, 0)))
+    up = place(d, np.add(start.eye, 0.1 * at.reach * np.asarray(start.v)))  # along v's handle
     way = np.array([up[0] - x, up[1] - y])
     way = way / np.linalg.norm(way)
-    grip = np.array([x, y]) + 0.075 * at.extent.x * way
+    grip = np.array([x, y]) + 0.4 * LENGTH * at.extent.x * way
     steps = len(window.history.past)
     d.ctx.mouse_teleport_to_pos(tuple(grip))
     d.ctx.yield_(3)
     d.drag(tuple(grip), tuple(grip + 60 * way))
     moved = window.state.camera
-    assert moved.eye[1] > start.eye[1] + 0.1
-    assert abs(moved.eye[0] - start.eye[0]) < 1e-3
+    way_moved = np.subtract(moved.eye, start.eye)
+    assert way_moved @ start.v > 0.1
+    assert np.allclose(way_moved, (way_moved @ start.v) * np.asarray(start.v), atol=1e-3)
     assert (moved.u, moved.v, moved.w) == (start.u, start.v, start.w)
     assert window.state.outside.camera is None  # the view was not turned by it
     assert len(window.history.past) == steps + 1
@@ -211,7 +212,7 @@ def drive_handles_move_the_eye_and_turn_the_basis(d: Driver) -> None:
 def _turn_by(d: Driver, middle: np.ndarray, angle: float) -> bool:
     """Drags the ring of handles at an angle; whether there was one."""
     before = d.window.state.camera
-    radius = 0.5 * 0.16 * scope(d).extent.x
+    radius = 0.5 * LENGTH * scope(d).extent.x
     for part in (0.7, 0.85, 1.0, 1.1):
         grip = middle + part * radius * np.array([np.cos(angle), np.sin(angle)])
         d.ctx.mouse_teleport_to_pos(tuple(grip))
@@ -219,7 +220,7 @@ def _turn_by(d: Driver, middle: np.ndarray, angle: float) -> bool:
         if not view(d).over_handle:
             continue
         d.drag(tuple(grip), tuple(grip + 30 * np.array([-np.sin(angle), np.cos(angle)])))
-        if d.window.state.camera.w != before.w:
+        if np.abs(np.subtract(d.window.state.camera.w, before.w)).max() > 1e-3:
             return True
         d.window.history = type(d.window.history)(d.window.state)
     return False
