@@ -16,6 +16,7 @@ from app.camera_actions import CAMERA, EDIT
 from app.camera_actions import MOUSE as CAMERA_MOUSE
 from app.image_actions import IMAGE
 from app.image_actions import MOUSE as IMAGE_MOUSE
+from app.lecture_actions import LECTURE
 from app.options import CompareMode
 from app.shell_actions import BOOKMARKS, FILE, HELP, LOOK
 from app.state import AppState
@@ -23,7 +24,7 @@ from renderer.compare import Comparison
 
 FLIP_KEY = Key.x  # held, it shows the other image; read by the compare view
 
-MENUS = ("File", "Edit", "Camera", "Image", "View", "Help")
+MENUS = ("File", "Edit", "Camera", "Image", "View", "Lecture", "Help")
 
 
 _change = changing
@@ -160,6 +161,7 @@ ACTIONS = (
         is_on=lambda state: state.options.mirrors,
     ),
     *COMPARING,
+    *LECTURE,
     *HELP,
 )
 

@@ -9,7 +9,7 @@ changes of each layout, also between runs.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
 
 from imgui_bundle import hello_imgui, imgui
@@ -92,8 +92,9 @@ LAYOUTS = (
     Layout(
         "Lecture",
         (
-            (MAIN, RIGHT_SPACE, imgui.Dir.right, 0.4),
-            (RIGHT_SPACE, INSTRUMENTS, imgui.Dir.down, 0.4),
+            (MAIN, RIGHT_SPACE, imgui.Dir.right, 0.36),
+            (MAIN, LOWER_SPACE, imgui.Dir.down, 0.5),
+            (RIGHT_SPACE, INSTRUMENTS, imgui.Dir.down, 0.5),
         ),
         {"Raster": MAIN, "Ray": MAIN, "Outside": MAIN, "Lecture": RIGHT_SPACE},
     ),
@@ -149,6 +150,21 @@ def window_of(view: View) -> hello_imgui.DockableWindow:
     window = params.dockable_window_of_name(view.label)
     assert window is not None, view.label
     return window
+
+
+def arrange(views: Iterable[View], places: dict[str, str]) -> None:
+    """Shows some of these views in other spaces of the present layout, and hides the rest.
+
+    places: view to space. Takes effect in the next frame; what the user has moved stands again
+    where the layout puts it.
+    """
+    layout = current()
+    for view in views:
+        window = window_of(view)
+        window.is_visible = view.name in places
+        if view.name in places:
+            window.dock_space_name = _own(layout, places[view.name])
+    reset()
 
 
 def whole() -> tuple[tuple[float, float], tuple[float, float]] | None:

@@ -33,6 +33,8 @@ from app.travel import Traveller
 from app.views.base import View
 from app.views.camera import CameraView
 from app.views.compare import CompareView
+from app.views.laboratory import LaboratoryView
+from app.views.lecture import LECTURE, LectureView
 from app.views.outside import OutsideView
 from app.views.pair import RASTER, Linked, RasterView, RayView
 from app.views.probe import ProbeView
@@ -45,14 +47,16 @@ def make_views() -> list[View]:
     images show what it changed in the same frame."""
     linked = Linked()
     outside = OutsideView()
-    return [
+    views = [
         CameraView(),
         RasterView(linked),
         RayView(linked),
         CompareView(linked),
         outside,
         ProbeView(outside),
+        LaboratoryView(),
     ]
+    return [*views, LectureView(views)]
 
 
 class MainWindow:
@@ -112,6 +116,12 @@ class MainWindow:
         views = all(view.settled for view in self.views.values())
         moving = self.files.busy or self.traveller.under_way
         return views and self.renderers.settled(self.state) and not moving
+
+    @property
+    def lecture(self) -> LectureView:
+        view = self.views[LECTURE]
+        assert isinstance(view, LectureView)
+        return view
 
     def hover(self, view: str, pixel: Pixel) -> None:
         self._next_hovered = (view, pixel)
@@ -216,6 +226,7 @@ class MainWindow:
         self.renderers.update(self.state, moving)
         self._proportion.keep()
         self.shell.frame(self)
+        self.lecture.follow(self)
         run_shortcuts(self)
         if self._asked is not None:
             self._asked, state = resolution_box(self._asked, self.state)

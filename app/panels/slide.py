@@ -1,0 +1,103 @@
+"""A lecture's text on the screen: headings, words, formulas, code, questions to the class.
+
+Owns fonts, colours and sizes. Where the pieces stand is teach/lecture/flow.py's.
+"""
+
+from __future__ import annotations
+
+import functools
+
+from imgui_bundle import ImVec2, ImVec4, imgui
+
+from app import theme
+from app.lettering import lettering
+from app.panels.inline_math import inline_math
+from app.panels.screen import framebuffer_scale
+from app.teach.lecture.flow import Extent, Laid, Piece, fitted, lay
+from app.teach.lecture.text import Block
+from app.theme import Fonts
+
+ASCENT = 0.78  # of the line's height, in all our fonts
+
+
+class Slides:
+    """Draws texts; remembers the last layouts, which take long to find."""
+
+    def __init__(self, fonts: Fonts) -> None:
+        self._fonts = fonts
+        self._lay = functools.lru_cache(64)(self._laid)
+
+    def text(
+        self,
+        blocks: tuple[Block, ...],
+        room: tuple[float, float],
+        sizes_px: tuple[float, float],
+        color: ImVec4 | None = None,
+    ) -> float:
+        """Draws a text at the cursor, as large as it fits into the room, (width, height); gives
+        the size. sizes_px: the smallest and the largest."""
+        color = theme.TEXT if color is None else color
+        room = (max(round(room[0]), 40), max(round(room[1]), 1))
+        look = (framebuffer_scale(), theme.TEXT.x)
+        laid, size = self._lay(blocks, room, sizes_px, look)
+        corner = imgui.get_cursor_screen_pos()
+        self._draw(laid, corner, color)
+        imgui.dummy(ImVec2(min(laid.width, room[0]), laid.height))
+        return size
+
+    def height(self, blocks: tuple[Block, ...], width: float, size_px: float) -> float:
+        """What a text of that size would take."""
+        return lay(blocks, max(width, 40.0), size_px, self._measure).height
+
+    def _laid(
+        self,
+        blocks: tuple[Block, ...],
+        room: tuple[float, float],
+        sizes_px: tuple[float, float],
+        look: tuple[float, ...],
+    ) -> tuple[Laid, float]:
+        return fitted(blocks, room, sizes_px, self._measure)
+
+    def _measure(self, piece: Piece) -> Extent:
+        with lettering(self._font(piece.style), piece.size):
+            if piece.style == "math":
+                made = inline_math(piece.text, piece.size, theme.TEXT, piece.display)
+                return Extent(made.width, made.ascent, made.descent)
+            width = imgui.calc_text_size(piece.text).x
+            return Extent(width, ASCENT * piece.size, (1 - ASCENT) * piece.size)
+
+    def _draw(self, laid: Laid, corner: ImVec2, color: ImVec4) -> None:
+        draw = imgui.get_window_draw_list()
+        for box in laid.boxes:
+            low = ImVec2(corner.x + box.left, corner.y + box.top)
+            high = ImVec2(corner.x + box.right, corner.y + box.bottom)
+            fill = theme.FRAME if box.kind == "code" else theme.BACKGROUND
+            draw.add_rect_filled(low, high, theme.u32(fill), theme.px(4))
+            if box.kind == "question":
+                edge = ImVec2(low.x + theme.px(4), high.y)
+                draw.add_rect_filled(low, edge, theme.u32(theme.MARK), theme.px(2))
+        for placed in laid.pieces:
+            piece = placed.piece
+            x, baseline = corner.x + placed.x, corner.y + placed.baseline
+            ink = theme.DIM if placed.kind == "mark" else color
+            with lettering(self._font(piece.style), piece.size):
+                if piece.style == "math":
+                    inline_math(piece.text, piece.size, theme.TEXT, piece.display).draw(
+                        x, baseline, ink
+                    )
+                    continue
+                if piece.style == "bold":
+                    ink = self._vector_color(piece.text, ink)
+                elif piece.style == "italic":
+                    ink = theme.legible(theme.RAY)
+                at = ImVec2(x, baseline - ASCENT * piece.size)
+                draw.add_text(at, theme.u32(ink), piece.text)
+
+    def _vector_color(self, word: str, ink: ImVec4) -> ImVec4:
+        """A basis vector has its colour in words as in formulas."""
+        name = word.strip(".,:;()")
+        return theme.legible(theme.BASIS[name]) if name in theme.BASIS else ink
+
+    def _font(self, style: str) -> imgui.ImFont | None:
+        fonts = self._fonts
+        return {"bold": fonts.bold, "code": fonts.mono}.get(style, fonts.text)

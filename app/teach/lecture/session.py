@@ -1,0 +1,66 @@
+"""A lecture while it is given: at which step it stands, and whether its file has changed.
+
+Owns the number of the step and the answers so far. Knows nothing of windows; the file is read
+again by whoever has a thread for it.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from pathlib import Path
+
+from app.teach.lecture.exercises import Verdict
+from app.teach.lecture.model import Lecture, Step
+from app.teach.lecture.watching import Watch, signature
+
+
+@dataclass
+class Answers:
+    """What has been answered to a step's exercise. texts: typed, by field. chosen: the option.
+
+    verdict: on the last answer; None: not asked yet. solved: whether the solution is shown.
+    """
+
+    texts: dict[str, str] = field(default_factory=dict)
+    chosen: int | None = None
+    verdict: Verdict | None = None
+    solved: bool = False
+
+
+class Session:
+    """path: the lecture's file, watched for changes."""
+
+    def __init__(self, lecture: Lecture, path: Path, number: int = 0) -> None:
+        self.lecture, self.path, self.number = lecture, path, number
+        self.error = ""
+        self._answers: dict[str, Answers] = {}
+        self._watch = Watch(signature(path))
+
+    @property
+    def step(self) -> Step:
+        return self.lecture.steps[self.number]
+
+    @property
+    def answers(self) -> Answers:
+        """Those to the present step."""
+        return self._answers.setdefault(self.step.title, Answers())
+
+    def go(self, number: int) -> bool:
+        """Goes to a step, the first or the last for a number beyond; whether that is another."""
+        number = min(max(number, 0), len(self.lecture.steps) - 1)
+        moved, self.number = number != self.number, number
+        return moved
+
+    def has_changed(self, time_s: float) -> bool:
+        """Whether the file has been saved anew and is to be read again; once for each time."""
+        return self._watch.changed(signature(self.path), time_s)
+
+    @property
+    def expects(self) -> bool:
+        """Whether the file is being written: ask soon again."""
+        return self._watch.waiting
+
+    def take(self, lecture: Lecture) -> None:
+        """Goes on in a newer version, at the same step."""
+        self.number = self.lecture.followed(self.number, lecture)
+        self.lecture, self.error = lecture, ""

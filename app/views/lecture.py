@@ -1,0 +1,256 @@
+"""The guided lecture: a column of text beside the views that a step shows.
+
+Owns the session of the lecture that is given, and the way from a step to what the window shows.
+Texts are drawn by panels/slide.py, exercises by panels/exercise.py; steps and their states are
+teach/lecture/'s.
+"""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Protocol
+
+import moderngl
+from imgui_bundle import ImVec2, imgui
+
+from app import layout, theme
+from app.background import Background
+from app.files import describe
+from app.lettering import lettering
+from app.panels.exercise import exercise
+from app.panels.slide import Slides
+from app.state import AppState
+from app.teach.lecture.model import Lecture, Step
+from app.teach.lecture.reading import BUILTIN, load_lecture
+from app.teach.lecture.session import Session
+from app.teach.lecture.states import state_of
+from app.views.base import Host, View
+
+LECTURE = "Lecture"
+LAYOUT = "Lecture"  # of layout.LAYOUTS
+LARGEST = 0.031  # of the text, in parts of the window's height
+SMALLEST = 0.021
+TITLE = 1.5  # of a step's title, in parts of the text's size
+
+
+class Changeable(Protocol):
+    """The window, as steps change it."""
+
+    @property
+    def state(self) -> AppState: ...
+    def change(self, state: AppState) -> None: ...
+
+
+class LectureView(View):
+    """others: the views that steps show, by their names in a lecture with a capital."""
+
+    name = LECTURE
+    title = "Lecture"
+    padding = ImVec2(18, 14)
+
+    def __init__(self, others: Sequence[View]) -> None:
+        self._others = {view.name: view for view in others}
+        self.session: Session | None = None
+        self._reading: Background[Lecture] | None = None
+        self._slides: Slides | None = None
+        self._arranged = True
+        self._entered = False  # whether the step's state has been taken
+
+    # What actions and buttons ask for.
+
+    def give(self, lecture: Lecture, path: Path, number: int = 0) -> None:
+        """Begins a lecture at a step, in the next frame."""
+        self.session = Session(lecture, path, number)
+        self._entered = False
+
+    def give_builtin(self) -> None:
+        """Begins the built-in lecture."""
+        self.give(load_lecture(BUILTIN), BUILTIN)
+
+    @property
+    def is_given(self) -> bool:
+        return self.session is not None
+
+    def go(self, window: Changeable, number: int) -> None:
+        """Goes to a step, which takes its own state."""
+        if self.session is not None:
+            self.session.go(number)
+            self.restore(window)
+
+    def advance(self, window: Changeable, steps: int) -> None:
+        """Goes some steps on, or back."""
+        if self.session is not None and self.session.go(self.session.number + steps):
+            self.restore(window)
+
+    def restore(self, window: Changeable) -> None:
+        """Back to the step's own scene, camera, options and views."""
+        if self.session is None:
+            return
+        window.change(state_of(self.session.step, window.state))
+        self._entered, self._arranged = True, False
+        layout.switch(LAYOUT)
+
+    # The frame.
+
+    @property
+    def settled(self) -> bool:
+        reading = self._reading is not None and self._reading.busy
+        return self.session is None or (self._entered and self._arranged and not reading)
+
+    def begin(self, host: Host, context: moderngl.Context) -> None:
+        self._reading = Background("lucida-lecture", host.animate)
+        self._slides = Slides(host.fonts)
+
+    def end(self) -> None:
+        if self._reading is not None:
+            self._reading.close()
+
+    def follow(self, host: Host) -> None:
+        """Once a frame, whether or not the view is seen: takes steps and newer files."""
+        if self.session is None:
+            return
+        if not self._entered:
+            self.restore(host)
+        if not self._arranged and layout.current().name == LAYOUT:
+            self._arrange(self.session.step)
+            self._arranged = True
+            host.animate()
+        self._follow_file(host, self.session)
+
+    def _follow_file(self, host: Host, session: Session) -> None:
+        assert self._reading is not None
+        if session.has_changed(time.monotonic()):
+            self._reading.submit(lambda: load_lecture(session.path))
+        if session.expects:
+            host.animate()
+        outcome = self._reading.poll()
+        if outcome is None:
+            return
+        if outcome.error is not None:
+            session.error = describe(outcome.error)
+        elif outcome.value is not None:
+            session.take(outcome.value)
+            self.restore(host)
+
+    def _arrange(self, step: Step) -> None:
+        """The step's views in their places: the main one large, a second one below it."""
+        pictures = [name for name in step.views if name != "camera"]
+        spaces = dict(zip(pictures, (layout.MAIN, layout.LOWER_SPACE), strict=False))
+        if "camera" in step.views:
+            spaces["camera"] = layout.INSTRUMENTS
+        places = {name.capitalize(): space for name, space in spaces.items()}
+        layout.arrange(self._others.values(), places)
+
+    # The column.
+
+    def draw(self, host: Host) -> None:
+        if self.session is None:
+            self._invite(host)
+            return
+        session, slides = self.session, self._slides
+        self._keys(host)
+        assert slides is not None
+        height = imgui.get_io().display_size.y
+        sizes = (max(13.0, SMALLEST * height), max(16.0, LARGEST * height))
+        with lettering(host.fonts.text, sizes[0]):
+            self._head(host, session, sizes)
+            foot = 2.6 * sizes[0]
+            avail = imgui.get_content_region_avail()
+            error = self._error_height(session, avail.x)
+            child = ImVec2(avail.x, max(1.0, avail.y - foot - error))
+            if imgui.begin_child("step", child):
+                self._body(host, session, slides, sizes)
+            imgui.end_child()
+            if session.error:
+                imgui.push_text_wrap_pos(0.0)
+                imgui.text_colored(theme.ERROR, session.error)
+                imgui.pop_text_wrap_pos()
+            self._foot(host, session)
+
+    def _keys(self, host: Host) -> None:
+        """The arrow keys, where the column has the keyboard; Page Up and Down are actions."""
+        if imgui.is_any_item_active():
+            return
+        for key, steps in ((imgui.Key.left_arrow, -1), (imgui.Key.right_arrow, 1)):
+            if imgui.shortcut(int(key)):
+                self.advance(host, steps)
+
+    def _head(self, host: Host, session: Session, sizes: tuple[float, float]) -> None:
+        step = session.step
+        width = imgui.get_content_region_avail().x
+        imgui.text_colored(theme.DIM, step.part or session.lecture.title)
+        size = TITLE * sizes[1]
+        with lettering(host.fonts.bold, size):
+            wide = imgui.calc_text_size(step.title).x
+        with lettering(host.fonts.bold, max(sizes[1], size * min(1.0, width / max(wide, 1.0)))):
+            imgui.push_text_wrap_pos(0.0)
+            imgui.text(step.title)
+            imgui.pop_text_wrap_pos()
+        imgui.dummy(ImVec2(0, 0.25 * sizes[0]))
+
+    def _body(
+        self, host: Host, session: Session, slides: Slides, sizes: tuple[float, float]
+    ) -> None:
+        avail = imgui.get_content_region_avail()
+        step = session.step
+        if step.exercise is None:
+            slides.text(step.blocks, (avail.x, avail.y), sizes)
+            return
+        if step.blocks:
+            slides.text(step.blocks, (avail.x, 0.4 * avail.y), sizes)
+            imgui.dummy(ImVec2(0, 0.5 * sizes[0]))
+        exercise(step.exercise, session.answers, slides, host.fonts, sizes)
+
+    def _error_height(self, session: Session, width: float) -> float:
+        if not session.error:
+            return 0.0
+        return float(imgui.calc_text_size(session.error, wrap_width=width).y) + 8.0
+
+    def _foot(self, host: Host, session: Session) -> None:
+        """Back, the place in the lecture, next; the outline; the way back to the step."""
+        number, count = session.number, len(session.lecture.steps)
+        size = imgui.get_font_size()
+        imgui.begin_disabled(number == 0)
+        if imgui.button("<##back", ImVec2(2.4 * size, 0)):
+            self.advance(host, -1)
+        imgui.end_disabled()
+        imgui.set_item_tooltip("the step before (Page Up)")
+        imgui.same_line()
+        if imgui.button(f"{number + 1} / {count}##outline", ImVec2(5.0 * size, 0)):
+            imgui.open_popup("outline")
+        imgui.set_item_tooltip("all steps")
+        imgui.same_line()
+        imgui.begin_disabled(number == count - 1)
+        if imgui.button(">##next", ImVec2(2.4 * size, 0)):
+            self.advance(host, 1)
+        imgui.end_disabled()
+        imgui.set_item_tooltip("the next step (Page Down)")
+        imgui.same_line(0, size)
+        changed = state_of(session.step, host.state) != host.state
+        imgui.begin_disabled(not changed)
+        if imgui.button("back to the step##restore"):
+            self.restore(host)
+        imgui.end_disabled()
+        imgui.set_item_tooltip("its own scene, camera and views (Backspace)")
+        self._outline(host, session)
+
+    def _outline(self, host: Host, session: Session) -> None:
+        if not imgui.begin_popup("outline"):
+            return
+        for part, numbers in session.lecture.outline():
+            imgui.separator_text(part or session.lecture.title)
+            for number in numbers:
+                step = session.lecture.steps[number]
+                if imgui.selectable(f"{number + 1}  {step.title}", number == session.number)[0]:
+                    self.go(host, number)
+        imgui.end_popup()
+
+    def _invite(self, host: Host) -> None:
+        imgui.push_text_wrap_pos(0.0)
+        imgui.text("A guided lecture: steps of text, each with its own scene, camera and views.")
+        imgui.pop_text_wrap_pos()
+        if imgui.button('Begin "Images, rays and cameras"'):
+            self.give_builtin()
+        imgui.text_colored(theme.DIM, "Another one: lucida lecture FILE")
