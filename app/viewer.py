@@ -153,6 +153,7 @@ class Run:
         self._size = size
         self._canvas: Canvas | None = None
         self._context: moderngl.Context | None = None
+        self.on_drawn: Callable[[moderngl.Framebuffer], None] | None = None  # each frame, drawn
         self.take_picture = take_picture
         self._error: BaseException | None = None
         self._quiet_frames = 0
@@ -266,6 +267,8 @@ class Run:
             drawn = self._context.detect_framebuffer(0)
         if drawn is not None:
             self.window.shell.after_drawing(drawn)
+            if self.on_drawn is not None:
+                self.on_drawn(drawn)
 
     def _after_frame(self) -> None:
         if not self._platform.has_display:
