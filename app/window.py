@@ -33,11 +33,13 @@ from app.travel import Traveller
 from app.views.base import View
 from app.views.camera import CameraView
 from app.views.compare import CompareView
+from app.views.costs import CostsView
 from app.views.laboratory import LaboratoryView
 from app.views.lecture import LECTURE, LectureView
 from app.views.outside import OutsideView
 from app.views.pair import RASTER, Linked, RasterView, RayView
 from app.views.probe import ProbeView
+from app.views.stepper import StepperView
 from renderer.errors import LucidaError
 from renderer.scene import Scene
 
@@ -54,6 +56,8 @@ def make_views() -> list[View]:
         CompareView(linked),
         outside,
         ProbeView(outside),
+        StepperView(outside),
+        CostsView(),
         LaboratoryView(),
     ]
     return [*views, LectureView(views)]

@@ -113,8 +113,9 @@ def _piece(part: Formula, size_px: float, color: ImVec4, room: float) -> _Piece:
     if not available():
         return _text_piece(part.text, color)
     scale = framebuffer_scale()
-    # An empty group before it makes a plus a sum's, with its spaces.
-    latex = "{}" + part.latex if part.latex[:2] in ("+ ", "- ") else part.latex
+    latex = part.latex
+    if latex[:2] in ("+ ", "- "):  # at the beginning it would be a sign, without a sum's space
+        latex = rf"{latex[0]}\;{latex[2:]}"
     picture = imgui_microtex.render_to_texture(
         tinted(latex), size_px * scale, color, imgui_microtex.TexStyle.display
     )

@@ -232,10 +232,13 @@ def _formula(line: Line, size_px: float) -> None:
 def _table(reading: Reading, fonts: Fonts) -> None:
     met = [meeting for meeting in reading.meetings if meeting.nearest is not None]
     flags = imgui.TableFlags_
+    several = any(len(meeting.crossings) > 1 for meeting in met)
     if met and imgui.begin_table(
-        "objects", 4, flags.sizing_fixed_fit | flags.borders_inner_h | flags.no_host_extend_x
+        "objects",
+        3 + several,
+        flags.sizing_fixed_fit | flags.borders_inner_h | flags.no_host_extend_x,
     ):
-        for name in ("object", "t", "", "also at"):
+        for name in ("object", "        t", "", "also at")[: 3 + several]:
             imgui.table_setup_column(name)
         imgui.table_headers_row()
         for meeting in met:
@@ -265,6 +268,8 @@ def _row(meeting: Meeting, fonts: Fonts) -> None:
     _parameter(nearest, color, meeting.is_on_ray, fonts)
     imgui.table_next_column()
     imgui.text_colored(color, "nearest" if wins else nearest.standing)
+    if len(meeting.crossings) < 2:
+        return
     imgui.table_next_column()
     others = [one for one in meeting.crossings if one is not nearest]
     for count, crossing in enumerate(others[:MOST_ALSO]):

@@ -1,0 +1,132 @@
+"""A small image, pixel by pixel: what is set, what is not yet, and the marks on it.
+
+Owns the picture's look. Knows nothing of who fills it.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import dataclass
+
+import moderngl
+import numpy as np
+from imgui_bundle import ImVec2, ImVec4, imgui
+from numpy.typing import NDArray
+
+from app import theme
+from app.options import Pixel
+from renderer.images.display import to_srgb8
+
+CELL = 12  # texels a side of a pixel, for the hatching
+SMALLEST_CELL = 5.0  # a pixel as large as that has lines round it
+MOST_DOTS = 500
+
+
+@dataclass(frozen=True)
+class Marks:
+    """pixel: the one at work. box: rows and columns of a bounding box. dots: pixels that were
+    tested, and whether the object was hit there."""
+
+    pixel: Pixel | None = None
+    box: tuple[range, range] | None = None
+    dots: tuple[tuple[Pixel, bool], ...] = ()
+
+
+def color_picture(color: NDArray[np.float64], exposure_ev: float) -> NDArray[np.uint8]:
+    """Linear light (height, width, 3), NaN where nothing is set, as a picture of CELL texels a
+    pixel."""
+    unset = np.asarray(np.isnan(color).any(axis=2))
+    shown = to_srgb8(np.where(unset[..., None], 0.0, color), exposure_ev)
+    return _hatched(shown, unset)
+
+
+def depth_picture(depth: NDArray[np.float64], farthest: float) -> NDArray[np.uint8]:
+    """Ray parameters as gray, the nearest the brightest; infinity is hatched."""
+    unset = ~np.isfinite(depth)
+    part = np.where(unset, 0.0, depth) / (farthest if farthest > 0 else 1.0)
+    gray = (255 * (1 - 0.8 * np.clip(part, 0, 1))).astype(np.uint8)
+    return _hatched(np.repeat(gray[..., None], 3, axis=2), unset)
+
+
+def _hatched(shown: NDArray[np.uint8], unset: NDArray[np.bool_]) -> NDArray[np.uint8]:
+    large = shown.repeat(CELL, axis=0).repeat(CELL, axis=1)
+    mask = unset.repeat(CELL, axis=0).repeat(CELL, axis=1)
+    i, j = np.indices(mask.shape)
+    line = (i + j) % CELL < 2
+    for color, where in ((theme.BACKGROUND, mask & ~line), (theme.FRAME_ACTIVE, mask & line)):
+        large[where] = [round(255 * part) for part in (color.x, color.y, color.z)]
+    return large
+
+
+def canvas(
+    texture: moderngl.Texture | None,
+    size: tuple[int, int],
+    room: ImVec2,
+    marks: Marks,
+    name: str,
+) -> Pixel | None:
+    """Draws a canvas of (width, height) pixels as large as the room allows; gives the pixel that
+    was clicked."""
+    unit = max(1.0, min(room.x / size[0], room.y / size[1]))
+    if unit > 4:
+        unit = float(int(unit))
+    corner = imgui.get_cursor_screen_pos()
+    extent = ImVec2(size[0] * unit, size[1] * unit)
+    far = ImVec2(corner.x + extent.x, corner.y + extent.y)
+    clicked = imgui.invisible_button(name, extent)
+    draw = imgui.get_window_draw_list()
+    if texture is not None:
+        draw.add_image(imgui.ImTextureRef(texture.glo), corner, far)
+    if unit >= SMALLEST_CELL:
+        _grid(draw, corner, far, size, unit)
+    draw.add_rect(corner, far, theme.u32(theme.PLAIN))
+    _draw_marks(draw, corner, unit, marks)
+    if not clicked:
+        return None
+    mouse = imgui.get_io().mouse_pos
+    row, column = int((mouse.y - corner.y) / unit), int((mouse.x - corner.x) / unit)
+    return min(max(row, 0), size[1] - 1), min(max(column, 0), size[0] - 1)
+
+
+def _grid(
+    draw: imgui.ImDrawList, corner: ImVec2, far: ImVec2, size: tuple[int, int], unit: float
+) -> None:
+    color = theme.u32(theme.rgb("#808890"), 0.35)
+    for column in range(1, size[0]):
+        x = corner.x + column * unit
+        draw.add_line(ImVec2(x, corner.y), ImVec2(x, far.y), color)
+    for row in range(1, size[1]):
+        y = corner.y + row * unit
+        draw.add_line(ImVec2(corner.x, y), ImVec2(far.x, y), color)
+
+
+def _draw_marks(draw: imgui.ImDrawList, corner: ImVec2, unit: float, marks: Marks) -> None:
+    def cell(rows: Iterable[int], columns: Iterable[int]) -> tuple[ImVec2, ImVec2]:
+        i, j = list(rows), list(columns)
+        return (
+            ImVec2(corner.x + j[0] * unit, corner.y + i[0] * unit),
+            ImVec2(corner.x + (j[-1] + 1) * unit, corner.y + (i[-1] + 1) * unit),
+        )
+
+    if len(marks.dots) <= MOST_DOTS and unit >= SMALLEST_CELL:
+        for (i, j), is_hit in marks.dots:
+            middle = ImVec2(corner.x + (j + 0.5) * unit, corner.y + (i + 0.5) * unit)
+            radius = max(1.5, 0.14 * unit)
+            draw.add_circle_filled(middle, radius + 1, theme.u32(theme.rgb("#000000"), 0.6))
+            if is_hit:
+                draw.add_circle_filled(middle, radius, theme.u32(theme.MARK))
+            else:
+                draw.add_circle(middle, radius, theme.u32(theme.rgb("#ffffff")))
+    if marks.box is not None and marks.box[0] and marks.box[1]:
+        _frame(draw, *cell(*marks.box), theme.rgb("#cc79a7"), 0.0)
+    if marks.pixel is not None:
+        i, j = marks.pixel
+        _frame(draw, *cell([i], [j]), theme.MARK, 1.0)
+
+
+def _frame(draw: imgui.ImDrawList, low: ImVec2, high: ImVec2, color: ImVec4, grow: float) -> None:
+    """A rectangle that stands out from any colours."""
+    low, high = ImVec2(low.x - grow, low.y - grow), ImVec2(high.x + grow, high.y + grow)
+    width = theme.line_px(2.0)
+    draw.add_rect(low, high, theme.u32(theme.rgb("#000000"), 0.75), 0.0, width + 2.5)
+    draw.add_rect(low, high, theme.u32(color), 0.0, width)

@@ -1,0 +1,73 @@
+"""A few lines of Python on the screen, one of them lit.
+
+Owns their look: what has a colour in the formulas has it here. Knows nothing of what they do.
+"""
+
+from __future__ import annotations
+
+import functools
+import io
+import tokenize
+from collections.abc import Sequence
+
+from imgui_bundle import ImVec2, ImVec4, imgui
+
+from app import theme
+
+_ROLES = {"u": "u", "v": "v", "ray": "ray", "hit": "hit", "closest": "hit"}
+
+
+def code(lines: Sequence[str], lit: int, mono: imgui.ImFont | None, size_px: float) -> None:
+    """Draws the lines. lit: the number of the one about to run. size_px: of the type, which must
+    be the current one's."""
+    imgui.push_font(mono, 0.0)
+    draw, corner = imgui.get_window_draw_list(), imgui.get_cursor_screen_pos()
+    letter = imgui.calc_text_size("0").x
+    line_px = 1.18 * size_px
+    widest = letter * max(map(len, lines))
+    bar = 0.35 * size_px
+    for number, text in enumerate(lines):
+        y = corner.y + number * line_px
+        if number == lit:
+            far = ImVec2(corner.x + max(widest + 2 * bar, imgui.get_content_region_avail().x), 0)
+            low, high = ImVec2(corner.x, y), ImVec2(far.x, y + line_px)
+            draw.add_rect_filled(low, high, theme.u32(theme.FRAME_ACTIVE), 2.0)
+            draw.add_rect_filled(low, ImVec2(corner.x + bar, high.y), theme.u32(theme.RAY))
+        top = y + 0.5 * (line_px - imgui.get_text_line_height())
+        for column, word in _words(text):
+            at = ImVec2(corner.x + 2 * bar + column * letter, top)
+            draw.add_text(at, theme.u32(_color(word)), word)
+    imgui.pop_font()
+    imgui.dummy(ImVec2(widest + 2 * bar, len(lines) * line_px))
+
+
+def code_size_px(lines: Sequence[str], width_px: float, most_px: float) -> float:
+    """The size at which the longest line has room, at most most_px. The font's letters are half
+    as wide as they are high."""
+    return min(most_px, width_px / (0.5 * max(map(len, lines)) + 1.2))
+
+
+def _color(word: str) -> ImVec4:
+    role = _ROLES.get(word.strip())
+    if role is None:
+        return theme.TEXT
+    color = {"ray": theme.RAY, "hit": theme.MARK}.get(role)
+    return theme.legible(theme.BASIS[role] if color is None else color)
+
+
+@functools.lru_cache(maxsize=256)
+def _words(text: str) -> tuple[tuple[int, str], ...]:
+    """The line in parts, with the column of each: names that have a colour, and what is between."""
+    try:
+        tokens = list(tokenize.generate_tokens(io.StringIO(text.strip()).readline))
+    except tokenize.TokenError:  # a line that goes on in the next one
+        return ((0, text),)
+    indent = len(text) - len(text.lstrip())
+    words, after = [], 0
+    for token in tokens:
+        if token.type == tokenize.NAME and token.string in _ROLES:
+            start = indent + token.start[1]
+            words += [(after, text[after:start]), (start, token.string)]
+            after = start + len(token.string)
+    words.append((after, text[after:]))
+    return tuple((column, word) for column, word in words if word)

@@ -1,0 +1,277 @@
+"""The loop stepper's panel: the controls, and one algorithm's code, canvas, variables, counters.
+
+Owns the layout. Gets options and moments, returns wishes. What a moment is, is teach/stepper.py's.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from typing import Literal
+
+import moderngl
+from imgui_bundle import ImVec2, imgui
+
+from app import theme
+from app.lettering import lettering
+from app.options import Pixel, StepperOptions
+from app.panels.canvas import Marks, canvas
+from app.panels.code import code, code_size_px
+from app.teach.recording import MOST_STEPS, Order, Recording
+from app.teach.stepper import Moment
+from app.theme import Fonts
+
+CANVASES = ((4, 3), (8, 6), (16, 12), (32, 24), (64, 48))
+ORDERS: dict[Literal["both", "object", "image"], str] = {
+    "both": "both",
+    "object": "object order",
+    "image": "image order",
+}
+TITLES = {
+    Order.OBJECT: "Object order: for each object, for each pixel",
+    Order.IMAGE: "Image order: for each pixel, for each object",
+}
+SLOWEST, FASTEST = 1.0, 20_000.0
+
+Wish = Literal["", "first", "back", "play", "step", "pixel", "object", "last"]
+_BUTTONS: tuple[tuple[Wish, str, str], ...] = (
+    ("first", "First", "to the beginning (Home)"),
+    ("back", "Back", "one step back (Left)"),
+    ("play", "", "play and pause (Space)"),
+    ("step", "Step", "one step: one line (Right)"),
+    ("pixel", "Next pixel", "to where the next pixel's turn begins (Down)"),
+    ("object", "Next object", "to where the next object's turn begins (Shift+Down)"),
+    ("last", "Last", "to the end (End)"),
+)
+
+
+@dataclass(frozen=True)
+class Picture:
+    """An algorithm's textures. depth: None in image order."""
+
+    color: moderngl.Texture | None
+    depth: moderngl.Texture | None
+
+
+@dataclass(frozen=True)
+class Answer:
+    """What was asked for in a run's panel: a step to go to, a pixel whose turn is wanted."""
+
+    step: int | None = None
+    pixel: Pixel | None = None
+
+
+def controls(options: StepperOptions, playing: bool) -> tuple[StepperOptions, Wish]:
+    """The buttons, the speed, the canvas."""
+    wish: Wish = ""
+    width = imgui.calc_text_size("Pause").x + 2 * imgui.get_style().frame_padding.x
+    for count, (name, label, tip) in enumerate(_BUTTONS):
+        shown = ("Pause" if playing else "Play") if name == "play" else label
+        needed = width if name == "play" else _button_width(shown)
+        if count:
+            _follow(needed)
+        if imgui.button(f"{shown}###{name}", ImVec2(needed, 0)):
+            wish = name
+        imgui.set_item_tooltip(tip)
+    options = _speed(options)
+    options = _canvas_size(options)
+    return _order(options), wish
+
+
+def keys() -> Wish:
+    """What the keys ask for; to be asked while the panel has them."""
+    io, key = imgui.get_io(), imgui.Key
+    if io.want_text_input or io.key_ctrl or io.key_alt or imgui.is_any_item_active():
+        return ""
+    table: tuple[tuple[Wish, imgui.Key, bool], ...] = (
+        ("play", key.space, False),
+        ("step", key.right_arrow, True),
+        ("back", key.left_arrow, True),
+        ("object" if io.key_shift else "pixel", key.down_arrow, True),
+        ("first", key.home, False),
+        ("last", key.end, False),
+    )
+    for wish, pressed, repeat in table:
+        if imgui.is_key_pressed(pressed, repeat):
+            return wish
+    return ""
+
+
+def _speed(options: StepperOptions) -> StepperOptions:
+    width = 8 * imgui.get_font_size()
+    _follow(width + imgui.calc_text_size("steps a second").x)
+    imgui.set_next_item_width(width)
+    changed, speed = imgui.slider_float(
+        "steps a second", options.speed, SLOWEST, FASTEST, "%.0f", imgui.SliderFlags_.logarithmic
+    )
+    return replace(options, speed=min(max(speed, SLOWEST), FASTEST)) if changed else options
+
+
+def _canvas_size(options: StepperOptions) -> StepperOptions:
+    def name(size: tuple[int, int]) -> str:
+        return f"{size[0]} x {size[1]}"
+
+    width = imgui.calc_text_size("64 x 48").x + 2.2 * imgui.get_frame_height()
+    _follow(width + imgui.calc_text_size("pixels").x)
+    imgui.set_next_item_width(width)
+    if imgui.begin_combo("pixels", name(options.canvas)):
+        for size in CANVASES:
+            if imgui.selectable(name(size), size == options.canvas)[0]:
+                options = replace(options, canvas=size, steps=(0, 0))
+        imgui.end_combo()
+    return options
+
+
+def _order(options: StepperOptions) -> StepperOptions:
+    width = imgui.calc_text_size("object order").x + 2.2 * imgui.get_frame_height()
+    _follow(width)
+    imgui.set_next_item_width(width)
+    if imgui.begin_combo("##order", ORDERS[options.order]):
+        for key, text in ORDERS.items():
+            if imgui.selectable(text, key == options.order)[0]:
+                options = replace(options, order=key)
+        imgui.end_combo()
+    return options
+
+
+# One algorithm.
+
+
+def run_panel(
+    recording: Recording, moment: Moment | None, picture: Picture, room: ImVec2, fonts: Fonts
+) -> Answer:
+    """Code, canvas, variables and counters, in a room."""
+    imgui.push_font(fonts.bold, 0.0)
+    imgui.text(TITLES[recording.order])
+    imgui.pop_font()
+    if moment is None:
+        imgui.text_colored(theme.DIM, "running ...")
+        return Answer()
+    answer = _slider(recording, moment)
+    left = imgui.get_content_region_avail()
+    below = imgui.get_cursor_screen_pos()
+    lines = recording.source.lines
+    em = imgui.get_font_size()
+    if left.x > 1.9 * left.y:  # all three beside one another
+        size_px = code_size_px(lines, 0.46 * left.x, min(1.6 * em, left.y / (1.22 * len(lines))))
+        _code(lines, moment, size_px, fonts)
+        x = 0.48 * left.x
+        imgui.set_cursor_screen_pos(ImVec2(below.x + x, below.y))
+        imgui.begin_group()
+        answer = _canvases(recording, moment, picture, ImVec2(0.26 * left.x, left.y), answer)
+        imgui.end_group()
+        imgui.set_cursor_screen_pos(ImVec2(below.x + 0.755 * left.x, below.y))
+        _numbers(moment, ImVec2(0.245 * left.x, left.y), fonts)
+        return answer
+    size_px = code_size_px(lines, left.x, min(1.6 * em, 0.56 * left.y / (1.22 * len(lines))))
+    _code(lines, moment, size_px, fonts)
+    left = imgui.get_content_region_avail()
+    below = imgui.get_cursor_screen_pos()
+    imgui.begin_group()
+    answer = _canvases(recording, moment, picture, ImVec2(0.52 * left.x, left.y), answer)
+    imgui.end_group()
+    imgui.set_cursor_screen_pos(ImVec2(below.x + 0.54 * left.x, below.y))
+    _numbers(moment, ImVec2(0.46 * left.x, left.y), fonts)
+    return answer
+
+
+def _slider(recording: Recording, moment: Moment) -> Answer:
+    """Where the run stands: dragged to any step."""
+    most = max(1, len(recording) - 1)
+    imgui.set_next_item_width(-1)
+    note = f"step %d of {most}"
+    if recording.truncated:
+        note += f" (stopped after {MOST_STEPS}: take fewer pixels)"
+    elif not recording.complete:
+        note += " so far"
+    changed, step = imgui.slider_int(
+        f"##step {recording.order.name}", moment.step, 0, most, note,
+        imgui.SliderFlags_.always_clamp,
+    )  # fmt: skip
+    return Answer(step=step if changed else None)
+
+
+def _code(lines: tuple[str, ...], moment: Moment, size_px: float, fonts: Fonts) -> None:
+    with lettering(fonts.mono, size_px):
+        code(lines, moment.line, None, size_px)
+
+
+def _canvases(
+    recording: Recording, moment: Moment, picture: Picture, room: ImVec2, answer: Answer
+) -> Answer:
+    """The canvas, and in object order the depth buffer below it."""
+    name = recording.order.name
+    label = imgui.get_text_line_height_with_spacing()
+    spacing = imgui.get_style().item_spacing.y
+    has_depth = moment.depth is not None
+    height = room.y - label - spacing
+    if has_depth:
+        height = 0.62 * (height - label - spacing)
+    dots = tuple((test.pixel, test.t < float("inf")) for test in moment.tests)
+    marks = Marks(moment.pixel, moment.box, dots if recording.order is Order.OBJECT else ())
+    imgui.text_colored(theme.DIM, "canvas")
+    clicked = canvas(
+        picture.color, recording.size, ImVec2(room.x, max(height, 20.0)), marks, f"canvas##{name}"
+    )
+    imgui.set_item_tooltip("a click goes to a pixel's turn")
+    if has_depth:
+        imgui.text_colored(theme.DIM, "depth")
+        imgui.set_item_tooltip("for each pixel the nearest t so far; hatched: infinity")
+        rest = ImVec2(room.x, max(20.0, room.y - height - 2 * (label + spacing)))
+        again = canvas(
+            picture.depth, recording.size, rest, Marks(moment.pixel, moment.box), f"depth##{name}"
+        )
+        clicked = clicked if clicked is not None else again
+    return replace(answer, pixel=clicked) if clicked is not None else answer
+
+
+def _numbers(moment: Moment, room: ImVec2, fonts: Fonts) -> None:
+    """The counters and the variables."""
+    imgui.begin_child("numbers", room)
+    counters = moment.counters
+    flags = imgui.TableFlags_
+    if imgui.begin_table("counters", 2, flags.sizing_fixed_fit | flags.no_saved_settings):
+        for name, count, tip in (
+            ("tests", counters.tests, "how often an object and a ray were intersected"),
+            ("writes", counters.writes, "how often a pixel of the canvas was set"),
+            ("overwrites", counters.overwrites, "writes to a pixel that had been set before"),
+        ):
+            imgui.table_next_row()
+            imgui.table_next_column()
+            imgui.text_colored(theme.DIM, name)
+            imgui.set_item_tooltip(tip)
+            imgui.table_next_column()
+            imgui.push_font(fonts.mono, 0.0)
+            imgui.text(f"{count:>7}")
+            imgui.pop_font()
+        imgui.end_table()
+    imgui.separator()
+    if imgui.begin_table("variables", 2, flags.no_saved_settings):
+        widest = imgui.calc_text_size("columns").x
+        imgui.table_setup_column("", imgui.TableColumnFlags_.width_fixed, widest)
+        imgui.table_setup_column("", imgui.TableColumnFlags_.width_stretch)
+        for variable in moment.variables:
+            color = theme.legible(theme.MARK) if variable.changed else theme.TEXT
+            imgui.table_next_row()
+            imgui.table_next_column()
+            imgui.text_colored(theme.DIM, variable.name)
+            imgui.table_next_column()
+            imgui.push_text_wrap_pos(0.0)
+            imgui.push_font(fonts.mono, 0.0)
+            imgui.text_colored(color, variable.text)
+            imgui.pop_font()
+            imgui.pop_text_wrap_pos()
+        imgui.end_table()
+    imgui.end_child()
+
+
+def _follow(width: float) -> None:
+    """The next item in this row, where it has room; else in the next one."""
+    spacing = imgui.get_style().item_spacing.x
+    end = imgui.get_item_rect_max().x + spacing + width
+    edge = imgui.get_cursor_screen_pos().x + imgui.get_content_region_avail().x
+    if end <= edge:
+        imgui.same_line()
+
+
+def _button_width(text: str) -> float:
+    return imgui.calc_text_size(text).x + 2 * imgui.get_style().frame_padding.x

@@ -1,0 +1,88 @@
+"""The cost plot as a view: it measures while it is seen, in the background.
+
+Owns what is asked of the meter. How it measures is teach/costs.py's.
+"""
+
+from __future__ import annotations
+
+from dataclasses import asdict
+
+import moderngl
+from imgui_bundle import ImVec2, imgui, implot
+
+from app import theme
+from app.options import CostOptions
+from app.panels import costs as panel
+from app.teach.costs import Case, Meter, cases, steps
+from app.views.base import Host, View
+
+COSTS = "Costs"
+POINTS = 6  # a curve
+EXPLAINED = (
+    "Object order visits each triangle: its time grows with the triangles. Image order asks a tree"
+    " of boxes, pixel by pixel: its time grows with the pixels, and hardly with the triangles."
+)
+
+
+class CostsView(View):
+    name = COSTS
+    title = "Costs"
+
+    def __init__(self) -> None:
+        self._meter: Meter | None = None
+        self._asked: tuple[Case, ...] = ()
+
+    @property
+    def settled(self) -> bool:
+        return self._meter is None or not self._meter.busy
+
+    @property
+    def meter(self) -> Meter | None:
+        return self._meter
+
+    def begin(self, host: Host, context: moderngl.Context) -> None:
+        if implot.get_current_context() is None:
+            implot.create_context()
+        self._meter = Meter(host.animate)
+
+    def end(self) -> None:
+        if self._meter is not None:
+            self._meter.close()
+
+    def unseen(self, host: Host) -> None:
+        if self._meter is not None and self._asked:
+            self._meter.ask(())
+            self._asked = ()
+
+    def draw(self, host: Host) -> None:
+        assert self._meter is not None
+        options = host.state.options.costs
+        wanted = _cases(options)
+        kept = [one for one in self._meter.samples if one.case in wanted]
+        told = panel.Told(kept, self._meter.waiting, self._meter.problems)
+        changed, again = panel.controls(options, told)
+        if changed != options:
+            host.apply(host.state.with_options(costs=asdict(changed)))
+        if again:
+            self._meter.clear()
+            self._asked = ()
+        # Not while a slider is dragged: each of its values would be measured.
+        if tuple(wanted) != self._asked and not imgui.is_any_item_active():
+            self._asked = tuple(wanted)
+            self._meter.ask(wanted)
+        for renderer, problem in told.problems.items():
+            imgui.text_colored(theme.ERROR, f"{renderer}: {problem}")
+        room = imgui.get_content_region_avail()
+        note = 2.4 * imgui.get_text_line_height_with_spacing()
+        panel.plot(options, told, ImVec2(room.x, max(60.0, room.y - note)))
+        imgui.push_text_wrap_pos(0.0)
+        imgui.text_colored(theme.DIM, EXPLAINED)
+        imgui.pop_text_wrap_pos()
+
+
+def _cases(options: CostOptions) -> list[Case]:
+    """A curve of each renderer."""
+    counts = steps(*panel.extent(options.against), POINTS)
+    if options.against == "triangles":
+        return cases(counts, (options.pixels,))
+    return cases((options.triangles,), counts)
