@@ -128,9 +128,9 @@ class StepperOptions:
 @dataclass(frozen=True)
 class CostOptions:
     """The cost plot. against: what the times are plotted against. triangles, pixels: of the image
-    that is measured; what they are plotted against grows."""
+    that is measured; the one that they are plotted against grows."""
 
-    against: Literal["triangles", "pixels"] = "triangles"
+    against: Literal["frames", "triangles", "pixels"] = "frames"
     triangles: int = 10_000
     pixels: int = 76_800
 

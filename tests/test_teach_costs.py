@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import threading
 
 import pytest
@@ -162,6 +163,47 @@ def test_other_cases_take_the_place_of_waiting_ones() -> None:
     # The case under way was taken back too: its sample is not kept.
     assert [sample.case.triangles for sample in samples] == [500]
     meter.close()
+
+
+def test_watching_draws_again_and_again() -> None:
+    made = {"raster": Fake(1e-6, 0), "ray": Fake(0, 1e-9)}
+    enough, more = threading.Event(), threading.Event()
+
+    def changed() -> None:
+        if len(meter.history) >= 3:
+            enough.set()
+        if made["raster"].scene is torus_of(1000) and len(meter.history) >= 5:
+            more.set()
+
+    meter = Meter(changed, made.__getitem__)
+    meter.watch(100, 1200)
+    assert enough.wait(60)
+    assert meter.busy
+    raster, ray = meter.history[1]
+    assert raster == pytest.approx(1e-6 * count(torus_of(100)))
+    assert ray == pytest.approx(1e-9 * 1200, rel=0.1)
+    meter.watch(1000, 1200)
+    assert more.wait(60)
+    meter.close()
+    assert not meter.busy
+    assert all(fake.released for fake in made.values())
+
+
+def test_watching_goes_on_without_a_renderer() -> None:
+    enough = threading.Event()
+
+    def make(renderer):
+        if renderer == "raster":
+            raise LucidaError("OpenGL", "is missing", "install it")
+        return Fake(0, 1e-9)
+
+    meter = Meter(lambda: len(meter.history) >= 2 and enough.set(), make)
+    meter.watch(100, 1200)
+    assert enough.wait(60)
+    meter.unwatch()
+    meter.close()
+    assert all(math.isnan(raster) and ray > 0 for raster, ray in meter.history)
+    assert list(meter.problems) == ["raster"]
 
 
 def test_both_renderers_are_measured(gl_backend) -> None:

@@ -17,7 +17,7 @@ from app import theme
 from app.options import Pixel
 from renderer.images.display import to_srgb8
 
-CELL = 12  # texels a side of a pixel, for the hatching
+CELL, POINT = 12, 1.0  # texels a side of a pixel; half a side of the point of an unset one
 SMALLEST_CELL = 5.0  # a pixel as large as that has lines round it
 MOST_DOTS = 500
 
@@ -37,23 +37,23 @@ def color_picture(color: NDArray[np.float64], exposure_ev: float) -> NDArray[np.
     pixel."""
     unset = np.asarray(np.isnan(color).any(axis=2))
     shown = to_srgb8(np.where(unset[..., None], 0.0, color), exposure_ev)
-    return _hatched(shown, unset)
+    return _pointed(shown, unset)
 
 
 def depth_picture(depth: NDArray[np.float64], farthest: float) -> NDArray[np.uint8]:
-    """Ray parameters as gray, the nearest the brightest; infinity is hatched."""
+    """Ray parameters as gray, the nearest the brightest; infinity is a point."""
     unset = ~np.isfinite(depth)
     part = np.where(unset, 0.0, depth) / (farthest if farthest > 0 else 1.0)
     gray = (255 * (1 - 0.8 * np.clip(part, 0, 1))).astype(np.uint8)
-    return _hatched(np.repeat(gray[..., None], 3, axis=2), unset)
+    return _pointed(np.repeat(gray[..., None], 3, axis=2), unset)
 
 
-def _hatched(shown: NDArray[np.uint8], unset: NDArray[np.bool_]) -> NDArray[np.uint8]:
+def _pointed(shown: NDArray[np.uint8], unset: NDArray[np.bool_]) -> NDArray[np.uint8]:
     large = shown.repeat(CELL, axis=0).repeat(CELL, axis=1)
     mask = unset.repeat(CELL, axis=0).repeat(CELL, axis=1)
-    i, j = np.indices(mask.shape)
-    line = (i + j) % CELL < 2
-    for color, where in ((theme.BACKGROUND, mask & ~line), (theme.FRAME_ACTIVE, mask & line)):
+    i, j = np.indices(mask.shape) % CELL
+    point = (np.maximum(np.abs(i - (CELL - 1) / 2), np.abs(j - (CELL - 1) / 2))) < POINT
+    for color, where in ((theme.BACKGROUND, mask & ~point), (theme.PLAIN, mask & point)):
         large[where] = [round(255 * part) for part in (color.x, color.y, color.z)]
     return large
 

@@ -18,8 +18,8 @@ from app.teach.costs import (
     LEAST_PIXELS,
     LEAST_TRIANGLES,
     MOST_PIXELS,
-    MOST_TRIANGLES,
     RENDERERS,
+    WATCHED,
     Renderer,
     Sample,
     growth_text,
@@ -27,17 +27,28 @@ from app.teach.costs import (
 
 TITLES: dict[Renderer, str] = {"raster": "raster, object order", "ray": "ray, image order"}
 TOP_TRIANGLES = 1_000_000  # of the slider and the plot
-AGAINST: tuple[Literal["triangles", "pixels"], ...] = ("triangles", "pixels")
+AGAINST: tuple[Literal["frames", "triangles", "pixels"], ...] = ("frames", "triangles", "pixels")
 
 
 @dataclass(frozen=True)
 class Told:
-    """What the panel shows. waiting: how many cases are to be measured yet. problems: why a
+    """What the panel shows. samples: of a growing number. history: the last frames' times,
+    (raster, ray) in seconds. waiting: how many cases are to be measured yet. problems: why a
     renderer cannot be measured."""
 
     samples: Sequence[Sample]
+    history: Sequence[tuple[float, float]]
     waiting: int
     problems: dict[Renderer, str]
+
+
+def possible(options: CostOptions) -> CostOptions:
+    """The options with numbers that can be measured."""
+    return replace(
+        options,
+        triangles=min(max(options.triangles, LEAST_TRIANGLES), TOP_TRIANGLES),
+        pixels=min(max(options.pixels, LEAST_PIXELS), MOST_PIXELS),
+    )
 
 
 def controls(options: CostOptions, told: Told) -> tuple[CostOptions, bool]:
@@ -53,30 +64,60 @@ def controls(options: CostOptions, told: Told) -> tuple[CostOptions, bool]:
     if told.waiting:
         imgui.same_line()
         imgui.text_colored(theme.DIM, f"measuring, {told.waiting} to go ...")
-    # The one that is plotted along the axis is not to be chosen.
+    # What is plotted along the axis is not to be chosen.
+    if options.against != "triangles":
+        options = replace(
+            options,
+            triangles=_slider("triangles", options.triangles, LEAST_TRIANGLES, TOP_TRIANGLES),
+        )
+    if options.against != "pixels":
+        options = replace(
+            options, pixels=_slider("pixels", options.pixels, LEAST_PIXELS, MOST_PIXELS)
+        )
+    return options, again
+
+
+def _slider(name: str, value: int, least: int, most: int) -> int:
+    """A number that differs by factors."""
     width = min(22 * imgui.get_font_size(), 0.6 * imgui.get_content_region_avail().x)
     imgui.set_next_item_width(width)
     logarithmic = imgui.SliderFlags_.logarithmic | imgui.SliderFlags_.always_clamp
-    if options.against == "pixels":
-        changed, value = imgui.slider_int(
-            "triangles", options.triangles, LEAST_TRIANGLES, TOP_TRIANGLES, "%d", logarithmic
-        )
-        if changed:
-            options = replace(options, triangles=min(max(value, LEAST_TRIANGLES), MOST_TRIANGLES))
-    else:
-        changed, value = imgui.slider_int(
-            "pixels", options.pixels, LEAST_PIXELS, MOST_PIXELS, "%d", logarithmic
-        )
-        if changed:
-            options = replace(options, pixels=min(max(value, LEAST_PIXELS), MOST_PIXELS))
-    return options, again
+    changed, chosen = imgui.slider_int(name, value, least, most, "%d", logarithmic)
+    return min(max(chosen, least), most) if changed else value
+
+
+def frames_plot(told: Told, size: ImVec2) -> None:
+    """The last frames' times, as they come."""
+    if not implot.begin_plot(
+        "##frames", size, implot.Flags_.no_mouse_text | implot.Flags_.no_menus
+    ):
+        return
+    times = 1e3 * np.array(told.history, float).reshape(-1, 2)
+    implot.setup_axes("frames", "milliseconds", implot.AxisFlags_.no_tick_labels)
+    top = float(np.nanmax(times, initial=0.1)) if np.isfinite(times).any() else 1.0
+    limits = implot.Cond_.always
+    implot.setup_axis_limits(implot.ImAxis_.x1, 0, WATCHED - 1, limits)
+    implot.setup_axis_limits(implot.ImAxis_.y1, 0, _round_up(1.15 * top), limits)
+    implot.setup_legend(implot.Location_.north_west)
+    at = np.arange(WATCHED - len(times), WATCHED, dtype=float)
+    for column, renderer in enumerate(RENDERERS):
+        shown = np.isfinite(times[:, column])
+        if shown.any():
+            now = float(np.median(times[shown, column][-9:]))
+            label = f"{TITLES[renderer]}  {now:8.2f} ms###{renderer}"
+            spec = _spec(renderer)
+            implot.plot_line(label, at[shown], times[shown, column], spec)
+    implot.end_plot()
 
 
 def plot(options: CostOptions, told: Told, size: ImVec2) -> None:
     """The times, both axes logarithmic: a loop over n is a straight line that climbs like n."""
+    unit = options.against
+    if unit == "frames":
+        frames_plot(told, size)
+        return
     if not implot.begin_plot("##costs", size, implot.Flags_.no_mouse_text | implot.Flags_.no_menus):
         return
-    unit = options.against
     implot.setup_axes(unit, "milliseconds")
     x, y = implot.ImAxis_.x1, implot.ImAxis_.y1
     implot.setup_axis_scale(x, implot.Scale_.log10)
@@ -93,14 +134,19 @@ def plot(options: CostOptions, told: Told, size: ImVec2) -> None:
         counts = np.array([float(getattr(one, unit)) for one in chosen])
         order = np.argsort(counts)
         times = np.array([1e3 * one.time_s for one in chosen])
-        spec = implot.Spec()
-        spec.line_color = spec.marker_fill_color = spec.marker_line_color = color_of(renderer)
-        spec.line_weight = theme.line_px(2.2)
+        spec = _spec(renderer)
         spec.marker = implot.Marker_.circle
         spec.marker_size = theme.px(4.5)
         label = f"{TITLES[renderer]}  {growth_text(chosen, unit)}"
         implot.plot_line(f"{label}###{renderer}", counts[order], times[order], spec)
     implot.end_plot()
+
+
+def _spec(renderer: Renderer) -> implot.Spec:
+    spec = implot.Spec()
+    spec.line_color = spec.marker_fill_color = spec.marker_line_color = color_of(renderer)
+    spec.line_weight = theme.line_px(2.2)
+    return spec
 
 
 def color_of(renderer: Renderer) -> ImVec4:
@@ -119,3 +165,9 @@ def _times(samples: Sequence[Sample]) -> tuple[float, float]:
     low = 10.0 ** np.floor(np.log10(min(times)))
     high = 10.0 ** np.ceil(np.log10(max(times) * 1.05))
     return float(low), float(max(high, 10 * low))
+
+
+def _round_up(value: float) -> float:
+    """To 1, 2 or 5 times a power of ten, so that the axis seldom moves."""
+    power = 10.0 ** np.floor(np.log10(value))
+    return float(next(step * power for step in (1, 2, 5, 10) if step * power >= value))

@@ -98,10 +98,10 @@ def keys() -> Wish:
 
 def _speed(options: StepperOptions) -> StepperOptions:
     width = 8 * imgui.get_font_size()
-    _follow(width + imgui.calc_text_size("steps a second").x)
+    _follow(width + imgui.calc_text_size("steps/s").x)
     imgui.set_next_item_width(width)
     changed, speed = imgui.slider_float(
-        "steps a second", options.speed, SLOWEST, FASTEST, "%.0f", imgui.SliderFlags_.logarithmic
+        "steps/s", options.speed, SLOWEST, FASTEST, "%.0f", imgui.SliderFlags_.logarithmic
     )
     return replace(options, speed=min(max(speed, SLOWEST), FASTEST)) if changed else options
 
@@ -198,28 +198,38 @@ def _code(lines: tuple[str, ...], moment: Moment, size_px: float, fonts: Fonts) 
 def _canvases(
     recording: Recording, moment: Moment, picture: Picture, room: ImVec2, answer: Answer
 ) -> Answer:
-    """The canvas, and in object order the depth buffer below it."""
-    name = recording.order.name
+    """The canvas, and in object order the depth buffer beside or below it: where it has room."""
+    name, size = recording.order.name, recording.size
     label = imgui.get_text_line_height_with_spacing()
-    spacing = imgui.get_style().item_spacing.y
-    has_depth = moment.depth is not None
-    height = room.y - label - spacing
-    if has_depth:
-        height = 0.62 * (height - label - spacing)
+    spacing = imgui.get_style().item_spacing
+    height = max(20.0, room.y - label)
+    first = rest = ImVec2(room.x, height)
+    beside = False
+    if moment.depth is not None:
+        below = max(20.0, height - label - spacing.y)
+        across = room.x - spacing.x
+        choices = (
+            (ImVec2(room.x, 0.6 * below), ImVec2(room.x, 0.4 * below), False),
+            (ImVec2(0.6 * across, height), ImVec2(0.4 * across, height), True),
+        )
+        first, rest, beside = max(
+            choices, key=lambda one: min(one[0].x / size[0], one[0].y / size[1])
+        )
     dots = tuple((test.pixel, test.t < float("inf")) for test in moment.tests)
     marks = Marks(moment.pixel, moment.box, dots if recording.order is Order.OBJECT else ())
+    imgui.begin_group()
     imgui.text_colored(theme.DIM, "canvas")
-    clicked = canvas(
-        picture.color, recording.size, ImVec2(room.x, max(height, 20.0)), marks, f"canvas##{name}"
-    )
+    clicked = canvas(picture.color, size, first, marks, f"canvas##{name}")
     imgui.set_item_tooltip("a click goes to a pixel's turn")
-    if has_depth:
-        imgui.text_colored(theme.DIM, "depth")
-        imgui.set_item_tooltip("for each pixel the nearest t so far; hatched: infinity")
-        rest = ImVec2(room.x, max(20.0, room.y - height - 2 * (label + spacing)))
-        again = canvas(
-            picture.depth, recording.size, rest, Marks(moment.pixel, moment.box), f"depth##{name}"
-        )
+    imgui.end_group()
+    if moment.depth is not None:
+        if beside:
+            imgui.same_line()
+        imgui.begin_group()
+        imgui.text_colored(theme.DIM, "depth buffer")
+        again = canvas(picture.depth, size, rest, Marks(moment.pixel, moment.box), f"depth##{name}")
+        imgui.set_item_tooltip("for each pixel the nearest t so far, near ones bright")
+        imgui.end_group()
         clicked = clicked if clicked is not None else again
     return replace(answer, pixel=clicked) if clicked is not None else answer
 

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import math
 import threading
+from collections import deque
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 from functools import lru_cache
@@ -26,6 +27,8 @@ RENDERERS: tuple[Renderer, ...] = ("raster", "ray")
 LEAST_TRIANGLES, MOST_TRIANGLES = 18, 2 * SEGMENTS * (SEGMENTS // 2)
 LEAST_PIXELS, MOST_PIXELS = 64, 1 << 22
 ROUNDS = 5  # times that each case is drawn; the least counts, others had company
+WATCHED = 240  # frames that are kept while watching
+WATCH_S = 0.04  # from one watched frame to the next, so that others have the processor too
 
 
 @dataclass(frozen=True)
@@ -122,9 +125,10 @@ def measure(case: Case, drawing: Drawing) -> Sample:
 
 
 class Meter:
-    """Measures in the background. changed: called from its thread after each sample.
+    """Measures in the background: cases that are asked for, or one again and again.
 
-    make: how the renderers are made there; for tests.
+    changed: called from its thread after each sample. make: how the renderers are made there; for
+    tests.
     """
 
     def __init__(
@@ -138,6 +142,9 @@ class Meter:
         self._wanted: list[Case] = []
         self._samples: list[Sample] = []
         self._problems: dict[Renderer, str] = {}
+        self._watched: tuple[int, int] | None = None
+        self._history: deque[tuple[float, float]] = deque(maxlen=WATCHED)
+        self._stop = threading.Event()
         self._thread: threading.Thread | None = None
         self._closed = False
 
@@ -169,48 +176,108 @@ class Meter:
         with self._lock:
             known = {sample.case for sample in self._samples}
             self._wanted = [case for case in wanted if case not in known]
-            if self._wanted and self._thread is None and not self._closed:
-                self._thread = threading.Thread(target=self._run, name="lucida costs", daemon=True)
-                self._thread.start()
+            self._wake()
+
+    def watch(self, triangles: int, pixels: int) -> None:
+        """Draws such an image with each renderer again and again, until unwatch()."""
+        with self._lock:
+            self._watched = (triangles, pixels)
+            self._wake()
+
+    def unwatch(self) -> None:
+        with self._lock:
+            self._watched = None
+
+    @property
+    def history(self) -> list[tuple[float, float]]:
+        """The last watched frames' times, (raster, ray) in seconds; NaN where one does not work."""
+        with self._lock:
+            return list(self._history)
+
+    def _wake(self) -> None:
+        """With the lock held."""
+        needed = self._wanted or self._watched
+        if needed and self._thread is None and not self._closed:
+            self._thread = threading.Thread(target=self._run, name="lucida costs", daemon=True)
+            self._thread.start()
 
     def clear(self) -> None:
         """Forgets all samples, and measures no more."""
         with self._lock:
             self._wanted, self._samples, self._problems = [], [], {}
+            self._history.clear()
 
     def close(self, timeout_s: float = 2.0) -> None:
         """Ends after the case under way."""
         with self._lock:
-            self._wanted, self._closed = [], True
+            self._wanted, self._watched, self._closed = [], None, True
+            self._stop.set()
             thread = self._thread
         if thread is not None:
             thread.join(timeout_s)
 
     def _run(self) -> None:
         drawings: dict[Renderer, Drawing] = {}
+        scenes: dict[Renderer, Scene] = {}
         try:
-            while (case := self._next()) is not None:
-                self._measure(case, drawings)
+            while (task := self._next()) is not None:
+                if isinstance(task, Case):
+                    self._measure(task, drawings)
+                    scenes.clear()
+                else:
+                    self._watch_once(*task, drawings, scenes)
                 self._changed()
         finally:
             for drawing in drawings.values():
                 _release(drawing)
 
-    def _next(self) -> Case | None:
+    def _next(self) -> Case | tuple[int, int] | None:
         with self._lock:
             # Decided and said under one lock: whoever asks later starts another thread.
-            if not self._wanted:
+            if self._wanted:
+                return self._wanted[0]
+            if self._watched is None:
                 self._thread = None
-                return None
-            return self._wanted[0]
+            return self._watched
+
+    def _watch_once(
+        self,
+        triangles: int,
+        pixels: int,
+        drawings: dict[Renderer, Drawing],
+        scenes: dict[Renderer, Scene],
+    ) -> None:
+        """One frame of each renderer, and a pause."""
+        times = dict.fromkeys(RENDERERS, math.nan)
+        scene = torus_of(triangles)
+        for renderer in RENDERERS:
+            if renderer in self.problems:
+                continue
+            size = Case(renderer, triangles, pixels).size
+            try:
+                drawing = self._drawing(renderer, drawings)
+                if scenes.get(renderer) is not scene:
+                    drawing.set_scene(scene)
+                    scenes[renderer] = scene
+                camera = Camera.canonical().fitted(size)
+                times[renderer] = drawing.render(camera, size, channels=("color",)).time_s
+            except Exception as error:  # said beside the plot, which goes on with the other one
+                with self._lock:
+                    self._problems[renderer] = str(error) or type(error).__name__
+        with self._lock:
+            self._history.append((times["raster"], times["ray"]))
+        self._stop.wait(WATCH_S)
+
+    def _drawing(self, renderer: Renderer, drawings: dict[Renderer, Drawing]) -> Drawing:
+        if renderer not in drawings:
+            drawings[renderer] = self._make(renderer)
+        return drawings[renderer]
 
     def _measure(self, case: Case, drawings: dict[Renderer, Drawing]) -> None:
         sample, problem = None, self.problems.get(case.renderer, "")
         try:
             if not problem:
-                if case.renderer not in drawings:
-                    drawings[case.renderer] = self._make(case.renderer)
-                sample = measure(case, drawings[case.renderer])
+                sample = measure(case, self._drawing(case.renderer, drawings))
         except Exception as error:  # said beside the plot, which goes on with the other renderer
             problem = str(error) or type(error).__name__
         with self._lock:

@@ -1,7 +1,9 @@
 """The two algorithms as the lecture writes them: rasterization and ray tracing, by their loops.
 
-Owns the loops, and nothing else: the stepper shows these functions' sources while they run. What
-they call is in loop_parts.py. Only the order of the loops differs, and what that makes of the test.
+Owns the loops, and nothing else: the stepper shows these functions' sources while they run, which
+is why they carry no types. What they call is in loop_parts.py. Only the order of the loops differs,
+and what that makes of the test. Both take a Model, a Camera and a size (width, height), and give a
+Canvas.
 """
 
 from __future__ import annotations
@@ -10,18 +12,16 @@ from app.teach.loop_parts import (
     MISS,
     Canvas,
     DepthBuffer,
-    Model,
     bounding_box,
     color_at,
     intersect,
     viewing_ray,
 )
-from renderer.camera import Camera, Size
 
 
-def object_order(scene: Model, camera: Camera, size: Size) -> Canvas:
+def object_order(scene, camera, size):
     """For each object, for each pixel."""
-    width, height = size
+    W, H = size
     left, right, bottom, top = camera.viewport
     canvas = Canvas(size, scene.background)
     depth = DepthBuffer(size)
@@ -29,8 +29,8 @@ def object_order(scene: Model, camera: Camera, size: Size) -> Canvas:
         rows, columns = bounding_box(object, camera, size)
         for i in rows:
             for j in columns:
-                u = left + (j + 0.5) / width * (right - left)
-                v = top - (i + 0.5) / height * (top - bottom)
+                u = left + (j + 0.5) / W * (right - left)
+                v = top - (i + 0.5) / H * (top - bottom)
                 ray = viewing_ray(camera, u, v)
                 hit = intersect(object, ray)
                 if hit.t < depth[i, j]:
@@ -39,15 +39,15 @@ def object_order(scene: Model, camera: Camera, size: Size) -> Canvas:
     return canvas
 
 
-def image_order(scene: Model, camera: Camera, size: Size) -> Canvas:
+def image_order(scene, camera, size):
     """For each pixel, for each object."""
-    width, height = size
+    W, H = size
     left, right, bottom, top = camera.viewport
     canvas = Canvas(size)
-    for i in range(height):
-        for j in range(width):
-            u = left + (j + 0.5) / width * (right - left)
-            v = top - (i + 0.5) / height * (top - bottom)
+    for i in range(H):
+        for j in range(W):
+            u = left + (j + 0.5) / W * (right - left)
+            v = top - (i + 0.5) / H * (top - bottom)
             ray = viewing_ray(camera, u, v)
             closest = MISS
             for object in scene.objects:

@@ -34,7 +34,7 @@ class CostsView(View):
 
     @property
     def settled(self) -> bool:
-        return self._meter is None or not self._meter.busy
+        return self._meter is None or not self._meter.waiting
 
     @property
     def meter(self) -> Meter | None:
@@ -50,26 +50,22 @@ class CostsView(View):
             self._meter.close()
 
     def unseen(self, host: Host) -> None:
-        if self._meter is not None and self._asked:
-            self._meter.ask(())
-            self._asked = ()
+        if self._meter is not None:
+            self._stop(self._meter)
 
     def draw(self, host: Host) -> None:
         assert self._meter is not None
-        options = host.state.options.costs
+        options = panel.possible(host.state.options.costs)
         wanted = _cases(options)
         kept = [one for one in self._meter.samples if one.case in wanted]
-        told = panel.Told(kept, self._meter.waiting, self._meter.problems)
+        told = panel.Told(kept, self._meter.history, self._meter.waiting, self._meter.problems)
         changed, again = panel.controls(options, told)
         if changed != options:
             host.apply(host.state.with_options(costs=asdict(changed)))
         if again:
             self._meter.clear()
             self._asked = ()
-        # Not while a slider is dragged: each of its values would be measured.
-        if tuple(wanted) != self._asked and not imgui.is_any_item_active():
-            self._asked = tuple(wanted)
-            self._meter.ask(wanted)
+        self._ask(self._meter, changed)
         for renderer, problem in told.problems.items():
             imgui.text_colored(theme.ERROR, f"{renderer}: {problem}")
         room = imgui.get_content_region_avail()
@@ -79,9 +75,31 @@ class CostsView(View):
         imgui.text_colored(theme.DIM, EXPLAINED)
         imgui.pop_text_wrap_pos()
 
+    def _ask(self, meter: Meter, options: CostOptions) -> None:
+        """What is to be measured now."""
+        if options.against == "frames":
+            meter.ask(())
+            self._asked = ()
+            meter.watch(options.triangles, options.pixels)
+            return
+        meter.unwatch()
+        wanted = tuple(_cases(options))
+        # Not while a slider is dragged: each of its values would be measured.
+        if wanted != self._asked and not imgui.is_any_item_active():
+            self._asked = wanted
+            meter.ask(wanted)
+
+    def _stop(self, meter: Meter) -> None:
+        meter.unwatch()
+        if self._asked:
+            meter.ask(())
+            self._asked = ()
+
 
 def _cases(options: CostOptions) -> list[Case]:
-    """A curve of each renderer."""
+    """A curve of each renderer; none of frames, which are watched."""
+    if options.against == "frames":
+        return []
     counts = steps(*panel.extent(options.against), POINTS)
     if options.against == "triangles":
         return cases(counts, (options.pixels,))
