@@ -21,6 +21,7 @@ STEPS = (
     *(1 / 64, 1 / 48, 1 / 32, 1 / 24, 1 / 16, 1 / 12, 1 / 8, 1 / 6, 1 / 4, 1 / 3, 1 / 2),
     *(1.0, 2.0, 3.0, 4.0, 6.0, 8.0, 12.0, 16.0, 24.0, 32.0, 48.0, 64.0, 96.0, 128.0),
 )
+NEARLY = 0.85  # as large: of the width, and of the height
 WHOLE_FROM = 4.0  # a fitted image gives up a fifth of its size at most for pixels of one size
 
 
@@ -128,9 +129,20 @@ def magnification_of(options: ImageOptions, size: Size, pane: Size) -> float:
     """What the options come to for an image in a window."""
     if options.magnification is not None:
         return min(max(options.magnification, LEAST), MOST)
-    if options.resolution is None:
+    if options.resolution is None and all(
+        s * options.pixel_size <= p for s, p in zip(size, pane, strict=True)
+    ):
         return float(options.pixel_size)
     return fit_magnification(size, pane)
+
+
+def common_pane(panes: Sequence[Size]) -> Size:
+    """What the images' own size follows: the largest of their windows. Those that are nearly as
+    large count too, so that all of these show their pixels one to one; in smaller ones the images
+    are reduced."""
+    width, height = max(panes, key=lambda pane: pane[0] * pane[1])
+    near = [p for p in panes if p[0] >= NEARLY * width and p[1] >= NEARLY * height]
+    return min(p[0] for p in near), min(p[1] for p in near)
 
 
 def place(options: ImageOptions, size: Size, pane: Size) -> Placement:

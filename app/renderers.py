@@ -17,7 +17,7 @@ from app.agreement import Agreement, Verdict
 from app.live import LiveTrace, RayImage, Request, Tracer
 from app.options import ImageOptions
 from app.pictures import Pictures, Wanted
-from app.placement import Placement, place
+from app.placement import Placement, common_pane, place
 from app.platform import lower_priority
 from app.reading import Region
 from app.state import AppState
@@ -66,14 +66,13 @@ class Renderers:
 
     def fit_pane(self, name: str, pane_px: tuple[int, int], options: ImageOptions) -> None:
         """Says how large the window of an image is, (width, height) in framebuffer pixels: both
-        images get the size of the smallest of them, or the resolution that was chosen."""
+        images get the size of the largest of them, or the resolution that was chosen."""
         self._panes_px[name] = pane_px
         if options.resolution is not None:
             self.size = options.resolution
             return
-        pixel_size = options.pixel_size
-        panes = self._panes_px.values()
-        width, height = (max(1, min(pane[k] for pane in panes) // pixel_size) for k in (0, 1))
+        pane = common_pane(list(self._panes_px.values()))
+        width, height = (max(1, side // options.pixel_size) for side in pane)
         width, height = min(width, LARGEST_SIDE), min(height, LARGEST_SIDE)
         self.size = (width, min(height, LARGEST_PIXELS // width))
 

@@ -145,3 +145,17 @@ def test_texts_are_thinned_out_until_they_have_room(cell, needed):
     step = thinning(cell, needed)
     assert step * cell >= needed
     assert step == 1 or step * cell < 2.6 * needed
+
+
+def test_the_images_follow_the_largest_window_and_those_that_are_nearly_as_large():
+    assert placement.common_pane([(320, 300), (640, 500), (320, 300)]) == (640, 500)
+    assert placement.common_pane([(501, 400), (500, 402)]) == (500, 400)
+    assert placement.common_pane([(480, 170), (480, 310)]) == (480, 310)
+
+
+def test_an_image_that_follows_a_larger_window_is_reduced_in_a_smaller_one():
+    here = place(ImageOptions(), (640, 500), (320, 300))
+    assert here.sees_all
+    assert here.magnification == 0.5
+    assert place(ImageOptions(), (300, 300), (320, 310)).magnification == 1
+    assert place(ImageOptions(pixel_size=4), (80, 75), (320, 300)).magnification == 4
