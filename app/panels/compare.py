@@ -22,6 +22,8 @@ DrawMap = Callable[[ImVec2, ImVec2, bool], None]  # two corners; whether the sig
 
 IMAGE_LEAST = 0.5  # the part of the view's height that stays for the image, come what may
 DIGITS = 6  # of a count
+VALUES_COLUMNS = 58  # of a pixel's values
+NEXT = "next"
 
 
 @dataclass(frozen=True)
@@ -85,24 +87,27 @@ def toolbar_height(state: AppState) -> float:
 
 @dataclass(frozen=True)
 class Footer:
-    """The lines below the image that have room. counts: lines of them. height: of all."""
+    """The lines below the image that have room, those of the counts and of the errors by number.
+    height: of all."""
 
     counts: int
-    errors: bool
+    errors: int
     values: bool
     height: float
 
 
-def footer_plan(available: float) -> Footer:
+def footer_plan(available: float, fonts: theme.Fonts) -> Footer:
     """What has room in a view of that height: the headline and the scale always, then the counts,
     the errors, the values of a pixel. Depends on sizes alone, so that nothing jumps."""
     line, row = imgui.get_text_line_height_with_spacing(), imgui.get_frame_height_with_spacing()
     height = line + _scale_height()
     room = (1 - IMAGE_LEAST) * available - height
-    wanted = lines([_count_width(cause.name) for cause in LABELS])
-    counts = wanted if wanted * row <= room else 0
-    errors = counts > 0 and (counts + 1) * row <= room
-    values = errors and (counts + 1) * row + 2 * line <= room
+    counts = lines([_count_width(cause.name) for cause in LABELS])
+    counts = counts if counts * row <= room else 0
+    errors = lines(_error_widths(fonts)) if counts else 0
+    errors = errors if (counts + errors) * row <= room else 0
+    wide = _mono_width(fonts, VALUES_COLUMNS) <= imgui.get_content_region_avail().x
+    values = bool(errors) and wide and (counts + errors) * row + 2 * line <= room
     return Footer(counts, errors, values, height + (counts + errors) * row + values * 2 * line)
 
 
@@ -262,12 +267,14 @@ def _errors(wish: Wish, comparison: Comparison | None, fonts: theme.Fonts) -> Wi
     """Buttons that go to pixels, and the errors over the whole image."""
     channel, one_based = wish.state.images.channel, wish.state.options.one_based
     differ = comparison is not None and comparison.agree < comparison.pixels
+    flow, widths = Flow(), _error_widths(fonts)
+    flow.next(widths[0])
     imgui.begin_disabled(not differ)
-    if imgui.button("next"):
+    if imgui.button(NEXT):
         wish = Wish(wish.state, -1 if imgui.get_io().key_shift else 1)
     imgui.end_disabled()
     imgui.set_item_tooltip("Mark the next pixel that differs, and magnify there. Keys N, Shift+N")
-    imgui.same_line()
+    flow.next(widths[1])
     worst = comparison.errors[channel].worst if comparison is not None else (0, 0)
     imgui.begin_disabled(comparison is None)
     imgui.push_font(fonts.mono, 0.0)
@@ -276,13 +283,30 @@ def _errors(wish: Wish, comparison: Comparison | None, fonts: theme.Fonts) -> Wi
     imgui.pop_font()
     imgui.end_disabled()
     imgui.set_item_tooltip("Mark the pixel of the largest error, and magnify there. Shift+M")
-    imgui.same_line()
+    flow.next(widths[2])
     imgui.push_font(fonts.mono, 0.0)
     text = comparing.error_text(comparison, channel) if comparison is not None else "..."
     imgui.align_text_to_frame_padding()
     imgui.text(text)
     imgui.pop_font()
     return wish
+
+
+def _error_widths(fonts: theme.Fonts) -> list[float]:
+    """Of the two buttons, and of the errors' usual text."""
+    pad = 2 * imgui.get_style().frame_padding.x
+    return [
+        _button_width(NEXT),
+        _mono_width(fonts, len("worst (1000, 1000)")) + pad,
+        _mono_width(fonts, len("max 100.0/255  RMS  10.000/255")),
+    ]
+
+
+def _mono_width(fonts: theme.Fonts, columns: int) -> float:
+    imgui.push_font(fonts.mono, 0.0)
+    width = imgui.calc_text_size("0" * columns).x
+    imgui.pop_font()
+    return width
 
 
 def _values(state: AppState, told: Told, fonts: theme.Fonts) -> None:

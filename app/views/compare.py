@@ -71,7 +71,7 @@ class CompareView(ImageView):
         super()._strip(host)
         host.apply(panel.toolbar(host.state))
         available = imgui.get_content_region_avail()
-        plan = panel.footer_plan(imgui.get_window_height())
+        plan = panel.footer_plan(imgui.get_window_height(), host.fonts)
         size = ImVec2(available.x, max(1.0, available.y - plan.height))
         imgui.begin_child("image", size, 0, self.flags | imgui.WindowFlags_.no_background)
         self._image(host)

@@ -334,11 +334,14 @@ def drive_the_view_turns_the_camera_as_the_images_do(d: Driver) -> None:
 
 
 def drive_it_fits_small_and_large_windows(d: Driver) -> None:
-    for size in ((640, 400), (300, 200), (1600, 1000), SIZE):
+    view = d.window.views[NAME]
+    for size in ((1600, 1000), (1000, 500), (640, 400), (300, 100), SIZE):
         hello_imgui.change_window_size(size)
         d.ctx.yield_(5)
-        show(d, mode="wipe")
-        window = imgui.internal.find_window_by_name(d.window.views[NAME].label)
+        show(d, mode="wipe" if size[0] == 640 else "absolute")
+        window = imgui.internal.find_window_by_name(view.label)
         assert window is not None
-        assert window.scroll_max.x == 0
-    show(d, mode="absolute")
+        if size[0] >= 640:
+            low, high = view.screen.pane
+            assert high.y - low.y > 0.25 * window.size.y, "the image keeps its share"
+            assert window.scroll_max.x == window.scroll_max.y == 0, "nothing is cut off"
