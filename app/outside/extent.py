@@ -79,7 +79,9 @@ def framed(
         upward = np.array([0.0, 0.0, -1.0])
     camera = Camera.look_at(center + toward, center, upward, fov_y_deg=FOV_Y_DEG, aspect=aspect)
     x, y, z = ((points - center) @ np.asarray(axis) for axis in (camera.u, camera.v, camera.w))
-    radius = max(float(np.linalg.norm(points - center, axis=1).max()), 1e-9)
+    # Not so near that the numbers' own steps show.
+    least = max(1e-6 * float(np.abs(center).max()), 1e-9)
+    radius = max(float(np.linalg.norm(points - center, axis=1).max()), least)
     tan_y = math.tan(math.radians(FOV_Y_DEG) / 2) / MARGIN
     offsets, depths = [], [1.02 * float(z.max()) + 0.05 * radius]
     for across, tangent in ((x, tan_y * aspect), (y, tan_y)):
