@@ -36,7 +36,7 @@ channels:
   normal      (H, W, 3) float32, world space, unit, facing the viewer; 0 where nothing
               is hit. Picture: 0.5 + 0.5 n as red, green, blue
   id          (H, W) int32, the object's index in the scene, -1 where nothing is hit.
-              Picture: nine colours for colour-blind eyes, repeated; misses black
+              Picture: 14 colours for colour-blind eyes, repeated; misses black
 
 examples:
   lucida render spheres -o spheres.png

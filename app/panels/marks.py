@@ -13,6 +13,7 @@ from app.panels.screen import Screen
 
 SMALLEST_FRAMED = 6  # a pixel as large as that gets a frame of its own size
 TICK = 9.0  # the lines that point at a marked pixel
+LARGEST_POINTED_AT = 24.0
 LEAP = 10  # with Shift
 
 _KEYS = {
@@ -32,11 +33,14 @@ def draw_hovered(draw: imgui.ImDrawList, screen: Screen, pixel: Pixel) -> None:
 
 
 def draw_marked(draw: imgui.ImDrawList, screen: Screen, pixel: Pixel) -> None:
-    """A heavier frame, with a line towards it from each side: it is found at a glance."""
+    """A heavier frame; where that is small, with a line towards it from each side, so that it is
+    found at a glance."""
     middle, half = _middle(screen, pixel)
     for width, color in ((5.0, theme.rgb("#000000", 0.75)), (2.0, theme.MARK)):
         low, high = _square(middle, half, 1.5)
         draw.add_rect(low, high, theme.u32(color), 0.0, width)
+        if min(screen.cell) > LARGEST_POINTED_AT:
+            continue
         for dx, dy in ((-1, 0), (1, 0), (0, -1), (0, 1)):
             start, end = half[0 if dx else 1] + 2.0, half[0 if dx else 1] + 2.0 + TICK
             draw.add_line(

@@ -13,7 +13,7 @@ from app.placement import magnification_text
 from app.state import AppState
 from renderer.images.display import FARTHEST_GRAY, ID_PALETTE
 
-BOX = theme.rgb("#0c0d0f", 0.82)
+BOX = theme.rgb("#0c0d0f", 0.9)
 TEXT = theme.rgb("#e8eaed")
 DIM = theme.rgb("#b4bac2")
 MARGIN = 8.0

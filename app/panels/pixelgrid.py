@@ -40,9 +40,13 @@ def draw_pixel_grid(
     if side_px < LINES_FROM:
         return
     _lines(draw, screen)
+    low, high = screen.visible
+    band = _rulers(draw, screen, state, fonts)
     if side_px >= VALUES_FROM and values is not None:
+        inner = ImVec2(low.x + band.x, low.y + band.y)
+        draw.push_clip_rect(inner, high, intersect_with_current_clip_rect=True)
         _values(draw, screen, state, values, depths, fonts)
-    _rulers(draw, screen, state, fonts)
+        draw.pop_clip_rect()
 
 
 def thinning(cell: float, needed: float) -> int:
@@ -69,8 +73,9 @@ def _lines(draw: imgui.ImDrawList, screen: Screen) -> None:
         draw.add_rect_filled(ImVec2(low.x, y), ImVec2(high.x, y + width), color)
 
 
-def _rulers(draw: imgui.ImDrawList, screen: Screen, state: AppState, fonts: theme.Fonts) -> None:
-    """Columns along the upper edge, rows along the left one, on dark bands."""
+def _rulers(draw: imgui.ImDrawList, screen: Screen, state: AppState, fonts: theme.Fonts) -> ImVec2:
+    """Columns along the upper edge, rows along the left one, on dark bands; gives the width of the
+    left and the height of the upper band."""
     low, high = screen.visible
     (width, height), (columns, rows) = screen.cell, screen.placement.size
     top, left, bottom, right = screen.placement.visible_pixels
@@ -78,8 +83,8 @@ def _rulers(draw: imgui.ImDrawList, screen: Screen, state: AppState, fonts: them
     digit = ADVANCE * size
     band_x, band_y = digit * len(str(rows)) + 6, size + 2
     if high.x - low.x < 4 * band_x or high.y - low.y < 4 * band_y:
-        return
-    band, plain = theme.u32(theme.rgb("#0c0d0f", 0.7)), theme.u32(theme.rgb("#e8eaed"))
+        return ImVec2(0, 0)
+    band, plain = theme.u32(theme.rgb("#0c0d0f", 0.8)), theme.u32(theme.rgb("#e8eaed"))
     draw.add_rect_filled(low, ImVec2(high.x, low.y + band_y), band)
     draw.add_rect_filled(ImVec2(low.x, low.y + band_y), ImVec2(low.x + band_x, high.y), band)
     marked = state.marked
@@ -105,6 +110,7 @@ def _rulers(draw: imgui.ImDrawList, screen: Screen, state: AppState, fonts: them
             color = theme.u32(theme.MARK) if on else plain
             draw.add_text(fonts.mono, size, ImVec2(x, y), color, text)
     draw.pop_clip_rect()
+    return ImVec2(band_x, band_y)
 
 
 def _values(

@@ -21,8 +21,8 @@ EXPOSURE_LIMIT_EV = 32.0
 LUMINANCE = np.array([0.2126, 0.7152, 0.0722], np.float32)  # Rec. 709, of linear red, green, blue
 FARTHEST_GRAY = 0.2  # the farthest hit stays apart from the misses' black
 
-# Object i has colour i modulo 9. All of them are lighter than middle gray, so that a bitmap of
-# the ids is the mask of what was hit. Source: Paul Tol, Colour Schemes (2021), "light".
+# Object i has colour i modulo 14. All of them are lighter than middle gray, so that a bitmap of
+# the ids is the mask of what was hit. Source: Paul Tol, Colour Schemes (2021), "light", "pale".
 ID_PALETTE = np.array(
     [
         (119, 170, 221),
@@ -34,6 +34,11 @@ ID_PALETTE = np.array(
         (170, 170, 0),
         (221, 221, 221),
         (187, 204, 51),
+        (187, 204, 238),
+        (255, 204, 204),
+        (204, 221, 170),
+        (204, 238, 255),
+        (238, 238, 187),
     ],
     np.uint8,
 )
@@ -94,7 +99,7 @@ def picture(frame: Frame, channel: str = "color", exposure_ev: float = 0.0) -> B
 
     color: the display transform. depth: gray, linear in the ray parameter, the nearest hit white,
     misses black. normal: 0.5 + 0.5 n as red, green, blue; misses black. id, primitive: a palette
-    of nine colours that colour-blind viewers tell apart, repeated; misses black.
+    of 14 colours that colour-blind viewers tell apart, repeated; misses black.
     Raises LucidaError where the frame lacks the channel.
     """
     data = frame.channel(channel)

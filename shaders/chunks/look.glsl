@@ -20,11 +20,14 @@ uniform bool is_linear;         // the colour is shown without sRGB's curve
 uniform int component;          // -1: all, else the only one
 uniform bool tinted;            // one component is shown in its own colour, not as gray
 
-// Object i has colour i modulo 9. Source: Paul Tol, Colour Schemes (2021), "light".
-const vec3 ID_PALETTE[9] = vec3[](
+// Object i has colour i modulo 14. Source: Paul Tol, Colour Schemes (2021), "light", "pale".
+const int ID_COLORS = 14;
+const vec3 ID_PALETTE[ID_COLORS] = vec3[](
     vec3(119.0, 170.0, 221.0), vec3(238.0, 136.0, 102.0), vec3(68.0, 187.0, 153.0),
     vec3(238.0, 221.0, 136.0), vec3(255.0, 170.0, 187.0), vec3(153.0, 221.0, 255.0),
-    vec3(170.0, 170.0, 0.0), vec3(221.0, 221.0, 221.0), vec3(187.0, 204.0, 51.0));
+    vec3(170.0, 170.0, 0.0), vec3(221.0, 221.0, 221.0), vec3(187.0, 204.0, 51.0),
+    vec3(187.0, 204.0, 238.0), vec3(255.0, 204.0, 204.0), vec3(204.0, 221.0, 170.0),
+    vec3(204.0, 238.0, 255.0), vec3(238.0, 238.0, 187.0));
 
 vec3 exposed(vec3 light) {
     vec3 result = clamp(exposure * light, 0.0, 1.0);
@@ -48,7 +51,7 @@ vec3 seen(ivec2 texel) {
         return n == vec3(0.0) ? vec3(0.0) : clamp(0.5 * n + 0.5, 0.0, 1.0);
     }
     int number = texelFetch(numbers, texel, 0).x;
-    return number < 0 ? vec3(0.0) : ID_PALETTE[number % 9] / 255.0;
+    return number < 0 ? vec3(0.0) : ID_PALETTE[number % ID_COLORS] / 255.0;
 }
 
 vec3 encoded(vec3 value) {

@@ -4,14 +4,15 @@ from __future__ import annotations
 
 import numpy as np
 from imgui_bundle import hello_imgui
-from window_driver import SIZE, Driver
+from window_driver import SIZE, Driver, Key
 
 from app.views.pair import RASTER, RAY
 
 
 def drive_pixels_can_be_large_and_are_marked(d: Driver) -> None:
     before = d.window.renderers.size
-    d.ctx.menu_click("//##MainMenuBar/View/Pixels 8 x 8")
+    d.ctx.menu_click("//##MainMenuBar/Image/Resolution/Window, pixels 8 x 8")
+    d.ctx.key_press(int(Key.mod_alt) | int(Key.x))  # without the pixel grid
     d.settle()
     assert d.window.renderers.size == (before[0] // 8, before[1] // 8)
     raster, ray = d.images()
