@@ -90,6 +90,34 @@ LAYOUTS = (
         {"Camera": CAMERA_SPACE, "Compare": MAIN, "Raster": RIGHT_SPACE, "Ray": INSTRUMENTS},
     ),
     Layout(
+        "Probe",
+        (
+            _CAMERA,
+            (MAIN, INSTRUMENTS, imgui.Dir.right, 0.46),
+            (MAIN, LOWER_SPACE, imgui.Dir.down, 0.5),
+        ),
+        {
+            "Camera": CAMERA_SPACE,
+            "Raster": MAIN,
+            "Ray": MAIN,
+            "Outside": LOWER_SPACE,
+            "Probe": INSTRUMENTS,
+        },
+    ),
+    Layout(
+        "Loops",
+        (
+            (MAIN, RIGHT_SPACE, imgui.Dir.right, 0.27),
+            (RIGHT_SPACE, INSTRUMENTS, imgui.Dir.down, 0.5),
+        ),
+        {
+            "Stepper": MAIN,
+            "Outside": RIGHT_SPACE,
+            "Raster": INSTRUMENTS,
+            "Ray": INSTRUMENTS,
+        },
+    ),
+    Layout(
         "Lecture",
         (
             (MAIN, RIGHT_SPACE, imgui.Dir.right, 0.36),

@@ -11,6 +11,7 @@ from typing import Literal
 
 import numpy as np
 from imgui_bundle import ImVec2, ImVec4, imgui, implot
+from numpy.typing import NDArray
 
 from app import theme
 from app.options import CostOptions
@@ -26,6 +27,7 @@ from app.teach.costs import (
 )
 
 TITLES: dict[Renderer, str] = {"raster": "raster, object order", "ray": "ray, image order"}
+SMOOTHED = 9  # frames
 TOP_TRIANGLES = 1_000_000  # of the slider and the plot
 AGAINST: tuple[Literal["frames", "triangles", "pixels"], ...] = ("frames", "triangles", "pixels")
 
@@ -87,26 +89,35 @@ def _slider(name: str, value: int, least: int, most: int) -> int:
 
 
 def frames_plot(told: Told, size: ImVec2) -> None:
-    """The last frames' times, as they come."""
+    """The last frames' times, as they come, and pale; strong: the median of the last few."""
     if not implot.begin_plot(
         "##frames", size, implot.Flags_.no_mouse_text | implot.Flags_.no_menus
     ):
         return
     times = 1e3 * np.array(told.history, float).reshape(-1, 2)
     implot.setup_axes("frames", "milliseconds", implot.AxisFlags_.no_tick_labels)
-    top = float(np.nanmax(times, initial=0.1)) if np.isfinite(times).any() else 1.0
+    top = max(
+        [
+            0.1,
+            *(float(smoothed(column[np.isfinite(column)]).max(initial=0.1)) for column in times.T),
+        ]
+    )
     limits = implot.Cond_.always
     implot.setup_axis_limits(implot.ImAxis_.x1, 0, WATCHED - 1, limits)
-    implot.setup_axis_limits(implot.ImAxis_.y1, 0, _round_up(1.15 * top), limits)
+    implot.setup_axis_limits(implot.ImAxis_.y1, 0, _round_up(1.3 * top), limits)
     implot.setup_legend(implot.Location_.north_west)
     at = np.arange(WATCHED - len(times), WATCHED, dtype=float)
     for column, renderer in enumerate(RENDERERS):
         shown = np.isfinite(times[:, column])
         if shown.any():
-            now = float(np.median(times[shown, column][-9:]))
-            label = f"{TITLES[renderer]}  {now:8.2f} ms###{renderer}"
-            spec = _spec(renderer)
-            implot.plot_line(label, at[shown], times[shown, column], spec)
+            values = times[shown, column]
+            steady = smoothed(values)
+            pale = _spec(renderer)
+            pale.line_color = ImVec4(pale.line_color.x, pale.line_color.y, pale.line_color.z, 0.35)
+            pale.line_weight = theme.line_px(1.0)
+            implot.plot_line(f"##{renderer}", at[shown], values, pale)
+            label = f"{TITLES[renderer]}  {steady[-1]:8.2f} ms###{renderer}"
+            implot.plot_line(label, at[shown], steady, _spec(renderer))
     implot.end_plot()
 
 
@@ -140,6 +151,14 @@ def plot(options: CostOptions, told: Told, size: ImVec2) -> None:
         label = f"{TITLES[renderer]}  {growth_text(chosen, unit)}"
         implot.plot_line(f"{label}###{renderer}", counts[order], times[order], spec)
     implot.end_plot()
+
+
+def smoothed(times: NDArray[np.float64]) -> NDArray[np.float64]:
+    """The median of each time and the few before it: a moment's disturbance does not show."""
+    if not len(times):
+        return times
+    padded = np.concatenate([np.repeat(times[:1], SMOOTHED - 1), times])
+    return np.median(np.lib.stride_tricks.sliding_window_view(padded, SMOOTHED), axis=1)
 
 
 def _spec(renderer: Renderer) -> implot.Spec:

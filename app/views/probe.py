@@ -49,6 +49,7 @@ class ProbeView(View):
         self._probe: Probe | None = None
         self._wanted: Any = None  # the scene that is being prepared, or is
         self._error = ""
+        self._seen = False
         self.reading: Reading | None = None  # the one that is shown
         self._readings: dict[Any, Reading] = {}
         self._bundle_key: Any = None
@@ -57,7 +58,8 @@ class ProbeView(View):
 
     @property
     def settled(self) -> bool:
-        return not any(work is not None and work.busy for work in (self._making, self._bundles))
+        both = (self._making, self._bundles)
+        return not self._seen or not any(work is not None and work.busy for work in both)
 
     def begin(self, host: Host, context: moderngl.Context) -> None:
         self._making = Background("lucida-probe", host.animate)
@@ -70,11 +72,13 @@ class ProbeView(View):
         formula.release()
 
     def unseen(self, host: Host) -> None:
+        self._seen = False
         self._outside.show(PROBE, ())
         self._shown = None
 
     def draw(self, host: Host) -> None:
         state, size = host.state, host.renderers.size
+        self._seen = True
         if min(size) < 1:
             return
         self._prepare(state)

@@ -47,7 +47,7 @@ class StepperView(View):
         self._outside = outside
         self._runs: Runs | None = None
         self._uploads: Uploads | None = None
-        self.playing = False
+        self.playing = self._seen = False
         self._before_s = 0.0  # when the last frame of playing was
         self._owed = 0.0  # parts of a step that have not been taken
         self._drawn: dict[Order, Any] = {}  # what the textures were made from
@@ -56,7 +56,8 @@ class StepperView(View):
 
     @property
     def settled(self) -> bool:
-        return not self.playing and (self._runs is None or not self._runs.busy)
+        waits = self._seen and self._runs is not None and self._runs.busy
+        return not self.playing and not waits
 
     def begin(self, host: Host, context: moderngl.Context) -> None:
         self._runs = Runs(host.animate)
@@ -69,13 +70,14 @@ class StepperView(View):
             self._uploads.release()
 
     def unseen(self, host: Host) -> None:
-        self.playing = False
+        self.playing = self._seen = False
         self._outside.show(STEPPER, ())
         self._shown = None
 
     def draw(self, host: Host) -> None:
         assert self._runs is not None and self._uploads is not None
         self._uploads.begin_frame()
+        self._seen = True
         options = host.state.options.stepper
         changed, wish = panel.controls(options, self.playing)
         if imgui.is_window_focused(imgui.FocusedFlags_.child_windows):
