@@ -15,7 +15,7 @@ from tests.benchmarks.tables import TABLES, measure
 
 ROOT = Path(__file__).resolve().parents[2]
 OUT = ROOT / "out" / "bench"
-README_TABLES = ("visibility", "build", "scaling")  # whole; of the others, the targets
+README_TABLES = ("visibility", "processor", "build", "scaling")  # whole; of the others, the targets
 
 
 def main(argv: list[str] | None = None) -> int:
@@ -60,7 +60,7 @@ def _run(arguments: argparse.Namespace) -> int:
         print(f"{name} is left out: {why}")
     print()
     tables: list[report.Table] = []
-    failed = False
+    failed = stopped = False
     try:
         for name in names:
             try:
@@ -76,13 +76,15 @@ def _run(arguments: argparse.Namespace) -> int:
                 print(report.text(table), flush=True)
     except KeyboardInterrupt:
         run.say("stopped; what was measured is written")
+        stopped = True
     machine["load_after"] = report.load()
     settings = {"quick": run.quick, "full": run.full, "model": run.file and str(run.file)}
     text = report.as_json(tables, machine, settings, versions(run.kinds), run.left_out)
     _write(arguments.out, tables, text)
     if arguments.readme:
-        if failed:
-            raise LucidaError("--readme", "a table failed", "see above; nothing was changed")
+        if failed or stopped:
+            why = "a table failed" if failed else "was stopped"
+            raise LucidaError("--readme", why, "README.md is as it was; start again")
         _update_readme(run, machine, tables)
     return int(failed)
 

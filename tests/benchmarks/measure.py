@@ -76,8 +76,19 @@ def seconds(call: Call) -> float:
     return elapsed
 
 
-def interleaved(calls: Mapping[str, Call], plan: Plan) -> dict[str, Timing]:
-    """Times of all calls: round after round, each has one turn.
+def processor_seconds(call: Call) -> float:
+    """How long processors work for one call, on any thread of this process."""
+    start = time.process_time()
+    result = call()
+    elapsed = time.process_time() - start
+    del result
+    return elapsed
+
+
+def interleaved(
+    calls: Mapping[str, Call], plan: Plan, seconds: Callable[[Call], float] = seconds
+) -> dict[str, Timing]:
+    """Times of all calls: round after round, each has one turn. seconds: the stopwatch.
 
     A turn is a pause; untimed calls, which find the caches full of another's data and a processor
     that has slept; and then timed ones. The first round is preceded by an untimed call of each,
@@ -94,13 +105,13 @@ def interleaved(calls: Mapping[str, Call], plan: Plan) -> dict[str, Timing]:
             if done >= plan.least_rounds and time.perf_counter() - start > plan.budget_s:
                 break
             for name, call in calls.items():
-                samples[name] += _turn(call, plan)
+                samples[name] += _turn(call, plan, seconds)
     finally:
         gc.enable()
     return {name: Timing(tuple(own)) for name, own in samples.items()}
 
 
-def _turn(call: Call, plan: Plan) -> list[float]:
+def _turn(call: Call, plan: Plan, seconds: Callable[[Call], float]) -> list[float]:
     time.sleep(plan.quiet_s)
     start = time.perf_counter()
     while True:

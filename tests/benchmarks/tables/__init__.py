@@ -12,6 +12,7 @@ from tests.benchmarks.run import Run
 
 TABLES = (
     "visibility",
+    "processor",
     "shading",
     "secondary",
     "build",
