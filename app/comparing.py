@@ -80,20 +80,21 @@ def effects_of(state: AppState) -> str:
 
 @dataclass(frozen=True)
 class Scale:
-    """The texts at a colour bar. title: what is shown, and its unit. low, middle, high: at its
-    ends; absolute scales begin with middle."""
+    """The texts at a colour bar. title: what is shown. low, middle, high: at its ends; absolute
+    scales begin with middle. short: of low and high, for narrow bars."""
 
     title: str
     low: str
     middle: str
     high: str
+    short: tuple[str, str]
 
 
 def scale(channel: Channel, gain: float, signed: bool) -> Scale:
     """What the colours of a difference mean."""
     full = FULL_SCALE[channel] / gain
     if channel == "id":
-        return Scale("object", "", "the same", "another one")
+        return Scale("object", "", "the same", "another one", ("", "another"))
     what, number, longer = {
         "color": ("colour", f"{255 * full:.3g}/255", "brighter"),
         "depth": ("ray parameter t", f"{100 * full:.3g} %", "farther"),
@@ -101,8 +102,9 @@ def scale(channel: Channel, gain: float, signed: bool) -> Scale:
     }[channel]
     if signed:
         low, high = f"raster {longer} by {number}", f"ray {longer} by {number}"
-        return Scale(f"ray - raster: {what}", low, "0", high)
-    return Scale(f"difference of the {what}", "", "0", number)
+        short = f"raster {number}", f"ray {number}"
+        return Scale(f"ray - raster: {what}", low, "0", high, short)
+    return Scale(f"difference of the {what}", "", "0", number, ("", number))
 
 
 def error_text(comparison: Comparison, channel: Channel) -> str:
@@ -131,7 +133,7 @@ def pixel_values(comparison: Comparison, pixel: Pixel, channel: Channel) -> tupl
     at = np.s_[pixel[0] : pixel[0] + 1, pixel[1] : pixel[1] + 1]
     difference = signed_difference(comparison.raster.part(at), comparison.ray.part(at), channel)
     number = float(difference[0, 0])
-    unit, factor = {"color": (" /255", 255.0), "depth": (" %", 100.0)}.get(channel, ("", 1.0))
+    unit, factor = {"color": ("/255", 255.0), "depth": (" %", 100.0)}.get(channel, ("", 1.0))
     told = "" if channel == "id" else f"{factor * number:+.3g}{unit}"
     raster, ray = (
         _value(frame.channel(channel)[pixel]) for frame in (comparison.raster, comparison.ray)

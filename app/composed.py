@@ -24,6 +24,7 @@ from renderer.raster.targets import Textures
 
 RIM = 250  # a label: the dark border of a mark
 MOST_ENLARGED = 0.002  # of the pixels; a cause that has more is not enlarged
+LARGER_EVERY = 400  # pixels of the image's shorter side: there a mark is one pixel larger each way
 COMPONENTS = {"rgb": -1, "red": 0, "green": 1, "blue": 2}
 
 
@@ -270,8 +271,8 @@ class _Same:
 
 
 def marks(labels: NDArray[np.uint8]) -> NDArray[np.uint8]:
-    """The labels with each differing pixel enlarged to 3 x 3, in a border of RIM, so that it is
-    seen from afar; but not those of a cause that has very many: they are seen anyway.
+    """The labels with each differing pixel enlarged to 3 x 3, or more in a large image, in a border
+    of RIM, so that it is seen from afar. A cause that has very many is seen as it is.
 
     Unexplained pixels are never covered by explained ones.
     """
@@ -282,16 +283,18 @@ def marks(labels: NDArray[np.uint8]) -> NDArray[np.uint8]:
     if not len(i):
         return np.ascontiguousarray(labels)
     height, width = labels.shape
+    near = 1 + min(height, width) // LARGER_EVERY  # reach of the colour; the border's is one more
+    edge = near + 1
     bad = found >= SHADING
-    grown = np.full((height + 4, width + 4), AGREE, np.uint8)  # a border, so that nothing wraps
-    grown[2:-2, 2:-2] = labels
-    for di in range(5):
-        for dj in range(5):
+    grown = np.full((height + 2 * edge, width + 2 * edge), AGREE, np.uint8)  # nothing wraps
+    grown[edge:-edge, edge:-edge] = labels
+    for di in range(2 * edge + 1):
+        for dj in range(2 * edge + 1):
             grown[i + di, j + dj] = RIM
     for chosen in (~bad, bad):
-        for di in (1, 2, 3):
-            for dj in (1, 2, 3):
+        for di in range(1, 2 * edge):
+            for dj in range(1, 2 * edge):
                 grown[i[chosen] + di, j[chosen] + dj] = found[chosen]
-    grown = grown[2:-2, 2:-2]
+    grown = grown[edge:-edge, edge:-edge]
     grown[i, j] = found  # neighbours that are enlarged do not hide what is there
     return np.ascontiguousarray(grown)

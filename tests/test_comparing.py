@@ -143,6 +143,9 @@ def test_a_scale_has_its_units_and_says_which_image_has_more(channel, gain, full
     signed = comparing.scale(channel, gain, signed=True)
     assert signed.low.endswith(full) and "raster" in signed.low
     assert signed.high.endswith(full) and "ray" in signed.high
+    assert all(
+        len(s) < len(t) for s, t in zip(signed.short, (signed.low, signed.high), strict=True)
+    )
 
 
 def test_objects_are_the_same_or_not():
@@ -167,7 +170,7 @@ def test_a_pixels_values():
     raster, ray, difference = comparing.pixel_values(comparison, (3, 4), "color")
     assert raster.split() == ["0.500"] * 3
     assert ray.split() == ["1.000"] * 3
-    assert difference == "+67.5 /255"
+    assert difference == "+67.5/255"
     assert comparing.pixel_values(comparison, (1, 1), "depth") == ("2", "no hit", "+inf %")
     assert comparing.pixel_values(comparison, (2, 2), "id") == ("object 0", "none", "")
 

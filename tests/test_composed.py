@@ -159,6 +159,10 @@ def test_single_pixels_are_enlarged_so_that_they_can_be_seen():
     assert large[20, 18] == large[18, 20] == large[22, 24] == RIM
     assert large[39, 49] == AGREE
     assert (LABEL_COLORS[RIM] == 0).all()
+    labels = np.zeros((900, 1000), np.uint8)
+    labels[500, 500] = 3
+    assert (marks(labels) == 3).sum() == 7 * 7
+    assert (marks(labels) == RIM).sum() == 9 * 9 - 7 * 7
 
 
 def test_many_marks_are_not_enlarged():

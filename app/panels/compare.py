@@ -20,7 +20,8 @@ from renderer.difference import LARGEST_GAIN
 
 DrawMap = Callable[[ImVec2, ImVec2, bool], None]  # two corners; whether the signed map
 
-IMAGE_LEAST = 0.5  # the part of the view's height that stays for the image, come what may
+IMAGE_LEAST = 0.6  # the part of the height that stays for the image, unless even that is little
+SMALL_EM = 22.0  # a view that is less high has no line for what the images' own windows have too
 DIGITS = 6  # of a count
 VALUES_COLUMNS = 58  # of a pixel's values
 NEXT = "next"
@@ -76,13 +77,6 @@ def toolbar(state: AppState) -> AppState:
     imgui.set_item_tooltip("What the difference is multiplied with. Keys [ and ]")
     imgui.end_disabled()
     return state
-
-
-def toolbar_height(state: AppState) -> float:
-    """Of toolbar(), in the present window."""
-    widths = [_button_width(name) for _, name, _ in MODES]
-    widths += [_check_width("causes"), 9 * imgui.get_font_size()]
-    return lines(widths) * imgui.get_frame_height_with_spacing()
 
 
 @dataclass(frozen=True)
@@ -171,12 +165,11 @@ def _scale_row(state: AppState, draw_map: DrawMap) -> AppState:
         _color_bar(comparing.scale(state.images.channel, options.gain, signed), signed, draw_map)
     elif options.mode == "wipe":
         imgui.set_next_item_width(-1)
-        changed, percent = imgui.slider_float(
-            "##divider", 100 * options.divider, 0.0, 100.0, "raster %.0f %% | ray"
-        )
+        changed, percent = imgui.slider_float("##divider", 100 * options.divider, 0.0, 100.0, " ")
         if changed:
             state = comparing.with_divider(state, percent / 100)
         imgui.set_item_tooltip("Where the divider stands. It can be dragged in the image, too.")
+        imgui.text(f"raster left of {100 * options.divider:.0f} %, ray right of it")
     else:
         for flipped, name in ((False, "raster"), (True, "ray")):
             if flipped:
@@ -210,17 +203,23 @@ def _color_bar(scale: Scale, signed: bool, draw_map: DrawMap) -> None:
         "differs most; depths relative to the ray image's."
     )
     below = imgui.get_cursor_screen_pos()
-    texts = [(scale.low, 0.0), (scale.high, 1.0), (scale.middle, 0.5 if signed else 0.0)]
+    low, high, gap = scale.low, scale.high, 2 * imgui.get_font_size()
+    if _wide(low) + _wide(scale.middle) + _wide(high) + gap > width:
+        low, high = scale.short
+    texts = [(low, 0.0), (high, 1.0), (scale.middle, 0.5 if signed else 0.0)]
+    if not signed and _wide(scale.title) + 2 * max(map(_wide, (high, scale.middle))) + gap < width:
+        texts.append((scale.title, 0.5))
     for text, part in texts:
         _text_at(draw, below, width, text, part)
-    if signed:
-        return
-    _text_at(draw, below, width, scale.title, 0.5)
+
+
+def _wide(text: str) -> float:
+    return imgui.calc_text_size(text).x
 
 
 def _text_at(draw: imgui.ImDrawList, at: ImVec2, width: float, text: str, part: float) -> None:
     """Text in a line: at its left end (0), its middle, or its right end (1)."""
-    left = at.x + part * (width - imgui.calc_text_size(text).x)
+    left = at.x + part * (width - _wide(text))
     draw.add_text(ImVec2(left, at.y), theme.u32(theme.TEXT), text)
 
 
@@ -336,9 +335,10 @@ def _choice(name: str, on: bool) -> bool:
     if on:
         imgui.push_style_color(imgui.Col_.button, theme.ACCENT)
         imgui.push_style_color(imgui.Col_.button_hovered, theme.ACCENT)
+        imgui.push_style_color(imgui.Col_.text, theme.rgb("#ffffff"))
     pressed = imgui.button(name)
     if on:
-        imgui.pop_style_color(2)
+        imgui.pop_style_color(3)
     return pressed
 
 

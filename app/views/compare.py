@@ -68,10 +68,11 @@ class CompareView(ImageView):
         self._held = None
 
     def draw(self, host: Host) -> None:
-        super()._strip(host)
+        if imgui.get_window_height() > panel.SMALL_EM * imgui.get_font_size():
+            super()._strip(host)
         host.apply(panel.toolbar(host.state))
         available = imgui.get_content_region_avail()
-        plan = panel.footer_plan(imgui.get_window_height(), host.fonts)
+        plan = panel.footer_plan(available.y, host.fonts)
         size = ImVec2(available.x, max(1.0, available.y - plan.height))
         imgui.begin_child("image", size, 0, self.flags | imgui.WindowFlags_.no_background)
         self._image(host)
