@@ -28,11 +28,12 @@ def entries(window: Window) -> list[Entry]:
 def _of_action(action: Action, window: Window) -> Entry:
     on = action.is_on is not None and action.is_on(window.state)
     return Entry(
-        f"{action.name}  (on)" if on else action.name,
+        action.name,
         action.menu.replace("/", " > "),
         _bound(action.run, window),
         action.keys,
         action.can is None or action.can(window),
+        on,
     )
 
 

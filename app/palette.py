@@ -16,13 +16,15 @@ RECENT = 5
 
 @dataclass(frozen=True)
 class Entry:
-    """Something to do. where: its menu path. keys: as shown. key: what it is remembered by."""
+    """Something to do. where: its menu path. keys: as shown. key: what it is remembered by.
+    on: of a switch."""
 
     name: str
     where: str
     run: Callable[[], None]
     keys: str = ""
     enabled: bool = True
+    on: bool = False
 
     @property
     def key(self) -> str:

@@ -35,6 +35,11 @@ class Stage:
         self._before = layout.LAYOUTS[0].name
         self._frames = 0
 
+    @property
+    def settled(self) -> bool:
+        """Whether nothing will change by itself in the views that are to be seen."""
+        return all(self.views[name].settled for name in self.rects)
+
     # What actions ask for.
 
     @property
@@ -127,8 +132,7 @@ class Stage:
         """A view's ImGui window, where it is shown."""
         window = layout.window_of(view)
         if not window.is_visible:
-            self.rects.pop(view.name, None)
-            view.unseen(host)
+            self._leave_out(view, host)
             return
         large = self.maximised == view.name
         padding = view.padding
@@ -145,8 +149,7 @@ class Stage:
             if opened and not self.maximised:
                 self._draw_content(view, host)
             elif not large:
-                self.rects.pop(view.name, None)
-                view.unseen(host)
+                self._leave_out(view, host)
         finally:
             imgui.end()
         if large:
@@ -191,6 +194,12 @@ class Stage:
             self._hovered = view
         self.rects[view.name] = (corner.x, corner.y, corner.x + room.x, corner.y + room.y)
         view.draw(host)
+
+    def _leave_out(self, view: View, host: Host) -> None:
+        """A view that is not to be seen in this frame: no image is fitted to it any more."""
+        self.rects.pop(view.name, None)
+        host.renderers.forget_pane(view.name)
+        view.unseen(host)
 
     def _note_focus(self, view: View) -> None:
         if imgui.is_window_focused(imgui.FocusedFlags_.root_and_child_windows):

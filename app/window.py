@@ -117,7 +117,7 @@ class MainWindow:
     @property
     def settled(self) -> bool:
         """Whether nothing will change by itself: both images are complete and compared."""
-        views = all(view.settled for view in self.views.values())
+        views = self.shell.stage.settled
         moving = self.files.busy or self.traveller.under_way
         return views and self.renderers.settled(self.state) and not moving
 

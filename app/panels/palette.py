@@ -122,6 +122,9 @@ class Palette:
         imgui.set_cursor_pos(start)
         color = theme.TEXT if entry.enabled else theme.DIM
         _marked(entry.name, match.letters, color, fonts)
+        if entry.on:
+            imgui.same_line()
+            imgui.text_colored(theme.GOOD, "on")
         keys = imgui.calc_text_size(entry.keys).x
         right = imgui.get_window_width() - imgui.get_style().scrollbar_size - 4
         place = f"{entry.where}    " if entry.keys else entry.where

@@ -12,7 +12,7 @@ from imgui_bundle import ImVec2, imgui
 from app import theme
 from app.actions import ACTIONS, MENUS, MOUSE
 
-COLUMN_EM = 27.0
+COLUMN_EM = 24.0
 NAME = "Mouse and keys"
 
 Row = tuple[str, str]  # keys, what they do
