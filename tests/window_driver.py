@@ -62,6 +62,7 @@ class Driver:
         self.window.traveller.stop()
         self.window.traveller.instant = True  # no passage unless a test wants one
         self.stay = False
+        self.ctx.mouse_up(0)  # a test that failed may hold it
         self.ctx.mouse_teleport_to_pos((3, SIZE[1] - 3))
         self.settle()
 
