@@ -18,6 +18,7 @@ from app.image_actions import IMAGE
 from app.image_actions import MOUSE as IMAGE_MOUSE
 from app.lecture_actions import LECTURE
 from app.options import CompareMode
+from app.outside_actions import OUTSIDE
 from app.shell_actions import BOOKMARKS, FILE, HELP, LOOK
 from app.state import AppState
 from renderer.compare import Comparison
@@ -147,6 +148,7 @@ ACTIONS = (
     *BOOKMARKS,
     *LOOK,
     *IMAGE,
+    *OUTSIDE,
     Action(
         "View",
         "Shadows (ray image only)",

@@ -4,6 +4,8 @@
     solid       the other camera's image plane and view volume in the world
     diagram     what is drawn, as lines, arrows, faces and labels in the world
     projected   the same on the screen: clipped, in pixels, with depths
+    hits        where viewing rays end, asked for without waiting
+    switches    what can be switched, in words
     paint       as the rasterizer's overlay takes it, in the theme's colours
 
 Pure but for paint: nothing else here knows of windows, themes or OpenGL.

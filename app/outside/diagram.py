@@ -239,8 +239,8 @@ def _marked(camera: Camera, size: Size, hit: Hit, end: float) -> list[Item]:
     x, y = (float(part) for part in camera.image_point(*hit.pixel, size))
     corners = pixel_corners(camera, hit.pixel, size)
     center = point_at(camera, x, y, plane_parameter(camera))
-    known = hit.t is not None and np.isfinite(hit.t)
-    t = float(hit.t) if known else end
+    known = hit.t is not None and bool(np.isfinite(hit.t))
+    t = hit.t if hit.t is not None and known else end
     origin, reached = point_at(camera, [x, x], [y, y], [0.0, t])
     items: list[Item] = [
         Lines("ray", "ray", np.array([[origin, reached]]), 2.6, hidden=0.6, layer=3),

@@ -11,6 +11,7 @@ from collections.abc import Iterable
 import numpy as np
 from numpy.typing import NDArray
 
+from app.outside.solid import plane_corners
 from renderer.camera import LARGEST, Camera, Vector
 from renderer.errors import LucidaError
 
@@ -20,6 +21,23 @@ FOV_Y_DEG = 50.0
 MARGIN = 1.08  # of the framed points' own room
 # From which side one looks, in the other camera's terms: its right, the world's up, its back.
 FROM_RIGHT, FROM_ABOVE, FROM_BEHIND = 0.75, 0.5, 1.25
+
+
+def around(points: Floats, *cameras: Camera) -> Floats:
+    """The points (n, 3), and such around cameras: eyes, image planes, bases with their letters."""
+    parts = [points]
+    for camera in cameras:
+        eye = np.asarray(camera.eye)
+        tips = [eye + 1.2 * np.asarray(vector) for vector in (camera.u, camera.v, camera.w)]
+        parts.append(np.array([eye, *tips, *plane_corners(camera)]))
+    everything = np.concatenate(parts)
+    return everything[np.isfinite(everything).all(axis=1)]
+
+
+def way_of(axis: str) -> Floats:
+    """The unit vector of an axis of the world: "x", "-x", ... "-z"."""
+    way = np.eye(3)["xyz".index(axis[-1])]
+    return -way if axis.startswith("-") else way
 
 
 def end_parameter(camera: Camera, points: Floats) -> float:

@@ -21,7 +21,7 @@ from app import theme
 from app.files import describe
 from app.options import OutsideOptions, Pixel
 from app.outside.diagram import Hit, Item, diagram
-from app.outside.extent import end_parameter, framed, outside_camera
+from app.outside.extent import around, end_parameter, framed, outside_camera, way_of
 from app.outside.hits import Question, RayHits
 from app.outside.paint import layers
 from app.outside.projected import NEAREST, Primitive, Screen, project
@@ -33,7 +33,7 @@ from app.state import AppState
 from app.views.base import Host, View
 from app.views.outside_gizmo import Gizmo
 from app.views.outside_mouse import Mouse, Scope
-from app.views.outside_tools import AXES, labels, legend, triad
+from app.views.outside_tools import labels, legend, triad
 from renderer.camera import Camera
 from renderer.errors import LucidaError
 from renderer.frame import LARGEST_PIXELS, LARGEST_SIDE
@@ -50,6 +50,7 @@ SLOW_S = 0.06  # a scene that takes longer to prepare for a camera keeps its edg
 # Parts of a pixel by which the pictures of a mean are shifted: no two in a row or column. The last
 # is not, so that what lies behind is decided at the pixels' centres.
 SHIFTS = ((-0.125, -0.375), (0.375, -0.125), (0.125, 0.375), (-0.375, 0.125), (0.0, 0.0))
+OPACITY = 0.9  # of the live image: what stands behind it is seen a little
 GRID_PX = 7.0  # the least distance of the grid's lines, in widths of a line
 IMAGE_SIZE = (640, 480)  # of the camera's image while no other view shows it
 
@@ -222,9 +223,7 @@ class OutsideView(View):
     def _points(self, host: Host) -> Floats:
         """Around what there is to see: the scene, the camera, and where the scene has put it."""
         home = host.state.scene.view.for_size(host.renderers.size)
-        parts = [host.focus.framed, gear(home), gear(host.renderers.camera(host.state))]
-        points = np.concatenate(parts)
-        return points[np.isfinite(points).all(axis=1)]
+        return around(host.focus.framed, home, host.renderers.camera(host.state))
 
     def _pixel_under(self, host: Host, scope: Scope) -> Pixel | None:
         outside = host.state.outside
@@ -261,9 +260,8 @@ class OutsideView(View):
 
     def _along(self, host: Host, scope: Scope, axis: str) -> Camera:
         """The view along an axis that sees everything."""
-        way = np.asarray(AXES[axis[-1]]) * (-1.0 if axis.startswith("-") else 1.0)
         aspect = scope.extent.x / max(scope.extent.y, 1.0)
-        return framed(self._points(host), way, aspect, scope.camera.projection)
+        return framed(self._points(host), way_of(axis), aspect, scope.camera.projection)
 
     # The picture.
 
@@ -310,7 +308,7 @@ class OutsideView(View):
                 plane,
                 picture,
                 state.images.exposure_ev,
-                opacity=0.94,
+                opacity=OPACITY,
                 unit_px=unit_px,
                 mean=ground.mean if ground.smooth else None,
             )
@@ -388,13 +386,6 @@ def ray_pixel(host: Host) -> Pixel | None:
     if pixel is None or not (0 <= pixel[0] < height and 0 <= pixel[1] < width):
         return None
     return pixel
-
-
-def gear(camera: Camera) -> Floats:
-    """Points around a camera: its eye, its image plane, its basis with its letters; (n, 3)."""
-    eye = np.asarray(camera.eye)
-    tips = [eye + 1.2 * np.asarray(vector) for vector in (camera.u, camera.v, camera.w)]
-    return np.array([eye, *tips, *plane_corners(camera)])
 
 
 def widest_px(screen: Screen, corners: Floats) -> float:

@@ -8,72 +8,20 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable
-from dataclasses import dataclass, replace
-from typing import Any
+from dataclasses import replace
 
 import numpy as np
 from imgui_bundle import ImVec2, ImVec4, imgui
 
 from app import theme
 from app.options import OutsideOptions
-from app.outside.diagram import Role
+from app.outside.extent import way_of
 from app.outside.paint import role_color
 from app.outside.projected import Primitive, Text
-from renderer.camera import Camera, Vector
+from app.outside.switches import AXIS_NAMES, HANDLES, SWITCHES, VIEWS, is_on, toggled, with_gizmo
+from renderer.camera import Camera
 
-BUNDLE = (4, 5)  # rows and columns of the bundle when it is switched on
 MOST_BUNDLE = 16
-AXES: dict[str, Vector] = {"x": (1.0, 0.0, 0.0), "y": (0.0, 1.0, 0.0), "z": (0.0, 0.0, 1.0)}
-AXIS_NAMES = {
-    "x": "from the right (+x)",
-    "-x": "from the left (-x)",
-    "y": "from above (+y)",
-    "-y": "from below (-y)",
-    "z": "from the front (+z)",
-    "-z": "from behind (-z)",
-}
-
-
-@dataclass(frozen=True)
-class Switch:
-    """One of the legend's: a field of OutsideOptions, its name, its tooltip, the colour's role."""
-
-    field: str
-    name: str
-    tip: str
-    role: Role
-
-
-SWITCHES = (
-    Switch("basis", "basis", "the basis vectors u, v, w at the eye, at their true lengths", "w"),
-    Switch("image", "image", "the live image on the image plane", "plane"),
-    Switch("grid", "grid", "the pixel grid on the image plane", "grid"),
-    Switch("volume", "volume", "the view volume: what the camera can see", "volume"),
-    Switch("ray", "ray", "the viewing ray of the marked pixel, or the one under the mouse", "ray"),
-    Switch("bundle", "bundle", "viewing rays spread over the image (right-click: how many)", "ray"),
-)
-
-HANDLES = (
-    ("move", "move eye", "handles that move the eye of the camera"),
-    ("turn", "turn basis", "handles that turn the basis of the camera"),
-)
-VIEWS = (
-    ("fit", "fit all", "a view that sees the scene and the camera"),
-    ("camera", "from camera", "look from the camera: what it sees"),
-)
-
-
-def is_on(options: OutsideOptions, field: str) -> bool:
-    value = getattr(options, field)
-    return bool(min(value)) if isinstance(value, tuple) else bool(value)
-
-
-def toggled(options: OutsideOptions, field: str) -> OutsideOptions:
-    """The options with a switch thrown."""
-    value: Any = not is_on(options, field)
-    if field == "bundle":
-        value = BUNDLE if value else (0, 0)
-    return replace(options, **{field: value})
 
 
 def legend(options: OutsideOptions, origin: ImVec2, extent: ImVec2) -> tuple[OutsideOptions, str]:
@@ -100,7 +48,7 @@ def legend(options: OutsideOptions, origin: ImVec2, extent: ImVec2) -> tuple[Out
     imgui.set_cursor_screen_pos(ImVec2(origin.x + pad, below))
     for kind, name, tip in HANDLES:
         if _chip(name, theme.TEXT, options.gizmo == kind, tip):
-            options = _with_gizmo(options, kind)
+            options = with_gizmo(options, kind)
         imgui.same_line(0, theme.px(4))
     clicked = ""
     for name, title, tip in VIEWS:
@@ -125,7 +73,7 @@ def _popup(options: OutsideOptions) -> tuple[OutsideOptions, str]:
     imgui.separator()
     for kind, name, tip in HANDLES:
         if imgui.menu_item(name, "", options.gizmo == kind)[0]:
-            options = _with_gizmo(options, kind)
+            options = with_gizmo(options, kind)
         imgui.set_item_tooltip(tip)
     imgui.separator()
     for name, title, tip in VIEWS:
@@ -134,11 +82,6 @@ def _popup(options: OutsideOptions) -> tuple[OutsideOptions, str]:
         imgui.set_item_tooltip(tip)
     imgui.end_popup()
     return options, clicked
-
-
-def _with_gizmo(options: OutsideOptions, kind: str) -> OutsideOptions:
-    value: Any = "none" if options.gizmo == kind else kind
-    return replace(options, gizmo=value)
 
 
 def _bundle_fields(options: OutsideOptions) -> OutsideOptions:
@@ -194,13 +137,10 @@ def triad(camera: Camera, origin: ImVec2, extent: ImVec2) -> str | None:
     if up @ np.asarray(camera.v) < 0:
         up = -up
     ends = []
-    for name, axis in AXES.items():
-        for sign in (1.0, -1.0):
-            way = sign * np.asarray(axis)
-            spot = ImVec2(
-                middle.x + radius * float(way @ right), middle.y - radius * float(way @ up)
-            )
-            ends.append((float(way @ back), name if sign > 0 else f"-{name}", spot))
+    for name in AXIS_NAMES:
+        way = way_of(name)
+        spot = ImVec2(middle.x + radius * float(way @ right), middle.y - radius * float(way @ up))
+        ends.append((float(way @ back), name, spot))
     draw = imgui.get_window_draw_list()
     disc = radius + ball + theme.px(3)
     draw.add_circle_filled(middle, disc, theme.u32(theme.rgb("#0c0d0f", 0.45)), 48)

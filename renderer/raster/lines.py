@@ -51,12 +51,15 @@ CORNER = np.dtype(
     ]
 )
 
+BLENDING = (moderngl.SRC_ALPHA, moderngl.ONE_MINUS_SRC_ALPHA)  # OpenGL's customary one
+
 # Shapes and lines that are drawn together: shapes first.
 Layer = tuple[NDArray[Any], NDArray[Any]]  # of CORNER, of SEGMENT
 
 
 class Lines:
-    """Draws layers into the bound framebuffer of a context, which must be current.
+    """Draws layers into the bound framebuffer of a context, which must be current. The alpha
+    channel is blended too: mask it where it shall stay.
 
     Uniforms of chunks/outside.glsl are given through set(), for all of them.
     """
@@ -89,12 +92,7 @@ class Lines:
         they are seen on any ground and one sees which is in front."""
         gl = self._gl
         gl.enable_only(moderngl.BLEND)
-        gl.blend_func = (
-            moderngl.SRC_ALPHA,
-            moderngl.ONE_MINUS_SRC_ALPHA,
-            moderngl.ONE,
-            moderngl.ONE_MINUS_SRC_ALPHA,
-        )
+        gl.blend_func = BLENDING
         set_uniform(self._lines, "dash", dash_px)
         set_uniform(self._lines, "edge_color", casing)
         for corners, segments in layers:
@@ -109,7 +107,6 @@ class Lines:
                 self._segments.array.render(
                     moderngl.TRIANGLE_STRIP, vertices=4, instances=len(segments)
                 )
-        gl.blend_func = moderngl.DEFAULT_BLENDING
         gl.enable_only(moderngl.NOTHING)
 
     def release(self) -> None:

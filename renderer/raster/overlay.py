@@ -8,13 +8,14 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import Any
 
 import moderngl
 import numpy as np
 from numpy.typing import NDArray
 
 from renderer.camera import Camera
-from renderer.raster.lines import Layer, Lines
+from renderer.raster.lines import BLENDING, Layer, Lines
 from renderer.raster.programs import set_uniform
 from renderer.raster.resources import Owner, check, new_texture
 from renderer.raster.sources import link
@@ -108,7 +109,7 @@ class Overlay:
             set_uniform(self._gathering, "weight", weight)
             self._gather.render(moderngl.TRIANGLES, vertices=3)
         finally:
-            gl.blend_func = moderngl.DEFAULT_BLENDING
+            gl.blend_func = BLENDING
             gl.enable_only(moderngl.NOTHING)
             before.use()
         return texture
@@ -137,7 +138,7 @@ class Overlay:
         gl = self._gl
         texture, framebuffer = self._of_size("shown", size, "uint8")
         before = gl.detect_framebuffer()
-        shared = {
+        shared: dict[str, Any] = {
             "surface": 1,
             "perspective": float(not camera.is_parallel),
             "half_size": (size[0] / 2, size[1] / 2),
@@ -167,9 +168,11 @@ class Overlay:
             for name, value in (shared | ground).items():
                 set_uniform(self._ground, name, value)
             self._screen.render(moderngl.TRIANGLES, vertices=3)
+            framebuffer.color_mask = True, True, True, False  # all of it stays opaque
             self._lines.set(shared)
             self._lines.draw(layers, 7.0 * unit_px, 1.25 * unit_px, casing)
         finally:
+            framebuffer.color_mask = True, True, True, True
             gl.enable_only(moderngl.NOTHING)
             before.use()
         return texture

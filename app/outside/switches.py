@@ -1,0 +1,69 @@
+"""What can be switched in the outside view: names, tooltips, and what each does to the options.
+
+Owns the words, the same in the view, in the menu and in the palette. Knows nothing of widgets.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from typing import Any
+
+from app.options import OutsideOptions
+from app.outside.diagram import Role
+
+BUNDLE = (4, 5)  # rows and columns of the bundle when it is switched on
+AXIS_NAMES = {
+    "x": "from the right (+x)",
+    "-x": "from the left (-x)",
+    "y": "from above (+y)",
+    "-y": "from below (-y)",
+    "z": "from the front (+z)",
+    "-z": "from behind (-z)",
+}
+
+
+@dataclass(frozen=True)
+class Switch:
+    """One of the legend's: a field of OutsideOptions, its name, its tooltip, the colour's role."""
+
+    field: str
+    name: str
+    tip: str
+    role: Role
+
+
+SWITCHES = (
+    Switch("basis", "basis", "the basis vectors u, v, w at the eye, at their true lengths", "w"),
+    Switch("image", "image", "the live image on the image plane", "plane"),
+    Switch("grid", "grid", "the pixel grid on the image plane", "grid"),
+    Switch("volume", "volume", "the view volume: what the camera can see", "volume"),
+    Switch("ray", "ray", "the viewing ray of the marked pixel, or the one under the mouse", "ray"),
+    Switch("bundle", "bundle", "viewing rays spread over the image (right-click: how many)", "ray"),
+)
+
+HANDLES = (
+    ("move", "move eye", "handles that move the eye of the camera"),
+    ("turn", "turn basis", "handles that turn the basis of the camera"),
+)
+VIEWS = (
+    ("fit", "fit all", "a view that sees the scene and the camera"),
+    ("camera", "from camera", "look from the camera: what it sees"),
+)
+
+
+def is_on(options: OutsideOptions, field: str) -> bool:
+    value = getattr(options, field)
+    return bool(min(value)) if isinstance(value, tuple) else bool(value)
+
+
+def toggled(options: OutsideOptions, field: str) -> OutsideOptions:
+    """The options with a switch thrown."""
+    value: Any = not is_on(options, field)
+    if field == "bundle":
+        value = BUNDLE if value else (0, 0)
+    return replace(options, **{field: value})
+
+
+def with_gizmo(options: OutsideOptions, kind: str) -> OutsideOptions:
+    value: Any = "none" if options.gizmo == kind else kind
+    return replace(options, gizmo=value)
