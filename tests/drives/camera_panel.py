@@ -1,0 +1,332 @@
+"""The camera panel beyond its plain numbers: what is coupled, presets, passages, copy and paste,
+flying."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+from imgui_bundle import imgui
+from window_driver import Driver, Key, changed
+
+from app.presets import PRESETS
+from app.state import is_orthonormal
+from app.travel import DURATION_S
+from app.views.pair import RASTER, RAY
+from renderer.camera import Camera
+
+SIZE = (400, 300)
+
+
+class Clock:
+    """The passages' clock, held by a test."""
+
+    def __init__(self, d: Driver) -> None:
+        self.s = 10.0
+        d.window.traveller.now_s = lambda: self.s
+        d.window.traveller.instant = False
+
+
+def open_section(d: Driver, name: str) -> None:
+    d.ctx.item_open(f"//Camera/{name}")
+    d.ctx.yield_(2)
+
+
+def close_sections(d: Driver) -> None:
+    for name in ("Copy and paste", "Look at", "Presets"):
+        d.ctx.item_close(f"//Camera/{name}")
+    d.ctx.yield_(2)
+
+
+def right_click_menu(d: Driver, field: str, entry: str) -> None:
+    d.ctx.item_click(d.field(field), imgui.MouseButton_.right)
+    d.ctx.yield_(2)
+    d.ctx.item_click(f"//$FOCUSED/{entry}")
+    d.ctx.yield_(2)
+
+
+def size_at_focus(d: Driver, camera: Camera) -> float:
+    """How large a length at the focus is seen, in pixels."""
+    focus = np.asarray(d.window.focus.center)
+    points = np.array([focus, focus + np.asarray(camera.u)])
+    seen = camera.project(points, SIZE)
+    return float(np.hypot(np.diff(seen.row), np.diff(seen.column))[0])
+
+
+def drive_all_of_the_main_part_is_seen_without_scrolling(d: Driver) -> None:
+    close_sections(d)
+    assert d.ctx.get_window_by_ref("//Camera").scroll_max.y == 0
+    bottom = d.ctx.get_window_by_ref("//Camera").rect().max.y
+    for name in ("Presets", "Look at", "Copy and paste"):
+        assert d.ctx.item_info(f"//Camera/{name}").rect_full.max.y < bottom
+
+
+def drive_the_field_of_view_is_typed(d: Driver) -> None:
+    before = d.agreeing_images()
+    was = d.window.state.camera
+    d.type("field of view", "35")
+    camera = d.window.state.camera
+    assert abs(d.window.renderers.camera(d.window.state).fov_y_deg - 35) < 1e-4
+    assert camera.viewport == was.viewport
+    assert camera.distance > was.distance
+    assert changed(before[0], d.agreeing_images()[0]) > 0.1
+    d.type("field of view", "200")
+    assert "between 0 and 180" in str(d.window.views["Camera"]._draft.error)
+    assert d.window.state.camera == camera
+    d.ctx.item_click("//Camera/Back to the camera shown")
+
+
+def drive_the_dolly_zoom_keeps_the_size_at_the_focus(d: Driver) -> None:
+    before = d.agreeing_images()
+    was = d.window.state.camera
+    d.drag_field("dolly zoom", 60)
+    camera = d.window.state.camera
+    assert camera.distance > 1.1 * was.distance
+    assert np.linalg.norm(camera.eye) > np.linalg.norm(was.eye)
+    assert camera.viewport == was.viewport
+    assert abs(size_at_focus(d, camera) / size_at_focus(d, was) - 1) < 1e-6
+    assert len(d.window.history.past) == 1
+    assert changed(before[1], d.agreeing_images()[1]) > 0.01
+
+
+def drive_the_viewport_is_shifted(d: Driver) -> None:
+    was = d.window.state.camera.viewport
+    d.type("shift x", "0.25")
+    d.type("shift y", "-0.125")
+    left, right, bottom, top = d.window.state.camera.viewport
+    assert (left + right, bottom + top) == (0.5, -0.25)
+    assert abs((right - left) - (was[1] - was[0])) < 1e-9
+    assert abs((top - bottom) - (was[3] - was[2])) < 1e-9
+    d.agreeing_images()
+
+
+def drive_near_and_far_are_switched_on_and_cut(d: Driver) -> None:
+    before = d.agreeing_images()
+    assert (d.window.state.camera.near, d.window.state.camera.far) == (None, None)
+    d.ctx.item_click("//Camera/near")
+    d.ctx.item_click("//Camera/far")
+    camera = d.window.state.camera
+    assert camera.near is not None
+    assert camera.far is not None
+    assert changed(before[0], d.agreeing_images()[0]) < 0.002  # fitted: nothing is cut off
+    d.type("near plane", "9")
+    d.type("far plane", "11")
+    after = d.agreeing_images()
+    assert changed(before[0], after[0]) > 0.05
+    assert changed(before[1], after[1]) > 0.05
+    d.type("far plane", "8")
+    assert "not above near" in str(d.window.views["Camera"]._draft.error)
+    assert d.window.state.camera.far == 11
+    d.ctx.item_click("//Camera/Back to the camera shown")
+    d.ctx.item_click("//Camera/near")
+    d.ctx.item_click("//Camera/far")
+    assert d.window.state.camera == d.start.camera
+
+
+def drive_a_number_is_reset_copied_and_pasted(d: Driver) -> None:
+    d.type("eye.x", "-2.5")
+    right_click_menu(d, "eye.x", "Copy")
+    assert float(imgui.get_clipboard_text()) == -2.5
+    right_click_menu(d, "eye.y", "Paste")
+    assert d.window.state.camera.eye[1] == -2.5
+    right_click_menu(d, "eye.x", "###reset")
+    assert d.window.state.camera.eye[0] == d.start.camera.eye[0]
+    assert len(d.window.history.past) == 3
+
+
+def drive_every_preset_frames_the_scene_in_both_images(d: Driver) -> None:
+    close_sections(d)
+    open_section(d, "Presets")
+    for preset in PRESETS:
+        d.ctx.item_click(f"//Camera/{preset.name}")
+        camera = d.window.state.camera
+        assert (camera.u, camera.v, camera.w) == (preset.u, preset.v, preset.w)
+        assert camera.is_parallel
+        assert d.window.state.keep_orthonormal is not preset.oblique
+        corners = d.window.renderers.camera(d.window.state).project(d.window.focus.framed, SIZE)
+        assert -0.5 < corners.row.min() <= corners.row.max() < SIZE[1] - 0.5
+        assert -0.5 < corners.column.min() <= corners.column.max() < SIZE[0] - 0.5
+        if preset.name in ("Left", "Isometric", "Cabinet"):
+            d.agreeing_images()
+    d.ctx.item_click("//Camera/in perspective")
+    d.ctx.item_click("//Camera/Right")
+    assert not d.window.state.camera.is_parallel
+    d.ctx.item_click("//Camera/Cabinet")
+    assert d.window.state.camera.is_parallel
+    d.ctx.menu_click("//##MainMenuBar/Camera/Presets/Top")
+    assert d.window.state.camera.w == (0, 1, 0)
+    close_sections(d)
+
+
+def drive_look_at_is_typed(d: Driver) -> None:
+    close_sections(d)
+    open_section(d, "Look at")
+    for axis, value in zip("xyz", ("0", "6", "9"), strict=True):
+        d.type(f"look.eye.{axis}", value)
+    d.ctx.item_click("//Camera/Look there")
+    camera = d.window.state.camera
+    assert camera.eye == (0, 6, 9)
+    toward = np.subtract(d.window.focus.center, camera.eye)
+    assert np.allclose(np.cross(toward, camera.w), 0)
+    assert len(d.window.history.past) == 1
+    for axis, value in zip("xyz", toward, strict=True):
+        d.type(f"look.up.{axis}", f"{value:.6f}")
+    d.ctx.item_click("//Camera/Look there")
+    assert d.window.state.camera == camera
+    assert "along the view direction" in str(d.window.views["Camera"]._sections.look.error)
+    d.ctx.item_click("//Camera/From the camera")
+    d.ctx.yield_(2)
+    assert d.window.views["Camera"]._sections.look.error is None
+    close_sections(d)
+
+
+def drive_what_is_copied_is_pasted(d: Driver) -> None:
+    close_sections(d)
+    open_section(d, "Copy and paste")
+    start = d.window.state
+    shown = d.window.renderers.camera(start)
+    for form in ("View file", "Command line", "Python", "OpenGL matrices"):
+        d.ctx.item_click(f"//Camera/{form}")
+        d.ctx.yield_(2)
+        text = imgui.get_clipboard_text()
+        assert len(text) > 100
+        d.ctx.menu_click("//##MainMenuBar/Camera/Canonical camera")
+        assert d.window.state.camera == Camera.canonical()
+        d.ctx.item_click("//Camera/Paste")
+        state = d.window.state
+        if form == "OpenGL matrices":
+            assert not state.view.fit
+            assert np.allclose(state.camera.viewport, np.array(shown.viewport) / shown.distance)
+            assert np.allclose(state.camera.eye, shown.eye)
+        else:
+            assert state.view == start.view
+    imgui.set_clipboard_text("no camera at all")
+    was = d.window.state
+    d.ctx.key_press(int(Key.mod_ctrl) | int(Key.v))
+    d.ctx.yield_(2)
+    assert d.window.state == was
+    assert "holds no camera" in d.window.files.message
+    d.window.files.message = ""
+    d.ctx.key_press(int(Key.mod_ctrl) | int(Key.mod_shift) | int(Key.c))
+    d.ctx.yield_(2)
+    assert imgui.get_clipboard_text().startswith("lucida = ")
+    close_sections(d)
+
+
+def drive_a_passage_is_smooth_and_one_step(d: Driver) -> None:
+    clock = Clock(d)
+    d.ctx.key_press(int(Key.p))
+    window = d.window
+    assert window.traveller.under_way
+    distances = []
+    for part in (0.2, 0.4, 0.6):
+        clock.s = 10.0 + part * DURATION_S
+        d.ctx.yield_(2)
+        camera = window.state.camera
+        assert not camera.is_parallel
+        distances.append(camera.distance)
+        same = size_at_focus(d, camera) / size_at_focus(d, d.start.camera)
+        assert abs(same - 1) < 1e-4  # the size at the focus stays
+    assert distances == sorted(distances)
+    clock.s += DURATION_S
+    d.ctx.yield_(2)
+    assert window.state.camera.is_parallel
+    assert not window.traveller.under_way
+    assert len(window.history.past) == 1
+    d.agreeing_images()
+    window.undo()
+    assert window.state == d.start
+
+
+def drive_a_passage_ends_where_the_user_does_something_else(d: Driver) -> None:
+    clock = Clock(d)
+    d.ctx.menu_click("//##MainMenuBar/Camera/Canonical camera")
+    clock.s += 0.4 * DURATION_S
+    d.ctx.yield_(2)
+    under_way = d.window.state.camera
+    assert under_way not in (d.start.camera, Camera.canonical())
+    d.type("eye.x", "1.5")
+    assert not d.window.traveller.under_way
+    assert d.window.state.camera == replace(under_way, eye=(1.5, *under_way.eye[1:]))
+    clock.s += DURATION_S
+    d.ctx.yield_(3)
+    assert d.window.state.camera.eye[0] == 1.5
+    d.window.change(d.start.with_options(preferences={"reduced_motion": True}))
+    d.ctx.key_press(int(Key.p))
+    assert d.window.state.camera.is_parallel  # at once
+
+
+def drive_keys_fly_over_an_image(d: Driver) -> None:
+    window = d.window
+    keys = ((Key.w, -np.asarray(d.start.camera.w)), (Key.d, np.asarray(d.start.camera.u)))
+    for name, (key, direction) in zip((RASTER, RAY), keys, strict=True):
+        d.ctx.mouse_teleport_to_pos(d.point(name, 0.5, 0.5))
+        d.ctx.yield_(2)
+        d.ctx.key_down(int(key))
+        d.until(
+            lambda: np.linalg.norm(np.subtract(window.state.camera.eye, d.start.camera.eye)) > 0.3
+        )
+        d.ctx.key_up(int(key))
+        d.ctx.yield_(2)
+        way = np.subtract(window.state.camera.eye, d.start.camera.eye)
+        assert np.allclose(way / np.linalg.norm(way), direction, atol=1e-6)
+        assert window.state.camera.w == d.start.camera.w
+        assert len(window.history.past) == 1
+        resting = window.state
+        d.ctx.yield_(4)
+        assert window.state == resting
+        d.reset()
+    d.ctx.item_double_click(d.field("eye.y"))
+    d.ctx.key_chars_replace("w")
+    d.ctx.key_down(int(Key.w))
+    d.ctx.yield_(4)
+    d.ctx.key_up(int(Key.w))
+    d.ctx.key_press(int(Key.escape))
+    assert window.state == d.start
+
+
+def drive_the_object_under_the_mouse_is_framed(d: Driver) -> None:
+    d.settle()
+    window = d.window
+    request = window.renderers.request(window.state)
+    frame = window.renderers.agreement.frame_of(request)
+    numbers = frame.channel("id")
+    shiny = 2
+    rows, columns = np.nonzero(numbers == shiny)
+    k = len(rows) // 2
+    x, y, right, bottom = d.rect(RASTER)
+    height, width = numbers.shape
+    at = x + (columns[k] + 0.5) / width * (right - x), y + (rows[k] + 0.5) / height * (bottom - y)
+    d.ctx.mouse_teleport_to_pos(at)
+    d.ctx.yield_(3)
+    d.ctx.key_press(int(Key.f))
+    camera = window.state.camera
+    assert (camera.u, camera.v, camera.w) == (
+        d.start.camera.u,
+        d.start.camera.v,
+        d.start.camera.w,
+    )
+    center = window.state.scene.objects[shiny].shape.center
+    seen = window.renderers.camera(window.state).project(center, SIZE)
+    assert abs(seen.row - (SIZE[1] - 1) / 2) < 1
+    assert abs(seen.column - (SIZE[0] - 1) / 2) < 1
+    frame = d.agreeing_images()
+    assert len(window.history.past) == 1
+    d.ctx.key_press(int(Key.h))
+    assert window.state == d.start
+    assert frame[0].std() > 5
+
+
+def drive_the_readout_tells_a_left_handed_skewed_basis(d: Driver) -> None:
+    assert is_orthonormal(d.window.state.camera)
+    before = d.picture()
+    d.ctx.item_click("//Camera/keep orthonormal")
+    d.type("u.x", "-0.8")
+    d.ctx.yield_(2)
+    after = d.picture()
+    box = d.ctx.item_info("//Camera/keep orthonormal").rect_full
+    fields = d.ctx.item_info(d.field("w.x")).rect_full
+    top, bottom = round(fields.max.y), round(box.min.y)
+    right = round(d.ctx.get_window_by_ref("//Camera").rect().max.x)
+    difference = np.abs(before.astype(int) - after)[top:bottom, :right]
+    assert (difference.max(axis=2) > 30).mean() > 0.05
