@@ -28,7 +28,7 @@ from app.session_store import Keeper
 from app.stage import Stage
 from app.state import AppState
 from app.theme import Fonts
-from app.views.base import View
+from app.views.base import Host, View
 from renderer.errors import LucidaError
 
 
@@ -109,9 +109,10 @@ class Shell:
 
     # The frame.
 
-    def frame(self, window: Window) -> None:
-        """Once a frame, before the views."""
+    def frame(self, window: Window, host: Host) -> None:
+        """Once a frame, before the views. Both are the window."""
         self.stage.follow(window.state.preferences)
+        self.stage.leave_out_hidden(host)
         self._keep(window.state)
         for said in self.files.poll_said():
             self.toasts.add(said)

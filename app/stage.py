@@ -128,12 +128,15 @@ class Stage:
 
     # Drawing.
 
+    def leave_out_hidden(self, host: Host) -> None:
+        """Once a frame: HelloImGui does not ask views to be drawn that are hidden."""
+        for view in self.views.values():
+            if not layout.window_of(view).is_visible:
+                self._leave_out(view, host)
+
     def draw(self, view: View, host: Host) -> None:
         """A view's ImGui window, where it is shown."""
         window = layout.window_of(view)
-        if not window.is_visible:
-            self._leave_out(view, host)
-            return
         large = self.maximised == view.name
         padding = view.padding
         if padding is not None:

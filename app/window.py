@@ -229,7 +229,7 @@ class MainWindow:
         moving = active or self.traveller.under_way or self._fly.under_way
         self.renderers.update(self.state, moving)
         self._proportion.keep()
-        self.shell.frame(self)
+        self.shell.frame(self, self)
         self.lecture.follow(self)
         run_shortcuts(self)
         if self._asked is not None:
