@@ -77,6 +77,7 @@ class Pictures:
         self._frame += 1
         self._raster.begin_frame()
         self._ray.begin_frame()
+        self._read_time()
 
     def raster(
         self, wanted: Wanted, look: Look, placement: Placement | None = None
@@ -155,8 +156,9 @@ class Pictures:
     def unfinished(self) -> bool:
         """Whether the next frames have something to do: refine, try again, or read what the last
         one has measured."""
+        seen = self._raster_frame >= self._frame - 1
         return (
-            self.raster_factor > 1
+            (self.raster_factor > 1 and seen)
             or self._timed_pixels > 0
             or 0 < self._failures < ATTEMPTS
             or self._range.unfinished
@@ -200,7 +202,6 @@ class Pictures:
                 self._ray_texture.release()
 
     def _follow(self, wanted: Wanted) -> Textures:
-        self._read_time()
         if wanted != self._wanted or self._textures is None:
             self._changed_s = time.monotonic()
             return self._draw(wanted, self._moving_factor(wanted.size))

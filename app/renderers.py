@@ -46,6 +46,7 @@ class Renderers:
         self.ray_image: RayImage | None = None
         self.size = (0, 0)  # (width, height) of both images; (0, 0) before the first layout
         self._panes_px: dict[str, tuple[int, int]] = {}
+        self._chosen: tuple[int, int] | None = None  # the resolution, in the last frame
         self._arrived_s = 0.0
         self._compared: Request | None = None
         self._fitted: tuple[View, tuple[int, int], Camera] | None = None
@@ -118,6 +119,7 @@ class Renderers:
         """Once a frame: takes what has come from the threads. moving: something is dragged."""
         assert self.pictures is not None
         self.pictures.begin_frame()
+        self._follow_resolution(state.images.resolution)
         self._tracing, self._to_trace = self._to_trace, False
         image = self.live.poll()
         if image is not None:
@@ -126,6 +128,15 @@ class Renderers:
         if self._to_compare(state) and not (moving and time.monotonic() < self._still_s):
             self._compare(state)
         self.agreement.poll()
+
+    def _follow_resolution(self, resolution: tuple[int, int] | None) -> None:
+        """The chosen one holds where no image is to be seen too, and is forgotten with the choice:
+        then whoever needs a size gives one."""
+        if resolution is not None:
+            self.size = resolution
+        elif self._chosen is not None and not self._panes_px:
+            self.size = (0, 0)
+        self._chosen = resolution
 
     # What is there.
 
