@@ -121,6 +121,7 @@ LAYOUTS = (
         "Lecture",
         (
             (MAIN, RIGHT_SPACE, imgui.Dir.right, 0.36),
+            (MAIN, CAMERA_SPACE, imgui.Dir.left, 0.42),
             (MAIN, LOWER_SPACE, imgui.Dir.down, 0.5),
             (RIGHT_SPACE, INSTRUMENTS, imgui.Dir.down, 0.5),
         ),
