@@ -79,6 +79,7 @@ LAYOUTS = (
             (INSTRUMENTS, RIGHT_SPACE, imgui.Dir.up, 0.5),
         ),
         {"Camera": CAMERA_SPACE, "Outside": MAIN, "Raster": RIGHT_SPACE, "Ray": INSTRUMENTS},
+        equal=True,
     ),
     Layout(
         "Compare",
@@ -88,21 +89,24 @@ LAYOUTS = (
             (INSTRUMENTS, RIGHT_SPACE, imgui.Dir.up, 0.5),
         ),
         {"Camera": CAMERA_SPACE, "Compare": MAIN, "Raster": RIGHT_SPACE, "Ray": INSTRUMENTS},
+        equal=True,
     ),
     Layout(
         "Probe",
         (
             _CAMERA,
             (MAIN, INSTRUMENTS, imgui.Dir.right, 0.46),
-            (MAIN, LOWER_SPACE, imgui.Dir.down, 0.5),
+            (MAIN, LOWER_SPACE, imgui.Dir.down, 0.62),
+            (MAIN, RIGHT_SPACE, imgui.Dir.right, 0.5),
         ),
         {
             "Camera": CAMERA_SPACE,
             "Raster": MAIN,
-            "Ray": MAIN,
+            "Ray": RIGHT_SPACE,
             "Outside": LOWER_SPACE,
             "Probe": INSTRUMENTS,
         },
+        equal=True,
     ),
     Layout(
         "Loops",
