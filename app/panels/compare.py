@@ -94,7 +94,7 @@ def footer_plan(available: float, fonts: theme.Fonts) -> Footer:
     """What has room in a view of that height: the headline and the scale always, then the counts,
     the errors, the values of a pixel. Depends on sizes alone, so that nothing jumps."""
     line, row = imgui.get_text_line_height_with_spacing(), imgui.get_frame_height_with_spacing()
-    height = line + _scale_height()
+    height = imgui.get_style().item_spacing.y + line + _scale_height()
     room = (1 - IMAGE_LEAST) * available - height
     counts = lines([_count_width(cause.name) for cause in LABELS])
     counts = counts if counts * row <= room else 0
@@ -114,8 +114,11 @@ def footer(
 ) -> Wish:
     """Everything below the image. draw_map: draws the colour map between two corners."""
     imgui.push_font(fonts.bold, 0.0)
-    imgui.text_colored(told.color, told.headline)
+    shown = _fitting(told.headline, imgui.get_content_region_avail().x)
+    imgui.text_colored(told.color, shown)
     imgui.pop_font()
+    if shown != told.headline:
+        imgui.set_item_tooltip(told.headline)
     state = _scale_row(state, draw_map)
     wish = Wish(state)
     if plan.counts:
@@ -125,6 +128,16 @@ def footer(
     if plan.values:
         _values(state, told, fonts)
     return wish
+
+
+def _fitting(text: str, room: float) -> str:
+    """The text, or its first words, if there is no room for all."""
+    if _wide(text) <= room:
+        return text
+    words = text.split()
+    while len(words) > 1 and _wide(" ".join(words) + " ...") > room:
+        words.pop()
+    return " ".join(words) + " ..."
 
 
 class Flow:
@@ -169,7 +182,8 @@ def _scale_row(state: AppState, draw_map: DrawMap) -> AppState:
         if changed:
             state = comparing.with_divider(state, percent / 100)
         imgui.set_item_tooltip("Where the divider stands. It can be dragged in the image, too.")
-        imgui.text(f"raster left of {100 * options.divider:.0f} %, ray right of it")
+        text = f"raster left of {100 * options.divider:.0f} %, ray right of it"
+        imgui.text(_fitting(text, imgui.get_content_region_avail().x))
     else:
         for flipped, name in ((False, "raster"), (True, "ray")):
             if flipped:
