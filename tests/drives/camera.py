@@ -6,8 +6,6 @@ import numpy as np
 from imgui_bundle import imgui
 from window_driver import Driver, Key, changed
 
-from app.layout import CAMERA_SPACE
-
 
 def drive_a_slider_is_dragged(d: Driver) -> None:
     before = d.agreeing_images()
@@ -82,7 +80,7 @@ def drive_a_singular_basis_is_told_and_survived(d: Driver) -> None:
     d.type("w.y", "0.24567")
     for name in ("u", "v", "w"):
         d.type(f"{name}.z", "0")
-    assert "lies in the plane" in str(d.window.views["Camera"]._draft.error)  # the longest text there is
+    assert "lies in the plane" in str(d.window.views["Camera"]._draft.error)  # the longest
     d.ctx.yield_(2)
     assert d.ctx.get_window_by_ref("//Camera").scroll_max.y == 0
     d.ctx.item_click("//Camera/Back to the camera shown")
@@ -130,8 +128,7 @@ def drive_the_distance_is_not_dragged_below_zero(d: Driver) -> None:
 
 
 def drive_the_camera_panel_stays_wide_enough_for_its_numbers(d: Driver) -> None:
-    params = d.run.params.docking_params
-    node = imgui.internal.dock_builder_get_node(params.dock_space_id_from_name(CAMERA_SPACE))
+    node = d.ctx.get_window_by_ref("//Camera").dock_node
     wide = node.size.x
     imgui.internal.dock_builder_set_node_size(node.id_, (150, node.size.y))
     d.ctx.yield_(4)
