@@ -87,7 +87,7 @@ def _recent(window: Window) -> None:
         recent.look()
     for number, entry in enumerate(entries):
         note = "missing" if entry.missing else str(Path(entry.path).parent)
-        if imgui.menu_item(f"{entry.name}##{number}", _short(note), False, not entry.missing)[0]:
+        if imgui.menu_item(f"{entry.name}###recent{number}", _short(note), False, not entry.missing)[0]:
             window.files.open(entry.path)
     imgui.separator()
     if imgui.menu_item("Clear the list", "", False)[0]:
@@ -109,7 +109,7 @@ def _history(window: Window, history: History) -> None:
     last = min(len(states) - 1, here + HISTORY_STEPS)
     for index in range(last, first - 1, -1):
         text = change(states[index - 1], states[index]) if index else "the beginning"
-        if imgui.menu_item(f"{text}##{index}", "", index == here)[0]:
+        if imgui.menu_item(f"{text}###step{index}", "", index == here)[0]:
             for _ in range(abs(index - here)):
                 window.undo() if index < here else window.redo()
     imgui.end_menu()
@@ -120,14 +120,14 @@ def _bookmarks(window: Window) -> None:
     if not marks:
         imgui.text_colored(theme.DIM, "Ctrl+1 to Ctrl+9 keep the view; 1 to 9 come back to it")
     for mark in marks:
-        if imgui.menu_item(f"{mark.name}##go{mark.number}", str(mark.number), False)[0]:
+        if imgui.menu_item(f"{mark.name}###go{mark.number}", str(mark.number), False)[0]:
             bookmarks.recall(window, mark.number)
     imgui.separator()
     if imgui.begin_menu("Keep this view"):
         for number in range(1, 10):
             old = bookmarks.of(window.state, number)
             text = f"{number}  in place of {old.name}" if old else f"{number}"
-            if imgui.menu_item(f"{text}##keep{number}", f"Ctrl+{number}", False)[0]:
+            if imgui.menu_item(f"{text}###keep{number}", f"Ctrl+{number}", False)[0]:
                 bookmarks.store(window, number)
         imgui.end_menu()
     if imgui.begin_menu("Rename", bool(marks)):
@@ -143,7 +143,7 @@ def _bookmarks(window: Window) -> None:
         imgui.end_menu()
     if imgui.begin_menu("Forget", bool(marks)):
         for mark in marks:
-            if imgui.menu_item(f"{mark.name}##drop{mark.number}", str(mark.number), False)[0]:
+            if imgui.menu_item(f"{mark.name}###drop{mark.number}", str(mark.number), False)[0]:
                 window.change(bookmarks.without(window.state, mark.number))
         imgui.separator()
         if imgui.menu_item("All", "", False)[0]:
