@@ -3,6 +3,6 @@
 Without a command's name, `lucida` is app/commands/view.py: the window.
 """
 
-from app.commands import compare, doctor, render, scenes
+from app.commands import compare, doctor, lecture, render, scenes
 
-COMMANDS = (render, compare, scenes, doctor)
+COMMANDS = (render, compare, lecture, scenes, doctor)

@@ -30,7 +30,7 @@ from app.views.base import Host, View
 
 LECTURE = "Lecture"
 LAYOUT = "Lecture"  # of layout.LAYOUTS
-LARGEST = 0.031  # of the text, in parts of the window's height
+LARGEST = 0.036  # of the text, in parts of the window's height
 SMALLEST = 0.021
 TITLE = 1.5  # of a step's title, in parts of the text's size
 
@@ -139,7 +139,7 @@ class LectureView(View):
         pictures = [name for name in step.views if name != "camera"]
         spaces = dict(zip(pictures, (layout.MAIN, layout.LOWER_SPACE), strict=False))
         if "camera" in step.views:
-            spaces["camera"] = layout.INSTRUMENTS
+            spaces["camera"] = layout.CAMERA_SPACE
         places = {name.capitalize(): space for name, space in spaces.items()}
         layout.arrange(self._others.values(), places)
 

@@ -1,0 +1,74 @@
+"""`lucida lecture [FILE]`: a guided lecture, or a picture of each of its steps.
+
+Knows nothing of what a lecture is made of (app/teach/lecture/) or how it is shown.
+"""
+
+from __future__ import annotations
+
+import argparse
+from pathlib import Path
+
+from app.commands import arguments as common
+from app.commands.view import window_size
+
+NAME = "lecture"
+EXPORT_SIZE = (1920, 1080)
+
+DESCRIPTION = """\
+Give a guided lecture: steps of text, each with its own scene, camera and views.
+Without FILE: the built-in lecture, "Images, rays and cameras"."""
+
+EPILOG = """\
+in the lecture:
+  Page Down, Right    next step          Page Up, Left    the one before
+  Backspace           back to the step's own scene, camera and views
+A file is read again whenever it is saved. docs/lectures.md describes the format.
+
+examples:
+  lucida lecture
+  lucida lecture my-lecture.toml
+  lucida lecture my-lecture.toml --check
+  lucida lecture --export slides --size 1280x720
+
+exit status: 0 done, 2 a mistake (one line says file, line and field), 130 interrupted"""
+
+
+def configure(parser: argparse.ArgumentParser) -> None:
+    parser.description, parser.epilog = DESCRIPTION, EPILOG
+    parser.add_argument("file", nargs="?", metavar="FILE", help="a lecture file (.toml)")
+    parser.add_argument("--check", action="store_true", help="only read the file and its scenes")
+    parser.add_argument(
+        "--export", metavar="DIR", help="write a PNG of each step into DIR; needs no display"
+    )
+    parser.add_argument(
+        "--size",
+        type=window_size,
+        metavar="WxH",
+        help="the window's size in pixels "
+        f"(with --export: default {EXPORT_SIZE[0]}x{EXPORT_SIZE[1]})",
+    )
+
+
+def run(arguments: argparse.Namespace) -> int:
+    from app.teach.lecture.reading import BUILTIN, load_lecture
+
+    path = Path(arguments.file) if arguments.file is not None else BUILTIN
+    lecture = load_lecture(path)
+    if arguments.check:
+        exercises = sum(step.exercise is not None for step in lecture.steps)
+        print(
+            f"{arguments.file or lecture.title}: {len(lecture.steps)} steps, {exercises} exercises"
+        )
+        return 0
+    if arguments.export is not None:
+        from app.lecturing import export_lecture  # after the quick mistakes: it loads the window
+
+        folder = Path(arguments.export)
+        size = arguments.size or EXPORT_SIZE
+        with common.progress_bar("export") as progress:
+            written = export_lecture(lecture, path, folder, size, progress)
+        print(f"{arguments.export}: {len(written)} pictures, {size[0]}x{size[1]}")
+        return 0
+    from app.lecturing import run_lecture
+
+    return run_lecture(path, lecture, arguments.size)
