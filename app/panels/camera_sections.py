@@ -33,8 +33,10 @@ LOOK_FIELDS = (
     ("up", "Which direction is up in the image; not along the view direction."),
 )
 ORDER = (
-    *("Front", "Left", "Top", "Back", "Right", "Bottom"),
-    *("Isometric", "Dimetric", "Cavalier", "Cabinet"),
+    ("Front", "Left", "Top"),
+    ("Back", "Right", "Bottom"),
+    ("Isometric", "Dimetric"),
+    ("Cavalier", "Cabinet"),
 )
 
 
@@ -87,12 +89,13 @@ def presets_section(state: AppState) -> tuple[AppState, Asked]:
     spacing = imgui.get_style().item_spacing.x
     width = (imgui.get_content_region_avail().x - 2 * spacing) / 3
     named = {preset.name: preset for preset in PRESETS}
-    for number, name in enumerate(ORDER):
-        if number % 3 and name != "Cavalier":
-            imgui.same_line()
-        if imgui.button(name, (width, 0)):
-            asked = Asked(preset=named[name])
-        imgui.set_item_tooltip(named[name].note)
+    for row in ORDER:
+        for column, name in enumerate(row):
+            if column:
+                imgui.same_line()
+            if imgui.button(name, (width, 0)):
+                asked = Asked(preset=named[name])
+            imgui.set_item_tooltip(named[name].note)
     perspective = state.options.presets_in_perspective
     changed, perspective = imgui.checkbox("in perspective", perspective)
     imgui.set_item_tooltip(
