@@ -63,9 +63,9 @@ def _value(text: str, usual: bool, wrong: bool, width_px: float) -> None:
     color: ImVec4 = theme.ERROR if wrong else theme.DIM if usual else theme.TEXT
     if not usual or wrong:
         at, em = imgui.get_cursor_screen_pos(), imgui.get_font_size()
-        width = max(width_px, imgui.calc_text_size(text).x + 0.4 * em)
+        width = max(width_px, imgui.calc_text_size(text).x + 0.15 * em)
         imgui.get_window_draw_list().add_rect_filled(
-            at,
+            ImVec2(at.x - 0.15 * em, at.y),
             ImVec2(at.x + width, at.y + imgui.get_text_line_height()),
             theme.u32(theme.FRAME_ACTIVE),
             0.2 * em,

@@ -224,7 +224,7 @@ def _shift(state: AppState, draft: Draft, around: Surroundings) -> tuple[AppStat
 def _as_drawn(around: Surroundings) -> None:
     imgui.push_font(around.fonts.mono, 0.0)
     edges = "".join(map(short_number, around.shown.viewport))
-    imgui.text_colored(theme.DIM, f"as drawn{edges}")
+    imgui.text_colored(theme.DIM, f"drawn{edges}")
     imgui.set_item_tooltip("The viewport as drawn: left, right, bottom, top.")
     imgui.pop_font()
 
