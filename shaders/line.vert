@@ -3,7 +3,7 @@
 // (SEGMENT in renderer/raster/lines.py); no glLineWidth, which core profiles need not have.
 
 uniform vec2 half_size;  // of the target, in pixels
-uniform float edge;      // beyond the line's own width, on each side
+uniform float edge;      // beyond the line's own width, on each side; thin lines have less
 
 in vec2 start;
 in vec2 end;
@@ -22,7 +22,7 @@ void main() {
     float size = length(along);
     along = size > 1e-6 ? along / size : vec2(1.0, 0.0);
     vec2 across = vec2(-along.y, along.x);
-    float reach = 0.5 * style.x + edge + 1.0;
+    float reach = 0.5 * style.x + min(edge, 0.7 * style.x) + 1.0;
     vec2 side = vec2(gl_VertexID & 1, gl_VertexID >> 1) * 2.0 - 1.0;
     position = (side.x < 0.0 ? start : end) + reach * (side.x * along + side.y * across);
     ends = vec4(start, end);

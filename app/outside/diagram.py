@@ -149,7 +149,7 @@ def diagram(
         items += _volume(camera, end)
     if options.image or options.grid:
         items.append(
-            Lines("image plane", "plane", polyline(plane_corners(camera), True), 2.0, on_plane=True)
+            Lines("image plane", "plane", polyline(plane_corners(camera), True), 2.4, on_plane=True)
         )
     if options.grid:
         items.append(
@@ -165,7 +165,7 @@ def diagram(
             )
         )
     for hit in hits:
-        items += _ray(camera, size, hit, end, 1.25, f"bundle {hit.pixel[0]} {hit.pixel[1]}")
+        items += _ray(camera, size, hit, end, 1.6, f"bundle {hit.pixel[0]} {hit.pixel[1]}")
     if marked is not None and options.ray:
         items += _marked(camera, size, marked, end)
     if options.basis:
@@ -194,7 +194,7 @@ def _volume(camera: Camera, end: float) -> list[Item]:
         items.append(Face("near", "volume", first, 0.08))
         items.append(Lines("near", "volume", polyline(first, True), 1.75))
         items.append(Label("near", "text", "near", first[1], away=first[0]))
-    items.append(Lines("edges", "volume", edges, 1.4, 0.9))
+    items.append(Lines("edges", "volume", edges, 1.8))
     if np.isfinite(far):
         items.append(Face("far", "volume", back, 0.08))
         items.append(Lines("far", "volume", polyline(back, True), 1.75))
@@ -221,16 +221,19 @@ def _basis(camera: Camera) -> list[Item]:
 
 
 def _ray(camera: Camera, size: Size, hit: Hit, end: float, width: float, name: str) -> list[Item]:
-    """A ray from its origin to its hit, or as far as the scene where it hits nothing."""
+    """A ray of a bundle to its hit, or as far as the scene where it hits nothing."""
     x, y = (float(part) for part in camera.image_point(*hit.pixel, size))
     known = hit.t is not None and bool(np.isfinite(hit.t))
     t = hit.t if hit.t is not None and known else end
-    segment = point_at(camera, [x, x], [y, y], [0.0, t])[None]
-    items: list[Item] = [
-        Lines(name, "ray", segment, width, 0.9 if known else 0.4, 0.3 if known else 0.15, layer=2)
-    ]
+    plane = min(plane_parameter(camera), t)
+    origin, through, reached = point_at(camera, [x] * 3, [y] * 3, [0.0, plane, t])
+    pale = (0.95, 0.35) if known else (0.42, 0.2)
+    items: list[Item] = [Lines(name, "ray", np.array([[through, reached]]), width, *pale, layer=2)]
+    if plane > 0:  # thin before the image plane, whose picture is to be seen
+        before = np.array([[origin, through]])
+        items.append(Lines(f"{name} before", "ray", before, 0.6 * width, 0.44, 0.2, layer=2))
     if known:
-        items.append(Dot(f"{name} hit", "mark", segment[0, 1], 1.6 * width, layer=2))
+        items.append(Dot(f"{name} hit", "mark", reached, 1.6 * width, layer=2))
     return items
 
 

@@ -14,6 +14,7 @@ from app import theme
 from app.outside.diagram import Role
 from app.outside.projected import Primitive, Shape, Strokes
 from renderer.raster.lines import (
+    BARE,
     CORNER,
     DASHED,
     ON_PLANE,
@@ -22,6 +23,8 @@ from renderer.raster.lines import (
     SEGMENT,
     Layer,
 )
+
+PALEST = 0.45  # a line that is paler has no casing, which would be all one sees of it
 
 Rgba = tuple[float, float, float, float]
 
@@ -41,6 +44,13 @@ def role_color(role: Role) -> ImVec4:
         "extra": theme.rgb("#cc79a7"),  # the reddish purple of the same palette
     }
     return colors[role]
+
+
+def casing() -> Rgba:
+    """The colour of lines' edges: light round the light theme's darker colours."""
+    if theme.BACKGROUND.x > 0.5:
+        return 1.0, 1.0, 1.0, 0.55
+    return 0.03, 0.035, 0.04, 0.6
 
 
 def layers(primitives: Iterable[Primitive]) -> list[Layer]:
@@ -69,7 +79,8 @@ def _segments(part: Strokes) -> np.ndarray:
     rows["width"], rows["hidden"] = part.width_px, part.hidden
     # Round ends of pale lines would show where they meet.
     ends = ROUND_START | ROUND_END if part.opacity == 1 else 0
-    rows["flags"] = ends | (ON_PLANE * part.on_plane) | (DASHED * part.dashed)
+    bare = BARE * (part.opacity < PALEST)
+    rows["flags"] = ends | (ON_PLANE * part.on_plane) | (DASHED * part.dashed) | bare
     return rows
 
 

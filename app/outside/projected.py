@@ -77,12 +77,19 @@ Primitive = Strokes | Shape | Text
 
 class Screen:
     """The camera that looks, its image of `size` pixels. near: the least t that is drawn, from
-    the distance of what is looked at. unit_px: the width of a line that teaches."""
+    the distance of what is looked at. unit_px: the width of a line that teaches; symbol_px: what
+    the sizes of heads, dots and the eye are multiplied with, as a line's width if not given."""
 
     def __init__(
-        self, camera: Camera, size: Size, near: float = 1e-6, unit_px: float = 1.0
+        self,
+        camera: Camera,
+        size: Size,
+        near: float = 1e-6,
+        unit_px: float = 1.0,
+        symbol_px: float | None = None,
     ) -> None:
         self.camera, self.size, self.unit_px = camera, size, unit_px
+        self.symbol_px = unit_px if symbol_px is None else symbol_px
         self.near = max(near, 1e-30)
         self._matrix = screen_from_world(camera, size)
         self._middle = np.asarray(size, float) / 2
@@ -232,7 +239,7 @@ def _disc(
         return []
     at, depth = found
     points, depths = np.array([[at, at]]), np.array([[depth, depth]])
-    width_px = width * screen.unit_px
+    width_px = width * screen.symbol_px
     return [
         Strokes(name, role, points, depths, np.zeros(1), width_px, 1.0, 0.45, on_plane, False,
                 layer, tint)
@@ -250,7 +257,7 @@ def _arrow(item: Arrow, screen: Screen) -> list[Primitive]:
     shaft_end, cone = end, []
     found = screen.spot(end)
     if found is not None:
-        head = min(item.head * screen.unit_px * screen.px_world(end), 0.45 * length)
+        head = min(item.head * screen.symbol_px * screen.px_world(end), 0.45 * length)
         base = end - head * axis
         ring = base + 0.36 * head * _circle(axis)
         towards = float(axis @ screen.toward_viewer(base)) > 0
@@ -299,7 +306,7 @@ def _eye(item: Eye, screen: Screen) -> list[Primitive]:
     if up @ np.asarray(screen.camera.v) < 0:
         up = -up
     gaze = np.asarray(item.gaze, float) / np.linalg.norm(item.gaze)
-    radius_px = item.radius * screen.unit_px
+    radius_px = item.radius * screen.symbol_px
     for name, angle, tint, layer in (("iris", 40.0, -0.62, 5), ("pupil", 20.0, -0.97, 6)):
         angle = math.radians(angle)
         ring = math.cos(angle) * gaze + math.sin(angle) * _circle(gaze)
@@ -328,7 +335,7 @@ def _label(item: Label, screen: Screen) -> list[Primitive]:
             way = way - (there[2] - here[2]) * there[:2] / there[2]
         length = float(np.linalg.norm(way))
         size = length if screen.camera.is_parallel else length / there[2]
-        if size < item.least * screen.unit_px:
+        if size < item.least * screen.symbol_px:
             return []
         toward = way / length if length > 0 else toward
     x, y = at.tolist()

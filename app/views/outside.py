@@ -23,7 +23,7 @@ from app.options import OutsideOptions, Pixel
 from app.outside.diagram import Hit, Item, diagram
 from app.outside.extent import around, end_parameter, framed, outside_camera, way_of
 from app.outside.hits import Question, RayHits
-from app.outside.paint import layers
+from app.outside.paint import casing, layers
 from app.outside.projected import NEAREST, Primitive, Screen, project
 from app.outside.solid import bundle_pixels, pixel_seen, plane_corners
 from app.panels.screen import available_px, framebuffer_scale
@@ -282,16 +282,18 @@ class OutsideView(View):
                 _, drawn = both.pictures.linear(wanted)
                 picture = both.pictures.raster(wanted, look_of(state.images))
             ground = self._scene_picture(host, camera, size)
-            unit_px = theme.line_px(framebuffer_scale())
+            symbol_px = theme.px(framebuffer_scale())
+            # In presentation mode lines are thick, but the picture is not made of them.
+            unit_px = (theme.line_px(framebuffer_scale()) + symbol_px) / 2
             key = (
                 state.scene, camera, size, inner, image_size, replace(options, camera=None),
-                marked, tuple(hits), drawn, state.images, unit_px, ground.smooth,
+                marked, tuple(hits), drawn, state.images, unit_px, symbol_px, ground.smooth,
                 state.preferences, tuple(self._extra.items()),
             )  # fmt: skip
             if self._made is not None and self._made.key == key:
                 return self._made.texture
             end = end_parameter(inner, host.focus.framed)
-            screen = Screen(camera, size, self._near(camera, scope), unit_px)
+            screen = Screen(camera, size, self._near(camera, scope), unit_px, symbol_px)
             parts = int(widest_px(screen, plane_corners(inner)) / (GRID_PX * unit_px))
             items = diagram(inner, image_size, options, end, hits, marked, parts)
             for extra in self._extra.values():
@@ -310,6 +312,7 @@ class OutsideView(View):
                 state.images.exposure_ev,
                 opacity=OPACITY,
                 unit_px=unit_px,
+                casing=casing(),
                 mean=ground.mean if ground.smooth else None,
             )
         except (LucidaError, moderngl.Error) as error:

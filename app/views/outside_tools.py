@@ -115,7 +115,7 @@ def _chip(name: str, color: ImVec4 | None, on: bool, tip: str) -> bool:
         spot = ImVec2(at.x + theme.px(12), middle)
         if on:
             draw.add_circle_filled(spot, theme.px(4.5), theme.u32(color))
-        draw.add_circle(spot, theme.px(4.5), theme.u32(color, 1.0 if on else 0.6))
+        draw.add_circle(spot, theme.px(4.5), theme.u32(theme.DIM if on else theme.PLAIN))
     text = ImVec2(at.x + dot + theme.px(6), middle - imgui.get_text_line_height() / 2)
     draw.add_text(text, theme.u32(theme.TEXT if on or color is None else theme.DIM), name)
     if imgui.is_item_focused():

@@ -22,6 +22,7 @@ from renderer.raster.sources import link
 ON_PLANE = 1  # part of the image plane, which does not hide it
 ROUND_START, ROUND_END = 2, 4  # a segment ends in half a disc; else it is cut off
 DASHED = 8  # even where it is not hidden
+BARE = 16  # without a casing
 
 # start, end: pixels from the target's upper left corner, y down. depth: s at both ends, 1 / t in
 # perspective and t in parallel projection, which are affine on the screen. color: not linear, with

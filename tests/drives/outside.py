@@ -158,13 +158,48 @@ def drive_the_legend_switches(d: Driver) -> None:
     press(d, "bundle")
     rows, columns = window.state.outside.bundle
     d.settle()
-    rays = {
-        p.name for p in view(d).primitives if p.name.startswith("bundle") and "hit" not in p.name
-    }
+    rays = {" ".join(p.name.split()[:3]) for p in view(d).primitives if "bundle" in p.name}
     assert len(rays) == rows * columns
     assert view(d).settled
     d.window.undo()
     assert window.state.outside.bundle == (0, 0)
+
+
+def drive_nothing_is_drawn_anew_while_nothing_changes(d: Driver) -> None:
+    enter(d)
+    d.until(lambda: view(d).settled)
+    d.ctx.yield_(3)
+    before = view(d).primitives
+    assert before
+    d.ctx.yield_(20)
+    assert view(d).primitives is before
+    d.ctx.mouse_teleport_to_pos(d.point("Raster", 0.4, 0.6))
+    d.until(lambda: view(d).primitives is not before)  # its ray
+    assert strokes(d, "ray")
+
+
+def drive_keys_fly_it_and_switch_it(d: Driver) -> None:
+    enter(d)
+    window, inner = d.window, d.window.state.camera
+    d.ctx.mouse_teleport_to_pos(empty_place(d))
+    d.ctx.yield_(2)
+    d.ctx.key_down(int(Key.w))
+    d.until(lambda: window.state.outside.camera is not None)
+    before = window.state.outside.camera
+    d.until(lambda: window.state.outside.camera != before)
+    d.ctx.key_up(int(Key.w))
+    d.ctx.yield_(2)
+    assert window.state.camera == inner
+    d.ctx.key_press(int(Key.mod_shift) | int(Key.h))
+    assert window.state.outside.camera is None
+    d.ctx.key_press(int(Key.b))
+    assert min(window.state.outside.bundle) > 0
+    d.ctx.key_press(int(Key.g))
+    assert window.state.outside.gizmo == "move"
+    d.ctx.key_press(int(Key.t))
+    assert window.state.outside.gizmo == "turn"
+    d.ctx.key_press(int(Key.t))
+    assert window.state.outside.gizmo == "none"
 
 
 def drive_handles_move_the_eye_and_turn_the_basis(d: Driver) -> None:
