@@ -131,6 +131,8 @@ class StepperView(View):
             pair.complete and steps[ORDERS.index(one)] >= len(pair.runs[one]) - 1 for one in orders
         ):
             self.playing = False
+        if not (pair.complete or wish or taken):  # where it is to stand may be recorded yet
+            return steps[0], steps[1]
         return self._keep(host, (steps[0], steps[1]), step_of_undo=False)
 
     def _taken(self, speed: float) -> int:
