@@ -24,6 +24,7 @@ from renderer.raster import DepthRange, Look, Rasterizer, upload
 from renderer.raster.targets import Textures
 from renderer.scene.model import Scene
 
+FAILURES = (LucidaError, moderngl.Error, MemoryError)  # of drawing: told, and survived
 MOVING_S = 0.1  # after a change; a raster image that is too slow for the display is coarse then
 FRAME_S = 0.008  # what a raster image may take of a frame while the camera moves
 COARSEST = 4
@@ -98,7 +99,7 @@ class Pictures:
                 name, look, placement or whole(wanted.size), self._depths
             )
             self.raster_error = None
-        except (LucidaError, moderngl.Error) as error:  # shown in the window, which goes on
+        except FAILURES as error:  # shown in the window, which goes on
             self._raster.set_channels({})
             self._wanted, self._textures = None, None
             self.raster_error, self.raster_factor = error, 1
@@ -141,7 +142,7 @@ class Pictures:
             placement = placement or whole(image.request.size)
             texture = self._ray.picture(name, look, placement, self._depths)
             self.ray_error = None
-        except (LucidaError, moderngl.Error) as error:
+        except FAILURES as error:
             self._ray.set_channels({})
             self._uploaded, self.ray_error = None, error
             self._failures += 1
@@ -151,6 +152,11 @@ class Pictures:
     def depths(self) -> tuple[float, float] | None:
         """The ray parameters shown white and darkest, of the frame before; None: nothing is hit."""
         return self._range.numbers()
+
+    @property
+    def shows_ray(self) -> bool:
+        """Whether there is a ray image on the screen."""
+        return not self._ray.is_empty
 
     @property
     def unfinished(self) -> bool:

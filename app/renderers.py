@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 from app.agreement import Agreement, Verdict
 from app.live import LiveTrace, RayImage, Request, Tracer
 from app.options import ImageOptions
-from app.pictures import Pictures, Wanted
+from app.pictures import FAILURES, Pictures, Wanted
 from app.placement import Placement, common_pane, place
 from app.platform import lower_priority
 from app.reading import Region
@@ -165,7 +165,7 @@ class Renderers:
         wanted = Wanted(state.scene, self.camera(state), self.size)
         try:
             return self.pictures.raster_values(wanted, channel, region)
-        except (LucidaError, moderngl.Error):  # whatever it is, drawing tells it too
+        except FAILURES:  # whatever it is, drawing tells it too
             return None
 
     def ray_values(self, state: AppState, channel: str, region: Region) -> NDArray | None:
@@ -258,7 +258,7 @@ class Renderers:
             if raster is None:  # goes on in the next frame
                 return
             self.agreement.submit(image, raster)
-        except (LucidaError, moderngl.Error) as error:
+        except FAILURES as error:
             self.agreement.error = error
         self._compared = request
 

@@ -10,6 +10,8 @@ from imgui_bundle import imgui
 
 from app import layout
 from app.options import Preferences
+from app.panels.messages import failure_note
+from app.pictures import FAILURES
 from app.session import Arrangement
 from app.views.base import Host, View
 
@@ -20,7 +22,8 @@ class Stage:
     """All views of a window. maximised: the name of the one that covers the others, or "".
 
     focused: the name of the one that has the keyboard, or "". rects: what each one's content
-    takes, of those that were drawn in this frame or the one before.
+    takes, of those that were drawn in this frame or the one before. failures: of views that could
+    not be drawn, until somebody tries again.
     """
 
     def __init__(self, views: list[View]) -> None:
@@ -28,6 +31,7 @@ class Stage:
         self.maximised = ""
         self.focused = ""
         self.rects: dict[str, Rect] = {}
+        self.failures: dict[str, Exception] = {}
         self._next_focus = ""
         self._hovered: View | None = None
         self._restoring: Arrangement | None = None
@@ -38,7 +42,7 @@ class Stage:
     @property
     def settled(self) -> bool:
         """Whether nothing will change by itself in the views that are to be seen."""
-        return all(self.views[name].settled for name in self.rects)
+        return not self.failures and all(self.views[name].settled for name in self.rects)
 
     # What actions ask for.
 
@@ -196,7 +200,18 @@ class Stage:
         if imgui.is_window_hovered(imgui.HoveredFlags_.root_and_child_windows):
             self._hovered = view
         self.rects[view.name] = (corner.x, corner.y, corner.x + room.x, corner.y + room.y)
-        view.draw(host)
+        failure = self.failures.get(view.name)
+        if failure is not None:
+            if failure_note(view.title, failure):
+                del self.failures[view.name]
+            return
+        stacks = imgui.internal.ErrorRecoveryState()
+        imgui.internal.error_recovery_store_state(stacks)
+        try:
+            view.draw(host)
+        except FAILURES as error:
+            self.failures[view.name] = error
+            _unwind(stacks)
 
     def _leave_out(self, view: View, host: Host) -> None:
         """A view that is not to be seen in this frame: no image is fitted to it any more."""
@@ -209,6 +224,25 @@ class Stage:
             self.focused = view.name
             if self.maximised and self.maximised != view.name:
                 self.maximised = self._next_focus = view.name  # by Ctrl+Tab, for instance
+
+
+def _unwind(stacks: imgui.internal.ErrorRecoveryState) -> None:
+    """Ends what a view had begun in ImGui when it failed; nothing of that is a mistake."""
+    io = imgui.get_io()
+    told = (
+        io.config_error_recovery_enable_assert,
+        io.config_error_recovery_enable_debug_log,
+        io.config_error_recovery_enable_tooltip,
+    )
+    io.config_error_recovery_enable_assert = False
+    io.config_error_recovery_enable_debug_log = False
+    io.config_error_recovery_enable_tooltip = False
+    imgui.internal.error_recovery_try_to_recover_state(stacks)
+    (
+        io.config_error_recovery_enable_assert,
+        io.config_error_recovery_enable_debug_log,
+        io.config_error_recovery_enable_tooltip,
+    ) = told
 
 
 def _large_label(view: View) -> str:

@@ -1,6 +1,6 @@
-"""A message over the window: one thing that went wrong, until it is answered.
+"""Messages: over the window, one thing that went wrong, until it is answered; or in a view.
 
-Owns its place and look.
+Owns their place and look.
 """
 
 from __future__ import annotations
@@ -10,6 +10,7 @@ from dataclasses import dataclass
 from imgui_bundle import ImVec2, imgui
 
 from app import theme
+from app.files import describe
 
 WIDTH_EM = 40.0
 
@@ -50,3 +51,12 @@ def message_box(message: Message) -> str:
             chosen = answer
     imgui.end()
     return chosen
+
+
+def failure_note(title: str, error: Exception) -> bool:
+    """What stands in a view that could not be drawn; gives whether to try again."""
+    imgui.push_text_wrap_pos(0.0)
+    imgui.text_colored(theme.ERROR, f"{' '.join(title.split())} could not be drawn.")
+    imgui.text(describe(error))
+    imgui.pop_text_wrap_pos()
+    return bool(imgui.button("Try again"))

@@ -363,6 +363,27 @@ def drive_failures_of_the_rasterizer_are_told_and_survived(d: Driver) -> None:
     d.agreeing_images()
 
 
+def drive_a_view_that_fails_is_told_and_the_others_go_on(d: Driver) -> None:
+    stage = d.window.shell.stage
+    view = stage.views[CAMERA]
+
+    def fail(_: object) -> None:
+        imgui.begin_child("half drawn")
+        imgui.push_id("and more")
+        raise moderngl.Error("GLSL: 0:1: syntax error")
+
+    view.draw = fail  # type: ignore[method-assign]
+    d.until(lambda: CAMERA in stage.failures)
+    d.ctx.yield_(3)
+    d.picture()
+    del view.draw
+    d.drag(d.point(RAY, 0.5, 0.5), d.point(RAY, 0.6, 0.5))
+    assert d.window.state != d.start
+    d.ctx.item_click(f"//{CAMERA}/Try again")
+    d.until(lambda: not stage.failures)
+    d.agreeing_images()
+
+
 def drive_the_history_is_a_list(d: Driver) -> None:
     d.drag_field("eye.x", 30)
     d.ctx.menu_click("//##MainMenuBar/View/Look/Light theme")
