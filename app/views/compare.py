@@ -171,7 +171,7 @@ class CompareView(ImageView):
     def _flipped(self, state: AppState) -> bool:
         """Whether flip shows the ray image now."""
         io = imgui.get_io()
-        held = imgui.is_key_down(FLIP_KEY) and not (io.want_text_input or io.key_ctrl)
+        held = imgui.is_key_down(FLIP_KEY) and not (io.want_text_input or io.key_ctrl or io.key_alt)
         return state.compare.flipped != held
 
     def _values(

@@ -124,7 +124,7 @@ def drive_the_difference_is_shown_as_false_colour(d: Driver) -> None:
             if mode == "signed":
                 red, _, blue = seen[WORST].tolist()
                 assert red > blue, "the ray image has more: orange"
-    show(d)
+    show(d, mode="absolute")
     assert (shown(d).max(axis=2) > 40).mean() < 0.01
 
 
