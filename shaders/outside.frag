@@ -2,12 +2,10 @@
 // The outside view's ground: the scene as seen from outside, and the other camera's picture on its
 // image plane, hidden where the scene is nearer.
 
-#include "chunks/color.glsl"
 #include "chunks/outside.glsl"
 
-uniform sampler2D linear_color;
+uniform sampler2D scene;      // as shown (scene.frag)
 uniform sampler2D picture;    // as shown, row 0 at the top
-uniform float exposure;       // a factor, of the scene
 uniform float opacity;        // of the picture
 uniform float picture_light;  // of the picture: its back is darker
 
@@ -17,8 +15,7 @@ const int TAPS = 4;  // a side of a pixel, of the picture
 
 void main() {
     ivec2 pixel = ivec2(gl_FragCoord.xy);
-    vec3 light = clamp(exposure * texelFetch(linear_color, pixel, 0).rgb, 0.0, 1.0);
-    color = vec4(srgb_from_linear(light), 1.0);
+    color = vec4(texelFetch(scene, pixel, 0).rgb, 1.0);
     if (!has_plane || !may_be_on_plane(gl_FragCoord.xy)) {
         return;
     }

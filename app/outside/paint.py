@@ -26,6 +26,15 @@ from renderer.raster.lines import (
 
 PALEST = 0.45  # a line that is paler has no casing, which would be all one sees of it
 
+FIXED: dict[Role, ImVec4] = {
+    "plane": theme.rgb("#f2f5f8"),
+    "volume": theme.rgb("#b9cbe0"),
+    "grid": theme.rgb("#ffffff"),
+    "eye": theme.rgb("#f4f1ea"),
+    "text": theme.rgb("#eef1f4"),
+    "extra": theme.rgb("#cc79a7"),  # the reddish purple of Okabe and Ito's palette
+}
+
 Rgba = tuple[float, float, float, float]
 
 
@@ -33,17 +42,9 @@ def role_color(role: Role) -> ImVec4:
     """The colour of a role in the theme in use."""
     if role in theme.BASIS:
         return theme.BASIS[role]
-    colors = {
-        "ray": theme.RAY,
-        "mark": theme.MARK,
-        "plane": theme.rgb("#f2f5f8"),
-        "volume": theme.rgb("#b9cbe0"),
-        "grid": theme.rgb("#ffffff"),
-        "eye": theme.rgb("#f4f1ea"),
-        "text": theme.rgb("#eef1f4"),
-        "extra": theme.rgb("#cc79a7"),  # the reddish purple of the same palette
-    }
-    return colors[role]
+    if role == "ray":
+        return theme.RAY
+    return theme.MARK if role == "mark" else FIXED[role]
 
 
 def casing() -> Rgba:

@@ -57,12 +57,13 @@ IMAGE_SIZE = (640, 480)  # of the camera's image while no other view shows it
 
 @dataclass(frozen=True, eq=False)
 class _Ground:
-    """The scene from outside. parts: how many of the SHIFTS are in its mean; all of them also
-    where there will be none."""
+    """The scene from outside. number: of its drawing. parts: how many of the SHIFTS are in its
+    mean; all of them also where there will be none."""
 
     wanted: Wanted
     textures: Textures
     drawn_s: float
+    number: int
     parts: int
     mean: moderngl.Texture | None = None
 
@@ -97,6 +98,7 @@ class OutsideView(View):
         self._overlay: Overlay | None = None
         self._hits: RayHits | None = None
         self._ground: _Ground | None = None
+        self._drawn = 0  # pictures of the scene
         self._made: _Made | None = None
         self._extra: dict[str, tuple[Item, ...]] = {}
         self.scope: Scope | None = None  # the view as it was last drawn
@@ -148,6 +150,11 @@ class OutsideView(View):
 
     def with_flown(self, state: AppState, camera: Camera) -> AppState:
         return state.with_options(outside={"camera": camera})
+
+    def object_under(self, host: Host) -> int | None:
+        if self.scope is None:
+            return None
+        return object_on_ray(host.state.scene, *self.scope.ray(imgui.get_mouse_pos()))
 
     def draw(self, host: Host) -> None:
         size = available_px()
@@ -313,6 +320,7 @@ class OutsideView(View):
                 opacity=OPACITY,
                 unit_px=unit_px,
                 casing=casing(),
+                number=(ground.number, ground.parts),
                 mean=ground.mean if ground.smooth else None,
             )
         except (LucidaError, moderngl.Error) as error:
@@ -342,9 +350,10 @@ class OutsideView(View):
         if ground is None or ground.wanted != wanted:
             self._ground = None
             textures = pictures.beside(wanted, OUTSIDE)
+            self._drawn += 1
             slow = time.monotonic() - now_s > SLOW_S
             parts = len(SHIFTS) if slow else 0
-            self._ground = ground = _Ground(wanted, textures, now_s, parts)
+            self._ground = ground = _Ground(wanted, textures, now_s, self._drawn, parts)
         if ground.parts < len(SHIFTS):
             host.animate()
             if now_s - ground.drawn_s > STILL_S:

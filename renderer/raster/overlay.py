@@ -6,7 +6,7 @@ the lines were made, and of who draws the scene.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Hashable, Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -23,6 +23,7 @@ from renderer.raster.targets import Textures
 
 Size = tuple[int, int]
 Rgba = tuple[float, float, float, float]
+FAR_PX = 1e6  # beyond every image
 _THINNEST = 1e-7  # an image plane seen more nearly edge on shows nothing of its picture
 
 
@@ -30,11 +31,13 @@ _THINNEST = 1e-7  # an image plane seen more nearly edge on shows nothing of its
 class Plane:
     """An image plane on the screen. from_screen (3, 3): (X q, Y q, q) of (x, y, 1), pixels from the
     image's middle, x right, y down; X and Y run from 0 to 1 rightwards and downwards over the
-    picture. depth (3,): s of (x, y, 1). is_front: seen from the side on which its eye is."""
+    picture. depth (3,): s of (x, y, 1). is_front: seen from the side on which its eye is. box:
+    (left, top, right, bottom) around the picture, from the image's middle."""
 
     from_screen: NDArray[np.float64]
     depth: NDArray[np.float64]
     is_front: bool
+    box: tuple[float, float, float, float]
 
 
 def screen_from_world(camera: Camera, size: Size) -> NDArray[np.float64]:
@@ -74,7 +77,13 @@ def plane_on_screen(
     is_front = bool((normal @ toward) * (normal @ (np.asarray(eye) - first)) >= 0)
     if not camera.is_parallel:  # a common factor cancels: floats stay in range
         from_screen = from_screen / np.abs(from_screen).max()
-    return Plane(from_screen, depth, is_front)
+    spots = np.array([of_plane @ corner for corner in ((0, 0, 1), (1, 0, 1), (0, 1, 1), (1, 1, 1))])
+    box = (-FAR_PX, -FAR_PX, FAR_PX, FAR_PX)
+    if (spots[:, 2] > 0).all():
+        places = spots[:, :2] / spots[:, 2:]
+        low, high = np.clip((places.min(axis=0), places.max(axis=0)), -FAR_PX, FAR_PX)
+        box = (float(low[0]), float(low[1]), float(high[0]), float(high[1]))
+    return Plane(from_screen, depth, is_front, box)
 
 
 class Overlay:
@@ -85,6 +94,9 @@ class Overlay:
         self._owner = Owner()
         self._ground = self._owner.own(link(context, "screen.vert", "outside.frag"))
         self._screen = self._owner.own(context.vertex_array(self._ground, []))
+        self._showing = self._owner.own(link(context, "screen.vert", "scene.frag"))
+        self._show = self._owner.own(context.vertex_array(self._showing, []))
+        self._kept: Hashable = None  # what the scene as shown was made from
         self._gathering = self._owner.own(link(context, "screen.vert", "gather.frag"))
         self._gather = self._owner.own(context.vertex_array(self._gathering, []))
         self._lines = self._owner.own(Lines(context))
@@ -127,13 +139,15 @@ class Overlay:
         unit_px: float = 1.0,
         mean: moderngl.Texture | None = None,
         casing: Rgba = (0.03, 0.035, 0.04, 0.6),
+        number: Hashable = None,
     ) -> moderngl.Texture:
         """The view as an 8-bit texture of `size`, drawn over by the next call.
 
         scene: as drawn by `camera` at `size`. mean: its colour with smooth edges, from gather().
         plane, picture: what stands in the scene; the picture as it is to be seen (not linear).
         The plane alone hides nothing. unit_px: the size of dashes and edges. casing: the colour
-        of lines' edges.
+        of lines' edges. number: another one whenever the scene's picture is another; None: not
+        known.
         """
         gl = self._gl
         texture, framebuffer = self._of_size("shown", size, "uint8")
@@ -147,21 +161,21 @@ class Overlay:
         if plane is not None:
             # Matrices go column by column, as NumPy has the transposed one.
             shared["plane_from_screen"] = tuple(plane.from_screen.T.ravel().tolist())
+            shared["plane_box"] = plane.box
             shared["plane_depth"] = tuple(plane.depth.tolist())
         try:
             gl.enable_only(moderngl.NOTHING)
             gl.wireframe = False
             gl.clear_samplers(0, 3)
+            shown = self._scene_shown(mean or scene.color, exposure_ev, number)
             framebuffer.use()
-            (mean or scene.color).use(0)
+            shown.use(0)
             scene.surface.use(1)
-            (picture or scene.color).use(2)
-            exposure = 2.0 ** min(max(exposure_ev, -100.0), 100.0)
+            (picture or shown).use(2)
             ground = {
-                "linear_color": 0,
+                "scene": 0,
                 "picture": 2,
                 "window_depth": 0.5,
-                "exposure": exposure,
                 "opacity": opacity,
                 "picture_light": 1.0 if plane is None or plane.is_front else 0.55,
             }
@@ -175,6 +189,22 @@ class Overlay:
             framebuffer.color_mask = True, True, True, True
             gl.enable_only(moderngl.NOTHING)
             before.use()
+        return texture
+
+    def _scene_shown(
+        self, linear: moderngl.Texture, exposure_ev: float, number: Hashable
+    ) -> moderngl.Texture:
+        """The scene after the display transform, made anew only if it must be."""
+        texture, framebuffer = self._of_size("scene", linear.size, "uint8")
+        key = (texture.glo, linear.glo, exposure_ev, number)
+        if number is None or key != self._kept:
+            framebuffer.use()
+            linear.use(0)
+            set_uniform(self._showing, "linear_color", 0)
+            set_uniform(self._showing, "window_depth", 0.5)
+            set_uniform(self._showing, "exposure", 2.0 ** min(max(exposure_ev, -100.0), 100.0))
+            self._show.render(moderngl.TRIANGLES, vertices=3)
+            self._kept = key
         return texture
 
     def release(self) -> None:
@@ -193,6 +223,7 @@ class Overlay:
         return self._targets[name]
 
     def _drop(self, name: str) -> None:
+        self._kept = None
         if name in self._targets:
             texture, framebuffer = self._targets.pop(name)
             framebuffer.release()

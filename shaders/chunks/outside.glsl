@@ -6,6 +6,7 @@ uniform float perspective;      // 1: depth s is 1 / t, 0: it is t; both are aff
 uniform vec2 half_size;         // of the target, in pixels
 uniform bool has_plane;
 uniform mat3 plane_from_screen; // (X q, Y q, q) of (x, y, 1) from the middle; X, Y: 0 to 1 inside
+uniform vec4 plane_box;         // left, top, right, bottom around the picture, from the middle
 uniform vec3 plane_depth;       // s of (x, y, 1)
 
 float t_of(float s) {
@@ -22,6 +23,10 @@ vec3 plane_at(vec2 position) {
 
 // Whether a pixel may show any of the picture: its middle, give or take two pixels.
 bool may_be_on_plane(vec2 position) {
+    vec2 screen = position - half_size;
+    if (any(lessThan(screen, plane_box.xy - 2.0)) || any(greaterThan(screen, plane_box.zw + 2.0))) {
+        return false;
+    }
     for (int k = 0; k < 9; ++k) {
         vec3 at = plane_at(position + 2.0 * vec2(k % 3 - 1, k / 3 - 1));
         if (at.z > 0.0 && all(equal(at.xy, clamp(at.xy, 0.0, 1.0)))) {
