@@ -1,6 +1,7 @@
 """A few lines of Python on the screen, one of them lit.
 
-Owns their look: what has a colour in the formulas has it here. Knows nothing of what they do.
+Owns their look: what has a colour in the formulas has it here, and a called function shows its own
+source under the mouse. Knows nothing of what they do.
 """
 
 from __future__ import annotations
@@ -8,7 +9,7 @@ from __future__ import annotations
 import functools
 import io
 import tokenize
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 
 from imgui_bundle import ImVec2, ImVec4, imgui
 
@@ -17,10 +18,9 @@ from app import theme
 _ROLES = {"u": "u", "v": "v", "ray": "ray", "hit": "hit", "closest": "hit"}
 
 
-def code(lines: Sequence[str], lit: int, mono: imgui.ImFont | None, size_px: float) -> None:
-    """Draws the lines. lit: the number of the one about to run. size_px: of the type, which must
-    be the current one's."""
-    imgui.push_font(mono, 0.0)
+def code(lines: Sequence[str], lit: int, size_px: float, called: Mapping[str, str]) -> None:
+    """Draws the lines in the current font, of size_px, whose letters have one width. lit: the
+    number of the line about to run. called: the sources of functions, by name."""
     draw, corner = imgui.get_window_draw_list(), imgui.get_cursor_screen_pos()
     letter = imgui.calc_text_size("0").x
     line_px = 1.18 * size_px
@@ -34,17 +34,28 @@ def code(lines: Sequence[str], lit: int, mono: imgui.ImFont | None, size_px: flo
             draw.add_rect_filled(low, high, theme.u32(theme.FRAME_ACTIVE), 2.0)
             draw.add_rect_filled(low, ImVec2(corner.x + bar, high.y), theme.u32(theme.RAY))
         top = y + 0.5 * (line_px - imgui.get_text_line_height())
-        for column, word in _words(text):
+        for column, word in _words(text, tuple(called)):
             at = ImVec2(corner.x + 2 * bar + column * letter, top)
             draw.add_text(at, theme.u32(_color(word)), word)
-    imgui.pop_font()
+            if word in called:
+                _call(draw, at, word, called[word])
     imgui.dummy(ImVec2(widest + 2 * bar, len(lines) * line_px))
 
 
-def code_size_px(lines: Sequence[str], width_px: float, most_px: float) -> float:
-    """The size at which the longest line has room, at most most_px. The font's letters are half
-    as wide as they are high."""
-    return min(most_px, width_px / (0.5 * max(map(len, lines)) + 1.2))
+def _call(draw: imgui.ImDrawList, at: ImVec2, name: str, source: str) -> None:
+    """A function's name is underlined; under the mouse, its source is shown."""
+    size = imgui.calc_text_size(name)
+    far = ImVec2(at.x + size.x, at.y + size.y)
+    y = far.y - theme.px(1)
+    draw.add_line(ImVec2(at.x, y), ImVec2(far.x, y), theme.u32(theme.PLAIN, 0.8), theme.line_px())
+    if imgui.is_window_hovered() and imgui.is_mouse_hovering_rect(at, far):
+        imgui.set_tooltip(source)
+
+
+def code_size_px(longest: str, width_px: float, most_px: float) -> float:
+    """The size at which a line has room, at most most_px. The font's letters are half as wide as
+    they are high."""
+    return min(most_px, width_px / (0.5 * len(longest) + 1.2))
 
 
 def _color(word: str) -> ImVec4:
@@ -56,7 +67,7 @@ def _color(word: str) -> ImVec4:
 
 
 @functools.lru_cache(maxsize=256)
-def _words(text: str) -> tuple[tuple[int, str], ...]:
+def _words(text: str, called: tuple[str, ...]) -> tuple[tuple[int, str], ...]:
     """The line in parts, with the column of each: names that have a colour, and what is between."""
     try:
         tokens = list(tokenize.generate_tokens(io.StringIO(text.strip()).readline))
@@ -65,7 +76,7 @@ def _words(text: str) -> tuple[tuple[int, str], ...]:
     indent = len(text) - len(text.lstrip())
     words, after = [], 0
     for token in tokens:
-        if token.type == tokenize.NAME and token.string in _ROLES:
+        if token.type == tokenize.NAME and (token.string in _ROLES or token.string in called):
             start = indent + token.start[1]
             words += [(after, text[after:start]), (start, token.string)]
             after = start + len(token.string)

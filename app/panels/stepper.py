@@ -5,6 +5,8 @@ Owns the layout. Gets options and moments, returns wishes. What a moment is, is 
 
 from __future__ import annotations
 
+import functools
+import inspect
 from dataclasses import dataclass, replace
 from typing import Literal
 
@@ -16,7 +18,16 @@ from app.lettering import lettering
 from app.options import Pixel, StepperOptions
 from app.panels.canvas import Marks, canvas
 from app.panels.code import code, code_size_px
+from app.teach.loop_parts import (
+    Canvas,
+    DepthBuffer,
+    bounding_box,
+    color_at,
+    intersect,
+    viewing_ray,
+)
 from app.teach.recording import MOST_STEPS, Order, Recording
+from app.teach.source import source_of
 from app.teach.stepper import Moment
 from app.theme import Fonts
 
@@ -78,22 +89,22 @@ def controls(options: StepperOptions, playing: bool) -> tuple[StepperOptions, Wi
 
 
 def keys() -> Wish:
-    """What the keys ask for; to be asked while the panel has them."""
-    io, key = imgui.get_io(), imgui.Key
-    if io.want_text_input or io.key_ctrl or io.key_alt or imgui.is_any_item_active():
-        return ""
-    table: tuple[tuple[Wish, imgui.Key, bool], ...] = (
-        ("play", key.space, False),
-        ("step", key.right_arrow, True),
-        ("back", key.left_arrow, True),
-        ("object" if io.key_shift else "pixel", key.down_arrow, True),
-        ("first", key.home, False),
-        ("last", key.end, False),
+    """What the keys ask for, while the panel has them: they are taken from ImGui's navigation, to
+    which Tab and Enter remain."""
+    key, shift = imgui.Key, int(imgui.Key.mod_shift)
+    focused = int(imgui.InputFlags_.route_focused)
+    repeated = focused | int(imgui.InputFlags_.repeat)
+    table: tuple[tuple[Wish, int, int], ...] = (
+        ("play", int(key.space), focused),
+        ("step", int(key.right_arrow), repeated),
+        ("back", int(key.left_arrow), repeated),
+        ("pixel", int(key.down_arrow), repeated),
+        ("object", shift | int(key.down_arrow), repeated),
+        ("first", int(key.home), focused),
+        ("last", int(key.end), focused),
     )
-    for wish, pressed, repeat in table:
-        if imgui.is_key_pressed(pressed, repeat):
-            return wish
-    return ""
+    pressed = [wish for wish, chord, flags in table if imgui.shortcut(chord, flags)]
+    return pressed[0] if pressed and not imgui.is_any_item_active() else ""
 
 
 def _speed(options: StepperOptions) -> StepperOptions:
@@ -150,9 +161,10 @@ def run_panel(
     left = imgui.get_content_region_avail()
     below = imgui.get_cursor_screen_pos()
     lines = recording.source.lines
+    longest, count = _largest()  # of both: they are shown in one size
     em = imgui.get_font_size()
     if left.x > 1.9 * left.y:  # all three beside one another
-        size_px = code_size_px(lines, 0.46 * left.x, min(1.6 * em, left.y / (1.22 * len(lines))))
+        size_px = code_size_px(longest, 0.46 * left.x, min(1.6 * em, left.y / (1.22 * count)))
         _code(lines, moment, size_px, fonts)
         x = 0.48 * left.x
         imgui.set_cursor_screen_pos(ImVec2(below.x + x, below.y))
@@ -160,9 +172,9 @@ def run_panel(
         answer = _canvases(recording, moment, picture, ImVec2(0.26 * left.x, left.y), answer)
         imgui.end_group()
         imgui.set_cursor_screen_pos(ImVec2(below.x + 0.755 * left.x, below.y))
-        _numbers(moment, ImVec2(0.245 * left.x, left.y), fonts)
+        _numbers(moment, ImVec2(0.245 * left.x, left.y), size_px, fonts)
         return answer
-    size_px = code_size_px(lines, left.x, min(1.6 * em, 0.56 * left.y / (1.22 * len(lines))))
+    size_px = code_size_px(longest, left.x, min(1.6 * em, 0.56 * left.y / (1.22 * count)))
     _code(lines, moment, size_px, fonts)
     left = imgui.get_content_region_avail()
     below = imgui.get_cursor_screen_pos()
@@ -170,7 +182,7 @@ def run_panel(
     answer = _canvases(recording, moment, picture, ImVec2(0.52 * left.x, left.y), answer)
     imgui.end_group()
     imgui.set_cursor_screen_pos(ImVec2(below.x + 0.54 * left.x, below.y))
-    _numbers(moment, ImVec2(0.46 * left.x, left.y), fonts)
+    _numbers(moment, ImVec2(0.46 * left.x, left.y), size_px, fonts)
     return answer
 
 
@@ -192,7 +204,22 @@ def _slider(recording: Recording, moment: Moment) -> Answer:
 
 def _code(lines: tuple[str, ...], moment: Moment, size_px: float, fonts: Fonts) -> None:
     with lettering(fonts.mono, size_px):
-        code(lines, moment.line, None, size_px)
+        code(lines, moment.line, size_px, _called())
+
+
+@functools.cache
+def _largest() -> tuple[str, int]:
+    """The longest line of both sources, and the number of lines of the longer one."""
+    sources = [source_of(order.renderer) for order in Order]
+    lines = [line for source in sources for line in source.lines]
+    return max(lines, key=len), max(len(source.lines) for source in sources)
+
+
+@functools.cache
+def _called() -> dict[str, str]:
+    """The sources of what the loops call."""
+    parts = (viewing_ray, bounding_box, intersect, color_at, Canvas, DepthBuffer)
+    return {part.__name__: inspect.getsource(part).rstrip() for part in parts}
 
 
 def _canvases(
@@ -234,9 +261,15 @@ def _canvases(
     return replace(answer, pixel=clicked) if clicked is not None else answer
 
 
-def _numbers(moment: Moment, room: ImVec2, fonts: Fonts) -> None:
-    """The counters and the variables."""
+def _numbers(moment: Moment, room: ImVec2, code_px: float, fonts: Fonts) -> None:
+    """The counters and the variables, in type about as large as the code's."""
     imgui.begin_child("numbers", room)
+    with lettering(None, max(imgui.get_font_size(), min(0.92 * code_px, room.x / 17))):
+        _tables(moment, fonts)
+    imgui.end_child()
+
+
+def _tables(moment: Moment, fonts: Fonts) -> None:
     counters = moment.counters
     flags = imgui.TableFlags_
     if imgui.begin_table("counters", 2, flags.sizing_fixed_fit | flags.no_saved_settings):
@@ -271,7 +304,6 @@ def _numbers(moment: Moment, room: ImVec2, fonts: Fonts) -> None:
             imgui.pop_font()
             imgui.pop_text_wrap_pos()
         imgui.end_table()
-    imgui.end_child()
 
 
 def _follow(width: float) -> None:

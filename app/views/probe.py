@@ -34,6 +34,12 @@ from renderer.camera import Camera, Size
 
 PROBE = "Probe"
 MOST_SHOWN = 48  # rays of a row or a column
+ARROWS = (
+    imgui.Key.left_arrow,
+    imgui.Key.right_arrow,
+    imgui.Key.up_arrow,
+    imgui.Key.down_arrow,
+)
 NORMAL = 0.12  # the length of a normal's arrow, in parts of the scene's reach
 HINT = "Point at a pixel in an image or on the image plane. A click keeps it; the arrow keys walk."
 
@@ -158,10 +164,14 @@ class ProbeView(View):
         return pins
 
     def _walk(self, host: Host, size: Size) -> None:
-        """The arrow keys, while the panel has them."""
-        if not imgui.is_window_focused(imgui.FocusedFlags_.child_windows):
-            return
-        if imgui.is_any_item_active() or imgui.get_io().nav_visible:
+        """The arrow keys, while the panel has them: they are taken from ImGui's navigation, to
+        which Tab remains."""
+        shift = int(imgui.Key.mod_shift)
+        flags = int(imgui.InputFlags_.repeat | imgui.InputFlags_.route_focused)
+        taken = [
+            imgui.shortcut(modifier | int(key), flags) for key in ARROWS for modifier in (0, shift)
+        ]
+        if not any(taken) or imgui.is_any_item_active():
             return
         start = self._pixel(host, size) or (size[1] // 2, size[0] // 2)
         pixel = walked(host.state.marked, size, start)

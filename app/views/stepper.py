@@ -80,8 +80,7 @@ class StepperView(View):
         self._seen = True
         options = host.state.options.stepper
         changed, wish = panel.controls(options, self.playing)
-        if imgui.is_window_focused(imgui.FocusedFlags_.child_windows):
-            wish = wish or panel.keys()
+        wish = panel.keys() or wish
         if changed != options:
             host.apply(host.state.with_options(stepper=_fields(changed)))
             options = changed

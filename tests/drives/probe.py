@@ -1,0 +1,243 @@
+"""The pixel probe in the window: its numbers, live; the keys, the pins, the copies, the rays."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+from imgui_bundle import hello_imgui, imgui
+from window_driver import RASTER, SIZE, Driver, Key
+
+from app import layout
+from app.outside.projected import Strokes
+from app.panels import formula
+from app.teach.formulas import ray_lines
+from app.teach.reading import Reading
+from app.views.outside import OUTSIDE, OutsideView
+from app.views.probe import PROBE, ProbeView
+from renderer.images.display import to_srgb8
+from renderer.scene.model import Scene
+
+WINDOW = f"//###{PROBE}"
+
+
+def view(d: Driver) -> ProbeView:
+    found = d.window.views[PROBE]
+    assert isinstance(found, ProbeView)
+    return found
+
+
+def enter(d: Driver) -> None:
+    """The probe, both images and the outside view."""
+    layout.switch("Probe")
+    d.ctx.yield_(5)
+    d.settle()
+
+
+def leave(d: Driver) -> None:
+    hello_imgui.switch_layout("Side by side")
+    d.ctx.yield_(5)
+
+
+def reading(d: Driver) -> Reading:
+    d.settle()
+    d.until(lambda: view(d).reading is not None)
+    found = view(d).reading
+    assert found is not None
+    return found
+
+
+def check(d: Driver, found: Reading) -> None:
+    """Against the formulas written out, and against the traced image."""
+    camera, (width, height) = d.window.renderers.camera(d.window.state), d.window.renderers.size
+    left, right, bottom, top = camera.viewport
+    i, j = found.pixel[0] + 1, found.pixel[1] + 1
+    u = left + (right - left) * (j - 0.5) / width
+    v = top - (top - bottom) * (i - 0.5) / height
+    vectors = (np.array(vector) for vector in (camera.eye, camera.u, camera.v, camera.w))
+    eye, bu, bv, bw = vectors
+    assert np.allclose((found.x, found.y), (u, v))
+    if camera.is_parallel:
+        assert np.allclose(found.origin, eye + u * bu + v * bv)
+        assert np.allclose(found.direction, -bw)
+    else:
+        assert np.allclose(found.origin, eye)
+        assert np.allclose(found.direction, u * bu + v * bv - camera.distance * bw)
+    image = d.window.renderers.ray_image
+    assert image is not None and image.factor == 1
+    frame, pixel = image.frame, found.pixel
+    number = found.hit.object if found.hit is not None else -1
+    if frame.id[pixel] != number:  # within rounding of an outline
+        assert (frame.id[pixel[0] - 1 : pixel[0] + 2, pixel[1] - 1 : pixel[1] + 2] == number).any()
+        return
+    if found.hit is not None:
+        assert np.isclose(found.hit.t, frame.depth[pixel], rtol=1e-4)
+        assert np.allclose(found.hit.normal, frame.normal[pixel], atol=1e-3)
+    shown = to_srgb8(frame.color[pixel]).astype(int)
+    assert np.abs(shown - found.bytes).max() <= 2
+
+
+def drive_a_click_fills_the_probe(d: Driver) -> None:
+    enter(d)
+    for x, y in ((0.5, 0.45), (0.31, 0.42), (0.5, 0.8), (0.97, 0.03)):
+        d.ctx.mouse_teleport_to_pos(d.point(RASTER, x, y))
+        d.ctx.yield_(2)
+        d.ctx.mouse_click(0)
+        d.ctx.yield_(2)
+        pixel = d.window.state.marked
+        assert pixel is not None
+        found = reading(d)
+        assert found.pixel == pixel
+        width, height = d.window.renderers.size
+        assert abs(pixel[0] - y * height) <= 1.5 and abs(pixel[1] - x * width) <= 1.5
+        check(d, found)
+    assert found.hit is None  # the sky
+
+
+def drive_the_mouse_alone_is_followed(d: Driver) -> None:
+    enter(d)
+    assert d.window.state.marked is None
+    d.ctx.mouse_teleport_to_pos(d.point(RASTER, 0.3, 0.4))
+    d.ctx.yield_(4)
+    hovered = d.window.hovered
+    assert hovered is not None
+    check(d, reading(d))
+    found = view(d).reading
+    assert found is not None and found.pixel == hovered[1]
+
+
+def drive_it_is_live_while_the_camera_moves(d: Driver) -> None:
+    enter(d)
+    d.window.change(d.window.state.with_options(marked=(120, 150)))
+    before = reading(d)
+    for camera in (
+        replace(d.start.camera, eye=(2.0, 4.0, 8.0)),
+        replace(d.start.camera, projection="parallel", viewport=(-3.0, 3.0, -2.0, 2.0)),
+        replace(d.start.camera, u=(-1.0, 0.3, 0.1), near=4.0, far=9.0),
+    ):
+        d.window.change(d.window.state.with_camera(camera))
+        d.ctx.yield_(2)
+        at_once = view(d).reading  # it does not wait for an image
+        assert at_once is not None and at_once.camera != before.camera
+        check(d, reading(d))
+    assert "near" in ray_lines(reading(d))[-1].name
+
+
+def drive_keys_walk_and_pins_stay(d: Driver) -> None:
+    enter(d)
+    d.window.change(d.window.state.with_options(marked=(60, 70)))
+    d.settle()
+    d.ctx.window_focus(WINDOW)
+    d.ctx.yield_(2)
+    for key, pixel in (
+        (Key.right_arrow, (60, 71)),
+        (Key.down_arrow, (61, 71)),
+        (int(Key.up_arrow) | int(Key.mod_shift), (51, 71)),
+    ):
+        d.ctx.key_press(int(key))
+        d.ctx.yield_(2)
+        assert d.window.state.marked == pixel
+        assert reading(d).pixel == pixel
+    d.ctx.item_click(f"{WINDOW}/Pin")
+    d.ctx.yield_(2)
+    assert d.window.state.options.probe.pins == ((51, 71),)
+    d.window.change(d.window.state.with_options(marked=(5, 6)))
+    d.settle()
+    d.ctx.item_click(f"{WINDOW}/(52, 72)##pin0")
+    d.ctx.yield_(2)
+    assert d.window.state.marked == (51, 71)
+    d.ctx.item_uncheck(f"{WINDOW}/from 1")
+    d.ctx.yield_(2)
+    assert not d.window.state.options.one_based
+    d.ctx.item_click(f"{WINDOW}/(51, 71)##pin0", 1)
+    d.ctx.yield_(2)
+    assert d.window.state.options.probe.pins == ()
+
+
+def drive_copies(d: Driver) -> None:
+    enter(d)
+    d.window.change(d.window.state.with_options(marked=(120, 150)))
+    found = reading(d)
+    copied = {}
+    for name in ("Text", "LaTeX", "Python"):
+        d.ctx.item_click(f"{WINDOW}/Copy ...")
+        d.ctx.yield_(2)
+        d.ctx.item_click(f"//$FOCUSED/{name}")
+        d.ctx.yield_(2)
+        copied[name] = imgui.get_clipboard_text()
+    assert "row 121, column 151" in copied["Text"]
+    assert copied["LaTeX"].count(r"\begin{align*}") == 1
+    names: dict = {"print": lambda *_: None}
+    exec(copied["Python"], names)
+    assert np.allclose(names["direction"], found.direction)
+    assert np.allclose(names["color"], found.color, atol=1e-6)
+
+
+def lines(d: Driver, name: str) -> int:
+    """How many stretches of line of a name the outside view shows."""
+    outside = d.window.views[OUTSIDE]
+    assert isinstance(outside, OutsideView)
+    found = [p for p in outside.primitives if isinstance(p, Strokes) and p.name == name]
+    return sum(len(part.points) for part in found)
+
+
+def drive_rays_of_a_row_and_of_pins_stand_in_the_outside_view(d: Driver) -> None:
+    enter(d)
+    d.window.change(d.window.state.with_options(marked=(120, 150)))
+    d.settle()
+    assert lines(d, "rays") == lines(d, "pin") == 0
+    assert lines(d, "normal") > 0
+    for which in ("row", "column"):
+        options = {"rays": which, "pins": ((20, 30), (100, 40))}
+        d.window.change(d.window.state.with_options(probe=options))
+        d.settle()
+        d.until(lambda: lines(d, "rays") >= 30)
+        assert lines(d, "pin") >= 2
+    layout.window_of(d.window.views[PROBE]).is_visible = False
+    d.ctx.yield_(4)
+    assert [lines(d, name) for name in ("rays", "pin", "normal")] == [0, 0, 0]
+    layout.window_of(d.window.views[PROBE]).is_visible = True
+    d.ctx.yield_(4)
+    leave(d)
+
+
+def drive_shadows_mirrors_and_an_empty_scene(d: Driver) -> None:
+    enter(d)
+    state = d.window.state.with_options(marked=(150, 190), shadows=True, mirrors=True)
+    d.window.change(state)
+    found = reading(d)
+    assert found.has_shadows
+    check(d, found)
+    d.window.change(d.window.state.with_scene(Scene(())))
+    d.settle()
+    found = reading(d)
+    assert found.meetings == () and found.hit is None
+    d.picture()
+    leave(d)
+
+
+def drive_without_the_locale_formulas_are_text(d: Driver) -> None:
+    enter(d)
+    d.window.change(d.window.state.with_options(marked=(120, 150)))
+    d.settle()
+    typeset = d.picture()
+    real, formula.available = formula.available, lambda: False
+    try:
+        d.ctx.yield_(3)
+        text = d.picture()
+        assert (np.abs(typeset.astype(int) - text).max(axis=2) > 20).mean() > 0.002
+    finally:
+        formula.available = real
+
+
+def drive_every_size_and_theme(d: Driver) -> None:
+    enter(d)
+    for theme in ("light", "dark"):
+        for scale in (0.75, 2.0):
+            options = {"theme": theme, "font_scale": scale}
+            d.window.change(d.window.state.with_options(marked=(120, 150), preferences=options))
+            d.settle()
+            picture = d.picture()
+            assert picture.shape[:2] == (SIZE[1], SIZE[0])
+            assert picture[:, SIZE[0] // 2 :].std() > 5
+    leave(d)

@@ -1,0 +1,172 @@
+"""The loop stepper in the window: its buttons, keys and sliders; the image it ends in."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+from imgui_bundle import hello_imgui
+from window_driver import Driver, Key
+
+from app import layout
+from app.outside.projected import Strokes
+from app.teach.recording import Order
+from app.teach.stepper import Moment
+from app.views.outside import OUTSIDE, OutsideView
+from app.views.stepper import STEPPER, StepperView
+from renderer.images.display import encode_srgb
+from renderer.scene.model import Scene
+from renderer.trace import Tracer
+
+WINDOW = f"//###{STEPPER}"
+
+
+def view(d: Driver) -> StepperView:
+    found = d.window.views[STEPPER]
+    assert isinstance(found, StepperView)
+    return found
+
+
+def enter(d: Driver, **options: object) -> None:
+    layout.switch("Loops")
+    d.ctx.yield_(5)
+    d.window.change(d.window.state.with_options(stepper=options))
+    d.settle()
+    d.until(lambda: len(view(d).moments) > 0)
+
+
+def leave(d: Driver) -> None:
+    hello_imgui.switch_layout("Side by side")
+    d.ctx.yield_(5)
+
+
+def press(d: Driver, name: str) -> None:
+    d.ctx.item_click(f"{WINDOW}/###{name}")
+    d.ctx.yield_(2)
+
+
+def moments(d: Driver) -> tuple[Moment, Moment]:
+    both = view(d).moments
+    return both[Order.OBJECT], both[Order.IMAGE]
+
+
+def strokes(d: Driver, name: str) -> int:
+    outside = d.window.views[OUTSIDE]
+    assert isinstance(outside, OutsideView)
+    found = [p for p in outside.primitives if isinstance(p, Strokes) and p.name == name]
+    return sum(len(part.points) for part in found)
+
+
+def drive_buttons_go_through_both_runs(d: Driver) -> None:
+    enter(d, steps=(0, 0), canvas=(16, 12), order="both")
+    steps = len(d.window.history.past)
+    assert [moment.step for moment in moments(d)] == [0, 0]
+    for count in (1, 2, 3):
+        press(d, "step")
+        assert [moment.step for moment in moments(d)] == [count, count]
+    press(d, "back")
+    assert [moment.step for moment in moments(d)] == [2, 2]
+    press(d, "pixel")
+    by_object, by_image = moments(d)
+    assert by_image.pixel == (0, 0) and by_object.pixel is not None
+    press(d, "pixel")
+    assert moments(d)[1].pixel == (0, 1)
+    press(d, "object")
+    assert moments(d)[1].object == 0 and moments(d)[1].pixel == (0, 1)
+    press(d, "last")
+    by_object, by_image = moments(d)
+    assert by_object.finished and by_image.finished
+    assert np.array_equal(by_object.canvas, by_image.canvas)
+    camera = d.window.state.view.for_size((16, 12))
+    with Tracer(d.window.state.scene) as tracer:
+        frame = tracer.render(camera, (16, 12))
+    difference = np.abs(encode_srgb(frame.color) - encode_srgb(by_image.canvas)).max(axis=2)
+    assert (difference > 2 / 255).sum() <= 2  # at an edge, float32 may see the other side
+    press(d, "first")
+    assert [moment.step for moment in moments(d)] == [0, 0]
+    assert len(d.window.history.past) == steps  # steps are nothing to undo
+
+
+def drive_it_plays_and_stops_at_the_end(d: Driver) -> None:
+    enter(d, steps=(0, 0), canvas=(8, 6), order="both", speed=2000.0)
+    press(d, "play")
+    assert view(d).playing
+    d.until(lambda: not view(d).playing)
+    assert all(moment.finished for moment in moments(d))
+    press(d, "play")  # from the beginning again
+    d.until(lambda: moments(d)[1].step > 0)
+    d.ctx.window_focus(WINDOW)
+    d.ctx.key_press(int(Key.space))
+    d.ctx.yield_(2)
+    assert not view(d).playing
+    stopped = [moment.step for moment in moments(d)]
+    d.ctx.yield_(10)
+    assert [moment.step for moment in moments(d)] == stopped
+
+
+def drive_keys_step(d: Driver) -> None:
+    enter(d, steps=(40, 40), canvas=(16, 12), order="both")
+    d.ctx.window_focus(WINDOW)
+    d.ctx.yield_(2)
+    for key, expected in (
+        (Key.right_arrow, 41),
+        (Key.right_arrow, 42),
+        (Key.left_arrow, 41),
+        (Key.home, 0),
+    ):
+        d.ctx.key_press(int(key))
+        d.ctx.yield_(2)
+        assert moments(d)[1].step == expected
+    d.ctx.key_press(int(Key.down_arrow))
+    d.ctx.yield_(2)
+    assert moments(d)[1].pixel == (0, 0)
+    d.ctx.key_press(int(Key.end))
+    d.ctx.yield_(2)
+    assert all(moment.finished for moment in moments(d))
+
+
+def drive_one_order_alone_and_every_canvas(d: Driver) -> None:
+    enter(d, steps=(10**6, 10**6), canvas=(16, 12), order="image")
+    assert list(view(d).moments) == [Order.IMAGE]
+    for canvas in ((4, 3), (8, 6), (32, 24), (64, 48)):
+        enter(d, steps=(10**6, 10**6), canvas=canvas, order="object")
+        d.until(lambda: view(d).moments[Order.OBJECT].finished)
+        shape = view(d).moments[Order.OBJECT].canvas.shape
+        assert shape == (canvas[1], canvas[0], 3)
+        d.picture()
+
+
+def drive_the_outside_view_shows_the_ray_and_the_object(d: Driver) -> None:
+    enter(d, steps=(0, 0), canvas=(16, 12), order="both")
+    assert strokes(d, "image ray") == strokes(d, "object object") == 0
+    press(d, "pixel")
+    for _ in range(4):
+        press(d, "step")
+    d.settle()
+    assert strokes(d, "image ray") > 0 and strokes(d, "object ray") > 0
+    assert strokes(d, "object object") > 0 and strokes(d, "bounding box") > 0
+    layout.window_of(d.window.views[STEPPER]).is_visible = False
+    d.ctx.yield_(4)
+    assert strokes(d, "image ray") == strokes(d, "object object") == 0
+    layout.window_of(d.window.views[STEPPER]).is_visible = True
+    d.ctx.yield_(4)
+
+
+def drive_it_follows_the_camera_and_the_scene(d: Driver) -> None:
+    enter(d, steps=(10**6, 10**6), canvas=(16, 12), order="both")
+    before = moments(d)[1].canvas
+    camera = replace(d.start.camera, eye=(0.0, 6.0, 7.0))
+    d.window.change(d.window.state.with_camera(camera))
+    d.settle()
+    d.until(lambda: not np.array_equal(moments(d)[1].canvas, before))
+    press(d, "last")
+    with Tracer(d.window.state.scene) as tracer:
+        frame = tracer.render(d.window.state.view.for_size((16, 12)), (16, 12))
+    difference = np.abs(encode_srgb(frame.color) - encode_srgb(moments(d)[0].canvas)).max(axis=2)
+    assert (difference > 2 / 255).sum() <= 2
+    d.window.change(d.window.state.with_scene(Scene((), background=(0.5, 0.5, 0.5))))
+    d.settle()
+    d.until(lambda: bool(view(d).moments))
+    press(d, "last")
+    assert all((moment.canvas == 0.5).all() for moment in moments(d))
+    leave(d)
