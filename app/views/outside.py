@@ -27,6 +27,7 @@ from app.outside.paint import casing, layers
 from app.outside.projected import NEAREST, Primitive, Screen, project
 from app.outside.solid import bundle_pixels, pixel_seen, plane_corners
 from app.panels.screen import available_px, framebuffer_scale
+from app.picking import object_on_ray
 from app.pictures import Wanted
 from app.renderers import look_of
 from app.state import AppState

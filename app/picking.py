@@ -1,0 +1,72 @@
+"""Which object a ray meets first, for one ray at a time.
+
+Pure; knows nothing of renderers, whose images answer the same where there is one.
+"""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+from numpy.typing import NDArray
+
+from renderer.scene.model import Mesh, Scene, Sphere
+
+Floats = NDArray[np.float64]
+
+
+def object_on_ray(scene: Scene, origin: Floats, direction: Floats) -> int | None:
+    """The index of the nearest object on r(t) = origin + t direction, t > 0; None for nothing.
+
+    Both sides of triangles count.
+    """
+    nearest, number = math.inf, None
+    for k, entry in enumerate(scene.objects):
+        shape = entry.shape
+        meet = _sphere if isinstance(shape, Sphere) else _mesh
+        t = meet(shape, origin, direction)  # type: ignore[arg-type]
+        if t < nearest:
+            nearest, number = t, k
+    return number
+
+
+def _sphere(sphere: Sphere, origin: Floats, direction: Floats) -> float:
+    """The smallest t > 0 at which the ray is on the sphere; infinity for none."""
+    offset = np.asarray(sphere.center) - origin
+    a = float(direction @ direction)
+    middle = float(direction @ offset) / a
+    away = offset - middle * direction  # from the ray's nearest point to the centre
+    inside = (sphere.radius**2 - float(away @ away)) / a
+    if inside < 0:
+        return math.inf
+    half = math.sqrt(inside)
+    return next((t for t in (middle - half, middle + half) if t > 0), math.inf)
+
+
+def _mesh(mesh: Mesh, origin: Floats, direction: Floats) -> float:
+    """The same for triangles. Source: Möller and Trumbore 1997, all triangles at once."""
+    from_world = np.linalg.inv(mesh.transform)
+    start = from_world[:3, :3] @ origin + from_world[:3, 3]
+    way = from_world[:3, :3] @ direction
+    with np.errstate(all="ignore"):
+        if not _box(mesh, start, way):
+            return math.inf
+        first, second, third = (mesh.vertices[mesh.faces[:, k]].astype(float) for k in range(3))
+        one, two = second - first, third - first
+        across = np.cross(way, two)
+        volume = np.einsum("ij,ij->i", one, across)
+        to_start = start - first
+        b1 = np.einsum("ij,ij->i", to_start, across) / volume
+        other = np.cross(to_start, one)
+        b2 = other @ way / volume
+        t = np.einsum("ij,ij->i", two, other) / volume
+        meets = (b1 >= 0) & (b2 >= 0) & (b1 + b2 <= 1) & (t > 0)
+    return float(t[meets].min(initial=math.inf))
+
+
+def _box(mesh: Mesh, start: Floats, way: Floats) -> bool:
+    """Whether the ray, in object space, meets the mesh's bounds (slabs; Kay and Kajiya 1986)."""
+    low, high = mesh.vertices.min(axis=0) - start, mesh.vertices.max(axis=0) - start
+    margin = 1e-6 * float(np.abs(high - low).max())
+    sides = np.stack([low - margin, high + margin]) / way
+    return bool(np.nanmax(sides.min(axis=0)) <= np.nanmin(sides.max(axis=0)))

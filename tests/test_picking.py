@@ -1,0 +1,40 @@
+"""Which object a ray meets first, against the tracer's images."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from app.picking import object_on_ray
+from renderer import Tracer
+from renderer.scene import BUILTIN_SCENES, Scene, SceneObject, Sphere, load_scene, shapes
+
+SIZE = (24, 14)
+
+
+@pytest.mark.parametrize("name", BUILTIN_SCENES)
+def test_it_is_what_the_image_shows(name: str) -> None:
+    scene = load_scene(name)
+    camera = scene.view.for_size(SIZE)
+    with Tracer(scene) as tracer:
+        numbers = tracer.render(camera, SIZE, ("id",)).channel("id")
+    rays = camera.rays(SIZE)
+    wrong = 0
+    for row in range(SIZE[1]):
+        for column in range(SIZE[0]):
+            number = object_on_ray(scene, rays.origin[row, column], rays.direction[row, column])
+            wrong += (-1 if number is None else number) != numbers[row, column]
+    assert wrong <= 1  # a centre on an edge
+
+
+def test_what_is_behind_is_not_met_and_inside_counts() -> None:
+    ball = SceneObject(Sphere((0, 0, 0), 1.0))
+    box = SceneObject(shapes.translate(shapes.box(1.0), (0, 0, -5)))
+    scene = Scene((box, ball))
+    away, toward = np.array([0.0, 0, 2.0]), np.array([0.0, 0, -2.0])
+    assert object_on_ray(scene, np.array([0.0, 0, 5]), away) is None
+    assert object_on_ray(scene, np.array([0.0, 0, 5]), toward) == 1
+    assert object_on_ray(scene, np.array([0.0, 0, 0]), toward) == 1
+    assert object_on_ray(scene, np.array([0.0, 0, -2]), toward) == 0
+    assert object_on_ray(scene, np.array([0.0, 3, 5]), toward) is None
+    assert object_on_ray(Scene(()), away, toward) is None
