@@ -330,3 +330,18 @@ def drive_the_readout_tells_a_left_handed_skewed_basis(d: Driver) -> None:
     right = round(d.ctx.get_window_by_ref("//Camera").rect().max.x)
     difference = np.abs(before.astype(int) - after)[top:bottom, :right]
     assert (difference.max(axis=2) > 30).mean() > 0.05
+
+
+def drive_alt_and_a_drag_looks_around(d: Driver) -> None:
+    start, goal = d.point(RASTER, 0.5, 0.5), d.point(RASTER, 0.6, 0.45)
+    d.ctx.key_down(int(Key.mod_alt))
+    d.drag(start, goal)
+    d.ctx.key_up(int(Key.mod_alt))
+    camera = d.window.state.camera
+    assert np.allclose(camera.eye, d.start.camera.eye)
+    assert not np.allclose(camera.w, d.start.camera.w)
+    # The mouse went to the image's right: so does the view direction.
+    turned = -np.asarray(camera.w) @ np.asarray(d.start.camera.u)
+    assert turned > 0.05
+    assert len(d.window.history.past) == 1
+    d.agreeing_images()
