@@ -99,6 +99,7 @@ class OutsideView(View):
         self._overlay: Overlay | None = None
         self._hits: RayHits | None = None
         self._ground: _Ground | None = None
+        self._error = ""
         self._drawn = 0  # pictures of the scene
         self._made: _Made | None = None
         self._extra: dict[str, tuple[Item, ...]] = {}
@@ -173,6 +174,8 @@ class OutsideView(View):
         far = ImVec2(origin.x + extent.x, origin.y + extent.y)
         if texture is None:
             draw.add_rect_filled(origin, far, theme.u32(theme.BACKGROUND))
+            imgui.set_cursor_screen_pos(ImVec2(origin.x + theme.px(8), origin.y + theme.px(8)))
+            imgui.text_wrapped(self._error)
             return
         draw.add_image(imgui.ImTextureRef(texture.glo), origin, far)
         draw.push_clip_rect(origin, far, True)
@@ -326,13 +329,10 @@ class OutsideView(View):
             )
         except (LucidaError, moderngl.Error) as error:
             self._ground = self._made = None
-            self._fail(error)
+            self._error = describe(error)
             return None
         self._made = _Made(key, texture, primitives)
         return texture
-
-    def _fail(self, error: Exception) -> None:
-        imgui.text_wrapped(describe(error))
 
     def _near(self, camera: Camera, scope: Scope) -> float:
         """The least t of lines that are drawn: a small part of the distance to the middle."""

@@ -109,7 +109,7 @@ def _chip(name: str, color: ImVec4 | None, on: bool, tip: str) -> bool:
     draw = imgui.get_window_draw_list()
     far = ImVec2(at.x + size.x, at.y + size.y)
     back = theme.FRAME_HOVERED if hovered else theme.PANEL
-    draw.add_rect_filled(at, far, theme.u32(back, 0.94 if on or hovered else 0.7), theme.px(4))
+    draw.add_rect_filled(at, far, theme.u32(back, 0.94 if on or hovered else 0.82), theme.px(4))
     middle = at.y + height / 2
     if color is not None:
         spot = ImVec2(at.x + theme.px(12), middle)
