@@ -160,7 +160,7 @@ class Options:
     """All of them. marked: the pixel that the user has chosen, in every view; None: none.
 
     shadows, mirrors: what only image order has. one_based: pixels are counted from 1, as in the
-    lecture, or from 0, as in arrays. presets_in_perspective: those of the camera's presets that can be,
+    lecture, or from 0, as in arrays. presets_in_perspective: those of the camera's that can be,
     are. bookmarks: in the order of their numbers.
     """
 
