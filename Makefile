@@ -4,13 +4,14 @@ PYTHON_IN_VENV := .venv/bin/python
 ARGS :=
 
 .DEFAULT_GOAL := help
-.PHONY: help setup run test bench lint requirements clean
+.PHONY: help setup run test bench pictures lint requirements clean
 
 help:
 	@echo 'make setup          prepare .venv and the system libraries'
 	@echo 'make run            open the window           make run ARGS="spheres"'
 	@echo 'make test           run the tests             make test ARGS="-k camera"'
 	@echo 'make bench          measure the tracer beside others; make bench ARGS="--quick"'
+	@echo 'make pictures       draw the pictures of the window in docs/ anew'
 	@echo 'make lint           ruff and mypy'
 	@echo 'make requirements   pin the packages anew     make requirements ARGS="--upgrade"'
 	@echo 'make clean          remove .venv and everything else that was made'
@@ -29,6 +30,9 @@ test: setup
 bench: setup
 	@$(PYTHON_IN_VENV) -m tests.benchmarks.environment
 	@.venv-bench/bin/python -m tests.benchmarks $(ARGS)
+
+pictures: setup
+	@$(PYTHON_IN_VENV) docs/draw_window.py $(ARGS)
 
 lint: setup
 	@sh scripts/lint.sh

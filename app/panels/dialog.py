@@ -104,7 +104,8 @@ class FileDialog:
         self._name_line(question)
         imgui.end()
         self._appearing = False
-        if not still_open:
+        # A text that is being typed would keep Escape for itself.
+        if not still_open or (self.is_open and imgui.is_key_pressed(imgui.Key.escape, False)):
             self.cancel()
 
     def _path_line(self) -> None:

@@ -87,7 +87,8 @@ def _recent(window: Window) -> None:
         recent.look()
     for number, entry in enumerate(entries):
         note = "missing" if entry.missing else str(Path(entry.path).parent)
-        if imgui.menu_item(f"{entry.name}###recent{number}", _short(note), False, not entry.missing)[0]:
+        label = f"{entry.name}###recent{number}"
+        if imgui.menu_item(label, _short(note), False, not entry.missing)[0]:
             window.files.open(entry.path)
     imgui.separator()
     if imgui.menu_item("Clear the list", "", False)[0]:

@@ -53,7 +53,9 @@ class Palette:
         if self._appearing:
             imgui.set_window_focus()
             imgui.set_keyboard_focus_here()
-        elif not imgui.is_window_focused(imgui.FocusedFlags_.root_and_child_windows):
+        elif imgui.is_key_pressed(imgui.Key.escape, False) or not imgui.is_window_focused(
+            imgui.FocusedFlags_.root_and_child_windows
+        ):
             self.open = False
         matches = self._search(entries())
         chosen = self._keys(matches)

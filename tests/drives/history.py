@@ -51,7 +51,7 @@ def drive_keys_and_menus(d: Driver) -> None:
     d.picture()
     d.ctx.key_press(int(Key.escape))
     d.ctx.yield_(2)
-    assert not window._help
+    assert not window.shell.help
 
 
 def drive_exposure_brightens_both(d: Driver) -> None:

@@ -35,9 +35,9 @@ def drive_windows_can_be_hidden(d: Driver) -> None:
     d.ctx.window_close(f"//###{RAY}")
     d.ctx.yield_(3)
     d.until(lambda: d.window.renderers.size[0] > both[0])
-    d.ctx.menu_click("//##MainMenuBar/View/Ray  image order")
+    d.ctx.menu_click("//##MainMenuBar/View/Views/###Ray")
     d.ctx.yield_(3)
-    d.ctx.menu_click("//##MainMenuBar/View/Reset the layout")
+    d.ctx.menu_click("//##MainMenuBar/View/Layout/Reset the layout")
     d.ctx.yield_(5)
     d.agreeing_images()
     assert abs(d.window.renderers.size[0] - both[0]) <= 2

@@ -132,7 +132,7 @@ def drive_layouts_have_keys_and_remember_the_users_changes(d: Driver) -> None:
     into(d, layout.LAYOUTS[0].name)
     for number, one in enumerate(layout.LAYOUTS):
         press(d, CTRL | (int(Key.f1) + number))
-        d.until(lambda: layout.current().name == one.name)
+        d.until(lambda name=one.name: layout.current().name == name)  # type: ignore[misc]
         d.ctx.yield_(3)
         for name in one.places:
             if name in stage.views:
@@ -313,7 +313,7 @@ def drive_loading_is_told_and_cancelled(d: Driver) -> None:
 
 
 def fail_until_retried(d: Driver, error: BaseException, told: str) -> None:
-    """The tracer fails with that error; the window tells it, goes on, and tries again when asked."""
+    """The tracer fails; the window tells it, goes on, and tries again when asked."""
     live = d.window.renderers.live
     good = live._make_tracer
 

@@ -1,0 +1,87 @@
+"""Draws the README's pictures of the window, docs/*.png, from the real window: `make pictures`.
+
+    python docs/draw_window.py [NAME ...]
+
+Owns what each picture shows. No display is needed.
+"""
+
+from __future__ import annotations
+
+import subprocess
+import sys
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
+
+from imgui_bundle import hello_imgui
+
+from app import layout
+from app.platform import start_platform
+from app.state import AppState
+from app.viewer import Run, save_png
+from renderer.scene import load_scene
+
+FOLDER = Path(__file__).parent
+LAYOUT_AT = 3  # the frame in which the layout is chosen; the first ones are HelloImGui's own
+
+
+@dataclass(frozen=True)
+class Picture:
+    """options: as AppState.with_options takes them."""
+
+    name: str
+    layout: str = layout.LAYOUTS[0].name
+    scene: str = "still-life"
+    size: tuple[int, int] = (1280, 720)
+    options: dict[str, Any] = field(default_factory=dict)
+
+
+PICTURES = (
+    Picture("window"),
+    Picture("outside", "Outside view"),
+    Picture("compare", "Compare", "spheres"),
+    Picture("lecture", "Lecture"),
+    Picture(
+        "presentation",
+        layout.PRESENTATION,
+        "columns",
+        options={"preferences": {"presentation": True}},
+    ),
+    Picture("light", options={"preferences": {"theme": "light"}}),
+)
+
+
+def draw(picture: Picture, folder: Path = FOLDER) -> Path:
+    """Draws one picture; gives its file."""
+    state = AppState.for_scene(load_scene(picture.scene)).with_options(**picture.options)
+    run = Run(start_platform(want_display=False), state, picture.size, take_picture=True)
+    run.params.callbacks.post_new_frame = _chooser(picture.layout)
+    path = folder / f"{picture.name}.png"
+    save_png(path, run.run())
+    return path
+
+
+def _chooser(name: str) -> Callable[[], None]:
+    frames = iter(range(LAYOUT_AT))
+
+    def choose() -> None:
+        if next(frames, None) == LAYOUT_AT - 1 and name != hello_imgui.current_layout_name():
+            hello_imgui.switch_layout(name)
+
+    return choose
+
+
+def main(names: list[str]) -> int:
+    if len(names) == 1:
+        print(draw(next(picture for picture in PICTURES if picture.name == names[0])))
+        return 0
+    # A process has one window.
+    for picture in PICTURES:
+        if not names or picture.name in names:
+            subprocess.run([sys.executable, __file__, picture.name], check=True)
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1:]))
