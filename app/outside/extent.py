@@ -18,7 +18,7 @@ from renderer.errors import LucidaError
 Floats = NDArray[np.float64]
 
 FOV_Y_DEG = 50.0
-MARGIN = 1.08  # of the framed points' own room
+MARGIN = (1.08, 1.08)  # the picture's width and height, in those of what it must hold
 # From which side one looks, in the other camera's terms: its right, the world's up, its back.
 FROM_RIGHT, FROM_ABOVE, FROM_BEHIND = 0.75, 0.5, 1.25
 
@@ -51,11 +51,13 @@ def end_parameter(camera: Camera, points: Floats) -> float:
     return float(max(1.04 * t.max(), least))
 
 
-def outside_camera(seen: Iterable[Floats], home: Camera, aspect: float) -> Camera:
+def outside_camera(
+    seen: Iterable[Floats], home: Camera, aspect: float, margin: tuple[float, float] = MARGIN
+) -> Camera:
     """A camera that has all points in its picture, as large as they can be, looking from the right
     and behind of the camera `home`, from above; fitted to width / height = aspect.
 
-    seen: arrays (n, 3) of points. Not finite ones are passed over.
+    seen: arrays (n, 3) of points. Not finite ones are passed over. margin: see MARGIN.
     """
     points = np.concatenate([np.reshape(part, (-1, 3)) for part in seen])
     points = points[np.isfinite(points).all(axis=1) & (np.abs(points).max(axis=1) < LARGEST / 1e3)]
@@ -63,7 +65,7 @@ def outside_camera(seen: Iterable[Floats], home: Camera, aspect: float) -> Camer
         points = np.zeros((1, 3))
     right, up, back = level_frame(home)
     toward = FROM_RIGHT * right + FROM_ABOVE * up + FROM_BEHIND * back
-    return framed(points, toward / np.linalg.norm(toward), aspect)
+    return framed(points, toward / np.linalg.norm(toward), aspect, margin=margin)
 
 
 def level_frame(camera: Camera) -> tuple[Floats, Floats, Floats]:
@@ -86,10 +88,11 @@ def framed(
     aspect: float,
     projection: str = "perspective",
     up: Iterable[float] = (0.0, 1.0, 0.0),
+    margin: tuple[float, float] = MARGIN,
 ) -> Camera:
     """The camera in direction `toward` of the points, unit length, that sees them all as large as
     possible. Each plane of a view pyramid bounds the eye linearly: the nearest eye that satisfies
-    all four is exact. Points: (n, 3), at least one.
+    all four is exact. points: (n, 3), at least one. margin: room round them, see MARGIN.
     """
     center = (points.min(axis=0) + points.max(axis=0)) / 2
     upward = np.asarray(tuple(up), float)
@@ -100,9 +103,10 @@ def framed(
     # Not so near that the numbers' own steps show.
     least = max(1e-6 * float(np.abs(center).max()), 1e-9)
     radius = max(float(np.linalg.norm(points - center, axis=1).max()), least)
-    tan_y = math.tan(math.radians(FOV_Y_DEG) / 2) / MARGIN
+    tangent_y = math.tan(math.radians(FOV_Y_DEG) / 2)
+    tangents = tangent_y * aspect / margin[0], tangent_y / margin[1]
     offsets, depths = [], [1.02 * float(z.max()) + 0.05 * radius]
-    for across, tangent in ((x, tan_y * aspect), (y, tan_y)):
+    for across, tangent in ((x, tangents[0]), (y, tangents[1])):
         high, low = float((across + tangent * z).max()), float((across - tangent * z).min())
         depths.append((high - low) / (2 * tangent))
         offsets.append((high + low) / 2)
@@ -113,7 +117,7 @@ def framed(
         found = Camera.look_at(eye, eye - toward, upward, fov_y_deg=FOV_Y_DEG, aspect=aspect)
         if projection != "parallel":
             return found
-        half = max(np.ptp(y) / 2, np.ptp(x) / 2 / aspect, 1e-9) * MARGIN
+        half = max(np.ptp(y) / 2 * margin[1], np.ptp(x) / 2 / aspect * margin[0], 1e-9)
         eye = center + (x.max() + x.min()) / 2 * right + (y.max() + y.min()) / 2 * top
         eye = eye + (float(z.max()) + radius) * back
         return Camera(

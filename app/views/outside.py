@@ -46,6 +46,8 @@ Size = tuple[int, int]
 
 OUTSIDE = "Outside"
 SMALLEST_PX = 24  # a view that is smaller shows nothing
+LETTER_PX = 26.0  # round what is framed, for letters
+ROOMY_PX = 330.0  # a smaller view has smaller symbols
 STILL_S = 0.15  # without a change of the view, before its edges are made smooth
 SLOW_S = 0.06  # a scene that takes longer to prepare for a camera keeps its edges as they are
 # Parts of a pixel by which the pictures of a mean are shifted: no two in a row or column. The last
@@ -225,7 +227,9 @@ class OutsideView(View):
         aspect = size[0] / size[1]
         camera = state.outside.camera
         if camera is None:
-            camera = outside_camera([points], state.scene.view.camera, aspect)
+            home, room = state.scene.view.camera, theme.px(LETTER_PX)
+            margin = margin_for(extent.x, room), margin_for(extent.y, room)
+            camera = outside_camera([points], home, aspect, margin)
         x, y, z = center.tolist()
         middle, reach = (x, y, z), max(reach, 1e-9)
         self.scope = Scope(camera, camera.fitted(size), origin, extent, middle, reach)
@@ -293,7 +297,9 @@ class OutsideView(View):
                 _, drawn = both.pictures.linear(wanted)
                 picture = both.pictures.raster(wanted, look_of(state.images))
             ground = self._scene_picture(host, camera, size)
-            symbol_px = theme.px(framebuffer_scale())
+            symbol_px = framebuffer_scale() * min(
+                theme.px(1), min(scope.extent.x, scope.extent.y) / ROOMY_PX
+            )
             # In presentation mode lines are thick, but the picture is not made of them.
             unit_px = (theme.line_px(framebuffer_scale()) + symbol_px) / 2
             key = (
@@ -405,3 +411,8 @@ def widest_px(screen: Screen, corners: Floats) -> float:
     """The longest side of a polygon (n, 3) on the screen, as far as it is to be seen."""
     points, _, _ = screen.segments(np.stack([corners, np.roll(corners, -1, axis=0)], axis=1))
     return float(np.linalg.norm(points[:, 1] - points[:, 0], axis=1).max(initial=0.0))
+
+
+def margin_for(side: float, room: float) -> float:
+    """A side of the view in that of what it must hold, with room on both ends."""
+    return min(max(side / max(side - 2 * room, 1.0), 1.0), 1.6)
