@@ -97,9 +97,8 @@ def copy(window: Mover, form: Form) -> None:
     window.files.say(f"The camera is in the clipboard: {form}.")
 
 
-def paste(window: Mover) -> bool:
-    """The camera of the clipboard's text; gives whether there was one. If not, a message says
-    what to do."""
+def paste(window: Mover) -> None:
+    """The camera of the clipboard's text; a message says what to do where there is none."""
     try:
         text = imgui.get_clipboard_text() or ""
     except RuntimeError:  # the system has no clipboard, or no text in it
@@ -108,14 +107,9 @@ def paste(window: Mover) -> bool:
         view = read_view(text, window.state.view)
     except LucidaError as error:
         window.files.message = str(error)
-        return False
+        return
     window.travel(with_its_basis(window.state.with_view(view)))
-    window.files.say(f"The camera is the {SOURCE}'s.")
-    return True
-
-
-def _paste(window: Window) -> None:
-    paste(window)
+    window.files.say(f"The camera is pasted from the {SOURCE}.")
 
 
 def _copying(form: Form) -> Callable[[Window], None]:
@@ -217,7 +211,7 @@ EDIT = (
         separated=True,
     ),
     *(Action("Edit/Copy camera as", form[0].upper() + form[1:], _copying(form)) for form in FORMS),
-    Action("Edit", "Paste camera", _paste, "Ctrl+V", (CTRL | int(Key.v),)),
+    Action("Edit", "Paste camera", paste, "Ctrl+V", (CTRL | int(Key.v),)),
 )
 
 MOUSE = (

@@ -59,6 +59,7 @@ class Driver:
         """Every test begins with the same state, at rest."""
         self.window.history = History(self.start)
         self.window.files.message = ""
+        self.window.shell.toasts.clear()
         self.window.traveller.stop()
         self.window.traveller.instant = True  # no passage unless a test wants one
         self.stay = False

@@ -194,7 +194,7 @@ def _sections(
         sections = replace(sections, look=look)
         asked.append(wanted)
     if header("Copy and paste", sections, OTHERS_OPEN_EM):
-        asked.append(copy_section(sections.said))
+        asked.append(copy_section())
     sections = replace(sections, frames=sections.frames + 1)
     return state, sections, next((one for one in asked if one != NOTHING), NOTHING)
 

@@ -58,10 +58,9 @@ class LookAt:
 
 @dataclass(frozen=True)
 class Sections:
-    """Entered and told, but not yet done. said: what was copied last. frames: drawn so far."""
+    """Entered, but not yet done. frames: drawn so far."""
 
     look: LookAt = LookAt()
-    said: str = ""
     frames: int = 0
 
 
@@ -162,8 +161,8 @@ def look_section(
     return look, asked
 
 
-def copy_section(said: str) -> Asked:
-    """The four forms, and paste. said: what was copied last."""
+def copy_section() -> Asked:
+    """The four forms, and paste."""
     asked = Asked()
     spacing = imgui.get_style().item_spacing.x
     width = (imgui.get_content_region_avail().x - spacing) / 2
@@ -176,8 +175,6 @@ def copy_section(said: str) -> Asked:
     if imgui.button("Paste", (width, 0)):
         asked = Asked(paste=True)
     imgui.set_item_tooltip(PASTE_NOTE)
-    imgui.same_line()
-    imgui.text_colored(theme.DIM, said)
     return asked
 
 

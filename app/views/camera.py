@@ -6,8 +6,6 @@ to a preset, copying, pasting. The panel itself is panels/camera.py.
 
 from __future__ import annotations
 
-from dataclasses import replace
-
 from imgui_bundle import imgui
 
 from app import camera_actions
@@ -53,10 +51,8 @@ class CameraView(View):
             host.travel(camera_actions.with_its_basis(host.state.with_view(asked.view)))
         elif asked.copy is not None:
             camera_actions.copy(host, asked.copy)
-            self._sections = replace(self._sections, said=f"{asked.copy} copied")
         elif asked.paste:
-            pasted = camera_actions.paste(host)
-            self._sections = replace(self._sections, said="pasted" if pasted else "")
+            camera_actions.paste(host)
 
 
 def _focus_point(host: Host, state: AppState) -> Vector:
