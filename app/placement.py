@@ -187,12 +187,17 @@ def _first(steps: Sequence[float], above: float, otherwise: float) -> float:
 
 
 def zoomed_at(
-    placement: Placement, x: float, y: float, magnification: float | None
+    placement: Placement,
+    part: tuple[float, float],
+    x: float,
+    y: float,
+    magnification: float | None,
 ) -> dict[str, object]:
-    """The changes of the options that magnify, with what is at (x, y) staying there. None: fit."""
+    """The changes of the options that magnify, with the part `part` of the image at (x, y), as
+    nearly as leaves nothing of the window empty. None: fit."""
     if magnification is None:
         return {"magnification": None, "center": (0.5, 0.5)}
-    center = placement.center_with(placement.part_at(x, y), x, y, magnification)
+    center = placement.center_with(part, x, y, magnification)
     return {"magnification": magnification, "center": clamped(center, placement, magnification)}
 
 

@@ -85,7 +85,9 @@ def test_magnifying_keeps_what_is_under_the_pointer(size, pane, center, factor, 
         data.draw(st.integers(top, bottom - 1)) + 0.5,
     )
     options = replace(ImageOptions(resolution=size), magnification=factor, center=center)
-    closer = place(replace(options, **zoomed_at(at, x, y, 2.0 * factor)), size, pane)
+    closer = place(
+        replace(options, **zoomed_at(at, at.part_at(x, y), x, y, 2.0 * factor)), size, pane
+    )
     assume(all(e > p for e, p in zip(at.extent, pane, strict=True)))
     assert closer.part_at(x, y) == pytest.approx(at.part_at(x, y), abs=2 / (factor * min(size)))
 

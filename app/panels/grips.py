@@ -184,14 +184,28 @@ def _marked(state: AppState, pixel: Pixel) -> AppState:
     return state.with_options(marked=None if state.marked == pixel else pixel)
 
 
-def magnify(state: AppState, steps: float, screen: Screen, mouse: ImVec2) -> AppState:
-    """Ctrl and the wheel: zooms into the pixels at the mouse, without the camera."""
-    placement = screen.placement
+@dataclass(frozen=True)
+class Lens:
+    """Where the image was magnified at last: the mouse, in screen coordinates, and what was under
+    it then, in parts of the image. A small image stays in the middle of its window, so that it is
+    not always there in between; in the end it is."""
+
+    mouse: tuple[float, float]
+    part: tuple[float, float]
+
+
+def magnify(
+    state: AppState, steps: float, screen: Screen, lens: Lens | None
+) -> tuple[AppState, Lens]:
+    """Ctrl and the wheel: zooms into the pixels at the mouse, not the camera. lens: the last."""
+    mouse, placement = imgui.get_io().mouse_pos, screen.placement
+    at, (x, y) = (mouse.x, mouse.y), screen.pane_px(mouse)
+    if lens is None or math.dist(lens.mouse, at) >= STILL_PX:
+        lens = Lens(at, placement.part_at(x, y))
     to = step_from(placement, state.images, steps)
-    if to == placement.magnification:
-        return state
-    x, y = screen.pane_px(mouse)
-    return state.with_options(images=zoomed_at(placement, x, y, to))
+    if to != placement.magnification:
+        state = state.with_options(images=zoomed_at(placement, lens.part, x, y, to))
+    return state, lens
 
 
 def wheel(

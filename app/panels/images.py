@@ -13,8 +13,8 @@ from imgui_bundle import ImVec2, imgui
 
 from app import theme
 from app.options import Pixel
-from app.panels.grips import Grab, Seen, Zoom, drag, magnify, wheel
-from app.panels.marks import draw_hovered, draw_marked
+from app.panels.grips import Grab, Lens, Seen, Zoom, drag, magnify, wheel
+from app.panels.marks import claim_keys, draw_hovered, draw_marked
 from app.panels.overlay import draw_corner, draw_legend, draw_note
 from app.panels.pixelgrid import Values, draw_pixel_grid
 from app.panels.screen import Screen
@@ -49,14 +49,16 @@ class Pane:
 class PaneResult:
     """hovered: the pixel under the mouse. zoom: what the wheel zoomed at, None if it rests.
 
-    magnified: whether the wheel has changed the magnification.
+    lens: where the wheel has magnified, None if it rests. keyed: whether the arrow keys are
+    the image's.
     """
 
     state: AppState
     grab: Grab | None
     hovered: Pixel | None
     zoom: Zoom | None
-    magnified: bool = False
+    lens: Lens | None = None
+    keyed: bool = False
 
 
 def image_pane(
@@ -65,9 +67,10 @@ def image_pane(
     room_px: tuple[int, int],
     grab: Grab | None,
     zoom: Zoom | None = None,
+    lens: Lens | None = None,
 ) -> PaneResult:
     """Draws the image into what is left of the current window, room_px (width, height) framebuffer
-    pixels, and follows the mouse over it. zoom: the last."""
+    pixels, and follows the mouse over it. zoom, lens: the last."""
     seen, io = pane.seen, imgui.get_io()
     screen = Screen.here(place(state.images, seen.size, room_px))
     low, high = screen.visible
@@ -79,18 +82,19 @@ def image_pane(
         buttons.mouse_button_left | buttons.mouse_button_right | buttons.mouse_button_middle,
     )
     over = imgui.is_item_hovered()
+    keyed = claim_keys()
     hovered = screen.pixel(io.mouse_pos) if over else None
-    before, zoom_before, zoom, magnified = state, zoom, None, False
+    before, last_zoom, last_lens = state, zoom, lens
+    zoom = lens = None
     state, grab = drag(seen, state, grab, screen)
     if over and io.mouse_wheel and io.key_ctrl:
-        state = magnify(state, io.mouse_wheel, screen, io.mouse_pos)
-        magnified = state.images != before.images
+        state, lens = magnify(state, io.mouse_wheel, screen, last_lens)
     elif over and io.mouse_wheel:
-        state, zoom = wheel(seen, state, zoom_before, io.mouse_wheel, screen)
+        state, zoom = wheel(seen, state, last_zoom, io.mouse_wheel, screen)
     if state.images != before.images:
         screen = Screen(place(state.images, seen.size, room_px), screen.corner, screen.scale)
     _draw(pane, state, screen, grab)
-    return PaneResult(state, grab, hovered if grab is None else None, zoom, magnified)
+    return PaneResult(state, grab, hovered if grab is None else None, zoom, lens, keyed)
 
 
 def _draw(pane: Pane, state: AppState, screen: Screen, grab: Grab | None) -> None:

@@ -51,6 +51,17 @@ def draw_marked(draw: imgui.ImDrawList, screen: Screen, pixel: Pixel) -> None:
             )
 
 
+def claim_keys() -> bool:
+    """The arrow keys belong to the current item while the mouse is over it, or while it has the
+    keyboard: they do not move on to another one. Gives whether they do."""
+    if not (imgui.is_item_hovered() or imgui.is_item_focused()):
+        return False
+    item = imgui.get_item_id()
+    for key in _KEYS:
+        imgui.internal.set_key_owner(key, item)
+    return True
+
+
 def walked(pixel: Pixel | None, size: tuple[int, int], start: Pixel) -> Pixel | None:
     """The marked pixel after the arrow keys of this frame; None where none was pressed.
 

@@ -14,7 +14,7 @@ from imgui_bundle import ImVec2, imgui
 
 from app.files import describe
 from app.marking import Anchor, followed
-from app.panels.grips import Grab, Seen, Zoom
+from app.panels.grips import Grab, Lens, Seen, Zoom
 from app.panels.images import Pane, image_pane
 from app.panels.marks import walked
 from app.panels.pixelgrid import Values
@@ -38,6 +38,7 @@ class Linked:
 
     grab: Grab | None = None
     zoom: Zoom | None = None
+    lens: Lens | None = None
     anchor: Anchor | None = None
     gesture_number: int = 0
     gesture_s: float = 0.0
@@ -122,14 +123,16 @@ class ImageView(View):
             hovered=self._hovered(host, room_px),
             depths=both.depths() if state.images.channel == "depth" else None,
         )
-        result = image_pane(pane, state, room_px, shared.grab, shared.zoom)
+        result = image_pane(pane, state, room_px, shared.grab, shared.zoom, shared.lens)
         shared.grab, shared.zoom = result.grab, result.zoom or shared.zoom
+        shared.lens = result.lens or shared.lens
         if result.hovered is not None:
             host.hover(self.name, result.hovered)
-        turned = result.zoom is not None or result.magnified
-        kind = "magnify" if result.magnified else "wheel"
+        turned = result.zoom is not None or result.lens is not None
+        kind = "wheel" if result.lens is None else "magnify"
         host.apply(result.state, self._gesture(kind) if turned else None)
-        self._walk(host, room_px)
+        if result.keyed:
+            self._walk(host, room_px)
         imgui.set_cursor_screen_pos(corner)
         self._over_image(host, Screen.here(place(host.state.images, both.size, room_px)))
 
@@ -168,10 +171,7 @@ class ImageView(View):
     def _walk(self, host: Host, room_px: tuple[int, int]) -> None:
         """The arrow keys move the mark, which stays in sight."""
         shared, frame = self._linked, imgui.get_frame_count()
-        if shared.walked_frame == frame or imgui.get_io().nav_visible:
-            return
-        hovering = host.hovered is not None and host.hovered[0] == self.name
-        if not (hovering or imgui.is_window_focused()):
+        if shared.walked_frame == frame:  # one image has the mouse, the other the keyboard
             return
         state, size = host.state, host.renderers.size
         middle = (size[1] // 2, size[0] // 2)

@@ -1,0 +1,414 @@
+"""Into the pixels: marks, magnification, channels, resolutions, display; on the screen's pixels."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+import numpy as np
+from imgui_bundle import imgui
+from window_driver import Driver, Key
+
+from app.panels.screen import framebuffer_scale
+from app.placement import Placement, place
+from app.views.pair import RASTER, RAY
+from renderer.images import to_srgb8
+from renderer.images.display import picture
+
+ALT, CTRL, SHIFT = int(Key.mod_alt), int(Key.mod_ctrl), int(Key.mod_shift)
+MENU = "//##MainMenuBar/Image"
+
+
+def choose(d: Driver, path: str) -> None:
+    d.ctx.menu_click(f"{MENU}/{path}")
+    d.settle()
+
+
+def placement(d: Driver, name: str = RASTER) -> Placement:
+    both = d.window.renderers
+    return place(d.window.state.images, both.size, both._panes_px[name])
+
+
+def without_overlays(image: np.ndarray) -> np.ndarray:
+    """The middle of an image, where no legend, badge or ruler is."""
+    height, width = image.shape[:2]
+    return image[height // 4 : -height // 3, width // 4 : -width // 4]
+
+
+def pixels(d: Driver, name: str, channel: str) -> np.ndarray:
+    """What the middle of a fitted image must show: its own channel, as saved pictures have it."""
+    request = d.window.renderers.agreement.pair
+    assert request is not None
+    frame = request[1 if name == RASTER else 2]
+    return without_overlays(picture(frame, channel).astype(np.int16))
+
+
+def drive_a_click_marks_a_pixel_in_both(d: Driver) -> None:
+    window, before = d.window, d.agreeing_images()
+    x, y, *_ = d.rect(RASTER)
+    d.ctx.mouse_teleport_to_pos((x + 120, y + 150))
+    d.ctx.yield_()
+    d.ctx.mouse_click(0)
+    d.ctx.yield_(2)
+    assert window.state.marked == (150, 120)
+    assert window.state.camera == d.start.camera
+    assert len(window.history.past) == 1
+    for was, now in zip(before, d.images(), strict=True):
+        places = np.argwhere(np.abs(was - now).max(axis=2) > 40)
+        assert len(places) > 20
+        assert np.allclose((places.min(axis=0) + places.max(axis=0)) / 2, (150, 120), atol=1)
+    # The keys move it, in the image that the mouse is over.
+    d.ctx.mouse_teleport_to_pos(d.point(RAY, 0.5, 0.5))
+    d.ctx.yield_(2)
+    d.ctx.key_press(int(Key.right_arrow))
+    d.ctx.key_press(SHIFT | int(Key.down_arrow))
+    d.ctx.yield_(2)
+    assert window.state.marked == (160, 121), window.state.marked
+    d.ctx.key_press(SHIFT | int(Key.left_arrow), 20)
+    d.ctx.key_press(int(Key.up_arrow))
+    d.ctx.yield_(2)
+    assert window.state.marked == (159, 0), "it stays in the image"
+    d.ctx.key_press(SHIFT | int(Key.right_arrow), 3)
+    d.ctx.yield_(2)
+    d.ctx.key_press(int(Key.escape))
+    d.ctx.yield_(2)
+    assert window.state.marked is None
+    window.undo()
+    assert window.state.marked == (159, 30)
+    # Clicked again, it is gone; a drag marks nothing.
+    x, y, *_ = d.rect(RAY)
+    d.ctx.mouse_teleport_to_pos((x + 30, y + 159))
+    d.ctx.yield_()
+    d.ctx.mouse_click(0)
+    d.ctx.yield_(2)
+    assert window.state.marked is None
+    d.drag(d.point(RAY, 0.5, 0.5), d.point(RAY, 0.6, 0.5))
+    assert window.state.marked is None
+    assert window.state.camera != d.start.camera
+
+
+def drive_the_mark_keeps_its_ray_when_the_size_changes(d: Driver) -> None:
+    window, both = d.window, d.window.renderers
+    size = both.size
+    pixel = (size[1] // 3, size[0] // 4)
+    window.change(window.state.with_options(marked=pixel))
+    d.settle()
+    ray = both.camera(window.state).ray(*pixel, both.size).direction
+    steps = len(window.history.past)
+    choose(d, "Resolution/64 x 36")
+    row, column = window.state.marked
+    there = both.camera(window.state).ray(row, column, both.size).direction
+    nearby = both.camera(window.state).ray(row + 1, column + 1, both.size).direction
+    assert (np.abs(there - ray) <= np.abs(nearby - there).max()).all()
+    assert len(window.history.past) == steps + 1, "the resolution is the only step"
+    window.undo()
+    d.settle()
+    assert window.state.marked == pixel
+    window.redo()
+    d.settle()
+    assert window.state.marked == (row, column)
+
+
+def drive_the_wheel_with_ctrl_magnifies_at_the_pointer(d: Driver) -> None:
+    window = d.window
+    choose(d, "Resolution/640 x 360")
+    x, y = d.point(RASTER, 0.3, 0.6)
+    x, y = round(x), round(y)
+    d.ctx.mouse_teleport_to_pos((x, y))
+    d.ctx.yield_(2)
+    pixel = window._hovered[1]
+    d.ctx.key_down(int(Key.mod_ctrl))
+    for _ in range(6):
+        d.ctx.mouse_wheel_y(1)
+    d.ctx.yield_(2)
+    assert window.state.images.magnification == 8
+    assert window.state.camera == d.start.camera
+    apart = np.subtract(window._hovered[1], pixel)
+    assert np.abs(apart).max() <= 1, f"{pixel} under the pointer moves by {apart}"
+    assert len(window.history.past) == 2, "one turn of the wheel is one step"
+    center = window.state.images.center
+    d.drag((x, y), (x - 80, y - 24))
+    d.ctx.key_up(int(Key.mod_ctrl))
+    assert window.state.camera == d.start.camera
+    moved = window.state.images.center
+    assert abs((moved[0] - center[0]) * 640 * 8 - 80) < 1
+    assert abs((moved[1] - center[1]) * 360 * 8 - 24) < 1
+    # A drag without Ctrl turns the camera, also where the image is magnified.
+    d.drag((x, y), (x + 30, y))
+    assert window.state.camera != d.start.camera
+    assert window.state.images.center == moved
+    window.undo()
+    d.ctx.key_press(ALT | int(Key._0))
+    d.ctx.yield_(2)
+    assert window.state.images.magnification is None
+    d.ctx.key_press(ALT | int(Key.a))
+    d.ctx.yield_(2)
+    assert window.state.images.magnification == 1
+
+
+def drive_magnified_pixels_are_squares_with_a_grid(d: Driver) -> None:
+    window = d.window
+    choose(d, "Resolution/160 x 90")
+    choose(d, "Magnification/8x")
+    window.change(window.state.with_options(images={"center": (0.4, 0.6), "grid": False}))
+    d.settle()
+    plain = d.images()
+    for name, image in zip((RASTER, RAY), plain, strict=True):
+        at = placement(d, name)
+        frame = window.renderers.agreement.pair[1 if name == RASTER else 2]
+        expected = picture(frame).repeat(8, axis=0).repeat(8, axis=1)
+        left, top, right, bottom = at.visible
+        x, y = at.origin
+        expected = expected[top - y : bottom - y, left - x : right - x].astype(np.int16)
+        difference = np.abs(without_overlays(image) - without_overlays(expected)).max(axis=2)
+        assert (difference <= 1).all(), "nearest neighbour: nothing is blurred or shifted"
+    d.ctx.key_press(ALT | int(Key.x))
+    d.settle()
+    for name, before, after in zip((RASTER, RAY), plain, d.images(), strict=True):
+        lines = np.abs(after - before).max(axis=2) > 4
+        at, (height, width) = placement(d, name), lines.shape
+        columns = (np.arange(width) + at.visible[0] - at.origin[0]) % 8 == 0
+        rows = (np.arange(height) + at.visible[1] - at.origin[1]) % 8 == 0
+        expected = columns[None, :] | rows[:, None]
+        inner = without_overlays(np.dstack([lines, np.broadcast_to(expected, lines.shape)]))
+        assert (inner[..., 0] <= inner[..., 1]).all(), "lines stand between pixels only"
+        assert inner[..., 0].sum() > 0.9 * inner[..., 1].sum()
+    choose(d, "Magnification/4x")
+    fine = d.images()
+    d.ctx.key_press(ALT | int(Key.x))
+    d.settle()
+    assert (np.abs(fine[0] - d.images()[0]) <= 1).all(), "no lines between smaller pixels"
+
+
+def drive_values_are_written_into_large_pixels(d: Driver) -> None:
+    window = d.window
+    choose(d, "Resolution/64 x 36")
+    choose(d, "Magnification/32x")
+    seen: dict[str, tuple[np.ndarray, np.ndarray]] = {}
+    for number, channel in enumerate(("color", "depth", "normal", "id")):
+        d.ctx.key_press(ALT | (int(Key._1) + number))
+        d.settle()
+        assert window.state.images.channel == channel
+        raster = d.images()[0]
+        d.ctx.key_press(ALT | int(Key.x))
+        d.settle()
+        plain = without_overlays(d.images()[0])
+        d.ctx.key_press(ALT | int(Key.x))
+        d.settle()
+        seen[channel] = without_overlays(raster), plain
+        cell = np.abs(seen[channel][0] - plain).max(axis=2) > 60
+        assert cell.mean() > 0.02, "there are no numbers in the pixels"
+    # Another way to count changes the rulers; another way to write, the numbers.
+    d.ctx.key_press(ALT | int(Key._1))
+    d.settle()
+    before = d.images()[0]
+    window.change(window.state.with_options(one_based=False))
+    d.settle()
+    counted = d.images()[0]
+    assert np.abs(counted - before)[:20].max() > 60
+    d.ctx.key_press(ALT | int(Key.v))
+    d.settle()
+    assert np.abs(without_overlays(d.images()[0] - counted)).max() > 60
+    # From 48 units a side on, each has its row and column too.
+    window.change(window.state.with_options(images={"magnification": 64.0}))
+    d.settle()
+    large = d.images()[0]
+    window.change(window.state.with_options(one_based=True))
+    d.settle()
+    assert np.abs(without_overlays(d.images()[0] - large)).max() > 60
+
+
+def drive_channels_are_shown_in_both(d: Driver) -> None:
+    for number, (name, channel) in enumerate(
+        (("Depth", "depth"), ("Normal", "normal"), ("Object", "id"), ("Colour", "color"))
+    ):
+        if number % 2:
+            choose(d, f"Channel/{name}")
+        else:
+            d.ctx.key_press(ALT | int((Key._2, Key._3, Key._4, Key._1)[number]))
+            d.settle()
+        assert d.window.state.images.channel == channel
+        raster, ray = d.images()
+        for pane, image in ((RASTER, raster), (RAY, ray)):
+            difference = np.abs(without_overlays(image) - pixels(d, pane, channel)).max(axis=2)
+            assert (difference <= 2).mean() > 0.999, (pane, channel)
+        both = np.abs(raster - ray).max(axis=2)
+        assert (both > 3).mean() < 0.002, "the same colours in both, the legend too"
+    assert len(d.window.history.past) == 4
+
+
+def drive_channels_follow_a_drag(d: Driver) -> None:
+    """While the camera moves, coarse images have the channel too, and nothing is read back."""
+    both = d.window.renderers
+    d.ctx.key_press(ALT | int(Key._2))
+    d.settle()
+    assert both.pictures is not None
+    reads = counting(both.pictures, "read_back")
+    center = d.ctx.item_info(d.field("w.x")).rect_full.get_center()
+    d.ctx.mouse_teleport_to_pos((center.x, center.y))
+    d.ctx.mouse_down(0)
+    for step in range(1, 20):
+        d.ctx.mouse_teleport_to_pos((center.x + 2 * step, center.y))
+        d.ctx.yield_()
+        image = both.ray_image
+        assert image is not None
+        assert image.frame.depth is not None
+        assert both.pictures.shows_ray  # never nothing
+        assert both.raster_error is None
+    while_moving = reads()
+    d.ctx.mouse_up(0)
+    d.settle()
+    assert while_moving <= 1, "read back while dragging"
+    assert reads() > while_moving
+    near, far = both.depths() or (0, 0)
+    frame = both.agreement.pair[1]
+    hits = frame.depth[np.isfinite(frame.depth)]
+    assert abs(near - hits.min()) < 1e-4
+    assert abs(far - hits.max()) < 1e-3
+
+
+def counting(owner: object, name: str) -> Callable[[], int]:
+    """Counts the calls of a method from now on."""
+    method, calls = getattr(owner, name), []
+
+    def counted(*arguments: object) -> object:
+        calls.append(arguments)
+        return method(*arguments)
+
+    setattr(owner, name, counted)
+    return lambda: len(calls)
+
+
+def drive_resolutions_are_fixed_and_fitted(d: Driver) -> None:
+    window, both = d.window, d.window.renderers
+    for text, size in (("16 x 9", (16, 9)), ("4 x 3", (4, 3)), ("1280 x 720", (1280, 720))):
+        choose(d, f"Resolution/{text}")
+        assert both.size == size
+        for name in (RASTER, RAY):
+            at = placement(d, name)
+            assert at.sees_all
+            left, top, right, bottom = d.rect(name)
+            scale = framebuffer_scale()
+            assert (round((right - left) * scale), round((bottom - top) * scale)) == at.extent
+        assert at.whole == (size[0] < 1000)
+    # Minified: the mean of what a screen pixel covers, in linear light.
+    for number, (name, image) in enumerate(zip((RASTER, RAY), d.images(), strict=True)):
+        expected = reduced(both.agreement.pair[1 + number].color, placement(d, name).extent)
+        difference = np.abs(without_overlays(image) - without_overlays(expected))
+        assert (difference <= 2).mean() > 0.999, name
+    # A size of one's own.
+    d.ctx.key_press(ALT | int(Key.s))
+    d.ctx.yield_(3)
+    d.ctx.key_chars_replace_enter("nonsense")
+    d.ctx.yield_(3)
+    assert both.size == (1280, 720)
+    assert window._asked is not None and "nonsense" in window._asked.problem
+    d.ctx.key_chars_replace_enter("37x23")
+    d.ctx.yield_(3)
+    d.settle()
+    assert both.size == (37, 23)
+    assert window._asked is None
+    d.ctx.key_press(ALT | int(Key.w))
+    d.settle()
+    assert window.state.images.resolution is None
+    while window.can_undo():
+        window.undo()
+    d.settle()
+    assert window.state == d.start
+
+
+def reduced(color: np.ndarray, extent: tuple[int, int]) -> np.ndarray:
+    """Linear light averaged by area over (width, height) pixels, as sRGB, int16."""
+    for axis, count in ((1, extent[0]), (0, extent[1])):
+        size = color.shape[axis]
+        edges = np.arange(count + 1) * (size / count)
+        sums = np.concatenate(
+            [np.zeros_like(np.take(color, [0], axis)), color.clip(0, 1).cumsum(axis, np.float64)],
+            axis,
+        )
+        low = np.minimum(edges.astype(int), size - 1)
+        shape = [1, 1, 1]
+        shape[axis] = -1
+        part = (edges - low).reshape(shape)
+        at = np.take(sums, low, axis) * (1 - part) + np.take(sums, low + 1, axis) * part
+        color = np.diff(at, axis=axis) / (size / count)
+    return to_srgb8(color.astype(np.float32)).astype(np.int16)
+
+
+def drive_a_large_image_is_seen_in_part(d: Driver) -> None:
+    """4096 x 2160: at 1:1 only what is seen goes to the screen, and the window still answers."""
+    window, both = d.window, d.window.renderers
+    choose(d, "Resolution/4096 x 2160")
+    assert both.size == (4096, 2160)
+    choose(d, "Magnification/1:1")
+    at = placement(d)
+    assert not at.sees_all
+    raster = d.images()[0]
+    assert raster.shape[0] <= at.pane[1]
+    assert raster.shape[1] <= at.pane[0]
+    left, top, right, bottom = at.visible
+    x, y = at.origin
+    expected = picture(both.agreement.pair[1])[top - y : bottom - y, left - x : right - x]
+    difference = np.abs(without_overlays(raster) - without_overlays(expected.astype(np.int16)))
+    assert difference.max() <= 1
+    window.undo()
+    window.undo()
+    d.settle()
+
+
+def drive_single_channels_and_linear_light(d: Driver) -> None:
+    window, (plain, _) = d.window, d.agreeing_images()
+    for index, (key, name) in enumerate(((Key.r, "red"), (Key.g, "green"), (Key.b, "blue"))):
+        d.ctx.key_press(ALT | int(key))
+        d.settle()
+        assert window.state.images.component == name
+        gray, ray = d.images()
+        assert (np.abs(gray - plain[..., index : index + 1]) <= 1).all()
+        assert (np.abs(gray - ray).max(axis=2) > 3).mean() < 0.002
+    d.ctx.key_press(ALT | int(Key.t))
+    d.settle()
+    blue = d.images()[0]
+    assert (blue[..., :2] <= 1).all()
+    assert (np.abs(blue[..., 2] - plain[..., 2]) <= 1).all()
+    d.ctx.key_press(ALT | int(Key.t))
+    d.ctx.key_press(ALT | int(Key.b))
+    d.ctx.key_press(ALT | int(Key.l))
+    d.settle()
+    assert window.state.images.component == "rgb"
+    linear = d.images()[0]
+    frame = window.renderers.agreement.pair[1]
+    assert np.abs(linear - np.clip(frame.color, 0, 1) * 255).max() <= 1.01
+    assert linear.mean() < plain.mean() - 20
+
+
+def drive_the_strip_does_the_same(d: Driver) -> None:
+    d.ctx.set_ref(f"//###{RASTER}")
+    for name, item, check in (
+        ("channel", "Depth", lambda images: images.channel == "depth"),
+        ("resolution", "160 x 90", lambda images: images.resolution == (160, 90)),
+        ("magnification", "16x", lambda images: images.magnification == 16),
+        ("transfer", "linear", lambda images: images.transfer == "linear"),
+        ("component", "Red", lambda images: images.component == "red"),
+    ):
+        d.ctx.item_click(f"**/##{name}")
+        d.ctx.yield_(2)
+        d.ctx.item_click(f"//$FOCUSED/{item}")
+        d.settle()
+        assert check(d.window.state.images), name
+    d.ctx.set_ref("")
+    assert len(d.window.history.past) == 5
+    assert imgui.get_io().display_size.x > 0
+
+
+def drive_nothing_is_drawn_twice(d: Driver) -> None:
+    """At rest, no frame draws or uploads an image again."""
+    both = d.window.renderers
+    choose(d, "Resolution/640 x 360")
+    choose(d, "Magnification/32x")
+    choose(d, "Channel/Depth")
+    pictures = both.pictures
+    assert pictures is not None
+    shown = [counting(image._display, "show") for image in (pictures._raster, pictures._ray)]
+    drawn = counting(pictures._rasterizer, "draw")
+    read = counting(pictures._rasterizer, "read")
+    d.ctx.yield_(10)
+    assert [count() for count in (*shown, drawn, read)] == [0, 0, 0, 0]
