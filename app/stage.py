@@ -146,7 +146,8 @@ class Stage:
         if padding is not None:
             imgui.push_style_var(imgui.StyleVar_.window_padding, padding)
         opened, visible = imgui.begin(view.label, True, view.flags)
-        window.is_visible = bool(visible)
+        if not visible:  # closed; whoever hides it meanwhile is not overruled
+            window.is_visible = False
         if padding is not None:
             imgui.pop_style_var()
         try:

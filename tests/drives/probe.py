@@ -193,10 +193,10 @@ def drive_rays_of_a_row_and_of_pins_stand_in_the_outside_view(d: Driver) -> None
         d.settle()
         d.until(lambda: lines(d, "rays") >= 30)
         assert lines(d, "pin") >= 2
-    layout.window_of(d.window.views[PROBE]).is_visible = False
+    d.window.shell.stage.show(PROBE, False)
     d.ctx.yield_(4)
     assert [lines(d, name) for name in ("rays", "pin", "normal")] == [0, 0, 0]
-    layout.window_of(d.window.views[PROBE]).is_visible = True
+    d.window.shell.stage.show(PROBE)
     d.ctx.yield_(4)
     leave(d)
 

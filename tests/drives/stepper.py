@@ -145,10 +145,10 @@ def drive_the_outside_view_shows_the_ray_and_the_object(d: Driver) -> None:
     d.settle()
     assert strokes(d, "image ray") > 0 and strokes(d, "object ray") > 0
     assert strokes(d, "object object") > 0 and strokes(d, "bounding box") > 0
-    layout.window_of(d.window.views[STEPPER]).is_visible = False
+    d.window.shell.stage.show(STEPPER, False)
     d.ctx.yield_(4)
     assert strokes(d, "image ray") == strokes(d, "object object") == 0
-    layout.window_of(d.window.views[STEPPER]).is_visible = True
+    d.window.shell.stage.show(STEPPER)
     d.ctx.yield_(4)
 
 
