@@ -7,7 +7,6 @@ handles and the legend have modules beside this one.
 
 from __future__ import annotations
 
-import time
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from typing import Any
@@ -33,13 +32,13 @@ from app.renderers import look_of
 from app.state import AppState
 from app.views.base import Host, View
 from app.views.outside_gizmo import Gizmo
+from app.views.outside_ground import Ground
 from app.views.outside_mouse import Mouse, Scope
 from app.views.outside_tools import labels, legend, triad
 from renderer.camera import Camera
 from renderer.errors import LucidaError
 from renderer.frame import LARGEST_PIXELS, LARGEST_SIDE
 from renderer.raster.overlay import Overlay, plane_on_screen
-from renderer.raster.targets import Textures
 
 Floats = NDArray[np.float64]
 Size = tuple[int, int]
@@ -48,31 +47,9 @@ OUTSIDE = "Outside"
 SMALLEST_PX = 24  # a view that is smaller shows nothing
 LETTER_PX = 26.0  # round what is framed, for letters
 ROOMY_PX = 330.0  # a smaller view has smaller symbols
-STILL_S = 0.15  # without a change of the view, before its edges are made smooth
-SLOW_S = 0.06  # a scene that takes longer to prepare for a camera keeps its edges as they are
-# Parts of a pixel by which the pictures of a mean are shifted: no two in a row or column. The last
-# is not, so that what lies behind is decided at the pixels' centres.
-SHIFTS = ((-0.125, -0.375), (0.375, -0.125), (0.125, 0.375), (-0.375, 0.125), (0.0, 0.0))
 OPACITY = 0.9  # of the live image: what stands behind it is seen a little
 GRID_PX = 7.0  # the least distance of the grid's lines, in widths of a line
 IMAGE_SIZE = (640, 480)  # of the camera's image while no other view shows it
-
-
-@dataclass(frozen=True, eq=False)
-class _Ground:
-    """The scene from outside. number: of its drawing. parts: how many of the SHIFTS are in its
-    mean; all of them also where there will be none."""
-
-    wanted: Wanted
-    textures: Textures
-    drawn_s: float
-    number: int
-    parts: int
-    mean: moderngl.Texture | None = None
-
-    @property
-    def smooth(self) -> bool:
-        return self.mean is not None and self.parts == len(SHIFTS)
 
 
 @dataclass(frozen=True, eq=False)
@@ -100,18 +77,15 @@ class OutsideView(View):
         self._mouse, self._gizmo = Mouse(), Gizmo()
         self._overlay: Overlay | None = None
         self._hits: RayHits | None = None
-        self._ground: _Ground | None = None
+        self._ground = Ground()
         self._error = ""
-        self._drawn = 0  # pictures of the scene
         self._made: _Made | None = None
         self._extra: dict[str, tuple[Item, ...]] = {}
         self.scope: Scope | None = None  # the view as it was last drawn
 
     @property
     def settled(self) -> bool:
-        ground = self._ground
-        smooth = ground is None or ground.parts == len(SHIFTS)
-        return smooth and (self._hits is None or not self._hits.busy)
+        return self._ground.settled and (self._hits is None or not self._hits.busy)
 
     @property
     def over_handle(self) -> bool:
@@ -147,7 +121,8 @@ class OutsideView(View):
 
     def unseen(self, host: Host) -> None:
         host.renderers.forget_pane(self.name)
-        self._ground = self._made = None
+        self._made = None
+        self._ground.forget()
 
     def flown(self, host: Host) -> Camera | None:
         return self.scope.camera if self.scope is not None else None
@@ -296,7 +271,10 @@ class OutsideView(View):
                 wanted = Wanted(state.scene, inner, image_size)
                 _, drawn = both.pictures.linear(wanted)
                 picture = both.pictures.raster(wanted, look_of(state.images))
-            ground = self._scene_picture(host, camera, size)
+            wanted = Wanted(state.scene, camera, size)
+            ground = self._ground.picture(wanted, both.pictures, self._overlay)
+            if not self._ground.settled:
+                host.animate()
             symbol_px = framebuffer_scale() * min(
                 theme.px(1), min(scope.extent.x, scope.extent.y) / ROOMY_PX
             )
@@ -334,7 +312,8 @@ class OutsideView(View):
                 mean=ground.mean if ground.smooth else None,
             )
         except (LucidaError, moderngl.Error) as error:
-            self._ground = self._made = None
+            self._made = None
+            self._ground.forget()
             self._error = describe(error)
             return None
         self._made = _Made(key, texture, primitives)
@@ -346,32 +325,6 @@ class OutsideView(View):
         away = scope.reach / float(np.linalg.norm(camera.w)) / unit
         z = float((camera.camera_from_world @ [*scope.center, 1.0])[2])
         return NEAREST * max(-z / unit, away)
-
-    def _scene_picture(self, host: Host, camera: Camera, size: Size) -> _Ground:
-        """The scene from outside, which stays while only the other camera moves. Drawn at once;
-        when it has been still, again with smooth edges, a part of that in each frame."""
-        pictures, now_s = host.renderers.pictures, time.monotonic()
-        assert pictures is not None
-        assert self._overlay is not None
-        wanted, ground = Wanted(host.state.scene, camera, size), self._ground
-        if ground is None or ground.wanted != wanted:
-            self._ground = None
-            textures = pictures.beside(wanted, OUTSIDE)
-            self._drawn += 1
-            slow = time.monotonic() - now_s > SLOW_S
-            parts = len(SHIFTS) if slow else 0
-            self._ground = ground = _Ground(wanted, textures, now_s, self._drawn, parts)
-        if ground.parts < len(SHIFTS):
-            host.animate()
-            if now_s - ground.drawn_s > STILL_S:
-                shifted = replace(wanted, camera=camera.shifted(*SHIFTS[ground.parts], size))
-                textures = pictures.beside(shifted, OUTSIDE)
-                first, weight = ground.parts == 0, 1 / len(SHIFTS)
-                mean = self._overlay.gather(textures, first, weight)
-                self._ground = ground = replace(
-                    ground, textures=textures, parts=ground.parts + 1, mean=mean
-                )
-        return ground
 
     def _rays(self, host: Host, camera: Camera, size: Size) -> tuple[Hit | None, list[Hit]]:
         """The marked pixel's ray and the bundle's, as far as their ends are known."""
