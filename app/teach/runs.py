@@ -39,7 +39,7 @@ class Pair:
 
 
 class Runs:
-    """wake: called from the thread when something is finished."""
+    """wake: called from the thread when something is finished. error: of the last that ended."""
 
     def __init__(self, wake: Callable[[], None]) -> None:
         self._background: Background[Pair] = Background("lucida-stepper", wake)
@@ -56,8 +56,8 @@ class Runs:
     def of(self, scene: Scene, camera: Camera, size: Size) -> Pair | None:
         """The recordings to show; None before the first steps of a scene.
 
-        Those of the last camera, until the ones that are wanted are complete, or take long. Raises
-        LucidaError for a canvas that cannot be.
+        Those of the last camera, until the ones that are wanted are complete, or take long. error:
+        why there are none, such as a canvas that cannot be.
         """
         self._take_finished()
         wanted = (scene, camera, size)
