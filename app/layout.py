@@ -156,8 +156,8 @@ def docking(
 
 
 def camera_width_px(window_width_px: float, em_px: float) -> float:
-    """What the camera's panel needs for its numbers, but never most of a small window."""
-    return min(0.4 * window_width_px, CAMERA_WIDTH_EM * em_px)
+    """What the camera's panel needs for its numbers, but never more than half of a small window."""
+    return min(0.5 * window_width_px, CAMERA_WIDTH_EM * em_px)
 
 
 def current() -> Layout:

@@ -42,6 +42,7 @@ DEFAULT_SIZE = (1280, 720)
 DEFAULT_PICTURE = Path("lucida.png")
 SCREENSHOT_LIMIT_S = 300.0  # the first image of an installation compiles the tracer
 NULL_FPS = 60.0
+IDLE_FPS = 0.5  # ends notifications, saves the session; anything else that changes asks for frames
 SWITCH_INTERVAL_S = 0.001  # a busy Python thread (a compilation) delays a frame by this, not 5 ms
 
 
@@ -209,7 +210,7 @@ class Run:
         params.imgui_window_params.remember_status_bar_settings = False
         # Text and images only: multisampling would cost more than everything else together.
         params.renderer_backend_options.open_gl_options.anti_aliasing_samples = 0
-        params.fps_idling.fps_idle = 0.0 if self.take_picture else 1.0
+        params.fps_idling.fps_idle = 0.0 if self.take_picture else IDLE_FPS
         params.fps_idling.enable_idling = not self.take_picture
         if not self._platform.has_display:  # nothing else paces the frames
             params.fps_idling.fps_max = NULL_FPS

@@ -262,6 +262,7 @@ class MainWindow:
                 pixel=pixel,
                 seen=both.seen_at(state, pixel) if pixel else "",
                 loading=self.files.loading,
+                brief=state.preferences.presentation,
             ),
             self.fonts,
         )

@@ -11,14 +11,15 @@ from imgui_bundle import ImVec2, imgui
 
 from app import theme
 
-DIVIDER_PX = 25.0  # a line between two texts, with what is free beside it
+DIVIDER_PX = 25.0  # at 100 %: a line between two texts, with what is free beside it
 
 
 @dataclass(frozen=True)
 class Status:
     """What the line tells. size: of the full image. factor: how coarse the ray image is, 1 for
     full, 0 for none; raster_factor: likewise. agreement: a text, empty while unknown; agrees:
-    whether it is good news. loading: what is being opened, empty for nothing."""
+    whether it is good news. loading: what is being opened, empty for nothing. brief: without times
+    and sizes, for an audience."""
 
     raster_s: float
     raster_factor: int
@@ -31,22 +32,28 @@ class Status:
     pixel: tuple[int, int] | None = None
     seen: str = ""
     loading: str = ""
+    brief: bool = False
 
 
 def status_line(status: Status, fonts: theme.Fonts) -> None:
     """Draws the line; call in HelloImGui's show_status."""
     imgui.push_font(fonts.mono, 0.0)
     coarseness = f" 1/{status.raster_factor}" if status.raster_factor > 1 else "    "
-    parts = [
+    times = [
         (f"raster {milliseconds(status.raster_s)}{coarseness}", theme.TEXT),
         (ray_text(status), theme.TEXT),
     ]
+    parts = [] if status.brief else times
     good = theme.GOOD if status.agrees else theme.ERROR
     parts.append((status.agreement or "agree: ...", good if status.agreement else theme.DIM))
     parts.append((f"scene: {status.scene}", theme.TEXT))
     room = imgui.get_window_width() - 2 * imgui.get_style().window_padding.x
+    divider = theme.px(DIVIDER_PX)
+    while len(parts) > 2 and _together([_width(t) for t, _ in parts[:-1]], divider) > room:
+        del parts[0]  # the times give way to whether the images agree
     rights = right_texts(status)
-    count, right = fitting([_width(text) for text, _ in parts], list(map(_width, rights)), room)
+    widths = [_width(text) for text, _ in parts]
+    count, right = fitting(widths, list(map(_width, rights)), room, divider)
     for index, (text, color) in enumerate(parts[:count]):
         if index:
             _divider()
@@ -71,10 +78,16 @@ def right_texts(status: Status) -> list[str]:
     return [f"{status.seen}  {pixel}".strip(), pixel, ""]
 
 
-def fitting(lefts: list[float], rights: list[float], room: float) -> tuple[int, int]:
+def _together(widths: list[float], divider: float) -> float:
+    return sum(widths) + (len(widths) - 1) * divider
+
+
+def fitting(
+    lefts: list[float], rights: list[float], room: float, divider: float = DIVIDER_PX
+) -> tuple[int, int]:
     """How many of the left texts, and which of the right ones, have room beside each other.
 
-    lefts, rights: widths, the right ones from the widest to 0. The last of the left texts gives
+    lefts, rights, divider: widths, the right ones from the widest to 0. The last of the left texts gives
     way first, then the right one becomes shorter; the others stay.
     """
     all_but_last = len(lefts) - 1
@@ -82,8 +95,8 @@ def fitting(lefts: list[float], rights: list[float], room: float) -> tuple[int, 
         (len(lefts), 0),
         *((all_but_last, index) for index in range(len(rights))),
     ]:
-        taken = sum(lefts[:count]) + (count - 1) * DIVIDER_PX
-        if taken + (rights[right] + DIVIDER_PX if rights[right] else 0) <= room:
+        taken = _together(lefts[:count], divider)
+        if taken + (rights[right] + divider if rights[right] else 0) <= room:
             return count, right
     return all_but_last, len(rights) - 1
 
@@ -106,7 +119,7 @@ def _width(text: str) -> float:
 
 
 def _divider() -> None:
-    imgui.same_line(0, 12)
+    imgui.same_line(0, theme.px(12))
     at = imgui.get_cursor_screen_pos()
     height = imgui.get_frame_height()
     draw = imgui.get_window_draw_list()
@@ -114,4 +127,4 @@ def _divider() -> None:
         ImVec2(at.x, at.y + 3), ImVec2(at.x, at.y + height - 3), theme.u32(theme.LINE), 1.0
     )
     imgui.dummy((1, height))
-    imgui.same_line(0, 12)
+    imgui.same_line(0, theme.px(12))
