@@ -186,7 +186,8 @@ class StepperView(View):
                 wanted[at] = _turn(run, answer.pixel, steps[at])
             if answer != panel.Answer():
                 self.playing = False
-        self._keep(host, (wanted[0], wanted[1]), step_of_undo=False)
+        if wanted != list(steps):
+            self._keep(host, (wanted[0], wanted[1]), step_of_undo=False)
 
     def _upload(self, run: Recording, moment: Moment, exposure_ev: float) -> None:
         """The canvas and the depth buffer as textures, where they have changed."""
