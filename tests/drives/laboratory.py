@@ -1,0 +1,128 @@
+"""The image laboratory: every page in the window, its switches, and its pixels on the screen."""
+
+from __future__ import annotations
+
+import numpy as np
+from window_driver import Driver
+
+from app.teach.imagelab import kinds
+from app.teach.imagelab.pages import PAGE_TITLES
+from app.teach.imagelab.stored import shown, store
+from app.views.laboratory import LABORATORY, LaboratoryView
+from renderer.images import to_srgb8
+
+
+def _view(d: Driver) -> LaboratoryView:
+    view = d.window.views[LABORATORY]
+    assert isinstance(view, LaboratoryView)
+    return view
+
+
+def _open(d: Driver, **options: object) -> LaboratoryView:
+    d.window.shell.stage.show(LABORATORY)
+    d.window.shell.stage.maximise(LABORATORY)
+    d.window.change(d.window.state.with_options(laboratory=options))
+    d.settle()
+    return _view(d)
+
+
+def _close(d: Driver) -> None:
+    d.window.shell.stage.maximise()
+    d.window.shell.stage.show(LABORATORY, False)
+    d.settle()
+
+
+def _item(name: str) -> str:
+    return f"//{LABORATORY} maximised/{name}"
+
+
+def _on_screen(d: Driver, number: int) -> np.ndarray:
+    """The pixels of a panel's picture in the window."""
+    box = d.ctx.item_info(_item(f"panel {number}")).rect_full
+    left, top, right, bottom = (round(x) for x in (box.min.x, box.min.y, box.max.x, box.max.y))
+    return d.picture()[top:bottom, left:right]
+
+
+def drive_every_page_shows_its_pictures(d: Driver) -> None:
+    view = _open(d)
+    for page, title in PAGE_TITLES.items():
+        d.ctx.item_click(_item(f"{title}##page"))
+        d.settle()
+        assert d.window.state.options.laboratory.page == page
+        d.ctx.mouse_teleport_to_pos((3, 3))
+        d.ctx.yield_(2)
+        for number, panel in enumerate(view.made):
+            # What was computed stands on the screen, pixel by pixel; frames may lie over it.
+            seen = _on_screen(d, number)
+            assert seen.shape == panel.picture.shape, (page, number)
+            equal = (np.abs(seen.astype(int) - panel.picture) <= 1).all(axis=2).mean()
+            assert equal > 0.98, (page, number, equal)
+    _close(d)
+
+
+def drive_the_kinds_are_of_the_image_that_is_seen(d: Driver) -> None:
+    view = _open(d, page="kinds")
+    titles = [panel.title for panel in view.made]
+    assert titles == [kind.title for kind in kinds.KINDS]
+    color = view._source.color  # type: ignore[union-attr]
+    np.testing.assert_array_equal(view.made[2].picture, to_srgb8(color))
+    expected = shown(store(color, kinds.BITMAP, 0.0, "floyd-steinberg"))
+    np.testing.assert_array_equal(view.made[0].picture, expected)
+    # The camera's change is seen; the files' sizes follow.
+    sizes = {(e.format.kind.name, e.format.ending): e.file_bytes for e in view.sizes}
+    assert len(sizes) == 9
+    width, height = color.shape[1], color.shape[0]
+    assert sizes["color", ".ppm"] == len(f"P6\n{width} {height}\n255\n") + 3 * width * height
+    before = view.made[2].picture
+    d.window.change(d.window.state.with_scene(d.window.state.scene).with_fit(False))
+    moved = d.window.state.with_camera(d.window.state.camera.shifted(0, 9, (100, 100)))
+    d.window.change(moved)
+    d.settle()
+    assert (view.made[2].picture != before).any()
+    _close(d)
+
+
+def drive_exposure_after_storage(d: Driver) -> None:
+    bright = d.window.state.with_options(images={"exposure_ev": 2.0})
+    d.window.change(bright)
+    view = _open(d, page="exposure")
+    kept, floats = (panel.picture.copy() for panel in view.made)
+    np.testing.assert_array_equal(kept, floats)
+    d.ctx.item_input_value(_item("exposure after storage##after"), -2.0)
+    d.settle()
+    assert d.window.state.options.laboratory.after_ev == -2.0
+    kept, floats = (panel.picture for panel in view.made)
+    # Where the bytes were white they are one gray now; the floats still differ there.
+    color = view._source.color * 4.0  # type: ignore[union-attr]
+    white = (color > 1).all(axis=2)
+    assert white.any()
+    assert len(np.unique(kept[white], axis=0)) == 1
+    assert len(np.unique(floats[white], axis=0)) > 5
+    _close(d)
+
+
+def drive_projectors_move_apart(d: Driver) -> None:
+    view = _open(d, page="projectors", apart=0.0)
+    aligned = view.made[0].picture.shape
+    d.ctx.item_input_value(_item("apart##apart"), 0.3)
+    d.settle()
+    wall = view.made[0].picture
+    assert wall.shape[0] > aligned[0] and wall.shape[1] > aligned[1]
+    assert wall[0, wall.shape[1] // 2, 0] > 0 and wall[0, wall.shape[1] // 2, 1:].max() == 0
+    _close(d)
+
+
+def drive_a_click_chooses_the_pixel_of_the_array(d: Driver) -> None:
+    d.window.change(d.window.state.with_options(images={"resolution": (32, 24)}))
+    view = _open(d, page="array")
+    box = d.ctx.item_info(_item("panel 0")).rect_full
+    unit = view.made[0].magnification
+    assert unit >= 4
+    d.ctx.mouse_move_to_pos((box.min.x + 10.5 * unit, box.min.y + 7.5 * unit))
+    d.ctx.mouse_click(0)
+    d.settle()
+    assert d.window.state.marked == (7, 10)
+    d.ctx.item_click(_item("cell 0 0"))
+    d.settle()
+    assert d.window.state.marked != (7, 10)
+    _close(d)

@@ -1,0 +1,195 @@
+"""The guided lecture: its steps, keys and buttons, the exercises, the file that is edited."""
+
+from __future__ import annotations
+
+import itertools
+
+import numpy as np
+from window_driver import Driver, Key, changed
+
+from app import layout
+from app.teach.lecture.model import Lecture
+from app.teach.lecture.reading import BUILTIN, load_lecture
+from app.teach.lecture.states import state_of
+from app.views.lecture import LAYOUT, LECTURE, LectureView
+
+SMALL = """\
+title = "Small"
+[[steps]]
+title = "First"
+text = "One **ball** at $z = -3$."
+scene = "spheres"
+[[steps]]
+title = "Second"
+views = ["ray", "camera"]
+scene = "canonical"
+options.images.exposure_ev = 1.0
+"""
+
+
+def _lecture(d: Driver) -> LectureView:
+    return d.window.lecture
+
+
+def _give(d: Driver, text: str = SMALL) -> Lecture:
+    path = d.folder / "small.toml"
+    path.write_text(text)
+    lecture = load_lecture(path)
+    _lecture(d).give(lecture, path)
+    d.settle()
+    return lecture
+
+
+def _shown(d: Driver) -> set[str]:
+    return {view.name for view in d.window.shell.stage.shown}
+
+
+def _number(d: Driver) -> int:
+    session = _lecture(d).session
+    assert session is not None
+    return session.number
+
+
+def _item(d: Driver, name: str) -> str:
+    """An item of the step's text, which scrolls in a window of its own."""
+    return f"//{LECTURE}/**/{name}"
+
+
+def _answer(d: Driver, field: str, text: str) -> None:
+    d.ctx.item_input_value(_item(d, f"##{field}"), text)
+    d.ctx.yield_(2)
+
+
+def drive_keys_and_buttons_walk_the_steps(d: Driver) -> None:
+    first, second = _give(d).steps
+    assert layout.current().name == LAYOUT
+    assert d.window.state == state_of(first, d.window.state)
+    assert _shown(d) == {LECTURE, "Raster"}
+    before = d.picture()
+    d.ctx.key_press(int(Key.page_down))
+    d.settle()
+    assert (_number(d), d.window.state.scene) == (1, second.scene)
+    assert d.window.state.images.exposure_ev == 1.0
+    assert _shown(d) == {LECTURE, "Ray", "Camera"}
+    assert changed(before, d.picture()) > 0.3
+    d.ctx.key_press(int(Key.page_down))  # there is no third
+    assert _number(d) == 1
+    d.ctx.key_press(int(Key.page_up))
+    d.settle()
+    assert (_number(d), d.window.state.scene) == (0, first.scene)
+    assert d.window.state.images.exposure_ev == 0.0
+    d.ctx.item_click(f"//{LECTURE}/>##next")
+    d.settle()
+    assert _number(d) == 1
+    d.ctx.window_focus(f"//{LECTURE}")
+    d.ctx.key_press(int(Key.left_arrow))
+    d.settle()
+    assert _number(d) == 0
+    d.ctx.item_click(f"//{LECTURE}/1 ~1 2##outline".replace(" ~1 ", " \\/ "))
+    d.ctx.item_click("//$FOCUSED/2  Second")
+    d.settle()
+    assert _number(d) == 1
+
+
+def drive_one_key_comes_back_to_the_step(d: Driver) -> None:
+    first, _ = _give(d).steps
+    lecture = d.window.state
+    d.window.change(d.window.state.with_options(shadows=True, images={"exposure_ev": 3.0}))
+    d.window.change(d.window.state.with_scene(d.start.scene))
+    d.settle()
+    d.ctx.key_press(int(Key.backspace))
+    d.settle()
+    assert d.window.state == lecture == state_of(first, lecture)
+    d.ctx.key_press(int(Key.mod_ctrl) | int(Key.z))  # and that is one step of undo
+    assert d.window.state.scene is d.start.scene
+
+
+def drive_a_lecture_is_read_again_when_it_is_saved(d: Driver) -> None:
+    _give(d)
+    session = _lecture(d).session
+    assert session is not None
+    path = session.path
+    d.ctx.key_press(int(Key.page_down))
+    d.settle()
+    path.write_text(SMALL.replace('"canonical"', '"columns"').replace("[[steps]]", "\n[[steps]]"))
+    d.until(lambda: d.window.state.scene.name == "columns")
+    assert (_number(d), session.error) == (1, "")
+    # A mistake is told with its line; the last legal version goes on.
+    path.write_text(SMALL.replace('"canonical"', '"canonicle"'))
+    d.until(lambda: bool(session.error))
+    assert "small.toml:9: steps[1].scene: 'canonicle' is unknown" in session.error
+    d.settle()
+    assert d.window.state.scene.name == "columns"
+    path.write_text(SMALL)
+    d.until(lambda: not session.error)
+    d.settle()
+    assert d.window.state.scene.name == "canonical camera"
+
+
+def drive_exercises_say_what_is_right_and_wrong(d: Driver) -> None:
+    lecture = load_lecture(BUILTIN)
+    titles = [step.title for step in lecture.steps]
+    _lecture(d).give(lecture, BUILTIN, titles.index("Exercise: a pixel's ray"))
+    d.settle()
+    session = _lecture(d).session
+    assert session is not None
+    # Pixel (2, 6) of 8 x 8: u = 5.5/8 - 1/2, v = -(1.5/8 - 1/2).
+    _answer(d, "origin", "0, 0, 0")
+    _answer(d, "direction", "3/16, -5/16, -1")
+    d.ctx.item_click(_item(d, "Check"))
+    d.ctx.yield_(2)
+    verdict = session.answers.verdict
+    assert verdict is not None and not verdict.right and "minus sign" in verdict.text
+    wrong = d.picture()
+    _answer(d, "direction", "3/16, 5/16, -1")
+    d.ctx.item_click(_item(d, "Check"))
+    d.ctx.yield_(2)
+    assert session.answers.verdict is not None and session.answers.verdict.right
+    assert changed(wrong, d.picture()) > 0
+    d.window.lecture.go(d.window, titles.index("Exercise: which camera?"))
+    d.settle()
+    d.ctx.item_click(_item(d, "option 0"))
+    d.ctx.yield_(2)
+    assert session.answers.verdict is not None and not session.answers.verdict.right
+    d.ctx.item_click(_item(d, "option 3"))
+    d.ctx.yield_(2)
+    assert session.answers.verdict is not None and session.answers.verdict.right
+    # The answers are still there after a look elsewhere.
+    d.window.lecture.advance(d.window, 1)
+    d.settle()
+    assert session.answers.verdict is None
+    d.window.lecture.advance(d.window, -1)
+    d.settle()
+    assert session.answers.chosen == 3
+
+
+def drive_every_step_of_the_built_in_lecture(d: Driver) -> None:
+    lecture = load_lecture(BUILTIN)
+    _lecture(d).give(lecture, BUILTIN)
+    pictures = []
+    for number, step in enumerate(lecture.steps):
+        d.settle()
+        assert _number(d) == number
+        wanted = {name.capitalize() for name in step.views}
+        assert _shown(d) == {LECTURE, *wanted}, step.title
+        assert d.window.renderers.failure is None and not d.window.files.message, step.title
+        own = state_of(step, d.window.state)
+        assert d.window.state.options.stepper == own.options.stepper, step.title
+        assert d.window.state.options == own.options, (step.title, d.window.state.options.stepper)
+        assert d.window.state == own, step.title
+        pictures.append(d.picture())
+        for name in wanted:  # something is to be seen in each view
+            left, top, right, bottom = (round(x) for x in d.window.shell.stage.rects[name])
+            part = pictures[-1][top:bottom, left:right]
+            assert min(part.shape[:2]) > 80 and part.std() > 5, (step.title, name)
+        d.ctx.key_press(int(Key.page_down))
+    for one, next_one in itertools.pairwise(pictures):
+        assert np.abs(one.astype(int) - next_one).max() > 30
+
+
+def drive_the_lecture_begins_from_its_menu(d: Driver) -> None:
+    d.window.lecture.session = None
+    d.ctx.menu_click('//##MainMenuBar/Lecture/Begin "Images, rays and cameras"')
+    d.settle()
+    assert _number(d) == 0
+    assert _lecture(d).is_given
