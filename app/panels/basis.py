@@ -39,21 +39,23 @@ def basis_readout(found: Measures, mono: imgui.ImFont | None) -> None:
         imgui.pop_font()
         imgui.set_item_tooltip(tooltip)
 
-    row("length", LENGTHS)
+    narrow = thirds.narrow
+    row("||" if narrow else "length", LENGTHS)
     for column, length in enumerate(found.lengths):
         exact = f"|{'uvw'[column]}| = {length:.9g}\n{LENGTHS}"
-        cell(column, _number(length), abs(length - 1) <= USUAL, exact, not length > 0)
-    row("angle", ANGLES)
+        cell(column, _number(length, narrow), abs(length - 1) <= USUAL, exact, not length > 0)
+    row("deg" if narrow else "angle", ANGLES)
     for column, (pair, angle) in enumerate(zip(("uv", "vw", "wu"), found.angles_deg, strict=True)):
         usual = abs(math.radians(angle - 90)) <= USUAL
         exact = f"between {pair[0]} and {pair[1]}: {angle:.9g} degrees\n{ANGLES}"
-        text = f"{pair}{angle:5.1f}\N{DEGREE SIGN}" if math.isfinite(angle) else f"{pair}   - "
+        digits = "4.0f" if narrow else "5.1f"
+        text = f"{pair}{angle:{digits}}\N{DEGREE SIGN}" if math.isfinite(angle) else f"{pair}   - "
         cell(column, text, usual, exact, not math.isfinite(angle))
     determinant = found.determinant
     row("det", DETERMINANT)
     exact = f"det = {determinant:.9g}\n{DETERMINANT}"
     wrong = not abs(determinant) > SINGULAR * math.prod(found.lengths)
-    cell(0, _number(determinant), abs(abs(determinant) - 1) <= USUAL, exact, wrong)
+    cell(0, _number(determinant, narrow), abs(abs(determinant) - 1) <= USUAL, exact, wrong)
     side = "no basis" if wrong else "right-handed" if determinant > 0 else "left-handed"
     cell(1, side, determinant > 0, exact, wrong)
 
@@ -73,8 +75,9 @@ def _value(text: str, usual: bool, wrong: bool, width_px: float) -> None:
     imgui.text_colored(color, text)
 
 
-def _number(value: float) -> str:
-    """Eight characters for all but extreme values."""
+def _number(value: float, narrow: bool = False) -> str:
+    """Eight characters (narrow: six) for all but extreme values."""
+    width = 6 if narrow else 8
     if not math.isfinite(value):
-        return "       -"
-    return f"{value:8.4f}" if abs(value) < 100 else f"{value:8.1e}"
+        return f"{'-':>{width}}"
+    return f"{value:{width}.{width - 4}f}" if abs(value) < 100 else f"{value:{width}.0e}"

@@ -15,6 +15,7 @@ from app import theme
 
 LEAST = 1e-3  # where dragging a logarithmic value ends
 FLT_MAX = 3.4e38
+WIDTH = 8  # characters of a number
 HINT = "drag, or double-click to type; Shift: faster, Alt: slower; right-click: reset, copy, paste"
 
 
@@ -66,6 +67,17 @@ def number_format(value: float, scale: Scale) -> str:
     return "%8.4f" if small_scene else "%8.3f"
 
 
+def fitting_format(value: float, scale: Scale, characters: int) -> str:
+    """The usual format where there is room for it; otherwise as many digits as there are."""
+    usual = number_format(value, scale)
+    if characters >= WIDTH:
+        return usual
+    for decimals in (3, 2, 1, 0):
+        if len(f"{value:.{decimals}f}") <= characters:
+            return f"%{characters}.{decimals}f"
+    return "%.0e"
+
+
 def short_number(value: float) -> str:
     """Seven characters for all but extreme values, of which the first is a space or a sign."""
     for limit, digits in ((10, 3), (100, 2), (1000, 1)):
@@ -92,12 +104,15 @@ def number_field(
     """
     imgui.set_next_item_width(width_px)
     imgui.push_font(mono, 0.0)
+    room_px = width_px - 2 * imgui.get_style().frame_padding.x
+    characters = int(room_px / imgui.calc_text_size("0").x + 0.05)
+    if characters < WIDTH + len(unit):
+        unit = unit[:1].strip()
+    shown = fitting_format(value, scale, characters - len(unit)) + unit
     if marked:
         imgui.push_style_var(imgui.StyleVar_.frame_border_size, 0.1 * imgui.get_font_size())
         imgui.push_style_color(imgui.Col_.border, theme.ERROR)
-    changed, new = imgui.drag_float(
-        f"##{label}", value, scale.speed(value), *scale.limits, number_format(value, scale) + unit
-    )
+    changed, new = imgui.drag_float(f"##{label}", value, scale.speed(value), *scale.limits, shown)
     if marked:
         imgui.pop_style_color()
         imgui.pop_style_var()

@@ -224,7 +224,9 @@ def _shift(state: AppState, draft: Draft, around: Surroundings) -> tuple[AppStat
 def _as_drawn(around: Surroundings) -> None:
     imgui.push_font(around.fonts.mono, 0.0)
     edges = "".join(map(short_number, around.shown.viewport))
+    imgui.push_text_wrap_pos(0.0)
     imgui.text_colored(theme.DIM, f"drawn{edges}")
+    imgui.pop_text_wrap_pos()
     imgui.set_item_tooltip("The viewport as drawn: left, right, bottom, top.")
     imgui.pop_font()
 

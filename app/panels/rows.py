@@ -11,16 +11,23 @@ from app import theme
 
 LABEL_EM, WIDE_LABEL_EM = 4.4, 5.6  # beside three fields, beside one
 HALF_LABEL_EM = 4.0  # in a line of two fields
+NARROW_EM, NARROW_LABEL_EM = 16.5, 2.1  # a panel narrower than that has shorter labels
+
+
+def is_narrow() -> bool:
+    """Whether the line that begins here is too short for full labels: very large type."""
+    return imgui.get_content_region_avail().x < NARROW_EM * imgui.get_font_size()
 
 
 class Thirds:
     """Lines of a label and three fields. Make one at the beginning of the first of them.
 
-    field_px: the width of one field.
+    field_px: the width of one field. narrow: labels must be short.
     """
 
     def __init__(self) -> None:
-        label = LABEL_EM * imgui.get_font_size()
+        self.narrow = is_narrow()
+        label = (NARROW_LABEL_EM if self.narrow else LABEL_EM) * imgui.get_font_size()
         self._spacing = imgui.get_style().item_inner_spacing.x
         self._left = imgui.get_style().window_padding.x + label
         self.field_px = (imgui.get_content_region_avail().x - label - 2 * self._spacing) / 3
@@ -31,13 +38,14 @@ class Thirds:
 
 
 def label(text: str, role: str, color: ImVec4, fonts: theme.Fonts, tooltip: str) -> None:
-    """A name in bold, and in plain type what it stands for."""
+    """A name in bold, and in plain type what it stands for, where there is room."""
+    narrow = is_narrow()
     imgui.begin_group()
     imgui.align_text_to_frame_padding()
     imgui.push_font(fonts.bold, 0.0)
     imgui.text_colored(color, text)
     imgui.pop_font()
-    if role:
+    if role and not narrow:
         imgui.same_line(0, 0.4 * imgui.get_font_size())
         imgui.align_text_to_frame_padding()
         imgui.text_colored(theme.DIM, role)
@@ -65,19 +73,23 @@ def instead(text: str) -> None:
 
 
 class Halves:
-    """Lines of two fields. Make one at the beginning of the first of them."""
+    """Lines of two fields, or of one in a narrow panel. Make one at the beginning of the first."""
 
     def __init__(self) -> None:
+        self._one = is_narrow()
         self._left = imgui.get_style().window_padding.x
         self._half = imgui.get_content_region_avail().x / 2
 
     def begin(self, column: int) -> None:
         """Goes to where the label stands, in the first (0) or second (1) half of a line."""
-        if column:
+        if column and not self._one:
             imgui.same_line(self._left + self._half)
 
     def field(self, column: int) -> float:
         """Goes from the label to the field; gives the field's width."""
+        if self._one:
+            imgui.same_line(self._left + WIDE_LABEL_EM * imgui.get_font_size())
+            return imgui.get_content_region_avail().x
         label = HALF_LABEL_EM * imgui.get_font_size()
         imgui.same_line(self._left + column * self._half + label)
         spacing = imgui.get_style().item_inner_spacing.x
