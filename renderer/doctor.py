@@ -126,6 +126,9 @@ def _shows() -> str:
     x11.XOpenDisplay.argtypes = (ctypes.c_char_p,)
     if not x11.XOpenDisplay(None):
         raise RuntimeError(f"the X server {name} does not answer")
+    if os.environ.get("WAYLAND_DISPLAY"):
+        # The bundle's GLFW has no Wayland of its own.
+        return f"X11 {name}, through XWayland: a fractional scale of the desktop blurs it"
     return f"X11 {name}"
 
 

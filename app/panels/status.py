@@ -87,8 +87,8 @@ def fitting(
 ) -> tuple[int, int]:
     """How many of the left texts, and which of the right ones, have room beside each other.
 
-    lefts, rights, divider: widths, the right ones from the widest to 0. The last of the left texts gives
-    way first, then the right one becomes shorter; the others stay.
+    lefts, rights, divider: widths, the right ones from the widest to 0. The last of the left texts
+    gives way first, then the right one becomes shorter; the others stay.
     """
     all_but_last = len(lefts) - 1
     for count, right in [
