@@ -1,0 +1,88 @@
+"""`lucida lecture`: mistakes by line, checking, and pictures of all steps without a display."""
+
+from __future__ import annotations
+
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+import numpy as np
+import pytest
+from PIL import Image
+
+from app.cli import main
+
+ROOT = Path(__file__).parent.parent
+LECTURE = '''\
+title = "Two steps"
+[[steps]]
+title = "Spheres"
+text = """
+They are **exact**: $|\\\\mathbf{x} - \\\\mathbf{c}| = r$.
+"""
+scene = "spheres"
+[[steps]]
+title = "The array"
+scene = "canonical"
+views = ["laboratory"]
+options.laboratory.page = "array"
+'''
+
+
+def test_checking_the_built_in_lecture(capsys):
+    assert main(["lecture", "--check"]) == 0
+    said = capsys.readouterr().out
+    assert said.startswith("Images, rays and cameras: ") and "exercises" in said
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "told"),
+    [
+        ('"spheres"', '"sphere"', ":7: steps[0].scene: 'sphere' is unknown; did you mean"),
+        ("r$", "r", ":5: steps[0].text: a formula does not end"),
+        ('"array"', '"arrey"', ":12: steps[1].options.laboratory.page: 'arrey' is unknown"),
+        ("[[steps]]", "[[steps]", ": line 2, column "),
+    ],
+)
+def test_mistakes_are_one_line_and_exit_status_2(old, new, told, tmp_path, capsys):
+    path = tmp_path / "x.toml"
+    path.write_text(LECTURE.replace(old, new, 1))
+    for more in ([], ["--check"], ["--export", str(tmp_path / "out")]):
+        assert main(["lecture", str(path), *more]) == 2
+        said = capsys.readouterr().err
+        assert said.startswith(f"lucida: {path}{told}"), said
+        assert said.count("\n") == 1
+    assert not (tmp_path / "out").exists()
+
+
+def test_a_file_that_is_not_there(capsys):
+    assert main(["lecture", "nowhere.toml"]) == 2
+    assert "nowhere.toml: does not exist" in capsys.readouterr().err
+
+
+def test_every_step_is_exported_without_a_display(tmp_path):
+    path = tmp_path / "x.toml"
+    path.write_text(LECTURE)
+    environment = {k: v for k, v in os.environ.items() if k not in ("DISPLAY", "WAYLAND_DISPLAY")}
+    environment |= {"XDG_CONFIG_HOME": str(tmp_path / "config"), "PYTHONPATH": str(ROOT)}
+    done = subprocess.run(
+        [sys.executable, "-m", "app", "lecture", "x.toml", "--export", "out", "--size", "900x600"],
+        cwd=tmp_path,
+        env=environment,
+        capture_output=True,
+        text=True,
+        timeout=240,
+    )
+    assert done.returncode == 0, done.stderr[-2000:]
+    assert done.stdout == "out: 2 pictures, 900x600\n"
+    pictures = [np.asarray(Image.open(tmp_path / "out" / f"{k:02}.png")) for k in (1, 2)]
+    for picture in pictures:
+        assert picture.shape == (600, 900, 3) and picture.std() > 15
+    assert np.abs(pictures[0].astype(int) - pictures[1]).mean() > 5
+
+
+def test_a_folder_that_cannot_be_made(tmp_path, capsys):
+    (tmp_path / "file").write_text("")
+    assert main(["lecture", "--export", str(tmp_path / "file")]) == 2
+    assert "file: " in capsys.readouterr().err
