@@ -175,9 +175,12 @@ class Canvas:
         """Call before ImGui draws."""
         size = glfw.get_framebuffer_size(glfw.get_current_context())
         if self._target is None or self._target.size != size:
-            self.release()
-            color = self._context.renderbuffer(size, 4)
+            old, color = self._target, self._context.renderbuffer(size, 4)
             self._target = self._context.framebuffer([color])
+            self._target.use()
+            # Not before: while it makes a framebuffer, moderngl binds the last one again.
+            if old is not None:
+                _release(old)
         self._target.use()
 
     @property
@@ -187,9 +190,13 @@ class Canvas:
 
     def release(self) -> None:
         if self._target is not None:
-            for part in (*self._target.color_attachments, self._target):
-                part.release()
+            _release(self._target)
             self._target = None
+
+
+def _release(target: moderngl.Framebuffer) -> None:
+    for part in (*target.color_attachments, target):
+        part.release()
 
 
 class _Loader:

@@ -119,6 +119,7 @@ class Rasterizer:
         channels = check_channels(channels)
         with self.current() as gl:
             targets = self._targets[place]
+            _ = gl.error  # whatever somebody else has left there
             arrays = {name: targets.read(name, region) for name in channels}
             check(gl, f"reading an image of {targets.size[0]}x{targets.size[1]}")
         return arrays
