@@ -21,6 +21,7 @@ from app.fly import Fly
 from app.focus import Focus, object_corners, scene_focus
 from app.options import Pixel
 from app.panels.menus import menu_bar
+from app.panels.pointing import frame_views
 from app.panels.resolution import Asked, asked, resolution_box
 from app.panels.status import Status, status_line
 from app.platform import on_drop, set_title
@@ -236,6 +237,7 @@ class MainWindow:
             self._asked, state = resolution_box(self._asked, self.state)
             self.change(state)
         self.shell.draw(self)
+        frame_views(self.state, self.shell.stage.rects)
         if self.files.busy or self.renderers.unfinished(self.state):
             hello_imgui.request_refresh()
 
