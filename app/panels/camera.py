@@ -28,6 +28,7 @@ from app.panels.camera_sections import (
 )
 from app.panels.fields import Scale, number_field
 from app.panels.lens import Surroundings, component, lens
+from app.panels.pointing import pointed
 from app.state import AppState
 
 ROLES = {
@@ -78,12 +79,14 @@ def camera_panel(state: AppState, panel: Panel, around: Surroundings) -> tuple[A
 
 def _panel(state: AppState, panel: Panel, around: Surroundings) -> tuple[AppState, Panel]:
     draft = panel.draft.following(state.camera)
-    target = _projection(state, around)
+    with pointed("projection", state):
+        target = _projection(state, around)
     rows.line()
     state, draft = _vectors(state, draft, around)
     found = measures(*(draft.following(state.camera).value(name) for name in BASIS))
     basis_readout(found, around.fonts.mono)
-    state = _orthonormal(state)
+    with pointed("keep_orthonormal", state):
+        state = _orthonormal(state)
     rows.line()
     state, draft = lens(state, draft, around)
     rows.line()
@@ -123,22 +126,23 @@ def _vectors(state: AppState, draft: Draft, around: Surroundings) -> tuple[AppSt
         imgui.text_colored(theme.DIM, letter)
     for name, (label, role, tooltip) in ROLES.items():
         color = theme.BASIS.get(name, theme.PLAIN)
-        rows.label(label, role, color if name in BASIS else theme.TEXT, around.fonts, tooltip)
-        reach = around.focus.reach if name == "eye" else 1.0
-        for axis, letter in enumerate("xyz"):
-            thirds.go(axis)
-            place, scale, mono = (name, axis), Scale(-reach, reach), around.fonts.mono
-            state, draft = component(
-                state,
-                draft,
-                place,
-                f"{name}.{letter}",
-                thirds.field_px,
-                scale,
-                color,
-                tooltip,
-                mono,
-            )
+        with pointed(name, state):
+            rows.label(label, role, color if name in BASIS else theme.TEXT, around.fonts, tooltip)
+            reach = around.focus.reach if name == "eye" else 1.0
+            for axis, letter in enumerate("xyz"):
+                thirds.go(axis)
+                place, scale, mono = (name, axis), Scale(-reach, reach), around.fonts.mono
+                state, draft = component(
+                    state,
+                    draft,
+                    place,
+                    f"{name}.{letter}",
+                    thirds.field_px,
+                    scale,
+                    color,
+                    tooltip,
+                    mono,
+                )
     return state, draft
 
 

@@ -15,6 +15,7 @@ from app.focus import Focus
 from app.navigation import distance_for, dollied, with_shift
 from app.panels import rows
 from app.panels.fields import Scale, number_field, short_number
+from app.panels.pointing import pointed
 from app.presets import clip_around
 from app.state import AppState
 from renderer.camera import Camera, Vector
@@ -64,14 +65,17 @@ class Surroundings:
 
 def lens(state: AppState, draft: Draft, around: Surroundings) -> tuple[AppState, Draft]:
     """All of them, into the current window."""
-    state, draft = _distance(state, draft.following(state.camera), around)
+    with pointed("distance", state):
+        state, draft = _distance(state, draft.following(state.camera), around)
     state, draft = _field_of_view(state, draft.following(state.camera), around)
     state = _dolly(state, around)
     rows.line()
-    state, draft = _viewport(state, draft.following(state.camera), around)
+    with pointed("viewport", state):
+        state, draft = _viewport(state, draft.following(state.camera), around)
     state, draft = _shift(state, draft, around)
     _as_drawn(around)
-    return _clip(state, draft, around)
+    with pointed("clip", state):
+        return _clip(state, draft, around)
 
 
 def component(

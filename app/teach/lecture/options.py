@@ -23,7 +23,7 @@ from renderer.scene.views import view_from_table
 LARGEST_BUNDLE = 64  # rows, or columns, of viewing rays
 
 OWN = ("preferences", "bookmarks")  # the user's own, which no step changes
-ELSEWHERE = (*OWN, "marked")  # what has a field of its own in a step
+ELSEWHERE = (*OWN, "marked", "highlight")  # what has a field of its own in a step
 
 NAMES = tuple(entry.name for entry in fields(Options) if entry.name not in ELSEWHERE)
 

@@ -25,10 +25,8 @@ HIGHLIGHTS = (
     "w",
     "distance",
     "viewport",
-    "near",
-    "far",
+    "clip",
     "keep_orthonormal",
-    "fit",
     *VIEWS,
 )
 

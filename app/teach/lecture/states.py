@@ -19,6 +19,6 @@ def state_of(step: Step, base: AppState) -> AppState:
     base: the present state, of which only what is the user's own stays.
     """
     kept = {name: getattr(base.options, name) for name in OWN}
-    options = replace(Options(), **kept, marked=step.pixel)
+    options = replace(Options(), **kept, marked=step.pixel, highlight=step.highlight)
     state = AppState(step.scene, step.view, is_orthonormal(step.view.camera), options)
     return state.with_options(**step.options)
