@@ -9,7 +9,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from app.panels.canvas import CELL, color_picture, depth_picture
+from app.panels.canvas import CELL, LEAST_CELL, cell_of, color_picture, depth_picture
 from app.panels.code import _words
 from app.panels.formula import breakable
 from app.teach.recording import Order
@@ -118,6 +118,7 @@ def test_the_canvas_as_a_picture() -> None:
     """Each pixel a square; what is not set is dark, with a point in its middle."""
     color = np.full((2, 3, 3), np.nan)
     color[0, 1] = (0.25, 0.5, 2.0)
+    assert (cell_of(3), cell_of(64)) == (CELL, LEAST_CELL)
     picture = color_picture(color, 1.0)
     assert picture.shape == (2 * CELL, 3 * CELL, 3)
     assert (picture[:CELL, CELL : 2 * CELL] == to_srgb8(color[0, 1], 1.0)).all()
@@ -159,5 +160,5 @@ def test_names_with_a_colour_stand_apart_in_the_code() -> None:
     ],
 )
 def test_formulas_are_broken_outside_brackets(formula: str, parts: list[str]) -> None:
-    assert breakable(formula) == parts
+    assert list(breakable(formula)) == parts
     assert " ".join(parts) == formula

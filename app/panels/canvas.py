@@ -17,7 +17,9 @@ from app import theme
 from app.options import Pixel
 from renderer.images.display import to_srgb8
 
-CELL, POINT = 12, 1.0  # texels a side of a pixel; half a side of the point of an unset one
+CELL, LEAST_CELL = 12, 4  # texels a side of a pixel, of a small canvas and of the largest
+LARGEST_PX = 256  # a picture's width, where that leaves pixels LEAST_CELL texels
+POINT = 1.0  # texels, half a side of the point in an unset pixel
 SMALLEST_CELL = 5.0  # a pixel as large as that has lines round it
 MOST_DOTS = 500
 
@@ -33,8 +35,8 @@ class Marks:
 
 
 def color_picture(color: NDArray[np.float64], exposure_ev: float) -> NDArray[np.uint8]:
-    """Linear light (height, width, 3), NaN where nothing is set, as a picture of CELL texels a
-    pixel."""
+    """Linear light (height, width, 3), NaN where nothing is set, as a picture of cell_of(width)
+    texels a pixel."""
     unset = np.asarray(np.isnan(color).any(axis=2))
     shown = to_srgb8(np.where(unset[..., None], 0.0, color), exposure_ev)
     return _pointed(shown, unset)
@@ -48,13 +50,23 @@ def depth_picture(depth: NDArray[np.float64], farthest: float) -> NDArray[np.uin
     return _pointed(np.repeat(gray[..., None], 3, axis=2), unset)
 
 
+def cell_of(width: int) -> int:
+    """Texels a side of a pixel in the picture of a canvas so many pixels wide."""
+    return max(LEAST_CELL, min(CELL, LARGEST_PX // width))
+
+
 def _pointed(shown: NDArray[np.uint8], unset: NDArray[np.bool_]) -> NDArray[np.uint8]:
-    large = shown.repeat(CELL, axis=0).repeat(CELL, axis=1)
-    mask = unset.repeat(CELL, axis=0).repeat(CELL, axis=1)
-    i, j = np.indices(mask.shape) % CELL
-    point = (np.maximum(np.abs(i - (CELL - 1) / 2), np.abs(j - (CELL - 1) / 2))) < POINT
-    for color, where in ((theme.BACKGROUND, mask & ~point), (theme.PLAIN, mask & point)):
-        large[where] = [round(255 * part) for part in (color.x, color.y, color.z)]
+    cell = cell_of(shown.shape[1])
+    dark, light = (
+        np.array([round(255 * part) for part in (color.x, color.y, color.z)], np.uint8)
+        for color in (theme.BACKGROUND, theme.PLAIN)
+    )
+    large = np.where(unset[..., None], dark, shown).repeat(cell, axis=0).repeat(cell, axis=1)
+    near = np.flatnonzero(np.abs(np.arange(cell) - (cell - 1) / 2) < POINT)
+    i, j = np.nonzero(unset)
+    for down in near:
+        for right in near:
+            large[i * cell + down, j * cell + right] = light
     return large
 
 

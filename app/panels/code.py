@@ -18,9 +18,12 @@ from app import theme
 _ROLES = {"u": "u", "v": "v", "ray": "ray", "hit": "hit", "closest": "hit"}
 
 
-def code(lines: Sequence[str], lit: int, size_px: float, called: Mapping[str, str]) -> None:
+def code(
+    lines: Sequence[str], lit: int, size_px: float, width_px: float, called: Mapping[str, str]
+) -> None:
     """Draws the lines in the current font, of size_px, whose letters have one width. lit: the
-    number of the line about to run. called: the sources of functions, by name."""
+    number of the line about to run. width_px: of the light. called: sources of functions, by
+    name."""
     draw, corner = imgui.get_window_draw_list(), imgui.get_cursor_screen_pos()
     letter = imgui.calc_text_size("0").x
     line_px = 1.18 * size_px
@@ -29,8 +32,7 @@ def code(lines: Sequence[str], lit: int, size_px: float, called: Mapping[str, st
     for number, text in enumerate(lines):
         y = corner.y + number * line_px
         if number == lit:
-            far = ImVec2(corner.x + max(widest + 2 * bar, imgui.get_content_region_avail().x), 0)
-            low, high = ImVec2(corner.x, y), ImVec2(far.x, y + line_px)
+            low, high = ImVec2(corner.x, y), ImVec2(corner.x + width_px, y + line_px)
             draw.add_rect_filled(low, high, theme.u32(theme.FRAME_ACTIVE), 2.0)
             draw.add_rect_filled(low, ImVec2(corner.x + bar, high.y), theme.u32(theme.RAY))
         top = y + 0.5 * (line_px - imgui.get_text_line_height())

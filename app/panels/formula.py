@@ -19,6 +19,8 @@ from app.panels.screen import framebuffer_scale
 
 ROW_GAP = 0.35  # between the rows of one formula, in parts of its type's size
 _BREAKS = (" = ", " + ", " - ")
+MOST_EXTENTS = 500
+_extents: dict[tuple[str, float, float], ImVec2] = {}  # the room that formulas took last
 _OPENING, _CLOSING = "({", ")}"
 
 
@@ -59,29 +61,43 @@ def release() -> None:
         imgui_microtex.release()
 
 
-def formula(parts: Iterable[Formula], size_px: float, color: ImVec4 | None = None) -> None:
+def formula(
+    parts: Iterable[Formula], size_px: float, key: str = "", color: ImVec4 | None = None
+) -> None:
     """Draws formulas one after another, as many in a row as have room. size_px: of the type.
 
-    color: of what has no colour of its own; None: the text's.
+    key: names what stays the same while its numbers change: out of sight, it takes the room that
+    it took last. color: of what has no colour of its own; None: the text's.
     """
     color = theme.TEXT if color is None else color
     room = max(1.0, imgui.get_content_region_avail().x)
+    place = (key, room, size_px)
+    if key and (known := _extents.get(place)) is not None and not imgui.is_rect_visible(known):
+        imgui.dummy(known)
+        return
     rows: list[list[_Piece]] = [[]]
     gap = 0.22 * size_px
     for part in parts:
         pieces = [_piece(cut, size_px, color, room) for cut in _cuts(part)]
         whole = sum(piece.width for piece in pieces) + gap * (len(pieces) - 1)
-        # A part that has room in a row of its own is not broken for the sake of the last one.
-        if rows[-1] and _width(rows[-1], gap) + gap + whole > room >= whole:
+        # A part that has room in a row of its own is not broken for the sake of the last one; one
+        # that does not go on with an equals sign begins a row.
+        full = _width(rows[-1], gap) + gap + whole > room >= whole
+        if rows[-1] and (full or not part.text.startswith("=")):
             rows.append([])
         for piece in pieces:
             if rows[-1] and _width(rows[-1], gap) + gap + piece.width > room:
                 rows.append([])
             rows[-1].append(piece)
-    _draw_rows(rows, gap, ROW_GAP * size_px)
+    extent = _draw_rows(rows, gap, ROW_GAP * size_px)
+    if key:
+        if len(_extents) >= MOST_EXTENTS:
+            _extents.clear()
+        _extents[place] = extent
 
 
-def breakable(formula_text: str) -> list[str]:
+@functools.lru_cache(maxsize=1024)
+def breakable(formula_text: str) -> tuple[str, ...]:
     """Where a formula may be broken: before an equals sign, a plus or a minus that is in no
     brackets. Joined by single spaces, the parts are the whole."""
     parts, depth, start = [], 0, 0
@@ -90,17 +106,32 @@ def breakable(formula_text: str) -> list[str]:
         if depth == 0 and at > start and formula_text[at : at + 3] in _BREAKS:
             parts.append(formula_text[start:at])
             start = at + 1
-    return [*parts, formula_text[start:]]
+    return (*parts, formula_text[start:])
 
 
 def tinted(latex: str) -> str:
     """The formula in the colour language: u, v, w, the ray, the hit."""
-    colors = {name: color for name, color in theme.BASIS.items()}
-    colors |= dict.fromkeys("pdr", theme.RAY) | {"x": theme.MARK}
-    for name, color in colors.items():
-        symbol = rf"\mathbf{{{name}}}"
-        latex = latex.replace(symbol, rf"\fgcolor{{{_hex(theme.legible(color))}}}{{{symbol}}}")
+    return _tinted(latex, _tints(theme.PANEL, *theme.BASIS.values(), theme.RAY, theme.MARK))
+
+
+@functools.lru_cache(maxsize=1024)
+def _tinted(latex: str, tints: tuple[tuple[str, str], ...]) -> str:
+    for symbol, color in tints:
+        latex = latex.replace(symbol, rf"\fgcolor{{{color}}}{{{symbol}}}")
     return latex
+
+
+def _tints(*colors: ImVec4) -> tuple[tuple[str, str], ...]:
+    """Symbols and their colours in the palette in use. colors: the palette's, which name it."""
+    return _tints_of(tuple((color.x, color.y, color.z) for color in colors))
+
+
+@functools.lru_cache(maxsize=8)
+def _tints_of(_palette: tuple[tuple[float, float, float], ...]) -> tuple[tuple[str, str], ...]:
+    colors = dict(theme.BASIS) | dict.fromkeys("pdr", theme.RAY) | {"x": theme.MARK}
+    return tuple(
+        (rf"\mathbf{{{name}}}", _hex(theme.legible(color))) for name, color in colors.items()
+    )
 
 
 def _cuts(part: Formula) -> list[Formula]:
@@ -146,7 +177,8 @@ def _width(row: list[_Piece], gap: float) -> float:
     return sum(piece.width for piece in row) + gap * (len(row) - 1)
 
 
-def _draw_rows(rows: list[list[_Piece]], gap: float, row_gap: float) -> None:
+def _draw_rows(rows: list[list[_Piece]], gap: float, row_gap: float) -> ImVec2:
+    """Gives the room that they take."""
     corner = imgui.get_cursor_screen_pos()
     y = corner.y
     widest = 0.0
@@ -160,7 +192,9 @@ def _draw_rows(rows: list[list[_Piece]], gap: float, row_gap: float) -> None:
             x += piece.width + gap
         y += above + max(piece.height - piece.baseline for piece in row) + row_gap
         widest = max(widest, x - gap - corner.x)
-    imgui.dummy(ImVec2(widest, max(0.0, y - row_gap - corner.y)))
+    extent = ImVec2(widest, max(0.0, y - row_gap - corner.y))
+    imgui.dummy(extent)
+    return extent
 
 
 def _hex(color: ImVec4) -> str:

@@ -6,6 +6,7 @@ are is teach/probe.py's.
 
 from __future__ import annotations
 
+import functools
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 
@@ -167,15 +168,29 @@ def reading_panel(reading: Reading, indexing: Indexing, fonts: Fonts) -> None:
     """All of it, in a column whose type grows with its width."""
     size_px = hall_px(imgui.get_content_region_avail().x, LETTERS)
     with lettering(None, size_px):
+        written = _written(reading, indexing)
         if _section("Ray", fonts):
-            _lines(ray_lines(reading, indexing), size_px)
+            _lines(written.ray, size_px)
         if _section("Objects along the ray", fonts):
             _table(reading, fonts)
         if reading.hit is not None and _section("Hit", fonts):
-            _lines(hit_lines(reading), size_px)
+            _lines(written.hit, size_px)
         if _section("Colour", fonts):
             _result(reading, fonts)
-            _lines(color_lines(reading), size_px, swatches=reading)
+            _lines(written.color, size_px, swatches=reading)
+
+
+@dataclass(frozen=True)
+class _Written:
+    ray: list[Line]
+    hit: list[Line]
+    color: list[Line]
+
+
+@functools.lru_cache(maxsize=4)
+def _written(reading: Reading, indexing: Indexing) -> _Written:
+    """A reading's lines, written once; readings are compared by identity."""
+    return _Written(ray_lines(reading, indexing), hit_lines(reading), color_lines(reading))
 
 
 def _section(name: str, fonts: Fonts) -> bool:
@@ -225,7 +240,7 @@ def _formula(line: Line, size_px: float) -> None:
     parts = [Formula(line.latex, line.text)]
     if line.latex_numbers:
         parts.append(Formula(line.latex_numbers, line.text_numbers))
-    formula(parts, size_px)
+    formula(parts, size_px, line.key)
     imgui.dummy(ImVec2(0, 0.2 * size_px))
 
 

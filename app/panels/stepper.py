@@ -165,7 +165,7 @@ def run_panel(
     em = imgui.get_font_size()
     if left.x > 1.9 * left.y:  # all three beside one another
         size_px = code_size_px(longest, 0.46 * left.x, min(1.6 * em, left.y / (1.22 * count)))
-        _code(lines, moment, size_px, fonts)
+        _code(lines, moment, size_px, 0.46 * left.x, fonts)
         x = 0.48 * left.x
         imgui.set_cursor_screen_pos(ImVec2(below.x + x, below.y))
         imgui.begin_group()
@@ -175,7 +175,7 @@ def run_panel(
         _numbers(moment, ImVec2(0.245 * left.x, left.y), size_px, fonts)
         return answer
     size_px = code_size_px(longest, left.x, min(1.6 * em, 0.56 * left.y / (1.22 * count)))
-    _code(lines, moment, size_px, fonts)
+    _code(lines, moment, size_px, left.x, fonts)
     left = imgui.get_content_region_avail()
     below = imgui.get_cursor_screen_pos()
     imgui.begin_group()
@@ -202,9 +202,11 @@ def _slider(recording: Recording, moment: Moment) -> Answer:
     return Answer(step=step if changed else None)
 
 
-def _code(lines: tuple[str, ...], moment: Moment, size_px: float, fonts: Fonts) -> None:
+def _code(
+    lines: tuple[str, ...], moment: Moment, size_px: float, width_px: float, fonts: Fonts
+) -> None:
     with lettering(fonts.mono, size_px):
-        code(lines, moment.line, size_px, _called())
+        code(lines, moment.line, size_px, width_px, _called())
 
 
 @functools.cache

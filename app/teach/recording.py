@@ -26,7 +26,7 @@ from renderer.errors import LucidaError
 SMALLEST, LARGEST = (1, 1), (64, 48)
 MOST_STEPS = 1_000_000
 # The interpreter is left to other threads for a moment, this often.
-_BREAK_EVERY, _BREAK_AFTER_S, _BREAK_S = 256, 0.001, 0.0002
+_BREAK_EVERY, _BREAK_AFTER_S, _BREAK_S = 8, 0.001, 0.0003
 _MISSING = object()
 
 
