@@ -88,7 +88,10 @@ def _color_bytes(values: NDArray, options: ImageOptions) -> Bytes:
 def _depth(t: float) -> str:
     if not math.isfinite(t):
         return "-"
-    return f"{t:.3g}" if t < 1000 else f"{t:.0e}"
+    for limit, digits in ((9.995, 2), (99.95, 1), (999.5, 0)):
+        if t < limit:
+            return f"{t:.{digits}f}"
+    return f"{t:.0e}"
 
 
 def _gray(depth: NDArray, depths: Depths) -> Bytes:

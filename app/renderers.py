@@ -22,13 +22,13 @@ from app.platform import lower_priority
 from app.reading import Region
 from app.state import AppState
 from renderer.camera import Camera
-from renderer.errors import LucidaError
 from renderer.frame import LARGEST_PIXELS, LARGEST_SIDE, Frame
 from renderer.raster import Look
 from renderer.scene.model import Scene, View
 
 NOTE_AFTER_S = 0.3
 MIRROR_DEPTH = 4
+NEARBY_PX = 4  # by which the halves of a window may differ
 STILL_S = 0.3  # comparing reads the raster image back, which may cost a frame: not while dragging
 
 
@@ -49,8 +49,11 @@ class Renderers:
         self._chosen: tuple[int, int] | None = None  # the resolution, in the last frame
         self._arrived_s = 0.0
         self._compared: Request | None = None
+        self._raster_failed = False
         self._fitted: tuple[View, tuple[int, int], Camera] | None = None
-        self._tracing = self._to_trace = False  # whether a view wants the ray image: last, this frame
+        self._tracing = self._to_trace = (
+            False  # whether a view wants the ray image: last, this frame
+        )
 
     def begin(self, context: moderngl.Context, scene: Scene) -> None:
         """Once, when there is a context."""
@@ -76,6 +79,16 @@ class Renderers:
         width, height = (max(1, side // options.pixel_size) for side in pane)
         width, height = min(width, LARGEST_SIDE), min(height, LARGEST_SIDE)
         self.size = (width, min(height, LARGEST_PIXELS // width))
+
+    def common_room(self, pane_px: tuple[int, int]) -> tuple[int, int]:
+        """The room for an image in a window: a few pixels less where another window is that much
+        smaller, so that both show their images at the same size."""
+        near = [
+            pane
+            for pane in (*self._panes_px.values(), pane_px)
+            if all(abs(a - b) <= NEARBY_PX for a, b in zip(pane, pane_px, strict=True))
+        ]
+        return min(pane[0] for pane in near), min(pane[1] for pane in near)
 
     def placement(self, state: AppState) -> Placement | None:
         """Where the images stand in the smallest of their windows; None where there is none."""
@@ -125,6 +138,10 @@ class Renderers:
         if image is not None:
             self.pictures.take_ray(image)
             self.ray_image, self._arrived_s = image, time.monotonic()
+        failed = self.raster_error is not None
+        if self._raster_failed and not failed:  # it works again: what it broke is done again
+            self.agreement.error, self._compared = None, None
+        self._raster_failed = failed
         if self._to_compare(state) and not (moving and time.monotonic() < self._still_s):
             self._compare(state)
         self.agreement.poll()

@@ -250,7 +250,8 @@ class MainWindow:
         image, verdict, failure = both.ray_image, both.verdict(state), both.agreement.error
         if image is not None and image.request.scene is not state.scene:
             image = None  # of another scene, until the first one of this scene comes
-        pixel = self._hovered[1] if self._hovered else None
+        pixel = self._hovered[1] if self._hovered else state.marked
+        base = int(state.options.one_based)
         status_line(
             Status(
                 raster_s=both.pictures.raster_s if both.pictures else 0.0,
@@ -261,7 +262,7 @@ class MainWindow:
                 agreement=verdict.text if verdict else describe(failure) if failure else "",
                 agrees=verdict is not None and verdict.unexplained == 0,
                 scene=state.scene.name,
-                pixel=pixel,
+                pixel=(pixel[0] + base, pixel[1] + base) if pixel else None,
                 seen=both.seen_at(state, pixel) if pixel else "",
                 loading=self.files.loading,
                 brief=state.preferences.presentation,

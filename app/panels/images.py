@@ -17,7 +17,7 @@ from app.panels.grips import Grab, Lens, Seen, Zoom, drag, magnify, wheel
 from app.panels.marks import claim_keys, draw_hovered, draw_marked
 from app.panels.overlay import draw_corner, draw_legend, draw_note
 from app.panels.pixelgrid import Values, draw_pixel_grid
-from app.panels.screen import Screen
+from app.panels.screen import Box, Screen
 from app.placement import Placement, place
 from app.state import AppState
 
@@ -72,6 +72,8 @@ def image_pane(
     """Draws the image into what is left of the current window, room_px (width, height) framebuffer
     pixels, and follows the mouse over it. zoom, lens: the last."""
     seen, io = pane.seen, imgui.get_io()
+    start, avail = imgui.get_cursor_screen_pos(), imgui.get_content_region_avail()
+    room = start, ImVec2(start.x + avail.x, start.y + avail.y)
     screen = Screen.here(place(state.images, seen.size, room_px))
     low, high = screen.visible
     imgui.set_cursor_screen_pos(low)
@@ -93,15 +95,15 @@ def image_pane(
         state, zoom = wheel(seen, state, last_zoom, io.mouse_wheel, screen)
     if state.images != before.images:
         screen = Screen(place(state.images, seen.size, room_px), screen.corner, screen.scale)
-    _draw(pane, state, screen, grab)
+    _draw(pane, state, screen, room, grab)
     return PaneResult(state, grab, hovered if grab is None else None, zoom, lens, keyed)
 
 
-def _draw(pane: Pane, state: AppState, screen: Screen, grab: Grab | None) -> None:
+def _draw(pane: Pane, state: AppState, screen: Screen, room: Box, grab: Grab | None) -> None:
     draw = imgui.get_window_draw_list()
     low, high = screen.visible
     texture = pane.texture(state, screen.placement)
-    _surround(draw, screen, low, low if texture is None else high)
+    _surround(draw, room, low, low if texture is None else high)
     draw.push_clip_rect(*screen.pane, intersect_with_current_clip_rect=True)
     if texture is not None:
         draw.add_image(imgui.ImTextureRef(texture), low, high)
@@ -123,9 +125,9 @@ def _draw(pane: Pane, state: AppState, screen: Screen, grab: Grab | None) -> Non
     draw.pop_clip_rect()
 
 
-def _surround(draw: imgui.ImDrawList, screen: Screen, low: ImVec2, high: ImVec2) -> None:
+def _surround(draw: imgui.ImDrawList, room: Box, low: ImVec2, high: ImVec2) -> None:
     """Fills what the image leaves of the window (whose own background would be drawn twice)."""
-    start, end = screen.pane
+    start, end = room
     for corner, far in (
         (start, ImVec2(end.x, low.y)),
         (ImVec2(start.x, high.y), end),

@@ -91,8 +91,8 @@ def _depth_legend(
     depths: tuple[float, float] | None,
     fonts: theme.Fonts,
 ) -> None:
-    size = imgui.get_font_size()
-    imgui.push_font(fonts.mono, 0.0)
+    size, mono = imgui.get_font_size(), fonts.mono or imgui.get_font()
+    imgui.push_font(mono, 0.0)
     near, far = (f"{t:.4g}" for t in depths) if depths is not None else ("", "")
     widths = [imgui.calc_text_size(text).x for text in ("t", near, far)]
     imgui.pop_font()
@@ -101,19 +101,19 @@ def _depth_legend(
     if low is None:
         return
     x, y = low.x + PADDING, low.y + PADDING
-    draw.add_text(fonts.mono, size, ImVec2(x, y), theme.u32(DIM), "t")
+    draw.add_text(mono, size, ImVec2(x, y), theme.u32(DIM), "t")
     x += widths[0] + PADDING
     if depths is None:
         draw.add_text(ImVec2(x, y), theme.u32(DIM), "nothing is hit")
         return
-    draw.add_text(fonts.mono, size, ImVec2(x, y), theme.u32(TEXT), near)
+    draw.add_text(mono, size, ImVec2(x, y), theme.u32(TEXT), near)
     x += widths[1] + PADDING
     white, gray = (imgui.color_convert_float4_to_u32((v, v, v, 1.0)) for v in (1.0, FARTHEST_GRAY))
     draw.add_rect_filled_multi_color(
         ImVec2(x, y + 1), ImVec2(x + BAR, y + size - 1), white, gray, gray, white
     )
     x += BAR + PADDING
-    draw.add_text(fonts.mono, size, ImVec2(x, y), theme.u32(TEXT), far)
+    draw.add_text(mono, size, ImVec2(x, y), theme.u32(TEXT), far)
 
 
 def _words(
@@ -122,8 +122,8 @@ def _words(
     words: list[tuple[str, ImVec4]],
     fonts: theme.Fonts,
 ) -> None:
-    size = imgui.get_font_size()
-    imgui.push_font(fonts.bold, 0.0)
+    size, bold = imgui.get_font_size(), fonts.bold or imgui.get_font()
+    imgui.push_font(bold, 0.0)
     widths = [imgui.calc_text_size(text).x for text, _ in words]
     imgui.pop_font()
     width = sum(widths) + 2 * PADDING + 8.0 * (len(words) - 1)
@@ -133,7 +133,7 @@ def _words(
     x = low.x + PADDING
     for (text, color), wide in zip(words, widths, strict=True):
         at = ImVec2(x, low.y + PADDING)
-        draw.add_text(fonts.bold, size, at, theme.u32(color), text)
+        draw.add_text(bold, size, at, theme.u32(color), text)
         x += wide + 8.0
 
 

@@ -41,7 +41,9 @@ def draw_pixel_grid(
         return
     _lines(draw, screen)
     low, high = screen.visible
-    band = _rulers(draw, screen, state, fonts)
+    band = ImVec2(0, 0)
+    if min(screen.cell) < NAMES_FROM or values is None:
+        band = _rulers(draw, screen, state, fonts)
     if side_px >= VALUES_FROM and values is not None:
         inner = ImVec2(low.x + band.x, low.y + band.y)
         draw.push_clip_rect(inner, high, intersect_with_current_clip_rect=True)
@@ -76,7 +78,7 @@ def _lines(draw: imgui.ImDrawList, screen: Screen) -> None:
 def _rulers(draw: imgui.ImDrawList, screen: Screen, state: AppState, fonts: theme.Fonts) -> ImVec2:
     """Columns along the upper edge, rows along the left one, on dark bands; gives the width of the
     left and the height of the upper band."""
-    low, high = screen.visible
+    low, high, mono = *screen.visible, fonts.mono or imgui.get_font()
     (width, height), (columns, rows) = screen.cell, screen.placement.size
     top, left, bottom, right = screen.placement.visible_pixels
     base, size = int(state.options.one_based), max(13.0, 0.85 * imgui.get_font_size())
@@ -98,7 +100,7 @@ def _rulers(draw: imgui.ImDrawList, screen: Screen, state: AppState, fonts: them
         if low.x + band_x <= x <= high.x - digit * len(text):
             on = marked is not None and marked[1] == column
             color = theme.u32(theme.MARK) if on else plain
-            draw.add_text(fonts.mono, size, ImVec2(x, low.y + 1), color, text)
+            draw.add_text(mono, size, ImVec2(x, low.y + 1), color, text)
     step = thinning(height, size + 2)
     for row in range(top, bottom):
         text, y = str(row + base), screen.point(row + 0.5, 0).y - size / 2
@@ -108,7 +110,7 @@ def _rulers(draw: imgui.ImDrawList, screen: Screen, state: AppState, fonts: them
             x = low.x + band_x - 3 - digit * len(text)
             on = marked is not None and marked[0] == row
             color = theme.u32(theme.MARK) if on else plain
-            draw.add_text(fonts.mono, size, ImVec2(x, y), color, text)
+            draw.add_text(mono, size, ImVec2(x, y), color, text)
     draw.pop_clip_rect()
     return ImVec2(band_x, band_y)
 
@@ -123,6 +125,7 @@ def _values(
 ) -> None:
     """Each pixel's value, and from NAMES_FROM on its row and column."""
     options, (width, height) = state.images, screen.cell
+    mono = fonts.mono or imgui.get_font()
     region = screen.placement.visible_pixels
     top, left, bottom, right = region
     array = values(state, options.channel, region)
@@ -137,7 +140,7 @@ def _values(
         name = pixel_name((bottom - 1, right - 1), state.options.one_based)
         longest = max(longest, len(name))
     lines = line_count(options) + named
-    size = min(width / ((longest + 0.6) * ADVANCE), height / ((lines + 0.3) * LEADING), MOST_TEXT)
+    size = min(width / ((longest + 1) * ADVANCE), height / ((lines + 0.3) * LEADING), MOST_TEXT)
     skip = 1
     if size < LEAST_TEXT:  # a text reaches over its neighbours, which get none
         skip, size = thinning(size, LEAST_TEXT), LEAST_TEXT
@@ -154,8 +157,8 @@ def _values(
             if named:
                 name = pixel_name((row, column), state.options.one_based)
                 at = ImVec2(x - ADVANCE * size * len(name) / 2, y)
-                draw.add_text(fonts.mono, size, at, dim[on_dark], name)
+                draw.add_text(mono, size, at, dim[on_dark], name)
                 below += LEADING * size
             wide = text.find("\n") if "\n" in text else len(text)
             at = ImVec2(x - ADVANCE * size * wide / 2, below)
-            draw.add_text(fonts.mono, size, at, white if on_dark else black, text)
+            draw.add_text(mono, size, at, white if on_dark else black, text)

@@ -98,6 +98,7 @@ class ImageView(View):
         self._strip(host)
         room_px = available_px()
         both.fit_pane(self.name, room_px, host.state.images)
+        room_px = both.common_room(room_px)
         self._keep_mark(host)
         corner = imgui.get_cursor_screen_pos()
         self._before_image(host, Screen.here(place(host.state.images, both.size, room_px)))
