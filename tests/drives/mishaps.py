@@ -1,0 +1,86 @@
+"""Renderers and views that fail: told in the window, survived, tried again."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import Any
+
+import moderngl
+from imgui_bundle import imgui
+from window_driver import Driver
+
+from app.views.camera import CAMERA
+from app.views.pair import RAY
+from renderer.errors import LucidaError
+
+
+def fail_until_retried(d: Driver, error: BaseException, told: str) -> None:
+    """The tracer fails; the window tells it, goes on, and tries again when asked."""
+    live = d.window.renderers.live
+    good = live._make_tracer
+
+    def bad(request: object) -> Any:
+        raise error
+
+    live._make_tracer = bad
+    d.window.change(d.window.state.with_options(shadows=not d.window.state.options.shadows))
+    d.until(lambda: live.error is not None)
+    d.until(lambda: d.ctx.window_info("//##message").id_ != 0)
+    d.ctx.yield_(2)
+    d.picture()
+    assert told in str(live.error) or told in type(live.error).__name__
+    live._make_tracer = good
+    d.ctx.item_click("//##message/Try again")
+    d.until(lambda: live.error is None and d.window.settled)
+
+
+def drive_failures_of_the_tracer_are_told_and_tried_again(d: Driver) -> None:
+    fail_until_retried(d, MemoryError(), "MemoryError")
+    fail_until_retried(d, LucidaError("tracer", "broke", "mend it"), "broke")
+    fail_until_retried(d, SystemExit(3), "SystemExit")
+    d.window.history = replace(d.window.history, present=d.start)
+    d.agreeing_images()
+
+
+def drive_failures_of_the_rasterizer_are_told_and_survived(d: Driver) -> None:
+    pictures = d.window.renderers.pictures
+    assert pictures is not None
+    rasterizer = pictures._rasterizer
+    for error in (
+        moderngl.Error("GLSL: 0:1: syntax error"),
+        LucidaError("OpenGL", "GL_OUT_OF_MEMORY at a texture of 1x1", "close other programs"),
+        MemoryError(),
+    ):
+
+        def fail(*_: object, error: Exception = error) -> Any:
+            raise error
+
+        rasterizer.draw = fail  # type: ignore[method-assign]
+        d.drag_field("eye.x", 10)
+        d.until(lambda: d.window.renderers.raster_error is not None)
+        d.until(lambda: d.ctx.window_info("//##message").id_ != 0)
+        d.picture()
+        del rasterizer.draw
+        d.until(lambda: d.window.renderers.raster_error is None)
+    d.agreeing_images()
+
+
+def drive_a_view_that_fails_is_told_and_the_others_go_on(d: Driver) -> None:
+    stage = d.window.shell.stage
+    view = stage.views[CAMERA]
+
+    def fail(_: object) -> None:
+        imgui.begin_child("half drawn")
+        imgui.push_id("and more")
+        raise moderngl.Error("GLSL: 0:1: syntax error")
+
+    view.draw = fail  # type: ignore[method-assign]
+    d.until(lambda: CAMERA in stage.failures)
+    d.ctx.yield_(3)
+    d.picture()
+    del view.draw
+    d.drag(d.point(RAY, 0.5, 0.5), d.point(RAY, 0.6, 0.5))
+    assert d.window.state != d.start
+    d.ctx.item_click(f"//{CAMERA}/Try again")
+    d.until(lambda: not stage.failures)
+    d.agreeing_images()
