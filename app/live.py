@@ -64,14 +64,6 @@ class RayImage:
 class Job(Protocol):
     """renderer.trace.TraceJob."""
 
-    def retry(self) -> None:
-        """Asks again for the newest request, where that has failed."""
-        with self._changed:
-            if self._error is not None and self._newest is not None:
-                self._newest = replace(self._newest)  # another object: one not served yet
-                self._error = None
-                self._changed.notify()
-
     @property
     def progress(self) -> float: ...
     @property
@@ -152,6 +144,14 @@ class LiveTrace:
         with self._changed:
             return self._error
 
+    def retry(self) -> None:
+        """Asks again for the newest request, where that has failed."""
+        with self._changed:
+            if self._error is not None and self._newest is not None:
+                self._newest = replace(self._newest)  # another object: one not served yet
+                self._error = None
+                self._changed.notify()
+
     @property
     def progress(self) -> float:
         """The finished part of the image under way, 0 to 1."""
@@ -208,11 +208,11 @@ class LiveTrace:
                     tracer, pixel_s = self._make_tracer(request), 0.0
                 made_for, self._ready = request, (request.scene, tracer)
                 pixel_s = self._trace(tracer, request, pixel_s)
-            except Exception as error:  # shown in the window, which goes on
+            except BaseException as error:  # shown in the window, which goes on
                 tracer, self._ready = None, None
                 with self._changed:
                     self._job, self._refining, self._began_s = None, False, 0.0
-                    self._error, self._finished = error, request
+                    self._error, self._finished = _as_exception(error), request
                 self._wake()
         if tracer is not None:
             tracer.close()
@@ -286,6 +286,11 @@ class LiveTrace:
 
     def _is_stale(self, request: Request) -> bool:
         return self._closed or self._newest is not request
+
+
+def _as_exception(error: BaseException) -> Exception:
+    """What the window shows; a thread that is told to end goes on, like any that fails."""
+    return error if isinstance(error, Exception) else RuntimeError(f"ended by {error!r}")
 
 
 def first_factor(size: tuple[int, int], pixel_s: float) -> int:
