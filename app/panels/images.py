@@ -30,7 +30,7 @@ class Pane:
 
     note: text over the image. progress: of the image under way, 1 for none. hovered: the pixel
     under the mouse, to be marked here. depths: that are shown white and darkest. legend: whether
-    the channel's colours are explained.
+    the channel's colours are explained. on_pixels: draws on the image, below everything else.
     """
 
     seen: Seen
@@ -43,6 +43,7 @@ class Pane:
     legend: bool = True
     hovered: Pixel | None = None
     depths: tuple[float, float] | None = None
+    on_pixels: Callable[[Screen], None] | None = None
 
 
 @dataclass(frozen=True)
@@ -107,6 +108,8 @@ def _draw(pane: Pane, state: AppState, screen: Screen, room: Box, grab: Grab | N
     draw.push_clip_rect(*screen.pane, intersect_with_current_clip_rect=True)
     if texture is not None:
         draw.add_image(imgui.ImTextureRef(texture), low, high)
+        if pane.on_pixels is not None:
+            pane.on_pixels(screen)
         if state.images.grid:
             draw_pixel_grid(draw, screen, state, pane.values, pane.depths, pane.fonts)
     if state.marked is not None:

@@ -115,10 +115,13 @@ class CompareView(ImageView):
             self._draw_divider(host, screen)
         elif mode == "flip":
             _label(host, screen, "Ray" if self._flipped(host.state) else "Raster", right=False)
-        else:
-            verdict = host.renderers.verdict(host.state)
-            if verdict is not None and not waiting(host.renderers, host.state):
-                draw_differences(screen, host.state, verdict.comparison, host.fonts)
+
+    def _on_pixels(self, host: Host, screen: Screen) -> None:
+        verdict = host.renderers.verdict(host.state)
+        if host.state.compare.mode not in ("absolute", "signed") or verdict is None:
+            return
+        if host.state.images.grid and not waiting(host.renderers, host.state):
+            draw_differences(screen, host.state, verdict.comparison, host.fonts)
 
     def _texture(self, both: Renderers, state: AppState, placement: Placement) -> int | None:
         """The GL name of what is seen of the picture; None where there is none."""

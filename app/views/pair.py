@@ -123,6 +123,7 @@ class ImageView(View):
             legend=legend,
             hovered=self._hovered(host, room_px),
             depths=both.depths() if state.images.channel == "depth" else None,
+            on_pixels=lambda screen: self._on_pixels(host, screen),
         )
         result = image_pane(pane, state, room_px, shared.grab, shared.zoom, shared.lens)
         shared.grab, shared.zoom = result.grab, result.zoom or shared.zoom
@@ -139,6 +140,9 @@ class ImageView(View):
 
     def _before_image(self, host: Host, screen: Screen) -> None:
         """For items that take the mouse before the image does."""
+
+    def _on_pixels(self, host: Host, screen: Screen) -> None:
+        """For what is drawn on the image, below the grid, the marks and the legends."""
 
     def _over_image(self, host: Host, screen: Screen) -> None:
         """For what is drawn over the image."""
