@@ -104,6 +104,35 @@ def drive_one_key_comes_back_to_the_step(d: Driver) -> None:
     assert d.window.state.scene is d.start.scene
 
 
+def drive_what_a_step_points_out_is_framed(d: Driver) -> None:
+    pointing = SMALL.replace('views = ["ray"', 'highlight = ["eye", "ray"]\nviews = ["ray"')
+    _give(d, pointing)
+    d.ctx.key_press(int(Key.page_down))
+    d.settle()
+    assert d.window.state.options.highlight == ("eye", "ray")
+    left, top, right, bottom = (round(x) for x in d.window.shell.stage.rects["Ray"])
+    yellow = np.array([240, 228, 66])
+
+    def is_framed() -> tuple[bool, bool]:
+        d.ctx.mouse_teleport_to_pos((3, 3))
+        d.ctx.yield_(2)
+        marked = (np.abs(d.picture().astype(int) - yellow) < 12).all(axis=2)
+        box = d.ctx.item_info("//Camera/##eye.x").rect_full
+        beside = marked[round(box.min.y) : round(box.max.y), : round(box.min.x)]
+        rows = marked[top + 20 : bottom - 20]
+        edges = rows[:, left : left + 4].any(axis=1), rows[:, right - 4 : right].any(axis=1)
+        return bool(beside.any(axis=1).mean() > 0.8), bool(min(e.mean() for e in edges) > 0.9)
+
+    assert is_framed() == (True, True)
+    d.ctx.key_press(int(Key.page_up))
+    d.settle()
+    d.ctx.key_press(int(Key.page_down))
+    d.settle()
+    d.window.change(d.window.state.with_options(highlight=()))
+    d.settle()
+    assert is_framed() == (False, False)
+
+
 def drive_a_lecture_is_read_again_when_it_is_saved(d: Driver) -> None:
     _give(d)
     session = _lecture(d).session
