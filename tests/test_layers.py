@@ -22,6 +22,7 @@ FORBIDDEN = {
     "renderer/trace": ["renderer.raster", "renderer.compare", "moderngl"],
     # Panels get the state and give a new one; they draw no scene.
     "app/panels": ["renderer.raster", "renderer.trace", "moderngl", "app.viewer", "app.cli"],
+    "app/teach": ["app.views", "app.panels", "glfw", "imgui_bundle", "moderngl"],
     "app/commands": ["glfw", "imgui_bundle", "moderngl", "numba"],
 }
 
