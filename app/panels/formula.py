@@ -7,6 +7,7 @@ MicroTeX needs the locale en_US.UTF-8: without it the text stands in.
 from __future__ import annotations
 
 import functools
+import math
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 from pathlib import Path
@@ -78,7 +79,7 @@ def formula(
     rows: list[list[_Piece]] = [[]]
     gap = 0.22 * size_px
     for part in parts:
-        pieces = [_piece(cut, size_px, color, room) for cut in _cuts(part)]
+        pieces = _pieces(part, size_px, color, room)
         whole = sum(piece.width for piece in pieces) + gap * (len(pieces) - 1)
         # A part that has room in a row of its own is not broken for the sake of the last one; one
         # that does not go on with an equals sign begins a row.
@@ -134,23 +135,35 @@ def _tints_of(_palette: tuple[tuple[float, float, float], ...]) -> tuple[tuple[s
     )
 
 
-def _cuts(part: Formula) -> list[Formula]:
-    if available():
-        return [Formula(latex, "") for latex in breakable(part.latex)]
-    return [Formula("", text) for text in breakable(part.text)]
+def _pieces(part: Formula, size_px: float, color: ImVec4, room: float) -> list[_Piece]:
+    """A formula's pieces, none wider than the room: broken at sums, and at products if need be."""
+    whole = part.latex if available() else part.text
+    pieces: list[_Piece] = []
+    for cut in breakable(whole):
+        piece = _piece(cut, size_px, color)
+        if piece.width > room and len(factors := _factors(cut)) > 1:
+            pieces += [_piece(factor, size_px, color, room) for factor in factors]
+        else:
+            pieces.append(_piece(cut, size_px, color, room))
+    return pieces
 
 
-def _piece(part: Formula, size_px: float, color: ImVec4, room: float) -> _Piece:
+def _factors(product: str) -> list[str]:
+    """A product of things in brackets, broken between them."""
+    space = r"\," if available() else " "
+    return product.replace(f"){space}", ")\n").split("\n")
+
+
+def _piece(text: str, size_px: float, color: ImVec4, room: float = math.inf) -> _Piece:
+    """A piece as it is, or as much smaller as the room wants."""
     if not available():
-        return _text_piece(part.text, color)
+        return _text_piece(text, color)
     scale = framebuffer_scale()
-    latex = part.latex
-    if latex[:2] in ("+ ", "- "):  # at the beginning it would be a sign, without a sum's space
-        latex = rf"{latex[0]}\;{latex[2:]}"
+    if text[:2] in ("+ ", "- "):  # at the beginning it would be a sign, without a sum's space
+        text = rf"{text[0]}\;{text[2:]}"
     picture = imgui_microtex.render_to_texture(
-        tinted(latex), size_px * scale, color, imgui_microtex.TexStyle.display
+        tinted(text), size_px * scale, color, imgui_microtex.TexStyle.display
     )
-    # What is too wide for any row is drawn smaller.
     shrunk = min(1.0, room * scale / max(1, picture.width)) / scale
     width, height = picture.width * shrunk, picture.height * shrunk
     number = picture.texture_id()

@@ -218,9 +218,7 @@ def _lines(lines: Iterable[Line], size_px: float, swatches: Reading | None = Non
     for line in lines:
         imgui.table_next_row()
         imgui.table_next_column()
-        imgui.push_text_wrap_pos(0.0)
         _name(line, swatches)
-        imgui.pop_text_wrap_pos()
         imgui.table_next_column()
         _formula(line, size_px)
     imgui.end_table()
@@ -228,7 +226,9 @@ def _lines(lines: Iterable[Line], size_px: float, swatches: Reading | None = Non
 
 def _name(line: Line, swatches: Reading | None) -> None:
     """What the line is; and the colour, where it gives one."""
+    imgui.push_text_wrap_pos(0.0)
     imgui.text_colored(theme.DIM, line.name)
+    imgui.pop_text_wrap_pos()
     if swatches is not None and line.key.split(" ")[0] in _SWATCHED and len(line.value) == 3:
         light = np.array(line.value) * 2.0**swatches.exposure_ev
         side = 0.85 * imgui.get_text_line_height()

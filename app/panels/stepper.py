@@ -234,7 +234,8 @@ def _canvases(
     height = max(20.0, room.y - label)
     first = rest = ImVec2(room.x, height)
     beside = False
-    if moment.depth is not None:
+    has_depth = recording.order is Order.OBJECT
+    if has_depth:
         below = max(20.0, height - label - spacing.y)
         across = room.x - spacing.x
         choices = (
@@ -251,7 +252,7 @@ def _canvases(
     clicked = canvas(picture.color, size, first, marks, f"canvas##{name}")
     imgui.set_item_tooltip("a click goes to a pixel's turn")
     imgui.end_group()
-    if moment.depth is not None:
+    if has_depth:
         if beside:
             imgui.same_line()
         imgui.begin_group()

@@ -254,12 +254,13 @@ class Meter:
             if renderer in self.problems:
                 continue
             size = Case(renderer, triangles, pixels).size
+            camera = Camera.canonical().fitted(size)
             try:
                 drawing = self._drawing(renderer, drawings)
                 if scenes.get(renderer) is not scene:
                     drawing.set_scene(scene)
                     scenes[renderer] = scene
-                camera = Camera.canonical().fitted(size)
+                    drawing.render(camera, size, channels=("color",))  # prepares it
                 times[renderer] = drawing.render(camera, size, channels=("color",)).time_s
             except Exception as error:  # said beside the plot, which goes on with the other one
                 with self._lock:

@@ -69,7 +69,7 @@ class CostsView(View):
         for renderer, problem in told.problems.items():
             imgui.text_colored(theme.ERROR, f"{renderer}: {problem}")
         room = imgui.get_content_region_avail()
-        note = 2.4 * imgui.get_text_line_height_with_spacing()
+        note = imgui.calc_text_size(EXPLAINED, wrap_width=room.x).y + 2 * theme.px(6)
         panel.plot(options, told, ImVec2(room.x, max(60.0, room.y - note)))
         imgui.push_text_wrap_pos(0.0)
         imgui.text_colored(theme.DIM, EXPLAINED)

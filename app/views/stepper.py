@@ -123,9 +123,9 @@ class StepperView(View):
         steps = list(options.steps)
         for order in orders:
             run, at = pair.runs[order], ORDERS.index(order)
-            steps[at] = min(steps[at], max(0, len(run) - 1))
-            if len(run):
-                steps[at] = _after(run, steps[at], wish, taken)
+            # A place that the run has not come to yet is kept for when it has.
+            if len(run) and ((wish and wish != "play") or taken):
+                steps[at] = _after(run, min(steps[at], len(run) - 1), wish, taken)
         if self.playing and all(
             pair.complete and steps[ORDERS.index(one)] >= len(pair.runs[one]) - 1 for one in orders
         ):
