@@ -76,6 +76,8 @@ class Task:
     def cancel(self) -> None:
         """Ends a waiting task at once, and stops one at work."""
         self.stop()
+        if self.finished.is_set():  # frame(), which takes a while for a large image, has the lock
+            return
         with self._lock:
             if not self._tracing:
                 self.finished.set()
