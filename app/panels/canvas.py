@@ -130,15 +130,19 @@ def _draw_marks(draw: imgui.ImDrawList, corner: ImVec2, unit: float, marks: Mark
             else:
                 draw.add_circle(middle, radius, theme.u32(theme.rgb("#ffffff")))
     if marks.box is not None and marks.box[0] and marks.box[1]:
-        _frame(draw, *cell(*marks.box), theme.rgb("#cc79a7"), 0.0)
+        _frame(draw, *cell(*marks.box), theme.rgb("#cc79a7"), 0.0, unit)
     if marks.pixel is not None:
         i, j = marks.pixel
-        _frame(draw, *cell([i], [j]), theme.MARK, 1.0)
+        _frame(draw, *cell([i], [j]), theme.MARK, 1.0, unit)
 
 
-def _frame(draw: imgui.ImDrawList, low: ImVec2, high: ImVec2, color: ImVec4, grow: float) -> None:
-    """A rectangle that stands out from any colours."""
+def _frame(
+    draw: imgui.ImDrawList, low: ImVec2, high: ImVec2, color: ImVec4, grow: float, unit: float
+) -> None:
+    """A rectangle that stands out from any colours, and leaves the pixel inside to be seen."""
     low, high = ImVec2(low.x - grow, low.y - grow), ImVec2(high.x + grow, high.y + grow)
-    width = theme.line_px(2.0)
-    draw.add_rect(low, high, theme.u32(theme.rgb("#000000"), 0.75), 0.0, width + 2.5)
+    width = min(theme.line_px(2.0), max(1.0, 0.22 * unit))
+    draw.add_rect(
+        low, high, theme.u32(theme.rgb("#000000"), 0.75), 0.0, width + min(2.5, 0.3 * unit)
+    )
     draw.add_rect(low, high, theme.u32(color), 0.0, width)

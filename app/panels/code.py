@@ -15,6 +15,7 @@ from imgui_bundle import ImVec2, ImVec4, imgui
 
 from app import theme
 
+LINE = 1.18  # a line's height, in parts of the type's
 _ROLES = {"u": "u", "v": "v", "ray": "ray", "hit": "hit", "closest": "hit"}
 
 
@@ -26,7 +27,7 @@ def code(
     name."""
     draw, corner = imgui.get_window_draw_list(), imgui.get_cursor_screen_pos()
     letter = imgui.calc_text_size("0").x
-    line_px = 1.18 * size_px
+    line_px = LINE * size_px
     widest = letter * max(map(len, lines))
     bar = 0.35 * size_px
     for number, text in enumerate(lines):

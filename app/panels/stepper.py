@@ -17,7 +17,7 @@ from app import theme
 from app.lettering import lettering
 from app.options import Pixel, StepperOptions
 from app.panels.canvas import Marks, canvas
-from app.panels.code import code, code_size_px
+from app.panels.code import LINE, code, code_size_px
 from app.teach.loop_parts import (
     Canvas,
     DepthBuffer,
@@ -41,6 +41,7 @@ TITLES = {
     Order.OBJECT: "Object order: for each object, for each pixel",
     Order.IMAGE: "Image order: for each pixel, for each object",
 }
+LEGIBLE_EM = 0.85  # the least size of the code, where the width allows
 SLOWEST, FASTEST = 1.0, 20_000.0
 
 Wish = Literal["", "first", "back", "play", "step", "pixel", "object", "last"]
@@ -164,8 +165,8 @@ def run_panel(
     longest, count = _largest()  # of both: they are shown in one size
     em = imgui.get_font_size()
     if left.x > 1.9 * left.y:  # all three beside one another
-        size_px = code_size_px(longest, 0.46 * left.x, min(1.6 * em, left.y / (1.22 * count)))
-        _code(lines, moment, size_px, 0.46 * left.x, fonts)
+        size_px = _code_px(longest, count, 0.46 * left.x, left.y, em)
+        _code(lines, moment, size_px, ImVec2(0.46 * left.x, left.y), fonts)
         x = 0.48 * left.x
         imgui.set_cursor_screen_pos(ImVec2(below.x + x, below.y))
         imgui.begin_group()
@@ -174,8 +175,8 @@ def run_panel(
         imgui.set_cursor_screen_pos(ImVec2(below.x + 0.755 * left.x, below.y))
         _numbers(moment, ImVec2(0.245 * left.x, left.y), size_px, fonts)
         return answer
-    size_px = code_size_px(longest, left.x, min(1.6 * em, 0.56 * left.y / (1.22 * count)))
-    _code(lines, moment, size_px, left.x, fonts)
+    size_px = _code_px(longest, count, left.x, 0.56 * left.y, em)
+    _code(lines, moment, size_px, ImVec2(left.x, 0.58 * left.y), fonts)
     left = imgui.get_content_region_avail()
     below = imgui.get_cursor_screen_pos()
     imgui.begin_group()
@@ -202,11 +203,26 @@ def _slider(recording: Recording, moment: Moment) -> Answer:
     return Answer(step=step if changed else None)
 
 
+def _code_px(longest: str, count: int, width: float, height: float, em: float) -> float:
+    """The code's size: all of it where that can be read, else as wide as there is room."""
+    least = LEGIBLE_EM * em
+    return code_size_px(longest, width, min(1.6 * em, max(least, height / (1.22 * count))))
+
+
 def _code(
-    lines: tuple[str, ...], moment: Moment, size_px: float, width_px: float, fonts: Fonts
+    lines: tuple[str, ...], moment: Moment, size_px: float, room: ImVec2, fonts: Fonts
 ) -> None:
+    """The code; where not all of it has room, the part around the present line."""
+    needed = len(lines) * LINE * size_px
+    height = min(needed, room.y)
+    flags = imgui.WindowFlags_.no_scrollbar | imgui.WindowFlags_.no_scroll_with_mouse
+    imgui.begin_child("code", ImVec2(room.x, height), 0, flags)
+    if needed > height:
+        middle = (moment.line + 0.5) * LINE * size_px
+        imgui.set_scroll_y(min(max(0.0, middle - 0.5 * height), needed - height))
     with lettering(fonts.mono, size_px):
-        code(lines, moment.line, size_px, width_px, _called())
+        code(lines, moment.line, size_px, room.x, _called())
+    imgui.end_child()
 
 
 @functools.cache
@@ -256,7 +272,7 @@ def _canvases(
         if beside:
             imgui.same_line()
         imgui.begin_group()
-        imgui.text_colored(theme.DIM, "depth buffer")
+        imgui.text_colored(theme.DIM, "depth")
         again = canvas(picture.depth, size, rest, Marks(moment.pixel, moment.box), f"depth##{name}")
         imgui.set_item_tooltip("for each pixel the nearest t so far, near ones bright")
         imgui.end_group()
@@ -267,7 +283,8 @@ def _canvases(
 def _numbers(moment: Moment, room: ImVec2, code_px: float, fonts: Fonts) -> None:
     """The counters and the variables, in type about as large as the code's."""
     imgui.begin_child("numbers", room)
-    with lettering(None, max(imgui.get_font_size(), min(0.92 * code_px, room.x / 17))):
+    em = imgui.get_font_size()
+    with lettering(None, min(max(em, 0.92 * code_px), max(0.6 * em, room.x / 16))):
         _tables(moment, fonts)
     imgui.end_child()
 
