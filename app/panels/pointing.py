@@ -22,10 +22,14 @@ def pointed(name: str, state: AppState) -> Iterator[None]:
     start, width = imgui.get_cursor_screen_pos(), imgui.get_content_region_avail().x
     yield
     if name in state.options.highlight:
-        spacing, margin = imgui.get_style().item_spacing.y, theme.px(3)
-        low = ImVec2(start.x - margin, start.y - margin)
-        end = imgui.get_cursor_screen_pos().y - spacing
-        frame(imgui.get_window_draw_list(), low, ImVec2(start.x + width + margin, end + margin))
+        style = imgui.get_style()
+        beside, above = 0.7 * style.window_padding.x, 0.5 * style.item_spacing.y
+        low = ImVec2(start.x - beside, start.y - above)
+        end = imgui.get_cursor_screen_pos().y - style.item_spacing.y
+        draw = imgui.get_window_draw_list()
+        draw.push_clip_rect_full_screen()  # the window's own leaves no room beside the letters
+        frame(draw, low, ImVec2(start.x + width + beside, end + above))
+        draw.pop_clip_rect()
 
 
 def frame_views(state: AppState, rects: Mapping[str, Rect]) -> None:
@@ -38,5 +42,5 @@ def frame_views(state: AppState, rects: Mapping[str, Rect]) -> None:
 
 def frame(draw: imgui.ImDrawList, low: ImVec2, high: ImVec2) -> None:
     """The frame: the marked pixel's yellow, with a dark edge, so that it shows on everything."""
-    draw.add_rect(low, high, theme.u32(theme.rgb("#000000", 0.6)), theme.px(4), theme.line_px(4))
-    draw.add_rect(low, high, theme.u32(theme.MARK), theme.px(4), theme.line_px(2))
+    draw.add_rect(low, high, theme.u32(theme.rgb("#000000", 0.6)), theme.px(4), theme.line_px(2))
+    draw.add_rect(low, high, theme.u32(theme.MARK), theme.px(4), theme.line_px(1.2))

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import itertools
-
 import numpy as np
 from window_driver import Driver, Key, changed
 
@@ -190,30 +188,6 @@ def drive_exercises_say_what_is_right_and_wrong(d: Driver) -> None:
     d.window.lecture.advance(d.window, -1)
     d.settle()
     assert session.answers.chosen == 3
-
-
-def drive_every_step_of_the_built_in_lecture(d: Driver) -> None:
-    lecture = load_lecture(BUILTIN)
-    _lecture(d).give(lecture, BUILTIN)
-    pictures = []
-    for number, step in enumerate(lecture.steps):
-        d.settle()
-        assert _number(d) == number
-        wanted = {name.capitalize() for name in step.views}
-        assert _shown(d) == {LECTURE, *wanted}, step.title
-        assert d.window.renderers.failure is None and not d.window.files.message, step.title
-        own = state_of(step, d.window.state)
-        assert d.window.state.options.stepper == own.options.stepper, step.title
-        assert d.window.state.options == own.options, (step.title, d.window.state.options.stepper)
-        assert d.window.state == own, step.title
-        pictures.append(d.picture())
-        for name in wanted:  # something is to be seen in each view
-            left, top, right, bottom = (round(x) for x in d.window.shell.stage.rects[name])
-            part = pictures[-1][top:bottom, left:right]
-            assert min(part.shape[:2]) > 80 and part.std() > 5, (step.title, name)
-        d.ctx.key_press(int(Key.page_down))
-    for one, next_one in itertools.pairwise(pictures):
-        assert np.abs(one.astype(int) - next_one).max() > 30
 
 
 def drive_the_lecture_begins_from_its_menu(d: Driver) -> None:
