@@ -8,7 +8,6 @@ from __future__ import annotations
 from collections.abc import Iterable
 from dataclasses import dataclass
 
-import moderngl
 import numpy as np
 from imgui_bundle import ImVec2, ImVec4, imgui
 from numpy.typing import NDArray
@@ -71,14 +70,14 @@ def _pointed(shown: NDArray[np.uint8], unset: NDArray[np.bool_]) -> NDArray[np.u
 
 
 def canvas(
-    texture: moderngl.Texture | None,
+    texture: int | None,
     size: tuple[int, int],
     room: ImVec2,
     marks: Marks,
     name: str,
 ) -> Pixel | None:
     """Draws a canvas of (width, height) pixels as large as the room allows; gives the pixel that
-    was clicked."""
+    was clicked. texture: OpenGL's name of its picture."""
     unit = max(1.0, min(room.x / size[0], room.y / size[1]))
     if unit > 4:
         unit = float(int(unit))
@@ -88,7 +87,7 @@ def canvas(
     clicked = imgui.invisible_button(name, extent)
     draw = imgui.get_window_draw_list()
     if texture is not None:
-        draw.add_image(imgui.ImTextureRef(texture.glo), corner, far)
+        draw.add_image(imgui.ImTextureRef(texture), corner, far)
     if unit >= SMALLEST_CELL:
         _grid(draw, corner, far, size, unit)
     draw.add_rect(corner, far, theme.u32(theme.PLAIN))

@@ -10,7 +10,6 @@ import inspect
 from dataclasses import dataclass, replace
 from typing import Literal
 
-import moderngl
 from imgui_bundle import ImVec2, imgui
 
 from app import theme
@@ -58,10 +57,10 @@ _BUTTONS: tuple[tuple[Wish, str, str], ...] = (
 
 @dataclass(frozen=True)
 class Picture:
-    """An algorithm's textures. depth: None in image order."""
+    """OpenGL's names of an algorithm's pictures. depth: None in image order."""
 
-    color: moderngl.Texture | None
-    depth: moderngl.Texture | None
+    color: int | None
+    depth: int | None
 
 
 @dataclass(frozen=True)

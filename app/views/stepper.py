@@ -204,9 +204,8 @@ class StepperView(View):
 
     def _picture(self, order: Order) -> panel.Picture:
         assert self._uploads is not None
-        return panel.Picture(
-            self._uploads.get(f"color {order.name}"), self._uploads.get(f"depth {order.name}")
-        )
+        color, depth = (self._uploads.get(f"{kind} {order.name}") for kind in ("color", "depth"))
+        return panel.Picture(color.glo if color else None, depth.glo if depth else None)
 
     # What the outside view shows.
 
