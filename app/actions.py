@@ -18,7 +18,7 @@ from app.image_actions import IMAGE
 from app.image_actions import MOUSE as IMAGE_MOUSE
 from app.lecture_actions import LECTURE
 from app.options import CompareMode
-from app.outside_actions import OUTSIDE
+from app.outside_actions import DIAGRAM, OUTSIDE
 from app.shell_actions import BOOKMARKS, FILE, HELP, LOOK
 from app.state import AppState
 from renderer.compare import Comparison
@@ -47,11 +47,16 @@ def _differ(window: Window) -> bool:
     return verdict is not None and verdict.comparison.agree < verdict.comparison.pixels
 
 
+def _compare(window: Window, mode: CompareMode) -> None:
+    window.change(comparing.with_mode(window.state, mode))
+    window.shell.stage.show("Compare")
+
+
 def _comparing(number: int, mode: CompareMode, name: str) -> Action:
     return Action(
         "View/Compare",
         name,
-        _change(lambda state: comparing.with_mode(state, mode)),
+        lambda window: _compare(window, mode),
         f"F{5 + number}",
         (int(Key.f5) + number,),
         is_on=lambda state: state.compare.mode == mode,
@@ -127,6 +132,7 @@ COMPARING = (
 
 ACTIONS = (
     *FILE,
+    *DIAGRAM,
     Action(
         "Edit",
         "Undo",

@@ -20,6 +20,7 @@ RESOLUTIONS = (
 )
 MAGNIFICATIONS = (1, 2, 4, 8, 16, 32, 64)
 EXPOSURE_LIMIT_EV = 8.0
+LARGEST_ZOOM = 32.0
 
 Channel = Literal["color", "depth", "normal", "id"]
 Component = Literal["rgb", "red", "green", "blue"]
@@ -62,7 +63,7 @@ class CompareOptions:
     shows the ray image. causes: differing pixels are marked in the colours of their causes.
     """
 
-    mode: CompareMode = "absolute"
+    mode: CompareMode = "wipe"
     gain: float = 1.0
     divider: float = 0.5
     flipped: bool = False
@@ -92,14 +93,19 @@ class LaboratoryOptions:
 
     after_ev: the exposure, in stops, of an image that has been stored. apart: how far the three
     projectors' pictures are moved apart, in parts of the image's height. side_px: screen pixels a
-    side of a magnified pixel.
+    side of a magnified pixel. zoom: the magnification of raster image and vector drawing, 1 to
+    LARGEST_ZOOM; zoom_center: what is in the middle, in parts of the picture's width and height.
     """
 
-    page: Literal["kinds", "bitmaps", "exposure", "projectors", "subpixels", "array"] = "kinds"
+    page: Literal[
+        "kinds", "bitmaps", "exposure", "projectors", "subpixels", "array", "vector"
+    ] = "kinds"
     method: Literal["threshold", "ordered", "floyd-steinberg"] = "floyd-steinberg"
     after_ev: float = 0.0
     apart: float = 0.0
     side_px: int = 36
+    zoom: float = 1.0
+    zoom_center: tuple[float, float] = (0.5, 0.5)
 
 
 @dataclass(frozen=True)

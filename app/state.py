@@ -62,6 +62,11 @@ class AppState:
     def marked(self) -> Pixel | None:
         return self.options.marked
 
+    @property
+    def has_effects(self) -> bool:
+        """Whether the ray image shows what only rays find."""
+        return self.options.shadows or self.options.mirrors
+
     def with_options(self, **changes: Any) -> AppState:
         """The state with other options: fields of Options, or of one of its parts by its name,
         as in with_options(images={"exposure_ev": 1.0}, shadows=True)."""

@@ -16,6 +16,7 @@ from imgui_bundle import hello_imgui, imgui
 
 from app import layout, theme
 from app.actions import run_shortcuts
+from app.agreement import Verdict
 from app.files import Files, Opened, describe
 from app.fly import Fly
 from app.focus import Focus, object_corners, scene_focus
@@ -59,7 +60,7 @@ def make_views() -> list[View]:
         ProbeView(outside),
         StepperView(outside),
         CostsView(),
-        LaboratoryView(),
+        LaboratoryView(outside),
     ]
     return [*views, LectureView(views)]
 
@@ -260,7 +261,7 @@ class MainWindow:
                 size=both.size,
                 factor=image.factor if image else 0,
                 agreement=verdict.text if verdict else describe(failure) if failure else "",
-                agrees=verdict is not None and verdict.unexplained == 0,
+                agrees=None if state.has_effects else _agrees(verdict),
                 scene=state.scene.name,
                 pixel=(pixel[0] + base, pixel[1] + base) if pixel else None,
                 seen=both.seen_at(state, pixel) if pixel else "",
@@ -303,6 +304,10 @@ class MainWindow:
     def _dropped(self, paths: list[str]) -> None:
         self.files.open_all(paths)
         hello_imgui.request_refresh()
+
+
+def _agrees(verdict: Verdict | None) -> bool:
+    return verdict is not None and verdict.unexplained == 0
 
 
 def title(scene: Scene) -> str:

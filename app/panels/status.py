@@ -18,8 +18,9 @@ DIVIDER_PX = 25.0  # at 100 %: a line between two texts, with what is free besid
 class Status:
     """What the line tells. size: of the full image. factor: how coarse the ray image is, 1 for
     full, 0 for none; raster_factor: likewise. agreement: a text, empty while unknown; agrees:
-    whether it is good news. loading: what is being opened, empty for nothing. brief: without times
-    and sizes, for an audience."""
+    whether it is good news, None where it is none. loading: what is being opened, empty for
+    nothing. brief: without times and sizes, for an audience.
+    """
 
     raster_s: float
     raster_factor: int
@@ -27,7 +28,7 @@ class Status:
     size: tuple[int, int]
     factor: int
     agreement: str
-    agrees: bool
+    agrees: bool | None
     scene: str
     pixel: tuple[int, int] | None = None
     seen: str = ""
@@ -45,6 +46,8 @@ def status_line(status: Status, fonts: theme.Fonts) -> None:
     ]
     parts = [] if status.brief else times
     good = theme.GOOD if status.agrees else theme.ERROR
+    if status.agrees is None:
+        good = theme.DIM
     parts.append((status.agreement or "agree: ...", good if status.agreement else theme.DIM))
     parts.append((f"scene: {status.scene}", theme.TEXT))
     room = imgui.get_window_width() - 2 * imgui.get_style().window_padding.x

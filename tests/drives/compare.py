@@ -61,11 +61,12 @@ def trace_again(d: Driver) -> None:
 
 
 def show(d: Driver, **options: object) -> None:
-    """The layout with the view in its middle, in some state of its options."""
+    """The layout with the view in its middle, in some state of its options; absolute, if they do
+    not say."""
     if hello_imgui.current_layout_name() != NAME:
         hello_imgui.switch_layout(NAME)
         d.ctx.yield_(3)
-    d.window.change(d.window.state.with_options(compare=options))
+    d.window.change(d.window.state.with_options(compare={"mode": "absolute"} | options))
     d.settle()
 
 
@@ -162,7 +163,7 @@ def drive_a_wipe_has_the_raster_image_left_and_the_ray_image_right(d: Driver) ->
         d.window.undo()
         assert d.window.state.compare.divider == 0.5
         for divider, expected in ((0.0, ray), (1.0, raster)):
-            show(d, divider=divider)
+            show(d, mode="wipe", divider=divider)
             seen = below_labels(shown(d))
             assert close(seen[:, handle:-handle], expected[:, handle:-handle])
 
