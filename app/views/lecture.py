@@ -198,6 +198,9 @@ class LectureView(View):
         if step.exercise is None:
             slides.text(step.blocks, (avail.x, avail.y), sizes)
             return
+        # Smaller, and always the same: what is said to an answer must have room, and nothing jumps.
+        size = sizes[0] + 0.5 * (sizes[1] - sizes[0])
+        sizes = (min(sizes[0], size), size)
         if step.blocks:
             slides.text(step.blocks, (avail.x, 0.4 * avail.y), sizes)
             imgui.dummy(ImVec2(0, 0.5 * sizes[0]))
