@@ -1,4 +1,4 @@
-"""The window on a display of 200 %: type and spacing are doubled, the images are sharp and agree."""
+"""The window on a display of 200 %: type and spacing double, the images are sharp and agree."""
 
 from __future__ import annotations
 

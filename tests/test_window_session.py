@@ -13,7 +13,8 @@ import pytest
 from app.session import from_bytes
 
 TESTS = Path(__file__).parent
-LIMIT_S = 240
+LIMIT_S = 500
+pytestmark = pytest.mark.timeout(LIMIT_S + 60)
 
 WINDOW = """
 import os, signal, sys
