@@ -25,7 +25,7 @@ def choose(d: Driver, path: str) -> None:
 
 def placement(d: Driver, name: str = RASTER) -> Placement:
     both = d.window.renderers
-    return place(d.window.state.images, both.size, both._panes_px[name])
+    return place(d.window.state.images, both.size, both.common_room(both._panes_px[name]))
 
 
 def without_overlays(image: np.ndarray) -> np.ndarray:
