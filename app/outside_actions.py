@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-from app.action import SHIFT, Action, Key, Window, changing
+from app.action import CTRL, SHIFT, Action, Key, Window, changing
 from app.navigation import switched_projection
 from app.options import OutsideOptions
 from app.outside.extent import around, framed, outside_camera, way_of
@@ -21,10 +21,11 @@ from app.outside.switches import (
     with_gizmo,
 )
 from app.state import AppState
+from app.views.outside_vector import export_diagram
 from renderer.camera import Camera
 from renderer.errors import LucidaError
 
-MENU = "View/Outside view"
+MENU, PICTURE = "View/Outside view", "File/Picture"
 ASPECT = 1.4  # of a view along an axis: another one sees no less
 KEYS = {"bundle": ("B", Key.b), "move": ("G", Key.g), "turn": ("T", Key.t)}
 
@@ -114,4 +115,15 @@ OUTSIDE = (
         is_on=lambda state: state.outside.camera is not None and state.outside.camera.is_parallel,
     ),
     *(_axis(axis, name) for axis, name in AXIS_NAMES.items()),
+)
+
+DIAGRAM = (
+    Action(
+        PICTURE,
+        "Export diagram as SVG...",
+        export_diagram,
+        "Ctrl+Shift+E",
+        (CTRL | SHIFT | int(Key.e),),
+        separated=True,
+    ),
 )

@@ -83,10 +83,7 @@ class RayHits:
         elif self._own is not None:
             self._own[1].close()
             self._own = None
-        pixels = np.array(question.pixels)
-        ray = question.camera.ray(pixels[:, 0], pixels[:, 1], question.size)
-        t, _ = tracer.closest_hits(ray.origin, ray.direction, *question.camera.t_range)
-        return Answer(question, dict(zip(question.pixels, t.astype(float).tolist(), strict=True)))
+        return Answer(question, traced(question, tracer))
 
     def _own_tracer(self, scene: Scene) -> Any:
         if self._own is None or self._own[0] is not scene:
@@ -96,6 +93,14 @@ class RayHits:
                 self._own[1].close()
             self._own = (scene, Tracer(scene))
         return self._own[1]
+
+
+def traced(question: Question, tracer: Any) -> dict[Pixel, float]:
+    """t of each pixel's ray, inf where it meets nothing: at once, for a thread."""
+    pixels = np.array(question.pixels)
+    ray = question.camera.ray(pixels[:, 0], pixels[:, 1], question.size)
+    t, _ = tracer.closest_hits(ray.origin, ray.direction, *question.camera.t_range)
+    return dict(zip(question.pixels, t.astype(float).tolist(), strict=True))
 
 
 def known_hits(

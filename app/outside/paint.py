@@ -13,6 +13,7 @@ from imgui_bundle import ImVec4
 from app import theme
 from app.outside.diagram import Role
 from app.outside.projected import Primitive, Shape, Strokes
+from app.outside.vector import Color, Paint
 from renderer.raster.lines import (
     BARE,
     CORNER,
@@ -35,6 +36,15 @@ FIXED: dict[Role, ImVec4] = {
     "extra": theme.rgb("#cc79a7"),  # the reddish purple of Okabe and Ito's palette
 }
 
+# On a light ground without a picture behind.
+DARKER: dict[Role, ImVec4] = {
+    "plane": theme.rgb("#2f3943"),
+    "volume": theme.rgb("#45607c"),
+    "grid": theme.rgb("#5d6873"),
+    "mark": theme.rgb("#8c7a00"),
+    "text": theme.rgb("#16191c"),
+}
+
 Rgba = tuple[float, float, float, float]
 
 
@@ -45,6 +55,22 @@ def role_color(role: Role) -> ImVec4:
     if role == "ray":
         return theme.RAY
     return theme.MARK if role == "mark" else FIXED[role]
+
+
+def vector_paint() -> Paint:
+    """The colours of a vector drawing on the theme's own ground."""
+    light = theme.BACKGROUND.x > 0.5
+    darker = DARKER if light else {}
+
+    def color(role: Role, tint: float) -> Color:
+        found = darker.get(role, role_color(role))
+        end = 1.0 if tint > 0 else 0.0
+        red, green, blue = (part + abs(tint) * (end - part) for part in (found.x, found.y, found.z))
+        return red, green, blue
+
+    plain, ground = theme.PLAIN, theme.BACKGROUND
+    outline = plain.x, plain.y, plain.z
+    return Paint(color, outline, (ground.x, ground.y, ground.z))
 
 
 def casing() -> Rgba:

@@ -27,6 +27,8 @@ from app.teach.imagelab.pages import Image, Panel, Plan, panels, plan
 from app.views.base import Host, View
 from app.views.laboratory_tables import array_cells, luminance_weights, sizes_table
 from app.views.laboratory_tools import toolbar
+from app.views.laboratory_vector import VectorPage
+from app.views.outside import OutsideView
 from app.views.uploads import Uploads
 from renderer.errors import LucidaError
 
@@ -57,7 +59,9 @@ class LaboratoryView(View):
     name = LABORATORY
     title = "Image laboratory"
 
-    def __init__(self) -> None:
+    def __init__(self, outside: OutsideView) -> None:
+        self.vector = VectorPage(outside)
+        self._vector_seen = False
         self._uploads: Uploads | None = None
         self._work: Background[_Made] | None = None
         self._sizing: Background[tuple[tuple[Any, ...], tuple[disk.Entry, ...]]] | None = None
@@ -74,12 +78,16 @@ class LaboratoryView(View):
     def settled(self) -> bool:
         if not self._seen or self._error:
             return True
+        if self._vector_seen:
+            return self.vector.settled
         busy = any(work is not None and work.busy for work in (self._work, self._sizing))
         return not busy and self._made is not None and self._made.key == self._asked
 
     @property
     def made(self) -> tuple[Panel, ...]:
-        """What is shown."""
+        """What is shown; nothing on the page that is a view of its own."""
+        if self._vector_seen:
+            return ()
         return self._made.panels if self._made is not None else ()
 
     @property
@@ -91,8 +99,10 @@ class LaboratoryView(View):
         self._uploads = Uploads(context)
         self._work = Background("lucida-laboratory", host.animate)
         self._sizing = Background("lucida-sizes", host.animate)
+        self.vector.begin(host)
 
     def end(self) -> None:
+        self.vector.end()
         for work in (self._work, self._sizing):
             if work is not None:
                 work.close()
@@ -112,9 +122,24 @@ class LaboratoryView(View):
         with lettering(None, hall_px(imgui.get_content_region_avail().x, LETTERS)):
             self._others = host.renderers.size
             options = toolbar(host)
-            self._page(host, options)
+            self._vector_seen = options.page == "vector"
+            if self._vector_seen:
+                self._vector_page(host, options)
+            else:
+                self._page(host, options)
 
     # The page.
+
+    def _vector_page(self, host: Host, options: LaboratoryOptions) -> None:
+        assert self._uploads is not None
+        try:
+            self.vector.draw(host, options, self._uploads)
+            self._error = ""
+        except (LucidaError, moderngl.Error) as error:
+            self._error = describe(error)
+            imgui.push_text_wrap_pos(0.0)
+            imgui.text_colored(theme.ERROR, self._error)
+            imgui.pop_text_wrap_pos()
 
     def _page(self, host: Host, options: LaboratoryOptions) -> None:
         state, scale, em = host.state, framebuffer_scale(), imgui.get_font_size()

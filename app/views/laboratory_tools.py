@@ -9,7 +9,7 @@ from dataclasses import replace
 
 from imgui_bundle import imgui
 
-from app.options import LaboratoryOptions
+from app.options import LARGEST_ZOOM, LaboratoryOptions
 from app.teach.imagelab.bitmaps import TITLES
 from app.teach.imagelab.pages import LARGEST_APART, PAGE_TITLES
 from app.views.base import Host
@@ -45,6 +45,16 @@ def toolbar(host: Host) -> LaboratoryOptions:
             moved, number = imgui.combo("##base", number, FIRST)
             if moved:
                 host.apply(host.state.with_options(one_based=number == 0))
+        case "vector":
+            moved, zoom = imgui.slider_float(
+                "zoom##zoom",
+                options.zoom,
+                1.0,
+                LARGEST_ZOOM,
+                "%.1fx",
+                imgui.SliderFlags_.logarithmic | imgui.SliderFlags_.always_clamp,
+            )
+            changed = replace(changed, zoom=zoom) if moved else changed
     imgui.pop_item_width()
     imgui.spacing()
     if changed != options:

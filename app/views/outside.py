@@ -97,6 +97,16 @@ class OutsideView(View):
         """The diagram as it was last drawn, in pixels of the view: for vector pictures."""
         return self._made.primitives if self._made is not None else ()
 
+    @property
+    def extra(self) -> tuple[Item, ...]:
+        """What other instruments have added."""
+        return tuple(item for items in self._extra.values() for item in items)
+
+    @property
+    def size_px(self) -> Size | None:
+        """The picture's size, (width, height); None while the view is not to be seen."""
+        return self._made.texture.size if self._made is not None else None
+
     def show(self, source: str, items: Sequence[Item]) -> None:
         """Adds lines, arrows, labels, ... of another instrument; the last ones of each source
         stay until it gives others, or none."""
@@ -195,6 +205,11 @@ class OutsideView(View):
         return self._scope(host, size, origin, extent)
 
     def _scope(self, host: Host, size: Size, origin: ImVec2, extent: ImVec2) -> Scope:
+        self.scope = self.scope_of(host, size, origin, extent)
+        return self.scope
+
+    def scope_of(self, host: Host, size: Size, origin: ImVec2, extent: ImVec2) -> Scope:
+        """The camera that looks, for a picture of `size` that takes `extent` of the window."""
         state = host.state
         points = self._points(host)
         center = (points.min(axis=0) + points.max(axis=0)) / 2
@@ -207,8 +222,7 @@ class OutsideView(View):
             camera = outside_camera([points], home, aspect, margin)
         x, y, z = center.tolist()
         middle, reach = (x, y, z), max(reach, 1e-9)
-        self.scope = Scope(camera, camera.fitted(size), origin, extent, middle, reach)
-        return self.scope
+        return Scope(camera, camera.fitted(size), origin, extent, middle, reach)
 
     def _points(self, host: Host) -> Floats:
         """Around what there is to see: the scene, the camera, and where the scene has put it."""
@@ -264,7 +278,7 @@ class OutsideView(View):
         assert both.pictures is not None
         inner, image_size = both.camera(state), both.size
         options = state.outside
-        marked, hits = self._rays(host, inner, image_size)
+        marked, hits = self.rays(host, inner, image_size)
         try:
             picture, drawn = None, 0
             if options.image:
@@ -275,11 +289,7 @@ class OutsideView(View):
             ground = self._ground.picture(wanted, both.pictures, self._overlay)
             if not self._ground.settled:
                 host.animate()
-            symbol_px = framebuffer_scale() * min(
-                theme.px(1), min(scope.extent.x, scope.extent.y) / ROOMY_PX
-            )
-            # In presentation mode lines are thick, but the picture is not made of them.
-            unit_px = (theme.line_px(framebuffer_scale()) + symbol_px) / 2
+            unit_px, symbol_px = units_px(scope.extent)
             key = (
                 state.scene, camera, size, inner, image_size, replace(options, camera=None),
                 marked, tuple(hits), drawn, state.images, unit_px, symbol_px, ground.smooth,
@@ -288,7 +298,7 @@ class OutsideView(View):
             if self._made is not None and self._made.key == key:
                 return self._made.texture
             end = end_parameter(inner, host.focus.framed)
-            screen = Screen(camera, size, self._near(camera, scope), unit_px, symbol_px)
+            screen = Screen(camera, size, nearest(camera, scope), unit_px, symbol_px)
             parts = int(widest_px(screen, plane_corners(inner)) / (GRID_PX * unit_px))
             items = diagram(inner, image_size, options, end, hits, marked, parts)
             for extra in self._extra.values():
@@ -319,14 +329,7 @@ class OutsideView(View):
         self._made = _Made(key, texture, primitives)
         return texture
 
-    def _near(self, camera: Camera, scope: Scope) -> float:
-        """The least t of lines that are drawn: a small part of the distance to the middle."""
-        unit = 1.0 if camera.is_parallel else camera.distance
-        away = scope.reach / float(np.linalg.norm(camera.w)) / unit
-        z = float((camera.camera_from_world @ [*scope.center, 1.0])[2])
-        return NEAREST * max(-z / unit, away)
-
-    def _rays(self, host: Host, camera: Camera, size: Size) -> tuple[Hit | None, list[Hit]]:
+    def rays(self, host: Host, camera: Camera, size: Size) -> tuple[Hit | None, list[Hit]]:
         """The marked pixel's ray and the bundle's, as far as their ends are known."""
         both, state = host.renderers, host.state
         assert self._hits is not None
@@ -342,6 +345,21 @@ class OutsideView(View):
             return None, hits
         seen = both.depth_at(state, pixel)
         return Hit(pixel, known[pixel] if seen is None else seen), hits
+
+
+def nearest(camera: Camera, scope: Scope) -> float:
+    """The least t of lines that are drawn: a small part of the distance to the middle."""
+    unit = 1.0 if camera.is_parallel else camera.distance
+    away = scope.reach / float(np.linalg.norm(camera.w)) / unit
+    z = float((camera.camera_from_world @ [*scope.center, 1.0])[2])
+    return NEAREST * max(-z / unit, away)
+
+
+def units_px(extent: ImVec2) -> tuple[float, float]:
+    """The width of a line that teaches and the size of symbols, in a view of this extent."""
+    symbol_px = framebuffer_scale() * min(theme.px(1), min(extent.x, extent.y) / ROOMY_PX)
+    # In presentation mode lines are thick, but the picture is not made of them.
+    return (theme.line_px(framebuffer_scale()) + symbol_px) / 2, symbol_px
 
 
 def with_outside(state: AppState, options: OutsideOptions) -> AppState:

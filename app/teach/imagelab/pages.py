@@ -189,4 +189,5 @@ PAGE_TITLES = {
     "projectors": "Projectors",
     "subpixels": "Subpixels",
     "array": "Array",
+    "vector": "Raster and vector",  # drawn by a view of its own
 }

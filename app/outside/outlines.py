@@ -1,0 +1,213 @@
+"""The outlines of a scene's objects, as a camera that looks sees them: for drawings of lines.
+
+A mesh's outline are its edges whose two triangles lie on the same side of the edge as it is seen
+(the one faces the viewer, the other does not), and edges of one triangle only; sharp edges are
+added, so that a box looks like one. A sphere's is an exact ellipse. Pure; knows nothing of what
+hides them and of colours.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from app.outside.diagram import polyline
+from app.outside.projected import Screen
+from renderer.scene.model import Mesh, Scene, Sphere
+
+Floats = NDArray[np.float64]
+Bools = NDArray[np.bool_]
+
+MOST_TRIANGLES = 200_000  # of all meshes together; what comes after has no outline
+MOST_SHARP = 20_000  # edges of a mesh; one with more is rough all over
+SHARP_DEG = 35.0  # between the planes of two triangles
+LARGEST_PX = 1e5  # an ellipse that is larger is drawn as many short lines
+CORNERS = 256  # of a sphere's outline that is no ellipse
+
+
+@dataclass(frozen=True, eq=False)
+class Edges:
+    """An object's edges to be seen if nothing hides them: points (n, 2, 2), depth (n, 2) as
+    projected.Strokes has them. sharp (n,): inside the outline."""
+
+    points: Floats
+    depth: Floats
+    sharp: Bools
+
+
+@dataclass(frozen=True, eq=False)
+class Ellipse:
+    """A sphere's outline: center and radii in pixels, tilt of the first radius in radians, y down.
+    depth (3,): s of (x, y, 1)."""
+
+    center: tuple[float, float]
+    radii: tuple[float, float]
+    tilt: float
+    depth: Floats
+
+    def at(self, angles: Floats) -> Floats:
+        """Points (n, 2) at the ellipse's own angles, in radians."""
+        cosine, sine = math.cos(self.tilt), math.sin(self.tilt)
+        x, y = self.radii[0] * np.cos(angles), self.radii[1] * np.sin(angles)
+        across = self.center[0] + cosine * x - sine * y
+        return np.stack([across, self.center[1] + sine * x + cosine * y], axis=-1)
+
+    def depth_at(self, points: Floats) -> Floats:
+        depth: Floats = points @ self.depth[:2] + self.depth[2]
+        return depth
+
+
+@dataclass(frozen=True, eq=False)
+class Outline:
+    """name: of the object."""
+
+    name: str
+    form: Edges | Ellipse
+
+
+def outlines(scene: Scene, screen: Screen) -> tuple[list[Outline], list[str]]:
+    """The outlines of all objects, and the names of those that have too many triangles for one."""
+    found: list[Outline] = []
+    left_out: list[str] = []
+    triangles = 0
+    for number, entry in enumerate(scene.objects):
+        name, shape = entry.name or f"object {number}", entry.shape
+        if isinstance(shape, Sphere):
+            form: Edges | Ellipse | None = sphere_outline(shape, screen)
+        elif triangles + len(shape.faces) > MOST_TRIANGLES:
+            left_out.append(name)
+            continue
+        else:
+            triangles += len(shape.faces)
+            form = mesh_outline(shape, screen)
+        if form is not None:
+            found.append(Outline(name, form))
+    return found, left_out
+
+
+def mesh_outline(mesh: Mesh, screen: Screen) -> Edges | None:
+    """None where nothing of it is to be seen."""
+    with np.errstate(over="ignore", invalid="ignore"):
+        linear, shift = mesh.transform[:3, :3], mesh.transform[:3, 3]
+        world = mesh.vertices.astype(float) @ linear.T + shift
+    # Vertices at one place are one: meshes have several where their normals differ.
+    places, same = np.unique(world, axis=0, return_inverse=True)
+    faces = same.reshape(-1)[mesh.faces]
+    faces = faces[(faces != np.roll(faces, 1, axis=1)).all(axis=1)]
+    if not len(faces) or not np.isfinite(places).all():
+        return None
+    ends, chosen, sharp = _edges(places, faces, screen)
+    points, depth, numbers = screen.segments(places[ends[chosen]])
+    if not len(points):
+        return None
+    return Edges(points, depth, sharp[chosen][numbers])
+
+
+def _edges(
+    places: Floats, faces: NDArray[np.int64], screen: Screen
+) -> tuple[NDArray[np.int64], Bools, Bools]:
+    """All edges (n, 2); which are of the outline or sharp; which of those are merely sharp."""
+    corners = np.concatenate([faces[:, [0, 1, 2]], faces[:, [1, 2, 0]], faces[:, [2, 0, 1]]])
+    pairs = np.sort(corners[:, :2], axis=1)
+    ends, edge, count = np.unique(pairs, axis=0, return_inverse=True, return_counts=True)
+    edge = edge.reshape(-1)
+    first, second, apex = places[pairs[:, 0]], places[pairs[:, 1]], places[corners[:, 2]]
+    camera = screen.camera
+    eye = np.asarray(camera.eye, float)
+    to_viewer = np.asarray(camera.w, float) if camera.is_parallel else eye - first
+    along, inward = second - first, apex - first
+    # The side of the edge on which the triangle is seen: a volume's sign.
+    volume = np.einsum("ij,ij->i", np.cross(along, inward), np.broadcast_to(to_viewer, along.shape))
+    size = np.linalg.norm(along, axis=1) * np.linalg.norm(inward, axis=1)
+    side = np.sign(np.where(np.abs(volume) > 1e-9 * size * _length(to_viewer), volume, 0.0))
+    lowest, highest = np.full(len(ends), 1.0), np.full(len(ends), -1.0)
+    np.minimum.at(lowest, edge, side)
+    np.maximum.at(highest, edge, side)
+    outline = (lowest * highest >= 0) | (count == 1)
+    sharp = ~outline & (count == 2) & _bent(along, inward, edge, len(ends))
+    if sharp.sum() > MOST_SHARP:
+        sharp[:] = False
+    return ends, outline | sharp, sharp
+
+
+def _bent(along: Floats, inward: Floats, edge: NDArray[np.int64], count: int) -> Bools:
+    """Whether an edge's two triangles lie in planes with an angle between them."""
+    lengths = np.einsum("ij,ij->i", along, along)
+    with np.errstate(all="ignore"):
+        across = inward - along * (np.einsum("ij,ij->i", inward, along) / lengths)[:, None]
+        across = np.nan_to_num(across / np.linalg.norm(across, axis=1, keepdims=True))
+    # Two unit vectors u, v at an edge: |u + v|^2 = 2 + 2 u v, 0 where they go on straight.
+    total = np.zeros((count, 3))
+    np.add.at(total, edge, across)
+    limit = 2 - 2 * math.cos(math.radians(SHARP_DEG))
+    bent: Bools = np.einsum("ij,ij->i", total, total) > limit
+    return bent
+
+
+def _length(vectors: Floats) -> Floats | float:
+    lengths: Floats | float = np.linalg.norm(vectors, axis=-1)
+    return lengths
+
+
+def sphere_outline(sphere: Sphere, screen: Screen) -> Ellipse | Edges | None:
+    """None from inside, and where nothing is to be seen. Where the plane through the eye cuts the
+    sphere, its outline is no ellipse but a hyperbola: short lines.
+
+    Source: Hartley and Zisserman, Multiple View Geometry, 8.3: C* = P Q* P^T, Q* the sphere's dual
+    quadric; here about its own centre, diag(r^2, r^2, r^2, -1).
+    """
+    ring = _contour(sphere, screen)
+    if ring is None:
+        return None
+    points, depth, numbers = screen.segments(polyline(ring, closed=True))
+    if not len(points):
+        return None
+    short = Edges(points, depth, np.zeros(len(points), bool))
+    camera = screen.camera
+    # pixels, multiplied by t in perspective, and t
+    unit = screen.homogeneous(np.vstack([np.zeros(3), np.eye(3)]))
+    axes = (unit[1:] - unit[0])[:, :3].T
+    spot = screen.homogeneous(np.asarray(sphere.center, float))[:3]
+    if camera.is_parallel:
+        axes[2], spot[2] = 0.0, 1.0
+    with np.errstate(all="ignore"):
+        conic = sphere.radius**2 * axes @ axes.T - np.outer(spot, spot)
+        conic = conic / -conic[2, 2] if conic[2, 2] < 0 and spot[2] > 0 else np.full((3, 3), np.nan)
+    if len(numbers) < len(ring) or not np.isfinite(conic).all():
+        return short
+    center = -conic[:2, 2]
+    squares, ways = np.linalg.eigh(np.outer(center, center) + conic[:2, :2])
+    if not 0 < squares[0] <= squares[1] < LARGEST_PX**2:
+        return short
+    # s is affine on the screen for points of a plane, and the outline is in one.
+    rows = np.column_stack([points[:, 0], np.ones(len(points))])
+    plane = np.asarray(np.linalg.lstsq(rows, depth[:, 0], rcond=None)[0], np.float64)
+    x, y = (center + np.asarray(screen.size) / 2).tolist()
+    tilt = math.atan2(ways[1, 1], ways[0, 1])
+    return Ellipse((x, y), (math.sqrt(squares[1]), math.sqrt(squares[0])), tilt, plane)
+
+
+def _contour(sphere: Sphere, screen: Screen) -> Floats | None:
+    """The circle (CORNERS, 3) on a sphere where it is seen edge on; None from inside."""
+    center, camera = np.asarray(sphere.center, float), screen.camera
+    radius = sphere.radius
+    if camera.is_parallel:
+        way, back = np.asarray(camera.w, float), 0.0
+        way = way / np.linalg.norm(way)
+    else:
+        way = np.asarray(camera.eye, float) - center
+        distance = float(np.linalg.norm(way))
+        if distance <= radius * (1 + 1e-9):
+            return None
+        way, back = way / distance, radius * (radius / distance)
+        radius *= math.sqrt(1 - (radius / distance) ** 2)
+    helper = np.eye(3)[int(np.argmin(np.abs(way)))]
+    first = np.cross(way, helper)
+    first = first / np.linalg.norm(first)
+    second = np.cross(way, first)
+    angles = np.arange(CORNERS) * (2 * math.pi / CORNERS)
+    ring = np.cos(angles)[:, None] * first + np.sin(angles)[:, None] * second
+    return center + back * way + radius * ring

@@ -1,0 +1,90 @@
+"""Everything that a vector drawing of the outside view is made from, and the making, for a thread.
+
+Pure; knows nothing of windows and of who has drawn the scene's depths.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from app.options import OutsideOptions
+from app.outside.diagram import Hit, Item, diagram
+from app.outside.hits import Question, traced
+from app.outside.outlines import outlines
+from app.outside.projected import Screen, project
+from app.outside.vector import Drawing, Paint, Size, drawing
+from renderer.camera import Camera
+from renderer.scene.model import Scene
+
+GRID_PARTS = 16  # of a side of the image plane
+
+
+@dataclass(frozen=True, eq=False)
+class Sketch:
+    """looking: the camera that looks, fitted to `size` pixels. near: see Screen. unit, symbol: of
+    lines and symbols. camera: the one in the scene, fitted to its image of image_size. end: the
+    parameter at which the scene ends. hits, marked: as diagram() takes them; those whose t is not
+    known are traced. extra: of other instruments. t: (height, width), the scene's ray parameters
+    for `looking`. tracer: one that has prepared the scene; None: there is none yet.
+    """
+
+    scene: Scene
+    looking: Camera
+    size: Size
+    near: float
+    unit: float
+    symbol: float
+    camera: Camera
+    image_size: Size
+    options: OutsideOptions
+    end: float
+    hits: tuple[Hit, ...]
+    marked: Hit | None
+    extra: tuple[Item, ...]
+    t: NDArray[np.float32] | None
+    paint: Paint
+    tracer: Any | None = None
+
+    def draw(self) -> Drawing:
+        """A part of a second, more where rays are to be traced that no tracer is ready for."""
+        hits, marked = self._known()
+        screen = Screen(self.looking, self.size, self.near, self.unit, self.symbol)
+        items = diagram(
+            self.camera, self.image_size, self.options, self.end, hits, marked, GRID_PARTS
+        )
+        found, left_out = outlines(self.scene, screen)
+        return drawing(
+            project([*items, *self.extra], screen),
+            found,
+            self.paint,
+            self.looking,
+            self.size,
+            self.t,
+            self.unit,
+            self.symbol,
+            left_out,
+        )
+
+    def _known(self) -> tuple[tuple[Hit, ...], Hit | None]:
+        """The hits with every t."""
+        asked = [hit for hit in (*self.hits, self.marked) if hit is not None and hit.t is None]
+        if not asked:
+            return self.hits, self.marked
+        pixels = tuple(dict.fromkeys(hit.pixel for hit in asked))
+        question = Question(self.scene, self.camera, self.image_size, pixels)
+        if self.tracer is not None:
+            t = traced(question, self.tracer)
+        else:
+            from renderer.trace import Tracer  # here: it loads the compiler
+
+            with Tracer(self.scene) as tracer:
+                t = traced(question, tracer)
+
+        def known(hit: Hit) -> Hit:
+            return replace(hit, t=t[hit.pixel]) if hit.t is None else hit
+
+        return tuple(map(known, self.hits)), known(self.marked) if self.marked else None

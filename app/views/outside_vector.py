@@ -1,0 +1,98 @@
+"""The outside view as a vector drawing: for its export as SVG and for the image laboratory.
+
+Owns the way from the window to a Sketch, in the window's thread; the drawing is made in another.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Hashable
+from dataclasses import replace
+from typing import TYPE_CHECKING, cast
+
+import moderngl
+import numpy as np
+from imgui_bundle import ImVec2
+
+from app.files import describe
+from app.outside import svg
+from app.outside.extent import end_parameter
+from app.outside.paint import vector_paint
+from app.outside.sketch import Sketch
+from app.panels.screen import framebuffer_scale
+from app.pictures import Wanted
+from app.views.base import Host
+from app.views.outside import IMAGE_SIZE, OUTSIDE, OutsideView, nearest, units_px
+from renderer.errors import LucidaError
+
+if TYPE_CHECKING:
+    from app.action import Window
+
+Size = tuple[int, int]
+PLACE = "Vector"  # see Rasterizer.draw
+ALONE = (1280, 960)  # of a drawing while the outside view is not to be seen
+
+
+class Sketcher:
+    """Sketches of one page size; the same one again as long as nothing has changed."""
+
+    def __init__(self) -> None:
+        self._key: Hashable = None
+        self._sketch: Sketch | None = None
+
+    def follow(
+        self, view: OutsideView, host: Host, size: Size, units: tuple[float, float] | None = None
+    ) -> Sketch:
+        """A drawing's inputs as they are now. units: the width of a line that teaches and the size
+        of symbols, as the view's own if not given. Raises LucidaError, moderngl.Error."""
+        both, state = host.renderers, host.state
+        if not min(both.size):
+            both.fit_pane(view.name, IMAGE_SIZE, state.images)
+        scale = framebuffer_scale()
+        extent = ImVec2(size[0] / scale, size[1] / scale)
+        scope = view.scope_of(host, size, ImVec2(0, 0), extent)
+        looking, camera, image_size = scope.shown, both.camera(state), both.size
+        options = replace(state.outside, camera=None)
+        marked, hits = view.rays(host, camera, image_size)
+        unit, symbol = units or units_px(extent)
+        key = (
+            state.scene, looking, size, camera, image_size, options, marked, tuple(hits),
+            view.extra, unit, symbol, state.preferences,
+        )  # fmt: skip
+        if self._sketch is not None and key == self._key:
+            return self._sketch
+        assert both.pictures is not None
+        surface = both.pictures.beside(Wanted(state.scene, looking, size), PLACE).surface
+        values = np.frombuffer(surface.read(), np.float32).reshape(size[1], size[0], 4)
+        self._key = key
+        self._sketch = Sketch(
+            state.scene, looking, size, nearest(looking, scope), unit, symbol, camera, image_size,
+            options, end_parameter(camera, host.focus.framed), tuple(hits), marked, view.extra,
+            values[..., 3].copy(), vector_paint(), both.live.tracer_of(state.scene),
+        )  # fmt: skip
+        return self._sketch
+
+
+def export_diagram(window: Window) -> None:
+    """The action: export_svg() of the window's outside view."""
+    view = window.shell.stage.views[OUTSIDE]
+    assert isinstance(view, OutsideView)
+    export_svg(view, cast(Host, window))  # the window is both
+
+
+def export_svg(view: OutsideView, host: Host) -> None:
+    """Asks where, and writes the diagram as it is now; the view's own page where it is seen."""
+    try:
+        sketch = Sketcher().follow(view, host, view.size_px or ALONE)
+    except (LucidaError, moderngl.Error) as error:
+        host.files.message = describe(error)
+        return
+    name = sketch.scene.name
+
+    def store(path: str) -> str:
+        made = sketch.draw()
+        count = svg.write(path, made, f"{name}: the outside view" if name else "The outside view")
+        return " ".join([f"Saved {path}, {count} bytes.", *made.notes[1:]])
+
+    host.files.save_as_dialog(
+        "Export the diagram as SVG", "diagram.svg", ("SVG files", svg.ENDING), store
+    )
