@@ -11,12 +11,15 @@ from collections.abc import Iterator
 
 from imgui_bundle import imgui
 
+SMALLEST_PX = 1.0  # what has no room in its window may ask for less than nothing
+
 
 @contextlib.contextmanager
 def lettering(font: imgui.ImFont | None, size_px: float) -> Iterator[None]:
     """Text inside is of this font and size, in ImGui's pixels; None: the present font."""
     style = imgui.get_style()
-    imgui.push_font(font, size_px / (style.font_scale_main * style.font_scale_dpi))
+    size = max(size_px, SMALLEST_PX) / (style.font_scale_main * style.font_scale_dpi)
+    imgui.push_font(font, size)
     try:
         yield
     finally:

@@ -6,6 +6,9 @@ maximised, where each stands. Knows nothing of what views show. Layouts are layo
 
 from __future__ import annotations
 
+import sys
+import traceback
+
 from imgui_bundle import imgui
 
 from app import layout
@@ -210,7 +213,9 @@ class Stage:
         imgui.internal.error_recovery_store_state(stacks)
         try:
             view.draw(host)
-        except FAILURES as error:
+        except Exception as error:  # whatever it is, the other views go on
+            if not isinstance(error, FAILURES):  # a mistake of ours: where it is
+                traceback.print_exception(error, file=sys.stderr)
             self.failures[view.name] = error
             _unwind(stacks)
 

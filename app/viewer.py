@@ -276,8 +276,10 @@ class Run:
             flush_opengl()
         if not self.take_picture:
             return
-        if self.window.renderers.failure is not None:
-            raise self.window.renderers.failure
+        failures = [self.window.renderers.failure, *self.window.shell.stage.failures.values()]
+        for failure in failures:
+            if failure is not None:
+                raise failure
         # The layout needs two frames; afterwards nothing may change.
         self._quiet_frames = self._quiet_frames + 1 if self.window.settled else 0
         if self._quiet_frames > 3:

@@ -60,6 +60,7 @@ class Driver:
         self.window.history = History(self.start)
         self.window.files.message = ""
         self.window.shell.toasts.clear()
+        self.window.shell.stage.failures.clear()
         self.window.traveller.stop()
         self.window.traveller.instant = True  # no passage unless a test wants one
         self.stay = False
@@ -76,7 +77,9 @@ class Driver:
     def settle(self) -> None:
         """Until both images are complete and compared."""
         self.ctx.yield_(3)
-        self.until(lambda: self.window.settled)
+        failures = self.window.shell.stage.failures
+        self.until(lambda: self.window.settled or bool(failures))
+        assert not failures, failures
         self.ctx.yield_(2)
 
     def picture(self) -> np.ndarray:

@@ -1,0 +1,59 @@
+"""What nobody does on purpose: windows without room, mistakes in a view, events in any order."""
+
+from __future__ import annotations
+
+from imgui_bundle import imgui
+from window_driver import SIZE, Driver
+
+from app import layout
+from app.platform import set_size
+from app.views.camera import CAMERA
+from app.views.pair import RAY
+
+
+def resize(d: Driver, size: tuple[int, int]) -> None:
+    """Gives the window another size, in its own thread, and waits until that is drawn."""
+    callbacks = d.run.params.callbacks
+
+    def once() -> None:
+        callbacks.post_new_frame = lambda: None
+        set_size(size)
+
+    callbacks.post_new_frame = once
+    d.until(lambda: tuple(imgui.get_io().display_size) == size)
+    d.ctx.yield_(2)
+
+
+def drive_no_view_fails_where_it_has_no_room(d: Driver) -> None:
+    stage = d.window.shell.stage
+    for size, scale in (((640, 480), 3.0), ((200, 900), 2.0), ((1600, 120), 1.0), ((16, 16), 1.0)):
+        d.window.change(d.window.state.with_options(preferences={"font_scale": scale}))
+        resize(d, size)
+        for one in layout.LAYOUTS:
+            layout.switch(one.name)
+            d.until(lambda name=one.name: layout.current().name == name)  # type: ignore[misc]
+            d.settle()
+            assert not stage.failures, (size, scale, one.name)
+    layout.switch(layout.LAYOUTS[0].name)
+    resize(d, SIZE)
+    d.window.change(d.start)
+    d.agreeing_images()
+
+
+def drive_a_mistake_in_a_view_is_told_in_its_place(d: Driver) -> None:
+    stage = d.window.shell.stage
+    view = stage.views[CAMERA]
+
+    def fail(_: object) -> None:
+        imgui.begin_child("half drawn")
+        imgui.push_font(None, 30.0)
+        imgui.push_font(None, -1.0)  # ImGui's assertions are exceptions
+
+    view.draw = fail  # type: ignore[method-assign]
+    d.until(lambda: CAMERA in stage.failures)
+    d.drag(d.point(RAY, 0.5, 0.5), d.point(RAY, 0.6, 0.5))
+    assert d.window.state != d.start
+    del view.draw
+    d.ctx.item_click(f"//{CAMERA}/Try again")
+    d.until(lambda: not stage.failures)
+    d.settle()
