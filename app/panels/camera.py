@@ -107,7 +107,8 @@ def _projection(state: AppState, around: Surroundings) -> AppState | None:
     if imgui.radio_button("perspective", not parallel):
         wanted = False
     imgui.set_item_tooltip(PERSPECTIVE)
-    imgui.same_line(imgui.get_style().window_padding.x + half)
+    if imgui.get_item_rect_size().x < half:  # else below: a narrow panel, or very large type
+        imgui.same_line(imgui.get_style().window_padding.x + half)
     if imgui.radio_button("parallel", parallel):
         wanted = True
     imgui.set_item_tooltip(PARALLEL)

@@ -67,9 +67,11 @@ def row(text: str, role: str, tooltip: str, fonts: theme.Fonts, derived: bool = 
 
 
 def instead(text: str) -> None:
-    """In the place of a field: why there is none."""
+    """In the place of a field: why there is none; in several lines where it must."""
     imgui.align_text_to_frame_padding()
+    imgui.push_text_wrap_pos(0.0)
     imgui.text_colored(theme.DIM, text)
+    imgui.pop_text_wrap_pos()
 
 
 class Halves:

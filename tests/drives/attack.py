@@ -10,6 +10,8 @@ from app.platform import set_size
 from app.views.camera import CAMERA
 from app.views.pair import RAY
 
+PROJECTIONS = ("perspective", "parallel")
+
 
 def resize(d: Driver, size: tuple[int, int]) -> None:
     """Gives the window another size, in its own thread, and waits until that is drawn."""
@@ -57,3 +59,11 @@ def drive_a_mistake_in_a_view_is_told_in_its_place(d: Driver) -> None:
     d.ctx.item_click(f"//{CAMERA}/Try again")
     d.until(lambda: not stage.failures)
     d.settle()
+
+
+def drive_the_projection_stays_legible_in_a_narrow_panel(d: Driver) -> None:
+    d.window.change(d.window.state.with_options(preferences={"font_scale": 3.0}))
+    resize(d, (640, 480))
+    boxes = [d.ctx.item_info(f"//{CAMERA}/{name}").rect_full for name in PROJECTIONS]
+    assert boxes[0].max.x <= boxes[1].min.x or boxes[0].max.y <= boxes[1].min.y
+    resize(d, SIZE)
