@@ -40,12 +40,35 @@ def bitmap(drawing: Drawing, size: tuple[int, int]) -> NDArray[np.uint8]:
         elif isinstance(part, Area):
             draw.polygon(_spots(part.points, scale), fill=_ink(part.color, part.opacity))
         elif isinstance(part, Spot):
-            x, y, r = (scale * value for value in (*part.center, part.radius))
+            x, y = (scale * value - 0.5 for value in part.center)
+            r = max(scale * part.radius - 0.5, 0.0)
             draw.ellipse((x - r, y - r, x + r, y + r), fill=_ink(part.color, part.opacity))
         else:
             _letters(draw, part, scale, _ink(drawing.background))
     small = picture.resize(size, Image.Resampling.BOX)
     return np.asarray(small, np.uint8).copy()
+
+
+def magnified(
+    picture: NDArray[np.uint8],
+    size: tuple[int, int],
+    corner: tuple[float, float],
+    extent: tuple[float, float],
+) -> NDArray[np.uint8]:
+    """A part of a picture at (width, height) pixels of a screen, each the nearest of its own.
+
+    corner, extent: of the part, in parts of the picture's width and height.
+    """
+    rows, columns = (
+        np.clip(
+            ((corner[axis] + (np.arange(size[axis]) + 0.5) / size[axis] * extent[axis])
+             * picture.shape[1 - axis]).astype(int),
+            0,
+            picture.shape[1 - axis] - 1,
+        )
+        for axis in (1, 0)
+    )  # fmt: skip
+    return picture[rows[:, None], columns]
 
 
 def dashes(points: NDArray[np.float64], pattern: list[float]) -> list[NDArray[np.float64]]:
@@ -84,7 +107,8 @@ def _letters(
 
 
 def _spots(points: NDArray[np.float64], scale: float) -> Spots:
-    return [(x, y) for x, y in (points * scale).tolist()]
+    # Pillow counts from the middle of the first pixel.
+    return [(x, y) for x, y in (points * scale - 0.5).tolist()]
 
 
 def _ink(color: Color, opacity: float = 1.0) -> tuple[int, int, int, int]:

@@ -7,19 +7,23 @@ outside view's; the raster image has the same pixels at every magnification.
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from typing import Any
 
+import moderngl
 import numpy as np
 from imgui_bundle import ImVec2, imgui
 from numpy.typing import NDArray
 
 from app import theme
 from app.background import Background
+from app.files import describe
 from app.lettering import lettering
 from app.options import LARGEST_ZOOM, LaboratoryOptions
-from app.outside.bitmap import bitmap
+from app.outside.bitmap import bitmap, magnified
 from app.outside.sketch import Sketch
 from app.outside.svg import svg
 from app.outside.vector import Drawing
+from app.panels.screen import framebuffer_scale
 from app.views.base import Host
 from app.views.outside import OutsideView
 from app.views.outside_vector import Sketcher, export_svg
@@ -61,6 +65,8 @@ class VectorPage:
         self._sketcher = Sketcher()
         self._work: Background[Both] | None = None
         self._asked: Sketch | None = None
+        self._shown: tuple[Any, ...] = ()
+        self.error: Exception | None = None
         self.made: Both | None = None
 
     @property
@@ -77,7 +83,10 @@ class VectorPage:
 
     def draw(self, host: Host, options: LaboratoryOptions, uploads: Uploads) -> None:
         """Into the rest of the window. Raises LucidaError, moderngl.Error."""
-        self._follow(host, uploads)
+        self._follow(host)
+        if self.error is not None:
+            imgui.text_colored(theme.ERROR, describe(self.error))
+            return
         if self.made is None:
             return
         panes = _panes()
@@ -86,12 +95,9 @@ class VectorPage:
             changed = self._mouse(f"pane {number}", pane, changed)
         zoom, corner = changed.zoom, _corner(changed)
         draw = imgui.get_window_draw_list()
-        texture = uploads.get(NAME)
+        texture = self._pixels(panes[0], zoom, corner, uploads)
         if texture is not None:
-            far = ImVec2(corner[0] + 1 / zoom, corner[1] + 1 / zoom)
-            draw.add_image(
-                imgui.ImTextureRef(texture.glo), panes[0].low, panes[0].high, ImVec2(*corner), far
-            )
+            draw.add_image(imgui.ImTextureRef(texture.glo), panes[0].low, panes[0].high)
         low, high = panes[1].low, panes[1].high
         scale = (high.x - low.x) * zoom / PAGE_SIZE[0]
         origin = (
@@ -106,18 +112,31 @@ class VectorPage:
         if changed != options:
             host.apply(host.state.with_options(laboratory=changed), "vector pane")
 
-    def _follow(self, host: Host, uploads: Uploads) -> None:
+    def _follow(self, host: Host) -> None:
         assert self._work is not None
         sketch = self._sketcher.follow(self._outside, host, PAGE_SIZE, UNITS)
         if sketch is not self._asked:
             self._asked = sketch
             self._work.submit(lambda: _both(sketch))
         outcome = self._work.poll()
-        if outcome is not None and outcome.error is not None:
-            raise outcome.error
+        if outcome is not None:
+            self.error = outcome.error
         if outcome is not None and outcome.value is not None:
             self.made = outcome.value
-            uploads.put(NAME, self.made.picture)
+
+    def _pixels(
+        self, pane: Pane, zoom: float, corner: tuple[float, float], uploads: Uploads
+    ) -> moderngl.Texture | None:
+        """What is seen of the raster image, pixel by pixel of the screen: ImGui would smooth it."""
+        assert self.made is not None
+        scale = framebuffer_scale()
+        size = round((pane.high.x - pane.low.x) * scale), round((pane.high.y - pane.low.y) * scale)
+        key = (self.made, size, zoom, corner)
+        if key != self._shown:
+            part = magnified(self.made.picture, size, corner, (1 / zoom, 1 / zoom))
+            uploads.put(NAME, part)
+            self._shown = key
+        return uploads.get(NAME)
 
     def _mouse(self, name: str, pane: Pane, options: LaboratoryOptions) -> LaboratoryOptions:
         """A drag moves, the wheel magnifies about the pointer."""

@@ -114,11 +114,12 @@ def _paint(draw: imgui.ImDrawList, mark: Mark, view: Magnified, ground: int, fon
         # As many corners as a circle of that size has: a quarter of a pixel off at most.
         turn = 2 * math.pi / math.acos(1 - min(0.25 / max(radii.x, 1.0), 1.0))
         count = max(8, math.ceil(turn * (part.end - part.start) / (2 * math.pi)))
+        width = max(THINNEST_PX, part.width * view.scale)
+        whole = part.end - part.start >= 2 * math.pi - 1e-9
+        end = part.end - (2 * math.pi / (count + 1) if whole else 0.0)  # it is closed below
         draw.path_clear()
-        draw.path_elliptical_arc_to(
-            view.at(*form.center), radii, form.tilt, part.start, part.end, count
-        )
-        draw.path_stroke(mark.color, max(THINNEST_PX, part.width * view.scale))
+        draw.path_elliptical_arc_to(view.at(*form.center), radii, form.tilt, part.start, end, count)
+        draw.path_stroke(mark.color, width, int(imgui.ImDrawFlags_.closed) if whole else 0)
     else:
         _letters(draw, part, mark.color, view, ground, fonts)
 
