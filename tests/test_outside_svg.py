@@ -82,13 +82,13 @@ class TestFile:
         ]
         letters = [text.text for text in group(root, "letters")]
         assert {"u", "v", "w", "eye", "t = 2"} <= set(letters)
-        classes = {part.get("class") for part in group(root, "outlines")}
+        classes = {part.get("data-name") for part in group(root, "outlines")}
         assert classes == {"ball", "box & <lid>"}
 
     def test_its_coordinates_are_the_projections(self, looking: Camera) -> None:
         root = parsed(made(looking, grid=False))
         plane = group(root, "image-plane")
-        (outline,) = [part for part in plane if part.get("class") == "image plane"]
+        (outline,) = [part for part in plane if part.get("data-name") == "image plane"]
         found = numbers(outline.get("d", ""))
         rows, columns, _ = looking.project(plane_corners(CAMERA), SIZE)
         expected = np.stack([columns + 0.5, rows + 0.5], axis=1)
@@ -204,7 +204,7 @@ def test_a_huge_mesh_is_left_out_and_the_file_says_so() -> None:
     picture = made(scene=Scene((SceneObject(huge, name="dragon"), SceneObject(BALL, name="ball"))))
     root = parsed(picture)
     assert "dragon" in (root.findtext(f"{SPACE}desc") or "")
-    assert {part.get("class") for part in group(root, "outlines")} == {"ball"}
+    assert {part.get("data-name") for part in group(root, "outlines")} == {"ball"}
 
 
 def test_lines_are_dashed_behind_objects_and_solid_before_them() -> None:
@@ -248,7 +248,7 @@ def test_an_objects_outline_ends_where_another_hides_it() -> None:
     (arc,) = arcs["far"]
     assert 3.5 < arc.end - arc.start < 6.0
     # Its ends are on the near ball's outline, in the file too.
-    (path,) = [e for e in group(parsed(picture), "outlines") if e.get("class") == "far"]
+    (path,) = [e for e in group(parsed(picture), "outlines") if e.get("data-name") == "far"]
     text = path.get("d", "")
     found_at = re.findall(r"(-?[0-9.]+),(-?[0-9.]+)", text)
     start, end = np.array(found_at, float)

@@ -65,7 +65,7 @@ def svg(drawing: Drawing, title: str = "") -> str:
 
 def _element(part: Part, drawing: Drawing) -> str:
     """One element; "" for what has no finite place."""
-    name = f" class={quoteattr(_legal(part.name))}"
+    name = f" data-name={quoteattr(_legal(part.name))}"
     if isinstance(part, Line):
         return _line(part, name, drawing.unit)
     if isinstance(part, Area):

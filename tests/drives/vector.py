@@ -1,0 +1,186 @@
+"""The diagram as a vector drawing: its page in the laboratory, and its file."""
+
+from __future__ import annotations
+
+import xml.etree.ElementTree as ElementTree
+from pathlib import Path
+
+import numpy as np
+from window_driver import Driver, Key
+
+from app.options import LARGEST_ZOOM
+from app.outside.bitmap import magnified
+from app.outside.svg import svg
+from app.views.laboratory import LABORATORY, LaboratoryView
+from app.views.laboratory_vector import PIXELS, Both
+
+SPACE = "{http://www.w3.org/2000/svg}"
+
+
+def _page(d: Driver) -> LaboratoryView:
+    d.window.shell.stage.show(LABORATORY)
+    if not d.window.shell.stage.maximised:
+        d.window.shell.stage.maximise(LABORATORY)
+    d.window.change(d.window.state.with_options(laboratory={"page": "vector"}, marked=(60, 90)))
+    d.settle()
+    view = d.window.views[LABORATORY]
+    assert isinstance(view, LaboratoryView)
+    return view
+
+
+def _close(d: Driver) -> None:
+    d.window.shell.stage.maximise()
+    d.window.shell.stage.show(LABORATORY, False)
+    d.settle()
+
+
+def _made(view: LaboratoryView) -> Both:
+    assert view.vector.made is not None and view.vector.error is None
+    return view.vector.made
+
+
+def _item(name: str) -> str:
+    return f"//{LABORATORY} maximised/{name}"
+
+
+def _box(d: Driver, number: int) -> tuple[int, int, int, int]:
+    box = d.ctx.item_info(_item(f"pane {number}")).rect_full
+    left, top, right, bottom = (round(x) for x in (box.min.x, box.min.y, box.max.x, box.max.y))
+    return left, top, right, bottom
+
+
+def _panes(d: Driver) -> list[np.ndarray]:
+    """What both panes show, without their frames."""
+    d.ctx.mouse_teleport_to_pos((3, 3))
+    d.ctx.yield_(3)
+    window = d.picture()
+    return [
+        window[top + 2 : bottom - 2, left + 2 : right - 2]
+        for left, top, right, bottom in (_box(d, 0), _box(d, 1))
+    ]
+
+
+def _middle(d: Driver, number: int) -> tuple[float, float]:
+    left, top, right, bottom = _box(d, number)
+    return (left + right) / 2, (top + bottom) / 2
+
+
+def drive_one_stays_sharp_and_the_other_does_not(d: Driver) -> None:
+    view = _page(d)
+    made = _made(view)
+    assert made.picture.shape == (PIXELS[1], PIXELS[0], 3)
+    assert made.svg_bytes == len(svg(made.drawing).encode())
+    shades = []
+    for zoom in (1.0, 8.0, LARGEST_ZOOM):
+        d.ctx.item_input_value(_item("zoom##zoom"), zoom)
+        d.settle()
+        options = d.window.state.options.laboratory
+        assert options.zoom == zoom
+        # A place with something in it: the eye.
+        spot = next(p for p in made.drawing.parts if p.group == "eye")
+        x, y = spot.center  # type: ignore[union-attr]
+        at = x / made.drawing.size[0] + 0.4 / zoom * 0.2, y / made.drawing.size[1]
+        d.window.change(d.window.state.with_options(laboratory={"zoom_center": at}))
+        d.settle()
+        raster, vector = _panes(d)
+        left, top, right, bottom = _box(d, 0)
+        half = 0.5 / zoom
+        corner = [min(max(part, half), 1 - half) - half for part in at]
+        size = right - left, bottom - top
+        expected = magnified(made.picture, size, (corner[0], corner[1]), (1 / zoom, 1 / zoom))
+        equal = np.abs(raster.astype(int) - expected[2:-2, 2:-2]).max(axis=2) <= 1
+        assert equal.mean() > 0.98, zoom
+        # Both are the same drawing: alike where the pixels' size does not matter.
+        if zoom == 1:
+            difference = np.abs(raster.astype(float).mean(axis=(0, 1)) - vector.mean(axis=(0, 1)))
+            assert difference.max() < 4
+        shades.append([len(np.unique(part.reshape(-1, 3), axis=0)) for part in (raster, vector)])
+    # However large, the vector drawing's edges are a pixel wide; the raster image has few pixels.
+    across = [
+        np.abs(np.diff(pane.astype(int), axis=1)).max(axis=2) > 24 for pane in (raster, vector)
+    ]
+    columns = [int(part.any(axis=0).sum()) for part in across]
+    assert columns[0] <= PIXELS[0] / LARGEST_ZOOM + 2, columns
+    assert columns[1] > 20, columns
+    _close(d)
+
+
+def drive_the_mouse_magnifies_and_moves_both(d: Driver) -> None:
+    _page(d)
+    window = d.window
+    before = len(window.history.past)
+    x, y = _middle(d, 1)
+    left, _, right, _ = _box(d, 1)
+    place = (left + 0.75 * (right - left), y)
+    d.ctx.mouse_teleport_to_pos(place)
+    d.ctx.yield_(2)
+    d.ctx.mouse_wheel_y(4)
+    d.ctx.yield_(3)
+    options = window.state.options.laboratory
+    assert options.zoom > 2
+    # What was under the pointer is still there: 0.75 of the page's width.
+    assert abs(options.zoom_center[0] + 0.25 / options.zoom - 0.75) < 2e-3
+    center = options.zoom_center
+    d.drag((x, y), (x + 0.1 * (right - left), y))
+    moved = window.state.options.laboratory
+    assert abs(moved.zoom_center[0] - (center[0] - 0.1 / options.zoom)) < 2e-3
+    assert moved.zoom == options.zoom
+    d.drag(_middle(d, 0), (_middle(d, 0)[0] + 3000, _middle(d, 0)[1]))  # not beyond the page
+    assert abs(window.state.options.laboratory.zoom_center[0] - 0.5 / options.zoom) < 1e-6
+    assert len(window.history.past) <= before + 4  # no step for each frame
+    window.undo()
+    assert window.state.options.laboratory.zoom_center[0] > 0.5 / options.zoom
+    _close(d)
+
+
+def drive_the_drawing_follows_the_camera_and_the_switches(d: Driver) -> None:
+    view = _page(d)
+    first = _made(view)
+    names = {part.name for part in first.drawing.parts}
+    assert {"u", "v", "w", "grid", "ray", "pixel"} <= names
+    d.window.change(d.window.state.with_options(outside={"basis": False, "bundle": (2, 2)}))
+    d.settle()
+    second = _made(view)
+    names = {part.name for part in second.drawing.parts}
+    assert "u" not in names and any(name.startswith("bundle") for name in names)
+    assert (second.picture != first.picture).any()
+    d.window.change(d.window.state.with_camera(d.window.state.camera.shifted(0, 9, (100, 100))))
+    d.settle()
+    assert _made(view) is not second
+    _close(d)
+
+
+def _store(d: Driver, path: Path) -> ElementTree.Element:
+    """Answers the window's own dialog and reads what was written."""
+    dialog = d.window.files.dialog
+    d.until(lambda: dialog.is_open)
+    assert dialog._question is not None
+    question = dialog._question
+    assert question.saves and question.endings == (".svg",)
+    dialog.cancel()
+    question.chosen([str(path)])
+    d.until(lambda: not d.window.files.busy)
+    d.settle()
+    assert d.window.files.message == ""
+    return ElementTree.parse(f"{path}.svg").getroot()
+
+
+def drive_the_diagram_is_exported_as_it_is_seen(d: Driver) -> None:
+    d.window.files._native = False
+    d.window.change(d.window.state.with_options(marked=(60, 90), outside={"bundle": (2, 2)}))
+    d.settle()
+    d.ctx.key_press(int(Key.mod_ctrl) | int(Key.mod_shift) | int(Key.e))
+    root = _store(d, d.folder / "first")
+    assert root.tag == f"{SPACE}svg"
+    groups = {part.get("id") for part in root.findall(f"{SPACE}g")}
+    assert {"outlines", "frustum", "image-plane", "rays", "basis", "letters"} <= groups
+    outlines = root.find(f"{SPACE}g[@id='outlines']")
+    assert outlines is not None
+    names = {entry.name for entry in d.window.state.scene.objects}
+    assert {part.get("data-name") for part in outlines} <= names
+    # From the laboratory's button too.
+    _page(d)
+    d.ctx.item_click(_item("Export as SVG..."))
+    again = _store(d, d.folder / "second")
+    assert again.get("viewBox")
+    _close(d)
