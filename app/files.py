@@ -18,6 +18,8 @@ from imgui_bundle import portable_file_dialogs as dialogs
 from app.background import Background
 from app.panels.dialog import FileDialog, Question
 from app.recent import RecentFiles
+from app.teach.lecture.model import Lecture
+from app.teach.lecture.reading import is_lecture, load_lecture
 from renderer.errors import LucidaError
 from renderer.scene import (
     BUILTIN_SCENES,
@@ -30,6 +32,7 @@ from renderer.scene import (
     save_view,
 )
 
+LECTURE_ENDING = ".toml"
 SNIFFED_BYTES = 1 << 20
 LINUX_DIALOGS = ("zenity", "kdialog", "matedialog", "qarma")  # what the dialogs are drawn by
 
@@ -40,13 +43,14 @@ Paths = Callable[[list[str]], None]
 class Opened:
     """What sources held: a scene, a view, or both. sources: of those that could be read.
 
-    problems: one line for each of the others.
+    problems: one line for each of the others. lecture: and its file.
     """
 
     sources: tuple[str, ...] = ()
     scene: Scene | None = None
     view: View | None = None
     problems: tuple[str, ...] = ()
+    lecture: tuple[Lecture, Path] | None = None
 
 
 class Files:
@@ -87,17 +91,13 @@ class Files:
         return time.monotonic() - self._began_s if self._loading.busy else 0.0
 
     def open(self, source: str) -> None:
-        """Loads a built-in scene, a scene file, a model or a view file in the background."""
+        """Loads a built-in scene, a scene file, a model, a view or a lecture in the background."""
         self.open_all([source])
 
     def open_all(self, sources: Sequence[str]) -> None:
-        """Loads the first scene and the first view among several."""
-        if not sources:
-            return
-        self.message = ""
-        self._source = Path(sources[0]).name
-        self._began_s = time.monotonic()
-        self._loading.submit(lambda: open_sources(sources))
+        """Loads the first scene and the first view among several, or the first lecture."""
+        if sources:
+            self._load(sources[0], lambda: open_sources(sources))
 
     def cancel(self) -> None:
         """Ends the waiting for what is being loaded. Its thread is left alone; what it still
@@ -112,6 +112,15 @@ class Files:
         self._ask(
             Question("Open a scene, a view or a model", False, SCENE_ENDINGS, "", self.open_all),
             ["Scenes, views and models", endings, "All files", "*"],
+        )
+
+    def open_lecture_dialog(self) -> None:
+        def chosen(paths: list[str]) -> None:
+            self._load(paths[0], lambda: open_lecture(paths[0]))
+
+        self._ask(
+            Question("Open a lecture", False, (LECTURE_ENDING,), "", chosen),
+            ["Lectures", f"*{LECTURE_ENDING}", "All files", "*"],
         )
 
     def save_view_dialog(self, view: View) -> None:
@@ -178,6 +187,12 @@ class Files:
         self.dialog.close()
         self.recent.close()
 
+    def _load(self, source: str, load: Callable[[], Opened]) -> None:
+        self.message = ""
+        self._source = Path(source).name
+        self._began_s = time.monotonic()
+        self._loading.submit(load)
+
     def _note(self, opened: Opened) -> None:
         for source in reversed(opened.sources):
             if source not in BUILTIN_SCENES:
@@ -219,16 +234,18 @@ def has_dialogs() -> bool:
 
 
 def open_sources(sources: Sequence[str]) -> Opened:
-    """Loads the first scene and the first view among sources.
+    """Loads the first scene and the first view among sources; and the first lecture.
 
     Raises LucidaError where there is but one and it cannot be read.
     """
-    scene, view = None, None
+    scene, view, lecture = None, None, None
     good, problems = [], []
     for source in sources:
         try:
             if source not in BUILTIN_SCENES and _is_view(Path(source)):
                 view = view or load_view(source)
+            elif source not in BUILTIN_SCENES and is_lecture(source):
+                lecture = lecture or (load_lecture(source), Path(source).absolute())
             elif scene is None:
                 scene = load_scene(source)
             else:
@@ -238,7 +255,12 @@ def open_sources(sources: Sequence[str]) -> Opened:
             if len(sources) == 1:
                 raise
             problems.append(describe(error))
-    return Opened(tuple(good), scene, view, tuple(problems))
+    return Opened(tuple(good), scene, view, tuple(problems), lecture)
+
+
+def open_lecture(source: str) -> Opened:
+    """Loads a file as a lecture, whatever it looks like. Raises LucidaError."""
+    return Opened((source,), lecture=(load_lecture(source), Path(source).absolute()))
 
 
 def describe(error: Exception) -> str:
@@ -258,4 +280,4 @@ def _is_view(path: Path) -> bool:
             text = file.read(SNIFFED_BYTES)
     except OSError:
         return False
-    return b"[camera]" in text and b"objects" not in text
+    return b"[camera]" in text and b"objects" not in text and not is_lecture(path)

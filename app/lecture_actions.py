@@ -20,6 +20,7 @@ def _restorable(window: Window) -> bool:
 
 LECTURE = (
     Action("Lecture", 'Begin "Images, rays and cameras"', lambda w: w.lecture.give_builtin()),
+    Action("Lecture", "Open lecture...", lambda w: w.files.open_lecture_dialog()),
     Action(
         "Lecture",
         "Next step",

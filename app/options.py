@@ -163,8 +163,8 @@ class Bookmark:
 
 @dataclass(frozen=True)
 class Options:
-    """All of them. marked: the pixel that the user has chosen, in every view; None: none. highlight:
-    what a lecture points out: fields of the camera's panel, and views, in small letters.
+    """All of them. marked: the pixel that the user has chosen, in every view; None: none.
+    highlight: what a lecture points out: fields of the camera's panel, and views, in small letters.
 
     shadows, mirrors: what only image order has. one_based: pixels are counted from 1, as in the
     lecture, or from 0, as in arrays. presets_in_perspective: those of the camera's that can be,

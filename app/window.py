@@ -296,7 +296,10 @@ class MainWindow:
             view.cancel()
 
     def _take_opened(self, opened: Opened) -> None:
-        if opened.scene is not None:
+        if opened.lecture is not None:  # whose steps have scenes of their own
+            self.lecture.give(*opened.lecture)
+            self.animate()
+        elif opened.scene is not None:
             self.change(self.state.with_scene(opened.scene, opened.view))
         elif opened.view is not None:
             self.change(self.state.with_view(opened.view))

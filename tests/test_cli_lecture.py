@@ -12,6 +12,7 @@ import pytest
 from PIL import Image
 
 from app.cli import main
+from app.teach.lecture.reading import is_lecture
 
 ROOT = Path(__file__).parent.parent
 LECTURE = '''\
@@ -54,6 +55,35 @@ def test_mistakes_are_one_line_and_exit_status_2(old, new, told, tmp_path, capsy
         assert said.startswith(f"lucida: {path}{told}"), said
         assert said.count("\n") == 1
     assert not (tmp_path / "out").exists()
+
+
+@pytest.mark.parametrize("text", [LECTURE, LECTURE.replace('"spheres"', '"spheres')])
+def test_a_lecture_in_the_place_of_a_scene(text, tmp_path, capsys):
+    path = tmp_path / "x.toml"
+    path.write_text(text)
+    for command in ([], ["render", "-o", str(tmp_path / "x.png")], ["compare"]):
+        assert main([*command, str(path)]) == 2
+        said = capsys.readouterr().err
+        assert said == f"lucida: {path}: is a lecture, not a scene; lucida lecture {path}\n"
+
+
+@pytest.mark.parametrize(
+    ("text", "meant"),
+    [
+        (LECTURE, True),
+        ('title = "none yet"\n[scenes.a]\n', True),
+        ("[[steps]\n[[steps]]", True),
+        ('name = "x"\n[[objects]]\ntype = "sphere"', False),
+        ("[camera]\neye = [0, 0, 1]", False),
+        ("[[objects]\n", False),
+        ("", False),
+    ],
+)
+def test_a_lecture_is_known_by_its_keys(text, meant, tmp_path):
+    path = tmp_path / "x.toml"
+    path.write_text(text)
+    assert is_lecture(path) == meant
+    assert not is_lecture(tmp_path / "nowhere.toml") and not is_lecture(tmp_path)
 
 
 def test_a_file_that_is_not_there(capsys):

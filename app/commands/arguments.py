@@ -152,6 +152,16 @@ def with_camera_options(arguments: argparse.Namespace, view: View) -> View:
         raise LucidaError(f"--{error.field}", error.problem, error.remedy) from None
 
 
+def check_is_scene(source: str) -> None:
+    """Raises LucidaError where a lecture's file is given in a scene's place."""
+    if not source.lower().endswith(".toml"):
+        return
+    from app.teach.lecture.reading import is_lecture
+
+    if is_lecture(source):
+        raise LucidaError("", "is a lecture, not a scene", f"lucida lecture {source}", source)
+
+
 def scene_and_camera(arguments: argparse.Namespace) -> tuple[Scene, Camera]:
     """The scene, and the camera of the view file or else of the scene, with the camera's options,
     for the image's size."""
@@ -161,6 +171,7 @@ def scene_and_camera(arguments: argparse.Namespace) -> tuple[Scene, Camera]:
     own_view = load_view(arguments.view) if arguments.view is not None else None
     if own_view is not None:
         own_view = with_camera_options(arguments, own_view)
+    check_is_scene(arguments.scene)
     scene = load_scene(arguments.scene)
     view = own_view or with_camera_options(arguments, scene.view)
     return scene, view.for_size(arguments.size)

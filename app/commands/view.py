@@ -74,6 +74,7 @@ def window_size(text: str) -> tuple[int, int]:
 
 
 def run(arguments: argparse.Namespace) -> int:
+    from app.commands.arguments import check_is_scene
     from renderer.images import check_image_path
 
     screenshot = None
@@ -81,6 +82,8 @@ def run(arguments: argparse.Namespace) -> int:
         check_image_path(arguments.screenshot, (".png",))
         screenshot = Path(arguments.screenshot)
     any_camera = any(getattr(arguments, name) is not None for name in CAMERA_OPTIONS)
+    if arguments.scene is not None:
+        check_is_scene(arguments.scene)
     from app.viewer import run_viewer  # after the quick mistakes: it loads the whole window
 
     return run_viewer(

@@ -256,4 +256,8 @@ class LectureView(View):
         imgui.pop_text_wrap_pos()
         if imgui.button('Begin "Images, rays and cameras"'):
             self.give_builtin()
-        imgui.text_colored(theme.DIM, "Another one: lucida lecture FILE")
+        if imgui.button("Open lecture..."):
+            host.files.open_lecture_dialog()
+        imgui.push_text_wrap_pos(0.0)
+        imgui.text_colored(theme.DIM, "A lecture's file can be dropped on the window, too.")
+        imgui.pop_text_wrap_pos()

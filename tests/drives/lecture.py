@@ -196,3 +196,42 @@ def drive_the_lecture_begins_from_its_menu(d: Driver) -> None:
     d.settle()
     assert _number(d) == 0
     assert _lecture(d).is_given
+
+
+def drive_a_lecture_is_opened_and_dropped(d: Driver) -> None:
+    path, broken = d.folder / "mine.toml", d.folder / "broken.toml"
+    path.write_text(SMALL.replace('"Small"', '"Mine"'))
+    broken.write_text(SMALL.replace('"canonical"', '"canonicle"'))
+    lecture, files = d.window.lecture, d.window.files
+    lecture.session = None
+    files._native = False
+    d.ctx.menu_click("//##MainMenuBar/Lecture/Open lecture...")
+    assert files.dialog.is_open
+    d.ctx.yield_(2)
+    d.ctx.key_chars_replace_enter(str(path))
+    d.until(lambda: lecture.session is not None)
+    files._native = True
+    d.settle()
+    assert lecture.session is not None and lecture.session.lecture.title == "Mine"
+    assert d.window.state.scene.name == "spheres"
+    assert _shown(d) == {LECTURE, "Raster"}
+    d.until(lambda: [entry.name for entry in files.recent.entries][:1] == ["mine.toml"])
+    # A broken one is told with its line, and nothing is lost.
+    session, state = lecture.session, d.window.state
+    d.window._dropped([str(broken)])
+    d.until(lambda: bool(files.message))
+    assert "broken.toml:9: steps[1].scene: 'canonicle' is unknown" in files.message
+    assert (lecture.session, d.window.state) == (session, state)
+    d.ctx.key_press(int(Key.escape))
+    assert files.message == ""
+    path.write_text(SMALL.replace('"Small"', '"Dropped"'))
+    lecture.session = None
+    d.window.change(d.start)
+    d.settle()
+    d.window._dropped([str(path)])
+    d.until(lambda: lecture.session is not None)
+    d.settle()
+    assert lecture.session is not None and lecture.session.lecture.title == "Dropped"
+    assert _shown(d) == {LECTURE, "Raster"}
+    d.window.undo()  # what was there before is one step of undo away
+    assert d.window.state == d.start

@@ -5,6 +5,7 @@ Owns the way from the tables of schema.py to steps. Knows nothing of windows.
 
 from __future__ import annotations
 
+import re
 from pathlib import Path
 from typing import Any
 
@@ -44,6 +45,25 @@ from renderer.scene.views import load_view, view_from_table
 
 BUILTIN = Path(__file__).parents[2] / "lectures" / "images-rays-cameras.toml"
 STEPS = 1000
+_STEPS_LINE = re.compile(r"^[ \t]*(\[\[[ \t]*steps[ \t]*\]\]|steps[ \t]*=)", re.MULTILINE)
+
+
+def is_lecture(path: str | Path) -> bool:
+    """Whether a file is meant as a lecture: a .toml that has steps, and no objects of its own.
+
+    One that is broken is known by a line that begins a step. A file that cannot be read is none.
+    """
+    if Path(path).suffix.lower() != ".toml":
+        return False
+    try:
+        text = decode_text(read_file(Path(path), TOML_BYTES), str(path))
+    except LucidaError:
+        return False
+    try:
+        keys = set(parse_toml(text))
+    except LucidaError:
+        return _STEPS_LINE.search(text) is not None
+    return "objects" not in keys and not keys.isdisjoint(("steps", "scenes"))
 
 
 def load_lecture(path: str | Path) -> Lecture:
