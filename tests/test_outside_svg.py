@@ -97,7 +97,8 @@ class TestFile:
         assert len(found) == 4 and outline.get("d", "").endswith("Z")
         # Each letter stands beside its arrow's tip.
         for name in "uvw":
-            (text,) = [part for part in group(root, "letters") if part.text == name]
+            rim, text = [part for part in group(root, "letters") if part.text == name]
+            assert rim.get("fill") == "none" and rim.get("x") == text.get("x")
             tip = np.asarray(CAMERA.eye) + np.asarray(getattr(CAMERA, name))
             row, column, _ = looking.project(tip, SIZE)
             at = float(text.get("x", "nan")), float(text.get("y", "nan"))

@@ -1,14 +1,12 @@
 """A vector drawing as an SVG file: self-contained, one group a kind of thing, letters as text.
 
 Owns the format. Pure but for write(); knows nothing of what is drawn. The same drawing gives the
-same bytes. Source: SVG 1.1 (W3C, second edition); `paint-order` is of SVG 2, and without it letters
-only lack the rim that sets them off from lines.
+same bytes. Source: SVG 1.1 (W3C, second edition); `data-name`, what a thing is, is of SVG 2.
 """
 
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable
 from itertools import groupby
 from pathlib import Path
 from xml.sax.saxutils import escape, quoteattr
@@ -53,10 +51,7 @@ def svg(drawing: Drawing, title: str = "") -> str:
         name = group.replace(" ", "-")
         common = ' fill="none" stroke-linecap="round" stroke-linejoin="round"'
         if group == "letters":
-            common = (
-                f' font-family="{FONTS}" text-anchor="middle" stroke="{ground}"'
-                ' stroke-linejoin="round" paint-order="stroke"'
-            )
+            common = f' font-family="{FONTS}" text-anchor="middle" stroke-linejoin="round"'
         lines.append(f'<g id="{name}"{common}>')
         lines += [text for part in parts if (text := _element(part, drawing))]
         lines.append("</g>")
@@ -81,7 +76,7 @@ def _element(part: Part, drawing: Drawing) -> str:
         return f'<circle{name} cx="{x}" cy="{y}" r="{r}"{fill}/>'
     if isinstance(part, Arc):
         return _arc(part, name)
-    return _text(part, name)
+    return _text(part, name, drawing.background)
 
 
 def _line(part: Line, name: str, unit: float) -> str:
@@ -116,14 +111,17 @@ def _arc(part: Arc, name: str) -> str:
     return f'<path{name} d="M{start}A{rx} {ry} {tilt} {large} 1 {end}"{stroke}/>'
 
 
-def _text(part: Letters, name: str) -> str:
+def _text(part: Letters, name: str, ground: Color) -> str:
+    """The text over a rim of the ground's colour, which sets it off from lines."""
     if not _finite(*part.center, part.size):
         return ""
     x, y = _number(part.center[0]), _number(part.center[1] + BASELINE * part.size)
     bold = ' font-weight="bold"' if part.strong else ""
+    look = f'{name} x="{x}" y="{y}" font-size="{_number(part.size)}"{bold}'
+    rim = f' fill="none" stroke="{_hex(ground)}" stroke-width="{_number(RIM * part.size)}"'
+    text = escape(_legal(part.text))
     fill = _paint("fill", part.color, 1.0)
-    look = f' font-size="{_number(part.size)}" stroke-width="{_number(RIM * part.size)}"{bold}'
-    return f'<text{name} x="{x}" y="{y}"{look}{fill}>{escape(_legal(part.text))}</text>'
+    return f"<text{look}{rim}>{text}</text>\n<text{look}{fill}>{text}</text>"
 
 
 def _paint(kind: str, color: Color, opacity: float) -> str:
@@ -149,7 +147,7 @@ def _finite(*values: float) -> bool:
     return all(map(math.isfinite, values))
 
 
-def _legal(text: str | Iterable[str]) -> str:
+def _legal(text: str) -> str:
     """Without the characters that no XML file may hold."""
     return "".join(
         c

@@ -129,7 +129,9 @@ def _letters(
 ) -> None:
     font = fonts.bold if part.strong else fonts.text
     assert font is not None
-    size = part.size * view.scale
+    size = max(
+        1, round(part.size * view.scale)
+    )  # whole: other sizes are made of the next whole one
     imgui.push_font(font, 0.0)
     box, ratio = imgui.calc_text_size(part.text), size / imgui.get_font_size()
     imgui.pop_font()
