@@ -205,6 +205,11 @@ class Renderers:
             return False
         return not self._tracing or (self._has_full(state) and self.verdict(state) is not None)
 
+    @property
+    def is_tracing(self) -> bool:
+        """Whether the ray image is to be seen, so that a verdict on both will come."""
+        return self._tracing
+
     def verdict(self, state: AppState) -> Verdict | None:
         """Whether the images of this state agree; None until that is known."""
         return self.agreement.verdict_on(self.request(state))

@@ -267,6 +267,7 @@ class MainWindow:
                 seen=both.seen_at(state, pixel) if pixel else "",
                 loading=self.files.loading,
                 brief=state.preferences.presentation,
+                awaited=both.is_tracing,
             ),
             self.fonts,
         )

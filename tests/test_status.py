@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 
 from app.panels.fields import Scale, number_format, short_number
-from app.panels.status import Status, fitting, milliseconds, ray_text, right_texts
+from app.panels.status import Status, agreement_text, fitting, milliseconds, ray_text, right_texts
 
 STATUS = Status(0.001, 1, 0.02, (640, 480), 1, "agree: all pixels", True, "spheres")
 
@@ -33,6 +33,13 @@ def test_right_texts() -> None:
     pixel = replace(STATUS, pixel=(3, 4), seen="ball, t = 2")
     assert right_texts(pixel)[0] == "ball, t = 2  pixel (   3,   4)"
     assert right_texts(replace(pixel, loading="bunny.obj"))[0] == "loading bunny.obj ..."
+
+
+def test_an_agreement_that_will_not_come_is_not_awaited() -> None:
+    unknown = replace(STATUS, agreement="")
+    assert agreement_text(STATUS) == agreement_text(replace(STATUS, awaited=False)) != ""
+    assert agreement_text(unknown) == "agree: ..."
+    assert agreement_text(replace(unknown, awaited=False)) == ""
 
 
 def test_nothing_overlaps() -> None:

@@ -28,7 +28,8 @@ from renderer.camera import Size
 from renderer.images.display import encode_srgb
 
 LETTERS = 74.0  # a line over the whole panel
-WIDE_EM, NAMES_EM = 44.0, 10.0  # from this width on, names stand in a column of their own
+WIDE_EM, NAMES_EM = 42.0, 8.5  # from this width on, names stand in a column of their own
+HIGH_EM = 30.0  # so high are ray and table, with names beside
 MOST_ALSO = 3  # further intersections of an object that are listed
 COPIES: tuple[tuple[str, Callable[[Reading, Indexing], str]], ...] = (
     ("Text", as_text),
@@ -165,8 +166,10 @@ def _rays_field(state: AppState) -> AppState:
 
 
 def reading_panel(reading: Reading, indexing: Indexing, fonts: Fonts) -> None:
-    """All of it, in a column whose type grows with its width."""
-    size_px = hall_px(imgui.get_content_region_avail().x, LETTERS)
+    """All of it, in a column whose type grows with its room."""
+    room = imgui.get_content_region_avail()
+    hall = hall_px(room.x, LETTERS)
+    size_px = type_px((room.x, room.y), imgui.get_font_size(), hall)
     with lettering(None, size_px):
         written = _written(reading, indexing)
         if _section("Ray", fonts):
@@ -178,6 +181,16 @@ def reading_panel(reading: Reading, indexing: Indexing, fonts: Fonts) -> None:
         if _section("Colour", fonts):
             _result(reading, fonts)
             _lines(written.color, size_px, swatches=reading)
+
+
+def type_px(room: tuple[float, float], em: float, most: float) -> float:
+    """The size of type in a room (width, height): where names can stand beside the formulas, not
+    larger than leaves the table of t in sight. em: the window's own size, which is the least;
+    most: the size that the width allows."""
+    width, height = room
+    if width < WIDE_EM * em:
+        return most
+    return max(em, min(most, width / WIDE_EM, height / HIGH_EM))
 
 
 @dataclass(frozen=True)
@@ -202,7 +215,7 @@ def _section(name: str, fonts: Fonts) -> bool:
 
 def _lines(lines: Iterable[Line], size_px: float, swatches: Reading | None = None) -> None:
     """Names beside the formulas where there is room, else above."""
-    beside = imgui.get_content_region_avail().x > WIDE_EM * size_px
+    beside = imgui.get_content_region_avail().x > 0.999 * WIDE_EM * size_px
     if not beside:
         for line in lines:
             _name(line, swatches)

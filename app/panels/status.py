@@ -19,7 +19,8 @@ class Status:
     """What the line tells. size: of the full image. factor: how coarse the ray image is, 1 for
     full, 0 for none; raster_factor: likewise. agreement: a text, empty while unknown; agrees:
     whether it is good news, None where it is none. loading: what is being opened, empty for
-    nothing. brief: without times and sizes, for an audience.
+    nothing. brief: without times and sizes, for an audience. awaited: whether an agreement
+    that is unknown will be known; nothing is said of it otherwise.
     """
 
     raster_s: float
@@ -34,6 +35,7 @@ class Status:
     seen: str = ""
     loading: str = ""
     brief: bool = False
+    awaited: bool = True
 
 
 def status_line(status: Status, fonts: theme.Fonts) -> None:
@@ -48,11 +50,16 @@ def status_line(status: Status, fonts: theme.Fonts) -> None:
     good = theme.GOOD if status.agrees else theme.ERROR
     if status.agrees is None:
         good = theme.DIM
-    parts.append((status.agreement or "agree: ...", good if status.agreement else theme.DIM))
+    agreement = agreement_text(status)
+    if agreement:
+        parts.append((agreement, good if status.agreement else theme.DIM))
     parts.append((f"scene: {status.scene}", theme.TEXT))
     room = imgui.get_window_width() - 2 * imgui.get_style().window_padding.x
     divider = theme.px(DIVIDER_PX)
-    while len(parts) > 2 and _together([_width(t) for t, _ in parts[:-1]], divider) > room:
+    while (
+        len(parts) > 1 + bool(agreement)
+        and _together([_width(t) for t, _ in parts[:-1]], divider) > room
+    ):
         del parts[0]  # the times give way to whether the images agree
     rights = right_texts(status)
     widths = [_width(text) for text, _ in parts]
@@ -68,6 +75,11 @@ def status_line(status: Status, fonts: theme.Fonts) -> None:
         color = theme.TEXT if status.loading else theme.legible(theme.MARK)
         imgui.text_colored(color, rights[right])
     imgui.pop_font()
+
+
+def agreement_text(status: Status) -> str:
+    """Whether the images agree; empty where nobody looks at both."""
+    return status.agreement or ("agree: ..." if status.awaited else "")
 
 
 def right_texts(status: Status) -> list[str]:

@@ -40,6 +40,9 @@ TITLES = {
     Order.OBJECT: "Object order: for each object, for each pixel",
     Order.IMAGE: "Image order: for each pixel, for each object",
 }
+# Panels so much wider than high have code, canvases and numbers beside one another, or the numbers.
+ALL_BESIDE, NUMBERS_BESIDE = 1.9, 1.2
+LEFT, UPPER = 0.64, 0.64  # the code's part of a panel whose numbers stand beside it
 LEGIBLE_EM = 0.85  # the least size of the code, where the width allows
 SLOWEST, FASTEST = 1.0, 20_000.0
 
@@ -163,7 +166,7 @@ def run_panel(
     lines = recording.source.lines
     longest, count = _largest()  # of both: they are shown in one size
     em = imgui.get_font_size()
-    if left.x > 1.9 * left.y:  # all three beside one another
+    if left.x > ALL_BESIDE * left.y:
         size_px = _code_px(longest, count, 0.46 * left.x, left.y, em)
         _code(lines, moment, size_px, ImVec2(0.46 * left.x, left.y), fonts)
         x = 0.48 * left.x
@@ -173,6 +176,16 @@ def run_panel(
         imgui.end_group()
         imgui.set_cursor_screen_pos(ImVec2(below.x + 0.755 * left.x, below.y))
         _numbers(moment, ImVec2(0.245 * left.x, left.y), size_px, fonts)
+        return answer
+    if left.x > NUMBERS_BESIDE * left.y:  # the canvases below the code, the numbers right of both
+        size_px = beside_px((left.x, left.y), em)
+        _code(lines, moment, size_px, ImVec2(LEFT * left.x, UPPER * left.y), fonts)
+        rest = left.y - (imgui.get_cursor_screen_pos().y - below.y)
+        imgui.begin_group()
+        answer = _canvases(recording, moment, picture, ImVec2(LEFT * left.x, rest), answer)
+        imgui.end_group()
+        imgui.set_cursor_screen_pos(ImVec2(below.x + (LEFT + 0.02) * left.x, below.y))
+        _numbers(moment, ImVec2((0.98 - LEFT) * left.x, left.y), size_px, fonts)
         return answer
     size_px = _code_px(longest, count, left.x, 0.56 * left.y, em)
     _code(lines, moment, size_px, ImVec2(left.x, 0.58 * left.y), fonts)
@@ -202,6 +215,13 @@ def _slider(recording: Recording, moment: Moment) -> Answer:
     return Answer(step=step if changed else None)
 
 
+def beside_px(room: tuple[float, float], em: float) -> float:
+    """The code's size in a room (width, height) where the numbers stand right of it. em: the
+    window's own size of type."""
+    longest, count = _largest()
+    return _code_px(longest, count, LEFT * room[0], UPPER * room[1], em)
+
+
 def _code_px(longest: str, count: int, width: float, height: float, em: float) -> float:
     """The code's size: all of it where that can be read, else as wide as there is room."""
     least = LEGIBLE_EM * em
@@ -212,13 +232,14 @@ def _code(
     lines: tuple[str, ...], moment: Moment, size_px: float, room: ImVec2, fonts: Fonts
 ) -> None:
     """The code; where not all of it has room, the part around the present line."""
-    needed = len(lines) * LINE * size_px
-    height = min(needed, room.y)
+    line_px = LINE * size_px
+    needed = len(lines) * line_px
+    height = min(needed, max(1, int(room.y / line_px)) * line_px)  # no line is cut
     flags = imgui.WindowFlags_.no_scrollbar | imgui.WindowFlags_.no_scroll_with_mouse
     imgui.begin_child("code", ImVec2(room.x, height), 0, flags)
     if needed > height:
-        middle = (moment.line + 0.5) * LINE * size_px
-        imgui.set_scroll_y(min(max(0.0, middle - 0.5 * height), needed - height))
+        above = moment.line - int(0.5 * height / line_px)
+        imgui.set_scroll_y(min(max(0.0, above * line_px), needed - height))
     with lettering(fonts.mono, size_px):
         code(lines, moment.line, size_px, room.x, _called())
     imgui.end_child()
