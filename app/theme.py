@@ -185,10 +185,36 @@ class Fonts:
         self.mono = hello_imgui.load_font("fonts/Inconsolata-Medium.ttf", TEXT_PX, raised)
 
 
+def _reset_sizes(style: imgui.Style) -> None:
+    """ImGui's own sizes, at 100 %. A theme leaves some as they are; scaled again at each change,
+    they would grow without end: the smallest window soon larger than the screen."""
+    fresh = imgui.Style()
+    for name in _scaled_sizes():
+        setattr(style, name, getattr(fresh, name))
+
+
+@functools.cache
+def _scaled_sizes() -> tuple[str, ...]:
+    """The names of what scale_all_sizes() scales, found by trying."""
+    style, before = imgui.Style(), {}
+    for name in dir(style):
+        value = None if name.startswith("_") else getattr(style, name)
+        if isinstance(value, ImVec2):
+            setattr(style, name, ImVec2(8, 8))
+        elif isinstance(value, float):
+            setattr(style, name, 8.0)
+        else:
+            continue
+        before[name] = str(getattr(style, name))
+    style.scale_all_sizes(2.0)
+    return tuple(name for name, old in before.items() if str(getattr(style, name)) != old)
+
+
 def _set_style() -> None:
     """ImGui's style for the palette in use: flat, aligned; at 100 %."""
     look = _used[0]
     colors = look.palette
+    _reset_sizes(imgui.get_style())
     base = hello_imgui.ImGuiTheme_
     hello_imgui.apply_theme(
         base.imgui_colors_light if look.theme == "light" else base.darcula_darker

@@ -67,3 +67,16 @@ def drive_the_projection_stays_legible_in_a_narrow_panel(d: Driver) -> None:
     boxes = [d.ctx.item_info(f"//{CAMERA}/{name}").rect_full for name in PROJECTIONS]
     assert boxes[0].max.x <= boxes[1].min.x or boxes[0].max.y <= boxes[1].min.y
     resize(d, SIZE)
+
+
+def drive_sizes_do_not_grow_with_every_change_of_the_type(d: Driver) -> None:
+    """Scaled again and again, ImGui's smallest window would be larger than the screen."""
+    style, sizes = imgui.get_style(), set()
+    for _ in range(4):
+        for theme, scale in (("light", 0.75), ("light", 2.0), ("dark", 3.0), ("dark", 1.0)):
+            looks = {"theme": theme, "font_scale": scale}
+            d.window.change(d.window.state.with_options(preferences=looks))
+            d.ctx.yield_(3)
+        sizes.add((style.window_min_size.x, style.grab_min_size, style.scrollbar_size))
+    assert len(sizes) == 1, sizes
+    assert d.window.renderers.size[1] < SIZE[1]
