@@ -1,13 +1,18 @@
-"""The actions of the guided lecture.
+"""The actions of the guided lecture, of the loop stepper and of the probe.
 
-Owns their names and keys. What they do is views/lecture.py's.
+Owns their names and keys. What they do is the views'. The stepper's keys hold while it has the
+keyboard and are read by its panel: here they are only shown, so that no key has two meanings.
 """
 
 from __future__ import annotations
 
 from imgui_bundle import imgui
 
-from app.action import Action, Key, Window
+from app.action import Action, Key, Window, changing
+from app.panels.stepper import Wish
+from app.state import AppState
+
+STEPPER = "Stepper"  # the view's name
 
 
 def _given(window: Window) -> bool:
@@ -17,6 +22,34 @@ def _given(window: Window) -> bool:
 def _restorable(window: Window) -> bool:
     return _given(window) and not imgui.get_io().want_text_input
 
+
+def _stepping(wish: Wish, name: str, keys: str) -> Action:
+    return Action(
+        "Lecture/Loop stepper",
+        f"Stepper: {name}",
+        lambda window: window.stepper.ask(wish),
+        keys,
+        can=lambda window: STEPPER in window.shell.stage.rects,
+        separated=wish == "play",
+    )
+
+
+def _pinned(state: AppState) -> AppState:
+    pins, pixel = state.options.probe.pins, state.marked
+    if pixel is None or pixel in pins:
+        return state
+    return state.with_options(probe={"pins": (*pins, pixel)})
+
+
+STEPPING: tuple[tuple[Wish, str, str], ...] = (
+    ("play", "play and pause", "Space"),
+    ("step", "one line on", "Right"),
+    ("back", "one line back", "Left"),
+    ("pixel", "to the next pixel's turn", "Down"),
+    ("object", "to the next object's turn", "Shift+Down"),
+    ("first", "to the beginning", "Home"),
+    ("last", "to the end", "End"),
+)
 
 LECTURE = (
     Action("Lecture", 'Begin "Images, rays and cameras"', lambda w: w.lecture.give_builtin()),
@@ -45,5 +78,19 @@ LECTURE = (
         "Backspace",
         (int(Key.backspace),),
         can=_restorable,
+    ),
+    *(_stepping(wish, name, keys) for wish, name, keys in STEPPING),
+    Action(
+        "Lecture",
+        "Pin the marked pixel",
+        changing(_pinned),
+        can=lambda w: w.state.marked is not None,
+        separated=True,
+    ),
+    Action(
+        "Lecture",
+        "Let all pins go",
+        changing(lambda state: state.with_options(probe={"pins": ()})),
+        can=lambda w: bool(w.state.options.probe.pins),
     ),
 )

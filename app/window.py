@@ -41,7 +41,7 @@ from app.views.lecture import LECTURE, LectureView
 from app.views.outside import OutsideView
 from app.views.pair import RASTER, Linked, RasterView, RayView
 from app.views.probe import ProbeView
-from app.views.stepper import StepperView
+from app.views.stepper import STEPPER, StepperView
 from renderer.errors import LucidaError
 from renderer.scene import Scene
 
@@ -127,6 +127,12 @@ class MainWindow:
     def lecture(self) -> LectureView:
         view = self.views[LECTURE]
         assert isinstance(view, LectureView)
+        return view
+
+    @property
+    def stepper(self) -> StepperView:
+        view = self.views[STEPPER]
+        assert isinstance(view, StepperView)
         return view
 
     def hover(self, view: str, pixel: Pixel) -> None:

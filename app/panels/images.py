@@ -14,7 +14,7 @@ from imgui_bundle import ImVec2, imgui
 from app import theme
 from app.options import Pixel
 from app.panels.grips import Grab, Lens, Seen, Zoom, drag, magnify, wheel
-from app.panels.marks import claim_keys, draw_hovered, draw_marked
+from app.panels.marks import claim_keys, draw_hovered, draw_marked, draw_pin
 from app.panels.overlay import draw_corner, draw_legend, draw_note
 from app.panels.pixelgrid import Values, draw_pixel_grid
 from app.panels.screen import Box, Screen
@@ -112,6 +112,10 @@ def _draw(pane: Pane, state: AppState, screen: Screen, room: Box, grab: Grab | N
             pane.on_pixels(screen)
         if state.images.grid:
             draw_pixel_grid(draw, screen, state, pane.values, pane.depths, pane.fonts)
+    width, height = pane.seen.size
+    for number, pin in enumerate(state.options.probe.pins, 1):
+        if pin[0] < height and pin[1] < width:
+            draw_pin(draw, screen, pin, number)
     if state.marked is not None:
         draw_marked(draw, screen, state.marked)
     if pane.hovered is not None and grab is None:

@@ -1,4 +1,4 @@
-"""The pixel under the mouse, and the one that the user has marked.
+"""The pixel under the mouse, the one that the user has marked, and those of the probe's pins.
 
 Owns how they look, and the keys that move the mark. Knows nothing of how pixels are drawn.
 """
@@ -49,6 +49,20 @@ def draw_marked(draw: imgui.ImDrawList, screen: Screen, pixel: Pixel) -> None:
                 theme.u32(color),
                 width,
             )
+
+
+def draw_pin(draw: imgui.ImDrawList, screen: Screen, pixel: Pixel, number: int) -> None:
+    """A thin frame with a number beside it, in the colour that its ray has in the outside view."""
+    middle, half = _middle(screen, pixel)
+    for grow, color in ((2.0, theme.rgb("#000000", 0.7)), (1.0, theme.RAY)):
+        low, high = _square(middle, half, grow)
+        draw.add_rect(low, high, theme.u32(color), 0.0, 1.0)
+    text = str(number)
+    size = imgui.calc_text_size(text)
+    left, top = middle.x + half[0] + 3.0, middle.y - half[1] - size.y
+    corner, far = ImVec2(left, top), ImVec2(left + size.x + 6.0, top + size.y)
+    draw.add_rect_filled(corner, far, theme.u32(theme.rgb("#000000", 0.7)), 2.0)
+    draw.add_text(ImVec2(left + 3.0, top), theme.u32(theme.RAY), text)
 
 
 def claim_keys() -> bool:

@@ -94,7 +94,7 @@ def pin_row(state: AppState, pins: Iterable[Pin], pixel: Pixel | None) -> AppSta
     """The kept pixels as buttons: a click goes there, a right click lets one go."""
     indexing = indexing_of(state)
     for count, pin in enumerate(pins):
-        name = pixel_name(pin.pixel, indexing)
+        name = f"{count + 1}: {pixel_name(pin.pixel, indexing)}"
         side = imgui.get_frame_height()
         if count:
             _follow(_button_width(name) + side)
@@ -103,7 +103,7 @@ def pin_row(state: AppState, pins: Iterable[Pin], pixel: Pixel | None) -> AppSta
             imgui.same_line(0, 0)
         if pin.pixel == pixel:
             imgui.push_style_color(imgui.Col_.text, theme.legible(theme.MARK))
-        if imgui.button(f"{name}##pin{count}"):
+        if imgui.button(f"{name}###pin{count}"):
             state = state.with_options(marked=pin.pixel)
         if pin.pixel == pixel:
             imgui.pop_style_color()

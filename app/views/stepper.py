@@ -53,6 +53,11 @@ class StepperView(View):
         self._drawn: dict[Order, Any] = {}  # what the textures were made from
         self._shown: Any = None  # what the outside view's lines were made from
         self.moments: dict[Order, Moment] = {}
+        self._asked: panel.Wish = ""
+
+    def ask(self, wish: panel.Wish) -> None:
+        """What a button or a key would ask for; for the next frame that it is drawn in."""
+        self._asked = wish
 
     @property
     def settled(self) -> bool:
@@ -71,6 +76,7 @@ class StepperView(View):
 
     def unseen(self, host: Host) -> None:
         self.playing = self._seen = False
+        self._asked = ""
         self._outside.show(STEPPER, ())
         self._shown = None
 
@@ -80,7 +86,8 @@ class StepperView(View):
         self._seen = True
         options = host.state.options.stepper
         changed, wish = panel.controls(options, self.playing)
-        wish = panel.keys() or wish
+        wish = self._asked or panel.keys() or wish
+        self._asked = ""
         if changed != options:
             host.apply(host.state.with_options(stepper=_fields(changed)))
             options = changed

@@ -143,15 +143,32 @@ def drive_keys_walk_and_pins_stay(d: Driver) -> None:
     assert d.window.state.options.probe.pins == ((51, 71),)
     d.window.change(d.window.state.with_options(marked=(5, 6)))
     d.settle()
-    d.ctx.item_click(f"{WINDOW}/(52, 72)##pin0")
+    d.ctx.item_click(f"{WINDOW}/###pin0")
     d.ctx.yield_(2)
     assert d.window.state.marked == (51, 71)
     d.ctx.item_uncheck(f"{WINDOW}/from 1")
     d.ctx.yield_(2)
     assert not d.window.state.options.one_based
-    d.ctx.item_click(f"{WINDOW}/(51, 71)##pin0", 1)
+    d.ctx.item_click(f"{WINDOW}/###pin0", 1)
     d.ctx.yield_(2)
     assert d.window.state.options.probe.pins == ()
+
+
+def drive_pins_are_framed_in_both_images(d: Driver) -> None:
+    leave(d)
+    d.settle()
+    plain = d.images()
+    d.window.change(d.window.state.with_options(probe={"pins": ((40, 50), (9000, 9000))}))
+    d.settle()
+    scale = plain[0].shape[1] / d.window.renderers.size[0]
+    row, column = round(40.5 * scale), round(50.5 * scale)
+    for before, after in zip(plain, d.images(), strict=True):
+        differs = np.abs(after - before).max(axis=2) > 8
+        near = differs[max(0, row - 40) : row + 40, max(0, column - 40) : column + 40]
+        assert near.sum() > 30  # the frame and its number
+        assert differs.sum() == near.sum()  # and nothing for the pixel that is not there
+    d.window.undo()
+    d.settle()
 
 
 def drive_copies(d: Driver) -> None:

@@ -9,7 +9,9 @@ from imgui_bundle import hello_imgui
 from window_driver import Driver, Key
 
 from app import layout
+from app.commanding import entries
 from app.outside.projected import Strokes
+from app.panels.sheet import sections
 from app.teach.recording import Order
 from app.teach.stepper import Moment
 from app.views.outside import OUTSIDE, OutsideView
@@ -169,4 +171,23 @@ def drive_it_follows_the_camera_and_the_scene(d: Driver) -> None:
     d.until(lambda: bool(view(d).moments))
     press(d, "last")
     assert all((moment.canvas == 0.5).all() for moment in moments(d))
+    leave(d)
+
+
+def drive_the_palette_steps_and_shows_the_keys(d: Driver) -> None:
+    enter(d)
+    d.window.change(d.window.state.with_options(stepper={"steps": (5, 5), "order": "both"}))
+    d.settle()
+    offered = {entry.name: entry for entry in entries(d.window)}
+    for name, keys, steps in (
+        ("Stepper: one line on", "Right", (6, 6)),
+        ("Stepper: one line back", "Left", (5, 5)),
+        ("Stepper: to the beginning", "Home", (0, 0)),
+    ):
+        entry = offered[name]
+        assert entry.enabled and entry.keys == keys
+        assert (keys, name) in dict(sections())["Lecture"]
+        entry.run()
+        d.ctx.yield_(3)
+        assert d.window.state.options.stepper.steps == steps
     leave(d)
