@@ -43,7 +43,7 @@ def test_checking_the_built_in_lecture(capsys):
         ('"spheres"', '"sphere"', ":7: steps[0].scene: 'sphere' is unknown; did you mean"),
         ("r$", "r", ":5: steps[0].text: a formula does not end"),
         ('"array"', '"arrey"', ":12: steps[1].options.laboratory.page: 'arrey' is unknown"),
-        ("[[steps]]", "[[steps]", ": line 2, column "),
+        ("[[steps]]", "[[steps]", ":2: column "),
     ],
 )
 def test_mistakes_are_one_line_and_exit_status_2(old, new, told, tmp_path, capsys):

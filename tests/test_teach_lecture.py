@@ -143,6 +143,12 @@ class TestReading:
             ("size = 8", "size = 7", 22, "options.images.pixel_size: 7 is not possible"),
             ("pixel_size = 8", "exposure_ev = 9", 22, "options.images.exposure_ev: 9 is out of"),
             ("pixel_size = 8", "resolution = [0, 1]", 22, "options.images.resolution: 0x1 has no"),
+            ("pixel_size = 8", "exposure_ev = nan", 22, "options.images.exposure_ev: nan is not"),
+            ("images.pixel_size = 8", "laboratory.apart = inf", 22, "laboratory.apart: inf is not"),
+            ("images.pixel_size = 8", "laboratory.zoom_center = [0, nan]", 22,
+             "options.laboratory.zoom_center[1]: nan is not finite; give a finite number"),
+            ("images.pixel_size = 8", "stepper.canvas = [65, 12]", 22,
+             "options.stepper.canvas: 65x12 is outside 1x1 to 64x48; give e.g. 16x12"),
             ("options.shadows", "options.preferences", 26, "options.preferences: is unknown"),
             ("[0, 0, 5]", "[0, 0]", 20, "camera.eye: has 2 entries; give 3"),
             ("[0, 0, 0]", "[5, 5, 5]", 25, "options.outside.camera.target: (5, 5, 5) is the eye"),
@@ -182,14 +188,21 @@ class TestReading:
             ('title = "x"', "x.toml:1: steps: is missing"),
             ('title = "x"\nsteps = [1]', r"x.toml:2: steps[0]: is a whole number; give a table"),
             ('title = ""\n[[steps]]\ntitle = "x"', "x.toml:1: title: is empty"),
-            ("title = ", "x.toml: line 1, column 9: invalid value"),
-            ("lucida = 2", "x.toml: lucida: the file is of version 2"),
+            ("title = ", "x.toml:1: column 9: invalid value"),
+            ("\nlucida = 2", "x.toml:2: lucida: the file is of version 2"),
         ):
             with pytest.raises(LucidaError) as error:
                 read(text)
             assert str(error.value).startswith(told)
         with pytest.raises(LucidaError, match="does not exist"):
             load_lecture(tmp_path / "none.toml")
+
+    def test_text_that_is_not_utf8_names_its_line(self, tmp_path):
+        path = tmp_path / "latin.toml"
+        path.write_bytes('title = "a"\n# \xe9\n'.encode("latin-1"))
+        with pytest.raises(LucidaError) as error:
+            load_lecture(path)
+        assert str(error.value).startswith(f"{path}:2: is not text in UTF-8")
 
 
 class TestPlaces:

@@ -6,6 +6,8 @@ added to the options can be set in a lecture at once.
 
 from __future__ import annotations
 
+import math
+from collections.abc import Iterator
 from dataclasses import fields, is_dataclass
 from typing import Any, get_args, get_type_hints
 
@@ -13,6 +15,7 @@ import msgspec
 
 from app.options import EXPOSURE_LIMIT_EV, PIXEL_SIZES, Options
 from app.teach.lecture.under import under
+from app.teach.recording import check_canvas
 from renderer.camera import Camera
 from renderer.errors import LucidaError
 from renderer.frame import check_size
@@ -60,6 +63,18 @@ def _part(kind: Any, table: dict[str, Any]) -> dict[str, Any]:
     return changes | {name: getattr(struct, name) for name in others}
 
 
+def _numbers(value: Any, field: str = "") -> Iterator[tuple[str, float]]:
+    """Every float below a value, with its field's path."""
+    if isinstance(value, float):
+        yield field, value
+    elif isinstance(value, dict):
+        for name, part in value.items():
+            yield from _numbers(part, f"{field}.{name}" if field else name)
+    elif isinstance(value, tuple):
+        for number, part in enumerate(value):
+            yield from _numbers(part, f"{field}[{number}]")
+
+
 def _camera(table: dict[str, Any]) -> Camera:
     try:
         return view_from_table(table).camera
@@ -80,6 +95,9 @@ def _struct(kind: Any) -> type[msgspec.Struct]:
 
 
 def _check(changes: dict[str, Any]) -> None:
+    for field, value in _numbers(changes):
+        if not math.isfinite(value):
+            raise LucidaError(field, f"{value:g} is not finite", "give a finite number")
     images, outside = changes.get("images", {}), changes.get("outside", {})
     size = images.get("pixel_size", PIXEL_SIZES[0])
     if size not in PIXEL_SIZES:
@@ -100,3 +118,8 @@ def _check(changes: dict[str, Any]) -> None:
         raise LucidaError(
             "outside.bundle", "is out of range", f"give rows and columns up to {LARGEST_BUNDLE}"
         )
+    if "canvas" in changes.get("stepper", {}):
+        try:
+            check_canvas(changes["stepper"]["canvas"])
+        except LucidaError as error:
+            raise LucidaError("stepper.canvas", error.problem, error.remedy) from None

@@ -69,7 +69,11 @@ def is_lecture(path: str | Path) -> bool:
 def load_lecture(path: str | Path) -> Lecture:
     """The lecture in a file. Raises LucidaError: `file:line: field: problem; remedy`."""
     data = read_file(Path(path), TOML_BYTES)
-    return lecture_from_toml(decode_text(data, str(path)), Path(path).parent, str(path))
+    try:
+        text = decode_text(data, str(path))
+    except LucidaError as error:
+        raise _at_its_line(error, str(path)) from None
+    return lecture_from_toml(text, Path(path).parent, str(path))
 
 
 def lecture_from_toml(text: str, folder: Path, source: str) -> Lecture:
@@ -78,7 +82,9 @@ def lecture_from_toml(text: str, folder: Path, source: str) -> Lecture:
     try:
         tables = parse_toml(text)
     except LucidaError as error:
-        raise error.in_file(source) from None
+        if error.field == "lucida":  # the version: then the text is TOML
+            raise located(error, Places(text), source) from None
+        raise _at_its_line(error, source) from None
     places = Places(text)
     try:
         return _Reader(folder, source, places).lecture(tables)
@@ -260,6 +266,15 @@ def _known(field: str, name: str, names: tuple[str, ...]) -> str:
     if name not in names:
         raise LucidaError(field, f"{name[:40]!r} is unknown", suggestion(name, names))
     return name
+
+
+def _at_its_line(error: LucidaError, source: str) -> LucidaError:
+    """An error whose field is `line 5, column 9`, as `file:5: column 9`, as editors find it."""
+    place = re.fullmatch(r"line (\d+)(?:, (column \d+))?", error.field)
+    if place is None:
+        return error.in_file(source)
+    where = f"{source}:{place[1]}"
+    return LucidaError(place[2] or "", error.problem, error.remedy, where)
 
 
 def _of_file(error: LucidaError, field: str) -> LucidaError:
