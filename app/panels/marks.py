@@ -54,9 +54,9 @@ def draw_marked(draw: imgui.ImDrawList, screen: Screen, pixel: Pixel) -> None:
 def draw_pin(draw: imgui.ImDrawList, screen: Screen, pixel: Pixel, number: int) -> None:
     """A thin frame with a number beside it, in the colour that its ray has in the outside view."""
     middle, half = _middle(screen, pixel)
-    for grow, color in ((2.0, theme.rgb("#000000", 0.7)), (1.0, theme.RAY)):
-        low, high = _square(middle, half, grow)
-        draw.add_rect(low, high, theme.u32(color), 0.0, 1.0)
+    for width, color in ((3.5, theme.rgb("#000000", 0.7)), (1.5, theme.RAY)):
+        low, high = _square(middle, half, 1.0)
+        draw.add_rect(low, high, theme.u32(color), 0.0, width)
     text = str(number)
     size = imgui.calc_text_size(text)
     left, top = middle.x + half[0] + 3.0, middle.y - half[1] - size.y

@@ -178,6 +178,7 @@ def drive_the_palette_steps_and_shows_the_keys(d: Driver) -> None:
     enter(d)
     d.window.change(d.window.state.with_options(stepper={"steps": (5, 5), "order": "both"}))
     d.settle()
+    assert not d.window.renderers.is_tracing  # so that no verdict on both images is announced
     offered = {entry.name: entry for entry in entries(d.window)}
     for name, keys, steps in (
         ("Stepper: one line on", "Right", (6, 6)),

@@ -1,0 +1,35 @@
+"""Sizes of type in a lecture hall: what the stepper and the probe make of the room they have."""
+
+from __future__ import annotations
+
+import pytest
+
+from app.panels.code import LINE
+from app.panels.probe import HIGH_EM, WIDE_EM, type_px
+from app.panels.stepper import LEFT, UPPER, beside_px
+from app.teach.recording import Order
+from app.teach.source import source_of
+
+HALL_PX = 1080.0  # the height of a projector's picture
+HALL_ROOM = (1160.0, 740.0)  # of the main view beside a lecture's column there
+HALL_EM = 26.0
+
+
+@pytest.mark.parametrize("order", Order)
+def test_the_steppers_code_is_legible_and_whole(order):
+    size_px = beside_px(HALL_ROOM, HALL_EM)
+    assert size_px >= 0.02 * HALL_PX
+    lines = source_of(order.renderer).lines
+    assert len(lines) * LINE * size_px <= UPPER * HALL_ROOM[1]
+    letter_px = 0.5 * size_px
+    assert max(map(len, lines)) * letter_px <= LEFT * HALL_ROOM[0]
+
+
+def test_the_probes_type_leaves_the_table_in_sight():
+    room = (1150.0, 760.0)
+    size_px = type_px(room, HALL_EM, 34.0)
+    assert 0.02 * HALL_PX < size_px <= room[0] / WIDE_EM  # names stand beside the formulas
+    assert HIGH_EM * size_px <= 1.05 * room[1]
+    assert type_px((2000.0, 2000.0), 16.0, 40.0) == 40.0  # where there is room for all
+    assert type_px((600.0, 900.0), 16.0, 18.0) == 18.0  # a narrow column
+    assert type_px((2000.0, 100.0), 16.0, 40.0) == 16.0  # never below the window's own
