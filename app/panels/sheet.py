@@ -20,7 +20,7 @@ ESCAPE: Row = ("Esc", "close what lies on top; cancel loading; leave presentatio
 MOVING: tuple[Row, ...] = (
     ("Ctrl+Tab", "from view to view"),
     ("Tab, arrows", "from widget to widget; Space or Enter uses it"),
-    ("arrows, Shift+arrows", "in an image or the probe: the marked pixel, by 1 or 10"),
+    ("arrows in the probe", "another pixel; Shift: by ten"),
     ("Alt", "into the menus"),
     ESCAPE,
 )
