@@ -13,7 +13,7 @@ from typing import Any, get_args, get_type_hints
 
 import msgspec
 
-from app.options import EXPOSURE_LIMIT_EV, PIXEL_SIZES, Options
+from app.options import EXPOSURE_LIMIT_EV, LARGEST_ZOOM, MAGNIFICATIONS, PIXEL_SIZES, Options
 from app.teach.lecture.under import under
 from app.teach.recording import check_canvas
 from renderer.camera import Camera
@@ -24,6 +24,14 @@ from renderer.scene.tables import to_struct
 from renderer.scene.views import view_from_table
 
 LARGEST_BUNDLE = 64  # rows, or columns, of viewing rays
+
+# What a view could not draw otherwise.
+RANGES = {
+    "images.exposure_ev": (-EXPOSURE_LIMIT_EV, EXPOSURE_LIMIT_EV),
+    "images.magnification": (MAGNIFICATIONS[0], MAGNIFICATIONS[-1]),
+    "laboratory.side_px": (3, 300),
+    "laboratory.zoom": (1, LARGEST_ZOOM),
+}
 
 OWN = ("preferences", "bookmarks")  # the user's own, which no step changes
 ELSEWHERE = (*OWN, "marked", "highlight")  # what has a field of its own in a step
@@ -103,12 +111,11 @@ def _check(changes: dict[str, Any]) -> None:
     if size not in PIXEL_SIZES:
         allowed = ", ".join(map(str, PIXEL_SIZES))
         raise LucidaError("images.pixel_size", f"{size} is not possible", f"give one of {allowed}")
-    exposure = images.get("exposure_ev", 0.0)
-    if not abs(exposure) <= EXPOSURE_LIMIT_EV:
-        limit = f"{EXPOSURE_LIMIT_EV:g}"
-        raise LucidaError(
-            "images.exposure_ev", f"{exposure:g} is out of range", f"give -{limit} to {limit}"
-        )
+    for field, (least, most) in RANGES.items():
+        part, name = field.split(".")
+        value = changes.get(part, {}).get(name)
+        if value is not None and not least <= value <= most:
+            raise LucidaError(field, f"{value:g} is out of range", f"give {least:g} to {most:g}")
     if images.get("resolution") is not None:
         try:
             check_size(images["resolution"])
