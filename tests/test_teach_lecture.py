@@ -6,6 +6,7 @@ import re
 from dataclasses import fields
 from pathlib import Path
 
+import numpy as np
 import pytest
 
 from app.options import Options
@@ -17,6 +18,7 @@ from app.teach.lecture.places import Places, parsed_path
 from app.teach.lecture.reading import BUILTIN, lecture_from_toml, load_lecture
 from app.teach.lecture.states import state_of
 from app.teach.lecture.watching import Watch, signature
+from app.teach.probe import Probe
 from renderer.camera import Camera
 from renderer.errors import LucidaError
 from renderer.scene import load_scene
@@ -370,6 +372,24 @@ class TestTheBuiltInLecture:
         for step in marked:
             width, height = step.options["images"]["resolution"]
             assert step.pixel[0] < height and step.pixel[1] < width, step.title
+
+    def test_what_is_shown_worked_out_hits_something(self):
+        step = next(step for step in self.lecture.steps if "probe" in step.views)
+        assert step.pixel is not None
+        size = step.options["images"]["resolution"]
+        reading = Probe(step.scene).at(step.pixel, step.view.camera, size)
+        assert sum(meeting.is_on_ray for meeting in reading.meetings) >= 2
+
+    def test_u_and_v_exchanged_are_told_as_such(self):
+        for step in self.lecture.steps:
+            if isinstance(step.exercise, RayExercise):
+                camera, pixel, size = step.exercise.camera, step.pixel, step.exercise.size
+                assert pixel == step.exercise.pixel
+                x, y = camera.image_point(*pixel, size)
+                way = y * np.array(camera.u) + x * np.array(camera.v)
+                way -= camera.distance * np.array(camera.w)
+                given = {"origin": str(camera.eye), "direction": " ".join(map(str, way))}
+                assert "exchanged" in step.exercise.check(given).text, step.title
 
     def test_rays_that_are_asked_for_are_the_ones_shown(self):
         for step in self.lecture.steps:

@@ -160,15 +160,15 @@ def drive_exercises_say_what_is_right_and_wrong(d: Driver) -> None:
     d.settle()
     session = _lecture(d).session
     assert session is not None
-    # Pixel (2, 6) of 8 x 8: u = 5.5/8 - 1/2, v = -(1.5/8 - 1/2).
+    # Pixel (2, 5) of 8 x 8: u = 4.5/8 - 1/2, v = -(1.5/8 - 1/2).
     _answer(d, "origin", "0, 0, 0")
-    _answer(d, "direction", "3/16, -5/16, -1")
+    _answer(d, "direction", "1/16, -5/16, -1")
     d.ctx.item_click(_item(d, "Check"))
     d.ctx.yield_(2)
     verdict = session.answers.verdict
     assert verdict is not None and not verdict.right and "minus sign" in verdict.text
     wrong = d.picture()
-    _answer(d, "direction", "3/16, 5/16, -1")
+    _answer(d, "direction", "1/16, 5/16, -1")
     d.ctx.item_click(_item(d, "Check"))
     d.ctx.yield_(2)
     assert session.answers.verdict is not None and session.answers.verdict.right

@@ -70,6 +70,11 @@ def mistakes(camera: Camera, i: int, j: int, size: tuple[int, int]) -> Iterator[
             "The column is divided by the width W, the row by the height H.",
         )
     x, y = _point(camera, i, j, size)
+    yield Mistake(
+        "u and v exchanged",
+        _ray(camera, y, x),
+        "u and v are exchanged: u, from the column j, comes first.",
+    )
     yield from _basis_mistakes(camera, x, y)
     yield from _projection_mistakes(camera, x, y)
 
