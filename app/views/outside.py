@@ -148,6 +148,7 @@ class OutsideView(View):
     def draw(self, host: Host) -> None:
         size = available_px()
         if min(size) < SMALLEST_PX:
+            self.unseen(host)  # nobody waits for what is not drawn
             return
         size = min(size[0], LARGEST_SIDE), min(size[1], LARGEST_SIDE, LARGEST_PIXELS // size[0])
         if not min(host.renderers.size):
