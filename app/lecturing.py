@@ -76,6 +76,8 @@ def export_lecture(
     """
     try:
         folder.mkdir(parents=True, exist_ok=True)
+    except FileExistsError:
+        raise LucidaError("", "is a file", "give a folder to export into", str(folder)) from None
     except OSError as error:
         reason = (error.strerror or str(error)).lower()
         raise LucidaError(

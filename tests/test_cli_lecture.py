@@ -115,4 +115,11 @@ def test_every_step_is_exported_without_a_display(tmp_path):
 def test_a_folder_that_cannot_be_made(tmp_path, capsys):
     (tmp_path / "file").write_text("")
     assert main(["lecture", "--export", str(tmp_path / "file")]) == 2
-    assert "file: " in capsys.readouterr().err
+    assert "file: is a file; give a folder" in capsys.readouterr().err
+
+
+def test_no_name_is_not_this_folder(tmp_path, capsys, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    assert main(["lecture", "--export", ""]) == 2
+    assert capsys.readouterr().err.startswith("lucida: --export: names no folder; give one")
+    assert not list(tmp_path.iterdir())

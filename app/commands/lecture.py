@@ -10,6 +10,7 @@ from pathlib import Path
 
 from app.commands import arguments as common
 from app.commands.view import window_size
+from renderer.errors import LucidaError
 
 NAME = "lecture"
 EXPORT_SIZE = (1920, 1080)
@@ -61,6 +62,8 @@ def run(arguments: argparse.Namespace) -> int:
         )
         return 0
     if arguments.export is not None:
+        if not arguments.export.strip():  # from an unset variable, say
+            raise LucidaError("--export", "names no folder", "give one, or . for this one")
         from app.lecturing import export_lecture  # after the quick mistakes: it loads the window
 
         folder = Path(arguments.export)
