@@ -103,6 +103,13 @@ def test_view_files_too(tmp_path: Path) -> None:
 # OBJ.
 
 
+@pytest.mark.parametrize("ending", ["obj", "off"])
+def test_noise_is_no_text(ending: str, tmp_path: Path) -> None:
+    path = tmp_path / f"noise.{ending}"
+    path.write_bytes(random.Random(1).randbytes(4 << 20))
+    assert "no text" in refusal(path)
+
+
 @pytest.mark.parametrize(
     ("text", "message"),
     [

@@ -16,8 +16,10 @@ from typing import Any
 import numpy as np
 
 from renderer.errors import LucidaError
+from renderer.scene.limits import TEXT_MODEL_BYTES
 from renderer.scene.model import Material
 from renderer.scene.parts import Part, linear_colors
+from renderer.scene.reading import read_file
 
 _SILENT = logging.NullHandler()
 _COMMENT = re.compile(r"^((?:f|v[nt]?)[ \t][^#\n]*)#[^\n]*", re.MULTILINE)
@@ -50,6 +52,16 @@ def guarded(path: Path, kind: str) -> Iterator[None]:
             "it is damaged or of another kind; export it again, as triangles",
             str(path),
         ) from None
+
+
+def read_text(path: Path) -> str:
+    """The tidy text of a model. Raises LucidaError, also for what is no text: noise would be
+    searched for lines, which takes long."""
+    data = read_file(path, TEXT_MODEL_BYTES)
+    if b"\0" in data:
+        problem, remedy = "holds zero bytes: it is no text", "export it again, as text in UTF-8"
+        raise LucidaError("", problem, remedy, str(path))
+    return tidy_text(data)
 
 
 def tidy_text(data: bytes) -> str:

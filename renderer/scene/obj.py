@@ -15,8 +15,8 @@ from typing import Any
 import numpy as np
 
 from renderer.errors import LucidaError
-from renderer.scene.guard import geometries, guarded, tidy_text, to_part
-from renderer.scene.limits import MATERIAL_BYTES, OBJECTS, TEXT_MODEL_BYTES
+from renderer.scene.guard import geometries, guarded, read_text, to_part
+from renderer.scene.limits import MATERIAL_BYTES, OBJECTS
 from renderer.scene.model import Material
 from renderer.scene.parts import Part
 from renderer.scene.reading import read_file
@@ -30,7 +30,7 @@ _DIVISION = re.compile(r"^(?:o|g|usemtl|mtllib)\b[^\n]*\n", re.MULTILINE)
 
 def read_obj(path: Path) -> list[Part]:
     """The parts of an .obj file: one for each object and material, in the file's order."""
-    original = text = tidy_text(read_file(path, TEXT_MODEL_BYTES))
+    original = text = read_text(path)
     if "\nf " not in text:
         return []
     vertices = text.count("\nv ")

@@ -12,7 +12,7 @@ import re
 from pathlib import Path
 
 from renderer.errors import LucidaError
-from renderer.scene.guard import damaged, geometries, guarded, tidy_text, to_part
+from renderer.scene.guard import damaged, geometries, guarded, read_text, tidy_text, to_part
 from renderer.scene.limits import (
     BINARY_MODEL_BYTES,
     OBJECTS,
@@ -87,7 +87,7 @@ def read_stl(path: Path) -> list[Part]:
 
 def read_off(path: Path) -> list[Part]:
     """The mesh of an .off file (text; vertex colours are not read)."""
-    text = re.sub(r"#[^\n]*", "", tidy_text(read_file(path, TEXT_MODEL_BYTES)))
+    text = re.sub(r"#[^\n]*", "", read_text(path))
     lines = _lines(text)
     words = " ".join(lines[:3]).split(None, 3)
     if not words or not re.fullmatch(r"[A-Z0-9]*OFF", words[0]):
