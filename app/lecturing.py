@@ -119,8 +119,9 @@ class _Export:
         window = self._run.window
         if self._number == len(self._files):
             return
-        if window.renderers.failure is not None:
-            raise window.renderers.failure
+        for failure in (window.renderers.failure, *window.shell.stage.failures.values()):
+            if failure is not None:
+                raise failure
         self._quiet = self._quiet + 1 if window.settled else 0
         if self._quiet <= QUIET_FRAMES:
             if time.monotonic() - self._began_s > SCREENSHOT_LIMIT_S:

@@ -97,9 +97,9 @@ class LaboratoryOptions:
     LARGEST_ZOOM; zoom_center: what is in the middle, in parts of the picture's width and height.
     """
 
-    page: Literal[
-        "kinds", "bitmaps", "exposure", "projectors", "subpixels", "array", "vector"
-    ] = "kinds"
+    page: Literal["kinds", "bitmaps", "exposure", "projectors", "subpixels", "array", "vector"] = (
+        "kinds"
+    )
     method: Literal["threshold", "ordered", "floyd-steinberg"] = "floyd-steinberg"
     after_ev: float = 0.0
     apart: float = 0.0

@@ -19,6 +19,7 @@ from app.session import Arrangement
 from app.views.base import Host, View
 
 Rect = tuple[float, float, float, float]  # left, top, right, bottom, ImGui's pixels
+LAID_OUT = 3  # frames that it takes until every window has its place
 
 
 class Stage:
@@ -44,8 +45,10 @@ class Stage:
 
     @property
     def settled(self) -> bool:
-        """Whether nothing will change by itself in the views that are to be seen."""
-        return not self.failures and all(self.views[name].settled for name in self.rects)
+        """Whether the views are laid out, and nothing will change by itself in those to be seen."""
+        if self._frames < LAID_OUT or self.failures:
+            return False
+        return all(self.views[name].settled for name in self.rects)
 
     # What actions ask for.
 

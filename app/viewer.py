@@ -158,6 +158,7 @@ class Run:
         self.take_picture = take_picture
         self._error: BaseException | None = None
         self._quiet_frames = 0
+        self._ended = False
         self._start_s = 0.0
         self.params = self._parameters(state, size, remember and not take_picture)
 
@@ -189,7 +190,7 @@ class Run:
             self.window.files.recent.add(str(Path(start.opened).absolute()))
 
     def _end(self) -> None:
-        self.params.app_shall_exit = True
+        self._ended = self.params.app_shall_exit = True
 
     def _parameters(
         self, state: AppState, size: tuple[int, int], remember: bool
@@ -272,6 +273,8 @@ class Run:
                 self.on_drawn(drawn)
 
     def _after_frame(self) -> None:
+        if self._ended:  # before the first frame: HelloImGui has forgotten it since
+            self.params.app_shall_exit = True
         if not self._platform.has_display:
             flush_opengl()
         if not self.take_picture:

@@ -32,10 +32,14 @@ from app.panels.screen import framebuffer_scale
 from app.platform import start_platform
 from app.state import AppState, History
 from app.viewer import Run
+from app.views import outside_mouse, pair
 from app.views.pair import RASTER, RAY
 from renderer.scene import load_scene
 
 SIZE = (1100, 720)
+pair.PAUSE_S = outside_mouse.WHEEL_PAUSE_S = (
+    10.0  # on a slow machine a turn of the wheel takes long
+)
 ATTEMPTS = 3  # a picture can be taken of a frame in which a window is still being laid out
 PATIENT_S = 120.0  # the first tracing compiles
 IMAGES = {name: f"//###{name}/image##{name}" for name in (RASTER, RAY)}
