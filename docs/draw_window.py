@@ -17,8 +17,10 @@ from typing import Any
 from imgui_bundle import hello_imgui
 
 from app import layout
+from app.lecturing import run_lecture
 from app.platform import start_platform
 from app.state import AppState
+from app.teach.lecture.reading import BUILTIN, load_lecture
 from app.viewer import Run, save_png
 from renderer.scene import load_scene
 
@@ -28,20 +30,24 @@ LAYOUT_AT = 3  # the frame in which the layout is chosen; the first ones are Hel
 
 @dataclass(frozen=True)
 class Picture:
-    """options: as AppState.with_options takes them."""
+    """options: as AppState.with_options takes them. step: of the built-in lecture, from 1; 0: none,
+    otherwise the step says what is to be seen."""
 
     name: str
     layout: str = layout.LAYOUTS[0].name
     scene: str = "still-life"
     size: tuple[int, int] = (1280, 720)
     options: dict[str, Any] = field(default_factory=dict)
+    step: int = 0
 
 
 PICTURES = (
     Picture("window"),
     Picture("outside", "Outside view"),
     Picture("compare", "Compare", "spheres"),
-    Picture("lecture", "Lecture"),
+    Picture("probe", "Probe", "primitives", (1600, 900), {"marked": (190, 150)}),
+    Picture("loops", "Loops", "still-life", (1600, 900), {"stepper": {"steps": (1010, 4720)}}),
+    Picture("lecture", step=26, size=(1600, 900)),
     Picture(
         "presentation",
         layout.PRESENTATION,
@@ -54,10 +60,13 @@ PICTURES = (
 
 def draw(picture: Picture, folder: Path = FOLDER) -> Path:
     """Draws one picture; gives its file."""
+    path = folder / f"{picture.name}.png"
+    if picture.step:
+        run_lecture(BUILTIN, load_lecture(BUILTIN), picture.size, picture.step - 1, path)
+        return path
     state = AppState.for_scene(load_scene(picture.scene)).with_options(**picture.options)
     run = Run(start_platform(want_display=False), state, picture.size, take_picture=True)
     run.params.callbacks.post_new_frame = _chooser(picture.layout)
-    path = folder / f"{picture.name}.png"
     save_png(path, run.run())
     return path
 
