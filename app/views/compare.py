@@ -18,6 +18,7 @@ from app import comparing, theme
 from app.actions import FLIP_KEY
 from app.composed import Composed, Mapping
 from app.files import describe
+from app.lettering import lettering
 from app.panels import compare as panel
 from app.panels.differences import draw_differences
 from app.panels.screen import Screen
@@ -299,9 +300,8 @@ def _label(host: Host, screen: Screen, text: str, right: bool, end: float | None
     no name where there is no room."""
     low, high = screen.visible
     size_px = 1.25 * imgui.get_font_size()
-    imgui.push_font(host.fonts.bold, size_px)
-    size = imgui.calc_text_size(text)
-    imgui.pop_font()
+    with lettering(host.fonts.bold, size_px):
+        size = imgui.calc_text_size(text)
     pad = 0.4 * size_px
     left = high.x - size.x - 3 * pad if right else low.x + pad
     if end is not None and not (left > end if right else left + size.x + 2 * pad < end):
