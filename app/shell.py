@@ -12,21 +12,21 @@ import moderngl
 from imgui_bundle import hello_imgui, imgui
 
 from app import __version__
-from app.action import Window
-from app.capture import Captures, Rect
-from app.commanding import entries
-from app.files import Files, describe
+from app.actions.base import Window
+from app.actions.commanding import entries
+from app.images.renderers import Renderers
 from app.panels.loading import loading_box
 from app.panels.messages import Message, message_box
 from app.panels.palette import Palette
 from app.panels.sheet import help_sheet
 from app.panels.toasts import Toasts
 from app.platform import toggle_full_screen
-from app.renderers import Renderers
-from app.session import session_of
-from app.session_store import Keeper
 from app.stage import Stage
 from app.state import AppState
+from app.storage.capture import Captures, Rect
+from app.storage.files import Files, describe
+from app.storage.session import session_of
+from app.storage.session_store import Keeper
 from app.theme import Fonts
 from app.views.base import Host, View
 from renderer.errors import LucidaError

@@ -12,10 +12,10 @@ import traceback
 from imgui_bundle import imgui
 
 from app import layout
+from app.images.pictures import FAILURES
 from app.options import Preferences
 from app.panels.messages import failure_note
-from app.pictures import FAILURES
-from app.session import Arrangement
+from app.storage.session import Arrangement
 from app.views.base import Host, View
 
 Rect = tuple[float, float, float, float]  # left, top, right, bottom, ImGui's pixels

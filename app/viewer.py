@@ -26,11 +26,11 @@ from app.platform import (
     set_size,
     start_platform,
 )
-from app.session import Session
-from app.session_store import Found, Keeper, settings_folder, take_place
-from app.settings import settings_file
 from app.signals import ended_by_signals
 from app.state import AppState
+from app.storage.session import Session
+from app.storage.session_store import Found, Keeper, settings_folder, take_place
+from app.storage.settings import settings_file
 from app.views.base import View
 from app.window import MainWindow, title
 from renderer.atomic import atomic_write, check_writable

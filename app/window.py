@@ -15,23 +15,23 @@ import moderngl
 from imgui_bundle import hello_imgui, imgui
 
 from app import layout, theme
-from app.actions import run_shortcuts
-from app.agreement import Verdict
-from app.files import Files, Opened, describe
-from app.fly import Fly
-from app.focus import Focus, object_corners, scene_focus
+from app.actions.table import run_shortcuts
+from app.cameras.fly import Fly
+from app.cameras.focus import Focus, object_corners, scene_focus
+from app.cameras.presets import framed
+from app.cameras.travel import Traveller
+from app.images.agreement import Verdict
+from app.images.renderers import Renderers
 from app.options import Pixel
 from app.panels.menus import menu_bar
 from app.panels.pointing import frame_views
 from app.panels.resolution import Asked, asked, resolution_box
 from app.panels.status import Status, status_line
 from app.platform import on_drop, set_title
-from app.presets import framed
-from app.renderers import Renderers
-from app.session_store import Keeper
 from app.shell import Shell
 from app.state import AppState, History
-from app.travel import Traveller
+from app.storage.files import Files, Opened, describe
+from app.storage.session_store import Keeper
 from app.views.base import View
 from app.views.camera import CameraView
 from app.views.compare import CompareView

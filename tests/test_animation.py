@@ -10,12 +10,12 @@ import pytest
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
-from app.animation import INVISIBLE_PX, Passage
-from app.focus import Focus, scene_focus
-from app.navigation import switched_projection
-from app.presets import PRESETS, preset_named, preset_view
+from app.cameras.animation import INVISIBLE_PX, Passage
+from app.cameras.focus import Focus, scene_focus
+from app.cameras.navigation import switched_projection
+from app.cameras.presets import PRESETS, preset_named, preset_view
+from app.cameras.travel import DURATION_S, Traveller
 from app.state import AppState, History, is_orthonormal
-from app.travel import DURATION_S, Traveller
 from renderer.camera import Camera, volume
 from renderer.scene import load_scene
 from renderer.scene.model import Scene, View

@@ -9,7 +9,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from app.basis import measures
+from app.cameras.basis import measures
 
 numbers = st.floats(-3, 3)
 vectors = st.tuples(numbers, numbers, numbers)

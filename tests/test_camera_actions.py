@@ -9,12 +9,12 @@ from typing import Any
 
 import pytest
 
-from app import camera_actions
-from app.actions import ACTIONS
-from app.camera_actions import CAMERA, EDIT
-from app.fly import KEYS
-from app.focus import Focus, scene_focus
-from app.presets import PRESETS
+from app.actions import camera as camera_actions
+from app.actions.camera import CAMERA, EDIT
+from app.actions.table import ACTIONS
+from app.cameras.fly import KEYS
+from app.cameras.focus import Focus, scene_focus
+from app.cameras.presets import PRESETS
 from app.state import AppState
 from renderer.camera import Camera
 from renderer.scene import load_scene

@@ -15,8 +15,8 @@ import pytest
 from hypothesis import assume, example, given
 from hypothesis import strategies as st
 
-from app.camera_reader import MOST_CHARACTERS, read_view
-from app.camera_text import FORMS, Form, Subject, as_text
+from app.cameras.reader import MOST_CHARACTERS, read_view
+from app.cameras.text import FORMS, Form, Subject, as_text
 from app.cli import main
 from app.commands import view as view_command
 from renderer.camera import Camera, volume

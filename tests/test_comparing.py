@@ -5,7 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from app import comparing
+from app.images import comparing
 from app.state import AppState
 from renderer import Camera, Frame, load_scene
 from renderer.compare import CAUSES, SHADING, UNEXPLAINED, compare_frames

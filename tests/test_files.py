@@ -13,11 +13,11 @@ import numpy as np
 import pytest
 from PIL import Image
 
-from app import clipboard
-from app.capture import Captures, cut
-from app.files import open_sources
-from app.folders import read_folder, starting_points
-from app.recent import MOST, RecentFiles
+from app.storage import clipboard
+from app.storage.capture import Captures, cut
+from app.storage.files import open_sources
+from app.storage.folders import read_folder, starting_points
+from app.storage.recent import MOST, RecentFiles
 from renderer.errors import LucidaError
 from renderer.scene import load_scene, save_view
 

@@ -7,10 +7,10 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from app import imaging
-from app.marking import followed, moved
+from app.images import imaging
+from app.images.marking import followed, moved
+from app.images.pixelvalues import is_dark, line_count, pixel_name, shown_bytes, value_lines
 from app.options import Channel, ImageOptions
-from app.pixelvalues import is_dark, line_count, pixel_name, shown_bytes, value_lines
 from app.state import AppState
 from renderer.camera import Camera
 from renderer.errors import LucidaError

@@ -10,10 +10,10 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 import pytest
 
-from app import live
-from app.agreement import Agreement
 from app.background import Background
-from app.live import LiveTrace, RayImage, Request
+from app.images import live
+from app.images.agreement import Agreement
+from app.images.live import LiveTrace, RayImage, Request
 from renderer.camera import Camera
 from renderer.errors import LucidaError
 from renderer.frame import CHANNELS, Frame

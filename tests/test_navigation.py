@@ -10,7 +10,7 @@ import pytest
 from hypothesis import assume, given
 from hypothesis import strategies as st
 
-from app import navigation
+from app.cameras import navigation
 from renderer.camera import Camera, volume
 from renderer.errors import LucidaError
 

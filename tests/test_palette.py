@@ -6,9 +6,9 @@ from dataclasses import replace
 
 import pytest
 
-from app.actions import ACTIONS, MENUS
+from app.actions.palette import Entry, found, score
+from app.actions.table import ACTIONS, MENUS
 from app.changes import change
-from app.palette import Entry, found, score
 from app.panels.sheet import in_columns, sections
 from app.state import AppState
 from renderer.scene import load_scene

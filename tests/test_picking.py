@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from app.picking import object_on_ray
+from app.images.picking import object_on_ray
 from renderer import Tracer
 from renderer.scene import BUILTIN_SCENES, Scene, SceneObject, Sphere, load_scene, shapes
 

@@ -8,11 +8,18 @@ import pytest
 from hypothesis import assume, given
 from hypothesis import strategies as st
 
-from app import placement
+from app.images import placement
+from app.images.placement import (
+    magnification_text,
+    place,
+    shown_pixel,
+    step_from,
+    stepped,
+    zoomed_at,
+)
+from app.images.shown import section_of, whole
 from app.options import MAGNIFICATIONS, ImageOptions
 from app.panels.pixelgrid import thinning
-from app.placement import magnification_text, place, shown_pixel, step_from, stepped, zoomed_at
-from app.shown import section_of, whole
 
 SIZES = st.tuples(st.integers(1, 4096), st.integers(1, 4096))
 PANES = st.tuples(st.integers(1, 2500), st.integers(1, 2500))

@@ -10,9 +10,9 @@ import pytest
 from hypothesis import assume, given
 from hypothesis import strategies as st
 
-from app.focus import object_corners, scene_focus
-from app.presets import MARGIN, PRESETS, Preset, clip_around, framed, look_at, preset_named
-from app.presets import preset_view as make_view
+from app.cameras.focus import object_corners, scene_focus
+from app.cameras.presets import MARGIN, PRESETS, Preset, clip_around, framed, look_at, preset_named
+from app.cameras.presets import preset_view as make_view
 from app.state import is_orthonormal
 from renderer.camera import Camera, volume
 from renderer.errors import LucidaError

@@ -5,8 +5,8 @@ import gc
 import numpy as np
 import pytest
 
+from app.images.pixelvalues import shown_bytes
 from app.options import ImageOptions
-from app.pixelvalues import shown_bytes
 from renderer.camera import Camera
 from renderer.frame import Frame
 from renderer.images import to_srgb8

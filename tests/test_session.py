@@ -17,7 +17,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from app.options import Bookmark
-from app.session import (
+from app.state import AppState
+from app.storage.session import (
     LARGEST_BYTES,
     VERSION,
     Arrangement,
@@ -26,8 +27,7 @@ from app.session import (
     session_of,
     to_bytes,
 )
-from app.session_store import Keeper, take_place
-from app.state import AppState
+from app.storage.session_store import Keeper, take_place
 from app.viewer import begin_session
 from renderer.camera import Camera
 from renderer.errors import LucidaError
@@ -281,7 +281,7 @@ def test_the_keeper_saves_after_a_while_and_tells_a_failure_once(tmp_path, state
     assert place is not None
     keeper = Keeper(place, lambda: None)
     now_s = [100.0]
-    monkeypatch.setattr("app.session_store.time.monotonic", lambda: now_s[0])
+    monkeypatch.setattr("app.storage.session_store.time.monotonic", lambda: now_s[0])
     assert not keeper.due()
     keeper.mark()
     assert not keeper.due()
@@ -323,8 +323,8 @@ def wait_for(condition) -> None:
 WRITER = """
 import sys
 from pathlib import Path
-from app.session import Arrangement, session_of, to_bytes
-from app.session_store import take_place
+from app.storage.session import Arrangement, session_of, to_bytes
+from app.storage.session_store import take_place
 from app.state import AppState
 from renderer.scene import load_scene
 

@@ -9,9 +9,9 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from app.basis import with_component, with_vector
-from app.editing import Draft, edit_component, edit_field
-from app.focus import scene_focus
+from app.cameras.basis import with_component, with_vector
+from app.cameras.editing import Draft, edit_component, edit_field
+from app.cameras.focus import scene_focus
 from app.state import AppState, History, is_orthonormal
 from renderer.camera import Camera
 from renderer.scene import View, load_scene

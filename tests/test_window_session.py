@@ -10,7 +10,7 @@ from pathlib import Path
 
 import pytest
 
-from app.session import from_bytes
+from app.storage.session import from_bytes
 
 TESTS = Path(__file__).parent
 LIMIT_S = 500

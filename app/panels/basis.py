@@ -1,7 +1,7 @@
 """The basis in numbers: lengths, angles, determinant, handedness.
 
 Owns their place and look: fixed columns, what is unusual on a ground of its own. Knows nothing of
-how they are measured (app/basis.py).
+how they are measured (app/cameras/basis.py).
 """
 
 from __future__ import annotations
@@ -11,7 +11,7 @@ import math
 from imgui_bundle import ImVec2, ImVec4, imgui
 
 from app import theme
-from app.basis import Measures
+from app.cameras.basis import Measures
 from app.panels import rows
 
 USUAL = 1e-6  # the largest deviation of a length, a determinant, or an angle in radians

@@ -11,9 +11,9 @@ from dataclasses import dataclass, replace
 from imgui_bundle import imgui
 
 from app import theme
-from app.basis import measures
-from app.editing import BASIS, Draft
-from app.navigation import switched_projection
+from app.cameras.basis import measures
+from app.cameras.editing import BASIS, Draft
+from app.cameras.navigation import switched_projection
 from app.options import EXPOSURE_LIMIT_EV
 from app.panels import rows
 from app.panels.basis import basis_readout

@@ -10,11 +10,11 @@ from dataclasses import dataclass, replace
 from imgui_bundle import imgui
 
 from app import theme
-from app.camera_text import FORMS, Form
-from app.focus import Focus
+from app.cameras.focus import Focus
+from app.cameras.presets import PRESETS, Preset, look_at
+from app.cameras.text import FORMS, Form
 from app.panels import rows
 from app.panels.fields import Scale, number_field
-from app.presets import PRESETS, Preset, look_at
 from app.state import AppState
 from renderer.camera import Camera, Vector
 from renderer.errors import LucidaError

@@ -11,8 +11,9 @@ from dataclasses import dataclass
 
 from imgui_bundle import ImVec2, ImVec4, imgui
 
-from app import comparing, theme
-from app.comparing import LABELS, MODES, Scale
+from app import theme
+from app.images import comparing
+from app.images.comparing import LABELS, MODES, Scale
 from app.options import Pixel
 from app.state import AppState
 from renderer.compare import LABEL_COLORS, Comparison

@@ -2,8 +2,8 @@
 
 Owns its look and keys; made so that it can be used without a mouse: type a name or a path, or
 choose with the arrows; Enter opens, Backspace goes up, Escape leaves. What is in the folders is
-app/folders.py's. The bundle's own dialog is not used: it ends the process where there is no icon
-theme.
+app/storage/folders.py's. The bundle's own dialog is not used: it ends the process where there is
+no icon theme.
 """
 
 from __future__ import annotations
@@ -16,7 +16,7 @@ from pathlib import Path
 from imgui_bundle import ImVec2, imgui
 
 from app import theme
-from app.folders import FolderReader, Listing, starting_points
+from app.storage.folders import FolderReader, Listing, starting_points
 
 Chosen = Callable[[list[str]], None]
 TITLE = "###file dialog"

@@ -21,11 +21,11 @@ from dataclasses import dataclass, replace
 import numpy as np
 from imgui_bundle import ImVec2, imgui
 
-from app import navigation
-from app.fly import held
+from app.cameras import navigation
+from app.cameras.fly import held
+from app.images.placement import panned, step_from, zoomed_at
 from app.options import Pixel
 from app.panels.screen import Screen
-from app.placement import panned, step_from, zoomed_at
 from app.state import AppState
 from renderer.camera import Camera, Vector
 from renderer.errors import LucidaError

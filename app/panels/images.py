@@ -12,13 +12,13 @@ from dataclasses import dataclass
 from imgui_bundle import ImVec2, imgui
 
 from app import theme
+from app.images.placement import Placement, place
 from app.options import Pixel
 from app.panels.grips import Grab, Lens, Seen, Zoom, drag, magnify, wheel
 from app.panels.marks import claim_keys, draw_hovered, draw_marked, draw_pin
 from app.panels.overlay import draw_corner, draw_legend, draw_note
 from app.panels.pixelgrid import Values, draw_pixel_grid
 from app.panels.screen import Box, Screen
-from app.placement import Placement, place
 from app.state import AppState
 
 

@@ -10,13 +10,13 @@ from dataclasses import dataclass, replace
 from imgui_bundle import ImVec4, imgui
 
 from app import theme
-from app.editing import Draft, edit_component, edit_field
-from app.focus import Focus
-from app.navigation import distance_for, dollied, with_shift
+from app.cameras.editing import Draft, edit_component, edit_field
+from app.cameras.focus import Focus
+from app.cameras.navigation import distance_for, dollied, with_shift
+from app.cameras.presets import clip_around
 from app.panels import rows
 from app.panels.fields import Scale, number_field, short_number
 from app.panels.pointing import pointed
-from app.presets import clip_around
 from app.state import AppState
 from renderer.camera import Camera, Vector
 from renderer.errors import LucidaError

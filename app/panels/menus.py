@@ -10,11 +10,12 @@ from pathlib import Path
 
 from imgui_bundle import ImVec2, imgui
 
-from app import bookmarks, layout, theme
-from app.action import Action, Window
-from app.actions import ACTIONS, MENUS
+from app import layout, theme
+from app.actions.base import Action, Window
+from app.actions.table import ACTIONS, MENUS
 from app.changes import change
 from app.state import History
+from app.storage import bookmarks
 from renderer.scene import BUILTIN_SCENES
 
 HISTORY_STEPS = 15

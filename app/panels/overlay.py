@@ -8,8 +8,8 @@ from __future__ import annotations
 from imgui_bundle import ImVec2, ImVec4, imgui
 
 from app import theme
+from app.images.placement import magnification_text
 from app.panels.screen import Screen
-from app.placement import magnification_text
 from app.state import AppState
 from renderer.images.display import FARTHEST_GRAY, ID_PALETTE
 

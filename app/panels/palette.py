@@ -1,6 +1,6 @@
 """The command palette: type a few letters, choose with the arrows, Enter does it.
 
-Owns its look, its keys and what was chosen last. What there is to choose is app/palette.py's.
+Owns its look, its keys and what was chosen last. What there is to choose: app/actions/palette.py.
 """
 
 from __future__ import annotations
@@ -10,7 +10,7 @@ from collections.abc import Callable
 from imgui_bundle import ImVec2, ImVec4, imgui
 
 from app import theme
-from app.palette import Entry, Match, found
+from app.actions.palette import Entry, Match, found
 
 SHOWN_ROWS = 12
 REMEMBERED = 50

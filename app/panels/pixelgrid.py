@@ -12,9 +12,9 @@ from imgui_bundle import ImVec2, imgui
 from numpy.typing import NDArray
 
 from app import theme
+from app.images.pixelvalues import Depths, is_dark, line_count, pixel_name, shown_bytes, value_lines
+from app.images.reading import Region
 from app.panels.screen import Screen
-from app.pixelvalues import Depths, is_dark, line_count, pixel_name, shown_bytes, value_lines
-from app.reading import Region
 from app.state import AppState
 
 LINES_FROM, VALUES_FROM = 8.0, 32.0  # screen pixels a side of an image's pixel

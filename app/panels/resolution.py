@@ -10,7 +10,7 @@ from dataclasses import dataclass, replace
 from imgui_bundle import ImVec2, imgui
 
 from app import theme
-from app.imaging import parsed_size, size_text, with_resolution
+from app.images.imaging import parsed_size, size_text, with_resolution
 from app.state import AppState
 from renderer.errors import LucidaError
 

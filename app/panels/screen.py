@@ -11,8 +11,8 @@ from dataclasses import dataclass
 
 from imgui_bundle import ImVec2, imgui
 
+from app.images.placement import Placement
 from app.options import Pixel
-from app.placement import Placement
 
 Box = tuple[ImVec2, ImVec2]  # upper left and lower right corner
 

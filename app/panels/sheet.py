@@ -1,6 +1,6 @@
 """The sheet of mouse and keys: every key that does something, by menu, in columns.
 
-Made from the tables of actions.py. Owns its look.
+Made from the table of app/actions/table.py. Owns its look.
 """
 
 from __future__ import annotations
@@ -10,7 +10,7 @@ from collections.abc import Sequence
 from imgui_bundle import ImVec2, imgui
 
 from app import theme
-from app.actions import ACTIONS, MENUS, MOUSE
+from app.actions.table import ACTIONS, MENUS, MOUSE
 
 COLUMN_EM = 24.0
 NAME = "Mouse and keys"

@@ -11,7 +11,7 @@ from dataclasses import dataclass
 from imgui_bundle import ImVec2, imgui
 
 from app import theme
-from app.imaging import (
+from app.images.imaging import (
     CHANNELS,
     COMPONENTS,
     TRANSFERS,
@@ -23,8 +23,8 @@ from app.imaging import (
     with_pixel_size,
     with_resolution,
 )
+from app.images.placement import magnification_text
 from app.options import MAGNIFICATIONS, PIXEL_SIZES, RESOLUTIONS
-from app.placement import magnification_text
 from app.state import AppState
 
 PADDING = ImVec2(6, 2)

@@ -11,11 +11,11 @@ from typing import ClassVar, Protocol
 import moderngl
 from imgui_bundle import ImVec2
 
-from app.files import Files
-from app.focus import Focus
+from app.cameras.focus import Focus
+from app.images.renderers import Renderers
 from app.options import Pixel
-from app.renderers import Renderers
 from app.state import AppState
+from app.storage.files import Files
 from app.theme import Fonts
 from renderer.camera import Camera
 

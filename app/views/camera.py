@@ -8,8 +8,8 @@ from __future__ import annotations
 
 from imgui_bundle import imgui
 
-from app import camera_actions
-from app.editing import Draft
+from app.actions import camera as camera_actions
+from app.cameras.editing import Draft
 from app.panels.camera import Panel, camera_panel
 from app.panels.camera_sections import Asked, Sections
 from app.panels.lens import Surroundings

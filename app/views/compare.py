@@ -14,20 +14,21 @@ import numpy as np
 from imgui_bundle import ImVec2, ImVec4, imgui
 from numpy.typing import NDArray
 
-from app import comparing, theme
-from app.actions import FLIP_KEY
-from app.composed import Composed, Mapping
-from app.files import describe
+from app import theme
+from app.actions.table import FLIP_KEY
+from app.images import comparing
+from app.images.composed import Composed, Mapping
+from app.images.pictures import Wanted
+from app.images.placement import Placement
+from app.images.reading import Region
+from app.images.renderers import Renderers, look_of
+from app.images.shown import ShownImage
 from app.lettering import lettering
 from app.panels import compare as panel
 from app.panels.differences import draw_differences
 from app.panels.screen import Screen
-from app.pictures import Wanted
-from app.placement import Placement
-from app.reading import Region
-from app.renderers import Renderers, look_of
-from app.shown import ShownImage
 from app.state import AppState
+from app.storage.files import describe
 from app.views.base import Host
 from app.views.pair import ImageView, Linked
 from renderer.compare import Comparison

@@ -16,12 +16,12 @@ from imgui_bundle import ImVec2, imgui
 
 from app import theme
 from app.background import Background
-from app.files import describe
+from app.images.pictures import Wanted
 from app.lettering import hall_px, lettering
 from app.options import LaboratoryOptions, Pixel
 from app.panels.screen import available_px, framebuffer_scale
-from app.pictures import Wanted
 from app.state import AppState
+from app.storage.files import describe
 from app.teach.imagelab import disk
 from app.teach.imagelab.pages import Image, Panel, Plan, panels, plan
 from app.views.base import Host, View

@@ -16,7 +16,6 @@ from numpy.typing import NDArray
 
 from app import theme
 from app.background import Background
-from app.files import describe
 from app.lettering import lettering
 from app.options import LARGEST_ZOOM, LaboratoryOptions
 from app.outside.bitmap import bitmap, magnified
@@ -24,6 +23,7 @@ from app.outside.sketch import Sketch
 from app.outside.svg import svg
 from app.outside.vector import Drawing
 from app.panels.screen import framebuffer_scale
+from app.storage.files import describe
 from app.views.base import Host
 from app.views.outside import OutsideView
 from app.views.outside_vector import Sketcher, export_svg

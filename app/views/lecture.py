@@ -17,11 +17,11 @@ from imgui_bundle import ImVec2, imgui
 
 from app import layout, theme
 from app.background import Background
-from app.files import describe
 from app.lettering import lettering
 from app.panels.exercise import exercise
 from app.panels.slide import Slides
 from app.state import AppState
+from app.storage.files import describe
 from app.teach.lecture.model import Lecture, Step
 from app.teach.lecture.reading import BUILTIN, load_lecture
 from app.teach.lecture.session import Session

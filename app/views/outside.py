@@ -17,7 +17,9 @@ from imgui_bundle import ImVec2, imgui
 from numpy.typing import NDArray
 
 from app import theme
-from app.files import describe
+from app.images.picking import object_on_ray
+from app.images.pictures import Wanted
+from app.images.renderers import look_of
 from app.options import OutsideOptions, Pixel
 from app.outside.diagram import Hit, Item, diagram
 from app.outside.extent import around, end_parameter, framed, outside_camera, way_of
@@ -26,10 +28,8 @@ from app.outside.paint import casing, layers
 from app.outside.projected import NEAREST, Primitive, Screen, project
 from app.outside.solid import bundle_pixels, pixel_seen, plane_corners
 from app.panels.screen import available_px, framebuffer_scale
-from app.picking import object_on_ray
-from app.pictures import Wanted
-from app.renderers import look_of
 from app.state import AppState
+from app.storage.files import describe
 from app.views.base import Host, View
 from app.views.outside_gizmo import Gizmo
 from app.views.outside_ground import Ground

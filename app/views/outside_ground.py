@@ -11,7 +11,7 @@ from dataclasses import dataclass, replace
 
 import moderngl
 
-from app.pictures import Pictures, Wanted
+from app.images.pictures import Pictures, Wanted
 from renderer.raster.overlay import Overlay
 from renderer.raster.targets import Textures
 

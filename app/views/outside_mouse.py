@@ -14,8 +14,8 @@ from dataclasses import dataclass, replace
 
 from imgui_bundle import ImVec2, imgui
 
-from app import navigation
-from app.fly import held
+from app.cameras import navigation
+from app.cameras.fly import held
 from renderer.camera import Camera, Vector
 from renderer.errors import LucidaError
 

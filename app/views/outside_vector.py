@@ -13,19 +13,19 @@ import moderngl
 import numpy as np
 from imgui_bundle import ImVec2
 
-from app.files import describe
+from app.images.pictures import Wanted
 from app.outside import svg
 from app.outside.extent import end_parameter
 from app.outside.paint import vector_paint
 from app.outside.sketch import Sketch
 from app.panels.screen import framebuffer_scale
-from app.pictures import Wanted
+from app.storage.files import describe
 from app.views.base import Host
 from app.views.outside import IMAGE_SIZE, OUTSIDE, OutsideView, nearest, units_px
 from renderer.errors import LucidaError
 
 if TYPE_CHECKING:
-    from app.action import Window
+    from app.actions.base import Window
 
 Size = tuple[int, int]
 PLACE = "Vector"  # see Rasterizer.draw

@@ -12,16 +12,16 @@ from dataclasses import dataclass
 
 from imgui_bundle import ImVec2, imgui
 
-from app.files import describe
-from app.marking import Anchor, followed
+from app.images.marking import Anchor, followed
+from app.images.placement import Placement, place, shown_pixel
 from app.panels.grips import Grab, Lens, Seen, Zoom
 from app.panels.images import Pane, image_pane
 from app.panels.marks import walked
 from app.panels.pixelgrid import Values
 from app.panels.screen import Screen, available_px
 from app.panels.strip import Strip, image_strip
-from app.placement import Placement, place, shown_pixel
 from app.state import AppState
+from app.storage.files import describe
 from app.views.base import Host, View
 from renderer.camera import Camera
 

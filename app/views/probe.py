@@ -16,15 +16,15 @@ from imgui_bundle import imgui
 
 from app import theme
 from app.background import Background
-from app.files import describe
+from app.images.renderers import MIRROR_DEPTH
 from app.options import Pixel
 from app.outside.diagram import Arrow, Dot, Item, Lines
 from app.outside.extent import end_parameter
 from app.panels import formula
 from app.panels import probe as panel
 from app.panels.marks import walked
-from app.renderers import MIRROR_DEPTH
 from app.state import AppState
+from app.storage.files import describe
 from app.teach.bundles import Bundle, bundle, column_of, row_of
 from app.teach.probe import Probe
 from app.teach.reading import Reading

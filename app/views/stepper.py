@@ -16,13 +16,13 @@ import numpy as np
 from imgui_bundle import ImVec2, imgui
 
 from app import theme
-from app.files import describe
 from app.options import Pixel, StepperOptions
 from app.outside.diagram import Dot, Item, Lines
 from app.outside.extent import end_parameter
 from app.outside.solid import plane_parameter, point_at
 from app.panels import stepper as panel
 from app.panels.canvas import color_picture, depth_picture
+from app.storage.files import describe
 from app.teach import stepper
 from app.teach.recording import Order, Recording
 from app.teach.runs import Pair, Runs

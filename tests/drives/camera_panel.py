@@ -9,9 +9,9 @@ import numpy as np
 from imgui_bundle import imgui
 from window_driver import Driver, Key, changed
 
-from app.presets import PRESETS
+from app.cameras.presets import PRESETS
+from app.cameras.travel import DURATION_S
 from app.state import is_orthonormal
-from app.travel import DURATION_S
 from app.views.pair import RASTER, RAY
 from renderer.camera import Camera
 

@@ -10,8 +10,8 @@ import numpy as np
 from imgui_bundle import hello_imgui, imgui
 from window_driver import SIZE, Driver, Key
 
-from app import comparing
-from app.live import RayImage
+from app.images import comparing
+from app.images.live import RayImage
 from app.options import Pixel
 from app.panels.screen import framebuffer_scale
 from app.views.compare import waiting

@@ -8,8 +8,8 @@ import numpy as np
 from imgui_bundle import imgui
 from window_driver import Driver, Key
 
+from app.images.placement import Placement, place
 from app.panels.screen import framebuffer_scale
-from app.placement import Placement, place
 from app.views.pair import RASTER, RAY
 from renderer.images import to_srgb8
 from renderer.images.display import picture

@@ -9,7 +9,7 @@ from imgui_bundle import hello_imgui
 from window_driver import Driver, Key
 
 from app import layout
-from app.commanding import entries
+from app.actions.commanding import entries
 from app.outside.projected import Strokes
 from app.panels.sheet import sections
 from app.teach.recording import Order

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from imgui_bundle import imgui
 
-from app.action import Action, Key, Window, changing
+from app.actions.base import Action, Key, Window, changing
 from app.panels.stepper import Wish
 from app.state import AppState
 

@@ -16,7 +16,7 @@ import moderngl
 import numpy as np
 
 from app.background import Background
-from app.clipboard import copy_png
+from app.storage.clipboard import copy_png
 from renderer.atomic import atomic_write
 from renderer.errors import LucidaError
 

@@ -13,13 +13,13 @@ from collections.abc import Callable
 import moderngl
 from numpy.typing import NDArray
 
-from app.agreement import Agreement, Verdict
-from app.live import LiveTrace, RayImage, Request, Tracer
+from app.images.agreement import Agreement, Verdict
+from app.images.live import LiveTrace, RayImage, Request, Tracer
+from app.images.pictures import FAILURES, Pictures, Wanted
+from app.images.placement import Placement, common_pane, place
+from app.images.reading import Region
 from app.options import ImageOptions
-from app.pictures import FAILURES, Pictures, Wanted
-from app.placement import Placement, common_pane, place
 from app.platform import lower_priority
-from app.reading import Region
 from app.state import AppState
 from renderer.camera import Camera
 from renderer.frame import LARGEST_PIXELS, LARGEST_SIDE, Frame

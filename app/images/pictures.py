@@ -13,10 +13,10 @@ from dataclasses import dataclass
 import moderngl
 from numpy.typing import NDArray
 
-from app.live import RayImage, reduced
-from app.placement import Placement
-from app.reading import Reading, Region
-from app.shown import Range, ShownImage, whole
+from app.images.live import RayImage, reduced
+from app.images.placement import Placement
+from app.images.reading import Reading, Region
+from app.images.shown import Range, ShownImage, whole
 from renderer.camera import Camera
 from renderer.errors import LucidaError
 from renderer.frame import Frame

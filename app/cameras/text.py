@@ -1,6 +1,6 @@
 """A camera as text to copy: a view file, a command line, Python, OpenGL matrices.
 
-Owns the forms, of which each is read back by camera_reader.py. Knows nothing of clipboards.
+Owns the forms, of which each is read back by reader.py. Knows nothing of clipboards.
 """
 
 from __future__ import annotations
@@ -10,7 +10,7 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 from typing import Literal, get_args
 
-from app.presets import clip_around
+from app.cameras.presets import clip_around
 from renderer.camera import Camera, Floats
 from renderer.scene import view_to_toml
 from renderer.scene.model import View

@@ -7,8 +7,8 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-from app.action import CTRL, SHIFT, Action, Key, Window, changing
-from app.navigation import switched_projection
+from app.actions.base import CTRL, SHIFT, Action, Key, Window, changing
+from app.cameras.navigation import switched_projection
 from app.options import OutsideOptions
 from app.outside.extent import around, framed, outside_camera, way_of
 from app.outside.switches import (

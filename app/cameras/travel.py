@@ -9,8 +9,8 @@ import time
 from collections.abc import Callable, Hashable
 from dataclasses import replace
 
-from app.animation import Passage
-from app.focus import Focus
+from app.cameras.animation import Passage
+from app.cameras.focus import Focus
 from app.state import AppState, is_orthonormal
 
 DURATION_S = 0.5

@@ -10,16 +10,16 @@ from collections.abc import Callable
 
 from imgui_bundle import imgui
 
-from app import comparing
-from app.action import CTRL, SHIFT, Action, Key, Window, changing
-from app.camera_actions import CAMERA, EDIT
-from app.camera_actions import MOUSE as CAMERA_MOUSE
-from app.image_actions import IMAGE
-from app.image_actions import MOUSE as IMAGE_MOUSE
-from app.lecture_actions import LECTURE
+from app.actions.base import CTRL, SHIFT, Action, Key, Window, changing
+from app.actions.camera import CAMERA, EDIT
+from app.actions.camera import MOUSE as CAMERA_MOUSE
+from app.actions.image import IMAGE
+from app.actions.image import MOUSE as IMAGE_MOUSE
+from app.actions.lecture import LECTURE
+from app.actions.outside import DIAGRAM, OUTSIDE
+from app.actions.shell import BOOKMARKS, FILE, HELP, LOOK
+from app.images import comparing
 from app.options import CompareMode
-from app.outside_actions import DIAGRAM, OUTSIDE
-from app.shell_actions import BOOKMARKS, FILE, HELP, LOOK
 from app.state import AppState
 from renderer.compare import Comparison
 

@@ -1,7 +1,7 @@
 """The actions of the camera: projection, presets, framing, copying and pasting.
 
 Owns their names and keys, and what they do with the window; panels and menus share it. The
-cameras are presets.py's and navigation.py's, the texts camera_text.py's and camera_reader.py's.
+cameras are presets.py's and navigation.py's, the texts text.py's and reader.py's.
 """
 
 from __future__ import annotations
@@ -12,15 +12,15 @@ from typing import Protocol
 
 from imgui_bundle import imgui
 
-from app.action import CTRL, SHIFT, Action, Key, Window, changing
-from app.camera_reader import SOURCE, read_view
-from app.camera_text import FORMS, Form, Subject, as_text
-from app.files import Files
-from app.focus import Focus
-from app.navigation import switched_projection
-from app.presets import PRESETS, Preset, framed, preset_view
-from app.renderers import Renderers
+from app.actions.base import CTRL, SHIFT, Action, Key, Window, changing
+from app.cameras.focus import Focus
+from app.cameras.navigation import switched_projection
+from app.cameras.presets import PRESETS, Preset, framed, preset_view
+from app.cameras.reader import SOURCE, read_view
+from app.cameras.text import FORMS, Form, Subject, as_text
+from app.images.renderers import Renderers
 from app.state import AppState, is_orthonormal
+from app.storage.files import Files
 from renderer.camera import Camera
 from renderer.errors import LucidaError
 

@@ -8,9 +8,9 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
-from app.action import Action, Window
-from app.actions import ACTIONS
-from app.palette import Entry
+from app.actions.base import Action, Window
+from app.actions.palette import Entry
+from app.actions.table import ACTIONS
 from renderer.scene import BUILTIN_SCENES
 
 
@@ -93,6 +93,6 @@ def _bookmarks(window: Window) -> list[Entry]:
 
 
 def _travel(window: Window, number: int) -> Callable[[], None]:
-    from app.bookmarks import recall
+    from app.storage.bookmarks import recall
 
     return lambda: recall(window, number)

@@ -11,10 +11,10 @@ from typing import TYPE_CHECKING, Protocol
 
 from imgui_bundle import imgui
 
-from app.files import Files
-from app.focus import Focus
-from app.renderers import Renderers
+from app.cameras.focus import Focus
+from app.images.renderers import Renderers
 from app.state import AppState
+from app.storage.files import Files
 
 if TYPE_CHECKING:
     from app.shell import Shell

@@ -17,7 +17,7 @@ from imgui_bundle import portable_file_dialogs as dialogs
 
 from app.background import Background
 from app.panels.dialog import FileDialog, Question
-from app.recent import RecentFiles
+from app.storage.recent import RecentFiles
 from app.teach.lecture.model import Lecture
 from app.teach.lecture.reading import is_lecture, load_lecture
 from renderer.errors import LucidaError

@@ -1,4 +1,4 @@
-"""A camera read from a text that somebody has copied: camera_text.py's forms, and near relatives.
+"""A camera read from a text that somebody has copied: text.py's forms, and near relatives.
 
 Pure; runs none of what it reads. What holds no camera is a LucidaError of one line.
 """
@@ -14,7 +14,7 @@ from typing import NoReturn
 
 import numpy as np
 
-from app.camera_text import FITTED
+from app.cameras.text import FITTED
 from app.commands.arguments import CAMERA_OPTIONS, add_camera_options, with_camera_options
 from renderer.camera import Camera, Floats, Vector
 from renderer.errors import LucidaError

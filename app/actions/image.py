@@ -8,8 +8,8 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
-from app.action import ALT, Action, Key, Window, changing
-from app.imaging import (
+from app.actions.base import ALT, Action, Key, Window, changing
+from app.images.imaging import (
     CHANNELS,
     COMPONENTS,
     size_text,
@@ -20,6 +20,7 @@ from app.imaging import (
     with_resolution,
     with_transfer_switched,
 )
+from app.images.placement import magnification_text, step_from
 from app.options import (
     MAGNIFICATIONS,
     PIXEL_SIZES,
@@ -27,7 +28,6 @@ from app.options import (
     Channel,
     Component,
 )
-from app.placement import magnification_text, step_from
 from app.state import AppState
 
 CHANNEL, RESOLUTION, MAGNIFY = "Image/Channel", "Image/Resolution", "Image/Magnification"

@@ -9,7 +9,7 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 from typing import Any
 
-from app.basis import with_component
+from app.cameras.basis import with_component
 from app.state import AppState
 from renderer.camera import Camera
 from renderer.errors import LucidaError

@@ -7,9 +7,10 @@ from __future__ import annotations
 
 from typing import Literal
 
-from app import bookmarks, layout
-from app.action import CTRL, SHIFT, Action, Key, changing
+from app import layout
+from app.actions.base import CTRL, SHIFT, Action, Key, changing
 from app.state import AppState
+from app.storage import bookmarks
 from app.theme import LARGEST_SCALE, SMALLEST_SCALE
 
 FONT_SCALES = (0.75, 0.9, 1.0, 1.25, 1.5, 1.75, 2.0, 2.5, 3.0)

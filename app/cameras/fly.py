@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from imgui_bundle import imgui
 
-from app.navigation import flown
+from app.cameras.navigation import flown
 from app.views.base import Host, View
 from renderer.errors import LucidaError
 

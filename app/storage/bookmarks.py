@@ -5,7 +5,7 @@ Owns their storing, recall and names. They are options (options.py), so undo and
 
 from __future__ import annotations
 
-from app.action import Window
+from app.actions.base import Window
 from app.options import Bookmark
 from app.state import AppState
 from renderer.scene import View

@@ -10,7 +10,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from app.background import Background
-from app.live import RayImage, Request
+from app.images.live import RayImage, Request
 from renderer.frame import Frame
 from renderer.scene.flat import FlatScene, flatten
 from renderer.scene.model import Scene

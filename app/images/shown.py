@@ -15,7 +15,7 @@ from dataclasses import dataclass, replace
 
 import moderngl
 
-from app.placement import Placement, Size
+from app.images.placement import Placement, Size
 from renderer.raster import Display, Look, Section
 from renderer.raster.resources import new_texture
 

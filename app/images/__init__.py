@@ -1,0 +1,6 @@
+"""Both images behind the window: made by the renderers, refined, compared, brought to the screen.
+
+renderers   told the state, they keep both images up to date: live (ray), pictures (raster)
+agreement   whether they agree, compared in the background; comparing: in words
+shown       one image on its way to the screen; placement: where it stands there
+"""
