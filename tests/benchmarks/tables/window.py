@@ -184,9 +184,9 @@ class Script:
         """The left button held over the ray image, the mouse going round in loops."""
         from imgui_bundle import imgui
 
-        from app.window import RAY, TITLES
+        from app.views.pair import RAY
 
-        pane = imgui.internal.find_window_by_name(f"{TITLES[RAY]}###{RAY}")
+        pane = imgui.internal.find_window_by_name(self._window.views[RAY].label)
         x, y = pane.pos.x + pane.size.x / 2, pane.pos.y + pane.size.y / 2
         before = self._window.state.camera.eye
         self._mouse(x, y)
