@@ -53,8 +53,9 @@ def drawn(
     items: list[Item],
     plane: Plane | None = None,
     unit_px: float = 1.0,
+    coarse: int = 1,
 ) -> NDArray[np.uint8]:
-    """The view's pixels, (height, width, 3)."""
+    """The view's pixels, (height, width, 3). coarse: how many are one of the scene's, a side."""
     rasterizer.set_scene(scene)
     with rasterizer.current() as gl:
         overlay = Overlay(gl)
@@ -64,7 +65,7 @@ def drawn(
         try:
             primitives = project(items, Screen(camera, SIZE, 1e-3, unit_px))
             texture = overlay.draw(
-                rasterizer.draw(camera, SIZE, "outside"),
+                rasterizer.draw(camera, (SIZE[0] // coarse, SIZE[1] // coarse), "outside"),
                 camera,
                 SIZE,
                 layers(primitives),
@@ -73,6 +74,7 @@ def drawn(
                 unit_px=unit_px,
             )
             pixels = np.frombuffer(texture.read(), np.uint8).reshape(SIZE[1], SIZE[0], 4)
+            assert pixels[..., 3].min() == 255  # ImGui blends it
         finally:
             overlay.release()
             if picture is not None:
@@ -251,3 +253,20 @@ def test_no_camera_breaks_the_drawing(rasterizer: Rasterizer) -> None:
         except LucidaError:
             plane = None
         assert drawn(rasterizer, BALL, camera, items, plane).shape == (SIZE[1], SIZE[0], 3)
+
+
+def test_over_a_coarse_scene_lines_and_the_picture_stay_sharp(rasterizer: Rasterizer) -> None:
+    camera = outsides()[0]
+    plane = picture_plane(camera)
+    items: list[Item] = [line((-2.5, -1.4, 1.0), (2.0, 1.2, 1.0), width=3.0)]
+    for factor in (2, 4):
+        nothing = drawn(rasterizer, EMPTY, camera, items, plane, coarse=factor).astype(int)
+        assert np.abs(nothing - drawn(rasterizer, EMPTY, camera, items, plane)).max() <= 1
+        coarse = drawn(rasterizer, BALL, camera, items, plane, coarse=factor).astype(int)
+        full = drawn(rasterizer, BALL, camera, items, plane).astype(int)
+        different = np.abs(coarse - full).max(axis=2) > 8
+        # Along the ball's edge, and where that hides the line or the picture.
+        assert 0 < different.mean() < 0.01 * factor
+    ink = role_color("extra")
+    solid = 255 * np.array([ink.x, ink.y, ink.z])
+    assert np.abs(at(coarse, camera, (1.9, 1.147, 1.0)) - solid).max() < 4

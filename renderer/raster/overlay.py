@@ -24,6 +24,7 @@ from renderer.raster.targets import Textures
 Size = tuple[int, int]
 Rgba = tuple[float, float, float, float]
 FAR_PX = 1e6  # beyond every image
+BACK_LIGHT = 0.55  # of a picture that is seen from behind
 _THINNEST = 1e-7  # an image plane seen more nearly edge on shows nothing of its picture
 
 
@@ -92,8 +93,10 @@ class Overlay:
     def __init__(self, context: moderngl.Context) -> None:
         self._gl = context
         self._owner = Owner()
-        self._ground = self._owner.own(link(context, "screen.vert", "outside.frag"))
-        self._screen = self._owner.own(context.vertex_array(self._ground, []))
+        self._enlarging = self._owner.own(link(context, "screen.vert", "enlarge.frag"))
+        self._enlarge = self._owner.own(context.vertex_array(self._enlarging, []))
+        self._placing = self._owner.own(link(context, "plane.vert", "plane.frag"))
+        self._place = self._owner.own(context.vertex_array(self._placing, []))
         self._showing = self._owner.own(link(context, "screen.vert", "scene.frag"))
         self._show = self._owner.own(context.vertex_array(self._showing, []))
         self._kept: Hashable = None  # what the scene as shown was made from
@@ -143,17 +146,19 @@ class Overlay:
     ) -> moderngl.Texture:
         """The view as an 8-bit texture of `size`, drawn over by the next call.
 
-        scene: as drawn by `camera` at `size`. mean: its colour with smooth edges, from gather().
-        plane, picture: what stands in the scene; the picture as it is to be seen (not linear).
-        The plane alone hides nothing. unit_px: the size of dashes and edges. casing: the colour
-        of lines' edges. number: another one whenever the scene's picture is another; None: not
-        known.
+        scene: as drawn by `camera`, at `size` or coarser. mean: its colour with smooth edges, from
+        gather(). plane, picture: what stands in the scene; the picture as it is to be seen (not
+        linear). The plane alone hides nothing. unit_px: the size of dashes and edges. casing: the
+        colour of lines' edges. number: another one whenever the scene's picture is another; None:
+        not known.
         """
         gl = self._gl
         texture, framebuffer = self._of_size("shown", size, "uint8")
         before = gl.detect_framebuffer()
+        coarse = scene.surface.size
         shared: dict[str, Any] = {
             "surface": 1,
+            "texels": (coarse[0] / size[0], coarse[1] / size[1]),
             "perspective": float(not camera.is_parallel),
             "half_size": (size[0] / 2, size[1] / 2),
             "has_plane": plane is not None and picture is not None,
@@ -168,21 +173,19 @@ class Overlay:
             gl.wireframe = False
             gl.clear_samplers(0, 3)
             shown = self._scene_shown(mean or scene.color, exposure_ev, number)
-            framebuffer.use()
-            shown.use(0)
-            scene.surface.use(1)
-            (picture or shown).use(2)
-            ground = {
-                "scene": 0,
-                "picture": 2,
-                "window_depth": 0.5,
-                "opacity": opacity,
-                "picture_light": 1.0 if plane is None or plane.is_front else 0.55,
-            }
-            for name, value in (shared | ground).items():
-                set_uniform(self._ground, name, value)
-            self._screen.render(moderngl.TRIANGLES, vertices=3)
+            self._cover(shown, framebuffer, shared["half_size"])
             framebuffer.color_mask = True, True, True, False  # all of it stays opaque
+            framebuffer.use()  # which is when a mask takes effect
+            scene.surface.use(1)
+            if plane is not None and picture is not None:
+                picture.use(2)
+                light = 1.0 if plane.is_front else BACK_LIGHT
+                extra = {"picture": 2, "opacity": opacity, "picture_light": light}
+                for name, value in (shared | extra).items():
+                    set_uniform(self._placing, name, value)
+                gl.enable_only(moderngl.BLEND)
+                gl.blend_func = BLENDING
+                self._place.render(moderngl.TRIANGLE_STRIP, vertices=4)
             self._lines.set(shared)
             self._lines.draw(layers, 7.0 * unit_px, 1.25 * unit_px, casing)
         finally:
@@ -191,9 +194,29 @@ class Overlay:
             before.use()
         return texture
 
+    def _cover(
+        self,
+        shown: tuple[moderngl.Texture, moderngl.Framebuffer],
+        target: moderngl.Framebuffer,
+        half_size: tuple[float, float],
+    ) -> None:
+        """Fills the target, and binds it: a copy is many times cheaper than a shader on a CPU."""
+        target.use()
+        picture, source = shown
+        if picture.size == target.size:
+            self._gl.copy_framebuffer(target, source)
+            target.use()
+            return
+        picture.use(0)
+        picture.filter = moderngl.LINEAR, moderngl.LINEAR
+        uniforms = {"picture": 0, "half_size": half_size, "window_depth": 0.5}
+        for name, value in uniforms.items():
+            set_uniform(self._enlarging, name, value)
+        self._enlarge.render(moderngl.TRIANGLES, vertices=3)
+
     def _scene_shown(
         self, linear: moderngl.Texture, exposure_ev: float, number: Hashable
-    ) -> moderngl.Texture:
+    ) -> tuple[moderngl.Texture, moderngl.Framebuffer]:
         """The scene after the display transform, made anew only if it must be."""
         texture, framebuffer = self._of_size("scene", linear.size, "uint8")
         key = (texture.glo, linear.glo, exposure_ev, number)
@@ -205,7 +228,7 @@ class Overlay:
             set_uniform(self._showing, "exposure", 2.0 ** min(max(exposure_ev, -100.0), 100.0))
             self._show.render(moderngl.TRIANGLES, vertices=3)
             self._kept = key
-        return texture
+        return texture, framebuffer
 
     def release(self) -> None:
         for name in list(self._targets):

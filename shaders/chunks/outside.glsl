@@ -1,13 +1,19 @@
 // What hides what in the outside view: the scene by its t, the image plane by its formula.
 // Positions are in pixels of the target, y down; t counts along the outside camera's rays.
 
-uniform sampler2D surface;      // the scene's: t in w
+uniform sampler2D surface;      // the scene's: t in w; coarser than the target while things move
+uniform vec2 texels;            // of the surface in a pixel of the target
 uniform float perspective;      // 1: depth s is 1 / t, 0: it is t; both are affine on the screen
 uniform vec2 half_size;         // of the target, in pixels
 uniform bool has_plane;
 uniform mat3 plane_from_screen; // (X q, Y q, q) of (x, y, 1) from the middle; X, Y: 0 to 1 inside
 uniform vec4 plane_box;         // left, top, right, bottom around the picture, from the middle
 uniform vec3 plane_depth;       // s of (x, y, 1)
+
+float scene_t(vec2 position) {
+    ivec2 last = textureSize(surface, 0) - 1;
+    return texelFetch(surface, clamp(ivec2(floor(position * texels)), ivec2(0), last), 0).w;
+}
 
 float t_of(float s) {
     return perspective > 0.5 ? 1.0 / s : s;
@@ -39,10 +45,8 @@ bool may_be_on_plane(vec2 position) {
 // Whether what is drawn at a position with depth s lies behind the scene, or, unless it is part of
 // the image plane, behind the picture.
 bool is_hidden(vec2 position, float s, bool on_plane) {
-    ivec2 last = textureSize(surface, 0) - 1;
-    ivec2 texel = clamp(ivec2(floor(position)), ivec2(0), last);
     float t = t_of(s);
-    if (t > 1.001 * texelFetch(surface, texel, 0).w) {
+    if (t > 1.001 * scene_t(position)) {
         return true;
     }
     if (!has_plane || on_plane) {
