@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import time
 from collections.abc import Callable
+from dataclasses import replace
 from pathlib import Path
 
 import moderngl
@@ -102,7 +103,7 @@ def first_state(lecture: Lecture, number: int = 0) -> AppState:
     seen = AppState.for_scene(step.scene, step.view).with_options(
         preferences={"presentation": True, "reduced_motion": False}
     )
-    return state_of(step, seen)
+    return state_of(step, replace(seen, step=(lecture.source, number)))
 
 
 class _Export:

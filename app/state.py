@@ -23,13 +23,15 @@ class AppState:
     """Everything that undo brings back. Scenes are compared by identity.
 
     keep_orthonormal: edits of u, v or w keep the basis orthonormal. options: see options.py;
-    the properties below name its parts.
+    the properties below name its parts. step: that of the lecture that the state was shown in, as
+    the lecture's source and the step's number from 0; None outside of lectures.
     """
 
     scene: Scene
     view: View
     keep_orthonormal: bool = True
     options: Options = field(default_factory=Options)
+    step: tuple[str, int] | None = None
 
     @classmethod
     def for_scene(cls, scene: Scene, view: View | None = None) -> AppState:

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import time
 from collections.abc import Sequence
+from dataclasses import replace
 from pathlib import Path
 from typing import Protocol
 
@@ -88,7 +89,8 @@ class LectureView(View):
         """Back to the step's own scene, camera, options and views."""
         if self.session is None:
             return
-        window.change(state_of(self.session.step, window.state))
+        state = replace(window.state, step=self.session.place)
+        window.change(state_of(self.session.step, state))
         self._entered, self._arranged = True, False
         layout.switch(LAYOUT)
 
@@ -113,11 +115,20 @@ class LectureView(View):
             return
         if not self._entered:
             self.restore(host)
+        self._follow_undo(host.state.step, self.session)
         if not self._arranged and layout.current().name == LAYOUT:
             self._arrange(self.session.step)
             self._arranged = True
             host.animate()
         self._follow_file(host, self.session)
+
+    def _follow_undo(self, place: tuple[str, int] | None, session: Session) -> None:
+        """Undo and redo pass from a step's states into another's: then so do text and views."""
+        if place is None or place[0] != session.lecture.source:
+            return
+        if session.go(place[1]):
+            self._arranged = False
+            layout.switch(LAYOUT)
 
     def _follow_file(self, host: Host, session: Session) -> None:
         assert self._reading is not None

@@ -102,6 +102,40 @@ def drive_one_key_comes_back_to_the_step(d: Driver) -> None:
     assert d.window.state.scene is d.start.scene
 
 
+def drive_undo_walks_back_over_steps(d: Driver) -> None:
+    first, second = _give(d).steps
+    moved = d.window.state.with_options(images={"exposure_ev": 3.0})
+    d.window.change(moved)
+    d.settle()
+    d.ctx.key_press(int(Key.page_down))
+    d.settle()
+    entered = d.window.state
+    d.window.change(entered.with_options(shadows=True))
+    ctrl = int(Key.mod_ctrl)
+    d.ctx.key_press(ctrl | int(Key.z))  # what was changed in this step
+    d.settle()
+    assert (_number(d), d.window.state) == (1, entered)
+    d.ctx.key_press(ctrl | int(Key.z))  # the way to it: text, views and state come back together
+    d.settle()
+    assert (_number(d), d.window.state) == (0, moved)
+    assert _shown(d) == {LECTURE, "Raster"}
+    d.ctx.key_press(ctrl | int(Key.z))
+    d.settle()
+    assert (_number(d), d.window.state) == (0, state_of(first, moved))
+    for _ in range(2):
+        d.ctx.key_press(ctrl | int(Key.y))
+        d.settle()
+    assert (_number(d), d.window.state) == (1, entered)
+    assert d.window.state == state_of(second, entered)
+    assert _shown(d) == {LECTURE, "Ray", "Camera"}
+    # Before the lecture there is no step: the text stays where it is.
+    while d.window.can_undo():
+        d.window.undo()
+        d.ctx.yield_(2)
+    d.settle()
+    assert (_number(d), d.window.state) == (0, d.start)
+
+
 def drive_what_a_step_points_out_is_framed(d: Driver) -> None:
     pointing = SMALL.replace('views = ["ray"', 'highlight = ["eye", "ray"]\nviews = ["ray"')
     _give(d, pointing)

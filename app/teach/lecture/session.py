@@ -41,6 +41,11 @@ class Session:
         return self.lecture.steps[self.number]
 
     @property
+    def place(self) -> tuple[str, int]:
+        """The lecture and the step, as states name them."""
+        return self.lecture.source, self.number
+
+    @property
     def answers(self) -> Answers:
         """Those to the present step."""
         return self._answers.setdefault(self.step.title, Answers())

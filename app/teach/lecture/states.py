@@ -16,9 +16,11 @@ from app.teach.lecture.options import OWN
 def state_of(step: Step, base: AppState) -> AppState:
     """The step's own state: its scene, its view and its options, whatever was there before.
 
-    base: the present state, of which only what is the user's own stays.
+    base: the present state, of which only what is the user's own stays, and where in a lecture it
+    is.
     """
     kept = {name: getattr(base.options, name) for name in OWN}
     options = replace(Options(), **kept, marked=step.pixel, highlight=step.highlight)
-    state = AppState(step.scene, step.view, is_orthonormal(step.view.camera), options)
+    keep = is_orthonormal(step.view.camera)
+    state = AppState(step.scene, step.view, keep, options, base.step)
     return state.with_options(**step.options)
