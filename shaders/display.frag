@@ -1,12 +1,12 @@
 #version 330 core
 // An image on the screen: each pixel of the target shows the image's pixel that covers its
 // centre, or the mean of all that it covers, weighted by area.
+// AVERAGED: a constant that is put in above, which of the two.
 
 #include "chunks/look.glsl"
 
 uniform vec2 origin;           // the image's upper left corner, in the target
 uniform vec2 texels_per_pixel;
-uniform bool averaged;
 
 out vec4 color;
 
@@ -29,10 +29,11 @@ vec3 mean_seen(vec2 low, vec2 high, vec2 size) {
 }
 
 void main() {
-    ivec2 size = channel == ID ? textureSize(numbers, 0) : textureSize(values, 0);
+    bool has_values = SHOWS_COLOR || SHOWS_DEPTH || SHOWS_NORMAL;
+    ivec2 size = has_values ? textureSize(values, 0) : textureSize(numbers, 0);
     vec2 center = gl_FragCoord.xy - origin;
     vec3 value;
-    if (averaged) {
+    if (AVERAGED) {
         vec2 half_pixel = vec2(0.5);
         value = mean_seen((center - half_pixel) * texels_per_pixel,
                           (center + half_pixel) * texels_per_pixel, vec2(size));

@@ -14,12 +14,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from renderer.raster.programs import set_uniform
-from renderer.raster.resources import check, new_texture
+from renderer.raster.resources import Owner, check, new_texture
 from renderer.raster.sources import link
 
 MOST_PICTURES = 8
 
-_CHANNELS = {"color": 0, "depth": 1, "normal": 2, "id": 3}
 _COMPONENTS = {"rgb": -1, "red": 0, "green": 1, "blue": 2}
 
 
@@ -57,8 +56,8 @@ class Display:
 
     def __init__(self, context: moderngl.Context) -> None:
         self._gl = context
-        self._program = link(context, "screen.vert", "display.frag")
-        self._screen = context.vertex_array(self._program, [])
+        self._owner = Owner()
+        self._programs: dict[tuple[bool, ...], tuple[moderngl.Program, moderngl.VertexArray]] = {}
         self._pictures: dict[int, tuple[moderngl.Texture, moderngl.Framebuffer]] = {}
         self._uploaded: moderngl.Texture | None = None
 
@@ -85,7 +84,8 @@ class Display:
         depth_range: of one pixel, see DepthRange; needed for the depth. Leaves bound the
         framebuffer that was bound before; depth test, culling and blending off.
         """
-        gl, program = self._gl, self._program
+        gl = self._gl
+        program, screen = self._program_of(look, section)
         before = gl.detect_framebuffer()
         try:
             gl.enable_only(moderngl.NOTHING)
@@ -101,19 +101,16 @@ class Display:
                 "values": 0,
                 "numbers": 1,
                 "depth_range": 2,
-                "channel": _CHANNELS[look.channel],
                 "exposure": exposure,
-                "is_linear": look.transfer == "linear",
                 "component": _COMPONENTS[look.component],
                 "tinted": look.tinted,
                 "origin": section.origin,
                 "texels_per_pixel": section.texels_per_pixel,
-                "averaged": section.averaged,
                 "window_depth": 0.5,
             }
             for name, value in uniforms.items():
                 set_uniform(program, name, value)
-            self._screen.render(moderngl.TRIANGLES, vertices=3)
+            screen.render(moderngl.TRIANGLES, vertices=3)
         finally:
             before.use()
 
@@ -125,10 +122,31 @@ class Display:
     def release(self) -> None:
         while self._pictures:
             self._drop(next(iter(self._pictures)))
-        for resource in (self._uploaded, self._screen, self._program):
-            if resource is not None:
-                resource.release()
+        if self._uploaded is not None:
+            self._uploaded.release()
         self._uploaded = None
+        self._programs.clear()
+        self._owner.release()
+
+    def _program_of(
+        self, look: Look, section: Section
+    ) -> tuple[moderngl.Program, moderngl.VertexArray]:
+        """Compiled for what is shown, when it is first: a quarter of the time of one for all."""
+        has_components = look.channel in ("color", "normal")
+        constants = {
+            "SHOWS_COLOR": look.channel == "color",
+            "SHOWS_DEPTH": look.channel == "depth",
+            "SHOWS_NORMAL": look.channel == "normal",
+            "IS_LINEAR": look.channel == "color" and look.transfer == "linear",
+            "IS_WHOLE": look.component == "rgb" or not has_components,
+            "AVERAGED": section.averaged,
+        }
+        key = tuple(constants.values())
+        if key not in self._programs:
+            program = self._owner.own(link(self._gl, "screen.vert", "display.frag", constants))
+            screen = self._owner.own(self._gl.vertex_array(program, []))
+            self._programs[key] = program, screen
+        return self._programs[key]
 
     def _picture(self, source: moderngl.Texture) -> tuple[moderngl.Texture, moderngl.Framebuffer]:
         kept = self._pictures.pop(source.glo, None)

@@ -1,23 +1,18 @@
 // What one pixel of an image looks like: the display transform of its colour, or false colours of
 // its other channels. The same numbers as in renderer/images/display.py.
+// SHOWS_COLOR, SHOWS_DEPTH, SHOWS_NORMAL (none: object numbers), IS_LINEAR, IS_WHOLE: constants that
+// are put in above (renderer/raster/display.py): software OpenGL works out every branch of the rest.
 
 #include "chunks/color.glsl"
-
-const int COLOR = 0;
-const int DEPTH = 1;
-const int NORMAL = 2;
-const int ID = 3;
 
 const float FARTHEST_GRAY = 0.2;  // the farthest hit stays apart from the misses' black
 const float FARTHEST = 3.0e38;    // what is farther is infinite: nothing is hit
 
-uniform int channel;
 uniform sampler2D values;       // colour: linear light; depth: in w; normal
 uniform isampler2D numbers;     // objects, -1: none
 uniform sampler2D depth_range;  // one pixel: the nearest and the farthest hit
 uniform float exposure;         // a factor
-uniform bool is_linear;         // the colour is shown without sRGB's curve
-uniform int component;          // -1: all, else the only one
+uniform int component;          // the only one that is shown
 uniform bool tinted;            // one component is shown in its own colour, not as gray
 
 // Object i has colour i modulo 14. Source: Paul Tol, Colour Schemes (2021), "light", "pale".
@@ -37,16 +32,16 @@ vec3 exposed(vec3 light) {
 // Before encoded(): linear light for colours, what the screen shows for the others. Means of
 // several pixels are taken of this.
 vec3 seen(ivec2 texel) {
-    if (channel == COLOR) {
+    if (SHOWS_COLOR) {
         return exposed(texelFetch(values, texel, 0).rgb);
     }
-    if (channel == DEPTH) {
+    if (SHOWS_DEPTH) {
         float t = texelFetch(values, texel, 0).w;
         vec2 ends = texelFetch(depth_range, ivec2(0), 0).xy;
         float behind = ends.y > ends.x ? clamp((t - ends.x) / (ends.y - ends.x), 0.0, 1.0) : 0.0;
         return t < FARTHEST ? vec3(1.0 - (1.0 - FARTHEST_GRAY) * behind) : vec3(0.0);
     }
-    if (channel == NORMAL) {
+    if (SHOWS_NORMAL) {
         vec3 n = texelFetch(values, texel, 0).xyz;
         return n == vec3(0.0) ? vec3(0.0) : clamp(0.5 * n + 0.5, 0.0, 1.0);
     }
@@ -55,8 +50,8 @@ vec3 seen(ivec2 texel) {
 }
 
 vec3 encoded(vec3 value) {
-    vec3 shown = channel == COLOR && !is_linear ? srgb_from_linear(value) : value;
-    if (component < 0 || channel == DEPTH || channel == ID) {
+    vec3 shown = SHOWS_COLOR && !IS_LINEAR ? srgb_from_linear(value) : value;
+    if (IS_WHOLE) {
         return shown;
     }
     vec3 only = vec3(component == 0, component == 1, component == 2);
