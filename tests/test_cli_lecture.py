@@ -12,6 +12,7 @@ import pytest
 from PIL import Image
 
 from app.cli import main
+from app.panels import formula
 from app.teach.lecture.reading import is_lecture
 
 ROOT = Path(__file__).parent.parent
@@ -54,6 +55,32 @@ def test_mistakes_are_one_line_and_exit_status_2(old, new, told, tmp_path, capsy
         said = capsys.readouterr().err
         assert said.startswith(f"lucida: {path}{told}"), said
         assert said.count("\n") == 1
+    assert not (tmp_path / "out").exists()
+
+
+def test_a_formula_that_cannot_be_set_is_told_by_checking(tmp_path, capsys):
+    path = tmp_path / "x.toml"
+    exercise = """[steps.exercise]
+kind = "choice"
+question = "Which?"
+options = [
+    { text = "$v$", feedback = "yes", right = true },
+    { text = "$\\\\left( \\\\vau \\\\right)$", feedback = "no" },
+]
+"""
+    path.write_text(LECTURE + exercise)
+    assert main(["lecture", str(path), "--check"]) == (2 if formula.available() else 0)
+    said = capsys.readouterr()
+    if formula.available():
+        told = r":18: steps[1].exercise.options[1].text: \vau is no command that formulas know"
+        assert said.err.startswith(f"lucida: {path}{told}") and said.err.count("\n") == 1
+    else:
+        assert "formulas not checked" in said.out
+
+
+def test_checking_and_exporting_exclude_each_other(tmp_path, capsys):
+    assert main(["lecture", "--check", "--export", str(tmp_path / "out")]) == 2
+    assert "not allowed with" in capsys.readouterr().err
     assert not (tmp_path / "out").exists()
 
 

@@ -7,10 +7,14 @@ from __future__ import annotations
 
 import argparse
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from app.commands import arguments as common
 from app.commands.view import window_size
 from renderer.errors import LucidaError
+
+if TYPE_CHECKING:
+    from app.teach.lecture.model import Lecture
 
 NAME = "lecture"
 EXPORT_SIZE = (1920, 1080)
@@ -37,8 +41,13 @@ exit status: 0 done, 2 a mistake (one line says file, line and field), 130 inter
 def configure(parser: argparse.ArgumentParser) -> None:
     parser.description, parser.epilog = DESCRIPTION, EPILOG
     parser.add_argument("file", nargs="?", metavar="FILE", help="a lecture file (.toml)")
-    parser.add_argument("--check", action="store_true", help="only read the file and its scenes")
-    parser.add_argument(
+    either = parser.add_mutually_exclusive_group()
+    either.add_argument(
+        "--check",
+        action="store_true",
+        help="only read the file, its scenes and its formulas; not with --export",
+    )
+    either.add_argument(
         "--export", metavar="DIR", help="write a PNG of each step into DIR; needs no display"
     )
     parser.add_argument(
@@ -56,11 +65,7 @@ def run(arguments: argparse.Namespace) -> int:
     path = Path(arguments.file) if arguments.file is not None else BUILTIN
     lecture = load_lecture(path)
     if arguments.check:
-        exercises = sum(step.exercise is not None for step in lecture.steps)
-        print(
-            f"{arguments.file or lecture.title}: {len(lecture.steps)} steps, {exercises} exercises"
-        )
-        return 0
+        return _check(lecture, arguments.file or lecture.title)
     if arguments.export is not None:
         if not arguments.export.strip():  # from an unset variable, say
             raise LucidaError("--export", "names no folder", "give one, or . for this one")
@@ -75,3 +80,17 @@ def run(arguments: argparse.Namespace) -> int:
     from app.lecturing import run_lecture
 
     return run_lecture(path, lecture, arguments.size)
+
+
+def _check(lecture: Lecture, name: str) -> int:
+    """Says what is in the lecture. Raises LucidaError for a formula that cannot be set."""
+    from app.panels import formula
+    from app.panels.typesetting import first_mistake
+
+    mistake = first_mistake(lecture.formulas)
+    if mistake is not None:
+        raise mistake
+    exercises = sum(step.exercise is not None for step in lecture.steps)
+    unseen = "" if formula.available() else "; formulas not checked: no locale en_US.UTF-8 here"
+    print(f"{name}: {len(lecture.steps)} steps, {exercises} exercises{unseen}")
+    return 0

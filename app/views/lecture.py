@@ -21,6 +21,7 @@ from app.background import Background
 from app.lettering import lettering
 from app.panels.exercise import exercise
 from app.panels.slide import Slides
+from app.panels.typesetting import first_mistake
 from app.state import AppState
 from app.storage.files import describe
 from app.teach.lecture.model import Lecture, Step
@@ -28,6 +29,7 @@ from app.teach.lecture.reading import BUILTIN, load_lecture
 from app.teach.lecture.session import Session
 from app.teach.lecture.states import state_of
 from app.views.base import Host, View
+from renderer.errors import LucidaError
 
 LECTURE = "Lecture"
 LAYOUT = "Lecture"  # of layout.LAYOUTS
@@ -54,7 +56,7 @@ class LectureView(View):
     def __init__(self, others: Sequence[View]) -> None:
         self._others = {view.name: view for view in others}
         self.session: Session | None = None
-        self._reading: Background[Lecture] | None = None
+        self._reading: Background[tuple[Lecture, LucidaError | None]] | None = None
         self._slides: Slides | None = None
         self._arranged = True
         self._entered = False  # whether the step's state has been taken
@@ -133,7 +135,7 @@ class LectureView(View):
     def _follow_file(self, host: Host, session: Session) -> None:
         assert self._reading is not None
         if session.has_changed(time.monotonic()):
-            self._reading.submit(lambda: load_lecture(session.path))
+            self._reading.submit(lambda: _read(session.path))
         if session.expects:
             host.animate()
         outcome = self._reading.poll()
@@ -142,7 +144,9 @@ class LectureView(View):
         if outcome.error is not None:
             session.error = describe(outcome.error)
         elif outcome.value is not None:
-            session.take(outcome.value)
+            lecture, mistake = outcome.value
+            session.take(lecture)
+            session.error = "" if mistake is None else str(mistake)  # seen in the formula, too
             self.restore(host)
 
     def _arrange(self, step: Step) -> None:
@@ -272,3 +276,9 @@ class LectureView(View):
         imgui.push_text_wrap_pos(0.0)
         imgui.text_colored(theme.DIM, "A lecture's file can be dropped on the window, too.")
         imgui.pop_text_wrap_pos()
+
+
+def _read(path: Path) -> tuple[Lecture, LucidaError | None]:
+    """A lecture's file read again, and the first of its formulas that cannot be set."""
+    lecture = load_lecture(path)
+    return lecture, first_mistake(lecture.formulas)

@@ -6,6 +6,7 @@ import numpy as np
 from window_driver import Driver, Key, changed
 
 from app import layout
+from app.panels import formula
 from app.teach.lecture.model import Lecture
 from app.teach.lecture.reading import BUILTIN, load_lecture
 from app.teach.lecture.states import state_of
@@ -181,6 +182,12 @@ def drive_a_lecture_is_read_again_when_it_is_saved(d: Driver) -> None:
     assert "small.toml:9: steps[1].scene: 'canonicle' is unknown" in session.error
     d.settle()
     assert d.window.state.scene.name == "columns"
+    if formula.available():  # a formula that cannot be set is told, and shown as it is
+        path.write_text(SMALL.replace("$z =", r"$\\foo =").replace('"columns"', '"spheres"'))
+        d.until(lambda: "is no command" in session.error)
+        assert r"small.toml:4: steps[0].text: \foo is no command" in session.error
+        assert d.window.state.scene.name == "canonical camera"
+        d.picture()
     path.write_text(SMALL)
     d.until(lambda: not session.error)
     d.settle()
@@ -222,6 +229,20 @@ def drive_exercises_say_what_is_right_and_wrong(d: Driver) -> None:
     d.window.lecture.advance(d.window, -1)
     d.settle()
     assert session.answers.chosen == 3
+
+
+def drive_an_answer_may_hold_any_sign(d: Driver) -> None:
+    lecture = load_lecture(BUILTIN)
+    titles = [step.title for step in lecture.steps]
+    _lecture(d).give(lecture, BUILTIN, titles.index("Exercise: a pixel's ray"))
+    d.settle()
+    session = _lecture(d).session
+    assert session is not None
+    _answer(d, "origin", "$, **, `")
+    d.ctx.item_click(_item(d, "Check"))
+    d.settle()  # fails where the view has failed
+    verdict = session.answers.verdict
+    assert verdict is not None and not verdict.right and verdict.field == "origin"
 
 
 def drive_the_lecture_begins_from_its_menu(d: Driver) -> None:

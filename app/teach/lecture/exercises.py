@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 
 from app.teach.lecture.answers import text_of, vector, vector_text
 from app.teach.lecture.mistakes import mistakes
+from app.teach.lecture.text import escaped
 from renderer.camera import Camera
 from renderer.errors import LucidaError
 
@@ -151,18 +152,20 @@ class VectorExercise:
             for wrong, text in wanted.wrong:
                 if compare(value, np.asarray(wrong), self.tolerance):
                     return Verdict(False, text, wanted.name)
+            name = escaped(wanted.name)
             if _is_multiple(value, exact, self.tolerance):
-                text = f"The direction of {wanted.name} is right, its length is not."
+                text = f"The direction of {name} is right, its length is not."
             elif _is_multiple(-value, exact, self.tolerance):
-                text = f"{wanted.name} points the other way."
+                text = f"{name} points the other way."
             else:
-                text = f"Not yet: {wanted.name} is not right."
+                text = f"Not yet: {name} is not right."
             return Verdict(False, text, wanted.name)
         return Verdict(True, "Right.")
 
     def solution(self) -> str:
         return "\n\n".join(
-            f"{wanted.name} = `{vector_text(np.asarray(wanted.value))}`" for wanted in self.wanted
+            f"{escaped(wanted.name)} = `{vector_text(np.asarray(wanted.value))}`"
+            for wanted in self.wanted
         )
 
 
@@ -202,7 +205,7 @@ def _vectors(answers: Mapping[str, str], names: tuple[str, ...]) -> dict[str, Fl
         try:
             given[name] = vector(answers.get(name, ""))
         except LucidaError as error:
-            return Verdict(False, f"{name}: {error}", name)
+            return Verdict(False, escaped(f"{name}: {error}"), name)
     return given
 
 

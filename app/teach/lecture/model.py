@@ -1,4 +1,4 @@
-"""A lecture: its steps, its parts, its outline.
+"""A lecture: its steps, its parts, its outline, its formulas.
 
 Owns the structures that reading.py makes of a file. Knows nothing of files or windows.
 """
@@ -35,13 +35,24 @@ class Step:
 
 
 @dataclass(frozen=True, eq=False)
+class Written:
+    """A formula as it is written. field, source, line: where in which file it begins."""
+
+    latex: str
+    field: str
+    source: str
+    line: int
+
+
+@dataclass(frozen=True, eq=False)
 class Lecture:
-    """source: the file it comes from."""
+    """source: the file it comes from. formulas: all of them, in the file's order."""
 
     title: str
     author: str
     steps: tuple[Step, ...]
     source: str
+    formulas: tuple[Written, ...] = ()
 
     def outline(self) -> list[tuple[str, list[int]]]:
         """The parts in their order, each with the numbers of its steps, from 0."""

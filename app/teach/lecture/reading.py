@@ -33,6 +33,7 @@ from app.teach.lecture.schema import (
     VectorTable,
 )
 from app.teach.lecture.under import under
+from app.teach.lecture.written import formulas_written
 from renderer.errors import LucidaError
 from renderer.frame import check_size
 from renderer.scene.files import scene_from_tables
@@ -119,7 +120,8 @@ class _Reader:
             part = entry.part or part
             with under(field):
                 steps.append(self._step(entry, part, self._places.line(field)))
-        return Lecture(file.title, file.author, tuple(steps), self._source)
+        written = formulas_written(file.steps, self._places, self._source)
+        return Lecture(file.title, file.author, tuple(steps), self._source, written)
 
     def _own_scene(self, table: Any, name: str) -> Scene:
         if name in BUILTIN_SCENES:
@@ -229,6 +231,9 @@ def _vector_exercise(entry: VectorTable) -> VectorExercise:
         if any(answer.name == other.name for other in wanted):
             field = f"answers[{number}].name"
             raise LucidaError(field, f"{answer.name!r} is there already", "give another name")
+        for place, known in enumerate(answer.wrong):
+            with under(f"answers[{number}].wrong[{place}].feedback"):
+                texts.parse(known.feedback)
         wrong = tuple((known.value, known.feedback) for known in answer.wrong)
         wanted.append(Wanted(answer.name, answer.value, answer.scaled, wrong))
     return VectorExercise(entry.question, tuple(wanted), _tolerance(entry.tolerance))

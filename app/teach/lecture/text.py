@@ -123,6 +123,11 @@ def words(line: Line) -> str:
     return "".join(span.text if isinstance(span, Words) else span.latex for span in line)
 
 
+def escaped(text: str) -> str:
+    """A text that is shown as it stands, whatever signs are in it: what somebody has typed."""
+    return re.sub(r"([\\$*`])", r"\\\1", text)
+
+
 def formulas(blocks: tuple[Block, ...]) -> tuple[str, ...]:
     """All formulas of a text, as LaTeX."""
     found = []
