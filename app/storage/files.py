@@ -31,6 +31,8 @@ from renderer.scene import (
     save_scene,
     save_view,
 )
+from renderer.scene.apart import ModelReader
+from renderer.scene.models import read_by
 
 LECTURE_ENDING = ".toml"
 SNIFFED_BYTES = 1 << 20
@@ -65,6 +67,7 @@ class Files:
     ) -> None:
         self._wake = wake
         self._loading: Background[Opened] = Background("lucida-load", wake)
+        self._models = ModelReader()
         self._saving: Background[str] = Background("lucida-save", wake)
         self._asking: tuple[dialogs.open_file | dialogs.save_file, Paths] | None = None
         self._native = native
@@ -100,10 +103,12 @@ class Files:
             self._load(sources[0], lambda: open_sources(sources))
 
     def cancel(self) -> None:
-        """Ends the waiting for what is being loaded. Its thread is left alone; what it still
-        brings is dropped."""
+        """Ends the loading. A large model is in a process of its own, which is killed; what is not
+        is read to its end, and dropped."""
         if self._loading.busy:
+            self._models.cancel()
             self._loading.close(0.0)
+            self._models = ModelReader()
             self._loading = Background("lucida-load", self._wake)
             self._said.append(f"Loading {self._source} was cancelled.")
 
@@ -182,6 +187,7 @@ class Files:
         self._wake()
 
     def close(self) -> None:
+        self._models.cancel()
         self._loading.close()
         self._saving.close(5.0)
         self.dialog.close()
@@ -191,7 +197,13 @@ class Files:
         self.message = ""
         self._source = Path(source).name
         self._began_s = time.monotonic()
-        self._loading.submit(load)
+        models = self._models
+
+        def loaded() -> Opened:
+            with read_by(models.read):
+                return load()
+
+        self._loading.submit(loaded)
 
     def _note(self, opened: Opened) -> None:
         for source in reversed(opened.sources):

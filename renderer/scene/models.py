@@ -6,6 +6,9 @@ format is written.
 
 from __future__ import annotations
 
+import contextlib
+from collections.abc import Callable, Iterator
+from contextvars import ContextVar
 from dataclasses import replace
 from pathlib import Path
 
@@ -19,15 +22,32 @@ from renderer.scene.parts import Part, build_mesh
 
 MODEL_ENDINGS = (".obj", ".ply", ".stl", ".off", ".glb", ".gltf")
 
+Reader = Callable[[Path], tuple[SceneObject, ...]]
+
 
 def load_model(path: str | Path) -> tuple[SceneObject, ...]:
+    """The objects of a model file, as read_model() gives them; see read_by()."""
+    return _reader.get()(Path(path))
+
+
+@contextlib.contextmanager
+def read_by(reader: Reader) -> Iterator[None]:
+    """Inside it, in this thread, load_model() is `reader`, which does as read_model() does: for
+    scenes whose models are read elsewhere, or must be cancelled."""
+    token = _reader.set(reader)
+    try:
+        yield
+    finally:
+        _reader.reset(token)
+
+
+def read_model(path: Path) -> tuple[SceneObject, ...]:
     """The objects of a model file, one for each of its geometries (glTF: each instance).
 
     Units and axes are the file's own. Materials: the file's base colours; textures are not read.
     Vertex colours are read as sRGB, except in glTF, where they are linear. Raises LucidaError
     naming the file where it is not such a file, is damaged, holds no triangle, or too many.
     """
-    path = Path(path)
     ending = path.suffix.lower()
     if ending not in MODEL_ENDINGS:
         what = "is a scene file" if ending == ".toml" else f"ends in {ending!r}"
@@ -50,6 +70,9 @@ def load_model(path: str | Path) -> tuple[SceneObject, ...]:
             "", "does not fit into memory", "give a smaller model", str(path)
         ) from None
     return tuple(objects)
+
+
+_reader: ContextVar[Reader] = ContextVar("reader of models", default=read_model)
 
 
 def model_scene(path: str | Path) -> Scene:

@@ -1,0 +1,154 @@
+"""Large models, read in a process of their own: it can be killed, and holds nobody's lock.
+
+Owns the choice of what is large, the process, and how its answer and its errors come back. Knows
+nothing of formats: the process calls read_model() as anybody would, with the same limits.
+
+Reading a text of 100 MB in this process would stop its other threads, a window's loop among them,
+for seconds at a time: searching and splitting a text holds Python's lock.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import os
+import stat
+import subprocess
+import threading
+from pathlib import Path
+
+from renderer.child import end_child, end_with_parent, interpreter, start_child
+from renderer.errors import LucidaError
+from renderer.scene.model import SceneObject
+from renderer.scene.models import read_model
+from renderer.scene.packing import read_value, write_value
+
+# From here on a process, which takes some 0.3 s to start, costs less than it brings. Text holds the
+# lock for some 15 ms a MiB, a frame of a window; numbers hardly hold it, and a process only makes
+# it possible to give them up.
+LARGE_TEXT_BYTES = 1 << 20
+LARGE_BINARY_BYTES = 8 << 20
+
+_SNIFFED_BYTES = 4096
+_HELLO = b"!"
+
+
+class CancelledError(Exception):
+    """Nobody waits for the model any more."""
+
+
+class ModelReader:
+    """Reads models, the large ones apart. For one thread; cancel() is for any other.
+
+    Where no process can be started (a program that is not Python's interpreter, no resources),
+    models are read in this one.
+    """
+
+    def __init__(self) -> None:
+        self._lock = threading.Lock()
+        self._process: subprocess.Popen[bytes] | None = None
+        self._cancelled = False
+
+    def read(self, path: Path) -> tuple[SceneObject, ...]:
+        """As read_model(). Raises CancelledError once cancel() was called, else LucidaError."""
+        python = interpreter() if is_large(path) else None
+        process = self._start(python, path) if python is not None else None
+        objects = self._receive(process, path) if process is not None else None
+        if objects is None:
+            objects = read_model(path)
+        self._check()
+        return objects
+
+    def cancel(self) -> None:
+        """Kills the process that reads, if there is one; a model that is read in this process is
+        read to its end. Nothing can be read afterwards."""
+        with self._lock:
+            self._cancelled = True
+            if self._process is not None:
+                self._process.kill()
+
+    def _check(self) -> None:
+        if self._cancelled:
+            raise CancelledError
+
+    def _start(self, python: str, path: Path) -> subprocess.Popen[bytes] | None:
+        with self._lock:
+            self._check()
+            with contextlib.suppress(OSError):
+                self._process = start_child(python, __name__, str(path), output=True)
+            return self._process
+
+    def _receive(
+        self, process: subprocess.Popen[bytes], path: Path
+    ) -> tuple[SceneObject, ...] | None:
+        """What the process found, or raises what it raised; None where it has not begun."""
+        assert process.stdout is not None
+        begun, answer = False, None
+        try:
+            begun = process.stdout.read(1) == _HELLO
+            if begun:
+                answer = read_value(process.stdout)
+        except EOFError:
+            pass
+        except MemoryError:
+            raise LucidaError(
+                "", "does not fit into memory", "give a smaller model", str(path)
+            ) from None
+        finally:
+            with self._lock:
+                self._process = None
+            status = end_child(process)
+        self._check()
+        if not begun:
+            return None
+        if isinstance(answer, Exception):
+            raise answer
+        if answer is None:
+            raise LucidaError(
+                "",
+                f"was given up: the process that read it ended ({status})",
+                "give a smaller model, or close other programs: memory may have run out",
+                str(path),
+            )
+        objects: tuple[SceneObject, ...] = answer
+        return objects
+
+
+def is_large(path: Path) -> bool:
+    """Whether reading a model takes long. False for what is no file, which is told elsewhere."""
+    try:
+        status = path.stat()
+        if not stat.S_ISREG(status.st_mode):  # opening a pipe would wait
+            return False
+        size_bytes = status.st_size
+        if path.suffix.lower() == ".gltf":  # its numbers are in files beside it
+            size_bytes += sum(file.stat().st_size for file in path.parent.glob("*.bin"))
+        with path.open("rb") as file:
+            is_text = b"\0" not in file.read(_SNIFFED_BYTES)
+    except (OSError, ValueError):
+        return False
+    return size_bytes >= (LARGE_TEXT_BYTES if is_text else LARGE_BINARY_BYTES)
+
+
+def main(path: str) -> None:
+    """What the process does: it answers with the objects, or with the exception."""
+    answers = os.fdopen(os.dup(1), "wb")
+    os.dup2(2, 1)  # whatever a library prints is no part of the answer
+    end_with_parent()
+    _go_first()
+    answers.write(_HELLO)
+    answers.flush()
+    answer: tuple[SceneObject, ...] | Exception
+    try:
+        answer = read_model(Path(path))
+    except LucidaError as error:
+        answer = error
+    except Exception as error:  # a bug; told as one by whoever waits
+        answer = RuntimeError(f"{type(error).__name__}: {error}")
+    write_value(answers, answer)
+    os._exit(0)  # its memory goes back at once
+
+
+def _go_first() -> None:
+    """Where memory runs out, Linux ends this process before the one that waits for it."""
+    with contextlib.suppress(OSError):
+        Path("/proc/self/oom_score_adj").write_text("1000")
