@@ -77,7 +77,7 @@ class OutsideView(View):
         self._mouse, self._gizmo = Mouse(), Gizmo()
         self._overlay: Overlay | None = None
         self._hits: RayHits | None = None
-        self._ground = Ground()
+        self._ground: Ground | None = None
         self._error = ""
         self._made: _Made | None = None
         self._extra: dict[str, tuple[Item, ...]] = {}
@@ -85,7 +85,8 @@ class OutsideView(View):
 
     @property
     def settled(self) -> bool:
-        return self._ground.settled and (self._hits is None or not self._hits.busy)
+        still = self._ground is None or self._ground.settled
+        return still and (self._hits is None or not self._hits.busy)
 
     @property
     def over_handle(self) -> bool:
@@ -116,7 +117,7 @@ class OutsideView(View):
             self._extra.pop(source, None)
 
     def begin(self, host: Host, context: moderngl.Context) -> None:
-        self._overlay = Overlay(context)
+        self._overlay, self._ground = Overlay(context), Ground(context)
         self._hits = RayHits(host.animate)
 
     def end(self) -> None:
@@ -132,7 +133,8 @@ class OutsideView(View):
     def unseen(self, host: Host) -> None:
         host.renderers.forget_pane(self.name)
         self._made = None
-        self._ground.forget()
+        if self._ground is not None:
+            self._ground.forget()
 
     def flown(self, host: Host) -> Camera | None:
         return self.scope.camera if self.scope is not None else None
@@ -276,6 +278,7 @@ class OutsideView(View):
         """The view's picture, made anew if anything of it has changed; None where that failed."""
         both, state = host.renderers, host.state
         assert self._overlay is not None
+        assert self._ground is not None
         assert both.pictures is not None
         inner, image_size = both.camera(state), both.size
         options = state.outside
@@ -293,8 +296,8 @@ class OutsideView(View):
             unit_px, symbol_px = units_px(scope.extent)
             key = (
                 state.scene, camera, size, inner, image_size, replace(options, camera=None),
-                marked, tuple(hits), drawn, state.images, unit_px, symbol_px, ground.smooth,
-                state.preferences, tuple(self._extra.items()),
+                marked, tuple(hits), drawn, state.images, unit_px, symbol_px, ground.number,
+                ground.smooth, state.preferences, tuple(self._extra.items()),
             )  # fmt: skip
             if self._made is not None and self._made.key == key:
                 return self._made.texture

@@ -1,7 +1,8 @@
 """The scene from outside, without anything over it: drawn at once, made smooth when it is still.
 
-Owns the pictures of one scene and camera, and when they are drawn. Knows nothing of what stands in
-the scene.
+Where OpenGL runs on the CPU, a full picture takes longer than a frame: then it is coarse while the
+view moves. Owns the pictures of one scene and camera, and when they are drawn. Knows nothing of
+what stands in the scene.
 """
 
 from __future__ import annotations
@@ -11,12 +12,15 @@ from dataclasses import dataclass, replace
 
 import moderngl
 
+from app.images.live import reduced
 from app.images.pictures import Pictures, Wanted
 from renderer.raster.overlay import Overlay
 from renderer.raster.targets import Textures
 
-PLACE = "Outside"  # see Rasterizer.draw
-STILL_S = 0.15  # without a change of the view, before its edges are made smooth
+PLACE, COARSE = "Outside", "Outside, coarse"  # see Rasterizer.draw
+STILL_S = 0.15  # without a change of the view, before it is drawn in full, its edges made smooth
+FRAME_S = 0.008  # what a picture may take of a frame while the view moves
+COARSEST = 4
 SLOW_S = 0.06  # a scene that takes longer to prepare for a camera keeps its edges as they are
 # Parts of a pixel by which the pictures of a mean are shifted: no two in a row or column. The last
 # is not, so that what lies behind is decided at the pixels' centres.
@@ -25,15 +29,17 @@ SHIFTS = ((-0.125, -0.375), (0.375, -0.125), (0.125, 0.375), (-0.375, 0.125), (0
 
 @dataclass(frozen=True, eq=False)
 class Picture:
-    """The scene from outside. number: of its drawing. parts: how many of the SHIFTS are in its
-    mean; all of them also where there will be none."""
+    """The scene from outside. changed_s: since when it is wanted. number: of its drawing. parts:
+    how many of the SHIFTS are in its mean; all of them also where there will be none. factor: it
+    is so many times as coarse."""
 
     wanted: Wanted
     textures: Textures
-    drawn_s: float
+    changed_s: float
     number: int
-    parts: int
+    parts: int = 0
     mean: moderngl.Texture | None = None
+    factor: int = 1
 
     @property
     def smooth(self) -> bool:
@@ -41,36 +47,91 @@ class Picture:
 
 
 class Ground:
-    """One for the view. It stays while only the other camera moves."""
+    """One for the view, in its context. It stays while only the other camera moves."""
 
-    def __init__(self) -> None:
+    def __init__(self, context: moderngl.Context) -> None:
         self._picture: Picture | None = None
         self._drawn = 0
+        self._timer = context.query(time=True)
+        self._timed_pixels = 0  # of the full picture whose time is still to be read
+        self.pixel_s = 0.0  # of the last full one
 
     @property
     def settled(self) -> bool:
-        """Whether its edges are as smooth as they will be."""
-        return self._picture is None or self._picture.parts == len(SHIFTS)
+        """Whether it is full, and its edges are as smooth as they will be."""
+        picture = self._picture
+        return picture is None or (picture.parts == len(SHIFTS) and picture.factor == 1)
+
+    @property
+    def factor(self) -> int:
+        """How coarse the last picture is; 1: it is full."""
+        return self._picture.factor if self._picture is not None else 1
 
     def forget(self) -> None:
         self._picture = None
 
     def picture(self, wanted: Wanted, pictures: Pictures, overlay: Overlay) -> Picture:
-        """Drawn at once; when it has been still, again with smooth edges, a part of that in each
-        call. Raises LucidaError."""
+        """Drawn at once; when it has been still, in full, and again with smooth edges, a part of
+        that in each call. Raises LucidaError."""
         now_s, picture = time.monotonic(), self._picture
+        self._read_time()
         if picture is None or picture.wanted != wanted:
+            factor = self._moving_factor(wanted, now_s)
             self._picture = None
-            textures = pictures.beside(wanted, PLACE)
-            self._drawn += 1
-            slow = time.monotonic() - now_s > SLOW_S
-            parts = len(SHIFTS) if slow else 0
-            self._picture = picture = Picture(wanted, textures, now_s, self._drawn, parts)
-        if picture.parts < len(SHIFTS) and now_s - picture.drawn_s > STILL_S:
+            self._picture = picture = self._draw(wanted, pictures, now_s, factor)
+        elif now_s - picture.changed_s <= STILL_S:
+            pass
+        elif picture.factor > 1:
+            self._picture = picture = self._draw(wanted, pictures, picture.changed_s, 1)
+        elif picture.parts < len(SHIFTS):
             shift = wanted.camera.shifted(*SHIFTS[picture.parts], wanted.size)
-            textures = pictures.beside(replace(wanted, camera=shift), PLACE)
+            textures = self._timed(replace(wanted, camera=shift), pictures)
             mean = overlay.gather(textures, picture.parts == 0, 1 / len(SHIFTS))
             self._picture = picture = replace(
                 picture, textures=textures, parts=picture.parts + 1, mean=mean
             )
         return picture
+
+    def _draw(self, wanted: Wanted, pictures: Pictures, changed_s: float, factor: int) -> Picture:
+        start_s = time.monotonic()
+        if factor > 1:
+            small = replace(wanted, size=reduced(wanted.size, factor))
+            textures = pictures.beside(small, COARSE)
+        else:
+            textures = self._timed(wanted, pictures)
+        self._drawn += 1
+        slow = time.monotonic() - start_s > SLOW_S
+        return Picture(
+            wanted,
+            textures,
+            changed_s,
+            self._drawn,
+            len(SHIFTS) if slow and factor == 1 else 0,
+            factor=factor,
+        )
+
+    def _moving_factor(self, wanted: Wanted, now_s: float) -> int:
+        """How coarse a changed view is: the same for as long as it goes on changing, so that it
+        is not sharp and blurred in turn."""
+        before = self._picture
+        if before is None or before.wanted.scene is not wanted.scene:
+            return 1
+        if now_s - before.changed_s <= STILL_S and before.factor > 1:
+            return before.factor
+        width, height = wanted.size
+        factor = 1
+        while factor < COARSEST and self.pixel_s * width * height / factor**2 > FRAME_S:
+            factor *= 2
+        return factor
+
+    def _timed(self, wanted: Wanted, pictures: Pictures) -> Textures:
+        with self._timer:
+            textures = pictures.beside(wanted, PLACE)
+        self._timed_pixels = wanted.size[0] * wanted.size[1]
+        return textures
+
+    def _read_time(self) -> None:
+        """A frame later: at once, it would wait for the GPU."""
+        if self._timed_pixels:
+            self.pixel_s = self._timer.elapsed * 1e-9 / self._timed_pixels
+            self._timed_pixels = 0
