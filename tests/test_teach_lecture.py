@@ -165,6 +165,7 @@ class TestReading:
             ('"outside", "', '"ray", "probe", "raster", "', 21, "views: names 3 besides 'camera'"),
             ('"outside", "camera"]', '"ray", "ray"]', 21, "views: names one twice"),
             ("[2, 3]", "[0, 3]", 27, "pixel: [0, 3] is no pixel; give row and column, from 1"),
+            ("pixel_size = 8", "resolution = [2, 9]", 27, "pixel: [2, 3] is not in an image of 2x9"),
             ('"eye", "', '"eyes", "', 28, "highlight[0]: 'eyes' is unknown; did you mean 'eye'?"),
             ('title = "One"', 'titel = "One"', 11, "titel: is unknown; did you mean 'title'?"),
             ('title = "Two"', "", 36, "title: is missing; give it"),

@@ -19,8 +19,8 @@ from app.views.base import Host, View
 COSTS = "Costs"
 POINTS = 6  # a curve
 EXPLAINED = (
-    "Object order visits each triangle: its time grows with the triangles. Image order asks a tree"
-    " of boxes, pixel by pixel: its time grows with the pixels, and hardly with the triangles."
+    "Object order visits each triangle; image order asks a tree of boxes for each pixel, one level"
+    " more for twice the triangles. Flat: what every image costs anyway. n^1: proportional to n."
 )
 
 

@@ -139,6 +139,7 @@ class _Reader:
         view = scene.view if table.camera is None else self._view(table.camera)
         with under("options"):
             options = options_from_table(table.options)
+        resolution = options.get("images", {}).get("resolution")
         exercise = None
         if table.exercise is not None:
             with under("exercise"):
@@ -152,7 +153,7 @@ class _Reader:
             view,
             _views(table.views),
             options,
-            None if table.pixel is None else _pixel(table.pixel),
+            None if table.pixel is None else _pixel(table.pixel, resolution),
             tuple(_known(f"highlight[{k}]", n, HIGHLIGHTS) for k, n in enumerate(table.highlight)),
             exercise,
             line,
@@ -211,13 +212,7 @@ def _exercise(table: Any, view: View) -> Exercise:
 
 def _ray_exercise(entry: RayTable, view: View) -> RayExercise:
     size = check_size(entry.size)
-    pixel = _pixel(entry.pixel)
-    if pixel[0] >= size[1] or pixel[1] >= size[0]:
-        raise LucidaError(
-            "pixel",
-            f"{list(entry.pixel)} is not in an image of {size[0]}x{size[1]}",
-            f"give a row up to {size[1]} and a column up to {size[0]}",
-        )
+    pixel = _pixel(entry.pixel, size)
     camera = view.camera if entry.camera is None else view_from_table(entry.camera).camera
     tolerance = _tolerance(entry.tolerance)
     return RayExercise(entry.question, camera, pixel, size, entry.scaled, tolerance)
@@ -260,10 +255,17 @@ def _tolerance(value: float) -> float:
     return value
 
 
-def _pixel(pixel: tuple[int, int]) -> tuple[int, int]:
-    """Row and column from 1, as the lecture counts, to row and column from 0."""
+def _pixel(pixel: tuple[int, int], size: tuple[int, int] | None) -> tuple[int, int]:
+    """Row and column from 1, as the lecture counts, to row and column from 0. size: (width,
+    height) of the image, where the file says it."""
     if min(pixel) < 1:
         raise LucidaError("pixel", f"{list(pixel)} is no pixel", "give row and column, from 1")
+    if size is not None and (pixel[0] > size[1] or pixel[1] > size[0]):
+        raise LucidaError(
+            "pixel",
+            f"{list(pixel)} is not in an image of {size[0]}x{size[1]}",
+            f"give a row up to {size[1]} and a column up to {size[0]}",
+        )
     return pixel[0] - 1, pixel[1] - 1
 
 
