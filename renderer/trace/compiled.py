@@ -30,6 +30,7 @@ import numpy
 import platformdirs
 from numba.core import config
 from numba.core.caching import FunctionCache
+from numba.core.runtime import rtsys
 
 import renderer.scene.flat
 from renderer.trace.inlining import PartCompiler
@@ -135,13 +136,20 @@ def _prune(base: Path, used: Path) -> None:
 
 
 class _Cache(FunctionCache):
-    """numba's cache of one function; a damaged or full disk costs compiling again, not an error."""
+    """numba's cache of one function; a damaged or full disk costs compiling again, not an error.
+
+    numba makes its whole compiler ready before it looks for machine code: half of a start's time.
+    All that such code needs of it are the functions by which kernels allocate arrays.
+    """
 
     def load_overload(self, sig: Any, target_context: Any) -> Any:
         try:
-            return super().load_overload(sig, target_context)
+            rtsys.initialize(target_context)
+            with self._guard_against_spurious_io_errors():
+                return self._load_overload(sig, target_context)
         except Exception:  # whatever unpickling a damaged file may raise
-            return None
+            pass
+        return None
 
     def save_overload(self, sig: Any, data: Any) -> None:
         try:
