@@ -43,14 +43,16 @@ class SpaceRay(NamedTuple):
     """A ray in an instance's space (or the world's), prepared for boxes and for triangles.
 
     near, far: columns of a node's boxes with the planes that the ray meets first and last.
-    inverse: 1 / direction. enter_add, leave_add: -origin / direction, with slack outwards.
+    enter, leave: 1 / direction, a little smaller and larger; enter_add, leave_add: with them,
+    -origin / direction, with slack outwards.
     axes: columns of a leaf's coordinates x, y, z, where z is the one in which the ray goes
     farthest. origin: in these axes. shear: takes the direction to (0, 0, 1).
     """
 
     near: tuple[int, int, int]
     far: tuple[int, int, int]
-    inverse: tuple[np.float32, np.float32, np.float32]
+    enter: tuple[np.float32, np.float32, np.float32]
+    leave: tuple[np.float32, np.float32, np.float32]
     enter_add: tuple[np.float32, np.float32, np.float32]
     leave_add: tuple[np.float32, np.float32, np.float32]
     axes: tuple[int, int, int]
@@ -73,30 +75,45 @@ def space_ray(origin, direction):
     least = max(ax, ay, az) * _STEEP
     one = np.float32(1)
     ix, iy, iz = one / _steep(dx, least), one / _steep(dy, least), one / _steep(dz, least)
-    px, py, pz = -ox * ix, -oy * iy, -oz * iz
-    sx, sy, sz = abs(px) * _ROUNDING, abs(py) * _ROUNDING, abs(pz) * _ROUNDING
+    smaller, larger = one - _ROUNDING, one + _ROUNDING
+    enter, leave = (
+        (ix * smaller, iy * smaller, iz * smaller),
+        (ix * larger, iy * larger, iz * larger),
+    )
+    sx, sy, sz = abs(ox * ix) * _ROUNDING, abs(oy * iy) * _ROUNDING, abs(oz * iz) * _ROUNDING
     near = (
         (0 if ix >= 0 else 3) * WIDTH,
         (1 if iy >= 0 else 4) * WIDTH,
         (2 if iz >= 0 else 5) * WIDTH,
     )
     far = 3 * WIDTH - near[0], 5 * WIDTH - near[1], 7 * WIDTH - near[2]
-    # Triangles: the axis of the largest component is z.
-    if ax >= ay and ax >= az:
-        axes, origin_, shear = (1, 2, 0), (oy, oz, ox), (dy * ix, dz * ix, ix)
-    elif ay >= az:
-        axes, origin_, shear = (2, 0, 1), (oz, ox, oy), (dz * iy, dx * iy, iy)
-    else:
-        axes, origin_, shear = (0, 1, 2), (ox, oy, oz), (dx * iz, dy * iz, iz)
+    # Triangles: the axis of the largest component is z. Chosen without branches, which no
+    # processor could foresee.
+    is_x, is_y = (ax >= ay) & (ax >= az), ay >= az
+    z = np.int64(0) if is_x else (np.int64(1) if is_y else np.int64(2))
+    x = np.int64(0) if z == 2 else z + 1
+    slope = _turned(is_x, is_y, dx, dy, dz)
+    inverse = _turned(is_x, is_y, ix, iy, iz)[2]
     return SpaceRay(
         near,
         far,
-        (ix, iy, iz),
-        (px - sx, py - sy, pz - sz),
-        (px + sx, py + sy, pz + sz),
-        (axes[0] * WIDTH, axes[1] * WIDTH, axes[2] * WIDTH),
-        origin_,
-        shear,
+        enter,
+        leave,
+        (-ox * enter[0] - sx, -oy * enter[1] - sy, -oz * enter[2] - sz),
+        (-ox * leave[0] + sx, -oy * leave[1] + sy, -oz * leave[2] + sz),
+        (x * WIDTH, (3 - x - z) * WIDTH, z * WIDTH),
+        _turned(is_x, is_y, ox, oy, oz),
+        (slope[0] * inverse, slope[1] * inverse, inverse),
+    )
+
+
+@inlined
+def _turned(is_x, is_y, x, y, z):
+    """(x, y, z) turned so that x is last if is_x, else y if is_y."""
+    return (
+        y if is_x else (z if is_y else x),
+        z if is_x else (x if is_y else y),
+        x if is_x else (y if is_y else z),
     )
 
 
@@ -104,20 +121,20 @@ def space_ray(origin, direction):
 def children_on_ray(box, node, ray, t_min, t_max):
     """(mask, depths): children of a node that the ray enters within [t_min, t_max]."""
     at = node * BOX
-    near, far, inverse = ray.near, ray.far, ray.inverse
-    enter, leave = ray.enter_add, ray.leave_add
+    near, far, enter, leave = ray.near, ray.far, ray.enter, ray.leave
     t0 = vmax(
-        fma(load(box, at + near[0]), inverse[0], splat(enter[0])),
-        fma(load(box, at + near[1]), inverse[1], splat(enter[1])),
+        fma(load(box, at + near[0]), enter[0], splat(ray.enter_add[0])),
+        fma(load(box, at + near[1]), enter[1], splat(ray.enter_add[1])),
     )
-    t0 = vmax(t0, fma(load(box, at + near[2]), inverse[2], splat(enter[2])))
+    tz = fma(load(box, at + near[2]), enter[2], splat(ray.enter_add[2]))
+    t0 = vmax(t0, vmax(tz, t_min))
     t1 = vmin(
-        fma(load(box, at + far[0]), inverse[0], splat(leave[0])),
-        fma(load(box, at + far[1]), inverse[1], splat(leave[1])),
+        fma(load(box, at + far[0]), leave[0], splat(ray.leave_add[0])),
+        fma(load(box, at + far[1]), leave[1], splat(ray.leave_add[1])),
     )
-    t1 = vmin(t1, fma(load(box, at + far[2]), inverse[2], splat(leave[2])))
-    t0 = vmax(t0 * (np.float32(1) - _ROUNDING), t_min)
-    return t0 <= vmin(t1 * (np.float32(1) + _ROUNDING), t_max), t0
+    tz = fma(load(box, at + far[2]), leave[2], splat(ray.leave_add[2]))
+    t1 = vmin(t1, vmin(tz, t_max))
+    return t0 <= t1, t0
 
 
 @inlined
