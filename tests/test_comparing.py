@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 from app.images import comparing
+from app.options import ImageOptions
 from app.state import AppState
 from renderer import Camera, Frame, load_scene
 from renderer.compare import CAUSES, SHADING, UNEXPLAINED, compare_frames
@@ -161,6 +162,12 @@ def test_errors_are_told_with_their_units():
     assert comparing.error_text(comparison, "depth").startswith("max 50 %  RMS 7.22 %")
     assert comparing.error_text(comparison, "normal").startswith("max 1  RMS 0.144")
     assert comparing.error_text(comparison, "id") == "another object in 2 pixels"
+    for images, told in (
+        (ImageOptions(), ""),
+        (ImageOptions(exposure_ev=-2.0), "  at 0 EV"),
+        (ImageOptions(exposure_ev=-2.0, channel="depth"), ""),  # has no exposure
+    ):
+        assert comparing.measured_at(images) == told
     missed = compared(depth=((1, slice(3)), np.inf))
     assert comparing.error_text(missed, "depth").endswith("hit in one image only: 3")
 

@@ -10,7 +10,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from app.options import Channel, CompareMode, Pixel
+from app.options import Channel, CompareMode, ImageOptions, Pixel
 from app.state import AppState
 from renderer.compare import AGREE, CAUSES, SHADING, UNEXPLAINED, Comparison
 from renderer.difference import FULL_SCALE, LARGEST_GAIN, signed_difference
@@ -120,6 +120,11 @@ def error_text(comparison: Comparison, channel: Channel) -> str:
         numbers = f"max {error.largest:.3g}  RMS {error.rms:.3g}"
     only = f"  hit in one image only: {error.infinite}" if error.infinite else ""
     return numbers + only
+
+
+def measured_at(images: ImageOptions) -> str:
+    """At which exposure colours are compared, where the images are shown at another; or empty."""
+    return "  at 0 EV" if images.channel == "color" and images.exposure_ev else ""
 
 
 def pixel_text(pixel: Pixel, one_based: bool) -> str:

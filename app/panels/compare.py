@@ -7,7 +7,7 @@ one. Knows nothing of the image between them.
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from imgui_bundle import ImVec2, ImVec4, imgui
 
@@ -26,6 +26,10 @@ SMALL_EM = 22.0  # a view that is less high has no line for what the images' own
 DIGITS = 6  # of a count
 VALUES_COLUMNS = 58  # of a pixel's values
 NEXT = "next"
+COLORS_COMPARED = (
+    "Colours are compared as display values (sRGB, exposure 0), by the channel of light that\n"
+    "differs most; depths relative to the ray image's."
+)
 
 
 @dataclass(frozen=True)
@@ -176,7 +180,9 @@ def _scale_row(state: AppState, draw_map: DrawMap) -> AppState:
     options = state.compare
     if options.mode in ("absolute", "signed"):
         signed = options.mode == "signed"
-        _color_bar(comparing.scale(state.images.channel, options.gain, signed), signed, draw_map)
+        scale = comparing.scale(state.images.channel, options.gain, signed)
+        scale = replace(scale, title=scale.title + comparing.measured_at(state.images))
+        _color_bar(scale, signed, draw_map)
     elif options.mode == "wipe":
         imgui.set_next_item_width(-1)
         changed, percent = imgui.slider_float("##divider", 100 * options.divider, 0.0, 100.0, " ")
@@ -213,10 +219,7 @@ def _color_bar(scale: Scale, signed: bool, draw_map: DrawMap) -> None:
     draw = imgui.get_window_draw_list()
     draw.add_rect(at, end, theme.u32(theme.DIM))
     imgui.dummy(ImVec2(width, height))
-    imgui.set_item_tooltip(
-        "Colours are compared as display values (sRGB, exposure 0), by the channel of light that\n"
-        "differs most; depths relative to the ray image's."
-    )
+    imgui.set_item_tooltip(COLORS_COMPARED)
     below = imgui.get_cursor_screen_pos()
     low, high, gap = scale.low, scale.high, 2 * imgui.get_font_size()
     if _wide(low) + _wide(scale.middle) + _wide(high) + gap > width:
@@ -300,9 +303,11 @@ def _errors(wish: Wish, comparison: Comparison | None, fonts: theme.Fonts) -> Wi
     flow.next(widths[2])
     imgui.push_font(fonts.mono, 0.0)
     text = comparing.error_text(comparison, channel) if comparison is not None else "..."
+    text += comparing.measured_at(wish.state.images)
     imgui.align_text_to_frame_padding()
     imgui.text(text)
     imgui.pop_font()
+    imgui.set_item_tooltip(COLORS_COMPARED)
     return wish
 
 
@@ -312,7 +317,7 @@ def _error_widths(fonts: theme.Fonts) -> list[float]:
     return [
         _button_width(NEXT),
         _mono_width(fonts, len("worst (1000, 1000)")) + pad,
-        _mono_width(fonts, len("max 100.0/255  RMS  10.000/255")),
+        _mono_width(fonts, len("max 100.0/255  RMS  10.000/255  at 0 EV")),
     ]
 
 
