@@ -1,6 +1,7 @@
 """The rasterizer's images: analytic answers first, then every kind of camera against float64."""
 
 import gc
+from concurrent.futures import ThreadPoolExecutor
 from dataclasses import replace
 
 import numpy as np
@@ -10,6 +11,7 @@ from raster_reference import reference
 from renderer.camera import Camera
 from renderer.compare import CHANNELS, compare_frames
 from renderer.errors import LucidaError
+from renderer.raster import prepare
 from renderer.scene.flat import flatten
 from renderer.scene.model import (
     Checker,
@@ -464,3 +466,16 @@ def test_samples_are_averaged_in_linear_light(rasterizer):
     assert np.median(np.abs(coarse.color - mean)) < 1e-6
     assert (np.abs(coarse.color - mean).max(axis=2) < 1e-3).mean() > 0.98
     np.testing.assert_array_equal(coarse.id, rasterizer.render(camera, (48, 36)).id)
+
+
+def test_a_scene_prepared_in_another_thread_is_drawn_the_same(rasterizer):
+    scene = still_life()
+    rasterizer.set_scene(scene)
+    expected = rasterizer.render(WIDE, SIZE)
+    with ThreadPoolExecutor(1) as pool:
+        prepared = pool.submit(prepare, scene).result()
+    rasterizer.set_scene(Scene(()))
+    rasterizer.set_scene(scene, prepared)
+    again = rasterizer.render(WIDE, SIZE)
+    for channel in CHANNELS:
+        np.testing.assert_array_equal(again.channel(channel), expected.channel(channel))

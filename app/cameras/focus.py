@@ -12,6 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from renderer.camera import Vector
+from renderer.scene.flat import extent
 from renderer.scene.model import Scene, SceneObject, Sphere
 
 Points = NDArray[np.float64]
@@ -62,7 +63,7 @@ def object_corners(entry: SceneObject) -> Points:
     if isinstance(shape, Sphere):
         center = np.asarray(shape.center, float)
         return _box(center - shape.radius, center + shape.radius)
-    box = _box(shape.vertices.min(axis=0), shape.vertices.max(axis=0))
+    box = _box(*extent(shape.vertices))
     return box @ shape.transform[:3, :3].T + shape.transform[:3, 3]
 
 
@@ -83,5 +84,5 @@ def _ball(entry: SceneObject, corners: Points) -> tuple[Points, float]:
     return (low + high) / 2, float(np.linalg.norm(high - low)) / 2
 
 
-def _box(low: Points, high: Points) -> Points:
+def _box(low: NDArray[np.floating], high: NDArray[np.floating]) -> Points:
     return np.array(list(product(*zip(low.tolist(), high.tolist(), strict=True))), float)

@@ -19,12 +19,12 @@ import moderngl
 from renderer.camera import Camera
 from renderer.frame import Frame, check_channels, check_size
 from renderer.raster.contexts import open_platform
+from renderer.raster.prepared import Prepared, prepare
 from renderer.raster.programs import Programs
 from renderer.raster.resources import Owner, check
 from renderer.raster.scene_data import SceneData
 from renderer.raster.targets import Region, Targets, Textures
 from renderer.samples import Progress, check_samples, supersampled
-from renderer.scene.flat import flatten
 from renderer.scene.model import Scene
 
 DEFAULT_CHANNELS = ("color", "depth", "normal", "id")
@@ -44,7 +44,7 @@ class Rasterizer:
     def __init__(
         self, scene: Scene, backend: str = "auto", context: moderngl.Context | None = None
     ) -> None:
-        flat = flatten(scene)
+        prepared = prepare(scene)
         self._platform = open_platform(backend, context)
         self._owner = Owner()
         self._data: SceneData | None = None
@@ -53,7 +53,7 @@ class Rasterizer:
         try:
             with self.current() as gl:
                 self._programs = self._owner.own(Programs(gl))
-                self._data = SceneData(gl, self._programs, flat)
+                self._data = SceneData(gl, self._programs, prepared)
                 renderer, version = gl.info["GL_RENDERER"], gl.info["GL_VERSION"]
         except BaseException:
             self.release()
@@ -72,11 +72,12 @@ class Rasterizer:
             raise RuntimeError("this Rasterizer was released")
         return self._platform.current()
 
-    def set_scene(self, scene: Scene) -> None:
-        """Draws another scene from now on; if that fails, the old one stays."""
-        flat = flatten(scene)
+    def set_scene(self, scene: Scene, prepared: Prepared | None = None) -> None:
+        """Draws another scene from now on; if that fails, the old one stays. prepared: the scene as
+        prepare() has made it, elsewhere: for a large one that takes seconds."""
+        prepared = prepared or prepare(scene)
         with self.current() as gl:
-            data, old = SceneData(gl, self._programs, flat), self._data
+            data, old = SceneData(gl, self._programs, prepared), self._data
             self._data = data
             if old is not None:
                 old.release()

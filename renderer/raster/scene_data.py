@@ -10,6 +10,7 @@ import moderngl
 import numpy as np
 
 from renderer.camera import Camera
+from renderer.raster.prepared import Prepared
 from renderer.raster.programs import Programs, set_uniform
 from renderer.raster.resources import Owner, check
 from renderer.raster.setup import (
@@ -19,12 +20,10 @@ from renderer.raster.setup import (
     camera_block,
     image_space,
     object_rows,
-    scene_setup,
     sphere_rows,
     triangle_rows,
 )
 from renderer.raster.tables import Table
-from renderer.scene.flat import FlatScene
 
 BOX_VERTICES = 36
 # Window depths: where nothing is, and one between that and the farthest of depth() in camera.glsl.
@@ -34,9 +33,9 @@ FARTHEST, BEFORE_FARTHEST = 1.0, 1 - 2**-21
 class SceneData:
     """One scene in one context, which must be current. Raises LucidaError where it does not fit."""
 
-    def __init__(self, context: moderngl.Context, programs: Programs, flat: FlatScene) -> None:
-        self._context, self._flat = context, flat
-        self._setup = scene_setup(flat)
+    def __init__(self, context: moderngl.Context, programs: Programs, scene: Prepared) -> None:
+        self._context = context
+        self._flat, self._setup = scene
         self._last: tuple[Camera, tuple[int, int]] | None = None
         self._owner = Owner()
         try:

@@ -21,7 +21,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from renderer.camera import Camera, Floats
-from renderer.scene.flat import CELL_X, FlatScene
+from renderer.scene.flat import CELL_X, FlatScene, extent
 
 # Anchor in image coordinates, near | anchor in the world | six rows of the material
 OBJECT_TEXELS = 8
@@ -106,7 +106,7 @@ def scene_setup(flat: FlatScene) -> SceneSetup:
             faces = flat.faces[first : first + count]
             mine = slice(faces.min(), faces.max() + 1)
             vertex_object[mine] = number
-            bounds[number] = flat.vertices[mine].min(0), flat.vertices[mine].max(0)
+            bounds[number] = extent(flat.vertices[mine])
     return SceneSetup(planes, bounds, vertex_object)
 
 

@@ -209,17 +209,23 @@ def _light_rows(scene: Scene) -> F32:
     return rows
 
 
+def extent(vertices: F32) -> tuple[F32, F32]:
+    """The lowest and the highest corner (3,) of points (n, 3), n > 0, in C order."""
+    # Many numbers a row: along rows of three, NumPy takes ten times as long.
+    whole = len(vertices) // 64 * 64
+    parts = [vertices[whole:]]
+    if whole:
+        rows = vertices[:whole].reshape(-1, 64 * 3)
+        parts += [rows.min(0).reshape(64, 3), rows.max(0).reshape(64, 3)]
+    corners = np.concatenate(parts)
+    return corners.min(0), corners.max(0)
+
+
 def _bounds(vertices: F32, spheres: F32) -> F32:
     low, high = [], []
     if len(vertices):
-        # Many numbers a row: along rows of three, NumPy takes ten times as long.
-        whole = len(vertices) // 64 * 64
-        parts = [vertices[whole:]]
-        if whole:
-            rows = vertices[:whole].reshape(-1, 64 * 3)
-            parts += [rows.min(0).reshape(64, 3), rows.max(0).reshape(64, 3)]
-        corners = np.concatenate(parts)
-        low, high = [corners.min(0)], [corners.max(0)]
+        lowest, highest = extent(vertices)
+        low, high = [lowest], [highest]
     if len(spheres):
         low.append((spheres[:, :3] - spheres[:, 3:]).min(0))
         high.append((spheres[:, :3] + spheres[:, 3:]).max(0))
