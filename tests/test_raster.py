@@ -471,11 +471,11 @@ def test_samples_are_averaged_in_linear_light(rasterizer):
 def test_a_scene_prepared_in_another_thread_is_drawn_the_same(rasterizer):
     scene = still_life()
     rasterizer.set_scene(scene)
-    expected = rasterizer.render(WIDE, SIZE)
+    expected = rasterizer.render(WIDE, SIZE, CHANNELS)
     with ThreadPoolExecutor(1) as pool:
         prepared = pool.submit(prepare, scene).result()
     rasterizer.set_scene(Scene(()))
     rasterizer.set_scene(scene, prepared)
-    again = rasterizer.render(WIDE, SIZE)
+    again = rasterizer.render(WIDE, SIZE, CHANNELS)
     for channel in CHANNELS:
         np.testing.assert_array_equal(again.channel(channel), expected.channel(channel))
