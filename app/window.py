@@ -38,7 +38,7 @@ from app.views.compare import CompareView
 from app.views.costs import CostsView
 from app.views.laboratory import LaboratoryView
 from app.views.lecture import LECTURE, LectureView
-from app.views.outside import OutsideView
+from app.views.outside import OUTSIDE, OutsideView
 from app.views.pair import RASTER, Linked, RasterView, RayView
 from app.views.probe import ProbeView
 from app.views.stepper import STEPPER, StepperView
@@ -156,7 +156,10 @@ class MainWindow:
         self._asked = asked(self.state, self.renderers.size)
 
     def travel(self, state: AppState) -> None:
-        shown = self.traveller.begin(self.state, state, self.focus, self.renderers.size)
+        outside = self.views[OUTSIDE]
+        assert isinstance(outside, OutsideView)
+        ends = outside.ends(self, state)
+        shown = self.traveller.begin(self.state, state, self.focus, self.renderers.size, ends)
         if shown is state:
             self.change(state)
         self.animate()

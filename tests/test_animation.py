@@ -14,7 +14,7 @@ from app.cameras.animation import INVISIBLE_PX, Passage
 from app.cameras.focus import Focus, scene_focus
 from app.cameras.navigation import switched_projection
 from app.cameras.presets import PRESETS, preset_named, preset_view
-from app.cameras.travel import DURATION_S, Traveller
+from app.cameras.travel import DURATION_S, Ends, Traveller
 from app.state import AppState, History, is_orthonormal
 from renderer.camera import Camera, volume
 from renderer.scene import load_scene
@@ -277,6 +277,35 @@ class TestTraveller:
             history = history.change(state, traveller.gesture)
         assert history.present == target
         assert len(history.past) == 1
+
+    def test_the_outside_views_camera_passes_too_and_only_that(self, scene: Scene) -> None:
+        clock, state = Clock(), AppState.for_scene(scene)
+        start = Camera.look_at((9.0, 3.0, 9.0), (0.0, 0.0, 0.0))
+        end = Camera.look_at((0.0, 12.0, 1.0), (0.0, 0.0, 0.0))
+        for there in (end, None):  # None: the view finds it
+            traveller = Traveller(clock)
+            target = state.with_options(outside={"camera": there}, shadows=True)
+            ends = Ends(start, end, SIZE)
+            assert traveller.begin(state, target, scene_focus(scene), SIZE, ends) is state
+            history = History(state)
+            for part in (0.0, 0.5, 1.0):
+                clock.s += 0.5 * DURATION_S * (part > 0)
+                found = traveller.step(history.present)
+                history = history.change(found, traveller.gesture)
+                if part == 0.5:
+                    middle = found.outside.camera
+            assert middle not in (None, start, end)
+            assert history.present == state.with_options(outside={"camera": there})
+            assert [step.outside.camera for step in history.past] == [None]
+            assert not traveller.under_way
+            # Another camera for it ends the passage; another view does not.
+            traveller.begin(state, target, scene_focus(scene), SIZE, ends)
+            clock.s += 0.1
+            found = traveller.step(target_of(state, "Front"))
+            assert found.view == target_of(state, "Front").view
+            moved = found.with_options(outside={"camera": end})
+            assert traveller.step(moved) is moved
+            assert not traveller.under_way
 
     @pytest.mark.parametrize("how", ["instant", "reduced", "mirrored", "scene", "no window"])
     def test_where_nothing_is_to_be_seen_it_is_there_at_once(self, scene: Scene, how: str) -> None:

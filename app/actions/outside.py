@@ -48,7 +48,7 @@ def _looking(window: Window) -> Camera:
 
 
 def _look(window: Window, camera: Camera | None) -> None:
-    window.change(window.state.with_options(outside={"camera": camera}))
+    window.travel(window.state.with_options(outside={"camera": camera}))
 
 
 def _along(window: Window, axis: str) -> None:

@@ -1,4 +1,5 @@
-"""The camera under way from one view to another, while the window's frames go on.
+"""A camera under way from one view to another, while the window's frames go on: the one of both
+images, or the one that looks in the outside view.
 
 Owns the passage under way and its clock. Knows nothing of widgets; the path is animation.py's.
 """
@@ -7,13 +8,25 @@ from __future__ import annotations
 
 import time
 from collections.abc import Callable, Hashable
-from dataclasses import replace
+from dataclasses import dataclass, replace
 
 from app.cameras.animation import Passage
 from app.cameras.focus import Focus
 from app.state import AppState, is_orthonormal
+from renderer.camera import Camera
+from renderer.scene.model import View
 
 DURATION_S = 0.5
+
+
+@dataclass(frozen=True)
+class Ends:
+    """The outside view's camera before and after, as it looks there: a state may leave it to the
+    view. size: of that view, (width, height)."""
+
+    start: Camera
+    end: Camera
+    size: tuple[int, int]
 
 
 class Traveller:
@@ -29,6 +42,7 @@ class Traveller:
         self._passage: Passage | None = None
         self._target: AppState | None = None
         self._latest: AppState | None = None
+        self._is_outside = False
         self._began_s = 0.0
 
     @property
@@ -41,46 +55,65 @@ class Traveller:
         return self._passage is not None
 
     def begin(
-        self, state: AppState, target: AppState, focus: Focus, size: tuple[int, int]
+        self,
+        state: AppState,
+        target: AppState,
+        focus: Focus,
+        size: tuple[int, int],
+        outside: Ends | None = None,
     ) -> AppState:
-        """Sets out for the target's view; gives the state to show now.
+        """Sets out for the target's view, or for the outside view's camera of the target where its
+        ends are given; gives the state to show now. size: of the images.
 
         That is the target itself where there is nothing to see on the way: another scene, a
         mirrored camera, or a user who wants no motion.
         """
         self.stop()
+        start, end = state.view, target.view
+        if outside is not None:
+            start, end, size = View(outside.start), View(outside.end), outside.size
         if (
             self.instant
             or state.preferences.reduced_motion
             or state.scene is not target.scene
-            or state.view == target.view
+            or start == end
             or not min(size)
         ):
             return target
-        passage = Passage(state.view, target.view, focus.center, focus.bounds, size)
+        passage = Passage(start, end, focus.center, focus.bounds, size)
         if not passage.possible:
             return target
         self._number += 1
         self._passage, self._target, self._began_s = passage, target, self.now_s()
-        self._latest = state
+        self._latest, self._is_outside = state, outside is not None
         return state
 
     def step(self, state: AppState) -> AppState:
-        """Where the camera is now: `state` with another view; itself if nothing is under way."""
+        """Where the camera is now: `state` with another view, or another camera that looks in the
+        outside view; itself if nothing is under way."""
         passage, target, latest = self._passage, self._target, self._latest
         if passage is None or target is None or latest is None:
             return state
-        if state.view != latest.view or state.scene is not latest.scene:
+        if self._seen(state) != self._seen(latest) or state.scene is not latest.scene:
             self.stop()
             return state
         part = (self.now_s() - self._began_s) / DURATION_S
-        view, keep = passage.at(part), target.keep_orthonormal
-        if part >= 1:
-            self.stop()
+        view, there = passage.at(part), part >= 1
+        if self._is_outside:
+            camera = target.outside.camera if there else view.camera
+            self._latest = state.with_options(outside={"camera": camera})
         else:
             keep = state.keep_orthonormal and is_orthonormal(view.camera)
-        self._latest = replace(state, view=view, keep_orthonormal=keep)
-        return self._latest
+            keep = target.keep_orthonormal if there else keep
+            self._latest = replace(state, view=view, keep_orthonormal=keep)
+        found = self._latest
+        if there:
+            self.stop()
+        return found
+
+    def _seen(self, state: AppState) -> View | Camera | None:
+        """What nobody else may change on the way."""
+        return state.outside.camera if self._is_outside else state.view
 
     def stop(self) -> None:
         """Ends the passage where it is."""

@@ -58,8 +58,8 @@ class Host(Protocol):
         """Opens the box to type the images' resolution into."""
 
     def travel(self, state: AppState) -> None:
-        """Makes a state the present one, as a step of its own, by a smooth passage of its camera
-        where that is to be seen."""
+        """Makes a state the present one, as a step of its own, by a smooth passage of its camera,
+        or of the one that looks in the outside view, where that is to be seen."""
 
     def animate(self) -> None:
         """Asks for a next frame at full rate: something is moving by itself."""

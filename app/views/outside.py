@@ -17,15 +17,16 @@ from imgui_bundle import ImVec2, imgui
 from numpy.typing import NDArray
 
 from app import theme
+from app.cameras.travel import Ends
 from app.images.picking import object_on_ray
 from app.images.pictures import Wanted
 from app.images.renderers import look_of
 from app.options import OutsideOptions, Pixel
 from app.outside.diagram import Hit, Item, diagram
-from app.outside.extent import around, end_parameter, framed, outside_camera, way_of
+from app.outside.extent import end_parameter
 from app.outside.hits import Question, RayHits
 from app.outside.paint import casing, layers
-from app.outside.projected import NEAREST, Primitive, Screen, project
+from app.outside.projected import Primitive, Screen, project
 from app.outside.solid import bundle_pixels, pixel_seen, plane_corners
 from app.panels.screen import available_px, framebuffer_scale
 from app.state import AppState
@@ -33,6 +34,14 @@ from app.storage.files import describe
 from app.views.base import Host, View
 from app.views.outside_gizmo import Gizmo
 from app.views.outside_ground import Ground
+from app.views.outside_looking import (
+    camera_along,
+    camera_for_all,
+    nearest,
+    scope_of,
+    units_px,
+    widest_px,
+)
 from app.views.outside_mouse import Mouse, Scope
 from app.views.outside_tools import labels, legend, triad
 from renderer.camera import Camera
@@ -45,8 +54,6 @@ Size = tuple[int, int]
 
 OUTSIDE = "Outside"
 SMALLEST_PX = 24  # a view that is smaller shows nothing
-LETTER_PX = 26.0  # round what is framed, for letters
-ROOMY_PX = 330.0  # a smaller view has smaller symbols
 OPACITY = 0.9  # of the live image: what stands behind it is seen a little
 GRID_PX = 7.0  # the least distance of the grid's lines, in widths of a line
 IMAGE_SIZE = (640, 480)  # of the camera's image while no other view shows it
@@ -142,6 +149,16 @@ class OutsideView(View):
     def with_flown(self, state: AppState, camera: Camera) -> AppState:
         return state.with_options(outside={"camera": camera})
 
+    def ends(self, host: Host, target: AppState) -> Ends | None:
+        """Where the camera that looks passes from and to, if nothing but that leads to a target;
+        None where it is not to be seen."""
+        state, scope, size = host.state, self.scope, self.size_px
+        changed = state.outside.camera != target.outside.camera
+        if scope is None or size is None or not changed or state.view != target.view:
+            return None
+        end = target.outside.camera or camera_for_all(host, size, scope.extent)
+        return Ends(scope.camera, end, size)
+
     def object_under(self, host: Host) -> int | None:
         if self.scope is None:
             return None
@@ -208,29 +225,8 @@ class OutsideView(View):
         return self._scope(host, size, origin, extent)
 
     def _scope(self, host: Host, size: Size, origin: ImVec2, extent: ImVec2) -> Scope:
-        self.scope = self.scope_of(host, size, origin, extent)
+        self.scope = scope_of(host, size, origin, extent)
         return self.scope
-
-    def scope_of(self, host: Host, size: Size, origin: ImVec2, extent: ImVec2) -> Scope:
-        """The camera that looks, for a picture of `size` that takes `extent` of the window."""
-        state = host.state
-        points = self._points(host)
-        center = (points.min(axis=0) + points.max(axis=0)) / 2
-        reach = float(np.linalg.norm(points.max(axis=0) - points.min(axis=0))) / 2
-        aspect = size[0] / size[1]
-        camera = state.outside.camera
-        if camera is None:
-            home, room = state.scene.view.camera, theme.px(LETTER_PX)
-            margin = margin_for(extent.x, room), margin_for(extent.y, room)
-            camera = outside_camera([points], home, aspect, margin)
-        x, y, z = center.tolist()
-        middle, reach = (x, y, z), max(reach, 1e-9)
-        return Scope(camera, camera.fitted(size), origin, extent, middle, reach)
-
-    def _points(self, host: Host) -> Floats:
-        """Around what there is to see: the scene, the camera, and where the scene has put it."""
-        home = host.state.scene.view.for_size(host.renderers.size)
-        return around(host.focus.framed, home, host.renderers.camera(host.state))
 
     def _pixel_under(self, host: Host, scope: Scope) -> Pixel | None:
         outside = host.state.outside
@@ -261,14 +257,11 @@ class OutsideView(View):
         elif clicked == "camera":
             options = replace(options, camera=host.renderers.camera(state))
         elif axis is not None:
-            options = replace(options, camera=self._along(host, scope, axis))
-        if options != state.outside:
+            options = replace(options, camera=camera_along(host, scope, axis))
+        if options.camera != state.outside.camera:
+            host.travel(with_outside(state, options))
+        elif options != state.outside:
             host.apply(with_outside(state, options))
-
-    def _along(self, host: Host, scope: Scope, axis: str) -> Camera:
-        """The view along an axis that sees everything."""
-        aspect = scope.extent.x / max(scope.extent.y, 1.0)
-        return framed(self._points(host), way_of(axis), aspect, scope.camera.projection)
 
     # The picture.
 
@@ -351,21 +344,6 @@ class OutsideView(View):
         return Hit(pixel, known[pixel] if seen is None else seen), hits
 
 
-def nearest(camera: Camera, scope: Scope) -> float:
-    """The least t of lines that are drawn: a small part of the distance to the middle."""
-    unit = 1.0 if camera.is_parallel else camera.distance
-    away = scope.reach / float(np.linalg.norm(camera.w)) / unit
-    z = float((camera.camera_from_world @ [*scope.center, 1.0])[2])
-    return NEAREST * max(-z / unit, away)
-
-
-def units_px(extent: ImVec2) -> tuple[float, float]:
-    """The width of a line that teaches and the size of symbols, in a view of this extent."""
-    symbol_px = framebuffer_scale() * min(theme.px(1), min(extent.x, extent.y) / ROOMY_PX)
-    # In presentation mode lines are thick, but the picture is not made of them.
-    return (theme.line_px(framebuffer_scale()) + symbol_px) / 2, symbol_px
-
-
 def with_outside(state: AppState, options: OutsideOptions) -> AppState:
     """The state with other options of this view."""
     return replace(state, options=replace(state.options, outside=options))
@@ -380,14 +358,3 @@ def ray_pixel(host: Host) -> Pixel | None:
     if pixel is None or not (0 <= pixel[0] < height and 0 <= pixel[1] < width):
         return None
     return pixel
-
-
-def widest_px(screen: Screen, corners: Floats) -> float:
-    """The longest side of a polygon (n, 3) on the screen, as far as it is to be seen."""
-    points, _, _ = screen.segments(np.stack([corners, np.roll(corners, -1, axis=0)], axis=1))
-    return float(np.linalg.norm(points[:, 1] - points[:, 0], axis=1).max(initial=0.0))
-
-
-def margin_for(side: float, room: float) -> float:
-    """A side of the view in that of what it must hold, with room on both ends."""
-    return min(max(side / max(side - 2 * room, 1.0), 1.0), 1.6)

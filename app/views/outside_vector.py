@@ -21,7 +21,8 @@ from app.outside.sketch import Sketch
 from app.panels.screen import framebuffer_scale
 from app.storage.files import describe
 from app.views.base import Host
-from app.views.outside import IMAGE_SIZE, OUTSIDE, OutsideView, nearest, units_px
+from app.views.outside import IMAGE_SIZE, OUTSIDE, OutsideView
+from app.views.outside_looking import nearest, scope_of, units_px
 from renderer.errors import LucidaError
 
 if TYPE_CHECKING:
@@ -49,7 +50,7 @@ class Sketcher:
             both.fit_pane(view.name, IMAGE_SIZE, state.images)
         scale = framebuffer_scale()
         extent = ImVec2(size[0] / scale, size[1] / scale)
-        scope = view.scope_of(host, size, ImVec2(0, 0), extent)
+        scope = scope_of(host, size, ImVec2(0, 0), extent)
         looking, camera, image_size = scope.shown, both.camera(state), both.size
         options = replace(state.outside, camera=None)
         marked, hits = view.rays(host, camera, image_size)

@@ -5,9 +5,11 @@ from __future__ import annotations
 from collections.abc import Iterator
 from contextlib import contextmanager
 
+import numpy as np
 from imgui_bundle import hello_imgui
-from window_driver import Driver
+from window_driver import Driver, Key
 
+from app.cameras.travel import DURATION_S
 from app.outside.projected import Strokes
 from app.views import outside_ground
 from app.views.outside import OUTSIDE, OutsideView
@@ -31,6 +33,23 @@ def enter(d: Driver) -> None:
         hello_imgui.switch_layout("Outside view")
         d.ctx.yield_(5)
     d.settle()
+
+
+class Clock:
+    """The passages' clock, held by a test."""
+
+    def __init__(self, d: Driver) -> None:
+        self.s = 10.0
+        d.window.traveller.now_s = lambda: self.s
+        d.window.traveller.instant = False
+
+
+def looks_from(d: Driver) -> np.ndarray:
+    """The unit vector from what is looked at to the camera that looks."""
+    at = view(d).scope
+    assert at is not None
+    back = np.asarray(at.camera.w)
+    return back / np.linalg.norm(back)
 
 
 @contextmanager
@@ -106,4 +125,92 @@ def drive_the_other_cameras_motion_leaves_the_scene_as_it_is(d: Driver) -> None:
         assert ground(d).factor == 1
     assert ground(d)._drawn == number
     assert [p for p in view(d).primitives if isinstance(p, Strokes)]
+    d.settle()
+
+
+def drive_a_click_on_an_axis_turns_the_view_smoothly_as_one_step(d: Driver) -> None:
+    enter(d)
+    window, clock = d.window, Clock(d)
+    start = looks_from(d)
+    assert window.state.outside.camera is None
+    d.ctx.item_click(f"//###{OUTSIDE}/axis x##outside")
+    d.until(lambda: window.traveller.under_way)
+    inner, turned = window.state.view, []
+    for part in (0.25, 0.5, 0.75):
+        clock.s = 10.0 + part * DURATION_S
+        d.ctx.yield_(2)
+        way = looks_from(d)
+        turned.append(float(np.arccos(np.clip(way @ start, -1, 1))))
+        at = view(d).scope
+        assert at is not None  # all of it stays in front
+        ahead = np.asarray(at.center) - at.camera.eye
+        assert ahead @ way < 0
+    whole = float(np.arccos(np.clip(start @ (1, 0, 0), -1, 1)))
+    assert 0 < turned[0] < turned[1] < turned[2] < whole
+    assert abs(turned[1] - whole / 2) < 0.02  # half of the way after half of the time
+    clock.s += DURATION_S
+    d.until(lambda: not window.traveller.under_way)
+    d.ctx.yield_(2)
+    assert np.allclose(looks_from(d), (1, 0, 0))
+    assert len(window.history.past) == 1
+    assert window.state.view == inner
+    # Back to the view of all, which the state leaves to the view: at the end, without a step.
+    d.ctx.item_click(f"//###{OUTSIDE}/fit all##outside")
+    clock.s += 0.999 * DURATION_S
+    d.until(lambda: window.state.outside.camera is not None and window.traveller.under_way)
+    d.ctx.yield_(2)
+    near_end = looks_from(d)
+    clock.s += DURATION_S
+    d.until(lambda: window.state.outside.camera is None)
+    d.ctx.yield_(2)
+    assert np.allclose(looks_from(d), start, atol=1e-9)
+    assert np.allclose(near_end, start, atol=1e-3)
+    window.undo()
+    assert np.allclose(window.state.outside.camera.w, (1, 0, 0))
+    window.undo()
+    assert window.state == d.start
+    d.settle()
+
+
+def drive_an_object_is_aimed_at_smoothly(d: Driver) -> None:
+    enter(d)
+    window, clock = d.window, Clock(d)
+    at = view(d).scope
+    assert at is not None
+    row, column, _ = at.shown.project(window.focus.center, (round(at.extent.x), round(at.extent.y)))
+    d.ctx.mouse_teleport_to_pos((at.origin.x + float(column), at.origin.y + float(row)))
+    d.ctx.yield_(3)
+    d.ctx.key_press(int(Key.f))
+    d.until(lambda: window.traveller.under_way)
+    clock.s += 0.5 * DURATION_S
+    d.until(lambda: window.state.outside.camera not in (None, at.camera))
+    half = window.state.outside.camera
+    clock.s += DURATION_S
+    d.until(lambda: not window.traveller.under_way)
+    end = window.state.outside.camera
+    way = np.subtract(end.eye, at.camera.eye)
+    assert 0 < np.subtract(half.eye, at.camera.eye) @ way < way @ way
+    assert len(window.history.past) == 1
+    d.settle()
+
+
+def drive_a_drag_ends_the_passage_where_it_is(d: Driver) -> None:
+    enter(d)
+    window, clock = d.window, Clock(d)
+    d.ctx.item_click(f"//###{OUTSIDE}/axis y##outside")
+    before = view(d).scope
+    assert before is not None
+    clock.s += 0.5 * DURATION_S
+    d.until(lambda: window.state.outside.camera not in (None, before.camera))
+    drag(d)
+    assert not window.traveller.under_way
+    turned = window.state.outside.camera
+    clock.s += DURATION_S
+    d.ctx.yield_(3)
+    assert window.state.outside.camera == turned
+    assert turned.w != (0, 1, 0)
+    window.change(d.start.with_options(preferences={"reduced_motion": True}))
+    d.ctx.item_click(f"//###{OUTSIDE}/axis z##outside")
+    d.until(lambda: window.state.outside.camera is not None)
+    assert np.allclose(window.state.outside.camera.w, (0, 0, 1))
     d.settle()
