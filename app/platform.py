@@ -80,6 +80,29 @@ def flush_opengl() -> None:
         ctypes.CFUNCTYPE(None)(ctypes.cast(address, ctypes.c_void_p).value or 0)()
 
 
+def copy_pixels(
+    source: int, source_box: tuple[int, ...], target: int, target_box: tuple[int, ...]
+) -> None:
+    """Copies colours from one framebuffer to another, both by their GL names, to the nearest pixel.
+    Boxes: left, bottom, right, top. Leaves both bound: moderngl does not know that."""
+    for kind, name in ((_READ_FRAMEBUFFER, source), (_DRAW_FRAMEBUFFER, target)):
+        _gl("glBindFramebuffer", kind, name)
+    _gl("glBlitFramebuffer", *source_box, *target_box, _COLOR_BUFFER_BIT, _NEAREST)
+
+
+_READ_FRAMEBUFFER, _DRAW_FRAMEBUFFER = 0x8CA8, 0x8CA9
+_COLOR_BUFFER_BIT, _NEAREST = 0x4000, 0x2600
+
+
+def _gl(name: str, *numbers: int) -> None:
+    """Calls a function of OpenGL that moderngl does not offer."""
+    address = glfw.get_proc_address(name)
+    if not address:
+        raise LucidaError("OpenGL", f"{name} is missing", "update the graphics driver")
+    kind = ctypes.CFUNCTYPE(None, *(ctypes.c_int for _ in numbers))
+    kind(ctypes.cast(address, ctypes.c_void_p).value or 0)(*numbers)
+
+
 def lower_priority() -> None:
     """The calling thread, and the threads that it starts, give way to the window's (Linux)."""
     if sys.platform.startswith("linux"):

@@ -225,6 +225,7 @@ class Run:
         callbacks.setup_imgui_style = self._guarded(lambda: theme.begin(state.preferences))
         callbacks.post_init = self._guarded(self._begin)
         callbacks.pre_new_frame = self._guarded(self.window.shell.stage.before_frame)
+        callbacks.custom_background = self._guarded(self._background)
         callbacks.before_swap = self._guarded(self._before_swap)
         callbacks.before_imgui_render = self._guarded(self._before_render)
         callbacks.show_menus = self._guarded(self.window.menus)
@@ -263,10 +264,24 @@ class Run:
         if self._canvas is not None:
             self._canvas.bind()
 
-    def _before_swap(self) -> None:
+    def _background(self) -> None:
+        """Instead of HelloImGui's: ImGui draws over the images."""
+        drawn = self._drawn
+        if drawn is not None:
+            drawn.use()
+            drawn.clear(*self.params.imgui_window_params.background_color)
+            self.window.renderers.underlay.paint(drawn)
+
+    @property
+    def _drawn(self) -> moderngl.Framebuffer | None:
+        """What the window is drawn into; None before there is an OpenGL context."""
         drawn = self._canvas.framebuffer if self._canvas is not None else None
         if drawn is None and self._context is not None:
             drawn = self._context.detect_framebuffer(0)
+        return drawn
+
+    def _before_swap(self) -> None:
+        drawn = self._drawn
         if drawn is not None:
             self.window.shell.after_drawing(drawn)
             if self.on_drawn is not None:

@@ -1,7 +1,8 @@
 """The two images as textures that ImGui can show.
 
 Owns the rasterizer and the display transform in the window's context, and redraws only what has
-changed. Knows nothing of widgets and of how the ray image was made.
+changed. The rasterizer is made when it first draws: where a driver does not take its shaders, that
+is an error of drawing, and the window has the ray image. Knows nothing of widgets and of how the ray image was made.
 """
 
 from __future__ import annotations
@@ -16,11 +17,11 @@ from numpy.typing import NDArray
 from app.images.live import RayImage, reduced
 from app.images.placement import Placement
 from app.images.reading import Reading, Region
-from app.images.shown import Range, ShownImage, whole
+from app.images.shown import Picture, Range, ShownImage, whole
 from renderer.camera import Camera
 from renderer.errors import LucidaError
 from renderer.frame import Frame
-from renderer.raster import DepthRange, Look, Rasterizer, upload
+from renderer.raster import DepthRange, Look, Prepared, Rasterizer, upload
 from renderer.raster.targets import Textures
 from renderer.scene.model import Scene
 
@@ -49,8 +50,10 @@ class Pictures:
         self._gl = context
         self._raster, self._ray = ShownImage(context), ShownImage(context)
         self._range = DepthRange(context)
-        self._rasterizer = Rasterizer(scene, context=context)
+        self._made: Rasterizer | None = None
+        self._not_made: Exception | None = None
         self._scene = scene
+        self._prepared: list[tuple[Scene, Prepared]] = []
         self._timer = context.query(time=True)
         self._timed_pixels = 0  # of the image whose time is still to be read
         self._pixel_s = 0.0
@@ -73,6 +76,28 @@ class Pictures:
         self.raster_error: Exception | None = None
         self.ray_error: Exception | None = None
 
+    @property
+    def _rasterizer(self) -> Rasterizer:
+        """Raises again what making it has raised, until retry(): compiling takes many frames."""
+        if self._not_made is not None:
+            raise self._not_made
+        if self._made is None:
+            try:
+                self._made = Rasterizer(self._scene, context=self._gl)
+            except FAILURES as error:
+                self._not_made = error
+                raise
+        return self._made
+
+    def retry(self) -> None:
+        """Makes the rasterizer again, if that has failed; drawing is tried in each frame."""
+        self._not_made = None
+
+    def prepare(self, scene: Scene, prepared: Prepared) -> None:
+        """Keeps what a scene was prepared as, which takes long, for when it is shown: of the last
+        one, and of the one before it, for undo."""
+        self._prepared = [*self._prepared, (scene, prepared)][-2:]
+
     def begin_frame(self) -> None:
         """Once a frame, before anything else."""
         self._frame += 1
@@ -80,11 +105,21 @@ class Pictures:
         self._ray.begin_frame()
         self._read_time()
 
-    def raster(
-        self, wanted: Wanted, look: Look, placement: Placement | None = None
-    ) -> moderngl.Texture | None:
-        """The raster image as it is seen in a window, drawn anew if it must be; without a
-        placement, all of it at its own size.
+    def raster(self, wanted: Wanted, look: Look) -> moderngl.Texture | None:
+        """All of the raster image at its own size, otherwise as raster_in()."""
+        picture = self.raster_in(whole(wanted.size), wanted, look, WHOLE)
+        return picture.texture if picture is not None else None
+
+    def raster_in(
+        self,
+        placement: Placement,
+        wanted: Wanted,
+        look: Look,
+        name: str = PANE,
+        under: bool = False,
+    ) -> Picture | None:
+        """The raster image as it is seen in a window, drawn anew if it must be. name, under: see
+        ShownImage.picture.
 
         None where that failed, see raster_error. Where OpenGL runs on the CPU, the image is coarse
         while things move, and full soon after.
@@ -94,17 +129,14 @@ class Pictures:
             self._raster_frame = self._frame
             if look.channel == "depth":
                 self._measure(self._drawn, drawn.surface)
-            name = WHOLE if placement is None else PANE
-            texture = self._raster.picture(
-                name, look, placement or whole(wanted.size), self._depths
-            )
+            picture = self._raster.picture(name, look, placement, self._depths, under)
             self.raster_error = None
         except FAILURES as error:  # shown in the window, which goes on
             self._raster.set_channels({})
             self._wanted, self._textures = None, None
             self.raster_error, self.raster_factor = error, 1
             return None
-        return texture
+        return picture
 
     def textures(self, wanted: Wanted) -> tuple[Textures, int] | None:
         """All channels of the raster image, if that is drawn, and full; and its number, as linear()
@@ -128,9 +160,16 @@ class Pictures:
         """The traced image to show from now on."""
         self._image, self._failures = image, 0
 
-    def ray(self, look: Look, placement: Placement | None = None) -> moderngl.Texture | None:
-        """The last traced image as it is seen in a window; without a placement, all of it at its
-        own size. None before the first, and where putting it on the GPU failed, see ray_error."""
+    def ray(self, look: Look) -> moderngl.Texture | None:
+        """All of the last traced image at its own size, otherwise as ray_in()."""
+        picture = self.ray_in(None, look, WHOLE)
+        return picture.texture if picture is not None else None
+
+    def ray_in(
+        self, placement: Placement | None, look: Look, name: str = PANE, under: bool = False
+    ) -> Picture | None:
+        """The last traced image as it is seen in a window; without a placement, all of it. None
+        before the first, and where putting it on the GPU failed, see ray_error."""
         image = self._image
         if image is None or self._failures >= ATTEMPTS:
             return None
@@ -138,16 +177,15 @@ class Pictures:
             self._upload(image, look.channel)
             if look.channel == "depth" and self._raster_frame < self._frame - 1:
                 self._measure(self._uploaded, self._ray_texture)  # the raster image is not seen
-            name = WHOLE if placement is None else PANE
             placement = placement or whole(image.request.size)
-            texture = self._ray.picture(name, look, placement, self._depths)
+            picture = self._ray.picture(name, look, placement, self._depths, under)
             self.ray_error = None
         except FAILURES as error:
             self._ray.set_channels({})
             self._uploaded, self.ray_error = None, error
             self._failures += 1
             return None
-        return texture
+        return picture
 
     def depths(self) -> tuple[float, float] | None:
         """The ray parameters shown white and darkest, of the frame before; None: nothing is hit."""
@@ -193,14 +231,10 @@ class Pictures:
         self._values = ((self._drawn, channel, region), values)
         return values
 
-    @property
-    def platform(self) -> str:
-        """The GL renderer and its version."""
-        return self._rasterizer.platform
-
     def release(self) -> None:
         with contextlib.suppress(moderngl.Error):
-            self._rasterizer.release()
+            if self._made is not None:
+                self._made.release()
             self._raster.release()
             self._ray.release()
             self._range.release()
@@ -269,5 +303,6 @@ class Pictures:
 
     def _show(self, scene: Scene) -> None:
         if scene is not self._scene:
-            self._rasterizer.set_scene(scene)
+            known = next((known for of, known in self._prepared if of is scene), None)
+            self._rasterizer.set_scene(scene, known)
             self._scene = scene

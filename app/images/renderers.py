@@ -18,6 +18,8 @@ from app.images.live import LiveTrace, RayImage, Request, Tracer
 from app.images.pictures import FAILURES, Pictures, Wanted
 from app.images.placement import Placement, common_pane, place
 from app.images.reading import Region
+from app.images.shown import Picture
+from app.images.underlay import Underlay
 from app.options import ImageOptions
 from app.platform import lower_priority
 from app.state import AppState
@@ -42,6 +44,7 @@ class Renderers:
         self.agreement = Agreement(wake)
         begin = lower_priority if smooth else None
         self.live = LiveTrace(wake, _make_tracer, begin)
+        self.underlay = Underlay()
         self.pictures: Pictures | None = None
         self.ray_image: RayImage | None = None
         self.size = (0, 0)  # (width, height) of both images; (0, 0) before the first layout
@@ -132,6 +135,7 @@ class Renderers:
         """Once a frame: takes what has come from the threads. moving: something is dragged."""
         assert self.pictures is not None
         self.pictures.begin_frame()
+        self.underlay.begin_frame()
         self._follow_resolution(state.images.resolution)
         self._tracing, self._to_trace = self._to_trace, False
         image = self.live.poll()
@@ -157,19 +161,17 @@ class Renderers:
 
     # What is there.
 
-    def raster_texture(self, state: AppState, placement: Placement | None = None) -> int | None:
-        """The GL name of what is seen of the raster image in a window, drawn anew if it must be;
-        without a placement, of all of it at its own size. None where that failed."""
+    def raster_picture(self, state: AppState, placement: Placement, under: bool) -> Picture | None:
+        """What is seen of the raster image in a window, drawn anew if it must be; None where that
+        failed. under: it is for the underlay."""
         assert self.pictures is not None
         wanted = Wanted(state.scene, self.camera(state), self.size)
-        texture = self.pictures.raster(wanted, look_of(state.images), placement)
-        return texture.glo if texture is not None else None
+        return self.pictures.raster_in(placement, wanted, look_of(state.images), under=under)
 
-    def ray_texture(self, state: AppState, placement: Placement | None = None) -> int | None:
+    def ray_picture(self, state: AppState, placement: Placement, under: bool) -> Picture | None:
         """Likewise of the newest ray image that has arrived; None before the first."""
         assert self.pictures is not None
-        texture = self.pictures.ray(look_of(state.images), placement)
-        return texture.glo if texture is not None else None
+        return self.pictures.ray_in(placement, look_of(state.images), under=under)
 
     def depths(self) -> tuple[float, float] | None:
         """The ray parameters that are shown white and darkest; None where nothing is hit."""
@@ -228,7 +230,9 @@ class Renderers:
         return self.raster_error or self.ray_error or self.agreement.error
 
     def retry(self) -> None:
-        """Tries again what has failed; the rasterizer does so by itself."""
+        """Tries again what has failed."""
+        if self.pictures is not None:
+            self.pictures.retry()
         self.live.retry()
         self.agreement.error = None
         self._compared = None

@@ -5,7 +5,8 @@ where the image comes from.
 
 ImGui samples every texture linearly. A picture of the very size that it has on the screen comes
 out exact, so that enlarged pixels are squares and nothing is blurred; and of a magnified image,
-only what is seen is drawn.
+only what is seen is drawn. A picture that is copied under ImGui (underlay.py) needs no more pixels
+than the image has.
 """
 
 from __future__ import annotations
@@ -29,10 +30,12 @@ class Range:
 
 
 @dataclass(eq=False)
-class _Picture:
+class Picture:
+    """What is seen of an image, as a texture and as a framebuffer to copy from."""
+
     texture: moderngl.Texture
     framebuffer: moderngl.Framebuffer
-    made: object = None
+    made: object = None  # from what
 
 
 class ShownImage:
@@ -43,8 +46,8 @@ class ShownImage:
         self._display = Display(context)
         self._channels: dict[str, moderngl.Texture] = {}
         self._version = 0
-        self._pictures: dict[str, _Picture] = {}
-        self._retired: list[_Picture] = []
+        self._pictures: dict[str, Picture] = {}
+        self._retired: list[Picture] = []
 
     def set_channels(self, channels: Mapping[str, moderngl.Texture]) -> None:
         """The image: the caller's textures, as Display.show() takes them. None: no image."""
@@ -56,29 +59,38 @@ class ShownImage:
         return not self._channels
 
     def picture(
-        self, name: str, look: Look, placement: Placement, depths: Range | None = None
-    ) -> moderngl.Texture | None:
+        self,
+        name: str,
+        look: Look,
+        placement: Placement,
+        depths: Range | None = None,
+        under: bool = False,
+    ) -> Picture | None:
         """What is seen of the image in a window; None without an image. Where the look's channel
         is not there, another one is shown.
 
         name: of the picture: each is drawn over by the next call with the same name. The texture
-        stays until the frame after the next, also where another takes its place.
+        stays until the frame after the next, also where another takes its place. under: it is for
+        the Underlay: upside down, and where image pixels are enlarged, of the image's own size.
         """
         if not self._channels:
             return None
         if look.channel not in self._channels:
             look = replace(look, channel=next(iter(self._channels)))  # type: ignore[arg-type]
         source = self._channels[look.channel]
-        left, top, right, bottom = placement.visible
+        section, size = section_of(placement, source.size), visible_size(placement)
+        if under:
+            if placement.sees_all and not section.averaged:
+                section, size = Section(), source.size
+            section = replace(section, rows=size[1])
         needed = depths if look.channel == "depth" else None
-        wanted = (self._version, look, placement, needed and needed.number)
-        picture = self._of_size(name, (right - left, bottom - top))
+        wanted = (self._version, look, section, size, needed and needed.number)
+        picture = self._of_size(name, size)
         if picture.made != wanted:
-            section = section_of(placement, source.size)
             texture = needed.texture if needed is not None else None
             self._display.show(source, look, section, picture.framebuffer, texture)
             picture.made = wanted
-        return picture.texture
+        return picture
 
     def begin_frame(self) -> None:
         """Once a frame: gives back what the frame before the last may still have shown."""
@@ -94,14 +106,14 @@ class ShownImage:
         self.begin_frame()
         self._display.release()
 
-    def _of_size(self, name: str, size: Size) -> _Picture:
+    def _of_size(self, name: str, size: Size) -> Picture:
         picture = self._pictures.get(name)
         if picture is None or picture.texture.size != size:
             # The window may show the old one in this very frame: its name must not be used again.
             if picture is not None:
                 self._retired.append(self._pictures.pop(name))
             texture = new_texture(self._gl, size, 4, "uint8")
-            picture = _Picture(texture, self._gl.framebuffer([texture]))
+            picture = Picture(texture, self._gl.framebuffer([texture]))
             self._pictures[name] = picture
         return picture
 
@@ -119,6 +131,12 @@ def section_of(placement: Placement, texels: Size) -> Section:
     averaged = max(per_pixel) > 1.0001 or not (coarse or placement.whole)
     origin = float(placement.origin[0] - left), float(placement.origin[1] - top)
     return Section(origin, per_pixel, averaged)
+
+
+def visible_size(placement: Placement) -> Size:
+    """(width, height) of what is seen of an image, in pixels of the screen."""
+    left, top, right, bottom = placement.visible
+    return right - left, bottom - top
 
 
 def whole(size: Size) -> Placement:

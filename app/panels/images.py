@@ -13,6 +13,8 @@ from imgui_bundle import ImVec2, imgui
 
 from app import theme
 from app.images.placement import Placement, place
+from app.images.shown import Picture
+from app.images.underlay import Underlay
 from app.options import Pixel
 from app.panels.grips import Grab, Lens, Seen, Zoom, drag, magnify, wheel
 from app.panels.marks import claim_keys, draw_hovered, draw_marked, draw_pin
@@ -24,9 +26,10 @@ from app.state import AppState
 
 @dataclass(frozen=True)
 class Pane:
-    """One image's window. texture: gives the GL name of what is seen of a state's image, None for
-    no image; asked after the mouse has moved the camera. values: of some pixels,
-    likewise; None: they are not written.
+    """One image's window. picture: gives what is seen of a state's image, None for no image; asked
+    after the mouse has moved the camera; its last argument says whether it is for the underlay.
+    underlay: where it can be put, having nothing under it; None: ImGui draws it. values: of some
+    pixels, likewise; None: they are not written.
 
     note: text over the image. progress: of the image under way, 1 for none. hovered: the pixel
     under the mouse, to be marked here. depths: that are shown white and darkest. legend: whether
@@ -34,7 +37,8 @@ class Pane:
     """
 
     seen: Seen
-    texture: Callable[[AppState, Placement], int | None]
+    picture: Callable[[AppState, Placement, bool], Picture | None]
+    underlay: Underlay | None
     values: Values | None
     fonts: theme.Fonts
     note: str = ""
@@ -103,11 +107,14 @@ def image_pane(
 def _draw(pane: Pane, state: AppState, screen: Screen, room: Box, grab: Grab | None) -> None:
     draw = imgui.get_window_draw_list()
     low, high = screen.visible
-    texture = pane.texture(state, screen.placement)
-    _surround(draw, room, low, low if texture is None else high)
+    picture = pane.picture(state, screen.placement, pane.underlay is not None)
+    _surround(draw, room, low, low if picture is None else high)
     draw.push_clip_rect(*screen.pane, intersect_with_current_clip_rect=True)
-    if texture is not None:
-        draw.add_image(imgui.ImTextureRef(texture), low, high)
+    if picture is not None:
+        if pane.underlay is not None:
+            pane.underlay.put(picture, screen.visible_px)
+        else:
+            draw.add_image(imgui.ImTextureRef(picture.texture.glo), low, high)
         if pane.on_pixels is not None:
             pane.on_pixels(screen)
         if state.images.grid:
@@ -123,7 +130,7 @@ def _draw(pane: Pane, state: AppState, screen: Screen, room: Box, grab: Grab | N
     if pane.progress < 1.0:
         end = ImVec2(low.x + (high.x - low.x) * pane.progress, high.y)
         draw.add_rect_filled(ImVec2(low.x, high.y - 3), end, theme.u32(theme.RAY))
-    if texture is not None:
+    if picture is not None:
         if pane.legend:
             draw_legend(draw, screen, state, pane.depths, pane.fonts)
         draw_corner(draw, screen, state, pane.fonts)

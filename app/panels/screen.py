@@ -15,6 +15,7 @@ from app.images.placement import Placement
 from app.options import Pixel
 
 Box = tuple[ImVec2, ImVec2]  # upper left and lower right corner
+MAIN_DOCK = "MainDockSpace"  # HelloImGui's window that all others are docked in
 
 
 def framebuffer_scale() -> float:
@@ -26,6 +27,13 @@ def available_px() -> tuple[int, int]:
     """What is left of the current window's content, (width, height) in framebuffer pixels."""
     avail, scale = imgui.get_content_region_avail(), framebuffer_scale()
     return max(1, math.floor(avail.x * scale)), max(1, math.floor(avail.y * scale))
+
+
+def is_at_the_bottom() -> bool:
+    """Whether the current window has nothing but the background under it: it is docked, and not in
+    a floating window."""
+    root = imgui.internal.get_current_window().root_window_dock_tree
+    return imgui.is_window_docked() and root.name.startswith(MAIN_DOCK)
 
 
 @dataclass(frozen=True)
@@ -56,6 +64,15 @@ class Screen:
         """What is seen of the image."""
         left, top, right, bottom = map(float, self.placement.visible)
         return self._point(left, top), self._point(right, bottom)
+
+    @property
+    def visible_px(self) -> tuple[int, int, int, int]:
+        """Left, top, right, bottom of it in framebuffer pixels of the main window."""
+        at = imgui.get_main_viewport().pos
+        x = round((self.corner.x - at.x) * self.scale)
+        y = round((self.corner.y - at.y) * self.scale)
+        left, top, right, bottom = self.placement.visible
+        return x + left, y + top, x + right, y + bottom
 
     @property
     def cell(self) -> tuple[float, float]:

@@ -22,7 +22,7 @@ from app.images.pictures import Wanted
 from app.images.placement import Placement
 from app.images.reading import Region
 from app.images.renderers import Renderers, look_of
-from app.images.shown import ShownImage
+from app.images.shown import Picture, ShownImage
 from app.lettering import lettering
 from app.panels import compare as panel
 from app.panels.differences import draw_differences
@@ -93,7 +93,7 @@ class CompareView(ImageView):
         is_picture = mode in ("wipe", "flip")
         self._pane(
             host,
-            lambda state, placement: self._texture(both, state, placement),
+            lambda state, placement, under: self._picture(both, state, placement, under),
             (lambda state, channel, region: self._values(both, state, channel, region))
             if is_picture
             else None,
@@ -125,8 +125,10 @@ class CompareView(ImageView):
         if host.state.images.grid and not waiting(host.renderers, host.state):
             draw_differences(screen, host.state, verdict.comparison, host.fonts)
 
-    def _texture(self, both: Renderers, state: AppState, placement: Placement) -> int | None:
-        """The GL name of what is seen of the picture; None where there is none."""
+    def _picture(
+        self, both: Renderers, state: AppState, placement: Placement, under: bool
+    ) -> Picture | None:
+        """What is seen of the picture; None where there is none."""
         pictures, composed, shown = both.pictures, self._composed, self._shown
         assert pictures is not None and composed is not None and shown is not None
         options, look = state.compare, look_of(state.images)
@@ -165,13 +167,13 @@ class CompareView(ImageView):
             if composed.version != self._version:
                 shown.set_channels({"color": picture})
                 self._version = composed.version
-            texture = shown.picture("pane", AS_IT_IS, placement)
+            seen = shown.picture("pane", AS_IT_IS, placement, under=under)
             self._error = None
         except (LucidaError, moderngl.Error) as error:  # shown in the view, which goes on
             self._error, self._version = error, -1
             shown.set_channels({})
             return None
-        return texture.glo if texture is not None else None
+        return seen
 
     def _flipped(self, state: AppState) -> bool:
         """Whether flip shows the ray image now."""

@@ -14,11 +14,12 @@ from imgui_bundle import ImVec2, imgui
 
 from app.images.marking import Anchor, followed
 from app.images.placement import Placement, place, shown_pixel
+from app.images.shown import Picture
 from app.panels.grips import Grab, Lens, Seen, Zoom
 from app.panels.images import Pane, image_pane
 from app.panels.marks import walked
 from app.panels.pixelgrid import Values
-from app.panels.screen import Screen, available_px
+from app.panels.screen import Screen, available_px, is_at_the_bottom
 from app.panels.strip import Strip, image_strip
 from app.state import AppState
 from app.storage.files import describe
@@ -85,7 +86,7 @@ class ImageView(View):
     def _pane(
         self,
         host: Host,
-        texture: Callable[[AppState, Placement], int | None],
+        picture: Callable[[AppState, Placement, bool], Picture | None],
         values: Values | None,
         error: Exception | None,
         note: str = "",
@@ -114,7 +115,8 @@ class ImageView(View):
         )
         pane = Pane(
             seen=seen,
-            texture=texture,
+            picture=picture,
+            underlay=both.underlay if is_at_the_bottom() else None,
             values=values,
             fonts=host.fonts,
             note=describe(error) if error else note,
@@ -203,7 +205,7 @@ class RasterView(ImageView):
 
     def draw(self, host: Host) -> None:
         both = host.renderers
-        self._pane(host, both.raster_texture, both.raster_values, both.raster_error)
+        self._pane(host, both.raster_picture, both.raster_values, both.raster_error)
 
 
 class RayView(ImageView):
@@ -215,5 +217,5 @@ class RayView(ImageView):
         refining = image is not None and image.factor > 1
         progress = both.live.progress if refining else 1.0
         note = both.preparing()
-        self._pane(host, both.ray_texture, both.ray_values, both.ray_error, note, progress)
+        self._pane(host, both.ray_picture, both.ray_values, both.ray_error, note, progress)
         both.trace(host.state)

@@ -40,11 +40,13 @@ class Look:
 class Section:
     """Which part of an image a target shows. origin: the image's upper left corner in the target,
     in its pixels. texels_per_pixel: along x and y. averaged: means by area, else the nearest.
+    rows: the target's height where its first row is to be the lowest, as OpenGL has it; else 0.
     """
 
     origin: tuple[float, float] = (0.0, 0.0)
     texels_per_pixel: tuple[float, float] = (1.0, 1.0)
     averaged: bool = False
+    rows: int = 0
 
 
 class Display:
@@ -106,6 +108,7 @@ class Display:
                 "tinted": look.tinted,
                 "origin": section.origin,
                 "texels_per_pixel": section.texels_per_pixel,
+                "rows": float(section.rows),
                 "window_depth": 0.5,
             }
             for name, value in uniforms.items():
