@@ -55,7 +55,7 @@ class SpaceRay(NamedTuple):
     leave: tuple[np.float32, np.float32, np.float32]
     enter_add: tuple[np.float32, np.float32, np.float32]
     leave_add: tuple[np.float32, np.float32, np.float32]
-    axes: tuple[int, int, int]
+    axes: tuple[np.int64, np.int64, np.int64]
     origin: tuple[np.float32, np.float32, np.float32]
     shear: tuple[np.float32, np.float32, np.float32]
 
