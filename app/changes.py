@@ -21,6 +21,8 @@ WORDS = {
 
 def change(before: AppState, after: AppState) -> str:
     """What leads from one state to the next: `camera: eye, w`."""
+    if after.step is not None and before.step != after.step:
+        return f"lecture: step {after.step[1] + 1}"
     if before.scene is not after.scene:
         return f"scene: {after.scene.name or 'without a name'}"
     parts = []

@@ -26,6 +26,16 @@ def lettering(font: imgui.ImFont | None, size_px: float) -> Iterator[None]:
         imgui.pop_font()
 
 
+def fitting_words(text: str, width_px: float) -> str:
+    """The text, or as many of its first words as have room, in the present font."""
+    words = text.split(" ")
+    shown = text
+    while len(words) > 1 and imgui.calc_text_size(shown).x > width_px:
+        words.pop()
+        shown = " ".join(words) + " ..."
+    return shown
+
+
 def hall_px(width_px: float, letters: float) -> float:
     """A size at which a column has about so many letters a line; never below the window's own,
     so that what is wide can be read from afar."""

@@ -100,3 +100,4 @@ def test_steps_of_undo_have_words():
     assert change(state, state.with_scene(load_scene("canonical"))).startswith("scene: ")
     assert change(state, state.with_fit(not state.view.fit)) == "fit to the aspect ratio"
     assert change(state, state) == "nothing to be seen"
+    assert change(state, replace(moved, step=("x.toml", 4))) == "lecture: step 5"

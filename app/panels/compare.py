@@ -14,6 +14,7 @@ from imgui_bundle import ImVec2, ImVec4, imgui
 from app import theme
 from app.images import comparing
 from app.images.comparing import LABELS, MODES, Scale
+from app.lettering import fitting_words
 from app.options import Pixel
 from app.state import AppState
 from renderer.compare import LABEL_COLORS, Comparison
@@ -119,7 +120,7 @@ def footer(
 ) -> Wish:
     """Everything below the image. draw_map: draws the colour map between two corners."""
     imgui.push_font(fonts.bold, 0.0)
-    shown = _fitting(told.headline, imgui.get_content_region_avail().x)
+    shown = fitting_words(told.headline, imgui.get_content_region_avail().x)
     imgui.text_colored(told.color, shown)
     imgui.pop_font()
     if shown != told.headline:
@@ -133,16 +134,6 @@ def footer(
     if plan.values:
         _values(state, told, fonts)
     return wish
-
-
-def _fitting(text: str, room: float) -> str:
-    """The text, or its first words, if there is no room for all."""
-    if _wide(text) <= room:
-        return text
-    words = text.split()
-    while len(words) > 1 and _wide(" ".join(words) + " ...") > room:
-        words.pop()
-    return " ".join(words) + " ..."
 
 
 class Flow:
@@ -190,7 +181,7 @@ def _scale_row(state: AppState, draw_map: DrawMap) -> AppState:
             state = comparing.with_divider(state, percent / 100)
         imgui.set_item_tooltip("Where the divider stands. It can be dragged in the image, too.")
         text = f"raster left of {100 * options.divider:.0f} %, ray right of it"
-        imgui.text(_fitting(text, imgui.get_content_region_avail().x))
+        imgui.text(fitting_words(text, imgui.get_content_region_avail().x))
     else:
         for flipped, name in ((False, "raster"), (True, "ray")):
             if flipped:

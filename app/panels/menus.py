@@ -22,14 +22,24 @@ HISTORY_STEPS = 15
 
 
 def menu_bar(window: Window, history: History) -> None:
-    """All menus; call in HelloImGui's show_menus."""
+    """All menus; call in HelloImGui's show_menus. A bar that is too narrow for them has one."""
+    gap = 2 * imgui.get_style().item_spacing.x
+    needed = sum(imgui.calc_text_size(menu).x + gap for menu in MENUS)
+    if needed <= imgui.get_window_width():
+        _menus(window, history)
+    elif imgui.begin_menu("Menu"):
+        _menus(window, history)
+        imgui.end_menu()
+    _layouts(window)
+
+
+def _menus(window: Window, history: History) -> None:
     for menu in MENUS:
         if imgui.begin_menu(menu):
             if menu == "View":
                 _views(window)
             _actions(menu, window, history)
             imgui.end_menu()
-    _layouts(window)
 
 
 def _actions(menu: str, window: Window, history: History) -> None:

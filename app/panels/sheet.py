@@ -13,7 +13,10 @@ from app import theme
 from app.actions.table import ACTIONS, MENUS, MOUSE
 
 COLUMN_EM = 24.0
+NARROW_EM = 20.0  # a column of less has what a key does below the key
 NAME = "Mouse and keys"
+
+STEPPING = "Lecture/Loop stepper"  # the submenu whose keys hold only where the keyboard is
 
 Row = tuple[str, str]  # keys, what they do
 ESCAPE: Row = ("Esc", "close what lies on top; cancel loading; leave presentation")
@@ -32,10 +35,15 @@ def sections() -> list[tuple[str, list[Row]]]:
     for menu in MENUS:
         rows: list[Row] = []
         for action in ACTIONS:
-            if action.keys and action.menu.split("/")[0] == menu:
+            if action.keys and action.menu.split("/")[0] == menu and action.menu != STEPPING:
                 rows.append((action.keys, action.name))
         if rows:
             parts.append((menu, _folded(rows)))
+        if STEPPING.split("/")[0] == menu:
+            keys = [
+                (a.keys, a.name.removeprefix("Stepper: ")) for a in ACTIONS if a.menu == STEPPING
+            ]
+            parts.append(("Loop stepper, once it is clicked", keys))
     parts.append(("Everywhere", list(MOVING)))
     return parts
 
@@ -81,7 +89,9 @@ def help_sheet(fonts: theme.Fonts, version: str) -> bool:
     )
     imgui.pop_style_color()
     if opened:
+        imgui.push_text_wrap_pos(0.0)
         imgui.text_colored(theme.DIM, f"lucida {version}: one camera, two renderers")
+        imgui.pop_text_wrap_pos()
         if imgui.begin_table("columns", columns, imgui.TableFlags_.sizing_stretch_same):
             imgui.table_next_row()
             for part in in_columns(sections(), columns):
@@ -113,10 +123,21 @@ def in_columns(
 
 
 def _section(heading: str, rows: list[Row], fonts: theme.Fonts) -> None:
+    narrow = imgui.get_content_region_avail().x < NARROW_EM * imgui.get_font_size()
+    imgui.push_text_wrap_pos(0.0)
     imgui.push_font(fonts.bold, 0.0)
     imgui.text_colored(theme.legible(theme.RAY), heading)
     imgui.pop_font()
-    if imgui.begin_table(heading, 2, imgui.TableFlags_.sizing_fixed_fit):
+    if narrow:
+        for keys, what in rows:
+            imgui.push_font(fonts.bold, 0.0)
+            imgui.text(keys)
+            imgui.pop_font()
+            imgui.indent()
+            imgui.text(what)
+            imgui.unindent()
+    imgui.pop_text_wrap_pos()
+    if not narrow and imgui.begin_table(heading, 2, imgui.TableFlags_.sizing_fixed_fit):
         imgui.table_setup_column("keys", imgui.TableColumnFlags_.width_fixed)
         imgui.table_setup_column("what", imgui.TableColumnFlags_.width_stretch)
         for keys, what in rows:

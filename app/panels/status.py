@@ -10,6 +10,7 @@ from dataclasses import dataclass
 from imgui_bundle import ImVec2, imgui
 
 from app import theme
+from app.lettering import fitting_words
 
 DIVIDER_PX = 25.0  # at 100 %: a line between two texts, with what is free beside it
 
@@ -68,7 +69,10 @@ def status_line(status: Status, fonts: theme.Fonts) -> None:
         if index:
             _divider()
         imgui.align_text_to_frame_padding()
-        imgui.text_colored(color, text)
+        shown = fitting_words(text, room)  # of a single one that is wider than the window
+        imgui.text_colored(color, shown)
+        if shown != text:
+            imgui.set_item_tooltip(text)
     if rights[right]:
         left = imgui.get_style().window_padding.x + room - _width(rights[right])
         imgui.same_line(left)

@@ -155,7 +155,10 @@ def run_panel(
 ) -> Answer:
     """Code, canvas, variables and counters, in a room."""
     imgui.push_font(fonts.bold, 0.0)
-    imgui.text(TITLES[recording.order])
+    title = TITLES[recording.order]
+    if imgui.calc_text_size(title).x > room.x:
+        title = title.partition(":")[0]
+    imgui.text(title)
     imgui.pop_font()
     if moment is None:
         imgui.text_colored(theme.DIM, "running ...")
@@ -275,12 +278,11 @@ def _canvases(
         below = max(20.0, height - label - spacing.y)
         across = room.x - spacing.x
         choices = (
-            (ImVec2(room.x, 0.6 * below), ImVec2(room.x, 0.4 * below), False),
-            (ImVec2(0.6 * across, height), ImVec2(0.4 * across, height), True),
+            (ImVec2(room.x, 0.5 * below), False),
+            (ImVec2(0.5 * across, height), True),
         )
-        first, rest, beside = max(
-            choices, key=lambda one: min(one[0].x / size[0], one[0].y / size[1])
-        )
+        first, beside = max(choices, key=lambda one: min(one[0].x / size[0], one[0].y / size[1]))
+        rest = first  # of one size: each pixel has its depth in the same place
     dots = tuple((test.pixel, test.t < float("inf")) for test in moment.tests)
     marks = Marks(moment.pixel, moment.box, dots if recording.order is Order.OBJECT else ())
     imgui.begin_group()

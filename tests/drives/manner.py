@@ -6,7 +6,7 @@ import os
 import threading
 
 import numpy as np
-from imgui_bundle import imgui
+from imgui_bundle import hello_imgui, imgui
 from PIL import Image
 from window_driver import PATIENT_S, SIZE, Driver, Key
 
@@ -316,3 +316,25 @@ def drive_the_history_is_a_list(d: Driver) -> None:
     d.ctx.menu_click("//##MainMenuBar/Edit/History/###step0")
     assert d.window.state == d.start
     assert len(d.window.history.future) == 3
+
+
+def drive_a_narrow_window_keeps_its_menus_and_its_status(d: Driver) -> None:
+    d.window.change(d.window.state.with_options(preferences={"font_scale": 3.0}))
+    hello_imgui.change_window_size((640, 480))
+    try:
+        d.until(lambda: imgui.get_io().display_size.x == 640)
+        d.settle()
+        d.picture()
+        d.ctx.menu_click("//##MainMenuBar/Menu/Help/Mouse and keys")
+        assert d.window.shell.help
+        d.ctx.yield_(3)
+        d.picture()
+        press(d, int(Key.escape))
+        assert not d.window.shell.help
+    finally:
+        hello_imgui.change_window_size(SIZE)
+    d.until(lambda: imgui.get_io().display_size.x == SIZE[0])
+    d.window.change(d.start)
+    d.settle()
+    d.ctx.menu_click("//##MainMenuBar/View/Shadows (ray image only)")
+    assert d.window.state.options.shadows
