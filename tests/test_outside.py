@@ -110,6 +110,9 @@ class TestSolid:
         assume(steep > 0.05)
         assert pixel_seen(camera, SIZE, np.asarray(origin), way) == (i, j)
         assert pixel_seen(camera, SIZE, np.asarray(origin), -way) is None
+        # The plane is met at 1: something that stands before it hides it.
+        assert pixel_seen(camera, SIZE, np.asarray(origin), way, lambda: 0.99) is None
+        assert pixel_seen(camera, SIZE, np.asarray(origin), way, lambda: 1.01) == (i, j)
 
     def test_no_pixel_beside_the_plane_nor_along_it(self) -> None:
         camera = Camera.canonical()

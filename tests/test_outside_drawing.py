@@ -270,3 +270,21 @@ def test_over_a_coarse_scene_lines_and_the_picture_stay_sharp(rasterizer: Raster
     ink = role_color("extra")
     solid = 255 * np.array([ink.x, ink.y, ink.z])
     assert np.abs(at(coarse, camera, (1.9, 1.147, 1.0)) - solid).max() < 4
+
+
+def test_the_scenes_parameter_is_read_at_a_place(rasterizer: Rasterizer) -> None:
+    camera = outsides()[0]
+    rasterizer.set_scene(BALL)
+    row, column, _ = camera.project(np.zeros(3), SIZE)
+    place = (float(column) + 0.5) / SIZE[0], (float(row) + 0.5) / SIZE[1]
+    way = np.linalg.norm(np.asarray(camera.eye))
+    for size in (SIZE, (SIZE[0] // 2, SIZE[1] // 2)):
+        with rasterizer.current() as gl:
+            overlay = Overlay(gl)
+            drawn_scene = rasterizer.draw(camera, size, "outside")
+            found = overlay.t_at(drawn_scene, place)
+            missed = overlay.t_at(drawn_scene, (0.0, 1.0))
+            overlay.release()
+        ray = camera.ray(row, column, SIZE)
+        assert found * np.linalg.norm(ray.direction) == pytest.approx(way - 1.0, rel=2e-3)
+        assert missed == np.inf

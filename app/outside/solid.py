@@ -7,6 +7,7 @@ u and v; t is the ray parameter. Shapes of points end in 3.
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -91,8 +92,18 @@ def bundle_pixels(size: Size, counts: tuple[int, int]) -> NDArray[np.int64]:
     return np.stack(np.meshgrid(rows, columns, indexing="ij"), axis=-1).reshape(-1, 2)
 
 
-def pixel_seen(camera: Camera, size: Size, origin: Floats, direction: Floats) -> Pixel | None:
-    """The pixel of the image plane that a ray from elsewhere meets; None where it meets none."""
+def pixel_seen(
+    camera: Camera,
+    size: Size,
+    origin: Floats,
+    direction: Floats,
+    hidden_at: Callable[[], float] | None = None,
+) -> Pixel | None:
+    """The pixel of the image plane that a ray from elsewhere meets; None where it meets none.
+
+    hidden_at: gives the ray's parameter at which the scene hides what is behind; only asked where
+    the ray meets the image plane.
+    """
     corners = plane_corners(camera)
     edges = np.column_stack([corners[1] - corners[0], corners[3] - corners[0], -direction])
     with np.errstate(all="ignore"):
@@ -101,5 +112,7 @@ def pixel_seen(camera: Camera, size: Size, origin: Floats, direction: Floats) ->
             return None
         x, y, t = np.linalg.solve(edges / scale, origin - corners[0]) / scale
     if not (t > 0 and 0 <= x < 1 and 0 <= y < 1):
+        return None
+    if hidden_at is not None and t >= hidden_at():
         return None
     return min(math.floor(y * size[1]), size[1] - 1), min(math.floor(x * size[0]), size[0] - 1)

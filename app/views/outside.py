@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from functools import partial
 from typing import Any
 
 import moderngl
@@ -229,11 +230,16 @@ class OutsideView(View):
         return self.scope
 
     def _pixel_under(self, host: Host, scope: Scope) -> Pixel | None:
+        """The pixel of the image plane that is to be seen under the mouse."""
         outside = host.state.outside
         if not (outside.image or outside.grid):
             return None
         camera, mouse = host.renderers.camera(host.state), imgui.get_io().mouse_pos
-        return pixel_seen(camera, host.renderers.size, *scope.ray(mouse))
+        ground, overlay, place = self._ground, self._overlay, scope.part(mouse)
+        hidden_at = None
+        if ground is not None and overlay is not None:
+            hidden_at = partial(ground.t_at, place, overlay)
+        return pixel_seen(camera, host.renderers.size, *scope.ray(mouse), hidden_at)
 
     def _handles(self, host: Host, scope: Scope) -> None:
         kind = host.state.outside.gizmo

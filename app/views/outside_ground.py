@@ -7,6 +7,7 @@ what stands in the scene.
 
 from __future__ import annotations
 
+import math
 import time
 from dataclasses import dataclass, replace
 
@@ -52,6 +53,7 @@ class Ground:
     def __init__(self, context: moderngl.Context) -> None:
         self._picture: Picture | None = None
         self._drawn = 0
+        self._read: tuple[object, float] | None = None
         self._timer = context.query(time=True)
         self._timed_pixels = 0  # of the full picture whose time is still to be read
         self.pixel_s = 0.0  # of the last full one
@@ -69,6 +71,17 @@ class Ground:
 
     def forget(self) -> None:
         self._picture = None
+
+    def t_at(self, part: tuple[float, float], overlay: Overlay) -> float:
+        """The ray parameter of the scene as it is seen, see Overlay.t_at(); infinity without a
+        picture. Read once."""
+        picture = self._picture
+        if picture is None:
+            return math.inf
+        key = (picture, part)
+        if self._read is None or self._read[0] != key:
+            self._read = key, overlay.t_at(picture.textures, part)
+        return self._read[1]
 
     def picture(self, wanted: Wanted, pictures: Pictures, overlay: Overlay) -> Picture:
         """Drawn at once; when it has been still, in full, and again with smooth edges, a part of

@@ -38,18 +38,21 @@ class Scope:
     center: Vector
     reach: float
 
+    def part(self, mouse: ImVec2) -> tuple[float, float]:
+        """Where the mouse is, in parts of the view's width and height."""
+        column = (mouse.x - self.origin.x) / max(self.extent.x, 1.0)
+        return column, (mouse.y - self.origin.y) / max(self.extent.y, 1.0)
+
     def image_point(self, mouse: ImVec2) -> tuple[float, float]:
         """(x, y) on the looking camera's image plane under the mouse."""
-        column = (mouse.x - self.origin.x) / max(self.extent.x, 1.0)
-        row = (mouse.y - self.origin.y) / max(self.extent.y, 1.0)
+        column, row = self.part(mouse)
         left, right, bottom, top = self.shown.viewport
         return left + column * (right - left), top - row * (top - bottom)
 
     def ray(self, mouse: ImVec2) -> tuple[navigation.Floats, navigation.Floats]:
         """Origin and direction of the looking camera's ray under the mouse."""
-        row = (mouse.y - self.origin.y) / max(self.extent.y, 1.0) - 0.5
-        column = (mouse.x - self.origin.x) / max(self.extent.x, 1.0) - 0.5
-        ray = self.shown.ray(row, column, (1, 1))
+        column, row = self.part(mouse)
+        ray = self.shown.ray(row - 0.5, column - 0.5, (1, 1))
         return ray.origin, ray.direction
 
 

@@ -11,6 +11,8 @@ from app.outside.solid import plane_corners
 from app.views.outside import OUTSIDE, OutsideView
 from app.views.outside_gizmo import LENGTH
 from app.views.outside_mouse import Scope
+from renderer.camera import Camera
+from renderer.scene.model import Sphere
 
 IMAGE = f"//###{OUTSIDE}/image##{OUTSIDE}"
 
@@ -143,6 +145,27 @@ def drive_a_pixel_is_the_same_in_all_views(d: Driver) -> None:
     assert np.allclose(end, (x, y), atol=1.0)
     start = place(d, np.asarray(camera.eye))
     assert np.allclose(ray.points[0, 0] + (at.origin.x, at.origin.y), start, atol=1.0)
+
+
+def drive_what_stands_before_the_image_plane_is_not_looked_through(d: Driver) -> None:
+    enter(d)
+    window = d.window
+    camera = window.renderers.camera(window.state)
+    ball = next(o.shape for o in window.state.scene.objects if isinstance(o.shape, Sphere))
+    center, spot = np.asarray(ball.center), plane_corners(camera).mean(axis=0)
+    way = (center - spot) / np.linalg.norm(center - spot)
+    from_behind = center + 1.4 * ball.radius * way
+    for eye, hidden in ((from_behind, True), (spot - 0.5 * way, False)):
+        looking = Camera.look_at(eye, spot, fov_y_deg=40.0)
+        window.change(window.state.with_options(outside={"camera": looking}, marked=None))
+        d.ctx.yield_(3)  # its rows and columns are where it was drawn
+        d.settle()
+        d.ctx.mouse_teleport_to_pos(place(d, spot))
+        d.ctx.yield_(3)
+        assert (window.hovered is None) == hidden
+        d.ctx.mouse_click(0)
+        d.ctx.yield_(2)
+        assert (window.state.marked is None) == hidden
 
 
 def drive_the_legend_switches(d: Driver) -> None:
