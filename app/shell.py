@@ -156,7 +156,8 @@ class Shell:
         if failure is None:
             return
         text = f"{_who(window.renderers, failure)} {describe(failure)}"
-        answer = message_box(Message(text, ("Try again", "Undo", "Close")))
+        undo = ("Undo",) if window.can_undo() else ()
+        answer = message_box(Message(text, ("Try again", *undo, "Close")))
         if answer == "Try again":
             window.retry()
         elif answer == "Undo":
@@ -169,7 +170,8 @@ class Shell:
         failure = renderers.failure
         if failure is None:
             self._failure = None  # the next one is told, even if it is the same again
-        return failure if failure is not self._failure else None
+            return None
+        return failure if not _same(failure, self._failure) else None
 
     def _keep(self, state: AppState) -> None:
         keeper = self._keeper
@@ -204,6 +206,11 @@ class Shell:
         ending = path if path.suffix.lower() == ".png" else Path(f"{path}.png")
         self.captures.ask(self._rect(view) if view in self.stage.rects else None, ending)
         hello_imgui.request_refresh()
+
+
+def _same(failure: Exception, other: Exception | None) -> bool:
+    """Whether both say the same: what fails in each frame fails by a new exception."""
+    return other is not None and describe(failure) == describe(other)
 
 
 def _who(renderers: Renderers, failure: Exception) -> str:

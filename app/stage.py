@@ -8,7 +8,9 @@ from __future__ import annotations
 
 import sys
 import traceback
+from collections.abc import Callable
 
+import moderngl
 from imgui_bundle import imgui
 
 from app import layout
@@ -36,12 +38,22 @@ class Stage:
         self.focused = ""
         self.rects: dict[str, Rect] = {}
         self.failures: dict[str, Exception] = {}
+        self._to_begin: dict[str, Callable[[], None]] = {}  # of those that could not
         self._next_focus = ""
         self._hovered: View | None = None
         self._restoring: Arrangement | None = None
         self._presenting = False
         self._before = layout.LAYOUTS[0].name
         self._frames = 0
+
+    def begin(self, view: View, host: Host, context: moderngl.Context) -> None:
+        """Once for each view, when there is a context. One that fails (a shader that the driver
+        does not take) says so in its place, where it is tried again; the others go on."""
+        try:
+            view.begin(host, context)
+        except FAILURES as error:
+            self.failures[view.name] = error
+            self._to_begin[view.name] = lambda: self.begin(view, host, context)
 
     @property
     def settled(self) -> bool:
@@ -211,6 +223,7 @@ class Stage:
         if failure is not None:
             if failure_note(view.title, failure):
                 del self.failures[view.name]
+                self._to_begin.pop(view.name, _nothing)()
             return
         stacks = imgui.internal.ErrorRecoveryState()
         imgui.internal.error_recovery_store_state(stacks)
@@ -233,6 +246,10 @@ class Stage:
             self.focused = view.name
             if self.maximised and self.maximised != view.name:
                 self.maximised = self._next_focus = view.name  # by Ctrl+Tab, for instance
+
+
+def _nothing() -> None:
+    pass
 
 
 def _unwind(stacks: imgui.internal.ErrorRecoveryState) -> None:

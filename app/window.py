@@ -214,9 +214,9 @@ class MainWindow:
 
     def begin(self, context: moderngl.Context) -> None:
         """Once, when the window's context is there, and current."""
-        self.renderers.begin(context, self.state.scene)
+        self.renderers.begin(context)
         for view in self.views.values():
-            view.begin(self, context)
+            self.shell.stage.begin(view, self, context)
         on_drop(self._dropped)
 
     def menus(self) -> None:
@@ -310,6 +310,8 @@ class MainWindow:
             self.lecture.give(*opened.lecture)
             self.animate()
         elif opened.scene is not None:
+            if opened.prepared is not None and self.renderers.pictures is not None:
+                self.renderers.pictures.prepare(opened.scene, opened.prepared)
             self.change(self.state.with_scene(opened.scene, opened.view))
         elif opened.view is not None:
             self.change(self.state.with_view(opened.view))

@@ -2,7 +2,8 @@
 
 Owns the rasterizer and the display transform in the window's context, and redraws only what has
 changed. The rasterizer is made when it first draws: where a driver does not take its shaders, that
-is an error of drawing, and the window has the ray image. Knows nothing of widgets and of how the ray image was made.
+is an error of drawing, and the window has the ray image. Knows nothing of widgets and of how the
+ray image was made.
 """
 
 from __future__ import annotations
@@ -46,13 +47,13 @@ class Wanted:
 class Pictures:
     """Both images, in the window's context, which must be current in every call."""
 
-    def __init__(self, context: moderngl.Context, scene: Scene) -> None:
+    def __init__(self, context: moderngl.Context) -> None:
         self._gl = context
         self._raster, self._ray = ShownImage(context), ShownImage(context)
         self._range = DepthRange(context)
         self._made: Rasterizer | None = None
         self._not_made: Exception | None = None
-        self._scene = scene
+        self._scene: Scene | None = None  # of the rasterizer's
         self._prepared: list[tuple[Scene, Prepared]] = []
         self._timer = context.query(time=True)
         self._timed_pixels = 0  # of the image whose time is still to be read
@@ -83,7 +84,7 @@ class Pictures:
             raise self._not_made
         if self._made is None:
             try:
-                self._made = Rasterizer(self._scene, context=self._gl)
+                self._made = Rasterizer(Scene(()), context=self._gl)
             except FAILURES as error:
                 self._not_made = error
                 raise

@@ -26,7 +26,7 @@ from app.state import AppState
 from renderer.camera import Camera
 from renderer.frame import LARGEST_PIXELS, LARGEST_SIDE, Frame
 from renderer.raster import Look
-from renderer.scene.model import Scene, View
+from renderer.scene.model import View
 
 NOTE_AFTER_S = 0.3
 MIRROR_DEPTH = 4
@@ -58,9 +58,9 @@ class Renderers:
             False  # whether a view wants the ray image: last, this frame
         )
 
-    def begin(self, context: moderngl.Context, scene: Scene) -> None:
+    def begin(self, context: moderngl.Context) -> None:
         """Once, when there is a context."""
-        self.pictures = Pictures(context, scene)
+        self.pictures = Pictures(context)
 
     def end(self) -> None:
         """Once, before the context goes."""

@@ -6,6 +6,7 @@ and save. Knows nothing of what is done with a scene.
 
 from __future__ import annotations
 
+import contextlib
 import shutil
 import sys
 import time
@@ -21,6 +22,7 @@ from app.storage.recent import RecentFiles
 from app.teach.lecture.model import Lecture
 from app.teach.lecture.reading import is_lecture, load_lecture
 from renderer.errors import LucidaError
+from renderer.raster import Prepared, prepare
 from renderer.scene import (
     BUILTIN_SCENES,
     SCENE_ENDINGS,
@@ -45,7 +47,8 @@ Paths = Callable[[list[str]], None]
 class Opened:
     """What sources held: a scene, a view, or both. sources: of those that could be read.
 
-    problems: one line for each of the others. lecture: and its file.
+    problems: one line for each of the others. lecture: and its file. prepared: the scene for the
+    rasterizer, so that no frame has to do it; None where that cannot be, which drawing tells.
     """
 
     sources: tuple[str, ...] = ()
@@ -53,6 +56,7 @@ class Opened:
     view: View | None = None
     problems: tuple[str, ...] = ()
     lecture: tuple[Lecture, Path] | None = None
+    prepared: Prepared | None = None
 
 
 class Files:
@@ -267,7 +271,11 @@ def open_sources(sources: Sequence[str]) -> Opened:
             if len(sources) == 1:
                 raise
             problems.append(describe(error))
-    return Opened(tuple(good), scene, view, tuple(problems), lecture)
+    prepared = None
+    if scene is not None:
+        with contextlib.suppress(LucidaError):
+            prepared = prepare(scene)
+    return Opened(tuple(good), scene, view, tuple(problems), lecture, prepared)
 
 
 def open_lecture(source: str) -> Opened:

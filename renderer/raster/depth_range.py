@@ -23,8 +23,8 @@ class DepthRange:
 
     def __init__(self, context: moderngl.Context) -> None:
         self._gl = context
-        self._program = link(context, "screen.vert", "range.frag")
-        self._screen = context.vertex_array(self._program, [])
+        self._program: moderngl.Program | None = None  # compiled when it is first needed
+        self._screen: moderngl.VertexArray | None = None
         self._levels: list[tuple[moderngl.Texture, moderngl.Framebuffer]] = []
         self._measured: tuple[int, int] | None = None
         self._buffer = context.buffer(reserve=8)
@@ -34,7 +34,7 @@ class DepthRange:
     def measure(self, texture: moderngl.Texture) -> moderngl.Texture:
         """One pixel, RG32F: the least and the greatest finite value of a texture's fourth
         component. Drawn over by the next call. Raises LucidaError."""
-        gl = self._gl
+        gl, (program, screen) = self._gl, self._pass()
         self._resize(texture.size)
         before = gl.detect_framebuffer()
         try:
@@ -45,10 +45,10 @@ class DepthRange:
             for level, framebuffer in self._levels:
                 framebuffer.use()
                 source.use(0)
-                set_uniform(self._program, "source", 0)
-                set_uniform(self._program, "is_range", source is not texture)
-                set_uniform(self._program, "window_depth", 0.5)
-                self._screen.render(moderngl.TRIANGLES, vertices=3)
+                set_uniform(program, "source", 0)
+                set_uniform(program, "is_range", source is not texture)
+                set_uniform(program, "window_depth", 0.5)
+                screen.render(moderngl.TRIANGLES, vertices=3)
                 source = level
         finally:
             before.use()
@@ -73,7 +73,14 @@ class DepthRange:
     def release(self) -> None:
         self._drop()
         for resource in (self._buffer, self._screen, self._program):
-            resource.release()
+            if resource is not None:
+                resource.release()
+
+    def _pass(self) -> tuple[moderngl.Program, moderngl.VertexArray]:
+        if self._program is None or self._screen is None:
+            self._program = link(self._gl, "screen.vert", "range.frag")
+            self._screen = self._gl.vertex_array(self._program, [])
+        return self._program, self._screen
 
     def _resize(self, size: tuple[int, int]) -> None:
         if self._measured == size:

@@ -117,7 +117,7 @@ def link(
         ) from None
 
 
-_REMEDY = "update the graphics driver, or draw with --backend osmesa"
+_REMEDY = "update the graphics driver; lucida render draws without one, with --backend osmesa"
 
 
 def _ends_in_comment(line: str, in_comment: bool) -> bool:
