@@ -225,7 +225,8 @@ class Run:
         callbacks.setup_imgui_style = self._guarded(lambda: theme.begin(state.preferences))
         callbacks.post_init = self._guarded(self._begin)
         callbacks.pre_new_frame = self._guarded(self.window.shell.stage.before_frame)
-        callbacks.custom_background = self._guarded(self._background)
+        # Before the views are drawn: too early for their images. See _before_render().
+        callbacks.custom_background = lambda: None
         callbacks.before_swap = self._guarded(self._before_swap)
         callbacks.before_imgui_render = self._guarded(self._before_render)
         callbacks.show_menus = self._guarded(self.window.menus)
@@ -263,9 +264,6 @@ class Run:
         theme.follow(self.window.state.preferences)
         if self._canvas is not None:
             self._canvas.bind()
-
-    def _background(self) -> None:
-        """Instead of HelloImGui's: ImGui draws over the images."""
         drawn = self._drawn
         if drawn is not None:
             drawn.use()
