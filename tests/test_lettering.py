@@ -5,6 +5,7 @@ from __future__ import annotations
 import pytest
 
 from app.panels.code import LINE
+from app.panels.pixelgrid import ADVANCE, DIGITS_HIGH, LEADING, VALUES_FROM, text_size
 from app.panels.probe import HIGH_EM, WIDE_EM, type_px
 from app.panels.stepper import LEFT, UPPER, beside_px
 from app.teach.recording import Order
@@ -33,3 +34,13 @@ def test_the_probes_type_leaves_the_table_in_sight():
     assert type_px((2000.0, 2000.0), 16.0, 40.0) == 40.0  # where there is room for all
     assert type_px((600.0, 900.0), 16.0, 18.0) == 18.0  # a narrow column
     assert type_px((2000.0, 100.0), 16.0, 40.0) == 16.0  # never below the window's own
+
+
+@pytest.mark.parametrize(("letters", "lines"), [(3, 3), (4, 3), (4, 1)])
+def test_values_are_legible_from_the_magnification_at_which_they_appear(letters, lines):
+    """Bytes and floats of a colour, and a depth."""
+    size_px = text_size(VALUES_FROM, VALUES_FROM, letters, lines)
+    assert size_px >= 12
+    assert letters * ADVANCE * size_px < VALUES_FROM
+    assert ((lines - 1) * LEADING + DIGITS_HIGH) * size_px < 0.9 * VALUES_FROM
+    assert LEADING > DIGITS_HIGH  # lines do not touch

@@ -21,8 +21,10 @@ LINES_FROM, VALUES_FROM = 8.0, 32.0  # screen pixels a side of an image's pixel
 NAMES_FROM = 44.0  # units: each pixel has its own row and column, beside those at the edges
 MOST_VALUES = 1200  # more are thinned out: nobody reads them, and a frame would take too long
 LEAST_TEXT, MOST_TEXT = 8.5, 30.0
-ADVANCE = 0.5  # of the fixed-width font, in its size
-LEADING = 1.05
+# Of the fixed-width font, in its size. Digits have no descenders: their lines may be close.
+ADVANCE, DIGITS_TOP, DIGITS_HIGH = 0.5, 0.22, 0.61
+LEADING = 0.76
+FILLED = 0.84  # of a pixel's height, by its lines
 
 Values = Callable[[AppState, str, Region], NDArray | None]  # of a channel's pixels
 
@@ -59,6 +61,16 @@ def thinning(cell: float, needed: float) -> int:
             if factor * step * cell >= needed:
                 return factor * step
         factor *= 10
+
+
+def text_size(width: float, height: float, letters: int, lines: int) -> float:
+    """The size of the text in a pixel of that width and height. letters: of its longest line."""
+    return min(width / ((letters + 0.8) * ADVANCE), FILLED * height / _high(lines), MOST_TEXT)
+
+
+def _high(lines: int) -> float:
+    """From the top of the first line's digits to the foot of the last one's, in the text's size."""
+    return (lines - 1) * LEADING + DIGITS_HIGH
 
 
 def _lines(draw: imgui.ImDrawList, screen: Screen) -> None:
@@ -140,7 +152,7 @@ def _values(
         name = pixel_name((bottom - 1, right - 1), state.options.one_based)
         longest = max(longest, len(name))
     lines = line_count(options) + named
-    size = min(width / ((longest + 1) * ADVANCE), height / ((lines + 0.3) * LEADING), MOST_TEXT)
+    size = text_size(width, height, longest, lines)
     skip = 1
     if size < LEAST_TEXT:  # a text reaches over its neighbours, which get none
         skip, size = thinning(size, LEAST_TEXT), LEAST_TEXT
@@ -149,7 +161,7 @@ def _values(
     black, white = theme.u32(theme.rgb("#000000")), theme.u32(theme.rgb("#ffffff"))
     dim = {False: theme.u32(theme.rgb("#000000", 0.6)), True: theme.u32(theme.rgb("#ffffff", 0.65))}
     for row in range(top + -top % skip, bottom, skip):
-        y = screen.point(row + 0.5, 0).y - lines * LEADING * size / 2
+        y = screen.point(row + 0.5, 0).y - (DIGITS_TOP + _high(lines) / 2) * size
         for column in range(left + -left % skip, right, skip):
             text, on_dark = texts[row - top][column - left], dark[row - top][column - left]
             x = screen.point(0, column + 0.5).x
@@ -159,6 +171,7 @@ def _values(
                 at = ImVec2(x - ADVANCE * size * len(name) / 2, y)
                 draw.add_text(mono, size, at, dim[on_dark], name)
                 below += LEADING * size
-            wide = text.find("\n") if "\n" in text else len(text)
-            at = ImVec2(x - ADVANCE * size * wide / 2, below)
-            draw.add_text(mono, size, at, white if on_dark else black, text)
+            for line in text.split("\n"):
+                at = ImVec2(x - ADVANCE * size * len(line) / 2, below)
+                draw.add_text(mono, size, at, white if on_dark else black, line)
+                below += LEADING * size
