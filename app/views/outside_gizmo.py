@@ -9,10 +9,12 @@ from dataclasses import dataclass, replace
 from typing import Literal
 
 import numpy as np
-from imgui_bundle import imguizmo
+from imgui_bundle import imgui, imguizmo
 from numpy.typing import NDArray
 
+from app import theme
 from app.views.outside_mouse import Scope
+from app.views.outside_tint import handle_colors, recolor
 from renderer.camera import Camera, Vector, volume
 from renderer.errors import LucidaError
 
@@ -20,6 +22,7 @@ gizmo = imguizmo.im_guizmo
 Floats = NDArray[np.float64]
 
 LENGTH = 0.2  # of the view: the handles' length in clip space
+WIDTH, ARROW, RING = 3.0, 7.0, 2.5  # at 100 %: of lines, their heads, rings
 NEAREST = 0.02  # of the view's distance: an eye that is nearer has no handles
 
 
@@ -77,8 +80,12 @@ class Gizmo:
         gizmo.set_gizmo_size_clip_space(LENGTH)
         gizmo.allow_axis_flip(False)
         operation = gizmo.OPERATION.translate if kind == "move" else gizmo.OPERATION.rotate
-        mode = gizmo.MODE.local  # its red, green and blue are then u, v and w
+        mode = gizmo.MODE.local  # its x, y and z are then u, v and w
+        _widen()
+        draw = imgui.get_window_draw_list()
+        first = draw.vtx_buffer.size()
         moved = gizmo.manipulate(_matrix16(view), _matrix16(projection), operation, mode, matrix)
+        recolor(draw, first, handle_colors())
         using = gizmo.is_using()
         self.over = using or gizmo.is_over()
         if not using:
@@ -140,6 +147,15 @@ def nearest_rotation(matrix: Floats) -> Floats:
     signs = np.array([1.0, 1.0, np.sign(np.linalg.det(left @ right))])
     rotation: Floats = (left * signs) @ right
     return rotation
+
+
+def _widen() -> None:
+    """Lines as wide as others that teach."""
+    style = gizmo.get_style()
+    style.translation_line_thickness = theme.line_px(WIDTH)
+    style.translation_line_arrow_size = theme.px(ARROW)
+    style.rotation_line_thickness = style.rotation_outer_line_thickness = theme.line_px(RING)
+    style.center_circle_size = theme.px(ARROW)
 
 
 def _matrix16(matrix: Floats) -> imguizmo.im_guizmo.Matrix16:

@@ -2,12 +2,16 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 from imgui_bundle import hello_imgui
 from window_driver import SIZE, Driver, Key
 
+from app import theme
 from app.outside.projected import Screen, Strokes
 from app.outside.solid import plane_corners
+from app.views import outside_gizmo, outside_tint
 from app.views.outside import OUTSIDE, OutsideView
 from app.views.outside_gizmo import LENGTH
 from app.views.outside_mouse import Scope
@@ -265,6 +269,39 @@ def drive_handles_move_the_eye_and_turn_the_basis(d: Driver) -> None:
     assert np.allclose(camera.basis.T @ camera.basis, np.eye(3))
     assert camera.determinant > 0
     d.settle()
+
+
+def drive_handles_have_the_colours_of_the_basis(d: Driver) -> None:
+    enter(d)
+    seen: set[int] = set()
+    recolor = outside_gizmo.recolor
+
+    def watched(draw: Any, first: int, colors: Any) -> None:
+        recolor(draw, first, colors)
+        seen.update((outside_tint.vertex_colors(draw)[first:] & 0xFFFFFF).tolist())
+
+    outside_gizmo.recolor = watched
+    try:
+        for name in ("move eye", "turn basis"):
+            for look in ("dark", "light"):
+                d.window.change(d.window.state.with_options(preferences={"theme": look}))
+                d.ctx.yield_(3)
+                if d.window.state.outside.gizmo == "none":
+                    press(d, name)
+                seen.clear()
+                d.ctx.yield_(3)
+                own = {packed(*color) for color in (*outside_tint.AXES.values(), outside_tint.HELD)}
+                assert not seen & own
+                for color in theme.BASIS.values():
+                    parts = (round(255 * part) for part in (color.x, color.y, color.z))
+                    assert packed(*parts) in seen
+            press(d, name)
+    finally:
+        outside_gizmo.recolor = recolor
+
+
+def packed(red: int, green: int, blue: int) -> int:
+    return red | green << 8 | blue << 16
 
 
 def _turn_by(d: Driver, middle: np.ndarray, angle: float) -> bool:
