@@ -16,32 +16,48 @@ from renderer.trace.image import Image, new_image
 from renderer.trace.instances import Instances
 from renderer.trace.packet_effects import effects_of
 from renderer.trace.packet_kernel import trace_packets
-from renderer.trace.packet_view import packet_view
+from renderer.trace.packet_view import PacketView, packet_view
+from renderer.trace.packet_write import writing_stage
 from renderer.trace.rays import any_hits, closest_hits
+from renderer.trace.stage import Stage, new_room
 from renderer.trace.team import Team
 from renderer.trace.view import View
 
 Rays = NDArray[np.float32]
+KERNELS = "walk", "write"  # each compiled on its own; trees have others
 
 
 class PacketEngine:
     """Traces images of one scene by a team of threads. Raises LucidaError (see flatten).
 
-    shadows, mirror_depth: see packet_effects.py.
+    shadows, mirror_depth: see packet_effects.py. kernels: those of KERNELS that are compiled at
+    once.
     """
 
     def __init__(
-        self, scene: Scene, team: Team, shadows: bool = False, mirror_depth: int = 0
+        self,
+        scene: Scene,
+        team: Team,
+        shadows: bool = False,
+        mirror_depth: int = 0,
+        kernels: tuple[str, ...] = KERNELS,
     ) -> None:
         self._effects = shadows, mirror_depth
         self._team = team
         self._scene = scene
         self._flat = flatten(scene)
         self.instances = Instances(scene, self._flat, team)
-        # Compile, by an image that is over before it begins.
-        over = new_control()
+        self._compile(kernels)
+
+    def _compile(self, kernels: tuple[str, ...]) -> None:
+        """Compiles kernels, or finds them in the cache, by an image that is over at once."""
+        view, image, over = View.of(Camera.canonical()), new_image((1, 1), ()), new_control()
         cancel(over)
-        self.trace(View.of(Camera.canonical()), new_image((1, 1), ()), over)
+        of_image = packet_view(view, (1, 1), self.instances)
+        if "write" in kernels:
+            self._writing(view, of_image, image)
+        if "walk" in kernels:
+            self._walk(of_image, Stage(0, new_room()), image, over)
 
     def set_scene(self, scene: Scene) -> None:
         """Follows a changed scene; unchanged meshes (the same arrays) keep their trees."""
@@ -63,13 +79,20 @@ class PacketEngine:
 
     def trace(self, view: View, image: Image, control: Control) -> None:
         """Fills the image; returns early if cancelled. Blocks without a finished mark are open."""
+        of_image = packet_view(view, (image.width, image.height), self.instances)
+        self._walk(of_image, self._writing(view, of_image, image), image, control)
+
+    def _writing(self, view: View, of_image: PacketView, image: Image) -> Stage:
+        effects = effects_of(*self._effects, self.instances.bounds[-1], view.eye)
+        return writing_stage(of_image, self.instances.world, self._flat, effects, image)
+
+    def _walk(self, of_image: PacketView, writing: Stage, image: Image, control: Control) -> None:
         self._team.run(
             trace_packets,
-            packet_view(view, (image.width, image.height), self.instances),
+            of_image,
             self.instances.world,
-            self._flat,
-            effects_of(*self._effects, self.instances.bounds[-1], view.eye),
-            image,
+            writing,
+            image.finished,
             self.instances.stack_size,
             control,
             size=image.finished.size,

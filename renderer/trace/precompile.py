@@ -1,7 +1,7 @@
 """Compiling kernels in processes of their own, into the cache that this process then loads from.
 
 Owns these processes: what they compile, and their end. numba compiles one function at a time, and
-holds Python's lock meanwhile; two processes compile at once, and a window's loop goes on.
+holds Python's lock meanwhile; processes compile at once, and a window's loop goes on.
 
 Nothing depends on it: what is not in the cache afterwards is compiled here, at its first call.
 """
@@ -27,6 +27,7 @@ from numba.core import config
 from renderer.scene.flat import flatten
 from renderer.scene.model import Mesh, Scene, SceneObject
 from renderer.trace.compiled import cache_folder
+from renderer.trace.shortcuts import take_shortcuts
 from renderer.trace.team import Team, default_threads
 
 LIMIT_S = 120.0  # a process that takes longer is given up
@@ -37,10 +38,10 @@ _START += "from renderer.trace.precompile import main; main(sys.argv[1])"
 
 
 def parts_of(method: str, shadows: bool, mirror_depth: int) -> tuple[str, ...]:
-    """What a Tracer's engine needs that is worth a process."""
+    """What a Tracer's engine needs that is worth a process; what takes longest comes first."""
     if method != "packets":
         return ()
-    return "trees", "effects" if shadows or mirror_depth else "packets"
+    return "write-effects" if shadows or mirror_depth else "write", "walk", "trees"
 
 
 def compile_part(part: str) -> None:
@@ -53,8 +54,9 @@ def compile_part(part: str) -> None:
         scene = Scene((SceneObject(Mesh(corners, face)),))
         Instances(scene, flatten(scene), Team(1))
     else:
-        has_effects = part == "effects"
-        PacketEngine(Scene(()), Team(1), has_effects, int(has_effects))  # nothing to build
+        kernel, _, effects = part.partition("-")
+        mirror_depth = 1 if effects else 0
+        PacketEngine(Scene(()), Team(1), bool(effects), mirror_depth, (kernel,))  # nothing to build
 
 
 class Precompilation:
@@ -101,12 +103,17 @@ class Precompilation:
 
 
 def main(part: str) -> None:
-    """What such a process does. Its input ends with the process that started it."""
+    """What such a process does. Its input ends with the process that started it.
+
+    It ends at once: to take a compiler's million objects down would take a sixth of its time.
+    """
     threading.Thread(target=_end_with_parent, daemon=True).start()
     if hasattr(os, "nice"):
         os.nice(_NICENESS)
     gc.disable()  # a tenth of the time, for 40 MB
+    take_shortcuts()
     compile_part(part)
+    os._exit(0)
 
 
 def _end_with_parent() -> None:

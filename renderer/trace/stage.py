@@ -1,0 +1,100 @@
+"""A kernel's stage that is compiled on its own: called by its address, with what it always needs.
+
+Owns how such a stage is handed to the kernel that calls it. Knows nothing of what either does.
+
+A kernel and its parts are compiled as one piece, by one processor. Where a kernel calls a large
+part once for many rays, the two may as well be compiled apart, at once: the part, with all that is
+the same for the whole image, becomes a Stage, two addresses, and the kernel needs neither its code
+nor the types of what it takes. A call costs some nanoseconds.
+"""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+from llvmlite import ir
+from numba.core import types
+from numba.core.errors import TypingError
+from numba.core.types.misc import CPointer
+from numba.extending import intrinsic
+from numpy.typing import NDArray
+
+ROOM_BYTES = 4096  # for what a stage always needs
+
+# Arguments of each call: row and column of the image, and a thread's scratch memory.
+_EACH = (types.int64, types.int64, CPointer(types.float32), CPointer(types.int32))
+_BYTES = ir.IntType(8).as_pointer()
+_CODE = ir.FunctionType(
+    ir.VoidType(),
+    [
+        _BYTES,
+        ir.IntType(64),
+        ir.IntType(64),
+        ir.FloatType().as_pointer(),
+        ir.IntType(32).as_pointer(),
+    ],
+)
+
+
+class Stage(NamedTuple):
+    """code: the address. room: what the code always needs; whatever that points to must be kept."""
+
+    code: int
+    room: NDArray[np.uint8]
+
+
+def new_room() -> NDArray[np.uint8]:
+    """Memory for prepared() to fill."""
+    return np.empty(ROOM_BYTES, np.uint8)
+
+
+@intrinsic
+def prepared(typing, function, always, room):
+    """Fills a room with `always`; gives the address of code that calls function(always, row,
+    column, floats, ints), int64.
+
+    function: decorated by inlined(); without a result, and it raises nothing.
+    """
+    if not isinstance(function, types.Dispatcher):
+        raise TypingError(f"a compiled function is needed, not {function}")
+    signature = function.get_call_type(typing, (always, *_EACH), {})
+
+    def codegen(context, builder, sig, args):
+        always_type = context.get_value_type(sig.args[1])
+        if context.get_abi_sizeof(always_type) > ROOM_BYTES:
+            raise TypingError(f"{sig.args[1]} has no room in {ROOM_BYTES} bytes")
+        builder.store(args[1], builder.bitcast(args[2], always_type.as_pointer()))
+        code = _code(context, builder.module, function, signature, always_type)
+        return builder.ptrtoint(code, ir.IntType(64))
+
+    return types.int64(function, always, room), codegen
+
+
+def _code(context, module, function, signature, always_type):
+    """A function of type _CODE, which calls numba's."""
+    compiled = function.dispatcher.get_compile_result(signature)
+    context.active_code_library.add_linking_library(compiled.library)
+    callee = context.declare_function(module, compiled.fndesc)
+    code = ir.Function(module, _CODE, module.get_unique_name("lucida_stage"))
+    code.linkage = "internal"
+    builder = ir.IRBuilder(code.append_basic_block())
+    at = builder.bitcast(code.args[0], always_type.as_pointer())
+    always = builder.load(at, typ=always_type)
+    context.call_conv.call_function(
+        builder, callee, signature.return_type, signature.args, [always, *code.args[1:]]
+    )
+    builder.ret_void()
+    return code
+
+
+@intrinsic
+def call_stage(typing, code, room, row, column, floats, ints):
+    """Calls a stage's code, by its address; room: the pointer to its memory."""
+    signature = types.void(types.int64, CPointer(types.uint8), *_EACH)
+
+    def codegen(context, builder, sig, args):
+        builder.call(builder.inttoptr(args[0], _CODE.as_pointer()), args[1:])
+        return context.get_dummy_value()
+
+    return signature, codegen
