@@ -31,14 +31,11 @@ Split = tuple[str, str, imgui.Dir, float]  # space, new space, where, its part o
 
 @dataclass(frozen=True)
 class Layout:
-    """places: view to space, for the views that it shows, in the tabs' order. equal: RIGHT_SPACE
-    and its neighbour keep their shares of the room when the window is resized.
-    """
+    """places: view to space, for the views that it shows, in the tabs' order."""
 
     name: str
     splits: tuple[Split, ...]
     places: dict[str, str]
-    equal: bool = False
 
 
 _CAMERA: Split = (MAIN, CAMERA_SPACE, imgui.Dir.left, 0.0)  # its width is the panel's
@@ -52,7 +49,6 @@ LAYOUTS = (
             (MAIN, RIGHT_SPACE, imgui.Dir.right, 0.5),
         ),
         {"Camera": CAMERA_SPACE, "Raster": MAIN, "Ray": RIGHT_SPACE},
-        equal=True,
     ),
     Layout(
         "Four views",
@@ -69,7 +65,6 @@ LAYOUTS = (
             "Outside": LOWER_SPACE,
             "Compare": INSTRUMENTS,
         },
-        equal=True,
     ),
     Layout(
         "Outside view",
@@ -79,7 +74,6 @@ LAYOUTS = (
             (INSTRUMENTS, RIGHT_SPACE, imgui.Dir.up, 0.5),
         ),
         {"Camera": CAMERA_SPACE, "Outside": MAIN, "Raster": RIGHT_SPACE, "Ray": INSTRUMENTS},
-        equal=True,
     ),
     Layout(
         "Compare",
@@ -89,7 +83,6 @@ LAYOUTS = (
             (INSTRUMENTS, RIGHT_SPACE, imgui.Dir.up, 0.5),
         ),
         {"Camera": CAMERA_SPACE, "Compare": MAIN, "Raster": RIGHT_SPACE, "Ray": INSTRUMENTS},
-        equal=True,
     ),
     Layout(
         "Probe",
@@ -106,7 +99,6 @@ LAYOUTS = (
             "Outside": LOWER_SPACE,
             "Probe": INSTRUMENTS,
         },
-        equal=True,
     ),
     Layout(
         "Loops",
@@ -138,7 +130,6 @@ LAYOUTS = (
             (MAIN, RIGHT_SPACE, imgui.Dir.right, 0.5),
         ),
         {"Raster": MAIN, "Ray": RIGHT_SPACE},
-        equal=True,
     ),
 )
 
@@ -212,18 +203,41 @@ def whole() -> tuple[tuple[float, float], tuple[float, float]] | None:
     return (node.pos.x, node.pos.y), (node.size.x, node.size.y)
 
 
+@dataclass
+class _Share:
+    """A space's part of what it was split off from. room: of that, when the part was last kept;
+    settling: frames until the new sizes are there."""
+
+    part: float = 0.5
+    room: float = 0.0
+    settling: int = 0
+
+    def keep(self, node: imgui.internal.DockNode, parent: imgui.internal.DockNode, x: bool) -> None:
+        size, room = (node.size.x, parent.size.x) if x else (node.size.y, parent.size.y)
+        kept = (node.size_ref.x, parent.size_ref.x) if x else (node.size_ref.y, parent.size_ref.y)
+        if not self.room and 0 < kept[0] < kept[1]:
+            self.part = kept[0] / kept[1]  # as saved, or the layout's
+        if room != self.room:
+            size = max(1.0, self.part * room)
+            new = (size, node.size.y) if x else (node.size.x, size)
+            imgui.internal.dock_builder_set_node_size(node.id_, new)
+            self.room, self.settling = room, 2
+        elif self.settling:
+            self.settling -= 1
+        elif room > LEAST_ROOM_PX:
+            self.part = size / room
+
+
 class Proportion:
-    """Keeps the two images' shares of the room when the window is resized, and the camera's panel
-    as wide as its numbers are.
+    """Keeps the spaces' shares of the room when the window is resized, and the camera's panel as
+    wide as its numbers are.
 
     ImGui would give all of the difference to one of them. The user's own division stays.
     """
 
     def __init__(self) -> None:
         self._layout = ""
-        self._room = 0.0
-        self._share = 0.5
-        self._settling = 0  # frames until the new sizes are there
+        self._shares: dict[str, _Share] = {}
         self._em_px = 0.0
 
     def keep(self) -> None:
@@ -232,22 +246,17 @@ class Proportion:
             self._widen_camera()
         layout = current()
         if layout.name != self._layout:
-            self._layout, self._room = layout.name, 0.0
-        node = _node(RIGHT_SPACE) if layout.equal else None
-        node = _side(node)
-        parent = node.parent_node if node is not None else None
-        if node is None or parent is None or not (parent.size.x > 0 and node.size.y > 0):
-            return
-        if not self._room and 0 < node.size_ref.x < parent.size_ref.x:
-            self._share = node.size_ref.x / parent.size_ref.x  # as saved, or the layout's
-        if parent.size.x != self._room:
-            size = (max(1.0, self._share * parent.size.x), node.size.y)
-            imgui.internal.dock_builder_set_node_size(node.id_, size)
-            self._room, self._settling = parent.size.x, 2
-        elif self._settling:
-            self._settling -= 1
-        elif parent.size.x > LEAST_ROOM_PX:
-            self._share = node.size.x / parent.size.x
+            self._layout, self._shares = layout.name, {}
+        for whole, space, direction, _ in layout.splits:
+            # The camera's width is its numbers'. What is not beside MAIN, ImGui divides as it was.
+            if whole != MAIN or space == CAMERA_SPACE:
+                continue
+            across = direction in (imgui.Dir.left, imgui.Dir.right)
+            node = _side(_node(space), imgui.internal.Axis.x if across else imgui.internal.Axis.y)
+            parent = node.parent_node if node is not None else None
+            if node is None or parent is None or min(*parent.size, *node.size) <= 0:
+                continue
+            self._shares.setdefault(space, _Share()).keep(node, parent, across)
 
     def _widen_camera(self) -> None:
         """A window that was restored, or enlarged, may leave the panel less than it needs; its
@@ -266,11 +275,13 @@ class Proportion:
             imgui.internal.dock_builder_set_node_size(node.id_, (width, node.size.y))
 
 
-def _side(node: imgui.internal.DockNode | None) -> imgui.internal.DockNode | None:
-    """The node, or the one round it, that stands beside another."""
+def _side(
+    node: imgui.internal.DockNode | None, axis: imgui.internal.Axis
+) -> imgui.internal.DockNode | None:
+    """The node, or the one round it, that stands beside (x), or above or below (y), another."""
     while node is not None:
         parent = node.parent_node
-        if parent is None or parent.split_axis == imgui.internal.Axis.x:
+        if parent is None or parent.split_axis == axis:
             return node
         node = parent
     return None

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import numpy as np
-from window_driver import Driver, Key, changed
+from imgui_bundle import hello_imgui, imgui
+from window_driver import SIZE, Driver, Key, changed
 
 from app import layout
 from app.panels import formula
@@ -135,6 +136,32 @@ def drive_undo_walks_back_over_steps(d: Driver) -> None:
         d.ctx.yield_(2)
     d.settle()
     assert (_number(d), d.window.state) == (0, d.start)
+
+
+def drive_the_column_keeps_its_share_of_a_window_that_grows(d: Driver) -> None:
+    _give(d, SMALL.replace('"ray", "camera"', '"raster", "ray"'))
+    _lecture(d).advance(d.window, 1)
+    d.settle()
+
+    def shares() -> tuple[float, float]:
+        """The column's part of the width, and the lower image's of the height of both."""
+        rects = d.window.shell.stage.rects
+        low, high = rects["Ray"], rects["Raster"]
+        (left, _, right, _), width = rects[LECTURE], imgui.get_io().display_size.x
+        height = low[3] - low[1]
+        return (right - left) / width, height / (height + high[3] - high[1])
+
+    before = shares()
+    hello_imgui.change_window_size((1700, 1000))
+    try:
+        d.until(lambda: imgui.get_io().display_size.x == 1700)
+        d.settle()
+        assert np.allclose(shares(), before, atol=0.02)
+    finally:
+        hello_imgui.change_window_size(SIZE)
+    d.until(lambda: imgui.get_io().display_size.x == SIZE[0])
+    d.settle()
+    assert np.allclose(shares(), before, atol=0.02)
 
 
 def drive_what_a_step_points_out_is_framed(d: Driver) -> None:
