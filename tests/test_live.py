@@ -13,6 +13,7 @@ import pytest
 from app.background import Background
 from app.images import live
 from app.images.agreement import Agreement
+from app.images.coarseness import FACTORS
 from app.images.live import LiveTrace, RayImage, Request
 from renderer.camera import Camera
 from renderer.errors import LucidaError
@@ -236,9 +237,9 @@ def test_a_scene_that_takes_long_is_being_prepared(rig: Rig) -> None:
 
 
 def test_waiting_before_a_full_image_is_no_longer_than_the_image() -> None:
-    assert live.settle_s((100, 100), 0.0) == 0.0
-    assert live.settle_s((100, 100), 1e-6) == pytest.approx(0.01)
-    assert live.settle_s((1000, 1000), 1e-6) == live.SETTLE_S
+    assert live.settle_s(0.0) == 0.0
+    assert live.settle_s(0.01) == 0.01
+    assert live.settle_s(1.0) == live.SETTLE_S
 
 
 def test_an_error_is_kept_and_the_next_request_tries_again(rig: Rig) -> None:
@@ -265,13 +266,15 @@ def test_closing_cancels_and_does_not_wait_for_ever() -> None:
 
 
 @pytest.mark.parametrize("size", [(1, 1), (7, 3), (1280, 720)])
-@pytest.mark.parametrize("pixel_s", [0.0, 1e-9, 1e-7, 1e-5, 1.0])
-def test_refinement_ends_at_the_full_image(size: tuple[int, int], pixel_s: float) -> None:
-    factor = live.first_factor(size, pixel_s)
-    assert 1 <= factor <= live.COARSEST
+@pytest.mark.parametrize("full_s", [0.0, 1e-3, 0.1, 10.0])
+@pytest.mark.parametrize("factor", FACTORS)
+def test_refinement_ends_at_the_full_image(
+    size: tuple[int, int], full_s: float, factor: int
+) -> None:
     for _ in range(4):
         assert min(live.reduced(size, factor)) >= 1
-        factor = live.next_factor(factor, size, pixel_s)
+        factor = live.next_factor(factor, full_s)
+        assert factor in FACTORS
     assert factor == 1
     assert live.reduced(size, 1) == size
 

@@ -15,12 +15,14 @@ from collections.abc import Callable
 from dataclasses import dataclass, field, replace
 from typing import Protocol
 
+from app.images.coarseness import Coarseness
 from renderer.camera import Camera
 from renderer.frame import CHANNELS, Frame
 from renderer.scene.model import Scene
 
 COARSEST = 8  # image pixels a side that one traced pixel stands for
-COARSE_S = 0.012  # what a coarse image may take
+ONCE_S = 0.012  # what the first image after a rest may take, so that it comes with the next frame
+COARSE_S = 0.006  # what a coarse image may take: OpenGL may need the same cores
 REFINE_S = 0.15  # a full image that takes longer is preceded by another coarse one
 SETTLE_S = 0.04  # without a change, at most, before refining: while dragging, the cores stay free
 LAUNCH_S = 4e-4  # of an image's time, what does not grow with its pixels
@@ -194,7 +196,7 @@ class LiveTrace:
             self._begin()
         tracer: Tracer | None = None
         made_for: Request | None = None
-        pixel_s = 0.0
+        coarseness = Coarseness(COARSE_S, ONCE_S, COARSEST, COARSEST)
         while (request := self._next()) is not None:
             try:
                 if made_for is None or request.scene is not made_for.scene:
@@ -205,9 +207,10 @@ class LiveTrace:
                     self._prepare()
                     if tracer is not None:
                         tracer.close()
-                    tracer, pixel_s = self._make_tracer(request), 0.0
+                    tracer = self._make_tracer(request)
+                    coarseness.forget()
                 made_for, self._ready = request, (request.scene, tracer)
-                pixel_s = self._trace(tracer, request, pixel_s)
+                self._trace(tracer, request, coarseness)
             except BaseException as error:  # shown in the window, which goes on
                 tracer, self._ready = None, None
                 with self._changed:
@@ -232,12 +235,10 @@ class LiveTrace:
             self._served, self._error = self._newest, None
             return self._newest
 
-    def _trace(self, tracer: Tracer, request: Request, pixel_s: float) -> float:
-        """Images of one request, from coarse to full, until a newer one comes.
-
-        pixel_s: the time that a pixel takes, 0 if unknown; gives it as measured now.
-        """
-        factor = first_factor(request.size, pixel_s)
+    def _trace(self, tracer: Tracer, request: Request, coarseness: Coarseness) -> None:
+        """Images of one request, from coarse to full, until a newer one comes."""
+        pixels = request.size[0] * request.size[1]
+        factor = coarseness.changed(pixels, time.monotonic())
         refining = False
         while True:
             size = reduced(request.size, factor)
@@ -248,22 +249,21 @@ class LiveTrace:
             with self._changed:
                 self._job, self._refining = None, False
                 if not frame.complete:
-                    return pixel_s
+                    return
                 self._arrived = RayImage(request, frame, factor)
                 self._began_s, self._first_ever = 0.0, False
                 if factor == 1:
                     self._finished = request
             self._wake()
-            measured = max(frame.time_s - LAUNCH_S, 1e-6) / (size[0] * size[1])
-            pixel_s = measured if factor == 1 or not pixel_s else 0.5 * (pixel_s + measured)
+            coarseness.measured(factor, size[0] * size[1], max(frame.time_s - LAUNCH_S, 1e-6))
             if factor == 1:
-                return pixel_s
+                return
+            full_s = coarseness.full_s(pixels)
+            rest_s = max(settle_s(full_s), coarseness.rest_s)
             with self._changed:
-                if self._changed.wait_for(
-                    lambda: self._is_stale(request), settle_s(request.size, pixel_s)
-                ):
-                    return pixel_s
-            factor = next_factor(factor, request.size, pixel_s)
+                if self._changed.wait_for(lambda: self._is_stale(request), rest_s):
+                    return
+            factor = next_factor(factor, full_s)
             refining = True
 
     def _finish(self, job: Job, request: Request, refining: bool) -> Frame:
@@ -293,25 +293,15 @@ def _as_exception(error: BaseException) -> Exception:
     return error if isinstance(error, Exception) else RuntimeError(f"ended by {error!r}")
 
 
-def first_factor(size: tuple[int, int], pixel_s: float) -> int:
-    """How coarse the first image must be to arrive within a frame or two."""
-    if not pixel_s:
-        return COARSEST
-    factor = 1
-    while factor < COARSEST and pixel_s * size[0] * size[1] / factor**2 > COARSE_S:
-        factor *= 2
-    return factor
-
-
-def settle_s(size: tuple[int, int], pixel_s: float) -> float:
-    """How long to wait for a change before the full image: as long as it takes, at most, so that
+def settle_s(full_s: float) -> float:
+    """How long to wait for a change before the full image: as long as that takes, at most, so that
     an image traced in vain costs no more than the waiting."""
-    return min(SETTLE_S, pixel_s * size[0] * size[1])
+    return min(SETTLE_S, full_s)
 
 
-def next_factor(factor: int, size: tuple[int, int], pixel_s: float) -> int:
+def next_factor(factor: int, full_s: float) -> int:
     """What follows a coarse image: the full one if that is quick, else one 4 times as fine."""
-    if pixel_s * size[0] * size[1] <= REFINE_S:
+    if full_s <= REFINE_S:
         return 1
     return max(factor // 4, 1)
 

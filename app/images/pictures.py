@@ -15,6 +15,7 @@ from dataclasses import dataclass
 import moderngl
 from numpy.typing import NDArray
 
+from app.images.coarseness import Coarseness
 from app.images.live import RayImage, reduced
 from app.images.placement import Placement
 from app.images.reading import Reading, Region
@@ -27,8 +28,8 @@ from renderer.raster.targets import Textures
 from renderer.scene.model import Scene
 
 FAILURES = (LucidaError, moderngl.Error, MemoryError)  # of drawing: told, and survived
-MOVING_S = 0.1  # after a change; a raster image that is too slow for the display is coarse then
-FRAME_S = 0.008  # what a raster image may take of a frame while the camera moves
+MOVING_S = 0.1  # after a change, at least, before a full raster image: the ray image comes first
+FRAME_S = 0.006  # what a raster image may take of a frame while the camera moves
 COARSEST = 4
 ATTEMPTS = 3  # at putting an image on the GPU, one a frame
 
@@ -56,8 +57,8 @@ class Pictures:
         self._scene: Scene | None = None  # of the rasterizer's
         self._prepared: list[tuple[Scene, Prepared]] = []
         self._timer = context.query(time=True)
-        self._timed_pixels = 0  # of the image whose time is still to be read
-        self._pixel_s = 0.0
+        self._timed: tuple[int, int] | None = None  # factor and pixels of what is still to be read
+        self._coarseness = Coarseness(FRAME_S, FRAME_S, COARSEST)
         self._wanted: Wanted | None = None
         self._textures: Textures | None = None
         self._drawn = 0
@@ -204,7 +205,7 @@ class Pictures:
         seen = self._raster_frame >= self._frame - 1
         return (
             (self.raster_factor > 1 and seen)
-            or self._timed_pixels > 0
+            or self._timed is not None
             or 0 < self._failures < ATTEMPTS
             or self._range.unfinished
         )
@@ -245,8 +246,11 @@ class Pictures:
     def _follow(self, wanted: Wanted) -> Textures:
         if wanted != self._wanted or self._textures is None:
             self._changed_s = time.monotonic()
-            return self._draw(wanted, self._moving_factor(wanted.size))
-        if self.raster_factor > 1 and time.monotonic() - self._changed_s > MOVING_S:
+            width, height = wanted.size
+            factor = self._coarseness.changed(width * height, self._changed_s)
+            return self._draw(wanted, factor)
+        still_s = time.monotonic() - self._changed_s
+        if self.raster_factor > 1 and still_s > max(MOVING_S, self._coarseness.rest_s):
             return self._draw(wanted, 1)
         return self._textures
 
@@ -266,7 +270,7 @@ class Pictures:
         )
         self._drawn += 1
         self._wanted, self._textures = wanted, drawn
-        self._timed_pixels, self.raster_factor = size[0] * size[1], factor
+        self._timed, self.raster_factor = (factor, size[0] * size[1]), factor
         return drawn
 
     def _upload(self, image: RayImage, channel: str) -> None:
@@ -291,16 +295,10 @@ class Pictures:
 
     def _read_time(self) -> None:
         """A frame later: at once, it would wait for the GPU."""
-        if self._timed_pixels:
+        if self._timed is not None:
             self.raster_s = self._timer.elapsed * 1e-9
-            self._pixel_s = self.raster_s / self._timed_pixels
-            self._timed_pixels = 0
-
-    def _moving_factor(self, size: tuple[int, int]) -> int:
-        factor = 1
-        while factor < COARSEST and self._pixel_s * size[0] * size[1] / factor**2 > FRAME_S:
-            factor *= 2
-        return factor
+            self._coarseness.measured(*self._timed, self.raster_s)
+            self._timed = None
 
     def _show(self, scene: Scene) -> None:
         if scene is not self._scene:

@@ -1,0 +1,97 @@
+"""How coarse the images of a motion are: within the budget, and without a change in between."""
+
+from __future__ import annotations
+
+import pytest
+
+from app.images.coarseness import FACTORS, MOST_MISSES, STILL_S, Coarseness
+
+PIXELS = 1280 * 720
+FRAME_S = 1 / 60
+
+
+def measured(pixel_s: float, budget_s: float = 0.006, once_s: float = 0.012) -> Coarseness:
+    """One that has seen a full image."""
+    coarseness = Coarseness(budget_s, once_s)
+    coarseness.measured(1, PIXELS, pixel_s * PIXELS)
+    return coarseness
+
+
+def motion(coarseness: Coarseness, start_s: float, pixel_s: float, frames: int = 30) -> list[int]:
+    """The factors of a motion, whose images take pixel_s each pixel."""
+    factors = []
+    for frame in range(frames):
+        factors.append(coarseness.changed(PIXELS, start_s + frame * FRAME_S))
+        pixels = PIXELS // factors[-1] ** 2
+        coarseness.measured(factors[-1], pixels, pixel_s * pixels)
+    return factors
+
+
+def test_a_quick_device_draws_no_coarse_image() -> None:
+    assert set(motion(measured(1e-9), 0.0, 1e-9)) == {1}
+
+
+def test_images_of_a_motion_are_the_finest_within_the_budget_and_all_alike() -> None:
+    first, *others = motion(measured(1e-8), 0.0, 1e-8)
+    assert first == 1  # 9.2 ms, of 12: it may be the only one
+    assert set(others) == {2}  # 2.3 ms, of 6
+
+
+@pytest.mark.parametrize("pixel_s", [3e-9, 4e-8, 1e-7, 1e-6, 1e-4])
+def test_no_image_is_finer_than_the_budget_allows(pixel_s: float) -> None:
+    for factor in motion(measured(pixel_s), 0.0, pixel_s)[1:]:
+        assert factor == FACTORS[-1] or pixel_s * PIXELS / factor**2 <= 0.006
+        assert factor == 1 or pixel_s * PIXELS / (factor - 1) ** 2 > 0.006 or factor > 4
+
+
+def test_noise_does_not_make_a_motion_flicker() -> None:
+    coarseness = measured(4e-8)
+    factors = []
+    for frame in range(60):
+        factors.append(coarseness.changed(PIXELS, frame * FRAME_S))
+        late_s = 0.05 if frame % MOST_MISSES == 0 else 0.004  # never so many in a row
+        coarseness.measured(factors[-1], PIXELS // factors[-1] ** 2, late_s)
+    assert len(set(factors[1:])) == 1
+
+
+def test_what_stays_too_slow_becomes_coarser_and_not_finer_again_before_a_rest() -> None:
+    coarseness = measured(4e-8)
+    before = motion(coarseness, 0.0, 4e-8, 5)
+    slow = motion(coarseness, 5 * FRAME_S, 2e-7, 25)
+    assert slow == sorted(slow)
+    assert slow[0] == before[-1] < slow[-1]
+    quick = motion(coarseness, 30 * FRAME_S, 1e-9)
+    assert set(quick) == {slow[-1]}
+    coarseness.measured(1, PIXELS, 1e-9 * PIXELS)
+    assert motion(coarseness, 30.0, 1e-9)[0] == 1
+
+
+def test_what_was_thought_too_slow_becomes_finer() -> None:
+    factors = motion(measured(1e-6), 0.0, 4e-8, 60)  # the first full image was compiled, too
+    assert factors == sorted(factors, reverse=True)
+    assert factors[-1] == 3  # 4.1 ms, of 6; as fine as it would have begun
+
+
+def test_nothing_measured_is_as_coarse_as_it_is_told() -> None:
+    assert Coarseness(0.006, 0.012).changed(PIXELS, 0.0) == 1
+    assert Coarseness(0.006, 0.012, unknown=8).changed(PIXELS, 0.0) == 8
+    forgetful = measured(1e-9)
+    forgetful.forget()
+    assert forgetful.full_s(PIXELS) == 0.0
+    assert forgetful.changed(PIXELS, 0.0) == 1
+
+
+def test_a_full_image_waits_for_the_end_of_a_motion_but_not_after_one_change() -> None:
+    coarseness = measured(4e-8)
+    coarseness.changed(PIXELS, 10.0)
+    assert coarseness.rest_s == 0.0
+    coarseness.changed(PIXELS, 10.0 + FRAME_S)
+    assert FRAME_S < coarseness.rest_s < STILL_S
+    coarseness.changed(PIXELS, 10.2)  # slow frames: still the same motion
+    assert coarseness.rest_s == STILL_S
+
+
+def test_the_time_of_a_full_image_is_told_from_any_other() -> None:
+    coarseness = Coarseness(0.006, 0.012)
+    coarseness.measured(4, PIXELS // 16, 1e-8 * PIXELS / 16)
+    assert coarseness.full_s(PIXELS) == pytest.approx(1e-8 * PIXELS)
