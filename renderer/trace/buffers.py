@@ -22,7 +22,7 @@ LARGEST_KEPT_BYTES = 1 << 27  # 2560x1440 pixels of all channels
 _LINE_BYTES = 64
 # Not all at the same place within memory's pages: a pixel's numbers would compete for the same
 # lines of the cache.
-_STAGGER_BYTES = 16
+_STAGGER_BYTES = _LINE_BYTES
 
 Block = NDArray[np.uint8]
 

@@ -14,8 +14,8 @@ import numpy as np
 
 from renderer.scene.flat import SPECULAR_CHECKERED
 from renderer.trace.compiled import inlined
-from renderer.trace.packet_surface import GEOMETRIC, SHADING, Pixels, load3, store3
-from renderer.trace.packet_tile import OWNER, SEEN, SURFACE, WAITING_DEPTHS, WAITING_NODES
+from renderer.trace.packet_surface import Pixels, store3
+from renderer.trace.packet_tile import OWNER, SECONDARY, SEEN, WAITING_DEPTHS, WAITING_NODES
 from renderer.trace.rays_hit import any_hit, closest_hit
 from renderer.trace.simd import (
     LANES,
@@ -32,9 +32,8 @@ from renderer.trace.simd import (
 )
 from renderer.trace.simd_math import dot_lanes, minus_lanes, scaled_lanes, select_lanes
 
-# Vectors in the scratch, behind those of a square's surface: where rays start, where they go, how
-# far; the light that reaches a reflection.
-ORIGIN, DIRECTION, REACH = SURFACE + 9 * LANES, SURFACE + 12 * LANES, SURFACE + 15 * LANES
+# Vectors in the scratch: where rays start, where they go, how far.
+ORIGIN, DIRECTION, REACH = SECONDARY, SECONDARY + 3 * LANES, SECONDARY + 6 * LANES
 # Rays start a little off a surface, or rounding puts it in their way: of the scene's size, and of
 # the eye's distance, from which the point was computed.
 _AWAY, _AWAY_OF_EYE = 2e-5, 2e-6
@@ -109,10 +108,10 @@ def _lane3(floats, at):
 
 
 @inlined
-def reflected_rays(effects, pixels, t, floats):
+def reflected_rays(effects, pixels, t, surface):
     """The rays that leave a square's surfaces as its rays arrive: the law of reflection."""
     o, d = pixels.origin, pixels.direction
-    geometric, shading = load3(floats, GEOMETRIC), load3(floats, SHADING)
+    geometric, shading = surface.geometric, surface.shading
     two = np.float32(2)
     way = minus_lanes(d, scaled_lanes(two * dot_lanes(d, shading), shading))
     # A smooth normal may send a ray into the surface.

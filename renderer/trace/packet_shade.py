@@ -22,7 +22,7 @@ from renderer.trace.packet_effects import (
     reflected_rays,
     trace_square,
 )
-from renderer.trace.packet_surface import GEOMETRIC, SHADING, TINT, find_surfaces, load3, points_on
+from renderer.trace.packet_surface import find_surfaces, points_on
 from renderer.trace.packet_view import ACROSS, DOWN, SHARED, VARYING
 from renderer.trace.shade import CELL_NUDGE
 from renderer.trace.simd import (
@@ -54,19 +54,18 @@ _SMALLEST_HALF = np.float32(1e-6)  # with a half vector shorter than this, there
 
 
 @inlined
-def shade_square(view, world, scene, effects, pixels, first, t, objects, floats, ints):
+def shade_square(view, world, scene, effects, pixels, first, t, surface, objects, floats, ints):
     """The colours of a square: three F32; the background's where there is no object.
 
     scene: SceneArrays. effects: Effects, or None. first: as for find_surfaces. t: ray parameters.
-    objects: the pixels' objects; their surfaces are in `floats`.
+    surface, objects: what the pixels see.
     """
     background = scene.background
     color = (splat(background[0]), splat(background[1]), splat(background[2]))
     left = bits(objects >= np.int32(0))
     if left == 0:
         return color
-    geometric, shading = load3(floats, GEOMETRIC), load3(floats, SHADING)
-    tint = load3(floats, TINT)
+    geometric, shading, tint = surface.geometric, surface.shading, surface.tint
     point = points_on(pixels, t)
     while left != 0:
         # The pixels of one object, which share its material.
@@ -84,19 +83,23 @@ def shade_square(view, world, scene, effects, pixels, first, t, objects, floats,
 
 
 @inlined
-def add_reflections(view, world, scene, effects, pixels, square, t, objects, color, floats, ints):
+def add_reflections(
+    view, world, scene, effects, pixels, square, t, surface, objects, color, floats, ints
+):
     """The colours of a square and what its surfaces mirror, by as many bounces as there may be."""
     weight = reflectance(scene, objects)
     for _ in range(effects.mirror_depth):
         mask = brightest(weight) > np.float32(0)
         if bits(mask) == 0:
             break
-        pixels = reflected_rays(effects, pixels, t, floats)
+        pixels = reflected_rays(effects, pixels, t, surface)
         t = trace_square(world, pixels, mask, square, floats, ints)
-        objects, _primitives = find_surfaces(
-            view, world, scene, None, pixels, square, t, True, False, floats, ints
+        surface, objects, _primitives = find_surfaces(
+            view, world, scene, None, pixels, square, t, True, False, ints
         )
-        seen = shade_square(view, world, scene, effects, pixels, None, t, objects, floats, ints)
+        seen = shade_square(
+            view, world, scene, effects, pixels, None, t, surface, objects, floats, ints
+        )
         color = (
             fma(weight[0], seen[0], color[0]),
             fma(weight[1], seen[1], color[1]),

@@ -25,7 +25,7 @@ from renderer.trace.packet_smooth import (
     vertices_of,
 )
 from renderer.trace.packet_sphere import sphere_normal, sphere_normal_at
-from renderer.trace.packet_tile import FIRST_SPHERE, NOTHING, OWNER, SEEN, SURFACE
+from renderer.trace.packet_tile import FIRST_SPHERE, NOTHING, OWNER, SEEN
 from renderer.trace.packet_view import ACROSS, DOWN, SHARED, VARYING
 from renderer.trace.simd import (
     LANES,
@@ -49,14 +49,13 @@ from renderer.trace.simd_math import (
     minus_lanes,
     normalized_lanes,
     scaled_lanes,
+    select_lanes,
 )
 from renderer.trace.wide import WIDTH
 
 GRAZING = np.float32(shade.GRAZING)
 _X, _Y, _Z = np.arange(3)
 SINGLES = 3  # triangles that are taken one by one before the rest gather
-# Vectors of a square's surface in the scratch: geometric and shading normal, vertex colour.
-GEOMETRIC, SHADING, TINT = SURFACE, SURFACE + 3 * LANES, SURFACE + 6 * LANES
 
 
 class SceneArrays(NamedTuple):
@@ -95,6 +94,19 @@ class Pixels(NamedTuple):
     direction: object
 
 
+class Surface(NamedTuple):
+    """What a square's pixels see: unit normals, the triangle's and the one for shading, both on the
+    viewer's side, and the vertex colour. Three F32 each; 0 where nothing is seen.
+
+    Handed on in registers: from memory, a vector of which some lanes were just stored is slow to
+    load.
+    """
+
+    geometric: object
+    shading: object
+    tint: object
+
+
 @inlined
 def square_rays(view, first):
     """The rays of the 4 x 4 pixels whose first is at the image point `first`."""
@@ -129,9 +141,9 @@ def _ray_lanes(ray, axis, x, y):
 
 @inlined
 def find_surfaces(
-    view, world, scene, first, pixels, square, depth, wants_tint, wants_primitives, floats, ints
+    view, world, scene, first, pixels, square, depth, wants_tint, wants_primitives, ints
 ):
-    """Fills a square's normals and colours (SURFACE); gives (objects, primitives), I32, -1: none.
+    """(Surface, objects, primitives) of a square's pixels; the numbers I32, -1: none.
 
     scene: SceneArrays. first: the square's first image point; None for rays that are not the
     view's. depth: of what the pixels see, Z; for other rays, t. Primitives are left out where they
@@ -140,10 +152,9 @@ def find_surfaces(
     seen = load(ints, SEEN + LANES * square)
     owner = load(ints, OWNER + LANES * square)
     objects, primitives = splat(np.int32(-1)), splat(np.int32(-1))
+    zero = splat(np.float32(0))
+    geometric = shading = tint = (zero, zero, zero)
     left = bits(seen != NOTHING)
-    if left != 0xFFFF:
-        for k in range(9):
-            store(floats, GEOMETRIC + LANES * k, splat(np.float32(0)))
     while left != 0:
         lane = lowest_bit(left)
         number = ints[SEEN + LANES * square + lane]
@@ -155,8 +166,7 @@ def find_surfaces(
             else:
                 normal = sphere_normal(view, world.spheres, sphere, first, depth)
             facing = scaled_lanes(viewers_side(normal, pixels.direction), normal)
-            store_surface(floats, mask, facing)
-            bend_grazing(pixels.direction, mask, floats)
+            own = Surface(facing, bend_grazing(pixels.direction, mask, facing), white())
             objects = select(mask, splat(world.sphere_object[sphere]), objects)
             primitives = select(mask, splat(np.int32(world.triangles + sphere)), primitives)
         else:
@@ -167,12 +177,14 @@ def find_surfaces(
                 found = gather(world.face, seen, mask) + world.first_primitive[space]
                 primitives = select(mask, found, primitives)
             at = SEEN + LANES * square
-            instance_surface(
-                view, world, scene, space, seen, at, first, pixels, depth, mask, wants_tint,
-                floats, ints,
-            )  # fmt: skip
+            own = instance_surface(
+                view, world, scene, space, seen, at, first, pixels, depth, mask, wants_tint, ints
+            )
+        geometric = select_lanes(mask, own.geometric, geometric)
+        shading = select_lanes(mask, own.shading, shading)
+        tint = select_lanes(mask, own.tint, tint)
         left &= ~bits(mask)
-    return objects, primitives
+    return Surface(geometric, shading, tint), objects, primitives
 
 
 @inlined
@@ -203,9 +215,9 @@ def triangle_normals(world, slots, at, mask, ints):
 
 @inlined
 def instance_surface(
-    view, world, scene, space, slots, at, first, pixels, depth, mask, wants_tint, floats, ints
+    view, world, scene, space, slots, at, first, pixels, depth, mask, wants_tint, ints
 ):
-    """The surfaces of one instance, in the lanes of the mask.
+    """The Surface of one instance; only the lanes of the mask count.
 
     slots: what the pixels see, also in memory as ints[at :].
     """
@@ -220,7 +232,8 @@ def instance_surface(
     if world.attributes[space] & IS_STRETCHED:
         geometric = normalized_lanes(geometric)
     side = viewers_side(geometric, pixels.direction)
-    store_surface(floats, mask, scaled_lanes(side, geometric))
+    facing = scaled_lanes(side, geometric)
+    shading, tint = facing, white()
     wanted = world.attributes[space] & (HAS_NORMALS | (HAS_COLORS if wants_tint else 0))
     if wanted != 0:
         left = bits(mask)
@@ -236,7 +249,7 @@ def instance_surface(
             else:
                 weights = barycentrics(view, world.corner, slot, space, first)
             if wanted & HAS_COLORS:
-                _store_masked(floats, TINT, same, blended(scene.colors, vertices, weights))
+                tint = select_lanes(same, blended(scene.colors, vertices, weights), tint)
             if wanted & HAS_NORMALS and have_normals(scene.normals, vertices):
                 # Normals that disagree with the winding are turned, for the triangle as a whole.
                 x, y, z = (
@@ -247,9 +260,9 @@ def instance_surface(
                 turn = side if agrees(scene.normals, vertices, x, y, z) else -side
                 smooth = blended(scene.normals, vertices, weights)
                 usable = same & (dot_lanes(smooth, smooth) >= np.float32(1e-12))
-                shading = scaled_lanes(turn * inverse_length(smooth), smooth)
-                _store_masked(floats, SHADING, usable, shading)
-    bend_grazing(pixels.direction, mask, floats)
+                smooth = scaled_lanes(turn * inverse_length(smooth), smooth)
+                shading = select_lanes(usable, smooth, shading)
+    return Surface(facing, bend_grazing(pixels.direction, mask, shading), tint)
 
 
 @inlined
@@ -261,33 +274,24 @@ def viewers_side(normal, direction):
 
 
 @inlined
-def store_surface(floats, mask, facing):
-    """A flat, white surface in the lanes of the mask."""
+def white():
+    """The vertex colour of what has none."""
     one = splat(np.float32(1))
-    _store_masked(floats, GEOMETRIC, mask, facing)
-    _store_masked(floats, SHADING, mask, facing)
-    _store_masked(floats, TINT, mask, (one, one, one))
+    return one, one, one
 
 
 @inlined
-def _store_masked(floats, at, mask, a):
-    for k in range(3):
-        store(floats, at + LANES * k, select(mask, a[k], load(floats, at + LANES * k)))
-
-
-@inlined
-def bend_grazing(direction, mask, floats):
-    """Bends shading normals just enough to face the viewer, in the lanes of the mask."""
-    normal = load3(floats, SHADING)
+def bend_grazing(direction, mask, normal):
+    """Shading normals bent just enough to face the viewer, in the lanes of the mask."""
     cosine = dot_lanes(normal, direction)
     # Few squares have any: cosine > -GRAZING |direction|, without the root.
     close = cosine * cosine < dot_lanes(direction, direction) * (GRAZING * GRAZING)
     if bits(mask & (close | (cosine > np.float32(0)))) == 0:
-        return
+        return normal
     along = normalized_lanes(direction)
     bent = dot_lanes(normal, along) + GRAZING
     turned = normalized_lanes(minus_lanes(normal, scaled_lanes(bent, along)))
-    _store_masked(floats, SHADING, mask & (bent > np.float32(0)), turned)
+    return select_lanes(mask & (bent > np.float32(0)), turned, normal)
 
 
 @inlined
@@ -296,9 +300,3 @@ def store3(floats, at, a):
     store(floats, at, a[0])
     store(floats, at + LANES, a[1])
     store(floats, at + 2 * LANES, a[2])
-
-
-@inlined
-def load3(floats, at):
-    """Three vectors, as store3 stores them."""
-    return load(floats, at), load(floats, at + LANES), load(floats, at + 2 * LANES)

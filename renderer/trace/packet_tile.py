@@ -28,24 +28,26 @@ SQUARES = (TILE // SQUARE) ** 2
 
 # One thread's scratch, float32: 12 coefficients and 4 bounds of a leaf's 16 triangles; a node's
 # children's depths; the least key of each square, and the best key of each pixel; six planes of
-# four numbers; a square's surface and secondary rays, for shading; the depths of the nodes that
-# wait (to the end).
+# four numbers; a square's secondary rays; the tile's picture (packet_write.py); the depths of the
+# nodes that wait (to the end).
 COEFFICIENTS = 0
 BOUNDS = COEFFICIENTS + 12 * LANES
 DEPTHS = BOUNDS + 4 * LANES
 LEAST = DEPTHS + LANES
 BEST = LEAST + SQUARES
 PLANES = BEST + SQUARES * LANES
-SURFACE = PLANES + 32
-WAITING_DEPTHS = SURFACE + 16 * LANES
+SECONDARY = PLANES + 32
+PICTURE = SECONDARY + 7 * LANES
+WAITING_DEPTHS = PICTURE + 7 * TILE * TILE
 # And int32: what each pixel sees, a slot, or FIRST_SPHERE - k for sphere k, or nothing; of which
 # instance; where each plane finds the coordinates that it needs of a box; the squares that each of
-# a leaf's triangles may cover; the nodes that wait (to the end).
+# a leaf's triangles may cover; the picture's numbers; the nodes that wait (to the end).
 SEEN = 0
 OWNER = SEEN + SQUARES * LANES
 FARTHEST = OWNER + SQUARES * LANES
 COVERED = FARTHEST + 32
-WAITING_NODES = COVERED + LANES
+NUMBERS = COVERED + LANES
+WAITING_NODES = NUMBERS + 2 * TILE * TILE
 NOTHING, FIRST_SPHERE = np.int32(-1), np.int32(-2)
 
 # The planes: four sides, -Z and Z. Not Python's int, for each of which a function is compiled anew.

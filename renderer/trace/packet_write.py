@@ -1,7 +1,10 @@
 """The pixels of a tile: their colours and other channels, written into the image.
 
-Owns what is written of a square, and the stage that does it for a tile (stage.py). Knows nothing of
-how the closest objects were found.
+Owns what is written of a tile, and the stage that does it (stage.py). Knows nothing of how the
+closest objects were found.
+
+A tile's picture is completed in the scratch, square by square. Then it goes to the image, which may
+be far away, in whole lines of the cache and past it: a line that is written in parts is first read.
 """
 
 from __future__ import annotations
@@ -14,21 +17,37 @@ from renderer.trace.image import Image
 from renderer.trace.instances import World, world_pointers
 from renderer.trace.packet_effects import Effects
 from renderer.trace.packet_shade import add_reflections, shade_square
-from renderer.trace.packet_surface import SHADING, find_surfaces, scene_pointers, square_rays
-from renderer.trace.packet_tile import BEST, NOTHING, SEEN, SQUARE, SQUARES, new_tile
+from renderer.trace.packet_surface import find_surfaces, scene_pointers, square_rays
+from renderer.trace.packet_tile import (
+    BEST,
+    NOTHING,
+    NUMBERS,
+    PICTURE,
+    SEEN,
+    SQUARE,
+    SQUARES,
+    TILE,
+    new_tile,
+)
 from renderer.trace.packet_view import PacketView, view_pointers
 from renderer.trace.simd import (
     LANES,
     bits,
+    is_line,
     load,
     pointer,
     select,
     splat,
-    store,
     store_square,
     store_square3,
+    stream,
 )
 from renderer.trace.stage import Stage, new_room, prepared
+
+# A tile's picture in the scratch, channel by channel and row by row.
+_PIXELS = TILE * TILE
+DEPTH, NORMAL, COLOR = PICTURE, PICTURE + _PIXELS, PICTURE + 4 * _PIXELS
+ID, PRIMITIVE = NUMBERS, NUMBERS + _PIXELS
 
 
 def writing_stage(
@@ -61,7 +80,17 @@ def write_tile(always, row, column, floats, ints):
     view, world, scene, effects, image = always
     tile = new_tile(view, row, column)
     for square in range(SQUARES):
-        write_square(view, world, scene, effects, image, row, column, tile, square, floats, ints)
+        draw_square(view, world, scene, effects, image, row, column, tile, square, floats, ints)
+    if image.has_depth:
+        write_rows(image, image.depth, 1, row, column, floats, DEPTH)
+    if image.has_normal:
+        write_rows(image, image.normal, 3, row, column, floats, NORMAL)
+    if image.has_color:
+        write_rows(image, image.color, 3, row, column, floats, COLOR)
+    if image.has_id:
+        write_rows(image, image.id, 1, row, column, ints, ID)
+    if image.has_primitive:
+        write_rows(image, image.primitive, 1, row, column, ints, PRIMITIVE)
 
 
 @inlined
@@ -84,8 +113,9 @@ def image_pointers(image):
 
 
 @inlined
-def write_square(view, world, scene, effects, image, row, column, tile, square, floats, ints):
-    """Writes the channels that the image has, of one square of the tile at (row, column)."""
+def draw_square(view, world, scene, effects, image, row, column, tile, square, floats, ints):
+    """Draws one square of the tile at (row, column) into the tile's picture."""
+    at = (square >> 2) * SQUARE * TILE + (square & 3) * SQUARE  # its first pixel there
     i, j = row + (square >> 2) * SQUARE, column + (square & 3) * SQUARE
     if i >= image.height or j >= image.width:
         return
@@ -95,7 +125,7 @@ def write_square(view, world, scene, effects, image, row, column, tile, square, 
     z = -best if view.parallel else splat(np.float32(1)) / best
     t = select(is_hit, z * np.float32(view.scale), np.float32(np.inf))
     if image.has_depth:
-        write_one(image, image.depth, i, j, t, floats)
+        store_square(floats, DEPTH + at, TILE, t)
     if not (image.has_color or image.has_normal or image.has_id or image.has_primitive):
         return
     zero = splat(np.float32(0))
@@ -105,7 +135,7 @@ def write_square(view, world, scene, effects, image, row, column, tile, square, 
     objects = primitives = splat(np.int32(-1))
     if bits(is_hit) != 0:
         pixels = square_rays(view, first)
-        objects, primitives = find_surfaces(
+        surface, objects, primitives = find_surfaces(
             view,
             world,
             scene,
@@ -115,59 +145,41 @@ def write_square(view, world, scene, effects, image, row, column, tile, square, 
             z,
             image.has_color,
             image.has_primitive,
-            floats,
             ints,
         )
-        normal = (
-            load(floats, SHADING),
-            load(floats, SHADING + LANES),
-            load(floats, SHADING + 2 * LANES),
-        )
+        normal = surface.shading
         if image.has_color:
             color = shade_square(
-                view, world, scene, effects, pixels, first, t, objects, floats, ints
+                view, world, scene, effects, pixels, first, t, surface, objects, floats, ints
             )
             if effects is not None:
                 color = add_reflections(
-                    view, world, scene, effects, pixels, square, t, objects, color, floats, ints
-                )
+                    view, world, scene, effects, pixels, square, t, surface, objects, color,
+                    floats, ints,
+                )  # fmt: skip
     if image.has_id:
-        write_one(image, image.id, i, j, objects, ints)
+        store_square(ints, ID + at, TILE, objects)
     if image.has_primitive:
-        write_one(image, image.primitive, i, j, primitives, ints)
+        store_square(ints, PRIMITIVE + at, TILE, primitives)
     if image.has_normal:
-        write_three(image, image.normal, i, j, normal, floats)
+        store_square3(floats, NORMAL + 3 * at, 3 * TILE, normal[0], normal[1], normal[2])
     if image.has_color:
-        write_three(image, image.color, i, j, color, floats)
+        store_square3(floats, COLOR + 3 * at, 3 * TILE, color[0], color[1], color[2])
 
 
 @inlined
-def write_one(image, channel, i, j, values, scratch):
-    """Stores a square of a channel of one number; at the image's border, what there is of it."""
-    height, width = image.height, image.width
-    if i + SQUARE <= height and j + SQUARE <= width:
-        store_square(channel, i * width + j, width, values)
-        return
-    store(scratch, 0, values)
-    for k in range(LANES):
-        row, column = i + k // SQUARE, j + k % SQUARE
-        if row < height and column < width:
-            channel[row * width + column] = scratch[k]
-
-
-@inlined
-def write_three(image, channel, i, j, values, scratch):
-    """The same for a channel of three numbers."""
-    height, width = image.height, image.width
-    if i + SQUARE <= height and j + SQUARE <= width:
-        at = 3 * (i * width + j)
-        store_square3(channel, at, 3 * width, values[0], values[1], values[2])
-        return
-    store(scratch, 0, values[0])
-    store(scratch, LANES, values[1])
-    store(scratch, 2 * LANES, values[2])
-    for k in range(LANES):
-        row, column = i + k // SQUARE, j + k % SQUARE
-        if row < height and column < width:
-            for axis in range(3):
-                channel[3 * (row * width + column) + axis] = scratch[axis * LANES + k]
+def write_rows(image, channel, numbers, row, column, picture, at):
+    """Copies picture[at :], so many numbers a pixel, to a channel: what of it is in the image."""
+    width = image.width
+    rows, columns = min(TILE, image.height - row), min(TILE, width - column)
+    to = numbers * (row * width + column)
+    is_in_lines = columns == TILE and width % TILE == 0 and is_line(channel, to)
+    for _ in range(rows):
+        if is_in_lines:
+            for k in range(0, numbers * TILE, LANES):
+                stream(channel, to + k, load(picture, at + k))
+        else:
+            for k in range(numbers * columns):
+                channel[to + k] = picture[at + k]
+        to += numbers * width
+        at += numbers * TILE

@@ -142,6 +142,37 @@ def store(typing, array, index, vector):
 
 
 @intrinsic
+def stream(typing, array, index, vector):
+    """store(), past the caches: for lines of 64 bytes, written whole, that are not read soon.
+
+    Spares reading the line before, and keeps what else is in the caches. The address must be a
+    multiple of 64 bytes; is_line() tells.
+    """
+    if array_kind(array) != vector.kind:
+        raise TypingError(f"{vector} does not fit into {array}")
+
+    def codegen(context, builder, sig, args):
+        at = element_address(context, builder, sig, args)
+        stored = builder.store(args[2], builder.bitcast(at, args[2].type.as_pointer()), align=64)
+        one = builder.module.add_metadata([ir.Constant(INT32, 1)])
+        stored.set_metadata("nontemporal", one)
+        return context.get_dummy_value()
+
+    return types.void(array, index, vector), codegen
+
+
+@intrinsic
+def is_line(typing, array, index):
+    """Whether array[index] begins a cache line of 64 bytes."""
+
+    def codegen(context, builder, sig, args):
+        at = builder.ptrtoint(element_address(context, builder, sig, args), INT64)
+        return builder.icmp_unsigned("==", builder.and_(at, INT64(63)), INT64(0))
+
+    return types.boolean(array, index), codegen
+
+
+@intrinsic
 def gather(typing, array, index, mask):
     """array[index[lane]] in the lanes of the mask; 0 in the others, whose index may be any."""
     return _gather(array_kind(array), array, index, mask)
