@@ -55,6 +55,15 @@ class Stage:
             self.failures[view.name] = error
             self._to_begin[view.name] = lambda: self.begin(view, host, context)
 
+    def retry(self) -> None:
+        """Tries again what has failed."""
+        for name in list(self.failures):
+            self._retry(name)
+
+    def _retry(self, name: str) -> None:
+        del self.failures[name]
+        self._to_begin.pop(name, _nothing)()
+
     @property
     def settled(self) -> bool:
         """Whether the views are laid out, and nothing will change by itself in those to be seen."""
@@ -123,12 +132,18 @@ class Stage:
     def arrangement(self) -> Arrangement:
         """Where everything stands now."""
         visible = tuple(view.name for view in self.shown)
-        return Arrangement(layout.current().name, visible, imgui.save_ini_settings_to_memory())
+        kept = {view.name: view.sections for view in self.views.values()}
+        sections = {name: opened for name, opened in kept.items() if opened is not None}
+        windows = imgui.save_ini_settings_to_memory()
+        return Arrangement(layout.current().name, visible, windows, sections)
 
     def restore(self, arrangement: Arrangement, presenting: bool) -> None:
         """Puts everything where it stood; in the next frames."""
         self._restoring = arrangement
         self._presenting = presenting
+        for name, opened in arrangement.sections.items():
+            if name in self.views:
+                self.views[name].open_sections(opened)
 
     def _restore(self) -> None:
         if self._restoring is None or self._frames < 2:
@@ -222,8 +237,7 @@ class Stage:
         failure = self.failures.get(view.name)
         if failure is not None:
             if failure_note(view.title, failure):
-                del self.failures[view.name]
-                self._to_begin.pop(view.name, _nothing)()
+                self._retry(view.name)
             return
         stacks = imgui.internal.ErrorRecoveryState()
         imgui.internal.error_recovery_store_state(stacks)

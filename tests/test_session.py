@@ -57,7 +57,9 @@ def state(scene):
     )
 
 
-ARRANGEMENT = Arrangement("Compare", ("Camera", "Raster"), "[Window][Camera]\nPos=0,24\n")
+ARRANGEMENT = Arrangement(
+    "Compare", ("Camera", "Raster"), "[Window][Camera]\nPos=0,24\n", {"Camera": ("Look at",)}
+)
 
 
 def damaged(data: bytes, **changes: object) -> bytes:

@@ -40,11 +40,13 @@ def step():
         if frame == 30:
             views = sorted(view.name for view in window.shell.stage.shown)
             theme = window.state.preferences.theme
-            print(layout.current().name, views, theme, window.state.scene.name, sep="|")
+            opened = window.views["Camera"].sections
+            print(layout.current().name, views, theme, window.state.scene.name, opened, sep="|")
             run.params.app_shall_exit = True
         return
     if frame == 5:
         layout.switch("Compare")
+        window.views["Camera"].open_sections(("Look at",))
     elif frame == 10:
         window.shell.stage.show("Raster", False)
         window.change(window.state.with_options(preferences={"theme": "light"}))
@@ -85,8 +87,9 @@ def test_the_window_comes_back_as_it_was(tmp_path: Path, mode: str) -> None:
     assert "Raster" not in left.visible
     done = window(tmp_path, "go on")
     assert done.returncode == 0, done.stderr
-    layout, views, theme, scene = done.stdout.strip().split("|")
+    layout, views, theme, scene, sections = done.stdout.strip().split("|")
     assert (layout, theme, scene) == ("Compare", "light", "spheres")
+    assert sections == "('Look at',)"
     assert views == str(sorted(left.visible))
 
 

@@ -191,16 +191,28 @@ def _sections(
     state: AppState, sections: Sections, around: Surroundings
 ) -> tuple[AppState, Sections, Asked]:
     asked = [NOTHING]
-    if header("Presets", sections, PRESETS_OPEN_EM):
+    opened: list[str] = []
+    any_toggled = False
+
+    def is_open(name: str, room_em: float) -> bool:
+        nonlocal any_toggled
+        now, toggled = header(name, sections, room_em)
+        if now:
+            opened.append(name)
+        any_toggled = any_toggled or toggled
+        return now
+
+    if is_open("Presets", PRESETS_OPEN_EM):
         state, wanted = presets_section(state)
         asked.append(wanted)
-    if header("Look at", sections, OTHERS_OPEN_EM):
+    if is_open("Look at", OTHERS_OPEN_EM):
         look, wanted = look_section(sections.look, state, around.focus, around.fonts.mono)
         sections = replace(sections, look=look)
         asked.append(wanted)
-    if header("Copy and paste", sections, OTHERS_OPEN_EM):
+    if is_open("Copy and paste", OTHERS_OPEN_EM):
         asked.append(copy_section())
-    sections = replace(sections, frames=sections.frames + 1)
+    chosen = tuple(opened) if any_toggled else sections.chosen
+    sections = replace(sections, frames=sections.frames + 1, chosen=chosen)
     return state, sections, next((one for one in asked if one != NOTHING), NOTHING)
 
 

@@ -58,10 +58,12 @@ class LookAt:
 
 @dataclass(frozen=True)
 class Sections:
-    """Entered, but not yet done. frames: drawn so far."""
+    """Entered, but not yet done. frames: drawn so far. chosen: the sections that are open since the
+    user has opened or shut one; None: those that had room."""
 
     look: LookAt = LookAt()
     frames: int = 0
+    chosen: tuple[str, ...] | None = None
 
 
 @dataclass(frozen=True)
@@ -74,12 +76,18 @@ class Asked:
     paste: bool = False
 
 
-def header(name: str, sections: Sections, room_em: float) -> bool:
-    """A section's header; it begins open where the panel's window is higher than room_em."""
+def header(name: str, sections: Sections, room_em: float) -> tuple[bool, bool]:
+    """A section's header: (whether it is open, whether it was opened or shut now). It begins as
+    the user has left it, else open where the panel's window is higher than room_em."""
     if sections.frames < 8:  # until the window has its size
         high = imgui.get_window_height() > room_em * imgui.get_font_size()
-        imgui.set_next_item_open(high, imgui.Cond_.always)
-    return imgui.collapsing_header(name)
+        opened = high if sections.chosen is None else name in sections.chosen
+        imgui.set_next_item_open(opened, imgui.Cond_.always)
+    opened = imgui.collapsing_header(name)
+    toggled = imgui.is_item_toggled_open()
+    if toggled:
+        imgui.internal.mark_ini_settings_dirty()  # it belongs to what a session keeps
+    return opened, toggled
 
 
 def presets_section(state: AppState) -> tuple[AppState, Asked]:

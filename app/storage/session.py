@@ -33,11 +33,13 @@ class NewerVersionError(LucidaError):
 @dataclass(frozen=True)
 class Arrangement:
     """Where the windows inside the window are. layout: its name. visible: the names of the views
-    that are shown. windows: places and docks, as ImGui writes them."""
+    that are shown. windows: places and docks, as ImGui writes them. sections: which of a view's parts are
+    folded open, by the view's name, where the user has chosen."""
 
     layout: str = ""
     visible: tuple[str, ...] = ()
     windows: str = ""
+    sections: dict[str, tuple[str, ...]] = field(default_factory=dict)
 
 
 @dataclass(frozen=True)

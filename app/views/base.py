@@ -108,6 +108,14 @@ class View:
         that is not known."""
         return None
 
+    @property
+    def sections(self) -> tuple[str, ...] | None:
+        """Which of the view's parts are folded open; None: as there is room, or it has none."""
+        return None
+
+    def open_sections(self, names: tuple[str, ...]) -> None:
+        """Folds these parts open, and the others shut. Unknown ones are of another version."""
+
     def cancel(self) -> None:
         """Ends a drag under way: something else has changed the state."""
 

@@ -29,6 +29,13 @@ class CameraView(View):
         self._sections = Sections()
         self._dolly: Vector | None = None
 
+    @property
+    def sections(self) -> tuple[str, ...] | None:
+        return self._sections.chosen
+
+    def open_sections(self, names: tuple[str, ...]) -> None:
+        self._sections = Sections(self._sections.look, chosen=names)
+
     def draw(self, host: Host) -> None:
         state = host.state
         if self._dolly is None or not imgui.is_any_item_active():  # while it is dragged, it stays

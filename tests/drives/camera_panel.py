@@ -345,3 +345,19 @@ def drive_alt_and_a_drag_looks_around(d: Driver) -> None:
     assert turned > 0.05
     assert len(d.window.history.past) == 1
     d.agreeing_images()
+
+
+def drive_sections_stay_as_the_user_leaves_them(d: Driver) -> None:
+    view, stage = d.window.views["Camera"], d.window.shell.stage
+    close_sections(d)
+    open_section(d, "Look at")
+    assert view.sections == ("Look at",)
+    left = stage.arrangement()
+    assert left.sections["Camera"] == ("Look at",)
+    close_sections(d)
+    assert view.sections == ()
+    view.open_sections(left.sections["Camera"])  # as a session does
+    d.ctx.yield_(10)
+    assert d.ctx.item_info("//Camera/##look.eye.x").id_ != 0
+    assert view.sections == ("Look at",)
+    close_sections(d)
