@@ -78,15 +78,16 @@ def functions(x, y, z, out, numbers):
     store(out, 112, simd.to_f32(simd.to_f64(a) * 3.0))
     store(out, 128, simd.f32_of(simd.i32_of(a * np.float32(9))))
     store(out, 144, simd.lane_column() + simd.lane_row() * np.float32(10))
+    store(out, 160, simd.inverse_root(simd.vabs(a)))
     numbers[0], numbers[1] = simd.smallest(a), simd.largest(a)
     numbers[2], numbers[3] = simd.lane_of(a, 11), np.float32(simd.lowest_bit(0x0A0))
 
 
 def test_functions() -> None:
     x, y, z = random.normal(size=(3, 16)).astype(np.float32)
-    out, numbers = np.empty(160, np.float32), np.empty(4, np.float32)
+    out, numbers = np.empty(176, np.float32), np.empty(4, np.float32)
     functions(x, y, z, out, numbers)
-    rows = out.reshape(10, 16)
+    rows = out.reshape(11, 16)
     fused = (x.astype(float) * y + z).astype(np.float32)
     assert np.allclose(rows[0], fused, rtol=0, atol=4e-7)
     assert np.array_equal(rows[1], -rows[0])
@@ -98,6 +99,7 @@ def test_functions() -> None:
     assert np.array_equal(rows[7], (x.astype(float) * 3).astype(np.float32))
     assert np.array_equal(rows[8], np.trunc(x * np.float32(9)))
     assert rows[9].tolist() == [lane % 4 + lane // 4 * 10 for lane in range(16)]
+    assert np.allclose(rows[10], 1 / np.sqrt(np.abs(x.astype(float))), rtol=4e-7, atol=0)
     assert numbers.tolist() == [x.min(), x.max(), x[11], 5]
 
 

@@ -28,6 +28,7 @@ from renderer.trace.shade import CELL_NUDGE
 from renderer.trace.simd import (
     bits,
     fma,
+    inverse_root,
     lane_column,
     lane_of,
     lane_row,
@@ -37,7 +38,6 @@ from renderer.trace.simd import (
     to_f64,
     vfloor,
     vmax,
-    vsqrt,
 )
 from renderer.trace.simd_math import (
     dot_lanes,
@@ -50,7 +50,7 @@ from renderer.trace.simd_math import (
 )
 
 _SMALLEST_LIGHT = np.float32(1e-12)  # a point light nearer than this gives no light
-_SMALLEST_HALF = np.float32(1e-6)  # with a half vector shorter than this, there is no highlight
+_SMALLEST_HALF = np.float32(1e-12)  # with a half vector of a smaller square, there is no highlight
 
 
 @inlined
@@ -233,15 +233,16 @@ def shade_material(
         if not is_shiny:
             continue
         half = minus_lanes(to_light, along)
-        length = vsqrt(dot_lanes(half, half))
+        square = dot_lanes(half, half)
         cosine = dot_lanes(shading, half)
         # Highlights are small: most squares have none of most lights.
-        is_lit = in_light & (cosine > length * dark_cosine) & (length >= _SMALLEST_HALF)
+        is_bright = cosine * cosine > square * (dark_cosine * dark_cosine)
+        is_lit = in_light & is_bright & (cosine > np.float32(0)) & (square >= _SMALLEST_HALF)
         if lights[lamp + 3] != np.float32(0):
             is_lit = is_lit & (dot_lanes(to_light, to_light) > np.float32(0.5))
         if bits(is_lit) == 0:
             continue
-        highlight = power_lanes(cosine / length, shininess)
+        highlight = power_lanes(cosine * inverse_root(square), shininess)
         highlight = select(is_lit, highlight, np.float32(0))
         r = fma(highlight, splat(rgb[0] * specular[0]), r)
         g = fma(highlight, splat(rgb[1] * specular[1]), g)

@@ -14,11 +14,11 @@ from renderer.trace.simd import (
     f32_of_bits,
     fma,
     i32_of,
+    inverse_root,
     select,
     splat,
     vfloor,
     vmax,
-    vsqrt,
 )
 
 _HALF_ROOT = 0x3F3504F3  # the bits of sqrt(1/2)
@@ -92,8 +92,8 @@ def minus_lanes(a, b):
 
 @inlined
 def inverse_length(a):
-    """1 / |a|; inf for 0."""
-    return splat(np.float32(1)) / vsqrt(dot_lanes(a, a))
+    """1 / |a|; NaN or inf for 0."""
+    return inverse_root(dot_lanes(a, a))
 
 
 @inlined
