@@ -203,8 +203,9 @@ class MainWindow:
         self.files.open(source)
 
     def retry(self) -> None:
-        """Tries again what a renderer has failed at."""
+        """Tries again what a renderer or a view has failed at."""
         self.renderers.retry()
+        self.shell.stage.retry()
         self.animate()
 
     def quit(self) -> None:

@@ -221,6 +221,6 @@ HELP = (
         lambda w: w.retry(),
         "F4",
         (int(Key.f4),),
-        can=lambda w: w.renderers.failure is not None,
+        can=lambda w: w.renderers.failure is not None or bool(w.shell.stage.failures),
     ),
 )

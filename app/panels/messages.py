@@ -55,8 +55,14 @@ def message_box(message: Message) -> str:
 
 def failure_note(title: str, error: Exception) -> bool:
     """What stands in a view that could not be drawn; gives whether to try again."""
-    imgui.push_text_wrap_pos(0.0)
+    place, room = imgui.get_cursor_pos(), imgui.get_content_region_avail()
+    margin = 0.5 * imgui.get_font_size()  # images have none
+    imgui.set_cursor_pos(ImVec2(place.x + margin, place.y + margin))
+    imgui.begin_group()
+    imgui.push_text_wrap_pos(place.x + room.x - margin)
     imgui.text_colored(theme.ERROR, f"{' '.join(title.split())} could not be drawn.")
     imgui.text(describe(error))
     imgui.pop_text_wrap_pos()
-    return bool(imgui.button("Try again"))
+    again = bool(imgui.button("Try again"))
+    imgui.end_group()
+    return again

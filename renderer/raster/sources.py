@@ -83,7 +83,7 @@ class Source:
                 return match[0]
             return "{}:{}".format(*self.places[number - 1])
 
-        return _PLACE.sub(place, message)
+        return _PLACE.sub(place, message.strip())
 
 
 def link(
@@ -117,7 +117,7 @@ def link(
         ) from None
 
 
-_REMEDY = "update the graphics driver; lucida render draws without one, with --backend osmesa"
+_REMEDY = "update the graphics driver; without it, use lucida render --backend osmesa"
 
 
 def _ends_in_comment(line: str, in_comment: bool) -> bool:

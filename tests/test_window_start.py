@@ -1,0 +1,121 @@
+"""The window where a driver does not take a shader: it opens, says so, and tries again."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+import numpy as np
+import pytest
+from PIL import Image
+from test_window import LIMIT_S, run
+
+pytestmark = pytest.mark.timeout(LIMIT_S + 60)
+
+WINDOW = """
+import json, sys
+from pathlib import Path
+from PIL import Image
+from imgui_bundle import hello_imgui
+from app import layout
+from app.platform import start_platform
+from app.state import AppState
+from app.viewer import Run
+from renderer.raster import sources
+from renderer.scene import load_scene
+
+broken, view = sys.argv[1], sys.argv[2]
+good = sources.read_shader
+state = AppState.for_scene(load_scene("still-life"))
+run = Run(start_platform(want_display=False), state, (1100, 720), remember=False)
+window, told = run.window, {}
+frames = iter(range(10**9))
+waited = 0
+
+def read(name):
+    text = good(name)
+    return text + "oh no;\\n" if name == broken else text
+
+# The default arguments of the functions that read shaders.
+for function in (sources.link, sources.Source.__init__):
+    function.__defaults__ = tuple(read if v is good else v for v in function.__defaults__)
+
+def mended():
+    for function in (sources.link, sources.Source.__init__):
+        function.__defaults__ = tuple(good if v is read else v for v in function.__defaults__)
+
+def failure():
+    stage = window.shell.stage
+    return window.renderers.failure or stage.failures.get(view)
+
+def step():
+    global waited
+    if next(frames) == 3 and view != "Raster":
+        window.shell.stage.show(view)
+    if not told:
+        waited += failure() is not None and not window.renderers.live.busy
+        if waited > 5:
+            told["error"] = str(failure())
+            told["ray"] = str(window.renderers.ray_error)
+            assert window.renderers.ray_image is not None
+            run.on_drawn = picture
+    elif run.on_drawn is None and failure() is None and window.settled:
+        told["mended"] = True
+        run.params.app_shall_exit = True
+
+def picture(drawn):
+    run.on_drawn = None
+    pixels = drawn.read(components=3, alignment=1)
+    image = Image.frombytes("RGB", drawn.size, pixels).transpose(Image.Transpose.FLIP_TOP_BOTTOM)
+    image.save("told.png")
+    mended()
+    window.retry()
+
+run.params.callbacks.post_new_frame = step
+run.params.fps_idling.enable_idling = False
+run.run()
+Path("told.json").write_text(json.dumps(told))
+"""
+
+
+@pytest.mark.parametrize(
+    ("shader", "view"),
+    [
+        ("triangles.frag", "Raster"),
+        ("shade.frag", "Raster"),
+        ("plane.frag", "Outside"),
+        ("difference.frag", "Compare"),
+    ],
+)
+def test_a_shader_that_fails_at_the_start_is_told_and_survived(
+    tmp_path: Path, shader: str, view: str
+) -> None:
+    done = run(["-c", WINDOW, shader, view], tmp_path)
+    assert done.returncode == 0, done.stderr
+    told = json.loads((tmp_path / "told.json").read_text())
+    assert told["error"].startswith(f"shaders/{shader}: ")
+    assert "update the graphics driver" in told["error"]
+    assert told["ray"] == "None"
+    assert told["mended"]
+    picture = np.asarray(Image.open(tmp_path / "told.png"))
+    assert picture.std() > 10
+
+
+def test_a_picture_of_the_window_without_a_shader_is_one_line(tmp_path: Path) -> None:
+    script = (
+        "from renderer.raster import sources\n"
+        "good = sources.read_shader\n"
+        "def read(name):\n"
+        "    return good(name) + ('oh no;' if name == 'shade.frag' else '')\n"
+        "for function in (sources.link, sources.Source.__init__):\n"
+        "    function.__defaults__ = tuple(\n"
+        "        read if v is good else v for v in function.__defaults__)\n"
+        "import sys\n"
+        "from app.cli import main\n"
+        "sys.exit(main(['--screenshot', 'out.png']))\n"
+    )
+    done = run(["-c", script], tmp_path)
+    assert done.returncode == 2
+    assert done.stderr.count("\n") == 1, done.stderr
+    assert "shaders/shade.frag" in done.stderr
+    assert not (tmp_path / "out.png").exists()
