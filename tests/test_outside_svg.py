@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 from app.options import OutsideOptions
 from app.outside.bitmap import bitmap, dashes, magnified
-from app.outside.diagram import Hit, Label, Lines, diagram
+from app.outside.diagram import Arrow, Hit, Label, Lines, diagram
 from app.outside.hidden import Hidden, clipped, divided
 from app.outside.outlines import MOST_TRIANGLES, Edges, Ellipse, outlines
 from app.outside.projected import Screen, project
@@ -345,3 +345,14 @@ def test_a_magnified_bitmap_repeats_its_pixels() -> None:
     assert np.array_equal(whole, picture.repeat(2, axis=0).repeat(2, axis=1))
     part = magnified(picture, (4, 4), (0.25, 0.5), (0.25, 0.5))
     assert (part == picture[1, 1]).all()
+
+
+def test_of_arrows_that_meet_the_nearer_one_is_over_the_other() -> None:
+    eye = np.asarray(LOOKING.eye)
+    start = np.zeros(3)
+    near, far = 0.3 * eye, 0.3 * eye - 0.5 * np.asarray(LOOKING.w) + 0.1 * np.asarray(LOOKING.u)
+    arrows = [Arrow("near", "u", start, near), Arrow("far", "v", start, far)]
+    for items in (arrows, arrows[::-1]):
+        picture = drawing(project(items, Screen(LOOKING, SIZE, 1e-3)), [], PAINT, LOOKING, SIZE)
+        heads = [part.name for part in picture.parts if isinstance(part, Area)]
+        assert heads == ["far head", "near head"]

@@ -126,4 +126,9 @@ DIAGRAM = (
         (CTRL | SHIFT | int(Key.e),),
         separated=True,
     ),
+    Action(
+        PICTURE,
+        "Export diagram as SVG without the live image...",
+        lambda window: export_diagram(window, live=False),
+    ),
 )

@@ -7,6 +7,8 @@
     hits        where viewing rays end, asked for without waiting
     switches    what can be switched, in words
     paint       as the rasterizer's overlay takes it, in the theme's colours
+    sketch      all that a vector drawing is made from; vector, outlines, hidden, standing: what
+                becomes of lines, objects, what is behind, the live image; svg, bitmap: as files
 
 Pure but for paint: nothing else here knows of windows, themes or OpenGL.
 """

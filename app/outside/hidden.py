@@ -28,25 +28,37 @@ class Hidden:
 
     def __init__(self, t: NDArray[np.float32] | None, parallel: bool) -> None:
         self._parallel = parallel
+        self._around: NDArray[np.float32] | None = None
         self._t: NDArray[np.float32] | None = None
         if t is not None:
             height, width = t.shape
             wide = np.pad(np.where(np.isnan(t), np.inf, t), 1, mode="edge")
-            self._t = np.max(
-                [wide[i : i + height, j : j + width] for i in range(3) for j in range(3)], axis=0
+            self._around = np.array(
+                [wide[i : i + height, j : j + width] for i in range(3) for j in range(3)]
             )
+            self._t = self._around.max(axis=0)
 
     def at(self, points: Floats, depth: Floats) -> Bools:
         """Whether each place (n, 2), with its s (n,), is behind the scene. Beside the page: no."""
-        if self._t is None or not len(points):
+        return self._behind(points, depth, self._t, BEHIND)
+
+    def partly(self, points: Floats, depth: Floats) -> Bools:
+        """Whether the scene is nearer in any of the nine pixels."""
+        nearest = None if self._around is None else self._around.min(axis=0)
+        return self._behind(points, depth, nearest, 1.0)
+
+    def _behind(
+        self, points: Floats, depth: Floats, t_of_page: NDArray[np.float32] | None, factor: float
+    ) -> Bools:
+        if t_of_page is None or not len(points):
             return np.zeros(len(points), bool)
-        height, width = self._t.shape
-        column, row = np.floor(np.clip(points, -1, 1e6)).astype(int).T
+        height, width = t_of_page.shape
+        column, row = np.floor(np.clip(np.nan_to_num(points, nan=-1.0), -1, 1e6)).astype(int).T
         inside = (column >= 0) & (row >= 0) & (column < width) & (row < height)
-        scene = self._t[np.clip(row, 0, height - 1), np.clip(column, 0, width - 1)]
+        scene = t_of_page[np.clip(row, 0, height - 1), np.clip(column, 0, width - 1)]
         with np.errstate(all="ignore"):
             t = depth if self._parallel else np.where(depth > 0, 1 / depth, np.inf)
-        found: Bools = inside & (t > BEHIND * scene)
+        found: Bools = inside & (t > factor * scene)
         return found
 
 

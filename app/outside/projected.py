@@ -184,9 +184,10 @@ class Screen:
 
 
 def project(items: Iterable[Item], screen: Screen) -> list[Primitive]:
-    """The items on the screen, in their order; what is not to be seen is left out."""
+    """The items on the screen, in their order, but for arrows: where they meet, the one whose tip
+    is nearer is over the others. What is not to be seen is left out."""
     out: list[Primitive] = []
-    for item in items:
+    for item in _farthest_arrow_first(list(items), screen):
         if isinstance(item, Lines):
             out += _lines(item, screen)
         elif isinstance(item, Face):
@@ -206,6 +207,14 @@ def project(items: Iterable[Item], screen: Screen) -> list[Primitive]:
         else:
             out += _label(item, screen)
     return out
+
+
+def _farthest_arrow_first(items: list[Item], screen: Screen) -> list[Item]:
+    """The items with their arrows exchanged among their places (painter's order)."""
+    arrows = [item for item in items if isinstance(item, Arrow)]
+    arrows.sort(key=lambda arrow: -float(screen.homogeneous(arrow.end)[2]))
+    ordered = iter(arrows)
+    return [next(ordered) if isinstance(item, Arrow) else item for item in items]
 
 
 def _lines(item: Lines, screen: Screen) -> list[Primitive]:

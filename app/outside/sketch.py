@@ -16,10 +16,13 @@ from app.outside.diagram import Hit, Item, diagram
 from app.outside.hits import Question, traced
 from app.outside.outlines import outlines
 from app.outside.projected import Screen, project
-from app.outside.vector import Drawing, Paint, Size, drawing
+from app.outside.solid import plane_corners
+from app.outside.vector import Drawing, Image, Paint, Size, drawing
 from renderer.camera import Camera
+from renderer.raster.overlay import plane_on_screen
 from renderer.scene.model import Scene
 
+OPACITY = 0.9  # of the live image: what stands behind it is seen a little
 GRID_PARTS = 16  # of a side of the image plane
 
 
@@ -29,7 +32,8 @@ class Sketch:
     lines and symbols. camera: the one in the scene, fitted to its image of image_size. end: the
     parameter at which the scene ends. hits, marked: as diagram() takes them; those whose t is not
     known are traced. extra: of other instruments. t: (height, width), the scene's ray parameters
-    for `looking`. tracer: one that has prepared the scene; None: there is none yet.
+    for `looking`. picture: (height, width, 3), as shown, to stand on the image plane; None: that is
+    empty. tracer: one that has prepared the scene; None: there is none yet.
     """
 
     scene: Scene
@@ -47,6 +51,7 @@ class Sketch:
     extra: tuple[Item, ...]
     t: NDArray[np.float32] | None
     paint: Paint
+    picture: NDArray[np.uint8] | None = None
     tracer: Any | None = None
 
     def draw(self) -> Drawing:
@@ -67,7 +72,16 @@ class Sketch:
             self.unit,
             self.symbol,
             left_out,
+            self._image(),
         )
+
+    def _image(self) -> Image | None:
+        if self.picture is None or not self.options.image:
+            return None
+        corners = plane_corners(self.camera)[[0, 1, 3]]
+        behind = corners[0] + np.asarray(self.camera.w)  # the side from which it is upright
+        plane = plane_on_screen(self.looking, self.size, corners, behind)
+        return Image(self.picture, plane, OPACITY) if plane is not None else None
 
     def _known(self) -> tuple[tuple[Hit, ...], Hit | None]:
         """The hits with every t."""

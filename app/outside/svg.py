@@ -1,11 +1,14 @@
 """A vector drawing as an SVG file: self-contained, one group a kind of thing, letters as text.
 
-Owns the format. Pure but for write(); knows nothing of what is drawn. The same drawing gives the
-same bytes. Source: SVG 1.1 (W3C, second edition); `data-name`, what a thing is, is of SVG 2.
+The live image is a PNG inside it. Owns the format. Pure but for write(); knows nothing of what is
+drawn. The same drawing gives the same bytes. Source: SVG 1.1 (W3C, second edition); `data-name`,
+what a thing is, is of SVG 2.
 """
 
 from __future__ import annotations
 
+import base64
+import io
 import math
 from itertools import groupby
 from pathlib import Path
@@ -13,7 +16,9 @@ from xml.sax.saxutils import escape, quoteattr
 
 import numpy as np
 from numpy.typing import NDArray
+from PIL import Image
 
+from app.outside.standing import Standing
 from app.outside.vector import Arc, Area, Color, Drawing, Letters, Line, Part, Spot
 from renderer.atomic import atomic_write
 
@@ -35,11 +40,12 @@ def write(path: str | Path, drawing: Drawing, title: str = "") -> int:
 
 def svg(drawing: Drawing, title: str = "") -> str:
     """The file's text. A view box of the drawing's own pixels; groups have the ids outlines,
-    frustum, image-plane, rays, ... as far as there is something in them."""
+    live-image, frustum, image-plane, rays, ... as far as there is something in them."""
     width, height = drawing.size
     lines = [
         '<?xml version="1.0" encoding="UTF-8"?>',
-        f'<svg xmlns="http://www.w3.org/2000/svg" width="{width}" height="{height}"'
+        f'<svg xmlns="http://www.w3.org/2000/svg" xmlns:xlink="http://www.w3.org/1999/xlink"'
+        f' width="{width}" height="{height}"'
         f' viewBox="0 0 {width} {height}">',
     ]
     if title:
@@ -47,7 +53,11 @@ def svg(drawing: Drawing, title: str = "") -> str:
     lines.append(f"<desc>{escape(_legal(' '.join(drawing.notes)))}</desc>")
     ground = _hex(drawing.background)
     lines.append(f'<rect id="background" width="{width}" height="{height}" fill="{ground}"/>')
+    image = _live_image(drawing.standing) if drawing.standing is not None else []
     for group, parts in groupby(drawing.parts, key=lambda part: part.group):
+        if group != "outlines":
+            lines += image
+            image = []
         name = group.replace(" ", "-")
         common = ' fill="none" stroke-linecap="round" stroke-linejoin="round"'
         if group == "letters":
@@ -55,7 +65,29 @@ def svg(drawing: Drawing, title: str = "") -> str:
         lines.append(f'<g id="{name}"{common}>')
         lines += [text for part in parts if (text := _element(part, drawing))]
         lines.append("</g>")
-    return "\n".join([*lines, "</svg>", ""])
+    return "\n".join([*lines, *image, "</svg>", ""])
+
+
+def _live_image(standing: Standing) -> list[str]:
+    """The image once, and its cells as uses of it, cut out by paths."""
+    height, width = standing.rgba.shape[:2]
+    file = io.BytesIO()
+    Image.fromarray(standing.rgba).save(file, "PNG")
+    content = base64.b64encode(file.getvalue()).decode()
+    image = (
+        f'<image id="pixels" width="{width}" height="{height}" preserveAspectRatio="none"'
+        f' xlink:href="data:image/png;base64,{content}"/>'
+    )
+    cut, used = [], []
+    for number, cell in enumerate(standing.cells):
+        matrix = " ".join(f"{value:.9g}" for value in cell.matrix)
+        use = f'<use xlink:href="#pixels" transform="matrix({matrix})"/>'
+        path = f'<path d="M{_points(cell.corners)}Z"/>'
+        cut.append(f'<clipPath id="cell-{number}">{path}</clipPath>')
+        used.append(f'<g clip-path="url(#cell-{number})">{use}</g>')
+    opacity = _number(standing.opacity)
+    head = ["<defs>", image, *cut, "</defs>"]
+    return [*head, f'<g id="live-image" opacity="{opacity}">', *used, "</g>"]
 
 
 def _element(part: Part, drawing: Drawing) -> str:

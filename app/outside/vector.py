@@ -1,8 +1,9 @@
 """A diagram as a vector drawing: lines, areas, arcs and letters in groups, for SVG and for zooming.
 
 Owns what becomes of projected primitives and outlines: cut at the page's edge, divided where they
-pass behind objects. Lines are divided by the depths of a picture of the scene, to about a pixel;
-areas are not, the later one lies over the earlier (painter's order). Pure; knows nothing of files.
+pass behind objects or the live image, which is the only thing in it that has pixels. Lines are
+divided by the depths of a picture of the scene, to about a pixel; areas are not, the later one lies
+over the earlier (painter's order). Pure; knows nothing of files.
 
 Positions and widths are in pixels of the page, from its upper left corner, x right, y down.
 """
@@ -21,7 +22,9 @@ from app.outside.diagram import Role
 from app.outside.hidden import Hidden, clipped, cut_polygon, divided, runs_of
 from app.outside.outlines import Edges, Ellipse, Outline
 from app.outside.projected import Primitive, Shape, Strokes, Text
+from app.outside.standing import Standing, plane_t, standing
 from renderer.camera import Camera
+from renderer.raster.overlay import Plane
 
 Floats = NDArray[np.float64]
 Size = tuple[int, int]
@@ -115,13 +118,24 @@ Part = Line | Area | Spot | Arc | Letters
 @dataclass(frozen=True, eq=False)
 class Drawing:
     """parts: in the order in which they are drawn, those of a group together. unit: the width of a
-    line that teaches. notes: what a reader should know."""
+    line that teaches. notes: what a reader should know. standing: the live image, over the outlines
+    and under all other parts."""
 
     size: Size
     background: Color
     parts: tuple[Part, ...]
     unit: float
     notes: tuple[str, ...] = ()
+    standing: Standing | None = None
+
+
+@dataclass(frozen=True, eq=False)
+class Image:
+    """What stands on the image plane: its pixels (height, width, 3), as shown."""
+
+    pixels: NDArray[np.uint8]
+    plane: Plane
+    opacity: float
 
 
 @dataclass(frozen=True)
@@ -143,14 +157,21 @@ def drawing(
     unit: float = 1.0,
     symbol: float = 1.0,
     left_out: Sequence[str] = (),
+    image: Image | None = None,
 ) -> Drawing:
     """The drawing of a page of `size` = (width, height).
 
     t: (height, width), the scene's ray parameter at each pixel of the page, infinity for none;
     None: not known, nothing is hidden. camera: the one that looks. unit, symbol: the widths of
-    lines, the sizes of what has one. left_out: names of objects without an outline.
+    lines, the sizes of what has one. left_out: names of objects without an outline. image: hides
+    what is behind it, but for the objects' outlines, over which it lies.
     """
-    hidden = Hidden(t, camera.is_parallel)
+    hidden = behind = Hidden(t, camera.is_parallel)
+    stands = None
+    if image is not None:
+        stands = standing(image.pixels, image.plane, size, hidden, image.opacity)
+        before = plane_t(image.plane, size, camera.is_parallel)
+        behind = Hidden(before if t is None else np.minimum(t, before), camera.is_parallel)
     parts: list[Part] = []
     for outline in found:
         parts += _outline(outline, hidden, paint, size, unit)
@@ -162,14 +183,14 @@ def drawing(
         if isinstance(primitive, Text):
             parts.append(_letters(primitive, paint, symbol))
         elif isinstance(primitive, Shape):
-            parts += _area(primitive, hidden, paint, size)
+            parts += _area(primitive, hidden if primitive.on_plane else behind, paint, size)
         elif number not in smooth:
-            parts += _strokes(primitive, hidden, paint, size)
+            parts += _strokes(primitive, hidden if primitive.on_plane else behind, paint, size)
     parts.sort(key=lambda part: GROUPS.index(part.group))  # stable
     notes = ["Hidden parts of lines are dashed." if t is not None else "Nothing is hidden."]
     if left_out:
         notes.append(f"Without an outline, for too many triangles: {', '.join(left_out)}.")
-    return Drawing(size, paint.background, tuple(parts), unit, tuple(notes))
+    return Drawing(size, paint.background, tuple(parts), unit, tuple(notes), stands)
 
 
 def _edges_of_shapes(primitives: Sequence[Primitive]) -> set[int]:

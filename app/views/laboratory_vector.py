@@ -188,7 +188,7 @@ class VectorPage:
             place = ImVec2(pane.high.x - width, pane.low.y - 2.0 * em)
             imgui.set_cursor_screen_pos(place)
             if imgui.button(words, ImVec2(width, 0)):
-                export_svg(self._outside, host)
+                export_svg(self._outside, host, live=False)  # as it is shown here
 
 
 def _both(sketch: Sketch) -> Both:

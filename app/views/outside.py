@@ -28,6 +28,7 @@ from app.outside.extent import end_parameter
 from app.outside.hits import Question, RayHits
 from app.outside.paint import casing, layers
 from app.outside.projected import Primitive, Screen, project
+from app.outside.sketch import OPACITY
 from app.outside.solid import bundle_pixels, pixel_seen, plane_corners
 from app.panels.screen import available_px, framebuffer_scale
 from app.state import AppState
@@ -55,7 +56,6 @@ Size = tuple[int, int]
 
 OUTSIDE = "Outside"
 SMALLEST_PX = 24  # a view that is smaller shows nothing
-OPACITY = 0.9  # of the live image: what stands behind it is seen a little
 GRID_PX = 7.0  # the least distance of the grid's lines, in widths of a line
 IMAGE_SIZE = (640, 480)  # of the camera's image while no other view shows it
 

@@ -12,8 +12,10 @@ from typing import TYPE_CHECKING, cast
 import moderngl
 import numpy as np
 from imgui_bundle import ImVec2
+from numpy.typing import NDArray
 
 from app.images.pictures import Wanted
+from app.images.renderers import look_of
 from app.outside import svg
 from app.outside.extent import end_parameter
 from app.outside.paint import vector_paint
@@ -41,10 +43,16 @@ class Sketcher:
         self._sketch: Sketch | None = None
 
     def follow(
-        self, view: OutsideView, host: Host, size: Size, units: tuple[float, float] | None = None
+        self,
+        view: OutsideView,
+        host: Host,
+        size: Size,
+        units: tuple[float, float] | None = None,
+        live: bool = False,
     ) -> Sketch:
         """A drawing's inputs as they are now. units: the width of a line that teaches and the size
-        of symbols, as the view's own if not given. Raises LucidaError, moderngl.Error."""
+        of symbols, as the view's own if not given. live: with the live image, if that is shown.
+        Raises LucidaError, moderngl.Error."""
         both, state = host.renderers, host.state
         if not min(both.size):
             both.fit_pane(view.name, IMAGE_SIZE, state.images)
@@ -59,31 +67,45 @@ class Sketcher:
             state.scene, looking, size, camera, image_size, options, marked, tuple(hits),
             view.extra, unit, symbol, state.preferences,
         )  # fmt: skip
-        if self._sketch is not None and key == self._key:
+        if self._sketch is not None and key == self._key and not live:
             return self._sketch
         assert both.pictures is not None
+        picture = self._picture(host) if live and options.image else None
         surface = both.pictures.beside(Wanted(state.scene, looking, size), PLACE).surface
         values = np.frombuffer(surface.read(), np.float32).reshape(size[1], size[0], 4)
         self._key = key
         self._sketch = Sketch(
             state.scene, looking, size, nearest(looking, scope), unit, symbol, camera, image_size,
             options, end_parameter(camera, host.focus.framed), tuple(hits), marked, view.extra,
-            values[..., 3].copy(), vector_paint(), both.live.tracer_of(state.scene),
+            values[..., 3].copy(), vector_paint(), picture, both.live.tracer_of(state.scene),
         )  # fmt: skip
         return self._sketch
 
+    def _picture(self, host: Host) -> NDArray[np.uint8] | None:
+        """The raster image as it stands on the image plane; waits for the GPU."""
+        both, state = host.renderers, host.state
+        assert both.pictures is not None
+        wanted = Wanted(state.scene, both.camera(state), both.size)
+        texture = both.pictures.raster(wanted, look_of(state.images))
+        if texture is None:
+            return None
+        width, height = texture.size
+        rgba = np.frombuffer(texture.read(), np.uint8).reshape(height, width, 4)
+        return rgba[..., :3].copy()
 
-def export_diagram(window: Window) -> None:
+
+def export_diagram(window: Window, live: bool = True) -> None:
     """The action: export_svg() of the window's outside view."""
     view = window.shell.stage.views[OUTSIDE]
     assert isinstance(view, OutsideView)
-    export_svg(view, cast(Host, window))  # the window is both
+    export_svg(view, cast(Host, window), live)  # the window is both
 
 
-def export_svg(view: OutsideView, host: Host) -> None:
-    """Asks where, and writes the diagram as it is now; the view's own page where it is seen."""
+def export_svg(view: OutsideView, host: Host, live: bool) -> None:
+    """Asks where, and writes the diagram as it is now; the view's own page where it is seen. live:
+    with the live image, if that is shown; else nothing in it has pixels."""
     try:
-        sketch = Sketcher().follow(view, host, view.size_px or ALONE)
+        sketch = Sketcher().follow(view, host, view.size_px or ALONE, live=live)
     except (LucidaError, moderngl.Error) as error:
         host.files.message = describe(error)
         return

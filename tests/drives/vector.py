@@ -174,13 +174,20 @@ def drive_the_diagram_is_exported_as_it_is_seen(d: Driver) -> None:
     assert root.tag == f"{SPACE}svg"
     groups = {part.get("id") for part in root.findall(f"{SPACE}g")}
     assert {"outlines", "frustum", "image-plane", "rays", "basis", "letters"} <= groups
+    (image,) = root.iter(f"{SPACE}image")  # the raster image, pixel by pixel
+    assert (image.get("width"), image.get("height")) == tuple(map(str, d.window.renderers.size))
+    assert "live-image" in groups
     outlines = root.find(f"{SPACE}g[@id='outlines']")
     assert outlines is not None
     names = {entry.name for entry in d.window.state.scene.objects}
     assert {part.get("data-name") for part in outlines} <= names
-    # From the laboratory's button too.
+    # From the laboratory's button too: what is drawn there, which has no pixels.
     _page(d)
     d.ctx.item_click(_item("Export as SVG..."))
     again = _store(d, d.folder / "second")
     assert again.get("viewBox")
+    assert not list(again.iter(f"{SPACE}image"))
     _close(d)
+    d.ctx.menu_click("//##MainMenuBar/File/Picture/Export diagram as SVG without the live image...")
+    third = _store(d, d.folder / "third")
+    assert not list(third.iter(f"{SPACE}image"))
