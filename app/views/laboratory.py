@@ -7,7 +7,8 @@ screen. The table of sizes and the array's cells are laboratory_tables.py's.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Callable
+from dataclasses import dataclass, replace
 from typing import Any
 
 import moderngl
@@ -25,7 +26,12 @@ from app.storage.files import describe
 from app.teach.imagelab import disk
 from app.teach.imagelab.pages import Image, Panel, Plan, panels, plan
 from app.views.base import Host, View
-from app.views.laboratory_tables import array_cells, luminance_weights, sizes_table
+from app.views.laboratory_tables import (
+    array_about,
+    array_cells,
+    luminance_weights,
+    sizes_table,
+)
 from app.views.laboratory_tools import toolbar
 from app.views.laboratory_vector import VectorPage
 from app.views.outside import OutsideView
@@ -167,22 +173,33 @@ class LaboratoryView(View):
                 corner.y + row * (made.cell[1] / scale + 2.5 * em + GAP_EM * em),
             )
 
+        if options.page == "array":
+            self._array_page(host, self._made, self._source.color, place)
+            return
         for number, panel in enumerate(self._made.panels):
             self._panel(host, number, panel, place(number), made)
-        if options.page == "array":
-            at = place(len(self._made.panels))
-            extent = ImVec2(made.cell[0] / scale, made.cell[1] / scale + 2.5 * em)
-            chosen = array_cells(
-                self._source.color, self._pixel(state, made), at, extent, state, host.fonts
-            )
-            if chosen is not None:
-                self._choose(host, chosen, made)
         if options.page == "kinds":
             luminance_weights(place(len(self._made.panels)), made.cell[0] / scale, host.fonts)
             imgui.set_cursor_screen_pos(ImVec2(corner.x, corner.y + avail.y - below + 0.4 * em))
             picked = sizes_table(made.image, self._sizes, host.fonts)
             if picked is not None:
                 self._export(host, picked)
+
+    def _array_page(
+        self, host: Host, made: _Made, color: Image, place: Callable[[int], ImVec2]
+    ) -> None:
+        """The image, framed where the cells beside it are from."""
+        scale, em = framebuffer_scale(), imgui.get_font_size()
+        pixel = self._pixel(host.state, made.plan)
+        extent = ImVec2(made.plan.cell[0] / scale, made.plan.cell[1] / scale + 2.5 * em)
+        table = array_about(color, pixel, extent, host.state.options.one_based)
+        region = (table.i, table.j, len(table.rows), len(table.rows[0]))
+        for number, panel in enumerate(made.panels):
+            self._panel(host, number, replace(panel, region=region), place(number), made.plan)
+        at = place(len(made.panels))
+        chosen = array_cells(table, color.shape[1], pixel, at, extent, host.fonts)
+        if chosen is not None:
+            self._choose(host, chosen, made.plan)
 
     def _panel(self, host: Host, number: int, panel: Panel, at: ImVec2, made: Plan) -> None:
         assert self._uploads is not None

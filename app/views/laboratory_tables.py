@@ -11,7 +11,6 @@ from imgui_bundle import ImVec2, ImVec4, imgui
 from app import theme
 from app.lettering import lettering
 from app.options import Pixel
-from app.state import AppState
 from app.teach.imagelab import disk, memory
 from app.teach.imagelab.kinds import KINDS, LECTURE_SIZE
 from app.teach.imagelab.pages import Image
@@ -90,22 +89,26 @@ def luminance_weights(at: ImVec2, width: float, fonts: Fonts) -> None:
         y += 1.5 * em
 
 
+def array_about(color: Image, pixel: Pixel, extent: ImVec2, one_based: bool) -> memory.Table:
+    """As much of the array about a pixel as array_cells() has room for in an extent."""
+    em = imgui.get_font_size()
+    columns = max(1, min(MOST_CELLS[0], int(extent.x / (CELL_EM[0] * em))))
+    rows = max(1, min(MOST_CELLS[1], int((extent.y - 3.0 * em) / (CELL_EM[1] * em))))
+    return memory.table(color, *pixel, rows, columns, one_based)
+
+
 def array_cells(
-    color: Image, pixel: Pixel, at: ImVec2, extent: ImVec2, state: AppState, fonts: Fonts
+    table: memory.Table, image_width: int, pixel: Pixel, at: ImVec2, extent: ImVec2, fonts: Fonts
 ) -> Pixel | None:
     """The array about a pixel, cell by cell: index, values, place in memory. Gives the pixel that
     was clicked."""
     em = imgui.get_font_size()
     width, height = CELL_EM[0] * em, CELL_EM[1] * em
-    columns = max(1, min(MOST_CELLS[0], int(extent.x / width)))
-    rows = max(1, min(MOST_CELLS[1], int((extent.y - 3.0 * em) / height)))
-    width = min(extent.x / columns, 1.5 * width)
-    one_based = state.options.one_based
-    table = memory.table(color, *pixel, rows, columns, one_based)
+    width = min(extent.x / len(table.rows[0]), 1.5 * width)
     draw = imgui.get_window_draw_list()
     with lettering(fonts.bold, em):
         draw.add_text(at, theme.u32(theme.TEXT), "Row by row in memory")
-    formula = memory.formula(color.shape[1], one_based=one_based)
+    formula = memory.formula(image_width, one_based=table.one_based)
     with lettering(fonts.mono, em):
         draw.add_text(ImVec2(at.x, at.y + 1.15 * em), theme.u32(theme.DIM), formula)
     top = at.y + 2.5 * em
