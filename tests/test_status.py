@@ -5,7 +5,15 @@ from __future__ import annotations
 from dataclasses import replace
 
 from app.panels.fields import Scale, number_format, short_number
-from app.panels.status import Status, agreement_text, fitting, milliseconds, ray_text, right_texts
+from app.panels.status import (
+    Status,
+    agreement_text,
+    fitting,
+    milliseconds,
+    ray_text,
+    right_texts,
+    time_texts,
+)
 
 STATUS = Status(0.001, 1, 0.02, (640, 480), 1, "agree: all pixels", True, "spheres")
 
@@ -26,6 +34,13 @@ def test_fields_have_the_digits_that_their_scene_needs() -> None:
     assert number_format(6e-17, Scale(-1, 1)) % 6e-17 == "   0.000"
     for value in (-999.9, -1e6, 1e12, -99.99, -150.0):
         assert len(number_format(value, small) % value) in (8, 9)
+
+
+def test_an_image_that_no_view_has_wanted_has_no_time() -> None:
+    assert [text.split()[0] for text in time_texts(STATUS)] == ["raster", "ray"]
+    assert time_texts(replace(STATUS, raster_s=0.0, ray_s=0.0, factor=0, awaited=False)) == []
+    first = time_texts(replace(STATUS, ray_s=0.0, factor=0))  # it is being traced
+    assert first[1].startswith("ray   0.0 ms") and first[1].endswith("none")
 
 
 def test_right_texts() -> None:

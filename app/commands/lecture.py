@@ -27,6 +27,7 @@ EPILOG = """\
 in the lecture:
   Page Down, Right    next step          Page Up, Left    the one before
   Backspace           back to the step's own scene, camera and views
+  Ctrl+Z              takes back changes, then the way to the step
 A file is read again whenever it is saved. docs/lectures.md describes the format.
 
 examples:

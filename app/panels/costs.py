@@ -135,6 +135,7 @@ def plot(options: CostOptions, told: Told, size: ImVec2) -> None:
     implot.setup_axis_scale(y, implot.Scale_.log10)
     least, most = extent(unit)
     implot.setup_axis_limits(x, least / 1.5, most * 1.5, implot.Cond_.always)
+    implot.setup_axis_format(x, "%.0f")
     low, high = _times(told.samples)
     implot.setup_axis_limits(y, low, high, implot.Cond_.always)
     implot.setup_legend(implot.Location_.north_west)

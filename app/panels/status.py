@@ -42,12 +42,7 @@ class Status:
 def status_line(status: Status, fonts: theme.Fonts) -> None:
     """Draws the line; call in HelloImGui's show_status."""
     imgui.push_font(fonts.mono, 0.0)
-    coarseness = f" 1/{status.raster_factor}" if status.raster_factor > 1 else "    "
-    times = [
-        (f"raster {milliseconds(status.raster_s)}{coarseness}", theme.TEXT),
-        (ray_text(status), theme.TEXT),
-    ]
-    parts = [] if status.brief else times
+    parts = [] if status.brief else [(text, theme.TEXT) for text in time_texts(status)]
     good = theme.GOOD if status.agrees else theme.ERROR
     if status.agrees is None:
         good = theme.DIM
@@ -79,6 +74,17 @@ def status_line(status: Status, fonts: theme.Fonts) -> None:
         color = theme.TEXT if status.loading else theme.legible(theme.MARK)
         imgui.text_colored(color, rights[right])
     imgui.pop_font()
+
+
+def time_texts(status: Status) -> list[str]:
+    """What each image took; nothing of one that no view has wanted."""
+    coarseness = f" 1/{status.raster_factor}" if status.raster_factor > 1 else "    "
+    texts = []
+    if status.raster_s > 0:
+        texts.append(f"raster {milliseconds(status.raster_s)}{coarseness}")
+    if status.factor or status.awaited:
+        texts.append(ray_text(status))
+    return texts
 
 
 def agreement_text(status: Status) -> str:

@@ -277,12 +277,14 @@ def _canvases(
     if has_depth:
         below = max(20.0, height - label - spacing.y)
         across = room.x - spacing.x
+        half = ImVec2(0.5 * across, height)  # beside one another, of one size
         choices = (
-            (ImVec2(room.x, 0.5 * below), False),
-            (ImVec2(0.5 * across, height), True),
+            (ImVec2(room.x, 0.6 * below), ImVec2(room.x, 0.4 * below), False),
+            (half, half, True),
         )
-        first, beside = max(choices, key=lambda one: min(one[0].x / size[0], one[0].y / size[1]))
-        rest = first  # of one size: each pixel has its depth in the same place
+        first, rest, beside = max(
+            choices, key=lambda one: min(one[0].x / size[0], one[0].y / size[1])
+        )
     dots = tuple((test.pixel, test.t < float("inf")) for test in moment.tests)
     marks = Marks(moment.pixel, moment.box, dots if recording.order is Order.OBJECT else ())
     imgui.begin_group()
