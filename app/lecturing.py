@@ -14,6 +14,7 @@ import moderngl
 import numpy as np
 
 from app.platform import start_platform
+from app.start import Start
 from app.state import AppState
 from app.teach.lecture.model import Lecture
 from app.teach.lecture.states import state_of
@@ -22,7 +23,6 @@ from app.viewer import (
     DEFAULT_SIZE,
     SCREENSHOT_LIMIT_S,
     Run,
-    Start,
     save_png,
 )
 from renderer.atomic import check_writable

@@ -9,7 +9,6 @@ from __future__ import annotations
 import sys
 import time
 from collections.abc import Callable
-from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
@@ -27,15 +26,15 @@ from app.platform import (
     start_platform,
 )
 from app.signals import ended_by_signals
+from app.start import Start, begin_scene, begin_session
 from app.state import AppState
-from app.storage.session import Session
-from app.storage.session_store import Found, Keeper, settings_folder, take_place
+from app.storage.session_store import settings_folder
 from app.storage.settings import settings_file
 from app.views.base import View
 from app.window import MainWindow, title
 from renderer.atomic import atomic_write, check_writable
 from renderer.errors import LucidaError
-from renderer.scene import BUILTIN_SCENES, load_scene, load_view
+from renderer.scene import BUILTIN_SCENES
 from renderer.scene import View as SceneView
 
 DEFAULT_SIZE = (1280, 720)
@@ -66,18 +65,17 @@ def run_viewer(
     if screenshot is not None:
         check_writable(screenshot)
     goes_on = scene_source is None and view is None and change is None and screenshot is None
-    state = None if goes_on else _state(scene_source, view, change)
+    start = None if goes_on else begin_scene(scene_source, view, change, screenshot is not None)
     platform = start_platform(want_display=screenshot is None)
     picture = screenshot
     if not platform.has_display and picture is None:
         picture = DEFAULT_PICTURE
         check_writable(picture)
         print(f"lucida: no display ({platform.reason}): drawing the window once, into {picture}")
-    start = Start(state or _state(None, None, None))
-    if goes_on and picture is None:
-        start = begin_session(fresh)
-    elif picture is None and scene_source is not None:
-        start = replace(start, opened=scene_source)
+    if start is None:
+        start = begin_session(fresh) if picture is None else begin_scene()
+    elif start.later is not None and picture is not None:
+        start = begin_scene(scene_source, view, change, wait=True)
     run = Run(platform, start.state, size or DEFAULT_SIZE, picture is not None, start=start)
     pixels = run.run()
     if picture is not None:
@@ -85,47 +83,6 @@ def run_viewer(
         if screenshot is None:
             print(f"lucida: saved {picture}")
     return 0
-
-
-@dataclass(frozen=True)
-class Start:
-    """What a window begins with. session: what it goes on with, None for nothing. keeper: what
-    saves it. message: what the user is told about it. opened: a scene for the recent files."""
-
-    state: AppState
-    session: Session | None = None
-    keeper: Keeper | None = None
-    message: str = ""
-    opened: str = ""
-
-
-def begin_session(fresh: bool = False, folder: Path | None = None) -> Start:
-    """The last session, or an empty one. fresh: the last one is put aside unread.
-
-    folder: where sessions are; None for the user's settings folder. A scene that is not there any
-    more, or that cannot be read, is told; the rest of the session stays.
-    """
-    place = take_place(folder)
-    if place is None:
-        return Start(_state(None, None, None))
-    keeper = Keeper(place, hello_imgui.request_refresh)
-    found = Found() if fresh else place.load()
-    session = found.session
-    if session is None:
-        return Start(_state(None, None, None), None, keeper, found.message)
-    try:
-        return Start(session.state(load_scene(session.scene)), session, keeper)
-    except LucidaError as error:
-        message = f"The last session's scene could not be opened. {error}"
-        return Start(session.state(load_scene(BUILTIN_SCENES[0])), session, keeper, message)
-
-
-def _state(
-    source: str | None, view: str | Path | None, change: Callable[[SceneView], SceneView] | None
-) -> AppState:
-    scene = load_scene(source or BUILTIN_SCENES[0])
-    own_view = scene.view if view is None else load_view(view)
-    return AppState.for_scene(scene, own_view if change is None else change(own_view))
 
 
 class Run:
@@ -188,6 +145,8 @@ class Run:
         self.window.files.message = start.message
         if start.opened and start.opened not in BUILTIN_SCENES:
             self.window.files.recent.add(str(Path(start.opened).absolute()))
+        if start.later is not None:
+            self.window.files.open_later(start.later.source, start.later.open)
 
     def _end(self) -> None:
         self._ended = self.params.app_shall_exit = True

@@ -9,6 +9,7 @@ one; here it is kept, and the renderers are told. Knows nothing of how the windo
 from __future__ import annotations
 
 from collections.abc import Hashable
+from dataclasses import replace
 from pathlib import Path
 
 import moderngl
@@ -313,7 +314,12 @@ class MainWindow:
         elif opened.scene is not None:
             if opened.prepared is not None and self.renderers.pictures is not None:
                 self.renderers.pictures.prepare(opened.scene, opened.prepared)
-            self.change(self.state.with_scene(opened.scene, opened.view))
+            state = self.state.with_scene(opened.scene, opened.view)
+            if opened.is_first:
+                kept = self.state.keep_orthonormal and state.keep_orthonormal
+                self.amend(replace(state, keep_orthonormal=kept))
+            else:
+                self.change(state)
         elif opened.view is not None:
             self.change(self.state.with_view(opened.view))
 

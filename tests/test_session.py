@@ -17,6 +17,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from app.options import Bookmark
+from app.start import begin_session
 from app.state import AppState
 from app.storage.session import (
     LARGEST_BYTES,
@@ -28,7 +29,6 @@ from app.storage.session import (
     to_bytes,
 )
 from app.storage.session_store import Keeper, take_place
-from app.viewer import begin_session
 from renderer.camera import Camera
 from renderer.errors import LucidaError
 from renderer.scene import View, load_scene

@@ -10,6 +10,8 @@ import pytest
 from PIL import Image
 from test_window import LIMIT_S, run
 
+from renderer.scene.apart import is_large
+
 pytestmark = pytest.mark.timeout(LIMIT_S + 60)
 
 WINDOW = """
@@ -119,3 +121,37 @@ def test_a_picture_of_the_window_without_a_shader_is_one_line(tmp_path: Path) ->
     assert done.stderr.count("\n") == 1, done.stderr
     assert "shaders/shade.frag" in done.stderr
     assert not (tmp_path / "out.png").exists()
+
+
+def test_the_window_is_there_before_a_large_model(tmp_path: Path) -> None:
+    side = 200
+    grid = [(x, y) for y in range(side) for x in range(side)]
+    corner = [y * side + x + 1 for x, y in grid if x + 1 < side and y + 1 < side]
+    text = "".join(f"v {x:.12f} {y:.12f} {x * y % 7:.12f}\n" for x, y in grid)
+    text += "".join(f"f {k} {k + 1} {k + side + 1} {k + side}\n" for k in corner)
+    (tmp_path / "large.obj").write_text(text)
+    assert is_large(tmp_path / "large.obj")
+    script = """
+from app.platform import start_platform
+from app.start import begin_scene
+from app.viewer import Run
+
+start = begin_scene("large.obj")
+run = Run(start_platform(want_display=False), start.state, (900, 600), remember=False, start=start)
+window, frames = run.window, 0
+
+def step():
+    global frames
+    frames += window.state.scene.name != "large"
+    if window.state.scene.name == "large" and window.settled:
+        assert not window.history.past
+        print(frames)
+        run.params.app_shall_exit = True
+
+run.params.callbacks.post_new_frame = step
+run.params.fps_idling.enable_idling = False
+run.run()
+"""
+    done = run(["-c", script], tmp_path)
+    assert done.returncode == 0, done.stderr
+    assert int(done.stdout.split()[-1]) > 0, "the model was read before the first frame"

@@ -49,6 +49,7 @@ class Opened:
 
     problems: one line for each of the others. lecture: and its file. prepared: the scene for the
     rasterizer, so that no frame has to do it; None where that cannot be, which drawing tells.
+    is_first: it takes the place of what the window has begun with, without a step of undo.
     """
 
     sources: tuple[str, ...] = ()
@@ -57,6 +58,7 @@ class Opened:
     problems: tuple[str, ...] = ()
     lecture: tuple[Lecture, Path] | None = None
     prepared: Prepared | None = None
+    is_first: bool = False
 
 
 class Files:
@@ -105,6 +107,10 @@ class Files:
         """Loads the first scene and the first view among several, or the first lecture."""
         if sources:
             self._load(sources[0], lambda: open_sources(sources))
+
+    def open_later(self, source: str, load: Callable[[], Opened]) -> None:
+        """Loads what the window was to begin with. load: does it, in the background."""
+        self._load(source, load)
 
     def cancel(self) -> None:
         """Ends the loading. A large model is in a process of its own, which is killed; what is not
@@ -271,11 +277,19 @@ def open_sources(sources: Sequence[str]) -> Opened:
             if len(sources) == 1:
                 raise
             problems.append(describe(error))
-    prepared = None
+    return Opened(tuple(good), scene, view, tuple(problems), lecture, _prepared(scene))
+
+
+def opened_scene(source: str, scene: Scene, view: View) -> Opened:
+    """What a source held, seen by a view."""
+    return Opened((source,), scene, view, prepared=_prepared(scene))
+
+
+def _prepared(scene: Scene | None) -> Prepared | None:
     if scene is not None:
         with contextlib.suppress(LucidaError):
-            prepared = prepare(scene)
-    return Opened(tuple(good), scene, view, tuple(problems), lecture, prepared)
+            return prepare(scene)
+    return None
 
 
 def open_lecture(source: str) -> Opened:

@@ -1,0 +1,91 @@
+"""What the window begins with: at once what is quick, and large models afterwards."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from pathlib import Path
+
+import pytest
+
+from app import start
+from app.start import begin_scene, begin_session
+from app.storage.session import Arrangement, session_of
+from app.storage.session_store import Keeper, take_place
+from renderer.errors import LucidaError
+from renderer.scene import load_scene, save_view
+
+TRIANGLE = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"
+
+
+@pytest.fixture
+def model(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    """One that counts as large."""
+    path = tmp_path / "model.obj"
+    path.write_text(TRIANGLE)
+    monkeypatch.setattr(start, "is_large", lambda path: path.name == "model.obj")
+    return path
+
+
+def test_what_is_quick_is_there_at_once(tmp_path):
+    (tmp_path / "small.obj").write_text(TRIANGLE)
+    begun = begin_scene(str(tmp_path / "small.obj"))
+    assert begun.later is None
+    assert begun.state.scene.name == "small"
+    assert begun.opened.endswith("small.obj")
+    assert begin_scene().state.scene.name == load_scene("still-life").name
+    with pytest.raises(LucidaError, match=r"missing\.obj"):
+        begin_scene(str(tmp_path / "missing.obj"))
+
+
+def test_a_large_model_comes_later_with_the_view_that_was_asked_for(tmp_path, model):
+    asked = load_scene("canonical").view
+    save_view(tmp_path / "view.toml", asked)
+    begun = begin_scene(
+        str(model), tmp_path / "view.toml", lambda view: replace(view, fit=not view.fit)
+    )
+    assert begun.state.scene.name == load_scene("still-life").name
+    assert begun.later is not None
+    opened = begun.later.open()
+    assert opened.scene is not None
+    assert opened.scene.name == "model"
+    assert opened.view == replace(asked, fit=not asked.fit)
+    assert opened.sources == (str(model),)
+    assert opened.is_first
+    assert opened.prepared is not None
+
+
+def test_a_scene_with_a_large_model_comes_later_too(tmp_path, model):
+    scene = tmp_path / "scene.toml"
+    scene.write_text('[[objects]]\ntype = "model"\nfile = "model.obj"\n')
+    begun = begin_scene(str(scene))
+    assert begun.later is not None
+    assert begin_scene(str(scene), wait=True).state.scene.name == "scene"
+    model.write_text("nothing")
+    opened = begun.later.open()
+    assert opened.scene is None
+    assert "model.obj" in opened.problems[0]
+
+
+def test_a_view_file_that_is_wrong_is_told_before_a_large_model_is_read(tmp_path, model):
+    (tmp_path / "view.toml").write_text("[camera]\ndistance = -1\n")
+    with pytest.raises(LucidaError, match="distance"):
+        begin_scene(str(model), tmp_path / "view.toml")
+
+
+def test_a_session_of_a_large_model_goes_on_once_that_is_read(tmp_path, model):
+    scene = load_scene(model)
+    view = load_scene("canonical").view
+    kept = begin_scene(str(model), wait=True).state.with_view(view)
+    kept = kept.with_options(shadows=True)
+    place = take_place(tmp_path / "sessions")
+    assert place is not None
+    Keeper(place, lambda: None).close(session_of(kept, Arrangement()))
+    begun = begin_session(folder=tmp_path / "sessions")
+    assert begun.later is not None
+    assert begun.state.options.shadows
+    opened = begun.later.open()
+    assert opened.scene is not None
+    assert opened.scene.name == scene.name
+    assert opened.view == view
+    assert begun.keeper is not None
+    begun.keeper.close(session_of(kept, Arrangement()))
