@@ -17,7 +17,8 @@ from app.options import OutsideOptions
 from app.outside.diagram import Arrow, Hit, Label, Lines, diagram, polyline
 from app.outside.extent import end_parameter, framed, outside_camera
 from app.outside.hits import Question, RayHits
-from app.outside.projected import Screen, Shape, Strokes, Text, project
+from app.outside.projected import Shape, Strokes, Text, project
+from app.outside.screen import Screen
 from app.outside.solid import (
     MOST_GRID_LINES,
     bundle_pixels,

@@ -10,7 +10,8 @@ from numpy.typing import NDArray
 
 from app.outside.diagram import Dot, Face, Item, Lines
 from app.outside.paint import layers, role_color
-from app.outside.projected import Screen, project
+from app.outside.projected import project
+from app.outside.screen import Screen
 from app.outside.solid import pixel_corners, plane_corners
 from renderer.camera import Camera
 from renderer.errors import LucidaError

@@ -15,7 +15,8 @@ from PIL import Image as PngImage
 
 from app.outside.diagram import Lines
 from app.outside.hidden import Hidden
-from app.outside.projected import Screen, project
+from app.outside.projected import project
+from app.outside.screen import Screen
 from app.outside.solid import pixel_corners, plane_corners
 from app.outside.standing import MOST_PIXELS, standing
 from app.outside.svg import svg

@@ -17,7 +17,8 @@ from app.outside.bitmap import bitmap, dashes, magnified
 from app.outside.diagram import Arrow, Hit, Label, Lines, diagram
 from app.outside.hidden import Hidden, clipped, divided
 from app.outside.outlines import MOST_TRIANGLES, Edges, Ellipse, outlines
-from app.outside.projected import Screen, project
+from app.outside.projected import project
+from app.outside.screen import Screen
 from app.outside.solid import plane_corners
 from app.outside.svg import svg, write
 from app.outside.vector import Arc, Area, Drawing, Line, Paint, Spot, chains, drawing

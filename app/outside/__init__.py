@@ -3,7 +3,8 @@
     extent      how far a scene reaches; the outside camera that sees it and the other camera
     solid       the other camera's image plane and view volume in the world
     diagram     what is drawn, as lines, arrows, faces and labels in the world
-    projected   the same on the screen: clipped, in pixels, with depths
+    screen      from the world to pixels and depths, clipped
+    projected   the diagram there
     hits        where viewing rays end, asked for without waiting
     switches    what can be switched, in words
     paint       as the rasterizer's overlay takes it, in the theme's colours

@@ -1,7 +1,7 @@
 """What of a drawing is on the page and not behind the scene: by the depths of a picture.
 
 Pure; knows nothing of cameras and of what is drawn. Positions are in pixels of the page, depths are
-s: 1 / t in perspective, t in parallel projection (projected.py).
+s: 1 / t in perspective, t in parallel projection (screen.py).
 """
 
 from __future__ import annotations

@@ -15,7 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from app.outside.diagram import polyline
-from app.outside.projected import Screen
+from app.outside.screen import Screen
 from renderer.scene.model import Mesh, Scene, Sphere
 
 Floats = NDArray[np.float64]

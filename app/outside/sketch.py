@@ -15,7 +15,8 @@ from app.options import OutsideOptions
 from app.outside.diagram import Hit, Item, diagram
 from app.outside.hits import Question, traced
 from app.outside.outlines import outlines
-from app.outside.projected import Screen, project
+from app.outside.projected import project
+from app.outside.screen import Screen
 from app.outside.solid import plane_corners
 from app.outside.vector import Drawing, Image, Paint, Size, drawing
 from renderer.camera import Camera

@@ -27,7 +27,8 @@ from app.outside.diagram import Hit, Item, diagram
 from app.outside.extent import end_parameter
 from app.outside.hits import Question, RayHits
 from app.outside.paint import casing, layers
-from app.outside.projected import Primitive, Screen, project
+from app.outside.projected import Primitive, project
+from app.outside.screen import Screen
 from app.outside.sketch import OPACITY
 from app.outside.solid import bundle_pixels, pixel_seen, plane_corners
 from app.panels.screen import available_px, framebuffer_scale

@@ -9,7 +9,8 @@ from imgui_bundle import hello_imgui
 from window_driver import SIZE, Driver, Key
 
 from app import theme
-from app.outside.projected import Screen, Strokes
+from app.outside.projected import Strokes
+from app.outside.screen import Screen
 from app.outside.solid import plane_corners
 from app.views import outside_gizmo, outside_tint
 from app.views.outside import OUTSIDE, OutsideView
