@@ -13,6 +13,7 @@ from dataclasses import dataclass, replace
 
 import moderngl
 
+from app.images.coarseness import Coarseness
 from app.images.live import reduced
 from app.images.pictures import Pictures, Wanted
 from renderer.raster.overlay import Overlay
@@ -55,8 +56,9 @@ class Ground:
         self._drawn = 0
         self._read: tuple[object, float] | None = None
         self._timer = context.query(time=True)
-        self._timed_pixels = 0  # of the full picture whose time is still to be read
-        self.pixel_s = 0.0  # of the last full one
+        # Factor and pixels of the one whose time is still to be read.
+        self._timed: tuple[int, int] | None = None
+        self._coarseness = Coarseness(FRAME_S, FRAME_S, COARSEST)
 
     @property
     def settled(self) -> bool:
@@ -89,16 +91,18 @@ class Ground:
         now_s, picture = time.monotonic(), self._picture
         self._read_time()
         if picture is None or picture.wanted != wanted:
-            factor = self._moving_factor(wanted, now_s)
+            if picture is None or picture.wanted.scene is not wanted.scene:
+                self._coarseness.forget()
+            factor = self._coarseness.changed(wanted.size[0] * wanted.size[1], now_s)
             self._picture = None
             self._picture = picture = self._draw(wanted, pictures, now_s, factor)
-        elif now_s - picture.changed_s <= STILL_S:
+        elif now_s - picture.changed_s <= max(STILL_S, self._coarseness.rest_s):
             pass
         elif picture.factor > 1:
             self._picture = picture = self._draw(wanted, pictures, picture.changed_s, 1)
         elif picture.parts < len(SHIFTS):
             shift = wanted.camera.shifted(*SHIFTS[picture.parts], wanted.size)
-            textures = self._timed(replace(wanted, camera=shift), pictures)
+            textures = self._beside(replace(wanted, camera=shift), pictures)
             mean = overlay.gather(textures, picture.parts == 0, 1 / len(SHIFTS))
             self._picture = picture = replace(
                 picture, textures=textures, parts=picture.parts + 1, mean=mean
@@ -107,11 +111,7 @@ class Ground:
 
     def _draw(self, wanted: Wanted, pictures: Pictures, changed_s: float, factor: int) -> Picture:
         start_s = time.monotonic()
-        if factor > 1:
-            small = replace(wanted, size=reduced(wanted.size, factor))
-            textures = pictures.beside(small, COARSE)
-        else:
-            textures = self._timed(wanted, pictures)
+        textures = self._beside(wanted, pictures, factor)
         self._drawn += 1
         slow = time.monotonic() - start_s > SLOW_S
         return Picture(
@@ -123,28 +123,15 @@ class Ground:
             factor=factor,
         )
 
-    def _moving_factor(self, wanted: Wanted, now_s: float) -> int:
-        """How coarse a changed view is: the same for as long as it goes on changing, so that it
-        is not sharp and blurred in turn."""
-        before = self._picture
-        if before is None or before.wanted.scene is not wanted.scene:
-            return 1
-        if now_s - before.changed_s <= STILL_S and before.factor > 1:
-            return before.factor
-        width, height = wanted.size
-        factor = 1
-        while factor < COARSEST and self.pixel_s * width * height / factor**2 > FRAME_S:
-            factor *= 2
-        return factor
-
-    def _timed(self, wanted: Wanted, pictures: Pictures) -> Textures:
+    def _beside(self, wanted: Wanted, pictures: Pictures, factor: int = 1) -> Textures:
+        size = reduced(wanted.size, factor)
         with self._timer:
-            textures = pictures.beside(wanted, PLACE)
-        self._timed_pixels = wanted.size[0] * wanted.size[1]
+            textures = pictures.beside(replace(wanted, size=size), COARSE if factor > 1 else PLACE)
+        self._timed = factor, size[0] * size[1]
         return textures
 
     def _read_time(self) -> None:
         """A frame later: at once, it would wait for the GPU."""
-        if self._timed_pixels:
-            self.pixel_s = self._timer.elapsed * 1e-9 / self._timed_pixels
-            self._timed_pixels = 0
+        if self._timed is not None:
+            self._coarseness.measured(*self._timed, self._timer.elapsed * 1e-9)
+            self._timed = None

@@ -10,6 +10,7 @@ from imgui_bundle import hello_imgui
 from window_driver import Driver, Key
 
 from app.cameras.travel import DURATION_S
+from app.images.coarseness import Coarseness
 from app.outside.projected import Strokes
 from app.views import outside_ground
 from app.views.outside import OUTSIDE, OutsideView
@@ -53,14 +54,17 @@ def looks_from(d: Driver) -> np.ndarray:
 
 
 @contextmanager
-def pace(frame_s: float, still_s: float) -> Iterator[None]:
-    """What a picture may take of a frame, and after how long a view is at rest."""
-    before = outside_ground.FRAME_S, outside_ground.STILL_S
-    outside_ground.FRAME_S, outside_ground.STILL_S = frame_s, still_s
+def pace(d: Driver, frame_s: float) -> Iterator[None]:
+    """What a picture may take of a frame; and the view is not at rest, however slow the machine."""
+    found = ground(d)
+    before = found._coarseness, outside_ground.STILL_S
+    found._coarseness = Coarseness(frame_s, frame_s, outside_ground.COARSEST)
+    found._coarseness.measured(1, 1, 1e-3)
+    outside_ground.STILL_S = 1e9
     try:
         yield
     finally:
-        outside_ground.FRAME_S, outside_ground.STILL_S = before
+        found._coarseness, outside_ground.STILL_S = before
 
 
 def drag(d: Driver) -> list[tuple[int, int]]:
@@ -88,7 +92,7 @@ def drive_a_scene_that_is_too_slow_is_coarse_while_the_view_moves(d: Driver) -> 
     enter(d)
     full = view(d).size_px
     assert full is not None
-    with pace(frame_s=1e-9, still_s=1e9):
+    with pace(d, 1e-9):
         assert drag(d) == [(outside_ground.COARSEST, full[0])] * 5
         assert not view(d).settled
         coarse = d.picture()
@@ -106,7 +110,7 @@ def drive_a_scene_that_is_fast_enough_stays_full(d: Driver) -> None:
     enter(d)
     full = view(d).size_px
     assert full is not None
-    with pace(frame_s=1e9, still_s=1e9):
+    with pace(d, 1e9):
         assert drag(d) == [(1, full[0])] * 5
     d.settle()
 
