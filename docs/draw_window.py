@@ -30,7 +30,7 @@ LAYOUT_AT = 3  # the frame in which the layout is chosen; the first ones are Hel
 
 @dataclass(frozen=True)
 class Picture:
-    """options: as AppState.with_options takes them. step: of the built-in lecture, from 1; 0: none,
+    """options: as AppState.with_options takes them. step: its title in the built-in lecture; empty: none,
     otherwise the step says what is to be seen."""
 
     name: str
@@ -38,7 +38,7 @@ class Picture:
     scene: str = "still-life"
     size: tuple[int, int] = (1280, 720)
     options: dict[str, Any] = field(default_factory=dict)
-    step: int = 0
+    step: str = ""
 
 
 PICTURES = (
@@ -47,7 +47,7 @@ PICTURES = (
     Picture("compare", "Compare", "spheres"),
     Picture("probe", "Probe", "primitives", (1600, 900), {"marked": (190, 150)}),
     Picture("loops", "Loops", "still-life", (1600, 900), {"stepper": {"steps": (1010, 4720)}}),
-    Picture("lecture", step=26, size=(1600, 900)),
+    Picture("lecture", step="From pixel to ray", size=(1600, 900)),
     Picture(
         "presentation",
         layout.PRESENTATION,
@@ -62,7 +62,9 @@ def draw(picture: Picture, folder: Path = FOLDER) -> Path:
     """Draws one picture; gives its file."""
     path = folder / f"{picture.name}.png"
     if picture.step:
-        run_lecture(BUILTIN, load_lecture(BUILTIN), picture.size, picture.step - 1, path)
+        lecture = load_lecture(BUILTIN)
+        number = [step.title for step in lecture.steps].index(picture.step)
+        run_lecture(BUILTIN, lecture, picture.size, number, path)
         return path
     state = AppState.for_scene(load_scene(picture.scene)).with_options(**picture.options)
     run = Run(start_platform(want_display=False), state, picture.size, take_picture=True)
