@@ -151,16 +151,12 @@ def triangles_on_ray(corner, leaf, ray, t_min, t_max):
     e0, e1, e2 = cx * by - cy * bx, ax * cy - ay * cx, bx * ay - by * ax
     zero = np.float32(0)
     inside = (vmin(vmin(e0, e1), e2) >= zero) | (vmax(vmax(e0, e1), e2) <= zero)
-    t = splat(np.float32(np.inf))
-    found = bits(inside)
-    if found != 0:
-        # t is a mean of the corners', weighted by the edge functions: never outside them.
-        area = e0 + e1 + e2
-        t = (e0 * az + e1 * bz + e2 * cz) * ray.shear[2] / area
-        inside = inside & (area != zero) & (t > t_min) & (t < t_max)
-        found = bits(inside)
-        t = select(inside, t, np.float32(np.inf))
-    return found, t
+    # t is a mean of the corners', weighted by the edge functions: never outside them. Computed also
+    # where no triangle is met: whether one is cannot be foreseen, and a wrong guess costs more.
+    area = e0 + e1 + e2
+    t = (e0 * az + e1 * bz + e2 * cz) * ray.shear[2] / area
+    inside = inside & (area != zero) & (t > t_min) & (t < t_max)
+    return bits(inside), select(inside, t, np.float32(np.inf))
 
 
 @inlined
