@@ -30,8 +30,8 @@ LAYOUT_AT = 3  # the frame in which the layout is chosen; the first ones are Hel
 
 @dataclass(frozen=True)
 class Picture:
-    """options: as AppState.with_options takes them. step: its title in the built-in lecture; empty: none,
-    otherwise the step says what is to be seen."""
+    """options: as AppState.with_options takes them. step: its title in the built-in lecture, and it
+    says what is to be seen; empty: none."""
 
     name: str
     layout: str = layout.LAYOUTS[0].name
