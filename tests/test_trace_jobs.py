@@ -11,6 +11,7 @@ import time
 import weakref
 from collections.abc import Iterator
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -18,8 +19,9 @@ from trace_reference import scene_of
 
 from renderer.camera import Camera
 from renderer.errors import LucidaError
+from renderer.frame import Frame
 from renderer.scene.model import Mesh, Scene, Sphere
-from renderer.trace import TraceJob, Tracer
+from renderer.trace import TraceJob, Tracer, instances
 from renderer.trace.garbage import no_full_collections
 from renderer.trace.image import BLOCK
 from renderer.trace.team import Team
@@ -27,6 +29,105 @@ from renderer.trace.team import Team
 FRONT = Camera.look_at((0, 0, 5), (0, 0, 0), fov_y_deg=40)
 SMALL, LARGE = (48, 32), (2048, 2048)
 HANG_S = 60  # a failure, not a measurement
+
+
+class Gate:
+    """Holds up the building of a mesh's tree. ends: how each one that was held up has ended."""
+
+    def __init__(self, monkeypatch: pytest.MonkeyPatch) -> None:
+        self.reached, self.opened = threading.Event(), threading.Event()
+        self.ends: list[str] = []
+        self._build = instances.tree_of_mesh
+        monkeypatch.setattr(instances, "tree_of_mesh", self)
+
+    def __call__(self, *arguments: Any) -> Any:
+        self.reached.set()
+        assert self.opened.wait(HANG_S)
+        self.ends.append("given up")
+        tree = self._build(*arguments)
+        self.ends[-1] = "built"
+        return tree
+
+
+def one_triangle(depth: float) -> Scene:
+    vertices = np.array([[-9, -9, depth], [9, -9, depth], [0, 20, depth]], float)
+    return scene_of(Mesh(vertices, np.array([[0, 1, 2]])))
+
+
+def nearest(frame: Frame) -> float:
+    """The distance from the eye of the nearest hit, along the view's direction."""
+    return float(frame.channel("depth").min()) * FRONT.distance
+
+
+def test_building_for_a_scene_that_nobody_wants_any_more_is_given_up(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    with Tracer(scene_of(Sphere())) as tracer:
+        tracer.render(FRONT, SMALL)
+        gate = Gate(monkeypatch)
+        tracer.set_scene(one_triangle(1.0))
+        first = tracer.start(FRONT, SMALL)
+        assert gate.reached.wait(HANG_S)
+        first.cancel()
+        assert not first.result().complete  # at once
+        tracer.set_scene(scene_of(Sphere(radius=0.5)))
+        second = tracer.start(FRONT, SMALL)
+        gate.opened.set()
+        assert second.result().complete
+        assert gate.ends == ["given up"]
+        # Nothing is left of it: the same scene, asked for again, is built and drawn.
+        tracer.set_scene(one_triangle(2.0))
+        assert nearest(tracer.render(FRONT, SMALL)) == pytest.approx(3.0)
+        assert gate.ends == ["given up", "built"]
+
+
+def test_building_goes_on_for_another_image_of_the_same_scene(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    with Tracer(scene_of(Sphere())) as tracer:
+        tracer.render(FRONT, SMALL)
+        gate = Gate(monkeypatch)
+        tracer.set_scene(one_triangle(1.0))
+        first = tracer.start(FRONT, SMALL)
+        assert gate.reached.wait(HANG_S)
+        first.cancel()
+        second = tracer.start(FRONT, SMALL)
+        gate.opened.set()
+        assert nearest(second.result()) == pytest.approx(4.0)
+        assert gate.ends == ["built"]
+
+
+def test_closing_gives_up_building(monkeypatch: pytest.MonkeyPatch) -> None:
+    tracer = Tracer(scene_of(Sphere()))
+    tracer.render(FRONT, SMALL)
+    gate = Gate(monkeypatch)
+    tracer.set_scene(one_triangle(1.0))
+    job = tracer.start(FRONT, SMALL)
+    assert gate.reached.wait(HANG_S)
+    closing = threading.Thread(target=tracer.close)
+    closing.start()
+    assert not job.result().complete  # at once
+    gate.opened.set()
+    closing.join(HANG_S)
+    assert gate.ends == ["given up"]
+
+
+def test_a_scene_whose_first_job_was_cancelled_waiting_is_prepared_for_the_next(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    with Tracer(scene_of(Sphere())) as tracer:
+        tracer.render(FRONT, SMALL)
+        gate = Gate(monkeypatch)
+        tracer.set_scene(one_triangle(1.0))
+        busy = tracer.start(FRONT, SMALL)
+        assert gate.reached.wait(HANG_S)
+        tracer.set_scene(scene_of(Sphere(radius=0.5)))
+        waiting = tracer.start(FRONT, SMALL)
+        waiting.cancel()
+        wanted = tracer.start(FRONT, SMALL)
+        gate.opened.set()
+        assert busy.result().complete
+        assert nearest(wanted.result()) == pytest.approx(4.5, rel=1e-3)
 
 
 def slow_scene() -> Scene:

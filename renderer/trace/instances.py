@@ -134,16 +134,18 @@ class Instances:
 
     def _build_trees(self, scene: Scene, flat: FlatScene) -> None:
         """A tree for each mesh that has none; meshes no longer used lose theirs."""
-        known = self._trees
-        self._trees = {}
-        self._meshes = []  # kept alive: their arrays' identities are the keys
+        trees: dict[tuple[int, int], WideTree] = {}
+        meshes: list[Mesh] = []
         for mesh in _meshes(scene):
             key = _key(mesh)
-            if key not in self._trees:
-                self._meshes.append(mesh)
-                self._trees[key] = known.get(key) or tree_of_mesh(
+            if key not in trees:
+                meshes.append(mesh)
+                trees[key] = self._trees.get(key) or tree_of_mesh(
                     mesh.vertices, mesh.faces, flat, self._team
                 )
+        # Only now, as building may be given up. Meshes are kept alive: their arrays' identities
+        # are the keys.
+        self._trees, self._meshes = trees, meshes
         self._join()
 
     def _join(self) -> None:

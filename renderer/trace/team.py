@@ -37,14 +37,20 @@ def check_threads(threads: int | None) -> int:
     return threads
 
 
+class AbandonedError(Exception):
+    """Nobody waits for what the team was to do."""
+
+
 class Team:
     """The calling thread and size - 1 helpers, which start when they are first needed.
 
     Used by one thread at a time, the team's owner. Helpers are daemons: the owner calls close().
+    is_over: asked before each kernel, whether the work that it belongs to is to end.
     """
 
     def __init__(self, size: int) -> None:
         self.size = size
+        self.is_over: Callable[[], bool] | None = None
         self._helpers: list[threading.Thread] = []
         self._calls: queue.SimpleQueue[tuple[Callable[..., Any], tuple] | None] = (
             queue.SimpleQueue()
@@ -54,8 +60,10 @@ class Team:
     def run(self, kernel: Callable[..., Any], *args: Any, size: int | None = None) -> None:
         """Calls kernel(*args) in each thread, or in `size` of them; returns when all have.
 
-        Raises what a call raised, once all are over.
+        Raises what a call raised, once all are over; or AbandonedError, before any, by is_over.
         """
+        if self.is_over is not None and self.is_over():
+            raise AbandonedError
         helpers = min(self.size, self.size if size is None else max(size, 1)) - 1
         while len(self._helpers) < helpers:
             name = f"lucida-trace-{len(self._helpers) + 1}"

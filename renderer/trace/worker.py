@@ -11,6 +11,7 @@ import contextlib
 import queue
 import threading
 import weakref
+from functools import partial
 from typing import Any
 
 from renderer.errors import LucidaError
@@ -18,7 +19,7 @@ from renderer.scene.model import Scene
 from renderer.trace.batch import RayBatch
 from renderer.trace.garbage import no_full_collections
 from renderer.trace.jobs import Task
-from renderer.trace.team import Team
+from renderer.trace.team import AbandonedError, Team
 
 Work = Task | RayBatch
 
@@ -33,6 +34,7 @@ class Worker:
         self._lock = threading.Lock()
         self._tasks: weakref.WeakSet[Work] = weakref.WeakSet()
         self._current: Work | None = None
+        self._newest: Scene | None = None  # of the last task
         self._thread: threading.Thread | None = None
         self._closed = False
 
@@ -42,6 +44,7 @@ class Worker:
             if self._closed:
                 raise LucidaError("tracer", "is closed", "make a new Tracer")
             self._tasks.add(task)
+            self._newest = scene
             if self._thread is None:
                 # A daemon, so that the interpreter's exit reaches _end_all instead of waiting.
                 self._thread = threading.Thread(
@@ -80,29 +83,37 @@ class Worker:
         while (item := self._queue.get()) is not None:
             scene, task = item
             self._current = task
+            team.is_over = partial(self._is_unwanted, scene, task)
             if self._closed:
                 task.cancel()
             try:
-                if task.finished.is_set():
-                    pass
-                elif engine is None:
-                    with no_full_collections():
-                        engine = self._new_engine(scene, team)
-                elif scene is not prepared:
+                if scene is not prepared and not task.finished.is_set():
                     prepared = None  # until it is, if it can be
-                    engine.set_scene(scene)
-                if engine is not None:
+                    if engine is None:
+                        with no_full_collections():
+                            engine = self._new_engine(scene, team)
+                    else:
+                        engine.set_scene(scene)
                     prepared = scene
+                team.is_over = None  # an image at work is told by its own control
+                if engine is not None:
                     task.run(engine)
                 elif self._closed:
                     task.cancel()
+            except AbandonedError:
+                task.cancel()
             except MemoryError:
                 task.fail(LucidaError("scene", "exceeds the memory", "use a smaller model"))
             except BaseException as error:
                 task.fail(error)
+            team.is_over = None
             del item, task  # their buffers, while waiting for the next
             self._current = None
         team.close()
+
+    def _is_unwanted(self, scene: Scene, task: Work) -> bool:
+        """Whether preparing a scene for a task is in vain: another scene is asked for since."""
+        return self._closed or (task.finished.is_set() and self._newest is not scene)
 
     def _new_engine(self, scene: Scene, team: Team) -> Any:
         """The engine (engine.py) for a scene; None if this is closed while kernels are compiled."""
