@@ -30,6 +30,8 @@ from app.teach.lecture.session import Session
 from app.teach.lecture.states import state_of
 from app.views.base import Host, View
 from renderer.errors import LucidaError
+from renderer.scene.apart import ModelReader
+from renderer.scene.models import read_by
 
 LECTURE = "Lecture"
 LAYOUT = "Lecture"  # of layout.LAYOUTS
@@ -280,5 +282,6 @@ class LectureView(View):
 
 def _read(path: Path) -> tuple[Lecture, LucidaError | None]:
     """A lecture's file read again, and the first of its formulas that cannot be set."""
-    lecture = load_lecture(path)
+    with read_by(ModelReader().read):  # a large model of its scenes' in a process of its own
+        lecture = load_lecture(path)
     return lecture, first_mistake(lecture.formulas)
