@@ -24,6 +24,7 @@ INSTRUMENTS = "InstrumentSpace"  # below or beside: tabs
 
 CAMERA_WIDTH_EM = 19.5
 PRESENTATION = "Presentation"  # what presentation mode shows
+ARRANGING_FRAMES = 3  # until the dock spaces of a layout are there again
 LEAST_ROOM_PX = 200.0  # for both images; in less, ImGui's smallest sizes decide
 
 Split = tuple[str, str, imgui.Dir, float]  # space, new space, where, its part of the room
@@ -180,7 +181,7 @@ def arrange(views: Iterable[View], places: dict[str, str]) -> None:
     """Shows some of these views in other spaces of the present layout, and hides the rest.
 
     places: view to space. Takes effect in the next frame; what the user has moved stands again
-    where the layout puts it.
+    where the layout puts it. How large the spaces are is Proportion's to keep.
     """
     layout = current()
     for view in views:
@@ -206,18 +207,20 @@ def whole() -> tuple[tuple[float, float], tuple[float, float]] | None:
 @dataclass
 class _Share:
     """A space's part of what it was split off from. room: of that, when the part was last kept;
-    settling: frames until the new sizes are there."""
+    settling: frames until the new sizes are there; again: frames in which they are made anew."""
 
     part: float = 0.5
     room: float = 0.0
     settling: int = 0
+    again: int = 0
 
     def keep(self, node: imgui.internal.DockNode, parent: imgui.internal.DockNode, x: bool) -> None:
         size, room = (node.size.x, parent.size.x) if x else (node.size.y, parent.size.y)
         kept = (node.size_ref.x, parent.size_ref.x) if x else (node.size_ref.y, parent.size_ref.y)
         if not self.room and 0 < kept[0] < kept[1]:
             self.part = kept[0] / kept[1]  # as saved, or the layout's
-        if room != self.room:
+        if room != self.room or self.again:
+            self.again = max(0, self.again - 1)
             size = max(1.0, self.part * room)
             new = (size, node.size.y) if x else (node.size.x, size)
             imgui.internal.dock_builder_set_node_size(node.id_, new)
@@ -232,16 +235,19 @@ class Proportion:
     """Keeps the spaces' shares of the room when the window is resized, and the camera's panel as
     wide as its numbers are.
 
-    ImGui would give all of the difference to one of them. The user's own division stays.
+    ImGui would give all of the difference to one of them. The user's own division stays, also
+    when the views are arranged anew.
     """
 
     def __init__(self) -> None:
         self._layout = ""
         self._shares: dict[str, _Share] = {}
         self._em_px = 0.0
+        self._arranged = 0
 
-    def keep(self) -> None:
-        """Call once a frame."""
+    def keep(self, arranged: int = 0) -> None:
+        """Call once a frame. arranged: another number when arrange() has been called since."""
+        anew, self._arranged = arranged != self._arranged, arranged
         if not imgui.is_mouse_down(imgui.MouseButton_.left):
             self._widen_camera()
         layout = current()
@@ -256,7 +262,10 @@ class Proportion:
             parent = node.parent_node if node is not None else None
             if node is None or parent is None or min(*parent.size, *node.size) <= 0:
                 continue
-            self._shares.setdefault(space, _Share()).keep(node, parent, across)
+            share = self._shares.setdefault(space, _Share())
+            if anew and share.room:
+                share.again = ARRANGING_FRAMES
+            share.keep(node, parent, across)
 
     def _widen_camera(self) -> None:
         """A window that was restored, or enlarged, may leave the panel less than it needs; its

@@ -241,7 +241,7 @@ class MainWindow:
             self._take_opened(opened)
         moving = active or self.traveller.under_way or self._fly.under_way
         self.renderers.update(self.state, moving)
-        self._proportion.keep()
+        self._proportion.keep(self.lecture.arrangements)
         self.shell.frame(self, self)
         self.lecture.follow(self)
         run_shortcuts(self)

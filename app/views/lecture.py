@@ -62,6 +62,7 @@ class LectureView(View):
         self._slides: Slides | None = None
         self._arranged = True
         self._entered = False  # whether the step's state has been taken
+        self.arrangements = 0  # how often the views have been put into their places
 
     # What actions and buttons ask for.
 
@@ -159,6 +160,7 @@ class LectureView(View):
             spaces["camera"] = layout.CAMERA_SPACE
         places = {name.capitalize(): space for name, space in spaces.items()}
         layout.arrange(self._others.values(), places)
+        self.arrangements += 1
 
     # The column.
 

@@ -164,6 +164,28 @@ def drive_the_column_keeps_its_share_of_a_window_that_grows(d: Driver) -> None:
     assert np.allclose(shares(), before, atol=0.02)
 
 
+def drive_a_column_that_was_widened_stays_so(d: Driver) -> None:
+    _give(d)
+
+    def left() -> float:
+        return d.window.shell.stage.rects[LECTURE][0]
+
+    before, top = left(), d.window.shell.stage.rects[LECTURE][1]
+    edge = (before - _lecture(d).padding.x - 1, top + 200)
+    d.drag(edge, (edge[0] - 150, edge[1]))
+    d.settle()
+    widened = left()
+    assert widened < before - 100
+    for steps in (1, -1):
+        _lecture(d).advance(d.window, steps)
+        d.settle()
+        d.until(lambda: abs(left() - widened) < 3)
+    layout.reset()  # what the user asks for gives the layout's own
+    d.ctx.yield_(6)
+    d.settle()
+    assert abs(left() - before) < 3
+
+
 def drive_what_a_step_points_out_is_framed(d: Driver) -> None:
     pointing = SMALL.replace('views = ["ray"', 'highlight = ["eye", "ray"]\nviews = ["ray"')
     _give(d, pointing)
