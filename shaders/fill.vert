@@ -2,6 +2,7 @@
 // Filled shapes, already on the screen: three corners a triangle.
 
 uniform vec2 half_size;  // of the target, in pixels
+uniform float upward;    // see chunks/outside.glsl
 
 in vec2 corner;
 in float depth;
@@ -18,5 +19,5 @@ void main() {
     s = depth;
     fill_color = color;
     fill_style = style;
-    gl_Position = vec4((corner - half_size) / half_size, 0.0, 1.0);
+    gl_Position = vec4(vec2(1.0, upward) * (corner - half_size) / half_size, 0.0, 1.0);
 }

@@ -55,6 +55,7 @@ def drawn(
     plane: Plane | None = None,
     unit_px: float = 1.0,
     coarse: int = 1,
+    upside_down: bool = False,
 ) -> NDArray[np.uint8]:
     """The view's pixels, (height, width, 3). coarse: how many are one of the scene's, a side."""
     rasterizer.set_scene(scene)
@@ -73,6 +74,7 @@ def drawn(
                 plane,
                 picture,
                 unit_px=unit_px,
+                upside_down=upside_down,
             )
             pixels = np.frombuffer(texture.read(), np.uint8).reshape(SIZE[1], SIZE[0], 4)
             assert pixels[..., 3].min() == 255  # ImGui blends it
@@ -289,3 +291,19 @@ def test_the_scenes_parameter_is_read_at_a_place(rasterizer: Rasterizer) -> None
         ray = camera.ray(row, column, SIZE)
         assert found * np.linalg.norm(ray.direction) == pytest.approx(way - 1.0, rel=2e-3)
         assert missed == np.inf
+
+
+def test_a_picture_to_be_copied_under_a_window_is_upside_down(rasterizer: Rasterizer) -> None:
+    camera = outsides()[0]
+    plane = picture_plane(camera)
+    corners = np.array([[-0.5, -0.5, 1.1], [0.5, -0.5, 1.1], [0.5, 0.5, 1.1]])
+    items: list[Item] = [
+        line((-2.5, -1.4, 1.0), (2.0, 1.2, 1.0), width=3.0),
+        Face("f", "grid", corners, 0.5),
+    ]
+    for coarse in (1, 2):
+        upright = drawn(rasterizer, BALL, camera, items, plane, coarse=coarse)
+        turned = drawn(rasterizer, BALL, camera, items, plane, coarse=coarse, upside_down=True)
+        different = np.abs(turned[::-1].astype(int) - upright).max(axis=2) > 2
+        assert different.mean() < 0.002  # edges of shapes: which pixels those cover
+        assert np.abs(turned.astype(int) - upright).max() > 50

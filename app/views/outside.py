@@ -22,6 +22,7 @@ from app.cameras.travel import Ends
 from app.images.picking import object_on_ray
 from app.images.pictures import Wanted
 from app.images.renderers import look_of
+from app.images.shown import Picture
 from app.options import OutsideOptions, Pixel
 from app.outside.diagram import Hit, Item, diagram
 from app.outside.extent import end_parameter
@@ -31,7 +32,7 @@ from app.outside.projected import Primitive, project
 from app.outside.screen import Screen
 from app.outside.sketch import OPACITY
 from app.outside.solid import bundle_pixels, pixel_seen, plane_corners
-from app.panels.screen import available_px, framebuffer_scale
+from app.panels.screen import available_px, framebuffer_scale, is_at_the_bottom
 from app.state import AppState
 from app.storage.files import describe
 from app.views.base import Host, View
@@ -178,7 +179,8 @@ class OutsideView(View):
         origin = imgui.get_cursor_screen_pos()
         extent = ImVec2(size[0] / scale, size[1] / scale)
         scope = self._follow_mouse(host, size, origin, extent)
-        texture = self._texture(host, scope.shown, size, scope)
+        is_under = is_at_the_bottom()
+        texture = self._texture(host, scope.shown, size, scope, is_under)
         draw = imgui.get_window_draw_list()
         far = ImVec2(origin.x + extent.x, origin.y + extent.y)
         if texture is None:
@@ -186,7 +188,13 @@ class OutsideView(View):
             imgui.set_cursor_screen_pos(ImVec2(origin.x + theme.px(8), origin.y + theme.px(8)))
             imgui.text_wrapped(self._error)
             return
-        draw.add_image(imgui.ImTextureRef(texture.glo), origin, far)
+        if is_under:
+            assert self._overlay is not None
+            left, top = round(origin.x * scale), round(origin.y * scale)
+            picture = Picture(texture, self._overlay.target)
+            host.renderers.underlay.put(picture, (left, top, left + size[0], top + size[1]))
+        else:
+            draw.add_image(imgui.ImTextureRef(texture.glo), origin, far)
         draw.push_clip_rect(origin, far, True)
         assert self._made is not None
         labels(self._made.primitives, origin, scale, host.fonts)
@@ -273,9 +281,10 @@ class OutsideView(View):
     # The picture.
 
     def _texture(
-        self, host: Host, camera: Camera, size: Size, scope: Scope
+        self, host: Host, camera: Camera, size: Size, scope: Scope, is_under: bool
     ) -> moderngl.Texture | None:
-        """The view's picture, made anew if anything of it has changed; None where that failed."""
+        """The view's picture, made anew if anything of it has changed; None where that failed.
+        is_under: it is for the underlay."""
         both, state = host.renderers, host.state
         assert self._overlay is not None
         assert self._ground is not None
@@ -297,7 +306,7 @@ class OutsideView(View):
             key = (
                 state.scene, camera, size, inner, image_size, replace(options, camera=None),
                 marked, tuple(hits), drawn, state.images, unit_px, symbol_px, ground.number,
-                ground.smooth, state.preferences, tuple(self._extra.items()),
+                ground.smooth, is_under, state.preferences, tuple(self._extra.items()),
             )  # fmt: skip
             if self._made is not None and self._made.key == key:
                 return self._made.texture
@@ -324,6 +333,7 @@ class OutsideView(View):
                 casing=casing(),
                 number=(ground.number, ground.parts),
                 mean=ground.mean if ground.smooth else None,
+                upside_down=is_under,
             )
         except (LucidaError, moderngl.Error) as error:
             self._made = None

@@ -105,6 +105,11 @@ class Overlay:
         self._lines = self._owner.own(Lines(context))
         self._targets: dict[str, tuple[moderngl.Texture, moderngl.Framebuffer]] = {}
 
+    @property
+    def target(self) -> moderngl.Framebuffer:
+        """What draw() has drawn into last: to copy from."""
+        return self._targets["shown"][1]
+
     def gather(self, scene: Textures, first: bool, weight: float) -> moderngl.Texture:
         """Adds a picture of the scene, multiplied by weight, to those since the last first one:
         pictures that are shifted by parts of a pixel have a mean with smooth edges. The texture,
@@ -160,6 +165,7 @@ class Overlay:
         mean: moderngl.Texture | None = None,
         casing: Rgba = (0.03, 0.035, 0.04, 0.6),
         number: Hashable = None,
+        upside_down: bool = False,
     ) -> moderngl.Texture:
         """The view as an 8-bit texture of `size`, drawn over by the next call.
 
@@ -167,7 +173,7 @@ class Overlay:
         gather(). plane, picture: what stands in the scene; the picture as it is to be seen (not
         linear). The plane alone hides nothing. unit_px: the size of dashes and edges. casing: the
         colour of lines' edges. number: another one whenever the scene's picture is another; None:
-        not known.
+        not known. upside_down: row 0 is the last one, as in a window's framebuffer.
         """
         gl = self._gl
         texture, framebuffer = self._of_size("shown", size, "uint8")
@@ -175,6 +181,7 @@ class Overlay:
         coarse = scene.surface.size
         shared: dict[str, Any] = {
             "surface": 1,
+            "upward": -1.0 if upside_down else 1.0,
             "texels": (coarse[0] / size[0], coarse[1] / size[1]),
             "perspective": float(not camera.is_parallel),
             "half_size": (size[0] / 2, size[1] / 2),
@@ -189,7 +196,7 @@ class Overlay:
             gl.enable_only(moderngl.NOTHING)
             gl.wireframe = False
             gl.clear_samplers(0, 3)
-            shown = self._scene_shown(mean or scene.color, exposure_ev, number)
+            shown = self._scene_shown(mean or scene.color, exposure_ev, number, upside_down)
             self._cover(shown, framebuffer, shared["half_size"])
             framebuffer.color_mask = True, True, True, False  # all of it stays opaque
             framebuffer.use()  # which is when a mask takes effect
@@ -232,16 +239,17 @@ class Overlay:
         self._enlarge.render(moderngl.TRIANGLES, vertices=3)
 
     def _scene_shown(
-        self, linear: moderngl.Texture, exposure_ev: float, number: Hashable
+        self, linear: moderngl.Texture, exposure_ev: float, number: Hashable, upside_down: bool
     ) -> tuple[moderngl.Texture, moderngl.Framebuffer]:
         """The scene after the display transform, made anew only if it must be."""
         texture, framebuffer = self._of_size("scene", linear.size, "uint8")
-        key = (texture.glo, linear.glo, exposure_ev, number)
+        key = (texture.glo, linear.glo, exposure_ev, number, upside_down)
         if number is None or key != self._kept:
             framebuffer.use()
             linear.use(0)
             set_uniform(self._showing, "linear_color", 0)
             set_uniform(self._showing, "window_depth", 0.5)
+            set_uniform(self._showing, "rows", linear.height if upside_down else 0)
             set_uniform(self._showing, "exposure", 2.0 ** min(max(exposure_ev, -100.0), 100.0))
             self._show.render(moderngl.TRIANGLES, vertices=3)
             self._kept = key
