@@ -14,6 +14,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from app.storage.files import Files
 from renderer.errors import LucidaError
 from renderer.scene import apart, load_scene
 from renderer.scene.apart import CancelledError, ModelReader, is_large
@@ -255,6 +256,24 @@ def test_cancelling_kills_the_process(tmp_path: Path, child):
     assert reader._process is None
     with pytest.raises(CancelledError):  # nothing begins afterwards, large or not
         reader.read(path)
+
+
+def test_closing_and_cancelling_the_windows_files_ends_the_process(tmp_path: Path, child):
+    child(HELLO + "    time.sleep(9999)\n")
+    path = written(tmp_path / "a.obj", TRIANGLE)
+    files = Files(lambda: None, native=False)
+    for end in (files.cancel, files.close):
+        files.open(str(path))
+        wait_for(lambda: files._models._process is not None)
+        reader, process = files._models, files._models._process
+        assert process is not None
+        assert files.loading == "a.obj"
+        end()
+        wait_for(lambda reader=reader: reader._process is None)
+        assert process.returncode not in (0, None)
+    assert files.poll() is None
+    assert files.poll_said() == ["Loading a.obj was cancelled."]
+    assert files.message == ""
 
 
 @pytest.mark.skipif(sys.platform == "win32", reason="a named pipe tells when its writer is gone")

@@ -33,7 +33,7 @@ from renderer.scene import (
     save_scene,
     save_view,
 )
-from renderer.scene.apart import ModelReader
+from renderer.scene.apart import CancelledError, ModelReader
 from renderer.scene.models import read_by
 
 LECTURE_ENDING = ".toml"
@@ -178,7 +178,7 @@ class Files:
             else:
                 self._said.append(saved.value or "")
         outcome = self._loading.poll()
-        if outcome is None:
+        if outcome is None or isinstance(outcome.error, CancelledError):
             return None
         if outcome.error is not None:
             self.message = describe(outcome.error)

@@ -133,6 +133,8 @@ def main(path: str) -> None:
     """What the process does: it answers with the objects, or with the exception."""
     answers = os.fdopen(os.dup(1), "wb")
     os.dup2(2, 1)  # whatever a library prints is no part of the answer
+    import trimesh  # noqa: F401  # Windows: loading libraries waits for a thread that reads input
+
     end_with_parent()
     _go_first()
     answers.write(_HELLO)
