@@ -265,11 +265,11 @@ def test_closing_and_cancelling_the_windows_files_ends_the_process(tmp_path: Pat
     for end in (files.cancel, files.close):
         files.open(str(path))
         wait_for(lambda: files._models._process is not None)
-        reader, process = files._models, files._models._process
+        process = files._models._process
         assert process is not None
         assert files.loading == "a.obj"
         end()
-        wait_for(lambda reader=reader: reader._process is None)
+        wait_for(lambda process=process: process.returncode is not None)
         assert process.returncode not in (0, None)
     assert files.poll() is None
     assert files.poll_said() == ["Loading a.obj was cancelled."]
