@@ -5,15 +5,17 @@
 #include "chunks/tables.glsl"
 
 uniform sampler2D triangle_rows;
+uniform int first_triangle;  // of this draw
 
 out int primitive;
 
 void main() {
-    vec3 row = texelFetch(triangle_rows, texel(gl_PrimitiveID), 0).xyz;
+    int number = first_triangle + gl_PrimitiveID;
+    vec3 row = texelFetch(triangle_rows, texel(number), 0).xyz;
     float t = triangle_t(row, image_position(gl_FragCoord.xy));
     if (!counts(t)) {
         discard;
     }
-    primitive = gl_PrimitiveID;
+    primitive = number;
     gl_FragDepth = depth(t);
 }

@@ -1,10 +1,14 @@
-"""How coarse the images of a motion are: within the budget, and without a change in between."""
+"""How coarse the images of a motion are, and over how many frames one is drawn."""
 
 from __future__ import annotations
+
+from typing import Any
 
 import pytest
 
 from app.images.coarseness import FACTORS, MOST_MISSES, STILL_S, Coarseness
+from app.images.parts import Drawing, Pace
+from renderer.camera import Camera
 
 PIXELS = 1280 * 720
 FRAME_S = 1 / 60
@@ -95,3 +99,45 @@ def test_the_time_of_a_full_image_is_told_from_any_other() -> None:
     coarseness = Coarseness(0.006, 0.012)
     coarseness.measured(4, PIXELS // 16, 1e-8 * PIXELS / 16)
     assert coarseness.full_s(PIXELS) == pytest.approx(1e-8 * PIXELS)
+
+
+class Canvas:
+    """A Rasterizer that notes what it is asked to draw."""
+
+    def __init__(self, triangles: int) -> None:
+        self.triangles = triangles
+        self.parts: list[int] = []
+
+    def draw(self, *_: object) -> str:
+        self.parts.append(self.triangles)
+        return "drawn"
+
+    def draw_part(self, _camera: object, _size: object, _place: str, first: int, count: int) -> Any:
+        assert first == sum(self.parts)
+        self.parts.append(count)
+        return "drawn" if first + count >= self.triangles else None
+
+
+def drawn(triangles: int, triangle_s: float, at_once: bool = False) -> list[int]:
+    """The triangles of each frame."""
+    canvas, pace = Canvas(triangles), Pace()
+    pace.measured(triangles, triangle_s * triangles)
+    pace.measured = lambda *_: None  # type: ignore[method-assign]
+    drawing = Drawing(canvas, Camera(), (1280, 720), 2, "", at_once)  # type: ignore[arg-type]
+    while drawing.go_on(pace) is None:
+        assert len(canvas.parts) < 10_000
+    assert drawing.size == (640, 360)
+    return canvas.parts
+
+
+def test_a_device_that_is_quick_draws_all_triangles_at_once() -> None:
+    assert drawn(1_000_000, 1e-9) == [1_000_000]
+    assert drawn(0, 0.0) == [0]
+    assert drawn(1_000_000, 1e-4, at_once=True) == [1_000_000]
+
+
+def test_triangles_that_take_longer_than_a_frame_are_drawn_in_several() -> None:
+    first, *others = drawn(1_000_000, 1e-7)  # 0.1 s
+    assert first == 0  # the tables of this camera
+    assert sum(others) == 1_000_000
+    assert len(others) > 2

@@ -304,6 +304,28 @@ class TestNumbers:
             assert frame.depth[18, 24] == pytest.approx(3 * scale, rel=1e-2)
 
 
+class TestParts:
+    """An image drawn in several calls is that of one call."""
+
+    @pytest.mark.parametrize("count", [1, 5, 1000])
+    def test_parts_make_the_same_image(self, rasterizer, count):
+        rasterizer.set_scene(still_life())
+        expected = rasterizer.render(WIDE, SIZE, CHANNELS)
+        first, drawn, other = 0, None, Camera(eye=(1.0, 2.0, 9.0))
+        while drawn is None:
+            assert first < rasterizer.triangles
+            drawn = rasterizer.draw_part(WIDE, SIZE, "parts", first, count)
+            first += count
+            rasterizer.draw(other, (20, 10), "another camera's, in between")
+        for channel, values in rasterizer.read(CHANNELS, place="parts").items():
+            np.testing.assert_array_equal(values, expected.channel(channel))
+
+    def test_a_scene_without_triangles_is_one_part(self, rasterizer):
+        rasterizer.set_scene(Scene((SceneObject(Sphere((0, 0, -5), 3.0)),)))
+        assert rasterizer.triangles == 0
+        assert rasterizer.draw_part(WIDE, SIZE, "parts", 0, 0) is not None
+
+
 class TestClipping:
     def test_near_and_far_are_obeyed(self, rasterizer):
         scene = Scene(tuple(SceneObject(square(9, z)) for z in (-1.0, -2.0, -3.0)))

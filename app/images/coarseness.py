@@ -12,8 +12,8 @@ from __future__ import annotations
 
 FACTORS = (1, 2, 3, 4, 6, 8)  # image pixels a side that one coarse pixel stands for
 STILL_S = 0.25  # a change later than this after the last one begins another motion
-TOO_SLOW = 1.5  # times the budget ...
-MOST_MISSES = 3  # ... so many times in a row: coarser
+TOO_SLOW = 2.0  # times the budget ...
+MOST_MISSES = 5  # ... so many times in a row: coarser
 MOST_HITS = 8  # finer ones would have met the budget so many times in a row: finer
 FRAMES = 2.5  # of the motion, without a change, before a full image
 
@@ -91,8 +91,8 @@ class Coarseness:
         return self._factors[-1]
 
     def _expected_s(self, factor: int, pixels: int) -> float:
-        """By the nearest factor that was measured; the finer of two, whose share of what does not
-        grow with the pixels is the smaller."""
+        """By the nearest factor that was measured; by the finer of two, where what does not grow
+        with the pixels is less of it. 0 where nothing is known."""
         if not self._pixel_s:
             return 0.0
         place = FACTORS.index(factor)

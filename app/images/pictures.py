@@ -16,7 +16,8 @@ import moderngl
 from numpy.typing import NDArray
 
 from app.images.coarseness import Coarseness
-from app.images.live import RayImage, reduced
+from app.images.live import RayImage
+from app.images.parts import Drawing, Pace
 from app.images.placement import Placement
 from app.images.reading import Reading, Region
 from app.images.shown import Picture, Range, ShownImage, whole
@@ -31,6 +32,7 @@ FAILURES = (LucidaError, moderngl.Error, MemoryError)  # of drawing: told, and s
 MOVING_S = 0.1  # after a change, at least, before a full raster image: the ray image comes first
 FRAME_S = 0.006  # what a raster image may take of a frame while the camera moves
 COARSEST = 4
+COARSE_PLACES = ("coarse", "coarse too")  # see Rasterizer.draw; the full image's is ""
 ATTEMPTS = 3  # at putting an image on the GPU, one a frame
 
 PANE, WHOLE = "pane", "whole"
@@ -57,10 +59,16 @@ class Pictures:
         self._scene: Scene | None = None  # of the rasterizer's
         self._prepared: list[tuple[Scene, Prepared]] = []
         self._timer = context.query(time=True)
-        self._timed: tuple[int, int] | None = None  # factor and pixels of what is still to be read
-        self._coarseness = Coarseness(FRAME_S, FRAME_S, COARSEST)
+        self._timed = False  # whether a part's time is still to be read
+        self._complete: Drawing | None = None  # likewise of an image
+        self._coarseness, self._pace = Coarseness(FRAME_S, FRAME_S, COARSEST), Pace()
         self._wanted: Wanted | None = None
         self._textures: Textures | None = None
+        self._asked: Wanted | None = None  # the newest, whether or not it is drawn already
+        self._factor = 1  # of what is asked for
+        self._under_way: tuple[Wanted, Drawing] | None = None
+        self._advanced = -1  # the frame in which that was gone on with
+        self._drawing_s = 0.0  # measured of what is under way
         self._drawn = 0
         self._values: tuple[object, NDArray] | None = None
         self._changed_s = 0.0
@@ -135,7 +143,7 @@ class Pictures:
             self.raster_error = None
         except FAILURES as error:  # shown in the window, which goes on
             self._raster.set_channels({})
-            self._wanted, self._textures = None, None
+            self._wanted, self._textures, self._under_way = None, None, None
             self.raster_error, self.raster_factor = error, 1
             return None
         return picture
@@ -204,8 +212,8 @@ class Pictures:
         one has measured."""
         seen = self._raster_frame >= self._frame - 1
         return (
-            (self.raster_factor > 1 and seen)
-            or self._timed is not None
+            (seen and (self.raster_factor > 1 or self._under_way is not None))
+            or self._timed
             or 0 < self._failures < ATTEMPTS
             or self._range.unfinished
         )
@@ -213,8 +221,8 @@ class Pictures:
     def read_back(self, wanted: Wanted) -> Frame | None:
         """All channels of the full raster image as arrays, a part a call: None until the last.
         Raises LucidaError."""
-        if wanted != self._wanted or self.raster_factor > 1:
-            self._draw(wanted, 1)
+        if (wanted != self._wanted or self.raster_factor > 1) and not self._refine(wanted):
+            return None
         if self._reading is None or self._reading.of != wanted:
             self._reading = Reading(wanted, wanted.size, self._rasterizer.read)
         frame = self._reading.go_on()
@@ -244,22 +252,65 @@ class Pictures:
                 self._ray_texture.release()
 
     def _follow(self, wanted: Wanted) -> Textures:
-        if wanted != self._wanted or self._textures is None:
-            self._changed_s = time.monotonic()
+        """The newest complete image: of an older camera where an image takes several frames."""
+        if wanted != self._asked:
+            self._asked, self._changed_s = wanted, time.monotonic()
             width, height = wanted.size
-            factor = self._coarseness.changed(width * height, self._changed_s)
-            return self._draw(wanted, factor)
-        still_s = time.monotonic() - self._changed_s
-        if self.raster_factor > 1 and still_s > max(MOVING_S, self._coarseness.rest_s):
-            return self._draw(wanted, 1)
+            self._factor = self._coarseness.changed(width * height, self._changed_s)
+        if self._under_way is not None and self._is_in_vain(wanted):
+            self._under_way = None
+        if self._under_way is None:
+            still_s = time.monotonic() - self._changed_s
+            if wanted != self._wanted or self._textures is None:
+                self._begin(wanted, self._factor)
+            elif self.raster_factor > 1 and still_s > max(MOVING_S, self._coarseness.rest_s):
+                self._begin(wanted, 1)
+        self._go_on()
+        assert self._textures is not None
         return self._textures
 
-    def _draw(self, wanted: Wanted, factor: int) -> Textures:
+    def _refine(self, wanted: Wanted) -> bool:
+        """Goes on with the full image; whether it is complete."""
+        if self._under_way is None or self._under_way[0] != wanted:
+            self._begin(wanted, 1)
+        self._go_on()
+        return wanted == self._wanted and self.raster_factor == 1
+
+    def _is_in_vain(self, wanted: Wanted) -> bool:
+        """Whether what is under way would show too old a thing: a coarse image is finished, so that
+        a motion always shows something new."""
+        assert self._under_way is not None
+        of, drawing = self._under_way
+        return of.scene is not wanted.scene or (drawing.factor == 1 and of != wanted)
+
+    def _begin(self, wanted: Wanted, factor: int) -> None:
         self._show(wanted.scene)
-        self._reading = None  # the textures are drawn over
-        size = reduced(wanted.size, factor)
+        # A coarse image beside the last one, which is shown until it is complete.
+        place = "" if factor == 1 else COARSE_PLACES[self._drawn % 2]
+        if factor == 1:
+            self._reading = None  # the textures are drawn over
+        shown = self._wanted if self._textures is not None else None
+        has_any = shown is not None and shown.scene is wanted.scene
+        self._under_way = (
+            wanted,
+            Drawing(self._rasterizer, wanted.camera, wanted.size, factor, place, not has_any),
+        )
+        self._drawing_s, self._advanced = 0.0, -1
+
+    def _go_on(self) -> None:
+        """Once a frame, however many ask."""
+        if self._under_way is None or self._advanced == self._frame:
+            return
+        (wanted, drawing), self._under_way = self._under_way, None  # also if it fails
         with self._timer:
-            drawn = self._rasterizer.draw(wanted.camera, size)
+            drawn = drawing.go_on(self._pace)
+        self._timed = True
+        if drawn is not None:
+            self._take(wanted, drawing, drawn)
+        else:
+            self._under_way, self._advanced = (wanted, drawing), self._frame
+
+    def _take(self, wanted: Wanted, drawing: Drawing, drawn: Textures) -> None:
         self._raster.set_channels(
             {
                 "color": drawn.color,
@@ -269,9 +320,8 @@ class Pictures:
             }
         )
         self._drawn += 1
-        self._wanted, self._textures = wanted, drawn
-        self._timed, self.raster_factor = (factor, size[0] * size[1]), factor
-        return drawn
+        self._wanted, self._textures, self.raster_factor = wanted, drawn, drawing.factor
+        self._complete = drawing
 
     def _upload(self, image: RayImage, channel: str) -> None:
         """Only what is shown: a channel of a large image is 100 MB."""
@@ -295,10 +345,15 @@ class Pictures:
 
     def _read_time(self) -> None:
         """A frame later: at once, it would wait for the GPU."""
-        if self._timed is not None:
-            self.raster_s = self._timer.elapsed * 1e-9
-            self._coarseness.measured(*self._timed, self.raster_s)
-            self._timed = None
+        if not self._timed:
+            return
+        self._timed = False
+        self._drawing_s += self._timer.elapsed * 1e-9
+        if self._complete is not None:
+            drawing, self._complete = self._complete, None
+            self.raster_s = self._drawing_s
+            width, height = drawing.size
+            self._coarseness.measured(drawing.factor, width * height, self.raster_s)
 
     def _show(self, scene: Scene) -> None:
         if scene is not self._scene:

@@ -91,7 +91,23 @@ class Rasterizer:
         """
         size = check_size(size)
         with self.current() as gl:
-            return self._draw(gl, camera, size, place).textures
+            return self._draw_all(gl, camera, size, place).textures
+
+    def draw_part(
+        self, camera: Camera, size: tuple[int, int], place: str, first: int, count: int
+    ) -> Textures | None:
+        """As draw(), but only `count` triangles from the number `first` on, so that no call takes
+        long. The parts of an image come in order, with the same camera, size, place and scene;
+        what is drawn to other places in between does no harm. None until the last."""
+        size = check_size(size)
+        with self.current() as gl:
+            targets = self._draw(gl, camera, size, place, first, count)
+        return targets.textures if targets is not None else None
+
+    @property
+    def triangles(self) -> int:
+        """Of the scene, spheres left out."""
+        return self._data.triangles if self._data is not None else 0
 
     def render(
         self,
@@ -145,16 +161,29 @@ class Rasterizer:
     ) -> Frame:
         start = time.perf_counter()
         with self.current() as gl:
-            targets = self._draw(gl, camera, size)
+            targets = self._draw_all(gl, camera, size)
             arrays: dict[str, Any] = {name: targets.read(name) for name in channels}
             check(gl, f"an image of {size[0]}x{size[1]}")
         if progress is not None:
             progress(1.0)
         return Frame(size=size, time_s=time.perf_counter() - start, **arrays)
 
-    def _draw(
+    def _draw_all(
         self, gl: moderngl.Context, camera: Camera, size: tuple[int, int], place: str = ""
     ) -> Targets:
+        targets = self._draw(gl, camera, size, place, 0, None)
+        assert targets is not None  # the first part is the last
+        return targets
+
+    def _draw(
+        self,
+        gl: moderngl.Context,
+        camera: Camera,
+        size: tuple[int, int],
+        place: str,
+        first: int,
+        count: int | None,
+    ) -> Targets | None:
         data = self._data
         assert data is not None  # current() has seen to that
         before = gl.detect_framebuffer()
@@ -165,7 +194,8 @@ class Rasterizer:
             gl.wireframe = False
             gl.clear_samplers(0, 16)
             targets.seen.use()
-            data.see()
+            if not data.see(first, count):
+                return None
             targets.shaded.use()
             data.shade(targets.textures.primitive)
         finally:

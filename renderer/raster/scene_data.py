@@ -88,6 +88,10 @@ class SceneData:
     def release(self) -> None:
         self._owner.release()
 
+    @property
+    def triangles(self) -> int:
+        return len(self._flat.faces)
+
     def margin(self, size: tuple[int, int]) -> tuple[int, int]:
         """Pixels that the viewport has beyond the image on each side: GL clips in float32, and the
         edges that clipping makes shall lie outside the image, even those of a vast plain."""
@@ -116,8 +120,11 @@ class SceneData:
             tables["spheres"].write(sphere_rows(flat, space, objects))
         self._last = camera, size
 
-    def see(self) -> None:
-        """First pass: the nearest primitive of each pixel, into the bound framebuffer."""
+    def see(self, first: int = 0, count: int | None = None) -> bool:
+        """First pass: the nearest primitive of each pixel, into the bound framebuffer.
+
+        first, count: a part of the triangles, the parts in order; None: to the last. Gives whether
+        that was the last part."""
         context, camera = self._context, self._last
         assert camera is not None, "set_camera() comes first"
         (width, height), (x, y) = camera[1], self.margin(camera[1])
@@ -126,19 +133,26 @@ class SceneData:
         for name, table in self._tables.items():
             table.texture.use(self._units[name])
         context.enable_only(moderngl.DEPTH_TEST)
-        self._cover(self._clear, "1", FARTHEST)
+        if first == 0:
+            self._cover(self._clear, "1", FARTHEST)
         context.depth_func = "<"
-        if self._triangles is not None:
+        total = len(self._flat.faces)
+        last = total if count is None else min(first + count, total)
+        if self._triangles is not None and first < last:
             self._prepare(self._triangles.program)
-            self._triangles.render(moderngl.TRIANGLES)
+            set_uniform(self._triangles.program, "first_triangle", first)
+            self._triangles.render(moderngl.TRIANGLES, vertices=3 * (last - first), first=3 * first)
+        if last < total:
+            return False
         if len(self._flat.spheres):
             self._prepare(self._spheres.program)
             context.enable_only(moderngl.DEPTH_TEST | moderngl.CULL_FACE)
             # Far sides only. The image is flipped, and a left-handed basis flips it again.
             context.front_face = "cw" if camera[0].determinant > 0 else "ccw"
             context.cull_face = "front"
-            count = len(self._flat.spheres)
-            self._spheres.render(moderngl.TRIANGLES, vertices=BOX_VERTICES, instances=count)
+            spheres = len(self._flat.spheres)
+            self._spheres.render(moderngl.TRIANGLES, vertices=BOX_VERTICES, instances=spheres)
+        return True
 
     def shade(self, primitives: moderngl.Texture) -> None:
         """Second pass: hit and colour of each pixel, into the bound framebuffer, by its depth:

@@ -1,0 +1,81 @@
+"""A raster image that is drawn over several frames, because one has no time for all its triangles.
+
+Owns how far it is. Knows nothing of who wants it, and of when. A GPU draws a million triangles in a
+part of a frame: then there is one part. Where OpenGL runs on the CPU, the window's own thread
+transforms every vertex.
+"""
+
+from __future__ import annotations
+
+import time
+
+from app.images.live import reduced
+from renderer.camera import Camera
+from renderer.raster import Rasterizer
+from renderer.raster.targets import Textures
+
+PART_S = 0.007  # what a part may take of the window's thread
+WORTH_S = 0.015  # an image whose triangles take less is drawn at once
+FEWEST = 10_000  # triangles a part
+
+
+class Pace:
+    """What a triangle takes of the window's thread, as measured: of its processor time, which
+    other programs do not lengthen."""
+
+    def __init__(self) -> None:
+        self._triangle_s = 0.0
+
+    def measured(self, triangles: int, time_s: float) -> None:
+        if triangles < FEWEST or time_s <= 0.0:  # other things take the time; a coarse clock
+            return
+        triangle_s = time_s / triangles
+        # Parts that are to be seen take longer than others: at once slower, then quicker by halves.
+        if self._triangle_s > triangle_s:
+            triangle_s = (self._triangle_s + triangle_s) / 2
+        self._triangle_s = triangle_s
+
+    def part_of(self, triangles: int) -> int:
+        """How many of so many triangles to draw in a frame."""
+        if self._triangle_s * triangles <= WORTH_S:
+            return triangles
+        return min(max(int(PART_S / self._triangle_s), FEWEST), triangles)
+
+
+class Drawing:
+    """An image of a rasterizer's scene, reduced by `factor`, to a place of its own (see
+    Rasterizer.draw). at_once: in one part, whatever it takes."""
+
+    def __init__(
+        self,
+        rasterizer: Rasterizer,
+        camera: Camera,
+        size: tuple[int, int],
+        factor: int,
+        place: str,
+        at_once: bool,
+    ) -> None:
+        self.factor = factor
+        self.size = reduced(size, factor)
+        self._rasterizer, self._camera, self._place = rasterizer, camera, place
+        self._at_once = at_once
+        self._first = 0
+        self._is_prepared = False
+
+    def go_on(self, pace: Pace) -> Textures | None:
+        """Draws the next part; the image, once it is complete. Raises LucidaError."""
+        rasterizer, camera, size, place = self._rasterizer, self._camera, self.size, self._place
+        triangles = rasterizer.triangles
+        count = triangles if self._at_once else pace.part_of(triangles)
+        if count < triangles and not self._is_prepared:
+            count = 0  # tables of all triangles are made for the camera: enough for one frame
+        self._is_prepared = True
+        count = min(count, triangles - self._first)
+        start_s = time.thread_time()
+        if count == triangles:
+            drawn: Textures | None = rasterizer.draw(camera, size, place)
+        else:
+            drawn = rasterizer.draw_part(camera, size, place, self._first, count)
+        pace.measured(count, time.thread_time() - start_s)
+        self._first += count
+        return drawn

@@ -1,0 +1,173 @@
+"""The images while the camera moves: coarse where they must be, then full, then compared."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from contextlib import contextmanager
+from typing import Any
+
+import moderngl
+import numpy as np
+from imgui_bundle import hello_imgui
+from window_driver import Driver
+
+from app.images import pictures as module
+from app.images.coarseness import Coarseness
+from app.images.pictures import Pictures
+from app.views.pair import RASTER, RAY
+from renderer.frame import CHANNELS
+
+
+def pictures(d: Driver) -> Pictures:
+    found = d.window.renderers.pictures
+    assert found is not None
+    return found
+
+
+@contextmanager
+def slow(d: Driver) -> Iterator[None]:
+    """OpenGL seems to run on a slow CPU; and nothing is refined."""
+    found = pictures(d)
+    before = found._coarseness, module.MOVING_S
+    found._coarseness = Coarseness(1e-9, 1e-9, module.COARSEST)
+    found._coarseness.measured(1, 1, 1e-3)
+    module.MOVING_S = 1e9
+    try:
+        yield
+    finally:
+        found._coarseness, module.MOVING_S = before
+
+
+def drive_a_drag_is_coarse_then_full_then_compared(d: Driver) -> None:
+    found, both = pictures(d), d.window.renderers
+    x, y = d.point(RAY, 0.5, 0.5)
+    d.ctx.mouse_teleport_to_pos((x, y))
+    d.ctx.yield_()
+    with slow(d):
+        d.ctx.mouse_down(0)
+        factors, before = set(), d.window.state.camera
+        for step in range(1, 9):
+            drawn = found._drawn
+            d.ctx.mouse_teleport_to_pos((x + 9 * step, y + 3 * step))
+            d.until(lambda drawn=drawn: found._drawn > drawn)
+            factors.add(found.raster_factor)
+            assert both.verdict(d.window.state) is None
+        d.stay = True
+        coarse = d.picture()
+        d.ctx.mouse_up(0)
+        assert factors == {module.COARSEST}
+        assert d.window.state.camera != before
+        assert found.unfinished
+    raster, _ = d.agreeing_images()
+    assert found.raster_factor == 1
+    assert both.ray_image is not None
+    assert both.ray_image.factor == 1
+    left, top, right, bottom = (round(edge) for edge in d.rect(RASTER))
+    assert (coarse[top:bottom, left:right] != raster).any()
+    number = found._drawn
+    d.ctx.yield_(20)
+    assert found._drawn == number  # at rest
+    assert d.window.settled
+
+
+def drive_an_image_drawn_in_parts_is_the_same(d: Driver) -> None:
+    """Where one frame has no time for all triangles."""
+    found, both = pictures(d), d.window.renderers
+    parts = []
+
+    def part_of(triangles: int) -> int:
+        parts.append(triangles)
+        return max(triangles // 5, 1)
+
+    found._pace.part_of = part_of  # type: ignore[method-assign]
+    try:
+        x, y = d.point(RASTER, 0.5, 0.5)
+        d.drag((x, y), (x + 60, y + 20))
+        for _ in range(3):  # a motion that goes on shows something new
+            drawn = found._drawn
+            d.drag((x, y), (x + 20, y - 10))
+            d.until(lambda drawn=drawn: found._drawn > drawn)
+        d.agreeing_images()
+    finally:
+        del found._pace.part_of
+    assert len(parts) >= 6
+    assert both.agreement.pair is not None
+    in_parts, here = both.agreement.pair[1], d.window.state
+    d.window.change(here.with_camera(d.start.camera))
+    d.settle()
+    d.window.change(here)
+    d.settle()
+    at_once = both.agreement.pair[1]
+    assert at_once is not in_parts
+    for channel in CHANNELS:
+        np.testing.assert_array_equal(in_parts.channel(channel), at_once.channel(channel))
+
+
+def drive_images_are_on_the_screen_in_the_frame_of_their_change(d: Driver) -> None:
+    found, seen, asked = pictures(d), [], ["color"]
+    left, top, right, bottom = (round(edge) for edge in d.rect(RASTER))
+    raster_in = found.raster_in
+
+    def ask(placement: Any, wanted: Any, look: Any, **more: Any) -> Any:
+        asked.append(look.channel)
+        return raster_in(placement, wanted, look, **more)
+
+    def look(drawn: moderngl.Framebuffer) -> None:
+        box = (left, drawn.size[1] - bottom, right - left, bottom - top)
+        seen.append((asked[-1], hash(drawn.read(box, components=3))))
+
+    found.raster_in, d.run.on_drawn = ask, look  # type: ignore[method-assign]
+    try:
+        d.ctx.yield_(3)
+        d.window.change(d.window.state.with_options(images={"channel": "id"}))
+        d.ctx.yield_(3)
+    finally:
+        d.run.on_drawn = None
+        del found.raster_in  # type: ignore[attr-defined]
+    colors = {number for channel, number in seen if channel == "color"}
+    others = {number for channel, number in seen if channel == "id"}
+    assert colors and others
+    assert not colors & others
+    assert len(others) == 1
+
+
+def shown(d: Driver) -> tuple[np.ndarray, np.ndarray]:
+    """What stands in the raster image's place on the screen, and what was made for it; int, row 0
+    at the top, and as it was made."""
+    d.settle()
+    found: list[np.ndarray] = []
+    left, top, right, bottom = (round(edge) for edge in d.rect(RASTER))
+
+    def look(drawn: moderngl.Framebuffer) -> None:  # in the window's thread, unlike drives
+        box = (left, drawn.size[1] - bottom, right - left, bottom - top)
+        picture = pictures(d)._raster._pictures[module.PANE].texture
+        for data, size in (
+            (drawn.read(box, components=4), box[2:]),
+            (picture.read(), picture.size),
+        ):
+            pixels = np.frombuffer(data, np.uint8).reshape(size[1], size[0], 4)
+            found.append(pixels[..., :3].astype(int))
+
+    d.run.on_drawn = look
+    try:
+        d.until(lambda: len(found) >= 2)
+    finally:
+        d.run.on_drawn = None
+    return found[0][::-1], found[1]
+
+
+def drive_a_floating_image_is_drawn_over_what_is_under_it(d: Driver) -> None:
+    underlay = d.window.renderers.underlay
+    docked, made = shown(d)
+    assert len(underlay._placed) == 2
+    assert (np.abs(docked - made[::-1]).max(axis=2) > 0).mean() < 0.05  # but for its legend
+    d.ctx.undock_window(f"//###{RASTER}")
+    d.ctx.yield_(5)
+    floating, made = shown(d)
+    assert len(underlay._placed) == 1
+    assert floating.shape == made.shape
+    assert (np.abs(floating - made).max(axis=2) > 0).mean() < 0.05
+    hello_imgui.get_runner_params().docking_params.layout_reset = True
+    d.ctx.yield_(5)
+    d.until(lambda: len(underlay._placed) == 2)
+    d.agreeing_images()
