@@ -8,6 +8,8 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from hypothesis import given
+from hypothesis import strategies as st
 
 from app.options import Options
 from app.state import AppState
@@ -165,7 +167,7 @@ class TestReading:
             ('"outside", "', '"ray", "probe", "raster", "', 21, "views: names 3 besides 'camera'"),
             ('"outside", "camera"]', '"ray", "ray"]', 21, "views: names one twice"),
             ("[2, 3]", "[0, 3]", 27, "pixel: [0, 3] is no pixel; give row and column, from 1"),
-            ("pixel_size = 8", "resolution = [2, 9]", 27, "pixel: [2, 3] is not in an image of 2x9"),
+            ("pixel_size = 8", "resolution = [2, 9]", 27, "pixel: [2, 3] is not in an image"),
             ('"eye", "', '"eyes", "', 28, "highlight[0]: 'eyes' is unknown; did you mean 'eye'?"),
             ('title = "One"', 'titel = "One"', 11, "titel: is unknown; did you mean 'title'?"),
             ('title = "Two"', "", 36, "title: is missing; give it"),
@@ -398,3 +400,30 @@ class TestTheBuiltInLecture:
                 assert step.pixel == step.exercise.pixel
                 assert step.options["images"]["resolution"] == step.exercise.size
                 assert step.view.for_size(step.exercise.size) == step.exercise.camera
+
+
+def test_what_is_said_to_a_wrong_vector_is_a_text_too(tmp_path):
+    text = """\
+title = "x"
+[[steps]]
+title = "a"
+[steps.exercise]
+kind = "vector"
+question = "Which?"
+answers = [
+    { name = "w", value = [0, 0, 1], wrong = [
+        { value = [0, 0, -1], feedback = "$w" },
+    ] },
+]
+"""
+    with pytest.raises(LucidaError) as told:
+        lecture_from_toml(text, tmp_path, "x.toml")
+    assert str(told.value).startswith(
+        "x.toml:9: steps[0].exercise.answers[0].wrong[0].feedback: a formula does not end"
+    )
+
+
+@given(st.text(alphabet="$*`\\\\a1.,()[]{}_^#>-", min_size=1, max_size=12))
+def test_an_escaped_text_is_shown_as_it_stands(typed):
+    (block,) = texts.parse("typed: " + texts.escaped(typed))
+    assert texts.words(block.line) == ("typed: " + typed)
