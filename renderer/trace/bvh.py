@@ -77,7 +77,7 @@ def build(flat: FlatScene, team: Team, leaf_size: int = LEAF_SIZE) -> Bvh:
     for largest in (*_halves(count, piece), leaf_size):
         jobs = _jobs(links, levels, used, largest)
         team.run(
-            _grow_pieces, records, bounds, links, levels, jobs, largest, new_control(),
+            _grow_pieces, records, bounds, links, levels, jobs, largest, leaf_size, new_control(),
             size=len(jobs),
         )  # fmt: skip
         used = _close_gaps(bounds, links, levels, jobs, used)
@@ -203,8 +203,8 @@ def _fill_shapes(vertices, faces, spheres, order, shapes, control):
 
 
 @kernel
-def _grow_pieces(records, bounds, links, levels, jobs, leaf_size, control):
-    """Takes jobs and builds each one's subtree."""
+def _grow_pieces(records, bounds, links, levels, jobs, largest, leaf_size, control):
+    """Takes jobs and builds each one's subtree, down to nodes of `largest` primitives."""
     # The smaller half is built first, so each node that waits is less than half of the one before.
     waiting, waiting_bounds = np.empty((72, 4), np.int64), np.empty(72 * LANES, np.float32)
     bins, counts = np.empty((3 * BINS + 2) * LANES, np.float32), np.empty(3 * BINS, np.int64)
@@ -216,14 +216,16 @@ def _grow_pieces(records, bounds, links, levels, jobs, leaf_size, control):
             return
         scratch = shifted(pointer(bins), aligned), pointer(counts)
         _grow(
-            pointer(records), bounds, links, levels, jobs[j], leaf_size,
+            pointer(records), bounds, links, levels, jobs[j], largest, leaf_size,
             waiting, pointer(waiting_bounds), scratch,
         )  # fmt: skip
 
 
 @inlined
-def _grow(records, bounds, links, levels, job, leaf_size, waiting, waiting_bounds, scratch):
-    """Builds a job's subtree, leaves of at most leaf_size, and notes the node after its last."""
+def _grow(
+    records, bounds, links, levels, job, largest, leaf_size, waiting, waiting_bounds, scratch
+):
+    """Builds a job's subtree, nodes of at most `largest`, and notes the node after its last."""
     free = job[_FREE]
     for k in range(4):
         waiting[0, k] = job[k]
@@ -238,7 +240,7 @@ def _grow(records, bounds, links, levels, job, leaf_size, waiting, waiting_bound
             bounds[node, axis] = -waiting_bounds[LANES * top + axis]
             bounds[node, 3 + axis] = waiting_bounds[LANES * top + HIGH + axis]
         levels[node] = level
-        if end - start <= leaf_size:
+        if end - start <= largest:
             links[node, 0], links[node, 1] = start, end - start
             continue
         links[node, 0], links[node, 1] = free, 0
@@ -246,7 +248,7 @@ def _grow(records, bounds, links, levels, job, leaf_size, waiting, waiting_bound
         # Split by the least cost; by count where no cost says how.
         axis = -1
         if level < MAX_DEPTH:
-            axis, last_bin, middle = best_split(records, start, end, own, scratch)
+            axis, last_bin, middle = best_split(records, start, end, own, leaf_size, scratch)
         if axis >= 0:
             partition(records, start, end, own, axis, last_bin)
             left = bounds_of_bins(scratch[0], axis, 0, last_bin + 1)

@@ -38,6 +38,7 @@ RECORD = 8
 NUMBER = 3  # the column of a record, seen as int32, with the primitive's number
 HIGH = 4  # its column with the high x
 FAR = np.float32(3.4e38)
+_NODE_LEAVES = 14  # of 16 in a wide node (wide.py): few are quite full
 _LOW_CENTRE, _HIGH_CENTRE = 8, 12  # lanes of bounds
 _CENTRES = 0xFF00  # the lanes of both
 
@@ -85,11 +86,17 @@ def _half_area(bounds):
 
 
 @inlined
-def best_split(records, start, end, bounds, scratch):
+def _units(n, unit):
+    """How many units n primitives take, one of which may not be full."""
+    return np.float32((n + unit - 1) // unit)
+
+
+@inlined
+def best_split(records, start, end, bounds, leaf_size, scratch):
     """(axis, bin, middle) after which to split records[start:end] at the least cost.
 
-    middle: where the second half will start. axis -1: nowhere. scratch: a thread's bins, float32,
-    3 BINS + 1 vectors, and counts, int64, 3 BINS.
+    middle: where the second half will start. axis -1: nowhere. leaf_size: how many primitives a
+    leaf holds. scratch: a thread's bins, float32, 3 BINS + 1 vectors, and counts, int64, 3 BINS.
     """
     bins, counts = scratch
     for b in range(3 * BINS):
@@ -106,7 +113,9 @@ def best_split(records, start, end, bounds, scratch):
             counts[into] += 1
             store(bins, LANES * into, vmax(load(bins, LANES * into), own))
 
-    # The cost of a split: for each side, its area times its primitives.
+    # The cost of a split: for each side, its area times its primitives, in whole leaves or, of
+    # many, in whole wide nodes: those that are half empty take as long as full ones.
+    unit = leaf_size if end - start <= _NODE_LEAVES * leaf_size else _NODE_LEAVES * leaf_size
     best, best_axis, best_bin, middle = FAR, -1, -1, start
     right = 3 * BINS * LANES
     for axis in range(3):
@@ -116,13 +125,13 @@ def best_split(records, start, end, bounds, scratch):
         for b in range(BINS - 1, 0, -1):
             n += counts[first + b]
             side = vmax(side, load(bins, LANES * (first + b)))
-            bins[right + b] = _half_area(side) * np.float32(n)
+            bins[right + b] = _half_area(side) * _units(n, unit)
         side, n = splat(-FAR), 0
         for b in range(BINS - 1):
             n += counts[first + b]
             side = vmax(side, load(bins, LANES * (first + b)))
             if 0 < n < end - start:
-                cost = _half_area(side) * np.float32(n) + bins[right + b + 1]
+                cost = _half_area(side) * _units(n, unit) + bins[right + b + 1]
                 if cost < best:
                     best, best_axis, best_bin, middle = cost, axis, b, start + n
     return best_axis, best_bin, middle
