@@ -275,11 +275,11 @@ def _canvases(
     beside = False
     has_depth = recording.order is Order.OBJECT
     if has_depth:
-        below = max(20.0, height - label - spacing.y)
+        below = max(20.0, height - 2 * spacing.y)
         across = room.x - spacing.x
         half = ImVec2(0.5 * across, height)  # beside one another, of one size
         choices = (
-            (ImVec2(room.x, 0.6 * below), ImVec2(room.x, 0.4 * below), False),
+            (ImVec2(room.x, 0.67 * below), ImVec2(room.x, 0.33 * below), False),
             (half, half, True),
         )
         first, rest, beside = max(
@@ -296,9 +296,13 @@ def _canvases(
         if beside:
             imgui.same_line()
         imgui.begin_group()
-        imgui.text_colored(theme.DIM, "depth")
+        if beside:
+            imgui.text_colored(theme.DIM, "depth")
         again = canvas(picture.depth, size, rest, Marks(moment.pixel, moment.box), f"depth##{name}")
         imgui.set_item_tooltip("for each pixel the nearest t so far, near ones bright")
+        if not beside:  # a line above it would be taken from the canvas
+            imgui.same_line()
+            imgui.text_colored(theme.DIM, "depth")
         imgui.end_group()
         clicked = clicked if clicked is not None else again
     return replace(answer, pixel=clicked) if clicked is not None else answer

@@ -33,7 +33,7 @@ class NewerVersionError(LucidaError):
 @dataclass(frozen=True)
 class Arrangement:
     """Where the windows inside the window are. layout: its name. visible: the names of the views
-    that are shown. windows: places and docks, as ImGui writes them. sections: which of a view's parts
+    that are shown. windows: places and docks, as ImGui writes them. sections: which parts of a view
     are folded open, by the view's name, where the user has chosen."""
 
     layout: str = ""
