@@ -100,8 +100,9 @@ class Pictures:
         return self._made
 
     def retry(self) -> None:
-        """Makes the rasterizer again, if that has failed; drawing is tried in each frame."""
-        self._not_made = None
+        """Makes the rasterizer again, if that has failed, and puts the ray image on the GPU; drawing
+        is tried in each frame."""
+        self._not_made, self._failures = None, 0
 
     def prepare(self, scene: Scene, prepared: Prepared) -> None:
         """Keeps what a scene was prepared as, which takes long, for when it is shown: of the last
