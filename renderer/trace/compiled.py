@@ -33,7 +33,7 @@ from numba.core.caching import FunctionCache
 from numba.core.runtime import rtsys
 
 import renderer.scene.flat
-from renderer.trace.inlining import PartCompiler
+from renderer.trace.inlining import KernelCompiler, PartCompiler
 
 KEPT = 4  # folders of other sources or versions that stay
 KEPT_FOR_S = 3600.0  # younger ones stay too: another process may be filling them
@@ -66,7 +66,9 @@ def kernel(function: Callable[..., Any]) -> Any:
 
     Must be used at module level, or the cache cannot find the function again.
     """
-    compiled = numba.njit(nogil=True, error_model="numpy", no_cfunc_wrapper=True)(function)
+    compiled = numba.njit(
+        nogil=True, error_model="numpy", no_cfunc_wrapper=True, pipeline_class=KernelCompiler
+    )(function)
     folder = cache_folder()
     if folder is not None:
         # numba takes a cache's folder from its configuration, at the cache's creation.
