@@ -288,7 +288,8 @@ def _bound(floats, lane, function):
     i = COEFFICIENTS + 3 * LANES * function + lane
     bound = splat(floats[BOUNDS + LANES * function + lane])
     side = np.float32(SQUARE)
-    return fma(lane_column(), floats[i] * side, fma(lane_row(), floats[i + LANES] * side, bound))
+    below = fma(lane_row() * side, floats[i + LANES], bound)
+    return fma(lane_column() * side, floats[i], below)
 
 
 @inlined
