@@ -92,16 +92,17 @@ def begin_session(fresh: bool = False, folder: Path | None = None) -> Start:
     session = found.session
     if session is None:
         return replace(begin_scene(), keeper=keeper, message=found.message)
-    default = session.state(load_scene(BUILTIN_SCENES[0]))
+    message = ""
     try:
         scene = _soon(session.scene)
     except LucidaError as error:
-        message = f"The last session's scene could not be opened. {error}"
-        return Start(default, session, keeper, message)
-    if scene is None:
-        view = session.view
-        return Start(default, session, keeper, later=Later(session.scene, lambda _: view))
-    return Start(session.state(scene), session, keeper)
+        scene, message = None, f"The last session's scene could not be opened. {error}"
+    if scene is not None:
+        return Start(session.state(scene), session, keeper)
+    view = session.view
+    later = None if message else Later(session.scene, lambda _: view)
+    default = load_scene(BUILTIN_SCENES[0])
+    return Start(session.state(default), session, keeper, message, later=later)
 
 
 class _LargeModelError(Exception):
