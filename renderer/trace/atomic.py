@@ -12,13 +12,14 @@ import numpy as np
 from llvmlite import ir
 from numba.core import types
 from numba.extending import intrinsic
-from numba.np.arrayobj import make_array
 
 from renderer.trace.compiled import inlined
 from renderer.trace.control import CANCELLED, DONE, NEXT
 
 
 def _pointer(context, builder, array_type, array):
+    from numba.np.arrayobj import make_array  # here: machine code from the cache needs none of it
+
     return make_array(array_type)(context, builder, array).data
 
 

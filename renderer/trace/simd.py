@@ -22,7 +22,6 @@ from numba.core import types
 from numba.core.errors import TypingError
 from numba.core.types.misc import CPointer
 from numba.extending import intrinsic
-from numba.np.arrayobj import make_array
 
 from renderer.trace.simd_types import (
     ELEMENT,
@@ -96,7 +95,7 @@ def pointer(typing, array):
         raise TypingError(f"a contiguous array is needed, not {array}")
 
     def codegen(context, builder, sig, args):
-        return make_array(sig.args[0])(context, builder, args[0]).data
+        return address_of(context, builder, sig.args[0], args[0])
 
     return CPointer(array.dtype)(array), codegen
 

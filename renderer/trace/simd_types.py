@@ -15,7 +15,6 @@ from numba.core import cgutils, types
 from numba.core.errors import TypingError
 from numba.core.types.misc import CPointer
 from numba.extending import lower_builtin, models, register_model, type_callable
-from numba.np.arrayobj import make_array
 
 LANES = 16
 
@@ -89,6 +88,8 @@ def address_of(context: Any, builder: Any, array_type: Any, array: Any) -> Any:
     """The address of an array's first element."""
     if isinstance(array_type, CPointer):
         return array
+    from numba.np.arrayobj import make_array  # here: machine code from the cache needs none of it
+
     return make_array(array_type)(context, builder, array).data
 
 
