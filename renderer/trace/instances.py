@@ -33,7 +33,7 @@ from renderer.trace.wide import (
 # the identity.
 HAS_NORMALS, HAS_COLORS, IS_STRETCHED, IS_UNMOVED = 1, 2, 4, 8
 _SQUASHED = 1e-6  # a transform that changes angles by less counts as a similarity
-_NO_HIGHLIGHT = 2.0**-40  # a highlight smaller than this is none, in any light
+_NO_HIGHLIGHT = 2.0**-24  # of its light: a smaller highlight is lost in float32 beside the light
 _OUTWARDS = 4e-7  # of the coordinates: more than the rounding of bounds to float32
 
 

@@ -146,10 +146,10 @@ def is_other_cell(view, materials, m, first, t, point, geometric):
         nudge = across[0] if axis == 0 else (across[1] if axis == 1 else across[2])
         row = m + 4 * (CELL_X + axis)
         if first is None:
-            cell = _cell_at(materials, row, point)
+            half = _half_cell_at(materials, row, point)
         else:
-            cell = _cell(view, materials, row, first, t)
-        half = (cell - CELL_NUDGE * to_f64(nudge)) * 0.5
+            half = _half_cell(view, materials, row, first, t)
+        half = fma(to_f64(nudge), -0.5 * CELL_NUDGE, half)
         is_odd = is_odd ^ (half - vfloor(half) >= 0.5)
     return is_odd
 
@@ -160,32 +160,36 @@ def _direction(materials, row, a):
 
 
 @inlined
-def _cell(view, materials, row, first, t):
-    """One coordinate of the pixels' cells, F64."""
+def _half_cell(view, materials, row, first, t):
+    """Half of one coordinate of the pixels' cells, F64."""
     ray = view.ray
-    varying = _along(materials, row, ray, VARYING)
-    right, down = _along(materials, row, ray, ACROSS), _along(materials, row, ray, DOWN)
-    shared = _along(materials, row, ray, SHARED)
-    x = to_f64(lane_column()) + np.float64(first[0])
-    y = to_f64(lane_row()) + np.float64(first[1])
-    t = to_f64(t)
-    pixel = fma(x, right, fma(y, down, splat(varying)))
-    point = fma(t, shared, pixel) if view.parallel else fma(t, pixel, splat(shared))
-    return point + np.float64(materials[row + 3])
+    right, down = _half_along(materials, row, ray, ACROSS), _half_along(materials, row, ray, DOWN)
+    shared = _half_along(materials, row, ray, SHARED)
+    varying = _half_along(materials, row, ray, VARYING)
+    varying += np.float64(first[0]) * right + np.float64(first[1]) * down
+    constant = 0.5 * np.float64(materials[row + 3])
+    if view.parallel:
+        varying += constant
+    else:
+        shared += constant
+    pixel = fma(to_f64(lane_column()), right, fma(to_f64(lane_row()), down, splat(varying)))
+    if view.parallel:
+        return fma(to_f64(t), shared, pixel)
+    return fma(to_f64(t), pixel, splat(shared))
 
 
 @inlined
-def _cell_at(materials, row, point):
+def _half_cell_at(materials, row, point):
     """The same for points."""
-    a, b = np.float64(materials[row]), np.float64(materials[row + 1])
-    c, d = np.float64(materials[row + 2]), np.float64(materials[row + 3])
+    a, b = 0.5 * np.float64(materials[row]), 0.5 * np.float64(materials[row + 1])
+    c, d = 0.5 * np.float64(materials[row + 2]), 0.5 * np.float64(materials[row + 3])
     x, y, z = to_f64(point[0]), to_f64(point[1]), to_f64(point[2])
     return fma(x, a, fma(y, b, fma(z, c, splat(d))))
 
 
 @inlined
-def _along(materials, row, ray, at):
-    return (
+def _half_along(materials, row, ray, at):
+    return 0.5 * (
         np.float64(materials[row]) * ray[at]
         + np.float64(materials[row + 1]) * ray[at + 1]
         + np.float64(materials[row + 2]) * ray[at + 2]
