@@ -9,7 +9,6 @@ Nothing depends on it: what is not in the cache afterwards is compiled here, at 
 from __future__ import annotations
 
 import contextlib
-import gc
 import hashlib
 import json
 import os
@@ -33,7 +32,8 @@ from renderer.trace.team import Team, default_threads
 LIMIT_S = 120.0  # a process that takes longer is given up
 _POLL_S = 0.01
 _NICENESS = 2  # a window comes first
-_START = "import sys, json; sys.path[:] = json.loads(sys.argv[2]); "
+# Without collecting garbage: a tenth of the time, for 40 MB.
+_START = "import gc, json, sys; gc.disable(); sys.path[:] = json.loads(sys.argv[2]); "
 _START += "from renderer.trace.precompile import main; main(sys.argv[1])"
 
 
@@ -110,7 +110,6 @@ def main(part: str) -> None:
     threading.Thread(target=_end_with_parent, daemon=True).start()
     if hasattr(os, "nice"):
         os.nice(_NICENESS)
-    gc.disable()  # a tenth of the time, for 40 MB
     take_shortcuts()
     compile_part(part)
     os._exit(0)
