@@ -46,6 +46,7 @@ def measure(run: Run) -> list[Table]:
 def _start(cache_folder: str) -> dict[str, float]:
     """Runs one process with that cache folder; gives the parts' times."""
     environment = dict(os.environ, NUMBA_CACHE_DIR=cache_folder)
+    environment.pop("PYTHONDONTWRITEBYTECODE", None)  # an installation keeps its modules' byte code
     begin = time.perf_counter()
     output = subprocess.run(
         [sys.executable, "-m", __name__],
