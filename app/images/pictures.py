@@ -100,8 +100,8 @@ class Pictures:
         return self._made
 
     def retry(self) -> None:
-        """Makes the rasterizer again, if that has failed, and puts the ray image on the GPU; drawing
-        is tried in each frame."""
+        """Makes the rasterizer again, if that has failed, and puts the ray image on the GPU;
+        drawing is tried in each frame."""
         self._not_made, self._failures = None, 0
 
     def prepare(self, scene: Scene, prepared: Prepared) -> None:
@@ -128,9 +128,10 @@ class Pictures:
         look: Look,
         name: str = PANE,
         under: bool = False,
+        own_size: bool = False,
     ) -> Picture | None:
-        """The raster image as it is seen in a window, drawn anew if it must be. name, under: see
-        ShownImage.picture.
+        """The raster image as it is seen in a window, drawn anew if it must be. name, under,
+        own_size: see ShownImage.picture.
 
         None where that failed, see raster_error. Where OpenGL runs on the CPU, the image is coarse
         while things move, and full soon after.
@@ -140,7 +141,7 @@ class Pictures:
             self._raster_frame = self._frame
             if look.channel == "depth":
                 self._measure(self._drawn, drawn.surface)
-            picture = self._raster.picture(name, look, placement, self._depths, under)
+            picture = self._raster.picture(name, look, placement, self._depths, under, own_size)
             self.raster_error = None
         except FAILURES as error:  # shown in the window, which goes on
             self._raster.set_channels({})
@@ -148,6 +149,11 @@ class Pictures:
             self.raster_error, self.raster_factor = error, 1
             return None
         return picture
+
+    @property
+    def raster_number(self) -> int:
+        """Of the raster image that is shown: another one, another number."""
+        return self._drawn
 
     def textures(self, wanted: Wanted) -> tuple[Textures, int] | None:
         """All channels of the raster image, if that is drawn, and full; and its number, as linear()
@@ -177,7 +183,12 @@ class Pictures:
         return picture.texture if picture is not None else None
 
     def ray_in(
-        self, placement: Placement | None, look: Look, name: str = PANE, under: bool = False
+        self,
+        placement: Placement | None,
+        look: Look,
+        name: str = PANE,
+        under: bool = False,
+        own_size: bool = False,
     ) -> Picture | None:
         """The last traced image as it is seen in a window; without a placement, all of it. None
         before the first, and where putting it on the GPU failed, see ray_error."""
@@ -189,7 +200,7 @@ class Pictures:
             if look.channel == "depth" and self._raster_frame < self._frame - 1:
                 self._measure(self._uploaded, self._ray_texture)  # the raster image is not seen
             placement = placement or whole(image.request.size)
-            picture = self._ray.picture(name, look, placement, self._depths, under)
+            picture = self._ray.picture(name, look, placement, self._depths, under, own_size)
             self.ray_error = None
         except FAILURES as error:
             self._ray.set_channels({})

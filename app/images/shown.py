@@ -65,13 +65,15 @@ class ShownImage:
         placement: Placement,
         depths: Range | None = None,
         under: bool = False,
+        own_size: bool = False,
     ) -> Picture | None:
         """What is seen of the image in a window; None without an image. Where the look's channel
         is not there, another one is shown.
 
         name: of the picture: each is drawn over by the next call with the same name. The texture
-        stays until the frame after the next, also where another takes its place. under: it is for
-        the Underlay: upside down, and where image pixels are enlarged, of the image's own size.
+        stays until the frame after the next, also where another takes its place. own_size: where
+        all of the image is seen and its pixels are enlarged, the picture has one pixel for each.
+        under: it is for the Underlay: of its own size, and upside down.
         """
         if not self._channels:
             return None
@@ -79,9 +81,9 @@ class ShownImage:
             look = replace(look, channel=next(iter(self._channels)))  # type: ignore[arg-type]
         source = self._channels[look.channel]
         section, size = section_of(placement, source.size), visible_size(placement)
+        if (under or own_size) and placement.sees_all and not section.averaged:
+            section, size = Section(), source.size
         if under:
-            if placement.sees_all and not section.averaged:
-                section, size = Section(), source.size
             section = replace(section, rows=size[1])
         needed = depths if look.channel == "depth" else None
         wanted = (self._version, look, section, size, needed and needed.number)

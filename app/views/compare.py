@@ -22,7 +22,7 @@ from app.images.pictures import Wanted
 from app.images.placement import Placement
 from app.images.reading import Region
 from app.images.renderers import Renderers, look_of
-from app.images.shown import Picture, ShownImage
+from app.images.shown import Picture, ShownImage, whole
 from app.lettering import lettering
 from app.panels import compare as panel
 from app.panels.differences import draw_differences
@@ -38,6 +38,7 @@ from renderer.raster import Look
 NAME = "Compare"
 GRIP_EM = 0.6  # half the width in which the divider can be taken
 LARGE_PX = 6.0  # pixels that large are marked without enlarging them
+COMPARED = "compared"  # the two images, as they are looked at; see ShownImage.picture
 AS_IT_IS = Look(transfer="linear")  # of pictures that have gone through the display transform
 
 
@@ -133,12 +134,12 @@ class CompareView(ImageView):
         assert pictures is not None and composed is not None and shown is not None
         options, look = state.compare, look_of(state.images)
         wanted = Wanted(state.scene, both.camera(state), both.size)
-        raster = pictures.raster(wanted, look)
+        raster = pictures.raster_in(whole(both.size), wanted, look, COMPARED, own_size=True)
         if raster is None:
             return None
         image = both.ray_image
-        key: Hashable = (wanted, pictures.raster_factor, look, image)
-        left, right, divider, muted = raster, None, 0, False
+        key: Hashable = (pictures.raster_number, both.size, look, image)
+        left, right, divider, muted = raster.texture, None, 0, False
         try:
             if options.mode in ("absolute", "signed"):
                 drawn = pictures.textures(wanted)
@@ -153,7 +154,8 @@ class CompareView(ImageView):
                     left = composed.difference(*drawn, image.frame, mapping)
                     key = (drawn[1], image, mapping)
             else:
-                right = pictures.ray(look)
+                ray = pictures.ray_in(None, look, COMPARED, own_size=True)
+                right = ray.texture if ray is not None else None
                 if options.mode == "wipe":
                     divider = _column(options.divider, both.size)
                 else:
