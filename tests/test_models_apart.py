@@ -14,7 +14,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from app.storage.files import Files
+from app.storage.files import Files, Opened
 from renderer.errors import LucidaError
 from renderer.scene import apart, load_scene
 from renderer.scene.apart import CancelledError, ModelReader, is_large
@@ -274,6 +274,24 @@ def test_closing_and_cancelling_the_windows_files_ends_the_process(tmp_path: Pat
     assert files.poll() is None
     assert files.poll_said() == ["Loading a.obj was cancelled."]
     assert files.message == ""
+
+
+def test_what_is_opened_next_does_not_wait_for_a_large_model(tmp_path: Path, child, monkeypatch):
+    child(HELLO + "    time.sleep(9999)\n")
+    monkeypatch.setattr(apart, "is_large", lambda path: path.name == "large.obj")
+    files = Files(lambda: None, native=False)
+    files.open(str(written(tmp_path / "large.obj", TRIANGLE)))
+    wait_for(lambda: files._models.is_reading)
+    files.open(str(written(tmp_path / "next.obj", TRIANGLE)))
+    assert files.loading == "next.obj"
+    came: list[Opened | None] = []
+    wait_for(lambda: came.append(files.poll()) or came[-1])
+    opened = came[-1]
+    assert opened is not None
+    assert opened.scene is not None
+    assert opened.scene.name == "next"
+    assert files.poll_said() == ["Loading large.obj was cancelled."]
+    files.close()
 
 
 @pytest.mark.skipif(sys.platform == "win32", reason="a named pipe tells when its writer is gone")
