@@ -11,9 +11,11 @@ import numpy as np
 from imgui_bundle import hello_imgui
 from window_driver import Driver
 
+from app.cameras.navigation import moved
 from app.images import pictures as module
 from app.images.coarseness import Coarseness
 from app.images.pictures import Pictures
+from app.views.compare import CompareView
 from app.views.pair import RASTER, RAY
 from renderer.frame import CHANNELS
 
@@ -171,3 +173,47 @@ def drive_a_floating_image_is_drawn_over_what_is_under_it(d: Driver) -> None:
     d.ctx.yield_(5)
     d.until(lambda: len(underlay._placed) == 2)
     d.agreeing_images()
+
+
+def drive_the_compare_view_shows_coarse_images_as_they_are(d: Driver) -> None:
+    found = pictures(d)
+    hello_imgui.switch_layout("Compare")
+    d.ctx.yield_(5)
+    d.window.shell.stage.show("Compare")
+    d.ctx.yield_(3)
+    d.window.change(d.window.state.with_options(compare={"mode": "wipe", "divider": 0.5}))
+    d.settle()
+    seen: list[tuple[int, np.ndarray]] = []
+
+    def look(drawn: moderngl.Framebuffer) -> None:
+        left, top, right, bottom = box
+        place = (left, drawn.size[1] - bottom, right - left, bottom - top)
+        data = np.frombuffer(drawn.read(place, components=4), np.uint8)
+        pixels = data.reshape(bottom - top, right - left, 4)[::-1, :, :3].astype(int)
+        seen.append((found.raster_factor, pixels))
+
+    view = d.window.views["Compare"]
+    assert isinstance(view, CompareView)
+    d.until(lambda: view.screen is not None)
+    assert view.screen is not None
+    low, high = view.screen.visible
+    box = round(low.x), round(low.y), round(high.x), round(high.y)
+    d.run.on_drawn = look
+    try:
+        d.until(lambda: bool(seen))
+        with slow(d):
+            drawn = found._drawn
+            d.window.change(d.window.state.with_camera(moved(d.start.camera, (0.0, 0.001, 0.0))))
+            d.until(lambda: found._drawn > drawn)
+            count = len(seen)
+            d.until(lambda: len(seen) > count + 1)
+    finally:
+        d.run.on_drawn = None
+        hello_imgui.switch_layout("Side by side")
+        d.ctx.yield_(5)
+    (_, full), (factor, coarse) = seen[0], seen[-1]
+    assert factor == module.COARSEST
+    middle = full.shape[1] // 2
+    before, after = full[:, : middle - 20], coarse[:, : middle - 20]
+    assert (before != after).any()
+    assert np.abs(before - after).mean() < 0.1 * full.std()  # nothing but coarser
