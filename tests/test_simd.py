@@ -6,13 +6,14 @@ import os
 import platform
 import subprocess
 import sys
+from pathlib import Path
 
 import numpy as np
 import pytest
 
-from renderer.trace import simd, simd_math
+from renderer.trace import simd, simd_math, simd_memory
 from renderer.trace.compiled import kernel
-from renderer.trace.simd import load, pointer, store
+from renderer.trace.simd_memory import load, pointer, store
 
 random = np.random.default_rng(1)
 
@@ -107,12 +108,12 @@ def test_functions() -> None:
 def memory(table, indices, square, square3, out):
     k = load(indices, 0)
     mask = simd.mask_of(0x5555)
-    store(out, 0, simd.gather(table, k, mask))
-    store(out, 16, simd.fetch(pointer(table), 7, mask))
-    simd.prefetch(table, 0)
+    store(out, 0, simd_memory.gather(table, k, mask))
+    store(out, 16, simd_memory.fetch(pointer(table), 7, mask))
+    simd_memory.prefetch(table, 0)
     x = load(table, 3)
-    simd.store_square(pointer(square), 2 * 9 + 1, 9, x)
-    simd.store_square3(pointer(square3), 3, 15, x, x * np.float32(2), x * np.float32(3))
+    simd_memory.store_square(pointer(square), 2 * 9 + 1, 9, x)
+    simd_memory.store_square3(pointer(square3), 3, 15, x, x * np.float32(2), x * np.float32(3))
 
 
 def test_memory() -> None:
@@ -137,9 +138,9 @@ def test_memory() -> None:
 @kernel
 def streaming(source, lines, begins):
     for i in range(len(begins)):
-        begins[i] = simd.is_line(lines, i)
+        begins[i] = simd_memory.is_line(lines, i)
         if begins[i]:
-            simd.stream(lines, i, load(source, i))
+            simd_memory.stream(lines, i, load(source, i))
 
 
 def test_streaming() -> None:
@@ -186,3 +187,16 @@ def test_older_processors(cpu: str, features: str) -> None:
     command += ["-k", "not older_processors and not random_cameras and not leak"]
     done = subprocess.run(command, env=environment, capture_output=True, text=True, timeout=280)
     assert done.returncode == 0, done.stdout[-3000:]
+
+
+def test_other_processors(tmp_path: Path) -> None:
+    """The packet kernels are generic: LLVM's target for ARM makes machine code of the same code."""
+    environment = {**os.environ, "NUMBA_CACHE_DIR": str(tmp_path)}
+    command = [sys.executable, "-m", "tests.other_processor"]
+    done = subprocess.run(command, env=environment, capture_output=True, text=True, timeout=280)
+    assert done.returncode == 0, done.stderr[-3000:]
+    lines = [line.split() for line in done.stdout.splitlines()]
+    assert {"trace_packets", "prepare_writing"} <= {name for name, *_ in lines}
+    for name, kind, is_arm, foreign in lines:
+        assert (is_arm, foreign) == ("True", "False"), name
+        assert kind == "vectors" or name not in ("trace_packets", "prepare_writing"), name

@@ -10,7 +10,7 @@ import pytest
 from numba.core.errors import TypingError
 
 from renderer.trace.compiled import inlined
-from renderer.trace.simd import pointer
+from renderer.trace.simd_memory import pointer
 from renderer.trace.stage import ROOM_BYTES, call_stage, new_room, prepared
 
 

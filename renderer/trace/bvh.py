@@ -14,7 +14,8 @@ from renderer.scene.flat import FlatScene
 from renderer.trace.atomic import take_next
 from renderer.trace.compiled import inlined, kernel
 from renderer.trace.control import new_control
-from renderer.trace.simd import LANES, load, pointer, shifted, store
+from renderer.trace.simd import LANES
+from renderer.trace.simd_memory import load, pointer, shifted, store
 from renderer.trace.split import (
     BINS,
     HIGH,

@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 from renderer.scene.flat import DIFFUSE_SHININESS, FlatScene
 from renderer.scene.model import Mesh, Scene
 from renderer.trace.compiled import inlined
-from renderer.trace.simd import pointer
+from renderer.trace.simd_memory import pointer
 from renderer.trace.team import Team
 from renderer.trace.wide import (
     FIRST_LEAF,

@@ -17,20 +17,9 @@ from renderer.trace.compiled import inlined
 from renderer.trace.packet_surface import Pixels, store3
 from renderer.trace.packet_tile import OWNER, SECONDARY, SEEN, WAITING_DEPTHS, WAITING_NODES
 from renderer.trace.rays_hit import any_hit, closest_hit
-from renderer.trace.simd import (
-    LANES,
-    bits,
-    fma,
-    lane_of,
-    load,
-    lowest_bit,
-    mask_of,
-    shifted,
-    splat,
-    store,
-    vmax,
-)
+from renderer.trace.simd import LANES, bits, fma, lane_of, lowest_bit, mask_of, splat, vmax
 from renderer.trace.simd_math import dot_lanes, minus_lanes, scaled_lanes, select_lanes
+from renderer.trace.simd_memory import load, shifted, store
 
 # Vectors in the scratch: where rays start, where they go, how far.
 ORIGIN, DIRECTION, REACH = SECONDARY, SECONDARY + 3 * LANES, SECONDARY + 6 * LANES

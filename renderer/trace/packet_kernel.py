@@ -23,7 +23,8 @@ from renderer.trace.packet_tile import (
 )
 from renderer.trace.packet_view import view_pointers
 from renderer.trace.packet_walk import walk_world
-from renderer.trace.simd import LANES, pointer, shifted
+from renderer.trace.simd import LANES
+from renderer.trace.simd_memory import pointer, shifted
 from renderer.trace.stage import call_stage
 
 _ACROSS = BLOCK // TILE  # tiles of a block, in a row

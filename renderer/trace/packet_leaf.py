@@ -41,18 +41,17 @@ from renderer.trace.simd import (
     fma,
     lane_column,
     lane_row,
-    load,
     lowest_bit,
     select,
     smallest,
     splat,
-    store,
     to_f32,
     to_f64,
     vabs,
     vmax,
     vmin,
 )
+from renderer.trace.simd_memory import load, store
 from renderer.trace.wide import CORNERS, WIDTH
 
 # A triangle's volume is a sum of terms that can be far larger than it: where the triangle is seen

@@ -30,14 +30,13 @@ from renderer.trace.simd import (
     fma,
     lane_column,
     lane_row,
-    load,
     select,
     smallest,
     splat,
-    store,
     vsqrt,
 )
 from renderer.trace.simd_math import normalized_lanes
+from renderer.trace.simd_memory import load, store
 from renderer.trace.vectors import cross, dot, minus, plus, times
 
 _X, _Y, _Z = np.arange(3)

@@ -31,17 +31,13 @@ from renderer.trace.simd import (
     LANES,
     bits,
     fma,
-    gather,
     lane_column,
     lane_of,
     lane_row,
-    load,
     lowest_bit,
     mask_of,
-    pointer,
     select,
     splat,
-    store,
 )
 from renderer.trace.simd_math import (
     dot_lanes,
@@ -51,6 +47,7 @@ from renderer.trace.simd_math import (
     scaled_lanes,
     select_lanes,
 )
+from renderer.trace.simd_memory import gather, load, pointer, store
 from renderer.trace.wide import WIDTH
 
 GRAZING = np.float32(shade.GRAZING)

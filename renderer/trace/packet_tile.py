@@ -19,7 +19,8 @@ import numpy as np
 
 from renderer.trace.compiled import inlined
 from renderer.trace.packet_view import EXTENT, ORIGIN, ROW_X, ROW_Y, ROW_Z, ROWS
-from renderer.trace.simd import LANES, fma, load, splat, store
+from renderer.trace.simd import LANES, fma, splat
+from renderer.trace.simd_memory import load, store
 from renderer.trace.wide import WIDTH
 
 TILE = 16  # pixels: side of a packet's square

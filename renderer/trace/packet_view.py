@@ -27,7 +27,7 @@ from numpy.typing import NDArray
 
 from renderer.trace.compiled import inlined
 from renderer.trace.instances import Instances
-from renderer.trace.simd import pointer
+from renderer.trace.simd_memory import pointer
 from renderer.trace.view import View
 
 # A space's numbers: an origin o, near the eye; for X, Y and Z a row (a, b, c, d) of the affine map

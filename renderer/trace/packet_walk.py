@@ -20,7 +20,8 @@ from renderer.trace.packet_tile import (
     children_in_tile,
     set_planes,
 )
-from renderer.trace.simd import bits, lowest_bit, prefetch, store
+from renderer.trace.simd import bits, lowest_bit
+from renderer.trace.simd_memory import prefetch, store
 from renderer.trace.wide import CORNERS, FIRST_LEAF, WIDTH
 
 

@@ -30,18 +30,8 @@ from renderer.trace.packet_tile import (
     new_tile,
 )
 from renderer.trace.packet_view import PacketView, view_pointers
-from renderer.trace.simd import (
-    LANES,
-    bits,
-    is_line,
-    load,
-    pointer,
-    select,
-    splat,
-    store_square,
-    store_square3,
-    stream,
-)
+from renderer.trace.simd import LANES, bits, select, splat
+from renderer.trace.simd_memory import is_line, load, pointer, store_square, store_square3, stream
 from renderer.trace.stage import Stage, new_room, prepared
 
 # A tile's picture in the scratch, channel by channel and row by row.

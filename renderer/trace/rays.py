@@ -18,7 +18,8 @@ from renderer.trace.rays_hit import (
     closest_hit,
     closest_hit_of_one,
 )
-from renderer.trace.simd import LANES, pointer, shifted
+from renderer.trace.simd import LANES
+from renderer.trace.simd_memory import pointer, shifted
 from renderer.trace.team import Team
 from renderer.trace.wide import FIRST_LEAF
 

@@ -19,19 +19,8 @@ import numpy as np
 
 from renderer.trace.compiled import inlined
 from renderer.trace.instances import IS_UNMOVED
-from renderer.trace.simd import (
-    LANES,
-    bits,
-    fma,
-    load,
-    lowest_bit,
-    select,
-    smallest,
-    splat,
-    store,
-    vmax,
-    vmin,
-)
+from renderer.trace.simd import LANES, bits, fma, lowest_bit, select, smallest, splat, vmax, vmin
+from renderer.trace.simd_memory import load, store
 from renderer.trace.wide import BOX, CORNERS, FIRST_LEAF, WIDTH
 
 _ROUNDING = np.float32(5e-7)  # relative: more than the roundings of a box test add up to

@@ -21,17 +21,16 @@ from renderer.trace.simd import (
     LANES,
     i32_of,
     lane_of,
-    load,
     lower_half_twice,
     mask_of,
     next_of_three,
     quarters_swapped,
     select,
     splat,
-    store,
     vmax,
     vmin,
 )
+from renderer.trace.simd_memory import load, store
 
 BINS = 16
 RECORD = 8
