@@ -22,7 +22,7 @@ from renderer.scene.model import Scene
 
 COARSEST = 8  # image pixels a side that one traced pixel stands for
 ONCE_S = 0.012  # what the first image after a rest may take, so that it comes with the next frame
-COARSE_S = 0.006  # what a coarse image may take: OpenGL may need the same cores
+COARSE_S = 0.004  # what a coarse image may take: OpenGL, and what shows it, may need the same cores
 REFINE_S = 0.15  # a full image that takes longer is preceded by another coarse one
 SETTLE_S = 0.04  # without a change, at most, before refining: while dragging, the cores stay free
 LAUNCH_S = 4e-4  # of an image's time, what does not grow with its pixels

@@ -14,7 +14,7 @@ from renderer.camera import Camera
 from renderer.raster import Rasterizer
 from renderer.raster.targets import Textures
 
-PART_S = 0.007  # what a part may take of the window's thread
+PART_S = 0.005  # what a part may take of the window's thread
 WORTH_S = 0.015  # an image whose triangles take less is drawn at once
 FEWEST = 10_000  # triangles a part
 

@@ -30,7 +30,7 @@ from renderer.scene.model import Scene
 
 FAILURES = (LucidaError, moderngl.Error, MemoryError)  # of drawing: told, and survived
 MOVING_S = 0.1  # after a change, at least, before a full raster image: the ray image comes first
-FRAME_S = 0.006  # what a raster image may take of a frame while the camera moves
+FRAME_S = 0.0035  # what a raster image may take of a frame while the camera moves
 COARSEST = 4
 COARSE_PLACES = ("coarse", "coarse too")  # see Rasterizer.draw; the full image's is ""
 ATTEMPTS = 3  # at putting an image on the GPU, one a frame
