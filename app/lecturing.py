@@ -10,10 +10,7 @@ from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
 
-import moderngl
-import numpy as np
-
-from app.platform import start_platform
+from app.platform import Target, start_platform
 from app.start import Start
 from app.state import AppState
 from app.teach.lecture.model import Lecture
@@ -115,7 +112,7 @@ class _Export:
         self._quiet = 0
         self._began_s = time.monotonic()
 
-    def drawn(self, framebuffer: moderngl.Framebuffer) -> None:
+    def drawn(self, target: Target) -> None:
         """Called when a frame has been drawn."""
         window = self._run.window
         if self._number == len(self._files):
@@ -132,10 +129,7 @@ class _Export:
                     "try a smaller model or --size",
                 )
             return
-        width, height = framebuffer.size
-        data = framebuffer.read(components=3, alignment=1)
-        pixels = np.frombuffer(data, np.uint8).reshape(height, width, 3)[::-1]
-        save_png(self._files[self._number], pixels)
+        save_png(self._files[self._number], target.read())
         self._number += 1
         self._quiet, self._began_s = 0, time.monotonic()
         self._progress(self._number / len(self._files))

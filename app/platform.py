@@ -22,6 +22,7 @@ import imgui_bundle  # noqa: F401 - before glfw, so that both use the same GLFW 
 # isort: split
 import glfw
 import moderngl
+import numpy as np
 
 from renderer.errors import LucidaError
 
@@ -181,6 +182,24 @@ def _monitor_of(place: tuple[int, int, int, int]) -> Any:
         return max(wide, 0) * max(high, 0)
 
     return max(glfw.get_monitors(), key=shared, default=None)
+
+
+@dataclass(frozen=True)
+class Target:
+    """What the window is drawn into, and its size now: (width, height) in pixels.
+
+    A framebuffer of moderngl's knows the size that a window had when its context was made, and no
+    later one.
+    """
+
+    framebuffer: moderngl.Framebuffer
+    size: tuple[int, int]
+
+    def read(self) -> np.ndarray:
+        """What is drawn, uint8 (height, width, 3), row 0 at the top. Call before the swap."""
+        width, height = self.size
+        data = self.framebuffer.read((0, 0, width, height), components=3, alignment=1)
+        return np.frombuffer(data, np.uint8).reshape(height, width, 3)[::-1]
 
 
 class Canvas:

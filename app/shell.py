@@ -8,7 +8,6 @@ from __future__ import annotations
 from collections.abc import Callable
 from pathlib import Path
 
-import moderngl
 from imgui_bundle import hello_imgui, imgui
 
 from app import __version__
@@ -20,7 +19,7 @@ from app.panels.messages import Message, message_box
 from app.panels.palette import Palette
 from app.panels.sheet import help_sheet
 from app.panels.toasts import Toasts
-from app.platform import toggle_full_screen
+from app.platform import Target, toggle_full_screen
 from app.stage import Stage
 from app.state import AppState
 from app.storage.capture import Captures, Rect
@@ -133,9 +132,9 @@ class Shell:
         self.palette.draw(lambda: entries(window), self._fonts)
         self.toasts.draw()
 
-    def after_drawing(self, framebuffer: moderngl.Framebuffer) -> None:
+    def after_drawing(self, target: Target) -> None:
         """Once a frame, when all is drawn, before it is shown."""
-        self.captures.after_drawing(framebuffer)
+        self.captures.after_drawing(target)
 
     def end(self, state: AppState) -> None:
         """Once, at the end."""

@@ -20,6 +20,7 @@ from app import layout, theme
 from app.platform import (
     Canvas,
     Platform,
+    Target,
     create_context,
     flush_opengl,
     set_size,
@@ -111,7 +112,7 @@ class Run:
         self._size = size
         self._canvas: Canvas | None = None
         self._context: moderngl.Context | None = None
-        self.on_drawn: Callable[[moderngl.Framebuffer], None] | None = None  # each frame, drawn
+        self.on_drawn: Callable[[Target], None] | None = None  # each frame, drawn
         self.take_picture = take_picture
         self._error: BaseException | None = None
         self._quiet_frames = 0
@@ -225,17 +226,22 @@ class Run:
             self._canvas.bind()
         drawn = self._drawn
         if drawn is not None:
-            drawn.use()
-            drawn.clear(*self.params.imgui_window_params.background_color)
+            drawn.framebuffer.use()
+            drawn.framebuffer.clear(*self.params.imgui_window_params.background_color)
             self.window.renderers.underlay.paint(drawn)
 
     @property
-    def _drawn(self) -> moderngl.Framebuffer | None:
-        """What the window is drawn into; None before there is an OpenGL context."""
-        drawn = self._canvas.framebuffer if self._canvas is not None else None
-        if drawn is None and self._context is not None:
-            drawn = self._context.detect_framebuffer(0)
-        return drawn
+    def _drawn(self) -> Target | None:
+        """What this frame is drawn into; None before there is an OpenGL context."""
+        canvas = self._canvas.framebuffer if self._canvas is not None else None
+        if canvas is not None:
+            return Target(canvas, canvas.size)
+        if self._context is None:
+            return None
+        io = imgui.get_io()  # not the window: that may be of another size by now
+        size, scale = io.display_size, io.display_framebuffer_scale
+        pixels = round(size.x * scale.x), round(size.y * scale.y)
+        return Target(self._context.detect_framebuffer(0), pixels)
 
     def _before_swap(self) -> None:
         drawn = self._drawn

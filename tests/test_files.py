@@ -13,6 +13,7 @@ import numpy as np
 import pytest
 from PIL import Image
 
+from app.platform import Target
 from app.storage import clipboard
 from app.storage.capture import Captures, cut
 from app.storage.files import open_sources
@@ -129,19 +130,20 @@ class Framebuffer:
     """moderngl's, as far as pictures need it: rows from below."""
 
     def __init__(self, pixels: np.ndarray) -> None:
-        self.pixels, self.size = pixels, (pixels.shape[1], pixels.shape[0])
+        self.pixels = pixels
 
-    def read(self, components: int, alignment: int) -> bytes:
-        assert (components, alignment) == (3, 1)
+    def read(self, viewport: tuple, components: int, alignment: int) -> bytes:
+        assert (viewport, components, alignment) == ((0, 0, 7, 5), 3, 1)
         return self.pixels[::-1].tobytes()
 
 
 PIXELS = np.arange(5 * 7 * 3, dtype=np.uint8).reshape(5, 7, 3)
+TARGET = Target(Framebuffer(PIXELS), (7, 5))  # type: ignore[arg-type]
 
 
 def test_a_picture_is_saved_and_told(tmp_path):
     captures = Captures(lambda: None, tmp_path)
-    captures.after_drawing(Framebuffer(PIXELS))  # type: ignore[arg-type]
+    captures.after_drawing(TARGET)
     assert not captures.busy
     path = captures.default_path("raster")
     assert path.name.startswith("lucida raster ")
@@ -149,7 +151,7 @@ def test_a_picture_is_saved_and_told(tmp_path):
     assert captures.default_path("raster") != path or not path.exists()
     path.unlink()
     captures.ask((1, 1, 4, 3), path)
-    captures.after_drawing(Framebuffer(PIXELS))  # type: ignore[arg-type]
+    captures.after_drawing(TARGET)
     wait_for(path.exists)
     told = None
     while told is None:
@@ -158,7 +160,7 @@ def test_a_picture_is_saved_and_told(tmp_path):
     assert str(path) in told[0]
     assert (np.asarray(Image.open(path)) == PIXELS[1:3, 1:4]).all()
     captures.ask(None, tmp_path / "no" / "such" / "folder.png")
-    captures.after_drawing(Framebuffer(PIXELS))  # type: ignore[arg-type]
+    captures.after_drawing(TARGET)
     told = None
     while told is None:
         told = captures.poll()

@@ -173,6 +173,53 @@ save_png(Path("out.png"), Run(platform, state, (1280, 720), take_picture=True).r
     check_picture(tmp_path / "out.png", (1280, 720))
 
 
+def test_a_window_that_is_resized(tmp_path: Path, xvfb: str) -> None:
+    """At every size the two images stand where their views are; pictures of it are as large."""
+    script = """
+import glfw
+import numpy as np
+from app.platform import start_platform
+from app.state import AppState
+from app.viewer import Run, save_png
+from renderer.scene import load_scene
+
+platform = start_platform()
+assert platform.has_display, platform.reason
+run = Run(platform, AppState.for_scene(load_scene("still-life")), (1000, 700), remember=False)
+run.params.fps_idling.enable_idling = False
+sizes, still = [(1000, 700), (800, 500), (1300, 820), (640, 480)], 0
+
+def look(target):
+    global still
+    still = still + 1 if run.window.settled and target.size == sizes[0] else 0
+    if still < 5:
+        return
+    picture, rects = target.read(), run.window.shell.stage.rects
+    assert picture.shape[1::-1] == sizes[0], picture.shape
+    left, top, right, bottom = map(round, rects["Raster"])
+    width, height = right - left, bottom - top
+    other, other_top = map(round, rects["Ray"][:2])
+    # Without the controls at the top, and what differs where an edge is.
+    raster = picture[top + height // 3 : bottom - 4, left + 4 : right - 4].astype(int)
+    ray = picture[other_top + height // 3 : other_top + height - 4, other + 4 :][:, : width - 8]
+    assert raster.std() > 20, f"no image at {sizes[0]}"
+    differ = (np.abs(raster - ray).max(axis=2) > 8).mean()
+    assert differ < 0.02, f"{differ:.1%} of the pixels differ at {sizes[0]}"
+    still = 0
+    sizes.pop(0)
+    if sizes:
+        glfw.set_window_size(glfw.get_current_context(), *sizes[0])
+    else:
+        run.params.app_shall_exit = True
+
+run.on_drawn = look
+run.run()
+assert not sizes
+"""
+    done = run(["-c", script], tmp_path, xvfb)
+    assert done.returncode == 0, done.stderr
+
+
 def test_idle_means_idle_and_settings_are_the_users(tmp_path: Path, xvfb: str) -> None:
     """Once all is still, next to no frames are drawn; the layout is kept in the user's folder."""
     script = """

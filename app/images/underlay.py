@@ -12,10 +12,8 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-import moderngl
-
 from app.images.shown import Picture
-from app.platform import copy_pixels
+from app.platform import Target, copy_pixels
 
 Box = tuple[int, int, int, int]  # left, top, right, bottom: framebuffer pixels, row 0 at the top
 
@@ -40,12 +38,13 @@ class Underlay:
         """A picture made for this (see ShownImage.picture), enlarged to the nearest pixel."""
         self._placed.append(_Placed(picture, box))
 
-    def paint(self, target: moderngl.Framebuffer) -> None:
+    def paint(self, target: Target) -> None:
         """Copies what was put into it since the frame's beginning; leaves the target bound."""
         height = target.size[1]
         for placed in self._placed:
             left, top, right, bottom = placed.box
             size = placed.picture.texture.size
             source = placed.picture.framebuffer.glo, (0, 0, *size)
-            copy_pixels(*source, target.glo, (left, height - bottom, right, height - top))
-        target.use()
+            box = left, height - bottom, right, height - top
+            copy_pixels(*source, target.framebuffer.glo, box)
+        target.framebuffer.use()

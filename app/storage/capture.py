@@ -12,10 +12,10 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
 
-import moderngl
 import numpy as np
 
 from app.background import Background
+from app.platform import Target
 from app.storage.clipboard import copy_png
 from renderer.atomic import atomic_write
 from renderer.errors import LucidaError
@@ -62,14 +62,12 @@ class Captures:
             path, number = folder / f"{name} {number}.png", number + 1
         return path
 
-    def after_drawing(self, framebuffer: moderngl.Framebuffer) -> None:
+    def after_drawing(self, target: Target) -> None:
         """Takes the picture that was asked for; call when all is drawn, before the swap."""
         if self._asked is None:
             return
         asked, self._asked = self._asked, None
-        width, height = framebuffer.size
-        data = framebuffer.read(components=3, alignment=1)
-        pixels = np.frombuffer(data, np.uint8).reshape(height, width, 3)[::-1]
+        pixels = target.read()
         self._work.submit(lambda: _finish(pixels, asked))
 
     def poll(self) -> tuple[str, bool] | None:
