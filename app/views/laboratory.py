@@ -7,6 +7,7 @@ screen. The table of sizes and the array's cells are laboratory_tables.py's.
 
 from __future__ import annotations
 
+import itertools
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 from typing import Any
@@ -50,6 +51,7 @@ class _Source:
 
     wanted: Wanted
     color: Image
+    number: int  # of the image; its address may be a later one's, too
 
 
 @dataclass(frozen=True, eq=False)
@@ -72,6 +74,7 @@ class LaboratoryView(View):
         self._work: Background[_Made] | None = None
         self._sizing: Background[tuple[tuple[Any, ...], tuple[disk.Entry, ...]]] | None = None
         self._source: _Source | None = None
+        self._numbers = itertools.count()
         self._asked: tuple[Any, ...] = ()
         self._made: _Made | None = None
         self._sizes_asked: tuple[Any, ...] = ()
@@ -248,7 +251,7 @@ class LaboratoryView(View):
         wanted = Wanted(state.scene, state.view.for_size(divided.image), divided.image)
         try:
             if self._source is None or self._source.wanted != wanted:
-                self._source = _Source(wanted, _drawn(host, wanted))
+                self._source = _Source(wanted, _drawn(host, wanted), next(self._numbers))
             outcome = self._work.poll()
             if outcome is not None and outcome.error is not None:
                 raise outcome.error
@@ -260,21 +263,23 @@ class LaboratoryView(View):
         except (LucidaError, moderngl.Error) as error:
             self._error = describe(error)
             return
-        color, taken_ev = self._source.color, state.images.exposure_ev
+        source, taken_ev = self._source, state.images.exposure_ev
+        color = source.color
         pixel = self._pixel(state, divided)
         # The other pages' options are none of this one's.
-        key = (id(color), divided, options, taken_ev, pixel)
+        key = (source.number, divided, options, taken_ev, pixel)
         if key != self._asked:
             self._asked = key
             page = options.page
             self._work.submit(
                 lambda: _Made(key, divided, panels(page, color, divided, options, taken_ev, pixel))
             )
+        self._take_sizes()
         if options.page == "kinds":
-            self._follow_sizes(color, options.method, taken_ev)
+            self._follow_sizes(source, options.method, taken_ev)
 
-    def _follow_sizes(self, color: Image, method: str, taken_ev: float) -> None:
-        """The files' sizes, encoded in a thread of their own; a newer image ends the old one's."""
+    def _take_sizes(self) -> None:
+        """What the thread of the files' sizes has found; on any page: it may have been left."""
         assert self._sizing is not None
         outcome = self._sizing.poll()
         if (
@@ -283,7 +288,11 @@ class LaboratoryView(View):
             and outcome.value[0] == self._sizes_asked
         ):
             self._sizes = outcome.value[1]
-        key = (id(color), method, taken_ev)
+
+    def _follow_sizes(self, source: _Source, method: str, taken_ev: float) -> None:
+        """The files' sizes, encoded in a thread of their own; a newer image ends the old one's."""
+        assert self._sizing is not None
+        key, color = (source.number, method, taken_ev), source.color
         if key != self._sizes_asked:
             self._sizes_asked = key
             self._sizing.submit(

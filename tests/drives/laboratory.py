@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
-import numpy as np
-from window_driver import ATTEMPTS, Driver
+import threading
+from typing import Any
 
-from app.teach.imagelab import kinds
+import numpy as np
+from window_driver import ATTEMPTS, PATIENT_S, Driver
+
+from app.teach.imagelab import disk, kinds
 from app.teach.imagelab.pages import PAGE_TITLES
 from app.teach.imagelab.stored import shown, store
 from app.views.laboratory import LABORATORY, LaboratoryView
@@ -96,6 +99,31 @@ def drive_the_kinds_are_of_the_image_that_is_seen(d: Driver) -> None:
     d.window.change(moved)
     d.settle()
     assert (view.made[2].picture != before).any()
+    _close(d)
+
+
+def drive_the_page_is_left_before_the_sizes_are_known(d: Driver) -> None:
+    view = _open(d, page="bitmaps")
+    began, may_end = threading.Event(), threading.Event()
+    sizes = disk.sizes
+
+    def waiting(*arguments: Any) -> tuple[disk.Entry, ...]:
+        began.set()
+        may_end.wait(PATIENT_S)
+        return sizes(*arguments)
+
+    disk.sizes = waiting
+    try:
+        d.window.change(d.window.state.with_options(laboratory={"page": "kinds"}))
+        d.until(began.is_set)
+        d.window.change(d.window.state.with_options(laboratory={"page": "bitmaps"}))
+        d.ctx.yield_(2)
+        assert not view.settled
+    finally:
+        disk.sizes = sizes
+        may_end.set()
+    d.until(lambda: view.settled)
+    assert len(view.sizes) == 9
     _close(d)
 
 
