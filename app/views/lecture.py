@@ -37,6 +37,7 @@ LECTURE = "Lecture"
 LAYOUT = "Lecture"  # of layout.LAYOUTS
 LARGEST = 0.036  # of the text, in parts of the window's height
 SMALLEST = 0.021
+RESTORE = "back to the step"
 TITLE = 1.5  # of a step's title, in parts of the text's size
 
 
@@ -175,8 +176,10 @@ class LectureView(View):
         sizes = (max(13.0, SMALLEST * height), max(16.0, LARGEST * height))
         with lettering(host.fonts.text, sizes[0]):
             self._head(host, session, sizes)
-            foot = 2.6 * sizes[0]
             avail = imgui.get_content_region_avail()
+            foot = 2.6 * sizes[0]
+            if not _fits_a_row(avail.x):
+                foot += imgui.get_frame_height_with_spacing()
             error = self._error_height(session, avail.x)
             child = ImVec2(avail.x, max(1.0, avail.y - foot - error))
             if imgui.begin_child("step", child):
@@ -234,6 +237,7 @@ class LectureView(View):
         """Back, the place in the lecture, next; the outline; the way back to the step."""
         number, count = session.number, len(session.lecture.steps)
         size = imgui.get_font_size()
+        fits = _fits_a_row(imgui.get_content_region_avail().x)
         imgui.begin_disabled(number == 0)
         if imgui.button("<##back", ImVec2(2.4 * size, 0)):
             self.advance(host, -1)
@@ -249,10 +253,11 @@ class LectureView(View):
             self.advance(host, 1)
         imgui.end_disabled()
         imgui.set_item_tooltip("the next step (Page Down)")
-        imgui.same_line(0, size)
+        if fits:
+            imgui.same_line(0, size)
         changed = state_of(session.step, host.state) != host.state
         imgui.begin_disabled(not changed)
-        if imgui.button("back to the step##restore"):
+        if imgui.button(f"{RESTORE}##restore", ImVec2(0 if fits else _walking_px(), 0)):
             self.restore(host)
         imgui.end_disabled()
         imgui.set_item_tooltip("its own scene, camera and views (Backspace)")
@@ -280,6 +285,17 @@ class LectureView(View):
         imgui.push_text_wrap_pos(0.0)
         imgui.text_colored(theme.DIM, "A lecture's file can be dropped on the window, too.")
         imgui.pop_text_wrap_pos()
+
+
+def _walking_px() -> float:
+    """The width of the buttons that walk the steps."""
+    return 9.8 * imgui.get_font_size() + 2 * imgui.get_style().item_spacing.x
+
+
+def _fits_a_row(width: float) -> bool:
+    """Whether the way back to the step has room beside them."""
+    text = imgui.calc_text_size(RESTORE).x + 2 * imgui.get_style().frame_padding.x
+    return bool(_walking_px() + imgui.get_font_size() + text <= width)
 
 
 def _read(path: Path) -> tuple[Lecture, LucidaError | None]:

@@ -11,7 +11,7 @@ from app.panels import formula
 from app.teach.lecture.model import Lecture
 from app.teach.lecture.reading import BUILTIN, load_lecture
 from app.teach.lecture.states import state_of
-from app.views.lecture import LAYOUT, LECTURE, LectureView
+from app.views.lecture import LAYOUT, LECTURE, RESTORE, LectureView
 
 SMALL = """\
 title = "Small"
@@ -162,6 +162,28 @@ def drive_the_column_keeps_its_share_of_a_window_that_grows(d: Driver) -> None:
     d.until(lambda: imgui.get_io().display_size.x == SIZE[0])
     d.settle()
     assert np.allclose(shares(), before, atol=0.02)
+
+
+def drive_in_a_narrow_column_no_button_is_cut_off(d: Driver) -> None:
+    _give(d)
+    boxes = []
+    for size in (SIZE, (640, 480)):
+        hello_imgui.change_window_size(size)
+        d.until(lambda size=size: imgui.get_io().display_size.x == size[0])
+        d.settle()
+        low_x, low_y, high_x, high_y = d.window.shell.stage.rects[LECTURE]
+        boxes = [
+            d.ctx.item_info(f"//{LECTURE}/{name}").rect_full
+            for name in (">##next", f"{RESTORE}##restore")
+        ]
+        for box in boxes:
+            assert low_x <= box.min.x < box.max.x <= high_x
+            assert low_y <= box.min.y < box.max.y <= high_y
+        in_a_row = boxes[0].max.x <= boxes[1].min.x
+        assert in_a_row == (size == SIZE)
+    hello_imgui.change_window_size(SIZE)
+    d.until(lambda: imgui.get_io().display_size.x == SIZE[0])
+    d.settle()
 
 
 def drive_a_column_that_was_widened_stays_so(d: Driver) -> None:
