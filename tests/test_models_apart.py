@@ -281,7 +281,7 @@ def test_what_is_opened_next_does_not_wait_for_a_large_model(tmp_path: Path, chi
     monkeypatch.setattr(apart, "is_large", lambda path: path.name == "large.obj")
     files = Files(lambda: None, native=False)
     files.open(str(written(tmp_path / "large.obj", TRIANGLE)))
-    wait_for(lambda: files._models.is_reading)
+    wait_for(lambda: files._models._process is not None)
     files.open(str(written(tmp_path / "next.obj", TRIANGLE)))
     assert files.loading == "next.obj"
     came: list[Opened | None] = []
@@ -291,6 +291,36 @@ def test_what_is_opened_next_does_not_wait_for_a_large_model(tmp_path: Path, chi
     assert opened.scene is not None
     assert opened.scene.name == "next"
     assert files.poll_said() == ["Loading large.obj was cancelled."]
+    files.close()
+
+
+def test_of_several_that_are_opened_at_once_the_last_one_wins(tmp_path: Path, child, monkeypatch):
+    child(HELLO + "    time.sleep(9999)\n")
+    monkeypatch.setattr(apart, "is_large", lambda path: path.name == "large.obj")
+    files = Files(lambda: None, native=False)
+    names = ["large.obj", "b.obj", "large.obj", "c.obj", "last.obj"]
+    for name in names:  # before the process of the first has begun, too
+        files.open(str(written(tmp_path / name, TRIANGLE)))
+    came: list[Opened] = []
+    wait_for(lambda: (opened := files.poll()) and (came.append(opened) or True))
+    wait_for(lambda: not files.busy)
+    assert [opened.scene.name for opened in came if opened.scene] == ["last"]
+    assert files.poll() is None
+    assert files.message == ""
+    assert files.poll_said() == [f"Loading {name} was cancelled." for name in names[:-1]]
+    files.close()
+
+
+def test_what_was_opened_before_has_no_message_either(tmp_path: Path):
+    files = Files(lambda: None, native=False)
+    files.open(str(tmp_path / "none.obj"))
+    wait_for(lambda: files._loading._outcome is not None)  # and nobody has asked
+    files.open(str(written(tmp_path / "next.obj", TRIANGLE)))
+    came: list[Opened | None] = []
+    wait_for(lambda: came.append(files.poll()) or came[-1])
+    assert files.message == ""
+    assert came[-1] is not None
+    assert came[-1].sources == (str(tmp_path / "next.obj"),)
     files.close()
 
 

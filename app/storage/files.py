@@ -204,8 +204,7 @@ class Files:
         self.recent.close()
 
     def _load(self, source: str, load: Callable[[], Opened]) -> None:
-        if self._models.is_reading:  # the newest wins, and does not wait for what takes long
-            self.cancel()
+        self.cancel()  # the newest wins, and does not wait for what takes long
         self.message = ""
         self._source = Path(source).name
         self._began_s = time.monotonic()

@@ -48,12 +48,6 @@ class ModelReader:
         self._process: subprocess.Popen[bytes] | None = None
         self._cancelled = False
 
-    @property
-    def is_reading(self) -> bool:
-        """Whether a process is at work."""
-        with self._lock:
-            return self._process is not None
-
     def read(self, path: Path) -> tuple[SceneObject, ...]:
         """As read_model(). Raises CancelledError once cancel() was called, else LucidaError."""
         python = interpreter() if is_large(path) else None
