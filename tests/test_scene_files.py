@@ -394,6 +394,20 @@ def test_endings_decide_and_a_built_in_name_wins_over_a_file(tmp_path: Path, mon
     assert load_scene(Path("bunny.obj")).name == "bunny"
 
 
+@pytest.mark.parametrize("name", ["x.obj", "x.toml", "x.png"])
+def test_a_link_that_leads_nowhere_is_told_as_one(name: str, tmp_path: Path, monkeypatch) -> None:
+    monkeypatch.chdir(tmp_path)
+    try:
+        Path(name).symlink_to("gone.obj")
+    except OSError:
+        pytest.skip("this system makes no links")
+    with pytest.raises(LucidaError, match=r"is a link to 'gone\.obj', which does not exist; mend"):
+        load_scene(name)
+    Path("gone.obj").write_text(TRIANGLE)
+    if name == "x.obj":
+        assert load_scene(name).objects
+
+
 def test_importing_scenes_loads_no_model_reader() -> None:
     code = "import sys, renderer.scene; sys.exit('trimesh' in sys.modules)"
     subprocess.run([sys.executable, "-c", code], check=True)

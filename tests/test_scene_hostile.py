@@ -115,7 +115,7 @@ def test_noise_is_no_text(ending: str, tmp_path: Path) -> None:
     [
         (TRIANGLE, "holds no triangle"),
         ("f 1 2 3\n", "holds no triangle"),
-        (TRIANGLE + "f 1 2\n", "holds no triangle"),
+        (TRIANGLE + "f 1 2\n", "line 4: 'f 1 2', the last one, is not a whole face"),
         (TRIANGLE + "f 1 1 2\n", "holds no triangle"),
         (TRIANGLE + "f 1 2 9\n", "line 4: 'f 1 2 9' uses vertex 9 of 3"),
         (TRIANGLE + "f 0 1 2\n", "line 4: 'f 0 1 2' uses vertex 0 of 3"),
@@ -139,6 +139,18 @@ def test_noise_is_no_text(ending: str, tmp_path: Path) -> None:
 )
 def test_obj(text: str, message: str, tmp_path: Path) -> None:
     assert refusal(write(tmp_path / "x.obj", text)).startswith(message)
+
+
+@pytest.mark.parametrize(
+    "end", ["f", "f 2", "f 2/1", "f 1/1 2/1", "f 1/1 2/1 3", "f 1/1 2/1 3\n\n"]
+)
+def test_an_obj_that_ends_within_a_face_is_refused(end: str, tmp_path: Path) -> None:
+    text = "v 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nf 1/1 2/1 3/1\n"
+    last = end.strip()
+    assert refusal(write(tmp_path / "x.obj", text + end)) == (
+        f"line 6: {last!r}, the last one, is not a whole face; the file is cut off; export it again"
+    )
+    assert load_scene(write(tmp_path / "x.obj", text + "f 1/1 2/1 3/1")).objects
 
 
 def test_vertices_that_no_face_uses_may_be_anything(tmp_path: Path) -> None:
@@ -220,6 +232,7 @@ def stl(declared: int, triangles: int, value: float = 0.0) -> bytes:
     ("content", "message"),
     [
         (stl(4_000_000_000, 1), "declares 4000000000 triangles, 186 GiB, and has 134 bytes"),
+        (stl(2000, 1999), "declares 2000 triangles, 100,084 bytes, and has 100,034 bytes"),
         (stl(2, 1), "declares 2 triangles"),
         (stl(1, 2), "declares 1 triangles"),
         (stl(0, 0), "holds no triangle"),
@@ -233,7 +246,7 @@ def stl(declared: int, triangles: int, value: float = 0.0) -> bytes:
         ("solid\nendsolid\n" * 10_001, "has 10001 solids; stay within 10000"),
         ("endsolid solid\n", ""),
     ],
-    ids=range(13),
+    ids=range(14),
 )
 def test_stl(content: str | bytes, message: str, tmp_path: Path) -> None:
     assert refusal(write(tmp_path / "x.stl", content)).startswith(message)

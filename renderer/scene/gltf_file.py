@@ -17,7 +17,7 @@ import msgspec
 
 from renderer.errors import LucidaError
 from renderer.scene.limits import BINARY_MODEL_BYTES, GLTF_JSON_BYTES, TEXT_MODEL_BYTES
-from renderer.scene.reading import check_bytes, read_file, size_text
+from renderer.scene.reading import check_bytes, read_file, size_text, size_texts
 
 Count = Annotated[int, msgspec.Meta(ge=0, le=1 << 40)]
 Index = Annotated[int, msgspec.Meta(ge=0, le=1 << 31)]
@@ -168,10 +168,9 @@ def read_buffer(buffer: Buffer, number: int, binary: bytes | None, path: Path) -
     else:
         data = _file_beside(buffer.uri, f"{field}.uri", path)
     if len(data) < buffer.byte_length:
+        declared, there = size_texts(buffer.byte_length, len(data))
         raise LucidaError(
-            field,
-            f"declares {size_text(buffer.byte_length)} and has {size_text(len(data))}",
-            "it is cut off; export it again",
+            field, f"declares {declared} and has {there}", "it is cut off; export it again"
         )
     return data
 

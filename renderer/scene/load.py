@@ -13,7 +13,7 @@ from renderer.errors import LucidaError
 from renderer.scene.files import read_scene_file
 from renderer.scene.model import Origin, Scene
 from renderer.scene.models import MODEL_ENDINGS, model_scene
-from renderer.scene.reading import neighbours, suggestion
+from renderer.scene.reading import absence, suggestion
 
 BUILTIN_SCENES = (
     "still-life",
@@ -50,9 +50,8 @@ def load_scene(source: str | Path) -> Scene:
             "", f"ends in {ending!r}" if ending else "has no ending", f"give {endings}", str(path)
         )
     if ending or path.parent != Path():
-        raise LucidaError(
-            "", "does not exist", f"{neighbours(path)}; scenes are {endings}", str(path)
-        )
+        problem, remedy = absence(path)
+        raise LucidaError("", problem, f"{remedy}; scenes are {endings}", str(path))
     close = difflib.get_close_matches(str(source)[:100], BUILTIN_SCENES, 1)
     guess = f"did you mean {close[0]!r}? " if close else ""
     raise LucidaError(

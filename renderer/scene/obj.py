@@ -22,6 +22,7 @@ from renderer.scene.parts import Part
 from renderer.scene.reading import read_file
 
 SPLIT_WORK = 1 << 31  # parts times vertices up to which a file is split into parts
+_END_LETTERS = 4096  # a last line that is longer is not looked at
 
 # What a face line must not hold for trimesh: indices counted from the end, or 0.
 _RELATIVE = re.compile(r"^f[^\n]*[ \t/](?:-\d|0+(?![0-9.]))", re.MULTILINE)
@@ -33,6 +34,7 @@ def read_obj(path: Path) -> list[Part]:
     original = text = read_text(path)
     if "\nf " not in text:
         return []
+    _check_end(path, text)
     vertices = text.count("\nv ")
     divisions = text.count("\no ") + text.count("\nusemtl ") + 1
     if divisions > OBJECTS or divisions * vertices > SPLIT_WORK:
@@ -77,6 +79,20 @@ class _BesideIt(Mapping[str, bytes]):
 
     def __len__(self) -> int:
         return 0
+
+
+def _check_end(path: Path, text: str) -> None:
+    """Raises LucidaError for a file that ends within a face, which trimesh would pass over."""
+    line = text[-_END_LETTERS:].rstrip().rpartition("\n")[2]
+    keyword, *corners = line.split() or [""]
+    slashes = {corner.count("/") for corner in corners}
+    if keyword == "f" and (len(corners) < 3 or len(slashes) > 1):
+        raise LucidaError(
+            f"line {text.rstrip().count(chr(10))}",
+            f"{line[:60]!r}, the last one, is not a whole face",
+            "the file is cut off; export it again",
+            str(path),
+        )
 
 
 def _blame_line(path: Path, text: str) -> None:

@@ -20,7 +20,7 @@ from renderer.scene.limits import (
     TRIANGLES,
 )
 from renderer.scene.parts import Part
-from renderer.scene.reading import check_bytes, read_file, size_text
+from renderer.scene.reading import check_bytes, read_file, size_texts
 
 _SOLID = re.compile(r"^solid\b([^\n]*)", re.MULTILINE | re.IGNORECASE)
 
@@ -54,14 +54,11 @@ def read_stl(path: Path) -> list[Part]:
     triangles = int.from_bytes(data[80:84], "little")
     names: list[str] = []
     if len(data) != 84 + 50 * triangles or len(data) < 84:
-        if not data.lstrip()[:5].lower() == b"solid":
-            raise damaged(
-                path,
-                f"declares {triangles} triangles, {size_text(84 + 50 * triangles)}, and has "
-                f"{size_text(len(data))}"
-                if len(data) >= 84
-                else "is too short to be STL",
-            )
+        if data.lstrip()[:5].lower() != b"solid":
+            if len(data) < 84:
+                raise damaged(path, "is too short to be STL")
+            declared, there = size_texts(84 + 50 * triangles, len(data))
+            raise damaged(path, f"declares {triangles} triangles, {declared}, and has {there}")
         check_bytes(len(data), TEXT_MODEL_BYTES, str(path))
         text = tidy_text(data)
         solids = text.lower().count("endsolid")

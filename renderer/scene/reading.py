@@ -5,6 +5,7 @@ Knows nothing of what is in the file.
 
 from __future__ import annotations
 
+import contextlib
 import difflib
 import os
 import stat
@@ -28,7 +29,8 @@ def read_file(path: Path, most_bytes: int) -> bytes:
         with path.open("rb") as file:
             data = file.read(status.st_size)  # not read(): a file may grow without end
     except FileNotFoundError:
-        raise LucidaError("", "does not exist", neighbours(path), source) from None
+        problem, remedy = absence(path)
+        raise LucidaError("", problem, remedy, source) from None
     except LucidaError:
         raise
     except (OSError, ValueError) as error:
@@ -71,8 +73,16 @@ def suggestion(given: str, known: Iterable[str]) -> str:
     return f"did you mean {close[0]!r}?" if close else f"give one of {', '.join(known)}"
 
 
-def neighbours(path: Path) -> str:
-    """The remedy for a file that is not there: one of a similar name beside it, if any."""
+def absence(path: Path) -> tuple[str, str]:
+    """The problem and the remedy of a file that is not there: a link that leads nowhere, or
+    one of a similar name beside it, if any."""
+    with contextlib.suppress(OSError, ValueError):
+        target = str(path.readlink())  # fails for what is no link
+        return f"is a link to {target!r}, which does not exist", "mend the link"
+    return "does not exist", _neighbours(path)
+
+
+def _neighbours(path: Path) -> str:
     try:
         with os.scandir(path.parent) as entries:
             names = [entry.name for entry, _ in zip(entries, range(10_000), strict=False)]
@@ -80,6 +90,12 @@ def neighbours(path: Path) -> str:
         return "check its name and folder"
     close = difflib.get_close_matches(path.name[:255], names, 1, 0.75)
     return f"did you mean {str(path.with_name(close[0]))!r}?" if close else "check its name"
+
+
+def size_texts(one_bytes: int, other_bytes: int) -> tuple[str, str]:
+    """Two sizes that differ, as people say them; to the byte where they would look alike."""
+    one, other = size_text(one_bytes), size_text(other_bytes)
+    return (one, other) if one != other else (f"{one_bytes:,} bytes", f"{other_bytes:,} bytes")
 
 
 def size_text(size_bytes: int) -> str:
