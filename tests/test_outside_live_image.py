@@ -89,6 +89,8 @@ class TestLiveImage:
         link = found.get("{http://www.w3.org/1999/xlink}href") or ""
         head, content = link.split(",")
         assert head == "data:image/png;base64"
+        assert found.get("image-rendering") == "optimizeSpeed"  # pixels stay squares
+        assert found.get("style") == "image-rendering:pixelated"
         with PngImage.open(io.BytesIO(base64.b64decode(content))) as file:
             rgba = np.asarray(file)
         assert (rgba[..., 3] == 255).all()

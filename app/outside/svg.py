@@ -69,13 +69,15 @@ def svg(drawing: Drawing, title: str = "") -> str:
 
 
 def _live_image(standing: Standing) -> list[str]:
-    """The image once, and its cells as uses of it, cut out by paths."""
+    """The image once, and its cells as uses of it, cut out by paths. Its pixels stay squares:
+    optimizeSpeed is SVG 1.1's word for that, pixelated is CSS's, which browsers go by."""
     height, width = standing.rgba.shape[:2]
     file = io.BytesIO()
     Image.fromarray(standing.rgba).save(file, "PNG")
     content = base64.b64encode(file.getvalue()).decode()
     image = (
         f'<image id="pixels" width="{width}" height="{height}" preserveAspectRatio="none"'
+        ' image-rendering="optimizeSpeed" style="image-rendering:pixelated"'
         f' xlink:href="data:image/png;base64,{content}"/>'
     )
     cut, used = [], []
