@@ -147,6 +147,12 @@ def look_of(preferences: Preferences, height_px: float, dpi_scale: float = 1.0) 
     return Look(preferences.theme, preferences.presentation, scale)
 
 
+def used() -> Look:
+    """The look in use, what colours are read from now: in a key of what is kept from frame to
+    frame. Not the preferences: they change first, the look follows when a frame is drawn."""
+    return _used[0]
+
+
 def follow(preferences: Preferences) -> None:
     """Takes up a change of the preferences, or of the window's height; call before a frame."""
     style = imgui.get_style()

@@ -47,6 +47,10 @@ DARKER: dict[Role, ImVec4] = {
 
 Rgba = tuple[float, float, float, float]
 
+# Of lines' edges. Dark in every theme: what is behind is the scene's picture, not the theme's
+# ground, and the lines themselves are pale.
+CASING: Rgba = (0.03, 0.035, 0.04, 0.6)
+
 
 def role_color(role: Role) -> ImVec4:
     """The colour of a role in the theme in use."""
@@ -71,13 +75,6 @@ def vector_paint() -> Paint:
     plain, ground = theme.PLAIN, theme.BACKGROUND
     outline = plain.x, plain.y, plain.z
     return Paint(color, outline, (ground.x, ground.y, ground.z))
-
-
-def casing() -> Rgba:
-    """The colour of lines' edges: light round the light theme's darker colours."""
-    if theme.BACKGROUND.x > 0.5:
-        return 1.0, 1.0, 1.0, 0.55
-    return 0.03, 0.035, 0.04, 0.6
 
 
 def layers(primitives: Iterable[Primitive]) -> list[Layer]:

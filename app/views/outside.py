@@ -27,7 +27,7 @@ from app.options import OutsideOptions, Pixel
 from app.outside.diagram import Hit, Item, diagram
 from app.outside.extent import end_parameter
 from app.outside.hits import Question, RayHits
-from app.outside.paint import casing, layers
+from app.outside.paint import CASING, layers
 from app.outside.projected import Primitive, project
 from app.outside.screen import Screen
 from app.outside.sketch import OPACITY
@@ -306,7 +306,7 @@ class OutsideView(View):
             key = (
                 state.scene, camera, size, inner, image_size, replace(options, camera=None),
                 marked, tuple(hits), drawn, state.images, unit_px, symbol_px, ground.number,
-                ground.smooth, is_under, state.preferences, tuple(self._extra.items()),
+                ground.smooth, is_under, theme.used(), tuple(self._extra.items()),
             )  # fmt: skip
             if self._made is not None and self._made.key == key:
                 return self._made.texture
@@ -330,7 +330,7 @@ class OutsideView(View):
                 state.images.exposure_ev,
                 opacity=OPACITY,
                 unit_px=unit_px,
-                casing=casing(),
+                casing=CASING,
                 number=(ground.number, ground.parts),
                 mean=ground.mean if ground.smooth else None,
                 upside_down=is_under,

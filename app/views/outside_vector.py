@@ -14,6 +14,7 @@ import numpy as np
 from imgui_bundle import ImVec2
 from numpy.typing import NDArray
 
+from app import theme
 from app.images.pictures import Wanted
 from app.images.renderers import look_of
 from app.outside import svg
@@ -65,7 +66,7 @@ class Sketcher:
         unit, symbol = units or units_px(extent)
         key = (
             state.scene, looking, size, camera, image_size, options, marked, tuple(hits),
-            view.extra, unit, symbol, state.preferences,
+            view.extra, unit, symbol, theme.used(),
         )  # fmt: skip
         if self._sketch is not None and key == self._key and not live:
             return self._sketch

@@ -12,7 +12,7 @@ from app import theme
 from app.outside.projected import Strokes
 from app.outside.screen import Screen
 from app.outside.solid import plane_corners
-from app.views import outside_gizmo, outside_tint
+from app.views import outside, outside_gizmo, outside_tint
 from app.views.outside import OUTSIDE, OutsideView
 from app.views.outside_gizmo import LENGTH
 from app.views.outside_mouse import Scope
@@ -204,6 +204,34 @@ def drive_nothing_is_drawn_anew_while_nothing_changes(d: Driver) -> None:
     d.ctx.mouse_teleport_to_pos(d.point("Raster", 0.4, 0.6))
     d.until(lambda: view(d).primitives is not before)  # its ray
     assert strokes(d, "ray")
+
+
+def drive_it_is_drawn_anew_in_another_look(d: Driver) -> None:
+    """The look follows the preferences a frame later: what was drawn between is of the old one."""
+    enter(d)
+    drawn: list[theme.Palette] = []
+    layers = outside.layers
+
+    def watched(primitives: Any) -> Any:
+        drawn.append(theme.used().palette)
+        return layers(primitives)
+
+    outside.layers = watched
+    palettes = theme.LIGHT, theme.PRESENTED_LIGHT, theme.PRESENTED_DARK, theme.DARK
+    try:
+        for palette in palettes:
+            look = {
+                "theme": "light" if palette in (theme.LIGHT, theme.PRESENTED_LIGHT) else "dark",
+                "presentation": palette in (theme.PRESENTED_LIGHT, theme.PRESENTED_DARK),
+            }
+            drawn.clear()
+            d.window.change(d.window.state.with_options(preferences=look))
+            if look["presentation"]:
+                d.ctx.yield_(3)
+                d.window.shell.stage.show(OUTSIDE)
+            d.until(lambda it=palette: bool(drawn) and drawn[-1] is it)
+    finally:
+        outside.layers = layers
 
 
 def drive_keys_fly_it_and_switch_it(d: Driver) -> None:
