@@ -50,13 +50,14 @@ class Timing:
 @dataclass(frozen=True)
 class Plan:
     """rounds: how often each call has its turn. quiet_s: before each turn nothing is called:
-    the threads of Embree, TBB and the like wait for more work for milliseconds, and would keep a
-    processor from the next. warm_s: how long a turn is not timed at first. repeats: timed calls
-    in a turn, of fast calls; slow_s: a call that takes longer is timed once a turn. budget_s: no
-    new round after that long, once there were least_rounds."""
+    the threads of Embree, TBB, OpenBLAS and the like wait for more work for a while, at work
+    themselves, and would keep a processor from the next (after trimesh's turn, 10 ms were too
+    few: the next took 1.7 times as long). warm_s: how long a turn is not timed at first. repeats:
+    timed calls in a turn, of fast calls; slow_s: a call that takes longer is timed once a turn.
+    budget_s: no new round after that long, once there were least_rounds."""
 
     rounds: int = 9
-    quiet_s: float = 0.01
+    quiet_s: float = 0.08
     warm_s: float = 0.04
     repeats: int = 5
     slow_s: float = 0.15
