@@ -67,9 +67,7 @@ def step():
 
 def picture(drawn):
     run.on_drawn = None
-    pixels = drawn.read(components=3, alignment=1)
-    image = Image.frombytes("RGB", drawn.size, pixels).transpose(Image.Transpose.FLIP_TOP_BOTTOM)
-    image.save("told.png")
+    Image.fromarray(drawn.read()).save("told.png")
     mended()
     window.retry()
 

@@ -6,7 +6,6 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from typing import Any
 
-import moderngl
 import numpy as np
 from imgui_bundle import hello_imgui
 from window_driver import Driver
@@ -15,6 +14,7 @@ from app.cameras.navigation import moved
 from app.images import pictures as module
 from app.images.coarseness import Coarseness
 from app.images.pictures import Pictures
+from app.platform import Target
 from app.views.compare import CompareView
 from app.views.pair import RASTER, RAY
 from renderer.frame import CHANNELS
@@ -114,9 +114,8 @@ def drive_images_are_on_the_screen_in_the_frame_of_their_change(d: Driver) -> No
         asked.append(look.channel)
         return raster_in(placement, wanted, look, **more)
 
-    def look(drawn: moderngl.Framebuffer) -> None:
-        box = (left, drawn.size[1] - bottom, right - left, bottom - top)
-        seen.append((asked[-1], hash(drawn.read(box, components=3))))
+    def look(target: Target) -> None:
+        seen.append((asked[-1], hash(target.read()[top:bottom, left:right].tobytes())))
 
     found.raster_in, d.run.on_drawn = ask, look  # type: ignore[method-assign]
     try:
@@ -137,25 +136,21 @@ def shown(d: Driver) -> tuple[np.ndarray, np.ndarray]:
     """What stands in the raster image's place on the screen, and what was made for it; int, row 0
     at the top, and as it was made."""
     d.settle()
-    found: list[np.ndarray] = []
+    found: list[tuple[np.ndarray, np.ndarray]] = []
     left, top, right, bottom = (round(edge) for edge in d.rect(RASTER))
 
-    def look(drawn: moderngl.Framebuffer) -> None:  # in the window's thread, unlike drives
-        box = (left, drawn.size[1] - bottom, right - left, bottom - top)
+    def look(target: Target) -> None:  # in the window's thread, unlike drives
         picture = pictures(d)._raster._pictures[module.PANE].texture
-        for data, size in (
-            (drawn.read(box, components=4), box[2:]),
-            (picture.read(), picture.size),
-        ):
-            pixels = np.frombuffer(data, np.uint8).reshape(size[1], size[0], 4)
-            found.append(pixels[..., :3].astype(int))
+        rows = np.frombuffer(picture.read(), np.uint8).reshape(picture.height, picture.width, 4)
+        seen = target.read()[top:bottom, left:right]
+        found.append((seen.astype(int), rows[..., :3].astype(int)))
 
     d.run.on_drawn = look
     try:
-        d.until(lambda: len(found) >= 2)
+        d.until(lambda: bool(found))
     finally:
         d.run.on_drawn = None
-    return found[0][::-1], found[1]
+    return found[0]
 
 
 def drive_a_floating_image_is_drawn_over_what_is_under_it(d: Driver) -> None:
@@ -185,11 +180,9 @@ def drive_the_compare_view_shows_coarse_images_as_they_are(d: Driver) -> None:
     d.settle()
     seen: list[tuple[int, np.ndarray]] = []
 
-    def look(drawn: moderngl.Framebuffer) -> None:
+    def look(target: Target) -> None:
         left, top, right, bottom = box
-        place = (left, drawn.size[1] - bottom, right - left, bottom - top)
-        data = np.frombuffer(drawn.read(place, components=4), np.uint8)
-        pixels = data.reshape(bottom - top, right - left, 4)[::-1, :, :3].astype(int)
+        pixels = target.read()[top:bottom, left:right].astype(int)
         seen.append((found.raster_factor, pixels))
 
     view = d.window.views["Compare"]
@@ -211,8 +204,8 @@ def drive_the_compare_view_shows_coarse_images_as_they_are(d: Driver) -> None:
         d.run.on_drawn = None
         hello_imgui.switch_layout("Side by side")
         d.ctx.yield_(5)
-    (_, full), (factor, coarse) = seen[0], seen[-1]
-    assert factor == module.COARSEST
+    images = dict(reversed(seen))  # by factor: the full one before the change, and a coarse one,
+    full, coarse = images[1], images[module.COARSEST]  # which the statistics may soon refine
     middle = full.shape[1] // 2
     before, after = full[:, : middle - 20], coarse[:, : middle - 20]
     assert (before != after).any()
