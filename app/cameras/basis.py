@@ -79,16 +79,16 @@ class Measures:
 
 def measures(u: Vector, v: Vector, w: Vector) -> Measures:
     """What can be measured on three vectors, whether they are a basis or not."""
-    vectors = [np.asarray(vector, float) for vector in (u, v, w)]
-    with np.errstate(all="ignore"):
-        lengths = [float(np.linalg.norm(vector)) for vector in vectors]
-        angles = []
-        for first, second in ((0, 1), (1, 2), (2, 0)):
-            one, two = vectors[first], vectors[second]
-            cross, dot = np.linalg.norm(np.cross(one, two)), one @ two
-            known = lengths[first] > 0 and lengths[second] > 0
-            angles.append(math.degrees(math.atan2(cross, dot)) if known else math.nan)
-        determinant = volume(u, v, w)
+    vectors = u, v, w
+    lengths = [math.hypot(*vector) for vector in vectors]
+    angles = []
+    for first, second in ((0, 1), (1, 2), (2, 0)):
+        (ax, ay, az), (bx, by, bz) = vectors[first], vectors[second]
+        cross = math.hypot(ay * bz - az * by, az * bx - ax * bz, ax * by - ay * bx)
+        known = lengths[first] > 0 and lengths[second] > 0
+        dot = ax * bx + ay * by + az * bz
+        angles.append(math.degrees(math.atan2(cross, dot)) if known else math.nan)
+    determinant = volume(u, v, w)
     return Measures(
         (lengths[0], lengths[1], lengths[2]), (angles[0], angles[1], angles[2]), determinant
     )
