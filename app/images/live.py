@@ -21,7 +21,7 @@ from renderer.frame import CHANNELS, Frame
 from renderer.scene.model import Scene
 
 COARSEST = 8  # image pixels a side that one traced pixel stands for
-ONCE_S = 0.012  # what the first image after a rest may take, so that it comes with the next frame
+ONCE_S = 0.008  # what the first image after a rest may take, so that it comes with the next frame
 COARSE_S = 0.004  # what a coarse image may take: OpenGL, and what shows it, may need the same cores
 REFINE_S = 0.15  # a full image that takes longer is preceded by another coarse one
 SETTLE_S = 0.04  # without a change, at most, before refining: while dragging, the cores stay free
@@ -259,7 +259,8 @@ class LiveTrace:
             if factor == 1:
                 return
             full_s = coarseness.full_s(pixels)
-            rest_s = max(settle_s(full_s), coarseness.rest_s)
+            # A single change: nothing to wait for. In a motion, the next one will come soon.
+            rest_s = max(settle_s(full_s), coarseness.rest_s) if coarseness.rest_s else 0.0
             with self._changed:
                 if self._changed.wait_for(lambda: self._is_stale(request), rest_s):
                     return

@@ -233,7 +233,8 @@ class Pictures:
     def read_back(self, wanted: Wanted) -> Frame | None:
         """All channels of the full raster image as arrays, a part a call: None until the last.
         Raises LucidaError."""
-        if (wanted != self._wanted or self.raster_factor > 1) and not self._refine(wanted):
+        if wanted != self._wanted or self.raster_factor > 1:
+            self._refine(wanted)  # and to be read from the next frame on
             return None
         if self._reading is None or self._reading.of != wanted:
             self._reading = Reading(wanted, wanted.size, self._rasterizer.read)
@@ -281,12 +282,11 @@ class Pictures:
         assert self._textures is not None
         return self._textures
 
-    def _refine(self, wanted: Wanted) -> bool:
-        """Goes on with the full image; whether it is complete."""
+    def _refine(self, wanted: Wanted) -> None:
+        """Goes on with the full image."""
         if self._under_way is None or self._under_way[0] != wanted:
             self._begin(wanted, 1)
         self._go_on()
-        return wanted == self._wanted and self.raster_factor == 1
 
     def _is_in_vain(self, wanted: Wanted) -> bool:
         """Whether what is under way would show too old a thing: a coarse image is finished, so that

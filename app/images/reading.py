@@ -6,6 +6,7 @@ waits for the GPU and copies: 4096 x 2160 pixels of all channels take longer tha
 
 from __future__ import annotations
 
+import time
 from collections.abc import Callable, Mapping
 from typing import Any
 
@@ -14,7 +15,8 @@ from numpy.typing import NDArray
 
 from renderer.frame import CHANNELS, Frame
 
-PART_PIXELS = 1 << 20
+PART_PIXELS = 1 << 16
+PART_S = 0.004  # what a frame has for it, at least one part
 
 Region = tuple[int, int, int, int]  # first row and column, one past the last of each
 Read = Callable[[tuple[str, ...], Region], Mapping[str, NDArray]]
@@ -31,20 +33,22 @@ class Reading:
         self._arrays: dict[str, NDArray] = {}
 
     def go_on(self) -> Frame | None:
-        """Reads the next rows; the frame, once all are there."""
-        width, height = self._size
-        last = min(self._row + max(1, PART_PIXELS // width), height)
-        part = self._read(CHANNELS, (self._row, 0, last, width))
-        if self._row == 0 and last == height:
-            self._arrays = dict(part)
-        else:
-            for name, values in part.items():
-                if name not in self._arrays:
-                    shape = (height, *values.shape[1:])
-                    self._arrays[name] = np.empty(shape, values.dtype)
-                self._arrays[name][self._row : last] = values
-        self._row = last
-        if last < height:
+        """Reads the next rows, as many as a frame has time for; the frame, once all are there."""
+        until_s = time.perf_counter() + PART_S
+        while self._row < self._size[1]:
+            self._read_part()
+            if time.perf_counter() > until_s:
+                break
+        if self._row < self._size[1]:
             return None
         arrays: dict[str, Any] = self._arrays
         return Frame(size=self._size, **arrays)
+
+    def _read_part(self) -> None:
+        width, height = self._size
+        last = min(self._row + max(1, PART_PIXELS // width), height)
+        for name, values in self._read(CHANNELS, (self._row, 0, last, width)).items():
+            if name not in self._arrays:
+                self._arrays[name] = np.empty((height, *values.shape[1:]), values.dtype)
+            self._arrays[name][self._row : last] = values
+        self._row = last

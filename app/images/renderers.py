@@ -138,16 +138,16 @@ class Renderers:
         self.underlay.begin_frame()
         self._follow_resolution(state.images.resolution)
         self._tracing, self._to_trace = self._to_trace, False
-        image = self.live.poll()
-        if image is not None:
-            self.pictures.take_ray(image)
-            self.ray_image, self._arrived_s = image, time.monotonic()
         failed = self.raster_error is not None
         if self._raster_failed and not failed:  # it works again: what it broke is done again
             self.agreement.error, self._compared = None, None
         self._raster_failed = failed
-        if self._to_compare(state) and not (moving and time.monotonic() < self._still_s):
-            self._compare(state)
+        image = self.live.poll()
+        if image is not None:
+            self.pictures.take_ray(image)
+            self.ray_image, self._arrived_s = image, time.monotonic()
+        elif self._to_compare(state) and not (moving and time.monotonic() < self._still_s):
+            self._compare(state)  # not in the frame of its arrival, which shows it first
         self.agreement.poll()
 
     def _follow_resolution(self, resolution: tuple[int, int] | None) -> None:

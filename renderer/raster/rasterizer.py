@@ -137,7 +137,7 @@ class Rasterizer:
         with self.current() as gl:
             targets = self._targets[place]
             _ = gl.error  # whatever somebody else has left there
-            arrays = {name: targets.read(name, region) for name in channels}
+            arrays: dict[str, Any] = targets.read(channels, region)
             check(gl, f"reading an image of {targets.size[0]}x{targets.size[1]}")
         return arrays
 
@@ -162,7 +162,7 @@ class Rasterizer:
         start = time.perf_counter()
         with self.current() as gl:
             targets = self._draw_all(gl, camera, size)
-            arrays: dict[str, Any] = {name: targets.read(name) for name in channels}
+            arrays: dict[str, Any] = targets.read(channels)
             check(gl, f"an image of {size[0]}x{size[1]}")
         if progress is not None:
             progress(1.0)

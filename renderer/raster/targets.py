@@ -5,7 +5,9 @@ Owns framebuffers and their attachments. Knows nothing of scenes or cameras.
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from dataclasses import dataclass
+from typing import Any
 
 import moderngl
 import numpy as np
@@ -75,26 +77,46 @@ class Targets:
         self.shaded.depth_mask = False
 
     def read(
-        self, channel: str, region: Region | None = None
-    ) -> NDArray[np.float32] | NDArray[np.int32]:
-        """A channel (renderer/frame.py) of the last image, or of a part of it; waits until it is
-        drawn. region: first row and column, one past the last of each."""
+        self, channels: Iterable[str], region: Region | None = None
+    ) -> dict[str, NDArray[np.float32] | NDArray[np.int32]]:
+        """Channels (renderer/frame.py) of the last image, or of a part of it, by name; waits until
+        it is drawn. region: first row and column, one past the last of each."""
+        read: dict[tuple[moderngl.Framebuffer, int], NDArray] = {}  # two channels share a texture
+        arrays = {}
+        for channel in channels:
+            source, attachment, parts = self._place_of(channel)
+            if (source, attachment) not in read:
+                read[source, attachment] = self._attachment(source, attachment, region)
+            arrays[channel] = np.ascontiguousarray(read[source, attachment][..., parts])
+        return arrays
+
+    def _place_of(self, channel: str) -> tuple[moderngl.Framebuffer, int, Any]:
+        """Framebuffer, attachment, and which of its components."""
+        return {
+            "color": (self.shaded, 0, slice(3)),
+            "normal": (self.shaded, 1, slice(3)),
+            "depth": (self.shaded, 1, 3),
+            "id": (self.shaded, 2, 0),
+            "primitive": (self.seen, 0, 0),
+        }[channel]
+
+    def _attachment(
+        self, source: moderngl.Framebuffer, attachment: int, region: Region | None
+    ) -> NDArray:
+        """float32 (height, width, 4), or int32 (height, width, 1)."""
         top, left, bottom, right = region or (0, 0, self.size[1], self.size[0])
-        width, height = right - left, bottom - top
-        where = (left, top, width, height)
-        if channel in ("id", "primitive"):
-            numbers = np.empty((height, width), np.int32)
-            source, attachment = (self.shaded, 2) if channel == "id" else (self.seen, 0)
-            source.read_into(
-                numbers, viewport=where, components=1, attachment=attachment, dtype="i4"
-            )
-            return numbers
-        values = np.empty((height, width, 4), np.float32)
-        attachment = 0 if channel == "color" else 1
-        self.shaded.read_into(
-            values, viewport=where, components=4, attachment=attachment, dtype="f4"
+        texture = source.color_attachments[attachment]
+        assert isinstance(texture, moderngl.Texture)
+        shape = bottom - top, right - left, texture.components
+        values = np.empty(shape, np.float32 if texture.dtype == "f4" else np.int32)
+        source.read_into(
+            values,
+            viewport=(left, top, right - left, bottom - top),
+            components=texture.components,
+            attachment=attachment,
+            dtype=texture.dtype,
         )
-        return np.ascontiguousarray(values[..., 3] if channel == "depth" else values[..., :3])
+        return values
 
     def release(self) -> None:
         self._owner.release()
