@@ -2,12 +2,10 @@
 
 from __future__ import annotations
 
-from typing import Any
-
 import pytest
 
 from app.images.coarseness import FACTORS, MOST_MISSES, STILL_S, Coarseness
-from app.images.parts import Drawing, Pace
+from app.images.parts import STRIP_S, Drawing, Pace
 from renderer.camera import Camera
 
 PIXELS = 1280 * 720
@@ -107,37 +105,59 @@ class Canvas:
     def __init__(self, triangles: int) -> None:
         self.triangles = triangles
         self.parts: list[int] = []
+        self.rows: list[tuple[int, int]] = []
 
-    def draw(self, *_: object) -> str:
+    def draw(self, _camera: object, size: tuple[int, int], _place: str) -> str:
         self.parts.append(self.triangles)
+        self.rows.append((0, size[1]))
         return "drawn"
 
-    def draw_part(self, _camera: object, _size: object, _place: str, first: int, count: int) -> Any:
+    def see(self, _camera: object, _size: object, _place: str, first: int, count: int) -> bool:
         assert first == sum(self.parts)
         self.parts.append(count)
-        return "drawn" if first + count >= self.triangles else None
+        return first + count >= self.triangles
+
+    def shade(self, _camera: object, _size: object, _place: str, rows: tuple[int, int]) -> str:
+        assert sum(self.parts) == self.triangles
+        self.rows.append(rows)
+        return "drawn"
 
 
-def drawn(triangles: int, triangle_s: float, at_once: bool = False) -> list[int]:
-    """The triangles of each frame."""
-    canvas, pace = Canvas(triangles), Pace()
+def drawn(
+    triangles: int, triangle_s: float, at_once: bool = False, expected_s: float = 0.0
+) -> tuple[list[int], list[tuple[int, int]], int]:
+    """The triangles of each part, the rows of each, and how many frames it took."""
+    canvas, pace, frames = Canvas(triangles), Pace(), 1
     pace.measured(triangles, triangle_s * triangles)
     pace.measured = lambda *_: None  # type: ignore[method-assign]
-    drawing = Drawing(canvas, Camera(), (1280, 720), 2, "", at_once)  # type: ignore[arg-type]
+    drawing = Drawing(canvas, Camera(), (1280, 720), 2, "", expected_s, at_once)  # type: ignore[arg-type]
     while drawing.go_on(pace) is None:
-        assert len(canvas.parts) < 10_000
+        assert frames < 10_000
+        frames += 1
     assert drawing.size == (640, 360)
-    return canvas.parts
+    return canvas.parts, canvas.rows, frames
 
 
 def test_a_device_that_is_quick_draws_all_triangles_at_once() -> None:
-    assert drawn(1_000_000, 1e-9) == [1_000_000]
-    assert drawn(0, 0.0) == [0]
-    assert drawn(1_000_000, 1e-4, at_once=True) == [1_000_000]
+    once = [1_000_000], [(0, 360)], 1
+    assert drawn(1_000_000, 1e-9) == once
+    assert drawn(1_000_000, 1e-9, expected_s=STRIP_S) == once
+    assert drawn(0, 0.0) == ([0], [(0, 360)], 1)
+    assert drawn(1_000_000, 1e-4, at_once=True, expected_s=9.0) == once
 
 
 def test_triangles_that_take_longer_than_a_frame_are_drawn_in_several() -> None:
-    first, *others = drawn(1_000_000, 1e-7)  # 0.1 s
+    (first, *others), rows, frames = drawn(1_000_000, 1e-7)  # 0.1 s
+    assert rows == [(0, 360)] and frames == 1 + len(others)
     assert first == 0  # the tables of this camera
     assert sum(others) == 1_000_000
     assert len(others) > 2
+
+
+def test_pixels_that_take_longer_than_a_frame_are_shaded_in_strips() -> None:
+    parts, rows, frames = drawn(1000, 1e-9, expected_s=4.5 * STRIP_S)
+    assert parts == [1000]
+    assert [last - first for first, last in rows] == [72] * 5
+    assert [first for first, _ in rows] == [0, 72, 144, 216, 288]
+    assert frames == 1 + len(rows)
+    assert drawn(1, 1e-9, expected_s=1e9)[1][-1] == (359, 360)

@@ -311,19 +311,35 @@ class TestParts:
     def test_parts_make_the_same_image(self, rasterizer, count):
         rasterizer.set_scene(still_life())
         expected = rasterizer.render(WIDE, SIZE, CHANNELS)
-        first, drawn, other = 0, None, Camera(eye=(1.0, 2.0, 9.0))
-        while drawn is None:
+        first, is_seen, other = 0, False, Camera(eye=(1.0, 2.0, 9.0))
+        while not is_seen:
             assert first < rasterizer.triangles
-            drawn = rasterizer.draw_part(WIDE, SIZE, "parts", first, count)
+            is_seen = rasterizer.see(WIDE, SIZE, "parts", first, count)
             first += count
             rasterizer.draw(other, (20, 10), "another camera's, in between")
+        for row in range(0, SIZE[1], 7):
+            rasterizer.shade(WIDE, SIZE, "parts", (row, min(row + 7, SIZE[1])))
+            rasterizer.draw(other, SIZE, "another camera's, in between")
         for channel, values in rasterizer.read(CHANNELS, place="parts").items():
             np.testing.assert_array_equal(values, expected.channel(channel))
 
     def test_a_scene_without_triangles_is_one_part(self, rasterizer):
         rasterizer.set_scene(Scene((SceneObject(Sphere((0, 0, -5), 3.0)),)))
         assert rasterizer.triangles == 0
-        assert rasterizer.draw_part(WIDE, SIZE, "parts", 0, 0) is not None
+        assert rasterizer.see(WIDE, SIZE, "parts", 0, 0)
+
+    def test_rows_are_shaded_and_no_others(self, rasterizer):
+        rasterizer.set_scene(still_life())
+        expected = rasterizer.render(WIDE, SIZE, CHANNELS)
+        rasterizer.draw(Camera(eye=(1.0, 2.0, 9.0)), SIZE, "rows")
+        before = rasterizer.read(CHANNELS, place="rows")
+        assert rasterizer.see(WIDE, SIZE, "rows", 0, rasterizer.triangles)
+        rasterizer.shade(WIDE, SIZE, "rows", (5, 11))
+        after = rasterizer.read(("color",), place="rows")["color"]
+        np.testing.assert_array_equal(after[5:11], expected.color[5:11])
+        others = [row for row in range(SIZE[1]) if not 5 <= row < 11]
+        np.testing.assert_array_equal(after[others], before["color"][others])
+        assert (after[others] != expected.color[others]).any()
 
 
 class TestClipping:

@@ -1,12 +1,14 @@
-"""A raster image that is drawn over several frames, because one has no time for all its triangles.
+"""A raster image that is drawn over several frames, because one has no time for all its triangles,
+or for all its pixels.
 
 Owns how far it is. Knows nothing of who wants it, and of when. A GPU draws a million triangles in a
 part of a frame: then there is one part. Where OpenGL runs on the CPU, the window's own thread
-transforms every vertex.
+transforms every vertex, and waits for every pixel.
 """
 
 from __future__ import annotations
 
+import math
 import time
 
 from app.images.live import reduced
@@ -17,6 +19,7 @@ from renderer.raster.targets import Textures
 PART_S = 0.005  # what a part may take of the window's thread
 WORTH_S = 0.015  # an image whose triangles take less is drawn at once
 FEWEST = 10_000  # triangles a part
+STRIP_S = 0.02  # what a part may take to be shaded
 
 
 class Pace:
@@ -44,7 +47,8 @@ class Pace:
 
 class Drawing:
     """An image of a rasterizer's scene, reduced by `factor`, to a place of its own (see
-    Rasterizer.draw). at_once: in one part, whatever it takes."""
+    Rasterizer.draw). expected_s: what it is likely to take of the GPU, or of what stands in for it.
+    at_once: in one part, whatever it takes."""
 
     def __init__(
         self,
@@ -53,29 +57,44 @@ class Drawing:
         size: tuple[int, int],
         factor: int,
         place: str,
+        expected_s: float,
         at_once: bool,
     ) -> None:
         self.factor = factor
         self.size = reduced(size, factor)
         self._rasterizer, self._camera, self._place = rasterizer, camera, place
         self._at_once = at_once
-        self._first = 0
-        self._is_prepared = False
+        height = self.size[1]
+        strips = 1 if at_once or expected_s <= STRIP_S else math.ceil(expected_s / STRIP_S)
+        self._rows = -(-height // min(strips, height))  # a strip
+        self._first = self._first_row = 0
+        self._is_prepared = self._is_seen = False
 
     def go_on(self, pace: Pace) -> Textures | None:
         """Draws the next part; the image, once it is complete. Raises LucidaError."""
-        rasterizer, camera, size, place = self._rasterizer, self._camera, self.size, self._place
-        triangles = rasterizer.triangles
+        what, height = (self._camera, self.size, self._place), self.size[1]
+        if not self._is_seen:
+            count = self._triangles(pace)
+            start_s = time.thread_time()
+            if count == self._rasterizer.triangles and self._rows == height:
+                drawn = self._rasterizer.draw(*what)
+                pace.measured(count, time.thread_time() - start_s)
+                return drawn
+            self._is_seen = self._rasterizer.see(*what, self._first, count)
+            pace.measured(count, time.thread_time() - start_s)
+            self._first += count
+            if not self._is_seen or self._rows < height:
+                return None
+        rows = self._first_row, min(self._first_row + self._rows, height)
+        shaded = self._rasterizer.shade(*what, rows)
+        self._first_row = rows[1]
+        return shaded if rows[1] == height else None
+
+    def _triangles(self, pace: Pace) -> int:
+        """How many are next."""
+        triangles = self._rasterizer.triangles
         count = triangles if self._at_once else pace.part_of(triangles)
         if count < triangles and not self._is_prepared:
             count = 0  # tables of all triangles are made for the camera: enough for one frame
         self._is_prepared = True
-        count = min(count, triangles - self._first)
-        start_s = time.thread_time()
-        if count == triangles:
-            drawn: Textures | None = rasterizer.draw(camera, size, place)
-        else:
-            drawn = rasterizer.draw_part(camera, size, place, self._first, count)
-        pace.measured(count, time.thread_time() - start_s)
-        self._first += count
-        return drawn
+        return min(count, triangles - self._first)

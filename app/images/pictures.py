@@ -303,9 +303,12 @@ class Pictures:
             self._reading = None  # the textures are drawn over
         shown = self._wanted if self._textures is not None else None
         has_any = shown is not None and shown.scene is wanted.scene
+        width, height = wanted.size
+        expected_s = self._coarseness.full_s(width * height) if factor == 1 else 0.0
+        camera, size = wanted.camera, wanted.size
         self._under_way = (
             wanted,
-            Drawing(self._rasterizer, wanted.camera, wanted.size, factor, place, not has_any),
+            Drawing(self._rasterizer, camera, size, factor, place, expected_s, not has_any),
         )
         self._drawing_s, self._advanced = 0.0, -1
 

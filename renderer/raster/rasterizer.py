@@ -10,8 +10,8 @@ the tracer.
 from __future__ import annotations
 
 import time
-from collections.abc import Iterable
-from contextlib import AbstractContextManager
+from collections.abc import Iterable, Iterator
+from contextlib import AbstractContextManager, contextmanager
 from typing import Any
 
 import moderngl
@@ -93,16 +93,27 @@ class Rasterizer:
         with self.current() as gl:
             return self._draw_all(gl, camera, size, place).textures
 
-    def draw_part(
+    def see(
         self, camera: Camera, size: tuple[int, int], place: str, first: int, count: int
-    ) -> Textures | None:
-        """As draw(), but only `count` triangles from the number `first` on, so that no call takes
-        long. The parts of an image come in order, with the same camera, size, place and scene;
-        what is drawn to other places in between does no harm. None until the last."""
+    ) -> bool:
+        """The first pass of draw(): but only `count` triangles from the number `first` on, so that
+        no call takes long. The parts come in order, with the same camera, size, place and scene;
+        what is drawn to other places in between does no harm. Gives whether that was the last."""
         size = check_size(size)
-        with self.current() as gl:
-            targets = self._draw(gl, camera, size, place, first, count)
-        return targets.textures if targets is not None else None
+        with self.current() as gl, self._passes(gl, camera, size, place) as (targets, data):
+            targets.seen.use()
+            return data.see(first, count)
+
+    def shade(
+        self, camera: Camera, size: tuple[int, int], place: str, rows: tuple[int, int]
+    ) -> Textures:
+        """The second pass of draw(), after all of see(): the rows from the first on, up to the
+        second."""
+        size = check_size(size)
+        with self.current() as gl, self._passes(gl, camera, size, place) as (targets, data):
+            targets.shade_rows(rows)
+            data.shade(targets.textures.primitive)
+            return targets.textures
 
     @property
     def triangles(self) -> int:
@@ -171,19 +182,18 @@ class Rasterizer:
     def _draw_all(
         self, gl: moderngl.Context, camera: Camera, size: tuple[int, int], place: str = ""
     ) -> Targets:
-        targets = self._draw(gl, camera, size, place, 0, None)
-        assert targets is not None  # the first part is the last
+        with self._passes(gl, camera, size, place) as (targets, data):
+            targets.seen.use()
+            data.see()
+            targets.shade_rows((0, size[1]))
+            data.shade(targets.textures.primitive)
         return targets
 
-    def _draw(
-        self,
-        gl: moderngl.Context,
-        camera: Camera,
-        size: tuple[int, int],
-        place: str,
-        first: int,
-        count: int | None,
-    ) -> Targets | None:
+    @contextmanager
+    def _passes(
+        self, gl: moderngl.Context, camera: Camera, size: tuple[int, int], place: str
+    ) -> Iterator[tuple[Targets, SceneData]]:
+        """What both passes begin and end with."""
         data = self._data
         assert data is not None  # current() has seen to that
         before = gl.detect_framebuffer()
@@ -193,16 +203,11 @@ class Rasterizer:
             # A window's context comes in whatever state its owner has left it.
             gl.wireframe = False
             gl.clear_samplers(0, 16)
-            targets.seen.use()
-            if not data.see(first, count):
-                return None
-            targets.shaded.use()
-            data.shade(targets.textures.primitive)
+            yield targets, data
         finally:
             gl.enable_only(moderngl.NOTHING)
             gl.front_face, gl.cull_face, gl.depth_func = "ccw", "back", "<="
             before.use()
-        return targets
 
     def _targets_of(self, gl: moderngl.Context, size: tuple[int, int], place: str) -> Targets:
         targets = self._targets.get(place)
