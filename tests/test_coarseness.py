@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import pytest
 
 from app.images.coarseness import FACTORS, MOST_MISSES, STILL_S, Coarseness
-from app.images.parts import STRIP_S, Drawing, Pace
+from app.images.parts import STRIP_PIXELS, STRIP_S, Drawing, Pace
 from renderer.camera import Camera
 
 PIXELS = 1280 * 720
@@ -127,28 +129,37 @@ def drawn(
     triangles: int, triangle_s: float, at_once: bool = False, expected_s: float = 0.0
 ) -> tuple[list[int], list[tuple[int, int]], int]:
     """The triangles of each part, the rows of each, and how many frames it took."""
-    canvas, pace, frames = Canvas(triangles), Pace(), 1
-    pace.measured(triangles, triangle_s * triangles)
-    pace.measured = lambda *_: None  # type: ignore[method-assign]
-    drawing = Drawing(canvas, Camera(), (1280, 720), 2, "", expected_s, at_once)  # type: ignore[arg-type]
-    while drawing.go_on(pace) is None:
+    canvas, frames = Canvas(triangles), 1
+    drawing = begun(canvas, triangle_s, "elsewhere", at_once, expected_s)
+    while drawing.go_on() is None:
         assert frames < 10_000
         frames += 1
-    assert drawing.size == (640, 360)
+    assert drawing.size == (1280, 720)
     return canvas.parts, canvas.rows, frames
 
 
+def begun(
+    canvas: Canvas, triangle_s: float, shown: str, at_once: bool = False, expected_s: float = 0.0
+) -> Drawing:
+    pace = Pace()
+    pace.measured(canvas.triangles, triangle_s * canvas.triangles)
+    pace.measured = lambda *_: None  # type: ignore[method-assign]
+    size, places = (2560, 1440), ("one", "two")
+    rasterizer: Any = canvas
+    return Drawing(rasterizer, Camera(), size, 2, places, shown, pace, expected_s, at_once)
+
+
 def test_a_device_that_is_quick_draws_all_triangles_at_once() -> None:
-    once = [1_000_000], [(0, 360)], 1
+    once = [1_000_000], [(0, 720)], 1
     assert drawn(1_000_000, 1e-9) == once
     assert drawn(1_000_000, 1e-9, expected_s=STRIP_S) == once
-    assert drawn(0, 0.0) == ([0], [(0, 360)], 1)
+    assert drawn(0, 0.0) == ([0], [(0, 720)], 1)
     assert drawn(1_000_000, 1e-4, at_once=True, expected_s=9.0) == once
 
 
 def test_triangles_that_take_longer_than_a_frame_are_drawn_in_several() -> None:
     (first, *others), rows, frames = drawn(1_000_000, 1e-7)  # 0.1 s
-    assert rows == [(0, 360)] and frames == 1 + len(others)
+    assert rows == [(0, 720)] and frames == 1 + len(others)
     assert first == 0  # the tables of this camera
     assert sum(others) == 1_000_000
     assert len(others) > 2
@@ -157,7 +168,24 @@ def test_triangles_that_take_longer_than_a_frame_are_drawn_in_several() -> None:
 def test_pixels_that_take_longer_than_a_frame_are_shaded_in_strips() -> None:
     parts, rows, frames = drawn(1000, 1e-9, expected_s=4.5 * STRIP_S)
     assert parts == [1000]
-    assert [last - first for first, last in rows] == [72] * 5
-    assert [first for first, _ in rows] == [0, 72, 144, 216, 288]
+    assert [last - first for first, last in rows] == [160] * 4 + [80]
+    assert [first for first, _ in rows] == [0, 160, 320, 480, 640]
     assert frames == 1 + len(rows)
-    assert drawn(1, 1e-9, expected_s=1e9)[1][-1] == (359, 360)
+    first, last = drawn(1, 1e-9, expected_s=1e9)[1][0]  # not a row a frame
+    assert (last - first) * 1280 == pytest.approx(STRIP_PIXELS, rel=0.03)
+
+
+@pytest.mark.parametrize("slow", [{"triangle_s": 1e-6}, {"triangle_s": 0, "expected_s": 1.0}])
+def test_an_image_in_parts_leaves_alone_what_is_shown(slow: dict[str, float]) -> None:
+    canvas = Canvas(100_000)
+    assert begun(canvas, shown="one", **slow).place == "two"
+    assert begun(canvas, shown="two", **slow).place == "one"
+    assert begun(canvas, shown="one", at_once=True, **slow).place == "one"
+    assert begun(canvas, 0.0, "one").place == "one"  # one part: a GPU needs no second place
+
+
+def test_images_of_another_size_are_another_motion() -> None:
+    coarseness = Coarseness(0.006, 0.012)
+    coarseness.measured(1, 1000, 1e-5)
+    assert [coarseness.changed(1000, 0.01 * step) for step in range(4)] == [1] * 4
+    assert coarseness.changed(1000 * PIXELS, 0.05) == FACTORS[-1]

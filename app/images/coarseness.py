@@ -33,15 +33,18 @@ class Coarseness:
         self._changed_s = -STILL_S
         self._interval_s = STILL_S
         self._changes = 0  # of this motion
+        self._pixels = 0
         self._misses = self._hits = 0  # in a row
         self._was_slow = False  # in this motion
         self._factor = unknown
 
     def changed(self, pixels: int, now_s: float) -> int:
-        """The factor for an image of something that has changed now. pixels: of the full one."""
+        """The factor for an image of something that has changed now. pixels: of the full one;
+        where they are others than before, another motion begins."""
         self._interval_s = now_s - self._changed_s
         self._changed_s = now_s
-        self._changes = self._changes + 1 if self._interval_s < STILL_S else 0
+        goes_on = self._interval_s < STILL_S and pixels == self._pixels
+        self._changes, self._pixels = self._changes + 1 if goes_on else 0, pixels
         if self._changes < 2:
             budget_s = self._budget_s if self._changes else self._once_s
             self._factor, self._was_slow = self._finest(pixels, budget_s), False

@@ -8,7 +8,6 @@ transforms every vertex, and waits for every pixel.
 
 from __future__ import annotations
 
-import math
 import time
 
 from app.images.live import reduced
@@ -20,6 +19,7 @@ PART_S = 0.005  # what a part may take of the window's thread
 WORTH_S = 0.015  # an image whose triangles take less is drawn at once
 FEWEST = 10_000  # triangles a part
 STRIP_S = 0.02  # what a part may take to be shaded
+STRIP_PIXELS = 1 << 16  # a part, at least: a small image says little of what a large one takes
 
 
 class Pace:
@@ -46,9 +46,12 @@ class Pace:
 
 
 class Drawing:
-    """An image of a rasterizer's scene, reduced by `factor`, to a place of its own (see
-    Rasterizer.draw). expected_s: what it is likely to take of the GPU, or of what stands in for it.
-    at_once: in one part, whatever it takes."""
+    """An image of a rasterizer's scene, reduced by `factor`.
+
+    places: two of the rasterizer's (see Rasterizer.draw). shown: the one that is seen meanwhile,
+    which an image in several parts leaves alone. expected_s: what shading is likely to take of the
+    GPU, or of what stands in for it. at_once: in one part, whatever it takes.
+    """
 
     def __init__(
         self,
@@ -56,32 +59,40 @@ class Drawing:
         camera: Camera,
         size: tuple[int, int],
         factor: int,
-        place: str,
-        expected_s: float,
-        at_once: bool,
+        places: tuple[str, str],
+        shown: str | None,
+        pace: Pace,
+        expected_s: float = 0.0,
+        at_once: bool = False,
     ) -> None:
         self.factor = factor
         self.size = reduced(size, factor)
-        self._rasterizer, self._camera, self._place = rasterizer, camera, place
-        self._at_once = at_once
-        height = self.size[1]
-        strips = 1 if at_once or expected_s <= STRIP_S else math.ceil(expected_s / STRIP_S)
-        self._rows = -(-height // min(strips, height))  # a strip
+        width, height = self.size
+        self._rasterizer, self._camera, self._pace = rasterizer, camera, pace
+        rows = height if expected_s <= STRIP_S else int(height * STRIP_S / expected_s)
+        self._rows = min(max(rows, STRIP_PIXELS // width, 1), height)  # a strip
+        is_quick = self._rows == height and pace.part_of(rasterizer.triangles) == self._triangles
+        self._is_whole = at_once or is_quick
+        self.place = places[0] if self._is_whole or places[0] != shown else places[1]
         self._first = self._first_row = 0
         self._is_prepared = self._is_seen = False
 
-    def go_on(self, pace: Pace) -> Textures | None:
+    @property
+    def _triangles(self) -> int:
+        return self._rasterizer.triangles
+
+    def go_on(self) -> Textures | None:
         """Draws the next part; the image, once it is complete. Raises LucidaError."""
-        what, height = (self._camera, self.size, self._place), self.size[1]
+        what, height = (self._camera, self.size, self.place), self.size[1]
         if not self._is_seen:
-            count = self._triangles(pace)
+            count = self._next()
             start_s = time.thread_time()
-            if count == self._rasterizer.triangles and self._rows == height:
+            if self._is_whole:
                 drawn = self._rasterizer.draw(*what)
-                pace.measured(count, time.thread_time() - start_s)
+                self._pace.measured(count, time.thread_time() - start_s)
                 return drawn
             self._is_seen = self._rasterizer.see(*what, self._first, count)
-            pace.measured(count, time.thread_time() - start_s)
+            self._pace.measured(count, time.thread_time() - start_s)
             self._first += count
             if not self._is_seen or self._rows < height:
                 return None
@@ -90,11 +101,10 @@ class Drawing:
         self._first_row = rows[1]
         return shaded if rows[1] == height else None
 
-    def _triangles(self, pace: Pace) -> int:
-        """How many are next."""
-        triangles = self._rasterizer.triangles
-        count = triangles if self._at_once else pace.part_of(triangles)
-        if count < triangles and not self._is_prepared:
+    def _next(self) -> int:
+        """How many triangles are next."""
+        count = self._triangles if self._is_whole else self._pace.part_of(self._triangles)
+        if count < self._triangles and not self._is_prepared:
             count = 0  # tables of all triangles are made for the camera: enough for one frame
         self._is_prepared = True
-        return min(count, triangles - self._first)
+        return min(count, self._triangles - self._first)

@@ -9,6 +9,7 @@ ray image was made.
 from __future__ import annotations
 
 import contextlib
+import functools
 import time
 from dataclasses import dataclass
 
@@ -32,7 +33,7 @@ FAILURES = (LucidaError, moderngl.Error, MemoryError)  # of drawing: told, and s
 MOVING_S = 0.1  # after a change, at least, before a full raster image: the ray image comes first
 FRAME_S = 0.0035  # what a raster image may take of a frame while the camera moves
 COARSEST = 4
-COARSE_PLACES = ("coarse", "coarse too")  # see Rasterizer.draw; the full image's is ""
+PLACES = {False: ("", "full too"), True: ("coarse", "coarse too")}  # by whether it is coarse
 ATTEMPTS = 3  # at putting an image on the GPU, one a frame
 
 PANE, WHOLE = "pane", "whole"
@@ -64,9 +65,11 @@ class Pictures:
         self._coarseness, self._pace = Coarseness(FRAME_S, FRAME_S, COARSEST), Pace()
         self._wanted: Wanted | None = None
         self._textures: Textures | None = None
+        self._place: str | None = None  # where those are
         self._asked: Wanted | None = None  # the newest, whether or not it is drawn already
         self._factor = 1  # of what is asked for
         self._under_way: tuple[Wanted, Drawing] | None = None
+        self._refining = False  # whether that is for sharpness only
         self._advanced = -1  # the frame in which that was gone on with
         self._drawing_s = 0.0  # measured of what is under way
         self._drawn = 0
@@ -75,6 +78,7 @@ class Pictures:
         self._reading: Reading | None = None
         self._depths: Range | None = None
         self._depths_of: object = None  # the image whose range that is
+        self._ranged = -1  # the frame that has measured it
         self._frame = 0
         self._raster_frame = -1  # the last one that showed the raster image
         self._image: RayImage | None = None
@@ -144,8 +148,7 @@ class Pictures:
             picture = self._raster.picture(name, look, placement, self._depths, under, own_size)
             self.raster_error = None
         except FAILURES as error:  # shown in the window, which goes on
-            self._raster.set_channels({})
-            self._wanted, self._textures, self._under_way = None, None, None
+            self._forget_image()
             self.raster_error, self.raster_factor = error, 1
             return None
         return picture
@@ -227,7 +230,7 @@ class Pictures:
             (seen and (self.raster_factor > 1 or self._under_way is not None))
             or self._timed
             or 0 < self._failures < ATTEMPTS
-            or self._range.unfinished
+            or (self._range.unfinished and self._frame <= self._ranged + 1)
         )
 
     def read_back(self, wanted: Wanted) -> Frame | None:
@@ -237,7 +240,9 @@ class Pictures:
             self._refine(wanted)  # and to be read from the next frame on
             return None
         if self._reading is None or self._reading.of != wanted:
-            self._reading = Reading(wanted, wanted.size, self._rasterizer.read)
+            assert self._place is not None
+            read = functools.partial(self._rasterizer.read, place=self._place)
+            self._reading = Reading(wanted, wanted.size, read)
         frame = self._reading.go_on()
         if frame is not None:
             self._reading = None
@@ -250,7 +255,8 @@ class Pictures:
             return None
         if self._values is not None and self._values[0] == (self._drawn, channel, region):
             return self._values[1]
-        values = self._rasterizer.read((channel,), region)[channel]
+        assert self._place is not None
+        values = self._rasterizer.read((channel,), region, self._place)[channel]
         self._values = ((self._drawn, channel, region), values)
         return values
 
@@ -275,9 +281,9 @@ class Pictures:
         if self._under_way is None:
             still_s = time.monotonic() - self._changed_s
             if wanted != self._wanted or self._textures is None:
-                self._begin(wanted, self._factor)
+                self._begin(wanted)
             elif self.raster_factor > 1 and still_s > max(MOVING_S, self._coarseness.rest_s):
-                self._begin(wanted, 1)
+                self._begin(wanted, refining=True)
         self._go_on()
         assert self._textures is not None
         return self._textures
@@ -285,45 +291,60 @@ class Pictures:
     def _refine(self, wanted: Wanted) -> None:
         """Goes on with the full image."""
         if self._under_way is None or self._under_way[0] != wanted:
-            self._begin(wanted, 1)
+            self._begin(wanted, refining=True)
         self._go_on()
 
     def _is_in_vain(self, wanted: Wanted) -> bool:
-        """Whether what is under way would show too old a thing: a coarse image is finished, so that
-        a motion always shows something new."""
+        """Whether what is under way would show too old a thing: an image of a motion is finished,
+        so that the motion always shows something new."""
         assert self._under_way is not None
-        of, drawing = self._under_way
-        return of.scene is not wanted.scene or (drawing.factor == 1 and of != wanted)
+        of, _ = self._under_way
+        return of.scene is not wanted.scene or (self._refining and of != wanted)
 
-    def _begin(self, wanted: Wanted, factor: int) -> None:
+    def _begin(self, wanted: Wanted, refining: bool = False) -> None:
+        """refining: the full image, over as many frames as it takes."""
         self._show(wanted.scene)
-        # A coarse image beside the last one, which is shown until it is complete.
-        place = "" if factor == 1 else COARSE_PLACES[self._drawn % 2]
-        if factor == 1:
-            self._reading = None  # the textures are drawn over
+        factor = 1 if refining else self._factor
         shown = self._wanted if self._textures is not None else None
         has_any = shown is not None and shown.scene is wanted.scene
         width, height = wanted.size
-        expected_s = self._coarseness.full_s(width * height) if factor == 1 else 0.0
-        camera, size = wanted.camera, wanted.size
         self._under_way = (
             wanted,
-            Drawing(self._rasterizer, camera, size, factor, place, expected_s, not has_any),
+            Drawing(
+                self._rasterizer,
+                wanted.camera,
+                wanted.size,
+                factor,
+                PLACES[factor > 1],
+                self._place,
+                self._pace,
+                expected_s=self._coarseness.full_s(width * height) if refining else 0.0,
+                at_once=not has_any,
+            ),
         )
-        self._drawing_s, self._advanced = 0.0, -1
+        self._refining, self._drawing_s, self._advanced = refining, 0.0, -1
 
     def _go_on(self) -> None:
         """Once a frame, however many ask."""
         if self._under_way is None or self._advanced == self._frame:
             return
         (wanted, drawing), self._under_way = self._under_way, None  # also if it fails
-        with self._timer:
-            drawn = drawing.go_on(self._pace)
+        try:
+            with self._timer:
+                drawn = drawing.go_on()
+        except FAILURES:
+            self._forget_image()  # it may be drawn over
+            raise
         self._timed = True
         if drawn is not None:
             self._take(wanted, drawing, drawn)
         else:
             self._under_way, self._advanced = (wanted, drawing), self._frame
+
+    def _forget_image(self) -> None:
+        self._raster.set_channels({})
+        self._wanted, self._textures, self._place = None, None, None
+        self._under_way, self._reading = None, None
 
     def _take(self, wanted: Wanted, drawing: Drawing, drawn: Textures) -> None:
         self._raster.set_channels(
@@ -336,6 +357,7 @@ class Pictures:
         )
         self._drawn += 1
         self._wanted, self._textures, self.raster_factor = wanted, drawn, drawing.factor
+        self._place, self._reading = drawing.place, None
         self._complete = drawing
 
     def _upload(self, image: RayImage, channel: str) -> None:
@@ -356,7 +378,7 @@ class Pictures:
             return
         number = self._depths.number + 1 if self._depths is not None else 0
         self._depths = Range(self._range.measure(texture), number)
-        self._depths_of = image
+        self._depths_of, self._ranged = image, self._frame
 
     def _read_time(self) -> None:
         """A frame later: at once, it would wait for the GPU."""

@@ -1,0 +1,155 @@
+"""The raster image on its way to the window: over several frames, and never torn."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Iterator
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from app.images import parts
+from app.images.coarseness import Coarseness
+from app.images.pictures import Pictures, Wanted
+from app.images.shown import Picture, whole
+from renderer.errors import LucidaError
+from renderer.frame import CHANNELS, Frame
+from renderer.raster import Look, Rasterizer
+from renderer.scene import load_scene
+
+SIZE, OTHER_SIZE = (96, 64), (120, 90)
+PATIENT_FRAMES = 500
+
+
+@pytest.fixture
+def gl(rasterizer):
+    with rasterizer.current() as context:
+        yield context
+
+
+@pytest.fixture
+def pictures(gl, monkeypatch) -> Iterator[Pictures]:
+    """Their full images are refined at once, and take many strips."""
+    monkeypatch.setattr("app.images.pictures.MOVING_S", 0.0)
+    monkeypatch.setattr(parts, "STRIP_PIXELS", 1)
+    monkeypatch.setattr(Coarseness, "full_s", lambda *_: 20 * parts.STRIP_S)
+    made = Pictures(gl)
+    yield made
+    made.release()
+
+
+SCENE = load_scene("still-life")
+
+
+def wanted(dx: float = 0.0, size: tuple[int, int] = SIZE) -> Wanted:
+    camera = SCENE.view.for_size(size)
+    return Wanted(SCENE, replace(camera, eye=tuple(np.add(camera.eye, (dx, 0.0, 0.0)))), size)
+
+
+def frame(pictures: Pictures, of: Wanted, channel: str = "color") -> Picture:
+    pictures.begin_frame()
+    picture = pictures.raster_in(whole(of.size), of, Look(channel))  # type: ignore[arg-type]
+    assert pictures.raster_error is None
+    assert picture is not None
+    return picture
+
+
+def full(pictures: Pictures, of: Wanted) -> Picture:
+    for _ in range(PATIENT_FRAMES):
+        picture = frame(pictures, of)
+        if pictures.raster_factor == 1 and pictures._wanted == of and not pictures._under_way:
+            return picture
+        time.sleep(0.001)
+    raise AssertionError("never full")
+
+
+def pixels(picture: Picture) -> np.ndarray:
+    return np.frombuffer(picture.texture.read(), np.uint8).copy()
+
+
+def read_back(pictures: Pictures, of: Wanted) -> Frame:
+    for _ in range(PATIENT_FRAMES):
+        pictures.begin_frame()
+        if (read := pictures.read_back(of)) is not None:
+            return read
+    raise AssertionError("never read")
+
+
+def begin_strips(pictures: Pictures, of: Wanted) -> None:
+    """Some strips of a full image, by way of the comparison."""
+    for _ in range(5):
+        pictures.begin_frame()
+        assert pictures.read_back(of) is None
+    assert pictures._under_way is not None
+    drawing = pictures._under_way[1]
+    assert drawing.factor == 1
+    assert 0 < drawing._first_row < of.size[1]
+
+
+@pytest.mark.parametrize("size", [SIZE, OTHER_SIZE])
+def test_the_shown_image_stays_whole_while_another_is_drawn_in_strips(pictures, size) -> None:
+    first = wanted()
+    before = pixels(full(pictures, first))
+    begin_strips(pictures, wanted(0.5, size))
+    normal = frame(pictures, first, "normal")  # drawn anew from the image's textures
+    assert (pixels(normal) != before).any()
+    np.testing.assert_array_equal(pixels(frame(pictures, first)), before)
+    read = read_back(pictures, first)
+    with Rasterizer(SCENE) as rasterizer:
+        expected = rasterizer.render(first.camera, first.size, CHANNELS)
+    for channel in CHANNELS:
+        np.testing.assert_array_equal(read.channel(channel), expected.channel(channel))
+
+
+def test_what_is_read_is_the_image_drawn_in_strips(pictures) -> None:
+    full(pictures, wanted())
+    for step in range(1, 4):  # from one place to the other, and back
+        of = wanted(0.2 * step)
+        read = read_back(pictures, of)
+        with Rasterizer(SCENE) as rasterizer:
+            expected = rasterizer.render(of.camera, of.size, CHANNELS)
+        np.testing.assert_array_equal(read.depth, expected.depth)
+        values = pictures.raster_values(of, "depth", (3, 4, 9, 12))
+        assert values is not None
+        np.testing.assert_array_equal(values, expected.depth[3:9, 4:12])
+
+
+def test_a_motion_shows_something_new_in_each_frame_whatever_one_image_took(pictures) -> None:
+    full(pictures, wanted())
+    pictures._coarseness.changed = lambda *_: 1  # as fine as can be, though that is slow
+    for step in range(1, 6):
+        drawn = pictures.raster_number
+        frame(pictures, wanted(0.1 * step))
+        assert pictures.raster_number == drawn + 1
+
+
+def test_a_motion_shows_something_new_though_an_image_takes_several_frames(pictures) -> None:
+    full(pictures, wanted())
+    pictures._pace.part_of = lambda triangles: -(-triangles // 3)
+    pictures._coarseness.changed = lambda *_: 1
+    numbers = []
+    for step in range(1, 16):
+        frame(pictures, wanted(0.1 * step))
+        numbers.append(pictures.raster_number)
+    assert numbers[-1] - numbers[0] >= 2
+
+
+def test_an_image_that_fails_leaves_nothing_broken(pictures, monkeypatch) -> None:
+    monkeypatch.setattr(Coarseness, "full_s", lambda *_: 0.0)
+    before = pixels(full(pictures, wanted()))
+    pictures.begin_frame()
+    with pytest.raises(LucidaError, match="too large"):  # where the shown one was
+        pictures.read_back(wanted(size=(1 << 17, 2)))
+    assert (pixels(frame(pictures, wanted(), "normal")) != before).any()
+    np.testing.assert_array_equal(pixels(full(pictures, wanted())), before)
+
+
+def test_a_range_that_nobody_asks_for_is_nothing_to_wait_for(pictures) -> None:
+    full(pictures, wanted())
+    frame(pictures, wanted(), "depth")
+    assert pictures.unfinished  # the range's numbers come a frame later
+    for _ in range(3):
+        frame(pictures, wanted())
+    assert not pictures.unfinished
+    assert pictures.depths() is not None
