@@ -6,6 +6,7 @@ import time
 from collections.abc import Iterator
 from dataclasses import replace
 
+import moderngl
 import numpy as np
 import pytest
 
@@ -16,6 +17,7 @@ from app.images.shown import Picture, whole
 from renderer.errors import LucidaError
 from renderer.frame import CHANNELS, Frame
 from renderer.raster import Look, Rasterizer
+from renderer.raster.targets import Targets
 from renderer.scene import load_scene
 
 SIZE, OTHER_SIZE = (96, 64), (120, 90)
@@ -139,8 +141,10 @@ def test_an_image_that_fails_leaves_nothing_broken(pictures, monkeypatch) -> Non
     monkeypatch.setattr(Coarseness, "full_s", lambda *_: 0.0)
     before = pixels(full(pictures, wanted()))
     pictures.begin_frame()
-    with pytest.raises(LucidaError, match="too large"):  # where the shown one was
-        pictures.read_back(wanted(size=(1 << 17, 2)))
+    with monkeypatch.context() as full_memory:
+        full_memory.setattr(Targets, "_build", lambda *_: (_ for _ in ()).throw(moderngl.Error()))
+        with pytest.raises(LucidaError, match="choose a smaller image"):  # where the shown one was
+            pictures.read_back(wanted(size=OTHER_SIZE))
     assert (pixels(frame(pictures, wanted(), "normal")) != before).any()
     np.testing.assert_array_equal(pixels(full(pictures, wanted())), before)
 
