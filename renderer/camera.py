@@ -9,7 +9,7 @@ Matrices are float64 (4, 4) for column vectors, named destination_from_source.
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
 from typing import NamedTuple
 
@@ -282,13 +282,21 @@ class Camera:
 def volume(u: ArrayLike, v: ArrayLike, w: ArrayLike) -> float:
     """The volume that three vectors span: the determinant, negative if they are left-handed.
 
-    As a triple product: LAPACK's determinant warns of a division by zero at denormal numbers. In
-    Python's own numbers, which are faster than arrays of three: each new camera asks.
+    As a triple product: LAPACK's determinant warns of a division by zero at denormal numbers.
     """
-    (ux, uy, uz), (vx, vy, vz), (wx, wy, wz) = (
-        np.asarray(vector, float).tolist() for vector in (u, v, w)
-    )
-    return (uy * vz - uz * vy) * wx + (uz * vx - ux * vz) * wy + (ux * vy - uy * vx) * wz
+    across, up, back = (np.asarray(vector, float).tolist() for vector in (u, v, w))
+    return dot(cross(across, up), back)
+
+
+# In Python's own numbers, which for three are faster than arrays: each new camera is checked.
+
+
+def dot(a: Sequence[float], b: Sequence[float]) -> float:
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
+
+
+def cross(a: Sequence[float], b: Sequence[float]) -> Vector:
+    return a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]
 
 
 def _number(name: str, value: object) -> float:
@@ -345,7 +353,7 @@ def _check_basis(u: Vector, v: Vector, w: Vector) -> None:
     if abs(volume(*unit.values())) > SINGULAR:
         return
     for first, second in (("u", "v"), ("u", "w"), ("v", "w")):
-        if np.linalg.norm(np.cross(unit[first], unit[second])) <= math.sqrt(SINGULAR):
+        if math.hypot(*cross(unit[first], unit[second])) <= math.sqrt(SINGULAR):
             raise LucidaError(
                 second,
                 f"{_text(vectors[second])} is parallel to {first} = {_text(vectors[first])}",

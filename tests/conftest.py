@@ -43,3 +43,10 @@ def rasterizer(_session_rasterizer):
     yield _session_rasterizer
     with _session_rasterizer.current() as gl:
         assert gl.error == "GL_NO_ERROR"
+
+
+@pytest.fixture
+def gl(rasterizer):
+    """The rasterizer's context, current."""
+    with rasterizer.current() as context:
+        yield context

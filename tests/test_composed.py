@@ -21,12 +21,6 @@ INF, NAN = np.inf, np.nan
 
 
 @pytest.fixture
-def gl(rasterizer):
-    with rasterizer.current() as context:
-        yield context
-
-
-@pytest.fixture
 def composed(gl):
     made = Composed(gl)
     yield made

@@ -25,12 +25,6 @@ PATIENT_FRAMES = 500
 
 
 @pytest.fixture
-def gl(rasterizer):
-    with rasterizer.current() as context:
-        yield context
-
-
-@pytest.fixture
 def pictures(gl, monkeypatch) -> Iterator[Pictures]:
     """Their full images are refined at once, and take many strips."""
     monkeypatch.setattr("app.images.pictures.MOVING_S", 0.0)

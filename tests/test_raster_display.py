@@ -17,12 +17,6 @@ from renderer.scene.model import Scene, SceneObject, Sphere
 
 
 @pytest.fixture
-def gl(rasterizer):
-    with rasterizer.current() as context:
-        yield context
-
-
-@pytest.fixture
 def display(gl):
     display = Display(gl)
     yield display

@@ -11,7 +11,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from renderer.camera import Camera, Vector, volume
+from renderer.camera import Camera, Vector, cross, dot, volume
 
 Floats = NDArray[np.float64]
 
@@ -83,11 +83,10 @@ def measures(u: Vector, v: Vector, w: Vector) -> Measures:
     lengths = [math.hypot(*vector) for vector in vectors]
     angles = []
     for first, second in ((0, 1), (1, 2), (2, 0)):
-        (ax, ay, az), (bx, by, bz) = vectors[first], vectors[second]
-        cross = math.hypot(ay * bz - az * by, az * bx - ax * bz, ax * by - ay * bx)
+        one, two = vectors[first], vectors[second]
+        angle_rad = math.atan2(math.hypot(*cross(one, two)), dot(one, two))
         known = lengths[first] > 0 and lengths[second] > 0
-        dot = ax * bx + ay * by + az * bz
-        angles.append(math.degrees(math.atan2(cross, dot)) if known else math.nan)
+        angles.append(math.degrees(angle_rad) if known else math.nan)
     determinant = volume(u, v, w)
     return Measures(
         (lengths[0], lengths[1], lengths[2]), (angles[0], angles[1], angles[2]), determinant

@@ -71,7 +71,7 @@ class Drawing:
         self._rasterizer, self._camera, self._pace = rasterizer, camera, pace
         rows = height if expected_s <= STRIP_S else int(height * STRIP_S / expected_s)
         self._rows = min(max(rows, STRIP_PIXELS // width, 1), height)  # a strip
-        is_quick = self._rows == height and pace.part_of(rasterizer.triangles) == self._triangles
+        is_quick = self._rows == height and pace.part_of(self._triangles) == self._triangles
         self._is_whole = at_once or is_quick
         self.place = places[0] if self._is_whole or places[0] != shown else places[1]
         self._first = self._first_row = 0
@@ -84,13 +84,13 @@ class Drawing:
     def go_on(self) -> Textures | None:
         """Draws the next part; the image, once it is complete. Raises LucidaError."""
         what, height = (self._camera, self.size, self.place), self.size[1]
+        start_s = time.thread_time()
+        if self._is_whole:
+            drawn = self._rasterizer.draw(*what)
+            self._pace.measured(self._triangles, time.thread_time() - start_s)
+            return drawn
         if not self._is_seen:
             count = self._next()
-            start_s = time.thread_time()
-            if self._is_whole:
-                drawn = self._rasterizer.draw(*what)
-                self._pace.measured(count, time.thread_time() - start_s)
-                return drawn
             self._is_seen = self._rasterizer.see(*what, self._first, count)
             self._pace.measured(count, time.thread_time() - start_s)
             self._first += count
@@ -103,7 +103,7 @@ class Drawing:
 
     def _next(self) -> int:
         """How many triangles are next."""
-        count = self._triangles if self._is_whole else self._pace.part_of(self._triangles)
+        count = self._pace.part_of(self._triangles)
         if count < self._triangles and not self._is_prepared:
             count = 0  # tables of all triangles are made for the camera: enough for one frame
         self._is_prepared = True

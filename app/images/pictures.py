@@ -78,7 +78,6 @@ class Pictures:
         self._reading: Reading | None = None
         self._depths: Range | None = None
         self._depths_of: object = None  # the image whose range that is
-        self._ranged = -1  # the frame that has measured it
         self._frame = 0
         self._raster_frame = -1  # the last one that showed the raster image
         self._image: RayImage | None = None
@@ -119,6 +118,7 @@ class Pictures:
         self._raster.begin_frame()
         self._ray.begin_frame()
         self._read_time()
+        self._range.numbers()  # whether or not somebody will ask: then nothing is left to do
 
     def raster(self, wanted: Wanted, look: Look) -> moderngl.Texture | None:
         """All of the raster image at its own size, otherwise as raster_in()."""
@@ -180,11 +180,6 @@ class Pictures:
         """The traced image to show from now on."""
         self._image, self._failures = image, 0
 
-    def ray(self, look: Look) -> moderngl.Texture | None:
-        """All of the last traced image at its own size, otherwise as ray_in()."""
-        picture = self.ray_in(None, look, WHOLE)
-        return picture.texture if picture is not None else None
-
     def ray_in(
         self,
         placement: Placement | None,
@@ -230,7 +225,7 @@ class Pictures:
             (seen and (self.raster_factor > 1 or self._under_way is not None))
             or self._timed
             or 0 < self._failures < ATTEMPTS
-            or (self._range.unfinished and self._frame <= self._ranged + 1)
+            or self._range.unfinished
         )
 
     def read_back(self, wanted: Wanted) -> Frame | None:
@@ -378,7 +373,7 @@ class Pictures:
             return
         number = self._depths.number + 1 if self._depths is not None else 0
         self._depths = Range(self._range.measure(texture), number)
-        self._depths_of, self._ranged = image, self._frame
+        self._depths_of = image
 
     def _read_time(self) -> None:
         """A frame later: at once, it would wait for the GPU."""

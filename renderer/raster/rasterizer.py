@@ -203,6 +203,7 @@ class Rasterizer:
             # A window's context comes in whatever state its owner has left it.
             gl.wireframe = False
             gl.clear_samplers(0, 16)
+            data.bind()
             yield targets, data
         finally:
             gl.enable_only(moderngl.NOTHING)

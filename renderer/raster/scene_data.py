@@ -129,7 +129,6 @@ class SceneData:
         assert camera is not None, "set_camera() comes first"
         (width, height), (x, y) = camera[1], self.margin(camera[1])
         context.viewport = -x, -y, width + 2 * x, height + 2 * y
-        self._bind()
         context.enable_only(moderngl.DEPTH_TEST)
         if first == 0:
             self._cover(self._clear, "1", FARTHEST)
@@ -155,14 +154,14 @@ class SceneData:
     def shade(self, primitives: moderngl.Texture) -> None:
         """Second pass: hit and colour of each pixel, into the bound framebuffer, by its depth:
         where the first pass has left nothing, no hit is looked for."""
-        self._bind()
         self._context.enable_only(moderngl.DEPTH_TEST)
         primitives.use(self._units["primitives"])
         self._cover(self._background, "==", FARTHEST)
         if self._shade is not None:
             self._cover(self._shade, ">", BEFORE_FARTHEST)
 
-    def _bind(self) -> None:
+    def bind(self) -> None:
+        """What both passes read: call before either."""
         self._block.bind_to_uniform_block(0)
         for name, table in self._tables.items():
             table.texture.use(self._units[name])
