@@ -43,6 +43,7 @@ LABORATORY = "Laboratory"
 SMALLEST_PX = 60
 LETTERS = 105.0  # a line over the whole view
 GAP_EM = 0.6
+LEAST_EM = 13.0  # of the pictures with their titles, two rows of them
 
 
 @dataclass(frozen=True, eq=False)
@@ -151,9 +152,27 @@ class LaboratoryView(View):
             imgui.pop_text_wrap_pos()
 
     def _page(self, host: Host, options: LaboratoryOptions) -> None:
-        state, scale, em = host.state, framebuffer_scale(), imgui.get_font_size()
-        corner, avail = imgui.get_cursor_screen_pos(), imgui.get_content_region_avail()
+        """Scrolled where the window is too low for it."""
+        avail, em = imgui.get_content_region_avail(), imgui.get_font_size()
         below = self._below_px(options.page)
+        least = below + LEAST_EM * em
+        if avail.y >= least:
+            self._content(host, options, avail, below)
+            return
+        # The scrollbar is there by this alone: its width changes nothing that it depends on.
+        flags = int(imgui.WindowFlags_.always_vertical_scrollbar)
+        if imgui.begin_child("page", avail, 0, flags):
+            corner = imgui.get_cursor_screen_pos()
+            width = imgui.get_content_region_avail().x
+            self._content(host, options, ImVec2(width, least), below)
+            imgui.set_cursor_screen_pos(ImVec2(corner.x, corner.y + least))
+            imgui.dummy(ImVec2(0.0, 0.0))
+        imgui.end_child()
+
+    def _content(self, host: Host, options: LaboratoryOptions, avail: ImVec2, below: float) -> None:
+        """avail: the room for all of it. below: how much of that is below the pictures."""
+        state, scale, em = host.state, framebuffer_scale(), imgui.get_font_size()
+        corner = imgui.get_cursor_screen_pos()
         room = max(1, int(avail.x * scale)), max(1, int((avail.y - below) * scale))
         heading = round(2.5 * em * scale)
         divided = plan(

@@ -127,6 +127,15 @@ def drive_the_page_is_left_before_the_sizes_are_known(d: Driver) -> None:
     _close(d)
 
 
+def drive_a_window_that_is_too_low_is_scrolled(d: Driver) -> None:
+    d.window.shell.stage.show(LABORATORY)  # below the two images
+    d.window.change(d.window.state.with_options(laboratory={"page": "kinds"}))
+    d.settle()
+    heights = [panel.picture.shape[0] for panel in _view(d).made]
+    assert min(heights) >= 40, heights  # not squeezed between titles that cover each other
+    _close(d)
+
+
 def drive_exposure_after_storage(d: Driver) -> None:
     bright = d.window.state.with_options(images={"exposure_ev": 2.0})
     d.window.change(bright)
