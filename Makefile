@@ -19,8 +19,9 @@ help:
 setup:
 	@sh scripts/setup.sh
 
+# -P: not what else lies in this folder, a numpy.py for instance.
 run: setup
-	@$(PYTHON_IN_VENV) -m app $(ARGS)
+	@$(PYTHON_IN_VENV) -P -m app $(ARGS)
 
 # Nothing may follow: pytest's closing line is the last.
 test: setup

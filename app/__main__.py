@@ -1,8 +1,36 @@
-"""`python -m app` is `lucida`."""
+"""`lucida`, and `python -m app`.
 
+Owns the process until the command line is there: imports take a while, and Ctrl-C may come.
+"""
+
+import os
 import sys
 
-from app.cli import main
+INTERRUPTED = 130  # as shells tell SIGINT
+
+
+def main() -> int:
+    """Runs `lucida` with the process's arguments; gives the exit status (app/cli.py)."""
+    try:
+        from app.process import interrupt_at_once, interrupt_between_imports
+
+        interrupt_between_imports()
+        from app.cli import main as run
+
+        status = run()
+        interrupt_at_once()
+        return status
+    except KeyboardInterrupt:
+        return INTERRUPTED
+
+
+def leave_current_folder() -> None:
+    """`python -m` looks for modules in the current folder first: only if this one is from there."""
+    here = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
+    if not sys.flags.safe_path and os.path.realpath(sys.path[0]) != os.path.realpath(here):
+        del sys.path[0]
+
 
 if __name__ == "__main__":
+    leave_current_folder()
     sys.exit(main())

@@ -36,6 +36,13 @@ def interrupt_between_imports() -> None:
         signal.signal(signal.SIGINT, _interrupt)
 
 
+def interrupt_at_once() -> None:
+    """From now on Ctrl-C ends the process, if that was what it would do: a KeyboardInterrupt would
+    be told while Python ends."""
+    if signal.getsignal(signal.SIGINT) is _interrupt:
+        signal.signal(signal.SIGINT, signal.SIG_DFL)
+
+
 def _interrupt(number: int, frame: FrameType | None) -> None:
     if not _is_importing(frame):
         raise KeyboardInterrupt

@@ -9,12 +9,19 @@ import contextlib
 import os
 import secrets
 import stat
+import sys
 from collections.abc import Iterator
+from functools import cache
 from pathlib import Path
 from typing import BinaryIO
 
 from renderer.errors import LucidaError
 
+if sys.platform != "win32":
+    import fcntl
+
+_PREFIX, _SUFFIX = ".lucida-", ".part"
+_LOCKS = sys.platform != "win32"
 
 def check_writable(path: str | Path) -> Path:
     """The file that writing to `path` would replace, links followed.
@@ -47,24 +54,116 @@ def atomic_write(path: str | Path) -> Iterator[BinaryIO]:
 
     Otherwise nothing is left behind, and an old file at `path` stays as it was. The new file has
     the old one's access rights. Raises LucidaError where `path` cannot be written.
+
+    If the process is killed meanwhile, the new file goes with it where the system has files without
+    a name; elsewhere it stays beside `path` until a process writes into the folder again.
     """
     target = check_writable(path)
-    scratch = target.with_name(f".{target.name[:100]}.{secrets.token_hex(6)}.part")
-    # Not the tempfile module: its files are private, a picture takes the user's umask.
-    flags = os.O_RDWR | os.O_CREAT | os.O_EXCL | getattr(os, "O_BINARY", 0)
+    _remove_parts(target.parent)
+    # A name of its own: the target's may be as long as names can be.
+    part = target.with_name(f"{_PREFIX}{secrets.token_hex(8)}{_SUFFIX}")
     try:
-        with open(os.open(scratch, flags, 0o666), "w+b") as file:
+        is_named = not _has_unnamed(target.parent)
+        # Not the tempfile module: its files are private, a picture takes the user's umask.
+        descriptor = _open_part(part) if is_named else _open_unnamed(target.parent)
+        with open(descriptor, "w+b") as file:
             yield file
             file.flush()
             os.fsync(file.fileno())
-        with contextlib.suppress(FileNotFoundError):
-            scratch.chmod(stat.S_IMODE(target.stat().st_mode))
-        os.replace(scratch, target)
+            if not is_named:
+                _give_name(file.fileno(), part)
+            if _LOCKS:  # while it is known to be in use
+                _move(part, target)
+        if not _LOCKS:  # Windows moves no open files
+            _move(part, target)
     except OSError as error:
         raise LucidaError("", f"cannot be written: {_reason(error)}", source=str(path)) from error
     finally:
         with contextlib.suppress(OSError):
-            scratch.unlink()
+            part.unlink()
+
+
+def _move(part: Path, target: Path) -> None:
+    with contextlib.suppress(FileNotFoundError):
+        part.chmod(stat.S_IMODE(target.stat().st_mode))
+    os.replace(part, target)
+
+
+# Unfinished files with a name. Whoever writes one holds a lock on it, which ends with the process.
+
+
+def _open_part(part: Path) -> int:
+    flags = os.O_RDWR | os.O_CREAT | os.O_EXCL | getattr(os, "O_BINARY", 0)
+    while True:
+        descriptor = os.open(part, flags, 0o666)
+        if _hold(descriptor):
+            return descriptor
+        os.close(descriptor)
+
+
+def _hold(descriptor: int) -> bool:
+    """Tells that a file is in use; False where it was just taken for one that was left behind."""
+    try:
+        _lock(descriptor)
+    except BlockingIOError:
+        return False
+    except OSError:  # the file system has no locks
+        return True
+    return not _LOCKS or os.fstat(descriptor).st_nlink > 0
+
+
+def _lock(descriptor: int) -> None:
+    if sys.platform != "win32":
+        fcntl.flock(descriptor, fcntl.LOCK_EX | fcntl.LOCK_NB)
+
+
+@cache
+def _remove_parts(folder: Path) -> None:
+    """Removes what killed processes have left in a folder; once, for it may hold many files."""
+    with contextlib.suppress(OSError):
+        for part in folder.glob(f"{_PREFIX}*{_SUFFIX}"):
+            with contextlib.suppress(OSError):
+                if not _LOCKS:
+                    part.unlink()  # Windows removes no open files
+                    continue
+                descriptor = os.open(part, os.O_RDONLY | os.O_NOFOLLOW | os.O_NONBLOCK)
+                try:
+                    _lock(descriptor)
+                    part.unlink()
+                finally:
+                    os.close(descriptor)
+
+
+# Unfinished files without one, which Linux has in most file systems.
+
+
+def _open_unnamed(folder: Path) -> int:
+    descriptor = os.open(folder, os.O_RDWR | os.O_TMPFILE, 0o666)
+    _hold(descriptor)  # for the moment in which it has a name, but not the final one
+    return descriptor
+
+
+def _give_name(descriptor: int, part: Path) -> None:
+    # Given src_dir_fd, Python calls linkat(), which follows the link; link() does not.
+    os.link(f"/proc/self/fd/{descriptor}", part, src_dir_fd=descriptor, follow_symlinks=True)
+
+
+@cache
+def _has_unnamed(folder: Path) -> bool:
+    """Whether a folder takes files without a name, and gives them one afterwards."""
+    if not hasattr(os, "O_TMPFILE"):
+        return False
+    part = folder / f"{_PREFIX}{secrets.token_hex(8)}{_SUFFIX}"
+    try:
+        descriptor = _open_unnamed(folder)
+        try:
+            _give_name(descriptor, part)
+        finally:
+            os.close(descriptor)
+        part.unlink()
+    except OSError:
+        return False
+    return True
 
 
 def _reason(error: BaseException) -> str:

@@ -11,12 +11,14 @@ import os
 import subprocess
 import sys
 import threading
-from collections.abc import Mapping
+from importlib import import_module
 from pathlib import Path
 
 _NICENESS = 2  # a window comes first
 _START = "import sys, json; sys.path[:] = json.loads(sys.argv[1]); "
-_START += "from {module} import main; main(*sys.argv[2:])"
+_START += "from importlib import import_module; import_module(sys.argv[2]).main(*sys.argv[3:])"
+
+_watches = False
 
 
 def interpreter() -> str | None:
@@ -26,30 +28,56 @@ def interpreter() -> str | None:
     return sys.executable if Path(sys.executable).stem.lower().startswith("python") else None
 
 
+def child_command(python: str, module: str, *arguments: str) -> list[str]:
+    """The command that calls main(*arguments) of a module in a process of its own.
+
+    Isolated: left to itself, Python looks for modules in the current folder first, where anything
+    may lie beside a user's files, a `json.py` too.
+    """
+    options = ["-I", "-X", f"utf8={sys.flags.utf8_mode}"]
+    if sys.dont_write_bytecode:
+        options.append("-B")
+    if sys.pycache_prefix:
+        options += ["-X", f"pycache_prefix={sys.pycache_prefix}"]
+    return [python, *options, "-c", _START, json.dumps(import_path()), module, *arguments]
+
+
+def import_path() -> list[str]:
+    """This process' sys.path, absolute; without the current folder, unless our packages lie in it.
+
+    An interactive Python, a notebook and `python -m` have the current folder in theirs.
+    """
+    try:
+        here = os.path.realpath(os.getcwd())
+    except OSError:  # it has been removed
+        here = ""
+    root = os.path.realpath(Path(__file__).parent.parent)
+    folders = [os.path.join(here, folder) for folder in sys.path]
+    return [
+        folder
+        for folder in folders
+        if os.path.isabs(folder) and (os.path.realpath(folder) != here or here == root)
+    ]
+
+
 def start_child(
-    python: str,
-    module: str,
-    *arguments: str,
-    output: bool = False,
-    environment: Mapping[str, str] | None = None,
+    python: str, module: str, *arguments: str, output: bool = False
 ) -> subprocess.Popen[bytes]:
     """Calls main(*arguments) of a module in a process of its own, which is to call end_with_parent.
 
     python: interpreter(). output: whether its standard output is read through the result's stdout;
-    otherwise nobody sees it. environment: added to this process'. Raises OSError.
+    otherwise nobody sees it. Raises OSError.
     """
-    path = json.dumps([os.path.abspath(folder) for folder in sys.path])
     flags = 0
     if sys.platform == "win32":
         flags = subprocess.BELOW_NORMAL_PRIORITY_CLASS | subprocess.CREATE_NO_WINDOW
         flags |= subprocess.CREATE_NEW_PROCESS_GROUP
     # A group of its own: Ctrl-C is this process' business, which ends the other.
     return subprocess.Popen(
-        [python, "-c", _START.format(module=module), path, *arguments],
+        child_command(python, __name__, module, *arguments),
         stdin=subprocess.PIPE,
         stdout=subprocess.PIPE if output else subprocess.DEVNULL,
         stderr=subprocess.DEVNULL,
-        env=dict(os.environ) | dict(environment or {}),
         start_new_session=True,
         creationflags=flags,
     )
@@ -65,8 +93,21 @@ def end_child(process: subprocess.Popen[bytes]) -> int:
     return status
 
 
+def main(module: str, *arguments: str) -> None:
+    """What a child of start_child's begins with: its parent may end before it has imported all."""
+    if sys.platform != "win32":
+        end_with_parent()
+    import_module(module).main(*arguments)
+
+
 def end_with_parent() -> None:
-    """What a child calls first: it gives way to its parent, and its input ends with it."""
+    """What a child calls as soon as its libraries are loaded: it gives way to its parent, and ends
+    when its input does. Only Windows has to wait for that: loading a library there waits for a
+    thread that reads input. Elsewhere it was done at the start."""
+    global _watches
+    if _watches:
+        return
+    _watches = True
     threading.Thread(target=_watch_parent, daemon=True).start()
     if hasattr(os, "nice"):
         os.nice(_NICENESS)

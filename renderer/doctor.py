@@ -15,8 +15,8 @@ import sys
 from collections.abc import Callable
 from ctypes.util import find_library
 from dataclasses import dataclass
-from pathlib import Path
 
+from renderer.child import child_command, interpreter
 from renderer.raster.contexts import candidates
 from renderer.raster.packages import remedy
 
@@ -56,13 +56,13 @@ def can_draw(checks: list[Check]) -> bool:
 
 def check(name: str, timeout_s: float = TIMEOUT_S) -> Check:
     """One check, in a process of its own."""
-    root = str(Path(__file__).parent.parent)
-    path = os.pathsep.join(filter(None, (root, os.environ.get("PYTHONPATH", ""))))
-    command = [sys.executable, "-m", "renderer.doctor", name]
+    python = interpreter()
+    if python is None:
+        problem = "cannot be checked: this program has Python inside"
+        return Check(name, PURPOSES[name], False, problem, "run `lucida doctor`")
     try:
         done = subprocess.run(
-            command,
-            env={**os.environ, "PYTHONPATH": path},
+            child_command(python, __name__, name),
             stdin=subprocess.DEVNULL,
             capture_output=True,
             timeout=timeout_s,
@@ -135,9 +135,13 @@ def _shows() -> str:
 def _compiles() -> str:
     import numba
 
+    from renderer.trace.compiled import cache_folder, cache_problem
+
     affinity = getattr(os, "sched_getaffinity", None)
     cores = len(affinity(0)) if affinity else os.cpu_count() or 1
-    return f"numba {numba.__version__}, {cores} core{'s' if cores > 1 else ''}"
+    kept = "" if cache_folder() else ", compiled anew in each process"
+    problem = f": {cache_problem()}" if cache_problem() else ""
+    return f"numba {numba.__version__}, {cores} core{'s' if cores > 1 else ''}{kept}{problem}"
 
 
 def _typesets() -> str:
@@ -166,7 +170,3 @@ def main(name: str) -> None:
         print(json.dumps([True, CHECKS[name]()]))
     except Exception as error:  # whatever is wrong is the answer
         print(json.dumps([False, getattr(error, "problem", "") or str(error) or repr(error)]))
-
-
-if __name__ == "__main__":
-    main(sys.argv[1])

@@ -157,7 +157,7 @@ def test_closing_a_tracer_ends_the_compiling_processes(installation: Path, tmp_p
 
 SHORTCUTS = """
 import sys
-from renderer.trace.precompile import compile_part
+from renderer.trace.compiling import compile_part
 from renderer.trace.shortcuts import take_shortcuts
 from renderer.trace.bvh import _grow_pieces as kernel
 if sys.argv[1:] == ["short"]:

@@ -89,8 +89,6 @@ def take_place(folder: Path | None = None) -> Place | None:
             lock = _locked(folder / f"session-{number}.lock")
             if lock is not None:
                 path = folder / f"session-{number}.json"
-                for part in folder.glob(f".{path.name}.*.part"):  # of a window that was killed
-                    part.unlink(missing_ok=True)
                 return Place(path, lock)
     except (OSError, RuntimeError):  # RuntimeError: there is no home
         pass

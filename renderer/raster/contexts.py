@@ -7,6 +7,7 @@ windows: a window's context is passed in.
 from __future__ import annotations
 
 import ctypes
+import os
 import sys
 from collections.abc import Iterator
 from contextlib import contextmanager
@@ -15,6 +16,7 @@ from typing import Any, Protocol
 import moderngl
 
 from renderer.errors import LucidaError
+from renderer.forked import check_not_forked
 from renderer.raster.current import load_egl, load_osmesa, nothing_current
 from renderer.raster.packages import remedy
 
@@ -28,6 +30,8 @@ _ATTRIBUTES = {
     "OSMESA_CONTEXT_MINOR_VERSION": (0x37, 3),
 }
 _GL_UNSIGNED_BYTE = 0x1401
+
+_drivers_pid: int | None = None  # of the process that has loaded an OpenGL driver
 
 
 class Platform(Protocol):
@@ -134,8 +138,10 @@ def open_platform(backend: str = "auto", context: moderngl.Context | None = None
     """A context to draw in. backend: "egl", "osmesa", or "auto": the first that works.
 
     context: a window's, current in this thread; then backend is not looked at.
-    Raises LucidaError naming what was tried and what to install.
+    Raises LucidaError naming what was tried and what to install; and in a forked process, if the
+    driver is another one's: it would wait for its threads.
     """
+    check_process()
     if context is not None:
         return Window(context)
     if backend not in BACKENDS:
@@ -149,6 +155,18 @@ def open_platform(backend: str = "auto", context: moderngl.Context | None = None
             remedies.append(remedy(name))
     problem = f"no OpenGL 3.3 context ({'; '.join(tried)})"
     raise LucidaError("backend", problem, " or ".join(remedies) + "; see `lucida doctor`")
+
+
+def check_process() -> None:
+    """Raises LucidaError in a process that was forked from one that had OpenGL in use."""
+    global _drivers_pid
+    _drivers_pid = _drivers_pid or os.getpid()
+    check_not_forked(_drivers_pid, "OpenGL", "was in use")
+
+
+def is_inherited() -> bool:
+    """Whether contexts here are those of the process that this one was forked from."""
+    return _drivers_pid not in (None, os.getpid())
 
 
 def candidates() -> tuple[str, ...]:

@@ -18,7 +18,7 @@ import moderngl
 
 from renderer.camera import Camera
 from renderer.frame import Frame, check_channels, check_size
-from renderer.raster.contexts import open_platform
+from renderer.raster.contexts import check_process, is_inherited, open_platform
 from renderer.raster.prepared import Prepared, prepare
 from renderer.raster.programs import Programs
 from renderer.raster.resources import Owner, check
@@ -70,6 +70,7 @@ class Rasterizer:
         """Inside it the rasterizer's context is the current one: for using its textures."""
         if self._released:
             raise RuntimeError("this Rasterizer was released")
+        check_process()
         return self._platform.current()
 
     def set_scene(self, scene: Scene, prepared: Prepared | None = None) -> None:
@@ -153,8 +154,9 @@ class Rasterizer:
         return arrays
 
     def release(self) -> None:
-        """Gives everything back. Twice does no harm."""
-        if self._released:
+        """Gives everything back. Twice does no harm, nor in a forked process."""
+        if self._released or is_inherited():
+            self._released = True
             return
         with self.current():
             for part in (*self._targets.values(), self._data, self._owner):

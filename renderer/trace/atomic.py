@@ -15,12 +15,13 @@ from numba.extending import intrinsic
 
 from renderer.trace.compiled import inlined
 from renderer.trace.control import CANCELLED, DONE, NEXT
+from renderer.trace.simd_types import address_of
 
 
-def _pointer(context, builder, array_type, array):
-    from numba.np.arrayobj import make_array  # here: machine code from the cache needs none of it
-
-    return make_array(array_type)(context, builder, array).data
+def _element(context, builder, signature, args):
+    """The address of array[index], the first two arguments."""
+    data = address_of(context, builder, signature.args[0], args[0])
+    return builder.gep(data, [args[1]])
 
 
 @intrinsic
@@ -28,8 +29,7 @@ def fetch_add(typing, array, index, value):
     """Adds value to array[index] (int64) at once; gives what was there before."""
 
     def codegen(context, builder, signature, args):
-        data = _pointer(context, builder, signature.args[0], args[0])
-        at = builder.gep(data, [args[1]])
+        at = _element(context, builder, signature, args)
         return builder.atomic_rmw("add", at, args[2], "seq_cst")
 
     return types.int64(array, types.int64, types.int64), codegen
@@ -40,8 +40,7 @@ def read(typing, array, index):
     """array[index] (int64) as it is in memory now."""
 
     def codegen(context, builder, signature, args):
-        data = _pointer(context, builder, signature.args[0], args[0])
-        at = builder.gep(data, [args[1]])
+        at = _element(context, builder, signature, args)
         return builder.load_atomic(at, "monotonic", 8, typ=ir.IntType(64))
 
     return types.int64(array, types.int64), codegen

@@ -7,12 +7,14 @@ kernel.py compiled before it. Here the cache folder is named by a hash of all th
 kernels are made of and of the versions that compile them, so stale code is never found.
 
 The folder lies in NUMBA_CACHE_DIR if that is set, else in the user's cache folder, else beside
-this package. Where none of these can be written, kernels are compiled anew in each process.
+this package. What numba finds there it unpickles, and runs: a folder that others could write into
+is passed over. Where none of these will do, kernels are compiled anew in each process.
 """
 
 from __future__ import annotations
 
 import hashlib
+import logging
 import os
 import shutil
 import sys
@@ -33,6 +35,8 @@ from numba.core.caching import FunctionCache
 from numba.core.runtime import rtsys
 
 import renderer.scene.flat
+from renderer.errors import LucidaError
+from renderer.private import private_folder
 from renderer.trace.inlining import KernelCompiler, PartCompiler
 
 KEPT = 4  # folders of other sources or versions that stay
@@ -49,6 +53,7 @@ _INSIDE = {
     "pipeline_class": PartCompiler,
 }
 
+_LOCATOR = "UserProvidedCacheLocator"  # numba's name for: CACHE_DIR, and nowhere else
 _cache_dir_lock = threading.Lock()
 
 
@@ -73,26 +78,45 @@ def kernel(function: Callable[..., Any]) -> Any:
     if folder is not None:
         # numba takes a cache's folder from its configuration, at the cache's creation.
         with _cache_dir_lock:
-            users = config.CACHE_DIR
-            config.CACHE_DIR = str(folder)
+            users = config.CACHE_DIR, config.CACHE_LOCATOR_CLASSES
+            config.CACHE_DIR, config.CACHE_LOCATOR_CLASSES = str(folder), _LOCATOR
             try:
                 compiled._cache = _Cache(function)
             except RuntimeError:  # the folder can no longer be written
                 pass
             finally:
-                config.CACHE_DIR = users
+                config.CACHE_DIR, config.CACHE_LOCATOR_CLASSES = users
     return compiled
 
 
-@cache
 def cache_folder() -> Path | None:
     """The folder for these sources and versions, made if need be; None: nowhere to write."""
+    return _find_folder()[0]
+
+
+def cache_problem() -> str:
+    """Why a folder was passed over, for the user; "" if none was that could be written."""
+    return _find_folder()[1]
+
+
+@cache
+def _find_folder() -> tuple[Path | None, str]:
+    problem = ""
     for base in _bases():
-        folder = base / source_hash()
+        try:
+            folder = private_folder(base / source_hash())
+        except LucidaError as error:
+            if not problem:
+                reason = f"{error.problem}; {error.remedy}"
+                problem = f"compiled kernels are not kept in {base}: {reason}"
+                logging.getLogger(__name__).warning("lucida: %s", problem)
+            continue
+        except (OSError, RuntimeError):  # RuntimeError: links in a circle, or no home
+            continue
         if _writable(folder):
             _prune(base, folder)
-            return folder
-    return None
+            return folder, problem
+    return None, problem
 
 
 def source_hash() -> str:
@@ -107,16 +131,17 @@ def source_hash() -> str:
 
 
 def _bases() -> Iterator[Path]:
-    # A folder of our own inside each: what is pruned must be ours.
-    if config.CACHE_DIR:
-        yield Path(config.CACHE_DIR) / "lucida-kernels"
+    # A folder of our own inside each: what is pruned must be ours. Not config.CACHE_DIR: that may
+    # come from a file in the current folder.
+    if given := os.environ.get("NUMBA_CACHE_DIR"):
+        yield Path(given) / "lucida-kernels"
     yield Path(platformdirs.user_cache_dir("lucida", appauthor=False)) / "kernels"
     yield Path(__file__).parent / "__pycache__" / "kernels"
 
 
 def _writable(folder: Path) -> bool:
     try:
-        folder.mkdir(parents=True, exist_ok=True)
+        folder.chmod(0o700)  # numba's folders inside it have the rights that the umask leaves
         with tempfile.TemporaryFile(dir=folder):
             pass
         os.utime(folder)  # the last use, for pruning

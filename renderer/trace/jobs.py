@@ -6,12 +6,14 @@ control array by which a running kernel is watched and stopped.
 
 from __future__ import annotations
 
+import os
 import threading
 import time
 from collections.abc import Callable
 from typing import Any
 
 from renderer.camera import Camera
+from renderer.forked import check_not_forked
 from renderer.frame import Frame
 from renderer.trace.buffers import Buffers
 from renderer.trace.control import DONE, Control, cancel, new_control
@@ -36,6 +38,7 @@ class Task:
         self.finished = threading.Event()
         self._background, self._buffers = background, buffers
         self._control = new_control()
+        self._pid = os.getpid()
         self._lock = threading.Lock()  # held for moments only, never while tracing
         self._tracing = False
         self._blocks = 1
@@ -88,6 +91,13 @@ class Task:
             return 1.0
         return min(int(self._control[DONE]) / self._blocks, 1.0)
 
+    def wait(self, timeout_s: float | None = None) -> bool:
+        """Waits until finished, or for timeout_s seconds; gives whether it is. Raises LucidaError
+        in a forked process, where nobody would finish it."""
+        if not self.finished.is_set():
+            check_not_forked(self._pid, "tracer", "this image was begun")
+        return self.finished.wait(timeout_s)
+
     def frame(self) -> Frame:
         """The image of a finished task."""
         with self._lock:
@@ -125,12 +135,12 @@ class TraceJob:
 
     def wait(self, timeout_s: float | None = None) -> bool:
         """Waits until done, or for timeout_s seconds; gives done."""
-        return self._task.finished.wait(timeout_s)
+        return self._task.wait(timeout_s)
 
     def result(self) -> Frame:
         """The image, once done. If the job was cancelled before its end, complete is False.
 
         Raises what went wrong: LucidaError where the scene or the image is too large.
         """
-        self._task.finished.wait()
+        self._task.wait()
         return self._task.frame()

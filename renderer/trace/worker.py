@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import atexit
 import contextlib
+import os
 import queue
 import threading
 import weakref
@@ -15,6 +16,7 @@ from functools import partial
 from typing import Any
 
 from renderer.errors import LucidaError
+from renderer.forked import check_not_forked
 from renderer.scene.model import Scene
 from renderer.trace.batch import RayBatch
 from renderer.trace.garbage import no_full_collections
@@ -22,6 +24,8 @@ from renderer.trace.jobs import Task
 from renderer.trace.team import AbandonedError, Team
 
 Work = Task | RayBatch
+
+_imported_pid = os.getpid()
 
 
 class Worker:
@@ -36,10 +40,13 @@ class Worker:
         self._current: Work | None = None
         self._newest: Scene | None = None  # of the last task
         self._thread: threading.Thread | None = None
+        self._pid = os.getpid()  # the thread's
         self._closed = False
 
     def submit(self, scene: Scene, task: Work) -> None:
-        """Queues a task on a scene. Raises LucidaError once closed."""
+        """Queues a task on a scene. Raises LucidaError once closed, and where the thread is another
+        process'; or where another Tracer's thread may have left numba locked there."""
+        self._check_process()
         with self._lock:
             if self._closed:
                 raise LucidaError("tracer", "is closed", "make a new Tracer")
@@ -50,6 +57,7 @@ class Worker:
                 self._thread = threading.Thread(
                     target=self._serve, name="lucida-trace-0", daemon=True
                 )
+                self._pid = os.getpid()
                 self._thread.start()
                 _workers.add(self)
             self._queue.put((scene, task))
@@ -76,6 +84,14 @@ class Worker:
         """Waits for the thread to end."""
         if self._thread is not None and self._thread is not threading.current_thread():
             self._thread.join()
+
+    def _check_process(self) -> None:
+        if self._thread is not None:
+            check_not_forked(self._pid, "tracer", "has begun its work")
+        elif os.getpid() != _imported_pid:
+            for worker in list(_workers):
+                if worker._current is not None:
+                    check_not_forked(worker._pid, "tracer", "another one was at work")
 
     def _serve(self) -> None:
         team = Team(self._threads)
@@ -138,7 +154,7 @@ _workers: weakref.WeakSet[Worker] = weakref.WeakSet()
 
 @atexit.register
 def _end_all() -> None:
-    workers = list(_workers)
+    workers = [worker for worker in _workers if worker._pid == os.getpid()]
     for worker in workers:
         worker.close()
     for worker in workers:
