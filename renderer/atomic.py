@@ -23,6 +23,7 @@ if sys.platform != "win32":
 _PREFIX, _SUFFIX = ".lucida-", ".part"
 _LOCKS = sys.platform != "win32"
 
+
 def check_writable(path: str | Path) -> Path:
     """The file that writing to `path` would replace, links followed.
 
