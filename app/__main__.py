@@ -12,13 +12,14 @@ INTERRUPTED = 130  # as shells tell SIGINT
 def main() -> int:
     """Runs `lucida` with the process's arguments; gives the exit status (app/cli.py)."""
     try:
-        from app.process import interrupt_at_once, interrupt_between_imports
+        from app import process
 
-        interrupt_between_imports()
+        process.interrupt_between_imports()
         from app.cli import main as run
 
+        process.interrupt_after_imports()
         status = run()
-        interrupt_at_once()
+        process.interrupt_at_once()
         return status
     except KeyboardInterrupt:
         return INTERRUPTED

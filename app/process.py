@@ -14,6 +14,8 @@ from types import FrameType
 RETRY_S = 0.02
 _IMPORTING = "<frozen importlib._bootstrap>"
 
+_waiting: threading.Timer | None = None  # of a Ctrl-C that came during an import
+
 
 def open_streams() -> None:
     """Gives streams that were closed (`lucida ... >&-`) to nobody, so that none of our files takes
@@ -38,20 +40,34 @@ def interrupt_between_imports() -> None:
 
 def interrupt_at_once() -> None:
     """From now on Ctrl-C ends the process, if that was what it would do: a KeyboardInterrupt would
-    be told while Python ends."""
+    be told while Python ends. Raises KeyboardInterrupt as interrupt_after_imports does."""
+    interrupt_after_imports()
     if signal.getsignal(signal.SIGINT) is _interrupt:
         signal.signal(signal.SIGINT, signal.SIG_DFL)
 
 
+def interrupt_after_imports() -> None:
+    """Raises KeyboardInterrupt if Ctrl-C came during an import and still waits."""
+    global _waiting
+    if _waiting is not None:
+        _waiting.cancel()
+        _waiting = None
+        raise KeyboardInterrupt
+
+
 def _interrupt(number: int, frame: FrameType | None) -> None:
+    global _waiting
     if not _is_importing(frame):
         raise KeyboardInterrupt
-    again = threading.Timer(RETRY_S, _raise_in_main, (number,))
-    again.daemon = True
-    again.start()
+    if _waiting is None:
+        _waiting = threading.Timer(RETRY_S, _raise_in_main, (number,))
+        _waiting.daemon = True
+        _waiting.start()
 
 
 def _raise_in_main(number: int) -> None:
+    global _waiting
+    _waiting = None
     main = threading.main_thread().ident
     if main is not None and hasattr(signal, "pthread_kill"):
         signal.pthread_kill(main, number)  # so that it also wakes from a wait

@@ -1,4 +1,4 @@
-"""Processes that were forked: what would wait for ever there says so; what works goes on working."""
+"""Processes that were forked: what would wait for ever there says so; what works still works."""
 
 from __future__ import annotations
 

@@ -14,12 +14,11 @@ from renderer import child
 ROOT = Path(__file__).parent.parent
 LIMIT_S = 280  # the first rendering compiles the tracer
 # What Python, the packages and Lucida import early, late, and by chance; and the packages' names.
-NAMES = (
-    "json numpy struct app renderer/__init__ renderer/child renderer/doctor shaders/__init__ os re "
-    "io subprocess threading signal ctypes enum types random logging locale numba llvmlite trimesh "
-    "PIL yaml glfw imgui_bundle moderngl msgspec platformdirs sitecustomize usercustomize cuda "
-    "scipy networkx lxml site encodings/__init__ encodings/utf_8"
-).split()
+NAMES = """\
+json numpy struct app renderer/__init__ renderer/child renderer/doctor shaders/__init__ os re
+io subprocess threading signal ctypes enum types random logging locale numba llvmlite trimesh
+PIL yaml glfw imgui_bundle moderngl msgspec platformdirs sitecustomize usercustomize cuda
+scipy networkx lxml site encodings/__init__ encodings/utf_8"""
 TRIANGLE = b"v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"
 SCENE = '[[objects]]\ntype = "model"\nfile = "models/large.obj"\n'
 
@@ -31,7 +30,7 @@ class Here:
         self.folder = folder / "here"
         self.ran = folder / "ran"
         for place in (self.folder, self.folder / "models"):
-            for name in NAMES:
+            for name in NAMES.split():
                 trap = place / f"{name}.py"
                 trap.parent.mkdir(parents=True, exist_ok=True)
                 trap.write_text(f"open({str(self.ran)!r}, 'a').write({name!r} + '\\n')\n")
@@ -39,9 +38,9 @@ class Here:
         (self.folder / "scene.toml").write_text(SCENE)
         for name in ("home", "cache", "config"):
             (folder / name).mkdir()
-        kept = {k: v for k, v in os.environ.items() if not k.startswith(("PYTHON", "NUMBA_"))}
-        self.environment = {k: v for k, v in kept.items() if k not in ("DISPLAY", "WAYLAND_DISPLAY")}
-        self.environment |= {
+        strange = ("PYTHON", "NUMBA_", "DISPLAY", "WAYLAND_DISPLAY")
+        kept = {name: text for name, text in os.environ.items() if not name.startswith(strange)}
+        self.environment = kept | {
             "HOME": str(folder / "home"),
             "XDG_CACHE_HOME": str(folder / "cache"),
             "XDG_CONFIG_HOME": str(folder / "config"),
@@ -72,7 +71,7 @@ def here(tmp_path_factory: pytest.TempPathFactory) -> Here:
 
 def test_the_traps_work(tmp_path: Path) -> None:
     trapped = Here(tmp_path)
-    with pytest.raises(AssertionError, match="imported.*'json'"):
+    with pytest.raises(AssertionError, match=r"imported.*'json'"):
         trapped.run("-c", "import json", safe=False)
 
 
@@ -180,5 +179,5 @@ def test_a_child_reads_names_and_writes_byte_code_as_its_parent(
     monkeypatch.setattr(sys, "pycache_prefix", str(tmp_path / "prefix"))
     command = child.child_command(sys.executable, "told", "ä.obj")
     done = subprocess.run(command, capture_output=True, text=True, check=True)
-    expected = f"{ascii('ä.obj')} {sys.flags.utf8_mode} True {tmp_path / 'prefix'} 1\n"
+    expected = f"{'ä.obj'!a} {sys.flags.utf8_mode} True {tmp_path / 'prefix'} 1\n"
     assert done.stdout == expected

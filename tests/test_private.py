@@ -51,7 +51,7 @@ def test_what_others_can_write_into_is_refused(mine: Path, mode: int) -> None:
     (mine / "a").mkdir()
     (mine / "a").chmod(mode)
     for folder in (mine / "a", mine / "a" / "new" / "below"):
-        with pytest.raises(LucidaError, match="others can write into .*/a; chmod go-w") as caught:
+        with pytest.raises(LucidaError, match=r"others can write into .*/a; chmod go-w") as caught:
             private_folder(folder)
         assert str(mine / "a") in caught.value.problem
     assert list((mine / "a").iterdir()) == []  # nothing was left there
@@ -72,7 +72,7 @@ def test_a_link_is_judged_by_where_it_leads(mine: Path) -> None:
     (mine / "open").mkdir()
     (mine / "open").chmod(0o777)
     (mine / "link").symlink_to("open")
-    with pytest.raises(LucidaError, match="others can write into .*open"):
+    with pytest.raises(LucidaError, match=r"others can write into .*open"):
         private_folder(mine / "link" / "a")
 
 
@@ -171,7 +171,7 @@ def test_a_file_in_the_current_folder_does_not_choose_the_cache(
     monkeypatch.setattr(compiled.platformdirs, "user_cache_dir", lambda *_, **__: str(mine / "own"))
     kernel = compiled.kernel(rights)  # any function in a file: nothing is compiled
     assert Path(kernel._cache.cache_path).is_relative_to(mine / "own")
-    assert config.CACHE_DIR == str(mine / "theirs")
+    assert str(mine / "theirs") == config.CACHE_DIR
     assert config.CACHE_LOCATOR_CLASSES == "InTreeCacheLocator"
     assert not (mine / "theirs").exists()
 
@@ -179,11 +179,11 @@ def test_a_file_in_the_current_folder_does_not_choose_the_cache(
 def test_the_command_line_says_it_in_one_line(mine: Path) -> None:
     (mine / "shared").mkdir()
     (mine / "shared").chmod(0o777)
-    line = "-P -m app render canonical -o a.png --renderer ray --size 8x8".split()
+    line = "render canonical -o a.png --renderer ray --size 8x8"
     environment = {**os.environ, "PYTHONPATH": str(ROOT), "NUMBA_CACHE_DIR": str(mine / "shared")}
     done = subprocess.run(
-        [sys.executable, *line], cwd=mine, env=environment, capture_output=True, text=True,
-        timeout=250,
+        [sys.executable, "-P", "-m", "app", *line.split()],
+        cwd=mine, env=environment, capture_output=True, text=True, timeout=250,
     )  # fmt: skip
     assert done.returncode == 0, done.stderr
     assert done.stderr.count("\n") == 1
