@@ -11,6 +11,8 @@ INTERRUPTED = 130  # as shells tell SIGINT
 
 def main() -> int:
     """Runs `lucida` with the process's arguments; gives the exit status (app/cli.py)."""
+    # For libraries that start Python, as glfw does: not to search the current folder for modules.
+    os.environ["PYTHONSAFEPATH"] = "1"
     try:
         from app import process
 

@@ -117,6 +117,17 @@ def test_python_m_app_leaves_the_current_folder_at_once(here: Here, tmp_path: Pa
         here.folder = folder
 
 
+def test_a_python_that_a_library_starts_does_not_search_there_either(here: Here) -> None:
+    script = (
+        "import subprocess, sys\n"
+        "from app.__main__ import main\n"
+        "sys.argv[1:] = ['scenes']\n"
+        "main()\n"
+        "print(subprocess.run([sys.executable, '-c', 'import ctypes, json']).returncode)\n"
+    )
+    assert here.run("-c", script).splitlines()[-1] == "0"
+
+
 def test_a_notebook_has_the_current_folder_in_its_path_and_its_processes_have_not(
     here: Here,
 ) -> None:

@@ -269,3 +269,20 @@ def test_systems_without_egl(monkeypatch, name, system):
     monkeypatch.setattr("sys.platform", name)
     assert this_system() == system
     assert contexts.candidates() == ("default", "osmesa")
+
+
+@pytest.mark.parametrize(
+    ("system", "found", "asked"),
+    [
+        ("linux", "libOSMesa.so.8", "libOSMesa.so.8"),
+        ("darwin", "libOSMesa.dylib", None),  # beside the user
+        ("darwin", "/usr/local/lib/libOSMesa.dylib", "/usr/local/lib/libOSMesa.dylib"),
+        ("win32", "OSMesa.dll", None),
+        ("linux", None, None),
+    ],
+)
+def test_no_library_is_taken_from_the_current_folder(monkeypatch, system, found, asked):
+    monkeypatch.setattr(current, "find_library", lambda name: found)
+    monkeypatch.setattr(current.sys, "platform", system)
+    assert current._found("OSMesa") == asked
+    assert all("/" in name for name in current.OSMESA_NAMES if name.endswith("dylib"))

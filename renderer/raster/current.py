@@ -6,6 +6,7 @@ Owns what EGL, GLX and OSMesa say of their current contexts. Knows nothing of wh
 from __future__ import annotations
 
 import ctypes
+import os
 import sys
 from collections.abc import Iterator
 from contextlib import contextmanager
@@ -17,10 +18,14 @@ OSMESA_NAMES = (
     "libOSMesa.so.8",
     "libOSMesa.so.6",
     "libOSMesa.so",
-    "libOSMesa.8.dylib",
-    "libOSMesa.dylib",
     "osmesa.dll",
     "libOSMesa.dll",
+    # With their folders: macOS looks for a mere name in the current folder too.
+    "/opt/homebrew/lib/libOSMesa.8.dylib",
+    "/opt/homebrew/lib/libOSMesa.dylib",
+    "/usr/local/lib/libOSMesa.8.dylib",
+    "/usr/local/lib/libOSMesa.dylib",
+    "/opt/local/lib/libOSMesa.dylib",
 )
 
 # Of the headers of EGL and OSMesa.
@@ -120,7 +125,7 @@ def _glx() -> Any:
 @cache
 def load_osmesa() -> Any:
     """libOSMesa. Raises OSError where there is none."""
-    names = (find_library("OSMesa"), *OSMESA_NAMES)
+    names = (_found("OSMesa"), *OSMESA_NAMES)
     for name in filter(None, names):
         try:
             library: Any = ctypes.CDLL(name)
@@ -143,8 +148,16 @@ def load_osmesa() -> Any:
     raise OSError("libOSMesa is not installed")
 
 
+def _found(name: str) -> str | None:
+    """What the system finds, unless that is in the current folder: where libraries have folders, as
+    on macOS and Windows, a path without is from there."""
+    found = find_library(name)
+    is_safe = found is not None and (sys.platform.startswith("linux") or os.path.isabs(found))
+    return found if is_safe else None
+
+
 def _linux_library(name: str) -> Any:
-    found = find_library(name) if sys.platform.startswith("linux") else None
+    found = _found(name) if sys.platform.startswith("linux") else None
     try:
         return ctypes.CDLL(found) if found else None
     except OSError:
