@@ -195,6 +195,17 @@ def test_without_a_common_focus_the_eye_goes_straight() -> None:
     assert is_orthonormal(middle)
 
 
+def test_the_passage_sets_out_and_arrives_slowly() -> None:
+    """3 s^2 - 2 s^3 of the way, on a straight one; nothing of it outside 0 to 1."""
+    start = View(Camera(eye=(0, 0, -5)))
+    end = View(Camera(eye=(0, 0, 5), u=(-1, 0, 0), w=(0, 0, -1)))
+    passage = Passage(start, end, (0, 0, 0), BOUNDS, SIZE)
+    for part, way in ((0.1, 0.028), (0.25, 0.15625), (0.5, 0.5), (0.75, 0.84375), (0.9, 0.972)):
+        assert passage.at(part).camera.eye == pytest.approx((0, 0, -5 + 10 * way))
+    assert passage.at(-0.5) is start
+    assert passage.at(1.5) is end
+
+
 class Clock:
     """A clock that goes on when it is told to."""
 

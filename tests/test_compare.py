@@ -140,6 +140,19 @@ def test_near_and_far_cut_along_clip_lines():
     np.testing.assert_allclose(distance, [0.5, 0.5], rtol=0.05)
 
 
+def test_of_two_clip_planes_the_nearer_line_counts():
+    """The wall stands at z = x - 2: the ray through (x, y, -1) meets it at t = 2 / (1 + x)."""
+    flat = flatten(Scene((wall(-2, tilt=1.0),)))
+    column = {limit: (2 / limit - 1) * 32 + 15.5 for limit in (2.0, 2.1)}
+    j = np.arange(12, 19)
+    t = 2 / (1 + (j - 15.5) / 32)
+    for near, far in ((2.0, 2.1), (None, 2.1), (2.0, None)):
+        lines = Lines(flat, replace(CAMERA, near=near, far=far), SIZE)
+        distance = lines.clip_px(np.zeros(7, int), np.full(7, 5), j, t)
+        wanted = [np.abs(j - column[limit]) for limit in (near, far) if limit is not None]
+        np.testing.assert_allclose(distance, np.min(wanted, axis=0), rtol=0.15, atol=0.01)
+
+
 @pytest.mark.parametrize(("height", "unexplained"), [(1e-17, 0), (1e-9, 768)])
 def test_rounding_decides_whether_the_eye_sees_what_it_lies_on(height, unexplained):
     flat = flatten(Scene((wall(0), wall(-2))))

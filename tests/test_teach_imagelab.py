@@ -194,6 +194,18 @@ class TestLight:
         assert gapped[0, :9, 2].tolist() == [0, 0, 0, 0, 0, 0, 30, 30, 0]
         assert not gapped[8].any()
 
+    @pytest.mark.parametrize("side", [6, 7, 8, 10, 11, 13, 36, 45])
+    @pytest.mark.parametrize("gap", [1, 2])
+    def test_every_stripe_ends_in_its_gap_whether_3_divides_the_side_or_not(self, side, gap):
+        image = light.subpixels(np.full((1, 1, 3), 255, np.uint8), side, gap)
+        whole = light.subpixels(np.full((1, 1, 3), 255, np.uint8), side)
+        for channel in range(3):
+            stripe = np.flatnonzero(whole[0, :, channel])
+            lit = np.flatnonzero(image[0, :, channel])
+            assert lit.tolist() == stripe[:-gap].tolist()
+            assert (image[: side - gap, lit, channel] == 255).all()
+        assert not image[side - gap :].any()
+
     @pytest.mark.parametrize("side", [3, 4, 5, 7, 8])
     def test_every_column_of_a_pixel_shines_in_one_colour(self, side):
         image = light.subpixels(np.full((2, 2, 3), 255, np.uint8), side)
