@@ -24,6 +24,7 @@ from app.bounds import check
 from app.options import Options
 from app.platform import set_size
 from app.storage.session import from_bytes, session_of, to_bytes
+from app.views.pair import RASTER, RAY
 from renderer.camera import Camera
 from renderer.errors import LucidaError
 from renderer.scene import View, save_view
@@ -275,7 +276,13 @@ class Attack:
             self._resize(SIZE)
             self.d.until(lambda: tuple(imgui.get_io().display_size) == SIZE)
         layout.switch(layout.LAYOUTS[0].name)
-        self.d.reset()
+        for name in self.window.views:
+            if name not in (RASTER, RAY):
+                self.window.shell.stage.show(name, False)
+        try:
+            self.d.reset()
+        except AssertionError as error:
+            raise AssertionError(self._unsettled()) from error
         raster, ray = self.d.agreeing_images()
         assert np.isfinite(raster).all() and np.isfinite(ray).all()
         gc.collect()
@@ -284,6 +291,16 @@ class Attack:
         grown = self.memory[-1] - min(self.memory[:WARM_RESTS])
         if len(self.memory) > WARM_RESTS:
             assert grown < GROWTH_BYTES, f"memory has grown by {grown >> 20} MiB"
+
+    def _unsettled(self) -> str:
+        """What keeps the window from coming to rest."""
+        stage, window = self.window.shell.stage, self.window
+        views = [name for name in stage.rects if not stage.views[name].settled]
+        return (
+            f"no rest: views {views}, failures {stage.failures}, shown {list(stage.rects)}, files "
+            f"{window.files.busy}, travelling {window.traveller.under_way}, images "
+            f"{window.renderers.settled(window.state)}, failure {window.renderers.failure}"
+        )
 
     def _leave(self) -> None:
         """Whatever covers the images: boxes, menus, a maximised view."""
