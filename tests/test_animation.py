@@ -13,12 +13,14 @@ from hypothesis import strategies as st
 from app.cameras.animation import INVISIBLE_PX, Passage
 from app.cameras.focus import Focus, scene_focus
 from app.cameras.navigation import switched_projection
-from app.cameras.presets import PRESETS, preset_named, preset_view
+from app.cameras.presets import PRESETS, preset_view
 from app.cameras.travel import DURATION_S, Ends, Traveller
 from app.state import AppState, History, is_orthonormal
 from renderer.camera import Camera, volume
 from renderer.scene import load_scene
 from renderer.scene.model import Scene, View
+
+PRESET = {preset.name: preset for preset in PRESETS}
 
 SIZE = (960, 540)
 FOCUS = (0.0, 0.5, -0.5)
@@ -176,7 +178,7 @@ def test_half_a_turn_goes_about_the_upright_axis() -> None:
     scene = load_scene("spheres")
     focus = scene_focus(scene)
     front, back = (
-        preset_view(preset_named(name), scene.view, focus.framed, focus.bounds, 1.0)
+        preset_view(PRESET[name], scene.view, focus.framed, focus.bounds, 1.0)
         for name in ("Front", "Back")
     )
     for part in (0.2, 0.5, 0.9):
@@ -223,7 +225,7 @@ def scene() -> Scene:
 
 def target_of(state: AppState, name: str) -> AppState:
     focus = scene_focus(state.scene)
-    view = preset_view(preset_named(name), state.view, focus.framed, focus.bounds, 1.0)
+    view = preset_view(PRESET[name], state.view, focus.framed, focus.bounds, 1.0)
     return replace(state.with_view(view), keep_orthonormal=is_orthonormal(view.camera))
 
 
