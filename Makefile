@@ -4,12 +4,13 @@ PYTHON_IN_VENV := .venv/bin/python
 ARGS :=
 
 .DEFAULT_GOAL := help
-.PHONY: help setup run test bench pictures lint requirements clean
+.PHONY: help setup run test attack bench pictures lint requirements clean
 
 help:
 	@echo 'make setup          prepare .venv and the system libraries'
 	@echo 'make run            open the window           make run ARGS="spheres"'
 	@echo 'make test           run the tests             make test ARGS="-k camera"'
+	@echo 'make attack         half an hour of attacks; make attack ARGS="random_events --minutes 10"'
 	@echo 'make bench          measure the tracer beside others; make bench ARGS="--quick"'
 	@echo 'make pictures       draw the pictures of the window in docs/ anew'
 	@echo 'make lint           ruff and mypy'
@@ -26,6 +27,10 @@ run: setup
 # Nothing may follow: pytest's closing line is the last.
 test: setup
 	@$(PYTHON_IN_VENV) -m pytest $(ARGS)
+
+# What takes too long for each change: random events, mutations and what else is in tests/attack.
+attack: setup
+	@$(PYTHON_IN_VENV) -m tests.attack $(ARGS)
 
 # In .venv-bench, which has the peers and sees the packages of .venv.
 bench: setup

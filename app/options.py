@@ -1,17 +1,25 @@
 """What the user has chosen beside scene and camera: small immutable values, kept in AppState.
 
-Owns their fields, defaults and limits. Knows nothing of windows, widgets or renderers.
+Owns their fields, defaults and bounds (bounds.py): panels, sessions and lectures take these from
+the fields. Knows nothing of windows, widgets or renderers.
 """
 
 from __future__ import annotations
 
 from dataclasses import dataclass, field
-from typing import Literal
+from typing import Annotated, Literal
 
+from app.bounds import Accepted, AtMost, OneOf, Range
 from renderer.camera import Camera
+from renderer.difference import LARGEST_GAIN
+from renderer.frame import LARGEST_SIDE, check_size
 from renderer.scene.model import View
 
-Pixel = tuple[int, int]  # (row, column), 0-based, row 0 at the top
+Index = Annotated[int, Range(0, LARGEST_SIDE - 1)]
+Pixel = tuple[Index, Index]  # (row, column), 0-based, row 0 at the top
+Part = Annotated[float, Range(0, 1)]  # of a width or height
+Rays = Annotated[int, Range(0, 64)]  # rows, or columns, of viewing rays
+Step = Annotated[int, Range(0, 1_000_000)]  # of a run of the loop stepper
 
 PIXEL_SIZES = (1, 2, 4, 8, 16, 32)
 RESOLUTIONS = (
@@ -19,8 +27,6 @@ RESOLUTIONS = (
     *((3840, 2160), (4096, 2160), (4, 3), (16, 16), (64, 64), (256, 256), (512, 512)),
 )
 MAGNIFICATIONS = (1, 2, 4, 8, 16, 32, 64)
-EXPOSURE_LIMIT_EV = 8.0
-LARGEST_ZOOM = 32.0
 
 Channel = Literal["color", "depth", "normal", "id"]
 Component = Literal["rgb", "red", "green", "blue"]
@@ -45,11 +51,11 @@ class ImageOptions:
     channel: Channel = "color"
     component: Component = "rgb"
     transfer: Transfer = "srgb"
-    exposure_ev: float = 0.0
-    pixel_size: int = 1
-    resolution: tuple[int, int] | None = None
-    magnification: float | None = None
-    center: tuple[float, float] = (0.5, 0.5)
+    exposure_ev: Annotated[float, Range(-8, 8)] = 0.0
+    pixel_size: Annotated[int, OneOf(PIXEL_SIZES)] = 1
+    resolution: Annotated[tuple[int, int], Accepted(check_size)] | None = None
+    magnification: Annotated[float, Range(1 / 64, 128)] | None = None
+    center: tuple[Part, Part] = (0.5, 0.5)
     tinted: bool = False
     grid: bool = True
     values: Literal["bytes", "floats"] = "bytes"
@@ -64,8 +70,8 @@ class CompareOptions:
     """
 
     mode: CompareMode = "wipe"
-    gain: float = 1.0
-    divider: float = 0.5
+    gain: Annotated[float, Range(1, LARGEST_GAIN)] = 1.0
+    divider: Part = 0.5
     flipped: bool = False
     causes: bool = False
 
@@ -83,7 +89,7 @@ class OutsideOptions:
     basis: bool = True
     grid: bool = True
     ray: bool = True
-    bundle: tuple[int, int] = (0, 0)
+    bundle: tuple[Rays, Rays] = (0, 0)
     gizmo: Literal["none", "move", "turn"] = "none"
 
 
@@ -93,19 +99,19 @@ class LaboratoryOptions:
 
     after_ev: the exposure, in stops, of an image that has been stored. apart: how far the three
     projectors' pictures are moved apart, in parts of the image's height. side_px: screen pixels a
-    side of a magnified pixel. zoom: the magnification of raster image and vector drawing, 1 to
-    LARGEST_ZOOM; zoom_center: what is in the middle, in parts of the picture's width and height.
+    side of a magnified pixel. zoom: the magnification of raster image and vector drawing;
+    zoom_center: what is in the middle, in parts of the picture's width and height.
     """
 
     page: Literal["kinds", "bitmaps", "exposure", "projectors", "subpixels", "array", "vector"] = (
         "kinds"
     )
     method: Literal["threshold", "ordered", "floyd-steinberg"] = "floyd-steinberg"
-    after_ev: float = 0.0
-    apart: float = 0.0
-    side_px: int = 36
-    zoom: float = 1.0
-    zoom_center: tuple[float, float] = (0.5, 0.5)
+    after_ev: Annotated[float, Range(-6, 6)] = 0.0
+    apart: Annotated[float, Range(0, 0.4)] = 0.0
+    side_px: Annotated[int, Range(3, 300)] = 36
+    zoom: Annotated[float, Range(1, 32)] = 1.0
+    zoom_center: tuple[Part, Part] = (0.5, 0.5)
 
 
 @dataclass(frozen=True)
@@ -113,22 +119,22 @@ class ProbeOptions:
     """The pixel probe. pins: pixels that are kept at hand. rays: which viewing rays the outside
     view shows beside the marked pixel's: none, or those of its row or column."""
 
-    pins: tuple[Pixel, ...] = ()
+    pins: Annotated[tuple[Pixel, ...], AtMost(256)] = ()
     rays: Literal["pixel", "row", "column"] = "pixel"
 
 
 @dataclass(frozen=True)
 class StepperOptions:
-    """The loop stepper. canvas: (width, height), up to 64 x 48. order: which algorithms are shown.
+    """The loop stepper. canvas: (width, height). order: which algorithms are shown.
 
     steps: where the run in object order stands, and the one in image order; those that a run does
     not have are its last. speed: steps a second while it plays.
     """
 
-    canvas: tuple[int, int] = (16, 12)
+    canvas: tuple[Annotated[int, Range(1, 64)], Annotated[int, Range(1, 48)]] = (16, 12)
     order: Literal["both", "object", "image"] = "both"
-    steps: tuple[int, int] = (0, 0)
-    speed: float = 8.0
+    steps: tuple[Step, Step] = (0, 0)
+    speed: Annotated[float, Range(1, 20_000)] = 8.0
 
 
 @dataclass(frozen=True)
@@ -137,26 +143,25 @@ class CostOptions:
     that is measured; the one that they are plotted against grows."""
 
     against: Literal["frames", "triangles", "pixels"] = "frames"
-    triangles: int = 10_000
-    pixels: int = 76_800
+    triangles: Annotated[int, Range(18, 1_000_000)] = 10_000
+    pixels: Annotated[int, Range(64, 1 << 22)] = 76_800
 
 
 @dataclass(frozen=True)
 class Preferences:
-    """How the window looks. font_scale: 0.75 to 3. reduced_motion: the camera jumps, without a
-    passage."""
+    """How the window looks. reduced_motion: the camera jumps, without a passage."""
 
     theme: Literal["dark", "light"] = "dark"
     presentation: bool = False
-    font_scale: float = 1.0
+    font_scale: Annotated[float, Range(0.75, 3)] = 1.0
     reduced_motion: bool = False
 
 
 @dataclass(frozen=True)
 class Bookmark:
-    """A view to come back to. number: its key, 1 to 9."""
+    """A view to come back to. number: its key."""
 
-    number: int
+    number: Annotated[int, Range(1, 9)]
     name: str
     view: View
 
@@ -180,9 +185,9 @@ class Options:
     costs: CostOptions = field(default_factory=CostOptions)
     preferences: Preferences = field(default_factory=Preferences)
     marked: Pixel | None = None
-    highlight: tuple[str, ...] = ()
+    highlight: Annotated[tuple[str, ...], AtMost(256)] = ()
     shadows: bool = False
     mirrors: bool = False
     one_based: bool = True
     presets_in_perspective: bool = False
-    bookmarks: tuple[Bookmark, ...] = ()
+    bookmarks: Annotated[tuple[Bookmark, ...], AtMost(9)] = ()

@@ -161,12 +161,6 @@ def toggle_full_screen() -> None:
         )
 
 
-def is_full_screen() -> bool:
-    """Whether the current window covers its monitor."""
-    window = glfw.get_current_context()
-    return bool(window and glfw.get_window_monitor(window))
-
-
 _windowed: list[tuple[int, int, int, int]] = []  # left, top, width, height before full screen
 
 

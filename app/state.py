@@ -10,6 +10,7 @@ from collections.abc import Hashable
 from dataclasses import dataclass, field, replace
 from typing import Any
 
+from app.bounds import clamped
 from app.options import CompareOptions, ImageOptions, Options, OutsideOptions, Pixel, Preferences
 from renderer.camera import Camera
 from renderer.scene.model import Scene, View
@@ -71,14 +72,15 @@ class AppState:
 
     def with_options(self, **changes: Any) -> AppState:
         """The state with other options: fields of Options, or of one of its parts by its name,
-        as in with_options(images={"exposure_ev": 1.0}, shadows=True)."""
+        as in with_options(images={"exposure_ev": 1.0}, shadows=True). What a key or a field asks
+        for beyond an option's bounds comes to the nearest bound."""
         changes = {
             name: replace(getattr(self.options, name), **value)
             if isinstance(value, dict)
             else value
             for name, value in changes.items()
         }
-        return replace(self, options=replace(self.options, **changes))
+        return replace(self, options=clamped(replace(self.options, **changes)))
 
     def with_camera(self, camera: Camera) -> AppState:
         """The state with another camera; itself where nothing changes."""

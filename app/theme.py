@@ -17,7 +17,6 @@ from imgui_bundle import ImVec2, ImVec4, hello_imgui, imgui
 from app.options import Preferences
 
 TEXT_PX = 16.0
-SMALLEST_SCALE, LARGEST_SCALE = 0.75, 3.0
 PRESENTED = 0.024  # the least size of text in presentation mode, in parts of the window's height
 LEGIBLE = 4.5  # the least contrast of text with what is behind it (WCAG 2.1, 1.4.3)
 
@@ -140,7 +139,7 @@ def __getattr__(name: str) -> Any:
 
 def look_of(preferences: Preferences, height_px: float, dpi_scale: float = 1.0) -> Look:
     """The look that the preferences ask for in a window of this height, in ImGui's pixels."""
-    scale = min(max(preferences.font_scale, SMALLEST_SCALE), LARGEST_SCALE)
+    scale = preferences.font_scale
     if preferences.presentation:
         scale = max(scale, PRESENTED * height_px / (TEXT_PX * dpi_scale))
         scale = round(scale, 2)

@@ -13,12 +13,14 @@ from hypothesis import strategies as st
 from app.cameras.animation import INVISIBLE_PX, Passage
 from app.cameras.focus import Focus, scene_focus
 from app.cameras.navigation import switched_projection
-from app.cameras.presets import PRESETS, preset_named, preset_view
+from app.cameras.presets import PRESETS, preset_view
 from app.cameras.travel import DURATION_S, Ends, Traveller
 from app.state import AppState, History, is_orthonormal
 from renderer.camera import Camera, volume
 from renderer.scene import load_scene
 from renderer.scene.model import Scene, View
+
+PRESET = {preset.name: preset for preset in PRESETS}
 
 SIZE = (960, 540)
 FOCUS = (0.0, 0.5, -0.5)
@@ -176,7 +178,7 @@ def test_half_a_turn_goes_about_the_upright_axis() -> None:
     scene = load_scene("spheres")
     focus = scene_focus(scene)
     front, back = (
-        preset_view(preset_named(name), scene.view, focus.framed, focus.bounds, 1.0)
+        preset_view(PRESET[name], scene.view, focus.framed, focus.bounds, 1.0)
         for name in ("Front", "Back")
     )
     for part in (0.2, 0.5, 0.9):
@@ -193,6 +195,17 @@ def test_without_a_common_focus_the_eye_goes_straight() -> None:
     assert middle.eye == pytest.approx((0, 0, 0))
     assert middle.near == 2.0
     assert is_orthonormal(middle)
+
+
+def test_the_passage_sets_out_and_arrives_slowly() -> None:
+    """3 s^2 - 2 s^3 of the way, on a straight one; nothing of it outside 0 to 1."""
+    start = View(Camera(eye=(0, 0, -5)))
+    end = View(Camera(eye=(0, 0, 5), u=(-1, 0, 0), w=(0, 0, -1)))
+    passage = Passage(start, end, (0, 0, 0), BOUNDS, SIZE)
+    for part, way in ((0.1, 0.028), (0.25, 0.15625), (0.5, 0.5), (0.75, 0.84375), (0.9, 0.972)):
+        assert passage.at(part).camera.eye == pytest.approx((0, 0, -5 + 10 * way))
+    assert passage.at(-0.5) is start
+    assert passage.at(1.5) is end
 
 
 class Clock:
@@ -212,7 +225,7 @@ def scene() -> Scene:
 
 def target_of(state: AppState, name: str) -> AppState:
     focus = scene_focus(state.scene)
-    view = preset_view(preset_named(name), state.view, focus.framed, focus.bounds, 1.0)
+    view = preset_view(PRESET[name], state.view, focus.framed, focus.bounds, 1.0)
     return replace(state.with_view(view), keep_orthonormal=is_orthonormal(view.camera))
 
 

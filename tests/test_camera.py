@@ -154,6 +154,8 @@ def test_look_at_names_what_is_wrong(arguments, field):
         ({"projection": "fisheye"}, "projection", "fisheye"),
         ({"near": 0}, "near", "0"),
         ({"near": 2, "far": 1}, "far", "1"),
+        ({"near": 2, "far": 2}, "far", "2"),
+        ({"far": 0.0}, "far", "0"),
         ({"far": math.nan}, "far", "nan"),
     ],
 )

@@ -6,8 +6,18 @@ import numpy as np
 import pytest
 
 from renderer import Camera, Frame
-from renderer.compare import CAUSES, SHADING, UNEXPLAINED, compare_frames
+from renderer.compare import (
+    CAUSES,
+    LABEL_COLORS,
+    NORMAL,
+    SHADING,
+    UNEXPLAINED,
+    compare,
+    compare_frames,
+)
+from renderer.difference import CAUSE_COLORS, false_color, signed_difference
 from renderer.edges import Lines
+from renderer.images import encode_srgb
 from renderer.scene.flat import flatten
 from renderer.scene.model import Checker, Material, Mesh, Scene, SceneObject, Sphere
 
@@ -140,6 +150,19 @@ def test_near_and_far_cut_along_clip_lines():
     np.testing.assert_allclose(distance, [0.5, 0.5], rtol=0.05)
 
 
+def test_of_two_clip_planes_the_nearer_line_counts():
+    """The wall stands at z = x - 2: the ray through (x, y, -1) meets it at t = 2 / (1 + x)."""
+    flat = flatten(Scene((wall(-2, tilt=1.0),)))
+    column = {limit: (2 / limit - 1) * 32 + 15.5 for limit in (2.0, 2.1)}
+    j = np.arange(12, 19)
+    t = 2 / (1 + (j - 15.5) / 32)
+    for near, far in ((2.0, 2.1), (None, 2.1), (2.0, None)):
+        lines = Lines(flat, replace(CAMERA, near=near, far=far), SIZE)
+        distance = lines.clip_px(np.zeros(7, int), np.full(7, 5), j, t)
+        wanted = [np.abs(j - column[limit]) for limit in (near, far) if limit is not None]
+        np.testing.assert_allclose(distance, np.min(wanted, axis=0), rtol=0.15, atol=0.01)
+
+
 @pytest.mark.parametrize(("height", "unexplained"), [(1e-17, 0), (1e-9, 768)])
 def test_rounding_decides_whether_the_eye_sees_what_it_lies_on(height, unexplained):
     flat = flatten(Scene((wall(0), wall(-2))))
@@ -181,3 +204,102 @@ def test_the_difference_image_and_the_report_show_the_causes():
     assert report["unexplained"] == 1
     assert set(report["explained"]) == set(CAUSES)
     assert "unexplained: 1" in comparison.summary()
+
+
+def test_what_is_told_of_a_comparison():
+    """The command's lines and the status line, with and without causes."""
+    at = CAMERA.image_point(0, 20, SIZE)[0] * 2
+    flat = flatten(Scene((wall(-2, right=float(at)), wall(-3))))
+    exact = changed(image(2, 0, 0), np.s_[:, 20:], depth=3, id=1, primitive=2)
+    exact = replace(exact, time_s=0.0025)
+    snapped = changed(exact, np.s_[:, 20], depth=2, id=0, primitive=0)
+    comparison = compare_frames(flat, CAMERA, SIZE, snapped, exact)
+    assert comparison.summary_short() == "agree: all but 24 edge pixels"
+    lines = comparison.summary().split("\n")
+    assert lines[:3] == [
+        "32x24: 744 of 768 pixels agree",
+        "explained:   24 (outline 24)",
+        "unexplained: 0",
+    ]
+    assert lines[-1] == "raster 2.5 ms, ray 2.5 ms"
+    one = changed(exact, (3, 20), depth=2, id=0, primitive=0)  # a single pixel has its cause too
+    comparison = compare_frames(flat, CAMERA, SIZE, one, exact)
+    assert comparison.summary_short() == "agree: all but 1 edge pixel"
+    comparison = compare_frames(flat, CAMERA, SIZE, changed(exact, (3, 4), color=0.9), exact)
+    lines = comparison.summary().split("\n")
+    assert lines[1:3] == ["explained:   0", "unexplained: 1 (1 in the colour alone)"]
+    wrong = compare_frames(flat, CAMERA, SIZE, changed(exact, (3, 4), id=9), exact)
+    assert wrong.summary().split("\n")[2] == "unexplained: 1"
+
+
+@pytest.mark.parametrize(("normal", "agrees"), [(NORMAL, True), (1.001 * NORMAL, False)])
+def test_a_difference_of_the_tolerance_still_agrees(normal, agrees):
+    flat = flatten(Scene((wall(-2),)))
+    frame = image(2, 0, 0)
+    other = changed(frame, (1, 1), normal=(0, normal, 1))
+    comparison = compare_frames(flat, CAMERA, SIZE, other, frame)
+    assert (comparison.unexplained == 0) == agrees
+    assert comparison.max_normal_error == (np.float32(normal) if agrees else 0)
+
+
+def test_the_difference_image_is_the_raster_image_darkened():
+    flat = flatten(Scene((wall(-2),)))
+    frame = changed(image(2, 0, 0), (0, 0), color=(1.0, 1.0, 1.0))
+    comparison = compare_frames(flat, CAMERA, SIZE, changed(frame, (3, 4), id=7), frame)
+    picture = comparison.difference_image()
+    assert picture[0, 0].tolist() == [int(0.35 * 255)] * 3
+    assert picture[1, 1].tolist() == [int(255 * 0.35 * float(encode_srgb(np.float32(0.5))))] * 3
+    difference = signed_difference(frame, frame, "depth")
+    assert (comparison.false_color("depth", 4.0) == false_color(difference, "depth", 4.0)).all()
+    assert LABEL_COLORS.shape == (256, 3)
+    for label, name in enumerate(CAUSES, start=1):
+        assert tuple(LABEL_COLORS[label]) == CAUSE_COLORS[name]
+
+
+def test_with_effects_no_line_is_looked_for_where_only_the_colour_differs():
+    at = CAMERA.image_point(0, 20 + 0.5 / 128, SIZE)[0] * 2
+    flat = flatten(Scene((wall(-2, checker=Checker(size=2 * float(at))),)))
+    frame = image(2, 0, 0)
+    wrong = changed(changed(frame, np.s_[:, 20], color=0.1), (3, 4), id=7)
+    comparison = compare_frames(flat, CAMERA, SIZE, wrong, frame, effects=True)
+    assert counts(comparison) == {"unexplained": 25}
+    assert comparison.shading == 24
+    assert compare_frames(flat, CAMERA, SIZE, wrong, frame).shading == 0
+
+
+def test_errors_of_images_that_have_nothing_in_common():
+    """Hit by one alone: infinite everywhere, and no finite error."""
+    flat = flatten(Scene((wall(-2),)))
+    missed = image(np.inf, -1, -1)
+    comparison = compare_frames(flat, CAMERA, SIZE, missed, image(2, 0, 0))
+    depth = comparison.errors["depth"]
+    assert (depth.largest, depth.rms, depth.infinite, depth.differing) == (0, 0, 768, 768)
+    assert comparison.max_depth_error == comparison.max_normal_error == 0
+    frame = image(2, 0, 0)
+    some = changed(changed(frame, (5, 6), depth=np.inf), (2, 3), depth=1.5)
+    depth = compare_frames(flat, CAMERA, SIZE, some, frame).errors["depth"]
+    assert (depth.largest, depth.infinite, depth.differing, depth.worst) == (0.25, 1, 2, (5, 6))
+    assert depth.rms == pytest.approx(0.25 / np.sqrt(767))
+
+
+@pytest.mark.parametrize("missing", ["raster", "ray"])
+def test_a_surface_that_one_image_misses_at_its_clip_line(missing):
+    """t is the one of whoever hits: near passes within the tolerance of column 20's centres."""
+    j = np.arange(32)
+    t = np.broadcast_to(2 / (1 + (j - 15.5) / 32), (24, 32))
+    flat = flatten(Scene((wall(-2, tilt=1.0), wall(-9))))
+    frame = image(9, 1, 2)
+    frame = changed(frame, np.s_[:], depth=t.astype(np.float32), id=0, primitive=0)
+    other = changed(frame, np.s_[:, 20], depth=9, id=1, primitive=2)
+    camera = replace(CAMERA, near=float(t[0, 20]))
+    pair = (other, frame) if missing == "raster" else (frame, other)
+    assert counts(compare_frames(flat, camera, SIZE, *pair)) == {"clip": 24}
+
+
+def test_both_renderers_are_compared(gl_backend):
+    scene = Scene((wall(-2, left=-0.3, right=0.4), wall(-3)))
+    seen = []
+    comparison = compare(scene, CAMERA, SIZE, gl_backend, seen.append)
+    assert comparison.unexplained == 0
+    assert comparison.agree > 600
+    assert seen and seen[-1] == 1.0

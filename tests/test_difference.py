@@ -16,6 +16,7 @@ from renderer.difference import (
     STEPS,
     UNEXPLAINED_COLOR,
     false_color,
+    most,
     signed_difference,
 )
 from renderer.images import encode_srgb
@@ -131,3 +132,20 @@ def test_equal_frames_do_not_differ():
     )
     for channel in CHANNELS:
         assert not signed_difference(one, replace(one), channel).any()
+
+
+def test_of_two_that_differ_alike_the_brighter_one_gives_the_sign():
+    assert most(np.array([[0.5, -0.5, 0.0], [-0.5, 0.25, 0.5]], np.float32)).tolist() == [0.5, 0.5]
+
+
+def test_full_scale_and_the_nearest_colour():
+    """Normals differ by up to 2; everything else by 1."""
+    step = 1 / (STEPS - 1)
+    for channel, scale in (("color", 1.0), ("depth", 1.0), ("normal", 2.0)):
+        values = np.float32([0.0, 1.3 * step, 1.6 * step, 0.5, 1.0]) * np.float32(scale)
+        wanted = ABSOLUTE_COLORS[[0, 1, 2, (STEPS - 1) // 2, STEPS - 1]]
+        assert (false_color(values, channel) == wanted).all(), channel
+    assert (
+        false_color(np.float32([3.0, -3.0]), "color", 2.0, True) == SIGNED_COLORS[[-1, 0]]
+    ).all()
+    assert ABSOLUTE_COLORS.shape == SIGNED_COLORS.shape == (STEPS, 3)

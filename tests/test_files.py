@@ -7,6 +7,7 @@ import json
 import os
 import subprocess
 import sys
+import threading
 import time
 
 import numpy as np
@@ -56,6 +57,36 @@ def test_the_newest_file_stands_first_and_the_list_ends(tmp_path):
     assert again.entries == ()
     again.close()
     assert json.loads((tmp_path / "recent.json").read_bytes()) == []
+
+
+@pytest.mark.parametrize("kept", [True, False])
+def test_the_list_runs_on_while_the_disk_sleeps(tmp_path, monkeypatch, kept):
+    """Shown at once, in order, once each, no longer than it is kept; and the same at the end."""
+    awake, asleep = threading.Event(), threading.Event()
+
+    def exists(path):
+        asleep.set()
+        return awake.wait(PATIENT_S)
+
+    monkeypatch.setattr("app.storage.recent._exists", exists)
+    recent = RecentFiles(tmp_path if kept else None, lambda: None)
+    recent.add("/first.obj")
+    assert asleep.wait(PATIENT_S)
+    names = [f"/{number}.obj" for number in range(MOST)]
+    for number, name in enumerate(names):
+        recent.add(name)
+        shown = [*reversed(names[: number + 1]), "/first.obj"][:MOST]
+        assert paths(recent) == shown
+    recent.add(names[3])
+    recent.add("/last.obj")
+    newest = ["/last.obj", names[3], *(name for name in reversed(names) if name != names[3])]
+    assert paths(recent) == newest[:MOST]
+    awake.set()
+    wait_for(lambda: bool(recent.entries) and not recent._work.busy)
+    assert paths(recent) == newest[:MOST]
+    recent.close()
+    if kept:
+        assert json.loads((tmp_path / "recent.json").read_bytes()) == newest[:MOST]
 
 
 def test_two_windows_share_the_list(tmp_path):

@@ -100,6 +100,28 @@ def test_values_are_written_as_the_channel_needs():
         assert value_lines(array, options)[0][0].count("\n") + 1 == line_count(options)
 
 
+@pytest.mark.parametrize(
+    ("t", "text"),
+    [
+        (0.004, "0.00"),
+        (9.99, "9.99"),
+        (9.996, "10.0"),
+        (12.34, "12.3"),
+        (99.94, "99.9"),
+        (99.96, "100"),
+        (100.0, "100"),
+        (123.4, "123"),
+        (999.4, "999"),
+        (999.6, "1e+03"),
+        (4321.0, "4e+03"),
+        (np.nan, "-"),
+    ],
+)
+def test_depths_have_three_digits(t: float, text: str):
+    """A pixel has room for five letters."""
+    assert value_lines(np.array([[t]]), replace(COLOR, channel="depth")) == [[text]]
+
+
 def test_pixels_are_counted_as_chosen():
     assert pixel_name((0, 11), one_based=True) == "1,12"
     assert pixel_name((0, 11), one_based=False) == "0,11"

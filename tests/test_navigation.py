@@ -11,6 +11,7 @@ from hypothesis import assume, given
 from hypothesis import strategies as st
 
 from app.cameras import navigation
+from app.cameras.fly import way_flown
 from renderer.camera import Camera, volume
 from renderer.errors import LucidaError
 
@@ -205,6 +206,15 @@ def test_flying_goes_along_the_camera_s_own_axes(
     lengths = np.linalg.norm(camera.basis, axis=0)
     local = np.linalg.solve(camera.basis, np.subtract(after.eye, camera.eye))
     assert local * lengths == pytest.approx(np.array([right, up, -forward]), abs=1e-7)
+
+
+def test_a_frame_flies_as_far_as_its_time_and_a_long_one_no_further() -> None:
+    """After a rest, or a frame that compiled, the camera does not jump."""
+    assert way_flown(20.0, 0.05, False) == pytest.approx(0.35)
+    assert way_flown(20.0, 0.05, True) == pytest.approx(1.4)
+    assert way_flown(20.0, 0.1, False) == pytest.approx(0.7)
+    for frame_s in (0.11, 3.0, 1e9):
+        assert way_flown(20.0, frame_s, False) == pytest.approx(0.7)
 
 
 @given(cameras(), st.floats(-1, 1), st.floats(-1, 1))

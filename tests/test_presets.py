@@ -11,13 +11,15 @@ from hypothesis import assume, given
 from hypothesis import strategies as st
 
 from app.cameras.focus import object_corners, scene_focus
-from app.cameras.presets import MARGIN, PRESETS, Preset, clip_around, framed, look_at, preset_named
+from app.cameras.presets import MARGIN, PRESETS, Preset, clip_around, framed, look_at
 from app.cameras.presets import preset_view as make_view
 from app.state import is_orthonormal
 from renderer.camera import Camera, volume
 from renderer.errors import LucidaError
 from renderer.scene import BUILTIN_SCENES, Mesh, Scene, SceneObject, Sphere, load_scene, shapes
 from renderer.scene.model import View
+
+PRESET = {preset.name: preset for preset in PRESETS}
 
 SIZE = (1600, 900)
 CUBE = np.array([[x, y, z] for x in (0, 1) for y in (0, 1) for z in (0, 1)], float)
@@ -27,7 +29,7 @@ vectors = st.tuples(numbers, numbers, numbers)
 
 def preset_view(name: str, perspective: bool = False, points: np.ndarray = CUBE) -> View:
     view = View(Camera.canonical(), fit=True)
-    return make_view(preset_named(name), view, points, points, 16 / 9, perspective)
+    return make_view(PRESET[name], view, points, points, 16 / 9, perspective)
 
 
 def seen(camera: Camera, world: tuple[float, float, float]) -> np.ndarray:

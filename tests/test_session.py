@@ -165,6 +165,13 @@ def test_values_that_no_window_can_have_left_are_refused(state, changes):
         from_bytes(damaged(data, **changes))
 
 
+@pytest.mark.parametrize("version", [0, -1, True, 1.0, "1", None])
+def test_a_version_that_never_was_is_no_session(state, version):
+    data = damaged(to_bytes(session_of(state, ARRANGEMENT)), lucida_session=version)
+    with pytest.raises(LucidaError, match="this is no session"):
+        from_bytes(data)
+
+
 def test_a_newer_session_is_refused_as_such(state):
     data = damaged(to_bytes(session_of(state, ARRANGEMENT)), lucida_session=VERSION + 1)
     with pytest.raises(NewerVersionError, match="update Lucida"):

@@ -4,12 +4,13 @@ from __future__ import annotations
 
 import math
 import threading
+import time
 
 import pytest
 
+from app.bounds import whole_range_of
+from app.options import CostOptions
 from app.teach.costs import (
-    LEAST_TRIANGLES,
-    MOST_TRIANGLES,
     ROUNDS,
     Case,
     Meter,
@@ -28,6 +29,8 @@ from renderer.frame import Frame
 from renderer.raster import Rasterizer
 from renderer.scene.model import Scene
 from renderer.trace import Tracer
+
+LEAST_TRIANGLES, MOST_TRIANGLES = whole_range_of(CostOptions, "triangles")
 
 
 class Fake:
@@ -74,7 +77,7 @@ def test_sizes_have_about_so_many_pixels() -> None:
     ("triangles", "pixels"), [(LEAST_TRIANGLES - 1, 100), (MOST_TRIANGLES + 1, 100), (100, 1)]
 )
 def test_cases_that_cannot_be(triangles: int, pixels: int) -> None:
-    with pytest.raises(LucidaError, match="is not in"):
+    with pytest.raises(LucidaError, match="is out of range"):
         Case("raster", triangles, pixels)
 
 
@@ -204,6 +207,46 @@ def test_watching_goes_on_without_a_renderer() -> None:
     meter.close()
     assert all(math.isnan(raster) and ray > 0 for raster, ray in meter.history)
     assert list(meter.problems) == ["raster"]
+
+
+def test_what_cannot_be_watched_is_told_and_the_meter_goes_on() -> None:
+    enough = threading.Event()
+    meter = Meter(lambda: len(meter.history) >= 2 and enough.set(), lambda _: Fake(0, 1e-9))
+    for triangles, pixels in ((1, 1200), (100, 0), (10**9, 1200)):
+        with pytest.raises(LucidaError, match="is out of range"):
+            meter.watch(triangles, pixels)
+    assert not meter.busy
+    meter.watch(100, 1200)
+    assert enough.wait(60)
+    meter.close()
+    assert meter.problems == {}
+
+
+@pytest.mark.filterwarnings("ignore::pytest.PytestUnhandledThreadExceptionWarning")
+def test_a_thread_that_fell_leaves_its_place_to_another() -> None:
+    fell, done, made = [], threading.Event(), []
+
+    def changed() -> None:
+        if not fell:
+            fell.append(threading.current_thread())
+            raise RuntimeError("the window is gone")
+        if meter.waiting == 0:
+            done.set()
+
+    def make(renderer):
+        made.append(Fake(0, 1e-9))
+        return made[-1]
+
+    meter = Meter(changed, make)
+    meter.ask(cases((100,), (1200,)))
+    while not fell:
+        time.sleep(0.01)
+    fell[0].join(60)
+    assert not meter.busy and made[0].released
+    meter.ask(cases((100, 1000), (1200,)))
+    assert done.wait(60)
+    assert len(meter.samples) == 4
+    meter.close()
 
 
 def test_both_renderers_are_measured(gl_backend) -> None:

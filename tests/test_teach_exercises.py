@@ -142,6 +142,21 @@ class TestRays:
         assert "backwards" in hint("-3/16, -5/16, 1")
         assert "parallel ray" in hint("0, 0, -1")
 
+    @pytest.mark.parametrize("distance", [0.5, 3.0])
+    def test_backwards_is_told_at_every_distance(self, distance):
+        """x u + y v + d w, by hand: with d = 1 alone, d and d^2 are the same."""
+        camera = Camera(viewport=(-1.0, 1.0, -0.5, 0.5), distance=distance)
+        wrong = {mistake.name: mistake.ray for mistake in mistakes(camera, 0, 0, (4, 2))}
+        assert wrong["along +w"].direction == pytest.approx([-0.75, 0.25, distance])
+        assert wrong["no distance"].direction == pytest.approx([-0.75, 0.25, -1.0])
+        assert wrong["the camera's coordinates"].direction == pytest.approx(
+            [-0.75, 0.25, -distance]
+        )
+        exercise = RayExercise("?", camera, (0, 0), (4, 2))
+        verdict = exercise.check({"origin": "0 0 0", "direction": f"-0.75, 0.25, {distance}"})
+        assert not verdict.right
+        assert "backwards" in verdict.text
+
     def test_length_counts_where_the_question_says_so(self):
         strict = replace(CANONICAL, scaled=False)
         verdict = strict.check({"origin": "0, 0, 0", "direction": "3, 5, -16"})

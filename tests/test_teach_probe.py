@@ -10,7 +10,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from trace_reference import closest, random_camera, random_scene
 
-from app.teach.bundles import MOST_RAYS, bundle, column_of, row_of, spread
+from app.teach.bundles import MOST_RAYS, bundle, column_of, row_of
 from app.teach.color_formulas import color_lines
 from app.teach.copying import all_lines, as_latex, as_python, as_text
 from app.teach.crossings import RUN, Index
@@ -466,10 +466,9 @@ def test_numbers_read_back(value: float) -> None:
 # Bundles.
 
 
-def test_rows_columns_and_nets_of_pixels() -> None:
+def test_rows_and_columns_of_pixels() -> None:
     assert row_of(3, (4, 9)).tolist() == [[3, 0], [3, 1], [3, 2], [3, 3]]
     assert column_of(2, (4, 3)).tolist() == [[0, 2], [1, 2], [2, 2]]
-    assert spread(2, 2, (4, 8)).tolist() == [[2, 1], [2, 3], [6, 1], [6, 3]]
 
 
 def test_a_bundles_rays_are_the_pixels() -> None:

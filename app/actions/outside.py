@@ -5,8 +5,6 @@ Owns their names and keys. What is switched is outside/switches.py's.
 
 from __future__ import annotations
 
-from dataclasses import replace
-
 from app.actions.base import CTRL, SHIFT, Action, Key, Window, changing
 from app.cameras.navigation import switched_projection
 from app.options import OutsideOptions
@@ -31,7 +29,7 @@ KEYS = {"bundle": ("B", Key.b), "move": ("G", Key.g), "turn": ("T", Key.t)}
 
 
 def _with(state: AppState, options: OutsideOptions) -> AppState:
-    return replace(state, options=replace(state.options, outside=options))
+    return state.with_options(outside=options)
 
 
 def _keys(name: str) -> tuple[str, tuple[int, ...]]:

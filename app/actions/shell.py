@@ -9,11 +9,13 @@ from typing import Literal
 
 from app import layout
 from app.actions.base import CTRL, SHIFT, Action, Key, changing
+from app.bounds import range_of
+from app.options import Preferences
 from app.state import AppState
 from app.storage import bookmarks
-from app.theme import LARGEST_SCALE, SMALLEST_SCALE
 
-FONT_SCALES = (0.75, 0.9, 1.0, 1.25, 1.5, 1.75, 2.0, 2.5, 3.0)
+SMALLEST_SCALE, LARGEST_SCALE = range_of(Preferences, "font_scale")
+FONT_SCALES = (SMALLEST_SCALE, 0.9, 1.0, 1.25, 1.5, 1.75, 2.0, 2.5, LARGEST_SCALE)
 
 
 def _theme(name: Literal["dark", "light"]) -> Action:

@@ -42,6 +42,11 @@ def held() -> tuple[int, int, int]:
     return right, up, forward
 
 
+def way_flown(reach: float, frame_s: float, faster: bool) -> float:
+    """How far a frame leads, in world units. reach: the scene's. frame_s: how long it took."""
+    return SPEED * reach * min(frame_s, LONGEST_FRAME_S) * (FASTER if faster else 1.0)
+
+
 class Fly:
     """One flight after another. A flight lasts while keys are held, stays in the view in which it
     began, and is one step of undo."""
@@ -69,8 +74,7 @@ class Fly:
             self._view = None
             return
         io = imgui.get_io()
-        time_s = min(io.delta_time, LONGEST_FRAME_S)
-        length = SPEED * host.focus.reach * time_s * (FASTER if io.key_shift else 1.0)
+        length = way_flown(host.focus.reach, io.delta_time, io.key_shift)
         try:
             camera = flown(camera, right * length, up * length, forward * length)
         except LucidaError:  # as far out as numbers go

@@ -94,10 +94,6 @@ PRESETS = (
 )
 
 
-def preset_named(name: str) -> Preset:
-    return next(preset for preset in PRESETS if preset.name == name)
-
-
 def preset_view(
     preset: Preset,
     view: View,

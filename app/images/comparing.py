@@ -6,14 +6,14 @@ make. Knows nothing of widgets and of how images are compared.
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 
 from app.options import Channel, CompareMode, ImageOptions, Pixel
 from app.state import AppState
 from renderer.compare import AGREE, CAUSES, SHADING, UNEXPLAINED, Comparison
-from renderer.difference import FULL_SCALE, LARGEST_GAIN, signed_difference
+from renderer.difference import FULL_SCALE, signed_difference
 
 MODES: tuple[tuple[CompareMode, str, str], ...] = (
     ("absolute", "Absolute", "How much the two images differ: black is no difference."),
@@ -196,13 +196,13 @@ def with_mode(state: AppState, mode: CompareMode) -> AppState:
 
 
 def with_gain(state: AppState, gain: float) -> AppState:
-    """The gain, within its limits."""
-    return state.with_options(compare={"gain": min(max(gain, 1.0), LARGEST_GAIN)})
+    """The gain, within its bounds."""
+    return state.with_options(compare={"gain": gain})
 
 
 def with_divider(state: AppState, divider: float) -> AppState:
     """The wipe's divider, within the image."""
-    return state.with_options(compare={"divider": min(max(divider, 0.0), 1.0)})
+    return state.with_options(compare={"divider": divider})
 
 
 def marked_at(state: AppState, pixel: Pixel, size: tuple[int, int]) -> AppState:
@@ -211,8 +211,9 @@ def marked_at(state: AppState, pixel: Pixel, size: tuple[int, int]) -> AppState:
     large = state.images.magnification or 0.0
     magnification = large if large >= STEP_FROM else MARKED_MAGNIFICATION
     center = ((pixel[1] + 0.5) / size[0], (pixel[0] + 0.5) / size[1])
-    changed = state.with_options(images={"magnification": magnification, "center": center})
-    return replace(changed, options=replace(changed.options, marked=pixel))
+    return state.with_options(
+        images={"magnification": magnification, "center": center}, marked=pixel
+    )
 
 
 def _value(value: object) -> str:

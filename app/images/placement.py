@@ -11,11 +11,12 @@ import math
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
+from app.bounds import range_of
 from app.options import ImageOptions
 
 Size = tuple[int, int]  # (width, height)
 
-LEAST, MOST = 1 / 64, 128.0
+LEAST, MOST = range_of(ImageOptions, "magnification")
 # Where the wheel stops: whole numbers, so that all pixels are squares of one size.
 STEPS = (
     *(1 / 64, 1 / 48, 1 / 32, 1 / 24, 1 / 16, 1 / 12, 1 / 8, 1 / 6, 1 / 4, 1 / 3, 1 / 2),
@@ -128,7 +129,7 @@ def fit_magnification(size: Size, pane: Size) -> float:
 def magnification_of(options: ImageOptions, size: Size, pane: Size) -> float:
     """What the options come to for an image in a window."""
     if options.magnification is not None:
-        return min(max(options.magnification, LEAST), MOST)
+        return options.magnification
     if options.resolution is None and all(
         s * options.pixel_size <= p for s, p in zip(size, pane, strict=True)
     ):

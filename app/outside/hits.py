@@ -5,7 +5,7 @@ Owns a thread that asks a tracer, and its last answer. Knows nothing of how rays
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -13,7 +13,6 @@ import numpy as np
 
 from app.background import Background
 from app.options import Pixel
-from app.outside.diagram import Hit
 from renderer.camera import Camera
 from renderer.errors import LucidaError
 from renderer.scene.model import Scene
@@ -101,10 +100,3 @@ def traced(question: Question, tracer: Any) -> dict[Pixel, float]:
     ray = question.camera.ray(pixels[:, 0], pixels[:, 1], question.size)
     t, _ = tracer.closest_hits(ray.origin, ray.direction, *question.camera.t_range)
     return dict(zip(question.pixels, t.astype(float).tolist(), strict=True))
-
-
-def known_hits(
-    pixels: Sequence[Pixel], seen: dict[Pixel, float | None], asked: dict[Pixel, float | None]
-) -> list[Hit]:
-    """Hits of pixels: what was seen in an image first, else what was asked for."""
-    return [Hit(pixel, seen.get(pixel, asked.get(pixel))) for pixel in pixels]

@@ -14,7 +14,6 @@ from app import theme
 from app.cameras.basis import measures
 from app.cameras.editing import BASIS, Draft
 from app.cameras.navigation import switched_projection
-from app.options import EXPOSURE_LIMIT_EV
 from app.panels import rows
 from app.panels.basis import basis_readout
 from app.panels.camera_sections import (
@@ -166,7 +165,6 @@ def _exposure(state: AppState, around: Surroundings) -> AppState:
         reset=0.0,
     )
     if changed:
-        value = min(max(value, -EXPOSURE_LIMIT_EV), EXPOSURE_LIMIT_EV) if value == value else 0.0
         state = state.with_options(images={"exposure_ev": value})
     return state
 

@@ -12,13 +12,13 @@ from dataclasses import dataclass, replace
 from imgui_bundle import ImVec2, ImVec4, imgui
 
 from app import theme
+from app.bounds import range_of
 from app.images import comparing
 from app.images.comparing import LABELS, MODES, Scale
 from app.lettering import fitting_words
-from app.options import Pixel
+from app.options import CompareOptions, Pixel
 from app.state import AppState
 from renderer.compare import LABEL_COLORS, Comparison
-from renderer.difference import LARGEST_GAIN
 
 DrawMap = Callable[[ImVec2, ImVec2, bool], None]  # two corners; whether the signed map
 
@@ -76,7 +76,11 @@ def toolbar(state: AppState) -> AppState:
     has_gain = options.mode in ("absolute", "signed") and state.images.channel != "id"
     imgui.begin_disabled(not has_gain)
     changed, gain = imgui.slider_float(
-        "##gain", options.gain, 1.0, LARGEST_GAIN, "gain %.3g", imgui.SliderFlags_.logarithmic
+        "##gain",
+        options.gain,
+        *range_of(CompareOptions, "gain"),
+        "gain %.3g",
+        imgui.SliderFlags_.logarithmic,
     )
     if changed:
         state = comparing.with_gain(state, gain)

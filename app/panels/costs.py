@@ -14,11 +14,9 @@ from imgui_bundle import ImVec2, ImVec4, imgui, implot
 from numpy.typing import NDArray
 
 from app import theme
+from app.bounds import whole_range_of
 from app.options import CostOptions
 from app.teach.costs import (
-    LEAST_PIXELS,
-    LEAST_TRIANGLES,
-    MOST_PIXELS,
     RENDERERS,
     WATCHED,
     Renderer,
@@ -28,7 +26,6 @@ from app.teach.costs import (
 
 TITLES: dict[Renderer, str] = {"raster": "raster, object order", "ray": "ray, image order"}
 SMOOTHED = 9  # frames
-TOP_TRIANGLES = 1_000_000  # of the slider and the plot
 AGAINST: tuple[Literal["frames", "triangles", "pixels"], ...] = ("frames", "triangles", "pixels")
 
 
@@ -42,15 +39,6 @@ class Told:
     history: Sequence[tuple[float, float]]
     waiting: int
     problems: dict[Renderer, str]
-
-
-def possible(options: CostOptions) -> CostOptions:
-    """The options with numbers that can be measured."""
-    return replace(
-        options,
-        triangles=min(max(options.triangles, LEAST_TRIANGLES), TOP_TRIANGLES),
-        pixels=min(max(options.pixels, LEAST_PIXELS), MOST_PIXELS),
-    )
 
 
 def controls(options: CostOptions, told: Told) -> tuple[CostOptions, bool]:
@@ -68,24 +56,20 @@ def controls(options: CostOptions, told: Told) -> tuple[CostOptions, bool]:
         imgui.text_colored(theme.DIM, f"measuring, {told.waiting} to go ...")
     # What is plotted along the axis is not to be chosen.
     if options.against != "triangles":
-        options = replace(
-            options,
-            triangles=_slider("triangles", options.triangles, LEAST_TRIANGLES, TOP_TRIANGLES),
-        )
+        options = replace(options, triangles=_slider("triangles", options.triangles))
     if options.against != "pixels":
-        options = replace(
-            options, pixels=_slider("pixels", options.pixels, LEAST_PIXELS, MOST_PIXELS)
-        )
+        options = replace(options, pixels=_slider("pixels", options.pixels))
     return options, again
 
 
-def _slider(name: str, value: int, least: int, most: int) -> int:
+def _slider(name: Literal["triangles", "pixels"], value: int) -> int:
     """A number that differs by factors."""
     width = min(22 * imgui.get_font_size(), 0.6 * imgui.get_content_region_avail().x)
     imgui.set_next_item_width(width)
     logarithmic = imgui.SliderFlags_.logarithmic | imgui.SliderFlags_.always_clamp
-    changed, chosen = imgui.slider_int(name, value, least, most, "%d", logarithmic)
-    return min(max(chosen, least), most) if changed else value
+    limits = whole_range_of(CostOptions, name)
+    changed, chosen = imgui.slider_int(name, value, *limits, "%d", logarithmic)
+    return chosen if changed else value
 
 
 def frames_plot(told: Told, size: ImVec2) -> None:
@@ -176,7 +160,11 @@ def color_of(renderer: Renderer) -> ImVec4:
 
 def extent(unit: Literal["triangles", "pixels"]) -> tuple[int, int]:
     """The least and the most that is plotted."""
-    return (100, TOP_TRIANGLES) if unit == "triangles" else (1200, 1_228_800)
+    return (
+        (100, whole_range_of(CostOptions, "triangles")[1])
+        if unit == "triangles"
+        else (1200, 1_228_800)
+    )
 
 
 def _times(samples: Sequence[Sample]) -> tuple[float, float]:

@@ -13,6 +13,7 @@ from typing import Literal
 from imgui_bundle import ImVec2, imgui
 
 from app import theme
+from app.bounds import range_of
 from app.lettering import lettering
 from app.options import Pixel, StepperOptions
 from app.panels.canvas import Marks, canvas
@@ -44,7 +45,6 @@ TITLES = {
 ALL_BESIDE, NUMBERS_BESIDE = 1.9, 1.2
 LEFT, UPPER = 0.64, 0.64  # the code's part of a panel whose numbers stand beside it
 LEGIBLE_EM = 0.85  # the least size of the code, where the width allows
-SLOWEST, FASTEST = 1.0, 20_000.0
 
 Wish = Literal["", "first", "back", "play", "step", "pixel", "object", "last"]
 _BUTTONS: tuple[tuple[Wish, str, str], ...] = (
@@ -115,9 +115,13 @@ def _speed(options: StepperOptions) -> StepperOptions:
     _follow(width + imgui.calc_text_size("steps/s").x)
     imgui.set_next_item_width(width)
     changed, speed = imgui.slider_float(
-        "steps/s", options.speed, SLOWEST, FASTEST, "%.0f", imgui.SliderFlags_.logarithmic
+        "steps/s",
+        options.speed,
+        *range_of(StepperOptions, "speed"),
+        "%.0f",
+        imgui.SliderFlags_.logarithmic,
     )
-    return replace(options, speed=min(max(speed, SLOWEST), FASTEST)) if changed else options
+    return replace(options, speed=speed) if changed else options
 
 
 def _canvas_size(options: StepperOptions) -> StepperOptions:

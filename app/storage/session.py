@@ -7,23 +7,18 @@ hold, because it is older, have their defaults.
 
 from __future__ import annotations
 
-import math
-from collections.abc import Iterator
-from dataclasses import dataclass, field, fields, is_dataclass
-from typing import Any
+from dataclasses import dataclass, field
 
 import msgspec
 
-from app.options import EXPOSURE_LIMIT_EV, PIXEL_SIZES, Options
+from app.bounds import check
+from app.options import Options
 from app.state import AppState
 from renderer.errors import LucidaError
-from renderer.frame import LARGEST_SIDE
 from renderer.scene import BUILTIN_SCENES, Scene, View
 
 VERSION = 1  # of the format: the key `lucida_session`
 LARGEST_BYTES = 4 << 20
-MOST_ENTRIES = 4096  # of a list in the options
-LARGEST_NUMBER = 1e12
 
 
 class NewerVersionError(LucidaError):
@@ -98,47 +93,9 @@ def _session(data: bytes) -> Session:
         )
     try:
         session = msgspec.convert(table, Session)
+        check(Session, session)
+    except LucidaError as error:
+        raise LucidaError(error.field, error.problem, remedy) from None
     except (msgspec.ValidationError, RecursionError) as error:
         raise LucidaError("", f"is damaged: {error}", remedy) from None
-    _check(session)
     return session
-
-
-def _check(session: Session) -> None:
-    """What types do not say: no number that would hang or crash what it is given to."""
-    images, preferences = session.options.images, session.options.preferences
-    sizes = images.resolution or (1, 1)
-    numbers = list(_numbers(session.options, "options"))
-    for name, value, good in (
-        ("pixel_size", images.pixel_size, images.pixel_size in PIXEL_SIZES),
-        ("exposure_ev", images.exposure_ev, abs(images.exposure_ev) <= EXPOSURE_LIMIT_EV),
-        ("resolution", sizes, all(1 <= side <= LARGEST_SIDE for side in sizes)),
-        ("magnification", images.magnification, (images.magnification or 1.0) > 0),
-        ("font_scale", preferences.font_scale, 0.1 <= preferences.font_scale <= 10),
-        ("marked", session.options.marked, min(session.options.marked or (0,)) >= 0),
-        ("bundle", session.options.outside.bundle, max(session.options.outside.bundle) <= 1024),
-        (
-            "bookmarks",
-            [mark.number for mark in session.options.bookmarks],
-            all(1 <= mark.number <= 9 for mark in session.options.bookmarks),
-        ),
-        *((where, number, abs(number) <= LARGEST_NUMBER) for number, where, _ in numbers),
-        *((where, f"a list of {count}", count <= MOST_ENTRIES) for _, where, count in numbers),
-    ):
-        if not good:
-            raise LucidaError(name, f"{value!r} is not possible", "Lucida starts afresh")
-
-
-def _numbers(value: Any, where: str) -> Iterator[tuple[float, str, int]]:
-    """All numbers in nested dataclasses and tuples, with their field and its number of entries."""
-    if isinstance(value, bool):
-        return
-    if isinstance(value, int | float):
-        yield (value if math.isfinite(value) else math.inf), where, 1
-    elif is_dataclass(value):
-        for part in fields(value):
-            yield from _numbers(getattr(value, part.name), part.name)
-    elif isinstance(value, tuple):
-        yield 0.0, where, len(value)
-        for entry in value[:MOST_ENTRIES]:
-            yield from _numbers(entry, where)

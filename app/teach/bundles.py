@@ -42,7 +42,7 @@ def bundle(
     size: Size,
     tracer: Tracer | None = None,
 ) -> Bundle:
-    """The rays of several pixels (n, 2) and what they hit; see row_of() and spread().
+    """The rays of several pixels (n, 2) and what they hit; see row_of().
 
     tracer: finds the hits, in float32, where there are many; of the same scene. Without it at
     most MOST_RAYS are followed: LucidaError.
@@ -73,14 +73,6 @@ def row_of(row: int, size: Size) -> NDArray[np.int64]:
 def column_of(column: int, size: Size) -> NDArray[np.int64]:
     """The pixels of a column, (height, 2)."""
     return grid(np.arange(size[1]), [column])
-
-
-def spread(rows: int, columns: int, size: Size) -> NDArray[np.int64]:
-    """rows x columns pixels, evenly spread over the image, (rows * columns, 2)."""
-    width, height = size
-    i = (np.arange(rows) + 0.5) / rows * height
-    j = (np.arange(columns) + 0.5) / columns * width
-    return grid(i.astype(np.int64), j.astype(np.int64))
 
 
 def grid(rows: object, columns: object) -> NDArray[np.int64]:

@@ -14,9 +14,10 @@ from dataclasses import dataclass
 from functools import lru_cache
 from typing import Literal, Protocol
 
+from app.bounds import check
+from app.options import CostOptions
 from app.teach.notation import number
 from renderer.camera import Camera, Size
-from renderer.errors import LucidaError
 from renderer.frame import Frame
 from renderer.scene import shapes
 from renderer.scene.limits import SEGMENTS
@@ -24,8 +25,6 @@ from renderer.scene.model import DirectionalLight, Material, Mesh, Scene, SceneO
 
 Renderer = Literal["raster", "ray"]
 RENDERERS: tuple[Renderer, ...] = ("raster", "ray")
-LEAST_TRIANGLES, MOST_TRIANGLES = 18, 2 * SEGMENTS * (SEGMENTS // 2)
-LEAST_PIXELS, MOST_PIXELS = 64, 1 << 22
 ROUNDS = 5  # times that each case is drawn; the least counts, others had company
 WATCHED = 240  # frames that are kept while watching
 WATCH_S = 0.04  # from one watched frame to the next, so that others have the processor too
@@ -33,19 +32,14 @@ WATCH_S = 0.04  # from one watched frame to the next, so that others have the pr
 
 @dataclass(frozen=True)
 class Case:
-    """What is to be measured. pixels: of an image of about 4 : 3."""
+    """What is to be measured, within CostOptions' bounds. pixels: of an image of about 4 : 3."""
 
     renderer: Renderer
     triangles: int
     pixels: int
 
     def __post_init__(self) -> None:
-        for name, value, least, most in (
-            ("triangles", self.triangles, LEAST_TRIANGLES, MOST_TRIANGLES),
-            ("pixels", self.pixels, LEAST_PIXELS, MOST_PIXELS),
-        ):
-            if not least <= value <= most:
-                raise LucidaError(name, f"{value} is not in {least} to {most}", "give e.g. 10000")
+        check(CostOptions, {"triangles": self.triangles, "pixels": self.pixels})
 
     @property
     def size(self) -> Size:
@@ -142,7 +136,7 @@ class Meter:
         self._wanted: list[Case] = []
         self._samples: list[Sample] = []
         self._problems: dict[Renderer, str] = {}
-        self._watched: tuple[int, int] | None = None
+        self._watched: tuple[Case, ...] = ()
         self._history: deque[tuple[float, float]] = deque(maxlen=WATCHED)
         self._stop = threading.Event()
         self._thread: threading.Thread | None = None
@@ -179,14 +173,16 @@ class Meter:
             self._wake()
 
     def watch(self, triangles: int, pixels: int) -> None:
-        """Draws such an image with each renderer again and again, until unwatch()."""
+        """Draws such an image with each renderer again and again, until unwatch(). Raises
+        LucidaError for numbers out of bounds."""
+        wanted = tuple(Case(renderer, triangles, pixels) for renderer in RENDERERS)
         with self._lock:
-            self._watched = (triangles, pixels)
+            self._watched = wanted
             self._wake()
 
     def unwatch(self) -> None:
         with self._lock:
-            self._watched = None
+            self._watched = ()
 
     @property
     def history(self) -> list[tuple[float, float]]:
@@ -210,7 +206,7 @@ class Meter:
     def close(self, timeout_s: float = 2.0) -> None:
         """Ends after the case under way."""
         with self._lock:
-            self._wanted, self._watched, self._closed = [], None, True
+            self._wanted, self._watched, self._closed = [], (), True
             self._stop.set()
             thread = self._thread
         if thread is not None:
@@ -225,37 +221,39 @@ class Meter:
                     self._measure(task, drawings)
                     scenes.clear()
                 else:
-                    self._watch_once(*task, drawings, scenes)
+                    self._watch_once(task, drawings, scenes)
                 self._changed()
         finally:
+            with self._lock:
+                if self._thread is threading.current_thread():  # an error: the next has another
+                    self._thread = None
             for drawing in drawings.values():
                 _release(drawing)
 
-    def _next(self) -> Case | tuple[int, int] | None:
+    def _next(self) -> Case | tuple[Case, ...] | None:
         with self._lock:
             # Decided and said under one lock: whoever asks later starts another thread.
             if self._wanted:
                 return self._wanted[0]
-            if self._watched is None:
+            if not self._watched:
                 self._thread = None
-            return self._watched
+            return self._watched or None
 
     def _watch_once(
         self,
-        triangles: int,
-        pixels: int,
+        watched: Iterable[Case],
         drawings: dict[Renderer, Drawing],
         scenes: dict[Renderer, Scene],
     ) -> None:
         """One frame of each renderer, and a pause."""
         times = dict.fromkeys(RENDERERS, math.nan)
-        scene = torus_of(triangles)
-        for renderer in RENDERERS:
+        for case in watched:
+            renderer, size = case.renderer, case.size
             if renderer in self.problems:
                 continue
-            size = Case(renderer, triangles, pixels).size
             camera = Camera.canonical().fitted(size)
             try:
+                scene = torus_of(case.triangles)
                 drawing = self._drawing(renderer, drawings)
                 if scenes.get(renderer) is not scene:
                     drawing.set_scene(scene)

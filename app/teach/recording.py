@@ -16,15 +16,15 @@ from enum import Enum
 from types import FrameType
 from typing import Any
 
+from app.bounds import check, whole_range_of
+from app.options import StepperOptions
 from app.teach.columns import Column
 from app.teach.loop_parts import Model
 from app.teach.loops import image_order, object_order
 from app.teach.source import Source, source_of
 from renderer.camera import Camera, Size
-from renderer.errors import LucidaError
 
-SMALLEST, LARGEST = (1, 1), (64, 48)
-MOST_STEPS = 1_000_000
+MOST_STEPS = whole_range_of(StepperOptions, "steps")[1]
 # The interpreter is left to other threads for a moment, this often.
 _BREAK_EVERY, _BREAK_AFTER_S, _BREAK_S = 8, 0.001, 0.0003
 _MISSING = object()
@@ -49,11 +49,11 @@ class Recording:
     """A run of one algorithm on a small canvas. Nothing happens before run() or start().
 
     A step is a line about to be run; the last one is the function's return.
-    size: (width, height), at most 64 x 48; LucidaError otherwise.
+    size: (width, height); LucidaError where it is out of the canvas's bounds.
     """
 
     def __init__(self, model: Model, camera: Camera, size: Size, order: Order) -> None:
-        check_canvas(size)
+        check(StepperOptions, {"canvas": size})
         self.model, self.camera, self.size, self.order = model, camera, size, order
         self.source: Source = source_of(order.renderer)
         self.complete = False  # run to its end
@@ -192,15 +192,3 @@ class _Recorder:
         if time.perf_counter() - self._break_s > _BREAK_AFTER_S:
             time.sleep(_BREAK_S)
             self._break_s = time.perf_counter()
-
-
-def check_canvas(size: Size) -> None:
-    """Raises LucidaError where a canvas cannot be stepped through."""
-    if not all(
-        low <= side <= high for low, side, high in zip(SMALLEST, size, LARGEST, strict=True)
-    ):
-        raise LucidaError(
-            "canvas",
-            f"{size[0]}x{size[1]} is outside 1x1 to {LARGEST[0]}x{LARGEST[1]}",
-            "give e.g. 16x12",
-        )

@@ -124,22 +124,9 @@ def next_pixel(recording: Recording, step: int) -> int:
     return _after(recording, recording.pixel_steps, step)
 
 
-def previous_pixel(recording: Recording, step: int) -> int:
-    return _before(recording.pixel_steps, step)
-
-
 def next_object(recording: Recording, step: int) -> int:
     """Where the next object's turn begins, or the last step."""
     return _after(recording, recording.object_steps, step)
-
-
-def previous_object(recording: Recording, step: int) -> int:
-    return _before(recording.object_steps, step)
-
-
-def next_write(recording: Recording, step: int) -> int:
-    """After the next pixel was set, or the last step."""
-    return _after(recording, recording.write_steps, step)
 
 
 def step_of_pixel(recording: Recording, pixel: tuple[int, int], step: int) -> int | None:
@@ -169,11 +156,6 @@ def _pixels_at(recording: Recording, steps: NDArray[np.int32]) -> NDArray[np.int
 def _after(recording: Recording, steps: Column, step: int) -> int:
     at = steps.count_upto(step)
     return int(steps[at]) if at < len(steps) else len(recording) - 1
-
-
-def _before(steps: Column, step: int) -> int:
-    at = steps.count_upto(step - 1)
-    return int(steps[at - 1]) if at else 0
 
 
 # Parts of a moment.

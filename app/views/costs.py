@@ -55,7 +55,7 @@ class CostsView(View):
 
     def draw(self, host: Host) -> None:
         assert self._meter is not None
-        options = panel.possible(host.state.options.costs)
+        options = host.state.options.costs
         wanted = _cases(options)
         kept = [one for one in self._meter.samples if one.case in wanted]
         told = panel.Told(kept, self._meter.history, self._meter.waiting, self._meter.problems)

@@ -9,13 +9,12 @@ from dataclasses import replace
 
 from imgui_bundle import imgui
 
-from app.options import LARGEST_ZOOM, LaboratoryOptions
+from app.bounds import range_of, whole_range_of
+from app.options import LaboratoryOptions
 from app.teach.imagelab.bitmaps import TITLES
-from app.teach.imagelab.pages import LARGEST_APART, PAGE_TITLES
+from app.teach.imagelab.pages import PAGE_TITLES
 from app.views.base import Host
 
-LARGEST_AFTER_EV = 6.0
-SIDES_PX = (6, 120)
 FIRST = ["rows and columns from 1 (lecture)", "from 0 (array)"]
 
 
@@ -31,12 +30,14 @@ def toolbar(host: Host) -> LaboratoryOptions:
             changed = _exposure(changed)
         case "projectors":
             moved, apart = imgui.slider_float(
-                "apart##apart", options.apart, 0.0, LARGEST_APART, "%.2f"
+                "apart##apart", options.apart, *range_of(LaboratoryOptions, "apart"), "%.2f"
             )
             changed = replace(changed, apart=apart) if moved else changed
         case "subpixels":
             moved, side_px = imgui.slider_int(
-                "a pixel on the screen##side", options.side_px, *SIDES_PX
+                "a pixel on the screen##side",
+                options.side_px,
+                *whole_range_of(LaboratoryOptions, "side_px"),
             )
             changed = replace(changed, side_px=side_px) if moved else changed
         case "array":
@@ -49,8 +50,7 @@ def toolbar(host: Host) -> LaboratoryOptions:
             moved, zoom = imgui.slider_float(
                 "zoom##zoom",
                 options.zoom,
-                1.0,
-                LARGEST_ZOOM,
+                *range_of(LaboratoryOptions, "zoom"),
                 "%.1fx",
                 imgui.SliderFlags_.logarithmic | imgui.SliderFlags_.always_clamp,
             )
@@ -73,9 +73,9 @@ def _pages(options: LaboratoryOptions) -> LaboratoryOptions:
 
 
 def _exposure(options: LaboratoryOptions) -> LaboratoryOptions:
-    limit = LARGEST_AFTER_EV
+    limits = range_of(LaboratoryOptions, "after_ev")
     moved, value = imgui.slider_float(
-        "exposure after storage##after", options.after_ev, -limit, limit, "%+.1f EV"
+        "exposure after storage##after", options.after_ev, *limits, "%+.1f EV"
     )
     return replace(options, after_ev=value) if moved else options
 

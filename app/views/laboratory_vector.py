@@ -16,8 +16,9 @@ from numpy.typing import NDArray
 
 from app import theme
 from app.background import Background
+from app.bounds import range_of
 from app.lettering import lettering
-from app.options import LARGEST_ZOOM, LaboratoryOptions
+from app.options import LaboratoryOptions
 from app.outside.bitmap import bitmap, magnified
 from app.outside.sketch import Sketch
 from app.outside.svg import svg
@@ -151,7 +152,8 @@ class VectorPage:
             y = center[1] - io.mouse_delta.y / extent.y / options.zoom
             options = replace(options, zoom_center=_held((x, y), options.zoom))
         if imgui.is_item_hovered() and io.mouse_wheel:
-            zoom = min(max(options.zoom * WHEEL_STEP**io.mouse_wheel, 1.0), LARGEST_ZOOM)
+            least, most = range_of(LaboratoryOptions, "zoom")
+            zoom = min(max(options.zoom * WHEEL_STEP**io.mouse_wheel, least), most)
             mouse = (
                 (io.mouse_pos.x - pane.low.x) / extent.x - 0.5,
                 (io.mouse_pos.y - pane.low.y) / extent.y - 0.5,

@@ -363,7 +363,7 @@ class OutsideView(View):
 
 def with_outside(state: AppState, options: OutsideOptions) -> AppState:
     """The state with other options of this view."""
-    return replace(state, options=replace(state.options, outside=options))
+    return state.with_options(outside=options)
 
 
 def ray_pixel(host: Host) -> Pixel | None:

@@ -14,14 +14,13 @@ import numpy as np
 from imgui_bundle import ImVec2, ImVec4, imgui
 
 from app import theme
+from app.bounds import whole_range_of
 from app.options import OutsideOptions
 from app.outside.extent import way_of
 from app.outside.paint import role_color
 from app.outside.projected import Primitive, Text
 from app.outside.switches import AXIS_NAMES, HANDLES, SWITCHES, VIEWS, is_on, toggled, with_gizmo
 from renderer.camera import Camera
-
-MOST_BUNDLE = 16
 
 
 def legend(options: OutsideOptions, origin: ImVec2, extent: ImVec2) -> tuple[OutsideOptions, str]:
@@ -87,7 +86,9 @@ def _popup(options: OutsideOptions) -> tuple[OutsideOptions, str]:
 def _bundle_fields(options: OutsideOptions) -> OutsideOptions:
     rows, columns = options.bundle
     imgui.set_next_item_width(theme.px(110))
-    changed, values = imgui.slider_int2("rows, columns", [rows, columns], 0, MOST_BUNDLE)
+    changed, values = imgui.slider_int2(
+        "rows, columns", [rows, columns], *whole_range_of(OutsideOptions, "bundle")
+    )
     if changed:
         return replace(options, bundle=(int(values[0]), int(values[1])))
     return options

@@ -42,4 +42,3 @@ HALF = Kind("half", "Half float", 3, 48, "11 bits of precision, up to 65504", "h
 FLOAT = Kind("float", "Single float", 3, 96, "24 bits of precision, up to 3e38", "processing")
 
 KINDS = (BITMAP, GRAY, COLOR, HALF, FLOAT)
-KIND_OF_NAME = {kind.name: kind for kind in KINDS}

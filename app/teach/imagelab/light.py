@@ -17,14 +17,6 @@ APART = ((-1.0, 0.0), (0.5, -0.866), (0.5, 0.866))
 CHANNELS = ("red", "green", "blue")
 
 
-def projector(color: ArrayLike, channel: int, exposure_ev: float = 0.0) -> Bytes:
-    """What one projector throws: the picture (H, W, 3) of a single channel, the others dark."""
-    linear = np.asarray(color, np.float32)
-    alone = np.zeros_like(linear)
-    alone[..., channel] = linear[..., channel]
-    return to_srgb8(alone, exposure_ev)
-
-
 def triangle(distance_px: float) -> tuple[Offset, Offset, Offset]:
     """Offsets of the three pictures, each `distance_px` from the middle; 0: all aligned."""
     red, green, blue = ((round(r * distance_px), round(c * distance_px)) for r, c in APART)

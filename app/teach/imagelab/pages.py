@@ -12,6 +12,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from app.bounds import range_of
 from app.options import LaboratoryOptions, Pixel
 from app.teach.imagelab import light
 from app.teach.imagelab.bitmaps import TITLES
@@ -23,7 +24,7 @@ from renderer.scene.reading import size_text
 Size = tuple[int, int]
 Image = NDArray[np.float32]
 
-LARGEST_APART = 0.4  # of the projectors' pictures, in parts of the image's height
+_, LARGEST_APART = range_of(LaboratoryOptions, "apart")
 DOT_PX = 2  # a side of a bitmap's pixel, so that a class sees it
 SMALLEST_CELL = 8
 
@@ -127,7 +128,7 @@ def _exposure(
 def _projectors(
     color: Image, plan: Plan, options: LaboratoryOptions, taken_ev: float, pixel: Pixel
 ) -> tuple[Panel, ...]:
-    distance = min(max(options.apart, 0.0), LARGEST_APART) * color.shape[0]
+    distance = options.apart * color.shape[0]
     wall = light.projected(color, light.triangle(distance), taken_ev)
     words = "aligned" if not distance else "apart"
     title = "Three projectors: red, green, blue"

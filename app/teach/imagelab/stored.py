@@ -61,18 +61,6 @@ def store(color: ArrayLike, kind: Kind, taken_ev: float = 0.0, method: str = "th
     return Stored(kind, linear.copy(), taken_ev)
 
 
-def recovered(stored: Stored) -> NDArray[np.float32]:
-    """The linear light that is still there: float32 (H, W, 3); bits and gray as equal channels.
-
-    Of the kinds that a picture is taken in, the light relative to its exposure: 1 is white.
-    """
-    array = stored.array
-    if stored.kind.is_float:
-        return array.astype(np.float32)
-    linear = array.astype(np.float32) if array.dtype == np.bool_ else from_srgb(array)
-    return np.repeat(linear[..., None], 3, axis=2) if linear.ndim == 2 else linear
-
-
 def shown(stored: Stored, after_ev: float = 0.0) -> Bytes:
     """The stored image exposed by a further `after_ev` stops and displayed: uint8 (H, W, 3), sRGB.
 

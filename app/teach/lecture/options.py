@@ -1,37 +1,24 @@
 """The `options` of a step: changes of the window's options (app/options.py), by their own names.
 
-Owns the check of values that the options' types do not make. Knows nothing of steps. Whatever is
-added to the options can be set in a lecture at once.
+Knows nothing of steps, and no option by its name: whatever is added to the options can be set in a
+lecture at once, within the bounds that stand on its field.
 """
 
 from __future__ import annotations
 
-import math
-from collections.abc import Iterator
 from dataclasses import fields, is_dataclass
 from typing import Any, get_args, get_type_hints
 
 import msgspec
 
-from app.options import EXPOSURE_LIMIT_EV, LARGEST_ZOOM, MAGNIFICATIONS, PIXEL_SIZES, Options
+from app.bounds import check
+from app.options import Options
 from app.teach.lecture.under import under
-from app.teach.recording import check_canvas
 from renderer.camera import Camera
 from renderer.errors import LucidaError
-from renderer.frame import check_size
 from renderer.scene.reading import suggestion
 from renderer.scene.tables import to_struct
 from renderer.scene.views import view_from_table
-
-LARGEST_BUNDLE = 64  # rows, or columns, of viewing rays
-
-# What a view could not draw otherwise.
-RANGES = {
-    "images.exposure_ev": (-EXPOSURE_LIMIT_EV, EXPOSURE_LIMIT_EV),
-    "images.magnification": (MAGNIFICATIONS[0], MAGNIFICATIONS[-1]),
-    "laboratory.side_px": (3, 300),
-    "laboratory.zoom": (1, LARGEST_ZOOM),
-}
 
 OWN = ("preferences", "bookmarks")  # the user's own, which no step changes
 ELSEWHERE = (*OWN, "marked", "highlight")  # what has a field of its own in a step
@@ -54,7 +41,7 @@ def options_from_table(tables: dict[str, Any]) -> dict[str, Any]:
         else:
             with under(name):
                 changes[name] = _part(kind, value)
-    _check(changes)
+    check(Options, changes)
     return changes
 
 
@@ -69,18 +56,6 @@ def _part(kind: Any, table: dict[str, Any]) -> dict[str, Any]:
     others = {name: value for name, value in table.items() if name not in changes}
     struct = to_struct(others, _struct(kind))
     return changes | {name: getattr(struct, name) for name in others}
-
-
-def _numbers(value: Any, field: str = "") -> Iterator[tuple[str, float]]:
-    """Every float below a value, with its field's path."""
-    if isinstance(value, float):
-        yield field, value
-    elif isinstance(value, dict):
-        for name, part in value.items():
-            yield from _numbers(part, f"{field}.{name}" if field else name)
-    elif isinstance(value, tuple):
-        for number, part in enumerate(value):
-            yield from _numbers(part, f"{field}[{number}]")
 
 
 def _camera(table: dict[str, Any]) -> Camera:
@@ -100,33 +75,3 @@ def _struct(kind: Any) -> type[msgspec.Struct]:
         if Camera not in get_args(types[entry.name])
     ]
     return msgspec.defstruct(kind.__name__, kept, forbid_unknown_fields=True)
-
-
-def _check(changes: dict[str, Any]) -> None:
-    for field, value in _numbers(changes):
-        if not math.isfinite(value):
-            raise LucidaError(field, f"{value:g} is not finite", "give a finite number")
-    images, outside = changes.get("images", {}), changes.get("outside", {})
-    size = images.get("pixel_size", PIXEL_SIZES[0])
-    if size not in PIXEL_SIZES:
-        allowed = ", ".join(map(str, PIXEL_SIZES))
-        raise LucidaError("images.pixel_size", f"{size} is not possible", f"give one of {allowed}")
-    for field, (least, most) in RANGES.items():
-        part, name = field.split(".")
-        value = changes.get(part, {}).get(name)
-        if value is not None and not least <= value <= most:
-            raise LucidaError(field, f"{value:g} is out of range", f"give {least:g} to {most:g}")
-    if images.get("resolution") is not None:
-        try:
-            check_size(images["resolution"])
-        except LucidaError as error:
-            raise LucidaError("images.resolution", error.problem, error.remedy) from None
-    if any(not 0 <= side <= LARGEST_BUNDLE for side in outside.get("bundle", ())):
-        raise LucidaError(
-            "outside.bundle", "is out of range", f"give rows and columns up to {LARGEST_BUNDLE}"
-        )
-    if "canvas" in changes.get("stepper", {}):
-        try:
-            check_canvas(changes["stepper"]["canvas"])
-        except LucidaError as error:
-            raise LucidaError("stepper.canvas", error.problem, error.remedy) from None

@@ -1,0 +1,189 @@
+"""Bounds of options, as marks on their fields: `exposure_ev: Annotated[float, Range(-8, 8)]`.
+
+Owns the marks, the check of values that come from a file (sessions and lectures use the same), and
+the clamping of what the window's keys and fields ask for. Knows no option by its name. Values have
+the types of their fields already; msgspec, which sees to that, passes over these marks.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass, fields, is_dataclass, replace
+from functools import cache
+from typing import Annotated, Any, TypeVar, get_args, get_origin, get_type_hints
+
+from renderer.errors import LucidaError
+
+T = TypeVar("T")
+
+# A mark has problem(value): what is wrong and the remedy, or None; and clamped(value, default): the
+# nearest good value, or the default where none is near.
+
+
+@dataclass(frozen=True)
+class Range:
+    """Numbers from least to most, both included."""
+
+    least: float
+    most: float
+
+    def problem(self, value: float) -> tuple[str, str] | None:
+        if self.least <= value <= self.most:  # which is false for what is not a number
+            return None
+        return f"{_text(value)} is out of range", f"give {_text(self.least)} to {_text(self.most)}"
+
+    def clamped(self, value: float, default: Any) -> Any:
+        if math.isnan(value):
+            return self.least if default is None else default
+        return type(value)(min(max(value, self.least), self.most))
+
+
+@dataclass(frozen=True)
+class OneOf:
+    """One of a few numbers."""
+
+    values: tuple[int, ...]
+
+    def problem(self, value: int) -> tuple[str, str] | None:
+        if value in self.values:
+            return None
+        return f"{value} is not possible", f"give one of {', '.join(map(str, self.values))}"
+
+    def clamped(self, value: int, default: Any) -> Any:
+        return min(self.values, key=lambda known: abs(known - value))
+
+
+@dataclass(frozen=True)
+class AtMost:
+    """Lists of at most so many entries; of a longer one the last, newest ones are kept."""
+
+    count: int
+
+    def problem(self, value: tuple[Any, ...]) -> tuple[str, str] | None:
+        if len(value) <= self.count:
+            return None
+        return f"has {len(value)} entries", f"give at most {self.count}"
+
+    def clamped(self, value: tuple[Any, ...], default: Any) -> Any:
+        return value[-self.count :]
+
+
+@dataclass(frozen=True)
+class Accepted:
+    """What a check that stands elsewhere accepts: it raises LucidaError for what it does not."""
+
+    check: Callable[[Any], object]
+
+    def problem(self, value: Any) -> tuple[str, str] | None:
+        try:
+            self.check(value)
+        except LucidaError as error:
+            return error.problem, error.remedy
+        return None
+
+    def clamped(self, value: Any, default: Any) -> Any:
+        return default
+
+
+def check(kind: type, values: Any) -> None:
+    """Raises LucidaError for the first value that is out of bounds, with its field's path.
+
+    kind: a dataclass. values: one of that kind, or a dict with some of its fields, whose parts may
+    be dicts again.
+    """
+    problems: list[LucidaError] = []
+    _bounded(kind, values, None, "", problems)
+    if problems:
+        raise problems[0]
+
+
+def clamped(options: T) -> T:
+    """The dataclass with every value within its bounds; itself where all are."""
+    kept: T = _bounded(type(options), options, None, "", [])
+    return kept
+
+
+def range_of(kind: type, field: str) -> tuple[float, float]:
+    """(least, most) of a number's field, for a slider; of a list's field those of its entries."""
+    found = [mark for mark in _marks_inside(_hints(kind)[field]) if isinstance(mark, Range)]
+    return float(found[0].least), float(found[0].most)
+
+
+def whole_range_of(kind: type, field: str) -> tuple[int, int]:
+    """range_of() for whole numbers."""
+    least, most = range_of(kind, field)
+    return int(least), int(most)
+
+
+def _text(number: float) -> str:
+    return f"{number:g}" if isinstance(number, float) else str(number)
+
+
+@cache
+def _hints(kind: type) -> dict[str, Any]:
+    hints = get_type_hints(kind, include_extras=True)
+    return {field.name: hints[field.name] for field in fields(kind)}
+
+
+@cache
+def _defaults(kind: type) -> dict[str, Any]:
+    return {field.name: field.default for field in fields(kind)}
+
+
+def _marks_inside(hint: Any) -> Iterator[Any]:
+    """The marks of a hint, then those of what it is made of."""
+    if get_origin(hint) is Annotated:
+        yield from hint.__metadata__
+    for part in get_args(hint)[:1]:
+        yield from _marks_inside(part)
+
+
+def _bounded(hint: Any, value: Any, default: Any, path: str, problems: list[LucidaError]) -> Any:
+    """The value with all that is in it within bounds; itself where it is. What was not is
+    appended to problems."""
+    if value is None:
+        return None
+    if get_origin(hint) is Annotated:
+        for mark in hint.__metadata__:
+            if found := mark.problem(value):
+                problems.append(LucidaError(path, *found))
+                value = mark.clamped(value, default)
+        return _bounded(get_args(hint)[0], value, default, path, problems)
+    if is_dataclass(hint):
+        return _bounded_fields(hint, value, path, problems)  # type: ignore[arg-type]
+    if get_origin(hint) is tuple:
+        return _bounded_entries(get_args(hint), value, default, path, problems)
+    if type(None) in get_args(hint):  # of `int | None`
+        return _bounded(get_args(hint)[0], value, default, path, problems)
+    return value
+
+
+def _bounded_fields(kind: type, value: Any, path: str, problems: list[LucidaError]) -> Any:
+    changes = {}
+    for name, hint in _hints(kind).items():
+        before = value.get(name) if isinstance(value, dict) else getattr(value, name)
+        where = f"{path}.{name}" if path else name
+        after = _bounded(hint, before, _defaults(kind)[name], where, problems)
+        if after is not before:
+            changes[name] = after
+    if not changes:
+        return value
+    return value | changes if isinstance(value, dict) else replace(value, **changes)
+
+
+def _bounded_entries(
+    hints: tuple[Any, ...], value: Any, default: Any, path: str, problems: list[LucidaError]
+) -> Any:
+    many = hints[-1] is Ellipsis
+    after = tuple(
+        _bounded(
+            hints[0] if many else hints[k],
+            entry,
+            default[k] if isinstance(default, tuple) and k < len(default) else None,
+            f"{path}[{k}]",
+            problems,
+        )
+        for k, entry in enumerate(value)
+    )
+    return value if all(a is b for a, b in zip(after, value, strict=True)) else after

@@ -1,0 +1,175 @@
+"""Changes single lines of the pure modules and says which changes no test notices.
+
+    python -m tests.attack mutations --module renderer/camera.py --sample 50 --seed 3
+
+Of each module only the tests named in MODULES run, and of these those that reach the changed
+function. Changes that are known to alter nothing stand in equivalent_mutants.toml, with reasons.
+
+A process a module collects the tests once and forks for each mutant, which puts the changed code
+into the loaded functions. What no test notices there, and what runs at import, is tried again in a
+fresh interpreter, so that nothing survives by having been computed before. Needs fork.
+"""
+
+from __future__ import annotations
+
+import argparse
+import os
+import random
+import sys
+import tomllib
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+from tests.attack.forks import forked
+from tests.attack.mutants import Mutant, mutants
+from tests.attack.mutated_run import collected_run, fresh_run
+
+ROOT = Path(__file__).parents[2]
+KNOWN = Path(__file__).with_name("equivalent_mutants.toml")
+FRESH_S = 20.0  # for the imports, beside four times what the tests take
+SAMPLE = 12  # of each module, where nothing else is asked for
+
+# Which tests hold which module. Those that take long hold it too, but in no reasonable time.
+MODULES: dict[str, tuple[str, ...]] = {
+    "renderer/camera.py": ("camera", "clipboard_camera", "rays", "animation", "navigation"),
+    "renderer/compare.py": ("compare", "comparing"),
+    "renderer/edges.py": ("compare",),
+    "renderer/difference.py": ("difference", "comparing", "compare"),
+    "app/bounds.py": ("bounds", "state"),
+    "app/state.py": ("state", "bounds"),
+    "app/cameras/animation.py": ("animation",),
+    "app/cameras/basis.py": ("basis",),
+    "app/cameras/editing.py": ("basis", "camera_actions", "state", "fields", "clipboard_camera"),
+    "app/cameras/focus.py": ("presets", "navigation", "animation", "outside"),
+    "app/cameras/navigation.py": ("navigation",),
+    "app/cameras/presets.py": ("presets", "animation"),
+    "app/cameras/reader.py": ("clipboard_camera",),
+    "app/cameras/text.py": ("clipboard_camera",),
+    "app/cameras/travel.py": ("animation",),
+    "app/images/agreement.py": ("comparing", "live", "pictures", "status"),
+    "app/images/coarseness.py": ("coarseness",),
+    "app/images/imaging.py": ("imaging",),
+    "app/images/marking.py": ("imaging", "comparing"),
+    "app/images/pixelvalues.py": ("imaging",),
+    "app/images/placement.py": ("placement",),
+    "app/storage/recent.py": ("files",),
+    "app/storage/session.py": ("session", "bounds"),
+    "app/teach/bundles.py": ("teach_probe",),
+    "app/teach/color_formulas.py": ("teach_probe",),
+    "app/teach/columns.py": ("teach_stepper", "teach_runs"),
+    "app/teach/costs.py": ("teach_costs",),
+    "app/teach/crossings.py": ("teach_probe",),
+    "app/teach/formulas.py": ("teach_probe", "typesetting"),
+    "app/teach/imagelab/bitmaps.py": ("teach_imagelab",),
+    "app/teach/imagelab/disk.py": ("teach_imagelab", "teach_pages"),
+    "app/teach/imagelab/light.py": ("teach_imagelab",),
+    "app/teach/imagelab/memory.py": ("teach_imagelab", "teach_pages"),
+    "app/teach/imagelab/pages.py": ("teach_pages",),
+    "app/teach/imagelab/stored.py": ("teach_imagelab",),
+    "app/teach/lecture/answers.py": ("teach_exercises",),
+    "app/teach/lecture/exercises.py": ("teach_exercises",),
+    "app/teach/lecture/flow.py": ("teach_flow",),
+    "app/teach/lecture/mistakes.py": ("teach_exercises",),
+    "app/teach/lecture/model.py": ("teach_lecture",),
+    "app/teach/lecture/options.py": ("teach_lecture", "bounds"),
+    "app/teach/lecture/places.py": ("teach_lecture",),
+    "app/teach/lecture/plain.py": ("teach_lecture", "teach_flow"),
+    "app/teach/lecture/reading.py": ("teach_lecture",),
+    "app/teach/lecture/text.py": ("teach_lecture",),
+    "app/teach/loop_parts.py": ("teach_stepper",),
+    "app/teach/loops.py": ("teach_stepper",),
+    "app/teach/notation.py": ("teach_probe",),
+    "app/teach/probe.py": ("teach_probe",),
+    "app/teach/projected.py": ("teach_probe",),
+    "app/teach/recording.py": ("teach_stepper", "teach_runs"),
+    "app/teach/shading.py": ("teach_probe",),
+    "app/teach/stepper.py": ("teach_stepper",),
+}
+
+
+@dataclass
+class Tally:
+    """Of a module. unreached: survivors that no test runs at all."""
+
+    tried: int = 0
+    killed: int = 0
+    known: int = 0
+    survivors: tuple[str, ...] = ()
+
+
+def main(argv: Sequence[str]) -> int:
+    """1 where a mutant survives that is not known to be equivalent."""
+    parser = argparse.ArgumentParser("mutations", description=(__doc__ or "").split("\n")[0])
+    parser.add_argument("--module", action="append", choices=MODULES, help="may be repeated")
+    parser.add_argument("--sample", type=int, default=SAMPLE, help="of each module; 0: all")
+    parser.add_argument("--seed", type=int, default=0)
+    parser.add_argument("--line", type=int, help="only the mutants of this line")
+    arguments = parser.parse_args(argv)
+    if not hasattr(os, "fork"):
+        print("mutations: this system cannot fork")
+        return 0
+    known = _known()
+    survivors: list[str] = []
+    for module in arguments.module or MODULES:
+        chosen = mutants(ROOT, module)
+        if arguments.line:
+            chosen = [mutant for mutant in chosen if mutant.line == arguments.line]
+        if 0 < arguments.sample < len(chosen):
+            rng = random.Random(f"{arguments.seed} {module}")
+            chosen = [chosen[k] for k in sorted(rng.sample(range(len(chosen)), arguments.sample))]
+        tally = _try_module(module, chosen, known)
+        survivors += tally.survivors
+        print(
+            f"{module}: {tally.tried} mutants, {tally.killed} noticed, {tally.known} known to be"
+            f" equivalent, {len(tally.survivors)} survived",
+            flush=True,
+        )
+    return 1 if survivors else 0
+
+
+def _afresh(mutant: Mutant, found: dict, tests: list[str]) -> bool:
+    """Whether a mutant survives in a fresh interpreter too."""
+    reached, lengths = found["reached"], found["lengths"]
+    if mutant.function:
+        tests = [str(ROOT / test) for test in reached if mutant.function in reached[test]] or tests
+        lengths = {name: length for name, length in lengths.items() if str(ROOT / name) in tests}
+    limit_s = FRESH_S + 4 * sum(lengths.values())
+    return bool(forked(lambda: fresh_run(ROOT, mutant, tests), limit_s) == {"passed": True})
+
+
+def _known() -> dict[str, str]:
+    """Reasons by key."""
+    tables = tomllib.loads(KNOWN.read_text()) if KNOWN.exists() else {}
+    return {entry["key"]: entry["reason"] for entry in tables.get("mutant", ())}
+
+
+def _try_module(module: str, chosen: list[Mutant], known: dict[str, str]) -> Tally:
+    tally = Tally(len(chosen))
+    left = [mutant for mutant in chosen if mutant.key not in known]
+    tally.known = len(chosen) - len(left)
+    tests = [str(ROOT / "tests" / f"test_{name}.py") for name in MODULES[module]]
+    # In a process of its own: this one must stay without the module, to fork fresh ones.
+    found = forked(lambda: collected_run(ROOT, module, left, tests), 3600.0 + len(left) * 60.0)
+    if found is None or "error" in found:
+        print(f"{module}: the tests do not pass as they are: {found}")
+        tally.survivors = (module,)
+        return tally
+    survivors = []
+    for mutant in left:
+        outcome = found["outcomes"].get(mutant.key)
+        if outcome != "killed":
+            survived = _afresh(mutant, found, tests)
+            outcome = (outcome or "import") if survived else "killed"
+        if outcome == "killed":
+            tally.killed += 1
+        else:
+            survivors.append(mutant.key)
+            note = " [no test runs it]" if outcome == "unreached" else ""
+            print(f"  line {mutant.line}: {mutant.key}{note}", flush=True)
+    tally.survivors = tuple(survivors)
+    return tally
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1:]))

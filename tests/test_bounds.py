@@ -1,0 +1,178 @@
+"""Bounds of options: on every field, and the same for keys, fields, sessions and lectures."""
+
+from __future__ import annotations
+
+import json
+import math
+from dataclasses import fields, is_dataclass, replace
+from typing import Annotated, Any, get_args, get_origin, get_type_hints
+
+import pytest
+
+from app.bounds import AtMost, Range, check, clamped, range_of, whole_range_of
+from app.options import (
+    Bookmark,
+    CompareOptions,
+    ImageOptions,
+    LaboratoryOptions,
+    Options,
+    OutsideOptions,
+    ProbeOptions,
+    StepperOptions,
+)
+from app.state import AppState
+from app.storage.session import Arrangement, from_bytes, session_of, to_bytes
+from app.teach.lecture.options import options_from_table
+from renderer.camera import Camera
+from renderer.errors import LucidaError
+from renderer.scene import View, load_scene
+
+# part, field, value, where the error is, what it says
+WRONG: list[tuple[str, str, Any, str, str]] = [
+    ("images", "exposure_ev", 8.5, "", "8.5 is out of range; give -8 to 8"),
+    ("images", "exposure_ev", -8.5, "", "-8.5 is out of range"),
+    ("images", "pixel_size", 3, "", "3 is not possible; give one of 1, 2, 4, 8, 16, 32"),
+    ("images", "resolution", [0, 5], "", "0x5 has no pixels"),
+    ("images", "resolution", [16384, 16384], "", "16384x16384 is too large"),
+    ("images", "magnification", 0.0, "", "0 is out of range; give 0.015625 to 128"),
+    ("images", "center", [0.5, 1.5], "[1]", "1.5 is out of range; give 0 to 1"),
+    ("compare", "gain", -1.0, "", "-1 is out of range; give 1 to 1024"),
+    ("compare", "gain", 1e30, "", "1e+30 is out of range"),
+    ("compare", "divider", 2.0, "", "2 is out of range"),
+    ("outside", "bundle", [65, 1], "[0]", "65 is out of range; give 0 to 64"),
+    ("outside", "bundle", [1, -1], "[1]", "-1 is out of range"),
+    ("laboratory", "zoom", 0.0, "", "0 is out of range; give 1 to 32"),
+    ("laboratory", "zoom_center", [-1.0, 0.5], "[0]", "-1 is out of range"),
+    ("laboratory", "side_px", 2, "", "2 is out of range; give 3 to 300"),
+    ("laboratory", "side_px", 10**30, "", f"{10**30} is out of range"),
+    ("laboratory", "after_ev", 6.5, "", "6.5 is out of range; give -6 to 6"),
+    ("laboratory", "apart", -0.1, "", "-0.1 is out of range; give 0 to 0.4"),
+    ("probe", "pins", [[0, 1], [2, -1]], "[1][1]", "-1 is out of range; give 0 to 16383"),
+    ("probe", "pins", [[0, 0]] * 257, "", "has 257 entries; give at most 256"),
+    ("stepper", "canvas", [100_000, 100_000], "[0]", "100000 is out of range; give 1 to 64"),
+    ("stepper", "canvas", [64, 49], "[1]", "49 is out of range; give 1 to 48"),
+    ("stepper", "steps", [0, -1], "[1]", "-1 is out of range; give 0 to 1000000"),
+    ("stepper", "speed", 0.0, "", "0 is out of range; give 1 to 20000"),
+    ("costs", "triangles", 17, "", "17 is out of range; give 18 to 1000000"),
+    ("costs", "pixels", 63, "", "63 is out of range; give 64 to 4194304"),
+]
+
+
+@pytest.fixture(scope="module")
+def state():
+    return AppState.for_scene(load_scene("spheres"))
+
+
+def _numbers(hint: Any, bounded: bool, path: str) -> Any:
+    """(path, whether it is bounded) of each number that a type can hold."""
+    if get_origin(hint) is Annotated:
+        bounded = bounded or not all(isinstance(mark, AtMost) for mark in hint.__metadata__)
+        hint = get_args(hint)[0]
+    if hint in (int, float):
+        yield path, bounded
+    elif is_dataclass(hint) and hint not in (Camera, View):  # which check themselves
+        hints = get_type_hints(hint, include_extras=True)
+        for field in fields(hint):
+            yield from _numbers(hints[field.name], False, f"{path}.{field.name}")
+    else:
+        for part in get_args(hint):
+            yield from _numbers(part, bounded, path)
+
+
+def test_every_number_among_the_options_has_a_bound():
+    found = dict(_numbers(Options, False, "options"))
+    assert len(found) > 15
+    assert [path for path, bounded in found.items() if not bounded] == []
+
+
+def test_every_list_among_the_options_has_a_length():
+    for kind in (Options, ProbeOptions):
+        for name, hint in get_type_hints(kind, include_extras=True).items():
+            if Ellipsis in get_args(hint) or Ellipsis in get_args(get_args(hint)[:1] or None):
+                assert any(isinstance(m, AtMost) for m in hint.__metadata__), name
+
+
+def test_the_defaults_are_within_their_bounds():
+    check(Options, Options())
+    assert clamped(Options()) == Options()
+
+
+@pytest.mark.parametrize(("part", "field", "value", "entry", "told"), WRONG)
+def test_sessions_and_lectures_refuse_the_same(state, part, field, value, entry, told):
+    with pytest.raises(LucidaError) as caught:
+        options_from_table({part: {field: value}})
+    assert caught.value.field == f"{part}.{field}{entry}"
+    assert told in str(caught.value)
+    if abs(value if isinstance(value, int) else 0) > 2**63:
+        return  # no number of JSON as msgspec reads it
+    table = json.loads(to_bytes(session_of(state, Arrangement())))
+    table["options"][part][field] = value
+    with pytest.raises(LucidaError) as caught:
+        from_bytes(json.dumps(table).encode(), "session-1.json")
+    assert caught.value.field == f"options.{part}.{field}{entry}"
+    assert told.split(";")[0] in str(caught.value)
+    assert caught.value.remedy == "Lucida starts afresh"
+
+
+@pytest.mark.parametrize("value", [math.nan, math.inf, -math.inf])
+def test_what_is_no_finite_number_is_out_of_every_range(value):
+    for part, field in (("compare", "gain"), ("images", "exposure_ev"), ("stepper", "speed")):
+        with pytest.raises(LucidaError, match="is out of range"):
+            options_from_table({part: {field: value}})
+
+
+@pytest.mark.parametrize(("part", "field", "value", "entry", "told"), WRONG)
+def test_what_a_key_or_a_field_asks_for_comes_within_bounds(state, part, field, value, entry, told):
+    """So that no session is written that is refused when the window opens again."""
+    if isinstance(value, list):
+        value = tuple(tuple(v) if isinstance(v, list) else v for v in value)
+    changed = state.with_options(**{part: {field: value}})
+    check(Options, changed.options)
+    read = from_bytes(to_bytes(session_of(changed, Arrangement())))
+    assert read.options == changed.options
+
+
+def test_clamping_takes_the_nearest_and_leaves_the_rest(state):
+    changed = state.with_options(
+        images={"exposure_ev": 100.0, "pixel_size": 7, "center": (-3.0, 0.25), "grid": False},
+        compare={"gain": math.nan},
+        laboratory={"zoom_center": (math.nan, 0.75)},
+        stepper={"canvas": (16, 49)},
+        marked=(-1, 3),
+        probe={"pins": tuple((k, k) for k in range(300))},
+    )
+    assert changed.images == replace(
+        ImageOptions(), exposure_ev=8.0, pixel_size=8, center=(0.0, 0.25), grid=False
+    )
+    assert changed.compare == CompareOptions(gain=1.0)
+    assert changed.options.laboratory == LaboratoryOptions(zoom_center=(0.5, 0.75))
+    assert changed.options.stepper == StepperOptions(canvas=(16, 48))
+    assert changed.marked == (0, 3)
+    assert changed.options.probe.pins == tuple((k, k) for k in range(44, 300))
+
+
+def test_what_is_within_bounds_is_the_same_value(state):
+    options = state.with_options(
+        outside={"camera": Camera((9, 9, 9)), "bundle": (64, 0)},
+        bookmarks=(Bookmark(9, "far", state.view),),
+        marked=(16383, 0),
+    ).options
+    assert clamped(options) is options
+
+
+def test_bookmarks_have_a_key(state):
+    for number in (0, 10):
+        with pytest.raises(LucidaError, match=r"bookmarks\[0\].number: .* give 1 to 9"):
+            check(Options, Options(bookmarks=(Bookmark(number, "", state.view),)))
+
+
+def test_sliders_take_their_limits_from_the_fields():
+    assert range_of(CompareOptions, "gain") == (1.0, 1024.0)
+    assert range_of(ImageOptions, "magnification") == (1 / 64, 128.0)  # of `float | None`
+    assert whole_range_of(OutsideOptions, "bundle") == (0, 64)  # of a list's entries
+    assert all(isinstance(limit, int) for limit in whole_range_of(LaboratoryOptions, "side_px"))
+
+
+@pytest.mark.parametrize("value", [1, 4])
+def test_a_range_has_both_its_ends(value):
+    assert Range(1, 4).problem(value) is None

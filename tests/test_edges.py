@@ -1,0 +1,199 @@
+"""Distances from lines in the image, beside the same found by sampling the lines in the world."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from renderer import Camera
+from renderer.edges import Lines
+from renderer.scene.flat import flatten
+from renderer.scene.model import Mesh, Scene, SceneObject, Sphere
+
+SIZE = (320, 240)
+# Distance, viewport, basis and eye each other than the canonical camera's.
+PERSPECTIVE = Camera(
+    eye=(0.3, -0.2, 1.0),
+    u=(1.0, 0.1, 0.0),
+    v=(0.0, 1.2, 0.1),
+    w=(0.1, 0.0, 0.9),
+    distance=2.0,
+    viewport=(-1.1, 0.9, -0.6, 0.9),
+)
+PARALLEL = replace(PERSPECTIVE, projection="parallel", viewport=(-2.2, 1.8, -1.2, 1.8))
+CAMERAS = [PERSPECTIVE, PARALLEL]
+named = pytest.mark.parametrize("camera", CAMERAS, ids=["perspective", "parallel"])
+
+
+def nearest_px(camera: Camera, points: np.ndarray, i: np.ndarray, j: np.ndarray) -> np.ndarray:
+    """From each pixel the distance to the nearest of the projected world points (n, 3)."""
+    seen = camera.project(points, SIZE)
+    row, column = seen.row[None, :] - i[:, None], seen.column[None, :] - j[:, None]
+    return np.nanmin(np.hypot(row, column), axis=1)
+
+
+def pixels(camera: Camera, points: np.ndarray, away_px: float) -> tuple[np.ndarray, np.ndarray]:
+    """(row, column), at random, within away_px of the projected points."""
+    rng = np.random.default_rng(5)
+    seen = camera.project(points[rng.integers(0, len(points), 60)], SIZE)
+    i = seen.row + rng.uniform(-away_px, away_px, 60)
+    j = seen.column + rng.uniform(-away_px, away_px, 60)
+    near = (np.abs(i) < 2000) & (np.abs(j) < 2000)
+    return i[near], j[near]
+
+
+def edges(corners: np.ndarray) -> np.ndarray:
+    part = np.linspace(0, 1, 8_001)[:, None]
+    pairs = ((0, 1), (1, 2), (2, 0))
+    return np.concatenate([corners[a] + part * (corners[b] - corners[a]) for a, b in pairs])
+
+
+@named
+@pytest.mark.parametrize("away_px", [0.5, 60.0])
+def test_the_outline_of_triangles(camera: Camera, away_px: float) -> None:
+    rng = np.random.default_rng(2)
+    for _ in range(4):
+        corners = rng.uniform((-2, -2, -6), (2, 2, -2), (3, 3))
+        lines = Lines(flatten(Scene((SceneObject(Mesh(corners, [[0, 1, 2]])),))), camera, SIZE)
+        points = edges(lines.flat.vertices[lines.flat.faces[0]].astype(float))
+        i, j = pixels(camera, points, away_px)
+        found = lines.outline_px(np.zeros(len(i), int), i, j)
+        np.testing.assert_allclose(found, nearest_px(camera, points, i, j), atol=0.05)
+
+
+@pytest.mark.parametrize("behind", [1, 2])
+def test_of_triangles_that_reach_behind_the_eye_the_edges_in_front_count(behind: int) -> None:
+    corners = np.array([(-1.0, 0.5, -4.0), (1.0, -0.5, -3.0), (0.4, 0.3, -5.0)])
+    corners[:behind, 2] *= -1
+    for order in ((0, 1, 2), (1, 2, 0), (2, 1, 0)):
+        flat = flatten(Scene((SceneObject(Mesh(corners[list(order)], [[0, 1, 2]])),)))
+        lines = Lines(flat, PERSPECTIVE, SIZE)
+        points = edges(flat.vertices[flat.faces[0]].astype(float))
+        i, j = pixels(PERSPECTIVE, points[~np.isnan(PERSPECTIVE.project(points, SIZE).row)], 9.0)
+        inside = (np.abs(i - 120) < 120) & (np.abs(j - 160) < 160)
+        i, j = i[inside], j[inside]
+        assert len(i) > 5
+        found = lines.outline_px(np.zeros(len(i), int), i, j)
+        np.testing.assert_allclose(found, nearest_px(PERSPECTIVE, points, i, j), atol=0.05)
+
+
+def test_of_triangles_behind_the_eye_there_is_no_outline() -> None:
+    corners = [(-1.0, 0.5, 4.0), (1.0, -0.5, 3.0), (0.4, 0.3, 5.0)]
+    flat = flatten(Scene((SceneObject(Mesh(corners, [[0, 1, 2]])),)))
+    i, j = np.meshgrid(np.arange(0, 240, 30), np.arange(0, 320, 40))
+    lines = Lines(flat, PERSPECTIVE, SIZE)
+    found = lines.outline_px(np.zeros(i.size, int), i.ravel(), j.ravel())
+    assert np.isinf(found).all()
+
+
+def silhouette(camera: Camera, center: np.ndarray, radius: float) -> np.ndarray:
+    """Points (n, 3) of the sphere's outline: where its normal is perpendicular to the rays."""
+    if camera.is_parallel:
+        axis, middle, reach = np.asarray(camera.w), center, radius
+    else:
+        axis = np.asarray(camera.eye) - center
+        far = np.linalg.norm(axis)
+        middle = center + axis * (radius / far) ** 2
+        reach = radius * np.sqrt(1 - (radius / far) ** 2)
+    axis = axis / np.linalg.norm(axis)
+    across = np.cross(axis, (0.3, 1.0, 0.2))
+    across /= np.linalg.norm(across)
+    angle = np.linspace(0, 2 * np.pi, 8_001)[:, None]
+    return middle + reach * (np.cos(angle) * across + np.sin(angle) * np.cross(axis, across))
+
+
+@named
+@pytest.mark.parametrize(("center", "radius"), [((0.2, 0.1, -4), 0.8), ((-1, 0.8, -3), 0.3)])
+def test_the_outline_of_spheres(camera: Camera, center, radius: float) -> None:
+    """To first order: near the curve."""
+    flat = flatten(Scene((SceneObject(Sphere(center, radius)),)))
+    points = silhouette(camera, np.asarray(center, float), radius)
+    i, j = pixels(camera, points, 0.4)
+    found = Lines(flat, camera, SIZE).outline_px(np.zeros(len(i), int), i, j)
+    np.testing.assert_allclose(found, nearest_px(camera, points, i, j), atol=0.05)
+
+
+def plane(normal, through) -> SceneObject:
+    """A large triangle."""
+    normal = np.asarray(normal, float)
+    across = np.cross(normal, (0.2, 0.3, 1.0))
+    up = np.cross(normal, across)
+    corners = [np.asarray(through) + a * across + b * up for a, b in ((-9, -9), (9, -9), (0, 9))]
+    return SceneObject(Mesh(corners, [[0, 1, 2]]))
+
+
+PLANES = ((0.2, 0.6, 1.0), (0, 0, -3)), ((-0.7, 0.1, 1.0), (0, 0, -3))
+
+
+def hits(lines: Lines, primitive: int, i: np.ndarray, j: np.ndarray) -> np.ndarray:
+    return lines.parameter(np.full(len(i), primitive), i, j, np.ones(len(i)))
+
+
+@named
+def test_where_planes_meet(camera: Camera) -> None:
+    lines = Lines(flatten(Scene(tuple(plane(*one) for one in PLANES))), camera, SIZE)
+    along = np.cross(PLANES[0][0], PLANES[1][0])
+    points = np.array(PLANES[0][1]) + np.linspace(-2, 2, 8_001)[:, None] * along
+    i, j = pixels(camera, points, 0.4)
+    first, second = np.zeros(len(i), int), np.ones(len(i), int)
+    t = hits(lines, 0, i, j)
+    wanted = nearest_px(camera, points, i, j)
+    np.testing.assert_allclose(lines.meeting_px(first, second, i, j, t), wanted, atol=0.02)
+    assert np.isinf(lines.meeting_px(first, first, i, j, t)).all()
+    assert np.isinf(lines.meeting_px(first, second - 2, i, j, t)).all()
+
+
+@named
+def test_where_a_clip_plane_cuts(camera: Camera) -> None:
+    """Points of the surface at the plane's distance, in units of w."""
+    flat = flatten(Scene((plane(*PLANES[0]),)))
+    rng = np.random.default_rng(3)
+    i, j = rng.uniform(0, 240, 400), rng.uniform(0, 320, 400)
+    for cut in ({"near": 4.2}, {"far": 4.2}):
+        lines = Lines(flat, replace(camera, **cut), SIZE)
+        limit = 4.2 if camera.is_parallel else 4.2 / camera.distance
+        t = hits(lines, 0, i, j)
+        rows, columns = np.meshgrid(np.arange(0, 240, 0.5), np.arange(0, 320, 0.5))
+        grid = hits(lines, 0, rows.ravel(), columns.ravel()).reshape(rows.shape)
+        down, right = (np.gradient(grid, 0.5, axis=axis) for axis in (1, 0))
+        slope = np.hypot(down, right)
+        at = np.round(2 * j).astype(int).clip(0, 639), np.round(2 * i).astype(int).clip(0, 479)
+        wanted = np.abs(t - limit) / slope[at]
+        near = wanted < 30
+        assert near.sum() > 10
+        found = lines.clip_px(np.zeros(400, int), i, j, t)
+        np.testing.assert_allclose(found[near], wanted[near], rtol=0.05)
+        np.testing.assert_allclose(lines.slope(np.zeros(400, int), i, j, t), slope[at], rtol=0.05)
+
+
+def test_nothing_is_cut_where_nothing_is_hit_or_no_plane_set() -> None:
+    lines = Lines(flatten(Scene((plane(*PLANES[0]),))), PARALLEL, SIZE)
+    none = np.full(2, -1)
+    i, j, t = np.array([3, 4]), np.array([5, 6]), np.full(2, 4.0)
+    assert np.isinf(
+        Lines(lines.flat, replace(PARALLEL, near=4.2), SIZE).clip_px(none, i, j, t)
+    ).all()
+    assert np.isinf(lines.outline_px(none, i, j)).all()
+    assert np.isnan(lines.parameter(none, i, j, t)).all()
+
+
+@named
+def test_of_a_spheres_two_hits_the_nearer_to_t(camera: Camera) -> None:
+    center, radius = np.array([0.2, 0.1, -4.0]), 0.8
+    flat = flatten(
+        Scene((plane((0, 0, 1), (0, 0, -9)), SceneObject(Sphere(tuple(center), radius))))
+    )
+    lines = Lines(flat, camera, SIZE)
+    seen = camera.project(center[None], SIZE)
+    i, j = seen.row + np.array([0.0, 9.0, -5.0]), seen.column + np.array([0.0, 4.0, 8.0])
+    origin, direction = camera.ray(i, j, SIZE)
+    found = []
+    for guess in (-1e3, 1e3):
+        t = lines.parameter(np.ones(3, int), i, j, np.full(3, guess))
+        reached = np.linalg.norm(origin + t[:, None] * direction - center, axis=1)
+        np.testing.assert_allclose(reached, radius, rtol=1e-6)
+        found.append(t)
+    assert (found[0] < found[1]).all()
+    np.testing.assert_allclose(np.mean(found, axis=0)[0], seen.parameter[0], rtol=0.05)
