@@ -28,9 +28,11 @@ class TestWrongArguments:
             for draw in (tracer.render, tracer.start):
                 with pytest.raises(LucidaError, match=told):
                     draw(View(Camera()), SIZE)
-        with Rasterizer(Scene(()), gl_backend) as rasterizer:
-            with pytest.raises(LucidaError, match=told):
-                rasterizer.render(View(Camera()), SIZE)
+        with (
+            Rasterizer(Scene(()), gl_backend) as rasterizer,
+            pytest.raises(LucidaError, match=told),
+        ):
+            rasterizer.render(View(Camera()), SIZE)
 
     def test_something_else_for_a_camera(self):
         with Tracer(Scene(())) as tracer, pytest.raises(LucidaError, match="camera: is a tuple"):
