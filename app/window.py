@@ -272,7 +272,7 @@ class MainWindow:
                 size=both.size,
                 factor=image.factor if image else 0,
                 agreement=verdict.text if verdict else describe(failure) if failure else "",
-                agrees=None if state.has_effects else _agrees(verdict),
+                agrees=None if state.has_effects or both.nothing_hit(state) else _agrees(verdict),
                 scene=state.scene.name,
                 pixel=(pixel[0] + base, pixel[1] + base) if pixel else None,
                 seen=both.seen_at(state, pixel) if pixel else "",

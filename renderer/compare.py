@@ -30,6 +30,7 @@ from renderer.difference import (
 from renderer.edges import Lines
 from renderer.frame import CHANNELS, Frame
 from renderer.images.display import encode_srgb
+from renderer.nothing_hit import hits_nothing, why_nothing_is_hit
 from renderer.scene.flat import FlatScene, flatten
 from renderer.scene.model import Scene
 
@@ -75,7 +76,8 @@ class Comparison:
     surface is so oblique that TOLERANCE_PX moves its depth by more than the difference.
     unexplained: all others; shading: those of them where only the colour differs.
     max_...: the largest errors among the agreeing pixels; errors: by channel, over all pixels.
-    labels: uint8 (height, width). times_s: what each renderer took.
+    labels: uint8 (height, width). times_s: what each renderer took. nothing_hit: why neither image
+    shows anything, so that nothing was compared; empty where something is hit.
     """
 
     size: tuple[int, int]
@@ -91,6 +93,7 @@ class Comparison:
     labels: NDArray[np.uint8]
     raster: Frame
     ray: Frame
+    nothing_hit: str = ""
 
     @property
     def pixels(self) -> int:
@@ -118,6 +121,7 @@ class Comparison:
                 name: asdict(error) | {"worst": list(error.worst)}
                 for name, error in self.errors.items()
             },
+            "nothing_hit": self.nothing_hit or None,
             "times_s": dict(self.times_s),
         }
 
@@ -126,8 +130,10 @@ class Comparison:
         width, height = self.size
         causes = ", ".join(f"{name} {count}" for name, count in self.explained.items() if count)
         color, (row, column) = self.errors["color"], self.worst
+        nothing = [f"nothing is hit in either image: {self.nothing_hit}"] * bool(self.nothing_hit)
         return "\n".join(
             [
+                *nothing,
                 f"{width}x{height}: {self.agree} of {self.pixels} pixels agree",
                 f"explained:   {sum(self.explained.values())}" + (f" ({causes})" if causes else ""),
                 f"unexplained: {self.unexplained}"
@@ -146,6 +152,8 @@ class Comparison:
         """For a status line."""
         if self.unexplained:
             return f"disagree: {_pixels(self.unexplained)}"
+        if self.nothing_hit:
+            return f"nothing is hit: {self.nothing_hit}"
         edges = sum(self.explained.values())
         if not edges:
             return "agree: all pixels"
@@ -241,6 +249,7 @@ def compare_frames(
         labels=labels,
         raster=raster,
         ray=ray,
+        nothing_hit=why_nothing_is_hit(flat, camera) if hits_nothing(raster, ray) else "",
     )
 
 

@@ -17,7 +17,7 @@ def test_dir_shows_the_public_names_and_each_of_them_is_there():
 
 
 def test_an_unknown_name_is_python_s_own_error():
-    with pytest.raises(AttributeError, match="renderer.*nosuch"):
+    with pytest.raises(AttributeError, match=r"renderer.*nosuch"):
         _ = renderer.nosuch
 
 

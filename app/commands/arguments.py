@@ -229,6 +229,18 @@ def scene_and_camera(arguments: argparse.Namespace) -> tuple[Scene, Camera]:
     return scene, view.for_size(arguments.size)
 
 
+def say_nothing_is_hit(scene: Scene, camera: Camera) -> None:
+    """One line on standard error: why an image shows nothing, and how to aim at the scene."""
+    from renderer.nothing_hit import middle_of, why_nothing_is_hit
+    from renderer.scene import flatten
+
+    flat = flatten(scene)
+    aim = ",".join(f"{part:.4g}" for part in middle_of(flat))
+    remedy = f"; --target={aim} looks at the middle of the scene" if scene.objects else ""
+    why = why_nothing_is_hit(flat, camera)
+    print(f"lucida: nothing is hit: {why}{remedy}", file=sys.stderr)
+
+
 @contextlib.contextmanager
 def progress_bar(label: str) -> Iterator[Callable[[float], None]]:
     """A function that takes fractions 0 to 1 and draws a bar on a terminal, from 1 s on."""

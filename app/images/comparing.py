@@ -62,8 +62,10 @@ def counts(comparison: Comparison) -> dict[int, int]:
 def headline(comparison: Comparison, effects: str = "") -> tuple[str, bool]:
     """The result in one line, and whether it is good news. effects: see effects_of()."""
     differing = comparison.pixels - comparison.agree
-    if effects:
+    if effects and not comparison.nothing_hit:
         return f"Not comparable with {effects}: {differing} of {comparison.pixels} differ", False
+    if comparison.nothing_hit and not comparison.unexplained:
+        return f"Nothing is hit in either image: {comparison.nothing_hit}", False
     if not differing:
         return "All pixels agree", True
     if not comparison.unexplained:

@@ -216,6 +216,11 @@ class Renderers:
         """Whether the images of this state agree; None until that is known."""
         return self.agreement.verdict_on(self.request(state))
 
+    def nothing_hit(self, state: AppState) -> str:
+        """Why neither image of this state shows anything; empty where it does, or is not known."""
+        verdict = self.verdict(state)
+        return verdict.comparison.nothing_hit if verdict is not None else ""
+
     @property
     def raster_error(self) -> Exception | None:
         return self.pictures.raster_error if self.pictures else None
