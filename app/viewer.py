@@ -33,6 +33,7 @@ from app.storage.session_store import settings_folder
 from app.storage.settings import settings_file
 from app.views.base import View
 from app.window import MainWindow, title
+from renderer import compiling
 from renderer.atomic import atomic_write, check_writable
 from renderer.errors import LucidaError
 from renderer.scene import BUILTIN_SCENES
@@ -116,6 +117,7 @@ class Run:
         self.take_picture = take_picture
         self._error: BaseException | None = None
         self._quiet_frames = 0
+        self._told = compiling.note()
         self._ended = False
         self._start_s = 0.0
         self.params = self._parameters(state, size, remember and not take_picture)
@@ -250,6 +252,12 @@ class Run:
             if self.on_drawn is not None:
                 self.on_drawn(drawn)
 
+    def _tell_compiling(self) -> None:
+        """Says once, where nobody looks at the window, what it waits for."""
+        if compiling.note() != self._told:
+            self._told = compiling.note()
+            print(f"lucida: {self._told}", file=sys.stderr)
+
     def _after_frame(self) -> None:
         if self._ended:  # before the first frame: HelloImGui has forgotten it since
             self.params.app_shall_exit = True
@@ -257,6 +265,7 @@ class Run:
             flush_opengl()
         if not self.take_picture:
             return
+        self._tell_compiling()
         failures = [self.window.renderers.failure, *self.window.shell.stage.failures.values()]
         for failure in failures:
             if failure is not None:

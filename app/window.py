@@ -271,8 +271,8 @@ class MainWindow:
                 ray_s=image.frame.time_s if image else 0.0,
                 size=both.size,
                 factor=image.factor if image else 0,
-                agreement=verdict.text if verdict else describe(failure) if failure else "",
-                agrees=None if state.has_effects or both.nothing_hit(state) else _agrees(verdict),
+                agreement=_agreement(verdict, failure) or both.preparing(),
+                agrees=_agrees(verdict, failure, state.has_effects),
                 scene=state.scene.name,
                 pixel=(pixel[0] + base, pixel[1] + base) if pixel else None,
                 seen=both.seen_at(state, pixel) if pixel else "",
@@ -328,8 +328,18 @@ class MainWindow:
         hello_imgui.request_refresh()
 
 
-def _agrees(verdict: Verdict | None) -> bool:
-    return verdict is not None and verdict.unexplained == 0
+def _agreement(verdict: Verdict | None, failure: Exception | None) -> str:
+    """What the status line says of both images; empty while nothing is known."""
+    return verdict.text if verdict else describe(failure) if failure else ""
+
+
+def _agrees(verdict: Verdict | None, failure: Exception | None, effects: bool) -> bool | None:
+    """Whether that is good news; None where it is none: nothing was compared."""
+    if failure is not None and verdict is None:
+        return False
+    if effects or verdict is None or verdict.comparison.nothing_hit:
+        return None
+    return verdict.unexplained == 0
 
 
 def title(scene: Scene) -> str:

@@ -243,15 +243,27 @@ def say_nothing_is_hit(scene: Scene, camera: Camera) -> None:
 
 @contextlib.contextmanager
 def progress_bar(label: str) -> Iterator[Callable[[float], None]]:
-    """A function that takes fractions 0 to 1 and draws a bar on a terminal, from 1 s on."""
+    """A function that takes fractions 0 to 1 and draws a bar on a terminal, from 1 s on. On a
+    terminal or not, a line says once that the ray tracer must be compiled, if it must."""
     from tqdm import tqdm
+
+    from renderer import compiling
 
     layout = "{desc} {percentage:3.0f} % |{bar}| {elapsed}, {remaining} left"
     hidden = not sys.stderr.isatty()
     with tqdm(
         total=1.0, desc=label, bar_format=layout, delay=1, leave=False, disable=hidden
     ) as bar:
-        yield lambda fraction: (bar.update(fraction - bar.n), None)[1]
+        told = ""
+
+        def report(fraction: float) -> None:
+            nonlocal told
+            if compiling.note() != told:
+                told = compiling.note()
+                tqdm.write(f"lucida: {told}", file=sys.stderr)
+            bar.update(fraction - bar.n)
+
+        yield report
 
 
 def _is_whole(text: str) -> bool:

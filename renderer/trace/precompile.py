@@ -23,6 +23,7 @@ import llvmlite.binding as llvm
 import numpy as np
 from numba.core import config
 
+from renderer import compiling
 from renderer.scene.flat import flatten
 from renderer.scene.model import Mesh, Scene, SceneObject
 from renderer.trace.compiled import cache_folder
@@ -76,6 +77,7 @@ class Precompilation:
             if not mark.exists():
                 with contextlib.suppress(OSError):
                     self._processes[mark] = _start(python, part)
+                    compiling.begin(kept=True)
 
     def wait(self, is_closed: Callable[[], bool]) -> None:
         """Returns when all are done, or is_closed() says that nobody waits: that kills them."""
