@@ -9,9 +9,9 @@ from dataclasses import dataclass, field
 from typing import Literal
 
 from renderer.camera import Camera
+from renderer.pixels import Indexing
+from renderer.pixels import Pixel as Pixel
 from renderer.scene.model import View
-
-Pixel = tuple[int, int]  # (row, column), 0-based, row 0 at the top
 
 PIXEL_SIZES = (1, 2, 4, 8, 16, 32)
 RESOLUTIONS = (
@@ -186,3 +186,8 @@ class Options:
     one_based: bool = True
     presets_in_perspective: bool = False
     bookmarks: tuple[Bookmark, ...] = ()
+
+    @property
+    def indexing(self) -> Indexing:
+        """How every pixel's row and column are counted that is shown or typed."""
+        return Indexing(int(self.one_based))

@@ -263,7 +263,6 @@ class MainWindow:
         if image is not None and image.request.scene is not state.scene:
             image = None  # of another scene, until the first one of this scene comes
         pixel = self._hovered[1] if self._hovered else state.marked
-        base = int(state.options.one_based)
         status_line(
             Status(
                 raster_s=both.pictures.raster_s if both.pictures else 0.0,
@@ -274,7 +273,8 @@ class MainWindow:
                 agreement=_agreement(verdict, failure) or both.preparing(),
                 agrees=_agrees(verdict, failure, state.has_effects),
                 scene=state.scene.name,
-                pixel=(pixel[0] + base, pixel[1] + base) if pixel else None,
+                pixel=pixel,
+                indexing=state.options.indexing,
                 seen=both.seen_at(state, pixel) if pixel else "",
                 loading=self.files.loading,
                 brief=state.preferences.presentation,

@@ -9,7 +9,7 @@ import pytest
 
 from app.images import imaging
 from app.images.marking import followed, moved
-from app.images.pixelvalues import is_dark, line_count, pixel_name, shown_bytes, value_lines
+from app.images.pixelvalues import is_dark, line_count, shown_bytes, value_lines
 from app.options import Channel, ImageOptions
 from app.state import AppState
 from renderer.camera import Camera
@@ -98,11 +98,6 @@ def test_values_are_written_as_the_channel_needs():
     for options in (COLOR, depth, normal, replace(COLOR, component="red")):
         array = np.zeros((1, 1) if options.channel == "depth" else (1, 1, 3), np.float32)
         assert value_lines(array, options)[0][0].count("\n") + 1 == line_count(options)
-
-
-def test_pixels_are_counted_as_chosen():
-    assert pixel_name((0, 11), one_based=True) == "1,12"
-    assert pixel_name((0, 11), one_based=False) == "0,11"
 
 
 def test_text_is_read_on_every_colour():

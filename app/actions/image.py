@@ -31,6 +31,7 @@ from app.options import (
 from app.state import AppState
 
 CHANNEL, RESOLUTION, MAGNIFY = "Image/Channel", "Image/Resolution", "Image/Magnification"
+COUNTING = "Image/Rows and columns"
 
 
 def _channel(number: int, channel: Channel, name: str) -> Action:
@@ -117,6 +118,15 @@ def _switch_values(state: AppState) -> AppState:
     return state.with_options(images={"values": "bytes" if floats else "floats"})
 
 
+def _counting(name: str, one_based: bool) -> Action:
+    return Action(
+        COUNTING,
+        name,
+        changing(lambda state: state.with_options(one_based=one_based)),
+        is_on=lambda state: state.options.one_based == one_based,
+    )
+
+
 IMAGE = (
     *(_channel(k, channel, name) for k, (channel, (name, _)) in enumerate(CHANNELS.items())),
     *(_component(part, name) for part, (name, _) in COMPONENTS.items() if part != "rgb"),
@@ -198,6 +208,8 @@ IMAGE = (
         (ALT | int(Key.l),),
         is_on=lambda state: state.images.transfer == "linear",
     ),
+    _counting("Pixels from 1 (lecture)", one_based=True),
+    _counting("Pixels from 0 (arrays)", one_based=False),
     Action(
         "Image",
         "Take the mark away",

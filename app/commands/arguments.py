@@ -15,6 +15,7 @@ from dataclasses import replace
 from typing import TYPE_CHECKING, Any, NoReturn
 
 from renderer.errors import LucidaError, one_line
+from renderer.pixels import Indexing
 
 if TYPE_CHECKING:
     from renderer.camera import Camera
@@ -94,6 +95,13 @@ def exposure_ev(text: str) -> float:
     return value
 
 
+def indexing(text: str) -> Indexing:
+    """`0` or `1`: where the counting of pixels begins."""
+    if text not in ("0", "1"):
+        raise argparse.ArgumentTypeError(f"{text!r} is not 0 or 1")
+    return Indexing(int(text))
+
+
 def numbers(count: int) -> Callable[[str], tuple[float, ...]]:
     """Gives a function that reads `count` numbers with commas between them."""
 
@@ -150,6 +158,18 @@ def add_camera_options(parser: argparse.ArgumentParser) -> None:
         "--fit",
         action=argparse.BooleanOptionalAction,
         help="widen or heighten the viewport to the image's shape",
+    )
+
+
+def add_from_option(parser: argparse.ArgumentParser) -> None:
+    """--from 0 or 1, as `indexing`: always 0 unless it is given, so that scripts can rely on it."""
+    parser.add_argument(
+        "--from",
+        dest="indexing",
+        type=indexing,
+        default=Indexing.ARRAY,
+        metavar="0|1",
+        help="count rows and columns from 0 (arrays) or 1 (lectures) (default: 0)",
     )
 
 

@@ -129,12 +129,6 @@ def measured_at(images: ImageOptions) -> str:
     return "  at 0 EV" if images.channel == "color" and images.exposure_ev else ""
 
 
-def pixel_text(pixel: Pixel, one_based: bool) -> str:
-    """`(12, 40)`, row and column, counted as the user likes."""
-    first = int(one_based)
-    return f"({pixel[0] + first}, {pixel[1] + first})"
-
-
 def pixel_values(comparison: Comparison, pixel: Pixel, channel: Channel) -> tuple[str, str, str]:
     """What both images have at a pixel, and their difference, as texts."""
     at = np.s_[pixel[0] : pixel[0] + 1, pixel[1] : pixel[1] + 1]
