@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
-from app.actions.base import ALT, Action, Key, Window, changing
+from app.actions.base import ALT, CTRL, Action, Key, Window, changing
 from app.images.imaging import (
     CHANNELS,
     COMPONENTS,
@@ -208,6 +208,14 @@ IMAGE = (
         (ALT | int(Key.l),),
         is_on=lambda state: state.images.transfer == "linear",
     ),
+    Action(
+        "Image",
+        "Go to pixel...",
+        lambda w: w.ask_pixel(),
+        "Ctrl+G",
+        (CTRL | int(Key.g),),
+        separated=True,
+    ),
     _counting("Pixels from 1 (lecture)", one_based=True),
     _counting("Pixels from 0 (arrays)", one_based=False),
     Action(
@@ -217,12 +225,11 @@ IMAGE = (
         "Esc",
         (int(Key.escape),),
         can=lambda w: w.state.marked is not None,
-        separated=True,
     ),
 )
 MOUSE = (
     ("click an image", "mark the pixel; again, or Esc: take the mark away"),
-    ("arrow keys over an image", "move the mark; Shift: by ten"),
+    ("arrow keys, mouse over an image", "move the mark; Shift: by ten"),
     ("Ctrl+wheel over an image", "magnify its pixels at the pointer"),
     ("Ctrl+drag an image", "move the magnified image"),
 )
