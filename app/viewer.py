@@ -29,6 +29,7 @@ from app.platform import (
 from app.signals import ended_by_signals
 from app.start import Start, begin_scene, begin_session
 from app.state import AppState
+from app.storage.capture import free_path
 from app.storage.session_store import settings_folder
 from app.storage.settings import settings_file
 from app.views.base import View
@@ -60,9 +61,9 @@ def run_viewer(
 
     Without a scene, a view, a screenshot and `fresh`, the last session is gone on with.
     screenshot: draw the whole window once, with both images complete, save it there as PNG, and
-    return. With no display that is done in any case, into lucida.png, and one line says so.
-    size: the window's (width, height). view: a view file. change: what else the command line says
-    about the view. Raises LucidaError.
+    return. With no display that is done in any case, into lucida.png, or lucida-2.png where there
+    is one, and one line says so. size: the window's (width, height). view: a view file. change:
+    what else the command line says about the view. Raises LucidaError.
     """
     if screenshot is not None:
         check_writable(screenshot)
@@ -71,7 +72,7 @@ def run_viewer(
     platform = start_platform(want_display=screenshot is None)
     picture = screenshot
     if not platform.has_display and picture is None:
-        picture = DEFAULT_PICTURE
+        picture = free_path(DEFAULT_PICTURE)
         check_writable(picture)
         print(f"lucida: no display ({platform.reason}): drawing the window once, into {picture}")
     if start is None:
