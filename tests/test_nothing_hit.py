@@ -44,6 +44,12 @@ def test_a_ball_that_reaches_in_front_of_the_eye_is_not_behind_it():
     assert why_nothing_is_hit(BALL, Camera(eye=(90, 0, -5.5))) == "no viewing ray meets an object"
 
 
+def test_some_objects_are_counted():
+    flat = flatten(Scene(tuple(SceneObject(Sphere((90, 0, z), 1.0)) for z in (-5, 5, 8))))
+    told = "no viewing ray meets an object; 2 of 3 are behind the eye"
+    assert why_nothing_is_hit(flat, Camera()) == told
+
+
 def test_an_empty_scene():
     assert why_nothing_is_hit(flatten(Scene(())), Camera()) == "the scene has no objects"
 
