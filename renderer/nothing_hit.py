@@ -41,9 +41,7 @@ def middle_of(flat: FlatScene) -> tuple[float, float, float]:
     return x, y, z
 
 
-def _parameters(
-    flat: FlatScene, camera: Camera
-) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+def _parameters(flat: FlatScene, camera: Camera) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
     """The smallest and the largest ray parameter of each object: the depth along -w, in units of
     the distance (perspective) or of w (parallel)."""
     unit = 1.0 if camera.is_parallel else camera.distance
