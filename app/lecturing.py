@@ -13,6 +13,7 @@ from pathlib import Path
 from app.platform import Target, start_platform
 from app.start import Start
 from app.state import AppState
+from app.storage.capture import free_path
 from app.teach.lecture.model import Lecture
 from app.teach.lecture.states import state_of
 from app.viewer import (
@@ -39,14 +40,15 @@ def run_lecture(
 
     path: the lecture's file, which is read again when it is saved. number: the first step, from
     0. screenshot: draw the step once, save it there, leave; with no display that is done in any
-    case, into lucida.png, and one line says so. Raises LucidaError.
+    case, into lucida.png, or lucida-2.png where there is one, and one line says so. Raises
+    LucidaError.
     """
     if screenshot is not None:
         check_writable(screenshot)
     platform = start_platform(want_display=screenshot is None)
     picture = screenshot
     if not platform.has_display and picture is None:
-        picture = DEFAULT_PICTURE
+        picture = free_path(DEFAULT_PICTURE)
         check_writable(picture)
         print(f"lucida: no display ({platform.reason}): drawing the step once, into {picture}")
     start = Start(first_state(lecture, number))

@@ -13,6 +13,7 @@ from app.bounds import Accepted, AtMost, OneOf, Range
 from renderer.camera import Camera
 from renderer.difference import LARGEST_GAIN
 from renderer.frame import LARGEST_SIDE, check_size
+from renderer.pixels import Indexing
 from renderer.scene.model import View
 
 Index = Annotated[int, Range(0, LARGEST_SIDE - 1)]
@@ -191,3 +192,8 @@ class Options:
     one_based: bool = True
     presets_in_perspective: bool = False
     bookmarks: Annotated[tuple[Bookmark, ...], AtMost(9)] = ()
+
+    @property
+    def indexing(self) -> Indexing:
+        """How every pixel's row and column are counted that is shown or typed."""
+        return Indexing(int(self.one_based))

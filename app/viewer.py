@@ -29,10 +29,12 @@ from app.platform import (
 from app.signals import ended_by_signals
 from app.start import Start, begin_scene, begin_session
 from app.state import AppState
+from app.storage.capture import free_path
 from app.storage.session_store import settings_folder
 from app.storage.settings import settings_file
 from app.views.base import View
 from app.window import MainWindow, title
+from renderer import compiling
 from renderer.atomic import atomic_write, check_writable
 from renderer.errors import LucidaError
 from renderer.scene import BUILTIN_SCENES
@@ -59,9 +61,9 @@ def run_viewer(
 
     Without a scene, a view, a screenshot and `fresh`, the last session is gone on with.
     screenshot: draw the whole window once, with both images complete, save it there as PNG, and
-    return. With no display that is done in any case, into lucida.png, and one line says so.
-    size: the window's (width, height). view: a view file. change: what else the command line says
-    about the view. Raises LucidaError.
+    return. With no display that is done in any case, into lucida.png, or lucida-2.png where there
+    is one, and one line says so. size: the window's (width, height). view: a view file. change:
+    what else the command line says about the view. Raises LucidaError.
     """
     if screenshot is not None:
         check_writable(screenshot)
@@ -70,7 +72,7 @@ def run_viewer(
     platform = start_platform(want_display=screenshot is None)
     picture = screenshot
     if not platform.has_display and picture is None:
-        picture = DEFAULT_PICTURE
+        picture = free_path(DEFAULT_PICTURE)
         check_writable(picture)
         print(f"lucida: no display ({platform.reason}): drawing the window once, into {picture}")
     if start is None:
@@ -116,6 +118,7 @@ class Run:
         self.take_picture = take_picture
         self._error: BaseException | None = None
         self._quiet_frames = 0
+        self._told = compiling.note()
         self._ended = False
         self._start_s = 0.0
         self.params = self._parameters(state, size, remember and not take_picture)
@@ -250,6 +253,12 @@ class Run:
             if self.on_drawn is not None:
                 self.on_drawn(drawn)
 
+    def _tell_compiling(self) -> None:
+        """Says once, where nobody looks at the window, what it waits for."""
+        if compiling.note() != self._told:
+            self._told = compiling.note()
+            print(f"lucida: {self._told}", file=sys.stderr)
+
     def _after_frame(self) -> None:
         if self._ended:  # before the first frame: HelloImGui has forgotten it since
             self.params.app_shall_exit = True
@@ -257,6 +266,7 @@ class Run:
             flush_opengl()
         if not self.take_picture:
             return
+        self._tell_compiling()
         failures = [self.window.renderers.failure, *self.window.shell.stage.failures.values()]
         for failure in failures:
             if failure is not None:

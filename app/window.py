@@ -22,8 +22,10 @@ from app.cameras.focus import Focus, object_corners, scene_focus
 from app.cameras.presets import framed
 from app.cameras.travel import Traveller
 from app.images.agreement import Verdict
+from app.images.placement import shown_pixel
 from app.images.renderers import Renderers
 from app.options import Pixel
+from app.panels.go_to_pixel import Going, going, pixel_box
 from app.panels.menus import menu_bar
 from app.panels.pointing import frame_views
 from app.panels.resolution import Asked, asked, resolution_box
@@ -95,6 +97,7 @@ class MainWindow:
         self._gesture = 0
         self._was_active = False
         self._asked: Asked | None = None
+        self._going: Going | None = None
         self._focused: tuple[Scene, Focus] | None = None
         self.traveller = Traveller()
         self.traveller.instant = not smooth
@@ -155,6 +158,11 @@ class MainWindow:
     def ask_resolution(self) -> None:
         """Opens the box to type the images' resolution into."""
         self._asked = asked(self.state, self.renderers.size)
+
+    def ask_pixel(self) -> None:
+        """Opens the box to type a pixel's row and column into."""
+        if min(self.renderers.size):
+            self._going = going(self.state, self.renderers.size)
 
     def travel(self, state: AppState) -> None:
         outside = self.views[OUTSIDE]
@@ -248,6 +256,10 @@ class MainWindow:
         if self._asked is not None:
             self._asked, state = resolution_box(self._asked, self.state)
             self.change(state)
+        if self._going is not None:
+            self._going, pixel = pixel_box(self._going, self.state)
+            if pixel is not None:
+                self._go_to(pixel)
         self.shell.draw(self)
         frame_views(self.state, self.shell.stage.rects)
         if self.files.busy or self.renderers.unfinished(self.state):
@@ -263,7 +275,6 @@ class MainWindow:
         if image is not None and image.request.scene is not state.scene:
             image = None  # of another scene, until the first one of this scene comes
         pixel = self._hovered[1] if self._hovered else state.marked
-        base = int(state.options.one_based)
         status_line(
             Status(
                 raster_s=both.pictures.raster_s if both.pictures else 0.0,
@@ -271,10 +282,11 @@ class MainWindow:
                 ray_s=image.frame.time_s if image else 0.0,
                 size=both.size,
                 factor=image.factor if image else 0,
-                agreement=verdict.text if verdict else describe(failure) if failure else "",
-                agrees=None if state.has_effects else _agrees(verdict),
+                agreement=_agreement(verdict, failure) or both.preparing(),
+                agrees=_agrees(verdict, failure, state.has_effects),
                 scene=state.scene.name,
-                pixel=(pixel[0] + base, pixel[1] + base) if pixel else None,
+                pixel=pixel,
+                indexing=state.options.indexing,
                 seen=both.seen_at(state, pixel) if pixel else "",
                 loading=self.files.loading,
                 brief=state.preferences.presentation,
@@ -303,6 +315,12 @@ class MainWindow:
         if self.traveller.under_way:
             self.animate()
 
+    def _go_to(self, pixel: Pixel) -> None:
+        """Marks a pixel, and brings it into sight where the images are magnified."""
+        placement = self.renderers.placement(self.state)
+        moved = shown_pixel(placement, pixel) if placement is not None else {}
+        self.change(self.state.with_options(marked=pixel, images=moved))
+
     def _cancel_drags(self) -> None:
         for view in self.views.values():
             view.cancel()
@@ -328,8 +346,18 @@ class MainWindow:
         hello_imgui.request_refresh()
 
 
-def _agrees(verdict: Verdict | None) -> bool:
-    return verdict is not None and verdict.unexplained == 0
+def _agreement(verdict: Verdict | None, failure: Exception | None) -> str:
+    """What the status line says of both images; empty while nothing is known."""
+    return verdict.text if verdict else describe(failure) if failure else ""
+
+
+def _agrees(verdict: Verdict | None, failure: Exception | None, effects: bool) -> bool | None:
+    """Whether that is good news; None where it is none: nothing was compared."""
+    if failure is not None and verdict is None:
+        return False
+    if effects or verdict is None or verdict.comparison.nothing_hit:
+        return None
+    return verdict.unexplained == 0
 
 
 def title(scene: Scene) -> str:

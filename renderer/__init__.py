@@ -13,8 +13,9 @@ if TYPE_CHECKING:
     from renderer.camera import Camera
     from renderer.errors import LucidaError
     from renderer.frame import Frame
+    from renderer.images import picture, write_image
     from renderer.raster import Rasterizer
-    from renderer.scene import Scene, View, load_scene, load_view
+    from renderer.scene import Scene, View, load_scene, load_view, save_view
     from renderer.trace import Tracer
 
 _HOME = {
@@ -27,6 +28,9 @@ _HOME = {
     "View": "renderer.scene",
     "load_scene": "renderer.scene",
     "load_view": "renderer.scene",
+    "picture": "renderer.images",
+    "save_view": "renderer.scene",
+    "write_image": "renderer.images",
 }
 
 __all__ = [
@@ -39,6 +43,9 @@ __all__ = [
     "View",
     "load_scene",
     "load_view",
+    "picture",
+    "save_view",
+    "write_image",
 ]
 
 
@@ -46,3 +53,8 @@ def __getattr__(name: str) -> Any:
     if name in _HOME:
         return getattr(import_module(_HOME[name]), name)
     raise AttributeError(f"module 'renderer' has no attribute {name!r}")
+
+
+def __dir__() -> list[str]:
+    """The public names, also those that nobody has used yet."""
+    return sorted(__all__)

@@ -279,6 +279,16 @@ class Camera:
         return replace(self, viewport=(left + dx, right + dx, bottom + dy, top + dy))
 
 
+def check_camera(camera: object) -> Camera:
+    """The camera; raises LucidaError for anything else, such as a View, which becomes a camera
+    only for an image's size."""
+    if isinstance(camera, Camera):
+        return camera
+    kind = type(camera).__name__
+    remedy = "give .for_size(size) of it" if hasattr(camera, "for_size") else "give a Camera"
+    raise LucidaError("camera", f"is a {kind}, not a Camera", remedy)
+
+
 def volume(u: ArrayLike, v: ArrayLike, w: ArrayLike) -> float:
     """The volume that three vectors span: the determinant, negative if they are left-handed.
 

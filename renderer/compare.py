@@ -30,6 +30,8 @@ from renderer.difference import (
 from renderer.edges import Lines
 from renderer.frame import CHANNELS, Frame
 from renderer.images.display import encode_srgb
+from renderer.nothing_hit import hits_nothing, why_nothing_is_hit
+from renderer.pixels import Indexing, Pixel
 from renderer.scene.flat import FlatScene, flatten
 from renderer.scene.model import Scene
 
@@ -46,8 +48,6 @@ MOST_EXAMINED = 1 << 20  # disagreeing pixels; more than that is not a matter of
 
 _SLOPE_OF_SRGB = 12.92  # the steepest
 _NEGLIGIBLE = 1e-5  # a display value; smaller differences are not worth a closer look
-
-Pixel = tuple[int, int]
 
 
 @dataclass(frozen=True)
@@ -75,7 +75,8 @@ class Comparison:
     surface is so oblique that TOLERANCE_PX moves its depth by more than the difference.
     unexplained: all others; shading: those of them where only the colour differs.
     max_...: the largest errors among the agreeing pixels; errors: by channel, over all pixels.
-    labels: uint8 (height, width). times_s: what each renderer took.
+    labels: uint8 (height, width). times_s: what each renderer took. nothing_hit: why neither image
+    shows anything, so that nothing was compared; empty where something is hit.
     """
 
     size: tuple[int, int]
@@ -91,6 +92,7 @@ class Comparison:
     labels: NDArray[np.uint8]
     raster: Frame
     ray: Frame
+    nothing_hit: str = ""
 
     @property
     def pixels(self) -> int:
@@ -101,8 +103,8 @@ class Comparison:
         """(row, column) of the largest colour difference."""
         return self.errors["color"].worst
 
-    def to_dict(self) -> dict[str, object]:
-        """Everything but the images, as plain numbers."""
+    def to_dict(self, indexing: Indexing = Indexing.ARRAY) -> dict[str, object]:
+        """Everything but the images, as plain numbers. indexing: how its pixels are counted."""
         return {
             "size": list(self.size),
             "pixels": self.pixels,
@@ -113,21 +115,25 @@ class Comparison:
             "max_depth_error": self.max_depth_error,
             "max_normal_error": self.max_normal_error,
             "max_color_error": self.max_color_error,
-            "worst": list(self.worst),
+            "pixels_from": indexing.value,
+            "worst": list(indexing.numbers(self.worst)),
             "errors": {
-                name: asdict(error) | {"worst": list(error.worst)}
+                name: asdict(error) | {"worst": list(indexing.numbers(error.worst))}
                 for name, error in self.errors.items()
             },
+            "nothing_hit": self.nothing_hit or None,
             "times_s": dict(self.times_s),
         }
 
-    def summary(self) -> str:
-        """A few lines for the command line."""
+    def summary(self, indexing: Indexing = Indexing.ARRAY) -> str:
+        """A few lines for the command line. indexing: how its pixels are counted."""
         width, height = self.size
         causes = ", ".join(f"{name} {count}" for name, count in self.explained.items() if count)
-        color, (row, column) = self.errors["color"], self.worst
+        color = self.errors["color"]
+        nothing = [f"nothing is hit in either image: {self.nothing_hit}"] * bool(self.nothing_hit)
         return "\n".join(
             [
+                *nothing,
                 f"{width}x{height}: {self.agree} of {self.pixels} pixels agree",
                 f"explained:   {sum(self.explained.values())}" + (f" ({causes})" if causes else ""),
                 f"unexplained: {self.unexplained}"
@@ -135,7 +141,7 @@ class Comparison:
                 f"largest errors where they agree: depth {self.max_depth_error:.1e} (relative), "
                 f"normal {self.max_normal_error:.1e}, color {self.max_color_error * 255:.2f}/255",
                 f"color everywhere: largest error {color.largest * 255:.1f}/255 "
-                f"at row {row}, column {column}, RMS {color.rms * 255:.3f}/255",
+                f"at {indexing.words(self.worst)} ({indexing.told}), RMS {color.rms * 255:.3f}/255",
                 "raster {raster:.1f} ms, ray {ray:.1f} ms".format(
                     **{name: 1e3 * time for name, time in self.times_s.items()}
                 ),
@@ -146,6 +152,8 @@ class Comparison:
         """For a status line."""
         if self.unexplained:
             return f"disagree: {_pixels(self.unexplained)}"
+        if self.nothing_hit:
+            return f"nothing is hit: {self.nothing_hit}"
         edges = sum(self.explained.values())
         if not edges:
             return "agree: all pixels"
@@ -241,6 +249,7 @@ def compare_frames(
         labels=labels,
         raster=raster,
         ray=ray,
+        nothing_hit=why_nothing_is_hit(flat, camera) if hits_nothing(raster, ray) else "",
     )
 
 

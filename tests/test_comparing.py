@@ -182,11 +182,6 @@ def test_a_pixels_values():
     assert comparing.pixel_values(comparison, (2, 2), "id") == ("object 0", "none", "")
 
 
-def test_pixels_are_counted_from_where_the_user_likes():
-    assert comparing.pixel_text((0, 11), one_based=True) == "(1, 12)"
-    assert comparing.pixel_text((0, 11), one_based=False) == "(0, 11)"
-
-
 def test_effects_have_names(state):
     assert comparing.effects_of(state) == ""
     both = state.with_options(shadows=True, mirrors=True)

@@ -16,7 +16,7 @@ from PIL import Image
 
 from app.platform import Target
 from app.storage import clipboard
-from app.storage.capture import Captures, cut
+from app.storage.capture import Captures, cut, free_path
 from app.storage.files import open_sources
 from app.storage.folders import read_folder, starting_points
 from app.storage.recent import MOST, RecentFiles
@@ -170,6 +170,16 @@ class Framebuffer:
 
 PIXELS = np.arange(5 * 7 * 3, dtype=np.uint8).reshape(5, 7, 3)
 TARGET = Target(Framebuffer(PIXELS), (7, 5))  # type: ignore[arg-type]
+
+
+def test_a_name_that_is_taken_gets_a_number(tmp_path):
+    path = tmp_path / "lucida.png"
+    assert free_path(path) == path
+    path.write_bytes(b"taken")
+    assert free_path(path).name == "lucida-2.png"
+    (tmp_path / "lucida-2.png").symlink_to(tmp_path / "nowhere")  # writing would follow it
+    assert free_path(path).name == "lucida-3.png"
+    assert free_path(path, " ").name == "lucida 2.png"
 
 
 def test_a_picture_is_saved_and_told(tmp_path):

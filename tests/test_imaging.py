@@ -9,7 +9,7 @@ import pytest
 
 from app.images import imaging
 from app.images.marking import followed, moved
-from app.images.pixelvalues import is_dark, line_count, pixel_name, shown_bytes, value_lines
+from app.images.pixelvalues import is_dark, line_count, shown_bytes, value_lines
 from app.options import Channel, ImageOptions
 from app.state import AppState
 from renderer.camera import Camera
@@ -120,11 +120,6 @@ def test_values_are_written_as_the_channel_needs():
 def test_depths_have_three_digits(t: float, text: str):
     """A pixel has room for five letters."""
     assert value_lines(np.array([[t]]), replace(COLOR, channel="depth")) == [[text]]
-
-
-def test_pixels_are_counted_as_chosen():
-    assert pixel_name((0, 11), one_based=True) == "1,12"
-    assert pixel_name((0, 11), one_based=False) == "0,11"
 
 
 def test_text_is_read_on_every_colour():

@@ -57,6 +57,13 @@ def test_every_field_defaults_to_the_canonical_camera() -> None:
     assert view == View(Camera(projection="parallel", far=3.0), fit=True)
 
 
+def test_a_view_file_may_say_what_the_camera_looks_at() -> None:
+    text = "[camera]\neye = [0, 3, 8]\ntarget = [0, 1, 0]\nfov_y_deg = 35"
+    looking = Camera.look_at((0, 3, 8), (0, 1, 0), fov_y_deg=35)
+    assert view_from_toml(text) == View(looking, fit=True)
+    assert view_from_toml(text + "\nfit = false") == View(looking, fit=False)
+
+
 def test_a_view_that_cannot_be_written_leaves_the_old_file(tmp_path: Path) -> None:
     path = tmp_path / "a.toml"
     save_view(path, View(Camera.canonical()))
@@ -82,6 +89,13 @@ def test_a_view_that_cannot_be_written_leaves_the_old_file(tmp_path: Path) -> No
         ("[camera]\nfit = 1", "v.toml: camera.fit: is a whole number; give true or false"),
         ("lucida = 2\n[camera]", "v.toml: lucida: the file is of version 2"),
         ("lucida = true\n[camera]", "v.toml: lucida: True is no version"),
+        ("camera = 3", "v.toml: camera: is a whole number; give a table"),
+        ("[camera]\ntarget = [0, 0, 1]", "v.toml: camera.eye: is missing; give it"),
+        (
+            "[camera]\neye = [0, 0, 1]\ntarget = [0, 0, 1]",
+            "v.toml: camera.target: (0, 0, 1) is the",
+        ),
+        ("[camera]\nu = [1, 0, 0]\ntarget = [0, 0, 1]", "v.toml: camera.u: is given beside target"),
         ("[camera]\n[[objects]]", "v.toml: objects: is unknown"),
     ],
 )

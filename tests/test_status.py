@@ -14,6 +14,7 @@ from app.panels.status import (
     right_texts,
     time_texts,
 )
+from renderer.pixels import Indexing
 
 STATUS = Status(0.001, 1, 0.02, (640, 480), 1, "agree: all pixels", True, "spheres")
 
@@ -46,7 +47,9 @@ def test_an_image_that_no_view_has_wanted_has_no_time() -> None:
 def test_right_texts() -> None:
     assert right_texts(STATUS) == [""]
     pixel = replace(STATUS, pixel=(3, 4), seen="ball, t = 2")
-    assert right_texts(pixel)[0] == "ball, t = 2  pixel (   3,   4)"
+    assert right_texts(pixel)[0] == "ball, t = 2  pixel (   4,    5) from 1"
+    counted = replace(pixel, indexing=Indexing.ARRAY)
+    assert right_texts(counted)[1:] == ["pixel (   3,    4) from 0", "pixel (   3,    4)", ""]
     assert right_texts(replace(pixel, loading="bunny.obj"))[0] == "loading bunny.obj ..."
 
 

@@ -294,6 +294,25 @@ class TestText:
             texts.parse(text)
         assert error.value.line == line
 
+    @pytest.mark.parametrize(
+        ("text", "line", "told"),
+        [
+            (
+                "so $$x$$ is",
+                0,
+                "$$ stands within a line; give it lines of its own, or write $ ... $",
+            ),
+            ("a\n\n- so **$$x$$**", 2, "$$ stands within a line"),
+            ("a\n$$x$$ is", 1, "text follows a displayed formula's $$; begin a new line after it"),
+            ("$$\nx\n$$ is", 2, "text follows a displayed formula's $$"),
+        ],
+    )
+    def test_a_displayed_formula_within_a_line_is_told_the_remedy(self, text, line, told):
+        with pytest.raises(texts.TextError) as error:
+            texts.parse(text)
+        assert told in str(error.value)
+        assert error.value.line == line
+
 
 class TestWatching:
     def test_a_change_is_told_once_it_rests(self):

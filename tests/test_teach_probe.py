@@ -15,12 +15,13 @@ from app.teach.color_formulas import color_lines
 from app.teach.copying import all_lines, as_latex, as_python, as_text
 from app.teach.crossings import RUN, Index
 from app.teach.formulas import hit_lines, ray_lines
-from app.teach.notation import Indexing, latex_number, number
+from app.teach.notation import latex_number, number
 from app.teach.probe import Probe
 from app.teach.reading import BEHIND, FAR, HIDDEN, NEAR, SEEN, Reading
 from renderer.camera import Camera
 from renderer.errors import LucidaError
 from renderer.images.display import encode_srgb, to_srgb8
+from renderer.pixels import Indexing
 from renderer.scene import BUILTIN_SCENES, load_scene, shapes
 from renderer.scene.flat import flatten
 from renderer.scene.model import (

@@ -96,14 +96,17 @@ def check_picture(path: Path, size: tuple[int, int]) -> None:
 
 
 def test_no_display(tmp_path: Path) -> None:
+    mine = tmp_path / "lucida.png"
+    mine.write_text("a user's own picture")
     done = run(["-m", "app"], tmp_path)
     assert done.returncode == 0, done.stderr
     first, last = done.stdout.splitlines()
     assert "no display" in first
-    assert "lucida.png" in last
-    check_picture(tmp_path / "lucida.png", (1280, 720))
+    assert "lucida-2.png" in last
+    check_picture(tmp_path / "lucida-2.png", (1280, 720))
+    assert mine.read_text() == "a user's own picture"
     assert not (tmp_path / "config").exists()  # pictures neither read nor write settings
-    assert sorted(path.name for path in tmp_path.iterdir()) == ["lucida.png"]
+    assert sorted(path.name for path in tmp_path.iterdir()) == ["lucida-2.png", "lucida.png"]
 
 
 def test_screenshot_of_any_size_and_scene(tmp_path: Path) -> None:

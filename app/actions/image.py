@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
-from app.actions.base import ALT, Action, Key, Window, changing
+from app.actions.base import ALT, CTRL, Action, Key, Window, changing
 from app.images.imaging import (
     CHANNELS,
     COMPONENTS,
@@ -31,6 +31,7 @@ from app.options import (
 from app.state import AppState
 
 CHANNEL, RESOLUTION, MAGNIFY = "Image/Channel", "Image/Resolution", "Image/Magnification"
+COUNTING = "Image/Rows and columns"
 
 
 def _channel(number: int, channel: Channel, name: str) -> Action:
@@ -117,6 +118,15 @@ def _switch_values(state: AppState) -> AppState:
     return state.with_options(images={"values": "bytes" if floats else "floats"})
 
 
+def _counting(name: str, one_based: bool) -> Action:
+    return Action(
+        COUNTING,
+        name,
+        changing(lambda state: state.with_options(one_based=one_based)),
+        is_on=lambda state: state.options.one_based == one_based,
+    )
+
+
 IMAGE = (
     *(_channel(k, channel, name) for k, (channel, (name, _)) in enumerate(CHANNELS.items())),
     *(_component(part, name) for part, (name, _) in COMPONENTS.items() if part != "rgb"),
@@ -200,17 +210,26 @@ IMAGE = (
     ),
     Action(
         "Image",
+        "Go to pixel...",
+        lambda w: w.ask_pixel(),
+        "Ctrl+G",
+        (CTRL | int(Key.g),),
+        separated=True,
+    ),
+    _counting("Pixels from 1 (lecture)", one_based=True),
+    _counting("Pixels from 0 (arrays)", one_based=False),
+    Action(
+        "Image",
         "Take the mark away",
         changing(lambda state: state.with_options(marked=None)),
         "Esc",
         (int(Key.escape),),
         can=lambda w: w.state.marked is not None,
-        separated=True,
     ),
 )
 MOUSE = (
     ("click an image", "mark the pixel; again, or Esc: take the mark away"),
-    ("arrow keys over an image", "move the mark; Shift: by ten"),
+    ("arrow keys, mouse over an image", "move the mark; Shift: by ten"),
     ("Ctrl+wheel over an image", "magnify its pixels at the pointer"),
     ("Ctrl+drag an image", "move the magnified image"),
 )

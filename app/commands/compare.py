@@ -23,7 +23,8 @@ The picture shows the raster image dark, with the differing pixels in their caus
 outline light blue, meeting green, clip purple, checker olive, grazing blue; unexplained vermilion,
 or pink where only the colour differs. Or the difference as false colours: absolute, black (none)
 to white; signed, blue (raster larger) over white (none) to orange (ray larger).
-exit status: 0 no unexplained pixels, 1 some, 2 a mistake or a failure, 130 interrupted
+exit status: 0 no unexplained pixels, 1 some, or nothing is hit in either image, so that nothing
+was compared; 2 a mistake or a failure, 130 interrupted
 
 examples:
   lucida compare spheres
@@ -69,6 +70,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--backend", choices=common.BACKENDS, default="auto", help=common.BACKEND_HELP
     )
+    common.add_from_option(parser)
     parser.add_argument("--json", action="store_true", help="print one JSON object")
 
 
@@ -91,10 +93,12 @@ def run(arguments: argparse.Namespace) -> int:
         )
         write_picture(arguments.output, picture)
     if arguments.json:
-        print(json.dumps(comparison.to_dict(), indent=2, allow_nan=False))
+        print(json.dumps(comparison.to_dict(arguments.indexing), indent=2, allow_nan=False))
     else:
-        print(comparison.summary())
-    return 0 if comparison.unexplained == 0 else 1
+        print(comparison.summary(arguments.indexing))
+    if comparison.nothing_hit:
+        common.say_nothing_is_hit(scene, camera)
+    return 1 if comparison.unexplained or comparison.nothing_hit else 0
 
 
 def _gain(text: str) -> float:

@@ -42,7 +42,11 @@ examples:
   lucida render spheres -o spheres.png
   lucida render bunny.obj -o bunny.exr --renderer ray --samples 16
   lucida render still-life -o mirrors.png --renderer ray --shadows --mirrors 4
-  lucida render bunny.obj -o depth.npy --channel depth --size 640x480 --view corner.toml"""
+  lucida render bunny.obj -o depth.npy --channel depth --size 640x480 --view corner.toml
+  lucida render bunny.obj -o front.png --eye 0,0.1,0.5 --target 0,0.1,0 --fov 35
+
+exit status: 0 written (a line says so where nothing is hit), 2 a mistake or a failure,
+130 interrupted"""
 
 
 def configure(parser: argparse.ArgumentParser) -> None:
@@ -107,6 +111,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
 
 def run(arguments: argparse.Namespace) -> int:
     from renderer.images import check_image_path, write_image
+    from renderer.nothing_hit import hits_nothing
 
     if arguments.renderer != "ray":
         _check_effects(arguments)
@@ -121,12 +126,16 @@ def run(arguments: argparse.Namespace) -> int:
         f"{one_line(arguments.output)}: {arguments.channel}, {arguments.renderer}, "
         f"{width}x{height}, {1e3 * frame.time_s:.1f} ms"
     )
+    if hits_nothing(frame):
+        common.say_nothing_is_hit(scene, camera)
     return 0
 
 
 def draw(scene: Scene, camera: Camera, arguments: argparse.Namespace) -> Frame:
-    """The frame of the renderer that was asked for, behind a progress bar."""
-    size, channels, samples = arguments.size, (arguments.channel,), arguments.samples
+    """The frame of the renderer that was asked for, behind a progress bar: the channel that was
+    asked for, and id, which tells whether anything is hit."""
+    size, samples = arguments.size, arguments.samples
+    channels = tuple(dict.fromkeys((arguments.channel, "id")))
     with common.progress_bar(arguments.renderer) as progress:
         if arguments.renderer == "raster":
             from renderer.raster import Rasterizer

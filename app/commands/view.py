@@ -28,6 +28,7 @@ draw the same scene from the same camera, side by side, while you drag the camer
 commands:
   lucida render SCENE -o OUT     draw one image into a file
   lucida compare SCENE           raster against ray: counts, errors, causes
+  lucida pick SCENE ROW COLUMN   what one pixel sees: object, t, point, normal, colour
   lucida lecture [FILE]          a guided lecture, step by step
   lucida scenes                  the built-in scenes
   lucida doctor                  which GL platforms work here, and what to install

@@ -81,7 +81,7 @@ class Agreement:
         comparison = compare_frames(
             self._flat[1], request.camera, request.size, raster, ray, effects=request.has_effects
         )
-        if request.has_effects:
+        if request.has_effects and not comparison.nothing_hit:
             return Verdict(
                 request, "not compared: only rays find shadows and mirrors", 0, comparison
             )

@@ -62,8 +62,10 @@ def counts(comparison: Comparison) -> dict[int, int]:
 def headline(comparison: Comparison, effects: str = "") -> tuple[str, bool]:
     """The result in one line, and whether it is good news. effects: see effects_of()."""
     differing = comparison.pixels - comparison.agree
-    if effects:
+    if effects and not comparison.nothing_hit:
         return f"Not comparable with {effects}: {differing} of {comparison.pixels} differ", False
+    if comparison.nothing_hit and not comparison.unexplained:
+        return f"Nothing is hit in either image: {comparison.nothing_hit}", False
     if not differing:
         return "All pixels agree", True
     if not comparison.unexplained:
@@ -125,12 +127,6 @@ def error_text(comparison: Comparison, channel: Channel) -> str:
 def measured_at(images: ImageOptions) -> str:
     """At which exposure colours are compared, where the images are shown at another; or empty."""
     return "  at 0 EV" if images.channel == "color" and images.exposure_ev else ""
-
-
-def pixel_text(pixel: Pixel, one_based: bool) -> str:
-    """`(12, 40)`, row and column, counted as the user likes."""
-    first = int(one_based)
-    return f"({pixel[0] + first}, {pixel[1] + first})"
 
 
 def pixel_values(comparison: Comparison, pixel: Pixel, channel: Channel) -> tuple[str, str, str]:

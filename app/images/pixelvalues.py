@@ -11,7 +11,7 @@ import math
 import numpy as np
 from numpy.typing import NDArray
 
-from app.options import ImageOptions, Pixel
+from app.options import ImageOptions
 from renderer.images.display import FARTHEST_GRAY, ID_PALETTE, LUMINANCE, from_srgb, to_srgb8
 
 Bytes = NDArray[np.uint8]
@@ -19,11 +19,6 @@ Depths = tuple[float, float] | None  # that are shown white and darkest
 
 _COMPONENTS = ("red", "green", "blue")
 DARK = 0.179  # of luminance: there black and white are as easy to read. Source: WCAG 2, contrast
-
-
-def pixel_name(pixel: Pixel, one_based: bool) -> str:
-    """`3,12`: row and column, counted as the user has chosen."""
-    return f"{pixel[0] + one_based},{pixel[1] + one_based}"
 
 
 def shown_bytes(values: NDArray, options: ImageOptions, depths: Depths) -> Bytes:

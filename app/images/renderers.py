@@ -23,6 +23,7 @@ from app.images.underlay import Underlay
 from app.options import ImageOptions
 from app.platform import lower_priority
 from app.state import AppState
+from renderer import compiling
 from renderer.camera import Camera
 from renderer.frame import LARGEST_PIXELS, LARGEST_SIDE, Frame
 from renderer.raster import Look
@@ -216,6 +217,11 @@ class Renderers:
         """Whether the images of this state agree; None until that is known."""
         return self.agreement.verdict_on(self.request(state))
 
+    def nothing_hit(self, state: AppState) -> str:
+        """Why neither image of this state shows anything; empty where it does, or is not known."""
+        verdict = self.verdict(state)
+        return verdict.comparison.nothing_hit if verdict is not None else ""
+
     @property
     def raster_error(self) -> Exception | None:
         return self.pictures.raster_error if self.pictures else None
@@ -241,8 +247,8 @@ class Renderers:
         """What the tracer does before its first image of a scene; empty if that is quick."""
         if self.live.preparing_s < NOTE_AFTER_S:
             return ""
-        if self.live.first_ever:
-            return "compiling the ray tracer, once for this installation ..."
+        if self.live.first_ever and compiling.note():
+            return compiling.note()
         return "preparing the scene for the ray tracer ..."
 
     def depth_at(self, state: AppState, pixel: tuple[int, int]) -> float | None:

@@ -277,7 +277,7 @@ def _count_width(name: str) -> float:
 
 def _errors(wish: Wish, comparison: Comparison | None, fonts: theme.Fonts) -> Wish:
     """Buttons that go to pixels, and the errors over the whole image."""
-    channel, one_based = wish.state.images.channel, wish.state.options.one_based
+    channel, indexing = wish.state.images.channel, wish.state.options.indexing
     differ = comparison is not None and comparison.agree < comparison.pixels
     flow, widths = Flow(), _error_widths(fonts)
     flow.next(widths[0])
@@ -290,11 +290,14 @@ def _errors(wish: Wish, comparison: Comparison | None, fonts: theme.Fonts) -> Wi
     worst = comparison.errors[channel].worst if comparison is not None else (0, 0)
     imgui.begin_disabled(comparison is None)
     imgui.push_font(fonts.mono, 0.0)
-    if imgui.button(f"worst {comparing.pixel_text(worst, one_based)}###worst"):
+    if imgui.button(f"worst {indexing.text(worst)}###worst"):
         wish = Wish(wish.state, worst=True)
     imgui.pop_font()
     imgui.end_disabled()
-    imgui.set_item_tooltip("Mark the pixel of the largest error, and magnify there. Shift+M")
+    imgui.set_item_tooltip(
+        f"Mark the pixel of the largest error, and magnify there: row and column {indexing.told}. "
+        "Shift+M"
+    )
     flow.next(widths[2])
     imgui.push_font(fonts.mono, 0.0)
     text = comparing.error_text(comparison, channel) if comparison is not None else "..."
@@ -338,7 +341,8 @@ def _values(state: AppState, told: Told, fonts: theme.Fonts) -> None:
     )
     cause = comparing.cause_at(told.comparison, told.pixel)
     imgui.push_font(fonts.mono, 0.0)
-    pixel = comparing.pixel_text(told.pixel, state.options.one_based)
+    indexing = state.options.indexing
+    pixel = f"{indexing.text(told.pixel)} {indexing.told}"
     name = cause.name if cause is not None else "agree"
     imgui.text(f"raster {raster:24} pixel {pixel}: {name}")
     imgui.text(f"ray    {ray:24} ray - raster {difference}" if difference else f"ray    {ray}")

@@ -18,7 +18,7 @@ from app.images.underlay import Underlay
 from app.options import Pixel
 from app.panels.grips import Grab, Lens, Seen, Zoom, drag, magnify, wheel
 from app.panels.marks import claim_keys, draw_hovered, draw_marked, draw_pin
-from app.panels.overlay import draw_corner, draw_legend, draw_note
+from app.panels.overlay import draw_corner, draw_hint, draw_legend, draw_note
 from app.panels.pixelgrid import Values, draw_pixel_grid
 from app.panels.screen import Box, Screen
 from app.state import AppState
@@ -31,7 +31,8 @@ class Pane:
     underlay: where it can be put, having nothing under it; None: ImGui draws it. values: of some
     pixels, likewise; None: they are not written.
 
-    note: text over the image. progress: of the image under way, 1 for none. hovered: the pixel
+    note: text over the image, which is darkened: it is not of now. hint: text over an image as it
+    is. progress: of the image under way, 1 for none. hovered: the pixel
     under the mouse, to be marked here. depths: that are shown white and darkest. legend: whether
     the channel's colours are explained. on_pixels: draws on the image, below everything else.
     """
@@ -43,6 +44,7 @@ class Pane:
     fonts: theme.Fonts
     note: str = ""
     is_error: bool = False
+    hint: str = ""
     progress: float = 1.0
     legend: bool = True
     hovered: Pixel | None = None
@@ -136,6 +138,8 @@ def _draw(pane: Pane, state: AppState, screen: Screen, room: Box, grab: Grab | N
         draw_corner(draw, screen, state, pane.fonts)
     if pane.note:
         draw_note(draw, screen, pane.note, pane.is_error)
+    elif pane.hint:
+        draw_hint(draw, screen, pane.hint)
     draw.pop_clip_rect()
 
 

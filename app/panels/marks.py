@@ -22,6 +22,7 @@ _KEYS = {
     imgui.Key.up_arrow: (-1, 0),
     imgui.Key.down_arrow: (1, 0),
 }
+_FLOATING = int(imgui.WindowFlags_.no_docking | imgui.WindowFlags_.no_saved_settings)
 
 
 def draw_hovered(draw: imgui.ImDrawList, screen: Screen, pixel: Pixel) -> None:
@@ -66,14 +67,28 @@ def draw_pin(draw: imgui.ImDrawList, screen: Screen, pixel: Pixel, number: int) 
 
 
 def claim_keys() -> bool:
-    """The arrow keys belong to the current item while the mouse is over it, or while it has the
-    keyboard: they do not move on to another one. Gives whether they do."""
-    if not (imgui.is_item_hovered() or imgui.is_item_focused()):
+    """The arrow keys belong to the current item while the mouse rests on it, or while it has the
+    keyboard: they do not move on to another one. Gives whether they do.
+
+    ImGui's own answer is that nothing is hovered from a key of its navigation (Tab, say) on until
+    the mouse moves: the mouse rests on the image all the same. A box that floats over the views
+    keeps its keys.
+    """
+    resting = imgui.is_item_hovered(imgui.HoveredFlags_.no_nav_override) and not _in_a_box()
+    if not (resting or imgui.is_item_focused()):
         return False
     item = imgui.get_item_id()
     for key in _KEYS:
         imgui.internal.set_key_owner(key, item)
     return True
+
+
+def _in_a_box() -> bool:
+    """Whether another window has the keyboard that floats over the views, which can be docked."""
+    window, here = imgui.get_current_context().nav_window, imgui.internal.get_current_window()
+    if window is None or window.root_window.id_ == here.root_window.id_:
+        return False
+    return window.root_window.flags & _FLOATING == _FLOATING
 
 
 def walked(pixel: Pixel | None, size: tuple[int, int], start: Pixel) -> Pixel | None:

@@ -75,14 +75,23 @@ def draw_corner(
 def draw_note(draw: imgui.ImDrawList, screen: Screen, note: str, is_error: bool) -> None:
     """A line or two of text in the middle of the image, which is darkened."""
     origin, far = screen.visible
+    draw.add_rect_filled(origin, far, theme.u32(theme.rgb("#000000", 0.5)))  # it is not of now
+    _boxed(draw, screen, note, theme.u32(theme.rgb("#ff8a65") if is_error else TEXT))
+
+
+def draw_hint(draw: imgui.ImDrawList, screen: Screen, hint: str) -> None:
+    """The same over an image that is as it should be."""
+    _boxed(draw, screen, hint, theme.u32(TEXT))
+
+
+def _boxed(draw: imgui.ImDrawList, screen: Screen, text: str, color: int) -> None:
+    origin, far = screen.visible
     wrap = max(60.0, (far.x - origin.x) * 0.8)
-    size = imgui.calc_text_size(note, wrap_width=wrap)
+    size = imgui.calc_text_size(text, wrap_width=wrap)
     at = ImVec2((origin.x + far.x - size.x) / 2, (origin.y + far.y - size.y) / 2)
     low, high = ImVec2(at.x - 12, at.y - 8), ImVec2(at.x + size.x + 12, at.y + size.y + 8)
-    draw.add_rect_filled(origin, far, theme.u32(theme.rgb("#000000", 0.5)))  # it is not of now
     draw.add_rect_filled(low, high, theme.u32(theme.rgb("#0c0d0f", 0.85)), 4.0)
-    color = theme.u32(theme.rgb("#ff8a65") if is_error else TEXT)
-    draw.add_text(imgui.get_font(), imgui.get_font_size(), at, color, note, wrap_width=wrap)
+    draw.add_text(imgui.get_font(), imgui.get_font_size(), at, color, text, wrap_width=wrap)
 
 
 def _depth_legend(

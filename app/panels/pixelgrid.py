@@ -12,7 +12,7 @@ from imgui_bundle import ImVec2, imgui
 from numpy.typing import NDArray
 
 from app import theme
-from app.images.pixelvalues import Depths, is_dark, line_count, pixel_name, shown_bytes, value_lines
+from app.images.pixelvalues import Depths, is_dark, line_count, shown_bytes, value_lines
 from app.images.reading import Region
 from app.panels.screen import Screen
 from app.state import AppState
@@ -93,7 +93,7 @@ def _rulers(draw: imgui.ImDrawList, screen: Screen, state: AppState, fonts: them
     low, high, mono = *screen.visible, fonts.mono or imgui.get_font()
     (width, height), (columns, rows) = screen.cell, screen.placement.size
     top, left, bottom, right = screen.placement.visible_pixels
-    base, size = int(state.options.one_based), max(13.0, 0.85 * imgui.get_font_size())
+    base, size = state.options.indexing.value, max(13.0, 0.85 * imgui.get_font_size())
     digit = ADVANCE * size
     band_x, band_y = digit * len(str(rows)) + 6, size + 2
     if high.x - low.x < 4 * band_x or high.y - low.y < 4 * band_y:
@@ -149,7 +149,7 @@ def _values(
     longest = max((len(line) for text in texts for line in text[0].split("\n")), default=1)
     longest = max(longest, max(len(line) for row in texts for line in row[-1].split("\n")))
     if named:
-        name = pixel_name((bottom - 1, right - 1), state.options.one_based)
+        name = state.options.indexing.short((bottom - 1, right - 1))
         longest = max(longest, len(name))
     lines = line_count(options) + named
     size = text_size(width, height, longest, lines)
@@ -167,7 +167,7 @@ def _values(
             x = screen.point(0, column + 0.5).x
             below = y
             if named:
-                name = pixel_name((row, column), state.options.one_based)
+                name = state.options.indexing.short((row, column))
                 at = ImVec2(x - ADVANCE * size * len(name) / 2, y)
                 draw.add_text(mono, size, at, dim[on_dark], name)
                 below += LEADING * size

@@ -21,11 +21,12 @@ from app.state import AppState
 from app.teach.color_formulas import color_lines
 from app.teach.copying import as_latex, as_python, as_text
 from app.teach.formulas import hit_lines, ray_lines
-from app.teach.notation import Indexing, Line, number
+from app.teach.notation import Line, number
 from app.teach.reading import SEEN, Crossing, Meeting, Reading
 from app.theme import Fonts
 from renderer.camera import Size
 from renderer.images.display import encode_srgb
+from renderer.pixels import Indexing
 
 LETTERS = 74.0  # a line over the whole panel
 WIDE_EM, NAMES_EM = 42.0, 8.5  # from this width on, names stand in a column of their own
@@ -49,20 +50,12 @@ class Pin:
     color: tuple[int, int, int] | None
 
 
-def indexing_of(state: AppState) -> Indexing:
-    return Indexing.LECTURE if state.options.one_based else Indexing.ARRAY
-
-
-def pixel_name(pixel: Pixel, indexing: Indexing) -> str:
-    return f"({pixel[0] + indexing.value}, {pixel[1] + indexing.value})"
-
-
 # The tools above.
 
 
 def toolbar(state: AppState, pixel: Pixel | None, size: Size, reading: Reading | None) -> AppState:
     """Which pixel, counted how, the rays, the copies. pixel: the marked one, or under the mouse."""
-    indexing = indexing_of(state)
+    indexing = state.options.indexing
     state = _pixel_fields(state, pixel, size, indexing)
     _follow(imgui.calc_text_size("from 1").x + 1.6 * imgui.get_frame_height())
     changed, one_based = imgui.checkbox("from 1", state.options.one_based)
@@ -92,9 +85,9 @@ def toolbar(state: AppState, pixel: Pixel | None, size: Size, reading: Reading |
 
 def pin_row(state: AppState, pins: Iterable[Pin], pixel: Pixel | None) -> AppState:
     """The kept pixels as buttons: a click goes there, a right click lets one go."""
-    indexing = indexing_of(state)
+    indexing = state.options.indexing
     for count, pin in enumerate(pins):
-        name = f"{count + 1}: {pixel_name(pin.pixel, indexing)}"
+        name = f"{count + 1}: {indexing.text(pin.pixel)}"
         side = imgui.get_frame_height()
         if count:
             _follow(_button_width(name) + side)
@@ -116,7 +109,7 @@ def pin_row(state: AppState, pins: Iterable[Pin], pixel: Pixel | None) -> AppSta
 
 def _pixel_fields(state: AppState, pixel: Pixel | None, size: Size, indexing: Indexing) -> AppState:
     first = indexing.value
-    shown = (first, first) if pixel is None else (pixel[0] + first, pixel[1] + first)
+    shown = indexing.numbers(pixel or (0, 0))
     width = imgui.calc_text_size("00000").x + 2 * imgui.get_style().frame_padding.x
     chosen = list(shown)
     edited = False

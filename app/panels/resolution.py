@@ -7,10 +7,11 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 
-from imgui_bundle import ImVec2, imgui
+from imgui_bundle import imgui
 
 from app import theme
 from app.images.imaging import parsed_size, size_text, with_resolution
+from app.panels.boxes import TYPED, begin_box, is_left
 from app.state import AppState
 from renderer.errors import LucidaError
 
@@ -33,25 +34,14 @@ def asked(state: AppState, size: tuple[int, int]) -> Asked:
 
 def resolution_box(box: Asked, state: AppState) -> tuple[Asked | None, AppState]:
     """Draws the box in the middle of the window; None once it is closed."""
-    center = imgui.get_main_viewport().get_center()
-    imgui.set_next_window_pos(center, imgui.Cond_.appearing, ImVec2(0.5, 0.5))
-    flags = imgui.WindowFlags_
-    opened, still_open = imgui.begin(
-        TITLE,
-        True,
-        flags.no_docking | flags.always_auto_resize | flags.no_collapse | flags.no_saved_settings,
-    )
+    opened, still_open = begin_box(TITLE)
     done = False
     if opened:
         imgui.text("Width x height, in pixels:")
         if box.appearing:
             imgui.set_keyboard_focus_here()
         imgui.set_next_item_width(12 * imgui.get_font_size())
-        entered, text = imgui.input_text(
-            "##size",
-            box.text,
-            int(imgui.InputTextFlags_.enter_returns_true | imgui.InputTextFlags_.auto_select_all),
-        )
+        entered, text = imgui.input_text("##size", box.text, TYPED)
         box = replace(box, text=text, appearing=False)
         imgui.same_line()
         done = imgui.button("Draw") or entered
@@ -65,6 +55,6 @@ def resolution_box(box: Asked, state: AppState) -> tuple[Asked | None, AppState]
             return None, with_resolution(state, parsed_size(box.text))
         except LucidaError as error:
             return replace(box, problem=str(error), appearing=True), state
-    if not still_open or imgui.is_key_pressed(imgui.Key.escape):
+    if is_left(still_open):
         return None, state
     return box, state

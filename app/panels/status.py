@@ -11,6 +11,7 @@ from imgui_bundle import ImVec2, imgui
 
 from app import theme
 from app.lettering import fitting_words
+from renderer.pixels import Indexing, Pixel
 
 DIVIDER_PX = 25.0  # at 100 %: a line between two texts, with what is free beside it
 
@@ -19,9 +20,10 @@ DIVIDER_PX = 25.0  # at 100 %: a line between two texts, with what is free besid
 class Status:
     """What the line tells. size: of the full image. factor: how coarse the ray image is, 1 for
     full, 0 for none; raster_factor: likewise. agreement: a text, empty while unknown; agrees:
-    whether it is good news, None where it is none. loading: what is being opened, empty for
-    nothing. brief: without times and sizes, for an audience. awaited: whether an agreement
-    that is unknown will be known; nothing is said of it otherwise.
+    whether it is good news, None where it is none. pixel: under the mouse, or marked; indexing: how
+    it is counted. loading: what is being opened, empty for nothing. brief: without times and sizes,
+    for an audience. awaited: whether an agreement that is unknown will be known; nothing is said of
+    it otherwise.
     """
 
     raster_s: float
@@ -32,7 +34,8 @@ class Status:
     agreement: str
     agrees: bool | None
     scene: str
-    pixel: tuple[int, int] | None = None
+    pixel: Pixel | None = None
+    indexing: Indexing = Indexing.LECTURE
     seen: str = ""
     loading: str = ""
     brief: bool = False
@@ -98,9 +101,9 @@ def right_texts(status: Status) -> list[str]:
         return [f"loading {status.loading} ...", "loading ...", ""]
     if status.pixel is None:
         return [""]
-    row, column = status.pixel
-    pixel = f"pixel ({row:4d},{column:4d})"
-    return [f"{status.seen}  {pixel}".strip(), pixel, ""]
+    pixel = f"pixel {status.indexing.text(status.pixel, digits=4)}"
+    told = f"{pixel} {status.indexing.told}"
+    return [f"{status.seen}  {told}".strip(), told, pixel, ""]
 
 
 def _together(widths: list[float], divider: float) -> float:

@@ -30,6 +30,7 @@ from app.teach.recording import MOST_STEPS, Order, Recording
 from app.teach.source import source_of
 from app.teach.stepper import Moment
 from app.theme import Fonts
+from renderer.pixels import Indexing
 
 CANVASES = ((4, 3), (8, 6), (16, 12), (32, 24), (64, 48))
 ORDERS: dict[Literal["both", "object", "image"], str] = {
@@ -45,6 +46,7 @@ TITLES = {
 ALL_BESIDE, NUMBERS_BESIDE = 1.9, 1.2
 LEFT, UPPER = 0.64, 0.64  # the code's part of a panel whose numbers stand beside it
 LEGIBLE_EM = 0.85  # the least size of the code, where the width allows
+INDICES = ("i", "j", "rows", "columns")  # the variables that count pixels
 
 Wish = Literal["", "first", "back", "play", "step", "pixel", "object", "last"]
 _BUTTONS: tuple[tuple[Wish, str, str], ...] = (
@@ -354,6 +356,9 @@ def _tables(moment: Moment, fonts: Fonts) -> None:
             imgui.push_font(fonts.mono, 0.0)
             imgui.text_colored(color, variable.text)
             imgui.pop_font()
+            if variable.name in INDICES:
+                imgui.same_line()
+                imgui.text_colored(theme.DIM, Indexing.ARRAY.told)  # as the code beside it
             imgui.pop_text_wrap_pos()
         imgui.end_table()
 

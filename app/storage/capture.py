@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import datetime
 import io
+import os
 from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
@@ -56,11 +57,7 @@ class Captures:
         folder = self.folder or pictures_folder()
         now = datetime.datetime.now().strftime("%Y-%m-%d %H.%M.%S")
         name = f"lucida {what} {now}".replace("  ", " ")
-        path = folder / f"{name}.png"
-        number = 2
-        while path.exists():
-            path, number = folder / f"{name} {number}.png", number + 1
-        return path
+        return free_path(folder / f"{name}.png", " ")
 
     def after_drawing(self, target: Target) -> None:
         """Takes the picture that was asked for; call when all is drawn, before the swap."""
@@ -81,6 +78,16 @@ class Captures:
 
     def close(self) -> None:
         self._work.close(5.0)
+
+
+def free_path(path: Path, before_number: str = "-") -> Path:
+    """The path, or, where there is something already, the first free one with a number from 2 on:
+    lucida.png, lucida-2.png."""
+    found, number = path, 2
+    while os.path.lexists(found):
+        found = path.with_name(f"{path.stem}{before_number}{number}{path.suffix}")
+        number += 1
+    return found
 
 
 def pictures_folder() -> Path:

@@ -9,8 +9,9 @@ from collections.abc import Iterable
 
 from app.teach.color_formulas import color_lines
 from app.teach.formulas import hit_lines, pixel_text, ray_lines
-from app.teach.notation import Indexing, Line, number
+from app.teach.notation import Line, number
 from app.teach.reading import SEEN, Meeting, Reading
+from renderer.pixels import Indexing
 
 
 def all_lines(reading: Reading, indexing: Indexing = Indexing.LECTURE) -> list[Line]:
@@ -50,14 +51,14 @@ def as_python(reading: Reading, indexing: Indexing = Indexing.LECTURE) -> str:
     of the background only origin, direction, color and rgb.
     """
     camera = reading.camera
-    i, j = (part + indexing.value for part in reading.pixel)
-    first = "from 1, as in the lecture" if indexing is Indexing.LECTURE else "from 0, as arrays are"
+    i, j = indexing.numbers(reading.pixel)
+    like = "as in the lecture" if indexing is Indexing.LECTURE else "as arrays are"
     parallel = camera.is_parallel
     lines = [
         f"# The viewing ray and the colour of the pixel in {pixel_text(reading, indexing)}.",
         "import numpy as np",
         "",
-        f"i, j = {i}, {j}  # row and column, counted {first}",
+        f"i, j = {i}, {j}  # row and column, counted {indexing.told}, {like}",
         f"W, H = {reading.size[0]}, {reading.size[1]}",
         *(f"{name} = {_array(getattr(camera, name))}" for name in ("eye", "u", "v", "w")),
         f"d = {camera.distance!r}  # distance of the viewport along -w",

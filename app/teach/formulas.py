@@ -14,7 +14,6 @@ import math
 import numpy as np
 
 from app.teach.notation import (
-    Indexing,
     Line,
     Slot,
     formula,
@@ -25,6 +24,7 @@ from app.teach.notation import (
 )
 from app.teach.reading import Reading
 from renderer.camera import Camera
+from renderer.pixels import Indexing
 
 LECTURE_VIEWPORT = (-0.5, 0.5, -0.5, 0.5)
 
@@ -82,9 +82,9 @@ def hit_lines(reading: Reading) -> list[Line]:
 
 
 def pixel_text(reading: Reading, indexing: Indexing) -> str:
-    """`row 3, column 5 of 1280 x 720`, counted as asked."""
-    i, j = (part + indexing.value for part in reading.pixel)
-    return f"row {i}, column {j} of {reading.size[0]} x {reading.size[1]}"
+    """`row 3, column 5 of 1280 x 720, from 1`, counted as asked."""
+    width, height = reading.size
+    return f"{indexing.words(reading.pixel)} of {width} x {height}, {indexing.told}"
 
 
 # The image plane.

@@ -8,21 +8,8 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
-from enum import Enum
 
 DECIMALS = 4
-
-
-class Indexing(Enum):
-    """How pixels are counted: from 1, as the lecture does, or from 0, as arrays do."""
-
-    LECTURE = 1
-    ARRAY = 0
-
-    @property
-    def offset(self) -> str:
-        """What takes a pixel's number to its middle."""
-        return "- 0.5" if self is Indexing.LECTURE else "+ 0.5"
 
 
 @dataclass(frozen=True)

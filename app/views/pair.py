@@ -121,6 +121,7 @@ class ImageView(View):
             fonts=host.fonts,
             note=describe(error) if error else note,
             is_error=error is not None,
+            hint=_hint(both.nothing_hit(state)),
             progress=progress,
             legend=legend,
             hovered=self._hovered(host, room_px),
@@ -219,3 +220,8 @@ class RayView(ImageView):
         note = both.preparing()
         self._pane(host, both.ray_picture, both.ray_values, both.ray_error, note, progress)
         both.trace(host.state)
+
+
+def _hint(nothing_hit: str) -> str:
+    """What an image that shows nothing says."""
+    return f"nothing is hit: {nothing_hit}\nHome: back to the scene's view" if nothing_hit else ""

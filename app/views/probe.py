@@ -105,7 +105,7 @@ class ProbeView(View):
         elif reading is None:
             _wrapped("preparing the scene for the probe ...", theme.DIM)
         else:
-            panel.reading_panel(reading, panel.indexing_of(host.state), host.fonts)
+            panel.reading_panel(reading, host.state.options.indexing, host.fonts)
         imgui.end_child()
         self._show_outside(host, reading, size)
 

@@ -9,7 +9,7 @@ from typing import NamedTuple
 
 from renderer.raster.setup import SceneSetup, scene_setup
 from renderer.scene.flat import FlatScene, flatten
-from renderer.scene.model import Scene
+from renderer.scene.model import Scene, check_scene
 
 
 class Prepared(NamedTuple):
@@ -21,5 +21,5 @@ class Prepared(NamedTuple):
 
 def prepare(scene: Scene) -> Prepared:
     """For Rasterizer(), or set_scene(). Raises LucidaError (see flatten)."""
-    flat = flatten(scene)
+    flat = flatten(check_scene(scene))
     return Prepared(flat, scene_setup(flat))

@@ -16,7 +16,7 @@ from typing import Any
 
 import moderngl
 
-from renderer.camera import Camera
+from renderer.camera import Camera, check_camera
 from renderer.frame import Frame, check_channels, check_size
 from renderer.raster.contexts import check_process, is_inherited, open_platform
 from renderer.raster.prepared import Prepared, prepare
@@ -133,6 +133,7 @@ class Rasterizer:
 
         progress is called with fractions up to 1. Raises LucidaError.
         """
+        check_camera(camera)
         size, channels, samples = check_size(size), check_channels(channels), check_samples(samples)
         return supersampled(self._frame, camera, size, channels, samples, progress)
 

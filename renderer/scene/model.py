@@ -240,3 +240,11 @@ class Scene:
         object.__setattr__(self, "lights", tuple(self.lights))
         for name in ("ambient", "background"):
             object.__setattr__(self, name, color(name, getattr(self, name)))
+
+
+def check_scene(scene: object) -> Scene:
+    """The scene; raises LucidaError for anything else, such as a file's name."""
+    if isinstance(scene, Scene):
+        return scene
+    remedy = "give load_scene(...) of it" if isinstance(scene, str | Path) else "give a Scene"
+    raise LucidaError("scene", f"is a {type(scene).__name__}, not a Scene", remedy)

@@ -22,7 +22,9 @@ class Table(msgspec.Struct, kw_only=True, forbid_unknown_fields=True):
 
 
 class CameraFields(Table):
-    """[camera] of a view file: the camera as it is, every field by default the canonical one's.
+    """[camera] as the camera is, in view files and scene files.
+
+    Every field is by default the canonical camera's.
 
     fit: widen the viewport to each image's aspect ratio.
     """
@@ -40,7 +42,7 @@ class CameraFields(Table):
 
 
 class LookAtFields(Table):
-    """[camera] of a scene file, by what it looks at: given away by `target`.
+    """[camera] by what it looks at, in view files and scene files: given away by `target`.
 
     Give fov_y_deg, or the distance of a viewport 1 high. aspect: the viewport's width over its
     height; all of it is in the picture when it is fitted. fit: as above, by default true.
@@ -59,9 +61,9 @@ class LookAtFields(Table):
 
 
 class ViewFile(Table):
-    """A view file: `lucida = 1`, if given, and [camera]."""
+    """A view file: `lucida = 1`, if given, and [camera]: CameraFields or LookAtFields."""
 
-    camera: CameraFields
+    camera: dict[str, Any]
 
 
 class CheckerTable(Table):

@@ -20,6 +20,7 @@ from renderer.scene.schema import CameraFields, LookAtFields, ViewFile
 from renderer.scene.tables import VERSION, parse_toml, to_struct
 
 _CAMERA = ("eye", "u", "v", "w", "distance", "viewport", "projection", "near", "far")
+LOOK_AT = {"target", "up", "fov_y_deg", "aspect"}  # fields that give LookAtFields away
 
 
 def load_view(path: str | Path) -> View:
@@ -61,9 +62,16 @@ def view_table(view: View) -> dict[str, Any]:
 
 
 def view_from_toml(text: str, source: str = "") -> View:
-    """The view in the text of a view file. source: the file's name, for errors."""
+    """The view in the text of a view file. source: the file's name, for errors.
+
+    A viewport stands as it is unless `fit = true`; a camera written by its target is fitted to each
+    image, as in a scene file, unless `fit = false`.
+    """
     try:
-        fields: CameraFields = to_struct(parse_toml(text), ViewFile).camera
+        table: dict[str, Any] = to_struct(parse_toml(text), ViewFile).camera
+        if looks_at(table):
+            return view_from_table(table)
+        fields: CameraFields = to_struct(table, CameraFields, "camera")
         try:
             return View(_camera(fields), bool(fields.fit))
         except LucidaError as error:
@@ -72,13 +80,18 @@ def view_from_toml(text: str, source: str = "") -> View:
         raise error.in_file(source) from None
 
 
+def looks_at(table: dict[str, Any]) -> bool:
+    """Whether a [camera] is written by what it looks at (LookAtFields)."""
+    return not LOOK_AT.isdisjoint(table)
+
+
 def view_from_table(table: dict[str, Any]) -> View:
     """The view of a scene file's [camera]: a view file's fields, or eye and target.
 
     It fits each image's aspect ratio unless it says `fit = false` or gives a viewport.
     """
     try:
-        if not {"target", "up", "fov_y_deg", "aspect"} & table.keys():
+        if not looks_at(table):
             fields: CameraFields = to_struct(table, CameraFields)
             fit = "viewport" not in table if fields.fit is None else fields.fit
             return View(_camera(fields), fit)

@@ -31,10 +31,11 @@ import numba
 import numpy
 import platformdirs
 from numba.core import config
-from numba.core.caching import FunctionCache
+from numba.core.caching import FunctionCache, NullCache
 from numba.core.runtime import rtsys
 
 import renderer.scene.flat
+from renderer import compiling
 from renderer.errors import LucidaError
 from renderer.private import private_folder
 from renderer.trace.inlining import KernelCompiler, PartCompiler
@@ -83,9 +84,11 @@ def kernel(function: Callable[..., Any]) -> Any:
             try:
                 compiled._cache = _Cache(function)
             except RuntimeError:  # the folder can no longer be written
-                pass
+                compiled._cache = _NoCache()
             finally:
                 config.CACHE_DIR, config.CACHE_LOCATOR_CLASSES = users
+    else:
+        compiled._cache = _NoCache()
     return compiled
 
 
@@ -162,6 +165,14 @@ def _prune(base: Path, used: Path) -> None:
         return
 
 
+class _NoCache(NullCache):
+    """What a function has that is compiled anew in each process."""
+
+    def load_overload(self, sig: Any, target_context: Any) -> Any:
+        compiling.begin(kept=False)
+        return None
+
+
 class _Cache(FunctionCache):
     """numba's cache of one function; a damaged or full disk costs compiling again, not an error.
 
@@ -170,13 +181,16 @@ class _Cache(FunctionCache):
     """
 
     def load_overload(self, sig: Any, target_context: Any) -> Any:
+        loaded = None
         try:
             rtsys.initialize(target_context)
             with self._guard_against_spurious_io_errors():
-                return self._load_overload(sig, target_context)
+                loaded = self._load_overload(sig, target_context)
         except Exception:  # whatever unpickling a damaged file may raise
             pass
-        return None
+        if loaded is None:
+            compiling.begin(kept=True)
+        return loaded
 
     def save_overload(self, sig: Any, data: Any) -> None:
         try:

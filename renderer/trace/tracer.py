@@ -14,11 +14,11 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from renderer.camera import Camera
+from renderer.camera import Camera, check_camera
 from renderer.errors import LucidaError
 from renderer.frame import Frame, check_channels, check_size
 from renderer.samples import check_samples, supersampled
-from renderer.scene.model import Scene
+from renderer.scene.model import Scene, check_scene
 from renderer.trace.batch import RayBatch
 from renderer.trace.buffers import Buffers
 from renderer.trace.jobs import Task, TraceJob
@@ -43,7 +43,8 @@ class Tracer:
     The first image takes longer: the scene is prepared then and, once for each installation, the
     kernels are compiled, some seconds. Several Tracers may work at once; the jobs of one are done
     one after another, in the order of their start. All methods may be called from any thread.
-    Raises LucidaError for a bad number of threads or bounces, and for an unknown method.
+    Raises LucidaError for what is no Scene, a bad number of threads or bounces, and an unknown
+    method.
     """
 
     def __init__(
@@ -55,7 +56,7 @@ class Tracer:
         mirror_depth: int = 0,
     ) -> None:
         _check_method(method, shadows, mirror_depth)
-        self._scene = scene
+        self._scene = check_scene(scene)
         self.threads = check_threads(threads)
         self.method = method
         self.shadows, self.mirror_depth = bool(shadows), mirror_depth
@@ -75,7 +76,7 @@ class Tracer:
         only that is prepared anew: milliseconds. Meshes are the same if their arrays are, as after
         dataclasses.replace(mesh, transform=...).
         """
-        self._scene = scene
+        self._scene = check_scene(scene)
 
     def render(
         self,
@@ -90,8 +91,9 @@ class Tracer:
         channels: see Frame. samples: rays a pixel for the colour, 1, 4, 9 ... 64 (samples.py).
         progress: called from this thread with the finished part, rising from 0 to 1. An exception
         in the meantime, from progress or a KeyboardInterrupt, cancels the work and comes through.
-        Raises LucidaError for channels, sizes and samples that cannot be.
+        Raises LucidaError for cameras, channels, sizes and samples that cannot be.
         """
+        check_camera(camera)
         size, channels = check_size(size), check_channels(channels)
         return supersampled(self._render, camera, size, channels, check_samples(samples), progress)
 
@@ -106,6 +108,7 @@ class Tracer:
         Jobs begun before come first: cancel those that are no longer wanted.
         """
         scene = self._scene
+        check_camera(camera)
         size, channels = check_size(size), check_channels(channels)
         task = Task(camera, size, channels, scene.background, self._buffers)
         self._worker.submit(scene, task)

@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from app.teach.imagelab.light import window
+from renderer.pixels import Indexing
 
 
 @dataclass(frozen=True)
@@ -53,8 +54,8 @@ def offset_bytes(
 
 def label(i: int, j: int, one_based: bool, name: str = "canvas") -> str:
     """canvas[i, j] of the 0-based pixel (i, j): row first, then column."""
-    first = 1 if one_based else 0
-    return f"{name}[{i + first}, {j + first}]"
+    row, column = Indexing(int(one_based)).numbers((i, j))
+    return f"{name}[{row}, {column}]"
 
 
 def table(

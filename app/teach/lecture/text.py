@@ -91,9 +91,10 @@ _ITEM = re.compile(r"(?:[-*]|(\d+)\.)\s+(.*)")
 _SPAN = re.compile(
     r"\\([\\$*`>#-])"  # 1: a sign that means itself
     r"|`([^`]+)`"  # 2: code
-    r"|\$((?:[^$\\]|\\.)+)\$"  # 3: a formula
-    r"|\*\*(.+?)\*\*(?!\*)"  # 4: bold
-    r"|\*(?![\s*])(.+?)(?<!\s)\*"  # 5: italic
+    r"|(\$\$)"  # 3: a displayed formula's sign, which has no place in a line
+    r"|\$((?:[^$\\]|\\.)+)\$"  # 4: a formula
+    r"|\*\*(.+?)\*\*(?!\*)"  # 5: bold
+    r"|\*(?![\s*])(.+?)(?<!\s)\*"  # 6: italic
 )
 
 
@@ -159,6 +160,7 @@ def _blocks(lines: list[str]) -> Iterator[Block]:
             while not (
                 lines[number - 1].rstrip().endswith("$$") and _text_of(lines, start, number)
             ):
+                _check_ends_there(lines[number - 1], 2 * (number - 1 == start), number - 1)
                 if number == len(lines):
                     raise TextError(start, "the formula does not end", "close it by $$")
                 number += 1
@@ -177,6 +179,15 @@ def _blocks(lines: list[str]) -> Iterator[Block]:
             content = " ".join(part.strip().lstrip(">").strip() for part in lines[start:number])
             spans = _line(content, start)
             yield Question(spans) if asked else Paragraph(spans)
+
+
+def _check_ends_there(line: str, begin: int, number: int) -> None:
+    """Raises TextError where a displayed formula ends in a line, from the sign `begin` on, that
+    goes on with text."""
+    if "$$" in line.strip()[begin:]:
+        raise TextError(
+            number, "text follows a displayed formula's $$", "begin a new line after it"
+        )
 
 
 def _items(lines: list[str], start: int) -> tuple[list[tuple[int, str]], int]:
@@ -218,11 +229,15 @@ def _spans(text: str, number: int, bold: bool = False, italic: bool = False) -> 
     for match in _SPAN.finditer(text):
         yield from _plain(text[at : match.start()], number, bold, italic)
         at = match.end()
-        sign, code, latex, strong, slanted = match.groups()
+        sign, code, displayed, latex, strong, slanted = match.groups()
         if sign:
             yield Words(sign, bold, italic)
         elif code:
             yield Words(code, bold, italic, code=True)
+        elif displayed:
+            raise TextError(
+                number, "$$ stands within a line", "give it lines of its own, or write $ ... $"
+            )
         elif latex:
             yield Math(_balanced(latex.strip(), number))
         elif strong:

@@ -1,0 +1,83 @@
+"""Go to pixel: the box, by the keyboard alone; the rows and columns counted as the user says."""
+
+from __future__ import annotations
+
+from window_driver import Driver, Key
+
+from app.panels.go_to_pixel import TITLE
+
+OPEN = int(Key.mod_ctrl) | int(Key.g)
+
+
+def press(d: Driver, key: int) -> None:
+    d.ctx.key_press(key)
+    d.ctx.yield_(3)
+
+
+def typed(d: Driver, row: str, column: str) -> None:
+    """Ctrl+G, a row, Tab, a column, Enter; nothing is clicked."""
+    press(d, OPEN)
+    for key, text in ((None, row), (Key.tab, column)):
+        if key is not None:
+            press(d, int(key))
+        d.ctx.key_chars(text)
+        d.ctx.yield_(2)
+    press(d, int(Key.enter))
+
+
+def drive_a_pixel_is_typed(d: Driver) -> None:
+    window = d.window
+    typed(d, "31", "41")
+    assert window.state.marked == (30, 40)
+    assert window._going is None
+    window.change(window.state.with_options(one_based=False))
+    typed(d, "31", "41")
+    assert window.state.marked == (31, 41)
+    assert len(window.history.past) == 3
+
+
+def drive_enter_in_the_first_field_keeps_the_column(d: Driver) -> None:
+    d.window.change(d.window.state.with_options(marked=(5, 6)))
+    d.ctx.yield_(2)
+    press(d, OPEN)
+    d.ctx.key_chars("9")
+    press(d, int(Key.enter))
+    assert d.window.state.marked == (8, 6)
+
+
+def drive_a_mistake_is_said_and_escape_leaves(d: Driver) -> None:
+    window = d.window
+    before = window.state.with_options(marked=(5, 6))
+    window.change(before)
+    d.ctx.yield_(2)
+    typed(d, "99999", "1")
+    assert window._going is not None
+    assert "'99999' is no row of this image; give 1 to" in window._going.problem
+    assert window.state == before
+    for _ in range(2):  # the first leaves the field
+        if window._going is not None:
+            press(d, int(Key.escape))
+    assert window._going is None
+    assert window.state.marked == (5, 6), "Escape has left the box and nothing else"
+
+
+def drive_a_pixel_out_of_sight_is_brought_into_it(d: Driver) -> None:
+    d.window.change(d.window.state.with_options(images={"magnification": 16.0}))
+    d.settle()
+    typed(d, "2", "3")
+    d.settle()
+    placement = d.window.renderers.placement(d.window.state)
+    assert placement is not None
+    top, left, bottom, right = placement.visible_pixels
+    assert top <= 1 < bottom
+    assert left <= 2 < right
+
+
+def drive_the_menu_has_it(d: Driver) -> None:
+    d.ctx.menu_click("//##MainMenuBar/Image/Go to pixel...")
+    d.ctx.yield_(3)
+    assert d.ctx.window_info(f"//{TITLE}").window is not None
+    d.ctx.item_click(f"//{TITLE}/Go")
+    d.ctx.yield_(2)
+    width, height = d.window.renderers.size
+    assert d.window.state.marked == (height // 2, width // 2)

@@ -1,0 +1,77 @@
+"""`lucida pick`: the numbers of one pixel are those of the image."""
+
+from __future__ import annotations
+
+import json
+
+import numpy as np
+import pytest
+
+from app.cli import main
+from renderer import Tracer, load_scene
+
+SIZE = (64, 36)
+PIXEL = (20, 30)
+
+
+def pick(capsys, *words: str) -> dict:
+    assert main(["pick", "spheres", *words, "--size", "64x36", "--json"]) == 0
+    told = capsys.readouterr()
+    assert told.err == ""
+    return json.loads(told.out)
+
+
+@pytest.fixture(scope="module")
+def image():
+    scene = load_scene("spheres")
+    camera = scene.view.for_size(SIZE)
+    with Tracer(scene) as tracer:
+        return scene, camera, tracer.render(camera, SIZE)
+
+
+def test_a_pixel_is_the_image_s(capsys, image):
+    scene, camera, frame = image
+    seen = pick(capsys, *map(str, PIXEL))
+    number = int(frame.id[PIXEL])
+    assert seen["object"] == {"id": number, "name": scene.objects[number].name}
+    assert seen["t"] == frame.depth[PIXEL]
+    assert seen["normal"] == frame.normal[PIXEL].tolist()
+    assert seen["color"] == frame.color[PIXEL].tolist()
+    ray = camera.ray(*PIXEL, SIZE)
+    assert np.allclose(seen["point"], ray.origin + frame.depth[PIXEL] * ray.direction)
+    assert seen["ray"]["direction"] == ray.direction.tolist()
+    assert (seen["pixel"], seen["pixels_from"], seen["size"]) == ([20, 30], 0, [64, 36])
+
+
+def test_from_1_is_the_same_pixel(capsys):
+    zero, one = pick(capsys, "20", "30"), pick(capsys, "21", "31", "--from", "1")
+    assert one["pixel"] == [21, 31]
+    for name in ("t", "object", "point", "ray"):
+        assert one[name] == zero[name]
+
+
+def test_both_renderers_say_the_same(capsys, gl_backend):
+    raster = pick(capsys, "20", "30", "--renderer", "raster", "--backend", gl_backend)
+    ray = pick(capsys, "20", "30")
+    assert raster["object"] == ray["object"]
+    assert raster["t"] == pytest.approx(ray["t"], rel=1e-4)
+
+
+def test_the_background_has_no_object(capsys):
+    seen = pick(capsys, "0", "0", "--eye", "0,0,90")
+    assert [seen[name] for name in ("object", "t", "point", "normal")] == [None] * 4
+    assert main(["pick", "spheres", "0", "0", "--size", "64x36", "--eye", "0,0,90"]) == 0
+    assert "none: the background" in capsys.readouterr().out
+
+
+def test_the_text_has_every_quantity_and_says_from_where(capsys):
+    assert main(["pick", "spheres", "21", "31", "--from", "1", "--size", "64x36"]) == 0
+    lines = dict(line.split(None, 1) for line in capsys.readouterr().out.splitlines()[:6])
+    assert lines["pixel"] == "row 21, column 31 of 64x36, from 1 (ray)"
+    assert list(lines) == ["pixel", "object", "t", "point", "normal", "color"]
+
+
+def test_the_camera_s_options_hold(capsys):
+    seen = pick(capsys, "18", "32", "--eye", "0,5,0", "--target", "0,0,0", "--up", "1,0,0")
+    assert seen["ray"]["origin"] == [0, 5, 0]
+    assert seen["ray"]["direction"][1] < 0

@@ -1,0 +1,69 @@
+"""The first trace of an installation says why it takes seconds; later ones say nothing."""
+
+from __future__ import annotations
+
+from types import SimpleNamespace
+
+import pytest
+
+from app.commands.arguments import progress_bar
+from app.window import _agreement, _agrees
+from renderer import compiling
+from renderer.trace import compiled
+
+
+def doubled(x):
+    return 2 * x
+
+
+@pytest.fixture(autouse=True)
+def nothing_noted(monkeypatch):
+    monkeypatch.setattr(compiling, "_note", "")
+
+
+def test_what_the_cache_holds_is_not_compiled(monkeypatch, tmp_path):
+    monkeypatch.setattr(compiled, "cache_folder", lambda: tmp_path)
+    assert compiled.kernel(doubled)(4) == 8
+    assert compiling.note() == compiling.ONCE
+    monkeypatch.setattr(compiling, "_note", "")
+    assert compiled.kernel(doubled)(4) == 8
+    assert compiling.note() == ""
+    for file in tmp_path.rglob("*.nbc"):
+        file.write_bytes(b"damaged")
+    assert compiled.kernel(doubled)(4) == 8
+    assert compiling.note() == compiling.ONCE
+
+
+def test_without_a_folder_it_is_compiled_each_time(monkeypatch):
+    monkeypatch.setattr(compiled, "cache_folder", lambda: None)
+    for _ in range(2):
+        monkeypatch.setattr(compiling, "_note", "")
+        assert compiled.kernel(doubled)(4) == 8
+        assert compiling.note() == compiling.EACH_TIME
+
+
+def test_the_command_line_says_it_once_also_where_nobody_sees_a_bar(capsys):
+    with progress_bar("ray") as report:
+        report(0.0)
+        assert capsys.readouterr().err == ""
+        compiling.begin(kept=True)
+        report(0.0)
+        report(0.5)
+        compiling.begin(kept=True)
+        report(1.0)
+    assert capsys.readouterr().err == f"lucida: {compiling.ONCE}\n"
+
+
+def test_the_status_line_s_words_while_nothing_is_known():
+    assert _agreement(None, None) == ""
+    assert _agrees(None, None, effects=False) is None
+    assert _agrees(None, ValueError("x"), effects=False) is False
+    comparison = SimpleNamespace(nothing_hit="")
+    verdict = SimpleNamespace(text="agree", unexplained=0, comparison=comparison)
+    assert _agreement(verdict, ValueError("old")) == "agree"
+    assert _agrees(verdict, None, effects=False) is True
+    assert _agrees(verdict, None, effects=True) is None
+    verdict.unexplained = 1
+    assert _agrees(verdict, None, effects=False) is False
+    comparison.nothing_hit = "everything is behind the eye"
+    assert _agrees(verdict, None, effects=False) is None

@@ -1,0 +1,104 @@
+"""An image that shows nothing: the reason, and who says it."""
+
+from __future__ import annotations
+
+import json
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from app.cli import main
+from app.images import comparing
+from renderer import Camera, Scene, load_scene
+from renderer.compare import compare
+from renderer.nothing_hit import middle_of, why_nothing_is_hit
+from renderer.scene import Mesh, SceneObject, Sphere, flatten
+
+BALL = flatten(Scene((SceneObject(Sphere((0, 0, -5), 1.0)),)))
+TRIANGLE = flatten(Scene((SceneObject(Mesh([(0, 0, -4), (1, 0, -6), (0, 1, -6)], [[0, 1, 2]])),)))
+BEHIND = ["--eye", "0,1,-30"]  # the scenes' cameras look along -z
+
+
+@pytest.mark.parametrize("flat", [BALL, TRIANGLE])
+@pytest.mark.parametrize("projection", ["perspective", "parallel"])
+@pytest.mark.parametrize(
+    ("camera", "why"),
+    [
+        (Camera(eye=(0, 0, -6.5)), "everything is behind the eye"),
+        (Camera(near=6.5), "everything is behind the eye or nearer than near = 6.5"),
+        (Camera(far=3.9), "everything is farther than far = 3.9"),
+        (Camera(eye=(90, 0, 0)), "no viewing ray meets an object"),
+        (
+            Camera(eye=(90, 0, 0), w=(0, 0, 2), distance=2, far=2.5),
+            "no viewing ray meets an object",
+        ),
+        (Camera(eye=(90, 0, 0), w=(0, 0, 2), far=1.9), "everything is farther than far = 1.9"),
+    ],
+)
+def test_the_reason(flat, projection, camera, why):
+    assert why_nothing_is_hit(flat, replace(camera, projection=projection)) == why
+
+
+def test_a_ball_that_reaches_in_front_of_the_eye_is_not_behind_it():
+    assert why_nothing_is_hit(BALL, Camera(eye=(90, 0, -5.5))) == "no viewing ray meets an object"
+
+
+def test_some_objects_are_counted():
+    flat = flatten(Scene(tuple(SceneObject(Sphere((90, 0, z), 1.0)) for z in (-5, 5, 8))))
+    told = "no viewing ray meets an object; 2 of 3 are behind the eye"
+    assert why_nothing_is_hit(flat, Camera()) == told
+
+
+def test_an_empty_scene():
+    assert why_nothing_is_hit(flatten(Scene(())), Camera()) == "the scene has no objects"
+
+
+def test_the_middle_is_of_the_bounds():
+    assert middle_of(BALL) == (0, 0, -5)
+
+
+class TestCommands:
+    @pytest.fixture(autouse=True)
+    def in_an_empty_folder(self, tmp_path, monkeypatch):
+        monkeypatch.chdir(tmp_path)
+
+    @pytest.mark.parametrize("channel", ["color", "depth", "id"])
+    def test_render_says_it_and_writes(self, capsys, tmp_path, channel, gl_backend):
+        line = ["render", "canonical", "-o", "a.npy", "--size", "8x6", "--backend", gl_backend]
+        assert main([*line, "--channel", channel, *BEHIND]) == 0
+        told = capsys.readouterr()
+        assert told.err.startswith("lucida: nothing is hit: everything is behind the eye; --target")
+        assert told.err.count("\n") == 1
+        written = np.load(tmp_path / "a.npy")
+        assert written.shape[:2] == (6, 8)
+        assert main([*line, "--channel", channel]) == 0
+        assert capsys.readouterr().err == ""
+
+    def test_the_remedy_helps(self, capsys, gl_backend):
+        line = ["render", "canonical", "-o", "a.npy", "--size", "8x6", "--backend", gl_backend]
+        main([*line, *BEHIND])
+        target = next(w for w in capsys.readouterr().err.split() if w.startswith("--target="))
+        assert main([*line, *BEHIND, target]) == 0
+        assert capsys.readouterr().err == ""
+
+    def test_compare_is_no_success(self, capsys, gl_backend):
+        line = ["compare", "canonical", "--size", "8x6", "--backend", gl_backend]
+        assert main([*line, *BEHIND]) == 1
+        told = capsys.readouterr()
+        assert told.out.startswith("nothing is hit in either image: everything is behind the eye\n")
+        assert main([*line, *BEHIND, "--json"]) == 1
+        report = json.loads(capsys.readouterr().out)
+        assert report["nothing_hit"] == "everything is behind the eye"
+        assert main([*line, "--json"]) == 0
+        assert json.loads(capsys.readouterr().out)["nothing_hit"] is None
+
+
+def test_the_window_s_words(gl_backend):
+    scene = load_scene("canonical")
+    away = Camera(eye=(0, 0, -30))
+    empty = compare(scene, away, (8, 6), gl_backend)
+    assert empty.summary_short() == "nothing is hit: everything is behind the eye"
+    told = "Nothing is hit in either image: everything is behind the eye"
+    assert comparing.headline(empty) == (told, False)
+    assert comparing.headline(empty, "shadows") == (told, False)

@@ -1,0 +1,44 @@
+"""What Python users import: `renderer`'s names, and what a wrong argument is told."""
+
+import pytest
+
+import renderer
+from renderer import Camera, LucidaError, Rasterizer, Tracer, View
+from renderer.scene.model import Scene
+
+SIZE = (8, 6)
+
+
+def test_dir_shows_the_public_names_and_each_of_them_is_there():
+    assert dir(renderer) == sorted(renderer.__all__)
+    assert {"Camera", "load_scene", "save_view", "write_image", "picture"} <= set(dir(renderer))
+    for name in renderer.__all__:
+        assert getattr(renderer, name).__name__ == name
+
+
+def test_an_unknown_name_is_python_s_own_error():
+    with pytest.raises(AttributeError, match=r"renderer.*nosuch"):
+        _ = renderer.nosuch
+
+
+class TestWrongArguments:
+    def test_a_view_for_a_camera_names_the_remedy(self, gl_backend):
+        told = r"camera: is a View, not a Camera; give \.for_size\(size\) of it"
+        with Tracer(Scene(())) as tracer:
+            for draw in (tracer.render, tracer.start):
+                with pytest.raises(LucidaError, match=told):
+                    draw(View(Camera()), SIZE)
+        with (
+            Rasterizer(Scene(()), gl_backend) as rasterizer,
+            pytest.raises(LucidaError, match=told),
+        ):
+            rasterizer.render(View(Camera()), SIZE)
+
+    def test_something_else_for_a_camera(self):
+        with Tracer(Scene(())) as tracer, pytest.raises(LucidaError, match="camera: is a tuple"):
+            tracer.render((0, 0, 5), SIZE)
+
+    @pytest.mark.parametrize("make", [Tracer, Rasterizer])
+    def test_a_name_for_a_scene_names_the_remedy(self, make):
+        with pytest.raises(LucidaError, match=r"scene: is a str.*give load_scene\(\.\.\.\) of it"):
+            make("spheres")
