@@ -194,9 +194,7 @@ def _check_title(field: str, title: str, what: str) -> None:
     if not title.strip():
         raise LucidaError(field, "is empty", f"give {what}")
     if len(title) > TITLE_LETTERS:
-        raise LucidaError(
-            field, f"is {len(title)} characters long", f"stay within {TITLE_LETTERS}"
-        )
+        raise LucidaError(field, f"is {len(title)} characters long", f"stay within {TITLE_LETTERS}")
 
 
 def _check_answers(field: str, count: int, most: int = ANSWERS) -> None:
