@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import time
 from pathlib import Path
 
@@ -33,10 +34,8 @@ def seconds(text: str) -> float:
     taken = []
     for _ in range(3):
         begin_s = time.process_time()
-        try:
+        with contextlib.suppress(LucidaError):
             lecture(text)
-        except LucidaError:
-            pass
         taken.append(time.process_time() - begin_s)
         parse.cache_clear()
     return min(taken)

@@ -34,6 +34,7 @@ from renderer.scene import (
     save_view,
 )
 from renderer.scene.apart import CancelledError, ModelReader
+from renderer.scene.cancelling import cancelled_by, check_cancelled
 from renderer.scene.models import read_by
 
 LECTURE_ENDING = ".toml"
@@ -114,7 +115,7 @@ class Files:
 
     def cancel(self) -> None:
         """Ends the loading. A large model is in a process of its own, which is killed; what is not
-        is read to its end, and dropped."""
+        is left between two of its parts."""
         if self._loading.busy:
             self._models.cancel()
             self._loading.close(0.0)
@@ -211,7 +212,7 @@ class Files:
         models = self._models
 
         def loaded() -> Opened:
-            with read_by(models.read):
+            with read_by(models.read), cancelled_by(models.check):
                 return load()
 
         self._loading.submit(loaded)
@@ -288,6 +289,7 @@ def opened_scene(source: str, scene: Scene, view: View) -> Opened:
 
 def _prepared(scene: Scene | None) -> Prepared | None:
     if scene is not None:
+        check_cancelled()
         with contextlib.suppress(LucidaError):
             return prepare(scene)
     return None
