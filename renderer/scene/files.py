@@ -36,6 +36,7 @@ from renderer.scene.model import (
     Sphere,
 )
 from renderer.scene.models import load_model
+from renderer.scene.outside import check_inside
 from renderer.scene.reading import decode_text, read_file, suggestion
 from renderer.scene.schema import (
     AnyLight,
@@ -114,6 +115,7 @@ def _objects(tables: list[Any], materials: Materials, folder: Path) -> list[Scen
     entries: list[SphereTable | MeshTable] = [
         to_struct(table, AnyObject, f"objects[{number}]") for number, table in enumerate(tables)
     ]
+    check_inside(folder / entry.file for entry in entries if isinstance(entry, ModelTable))
     # Counted before they are built: a few lines can make more than memory holds.
     made = sum(map(_made_triangles, entries))
     _check_made(made)

@@ -6,6 +6,8 @@ Owns the way from the tables of schema.py to steps. Knows nothing of windows.
 from __future__ import annotations
 
 import re
+from collections.abc import Iterator
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -40,6 +42,7 @@ from renderer.scene.files import scene_from_tables
 from renderer.scene.limits import TOML_BYTES
 from renderer.scene.load import BUILTIN_SCENES, load_scene
 from renderer.scene.model import Scene, View
+from renderer.scene.outside import check_inside, kept_inside
 from renderer.scene.reading import decode_text, read_file, suggestion
 from renderer.scene.tables import parse_toml, to_struct
 from renderer.scene.views import load_view, view_from_table
@@ -70,8 +73,17 @@ def is_lecture(path: str | Path) -> bool:
     return "objects" not in keys and not keys.isdisjoint(("steps", "scenes"))
 
 
-def load_lecture(path: str | Path) -> Lecture:
-    """The lecture in a file. Raises LucidaError: `file:line: field: problem; remedy`."""
+def load_lecture(path: str | Path, agreed: frozenset[Path] | None = frozenset()) -> Lecture:
+    """The lecture in a file. Raises LucidaError: `file:line: field: problem; remedy`.
+
+    agreed: files outside of its folder that it may read; None: any. OutsideError names others.
+    """
+    with kept_inside(Path(path), agreed) as fence:
+        lecture = _load(path)
+    return replace(lecture, outside=tuple(fence.outside))
+
+
+def _load(path: str | Path) -> Lecture:
     data = read_file(Path(path), TOML_BYTES)
     try:
         text = decode_text(data, str(path))
@@ -116,6 +128,7 @@ class _Reader:
         _check_title("title", file.title, "the lecture's title")
         if not 1 <= len(file.steps) <= STEPS:
             raise LucidaError("steps", f"holds {len(file.steps)} steps", f"give 1 to {STEPS}")
+        check_inside(self._named(file))
         for name, scene in file.scenes.items():
             with under(f"scenes.{name}"):
                 self._scenes[name] = self._own_scene(scene, name)
@@ -130,6 +143,17 @@ class _Reader:
                 steps.append(self._step(entry, part, self._places.line(field)))
             written += formulas_written(table, field, self._places, self._source)
         return Lecture(file.title, file.author, tuple(steps), self._source, tuple(written))
+
+    def _named(self, file: LectureFile) -> Iterator[Path]:
+        """The files that the lecture names itself: models, scenes, views."""
+        entries = [entry for table in file.scenes.values() for entry in _objects_of(table)]
+        names = [entry.get("file") for entry in entries if isinstance(entry, dict)]
+        for step in file.steps:
+            if isinstance(step, dict):
+                scene = step.get("scene")
+                inside = scene in file.scenes or scene in BUILTIN_SCENES
+                names += [None if inside else scene, step.get("camera")]
+        return (self._folder / name for name in names if isinstance(name, str))
 
     def _own_scene(self, table: Any, name: str) -> Scene:
         if name in BUILTIN_SCENES:
@@ -188,6 +212,12 @@ class _Reader:
             return load_view(self._folder / camera)
         except LucidaError as error:
             raise _of_file(error, "camera") from None
+
+
+def _objects_of(table: Any) -> list[Any]:
+    """The objects in the table of a scene, which may be anything yet."""
+    entries = table.get("objects") if isinstance(table, dict) else None
+    return entries if isinstance(entries, list) else []
 
 
 def _check_title(field: str, title: str, what: str) -> None:
