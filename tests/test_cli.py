@@ -145,7 +145,7 @@ class TestMistakes:
             ("render spheres -o a.png --view broken.toml", "broken.toml: "),
             ("compare spheres -o a.exr", r"a\.exr: \.exr cannot hold this picture"),
             ("compare", "required: SCENE"),
-            ("scenes all", "unrecognized arguments: all; see 'lucida scenes --help'"),
+            ("scenes all few", "unrecognized arguments: few; see 'lucida scenes --help'"),
             ("doctor --jso", "unrecognized arguments: --jso"),
         ],
     )
