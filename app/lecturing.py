@@ -11,7 +11,7 @@ from dataclasses import replace
 from pathlib import Path
 
 from app.platform import Target, start_platform
-from app.start import Start
+from app.start import Start, begin_scene
 from app.state import AppState
 from app.storage.capture import free_path
 from app.teach.lecture.model import Lecture
@@ -25,6 +25,7 @@ from app.viewer import (
 )
 from renderer.atomic import check_writable
 from renderer.errors import LucidaError
+from renderer.scene.outside import OutsideError
 
 QUIET_FRAMES = 4  # the layout needs two frames; afterwards nothing may change
 
@@ -59,6 +60,19 @@ def run_lecture(
         save_png(picture, pixels)
         if screenshot is None:
             print(f"lucida: saved {picture}")
+    return 0
+
+
+def ask_lecture(path: Path, error: OutsideError, size: tuple[int, int] | None = None) -> int:
+    """Opens the window and asks there whether the lecture may read what it names outside of its
+    folder. error: says that it does. Raises it where there is no display to ask on."""
+    platform = start_platform()
+    if not platform.has_display:
+        raise LucidaError("", error.problem, "add --outside to agree", error.source)
+    start = begin_scene()
+    run = Run(platform, start.state, size or DEFAULT_SIZE, start=start)
+    run.window.files.open_lecture(str(path))
+    run.run()
     return 0
 
 

@@ -24,7 +24,7 @@ import glfw
 import moderngl
 import numpy as np
 
-from renderer.errors import LucidaError
+from renderer.errors import LucidaError, one_line
 
 REQUIRED = (3, 3)
 NICER = 5
@@ -118,14 +118,24 @@ def set_title(text: str) -> None:
     """The title of the window whose context is current."""
     window = glfw.get_current_context()
     if window:
-        glfw.set_window_title(window, text)
+        glfw.set_window_title(window, one_line(text))
 
 
 def on_drop(dropped: Callable[[list[str]], None]) -> None:
     """Calls `dropped` with the paths of files that are dropped on the current window."""
     window = glfw.get_current_context()
     if window:
-        glfw.set_drop_callback(window, lambda _window, paths: dropped(paths))  # type: ignore
+
+        def call(_window: Any, count: int, paths: Any) -> None:
+            dropped([os.fsdecode(paths[number]) for number in range(count)])
+
+        # glfw.set_drop_callback() takes all names for UTF-8, and fails at others.
+        binding: Any = glfw
+        _on_drop[:] = [binding._GLFWdropfun(call)]
+        binding._glfw.glfwSetDropCallback(window, _on_drop[0])
+
+
+_on_drop: list[Any] = []  # what is called lives as long as the window
 
 
 def set_size(size: tuple[int, int]) -> None:

@@ -5,6 +5,7 @@ Knows nothing of commands. Light to import.
 
 from __future__ import annotations
 
+import io
 import os
 import signal
 import sys
@@ -28,6 +29,9 @@ def open_streams() -> None:
     for name in ("stdout", "stderr"):
         if getattr(sys, name) is None:
             setattr(sys, name, open(os.devnull, "w", encoding="utf-8"))  # noqa: SIM115
+        stream = getattr(sys, name)
+        if isinstance(stream, io.TextIOWrapper):  # a terminal need not have every sign
+            stream.reconfigure(errors="backslashreplace")
 
 
 def interrupt_between_imports() -> None:

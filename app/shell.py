@@ -23,12 +23,15 @@ from app.platform import Target, toggle_full_screen
 from app.stage import Stage
 from app.state import AppState
 from app.storage.capture import Captures, Rect
-from app.storage.files import Files, describe
+from app.storage.files import Files, Outside, describe
 from app.storage.session import session_of
 from app.storage.session_store import Keeper
 from app.theme import Fonts
 from app.views.base import Host, View
-from renderer.errors import LucidaError
+from renderer.errors import LucidaError, one_line
+from renderer.scene.outside import LISTED
+
+OPEN = "Open anyway"
 
 
 class Shell:
@@ -91,6 +94,8 @@ class Shell:
             self.palette.open = False
         elif self.files.dialog.is_open:
             self.files.dialog.cancel()
+        elif self.files.outside is not None:
+            self.files.outside = None
         elif self.files.message:
             self.files.message = ""
         elif self._told(window.renderers):
@@ -147,6 +152,13 @@ class Shell:
         if self._keeper is not None and self._keeper.message:
             self.toasts.add(self._keeper.message, good=False)
             self._keeper.message = ""
+        if self.files.outside is not None:
+            answer = message_box(Message(outside_question(self.files.outside), (OPEN, "Cancel")))
+            if answer == OPEN:
+                self.files.outside.again()
+            elif answer:
+                self.files.outside = None
+            return
         if self.files.message:
             if message_box(Message(self.files.message)) == "Close":
                 self.files.message = ""
@@ -205,6 +217,13 @@ class Shell:
         ending = path if path.suffix.lower() == ".png" else Path(f"{path}.png")
         self.captures.ask(self._rect(view) if view in self.stage.rects else None, ending)
         hello_imgui.request_refresh()
+
+
+def outside_question(outside: Outside) -> str:
+    """What the user is asked about files outside of a folder."""
+    named = [f"    {one_line(str(file))}" for file in outside.files]
+    more = [f"    and {len(named) - LISTED} more"] if len(named) > LISTED else []
+    return "\n".join([f"{outside.name} names files outside of its folder:", *named[:LISTED], *more])
 
 
 def _same(failure: Exception, other: Exception | None) -> bool:

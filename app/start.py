@@ -94,13 +94,13 @@ def begin_session(fresh: bool = False, folder: Path | None = None) -> Start:
         return replace(begin_scene(), keeper=keeper, message=found.message)
     message = ""
     try:
-        scene = _soon(session.scene)
+        scene = _soon(session.source)
     except LucidaError as error:
         scene, message = None, f"The last session's scene could not be opened. {error}"
     if scene is not None:
         return Start(session.state(scene), session, keeper)
     view = session.view
-    later = None if message else Later(session.scene, lambda _: view)
+    later = None if message else Later(session.source, lambda _: view)
     default = load_scene(BUILTIN_SCENES[0])
     return Start(session.state(default), session, keeper, message, later=later)
 

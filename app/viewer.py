@@ -30,6 +30,7 @@ from app.signals import ended_by_signals
 from app.start import Start, begin_scene, begin_session
 from app.state import AppState
 from app.storage.capture import free_path
+from app.storage.paths import is_unicode
 from app.storage.session_store import settings_folder
 from app.storage.settings import settings_file
 from app.views.base import View
@@ -308,6 +309,8 @@ def _folder() -> Path | None:
 def _settings(params: hello_imgui.RunnerParams, remember: bool) -> None:
     """The layout is kept in the user's settings folder, never in the working directory."""
     path = settings_file() if remember else None
+    if path is not None and not is_unicode(str(path)):
+        path = None  # ImGui takes UTF-8 only
     params.ini_disable = path is None
     if path is not None:
         params.ini_folder_type = hello_imgui.IniFolderType.absolute_path

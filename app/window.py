@@ -47,6 +47,7 @@ from app.views.probe import ProbeView
 from app.views.stepper import STEPPER, StepperView
 from renderer.errors import LucidaError
 from renderer.scene import Scene
+from renderer.scene.outside import outside_files
 
 
 def make_views() -> list[View]:
@@ -244,6 +245,8 @@ class MainWindow:
             set_title(title(self._titled))
         self._over = self.shell.stage.take_hovered()
         self._move_by_itself(active)
+        if self.state.step is None and self.files.follow(self.state.scene):
+            hello_imgui.request_refresh()
         opened = self.files.poll()
         if opened is not None:
             self._take_opened(opened)
@@ -330,8 +333,13 @@ class MainWindow:
             self.lecture.give(*opened.lecture)
             self.animate()
         elif opened.scene is not None:
+            if opened.replaces not in (None, self.state.scene):
+                return  # another one is shown meanwhile
             if opened.prepared is not None and self.renderers.pictures is not None:
                 self.renderers.pictures.prepare(opened.scene, opened.prepared)
+            if opened.replaces is not None:
+                self._take_newer(opened.replaces, opened.scene)
+                return
             state = self.state.with_scene(opened.scene, opened.view)
             if opened.is_first:
                 kept = self.state.keep_orthonormal and state.keep_orthonormal
@@ -341,8 +349,16 @@ class MainWindow:
         elif opened.view is not None:
             self.change(self.state.with_view(opened.view))
 
+    def _take_newer(self, old: Scene, new: Scene) -> None:
+        """A newer version of the shown scene, as a step of its own: with its own camera, unless
+        the user has moved it."""
+        untouched = self.state.view == old.view
+        state = replace(self.state, scene=new)
+        self.change(state.with_view(new.view) if untouched else state)
+        self.files.say(f"{new.name} was read again: its file was saved.")
+
     def _dropped(self, paths: list[str]) -> None:
-        self.files.open_all(paths)
+        self.files.open_all(paths, dropped=True)
         hello_imgui.request_refresh()
 
 
@@ -361,5 +377,6 @@ def _agrees(verdict: Verdict | None, failure: Exception | None, effects: bool) -
 
 
 def title(scene: Scene) -> str:
-    """The window's title."""
-    return f"Lucida: {scene.name}" if scene.name else "Lucida"
+    """The window's title. It tells, once, where the scene's models are, if not beside it."""
+    elsewhere = " (with models from outside its folder)" if outside_files(scene) else ""
+    return f"Lucida: {scene.name}{elsewhere}" if scene.name else f"Lucida{elsewhere}"

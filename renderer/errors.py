@@ -5,6 +5,8 @@ Knows nothing of who shows it: the command line prints it and exits with 2, the 
 
 from __future__ import annotations
 
+LONGEST_FIELD = 200  # letters of it that are shown
+
 
 class LucidaError(ValueError):
     """A user's mistake, told in one line: `source: field: problem; remedy`.
@@ -18,7 +20,8 @@ class LucidaError(ValueError):
         super().__init__(field, problem, remedy, source)
 
     def __str__(self) -> str:
-        where = "".join(f"{part}: " for part in (self.source, self.field) if part)
+        field = shortened(self.field, LONGEST_FIELD)
+        where = "".join(f"{part}: " for part in (self.source, field) if part)
         text = where + self.problem + (f"; {self.remedy}" if self.remedy else "")
         return one_line(text)
 
@@ -33,5 +36,19 @@ class LucidaError(ValueError):
 
 
 def one_line(text: str) -> str:
-    """The text without line breaks, and without what a terminal would take for a command."""
-    return "".join(c if c.isprintable() else repr(c)[1:-1] for c in " ".join(text.split()))
+    """The text without line breaks, and without what a terminal would take for a command. Bytes of
+    a file's name that are no UTF-8 (lone surrogates in Python) become \\xff: whatever shows a text
+    can show this one."""
+    return "".join(c if c.isprintable() else _escaped(c) for c in " ".join(text.split()))
+
+
+def shortened(text: str, most: int) -> str:
+    """The text, cut in its middle where it has more characters than that."""
+    if len(text) <= most:
+        return text
+    return f"{text[: most // 2]}...{text[-(most // 2 - 3) :]}"
+
+
+def _escaped(sign: str) -> str:
+    code = ord(sign)
+    return f"\\x{code - 0xDC00:02x}" if 0xDC80 <= code <= 0xDCFF else repr(sign)[1:-1]

@@ -2,20 +2,25 @@
 
 from __future__ import annotations
 
+import contextlib
 import json
 import math
+import warnings
 from pathlib import Path
 
 import numpy as np
 import pytest
 import trimesh
 
+from renderer.errors import LucidaError
 from renderer.scene import Mesh, Scene, SceneObject, flatten, framing, load_scene, shapes
 from renderer.scene.models import load_model
 from renderer.scene.normals import face_normals, merge_positions, smooth_normals
 from renderer.scene.parts import Part, build_mesh, linear_colors
 
 TRIANGLE = "v 0 0 0\nv 1 0 0\nv 0 1 0\n"
+OBJ_TRIANGLE = f"{TRIANGLE}f 1 2 3\n"
+OFF_TRIANGLE = "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n"
 ENDINGS = ("obj", "ply", "stl", "off", "glb", "gltf")
 
 
@@ -316,11 +321,69 @@ def test_text_stl_of_several_solids(tmp_path: Path) -> None:
         ("OFF 4 1 0 # counts beside it\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n4 0 1 2 3\n", 2),
         ("# first\nCOFF\n\n3 1 0\n0 0 0 1 0 0 1\n1 0 0 1 0 0 1\n0 1 0 1 0 0 1\n3 0 1 2\n", 1),
         ("OFF\n4 3 0\n0 0 0\n1 0 0\n1 1 1\n0 1 0\n4 0 1 2 3\n3 0 1 3\n2 0 1\n", 3),
+        (" \n\t\r\n  OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n", 1),
+        ("# by nobody\n\n  # C:\\models\\\nOFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n", 1),
+        ("\ufeff# marked\noff\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n", 1),
     ],
-    ids=range(4),
+    ids=range(7),
 )
 def test_off_dialects(text: str, faces: int, tmp_path: Path) -> None:
     assert len(load_one(write(tmp_path / "t.off", text)).faces) == faces
+
+
+@pytest.mark.parametrize("encoding", ["utf-8-sig", "utf-16-le", "utf-16-be"])
+@pytest.mark.parametrize("line_end", ["\n", "\r\n"])
+@pytest.mark.parametrize(("ending", "text"), [("obj", OBJ_TRIANGLE), ("off", OFF_TRIANGLE)])
+def test_texts_with_a_byte_order_mark(
+    ending: str, text: str, line_end: str, encoding: str, tmp_path: Path
+) -> None:
+    mark = "" if encoding == "utf-8-sig" else "\ufeff"
+    data = f"{mark}# caf\u00e9\n{text}".replace("\n", line_end).encode(encoding)
+    (tmp_path / f"t.{ending}").write_bytes(data)
+    assert len(load_one(tmp_path / f"t.{ending}").faces) == 1
+
+
+def test_a_comment_that_ends_in_a_backslash_takes_no_line_away(tmp_path: Path) -> None:
+    text = OBJ_TRIANGLE.replace("v 1", "# from C:\\models\\\nv 1").replace(" 2 3", " 2\\\n 3")
+    assert len(load_one(write(tmp_path / "t.obj", text)).vertices) == 3
+
+
+# Numbers that are none.
+
+
+@pytest.mark.parametrize(
+    "part",
+    [
+        Part("", np.eye(3), [[0, 1, 2]], vertex_colors=None),
+        Part("", [[0, 0, 0], [1, 0, 0], [0, 1, 0], [1e300, np.nan, -np.inf]], [[0, 1, 2]]),
+        Part("", np.eye(3), [[0, 1, 2]], normals=[[np.nan] * 3, [1e300] * 3, [1e-300] * 3]),
+        Part("", np.eye(3) * 1e15, [[0, 1, 2]]),
+        Part("", np.eye(3) * 1e-20, [[0, 1, 2]]),
+    ],
+    ids=range(5),
+)
+def test_hostile_numbers_give_a_mesh_or_none_without_a_warning(part: Part) -> None:
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        with contextlib.suppress(LucidaError):
+            build_mesh(part)
+
+
+@pytest.mark.parametrize("value", [np.nan, np.inf, 1e300, -1e300, 1e-300])
+@pytest.mark.parametrize("linear", [False, True])
+def test_hostile_colours_are_usable_without_a_warning(value: float, linear: bool) -> None:
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        rgb = linear_colors(np.full((4, 3), value), linear)
+    assert rgb is not None
+    assert np.isfinite(rgb).all()
+
+
+def test_faces_that_are_not_whole_numbers_are_refused_without_a_warning() -> None:
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        with pytest.raises(LucidaError, match="are not rows of whole numbers"):
+            build_mesh(Part("", np.eye(3), [[0.0, np.nan, 1e300]]))
 
 
 # glTF.

@@ -25,8 +25,11 @@ from renderer.scene import (
     flatten,
     framing,
     load_scene,
+    shapes,
 )
+from renderer.scene.cancelling import cancelled_by
 from renderer.scene.files import scene_from_toml
+from renderer.scene.limits import MADE_TRIANGLES, OBJECTS
 
 TRIANGLE = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"
 BALL = '[[objects]]\ntype = "sphere"\n'
@@ -241,8 +244,59 @@ def test_hostile_text_is_refused_in_bounded_time(text: str, message: str) -> Non
 
 def test_the_triangles_of_a_scene_are_counted_before_all_are_made(monkeypatch) -> None:
     monkeypatch.setattr("renderer.scene.files.TRIANGLES", 30)
-    with pytest.raises(LucidaError, match=r"objects: holds 36 triangles; give at most 30"):
+    monkeypatch.setattr("renderer.scene.shapes.box", None)
+    with pytest.raises(LucidaError, match=r"objects: holds 12000 triangles; give at most 30"):
         scene("objects = [" + "{type = 'box'}," * 1000 + "]")
+
+
+HEAVY = {
+    "torus": "{type = 'torus', segments = 1024, sides = 1024},",
+    "cylinder": "{type = 'cylinder', segments = 1024},",
+    "cone": "{type = 'cone', segments = 1024},",
+    "disk": "{type = 'disk', segments = 1024},",
+}
+
+
+@pytest.mark.parametrize("name", HEAVY)
+def test_a_few_lines_that_make_millions_of_triangles_are_refused_unbuilt(
+    name: str, monkeypatch
+) -> None:
+    each = len(scene(f"objects = [{HEAVY[name]}]").objects[0].shape.faces)
+    count = MADE_TRIANGLES // each + 1
+    if count > OBJECTS:
+        monkeypatch.setattr("renderer.scene.files.OBJECTS", count)
+    monkeypatch.setattr(f"renderer.scene.shapes.{name}", None)
+    with pytest.raises(LucidaError) as caught:
+        scene(f"objects = [{HEAVY[name] * count}]")
+    assert str(caught.value) == (
+        f"s.toml: objects: make {each * count} triangles of shapes and copies of models; "
+        f"stay within {MADE_TRIANGLES}: fewer segments, sides or copies"
+    )
+
+
+def test_copies_of_a_model_are_counted_the_model_itself_is_not(tmp_path: Path, monkeypatch) -> None:
+    (tmp_path / "t.obj").write_text(TRIANGLE)
+    monkeypatch.setattr("renderer.scene.files.MADE_TRIANGLES", 9)
+    table = "[[objects]]\ntype = 'model'\nfile = 't.obj'\n"
+    (tmp_path / "a.toml").write_text(table * 10)
+    assert len(load_scene(tmp_path / "a.toml").objects) == 10
+    (tmp_path / "a.toml").write_text(table * 11)
+    with pytest.raises(LucidaError, match="make 10 triangles of shapes and copies of models"):
+        load_scene(tmp_path / "a.toml")
+
+
+def test_reading_a_scene_is_left_between_its_objects(monkeypatch) -> None:
+    built = []
+
+    def check() -> None:
+        if len(built) == 3:
+            raise KeyboardInterrupt
+
+    box = shapes.box
+    monkeypatch.setattr(shapes, "box", lambda size: built.append(size) or box(size))
+    with pytest.raises(KeyboardInterrupt), cancelled_by(check):
+        scene("objects = [" + "{type = 'box'}," * 1000 + "]")
+    assert len(built) == 3
 
 
 # Models in scene files.

@@ -369,7 +369,8 @@ GLTF_MISTAKES: list[tuple[dict[str, Any], str]] = [
     (changed((("accessors", 1, "componentType"), 5126)), "accessors[1]: declares 3 elements, 12"),
     (changed((("accessors", 0, "byteOffset"), 4)), "accessors[0]: declares 3 elements, 40 bytes"),
     (changed((("bufferViews", 0, "buffer"), 3)), "bufferViews[0].buffer: names entry 3"),
-    (changed((("bufferViews", 0, "byteLength"), 10**9)), "cannot be read as glTF: a buffer view"),
+    (changed((("bufferViews", 0, "byteLength"), 10**6)), "cannot be read as glTF: a buffer view"),
+    (changed((("bufferViews", 0, "byteLength"), 10**9)), "bufferViews: name 954 MiB of buffers"),
     (
         changed((("bufferViews", 0, "byteStride"), 1)),
         "bufferViews[0].byteStride: 1 is below the 12",

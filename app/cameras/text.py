@@ -12,6 +12,7 @@ from typing import Literal, get_args
 
 from app.cameras.presets import clip_around
 from renderer.camera import Camera, Floats
+from renderer.errors import one_line
 from renderer.scene import view_to_toml
 from renderer.scene.model import View
 
@@ -46,7 +47,7 @@ def as_text(form: Form, subject: Subject) -> str:
 def command_line(view: View, source: str) -> str:
     """`lucida render ...`, for a shell; without `render` and `-o` it opens the window."""
     camera = view.camera
-    words = ["lucida", "render", shlex.quote(source), "-o", "image.png"]
+    words = ["lucida", "render", _shell_word(source), "-o", "image.png"]
     words += [f"--{name}={_numbers(getattr(camera, name), ',')}" for name in ("eye", "u", "v", "w")]
     words.append(f"--distance={camera.distance!r}")
     words.append(f"--viewport={_numbers(camera.viewport, ',')}")
@@ -101,6 +102,14 @@ def matrices(shown: Camera, bounds: Floats) -> str:
         columns = [f"    {_numbers(column)}," for column in (matrix.T + 0.0).tolist()]
         lines += [f"{name} = [", *columns, "]"]
     return "\n".join(lines) + "\n"
+
+
+def _shell_word(source: str) -> str:
+    """A path for a shell; one that is not UTF-8 as shells write bytes, $'\\xff'."""
+    if source.isprintable():
+        return shlex.quote(source)
+    signs = {"\\": "\\\\", "'": "\\'", "\n": "\\n", " ": " "}
+    return "$'" + "".join(signs.get(c) or one_line(c) for c in source) + "'"
 
 
 def _numbers(values: Iterable[float], separator: str = ", ") -> str:

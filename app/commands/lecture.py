@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING
 
 from app.commands import arguments as common
 from app.commands.view import window_size
-from renderer.errors import LucidaError
+from renderer.errors import LucidaError, one_line
 
 if TYPE_CHECKING:
     from app.teach.lecture.model import Lecture
@@ -52,6 +52,11 @@ def configure(parser: argparse.ArgumentParser) -> None:
         "--export", metavar="DIR", help="write a PNG of each step into DIR; needs no display"
     )
     parser.add_argument(
+        "--outside",
+        action="store_true",
+        help="agree that the lecture reads files outside of its folder",
+    )
+    parser.add_argument(
         "--size",
         type=window_size,
         metavar="WxH",
@@ -62,9 +67,17 @@ def configure(parser: argparse.ArgumentParser) -> None:
 
 def run(arguments: argparse.Namespace) -> int:
     from app.teach.lecture.reading import BUILTIN, load_lecture
+    from renderer.scene.outside import OutsideError
 
     path = Path(arguments.file) if arguments.file is not None else BUILTIN
-    lecture = load_lecture(path)
+    try:
+        lecture = load_lecture(path, None if arguments.check or arguments.outside else frozenset())
+    except OutsideError as error:
+        if arguments.export is not None:
+            raise LucidaError("", error.problem, "add --outside to agree", error.source) from None
+        from app.lecturing import ask_lecture
+
+        return ask_lecture(path, error, arguments.size)
     if arguments.check:
         return _check(lecture, arguments.file or lecture.title)
     if arguments.export is not None:
@@ -94,4 +107,6 @@ def _check(lecture: Lecture, name: str) -> int:
     exercises = sum(step.exercise is not None for step in lecture.steps)
     unseen = "" if formula.available() else "; formulas not checked: no locale en_US.UTF-8 here"
     print(f"{name}: {len(lecture.steps)} steps, {exercises} exercises{unseen}")
+    for file in lecture.outside:
+        print(f"  reads {one_line(str(file))}, outside of its folder: the window asks first")
     return 0

@@ -1,19 +1,58 @@
-"""`lucida scenes`: the names of the built-in scenes."""
+"""`lucida scenes [SCENE]`: the names of the built-in scenes; or what is in one, and its files."""
 
 from __future__ import annotations
 
 import argparse
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from renderer.scene import Scene
 
 NAME = "scenes"
 
+EPILOG = """\
+examples:
+  lucida scenes                           the built-in scenes
+  lucida scenes my-scene.toml             what is in it, and which files it names
+  lucida render spheres -o spheres.png"""
+
 
 def configure(parser: argparse.ArgumentParser) -> None:
-    parser.description = "List the built-in scenes, the default one first."
-    parser.epilog = "example:\n  lucida render spheres -o spheres.png"
+    from app.commands.arguments import SCENE_HELP
+
+    parser.description = (
+        "List the built-in scenes, the default one first; or say what is in one scene,\n"
+        "and which model files it names: one outside of its folder is told as such."
+    )
+    parser.epilog = EPILOG
+    parser.add_argument("scene", nargs="?", metavar="SCENE", help=SCENE_HELP)
 
 
 def run(arguments: argparse.Namespace) -> int:
-    from renderer.scene import BUILTIN_SCENES
+    from renderer.scene import BUILTIN_SCENES, load_scene
 
-    print("\n".join(BUILTIN_SCENES))
+    if arguments.scene is None:
+        print("\n".join(BUILTIN_SCENES))
+        return 0
+    from app.commands.arguments import check_is_scene
+
+    check_is_scene(arguments.scene)
+    print("\n".join(described(load_scene(arguments.scene))))
     return 0
+
+
+def described(scene: Scene) -> list[str]:
+    """What is in a scene, and the model files that it names, as lines."""
+    from renderer.errors import one_line
+    from renderer.scene import Mesh
+    from renderer.scene.outside import model_files, outside
+
+    triangles = sum(len(e.shape.faces) for e in scene.objects if isinstance(e.shape, Mesh))
+    counts = ((len(scene.objects), "object"), (triangles, "triangle"), (len(scene.lights), "light"))
+    told = ", ".join(f"{count} {what}{'s' * (count != 1)}" for count, what in counts)
+    lines = [f"{scene.name}: {told}"]
+    for file in model_files(scene):
+        assert scene.origin is not None
+        where = ", outside of its folder" if outside([file], scene.origin.folder) else ""
+        lines.append(f"  reads {one_line(str(file))}{where}")
+    return lines

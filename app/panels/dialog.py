@@ -17,6 +17,7 @@ from imgui_bundle import ImVec2, imgui
 
 from app import theme
 from app.storage.folders import FolderReader, Listing, starting_points
+from renderer.errors import one_line
 
 Chosen = Callable[[list[str]], None]
 TITLE = "###file dialog"
@@ -114,28 +115,29 @@ class FileDialog:
         for index, folder in enumerate(parts[-6:]):
             if index:
                 imgui.same_line(0, 2)
-            if imgui.small_button(f"{folder.name or folder}##up{index}"):
+            if imgui.small_button(f"{one_line(folder.name or str(folder))}##up{index}"):
                 self._go(folder)
 
     def _entries(self, question: Question) -> None:
         listing = self._listing
         if listing.error:
-            imgui.text_colored(theme.ERROR, f"this folder cannot be read: {listing.error}")
+            error = one_line(listing.error)
+            imgui.text_colored(theme.ERROR, f"this folder cannot be read: {error}")
         at_home = imgui.is_window_focused() and not imgui.is_any_item_active()
         if at_home and imgui.is_key_pressed(imgui.Key.backspace):
             self._go(listing.folder.parent)
         for name in listing.folders:
-            if imgui.selectable(f"{name}/", False)[0]:
+            if imgui.selectable(f"{one_line(name)}/", False)[0]:
                 self._go(listing.folder / name)
         double = imgui.SelectableFlags_.allow_double_click
         for name in listing.files:
-            if not imgui.selectable(name, name in self._marked, double)[0]:
+            if not imgui.selectable(one_line(name), name in self._marked, double)[0]:
                 continue
             if imgui.get_io().key_ctrl and not question.saves:
                 self._marked ^= {name}
             else:
                 self._marked = {name}
-            self._name = name
+            self._name = one_line(name)
             by_key = imgui.is_key_pressed(imgui.Key.enter)
             if imgui.is_mouse_double_clicked(imgui.MouseButton_.left) or by_key:
                 self._finish(question)
@@ -158,7 +160,9 @@ class FileDialog:
             self._marked, self._replace = set(), ""
         word = "Save" if question.saves else "Open"
         if self._replace:
-            imgui.text_colored(theme.ERROR, f"{Path(self._replace).name} is there already.")
+            imgui.text_colored(
+                theme.ERROR, f"{one_line(Path(self._replace).name)} is there already."
+            )
             imgui.same_line()
             word = "Replace"
         if imgui.button(f"{word}###answer", ImVec2(7 * imgui.get_font_size(), 0)) or entered:
@@ -176,9 +180,15 @@ class FileDialog:
         endings = self._question.endings if self._question is not None else ()
         self._reader.ask(folder, () if self._all_files else endings)
 
+    def _meant(self) -> str:
+        """The file whose name stands there: some names are not shown as they are."""
+        typed = self._name.strip()
+        listed = (*self._marked, *self._listing.files)
+        return next((name for name in listed if one_line(name) == typed), typed)
+
     def _finish(self, question: Question) -> None:
         """What was typed or chosen: a folder is gone into, a file is the answer."""
-        names = sorted(self._marked) if len(self._marked) > 1 else [self._name.strip()]
+        names = sorted(self._marked) if len(self._marked) > 1 else [self._meant()]
         if names == [""]:
             return
         paths = [self._listing.folder / os.path.expanduser(name) for name in names]

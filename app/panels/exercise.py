@@ -5,8 +5,6 @@ Owns their looks. What is right is teach/lecture/exercises.py's.
 
 from __future__ import annotations
 
-import functools
-
 from imgui_bundle import ImVec2, imgui
 
 from app import theme
@@ -14,7 +12,7 @@ from app.lettering import lettering
 from app.panels.slide import Slides
 from app.teach.lecture.exercises import ChoiceExercise, Exercise, RayExercise, VectorExercise
 from app.teach.lecture.session import Answers
-from app.teach.lecture.text import Block, parse
+from app.teach.lecture.text import parse
 from app.theme import Fonts
 
 LETTERS = "ABCDEFGH"
@@ -25,7 +23,7 @@ def exercise(
 ) -> None:
     """Draws an exercise and takes up what is typed and chosen. sizes_px: of its text."""
     room = imgui.get_content_region_avail()
-    size = slides.text(_blocks(task.question), (room.x, 0.3 * room.y), sizes_px)
+    size = slides.text(parse(task.question), (room.x, 0.3 * room.y), sizes_px)
     imgui.dummy(ImVec2(0, 0.4 * size))
     with lettering(fonts.text, size):
         if isinstance(task, ChoiceExercise):
@@ -35,10 +33,10 @@ def exercise(
         if answers.verdict is not None:
             imgui.dummy(ImVec2(0, 0.3 * size))
             color = theme.GOOD if answers.verdict.right else theme.legible(theme.ERROR)
-            slides.text(_blocks(answers.verdict.text), (room.x, room.y), (size, size), color)
+            slides.text(parse(answers.verdict.text), (room.x, room.y), (size, size), color)
         if answers.solved:
             imgui.dummy(ImVec2(0, 0.3 * size))
-            slides.text(_blocks(task.solution()), (room.x, room.y), (size, size))
+            slides.text(parse(task.solution()), (room.x, room.y), (size, size))
 
 
 def _vectors(
@@ -76,7 +74,7 @@ def _choice(task: ChoiceExercise, answers: Answers, slides: Slides, size: float)
         chosen = answers.chosen == number
         width = imgui.get_content_region_avail().x
         pad, letter = 0.45 * size, 1.9 * size
-        blocks = _blocks(option.text)
+        blocks = parse(option.text)
         height = slides.height(blocks, width - letter - pad, size) + 2 * pad
         corner = imgui.get_cursor_screen_pos()
         if imgui.invisible_button(f"option {number}", ImVec2(width, height)):
@@ -106,8 +104,3 @@ def _solution(answers: Answers, size: float, same_line: bool = True) -> None:
     label = "Hide the solution" if answers.solved else "Show the solution"
     if imgui.button(f"{label}###solution"):
         answers.solved = not answers.solved
-
-
-@functools.lru_cache(256)
-def _blocks(text: str) -> tuple[Block, ...]:
-    return parse(text)

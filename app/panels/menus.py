@@ -6,8 +6,6 @@ Owns its look. Knows nothing of what actions do.
 
 from __future__ import annotations
 
-from pathlib import Path
-
 from imgui_bundle import ImVec2, imgui
 
 from app import layout, theme
@@ -97,7 +95,7 @@ def _recent(window: Window) -> None:
     if imgui.is_window_appearing():
         recent.look()
     for number, entry in enumerate(entries):
-        note = "missing" if entry.missing else str(Path(entry.path).parent)
+        note = "missing" if entry.missing else entry.folder
         label = f"{entry.name}###recent{number}"
         if imgui.menu_item(label, _short(note), False, not entry.missing)[0]:
             window.files.open(entry.path)

@@ -11,6 +11,7 @@ from dataclasses import dataclass
 from imgui_bundle import ImVec2, imgui
 
 from app import theme
+from renderer.errors import one_line
 
 SHOWN_S = 6.0
 MOST = 4
@@ -37,6 +38,7 @@ class Toasts:
         return [toast.text for toast in self._toasts]
 
     def add(self, text: str, good: bool = True) -> None:
+        text = one_line(text)
         kept = [toast for toast in self._toasts if toast.text != text]
         self._toasts = [*kept, Toast(text, good, time.monotonic() + SHOWN_S)][-MOST:]
 

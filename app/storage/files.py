@@ -19,9 +19,10 @@ from imgui_bundle import portable_file_dialogs as dialogs
 from app.background import Background
 from app.panels.dialog import FileDialog, Question
 from app.storage.recent import RecentFiles
+from app.storage.scene_watch import SceneWatch
 from app.teach.lecture.model import Lecture
 from app.teach.lecture.reading import is_lecture, load_lecture
-from renderer.errors import LucidaError
+from renderer.errors import LucidaError, one_line
 from renderer.raster import Prepared, prepare
 from renderer.scene import (
     BUILTIN_SCENES,
@@ -34,13 +35,16 @@ from renderer.scene import (
     save_view,
 )
 from renderer.scene.apart import CancelledError, ModelReader
+from renderer.scene.cancelling import cancelled_by, check_cancelled
 from renderer.scene.models import read_by
+from renderer.scene.outside import OutsideError, kept_inside
 
 LECTURE_ENDING = ".toml"
 SNIFFED_BYTES = 1 << 20
 LINUX_DIALOGS = ("zenity", "kdialog", "matedialog", "qarma")  # what the dialogs are drawn by
 
 Paths = Callable[[list[str]], None]
+Load = Callable[[frozenset[Path]], "Opened"]  # given what the user has agreed to
 
 
 @dataclass(frozen=True)
@@ -50,6 +54,8 @@ class Opened:
     problems: one line for each of the others. lecture: and its file. prepared: the scene for the
     rasterizer, so that no frame has to do it; None where that cannot be, which drawing tells.
     is_first: it takes the place of what the window has begun with, without a step of undo.
+    replaces: the scene of which this is a newer version; None for another one. agreed: the files
+    outside of its folder that a scene which came by itself may read; None where the user named it.
     """
 
     sources: tuple[str, ...] = ()
@@ -59,12 +65,27 @@ class Opened:
     lecture: tuple[Lecture, Path] | None = None
     prepared: Prepared | None = None
     is_first: bool = False
+    replaces: Scene | None = None
+    agreed: frozenset[Path] | None = None
+
+
+@dataclass(frozen=True)
+class Outside:
+    """A question to the user: whether what names files outside of its folder is to be opened.
+
+    name: of what does. files: those. again: opens it, with the user's consent.
+    """
+
+    name: str
+    files: tuple[Path, ...]
+    again: Callable[[], None]
 
 
 class Files:
     """wake: called from another thread when something has been loaded.
 
-    message: what went wrong; said: what was done, for poll_said(). folder: where the list of
+    message: what went wrong; said: what was done, for poll_said(). outside: what the user is to
+    agree to. folder: where the list of
     recent files is kept; None: nowhere. native: whether the system's dialogs may be used.
     """
 
@@ -74,6 +95,10 @@ class Files:
         self._wake = wake
         self._loading: Background[Opened] = Background("lucida-load", wake)
         self._models = ModelReader()
+        self._rereading: Background[Opened] = Background("lucida-reread", wake)
+        self._watch = SceneWatch()
+        self._guarded: dict[str, frozenset[Path]] = {}  # by the file's name: Opened.agreed
+        self._mistake = ""  # in a scene's file that was saved
         self._saving: Background[str] = Background("lucida-save", wake)
         self._asking: tuple[dialogs.open_file | dialogs.save_file, Paths] | None = None
         self._native = native
@@ -82,12 +107,14 @@ class Files:
         self.dialog = FileDialog(wake)
         self.recent = RecentFiles(folder, wake)
         self.message = ""
+        self.outside: Outside | None = None
         self._said: list[str] = []
 
     @property
     def busy(self) -> bool:
         """Whether something is being loaded or saved, or a dialog of the system's is open."""
-        return self._loading.busy or self._saving.busy or self._asking is not None
+        working = self._loading.busy or self._saving.busy or self._rereading.busy
+        return working or self._asking is not None
 
     @property
     def loading(self) -> str:
@@ -103,18 +130,29 @@ class Files:
         """Loads a built-in scene, a scene file, a model, a view or a lecture in the background."""
         self.open_all([source])
 
-    def open_all(self, sources: Sequence[str]) -> None:
-        """Loads the first scene and the first view among several, or the first lecture."""
+    def open_all(self, sources: Sequence[str], dropped: bool = False) -> None:
+        """Loads the first scene and the first view among several, or the first lecture. dropped:
+        the user has not named them, and may not know what they name."""
         if sources:
-            self._load(sources[0], lambda: open_sources(sources))
+            self._load(sources[0], lambda agreed: open_sources(sources, dropped, agreed))
 
     def open_later(self, source: str, load: Callable[[], Opened]) -> None:
         """Loads what the window was to begin with. load: does it, in the background."""
-        self._load(source, load)
+        self._load(source, lambda _: load())
+
+    def follow(self, scene: Scene) -> bool:
+        """Once a frame: reads the shown scene again when its files were saved; poll() has it then.
+        Gives whether a change is being awaited, which is to be asked for soon again."""
+        if self._watch.changed(scene, time.monotonic()) and not self._loading.busy:
+            assert scene.origin is not None
+            source = scene.origin.source
+            agreed = self._guarded.get(source)
+            self._rereading.submit(lambda: reread(source, scene, agreed))
+        return self._watch.waiting
 
     def cancel(self) -> None:
         """Ends the loading. A large model is in a process of its own, which is killed; what is not
-        is read to its end, and dropped."""
+        is left between two of its parts."""
         if self._loading.busy:
             self._models.cancel()
             self._loading.close(0.0)
@@ -129,19 +167,22 @@ class Files:
             ["Scenes, views and models", endings, "All files", "*"],
         )
 
-    def open_lecture_dialog(self) -> None:
-        def chosen(paths: list[str]) -> None:
-            self._load(paths[0], lambda: open_lecture(paths[0]))
+    def open_lecture(self, source: str) -> None:
+        """Loads a file as a lecture; asks before that reads files outside of its folder."""
+        self._load(source, lambda agreed: open_lecture(source, agreed))
 
+    def open_lecture_dialog(self) -> None:
         self._ask(
-            Question("Open a lecture", False, (LECTURE_ENDING,), "", chosen),
+            Question(
+                "Open a lecture", False, (LECTURE_ENDING,), "", lambda p: self.open_lecture(p[0])
+            ),
             ["Lectures", f"*{LECTURE_ENDING}", "All files", "*"],
         )
 
     def save_view_dialog(self, view: View) -> None:
         def store(path: str) -> str:
             save_view(path, view)
-            return f"Saved the view as {path}."
+            return one_line(f"Saved the view as {path}.")
 
         self.save_as_dialog("Save the view", "view.toml", ("View files", ".toml"), store)
 
@@ -150,8 +191,9 @@ class Files:
 
         def store(path: str) -> str:
             save_scene(path, scene, view)
+            self._watch.take_present()
             self.recent.add(str(Path(path).absolute()))
-            return f"Saved the scene as {path}."
+            return one_line(f"Saved the scene as {path}.")
 
         name = "".join(c if c.isalnum() or c in " -_" else "-" for c in scene.name) or "scene"
         self.save_as_dialog("Save the scene", f"{name}.toml", ("Scene files", ".toml"), store)
@@ -167,7 +209,14 @@ class Files:
         """What has been loaded since the last call; errors become the message."""
         if self._asking is not None and self._asking[0].ready(0):
             (asked, chosen), self._asking = self._asking, None
-            result = asked.result()
+            try:
+                result = asked.result()
+            except UnicodeDecodeError:  # the binding's: it knows no other names
+                self.message = (
+                    "The system's dialog cannot name this file: its name is not UTF-8; "
+                    "drop it on the window, or give it on the command line."
+                )
+                result = ""
             paths = [result] if isinstance(result, str) else list(result)
             if any(paths):
                 chosen(paths)
@@ -177,13 +226,37 @@ class Files:
                 self.message = describe(saved.error)
             else:
                 self._said.append(saved.value or "")
+        return self._poll_loading() or self._poll_reread()
+
+    def _poll_loading(self) -> Opened | None:
         outcome = self._loading.poll()
         if outcome is None or isinstance(outcome.error, CancelledError):
             return None
-        if outcome.error is not None:
+        if isinstance(outcome.error, OutsideError):
+            self._ask_outside(outcome.error)
+        elif outcome.error is not None:
             self.message = describe(outcome.error)
         elif outcome.value is not None:
             self._note(outcome.value)
+        return outcome.value
+
+    def _poll_reread(self) -> Opened | None:
+        """A newer version of the shown scene; the last good one stays where there is a mistake."""
+        outcome = self._rereading.poll()
+        if outcome is None:
+            return None
+        if self.message == self._mistake:  # the one before is mended, or another one now
+            self.message = ""
+        self._mistake = ""
+        if isinstance(outcome.error, OutsideError):
+            source = outcome.error.source
+            agreed = self._guarded.get(source, frozenset())
+            self._again = lambda more: self._load(
+                source, lambda all_: open_sources([source], True, all_), agreed | more
+            )
+            self._ask_outside(outcome.error)
+        elif outcome.error is not None:
+            self.message = self._mistake = describe(outcome.error)
         return outcome.value
 
     def poll_said(self) -> list[str]:
@@ -199,24 +272,36 @@ class Files:
     def close(self) -> None:
         self._models.cancel()
         self._loading.close()
+        self._rereading.close()
         self._saving.close(5.0)
         self.dialog.close()
         self.recent.close()
 
-    def _load(self, source: str, load: Callable[[], Opened]) -> None:
+    def _load(self, source: str, load: Load, agreed: frozenset[Path] = frozenset()) -> None:
         self.cancel()  # the newest wins, and does not wait for what takes long
-        self.message = ""
-        self._source = Path(source).name
+        self.message, self.outside = "", None
+        self._again = lambda more: self._load(source, load, agreed | more)
+        self._source = one_line(Path(source).name)
         self._began_s = time.monotonic()
         models = self._models
 
         def loaded() -> Opened:
-            with read_by(models.read):
-                return load()
+            with read_by(models.read), cancelled_by(models.check):
+                return load(agreed)
 
         self._loading.submit(loaded)
 
+    def _ask_outside(self, error: OutsideError) -> None:
+        again, files = self._again, error.files
+        name = one_line(Path(error.source).name)
+        self.outside = Outside(name, files, lambda: again(frozenset(files)))
+
     def _note(self, opened: Opened) -> None:
+        if opened.scene is not None and opened.scene.origin is not None:
+            source = opened.scene.origin.source
+            self._guarded.pop(source, None)
+            if opened.agreed is not None:
+                self._guarded[source] = opened.agreed
         for source in reversed(opened.sources):
             if source not in BUILTIN_SCENES:
                 self.recent.add(str(Path(source).absolute()))
@@ -256,10 +341,14 @@ def has_dialogs() -> bool:
     return not sys.platform.startswith("linux") or any(map(shutil.which, LINUX_DIALOGS))
 
 
-def open_sources(sources: Sequence[str]) -> Opened:
+def open_sources(
+    sources: Sequence[str], dropped: bool = False, agreed: frozenset[Path] = frozenset()
+) -> Opened:
     """Loads the first scene and the first view among sources; and the first lecture.
 
-    Raises LucidaError where there is but one and it cannot be read.
+    dropped: scenes must not name files outside of their folder but those that are agreed to;
+    lectures never. Raises LucidaError where there is but one and it cannot be read, OutsideError
+    in any case.
     """
     scene, view, lecture = None, None, None
     good, problems = [], []
@@ -268,17 +357,31 @@ def open_sources(sources: Sequence[str]) -> Opened:
             if source not in BUILTIN_SCENES and _is_view(Path(source)):
                 view = view or load_view(source)
             elif source not in BUILTIN_SCENES and is_lecture(source):
-                lecture = lecture or (load_lecture(source), Path(source).absolute())
+                lecture = lecture or (load_lecture(source, agreed), Path(source).absolute())
             elif scene is None:
-                scene = load_scene(source)
+                scene = _load_scene(source, agreed if dropped else None)
             else:
                 continue  # one scene at a time
             good.append(source)
         except LucidaError as error:
-            if len(sources) == 1:
+            if len(sources) == 1 or isinstance(error, OutsideError):
                 raise
             problems.append(describe(error))
-    return Opened(tuple(good), scene, view, tuple(problems), lecture, _prepared(scene))
+    given = agreed if dropped else None
+    prepared = _prepared(scene)
+    return Opened(tuple(good), scene, view, tuple(problems), lecture, prepared, agreed=given)
+
+
+def _load_scene(source: str, agreed: frozenset[Path] | None) -> Scene:
+    with kept_inside(Path(source), agreed):
+        return load_scene(source)
+
+
+def reread(source: str, scene: Scene, agreed: frozenset[Path] | None) -> Opened:
+    """A newer version of a scene, whose files have changed. agreed: as in Opened."""
+    with read_by(ModelReader().read):
+        newer = _load_scene(source, agreed)
+    return Opened(scene=newer, prepared=_prepared(newer), replaces=scene, agreed=agreed)
 
 
 def opened_scene(source: str, scene: Scene, view: View) -> Opened:
@@ -288,14 +391,16 @@ def opened_scene(source: str, scene: Scene, view: View) -> Opened:
 
 def _prepared(scene: Scene | None) -> Prepared | None:
     if scene is not None:
+        check_cancelled()
         with contextlib.suppress(LucidaError):
             return prepare(scene)
     return None
 
 
-def open_lecture(source: str) -> Opened:
-    """Loads a file as a lecture, whatever it looks like. Raises LucidaError."""
-    return Opened((source,), lecture=(load_lecture(source), Path(source).absolute()))
+def open_lecture(source: str, agreed: frozenset[Path] = frozenset()) -> Opened:
+    """Loads a file as a lecture, whatever it looks like. agreed: files outside of its folder that
+    it may read. Raises LucidaError."""
+    return Opened((source,), lecture=(load_lecture(source, agreed), Path(source).absolute()))
 
 
 def describe(error: Exception) -> str:
@@ -304,7 +409,7 @@ def describe(error: Exception) -> str:
         return str(error)
     if isinstance(error, MemoryError):
         return "not enough memory; try a smaller image or model"
-    return f"{type(error).__name__}: {' '.join(str(error).split())}"
+    return one_line(f"{type(error).__name__}: {error}")
 
 
 def _is_view(path: Path) -> bool:

@@ -15,8 +15,9 @@ from pathlib import Path
 import msgspec
 
 from app.background import Background
+from app.storage.paths import restored, stored
 from renderer.atomic import atomic_write
-from renderer.errors import LucidaError
+from renderer.errors import LucidaError, one_line
 from renderer.scene.reading import read_file
 
 MOST = 12
@@ -35,7 +36,12 @@ class Recent:
 
     @property
     def name(self) -> str:
-        return Path(self.path).name
+        """To be shown, as is the folder."""
+        return one_line(Path(self.path).name)
+
+    @property
+    def folder(self) -> str:
+        return one_line(str(Path(self.path).parent))
 
 
 class RecentFiles:
@@ -92,7 +98,7 @@ class RecentFiles:
             with contextlib.suppress(LucidaError, OSError):
                 self._file.parent.mkdir(parents=True, exist_ok=True)
                 with atomic_write(self._file) as file:
-                    file.write(msgspec.json.encode(paths))
+                    file.write(msgspec.json.encode([stored(path) for path in paths]))
         return tuple(Recent(path, not _exists(path)) for path in paths)
 
 
@@ -102,7 +108,8 @@ def _read(file: Path) -> list[str]:
         paths = msgspec.json.decode(read_file(file, LARGEST_BYTES), type=list[str])
     except (LucidaError, msgspec.DecodeError, UnicodeDecodeError, RecursionError):
         return []
-    return [path for path in paths[:MOST] if 0 < len(path) <= LONGEST and "\0" not in path]
+    paths = [restored(path) for path in paths[:MOST]]
+    return [path for path in paths if 0 < len(path) <= LONGEST and "\0" not in path]
 
 
 def _exists(path: str) -> bool:

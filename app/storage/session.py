@@ -14,6 +14,7 @@ import msgspec
 from app.bounds import check
 from app.options import Options
 from app.state import AppState
+from app.storage.paths import restored, stored
 from renderer.errors import LucidaError
 from renderer.scene import BUILTIN_SCENES, Scene, View
 
@@ -39,13 +40,19 @@ class Arrangement:
 
 @dataclass(frozen=True)
 class Session:
-    """A session file. scene: what load_scene takes. The rest as in AppState."""
+    """A session file. scene: what load_scene takes, as paths.stored() writes it. The rest as in
+    AppState."""
 
     scene: str
     view: View
     keep_orthonormal: bool = True
     options: Options = field(default_factory=Options)
     arrangement: Arrangement = field(default_factory=Arrangement)
+
+    @property
+    def source(self) -> str:
+        """What load_scene takes."""
+        return restored(self.scene)
 
     def state(self, scene: Scene) -> AppState:
         """The state that was kept, in the scene that was loaded for it."""
@@ -56,7 +63,7 @@ def session_of(state: AppState, arrangement: Arrangement) -> Session:
     """What to keep of a state. A scene from no file is not kept: the first built-in one is."""
     origin = state.scene.origin
     source = origin.source if origin is not None and origin.source else BUILTIN_SCENES[0]
-    return Session(source, state.view, state.keep_orthonormal, state.options, arrangement)
+    return Session(stored(source), state.view, state.keep_orthonormal, state.options, arrangement)
 
 
 def to_bytes(session: Session) -> bytes:

@@ -139,7 +139,8 @@ class LectureView(View):
     def _follow_file(self, host: Host, session: Session) -> None:
         assert self._reading is not None
         if session.has_changed(time.monotonic()):
-            self._reading.submit(lambda: _read(session.path))
+            agreed = frozenset(session.lecture.outside)
+            self._reading.submit(lambda: _read(session.path, agreed))
         if session.expects:
             host.animate()
         outcome = self._reading.poll()
@@ -298,8 +299,9 @@ def _fits_a_row(width: float) -> bool:
     return bool(_walking_px() + imgui.get_font_size() + text <= width)
 
 
-def _read(path: Path) -> tuple[Lecture, LucidaError | None]:
-    """A lecture's file read again, and the first of its formulas that cannot be set."""
+def _read(path: Path, agreed: frozenset[Path]) -> tuple[Lecture, LucidaError | None]:
+    """A lecture's file read again, and the first of its formulas that cannot be set. agreed: files
+    outside of its folder that it may read."""
     with read_by(ModelReader().read):  # a large model of its scenes' in a process of its own
-        lecture = load_lecture(path)
+        lecture = load_lecture(path, agreed)
     return lecture, first_mistake(lecture.formulas)

@@ -55,7 +55,7 @@ class ModelReader:
         objects = self._receive(process, path) if process is not None else None
         if objects is None:
             objects = read_model(path)
-        self._check()
+        self.check()
         return objects
 
     def cancel(self) -> None:
@@ -66,13 +66,14 @@ class ModelReader:
             if self._process is not None:
                 self._process.kill()
 
-    def _check(self) -> None:
+    def check(self) -> None:
+        """Raises CancelledError once cancel() was called."""
         if self._cancelled:
             raise CancelledError
 
     def _start(self, python: str, path: Path) -> subprocess.Popen[bytes] | None:
         with self._lock:
-            self._check()
+            self.check()
             with contextlib.suppress(OSError):
                 self._process = start_child(python, __name__, str(path), output=True)
             return self._process
@@ -97,7 +98,7 @@ class ModelReader:
             with self._lock:
                 self._process = None
             status = end_child(process)
-        self._check()
+        self.check()
         if not begun:
             return None
         if isinstance(answer, Exception):

@@ -14,8 +14,16 @@ from typing import Any
 
 from renderer.errors import LucidaError
 from renderer.scene import framing, shapes
+from renderer.scene.cancelling import check_cancelled
 from renderer.scene.colors import parse_color
-from renderer.scene.limits import LIGHTS, OBJECTS, TOML_BYTES, TRIANGLES
+from renderer.scene.limits import (
+    LIGHTS,
+    MADE_TRIANGLES,
+    OBJECTS,
+    SEGMENTS,
+    TOML_BYTES,
+    TRIANGLES,
+)
 from renderer.scene.model import (
     Checker,
     DirectionalLight,
@@ -28,6 +36,7 @@ from renderer.scene.model import (
     Sphere,
 )
 from renderer.scene.models import load_model
+from renderer.scene.outside import check_inside
 from renderer.scene.reading import decode_text, read_file, suggestion
 from renderer.scene.schema import (
     AnyLight,
@@ -103,18 +112,60 @@ def _objects(tables: list[Any], materials: Materials, folder: Path) -> list[Scen
     _check_count("objects", len(tables), OBJECTS)
     objects: list[SceneObject] = []
     models: Models = {}
-    triangles = 0
-    for number, table in enumerate(tables):
-        field = f"objects[{number}]"
-        entry: SphereTable | MeshTable = to_struct(table, AnyObject, field)
-        with _under(field):
-            parts = _parts(entry, materials, folder, models)
-        objects += parts
-        # Counted as they come: what is too much is never built to the end.
-        triangles += sum(len(p.shape.faces) for p in parts if isinstance(p.shape, Mesh))
+    entries: list[SphereTable | MeshTable] = [
+        to_struct(table, AnyObject, f"objects[{number}]") for number, table in enumerate(tables)
+    ]
+    check_inside(folder / entry.file for entry in entries if isinstance(entry, ModelTable))
+    # Counted before they are built: a few lines can make more than memory holds.
+    made = sum(map(_made_triangles, entries))
+    _check_made(made)
+    stored = 0
+    for number, entry in enumerate(entries):
+        check_cancelled()
+        with _under(f"objects[{number}]"):
+            if isinstance(entry, ModelTable):
+                again = folder / entry.file in models
+                parts = _model(entry.file, folder, models)
+                count = sum(len(p.shape.faces) for p in parts if isinstance(p.shape, Mesh))
+                made, stored = made + again * count, stored + (not again) * count
+        _check_made(made)
+        _check_count("objects", stored + made, TRIANGLES, "triangles")
+        with _under(f"objects[{number}]"):
+            objects += _parts(entry, materials, folder, models)
         _check_count("objects", len(objects), OBJECTS)
-        _check_count("objects", triangles, TRIANGLES, "triangles")
     return objects
+
+
+def _made_triangles(table: SphereTable | MeshTable) -> int:
+    """How many triangles a shape is made of; 0 for a sphere, which has none, and for a model."""
+    match table:
+        case BoxTable():
+            return 12
+        case RectangleTable():
+            return 2
+        case DiskTable():
+            return _bounded(table.segments)
+        case CylinderTable():
+            return 4 * _bounded(table.segments)
+        case ConeTable():
+            return 2 * _bounded(table.segments)
+        case TorusTable():
+            return 2 * _bounded(table.segments) * _bounded(table.sides)
+    return 0
+
+
+def _bounded(count: int) -> int:
+    """A number of segments as far as it is legal; the shape refuses others."""
+    return min(max(count, 0), SEGMENTS)
+
+
+def _check_made(triangles: int) -> None:
+    if triangles > MADE_TRIANGLES:
+        raise LucidaError(
+            "objects",
+            f"make {triangles} triangles of shapes and copies of models",
+            f"stay within {MADE_TRIANGLES}: fewer segments, sides or copies",
+        )
 
 
 def _parts(

@@ -9,6 +9,7 @@ Source: Khronos, glTF 2.0 Specification.
 from __future__ import annotations
 
 import io
+from collections import Counter
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -22,14 +23,23 @@ from renderer.scene.gltf_file import (
     TRIANGLE_FAN,
     TRIANGLE_LIST,
     TRIANGLE_STRIP,
+    Accessor,
     Gltf,
     Node,
     Pbr,
+    entry_at,
     open_gltf,
     read_buffer,
 )
+from renderer.scene.gltf_shared import (
+    ATTRIBUTES,
+    check_bytes_shared,
+    check_triangles,
+    compacted,
+    same_primitives,
+)
 from renderer.scene.guard import guarded
-from renderer.scene.limits import BINARY_MODEL_BYTES, NODE_DEPTH, OBJECTS, TRIANGLES
+from renderer.scene.limits import BINARY_MODEL_BYTES, NODE_DEPTH, OBJECTS
 from renderer.scene.model import Material
 from renderer.scene.parts import Part, linear_colors
 from renderer.scene.reading import size_text
@@ -62,8 +72,10 @@ def read_gltf(path: Path) -> GltfFile:
     try:
         tree, binary = open_gltf(path)
         instances = _instances(tree)
-        keys = sorted({(entry.mesh, entry.primitive) for entry in instances})
-        _check_triangles(tree, instances)
+        shown = [(entry.mesh, entry.primitive) for entry in instances]
+        same = same_primitives(tree, shown)
+        keys = sorted(set(same.values()))
+        check_triangles(tree, shown, keys)
         smaller, used_buffers = _smaller_tree(tree, keys)
         buffers = {
             str(number): read_buffer(tree.buffers[number], number, binary, path)
@@ -77,10 +89,13 @@ def read_gltf(path: Path) -> GltfFile:
         _check_views(smaller, buffers)
         found = load_gltf(io.BytesIO(msgspec.json.encode(smaller)), buffers, skip_materials=True)
     parts = {}
+    shared = Counter(tree.meshes[m].primitives[p].attributes["POSITION"] for m, p in keys)
     for number, (mesh, primitive) in enumerate(keys):
         fields = found["geometry"].get(str(number), {})
         attributes = tree.meshes[mesh].primitives[primitive].attributes
         position = tree.accessors[attributes["POSITION"]]
+        if shared[attributes["POSITION"]] > 1:
+            fields = compacted(fields)
         vertices = fields.get("vertices")
         if vertices is not None and position.normalized and vertices.dtype.kind in "ui":
             vertices = vertices / np.iinfo(vertices.dtype).max
@@ -91,7 +106,7 @@ def read_gltf(path: Path) -> GltfFile:
             fields.get("vertex_normals"),
             linear_colors(fields.get("vertex_colors"), linear=True),
         )
-    return GltfFile(instances, parts)
+    return GltfFile(instances, {key: parts[first] for key, first in same.items()})
 
 
 # The tree.
@@ -100,7 +115,7 @@ def read_gltf(path: Path) -> GltfFile:
 def _instances(tree: Gltf) -> list[Instance]:
     """Every triangle primitive at every node of the scene, depth first, in the file's order."""
     if tree.scenes:
-        roots = _at(tree.scenes, tree.scene, "scene").nodes
+        roots = entry_at(tree.scenes, tree.scene, "scene").nodes
     else:
         children = {child for node in tree.nodes for child in node.children}
         roots = [number for number in range(len(tree.nodes)) if number not in children]
@@ -110,7 +125,7 @@ def _instances(tree: Gltf) -> list[Instance]:
     while stack:
         number, parent, depth = stack.pop()
         field = f"nodes[{number}]"
-        node = _at(tree.nodes, number, "nodes")
+        node = entry_at(tree.nodes, number, "nodes")
         if number in seen:
             raise LucidaError(
                 field, "has two parents, or is its own ancestor", "give each node one parent"
@@ -132,7 +147,7 @@ def _mesh_instances(
     tree: Gltf, node: Node, matrix: NDArray[np.float64], field: str
 ) -> list[Instance]:
     assert node.mesh is not None
-    mesh = _at(tree.meshes, node.mesh, f"{field}.mesh")
+    mesh = entry_at(tree.meshes, node.mesh, f"{field}.mesh")
     instances = []
     for number, primitive in enumerate(mesh.primitives):
         where = f"meshes[{node.mesh}].primitives[{number}]"
@@ -144,7 +159,7 @@ def _mesh_instances(
             raise LucidaError(where, "has no POSITION", "export it again")
         material = None
         if primitive.material is not None:
-            given = _at(tree.materials, primitive.material, f"{where}.material")
+            given = entry_at(tree.materials, primitive.material, f"{where}.material")
             material = _material(given.pbr_metallic_roughness)
         name = node.name or mesh.name
         instances.append(Instance(node.mesh, number, name, matrix, material))
@@ -188,19 +203,6 @@ def _material(pbr: Pbr) -> Material:
 # The ranges.
 
 
-def _check_triangles(tree: Gltf, instances: list[Instance]) -> None:
-    total = 0
-    for entry in instances:
-        primitive = tree.meshes[entry.mesh].primitives[entry.primitive]
-        source = primitive.indices
-        if source is None:
-            source = primitive.attributes["POSITION"]
-        count = _at(tree.accessors, source, "accessors").count
-        total += count // 3 if primitive.mode == TRIANGLE_LIST else max(count - 2, 0)
-    if total > TRIANGLES:
-        raise LucidaError("", f"has {total} triangles", f"stay within {TRIANGLES}")
-
-
 def _smaller_tree(tree: Gltf, keys: list[tuple[int, int]]) -> tuple[dict[str, Any], list[int]]:
     """A tree of only what the primitives `keys` need, one mesh each, and the buffers it uses."""
     accessors: dict[int, int] = {}
@@ -210,9 +212,7 @@ def _smaller_tree(tree: Gltf, keys: list[tuple[int, int]]) -> tuple[dict[str, An
         primitive = tree.meshes[mesh].primitives[index]
         where = f"meshes[{mesh}].primitives[{index}]"
         wanted = {
-            name: primitive.attributes[name]
-            for name in ("POSITION", "NORMAL", "COLOR_0")
-            if name in primitive.attributes
+            name: primitive.attributes[name] for name in ATTRIBUTES if name in primitive.attributes
         }
         smaller: dict[str, Any] = {"attributes": {}, "mode": primitive.mode}
         for name, source in wanted.items():
@@ -251,6 +251,9 @@ def _smaller_tree(tree: Gltf, keys: list[tuple[int, int]]) -> tuple[dict[str, An
     total = sum(view["byteLength"] for view in new_views)
     if total > 2 * BINARY_MODEL_BYTES:
         raise LucidaError("bufferViews", f"hold {size_text(total)}", "split the model")
+    items = sum(_item_bytes(tree.accessors[n]) * tree.accessors[n].count for n in accessors)
+    there = sum(tree.buffers[number].byte_length for number in buffers)
+    check_bytes_shared(total, items, there)
     smaller_tree = {
         "asset": {"version": "2.0"},
         "buffers": [{"uri": str(number)} for number in buffers],
@@ -261,9 +264,13 @@ def _smaller_tree(tree: Gltf, keys: list[tuple[int, int]]) -> tuple[dict[str, An
     return smaller_tree, buffers
 
 
+def _item_bytes(accessor: Accessor) -> int:
+    return COMPONENT_BYTES[accessor.component_type] * COMPONENTS[accessor.type]
+
+
 def _check_accessor(tree: Gltf, number: int, types: tuple[str, ...], field: str) -> None:
     """Raises LucidaError unless all numbers of the accessor lie inside its buffer view."""
-    accessor = _at(tree.accessors, number, field)
+    accessor = entry_at(tree.accessors, number, field)
     field = f"accessors[{number}]"
     if accessor.type not in types or accessor.component_type not in COMPONENT_BYTES:
         raise LucidaError(
@@ -273,9 +280,9 @@ def _check_accessor(tree: Gltf, number: int, types: tuple[str, ...], field: str)
         raise LucidaError(field, "is sparse", "export it without sparse accessors")
     if accessor.buffer_view is None:
         raise LucidaError(field, "has no bufferView", "export it uncompressed")
-    view = _at(tree.buffer_views, accessor.buffer_view, f"{field}.buffer_view")
-    _at(tree.buffers, view.buffer, f"bufferViews[{accessor.buffer_view}].buffer")
-    item = COMPONENT_BYTES[accessor.component_type] * COMPONENTS[accessor.type]
+    view = entry_at(tree.buffer_views, accessor.buffer_view, f"{field}.buffer_view")
+    entry_at(tree.buffers, view.buffer, f"bufferViews[{accessor.buffer_view}].buffer")
+    item = _item_bytes(accessor)
     stride = view.byte_stride or item
     if stride < item:
         raise LucidaError(
@@ -297,11 +304,3 @@ def _check_views(tree: dict[str, Any], buffers: dict[str, bytes]) -> None:
         have = len(buffers[tree["buffers"][view["buffer"]]["uri"]])
         if view["byteOffset"] + view["byteLength"] > have:
             raise ValueError(f"a buffer view ends behind its buffer of {have} bytes")
-
-
-def _at(entries: list[Any], number: int, field: str) -> Any:
-    if number >= len(entries):
-        raise LucidaError(
-            field, f"names entry {number}, counted from 0, of {len(entries)}", "export it again"
-        )
-    return entries[number]

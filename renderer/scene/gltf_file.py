@@ -129,7 +129,8 @@ def open_gltf(path: Path) -> tuple[Gltf, bytes | None]:
         )
     for name in tree.extensions_required:
         if name in COMPRESSED:
-            raise LucidaError("", f"is compressed with {name}", "export it uncompressed")
+            remedy = "open it in Blender, say, and export it without compression"
+            raise LucidaError("", f"is compressed with {name}", remedy)
     return tree, binary
 
 
@@ -193,6 +194,15 @@ def _file_beside(uri: str, field: str, path: Path) -> bytes:
         return read_file(path.parent / name, BINARY_MODEL_BYTES)
     except LucidaError as error:
         raise LucidaError(field, f"{uri[:80]!r} {error.problem}", error.remedy) from None
+
+
+def entry_at(entries: list[Any], number: int, field: str) -> Any:
+    """An entry of a list of the tree's. field: what names it. Raises LucidaError."""
+    if number >= len(entries):
+        raise LucidaError(
+            field, f"names entry {number}, counted from 0, of {len(entries)}", "export it again"
+        )
+    return entries[number]
 
 
 def damaged(problem: str) -> LucidaError:

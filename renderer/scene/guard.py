@@ -5,6 +5,7 @@ Knows nothing of what a format means.
 
 from __future__ import annotations
 
+import codecs
 import contextlib
 import logging
 import re
@@ -23,6 +24,7 @@ from renderer.scene.reading import read_file
 
 _SILENT = logging.NullHandler()
 _COMMENT = re.compile(r"^((?:f|v[nt]?)[ \t][^#\n]*)#[^\n]*", re.MULTILINE)
+_OPEN_COMMENT = re.compile(r"^([ \t]*#[^\n]*?)\\+$", re.MULTILINE)
 _INDENT = re.compile(r"^[ \t]+", re.MULTILINE)
 _TAB = re.compile(r"^(f|v[nt]?|o|g|usemtl|mtllib)[ \t]*\t[ \t]*", re.MULTILINE)
 
@@ -57,11 +59,19 @@ def guarded(path: Path, kind: str) -> Iterator[None]:
 def read_text(path: Path) -> str:
     """The tidy text of a model. Raises LucidaError, also for what is no text: noise would be
     searched for lines, which takes long."""
-    data = read_file(path, TEXT_MODEL_BYTES)
+    data = _as_utf8(read_file(path, TEXT_MODEL_BYTES))
     if b"\0" in data:
         problem, remedy = "holds zero bytes: it is no text", "export it again, as text in UTF-8"
         raise LucidaError("", problem, remedy, str(path))
     return tidy_text(data)
+
+
+def _as_utf8(data: bytes) -> bytes:
+    """A text in UTF-16, which its first two bytes tell, as one in UTF-8; others as they are."""
+    for mark, encoding in ((codecs.BOM_UTF16_LE, "utf-16-le"), (codecs.BOM_UTF16_BE, "utf-16-be")):
+        if data.startswith(mark):
+            return data[2:].decode(encoding, "replace").encode()
+    return data
 
 
 def tidy_text(data: bytes) -> str:
@@ -70,7 +80,9 @@ def tidy_text(data: bytes) -> str:
     It begins and ends with a newline; otherwise lines keep their number.
     """
     text = data.decode("utf-8-sig", "replace").replace("\r\n", "\n").replace("\r", "\n")
-    text = f"\n{text}\n".replace("\\\n", " ")  # a backslash continues its line
+    text = f"\n{text}\n"
+    if "\\\n" in text:  # a backslash continues its line, unless that is a comment: # C:\models\
+        text = _OPEN_COMMENT.sub(r"\1", text).replace("\\\n", " ")
     if "\t" in text or "\n " in text:
         text = _TAB.sub(r"\1 ", _INDENT.sub("", text))
     if text.count("#") > text.count("\n#"):

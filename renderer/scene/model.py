@@ -16,12 +16,13 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from renderer.camera import LARGEST, Camera, volume
-from renderer.errors import LucidaError
+from renderer.errors import LucidaError, one_line, shortened
 
 Color = tuple[float, float, float]
 Floats32 = NDArray[np.float32]
 
 BRIGHTEST = 1e6
+LONGEST_NAME = 200  # letters
 
 
 def vector(name: str, value: Iterable[float]) -> tuple[float, float, float]:
@@ -45,6 +46,11 @@ def color(name: str, value: Iterable[float]) -> Color:
                 name, f"{component:g} is outside 0 to {BRIGHTEST:g}", "give red, green, blue >= 0"
             )
     return rgb
+
+
+def _shown(name: str) -> str:
+    """A name that windows, terminals and files take, whatever file it comes from."""
+    return name if name.isalnum() and len(name) < 80 else shortened(one_line(name), LONGEST_NAME)
 
 
 def _final(value: ArrayLike) -> bool:
@@ -196,6 +202,9 @@ class SceneObject:
     material: Material = Material()
     name: str = ""
 
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "name", _shown(self.name))
+
 
 @dataclass(frozen=True)
 class View:
@@ -238,6 +247,7 @@ class Scene:
     def __post_init__(self) -> None:
         object.__setattr__(self, "objects", tuple(self.objects))
         object.__setattr__(self, "lights", tuple(self.lights))
+        object.__setattr__(self, "name", _shown(self.name))
         for name in ("ambient", "background"):
             object.__setattr__(self, name, color(name, getattr(self, name)))
 

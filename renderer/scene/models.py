@@ -16,6 +16,7 @@ import numpy as np
 
 from renderer.errors import LucidaError
 from renderer.scene import framing
+from renderer.scene.cancelling import check_cancelled
 from renderer.scene.limits import OBJECTS, TRIANGLES
 from renderer.scene.model import Material, Mesh, Scene, SceneObject
 from renderer.scene.parts import Part, build_mesh
@@ -105,6 +106,7 @@ def _objects(path: Path, ending: str) -> list[SceneObject]:
     parts = read(path)
     objects = []
     for part in parts:
+        check_cancelled()
         mesh = build_mesh(part)
         if mesh is not None:
             name = part.name if len(parts) > 1 else path.stem
@@ -116,7 +118,12 @@ def _gltf_objects(path: Path) -> list[SceneObject]:
     from renderer.scene.gltf import read_gltf
 
     file = read_gltf(path)
-    meshes = {key: build_mesh(part) for key, part in file.parts.items()}
+    built: dict[int, Mesh | None] = {}  # primitives of the same numbers share their part
+    for part in file.parts.values():
+        check_cancelled()
+        if id(part) not in built:
+            built[id(part)] = build_mesh(part)
+    meshes = {key: built[id(part)] for key, part in file.parts.items()}
     objects = []
     for instance in file.instances:
         key = instance.mesh, instance.primitive

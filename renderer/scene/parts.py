@@ -97,10 +97,11 @@ def linear_colors(colors: Any, linear: bool = False) -> NDArray[np.float32] | No
     array = np.asarray(colors)
     if array.ndim != 2 or array.shape[1] not in (3, 4) or array.dtype.kind not in "uif":
         return None
-    rgb = array[:, :3].astype(np.float32)
+    with np.errstate(all="ignore"):  # numbers that float32 does not hold
+        rgb = array[:, :3].astype(np.float32)
     if array.dtype.kind in "ui":
         rgb /= np.float32(255 if array.dtype.itemsize > 2 else np.iinfo(array.dtype).max)
-    elif not linear and len(rgb) and np.nanmax(rgb) > 1.5:  # written as 0 to 255 all the same
+    elif not linear and (rgb > 1.5).any():  # written as 0 to 255 all the same
         rgb /= np.float32(255)
     rgb = np.nan_to_num(rgb, nan=0.0, posinf=BRIGHTEST, neginf=0.0)
     return np.clip(rgb, 0, BRIGHTEST) if linear else from_srgb(rgb)
@@ -121,12 +122,11 @@ def _indices(value: Any) -> NDArray[np.int64]:
         return np.zeros((0, 3), np.int64)
     try:
         array = np.asarray(value)
-        whole = array.astype(np.int64)
     except (TypeError, ValueError, OverflowError):
         array = np.zeros(1)
     if array.ndim != 2 or array.dtype.kind not in "ui" or array.shape[1] > 1 << 16:
         raise LucidaError("faces", "are not rows of whole numbers", "export the model again")
-    return whole
+    return array.astype(np.int64)
 
 
 def _attribute(value: Any, count: int) -> NDArray[Any] | None:

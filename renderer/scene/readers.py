@@ -86,6 +86,8 @@ def read_off(path: Path) -> list[Part]:
     """The mesh of an .off file (text; vertex colours are not read)."""
     text = re.sub(r"#[^\n]*", "", read_text(path))
     lines = _lines(text)
+    if lines and lines[0][:3].lower() == "off":
+        lines[0] = "OFF" + lines[0][3:]
     words = " ".join(lines[:3]).split(None, 3)
     if not words or not re.fullmatch(r"[A-Z0-9]*OFF", words[0]):
         raise damaged(path, "does not begin with OFF")

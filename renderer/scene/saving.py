@@ -96,7 +96,13 @@ def _light(light: Any) -> dict[str, Any]:
 def _path(file: Path, folder: Path) -> str:
     """A model's path for a scene file in `folder`: relative if the model lies below it."""
     file = Path(os.path.abspath(file))
-    return file.relative_to(folder).as_posix() if file.is_relative_to(folder) else str(file)
+    name = file.relative_to(folder).as_posix() if file.is_relative_to(folder) else str(file)
+    try:
+        name.encode()
+    except UnicodeEncodeError:
+        problem = f"the model's name is not UTF-8, as scene files are: {name}"
+        raise LucidaError("", problem, "rename the model") from None
+    return name
 
 
 def _toml(tables: dict[str, Any]) -> str:

@@ -6,6 +6,7 @@ Owns the structures that reading.py makes of a file. Knows nothing of files or w
 from __future__ import annotations
 
 from dataclasses import dataclass
+from pathlib import Path
 from typing import Any
 
 from app.teach.lecture.exercises import Exercise
@@ -46,13 +47,15 @@ class Written:
 
 @dataclass(frozen=True, eq=False)
 class Lecture:
-    """source: the file it comes from. formulas: all of them, in the file's order."""
+    """source: the file it comes from. formulas: all of them, in the file's order. outside: files
+    outside of its folder that it names, which the user has agreed to."""
 
     title: str
     author: str
     steps: tuple[Step, ...]
     source: str
     formulas: tuple[Written, ...] = ()
+    outside: tuple[Path, ...] = ()
 
     def outline(self) -> list[tuple[str, list[int]]]:
         """The parts in their order, each with the numbers of its steps, from 0."""

@@ -7,6 +7,7 @@ lecture at once, within the bounds that stand on its field.
 from __future__ import annotations
 
 from dataclasses import fields, is_dataclass
+from functools import lru_cache
 from typing import Any, get_args, get_type_hints
 
 import msgspec
@@ -20,6 +21,8 @@ from renderer.scene.reading import suggestion
 from renderer.scene.tables import to_struct
 from renderer.scene.views import view_from_table
 
+_types = lru_cache(get_type_hints)  # which takes long
+
 OWN = ("preferences", "bookmarks")  # the user's own, which no step changes
 ELSEWHERE = (*OWN, "marked", "highlight")  # what has a field of its own in a step
 
@@ -28,7 +31,7 @@ NAMES = tuple(entry.name for entry in fields(Options) if entry.name not in ELSEW
 
 def options_from_table(tables: dict[str, Any]) -> dict[str, Any]:
     """The changes as AppState.with_options() takes them. Raises LucidaError."""
-    types = get_type_hints(Options)
+    types = _types(Options)
     changes: dict[str, Any] = {}
     for name, value in tables.items():
         if name not in NAMES:
@@ -47,7 +50,7 @@ def options_from_table(tables: dict[str, Any]) -> dict[str, Any]:
 
 def _part(kind: Any, table: dict[str, Any]) -> dict[str, Any]:
     """Changes of one part of the options; its cameras are tables as in a scene file."""
-    types = get_type_hints(kind)
+    types = _types(kind)
     changes: dict[str, Any] = {}
     for name, value in table.items():
         if Camera in get_args(types.get(name)) and isinstance(value, dict):
@@ -68,7 +71,7 @@ def _camera(table: dict[str, Any]) -> Camera:
 
 def _struct(kind: Any) -> type[msgspec.Struct]:
     """A structure of a dataclass's fields, all optional, in which an unknown one is an error."""
-    types = get_type_hints(kind)
+    types = _types(kind)
     kept = [
         (entry.name, types[entry.name], None)
         for entry in fields(kind)

@@ -6,6 +6,7 @@ Knows TOML's outer form only: it is given texts that tomllib has read without co
 from __future__ import annotations
 
 import re
+from bisect import bisect_left
 
 from renderer.errors import LucidaError
 
@@ -13,12 +14,12 @@ Path = tuple[str | int, ...]
 
 _BLANK = re.compile(r"(?:[ \t\r\n]+|#[^\n]*)*")
 _SPACE = re.compile(r"[ \t]*")
-_KEY = re.compile(r"""[\w-]+|"(?:[^"\\\n]|\\.)*"|'[^'\n]*'""")
+_KEY = re.compile(r"""[\w-]+|"(?:[^"\\\n]++|\\.)*+"|'[^'\n]*'""")
 _BARE = re.compile(r"[^,\]}\n#]*")
 _STRING = re.compile(
-    r'"""(?:[^\\]|\\.)*?"{3,5}'  # up to two quotes may stand before the closing three
+    r'"""(?:[^"\\]++|\\.|"(?!""))*+"{3,5}'  # up to two quotes may stand before the closing three
     r"|'''.*?'{3,5}"
-    r'|"(?:[^"\\\n]|\\.)*"'
+    r'|"(?:[^"\\\n]++|\\.)*+"'
     r"|'[^'\n]*'",
     re.DOTALL,
 )
@@ -30,6 +31,7 @@ class Places:
     def __init__(self, text: str) -> None:
         self._text = text
         self._at = 0
+        self._breaks = [match.start() for match in re.finditer("\n", text)]
         self._lines: dict[Path, int] = {(): 1}
         self._counts: dict[Path, int] = {}
         self._scan()
@@ -145,7 +147,7 @@ class Places:
         return path
 
     def _place(self, path: Path, at: int) -> None:
-        self._lines.setdefault(path, self._text.count("\n", 0, at) + 1)
+        self._lines.setdefault(path, bisect_left(self._breaks, at) + 1)
 
     def _skip(self, pattern: re.Pattern[str]) -> None:
         match = pattern.match(self._text, self._at)

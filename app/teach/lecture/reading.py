@@ -6,6 +6,8 @@ Owns the way from the tables of schema.py to steps. Knows nothing of windows.
 from __future__ import annotations
 
 import re
+from collections.abc import Iterator
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -18,7 +20,7 @@ from app.teach.lecture.exercises import (
     VectorExercise,
     Wanted,
 )
-from app.teach.lecture.model import Lecture, Step
+from app.teach.lecture.model import Lecture, Step, Written
 from app.teach.lecture.options import options_from_table
 from app.teach.lecture.places import Places, located
 from app.teach.lecture.schema import (
@@ -40,12 +42,16 @@ from renderer.scene.files import scene_from_tables
 from renderer.scene.limits import TOML_BYTES
 from renderer.scene.load import BUILTIN_SCENES, load_scene
 from renderer.scene.model import Scene, View
+from renderer.scene.outside import check_inside, kept_inside
 from renderer.scene.reading import decode_text, read_file, suggestion
 from renderer.scene.tables import parse_toml, to_struct
 from renderer.scene.views import load_view, view_from_table
 
 BUILTIN = Path(__file__).parents[2] / "lectures" / "images-rays-cameras.toml"
 STEPS = 1000
+TITLE_LETTERS = 300
+ANSWERS = 8  # of an exercise: vectors that are asked for, options
+MISTAKES = 32  # that are known of an answer
 _STEPS_LINE = re.compile(r"^[ \t]*(\[\[[ \t]*steps[ \t]*\]\]|steps[ \t]*=)", re.MULTILINE)
 
 
@@ -67,8 +73,17 @@ def is_lecture(path: str | Path) -> bool:
     return "objects" not in keys and not keys.isdisjoint(("steps", "scenes"))
 
 
-def load_lecture(path: str | Path) -> Lecture:
-    """The lecture in a file. Raises LucidaError: `file:line: field: problem; remedy`."""
+def load_lecture(path: str | Path, agreed: frozenset[Path] | None = frozenset()) -> Lecture:
+    """The lecture in a file. Raises LucidaError: `file:line: field: problem; remedy`.
+
+    agreed: files outside of its folder that it may read; None: any. OutsideError names others.
+    """
+    with kept_inside(Path(path), agreed) as fence:
+        lecture = _load(path)
+    return replace(lecture, outside=tuple(fence.outside))
+
+
+def _load(path: str | Path) -> Lecture:
     data = read_file(Path(path), TOML_BYTES)
     try:
         text = decode_text(data, str(path))
@@ -86,7 +101,12 @@ def lecture_from_toml(text: str, folder: Path, source: str) -> Lecture:
         if error.field == "lucida":  # the version: then the text is TOML
             raise located(error, Places(text), source) from None
         raise _at_its_line(error, source) from None
-    places = Places(text)
+    try:
+        places = Places(text)
+    except RecursionError:
+        raise LucidaError(
+            "", "is nested too deeply", "write it with fewer brackets", source
+        ) from None
     try:
         return _Reader(folder, source, places).lecture(tables)
     except texts.TextError as error:
@@ -105,14 +125,15 @@ class _Reader:
 
     def lecture(self, tables: dict[str, Any]) -> Lecture:
         file: LectureFile = to_struct(tables, LectureFile)
-        if not file.title.strip():
-            raise LucidaError("title", "is empty", "give the lecture's title")
+        _check_title("title", file.title, "the lecture's title")
         if not 1 <= len(file.steps) <= STEPS:
             raise LucidaError("steps", f"holds {len(file.steps)} steps", f"give 1 to {STEPS}")
+        check_inside(self._named(file))
         for name, scene in file.scenes.items():
             with under(f"scenes.{name}"):
                 self._scenes[name] = self._own_scene(scene, name)
         steps: list[Step] = []
+        written: list[Written] = []
         part = ""
         for number, table in enumerate(file.steps):
             field = f"steps[{number}]"
@@ -120,8 +141,19 @@ class _Reader:
             part = entry.part or part
             with under(field):
                 steps.append(self._step(entry, part, self._places.line(field)))
-        written = formulas_written(file.steps, self._places, self._source)
-        return Lecture(file.title, file.author, tuple(steps), self._source, written)
+            written += formulas_written(table, field, self._places, self._source)
+        return Lecture(file.title, file.author, tuple(steps), self._source, tuple(written))
+
+    def _named(self, file: LectureFile) -> Iterator[Path]:
+        """The files that the lecture names itself: models, scenes, views."""
+        entries = [entry for table in file.scenes.values() for entry in _objects_of(table)]
+        names = [entry.get("file") for entry in entries if isinstance(entry, dict)]
+        for step in file.steps:
+            if isinstance(step, dict):
+                scene = step.get("scene")
+                inside = scene in file.scenes or scene in BUILTIN_SCENES
+                names += [None if inside else scene, step.get("camera")]
+        return (self._folder / name for name in names if isinstance(name, str))
 
     def _own_scene(self, table: Any, name: str) -> Scene:
         if name in BUILTIN_SCENES:
@@ -131,8 +163,9 @@ class _Reader:
         return scene_from_tables(table, self._folder, name)
 
     def _step(self, table: StepTable, part: str, line: int) -> Step:
-        if not table.title.strip():
-            raise LucidaError("title", "is empty", "give the step's title")
+        _check_title("title", table.title, "the step's title")
+        if table.part:
+            _check_title("part", table.part, "the part's title")
         with under("text"):
             blocks = texts.parse(table.text)
         scene = self._scene(table.scene or BUILTIN_SCENES[0])
@@ -181,6 +214,24 @@ class _Reader:
             raise _of_file(error, "camera") from None
 
 
+def _objects_of(table: Any) -> list[Any]:
+    """The objects in the table of a scene, which may be anything yet."""
+    entries = table.get("objects") if isinstance(table, dict) else None
+    return entries if isinstance(entries, list) else []
+
+
+def _check_title(field: str, title: str, what: str) -> None:
+    if not title.strip():
+        raise LucidaError(field, "is empty", f"give {what}")
+    if len(title) > TITLE_LETTERS:
+        raise LucidaError(field, f"is {len(title)} characters long", f"stay within {TITLE_LETTERS}")
+
+
+def _check_answers(field: str, count: int, most: int = ANSWERS) -> None:
+    if count > most:
+        raise LucidaError(field, f"holds {count}", f"give at most {most}")
+
+
 def _views(names: list[str]) -> tuple[str, ...]:
     for number, name in enumerate(names):
         _known(f"views[{number}]", name, (*VIEWS, PANEL))
@@ -221,11 +272,13 @@ def _ray_exercise(entry: RayTable, view: View) -> RayExercise:
 def _vector_exercise(entry: VectorTable) -> VectorExercise:
     if not entry.answers:
         raise LucidaError("answers", "is empty", "give at least one vector")
+    _check_answers("answers", len(entry.answers))
     wanted: list[Wanted] = []
     for number, answer in enumerate(entry.answers):
         if any(answer.name == other.name for other in wanted):
             field = f"answers[{number}].name"
             raise LucidaError(field, f"{answer.name!r} is there already", "give another name")
+        _check_answers(f"answers[{number}].wrong", len(answer.wrong), MISTAKES)
         for place, known in enumerate(answer.wrong):
             with under(f"answers[{number}].wrong[{place}].feedback"):
                 texts.parse(known.feedback)
@@ -235,6 +288,7 @@ def _vector_exercise(entry: VectorTable) -> VectorExercise:
 
 
 def _choice_exercise(entry: ChoiceTable) -> ChoiceExercise:
+    _check_answers("options", len(entry.options))
     right = sum(option.right for option in entry.options)
     if len(entry.options) < 2:
         raise LucidaError("options", f"holds {len(entry.options)}", "give at least two")

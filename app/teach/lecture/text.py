@@ -10,12 +10,14 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator
 from dataclasses import dataclass
+from functools import lru_cache
+from itertools import groupby
+from typing import NamedTuple
 
 from renderer.errors import LucidaError
 
 
-@dataclass(frozen=True)
-class Words:
+class Words(NamedTuple):
     """A run of text in one style."""
 
     text: str
@@ -24,8 +26,7 @@ class Words:
     code: bool = False
 
 
-@dataclass(frozen=True)
-class Math:
+class Math(NamedTuple):
     """A formula in the line, as LaTeX."""
 
     latex: str
@@ -88,18 +89,30 @@ class TextError(LucidaError):
 
 
 _ITEM = re.compile(r"(?:[-*]|(\d+)\.)\s+(.*)")
-_SPAN = re.compile(
-    r"\\([\\$*`>#-])"  # 1: a sign that means itself
-    r"|`([^`]+)`"  # 2: code
-    r"|(\$\$)"  # 3: a displayed formula's sign, which has no place in a line
-    r"|\$((?:[^$\\]|\\.)+)\$"  # 4: a formula
-    r"|\*\*(.+?)\*\*(?!\*)"  # 5: bold
-    r"|\*(?![\s*])(.+?)(?<!\s)\*"  # 6: italic
+_MARKS = (
+    r"\\(?P<sign>[\\$*`>#-])"  # a sign that means itself
+    r"|`(?P<code>[^`]+)`"
+    r"|(?P<displayed>\$\$)"  # a displayed formula's sign, which has no place in a line
+    r"|\$(?P<latex>(?:[^$\\]++|\\.)++)\$"
 )
+_STRONG = r"|\*\*(?P<strong>.+?)\*\*(?!\*)"
+_SLANTED = r"|\*(?![\s*])(?P<slanted>.+?)(?<!\s)\*|(?P<open>\*(?![\s*]))"
+# By whether bold and italic text can begin: not inside itself.
+_SPANS = {
+    (strong, slanted): re.compile(_MARKS + _STRONG * strong + _SLANTED * slanted)
+    for strong in (False, True)
+    for slanted in (False, True)
+}
+LETTERS = 50_000  # of a text; a slide has some hundred
 
 
+@lru_cache(256)
 def parse(text: str) -> tuple[Block, ...]:
-    """The blocks of a text. Raises TextError where a fence or a formula does not end."""
+    """The blocks of a text. Raises TextError where a fence or a formula does not end, or the text
+    is too long to be shown."""
+    if len(text) > LETTERS:
+        remedy = f"stay within {LETTERS}, in several steps"
+        raise TextError(0, f"is a text of {len(text)} characters", remedy)
     return tuple(_blocks(text.splitlines()))
 
 
@@ -192,17 +205,16 @@ def _check_ends_there(line: str, begin: int, number: int) -> None:
 
 def _items(lines: list[str], start: int) -> tuple[list[tuple[int, str]], int]:
     """A list's items, each with its line after `start`, and the number of the line behind it."""
-    items: list[tuple[int, str]] = []
+    items: list[tuple[int, list[str]]] = []
     number = start
     while number < len(lines) and lines[number].strip():
         item = _ITEM.fullmatch(lines[number].strip())
         if item:
-            items.append((number - start, item[2]))
+            items.append((number - start, [item[2]]))
         else:  # a line that goes on with the item above it
-            where, text = items[-1]
-            items[-1] = (where, f"{text} {lines[number].strip()}")
+            items[-1][1].append(lines[number].strip())
         number += 1
-    return items, number
+    return [(where, " ".join(parts)) for where, parts in items], number
 
 
 def _goes_on(line: str, asked: bool) -> bool:
@@ -225,53 +237,52 @@ def _line(text: str, number: int) -> Line:
 
 
 def _spans(text: str, number: int, bold: bool = False, italic: bool = False) -> Iterator[Span]:
-    at = 0
-    for match in _SPAN.finditer(text):
-        yield from _plain(text[at : match.start()], number, bold, italic)
-        at = match.end()
-        sign, code, displayed, latex, strong, slanted = match.groups()
-        if sign:
-            yield Words(sign, bold, italic)
-        elif code:
-            yield Words(code, bold, italic, code=True)
-        elif displayed:
+    pattern = _SPANS[not bold, not italic]
+    at = start = 0  # of what is not yet given, and of what is not yet looked at
+    while match := pattern.search(text, start):
+        kind, start = match.lastgroup, match.end()
+        if kind == "open":  # nothing closes it, nor any later one: they are not looked for again
+            pattern = _SPANS[not bold, False]
+            continue
+        if kind == "displayed":
             raise TextError(
                 number, "$$ stands within a line", "give it lines of its own, or write $ ... $"
             )
-        elif latex:
-            yield Math(_balanced(latex.strip(), number))
-        elif strong:
-            yield from _spans(strong, number, True, italic)
+        if at < match.start():
+            yield _plain(text[at : match.start()], number, bold, italic)
+        at, inner = start, match[kind or 0]
+        if kind == "latex":
+            yield Math(_balanced(inner.strip(), number))
+        elif kind == "strong":
+            yield from _spans(inner, number, True, italic)
+        elif kind == "slanted":
+            yield from _spans(inner, number, bold, True)
         else:
-            yield from _spans(slanted, number, bold, True)
-    yield from _plain(text[at:], number, bold, italic)
+            yield Words(inner, bold, italic, code=kind == "code")
+    if at < len(text):
+        yield _plain(text[at:], number, bold, italic)
 
 
-def _plain(text: str, number: int, bold: bool, italic: bool) -> Iterator[Span]:
+def _plain(text: str, number: int, bold: bool, italic: bool) -> Words:
     if "$" in text:
         raise TextError(
             number, "a formula does not end", r"close it by $, or write \$ for a dollar"
         )
-    if text:
-        yield Words(text, bold, italic)
+    return Words(text, bold, italic)
 
 
 def _merged(spans: Iterator[Span]) -> Iterator[Span]:
     """Neighbours of one style as one."""
-    last: Span | None = None
-    for span in spans:
-        if (
-            isinstance(span, Words)
-            and isinstance(last, Words)
-            and (span.bold, span.italic, span.code) == (last.bold, last.italic, last.code)
-        ):
-            last = Words(last.text + span.text, span.bold, span.italic, span.code)
+    for style, group in groupby(spans, _style):
+        if style is None:
+            yield from group
             continue
-        if last is not None:
-            yield last
-        last = span
-    if last is not None:
-        yield last
+        first, *rest = group
+        yield Words("".join([first[0], *(span[0] for span in rest)]), *style) if rest else first
+
+
+def _style(span: Span) -> tuple[bool, bool, bool] | None:
+    return span[1:] if type(span) is Words else None
 
 
 def _balanced(latex: str, number: int) -> str:

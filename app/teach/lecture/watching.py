@@ -11,7 +11,7 @@ from pathlib import Path
 
 REST_S = 0.15  # an editor may write a file in several goes
 
-Signature = tuple[int, int, int]
+Signature = tuple[int, ...]
 
 
 @dataclass
@@ -45,10 +45,11 @@ class Watch:
         return self._seen is not None
 
 
-def signature(path: Path) -> Signature | None:
-    """What tells a version of a file from another: its time, size and number; None without it."""
+def signature(*paths: Path) -> Signature | None:
+    """What tells a version of files from another: their times, sizes and numbers; None where one
+    is not there."""
     try:
-        status = path.stat()
-    except OSError:
+        found = [path.stat() for path in paths]
+    except (OSError, ValueError):
         return None
-    return status.st_mtime_ns, status.st_size, status.st_ino
+    return tuple(n for s in found for n in (s.st_mtime_ns, s.st_size, s.st_ino))

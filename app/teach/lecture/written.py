@@ -6,33 +6,51 @@ Owns which fields of a step are texts. Knows nothing of how formulas are set.
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Iterator
+from bisect import bisect_right
+from collections.abc import Iterator
+from itertools import accumulate
 from typing import Any
 
 from app.teach.lecture import text as texts
 from app.teach.lecture.model import Written
 from app.teach.lecture.places import Places
 
+_SOLID = re.compile(r"[^\s>]+")
+
 
 def formulas_written(
-    steps: Iterable[dict[str, Any]], places: Places, source: str
-) -> tuple[Written, ...]:
-    """All formulas of a lecture. steps: its tables, as read and found to be legal. source: the
-    file's name."""
-    found = []
-    for number, step in enumerate(steps):
-        for name, text in _texts_of(step):
-            field = f"steps[{number}].{name}"
-            first = places.line(field)
-            at = 0
-            for latex in texts.formulas(texts.parse(text)):
-                # A formula in a paragraph, or in a question, may go on in the next line.
-                pattern = r"\s+(?:>\s*)?".join(map(re.escape, latex.split()))
-                match = re.compile(pattern).search(text, at)
-                at = match.start() if match else at
-                found.append(Written(latex, field, source, first + text.count("\n", 0, at)))
-                at = match.end() if match else at
-    return tuple(found)
+    step: dict[str, Any], field: str, places: Places, source: str
+) -> Iterator[Written]:
+    """All formulas of a step. step: its table, as read and found to be legal. field: its path.
+    source: the file's name."""
+    for name, text in _texts_of(step):
+        formulas = texts.formulas(texts.parse(text))
+        if not formulas:
+            continue
+        first = places.line(f"{field}.{name}")
+        for latex, line in zip(formulas, _lines(formulas, text), strict=True):
+            yield Written(latex, f"{field}.{name}", source, first + line)
+
+
+def _lines(formulas: tuple[str, ...], text: str) -> Iterator[int]:
+    """The line in a text, from 0, in which each of its formulas begins.
+
+    Both are compared without white space and the signs that a question's lines begin with: a
+    formula may go on in the next line. Each is looked for behind the one before: one pass.
+    """
+    pieces = list(_SOLID.finditer(text))
+    solid = "".join(piece[0] for piece in pieces)
+    ends = list(accumulate(len(piece[0]) for piece in pieces))  # of the pieces, in `solid`
+    at = line = counted = 0
+    for latex in formulas:
+        bare = f"${''.join(_SOLID.findall(latex))}$"
+        start = solid.find(bare, at)
+        if start >= 0:
+            number = bisect_right(ends, start + 1)
+            here = pieces[number].start() if number < len(pieces) else len(text)
+            line += text.count("\n", counted, here)
+            counted, at = here, start + len(bare)
+        yield line
 
 
 def _texts_of(step: dict[str, Any]) -> Iterator[tuple[str, str]]:

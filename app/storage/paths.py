@@ -1,0 +1,27 @@
+"""Paths of files as text that any file can hold, and back.
+
+A name need not be UTF-8: Python then has lone surrogates in it, which JSON and the window's texts
+do not take. What is shown goes through renderer.errors.one_line(); what is kept, through this.
+"""
+
+from __future__ import annotations
+
+import re
+
+_LONE = re.compile("[\ud800-\udfff]")
+_STORED = re.compile("\0([0-9a-f]{4})")  # no path holds zero bytes
+
+
+def stored(path: str) -> str:
+    """The path as text without lone surrogates."""
+    return _LONE.sub(lambda match: f"\0{ord(match[0]):04x}", path)
+
+
+def is_unicode(path: str) -> bool:
+    """Whether the path has no lone surrogates: what only takes UTF-8 takes it."""
+    return _LONE.search(path) is None
+
+
+def restored(text: str) -> str:
+    """The path that stored() was given."""
+    return _STORED.sub(lambda match: chr(int(match[1], 16)), text)

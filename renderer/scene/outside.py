@@ -1,0 +1,114 @@
+"""The files that a scene names, and which of them lie outside of its folder.
+
+A scene file may name a model anywhere: "../m.obj", "/home/m.obj", a link that leads there. Whoever
+reads a file that came from somebody else keeps it inside its folder, unless the user has agreed.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import os
+from collections.abc import Iterable, Iterator
+from contextvars import ContextVar
+from pathlib import Path
+
+from renderer.errors import LucidaError
+from renderer.scene.model import Scene
+
+LISTED = 8  # files that an error names
+
+
+class OutsideError(LucidaError):
+    """A file names others outside of its folder, which nobody has agreed to. files: those."""
+
+    def __init__(self, source: str, files: tuple[Path, ...]) -> None:
+        shown = ", ".join(map(str, files[:LISTED])) + ", ..." * (len(files) > LISTED)
+        count = f"{len(files)} files" if len(files) > 1 else "a file"
+        problem = f"names {count} outside of its folder: {shown}"
+        super().__init__("", problem, "agree to that, or copy them into its folder", source)
+        self.files = files
+
+
+class Fence:
+    """Round a folder. agreed: files outside of it that may be read; None: all of them.
+
+    outside: those that were named so far.
+    """
+
+    def __init__(self, folder: Path, agreed: frozenset[Path] | None) -> None:
+        self.folder, self.agreed = folder, agreed
+        self.outside: dict[Path, None] = {}
+
+    @property
+    def refused(self) -> tuple[Path, ...]:
+        agreed = self.outside if self.agreed is None else self.agreed
+        return tuple(file for file in self.outside if file not in agreed)
+
+
+_fence: ContextVar[Fence | None] = ContextVar("what may be read", default=None)
+
+
+@contextlib.contextmanager
+def kept_inside(source: Path, agreed: frozenset[Path] | None = frozenset()) -> Iterator[Fence]:
+    """Inside it, in this thread, what a file names must lie in its folder, or be agreed to.
+
+    source: the file. Raises OutsideError.
+    """
+    fence = Fence(source.parent, agreed)
+    token = _fence.set(fence)
+    try:
+        yield fence
+    except LucidaError:
+        if fence.refused:
+            raise OutsideError(str(source), fence.refused) from None
+        raise
+    finally:
+        _fence.reset(token)
+
+
+def check_inside(files: Iterable[Path]) -> None:
+    """Raises LucidaError, for kept_inside(), where one of the files must not be read."""
+    fence = _fence.get()
+    if fence is None:
+        return
+    fence.outside |= dict.fromkeys(outside(files, fence.folder))
+    if fence.refused:
+        raise LucidaError("", "is outside of the folder", "copy it there", str(fence.refused[0]))
+
+
+def outside(files: Iterable[Path], folder: Path) -> tuple[Path, ...]:
+    """Those of the files that do not lie in the folder, or below it, once links are followed;
+    absolute, links as they are."""
+    root = os.path.realpath(folder)
+    found = (Path(os.path.abspath(file)) for file in files if not _is_inside(file, root))
+    return tuple(dict.fromkeys(found))
+
+
+def _is_inside(file: Path, root: str) -> bool:
+    try:
+        if os.name == "nt" and str(file).startswith("\\\\") and not root.startswith("\\\\"):
+            return False  # on another machine, which is not even asked
+        return Path(os.path.realpath(file)).is_relative_to(root)
+    except (OSError, ValueError):
+        return True  # it cannot be read, which reading tells
+
+
+def model_files(scene: Scene) -> tuple[Path, ...]:
+    """The model files that the tables of a scene's file name."""
+    origin = scene.origin
+    if origin is None or origin.tables is None:
+        return ()
+    entries = origin.tables.get("objects", ())
+    names = (entry["file"] for entry in entries if entry.get("type") == "model")
+    return tuple(dict.fromkeys(origin.folder / name for name in names))
+
+
+def scene_files(scene: Scene) -> tuple[Path, ...]:
+    """The files that a scene was read from: its own, and its models. None for what is built in."""
+    source = Path(scene.origin.source if scene.origin is not None else "")
+    return (source, *model_files(scene)) if source.is_absolute() else ()
+
+
+def outside_files(scene: Scene) -> tuple[Path, ...]:
+    """The scene's models that lie outside of its file's folder."""
+    return outside(model_files(scene), scene.origin.folder) if scene.origin is not None else ()

@@ -1,0 +1,142 @@
+"""Large and hostile lecture files: read in linear time, or refused in one line."""
+
+from __future__ import annotations
+
+import contextlib
+import time
+from pathlib import Path
+
+import pytest
+
+from app.teach.lecture.places import Places
+from app.teach.lecture.reading import lecture_from_toml
+from app.teach.lecture.text import Math, Paragraph, Words, parse
+from renderer.errors import LucidaError
+from renderer.scene.limits import TOML_BYTES
+
+STEP = '[[steps]]\ntitle = "T"\ntext = """\n{}"""\n'
+SMALL = 40_000  # characters
+
+
+def lecture(text: str):
+    return lecture_from_toml(text, Path(), "x.toml")
+
+
+def steps_of(size: int, line: str, of_a_step: int = 4000) -> str:
+    """A lecture of about `size` characters, every step of other text."""
+    body = line * (of_a_step // len(line)) + "\n"
+    steps = [STEP.format(f"Number {number}.\n{body}") for number in range(size // of_a_step)]
+    return 'title = "L"\n' + "".join(steps)
+
+
+def seconds(text: str) -> float:
+    """Of the processor, the least of three."""
+    taken = []
+    for _ in range(3):
+        begin_s = time.process_time()
+        with contextlib.suppress(LucidaError):
+            lecture(text)
+        taken.append(time.process_time() - begin_s)
+        parse.cache_clear()
+    return min(taken)
+
+
+@pytest.mark.parametrize(
+    "line",
+    [
+        "Here is $x_1 + y^2$ and **bold** and *it* of text.\n",
+        " *a",  # none of them is closed
+        "`a **b ",
+        "*",
+        r"\*",
+        "$x$ ",
+        ">>$x$ y\n",
+        "- a\n" + "b\n" * 500,
+        "$$\nx\n$$\n",
+    ],
+    ids=range(9),
+)
+def test_time_grows_with_the_size_not_with_its_square(line: str) -> None:
+    small, large = (seconds(steps_of(SMALL * factor, line)) for factor in (1, 12))
+    assert large < 36 * small  # 144 times, were it the square
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "\n".join(f"key{k} = {k}" for k in range(SMALL // 16)),
+        "[[steps]]\n" * (SMALL // 10),
+        "a = [\n" + "1,\n" * (SMALL // 3) + "]\n",
+    ],
+    ids=["keys", "steps", "numbers"],
+)
+def test_lines_are_found_in_linear_time(text: str) -> None:
+    """Counted by how many characters are looked at for line breaks, whatever the machine."""
+
+    class Counted(str):
+        looked = 0
+
+        def count(self, *arguments) -> int:
+            Counted.looked += len(self)
+            return str.count(self, *arguments)
+
+    places = Places(Counted(text))
+    assert Counted.looked <= 4 * len(text)
+    assert places.line("") == 1
+
+
+def test_a_lecture_of_the_largest_size_is_read() -> None:
+    text = steps_of(TOML_BYTES - 200_000, "Here is $x_1$ and **bold**.\n")
+    read = lecture(text)
+    assert len(read.formulas) > 100_000
+    number = 100_000
+    formula = read.formulas[number]
+    assert text.split("\n")[formula.line - 1].startswith("Here is")
+
+
+def test_formulas_keep_their_lines() -> None:
+    text = 'title = "L"\n' + STEP.format(
+        "An x is\n> asked: $a\n> + b$ $x$\n\n$$\nw\n$$\n\n- an item\n  $y$ goes on\n\n**$z$**\n"
+    )
+    found = {entry.latex: entry.line - 4 for entry in lecture(text).formulas}
+    assert found == {"a + b": 2, "x": 3, "w": 6, "y": 10, "z": 12}
+
+
+def test_signs_that_are_never_closed_stand_as_they_are() -> None:
+    assert parse("a *b *c d") == (Paragraph((Words("a *b *c d"),)),)
+    assert parse("*a* *b $x$ *c") == (
+        Paragraph((Words("a", italic=True), Words(" *b "), Math("x"), Words(" *c"))),
+    )
+    assert parse("**a *b* c**") == (
+        Paragraph(
+            (Words("a ", bold=True), Words("b", bold=True, italic=True), Words(" c", bold=True))
+        ),
+    )
+    parse("*" * 40_000)  # no depth of calls
+
+
+@pytest.mark.parametrize(
+    ("text", "message"),
+    [
+        (STEP.format("a" * 60_000), "text: is a text of 60000 characters; stay within 50000"),
+        ('[[steps]]\ntitle = "' + "a" * 4000 + '"\n', "title: is 4000 characters long; stay"),
+        ("[[steps]]\n" * 1001, "steps: holds 1001 steps; give 1 to 1000"),
+        (
+            '[[steps]]\ntitle = "T"\n[steps.exercise]\nkind = "choice"\nquestion = "?"\n'
+            + '[[steps.exercise.options]]\ntext = "a"\nfeedback = "b"\n' * 9,
+            "options: holds 9; give at most 8",
+        ),
+        (
+            '[[steps]]\ntitle = "T"\n[steps.exercise]\nkind = "vector"\nquestion = "?"\n'
+            + '[[steps.exercise.answers]]\nname = "a"\nvalue = [1, 2, 3]\n' * 9,
+            "answers: holds 9; give at most 8",
+        ),
+        ("a = " + "[" * 100_000, "is nested too deeply"),
+    ],
+    ids=range(6),
+)
+def test_what_is_too_much_is_refused(text: str, message: str) -> None:
+    with pytest.raises(LucidaError) as caught:
+        lecture('title = "L"\n' + text)
+    assert message in str(caught.value)
+    assert "\n" not in str(caught.value)

@@ -1,0 +1,184 @@
+"""A scene's file that is saved while the window shows it: read again, the user's view kept."""
+
+from __future__ import annotations
+
+import os
+from dataclasses import replace
+from pathlib import Path
+
+import pytest
+from test_files import wait_for
+
+from app.state import AppState, History
+from app.storage import scene_watch
+from app.storage.files import Files, Opened
+from app.storage.scene_watch import LOOK_S, SceneWatch
+from app.teach.lecture.watching import REST_S
+from app.window import MainWindow
+from renderer.scene import Scene, load_scene
+
+BALL = "[[objects]]\ntype = 'sphere'\n"
+MODEL = "[[objects]]\ntype = 'model'\nfile = 'm.obj'\n"
+TRIANGLE = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"
+
+
+class Clock:
+    def __init__(self) -> None:
+        self.now_s = 100.0
+
+    def __call__(self) -> float:
+        self.now_s += max(LOOK_S, REST_S)
+        return self.now_s
+
+
+@pytest.fixture
+def path(tmp_path: Path) -> Path:
+    (tmp_path / "m.obj").write_text(TRIANGLE)
+    path = tmp_path / "scene.toml"
+    path.write_text(BALL + MODEL)
+    return path
+
+
+@pytest.fixture
+def files(monkeypatch):
+    monkeypatch.setattr("app.storage.files.time.monotonic", Clock())
+    files = Files(lambda: None)
+    yield files
+    files.close()
+
+
+def follow(files: Files, scene: Scene, looks: int = 4) -> Opened | None:
+    """What comes of some frames in which the scene is shown."""
+    for _ in range(looks):
+        files.follow(scene)
+    wait_for(lambda: not files._rereading._working and files._rereading._waiting is None)
+    return files.poll()
+
+
+def test_it_is_looked_at_now_and_then_not_in_every_frame(path: Path, monkeypatch) -> None:
+    looks = []
+    sign = scene_watch.signature
+    monkeypatch.setattr(scene_watch, "signature", lambda *p: looks.append(p) or sign(*p))
+    watch, scene = SceneWatch(), load_scene(path)
+    assert not any(watch.changed(scene, 5.0 + frame / 60) for frame in range(60))
+    assert len(looks) <= 1 + 1 / LOOK_S
+    assert all(paths == (path, path.parent / "m.obj") for paths in looks)
+    looks.clear()
+    spheres = load_scene("spheres")
+    assert not any(watch.changed(spheres, 9.0 + number) for number in range(9))
+    assert not looks  # nothing in a disk's way for what is built in
+
+
+def test_a_saved_scene_is_read_again_once(path: Path, files: Files) -> None:
+    scene = load_scene(path)
+    assert follow(files, scene) is None
+    path.write_text(BALL * 3 + MODEL)
+    opened = follow(files, scene)
+    assert opened is not None
+    assert opened.scene is not None
+    assert len(opened.scene.objects) == 4
+    assert opened.replaces is scene
+    assert opened.prepared is not None
+    assert follow(files, scene) is None
+
+
+def test_so_is_one_whose_model_is_saved(path: Path, files: Files) -> None:
+    scene = load_scene(path)
+    follow(files, scene)
+    (path.parent / "m.obj").write_text(TRIANGLE + "v 1 1 0\nf 2 4 3\n")
+    opened = follow(files, scene)
+    assert opened is not None
+    assert opened.scene is not None
+    assert len(opened.scene.objects[1].shape.faces) == 2
+
+
+def test_a_mistake_is_one_line_until_it_is_mended(path: Path, files: Files) -> None:
+    scene = load_scene(path)
+    follow(files, scene)
+    path.write_text(BALL + "radius = 'x'\n" + MODEL)
+    assert follow(files, scene) is None
+    assert files.message == f"{path}: objects[0].radius: is text in quotes; give a number"
+    path.write_text(BALL + "radius = 2\n" + MODEL)
+    opened = follow(files, scene)
+    assert opened is not None
+    assert files.message == ""
+
+
+def test_a_file_that_is_away_for_a_moment_is_no_change(path: Path, files: Files) -> None:
+    scene, text = load_scene(path), path.read_text()
+    follow(files, scene)
+    path.unlink()
+    assert follow(files, scene) is None
+    assert files.message == ""
+    path.write_text(text + BALL)
+    assert follow(files, scene) is not None
+
+
+def test_what_the_window_saves_itself_is_not_read_again(path: Path, files: Files, monkeypatch):
+    scene = load_scene(path)
+    follow(files, scene)
+    monkeypatch.setattr(files, "_ask", lambda question, filters: question.chosen([str(path)]))
+    os.utime(path, (1, 1))
+    files.save_scene_dialog(scene, scene.view)
+    wait_for(lambda: bool(files.poll_said() or files.poll()))
+    assert follow(files, scene) is None
+
+
+def test_a_dropped_scene_that_now_names_a_file_elsewhere_is_asked_about(
+    path: Path, files: Files
+) -> None:
+    (path.parent.parent / "out.obj").write_text(TRIANGLE)
+    files.open_all([str(path)], dropped=True)
+    opened = None
+    while opened is None:
+        opened = files.poll()
+    scene = opened.scene
+    assert scene is not None
+    follow(files, scene)
+    path.write_text(BALL + MODEL.replace("m.obj", "../out.obj"))
+    assert follow(files, scene) is None
+    assert files.outside is not None
+    assert files.outside.files == (path.parent.parent / "out.obj",)
+    files.outside.again()
+    opened = None
+    while opened is None:
+        opened = files.poll()
+    assert opened.scene is not None
+    assert opened.agreed == frozenset([path.parent.parent / "out.obj"])
+
+
+class Window:
+    """As much of the window as takes newer scenes."""
+
+    def __init__(self, state: AppState) -> None:
+        self.history = History(state)
+        self.files = self
+        self.said: list[str] = []
+
+    @property
+    def state(self) -> AppState:
+        return self.history.present
+
+    def change(self, state: AppState) -> None:
+        self.history = self.history.change(state)
+
+    def say(self, text: str) -> None:
+        self.said.append(text)
+
+
+@pytest.mark.parametrize("moved", [False, True])
+def test_the_users_camera_stays_and_undo_goes_back(path: Path, moved: bool) -> None:
+    old = load_scene(path)
+    window = Window(AppState.for_scene(old))
+    if moved:
+        camera = replace(old.view.camera, eye=(0.0, 1.0, 9.0))
+        window.change(window.state.with_camera(camera))
+    path.write_text(BALL + "center = [9, 0, 0]\n" + MODEL)
+    new = load_scene(path)
+    before = window.state
+    MainWindow._take_newer(window, old, new)
+    assert window.state.scene is new
+    assert window.state.view == (before.view if moved else new.view)
+    assert window.state.view != (new.view if moved else before.view)
+    assert window.said == ["scene was read again: its file was saved."]
+    assert window.history.undo().present == before
