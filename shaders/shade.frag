@@ -10,7 +10,7 @@
 uniform isampler2D primitives;
 uniform sampler2D triangle_rows;
 uniform isampler2D faces;     // three vertices, object
-uniform sampler2D vertices;   // position, normal, colour of each
+uniform sampler2D vertices;   // position in its object's space, normal, colour of each
 uniform int triangle_count;
 
 layout(location = 0) out vec4 color;
@@ -30,14 +30,19 @@ void main() {
         hit.object = face.w;
         hit.t = triangle_t(texelFetch(triangle_rows, texel(primitive), 0).xyz, xy);
         vec3 anchor = object_anchor(hit.object);
-        vec3 anchor_world = object_anchor_world(hit.object);
+        vec4 x = object_texel(hit.object, 4);
+        vec4 y = object_texel(hit.object, 5);
+        vec4 z = object_texel(hit.object, 6);
+        mat3 world_from_object = transpose(mat3(x.xyz, y.xyz, z.xyz));
+        hit.anchor = vec3(x.w, y.w, z.w);
+        vec3 anchor_inside = object_texel(hit.object, 0).xyz;
         mat3 corners = mat3(
             texelFetch(vertices, texel(3 * face.x), 0).xyz,
             texelFetch(vertices, texel(3 * face.y), 0).xyz,
             texelFetch(vertices, texel(3 * face.z), 0).xyz);
-        vec3 a = corners[0] - anchor_world;
-        vec3 b = corners[1] - anchor_world;
-        vec3 c = corners[2] - anchor_world;
+        vec3 a = world_from_object * (corners[0] - anchor_inside);
+        vec3 b = world_from_object * (corners[1] - anchor_inside);
+        vec3 c = world_from_object * (corners[2] - anchor_inside);
         vec3 weights = barycentrics(
             anchor + image_from_world * a,
             anchor + image_from_world * b,
@@ -46,7 +51,9 @@ void main() {
         hit.point = is_far(reach, hit.t)
             ? mat3(a, b, c) * weights
             : to_ray(anchor, xy) + (hit.t - anchor.z) * d;
-        hit.normal = normalize(cross(corners[1] - corners[0], corners[2] - corners[0]));
+        hit.normal = unit_across(
+            world_from_object * (corners[1] - corners[0]),
+            world_from_object * (corners[2] - corners[0]), hit.to_viewer);
         if (HAS_NORMALS) {
             mat3 normals = mat3(
                 texelFetch(vertices, texel(3 * face.x + 1), 0).xyz,
@@ -66,6 +73,9 @@ void main() {
         vec3 normal;
         hit.t = sphere_t(sphere, xy, normal);
         vec3 anchor = object_anchor(hit.object);
+        hit.anchor = vec3(
+            object_texel(hit.object, 4).w, object_texel(hit.object, 5).w,
+            object_texel(hit.object, 6).w);
         hit.point = is_far(sphere.radius * inversesqrt(dot(d, d)), hit.t)
             ? sphere.from_anchor + normal
             : to_ray(anchor, xy) + (hit.t - anchor.z) * d;
