@@ -1,6 +1,7 @@
 #version 330 core
 // Once a pixel: from the number of the primitive that is seen to the hit and its colour.
-// HAS_TRIANGLES, HAS_SPHERES, HAS_NORMALS, HAS_COLORS, HAS_CHECKERS: constants that are put in above,
+// HAS_TRIANGLES, HAS_TURNED (an object's directions are not the world's), HAS_SPHERES, HAS_NORMALS,
+// HAS_COLORS, HAS_CHECKERS: constants that are put in above,
 // so that a scene does not pay for what it has not (renderer/raster/programs.py).
 
 #include "chunks/triangle.glsl"
@@ -30,11 +31,7 @@ void main() {
         hit.object = face.w;
         hit.t = triangle_t(texelFetch(triangle_rows, texel(primitive), 0).xyz, xy);
         vec3 anchor = object_anchor(hit.object);
-        vec4 x = object_texel(hit.object, 4);
-        vec4 y = object_texel(hit.object, 5);
-        vec4 z = object_texel(hit.object, 6);
-        mat3 world_from_object = transpose(mat3(x.xyz, y.xyz, z.xyz));
-        hit.anchor = vec3(x.w, y.w, z.w);
+        mat3 world_from_object = HAS_TURNED ? object_matrix(hit.object) : mat3(1.0);
         vec3 anchor_inside = object_texel(hit.object, 0).xyz;
         mat3 corners = mat3(
             texelFetch(vertices, texel(3 * face.x), 0).xyz,
@@ -73,9 +70,6 @@ void main() {
         vec3 normal;
         hit.t = sphere_t(sphere, xy, normal);
         vec3 anchor = object_anchor(hit.object);
-        hit.anchor = vec3(
-            object_texel(hit.object, 4).w, object_texel(hit.object, 5).w,
-            object_texel(hit.object, 6).w);
         hit.point = is_far(sphere.radius * inversesqrt(dot(d, d)), hit.t)
             ? sphere.from_anchor + normal
             : to_ray(anchor, xy) + (hit.t - anchor.z) * d;

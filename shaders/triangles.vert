@@ -1,5 +1,6 @@
 #version 330 core
 // All triangles of the scene, each vertex seen from the anchor of its object.
+// HAS_TURNED: a constant that is put in above, whether an object's directions are not the world's.
 
 #include "chunks/camera.glsl"
 #include "chunks/tables.glsl"
@@ -10,11 +11,15 @@ in vec3 vertex;  // in its object's space
 in int object;
 
 void main() {
-    vec4 anchor = texelFetch(objects, texel(14 * object), 0);
-    vec4 x = texelFetch(objects, texel(14 * object + 1), 0);
-    vec4 y = texelFetch(objects, texel(14 * object + 2), 0);
-    vec4 t = texelFetch(objects, texel(14 * object + 3), 0);
-    vec3 apart = vertex - anchor.xyz;
-    vec3 point = vec3(x.w, y.w, t.w) + vec3(dot(x.xyz, apart), dot(y.xyz, apart), dot(t.xyz, apart));
-    gl_Position = clip_from_image(point, anchor.w);
+    vec4 inside = texelFetch(objects, texel(15 * object), 0);
+    vec3 anchor = texelFetch(objects, texel(15 * object + 1), 0).xyz;
+    mat3 image_from_object = image_from_world;
+    if (HAS_TURNED) {
+        image_from_object = transpose(mat3(
+            texelFetch(objects, texel(15 * object + 3), 0).xyz,
+            texelFetch(objects, texel(15 * object + 4), 0).xyz,
+            texelFetch(objects, texel(15 * object + 5), 0).xyz));
+    }
+    vec3 point = anchor + image_from_object * (vertex - inside.xyz);
+    gl_Position = clip_from_image(point, inside.w);
 }

@@ -83,7 +83,9 @@ class SceneData:
             content = [(vertices, "3f4", "vertex"), (objects, "1i4", "object")]
             indices = own(context.buffer(flat.faces))
             self._triangles = own(
-                context.vertex_array(programs.triangles, content, indices, index_element_size=4)
+                context.vertex_array(
+                    programs.triangles(flat), content, indices, index_element_size=4
+                )
             )
 
     def release(self) -> None:

@@ -26,12 +26,11 @@ from renderer.camera import Camera, Floats
 from renderer.scene.flat import FlatScene
 from renderer.scene.positions import lights_from, near_point, world_vertices
 
-# Anchor in the object's space, near | three rows: what is apart from it to image coordinates, and
-# one of the anchor's own | three rows: the same to the world's directions, and one of the anchor's
-# coordinates from the scene's near point | anchor in image coordinates | three rows of the material
-# | three of the checker's cells
-OBJECT_TEXELS = 14
-IMAGE, WORLD, ANCHOR, MATERIAL, CELLS = 1, 4, 7, 8, 11
+# Anchor in the object's space, near | anchor in image coordinates | anchor from the scene's near
+# point | three rows: vectors of the object's space to image coordinates | three: to the world's
+# directions | three of the material | three of the checker's cells
+OBJECT_TEXELS = 15
+IMAGE, WORLD, MATERIAL, CELLS = 3, 6, 9, 12
 SPHERE_TEXELS = 3
 
 FLOAT32_MAX = float(np.finfo(np.float32).max)
@@ -218,11 +217,10 @@ def object_rows(flat: FlatScene, setup: SceneSetup, space: ImageSpace) -> NDArra
     rows[:, 0, :3] = np.clip(eye, flat.object_bounds[:, 0], flat.object_bounds[:, 1])
     rows[:, 0, 3] = space.near
     turned = np.einsum("nij,nj->ni", linear, rows[:, 0, :3].astype(np.float64))
-    seen = space.at(turned + (place - space.eye))
+    rows[:, 1, :3] = space.at(turned + (place - space.eye))
+    rows[:, 2, :3] = turned + (place - near_point(flat, space.eye))
     rows[:, IMAGE:WORLD, :3] = space.image_from_world[:, :3] @ linear
-    rows[:, IMAGE:WORLD, 3] = rows[:, ANCHOR, :3] = seen
-    rows[:, WORLD:ANCHOR, :3] = linear
-    rows[:, WORLD:ANCHOR, 3] = turned + (place - near_point(flat, space.eye))
+    rows[:, WORLD:MATERIAL, :3] = linear
     rows[:, MATERIAL:CELLS] = flat.materials
     cell = np.einsum("nij,nj->ni", flat.cells[:, :, :3], turned + place) + flat.cells[:, :, 3]
     rows[:, CELLS:, :3] = flat.cells[:, :, :3]
