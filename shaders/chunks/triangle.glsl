@@ -30,5 +30,5 @@ vec3 barycentrics(vec3 a, vec3 b, vec3 c, vec2 xy) {
 vec3 unit_across(vec3 first, vec3 second, vec3 otherwise) {
     vec3 normal = cross(first, second);
     float largest = max(max(abs(normal.x), abs(normal.y)), abs(normal.z));
-    return largest > 0.0 ? normalize(normal / largest) : otherwise;
+    return largest > 0.0 ? normalize(normal * (1.0 / largest)) : otherwise;
 }
