@@ -19,7 +19,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from renderer.camera import Camera, Floats
-from renderer.scene.flat import CELL_NUDGE, CELL_X, SPECULAR_CHECKERED, FlatScene
+from renderer.scene.flat import CELL_NUDGE, SPECULAR_CHECKERED, FlatScene
+from renderer.scene.positions import world_corners
 
 Ints = NDArray[np.integer]
 Numbers = NDArray[np.integer] | NDArray[np.floating]
@@ -84,9 +85,9 @@ class Lines:
         if not hit.any():
             return distance
         owners = np.concatenate([self.flat.face_object, self.flat.sphere_object])
-        material = self.flat.materials[owners[np.where(hit, primitive, 0)]]
-        checkered = hit & (material[:, SPECULAR_CHECKERED, 3] != 0)
-        rows = material[:, CELL_X:].astype(float)
+        owner = owners[np.where(hit, primitive, 0)]
+        checkered = hit & (self.flat.materials[owner, SPECULAR_CHECKERED, 3] != 0)
+        rows = self.flat.cells[owner]
 
         def cell(axis: int, di: float, dj: float) -> Floats:
             at = self.parameter(primitive, i + di, j + dj, t)
@@ -154,14 +155,14 @@ class Lines:
         return (primitive >= 0) & (primitive < triangles), primitive >= triangles
 
     def _corners(self, triangle: Ints) -> tuple[Floats, Floats, Floats]:
-        a, b, c = self.flat.vertices[self.flat.faces[triangle].T].astype(float)
+        a, b, c = np.moveaxis(world_corners(self.flat, triangle), 1, 0)
         return a, b, c
 
     def _sphere_terms(
         self, primitive: Ints, origin: Floats, direction: Floats
     ) -> tuple[Floats, Floats, Floats]:
         """Discriminant (negative: missed), the parameter nearest to the centre, |direction|^2."""
-        sphere = self.flat.spheres[primitive - len(self.flat.faces)].astype(float)
+        sphere = self.flat.spheres[primitive - len(self.flat.faces)]
         to_center = sphere[:, :3] - origin
         square = np.einsum("nk,nk->n", direction, direction)
         middle = np.einsum("nk,nk->n", to_center, direction) / square

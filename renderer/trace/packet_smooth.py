@@ -53,8 +53,8 @@ def barycentrics(view, corner, slot, space, first):
 
 
 @inlined
-def barycentrics_at(world, slot, space, point):
-    """(b0, b1, b2) of a slot's triangle at 16 points of it, F32."""
+def barycentrics_at(view, world, slot, space, point):
+    """(b0, b1, b2) of a slot's triangle at 16 points of it, F32, relative to near_point."""
     at = slot // WIDTH * CORNERS + slot % WIDTH
     a = _corner(world.corner, at)
     u, v = (
@@ -64,8 +64,8 @@ def barycentrics_at(world, slot, space, point):
     n = cross(u, v)
     # Vectors whose product with a point of the triangle is b1, or b2, up to a constant.
     scale = 1.0 / dot(n, n)
-    b1 = _weight(world, space, times(scale, cross(v, n)), a, point)
-    b2 = _weight(world, space, times(scale, cross(n, u)), a, point)
+    b1 = _weight(view, world, space, times(scale, cross(v, n)), a, point)
+    b2 = _weight(view, world, space, times(scale, cross(n, u)), a, point)
     return np.float32(1) - b1 - b2, b1, b2
 
 
@@ -79,13 +79,14 @@ def _corner(corner, at):
 
 
 @inlined
-def _weight(world, space, g, a, point):
+def _weight(view, world, space, g, a, point):
     """g . (q - a), q the object's point that is seen at a point of the world."""
-    m, r = world.object_from_world, 12 * space
+    near, m, r = view.near_point, world.object_from_world, 12 * space
     x = g[0] * m[r] + g[1] * m[r + 4] + g[2] * m[r + 8]
     y = g[0] * m[r + 1] + g[1] * m[r + 5] + g[2] * m[r + 9]
     z = g[0] * m[r + 2] + g[1] * m[r + 6] + g[2] * m[r + 10]
-    constant = dot(g, (m[r + 3], m[r + 7], m[r + 11])) - dot(g, a)
+    at_near = dot((x, y, z), (near[0], near[1], near[2]))
+    constant = at_near + dot(g, (m[r + 3], m[r + 7], m[r + 11])) - dot(g, a)
     value = fma(point[2], np.float32(z), splat(np.float32(constant)))
     return fma(point[0], np.float32(x), fma(point[1], np.float32(y), value))
 

@@ -206,9 +206,9 @@ def sphere_normal(view, spheres, sphere, first, z):
 
 
 @inlined
-def sphere_normal_at(spheres, sphere, point):
-    """Outward unit normals of a sphere at 16 points of it."""
-    x, y, z = _numbers(spheres, 4 * sphere)
+def sphere_normal_at(view, spheres, sphere, point):
+    """Outward unit normals of a sphere at 16 points of it, relative to the view's near_point."""
+    x, y, z = minus(_numbers(spheres, 4 * sphere), _numbers(view.near_point, 0))
     return normalized_lanes(
         (point[0] - np.float32(x), point[1] - np.float32(y), point[2] - np.float32(z))
     )

@@ -24,3 +24,11 @@ vec3 barycentrics(vec3 a, vec3 b, vec3 c, vec2 xy) {
     vec3 inside = max(areas / whole, 0.0);
     return inside / (inside.x + inside.y + inside.z);
 }
+
+// The unit normal of a triangle's edges; `otherwise` where float32 has none for it. Divided first:
+// the square of a small triangle's normal would be 0.
+vec3 unit_across(vec3 first, vec3 second, vec3 otherwise) {
+    vec3 normal = cross(first, second);
+    float largest = max(max(abs(normal.x), abs(normal.y)), abs(normal.z));
+    return largest > 0.0 ? normalize(normal * (1.0 / largest)) : otherwise;
+}
