@@ -7,12 +7,16 @@ from __future__ import annotations
 
 from typing import Literal
 
-from app import layout
+from app import __version__, layout
 from app.actions.base import CTRL, SHIFT, Action, Key, changing
 from app.state import AppState
 from app.storage import bookmarks
 from app.theme import LARGEST_SCALE, SMALLEST_SCALE
 
+ABOUT = (
+    f"Lucida {__version__}: one camera, two renderers. MIT license. "
+    "`lucida doctor` tells what works on this machine."
+)
 FONT_SCALES = (0.75, 0.9, 1.0, 1.25, 1.5, 1.75, 2.0, 2.5, 3.0)
 
 
@@ -223,4 +227,5 @@ HELP = (
         (int(Key.f4),),
         can=lambda w: w.renderers.failure is not None or bool(w.shell.stage.failures),
     ),
+    Action("Help", "About Lucida", lambda w: w.files.say(ABOUT), separated=True),
 )
