@@ -17,6 +17,7 @@ from renderer.errors import LucidaError
 LONGEST = 80  # characters of one number
 FUNCTIONS: dict[str, Callable[[float], float]] = {"sqrt": math.sqrt}
 CONSTANTS = {"pi": math.pi}
+_PLAIN = {"\u2212": "-", "\u00b7": "*", "\u221a": "sqrt", "\u03c0": "pi"}
 
 _OPERATIONS: dict[type[ast.operator], Callable[[float, float], float]] = {
     ast.Add: lambda a, b: a + b,
@@ -31,7 +32,13 @@ def number(text: str) -> float:
 
     Raises LucidaError where it is none.
     """
-    tidy = text.strip().replace("\u2212", "-").replace("\u00b7", "*").replace("\u221a", "sqrt").replace("\u03c0", "pi")
+    tidy = (
+        text.strip()
+        .replace("\u2212", "-")
+        .replace("\u00b7", "*")
+        .replace("\u221a", "sqrt")
+        .replace("\u03c0", "pi")
+    )
     if not tidy:
         raise LucidaError("", "is empty", "give a number such as 0.25 or 1/4")
     if len(tidy) > LONGEST:

@@ -1,7 +1,7 @@
 """A number field while it is typed into: fractions, roots and sums, and what is wrong with others.
 
 Owns the text that stands in the field. ImGui begins the typing (double click, Ctrl+click, Enter,
-Tab) with a text that it lets only digits into; from the next frame on, this one stands in its place.
+Tab) with a text that takes only digits; from the next frame on, this one stands in its place.
 """
 
 from __future__ import annotations
