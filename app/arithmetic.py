@@ -32,13 +32,9 @@ def number(text: str) -> float:
 
     Raises LucidaError where it is none.
     """
-    tidy = (
-        text.strip()
-        .replace("\u2212", "-")
-        .replace("\u00b7", "*")
-        .replace("\u221a", "sqrt")
-        .replace("\u03c0", "pi")
-    )
+    tidy = text.strip()
+    for sign, plain in _PLAIN.items():
+        tidy = tidy.replace(sign, plain)
     if not tidy:
         raise LucidaError("", "is empty", "give a number such as 0.25 or 1/4")
     if len(tidy) > LONGEST:
