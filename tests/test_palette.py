@@ -7,10 +7,12 @@ from dataclasses import replace
 import pytest
 
 from app.actions.palette import Entry, found, score
+from app.actions.synonyms import SYNONYMS
 from app.actions.table import ACTIONS, MENUS
 from app.changes import change
 from app.panels.sheet import in_columns, sections
 from app.state import AppState
+from app.views import camera, compare, costs, laboratory, lecture, outside, pair, probe, stepper
 from renderer.scene import load_scene
 
 ENTRIES = [
@@ -62,6 +64,62 @@ def test_letters_are_told_for_marking():
     assert score("", "anything") == (0, ())
     assert score("b", "") is None
     assert score("i", "İstanbul") is None or len(score("i", "İstanbul")[1]) == 1
+
+
+TABLE = [
+    Entry(action.name, action.menu, lambda: None, also=SYNONYMS.get(action.name, ""))
+    for action in ACTIONS
+]
+VIEWS = [
+    Entry(f"Go to {' '.join(view.title.split())}", "View > Views", lambda: None)
+    for view in (
+        camera.CameraView,
+        compare.CompareView,
+        costs.CostsView,
+        laboratory.LaboratoryView,
+        lecture.LectureView,
+        outside.OutsideView,
+        pair.RasterView,
+        pair.RayView,
+        probe.ProbeView,
+        stepper.StepperView,
+    )
+]
+VIEWS = [replace(entry, also=SYNONYMS.get(entry.name[6:], "")) for entry in VIEWS]
+
+
+@pytest.mark.parametrize(
+    ("query", "wanted"),
+    [
+        ("fov", "Go to Camera"),
+        ("field of view", "Go to Camera"),
+        ("ortho", "Parallel projection"),
+        ("about", "About Lucida"),
+        ("grid", "Pixel grid and values"),
+        ("wireframe", "Export diagram as SVG..."),
+        ("screenshot", "Save a picture of the window"),
+        ("zoom", "Magnify"),
+        ("zoom out", "Reduce"),
+        ("gamma", "Linear light without sRGB's curve"),
+        ("shortcuts", "Mouse and keys"),
+        ("font", "Larger type"),
+        ("undo", "Undo"),
+        ("depth", "Depth"),
+    ],
+)
+def test_the_words_of_other_programs_find_what_is_meant(query, wanted):
+    best = [match.entry.name for match in found(query, [*TABLE, *VIEWS])][:4]
+    assert wanted in best
+
+
+def test_whole_words_stand_before_letters_that_lie_apart():
+    entries = [Entry("Go right, in depth", "", lambda: None), Entry("Pixel grid", "", lambda: None)]
+    assert found("grid", entries)[0].entry.name == "Pixel grid"
+
+
+def test_synonyms_name_what_there_is():
+    names = {entry.name for entry in TABLE} | {entry.name[6:] for entry in VIEWS}
+    assert SYNONYMS.keys() <= names
 
 
 def test_all_queries_made_of_a_names_letters_find_it():

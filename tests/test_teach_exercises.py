@@ -8,7 +8,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from app.teach.lecture.answers import number, text_of, vector, vector_text
+from app.arithmetic import number, text_of, vector, vector_text
 from app.teach.lecture.exercises import (
     ChoiceExercise,
     Option,

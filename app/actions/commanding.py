@@ -10,6 +10,7 @@ from collections.abc import Callable
 
 from app.actions.base import Action, Window
 from app.actions.palette import Entry
+from app.actions.synonyms import SYNONYMS
 from app.actions.table import ACTIONS
 from renderer.scene import BUILTIN_SCENES
 
@@ -34,6 +35,7 @@ def _of_action(action: Action, window: Window) -> Entry:
         action.keys,
         action.can is None or action.can(window),
         on,
+        SYNONYMS.get(action.name, ""),
     )
 
 
@@ -47,7 +49,8 @@ def _views(window: Window) -> list[Entry]:
     for name, view in stage.views.items():
         title = " ".join(view.title.split())
         shown = stage.is_shown(name)
-        found.append(Entry(f"Go to {title}", "View > Views", _show(window, name, True)))
+        also = SYNONYMS.get(title, "")
+        found.append(Entry(f"Go to {title}", "View > Views", _show(window, name, True), also=also))
         if shown:
             found.append(Entry(f"Hide {title}", "View > Views", _show(window, name, False)))
     return found

@@ -7,17 +7,21 @@ through C++.
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
 
 CONSECUTIVE, WORD, FIRST = 8, 10, 6  # what a letter is worth after another, at a word, in front
 RECENT = 5
+# What a query is worth whose words are words of the name, words for it, beginnings of either.
+EXACT, SYNONYM, BEGINNING, SYNONYM_BEGINNING = 400, 300, 200, 100
+ELSEWHERE = -1000  # its letters are found only with the menu's
 
 
 @dataclass(frozen=True)
 class Entry:
     """Something to do. where: its menu path. keys: as shown. key: what it is remembered by.
-    on: of a switch."""
+    on: of a switch. also: other words for it, separated by blanks."""
 
     name: str
     where: str
@@ -25,6 +29,7 @@ class Entry:
     keys: str = ""
     enabled: bool = True
     on: bool = False
+    also: str = ""
 
     @property
     def key(self) -> str:
@@ -40,7 +45,7 @@ class Match:
 
 
 def found(query: str, entries: Iterable[Entry], recent: Sequence[str] = ()) -> list[Match]:
-    """The entries that hold the query's letters in their order, the best first.
+    """The entries that hold the query's letters in their order, or mean its words, the best first.
 
     recent: keys of what was chosen last, the newest first; among equals, and without a query,
     they stand in front.
@@ -49,15 +54,33 @@ def found(query: str, entries: Iterable[Entry], recent: Sequence[str] = ()) -> l
     matches = []
     for order, entry in enumerate(entries):
         result = score(query, entry.name)
-        if result is None:
+        points, letters = result if result is not None else (0, ())
+        words = _word_points(query, entry)
+        if result is None and not words and query:
             whole = score(query, f"{entry.where} {entry.name}")
-            result = None if whole is None else (whole[0] - 1000, ())
-        if result is not None:
-            points, letters = result
-            place = rank.get(entry.key, len(rank))
-            points += RECENT if entry.key in rank else 0
-            matches.append((-points if query else 0, place, order, Match(entry, letters)))
+            if whole is None:
+                continue
+            points = whole[0] + ELSEWHERE
+        points += words
+        place = rank.get(entry.key, len(rank))
+        points += RECENT if entry.key in rank else 0
+        matches.append((-points if query else 0, place, order, Match(entry, letters)))
     return [match for *_, match in sorted(matches, key=lambda row: row[:3])]
+
+
+def _word_points(query: str, entry: Entry) -> int:
+    """What it is worth that all of a query's words are the entry's own."""
+    wanted = query.lower().split()
+    name, also = re.findall(r"\w+", entry.name.lower()), entry.also.lower().split()
+    if not wanted:
+        return 0
+    for points, words in ((EXACT, name), (SYNONYM, name + also)):
+        if all(word in words for word in wanted):
+            return points
+    for points, words in ((BEGINNING, name), (SYNONYM_BEGINNING, name + also)):
+        if all(any(other.startswith(word) for other in words) for word in wanted):
+            return points
+    return 0
 
 
 def score(query: str, text: str) -> tuple[int, tuple[int, ...]] | None:

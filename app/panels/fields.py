@@ -12,11 +12,17 @@ from dataclasses import dataclass
 from imgui_bundle import ImVec2, ImVec4, imgui
 
 from app import theme
+from app.arithmetic import number
+from app.panels import typed
+from renderer.errors import LucidaError
 
 LEAST = 1e-3  # where dragging a logarithmic value ends
 FLT_MAX = 3.4e38
 WIDTH = 8  # characters of a number
-HINT = "drag, or double-click to type; Shift: faster, Alt: slower; right-click: reset, copy, paste"
+HINT = (
+    "drag, or double-click to type (1/3, sqrt(2)/2); Shift: faster, Alt: slower; "
+    "right-click: reset, copy, paste"
+)
 
 
 @dataclass(frozen=True)
@@ -112,11 +118,23 @@ def number_field(
     if marked:
         imgui.push_style_var(imgui.StyleVar_.frame_border_size, 0.1 * imgui.get_font_size())
         imgui.push_style_color(imgui.Col_.border, theme.ERROR)
-    changed, new = imgui.drag_float(f"##{label}", value, scale.speed(value), *scale.limits, shown)
+    is_typed = typed.is_open(label)
+    if is_typed:
+        changed, new = typed.field(label, value)
+    else:
+        limits = scale.limits
+        changed, new = imgui.drag_float(f"##{label}", value, scale.speed(value), *limits, shown)
+        if typed.take_over(label, value, changed):
+            changed, new = False, value
+        elif changed and math.isfinite(new):
+            # float32 in the widget: what was meant, not its nearest neighbour.
+            new = float(f"{new:.7g}")
     if marked:
         imgui.pop_style_color()
         imgui.pop_style_var()
     imgui.pop_font()
+    if is_typed:
+        return changed, new
     if not imgui.is_item_active() or not imgui.get_io().want_text_input:
         _draw_level(value, scale, color)
     if tooltip and not imgui.is_item_active():
@@ -124,17 +142,15 @@ def number_field(
     chosen = _menu(label, value, reset)
     if chosen is not None:
         return chosen != value, chosen
-    # float32 in the widget: what was typed, not its nearest neighbour.
-    return changed, float(f"{new:.7g}") if changed and math.isfinite(new) else new
+    return changed, new
 
 
 def pasted_number() -> float | None:
     """The clipboard's text as one finite number; None where it is something else."""
     try:
-        value = float(imgui.get_clipboard_text().strip())
-    except (ValueError, RuntimeError):  # RuntimeError: there is no clipboard
+        return number(imgui.get_clipboard_text())
+    except (LucidaError, RuntimeError):  # RuntimeError: there is no clipboard
         return None
-    return value if math.isfinite(value) else None
 
 
 def _menu(label: str, value: float, reset: float | None) -> float | None:

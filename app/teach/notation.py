@@ -10,6 +10,7 @@ from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 
 DECIMALS = 4
+FRACTION = 1600  # parts of 1 that have at most six decimals: those of 32 or 160 pixels, say
 
 
 @dataclass(frozen=True)
@@ -84,10 +85,11 @@ def formula(
 def results(values: Iterable[float]) -> tuple[str, str]:
     """A number, or a tuple, that was computed: as LaTeX and as text.
 
-    Always of four decimals, so that nothing jumps while it changes; exact ones are shorter.
+    Always of four decimals, so that nothing jumps while it changes; exact ones are shorter, and
+    a pixel's fractions whole: what was computed by hand is found again.
     """
     values = _rounded(values)
-    fixed = any(abs(value - round(value, DECIMALS)) > 1e-9 * abs(value) for value in values)
+    fixed = not all(_is_exact(value) for value in values)
     if len(values) == 1:
         return latex_number(values[0], fixed), number(values[0], fixed)
     return latex_tuple(values, fixed), text_tuple(values, fixed)
@@ -100,12 +102,13 @@ def bold(name: str) -> str:
 
 
 def number(value: float, fixed: bool = False) -> str:
-    """At most four decimals; fixed: always four. Very small and large ones as 1.23e-05."""
+    """At most four decimals, or six of a fraction; fixed: always four. Very small and large ones
+    as 1.23e-05."""
     if not math.isfinite(value):
         return {math.inf: "inf", -math.inf: "-inf"}.get(value, "none")
     if value != 0 and not 5e-4 <= abs(value) < 1e6:
         return f"{value:.3g}" if not fixed else f"{value:.2e}"
-    text = f"{value:.{DECIMALS}f}"
+    text = f"{value:.{DECIMALS if fixed or not _is_exact(value) else 6}f}"
     if not fixed:
         text = text.rstrip("0").rstrip(".")
     return text.removeprefix("-") if float(text) == 0 else text
@@ -135,6 +138,13 @@ def _rounded(values: Iterable[float]) -> tuple[float, ...]:
     values = tuple(values)
     least = 1e-12 * max(map(abs, values))
     return tuple(0.0 if abs(value) <= least else value for value in values)
+
+
+def _is_exact(value: float) -> bool:
+    """Whether four decimals are all that it has, or six of a fraction that pixels have."""
+    least = 1e-9 * abs(value)
+    fraction = round(value * FRACTION) / FRACTION if math.isfinite(value) else value
+    return abs(value - round(value, DECIMALS)) <= least or abs(value - fraction) <= least
 
 
 def _filled(template: str, slots: Mapping[str, Slot], kind: str) -> str:

@@ -6,11 +6,13 @@ from __future__ import annotations
 from dataclasses import replace
 
 import numpy as np
+import pytest
 from imgui_bundle import imgui
 from window_driver import Driver, Key, changed
 
 from app.cameras.presets import PRESETS
 from app.cameras.travel import DURATION_S
+from app.panels import typed
 from app.state import is_orthonormal
 from app.views.pair import RASTER, RAY
 from renderer.camera import Camera
@@ -74,6 +76,37 @@ def drive_the_field_of_view_is_typed(d: Driver) -> None:
     assert "between 0 and 180" in str(d.window.views["Camera"]._draft.error)
     assert d.window.state.camera == camera
     d.ctx.item_click("//Camera/Back to the camera shown")
+
+
+def drive_fractions_and_roots_are_typed(d: Driver) -> None:
+    d.type("eye.x", "1/3")
+    assert d.window.state.camera.eye[0] == 1 / 3
+    d.type("eye.y", "2*sqrt(2)/2")
+    assert d.window.state.camera.eye[1] == pytest.approx(2**0.5, abs=1e-15)
+    before = d.window.state
+    d.ctx.item_double_click(d.field("eye.x"))  # all of its digits are there
+    d.ctx.yield_(2)
+    d.ctx.key_press(int(Key.enter))
+    d.ctx.yield_(2)
+    assert d.window.state == before
+    d.ctx.item_double_click(d.field("eye.x"))
+    d.ctx.key_chars_replace("abc")
+    d.ctx.yield_(2)
+    assert "'abc' is not a number" in next(iter(typed._open.values())).wrong
+    assert d.window.state == before
+    d.ctx.key_press(int(Key.escape))
+    d.ctx.yield_(2)
+    assert d.window.state == before and not typed._open
+    d.type("eye.x", "0.5")  # and it can be typed anew
+    assert d.window.state.camera.eye[0] == 0.5
+    d.ctx.item_double_click(d.field("eye.x"))
+    d.ctx.key_chars_replace("1/4")
+    d.ctx.yield_(2)
+    d.ctx.key_press(int(Key.tab))  # goes on to the next field, as ImGui's own do
+    d.ctx.yield_(3)
+    d.ctx.key_chars_replace_enter("sqrt(4)")
+    d.ctx.yield_(2)
+    assert d.window.state.camera.eye[:2] == (0.25, 2.0)
 
 
 def drive_the_dolly_zoom_keeps_the_size_at_the_focus(d: Driver) -> None:

@@ -12,7 +12,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from app.teach.lecture.answers import text_of, vector, vector_text
+from app.arithmetic import text_of, vector, vector_text
 from app.teach.lecture.mistakes import mistakes
 from app.teach.lecture.text import escaped
 from renderer.camera import Camera

@@ -1,6 +1,6 @@
-"""Numbers and vectors as students type them: 1/8, -0.125, 1/sqrt(2), (0, 1, -3/4).
+"""Numbers and vectors as people type them: 1/8, -0.125, 1/sqrt(2), (0, 1, -3/4).
 
-Knows nothing of exercises.
+Pure. Number fields and exercises take the same.
 """
 
 from __future__ import annotations
@@ -16,6 +16,8 @@ from renderer.errors import LucidaError
 
 LONGEST = 80  # characters of one number
 FUNCTIONS: dict[str, Callable[[float], float]] = {"sqrt": math.sqrt}
+CONSTANTS = {"pi": math.pi}
+_PLAIN = {"\u2212": "-", "\u00b7": "*", "\u221a": "sqrt", "\u03c0": "pi"}
 
 _OPERATIONS: dict[type[ast.operator], Callable[[float, float], float]] = {
     ast.Add: lambda a, b: a + b,
@@ -26,11 +28,13 @@ _OPERATIONS: dict[type[ast.operator], Callable[[float, float], float]] = {
 
 
 def number(text: str) -> float:
-    """The value of a number: decimals, fractions, sums, products, brackets and sqrt().
+    """The value of a number: decimals, fractions, sums, products, brackets, sqrt() and pi.
 
     Raises LucidaError where it is none.
     """
-    tidy = text.strip().replace("\u2212", "-").replace("\u00b7", "*").replace("\u221a", "sqrt")
+    tidy = text.strip()
+    for sign, plain in _PLAIN.items():
+        tidy = tidy.replace(sign, plain)
     if not tidy:
         raise LucidaError("", "is empty", "give a number such as 0.25 or 1/4")
     if len(tidy) > LONGEST:
@@ -90,6 +94,8 @@ def _value(node: ast.expr) -> float:
     match node:
         case ast.Constant(value=int() | float() as value) if not isinstance(value, bool):
             return float(value)
+        case ast.Name(id=name) if name in CONSTANTS:
+            return CONSTANTS[name]
         case ast.UnaryOp(op=ast.USub(), operand=operand):
             return -_value(operand)
         case ast.UnaryOp(op=ast.UAdd(), operand=operand):
