@@ -35,7 +35,7 @@ from app.storage.session_store import settings_folder
 from app.storage.settings import settings_file
 from app.views.base import View
 from app.window import MainWindow, title
-from renderer import compiling
+from renderer import compile_note
 from renderer.atomic import atomic_write, check_writable
 from renderer.errors import LucidaError
 from renderer.scene import BUILTIN_SCENES
@@ -119,7 +119,7 @@ class Run:
         self.take_picture = take_picture
         self._error: BaseException | None = None
         self._quiet_frames = 0
-        self._told = compiling.note()
+        self._told = compile_note.note()
         self._ended = False
         self._start_s = 0.0
         self.params = self._parameters(state, size, remember and not take_picture)
@@ -256,8 +256,8 @@ class Run:
 
     def _tell_compiling(self) -> None:
         """Says once, where nobody looks at the window, what it waits for."""
-        if compiling.note() != self._told:
-            self._told = compiling.note()
+        if compile_note.note() != self._told:
+            self._told = compile_note.note()
             print(f"lucida: {self._told}", file=sys.stderr)
 
     def _after_frame(self) -> None:

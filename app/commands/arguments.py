@@ -267,7 +267,7 @@ def progress_bar(label: str) -> Iterator[Callable[[float], None]]:
     terminal or not, a line says once that the ray tracer must be compiled, if it must."""
     from tqdm import tqdm
 
-    from renderer import compiling
+    from renderer import compile_note
 
     layout = "{desc} {percentage:3.0f} % |{bar}| {elapsed}, {remaining} left"
     hidden = not sys.stderr.isatty()
@@ -278,8 +278,8 @@ def progress_bar(label: str) -> Iterator[Callable[[float], None]]:
 
         def report(fraction: float) -> None:
             nonlocal told
-            if compiling.note() != told:
-                told = compiling.note()
+            if compile_note.note() != told:
+                told = compile_note.note()
                 tqdm.write(f"lucida: {told}", file=sys.stderr)
             bar.update(fraction - bar.n)
 

@@ -23,7 +23,7 @@ from app.images.underlay import Underlay
 from app.options import ImageOptions
 from app.platform import lower_priority
 from app.state import AppState
-from renderer import compiling
+from renderer import compile_note
 from renderer.camera import Camera
 from renderer.frame import LARGEST_PIXELS, LARGEST_SIDE, Frame
 from renderer.raster import Look
@@ -247,8 +247,8 @@ class Renderers:
         """What the tracer does before its first image of a scene; empty if that is quick."""
         if self.live.preparing_s < NOTE_AFTER_S:
             return ""
-        if self.live.first_ever and compiling.note():
-            return compiling.note()
+        if self.live.first_ever and compile_note.note():
+            return compile_note.note()
         return "preparing the scene for the ray tracer ..."
 
     def depth_at(self, state: AppState, pixel: tuple[int, int]) -> float | None:

@@ -35,7 +35,7 @@ from numba.core.caching import FunctionCache, NullCache
 from numba.core.runtime import rtsys
 
 import renderer.scene.flat
-from renderer import compiling
+from renderer import compile_note
 from renderer.errors import LucidaError
 from renderer.private import private_folder
 from renderer.trace.inlining import KernelCompiler, PartCompiler
@@ -169,7 +169,7 @@ class _NoCache(NullCache):
     """What a function has that is compiled anew in each process."""
 
     def load_overload(self, sig: Any, target_context: Any) -> Any:
-        compiling.begin(kept=False)
+        compile_note.begin(kept=False)
         return None
 
 
@@ -189,7 +189,7 @@ class _Cache(FunctionCache):
         except Exception:  # whatever unpickling a damaged file may raise
             pass
         if loaded is None:
-            compiling.begin(kept=True)
+            compile_note.begin(kept=True)
         return loaded
 
     def save_overload(self, sig: Any, data: Any) -> None:

@@ -18,7 +18,7 @@ from pathlib import Path
 import llvmlite.binding as llvm
 from numba.core import config
 
-from renderer import compiling
+from renderer import compile_note
 from renderer.child import end_child, interpreter, start_child
 from renderer.trace.compiled import cache_folder
 from renderer.trace.team import default_threads
@@ -53,7 +53,7 @@ class Precompilation:
             if not mark.exists():
                 with contextlib.suppress(OSError):
                     self._processes[mark] = start_child(python, _CHILD, part)
-                    compiling.begin(kept=True)
+                    compile_note.begin(kept=True)
 
     def wait(self, is_closed: Callable[[], bool]) -> None:
         """Returns when all are done, or is_closed() says that nobody waits: that kills them."""

@@ -8,7 +8,7 @@ import pytest
 
 from app.commands.arguments import progress_bar
 from app.window import _agreement, _agrees
-from renderer import compiling
+from renderer import compile_note
 from renderer.trace import compiled
 
 
@@ -24,14 +24,14 @@ def nothing_noted(monkeypatch):
 def test_what_the_cache_holds_is_not_compiled(monkeypatch, tmp_path):
     monkeypatch.setattr(compiled, "cache_folder", lambda: tmp_path)
     assert compiled.kernel(doubled)(4) == 8
-    assert compiling.note() == compiling.ONCE
+    assert compile_note.note() == compile_note.ONCE
     monkeypatch.setattr(compiling, "_note", "")
     assert compiled.kernel(doubled)(4) == 8
-    assert compiling.note() == ""
+    assert compile_note.note() == ""
     for file in tmp_path.rglob("*.nbc"):
         file.write_bytes(b"damaged")
     assert compiled.kernel(doubled)(4) == 8
-    assert compiling.note() == compiling.ONCE
+    assert compile_note.note() == compile_note.ONCE
 
 
 def test_without_a_folder_it_is_compiled_each_time(monkeypatch):
@@ -39,19 +39,19 @@ def test_without_a_folder_it_is_compiled_each_time(monkeypatch):
     for _ in range(2):
         monkeypatch.setattr(compiling, "_note", "")
         assert compiled.kernel(doubled)(4) == 8
-        assert compiling.note() == compiling.EACH_TIME
+        assert compile_note.note() == compile_note.EACH_TIME
 
 
 def test_the_command_line_says_it_once_also_where_nobody_sees_a_bar(capsys):
     with progress_bar("ray") as report:
         report(0.0)
         assert capsys.readouterr().err == ""
-        compiling.begin(kept=True)
+        compile_note.begin(kept=True)
         report(0.0)
         report(0.5)
-        compiling.begin(kept=True)
+        compile_note.begin(kept=True)
         report(1.0)
-    assert capsys.readouterr().err == f"lucida: {compiling.ONCE}\n"
+    assert capsys.readouterr().err == f"lucida: {compile_note.ONCE}\n"
 
 
 def test_the_status_line_s_words_while_nothing_is_known():
