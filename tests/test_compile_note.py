@@ -18,14 +18,14 @@ def doubled(x):
 
 @pytest.fixture(autouse=True)
 def nothing_noted(monkeypatch):
-    monkeypatch.setattr(compiling, "_note", "")
+    monkeypatch.setattr(compile_note, "_note", "")
 
 
 def test_what_the_cache_holds_is_not_compiled(monkeypatch, tmp_path):
     monkeypatch.setattr(compiled, "cache_folder", lambda: tmp_path)
     assert compiled.kernel(doubled)(4) == 8
     assert compile_note.note() == compile_note.ONCE
-    monkeypatch.setattr(compiling, "_note", "")
+    monkeypatch.setattr(compile_note, "_note", "")
     assert compiled.kernel(doubled)(4) == 8
     assert compile_note.note() == ""
     for file in tmp_path.rglob("*.nbc"):
@@ -37,7 +37,7 @@ def test_what_the_cache_holds_is_not_compiled(monkeypatch, tmp_path):
 def test_without_a_folder_it_is_compiled_each_time(monkeypatch):
     monkeypatch.setattr(compiled, "cache_folder", lambda: None)
     for _ in range(2):
-        monkeypatch.setattr(compiling, "_note", "")
+        monkeypatch.setattr(compile_note, "_note", "")
         assert compiled.kernel(doubled)(4) == 8
         assert compile_note.note() == compile_note.EACH_TIME
 
