@@ -61,12 +61,14 @@ def atomic_write(path: str | Path) -> Iterator[BinaryIO]:
     """
     target = check_writable(path)
     _remove_parts(target.parent)
-    # A name of its own: the target's may be as long as names can be.
-    part = target.with_name(f"{_PREFIX}{secrets.token_hex(8)}{_SUFFIX}")
+    part = _new_name(target.parent)
     try:
         is_named = not _has_unnamed(target.parent)
         # Not the tempfile module: its files are private, a picture takes the user's umask.
-        descriptor = _open_part(part) if is_named else _open_unnamed(target.parent)
+        if is_named:
+            part, descriptor = _open_named(target.parent)
+        else:
+            descriptor = _open_unnamed(target.parent)
         with open(descriptor, "w+b") as file:
             yield file
             file.flush()
@@ -84,6 +86,11 @@ def atomic_write(path: str | Path) -> Iterator[BinaryIO]:
             part.unlink()
 
 
+def _new_name(folder: Path) -> Path:
+    """For an unfinished file. Not made of the target's, which may be as long as names can be."""
+    return folder / f"{_PREFIX}{secrets.token_hex(8)}{_SUFFIX}"
+
+
 def _move(part: Path, target: Path) -> None:
     with contextlib.suppress(FileNotFoundError):
         part.chmod(stat.S_IMODE(target.stat().st_mode))
@@ -93,13 +100,14 @@ def _move(part: Path, target: Path) -> None:
 # Unfinished files with a name. Whoever writes one holds a lock on it, which ends with the process.
 
 
-def _open_part(part: Path) -> int:
+def _open_named(folder: Path) -> tuple[Path, int]:
     flags = os.O_RDWR | os.O_CREAT | os.O_EXCL | getattr(os, "O_BINARY", 0)
     while True:
+        part = _new_name(folder)
         descriptor = os.open(part, flags, 0o666)
         if _hold(descriptor):
-            return descriptor
-        os.close(descriptor)
+            return part, descriptor
+        os.close(descriptor)  # whoever took it removes it
 
 
 def _hold(descriptor: int) -> bool:
@@ -154,7 +162,7 @@ def _has_unnamed(folder: Path) -> bool:
     """Whether a folder takes files without a name, and gives them one afterwards."""
     if not hasattr(os, "O_TMPFILE"):
         return False
-    part = folder / f"{_PREFIX}{secrets.token_hex(8)}{_SUFFIX}"
+    part = _new_name(folder)
     try:
         descriptor = _open_unnamed(folder)
         try:

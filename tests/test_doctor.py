@@ -102,6 +102,14 @@ def test_a_python_that_cannot_be_started(monkeypatch):
     assert check.detail
 
 
+def test_a_program_with_python_inside_is_not_started_again(monkeypatch):
+    monkeypatch.setattr(sys, "executable", os.path.join(os.sep, "opt", "some-program"))
+    check = doctor.check("tracer")
+    assert not check.works
+    assert "Python inside" in check.detail
+    assert check.remedy
+
+
 def test_an_answer_is_one_line_whatever_goes_wrong(capsys, monkeypatch):
     def broken():
         raise ValueError
