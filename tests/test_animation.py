@@ -273,6 +273,29 @@ class TestTraveller:
         assert traveller.step(moved) is moved
         assert not traveller.under_way
 
+    def test_on_the_way_a_switch_that_is_off_stays_off(self, scene: Scene) -> None:
+        clock, traveller, target = self.begin(scene)
+        state = AppState.for_scene(scene).with_keep_orthonormal(False)
+        clock.s += 0.4 * DURATION_S
+        between = traveller.step(state)
+        assert is_orthonormal(between.camera) and not between.keep_orthonormal
+        clock.s += DURATION_S
+        assert traveller.step(between).keep_orthonormal == target.keep_orthonormal
+
+    def test_setting_out_again_ends_the_passage_before(self, scene: Scene) -> None:
+        clock, traveller, _ = self.begin(scene)
+        assert traveller.under_way is True
+        first = traveller.gesture
+        clock.s += 0.1
+        state = traveller.step(AppState.for_scene(scene))
+        other = target_of(state, "Left")
+        assert traveller.begin(state, other, scene_focus(scene), SIZE) is state
+        assert traveller.gesture != first
+        traveller.instant = True
+        there = target_of(state, "Right")
+        assert traveller.begin(state, there, scene_focus(scene), SIZE) is there
+        assert traveller.under_way is False
+
     def test_another_option_does_not(self, scene: Scene) -> None:
         clock, traveller, target = self.begin(scene)
         clock.s += 0.1

@@ -19,7 +19,7 @@ from app.storage import clipboard
 from app.storage.capture import Captures, cut, free_path
 from app.storage.files import open_sources
 from app.storage.folders import read_folder, starting_points
-from app.storage.recent import MOST, RecentFiles
+from app.storage.recent import LONGEST, MOST, Recent, RecentFiles
 from renderer.errors import LucidaError
 from renderer.scene import load_scene, save_view
 
@@ -119,6 +119,30 @@ def test_a_broken_list_is_an_empty_one(tmp_path, content):
     recent.add("/a.obj")
     recent.close()
     assert json.loads((tmp_path / "recent.json").read_bytes()) == ["/a.obj"]
+
+
+def test_of_the_list_s_file_only_usable_paths_are_taken(tmp_path):
+    folder = tmp_path / "new" / "settings"  # which is made
+    recent = RecentFiles(folder, lambda: None)
+    recent.add("/a.obj")
+    recent.close()
+    listed = [
+        "",
+        "/b",
+        "x" * LONGEST,
+        "x" * (LONGEST + 1),
+        "/c\0d",
+        *("/" * k for k in range(1, 20)),
+    ]
+    (folder / "recent.json").write_text(json.dumps(listed))
+    recent = RecentFiles(folder, lambda: None)
+    wait_for(lambda: bool(recent.entries))
+    assert paths(recent) == ["/b", "x" * LONGEST, *("/" * k for k in range(1, MOST - 4))]
+    assert recent.entries[0].name == "b"
+    # A path of so many letters cannot be looked for: it is missing.
+    assert [entry.missing for entry in recent.entries] == [True, True, *[False] * (MOST - 5)]
+    recent.close()
+    assert not Recent("/b").missing
 
 
 # Folders.

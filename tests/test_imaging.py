@@ -16,7 +16,7 @@ from renderer.camera import Camera
 from renderer.errors import LucidaError
 from renderer.frame import Frame
 from renderer.images import to_srgb8
-from renderer.images.display import picture
+from renderer.images.display import FARTHEST_GRAY, ID_PALETTE, picture
 from renderer.scene.model import Scene, View
 
 COLOR = ImageOptions()
@@ -165,3 +165,32 @@ def test_a_new_mark_counts_from_where_it_is_set():
     assert (mark, anchor.pixel) == ((2, 3), (2, 3))
     assert followed(None, anchor, VIEW, (64, 36)) == (None, None)
     assert followed((99, 99), None, VIEW, (64, 36))[0] == (35, 63)
+
+
+def test_objects_have_the_palette_s_colours_and_nothing_is_black():
+    ids = np.array([[0, 1, len(ID_PALETTE) - 1, len(ID_PALETTE), -1]])
+    shown = shown_bytes(ids, replace(COLOR, channel="id"), None)
+    assert shown[0, :4].tolist() == [ID_PALETTE[k].tolist() for k in (0, 1, -1, 0)]
+    assert shown[0, 4].tolist() == [0, 0, 0]
+
+
+def test_normals_and_linear_light_at_their_ends():
+    normals = np.array([[[1.0, -1.0, 0.0], [0.0, 0.0, 0.0], [0.0, 0.0, 3.0]]], np.float32)
+    shown = shown_bytes(normals, replace(COLOR, channel="normal"), None)
+    assert shown[0].tolist() == [[255, 0, 128], [0, 0, 0], [128, 128, 255]]
+    light = np.array([[[0.25, 1.0, 2.0], [-1.0, np.nan, 0.125]]], np.float32)
+    linear = replace(COLOR, transfer="linear", exposure_ev=1.0)
+    assert shown_bytes(light, linear, None)[0].tolist() == [[128, 255, 255], [0, 0, 64]]
+
+
+@pytest.mark.parametrize("depths", [None, (2.0, 2.0), (3.0, 2.0)])
+def test_depths_without_a_range_are_white(depths):
+    shown = shown_bytes(np.array([[2.0, 7.0, np.inf]]), replace(COLOR, channel="depth"), depths)
+    assert shown[0, :, 0].tolist() == [255, 255, 0]
+
+
+def test_depths_beyond_the_range_are_its_ends():
+    depth = np.array([[1.0, 2.0, 3.0, 4.0, 99.0, np.inf]])
+    shown = shown_bytes(depth, replace(COLOR, channel="depth"), (2.0, 4.0))[0, :, 0].tolist()
+    last = round(255 * FARTHEST_GRAY)
+    assert shown == [255, 255, round(255 * (1 + FARTHEST_GRAY) / 2), last, last, 0]

@@ -31,7 +31,7 @@ from app.storage.session import (
 from app.storage.session_store import Keeper, take_place
 from renderer.camera import Camera
 from renderer.errors import LucidaError
-from renderer.scene import View, load_scene
+from renderer.scene import BUILTIN_SCENES, View, load_scene
 
 ROOT = Path(__file__).parent.parent
 PATIENT_S = 60.0
@@ -97,6 +97,24 @@ def test_numbers_and_names_are_kept_exactly(eye, distance, name):
         assert from_bytes(to_bytes(session_of(state, Arrangement()))).view == view
 
 
+def test_of_a_scene_from_no_file_the_first_built_in_one_is_kept(scene, tmp_path):
+    (tmp_path / "scene.toml").write_text('[[objects]]\ntype = "sphere"\n')
+    for origin, kept in (
+        (None, BUILTIN_SCENES[0]),
+        (replace(scene.origin, source=""), BUILTIN_SCENES[0]),
+        (load_scene(tmp_path / "scene.toml").origin, str(tmp_path / "scene.toml")),
+    ):
+        state = AppState.for_scene(replace(scene, origin=origin))
+        assert session_of(state, Arrangement()).scene == kept
+
+
+def test_a_session_of_the_largest_size_is_read_and_a_larger_one_refused(state):
+    data = to_bytes(session_of(state, ARRANGEMENT))
+    assert from_bytes(data.ljust(LARGEST_BYTES)) == from_bytes(data)
+    with pytest.raises(LucidaError, match="more than a session has"):
+        from_bytes(data.ljust(LARGEST_BYTES + 1))
+
+
 def test_what_an_older_session_lacks_has_its_default(state):
     data = to_bytes(session_of(state, ARRANGEMENT))
     table = json.loads(data)
@@ -105,6 +123,8 @@ def test_what_an_older_session_lacks_has_its_default(state):
     assert read.options.images.pixel_size == 1
     assert read.options.images.exposure_ev == 1.5
     assert read.arrangement == Arrangement()
+    del table["keep_orthonormal"]
+    assert from_bytes(json.dumps(table).encode()).keep_orthonormal
 
 
 @pytest.mark.parametrize(

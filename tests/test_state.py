@@ -12,7 +12,7 @@ from hypothesis import strategies as st
 from app.cameras.basis import with_component, with_vector
 from app.cameras.editing import Draft, edit_component, edit_field
 from app.cameras.focus import scene_focus
-from app.state import AppState, History, is_orthonormal
+from app.state import MOST_UNDO_STEPS, AppState, History, is_orthonormal
 from renderer.camera import Camera
 from renderer.scene import View, load_scene
 from renderer.scene.model import Scene, SceneObject, Sphere
@@ -166,3 +166,53 @@ def test_the_focus_is_not_misled_by_a_large_floor() -> None:
     assert np.linalg.norm(focus.center) < 3
     assert focus.reach < 40
     assert scene_focus(Scene(())).reach > 0
+
+
+def test_a_state_with_another_part_has_the_rest_as_it_was() -> None:
+    assert not STATE.has_effects
+    assert STATE.with_options(shadows=True).has_effects
+    assert STATE.with_options(mirrors=True).has_effects
+    assert STATE.with_camera(STATE.camera) is STATE
+    assert not STATE.with_fit(False).view.fit
+    assert STATE.with_fit(False).with_fit(True) == STATE
+    other = Scene((), view=View(Camera(eye=(9, 9, 9))))
+    assert STATE.with_scene(other).view == other.view
+    assert STATE.with_scene(other, STATE.view) == replace(STATE, scene=other)
+
+
+def test_another_scene_turns_the_switch_on_where_its_camera_is_orthonormal() -> None:
+    skewed = STATE.with_view(View(SKEWED))
+    assert not skewed.keep_orthonormal
+    assert skewed.with_scene(SCENE).keep_orthonormal
+    assert not skewed.with_scene(SCENE, View(SKEWED)).keep_orthonormal
+
+
+def test_the_switch_changes_the_camera_only_where_it_must() -> None:
+    off = STATE.with_keep_orthonormal(False)
+    assert not off.keep_orthonormal and off.camera == STATE.camera
+    assert off.with_keep_orthonormal(True) == STATE
+    skewed = off.with_camera(SKEWED)
+    assert skewed.with_keep_orthonormal(False).camera == SKEWED
+
+
+def test_what_follows_from_a_change_of_the_window_is_no_step() -> None:
+    history = History(STATE).change(moved(1.0), "a")
+    assert history.amended(moved(1.0)) is history
+    amended = history.amended(moved(2.0))
+    assert (amended.present, amended.past) == (moved(2.0), (STATE,))
+    assert amended.change(moved(3.0), "a").past == (STATE,)
+
+
+def test_undo_goes_through_all_steps_and_back() -> None:
+    history = History(STATE)
+    assert history.undo() is history and history.redo() is history
+    for x in (1.0, 2.0, 3.0, 4.0):
+        history = history.change(moved(x))
+    back = history.undo().undo().undo()
+    assert (back.past, back.present) == ((STATE,), moved(1.0))
+    assert back.future == (moved(2.0), moved(3.0), moved(4.0))
+    assert back.redo().redo().redo() == replace(history, gesture=None)
+    for x in range(MOST_UNDO_STEPS + 5):
+        history = history.change(moved(10.0 + x))
+    assert len(history.past) == MOST_UNDO_STEPS
+    assert history.past[-1] == moved(10.0 + MOST_UNDO_STEPS + 3)

@@ -276,9 +276,12 @@ class Attack:
             self._resize(SIZE)
             self.d.until(lambda: tuple(imgui.get_io().display_size) == SIZE)
         layout.switch(layout.LAYOUTS[0].name)
+        self.d.until(lambda: layout.current() is layout.LAYOUTS[0])
+        layout.reset()  # images that were dragged behind others come to the front
+        self.d.ctx.yield_(5)
         for name in self.window.views:
-            if name not in (RASTER, RAY):
-                self.window.shell.stage.show(name, False)
+            self.window.shell.stage.show(name, name in (RASTER, RAY))
+        self.d.ctx.yield_(5)
         try:
             self.d.reset()
         except AssertionError as error:

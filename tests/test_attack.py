@@ -1,0 +1,116 @@
+"""The attacks' own machinery. The attacks themselves are no tests: `make attack`."""
+
+from __future__ import annotations
+
+import ast
+from pathlib import Path
+
+import pytest
+
+from tests.attack import forks, mutations
+from tests.attack.__main__ import commands, main
+from tests.attack.mutants import compiled, mutants, outermost
+
+ROOT = Path(__file__).parent.parent
+SOURCE = '''\
+"""A module."""
+LIMIT = 3
+TABLE = dict(a=1)
+
+
+class Thing:
+    size: int = 2
+
+    def grown(self, by: float = 1.5) -> float:
+        """By so much."""
+        if by < 0 or not self.size:
+            raise ValueError(f"{by + 1} is wrong")
+        return -(self.size + by)
+
+
+def several(numbers):
+    assert numbers != 0
+    return [n for n in numbers if n > LIMIT]
+'''
+WANTED = {
+    ("", "1 -> 2"),
+    ("", "2 -> 3"),
+    ("", "1.5 -> 2.25"),
+    ("Thing.grown", "Lt -> LtE"),
+    ("Thing.grown", "Lt -> GtE"),
+    ("Thing.grown", "0 -> 1"),
+    ("Thing.grown", "Or -> And"),
+    ("Thing.grown", "condition negated"),
+    ("Thing.grown", "statement removed"),
+    ("Thing.grown", "returns None"),
+    ("Thing.grown", "without minus"),
+    ("Thing.grown", "Add -> Sub"),
+    ("several", "returns None"),
+    ("several", "Gt -> GtE"),
+    ("several", "Gt -> LtE"),
+    ("several", "filter 0 negated"),
+}
+
+
+def test_every_kind_of_change_is_made_and_types_and_errors_left_alone(tmp_path):
+    (tmp_path / "thing.py").write_text(SOURCE)
+    found = mutants(tmp_path, "thing.py")
+    assert {(mutant.function, mutant.key.split(" | ")[1]) for mutant in found} == WANTED
+    assert len({mutant.key for mutant in found}) == len(found)
+    assert outermost(tmp_path, "thing.py") == {"Thing.grown": (9, 13), "several": (16, 18)}
+
+
+def test_a_mutants_code_has_its_change_and_no_other(tmp_path):
+    (tmp_path / "thing.py").write_text(SOURCE)
+    results = {}
+    for mutant in mutants(tmp_path, "thing.py"):
+        space: dict = {}
+        exec(compiled(tmp_path, mutant), space)
+        try:
+            grown = space["Thing"]().grown(2.5)
+        except ValueError:
+            grown = None
+        told = mutant.key.split(" | ")[1]
+        results[told, mutant.function] = (grown, space["several"]([1, 3, 4]))
+    assert results["Add -> Sub", "Thing.grown"] == (0.5, [4])
+    assert results["Lt -> GtE", "Thing.grown"] == (None, [4])
+    assert results["2 -> 3", ""] == (-5.5, [4])
+    assert results["Gt -> GtE", "several"] == (-4.5, [3, 4])
+    assert results["filter 0 negated", "several"] == (-4.5, [1, 3])
+
+
+def test_the_modules_and_their_tests_are_there():
+    for module, tests in mutations.MODULES.items():
+        assert (ROOT / module).is_file(), module
+        for name in tests:
+            assert (ROOT / "tests" / f"test_{name}.py").is_file(), name
+
+
+def test_known_mutants_are_still_there():
+    """One that has gone with its line is to be taken from the list."""
+    there = {mutant.key for module in mutations.MODULES for mutant in mutants(ROOT, module)}
+    known = mutations._known()
+    assert [key for key in known if key not in there] == []
+    assert all(reason.strip() for reason in known.values())
+
+
+def test_every_command_says_what_it_does(capsys):
+    found = commands()
+    assert {"mutations", "random_events"} <= set(found)
+    assert all(told.endswith(".") for told in found.values())
+    for name in found:
+        tree = ast.parse((ROOT / "tests" / "attack" / f"{name}.py").read_text())
+        signature = next(node for node in tree.body if getattr(node, "name", "") == "main")
+        assert len(signature.args.args) == 1, name
+    assert main(["--help"]) == 0
+    assert "random_events" in capsys.readouterr().out
+    assert main(["no such attack"]) == 2
+
+
+@pytest.mark.skipif(not hasattr(__import__("os"), "fork"), reason="needs fork")
+def test_work_in_a_process_of_its_own_has_a_limit():
+    import time
+
+    assert forks.forked(lambda: {"a": [1, 2]}, 60.0) == {"a": [1, 2]}
+    assert forks.forked(lambda: time.sleep(60), 0.3) is None
+    assert forks.forked(lambda: 1 / 0, 60.0) is None
