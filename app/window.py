@@ -255,7 +255,8 @@ class MainWindow:
         self._proportion.keep(self.lecture.arrangements)
         self.shell.frame(self, self)
         self.lecture.follow(self)
-        run_shortcuts(self)
+        if not self._is_typing:
+            run_shortcuts(self)
         if self._asked is not None:
             self._asked, state = resolution_box(self._asked, self.state)
             self.change(state)
@@ -317,6 +318,13 @@ class MainWindow:
         self._fly.frame(self, self._over)
         if self.traveller.under_way:
             self.animate()
+
+    @property
+    def _is_typing(self) -> bool:
+        """Whether a box has the keyboard: its digits are no bookmarks, also before the field that
+        Tab has gone to takes them."""
+        boxes = (self._asked, self._going)
+        return any(box is not None and box.focused for box in boxes)
 
     def _go_to(self, pixel: Pixel) -> None:
         """Marks a pixel, and brings it into sight where the images are magnified."""

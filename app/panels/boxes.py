@@ -5,23 +5,34 @@ Owns its place and look, and when it is left. What is asked is its callers'.
 
 from __future__ import annotations
 
+from typing import NamedTuple
+
 from imgui_bundle import ImVec2, imgui
 
 TYPED = int(imgui.InputTextFlags_.enter_returns_true | imgui.InputTextFlags_.auto_select_all)
 
 
-def begin_box(title: str) -> tuple[bool, bool | None]:
-    """As imgui.begin(): whether it is to be filled, and whether it stays open. Call imgui.end()."""
+class Box(NamedTuple):
+    """opened: it is to be filled. stays: neither closed nor left by Escape. focused: it has the
+    keyboard: what is typed is for it, also before one of its fields has taken it."""
+
+    opened: bool
+    stays: bool
+    focused: bool
+
+
+def begin_box(title: str) -> Box:
+    """Call imgui.end() in any case."""
     center = imgui.get_main_viewport().get_center()
     imgui.set_next_window_pos(center, imgui.Cond_.appearing, ImVec2(0.5, 0.5))
     flags = imgui.WindowFlags_
-    return imgui.begin(
+    opened, still_open = imgui.begin(
         title,
         True,
         flags.no_docking | flags.always_auto_resize | flags.no_collapse | flags.no_saved_settings,
     )
-
-
-def is_left(still_open: bool | None) -> bool:
-    """Whether the box was closed, or Escape pressed."""
-    return not still_open or imgui.is_key_pressed(imgui.Key.escape)
+    focused = imgui.is_window_focused()
+    # The field that is typed into takes Escape for itself; the box is left all the same.
+    left = imgui.shortcut(int(imgui.Key.escape))
+    left = left or (focused and imgui.is_key_pressed(imgui.Key.escape))
+    return Box(opened, bool(still_open) and not left, focused)

@@ -11,7 +11,7 @@ from imgui_bundle import imgui
 
 from app import theme
 from app.options import Pixel
-from app.panels.boxes import TYPED, begin_box, is_left
+from app.panels.boxes import TYPED, begin_box
 from app.state import AppState
 from renderer.camera import Size
 from renderer.errors import LucidaError
@@ -24,12 +24,13 @@ FIELDS = ("row i", "column j")
 @dataclass(frozen=True)
 class Going:
     """texts: row and column as typed so far. size: of the images, (width, height). problem: why
-    they were not taken. appearing: in its first frame."""
+    they were not taken. appearing: in its first frame. focused: it has the keyboard."""
 
     texts: tuple[str, str]
     size: Size
     problem: str = ""
     appearing: bool = True
+    focused: bool = True
 
 
 def going(state: AppState, size: Size) -> Going:
@@ -41,30 +42,34 @@ def going(state: AppState, size: Size) -> Going:
 def pixel_box(box: Going, state: AppState) -> tuple[Going | None, Pixel | None]:
     """Draws the box in the middle of the window, and gives it as it is now and the pixel that was
     chosen; no box once it is closed. Tab goes from field to field, Enter to the pixel."""
-    opened, still_open = begin_box(TITLE)
+    window = begin_box(TITLE)
     done, indexing = False, state.options.indexing
-    if opened:
+    if window.opened:
         texts = list(box.texts)
         for k, name in enumerate(FIELDS):
             if k:
                 imgui.same_line()
-            elif box.appearing:
+            imgui.align_text_to_frame_padding()
+            imgui.text(name)
+            imgui.same_line()
+            if box.appearing and not k:
                 imgui.set_keyboard_focus_here()
             imgui.set_next_item_width(5 * imgui.get_font_size())
-            entered, texts[k] = imgui.input_text(name, box.texts[k], TYPED)
+            entered, texts[k] = imgui.input_text(f"##{name}", box.texts[k], TYPED)
             done = done or entered
         imgui.same_line()
         done = imgui.button("Go") or done
         color = theme.ERROR if box.problem else theme.DIM
         imgui.text_colored(color, box.problem or _rule(box.size, indexing))
         box = replace(box, texts=(texts[0], texts[1]), appearing=False)
+    box = replace(box, focused=window.focused)
     imgui.end()
     if done:
         try:
             return None, parsed_pixel(box.texts, box.size, indexing)
         except LucidaError as error:
             return replace(box, problem=str(error), appearing=True), None
-    return (None if is_left(still_open) else box), None
+    return (box if window.stays else None), None
 
 
 def parsed_pixel(texts: tuple[str, str], size: Size, indexing: Indexing) -> Pixel:

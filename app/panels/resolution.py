@@ -11,7 +11,7 @@ from imgui_bundle import imgui
 
 from app import theme
 from app.images.imaging import parsed_size, size_text, with_resolution
-from app.panels.boxes import TYPED, begin_box, is_left
+from app.panels.boxes import TYPED, begin_box
 from app.state import AppState
 from renderer.errors import LucidaError
 
@@ -20,11 +20,13 @@ TITLE = "Resolution of both images"
 
 @dataclass(frozen=True)
 class Asked:
-    """text: as typed so far. problem: why it was not taken. appearing: in its first frame."""
+    """text: as typed so far. problem: why it was not taken. appearing: in its first frame.
+    focused: it has the keyboard."""
 
     text: str
     problem: str = ""
     appearing: bool = True
+    focused: bool = True
 
 
 def asked(state: AppState, size: tuple[int, int]) -> Asked:
@@ -34,9 +36,9 @@ def asked(state: AppState, size: tuple[int, int]) -> Asked:
 
 def resolution_box(box: Asked, state: AppState) -> tuple[Asked | None, AppState]:
     """Draws the box in the middle of the window; None once it is closed."""
-    opened, still_open = begin_box(TITLE)
+    window = begin_box(TITLE)
     done = False
-    if opened:
+    if window.opened:
         imgui.text("Width x height, in pixels:")
         if box.appearing:
             imgui.set_keyboard_focus_here()
@@ -55,6 +57,4 @@ def resolution_box(box: Asked, state: AppState) -> tuple[Asked | None, AppState]
             return None, with_resolution(state, parsed_size(box.text))
         except LucidaError as error:
             return replace(box, problem=str(error), appearing=True), state
-    if is_left(still_open):
-        return None, state
-    return box, state
+    return (replace(box, focused=window.focused) if window.stays else None), state

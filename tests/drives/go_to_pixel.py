@@ -54,11 +54,30 @@ def drive_a_mistake_is_said_and_escape_leaves(d: Driver) -> None:
     assert window._going is not None
     assert "'99999' is no row of this image; give 1 to" in window._going.problem
     assert window.state == before
-    for _ in range(2):  # the first leaves the field
-        if window._going is not None:
-            press(d, int(Key.escape))
+    press(d, int(Key.escape))
     assert window._going is None
     assert window.state.marked == (5, 6), "Escape has left the box and nothing else"
+
+
+def drive_keys_in_the_box_are_for_the_box(d: Driver) -> None:
+    """Escape leaves nothing else, and digits are no bookmarks, where no field has them yet."""
+    window = d.window
+    window.change(window.state.with_options(preferences={"presentation": True}))
+    d.settle()
+    before = window.state
+    press(d, OPEN)
+    press(d, int(Key.tab))
+    press(d, int(Key.tab))  # on to the button
+    press(d, int(Key._2))
+    assert not window.shell.toasts.texts
+    press(d, int(Key.p))  # would switch the projection
+    assert window._going is not None
+    assert window.state == before
+    press(d, int(Key.escape))
+    assert window._going is None
+    assert window.state == before, "presentation goes on"
+    window.undo()
+    d.settle()
 
 
 def drive_a_pixel_out_of_sight_is_brought_into_it(d: Driver) -> None:
