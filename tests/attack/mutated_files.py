@@ -39,7 +39,7 @@ from tests.attack.seed_files import seed_files
 MEMORY_BYTES = 1 << 30  # that reading one of these small files may take
 TIME_S = 20
 LARGEST = 1 << 18  # bytes of a damaged file
-LONGEST = 1000  # letters of a refusal
+LONGEST = 2500  # letters of a refusal
 GOOD, REFUSED = "read", "refused"
 BESIDE = (".mtl", ".bin")  # files that others name
 
