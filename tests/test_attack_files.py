@@ -46,7 +46,7 @@ print(json.dumps([
     of(LucidaError("a", "is wrong", "mend it")),
     of(LucidaError("a", "is wrong")),
     of(LucidaError("", "does not fit into memory", "give less")),
-    of(LucidaError("", "x" * 5000, "mend it")),
+    of(LucidaError("", "is wrong", "mend it", "x" * 5000)),
     of(ZeroDivisionError("oh")),
     of(RuntimeWarning("oh")),
 ]))
