@@ -5,7 +5,9 @@ Knows nothing of who shows it: the command line prints it and exits with 2, the 
 
 from __future__ import annotations
 
-LONGEST_FIELD = 200  # letters of it that are shown
+# Letters that are shown, of what a file can make as long as it likes.
+LONGEST_FIELD = 200
+LONGEST_PART = 800
 
 
 class LucidaError(ValueError):
@@ -21,9 +23,9 @@ class LucidaError(ValueError):
 
     def __str__(self) -> str:
         field = shortened(self.field, LONGEST_FIELD)
+        problem, remedy = (shortened(part, LONGEST_PART) for part in (self.problem, self.remedy))
         where = "".join(f"{part}: " for part in (self.source, field) if part)
-        text = where + self.problem + (f"; {self.remedy}" if self.remedy else "")
-        return one_line(text)
+        return one_line(where + problem + (f"; {remedy}" if remedy else ""))
 
     def within(self, prefix: str) -> LucidaError:
         """The same error with its field under `prefix`: "w" within "camera" is "camera.w"."""

@@ -1,6 +1,6 @@
 """A user's mistake is one line, whatever it is about."""
 
-from renderer.errors import LucidaError
+from renderer.errors import LucidaError, one_line, shortened
 
 
 def test_an_error_tells_source_field_problem_and_remedy():
@@ -18,3 +18,15 @@ def test_parts_that_are_missing_leave_no_trace():
 def test_control_characters_and_line_breaks_do_not_reach_the_terminal():
     error = LucidaError("name", "line one\n  line two \x1b[31m").in_file("bell\x07.obj")
     assert str(error) == "bell\\x07.obj: name: line one line two \\x1b[31m"
+
+
+def test_what_a_file_makes_long_is_shown_short() -> None:
+    line = str(LucidaError("f" * 9000, "p" * 9000, "r" * 9000, "file.toml"))
+    assert line.startswith("file.toml: fff")
+    assert len(line) < 2000
+    assert shortened("abcdefghij", 8) == "abcd...j"
+    assert shortened("abcdefgh", 8) == "abcdefgh"
+
+
+def test_bytes_that_are_no_text_are_shown_as_such() -> None:
+    assert one_line("a\udcff\ud800\x1b\n b") == r"a\xff\ud800\x1b b"

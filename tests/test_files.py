@@ -17,11 +17,11 @@ from PIL import Image
 from app.platform import Target
 from app.storage import clipboard
 from app.storage.capture import Captures, cut, free_path
-from app.storage.files import open_sources
+from app.storage.files import Files, open_sources
 from app.storage.folders import read_folder, starting_points
 from app.storage.recent import LONGEST, MOST, Recent, RecentFiles
 from renderer.errors import LucidaError
-from renderer.scene import load_scene, save_view
+from renderer.scene import load_scene, save_view, shapes
 
 PATIENT_S = 60.0
 
@@ -275,3 +275,27 @@ def test_macos_is_asked_by_its_own_program(monkeypatch):
     clipboard.copy_png(b"png")
     assert asked[0][0] == "osascript"
     assert "PNGf" in asked[0][2]
+
+
+def test_a_scene_that_is_cancelled_is_not_built_to_its_end(tmp_path, monkeypatch):
+    path = tmp_path / "boxes.toml"
+    path.write_text("[[objects]]\ntype = 'box'\n" * 500)
+    built, gate, box = [], threading.Event(), shapes.box
+
+    def slow(size):
+        built.append(size)
+        gate.wait(PATIENT_S)
+        return box(size)
+
+    monkeypatch.setattr(shapes, "box", slow)
+    files = Files(lambda: None)
+    thread = files._loading._thread
+    files.open(str(path))
+    wait_for(lambda: bool(built))
+    files.cancel()
+    gate.set()
+    wait_for(lambda: not thread.is_alive())
+    assert len(built) == 1
+    assert files.poll() is None
+    assert files.poll_said() == ["Loading boxes.toml was cancelled."]
+    files.close()

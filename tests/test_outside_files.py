@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import os
+import subprocess
+import sys
 from pathlib import Path
 
 import pytest
@@ -182,6 +184,25 @@ def test_a_lecture_names_all_its_files_at_once(folder: Path) -> None:
 
 
 # The command line.
+
+
+def test_without_a_window_to_ask_in_a_lecture_is_refused(folder: Path) -> None:
+    path = folder / "lecture.toml"
+    path.write_text("title = 'L'\n" + STEP + "scene = '../m.obj'\n")
+    hidden = ("DISPLAY", "WAYLAND_DISPLAY")
+    variables = {name: value for name, value in os.environ.items() if name not in hidden}
+    end = subprocess.run(
+        [sys.executable, "-m", "app", "lecture", str(path)],
+        env=variables,
+        capture_output=True,
+        text=True,
+        timeout=120,
+    )
+    assert end.returncode == 2
+    assert end.stderr == (
+        f"lucida: {path}: names a file outside of its folder: {folder.parent / 'm.obj'}; "
+        "add --outside to agree\n"
+    )
 
 
 def test_scenes_says_what_is_in_a_scene_and_where_its_files_are(folder: Path, capsys) -> None:

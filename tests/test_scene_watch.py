@@ -82,6 +82,31 @@ def test_a_saved_scene_is_read_again_once(path: Path, files: Files) -> None:
     assert follow(files, scene) is None
 
 
+def test_what_is_saved_while_it_is_read_is_read_too(path: Path, files: Files) -> None:
+    scene = load_scene(path)
+    follow(files, scene)
+    path.write_text(BALL * 2 + MODEL)
+    opened = follow(files, scene)
+    assert opened is not None
+    assert opened.scene is not None
+    path.write_text(BALL * 3 + MODEL)  # before the window shows what was read
+    opened = follow(files, opened.scene)
+    assert opened is not None
+    assert opened.scene is not None
+    assert len(opened.scene.objects) == 4
+
+
+def test_undo_to_an_older_version_of_a_file_reads_nothing(path: Path, files: Files) -> None:
+    old = load_scene(path)
+    follow(files, old)
+    path.write_text(BALL * 2 + MODEL)
+    opened = follow(files, old)
+    assert opened is not None
+    assert opened.scene is not None
+    assert follow(files, opened.scene) is None
+    assert follow(files, old) is None
+
+
 def test_so_is_one_whose_model_is_saved(path: Path, files: Files) -> None:
     scene = load_scene(path)
     follow(files, scene)

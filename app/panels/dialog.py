@@ -48,6 +48,7 @@ class FileDialog:
         self._all_files = False
         self._replace = ""  # a file that is there, of which we asked whether to replace it
         self._appearing = False
+        self._typing = False  # whether the name is to have the keyboard
 
     @property
     def is_open(self) -> bool:
@@ -147,8 +148,9 @@ class FileDialog:
             imgui.text_colored(theme.DIM, "... and more: type the name")
 
     def _name_line(self, question: Question) -> None:
-        if self._appearing:
+        if self._appearing or self._typing:
             imgui.set_keyboard_focus_here()
+            self._typing = False
         imgui.set_next_item_width(-1)
         entered, self._name = imgui.input_text_with_hint(
             "##name",
@@ -193,7 +195,7 @@ class FileDialog:
             return
         paths = [self._listing.folder / os.path.expanduser(name) for name in names]
         if _is_folder(paths[0]):
-            self._name = question.name
+            self._name, self._typing = question.name, True
             self._go(paths[0])
             return
         path = paths[0]

@@ -143,7 +143,7 @@ class Files:
     def follow(self, scene: Scene) -> bool:
         """Once a frame: reads the shown scene again when its files were saved; poll() has it then.
         Gives whether a change is being awaited, which is to be asked for soon again."""
-        if self._watch.changed(scene, time.monotonic()) and not self._loading.busy:
+        if not self._loading.busy and self._watch.changed(scene, time.monotonic()):
             assert scene.origin is not None
             source = scene.origin.source
             agreed = self._guarded.get(source)

@@ -5,6 +5,8 @@ Owns how often they are looked at. Knows nothing of what is done about it.
 
 from __future__ import annotations
 
+from pathlib import Path
+
 from app.teach.lecture.watching import Watch, signature
 from renderer.scene import Scene
 from renderer.scene.outside import scene_files
@@ -19,6 +21,7 @@ class SceneWatch:
 
     def __init__(self) -> None:
         self._scene: Scene | None = None
+        self._files: tuple[Path, ...] = ()
         self._watch: Watch | None = None
         self._looked_s = 0.0
 
@@ -31,8 +34,9 @@ class SceneWatch:
         """Whether the files of the scene have changed; True once for each time."""
         if scene is not self._scene:
             self._scene, self._looked_s = scene, time_s
-            self._files = scene_files(scene)[:MOST]
-            self._watch = Watch(signature(*self._files)) if self._files else None
+            files = scene_files(scene)[:MOST]
+            if files != self._files:  # otherwise what was saved during the reading would be missed
+                self._files, self._watch = files, Watch(signature(*files)) if files else None
             return False
         if self._watch is None or time_s - self._looked_s < LOOK_S:
             return False

@@ -12,6 +12,7 @@ from __future__ import annotations
 import argparse
 import os
 import random
+import re
 import shutil
 import signal
 import sys
@@ -37,7 +38,8 @@ from tests.attack.seed_files import seed_files
 
 MEMORY_BYTES = 1 << 30  # that reading one of these small files may take
 TIME_S = 20
-LONGEST = 1000  # letters of a refusal
+LARGEST = 1 << 18  # bytes of a damaged file
+LONGEST = 2500  # letters of a refusal
 GOOD, REFUSED = "read", "refused"
 BESIDE = (".mtl", ".bin")  # files that others name
 
@@ -74,8 +76,8 @@ BINARY = (b"\0\0\0\0", b"\xff\xff\xff\xff", b"\xff\xff\xff\x7f", b"\0\0\0\x80", 
 def mutated(data: bytes, dice: random.Random) -> bytes:
     """The file with one to eight mistakes."""
     for _ in range(dice.choice((1, 1, 1, 2, 3, 8))):
-        data = dice.choice(MUTATIONS)(data, dice)
-    return data[: 1 << 20]
+        data = dice.choice(MUTATIONS)(data, dice)[:LARGEST]
+    return data
 
 
 def _places(data: bytes, dice: random.Random) -> tuple[int, int]:
@@ -116,14 +118,10 @@ def _inserted(data: bytes, dice: random.Random) -> bytes:
 
 def _other_number(data: bytes, dice: random.Random) -> bytes:
     """One number in a text becomes another."""
-    digits = [k for k in range(len(data)) if data[k : k + 1].isdigit()]
-    if not digits:
+    numbers = list(_NUMBER.finditer(data))
+    if not numbers:
         return _other_four_bytes(data, dice)
-    first = last = dice.choice(digits)
-    while first and data[first - 1 : first] in _OF_NUMBERS:
-        first -= 1
-    while last < len(data) and data[last : last + 1] in _OF_NUMBERS:
-        last += 1
+    first, last = dice.choice(numbers).span()
     return data[:first] + dice.choice(NUMBERS).encode() + data[last:]
 
 
@@ -138,7 +136,8 @@ def _other_line(data: bytes, dice: random.Random) -> bytes:
     one, other = dice.randrange(len(lines)), dice.randrange(len(lines))
     what = dice.randrange(3)
     if what == 0:
-        lines[one:one] = [lines[other]] * dice.choice((1, 100, 5000))
+        most = LARGEST // (len(lines[other]) + 1) + 1
+        lines[one:one] = [lines[other]] * min(most, dice.choice((1, 100, 5000)))
     elif what == 1:
         del lines[one]
     else:
@@ -146,7 +145,7 @@ def _other_line(data: bytes, dice: random.Random) -> bytes:
     return b"\n".join(lines)
 
 
-_OF_NUMBERS = tuple(bytes([letter]) for letter in b"0123456789.+-e")
+_NUMBER = re.compile(rb"[-+]?\d[\d.]*(?:e[-+]?\d+)?")
 MUTATIONS: tuple[Callable[[bytes, random.Random], bytes], ...] = (
     _other_bytes,
     _other_bit,
@@ -231,7 +230,11 @@ def _limit() -> None:
     signal.alarm(TIME_S)
 
 
-def attack(folder: Path, files: int, seed: int, say: Callable[[str], None] = print) -> int:
+def _say(text: str) -> None:
+    print(text, flush=True)
+
+
+def attack(folder: Path, files: int, seed: int, say: Callable[[str], None] = _say) -> int:
     """Reads so many damaged files in a folder; gives how many were not taken as they should."""
     dice = random.Random(seed)
     seeds = seed_files()
@@ -252,6 +255,8 @@ def attack(folder: Path, files: int, seed: int, say: Callable[[str], None] = pri
             path = folder / f"{path.stem}-{number}{path.suffix}"
             path.write_bytes(mutated(seeds[name], dice))
             answer = read_apart(path)
+        if number % 500 == 499:
+            say(f"{number + 1} ...")
         counts[answer if answer in (GOOD, REFUSED) else "wrong"] += 1
         if answer not in (GOOD, REFUSED):
             kept = folder / f"wrong-{number}-{name}"

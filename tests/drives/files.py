@@ -7,6 +7,7 @@ import sys
 import threading
 from typing import Any
 
+from imgui_bundle import imgui
 from window_driver import PATIENT_S, Driver, Key, changed
 
 from renderer.scene import save_view
@@ -91,4 +92,70 @@ def drive_no_frame_waits_for_the_tracer(d: Driver) -> None:
     live._make_tracer = good
     gate.set()
     d.window.change(d.window.state.with_options(mirrors=False))
+    d.agreeing_images()
+
+
+def drive_a_name_that_is_not_utf8_is_shown_and_told(d: Driver) -> None:
+    if sys.platform in ("win32", "darwin"):
+        return  # names are Unicode there
+    window = d.window
+    path = os.fsdecode(os.fsencode(d.folder) + b"/caf\xe9 \xff.obj")
+    with open(path, "w") as file:
+        file.write("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n")
+    window._dropped([path])
+    d.until(lambda: window.state.scene is not d.start.scene)
+    assert window.state.scene.name == r"caf\xe9 \xff"
+    assert window.files.recent.entries[0].path == path
+    d.agreeing_images()
+    d.ctx.menu_click("//##MainMenuBar/File")
+    d.ctx.menu_action(imgui.test_engine.TestAction.hover, "//##MainMenuBar/File/Recent files")
+    d.ctx.yield_(3)
+    d.ctx.key_press(int(Key.escape), 3)
+    window.files.say(f"Saved {path}.")
+    os.unlink(path)
+    window.open(path)
+    d.until(lambda: bool(window.files.message))
+    d.ctx.yield_(3)
+    assert r"caf\xe9 \xff.obj: does not exist" in window.files.message
+    window.files.message = ""
+
+
+def drive_a_dropped_scene_asks_before_it_reads_elsewhere(d: Driver) -> None:
+    window = d.window
+    mine = d.folder / "mine"
+    mine.mkdir(exist_ok=True)
+    (d.folder / "out.obj").write_text("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n")
+    scene = mine / "asks.toml"
+    scene.write_text("[[objects]]\ntype = 'model'\nfile = '../out.obj'\n")
+    for answer in ("Cancel", "Open anyway"):
+        window._dropped([str(scene)])
+        d.until(lambda: window.files.outside is not None)
+        assert window.state == d.start
+        d.ctx.yield_(3)
+        d.picture()
+        d.ctx.item_click(f"//##message/{answer}")
+        d.ctx.yield_(2)
+        assert window.files.outside is None
+    d.until(lambda: window.state.scene.name == "asks")
+    d.agreeing_images()
+
+
+def drive_a_scene_is_read_again_when_its_file_is_saved(d: Driver) -> None:
+    window = d.window
+    scene = d.folder / "edited.toml"
+    scene.write_text("[[objects]]\ntype = 'box'\n")
+    window.open(str(scene))
+    d.until(lambda: window.state.scene.name == "edited")
+    d.agreeing_images()
+    scene.write_text("[[objects]]\ntype = 'bok'\n")
+    d.until(lambda: "bok" in window.files.message)
+    assert len(window.state.scene.objects) == 1
+    before = window.state
+    scene.write_text("[[objects]]\ntype = 'box'\n[[objects]]\ntype = 'cone'\n")
+    d.until(lambda: len(window.state.scene.objects) == 2)
+    assert window.files.message == ""
+    assert window.history.undo().present == before
+    d.ctx.yield_(3)
+    assert window.shell.toasts.texts == ["edited was read again: its file was saved."]
+    window.shell.toasts.clear()
     d.agreeing_images()
