@@ -87,7 +87,7 @@ def shade(flat, o, d, t, primitive):
         if np.abs(normals).max(axis=1).min() > 0:
             mean = weights @ normals
             if np.linalg.norm(mean) >= 1e-6:
-                smooth[k] = unit(mean) * np.sign(normals.sum(0) @ geometric[k])
+                smooth[k] = unit(mean) * (1 if normals.sum(0) @ geometric[k] >= -1e-5 else -1)
     side = np.where(dot(geometric, d) < 0, 1.0, -1.0)[:, None]
     geometric *= side
     flat_there = np.abs(smooth).max(axis=1, keepdims=True) == 0

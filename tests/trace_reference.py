@@ -136,7 +136,7 @@ def _shaded_hit(flat: FlatScene, origin, direction, t, primitive, b1, b2):
     if normals.any(axis=1).all():
         smooth = weights @ normals
         if np.linalg.norm(smooth) >= 1e-6:
-            n = _unit(smooth) * side * (1 if normals.sum(axis=0) @ g >= 0 else -1)
+            n = _unit(smooth) * side * (1 if normals.sum(axis=0) @ g >= -1e-5 else -1)
     cosine = n @ along
     if cosine > -1e-3:
         n = _unit(n - (cosine + 1e-3) * along)
