@@ -87,7 +87,7 @@ def shade(flat, o, d, t, primitive):
         if np.abs(normals).max(axis=1).min() > 0:
             mean = weights @ normals
             if np.linalg.norm(mean) >= 1e-6:
-                smooth[k] = unit(mean) * np.sign(normals.sum(0) @ geometric[k])
+                smooth[k] = unit(mean) * (1 if normals.sum(0) @ geometric[k] >= -1e-5 else -1)
     side = np.where(dot(geometric, d) < 0, 1.0, -1.0)[:, None]
     geometric *= side
     flat_there = np.abs(smooth).max(axis=1, keepdims=True) == 0
@@ -104,9 +104,14 @@ def shade(flat, o, d, t, primitive):
     albedo = np.where(other, material[:, 2, :3], material[:, 0, :3]) * tint
     color = flat.ambient * albedo
     for (x, y, z, is_point), (r, g, b, _) in flat.lights:
-        to_light = unit((x, y, z) - point) if is_point else np.tile((x, y, z), (len(point), 1))
-        half = unit(to_light - toward)
-        highlight = np.maximum(0, dot(n, half)) ** material[:, 0, 3]
+        to_light = (x, y, z) - point if is_point else np.tile((x, y, z), (len(point), 1))
+        away = np.linalg.norm(to_light, axis=1, keepdims=True)
+        to_light = np.where(away < 1e-12, 0, to_light / np.maximum(away, 1e-30))
+        half = to_light - toward
+        size = np.linalg.norm(half, axis=1, keepdims=True)
+        has_highlight = ((size >= 1e-6) & (away >= 1e-12))[:, 0]
+        half = half / np.maximum(size, 1e-30)
+        highlight = np.where(has_highlight, np.maximum(0, dot(n, half)) ** material[:, 0, 3], 0)
         lambert = np.maximum(0, dot(n, to_light))
         shine = material[:, 1, :3] * highlight[:, None]
         color = color + (r, g, b) * (albedo * lambert[:, None] + shine)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -14,6 +15,7 @@ from renderer.frame import Frame
 from renderer.scene.flat import flatten
 from renderer.scene.model import Checker, Material, Mesh, Scene, SceneObject, Sphere
 from renderer.trace import Tracer
+from renderer.trace.tracer import METHODS
 
 ALL = ("color", "depth", "normal", "id", "primitive")
 FRONT = Camera.look_at((0, 0, 5), (0, 0, 0), fov_y_deg=40)
@@ -117,7 +119,12 @@ def test_inside_a_sphere_its_other_side_is_seen_from_within() -> None:
 
 def test_rays_that_touch_a_sphere() -> None:
     camera = Camera((0, 0, 5), viewport=(0.5, 1.5, -0.5, 0.5), projection="parallel")
-    assert draw(scene_of(Sphere()), camera, (1, 1)).depth[0, 0] == 5  # x = 1: tangent
+    for method in METHODS:
+        frame = draw(scene_of(Sphere()), camera, (1, 1), method)
+        assert frame.depth[0, 0] == 5  # x = 1: tangent
+        assert frame.id[0, 0] == 0
+        missed = replace(camera, viewport=(0.5 + 1e-6, 1.5 + 1e-6, -0.5, 0.5))
+        assert draw(scene_of(Sphere()), missed, (1, 1), method).id[0, 0] == -1
     draw(scene_of(Sphere()), Camera((0, 0, 1)))  # the eye on the sphere
     outwards = Camera((0, 0, 1), w=(0, 0, -1), u=(-1, 0, 0))
     assert (draw(scene_of(Sphere()), outwards).id == -1).all()

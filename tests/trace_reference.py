@@ -136,7 +136,7 @@ def _shaded_hit(flat: FlatScene, origin, direction, t, primitive, b1, b2):
     if normals.any(axis=1).all():
         smooth = weights @ normals
         if np.linalg.norm(smooth) >= 1e-6:
-            n = _unit(smooth) * side * (1 if normals.sum(axis=0) @ g >= 0 else -1)
+            n = _unit(smooth) * side * (1 if normals.sum(axis=0) @ g >= -1e-5 else -1)
     cosine = n @ along
     if cosine > -1e-3:
         n = _unit(n - (cosine + 1e-3) * along)
@@ -150,9 +150,13 @@ def _shaded_hit(flat: FlatScene, origin, direction, t, primitive, b1, b2):
     albedo = albedo * tint
     color = flat.ambient * albedo
     for place, rgb in flat.lights:
-        light = _unit(place[:3] - point) if place[3] else place[:3]
+        light = place[:3] - point if place[3] else place[:3]
+        if np.linalg.norm(light) < 1e-12:
+            continue
+        light = _unit(light)
         half = light - along
-        highlight = max(0.0, n @ _unit(half)) ** material[0, 3]
+        is_bright = np.linalg.norm(half) >= 1e-6
+        highlight = max(0.0, n @ _unit(half)) ** material[0, 3] if is_bright else 0.0
         color = color + rgb[:3] * (albedo * max(0.0, n @ light) + material[1, :3] * highlight)
     return color, n
 

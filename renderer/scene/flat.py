@@ -43,6 +43,11 @@ DIFFUSE_SHININESS, SPECULAR_CHECKERED, CHECKER_DIFFUSE = range(3)
 # border stays inside one cell. shaders/chunks/shading.glsl has the same number.
 CELL_NUDGE = 1e-3
 
+# A triangle's vertex normals are turned where their sum points to the other side of it than its
+# winding says, by more than this: a sum that lies in the triangle's plane, up to rounding, is not.
+# shaders/chunks/shading.glsl has the same number.
+OTHER_SIDE = -1e-5
+
 
 class FlatScene(NamedTuple):
     """Arrays in C order, read-only; any of them may have length 0.

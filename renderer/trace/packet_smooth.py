@@ -10,11 +10,14 @@ from typing import NamedTuple
 
 import numpy as np
 
+from renderer.scene import flat
 from renderer.trace.compiled import inlined
 from renderer.trace.packet_view import ORIGIN, ROW_X, ROW_Y, ROW_Z, ROWS
 from renderer.trace.simd import fma, lane_column, lane_row, splat
 from renderer.trace.vectors import cross, dot, minus, times
 from renderer.trace.wide import CORNERS, WIDTH
+
+OTHER_SIDE = np.float32(flat.OTHER_SIDE)
 
 
 class Vertices(NamedTuple):
@@ -151,8 +154,9 @@ def _is_set(normals, at):
 
 @inlined
 def agrees(normals, vertices, x, y, z):
-    """Whether a triangle's vertex normals are, by their sum, on the side of (x, y, z)."""
+    """Whether a triangle's vertex normals are, by their sum, not on the other side of (x, y, z)."""
     a, b, c = vertices.a, vertices.b, vertices.c
     along_x = (normals[a] + normals[b] + normals[c]) * x
     along_y = (normals[a + 1] + normals[b + 1] + normals[c + 1]) * y
-    return along_x + along_y + (normals[a + 2] + normals[b + 2] + normals[c + 2]) * z >= 0
+    along_z = (normals[a + 2] + normals[b + 2] + normals[c + 2]) * z
+    return along_x + along_y + along_z >= OTHER_SIDE

@@ -30,6 +30,7 @@ DIFFUSE_SHININESS, SPECULAR_CHECKERED, CHECKER_DIFFUSE = (
 )
 FIRST, SECOND, THIRD = np.int64(0), np.int64(1), np.int64(2)
 CELL_NUDGE = flat.CELL_NUDGE
+OTHER_SIDE = flat.OTHER_SIDE
 GRAZING = 1e-3  # the cosine that shading normals keep, at least, towards the viewer
 
 
@@ -83,7 +84,7 @@ def normals_at(scene, direction, point, primitive, b1, b2):
         size = length(smooth)
         if size >= 1e-6:
             # Normals that disagree with the winding are turned, for the whole triangle alike.
-            turn = 1.0 if dot(plus(n0, plus(n1, n2)), geometric) >= 0.0 else -1.0
+            turn = 1.0 if dot(plus(n0, plus(n1, n2)), geometric) >= OTHER_SIDE else -1.0
             if dot(geometric, direction) >= 0.0:
                 turn = -turn
             shading = times(turn / size, smooth)

@@ -32,14 +32,15 @@ mat3 object_matrix(int object) {
         object_texel(object, 6).xyz, object_texel(object, 7).xyz, object_texel(object, 8).xyz));
 }
 
-// Interpolated vertex normal on the winding's side of the triangle, 0 where a vertex has none.
+// Interpolated vertex normal on the winding's side of the triangle, 0 where a vertex has none. Normals
+// whose sum lies in the triangle's plane, up to rounding, stay as they are.
 vec3 smooth_normal(mat3 normals, vec3 weights, vec3 normal) {
     if (normals[0] == vec3(0.0) || normals[1] == vec3(0.0) || normals[2] == vec3(0.0)) {
         return vec3(0.0);
     }
     vec3 mean = normals * weights;
     float size = length(mean);
-    float side = sign(dot(normals[0] + normals[1] + normals[2], normal));
+    float side = dot(normals[0] + normals[1] + normals[2], normal) >= -1e-5 ? 1.0 : -1.0;
     return size < 1e-6 ? vec3(0.0) : side * mean / size;
 }
 
