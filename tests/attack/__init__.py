@@ -1,0 +1,1 @@
+"""Attacks on the whole program: bounded runs by command, not part of the tests."""
