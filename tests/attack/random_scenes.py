@@ -1,8 +1,8 @@
 """Random scenes, and random cameras that look at them.
 
 Owns what a legal scene and a legal camera may be at their oddest: all shapes, scaled by very
-different factors, spheres within spheres; skewed, left-handed, tiny and huge views from within, from
-the surfaces and from very far away. Knows nothing of renderers. All follows from the generator.
+different factors, spheres within spheres; skewed, left-handed, tiny and huge views from within,
+from the surfaces and from very far away. Knows nothing of renderers.
 """
 
 from __future__ import annotations

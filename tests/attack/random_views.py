@@ -44,7 +44,7 @@ class Task:
 
 @dataclass
 class Total:
-    """What was seen: lines of failing views, views that hit anything, pixels, explained by cause."""
+    """Lines about failing views; counts of views, of those that hit anything, and of pixels."""
 
     lines: list[str] = field(default_factory=list)
     views: int = 0
