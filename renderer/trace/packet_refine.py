@@ -11,7 +11,7 @@ import numpy as np
 
 from renderer.trace.compiled import inlined
 from renderer.trace.packet_smooth import camera_point
-from renderer.trace.packet_sphere import moment, sphere_ray
+from renderer.trace.packet_sphere import is_near_hit, moment, sphere_ray
 from renderer.trace.packet_tile import FIRST_SPHERE, NOTHING, OWNER, SEEN
 from renderer.trace.packet_view import ACROSS, DOWN, ROWS, SHARED, VARYING
 from renderer.trace.simd import (
@@ -89,7 +89,7 @@ def _sphere_depths(view, spheres, sphere, first, z):
     ahead = b >= 0.0
     q = b + select(ahead, root, -root)
     near, far = select(ahead, c / q, q / a), select(ahead, q / a, c / q)
-    return select(to_f64(z) * a <= b, near, far)
+    return select(is_near_hit(z, to_f32(b / a)), near, far)
 
 
 @inlined
