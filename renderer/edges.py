@@ -18,7 +18,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from renderer.camera import Camera, Floats
+from renderer.camera import NEAREST, Camera, Floats
 from renderer.scene.flat import CELL_NUDGE, CELL_X, SPECULAR_CHECKERED, FlatScene
 
 Ints = NDArray[np.integer]
@@ -28,6 +28,10 @@ Function = Callable[[float, float], Floats]  # of an offset (rows, columns) in p
 STEP_PX = 1 / 256  # of the central differences: well inside the tolerance, far above rounding
 BEHIND = 1e-9  # outlines are clipped where the ray parameter falls below this part of its largest
 ROUNDING = 1e-12  # of the largest coordinate: what float64 cannot tell from the eye itself
+# A hit's distance from the eye in float32, and what is computed with it: relatively.
+ROUNDING_32 = 2.0**-22
+# What GL's clipping is wrong by itself, where it cuts a triangle at NEAREST of its farthest corner.
+CLIPPED_FROM = NEAREST + ROUNDING_32
 
 
 @dataclass(frozen=True)
@@ -65,7 +69,8 @@ class Lines:
     def clip_px(self, primitive: Ints, i: Ints, j: Ints, t: Floats) -> Floats:
         """Distance from the lines where near and far (or the eye's plane) cut the primitive.
 
-        A surface that the eye itself lies on is cut everywhere: rounding decides where it begins.
+        A surface that the eye itself lies on is cut everywhere: rounding decides where it begins;
+        and so is what of a triangle is too near to the eye to be rasterized.
         """
         distance = np.full(len(primitive), np.inf)
         at_eye = ROUNDING * self._largest_parameter()
@@ -75,10 +80,15 @@ class Lines:
                 here = self.parameter(primitive, i, j, t)
                 cut[np.abs(here - limit) <= max(1e-6 * limit, at_eye)] = 0
                 distance = np.fmin(distance, cut)
+        distance[t <= self._drawn_from(primitive)] = 0
         return np.where(primitive >= 0, distance, np.inf)
 
     def checker_px(self, primitive: Ints, i: Ints, j: Ints, t: Floats) -> Floats:
-        """Distance from the nearest border of a checker cell; inf where nothing is checkered."""
+        """Distance from the nearest border of a checker cell; inf where nothing is checkered.
+
+        Nearer to a border than what float32 knows of where the hit is, it is on it. That is less
+        than a hundredth of a pixel, except in very narrow views.
+        """
         distance = np.full(len(primitive), np.inf)
         hit = primitive >= 0
         if not hit.any():
@@ -99,15 +109,43 @@ class Lines:
             here = np.einsum("nk,nk->n", rows[:, axis, :3], point) + rows[:, axis, 3]
             return here - inward[:, axis]
 
+        origin, direction = self.camera.ray(i, j, self.size)
+        away = np.linalg.norm(origin + t[:, None] * direction - self.camera.eye, axis=1)
         for axis in range(3):
             border = np.round(cell(axis, 0, 0))
             to_border = _zero_px(lambda di, dj: cell(axis, di, dj) - border)  # noqa: B023
+            unknown = ROUNDING_32 * away * np.linalg.norm(rows[:, axis, :3], axis=1)
+            to_border[np.abs(cell(axis, 0, 0) - border) <= unknown] = 0
             distance = np.fmin(distance, to_border)
         return np.where(checkered, distance, np.inf)
 
     def slope(self, primitive: Ints, i: Ints, j: Ints, t: Floats) -> Floats:
         """How much the ray parameter changes a pixel, on the primitive's surface."""
         return _gradient(lambda di, dj: self.parameter(primitive, i + di, j + dj, t))[0]
+
+    def normal_slope(self, primitive: Ints, i: Ints, j: Ints) -> Floats:
+        """How much a triangle's smooth normal changes a pixel; 0 where there is none."""
+        slope = np.zeros(len(primitive))
+        triangle, _ = self._kinds(primitive)
+        a, b, c = self._corners(primitive[triangle])
+        normals = self.flat.normals[self.flat.faces[primitive[triangle]]].astype(float)
+        whole = np.cross(b - a, c - a)
+
+        def normal(di: float, dj: float) -> Floats:
+            origin, direction = self.camera.ray(i[triangle] + di, j[triangle] + dj, self.size)
+            # Barycentrics, up to a factor: volumes that the ray spans with the edges.
+            from_eye = np.stack([a, b, c], axis=1) - origin[:, None]
+            edges = np.cross(np.roll(from_eye, -1, axis=1), np.roll(from_eye, -2, axis=1))
+            weights = np.einsum("nkx,nx->nk", edges, direction)
+            weights *= np.sign(np.einsum("nx,nx->n", whole, direction))[:, None]
+            mean = np.einsum("nk,nkx->nx", weights, normals)
+            with np.errstate(invalid="ignore"):
+                return mean / np.linalg.norm(mean, axis=1, keepdims=True)
+
+        across = (normal(0, STEP_PX) - normal(0, -STEP_PX)) / (2 * STEP_PX)
+        down = (normal(STEP_PX, 0) - normal(-STEP_PX, 0)) / (2 * STEP_PX)
+        slope[triangle] = np.sqrt((across**2 + down**2).sum(axis=1))
+        return np.nan_to_num(slope)
 
     def parameter(self, primitive: Ints, i: Numbers, j: Numbers, t: Floats) -> Floats:
         """The ray parameter where the ray of (i, j) meets the primitive's extended surface.
@@ -131,6 +169,24 @@ class Lines:
             is_near = np.abs(near - t[sphere]) <= np.abs(far - t[sphere])
         result[sphere] = np.where(is_near, near, far)
         return result
+
+    def _drawn_from(self, primitive: Ints) -> Floats:
+        """The ray parameter from which on a primitive is rasterized, (n,). A sphere is from 0 on: a
+        box is drawn in its place, whose far sides are."""
+        limit = np.zeros(len(primitive))
+        triangle, _ = self._kinds(primitive)
+        if self.camera.is_parallel:
+            return limit
+        owner = np.full(len(primitive), -1)
+        owner[triangle] = self.flat.face_object[primitive[triangle]]
+        for number in np.unique(owner[triangle]):
+            first, count = self.flat.object_faces[number]
+            points = self.flat.vertices[self.flat.faces[first : first + count]].reshape(-1, 3)
+            box = np.stack([points.min(axis=0), points.max(axis=0)]).astype(float)
+            corners = np.stack(np.meshgrid(*box.T), axis=-1).reshape(-1, 3)
+            farthest = self.camera.project(corners, self.size).parameter.max()
+            limit[owner == number] = CLIPPED_FROM * max(farthest, 0.0)
+        return limit
 
     def _largest_parameter(self) -> float:
         """The ray parameter of the scene's and the eye's largest coordinate."""

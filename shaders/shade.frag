@@ -38,14 +38,18 @@ void main() {
         vec3 a = corners[0] - anchor_world;
         vec3 b = corners[1] - anchor_world;
         vec3 c = corners[2] - anchor_world;
-        vec3 weights = barycentrics(
-            anchor + image_from_world * a,
-            anchor + image_from_world * b,
-            anchor + image_from_world * c, xy);
+        vec3 weights;
         float reach = sqrt(max(max(dot(a, a), dot(b, b)), dot(c, c)) / dot(d, d));
-        hit.point = is_far(reach, hit.t)
-            ? mat3(a, b, c) * weights
-            : to_ray(anchor, xy) + (hit.t - anchor.z) * d;
+        if (is_far(reach, hit.t)) {
+            weights = barycentrics(
+                anchor + image_from_world * a,
+                anchor + image_from_world * b,
+                anchor + image_from_world * c, xy);
+            hit.point = mat3(a, b, c) * weights;
+        } else {
+            hit.point = to_ray(anchor, xy) + (hit.t - anchor.z) * d;
+            weights = barycentrics_at(a, b, c, hit.point);
+        }
         hit.normal = normalize(cross(corners[1] - corners[0], corners[2] - corners[0]));
         if (HAS_NORMALS) {
             mat3 normals = mat3(

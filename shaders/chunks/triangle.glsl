@@ -8,19 +8,33 @@ float triangle_t(vec3 row, vec2 xy) {
     return perspective > 0.5 ? 1.0 / value : value;
 }
 
-// Barycentrics of the ray's hit, from the corners' image coordinates: the three areas that the pixel
-// makes with the projected edges. Source: Woop, Benthin and Wald, Watertight Ray/Triangle
-// Intersection (2013), with the pixel as origin.
-// Vertices are snapped to a fraction of a pixel, so that a centre may lie just outside: pulled back in.
-vec3 barycentrics(vec3 a, vec3 b, vec3 c, vec2 xy) {
-    vec2 p = a.xy - xy * weight(a.z);
-    vec2 q = b.xy - xy * weight(b.z);
-    vec2 r = c.xy - xy * weight(c.z);
-    vec3 areas = vec3(q.x * r.y - q.y * r.x, r.x * p.y - r.y * p.x, p.x * q.y - p.y * q.x);
+// Barycentrics from the areas that a point makes with the edges. Vertices are snapped to a fraction of
+// a pixel, so that a centre may lie just outside: pulled back in.
+vec3 from_areas(vec3 areas) {
     float whole = areas.x + areas.y + areas.z;
     if (whole == 0.0) {
         return vec3(1.0, 0.0, 0.0);
     }
     vec3 inside = max(areas / whole, 0.0);
     return inside / (inside.x + inside.y + inside.z);
+}
+
+// Barycentrics of the ray's hit, from the corners' image coordinates: the areas that the pixel makes
+// with the projected edges. Source: Woop, Benthin and Wald, Watertight Ray/Triangle Intersection
+// (2013), with the pixel as origin.
+vec3 barycentrics(vec3 a, vec3 b, vec3 c, vec2 xy) {
+    vec2 p = a.xy - xy * weight(a.z);
+    vec2 q = b.xy - xy * weight(b.z);
+    vec2 r = c.xy - xy * weight(c.z);
+    vec3 areas = vec3(q.x * r.y - q.y * r.x, r.x * p.y - r.y * p.x, p.x * q.y - p.y * q.x);
+    return from_areas(areas);
+}
+
+// The same of a point of the triangle: for one near the eye, which may be seen edge on and reach far
+// behind the eye, where its areas in the image have no digits left.
+vec3 barycentrics_at(vec3 a, vec3 b, vec3 c, vec3 point) {
+    vec3 p = a - point;
+    vec3 q = b - point;
+    vec3 r = c - point;
+    return from_areas(cross(b - a, c - a) * mat3(cross(q, r), cross(r, p), cross(p, q)));
 }
