@@ -309,7 +309,9 @@ def _explain(
         difference = np.abs(t_first - t_second)
         moved = difference / lines.slope(second, i, j, t)
         moved[difference <= DEPTH_RELATIVE * t] = 0
-        bent = turned / lines.normal_slope(second, i, j)
+        normal_slope, unknown = lines.normal_slope(second, i, j)
+        bent = turned / normal_slope
+        bent[turned <= unknown] = TOLERANCE_PX
         bent[turned <= NORMAL] = 0
     grazing = same & ((moved > 0) | (bent > 0))
     distances.append(np.where(grazing, np.maximum(moved, bent), np.inf))

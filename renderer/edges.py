@@ -28,8 +28,8 @@ Function = Callable[[float, float], Floats]  # of an offset (rows, columns) in p
 STEP_PX = 1 / 256  # of the central differences: well inside the tolerance, far above rounding
 BEHIND = 1e-9  # outlines are clipped where the ray parameter falls below this part of its largest
 ROUNDING = 1e-12  # of the largest coordinate: what float64 cannot tell from the eye itself
-# A hit's distance from the eye in float32, and what is computed with it: relatively.
-ROUNDING_32 = 2.0**-22
+# What a place is known to in float32 after a few roundings, relatively to its distance.
+ROUNDING_32 = 2.0**-21
 # What GL's clipping is wrong by itself, where it cuts a triangle at NEAREST of its farthest corner.
 CLIPPED_FROM = NEAREST + ROUNDING_32
 
@@ -43,7 +43,10 @@ class Lines:
     size: tuple[int, int]
 
     def outline_px(self, primitive: Ints, i: Ints, j: Ints) -> Floats:
-        """Distance of each pixel's centre from the outline of its primitive, in pixels."""
+        """Distance of each pixel's centre from the outline of its primitive, in pixels.
+
+        A ray that passes an edge more closely than float32 knows the edge's place is on it.
+        """
         distance = np.full(len(primitive), np.inf)
         triangle, sphere = self._kinds(primitive)
         distance[triangle] = self._triangle_px(primitive[triangle], i[triangle], j[triangle])
@@ -123,9 +126,10 @@ class Lines:
         """How much the ray parameter changes a pixel, on the primitive's surface."""
         return _gradient(lambda di, dj: self.parameter(primitive, i + di, j + dj, t))[0]
 
-    def normal_slope(self, primitive: Ints, i: Ints, j: Ints) -> Floats:
-        """How much a triangle's smooth normal changes a pixel; 0 where there is none."""
-        slope = np.zeros(len(primitive))
+    def normal_slope(self, primitive: Ints, i: Ints, j: Ints) -> tuple[Floats, Floats]:
+        """How much a triangle's smooth normal changes a pixel; 0 where there is none. And what
+        float32 does not know of it: a sliver's barycentrics are small differences."""
+        slope, unknown = np.zeros(len(primitive)), np.zeros(len(primitive))
         triangle, _ = self._kinds(primitive)
         a, b, c = self._corners(primitive[triangle])
         normals = self.flat.normals[self.flat.faces[primitive[triangle]]].astype(float)
@@ -145,7 +149,11 @@ class Lines:
         across = (normal(0, STEP_PX) - normal(0, -STEP_PX)) / (2 * STEP_PX)
         down = (normal(STEP_PX, 0) - normal(-STEP_PX, 0)) / (2 * STEP_PX)
         slope[triangle] = np.sqrt((across**2 + down**2).sum(axis=1))
-        return np.nan_to_num(slope)
+        longest = np.max([((q - p) ** 2).sum(axis=1) for p, q in ((a, b), (b, c), (c, a))], axis=0)
+        with np.errstate(divide="ignore", invalid="ignore"):
+            sliver = longest / np.linalg.norm(whole, axis=1)
+        unknown[triangle] = ROUNDING_32 * sliver * np.ptp(normals, axis=1).max(axis=1)
+        return np.nan_to_num(slope), np.nan_to_num(unknown)
 
     def parameter(self, primitive: Ints, i: Numbers, j: Numbers, t: Floats) -> Floats:
         """The ray parameter where the ray of (i, j) meets the primitive's extended surface.
@@ -177,16 +185,21 @@ class Lines:
         triangle, _ = self._kinds(primitive)
         if self.camera.is_parallel:
             return limit
-        owner = np.full(len(primitive), -1)
-        owner[triangle] = self.flat.face_object[primitive[triangle]]
-        for number in np.unique(owner[triangle]):
+        box = self._object_boxes(primitive[triangle])
+        corners = np.stack([box[:, (k, k >> 1, k >> 2) & np.array(1), (0, 1, 2)] for k in range(8)])
+        farthest = self.camera.project(corners, self.size).parameter.max(axis=0)
+        limit[triangle] = CLIPPED_FROM * np.maximum(farthest, 0.0)
+        return limit
+
+    def _object_boxes(self, triangle: Ints) -> Floats:
+        """The boxes (n, 2, 3) around the objects that triangles belong to."""
+        boxes = np.empty((len(triangle), 2, 3))
+        owner = self.flat.face_object[triangle]
+        for number in np.unique(owner):
             first, count = self.flat.object_faces[number]
             points = self.flat.vertices[self.flat.faces[first : first + count]].reshape(-1, 3)
-            box = np.stack([points.min(axis=0), points.max(axis=0)]).astype(float)
-            corners = np.stack(np.meshgrid(*box.T), axis=-1).reshape(-1, 3)
-            farthest = self.camera.project(corners, self.size).parameter.max()
-            limit[owner == number] = CLIPPED_FROM * max(farthest, 0.0)
-        return limit
+            boxes[owner == number] = points.min(axis=0), points.max(axis=0)
+        return boxes
 
     def _largest_parameter(self) -> float:
         """The ray parameter of the scene's and the eye's largest coordinate."""
@@ -248,7 +261,36 @@ class Lines:
         for first, second in ((0, 1), (1, 2), (2, 0)):
             p, q = self._clipped(corners[first], corners[second])
             distance = np.fmin(distance, _segment_px(pixel, self._pixel(p), self._pixel(q)))
+        distance[self._touches(triangle, i, j)] = 0
         return distance
+
+    def _touches(self, triangle: Ints, i: Ints, j: Ints) -> NDArray[np.bool_]:
+        """Whether a ray passes an edge so closely that float32 cannot tell on which side.
+
+        An edge is known to ROUNDING_32 of what float32 numbers are relative to: of its farther
+        end's distance from the eye, or of the object's size where the eye is farther away. That is
+        to be seen where the eye is very near the edge of something large, or the view very narrow.
+        """
+        origin, direction = self.camera.ray(i, j, self.size)
+        along = direction / np.linalg.norm(direction, axis=1, keepdims=True)
+        box = self._object_boxes(triangle)
+        size = np.linalg.norm(box[:, 1] - box[:, 0], axis=1)
+        corners = self._corners(triangle)
+        far = [np.linalg.norm(corner - self.camera.eye, axis=1) for corner in corners]
+        touches = np.zeros(len(triangle), bool)
+        for first, second in ((0, 1), (1, 2), (2, 0)):
+            # Across the ray, the edge is a segment of a plane: its point nearest to 0.
+            p, q = corners[first] - origin, corners[second] - origin
+            start, end = (v - np.einsum("nk,nk->n", v, along)[:, None] * along for v in (p, q))
+            edge = end - start
+            with np.errstate(divide="ignore", invalid="ignore"):
+                part = -np.einsum("nk,nk->n", start, edge) / np.einsum("nk,nk->n", edge, edge)
+            part = np.clip(np.nan_to_num(part), 0, 1)
+            away = np.linalg.norm(start + part[:, None] * edge, axis=1)
+            ahead = np.einsum("nk,nk->n", p + part[:, None] * (q - p), along)
+            unknown = ROUNDING_32 * np.minimum(np.maximum(far[first], far[second]), size)
+            touches |= (away <= unknown) & (ahead >= -unknown)
+        return touches
 
     def _clipped(self, p: Floats, q: Floats) -> tuple[Floats, Floats]:
         """The part of the edge in front of the eye; NaN where there is none."""

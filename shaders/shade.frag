@@ -40,17 +40,19 @@ void main() {
         vec3 c = corners[2] - anchor_world;
         vec3 weights;
         float reach = sqrt(max(max(dot(a, a), dot(b, b)), dot(c, c)) / dot(d, d));
+        float doubt = 1.0;
         if (is_far(reach, hit.t)) {
             weights = barycentrics(
                 anchor + image_from_world * a,
                 anchor + image_from_world * b,
-                anchor + image_from_world * c, xy);
+                anchor + image_from_world * c, xy, doubt);
             hit.point = mat3(a, b, c) * weights;
-        } else {
+        }
+        if (!is_far(8.0 * doubt * reach, hit.t)) {  // a few roundings more than the other way
             hit.point = to_ray(anchor, xy) + (hit.t - anchor.z) * d;
             weights = barycentrics_at(a, b, c, hit.point);
         }
-        hit.normal = normalize(cross(corners[1] - corners[0], corners[2] - corners[0]));
+        hit.normal = face_normal(corners);
         if (HAS_NORMALS) {
             mat3 normals = mat3(
                 texelFetch(vertices, texel(3 * face.x + 1), 0).xyz,

@@ -8,6 +8,15 @@ float triangle_t(vec3 row, vec2 xy) {
     return perspective > 0.5 ? 1.0 / value : value;
 }
 
+// A triangle's normal by its two shorter edges: they keep the digits of a sliver's.
+vec3 face_normal(mat3 corners) {
+    vec3 e = corners[1] - corners[0];
+    vec3 f = corners[2] - corners[1];
+    vec3 g = corners[0] - corners[2];
+    float longest = max(max(dot(e, e), dot(f, f)), dot(g, g));
+    return normalize(longest == dot(g, g) ? cross(e, f) : longest == dot(e, e) ? cross(f, g) : cross(g, e));
+}
+
 // Barycentrics from the areas that a point makes with the edges. Vertices are snapped to a fraction of
 // a pixel, so that a centre may lie just outside: pulled back in.
 vec3 from_areas(vec3 areas) {
@@ -21,17 +30,20 @@ vec3 from_areas(vec3 areas) {
 
 // Barycentrics of the ray's hit, from the corners' image coordinates: the areas that the pixel makes
 // with the projected edges. Source: Woop, Benthin and Wald, Watertight Ray/Triangle Intersection
-// (2013), with the pixel as origin.
-vec3 barycentrics(vec3 a, vec3 b, vec3 c, vec2 xy) {
+// (2013), with the pixel as origin. doubt: how much larger the areas' terms are than the areas, which
+// is much where the triangle is seen as a sliver.
+vec3 barycentrics(vec3 a, vec3 b, vec3 c, vec2 xy, out float doubt) {
     vec2 p = a.xy - xy * weight(a.z);
     vec2 q = b.xy - xy * weight(b.z);
     vec2 r = c.xy - xy * weight(c.z);
     vec3 areas = vec3(q.x * r.y - q.y * r.x, r.x * p.y - r.y * p.x, p.x * q.y - p.y * q.x);
+    float sizes = length(q) * length(r) + length(r) * length(p) + length(p) * length(q);
+    doubt = sizes / abs(areas.x + areas.y + areas.z);
     return from_areas(areas);
 }
 
-// The same of a point of the triangle: for one near the eye, which may be seen edge on and reach far
-// behind the eye, where its areas in the image have no digits left.
+// The same of a point of the triangle: for one that is near the eye or seen edge on, whose areas in the
+// image have no digits left.
 vec3 barycentrics_at(vec3 a, vec3 b, vec3 c, vec3 point) {
     vec3 p = a - point;
     vec3 q = b - point;
