@@ -40,16 +40,20 @@ void main() {
         vec3 c = corners[2] - anchor_world;
         vec3 weights;
         float reach = sqrt(max(max(dot(a, a), dot(b, b)), dot(c, c)) / dot(d, d));
-        float doubt = 1.0;
-        if (is_far(reach, hit.t)) {
+        float doubt = 0.0;
+        bool far = is_far(reach, hit.t);
+        if (far) {
             weights = barycentrics(
                 anchor + image_from_world * a,
                 anchor + image_from_world * b,
                 anchor + image_from_world * c, xy, doubt);
             hit.point = mat3(a, b, c) * weights;
         }
-        if (!is_far(8.0 * doubt * reach, hit.t)) {  // a few roundings more than the other way
+        // Where those are worse than t is, by a few roundings more: the other way round.
+        if (!far || !is_far(8.0 * doubt * reach, hit.t)) {
             hit.point = to_ray(anchor, xy) + (hit.t - anchor.z) * d;
+        }
+        if (!far || !is_far(8.0 * doubt * reach / slenderness(a, b, c), hit.t)) {
             weights = barycentrics_at(a, b, c, hit.point);
         }
         hit.normal = face_normal(corners);

@@ -17,6 +17,12 @@ vec3 face_normal(mat3 corners) {
     return normalize(longest == dot(g, g) ? cross(e, f) : longest == dot(e, e) ? cross(f, g) : cross(g, e));
 }
 
+// A triangle's longest side over its height: at least 2 / sqrt(3).
+float slenderness(vec3 a, vec3 b, vec3 c) {
+    float longest = max(max(dot(b - a, b - a), dot(c - b, c - b)), dot(a - c, a - c));
+    return longest / length(cross(b - a, c - a));
+}
+
 // Barycentrics from the areas that a point makes with the edges. Vertices are snapped to a fraction of
 // a pixel, so that a centre may lie just outside: pulled back in.
 vec3 from_areas(vec3 areas) {

@@ -216,12 +216,13 @@ def _far_away(rng: Random, camera: Camera, bounds: np.ndarray, reach: float) -> 
     back = reach * 10 ** rng.uniform(1, 6)
     eye = bounds.mean(0) + w / length * back + rng.normal(size=3) * 0.2 * reach
     camera = replace(camera, eye=tuple(eye))
+    wide = 10 ** rng.uniform(0, 6) if rng.random() < 0.4 else 1.0  # the object less than a pixel
     if camera.is_parallel:
-        return _widened(camera, 10 ** rng.uniform(0, 3)) if rng.random() < 0.3 else camera
-    half = reach / back * camera.distance * length * rng.uniform(0.2, 1)
-    half *= 10 ** rng.uniform(0, 2) if rng.random() < 0.4 else 1.0
-    x, y = half / np.linalg.norm(camera.u), half / np.linalg.norm(camera.v)
-    return replace(camera, viewport=(-x, x, -y * rng.uniform(0.5, 1), y))
+        return _widened(camera, wide)
+    half = wide * reach / back * camera.distance * length * rng.uniform(0.2, 1)
+    sizes = half / np.linalg.norm(camera.u), half / np.linalg.norm(camera.v)
+    x, y = sizes * rng.uniform(-0.9, 0.9, 2)
+    return replace(camera, viewport=(x - sizes[0], x + sizes[0], y - sizes[1], y + sizes[1]))
 
 
 def _widened(camera: Camera, factor: float) -> Camera:
