@@ -5,8 +5,10 @@ files or windows; what a difference is, and its colours, are difference.py's.
 
 Two pixels agree if object, ray parameter, normal and colour do, within the tolerances below. A
 disagreement is explained if the pixel's centre lies within TOLERANCE_PX of a line where the exact
-image jumps (renderer/edges.py): a rasterizer that snaps vertices may then see the other side.
-Only lines of the two primitives that were seen count, never those of something hidden.
+image jumps (renderer/edges.py): a rasterizer that snaps vertices may then see the other side. So it
+is where float32, in which both compute, cannot tell the sides apart: edges.py derives how near that
+is, a thousandth of a pixel in usual views. Only lines of the two primitives that were seen count,
+never those of something hidden.
 """
 
 from __future__ import annotations
@@ -71,10 +73,9 @@ class Comparison:
     """Counts of pixels, the errors, and a label a pixel.
 
     explained: pixels by cause. "outline": at the edge of what one of the two saw. "meeting": where
-    two surfaces meet. "clip": where near or far cuts, or
-    nearer to the eye than triangles are rasterized (edges.py). "checker": at a cell's border. "grazing": the
-    surface is so oblique, or so small, that TOLERANCE_PX moves its depth or its smooth normal by
-    more than the difference.
+    two surfaces meet. "clip": where near or far cuts, or nearer to the eye than triangles are
+    rasterized. "checker": at a cell's border. "grazing": the surface is so oblique, or so small,
+    that TOLERANCE_PX moves its depth or its smooth normal by more than the difference.
     unexplained: all others; shading: those of them where only the colour differs.
     max_...: the largest errors among the agreeing pixels; errors: by channel, over all pixels.
     labels: uint8 (height, width). times_s: what each renderer took.

@@ -4,7 +4,10 @@ Owns the exact (float64) geometry behind `lucida compare`: outlines of primitive
 surfaces meet, clip lines, borders of checker cells. Knows nothing of how images are made.
 
 A rasterizer snaps vertices to a fraction of a pixel, so that a centre that lies on such a line, or
-closer to it than the snapping, may fall on either side. Everywhere else both renderers must agree.
+closer to it than the snapping, may fall on either side. Both renderers compute in float32: what is
+nearer to such a line than ROUNDING_32 of the numbers that it is computed from may so as well, which
+is far less than a pixel except in very narrow views and right before the eye. Everywhere else both
+renderers must agree.
 
 All functions take arrays of pixels: i, j (n,) rows and columns, primitive (n,) numbers of the flat
 scene (-1: none, which is infinitely far from everything).
@@ -104,10 +107,10 @@ class Lines:
         def cell(axis: int, di: float, dj: float) -> Floats:
             at = self.parameter(primitive, i + di, j + dj, t)
             origin, direction = self.camera.ray(i + di, j + dj, self.size)
-            point = origin + at[:, None] * direction
-            facing = self._facing(primitive, point, direction)
-            inward = np.einsum("nrk,nk->nr", rows[:, :, :3], facing)
             with np.errstate(divide="ignore", invalid="ignore"):  # what is not hit
+                point = origin + at[:, None] * direction
+                facing = self._facing(primitive, point, direction)
+                inward = np.einsum("nrk,nk->nr", rows[:, :, :3], facing)
                 inward *= CELL_NUDGE / np.linalg.norm(inward, axis=1, keepdims=True)
             here = np.einsum("nk,nk->n", rows[:, axis, :3], point) + rows[:, axis, 3]
             return here - inward[:, axis]

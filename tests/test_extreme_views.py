@@ -136,7 +136,7 @@ def test_smooth_normals_right_before_the_eye_keep_their_digits(rasterizer, refer
     for away in (0.02, 0.1, 0.5):
         for side in rng.normal(scale=0.02, size=(4, 3)):
             middle = corners[2] + 0.65 * flat + (0.3, -0.3, 0)
-            eye = middle + (0, 0.9 * away, 0.4 * away) + side
+            eye = middle + side + np.array([0, 0.9, 0.4]) * away
             camera = Camera.look_at(eye, middle - 0.3 * flat / np.linalg.norm(flat), (0, 1, 0))
             camera = replace(camera, viewport=(-15, 15, -15, 15))
             assert not (wrong := agrees(scene, camera, SIZE, reference, rasterizer)), wrong

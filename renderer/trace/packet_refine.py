@@ -1,8 +1,8 @@
 """Where a square's 16 pixels hit what they see, once more in float64.
 
-Owns the parameter t and the hit's point in views for which t's last place in float32 is too coarse:
-very far away, or so narrow that it moves the point by a part of a pixel (packet_view.py says which).
-What is seen is known by then; so it costs one plane or sphere for each that a square sees.
+Owns the parameter t and the hit's point in views for which t's last place in float32 is too
+coarse: very far away, or so narrow that it moves the point by a part of a pixel (packet_view.py
+says which). What is seen is known by then: it costs a plane or sphere for each that a square sees.
 """
 
 from __future__ import annotations

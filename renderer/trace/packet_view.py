@@ -191,7 +191,7 @@ def _rows(
 def _is_coarse(
     farthest: float, ray: NDArray[np.float64], parallel: bool, instances: Instances
 ) -> bool:
-    """Whether t in float32 tells too little about where a hit is. farthest: t; ray: PacketView's."""
+    """Whether t in float32 tells too little of where a hit is. farthest: t; ray: PacketView's."""
     across, down, direction = (
         float(np.linalg.norm(ray[at : at + 3]))
         for at in (ACROSS, DOWN, SHARED if parallel else VARYING)
