@@ -26,6 +26,10 @@ Size = tuple[int, int]
 PROJECTIONS = ("perspective", "parallel")
 SINGULAR = 1e-9  # a basis of unit vectors that spans less volume than this has no usable inverse
 SMALLEST, LARGEST = 1e-12, 1e12  # lengths and coordinates that float32 can still square
+# Of the farthest t of an object that reaches behind the eye: what of its triangles is nearer is not
+# rasterized. GL clips in float32: nearer still, what is left of a long triangle might lie behind
+# the eye.
+NEAREST = 1e-6
 
 
 class Ray(NamedTuple):

@@ -5,8 +5,10 @@ files or windows; what a difference is, and its colours, are difference.py's.
 
 Two pixels agree if object, ray parameter, normal and colour do, within the tolerances below. A
 disagreement is explained if the pixel's centre lies within TOLERANCE_PX of a line where the exact
-image jumps (renderer/edges.py): a rasterizer that snaps vertices may then see the other side.
-Only lines of the two primitives that were seen count, never those of something hidden.
+image jumps (renderer/edges.py): a rasterizer that snaps vertices may then see the other side. So it
+is where float32, in which both compute, cannot tell the sides apart: edges.py derives how near that
+is, a thousandth of a pixel in usual views. Only lines of the two primitives that were seen count,
+never those of something hidden.
 """
 
 from __future__ import annotations
@@ -71,8 +73,9 @@ class Comparison:
     """Counts of pixels, the errors, and a label a pixel.
 
     explained: pixels by cause. "outline": at the edge of what one of the two saw. "meeting": where
-    two surfaces meet. "clip": where near or far cuts. "checker": at a cell's border. "grazing": the
-    surface is so oblique that TOLERANCE_PX moves its depth by more than the difference.
+    two surfaces meet. "clip": where near or far cuts, or nearer to the eye than triangles are
+    rasterized. "checker": at a cell's border. "grazing": the surface is so oblique, or so small,
+    that TOLERANCE_PX moves its depth or its smooth normal by more than the difference.
     unexplained: all others; shading: those of them where only the colour differs.
     max_...: the largest errors among the agreeing pixels; errors: by channel, over all pixels.
     labels: uint8 (height, width). times_s: what each renderer took. nothing_hit: why neither image
@@ -310,11 +313,18 @@ def _explain(
         np.fmin(lines.clip_px(first, i, j, t_first), lines.clip_px(second, i, j, t_second)),
         np.where(same, lines.checker_px(second, i, j, t), np.inf),
     ]
+    # How far it is to where depth and normal are the other image's, if they are not already.
+    turned = np.abs(raster.channel("normal")[i, j] - ray.channel("normal")[i, j]).max(axis=1)
     with np.errstate(divide="ignore", invalid="ignore"):
         difference = np.abs(t_first - t_second)
         moved = difference / lines.slope(second, i, j, t)
-    grazing = same & (difference > DEPTH_RELATIVE * t) & ~np.isnan(moved)
-    distances.append(np.where(grazing, moved, np.inf))
+        moved[difference <= DEPTH_RELATIVE * t] = 0
+        normal_slope, unknown = lines.normal_slope(second, i, j)
+        bent = turned / normal_slope
+        bent[turned <= unknown] = TOLERANCE_PX
+        bent[turned <= NORMAL] = 0
+    grazing = same & ((moved > 0) | (bent > 0))
+    distances.append(np.where(grazing, np.maximum(moved, bent), np.inf))
     labels = np.full(len(i), AGREE, np.uint8)
     for label in range(len(CAUSES), 0, -1):
         labels[distances[label - 1] <= TOLERANCE_PX] = label

@@ -4,7 +4,10 @@ Owns the exact (float64) geometry behind `lucida compare`: outlines of primitive
 surfaces meet, clip lines, borders of checker cells. Knows nothing of how images are made.
 
 A rasterizer snaps vertices to a fraction of a pixel, so that a centre that lies on such a line, or
-closer to it than the snapping, may fall on either side. Everywhere else both renderers must agree.
+closer to it than the snapping, may fall on either side. Both renderers compute in float32: what is
+nearer to such a line than ROUNDING_32 of the numbers that it is computed from may so as well, which
+is far less than a pixel except in very narrow views and right before the eye. Everywhere else both
+renderers must agree.
 
 All functions take arrays of pixels: i, j (n,) rows and columns, primitive (n,) numbers of the flat
 scene (-1: none, which is infinitely far from everything).
@@ -18,7 +21,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from renderer.camera import Camera, Floats
+from renderer.camera import NEAREST, Camera, Floats
 from renderer.scene.flat import CELL_NUDGE, SPECULAR_CHECKERED, FlatScene
 from renderer.scene.positions import world_corners
 
@@ -29,6 +32,10 @@ Function = Callable[[float, float], Floats]  # of an offset (rows, columns) in p
 STEP_PX = 1 / 256  # of the central differences: well inside the tolerance, far above rounding
 BEHIND = 1e-9  # outlines are clipped where the ray parameter falls below this part of its largest
 ROUNDING = 1e-12  # of the largest coordinate: what float64 cannot tell from the eye itself
+# What a place is known to in float32 after a few roundings, relatively to its distance.
+ROUNDING_32 = 2.0**-21
+# What GL's clipping is wrong by itself, where it cuts a triangle at NEAREST of its farthest corner.
+CLIPPED_FROM = NEAREST + ROUNDING_32
 
 
 @dataclass(frozen=True)
@@ -40,7 +47,10 @@ class Lines:
     size: tuple[int, int]
 
     def outline_px(self, primitive: Ints, i: Ints, j: Ints) -> Floats:
-        """Distance of each pixel's centre from the outline of its primitive, in pixels."""
+        """Distance of each pixel's centre from the outline of its primitive, in pixels.
+
+        A ray that passes an edge more closely than float32 knows the edge's place is on it.
+        """
         distance = np.full(len(primitive), np.inf)
         triangle, sphere = self._kinds(primitive)
         distance[triangle] = self._triangle_px(primitive[triangle], i[triangle], j[triangle])
@@ -66,7 +76,8 @@ class Lines:
     def clip_px(self, primitive: Ints, i: Ints, j: Ints, t: Floats) -> Floats:
         """Distance from the lines where near and far (or the eye's plane) cut the primitive.
 
-        A surface that the eye itself lies on is cut everywhere: rounding decides where it begins.
+        A surface that the eye itself lies on is cut everywhere: rounding decides where it begins;
+        and so is what of a triangle is too near to the eye to be rasterized.
         """
         distance = np.full(len(primitive), np.inf)
         at_eye = ROUNDING * self._largest_parameter()
@@ -76,10 +87,15 @@ class Lines:
                 here = self.parameter(primitive, i, j, t)
                 cut[np.abs(here - limit) <= max(1e-6 * limit, at_eye)] = 0
                 distance = np.fmin(distance, cut)
+        distance[t <= self._drawn_from(primitive)] = 0
         return np.where(primitive >= 0, distance, np.inf)
 
     def checker_px(self, primitive: Ints, i: Ints, j: Ints, t: Floats) -> Floats:
-        """Distance from the nearest border of a checker cell; inf where nothing is checkered."""
+        """Distance from the nearest border of a checker cell; inf where nothing is checkered.
+
+        Nearer to a border than what float32 knows of where the hit is, it is on it. That is less
+        than a hundredth of a pixel, except in very narrow views.
+        """
         distance = np.full(len(primitive), np.inf)
         hit = primitive >= 0
         if not hit.any():
@@ -92,23 +108,56 @@ class Lines:
         def cell(axis: int, di: float, dj: float) -> Floats:
             at = self.parameter(primitive, i + di, j + dj, t)
             origin, direction = self.camera.ray(i + di, j + dj, self.size)
-            point = origin + at[:, None] * direction
-            facing = self._facing(primitive, point, direction)
-            inward = np.einsum("nrk,nk->nr", rows[:, :, :3], facing)
             with np.errstate(divide="ignore", invalid="ignore"):  # what is not hit
+                point = origin + at[:, None] * direction
+                facing = self._facing(primitive, point, direction)
+                inward = np.einsum("nrk,nk->nr", rows[:, :, :3], facing)
                 inward *= CELL_NUDGE / np.linalg.norm(inward, axis=1, keepdims=True)
             here = np.einsum("nk,nk->n", rows[:, axis, :3], point) + rows[:, axis, 3]
             return here - inward[:, axis]
 
+        origin, direction = self.camera.ray(i, j, self.size)
+        away = np.linalg.norm(origin + t[:, None] * direction - self.camera.eye, axis=1)
         for axis in range(3):
             border = np.round(cell(axis, 0, 0))
             to_border = _zero_px(lambda di, dj: cell(axis, di, dj) - border)  # noqa: B023
+            unknown = ROUNDING_32 * away * np.linalg.norm(rows[:, axis, :3], axis=1)
+            to_border[np.abs(cell(axis, 0, 0) - border) <= unknown] = 0
             distance = np.fmin(distance, to_border)
         return np.where(checkered, distance, np.inf)
 
     def slope(self, primitive: Ints, i: Ints, j: Ints, t: Floats) -> Floats:
         """How much the ray parameter changes a pixel, on the primitive's surface."""
         return _gradient(lambda di, dj: self.parameter(primitive, i + di, j + dj, t))[0]
+
+    def normal_slope(self, primitive: Ints, i: Ints, j: Ints) -> tuple[Floats, Floats]:
+        """How much a triangle's smooth normal changes a pixel; 0 where there is none. And what
+        float32 does not know of it: a sliver's barycentrics are small differences."""
+        slope, unknown = np.zeros(len(primitive)), np.zeros(len(primitive))
+        triangle, _ = self._kinds(primitive)
+        a, b, c = self._corners(primitive[triangle])
+        normals = self.flat.normals[self.flat.faces[primitive[triangle]]].astype(float)
+        whole = np.cross(b - a, c - a)
+
+        def normal(di: float, dj: float) -> Floats:
+            origin, direction = self.camera.ray(i[triangle] + di, j[triangle] + dj, self.size)
+            # Barycentrics, up to a factor: volumes that the ray spans with the edges.
+            from_eye = np.stack([a, b, c], axis=1) - origin[:, None]
+            edges = np.cross(np.roll(from_eye, -1, axis=1), np.roll(from_eye, -2, axis=1))
+            weights = np.einsum("nkx,nx->nk", edges, direction)
+            weights *= np.sign(np.einsum("nx,nx->n", whole, direction))[:, None]
+            mean = np.einsum("nk,nkx->nx", weights, normals)
+            with np.errstate(invalid="ignore"):
+                return mean / np.linalg.norm(mean, axis=1, keepdims=True)
+
+        across = (normal(0, STEP_PX) - normal(0, -STEP_PX)) / (2 * STEP_PX)
+        down = (normal(STEP_PX, 0) - normal(-STEP_PX, 0)) / (2 * STEP_PX)
+        slope[triangle] = np.sqrt((across**2 + down**2).sum(axis=1))
+        longest = np.max([((q - p) ** 2).sum(axis=1) for p, q in ((a, b), (b, c), (c, a))], axis=0)
+        with np.errstate(divide="ignore", invalid="ignore"):
+            sliver = longest / np.linalg.norm(whole, axis=1)
+        unknown[triangle] = ROUNDING_32 * sliver * np.ptp(normals, axis=1).max(axis=1)
+        return np.nan_to_num(slope), np.nan_to_num(unknown)
 
     def parameter(self, primitive: Ints, i: Numbers, j: Numbers, t: Floats) -> Floats:
         """The ray parameter where the ray of (i, j) meets the primitive's extended surface.
@@ -132,6 +181,26 @@ class Lines:
             is_near = np.abs(near - t[sphere]) <= np.abs(far - t[sphere])
         result[sphere] = np.where(is_near, near, far)
         return result
+
+    def _drawn_from(self, primitive: Ints) -> Floats:
+        """The ray parameter from which on a primitive is rasterized, (n,). A sphere is from 0 on: a
+        box is drawn in its place, whose far sides are."""
+        limit = np.zeros(len(primitive))
+        triangle, _ = self._kinds(primitive)
+        if self.camera.is_parallel:
+            return limit
+        corners = self._object_boxes(primitive[triangle])
+        farthest = self.camera.project(corners, self.size).parameter.max(axis=1)
+        limit[triangle] = CLIPPED_FROM * np.maximum(farthest, 0.0)
+        return limit
+
+    def _object_boxes(self, triangle: Ints) -> Floats:
+        """The corners (n, 8, 3) of the boxes around the objects that triangles belong to."""
+        owner = self.flat.face_object[triangle]
+        bounds, matrix = self.flat.object_bounds[owner], self.flat.world_from_object[owner]
+        which = np.array(list(np.ndindex(2, 2, 2)))
+        corners = bounds[:, which, np.arange(3)] @ np.swapaxes(matrix[:, :3, :3], 1, 2)
+        return corners + matrix[:, None, :3, 3]
 
     def _largest_parameter(self) -> float:
         """The ray parameter of the scene's and the eye's largest coordinate."""
@@ -193,7 +262,35 @@ class Lines:
         for first, second in ((0, 1), (1, 2), (2, 0)):
             p, q = self._clipped(corners[first], corners[second])
             distance = np.fmin(distance, _segment_px(pixel, self._pixel(p), self._pixel(q)))
+        distance[self._touches(triangle, i, j)] = 0
         return distance
+
+    def _touches(self, triangle: Ints, i: Ints, j: Ints) -> NDArray[np.bool_]:
+        """Whether a ray passes an edge so closely that float32 cannot tell on which side.
+
+        An edge is known to ROUNDING_32 of what float32 numbers are relative to: of its farther
+        end's distance from the eye, or of the object's size where the eye is farther away. That is
+        to be seen where the eye is very near the edge of something large, or the view very narrow.
+        """
+        origin, direction = self.camera.ray(i, j, self.size)
+        along = direction / np.linalg.norm(direction, axis=1, keepdims=True)
+        size = np.linalg.norm(np.ptp(self._object_boxes(triangle), axis=1), axis=1)
+        corners = self._corners(triangle)
+        far = [np.linalg.norm(corner - self.camera.eye, axis=1) for corner in corners]
+        touches = np.zeros(len(triangle), bool)
+        for first, second in ((0, 1), (1, 2), (2, 0)):
+            # Across the ray, the edge is a segment of a plane: its point nearest to 0.
+            p, q = corners[first] - origin, corners[second] - origin
+            start, end = (v - np.einsum("nk,nk->n", v, along)[:, None] * along for v in (p, q))
+            edge = end - start
+            with np.errstate(divide="ignore", invalid="ignore"):
+                part = -np.einsum("nk,nk->n", start, edge) / np.einsum("nk,nk->n", edge, edge)
+            part = np.clip(np.nan_to_num(part), 0, 1)
+            away = np.linalg.norm(start + part[:, None] * edge, axis=1)
+            ahead = np.einsum("nk,nk->n", p + part[:, None] * (q - p), along)
+            unknown = ROUNDING_32 * np.minimum(np.maximum(far[first], far[second]), size)
+            touches |= (away <= unknown) & (ahead >= -unknown)
+        return touches
 
     def _clipped(self, p: Floats, q: Floats) -> tuple[Floats, Floats]:
         """The part of the edge in front of the eye; NaN where there is none."""

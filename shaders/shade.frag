@@ -40,17 +40,28 @@ void main() {
         vec3 a = world_from_object * (corners[0] - anchor_inside);
         vec3 b = world_from_object * (corners[1] - anchor_inside);
         vec3 c = world_from_object * (corners[2] - anchor_inside);
-        vec3 weights = barycentrics(
-            anchor + image_from_world * a,
-            anchor + image_from_world * b,
-            anchor + image_from_world * c, xy);
+        vec3 weights;
         float reach = sqrt(max(max(dot(a, a), dot(b, b)), dot(c, c)) / dot(d, d));
-        hit.point = is_far(reach, hit.t)
-            ? mat3(a, b, c) * weights
-            : to_ray(anchor, xy) + (hit.t - anchor.z) * d;
-        hit.normal = unit_across(
+        float doubt = 0.0;
+        bool far = is_far(reach, hit.t);
+        if (far) {
+            weights = barycentrics(
+                anchor + image_from_world * a,
+                anchor + image_from_world * b,
+                anchor + image_from_world * c, xy, doubt);
+            hit.point = mat3(a, b, c) * weights;
+        }
+        // Where those are worse than t is, by a few roundings more: the other way round.
+        if (!far || !is_far(8.0 * doubt * reach, hit.t)) {
+            hit.point = to_ray(anchor, xy) + (hit.t - anchor.z) * d;
+        }
+        if (!far || !is_far(8.0 * doubt * reach / slenderness(a, b, c), hit.t)) {
+            weights = barycentrics_at(a, b, c, hit.point);
+        }
+        hit.normal = face_normal(
             world_from_object * (corners[1] - corners[0]),
-            world_from_object * (corners[2] - corners[0]), hit.to_viewer);
+            world_from_object * (corners[2] - corners[1]),
+            world_from_object * (corners[0] - corners[2]), hit.to_viewer);
         if (HAS_NORMALS) {
             mat3 normals = mat3(
                 texelFetch(vertices, texel(3 * face.x + 1), 0).xyz,

@@ -166,9 +166,59 @@ def test_of_two_clip_planes_the_nearer_line_counts():
 @pytest.mark.parametrize(("height", "unexplained"), [(1e-17, 0), (1e-9, 768)])
 def test_rounding_decides_whether_the_eye_sees_what_it_lies_on(height, unexplained):
     flat = flatten(Scene((wall(0), wall(-2))))
-    camera = replace(CAMERA, eye=(0, 0, height))
+    camera = replace(CAMERA, eye=(0, 3, height))  # not on the wall's diagonal
     on_it, through = image(height, 0, 0), image(2, 1, 2)
     assert compare_frames(flat, camera, SIZE, on_it, through).unexplained == unexplained
+
+
+@pytest.mark.parametrize(("height", "cause"), [(1e-5, "clip"), (1e-3, "unexplained")])
+def test_what_gl_clips_right_before_the_eye(height, cause):
+    """A floor that reaches 400 units behind the eye and before it."""
+    corners = [(-400, -height, 400), (400, -height, 400), (0, -height, -400)]
+    flat = flatten(Scene((SceneObject(Mesh(corners, [[0, 1, 2]])), wall(-2))))
+    lines = Lines(flat, CAMERA, SIZE)
+    i, j = np.array([20]), np.array([9])
+    t = lines.parameter(np.zeros(1, int), i, j, np.ones(1))
+    floor = changed(image(2, 1, 2), (20, 9), depth=t[0], id=0, primitive=0, normal=(0, 1, 0))
+    assert counts(compare_frames(flat, CAMERA, SIZE, image(2, 1, 2), floor)) == {cause: 1}
+    parallel = replace(CAMERA, projection="parallel")
+    assert counts(compare_frames(flat, parallel, SIZE, image(2, 1, 2), floor)) == {"unexplained": 1}
+
+
+@pytest.mark.parametrize(("away", "explained"), [(2e-4, True), (2e-3, False)])
+def test_an_edge_right_before_the_eye_is_where_float32_puts_it(away, explained):
+    """The edge is a thousand units long and `away` from the eye: 2^-21 of it is half of 1e-3."""
+    corners = [(away, 500, -away), (away, -500, -away), (-900, 0, -away)]
+    flat = flatten(Scene((SceneObject(Mesh(corners, [[0, 1, 2]])),)))
+    lines = Lines(flat, replace(CAMERA, viewport=(-4, 4, -3, 3)), SIZE)
+    # Three pixels beyond the edge, which is at the image point 1.
+    distance = lines.outline_px(np.zeros(1, int), np.array([12]), np.array([22]))
+    assert (distance[0] == 0) == explained
+
+
+@pytest.mark.parametrize(("per_px", "explained"), [(1e-7, True), (1e-5, False)])
+def test_a_cells_border_is_where_float32_puts_it(per_px, explained):
+    flat = flatten(Scene((wall(-2, checker=Checker(size=0.3)),)))
+    half = 16 * per_px
+    x = 0.15 / 2 + 0.1 * per_px  # a border, seen a tenth of a pixel beside the image's middle
+    lines = Lines(flat, replace(CAMERA, viewport=(x - half, x + half, -half, half)), (33, 33))
+    middle = np.array([16])
+    distance = lines.checker_px(np.zeros(1, int), middle, middle, np.full(1, 2.0))
+    assert (distance[0] < 1 / 128) == explained
+
+
+@pytest.mark.parametrize(("size", "explained"), [(0.01, True), (10.0, False)])
+def test_smooth_normals_of_triangles_that_are_parts_of_a_pixel(size, explained):
+    corners = np.array([(0, 0, -2), (size, 0, -2), (0, size, -2)]) - (size / 3, size / 3, 0)
+    normals = np.array([(0.6, 0, 0.8), (-0.6, 0, 0.8), (0, 0.6, 0.8)])
+    mesh = Mesh(corners, [[0, 1, 2]], normals)
+    flat = flatten(Scene((SceneObject(mesh),)))
+    size_px = (33, 33)
+    frame = image(2, 0, 0, size_px)
+    wrong = changed(frame, (16, 16), normal=(0.002, 0, 1))
+    expected = "grazing" if explained else "unexplained"
+    camera = replace(CAMERA, viewport=(-0.5, 0.5, -0.5, 0.5))
+    assert counts(compare_frames(flat, camera, size_px, wrong, frame)) == {expected: 1}
 
 
 def test_edges_in_the_eyes_plane_are_quiet():

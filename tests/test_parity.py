@@ -23,51 +23,9 @@ from renderer.scene.model import (
     SceneObject,
     Sphere,
 )
+from tests.attack.random_scenes import random_camera
 
 CAMERAS = int(os.environ.get("LUCIDA_PARITY_CAMERAS", "60"))
-
-
-def random_camera(rng, bounds):
-    """Any camera that sees something of the box `bounds`: skewed, left-handed, off-axis, near
-    objects and inside them, telephoto, parallel."""
-    low, high = bounds.astype(float)
-    reach = np.linalg.norm(high - low)
-    target = rng.uniform(low, high)
-    if rng.random() < 0.4:  # among the objects or inside one
-        eye = rng.uniform(low, high)
-    else:
-        away = rng.normal(size=3)
-        eye = target + away / np.linalg.norm(away) * reach * 10 ** rng.uniform(-1.5, 1)
-    back = eye - target
-    far_off = np.linalg.norm(back)
-    camera = Camera.look_at(eye, target, rng.normal(size=3))
-    basis = camera.basis
-    if rng.random() < 0.6:  # skewed: but w still looks about where it looked
-        basis = basis + rng.normal(size=(3, 3)) * [0.4, 0.4, 0.1]
-    if rng.random() < 0.3:
-        basis[:, rng.integers(2)] *= -1
-    if rng.random() < 0.5:
-        basis = basis * 10 ** rng.uniform(-1, 1, 3)
-    if rng.random() < 0.15:  # along the axes: rays parallel to the boxes' sides
-        basis = np.eye(3)[rng.permutation(3)] * rng.choice([-1.0, 1.0], 3)
-    lengths = np.linalg.norm(basis, axis=0)
-    if abs(np.linalg.det(basis / lengths)) < 0.05:
-        return random_camera(rng, bounds)
-    projection = ("perspective", "parallel")[rng.integers(2)]
-    distance = 10 ** rng.uniform(-0.7, 0.7)
-    if projection == "parallel":
-        half = rng.uniform(0.05, 0.6) * reach / lengths[:2]
-    else:
-        angle = 10 ** rng.uniform(-1.3, 0.2) if far_off < reach else reach / far_off
-        half = angle * rng.uniform(0.2, 1) * distance * lengths[2] / lengths[:2]
-    shift = rng.uniform(-0.8, 0.8, 2) * half
-    return Camera(
-        tuple(eye),
-        *(tuple(vector) for vector in basis.T),
-        distance,
-        (shift[0] - half[0], shift[0] + half[0], shift[1] - half[1], shift[1] + half[1]),
-        projection,
-    )
 
 
 def crowd():

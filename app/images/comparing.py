@@ -42,9 +42,9 @@ class Cause:
 LABELS = (
     Cause(1, "edge", "The pixel's centre lies on the outline of what one of the two images sees."),
     Cause(2, "meeting", "The pixel's centre lies on the line where two surfaces meet."),
-    Cause(3, "clip", "The pixel's centre lies on the line where near or far cuts a surface."),
+    Cause(3, "clip", "Near or far cuts a surface there, or it is too near the eye for OpenGL."),
     Cause(4, "checker", "The pixel's centre lies on the border of a checker's cell."),
-    Cause(5, "grazing", "The surface is seen so obliquely that its depth jumps within a pixel."),
+    Cause(5, "grazing", "Seen obliquely, or small: depth or normal jump within a pixel."),
     Cause(SHADING, "shading", "Both see the same point, but in another colour."),
     Cause(UNEXPLAINED, "unexplained", "Nothing in the image explains it: a renderer is wrong."),
 )

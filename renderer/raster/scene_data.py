@@ -27,6 +27,7 @@ from renderer.raster.setup import (
 from renderer.raster.tables import Table
 
 BOX_VERTICES = 36
+MARGIN = 1024  # pixels around the image, or half of it; by 4096, Mesa 22.3 lost large triangles
 # Window depths: where nothing is, and one between that and the farthest of depth() in camera.glsl.
 FARTHEST, BEFORE_FARTHEST = 1.0, 1 - 2**-21
 
@@ -97,10 +98,12 @@ class SceneData:
 
     def margin(self, size: tuple[int, int]) -> tuple[int, int]:
         """Pixels that the viewport has beyond the image on each side: GL clips in float32, and the
-        edges that clipping makes shall lie outside the image, even those of a vast plain."""
+        edges that clipping makes shall lie outside the image. They are wrong by about 2^-24 of a
+        triangle's size: even those of a vast plain, seen in a narrow view, are not wrong by more.
+        """
         largest = self._context.info["GL_MAX_VIEWPORT_DIMS"]
         width, height = (
-            max(0, min(side // 2 + 1, (most - side) // 2))
+            max(0, min(max(side // 2 + 1, MARGIN), (most - side) // 2))
             for side, most in zip(size, largest, strict=True)
         )
         return width, height

@@ -22,7 +22,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from renderer.camera import Camera, Floats
+from renderer.camera import NEAREST, Camera, Floats
 from renderer.scene.flat import FlatScene
 from renderer.scene.positions import lights_from, near_point, world_vertices
 
@@ -34,9 +34,6 @@ IMAGE, WORLD, MATERIAL, CELLS = 3, 6, 9, 12
 SPHERE_TEXELS = 3
 
 FLOAT32_MAX = float(np.finfo(np.float32).max)
-# Of an object's farthest t: where it reaches behind the eye, nothing of it is drawn that is nearer.
-# GL clips in float32: nearer still, what is left of a long triangle might lie behind the eye.
-NEAREST = 1e-6
 TINY = 1e-30
 # Rows at a time. Small products stay on one thread of NumPy's BLAS: its threads wait for one
 # another, which takes tens of milliseconds while the tracer has all cores.

@@ -107,9 +107,12 @@ def _start(view, floats, lane):
 
 
 @inlined
-def reflected_rays(effects, pixels, t, surface):
-    """The rays that leave a square's surfaces as its rays arrive: the law of reflection."""
-    o, d = pixels.origin, pixels.direction
+def reflected_rays(effects, pixels, point, surface):
+    """The rays that leave a square's surfaces as its rays arrive: the law of reflection.
+
+    point: where they arrive.
+    """
+    d = pixels.direction
     geometric, shading = surface.geometric, surface.shading
     two = np.float32(2)
     way = minus_lanes(d, scaled_lanes(two * dot_lanes(d, shading), shading))
@@ -118,9 +121,9 @@ def reflected_rays(effects, pixels, t, surface):
     way = select_lanes(dot_lanes(way, geometric) > np.float32(0), way, flat)
     away = effects.away
     origin = (
-        fma(geometric[0], away, fma(t, d[0], o[0])),
-        fma(geometric[1], away, fma(t, d[1], o[1])),
-        fma(geometric[2], away, fma(t, d[2], o[2])),
+        fma(geometric[0], away, point[0]),
+        fma(geometric[1], away, point[1]),
+        fma(geometric[2], away, point[2]),
     )
     return Pixels(origin, way)
 

@@ -171,10 +171,12 @@ def key_function(view, a, b, c, ha, hb, hc):
 
 
 @inlined
-def key_function_exact(view, corner, leaf, space):
+def key_function_exact(view, corner, leaf, space, pa, pb, pc):
     """(coefficients of the key, sign of the volume) in float64, then rounded.
 
-    The key is -inf for a triangle seen edge-on.
+    The key is -inf for a triangle seen edge-on, and for one that is so small, or so far away, that
+    two of its corners are one point in float32. pa, pb, pc: its corners as edge_function() takes
+    them, which then is 0 everywhere: the triangle would cover a line, or all of the image.
     """
     a, b, c = _camera_corners_exact(view, corner, leaf, space)
     ha, hb, hc = a[2], b[2], c[2]
@@ -182,6 +184,7 @@ def key_function_exact(view, corner, leaf, space):
         ha = hb = hc = to_f64(splat(np.float32(1)))
     (kx, ky, k1), volume, terms = key_function(view, a, b, c, ha, hb, hc)
     is_seen = vabs(volume) > terms * EDGE_ON
+    is_seen = is_seen & _differ(pa, pb) & _differ(pb, pc) & _differ(pc, pa)
     zero = splat(np.float32(0))
     kx, ky = select(is_seen, to_f32(kx), zero), select(is_seen, to_f32(ky), zero)
     k1 = select(is_seen, to_f32(k1), np.float32(-np.inf))
@@ -189,11 +192,17 @@ def key_function_exact(view, corner, leaf, space):
 
 
 @inlined
+def _differ(p, q):
+    return (p[0] != q[0]) | (p[1] != q[1]) | (p[2] != q[2])
+
+
+@inlined
 def triangle_keys(view, corner, leaf, space, a, b, c, ha, hb, hc):
     """(coefficients of x, y and 1 of the triangles' keys, signs of their volumes)."""
     key, volume, terms = key_function(view, a, b, c, ha, hb, hc)
     if bits(vabs(volume) * DOUBTFUL <= terms) != 0:
-        return key_function_exact(view, corner, leaf, space)
+        pa, pb, pc = (a[0], a[1], ha), (b[0], b[1], hb), (c[0], c[1], hc)
+        return key_function_exact(view, corner, leaf, space, pa, pb, pc)
     return key, select(volume >= np.float32(0), splat(np.float32(1)), np.float32(-1))
 
 

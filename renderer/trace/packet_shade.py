@@ -53,11 +53,13 @@ _SMALLEST_HALF = np.float32(1e-12)  # with a half vector of a smaller square, th
 
 
 @inlined
-def shade_square(view, world, scene, effects, pixels, first, t, surface, objects, floats, ints):
+def shade_square(
+    view, world, scene, effects, pixels, first, t, point, surface, objects, floats, ints
+):
     """The colours of a square: three F32; the background's where there is no object.
 
-    scene: SceneArrays. effects: Effects, or None. first: as for find_surfaces. t: ray parameters.
-    surface, objects: what the pixels see.
+    scene: SceneArrays. effects: Effects, or None. first: as for find_surfaces. t: ray parameters,
+    F64; None where `first` is. point: where they are hit. surface, objects: what the pixels see.
     """
     background = scene.background
     color = (splat(background[0]), splat(background[1]), splat(background[2]))
@@ -65,7 +67,6 @@ def shade_square(view, world, scene, effects, pixels, first, t, surface, objects
     if left == 0:
         return color
     geometric, shading, tint = surface.geometric, surface.shading, surface.tint
-    point = points_on(pixels, t)
     while left != 0:
         # The pixels of one object, which share its material.
         object_number = lane_of(objects, lowest_bit(left))
@@ -83,7 +84,7 @@ def shade_square(view, world, scene, effects, pixels, first, t, surface, objects
 
 @inlined
 def add_reflections(
-    view, world, scene, effects, pixels, square, t, surface, objects, color, floats, ints
+    view, world, scene, effects, pixels, square, point, surface, objects, color, floats, ints
 ):
     """The colours of a square and what its surfaces mirror, by as many bounces as there may be."""
     weight = reflectance(scene, objects)
@@ -91,13 +92,14 @@ def add_reflections(
         mask = brightest(weight) > np.float32(0)
         if bits(mask) == 0:
             break
-        pixels = reflected_rays(effects, pixels, t, surface)
+        pixels = reflected_rays(effects, pixels, point, surface)
         t = trace_square(view, world, pixels, mask, square, floats, ints)
         surface, objects, _primitives = find_surfaces(
             view, world, scene, None, pixels, square, t, True, False, ints
         )
+        point = points_on(pixels, t)
         seen = shade_square(
-            view, world, scene, effects, pixels, None, t, surface, objects, floats, ints
+            view, world, scene, effects, pixels, None, None, point, surface, objects, floats, ints
         )
         color = (
             fma(weight[0], seen[0], color[0]),
@@ -162,7 +164,7 @@ def _direction(cells, row, a):
 
 @inlined
 def _half_cell(view, cells, row, first, t):
-    """Half of one coordinate of the pixels' cells, F64."""
+    """Half of one coordinate of the pixels' cells, F64; t: F64."""
     ray = view.ray
     right, down = _half_along(cells, row, ray, ACROSS), _half_along(cells, row, ray, DOWN)
     shared = _half_along(cells, row, ray, SHARED)
@@ -175,8 +177,8 @@ def _half_cell(view, cells, row, first, t):
         shared += constant
     pixel = fma(to_f64(lane_column()), right, fma(to_f64(lane_row()), down, splat(varying)))
     if view.parallel:
-        return fma(to_f64(t), shared, pixel)
-    return fma(to_f64(t), pixel, splat(shared))
+        return fma(t, shared, pixel)
+    return fma(t, pixel, splat(shared))
 
 
 @inlined

@@ -98,13 +98,27 @@ def _weight(view, world, space, g, a, point):
 def _homogeneous_corner(view, r, corner, at):
     """(X, Y, H) of a corner, float64."""
     rows = view.rows_exact
-    p = (
+    p = _from_origin(rows, r, corner, at)
+    h = 1.0 if view.parallel else _coordinate(rows, r + ROW_Z, p)
+    return _coordinate(rows, r + ROW_X, p), _coordinate(rows, r + ROW_Y, p), h
+
+
+@inlined
+def camera_point(view, r, corner, at):
+    """(X, Y, Z) of a corner, float64."""
+    rows = view.rows_exact
+    p = _from_origin(rows, r, corner, at)
+    x, y = _coordinate(rows, r + ROW_X, p), _coordinate(rows, r + ROW_Y, p)
+    return x, y, _coordinate(rows, r + ROW_Z, p)
+
+
+@inlined
+def _from_origin(rows, r, corner, at):
+    return (
         corner[at] - rows[r + ORIGIN],
         corner[at + WIDTH] - rows[r + ORIGIN + 1],
         corner[at + 2 * WIDTH] - rows[r + ORIGIN + 2],
     )
-    h = 1.0 if view.parallel else _coordinate(rows, r + ROW_Z, p)
-    return _coordinate(rows, r + ROW_X, p), _coordinate(rows, r + ROW_Y, p), h
 
 
 @inlined

@@ -33,6 +33,7 @@ from renderer.trace.simd import (
     select,
     smallest,
     splat,
+    vabs,
     vsqrt,
 )
 from renderer.trace.simd_math import normalized_lanes
@@ -40,6 +41,7 @@ from renderer.trace.simd_memory import load, store
 from renderer.trace.vectors import cross, dot, minus, plus, times
 
 _X, _Y, _Z = np.arange(3)
+_CHORD = np.float32(5e-7)  # relative: more than z and the chord's middle are rounded by
 
 
 @inlined
@@ -195,7 +197,7 @@ def sphere_normal(view, spheres, sphere, first, z):
     inverse = splat(np.float32(1)) / a
     # Half the chord, as a parameter.
     half = vsqrt(select(discriminant > np.float32(0), discriminant, np.float32(0))) * inverse
-    half = select(z <= b * inverse, -half, half)
+    half = select(is_near_hit(z, b * inverse), -half, half)
     return normalized_lanes(
         (
             fma(dy * mz - dz * my, inverse, half * dx),
@@ -203,6 +205,15 @@ def sphere_normal(view, spheres, sphere, first, z):
             fma(dx * my - dy * mx, inverse, half * dz),
         )
     )
+
+
+@inlined
+def is_near_hit(z, middle):
+    """Which pixels see the nearer of a sphere's two hits. z: of the hit; middle: of the chord's.
+
+    Far away, where rounding makes all three one, the nearer is the one that is seen.
+    """
+    return z <= fma(vabs(middle), _CHORD, middle)
 
 
 @inlined

@@ -42,6 +42,10 @@ VARYING, ACROSS, DOWN, SHARED = np.array([0, 3, 6, 9])
 # its corners go to camera coordinates in float64. Three roundings then are 1/300 of a pixel.
 _FLOAT32_PX = 16384.0
 _SLACK_PX = 1e-2  # around the outlines of spheres
+# What a packet's t may be wrong by, relatively: a few of float32's last places. That may move a hit
+# along its ray by this many pixels, or by this part of the scene's size, but not by more.
+_T_ROUNDING = 2.0**-22
+_HIT_PX, _HIT_OF_SCENE = 1 / 512, 2.0**-17
 
 
 class PacketView(NamedTuple):
@@ -49,6 +53,7 @@ class PacketView(NamedTuple):
 
     slack_px: tests that only reject take tiles to be larger by this much, which covers rounding.
     key_far < K < key_near counts as a hit; z_near, z_far: the same as Z. scale: t / Z.
+    coarse: float32 is too coarse for where hits are (packet_refine.py).
     rows: float32, ROWS a space; rows_exact: the same in float64. exact: uint8, whether to use them.
     ray: float64, 12 numbers in world space (VARYING ...).
     near_point: float64, 3: the world's point that float32 points are relative to (near_point()).
@@ -64,6 +69,7 @@ class PacketView(NamedTuple):
     z_far: np.float32
     z_near: np.float32
     scale: np.float64
+    coarse: bool
     rows: NDArray[np.float32]
     rows_exact: NDArray[np.float64]
     exact: NDArray[np.uint8]
@@ -85,6 +91,7 @@ def view_pointers(view):
         view.z_far,
         view.z_near,
         view.scale,
+        view.coarse,
         pointer(view.rows),
         pointer(view.rows_exact),
         pointer(view.exact),
@@ -141,6 +148,7 @@ def packet_view(
             z_far=np.float32(view.t_max / scale),
             z_near=np.float32(view.t_min / scale),
             scale=np.float64(scale),
+            coarse=_is_coarse(farthest, ray, view.parallel, instances),
             rows=rows.astype(np.float32).reshape(-1),
             rows_exact=rows.reshape(-1),
             exact=is_exact,
@@ -185,6 +193,20 @@ def _rows(
             * np.divide(extent, far, out=np.ones_like(far), where=far > extent)
         )
     return rows, (pixels > _FLOAT32_PX).astype(np.uint8)
+
+
+def _is_coarse(
+    farthest: float, ray: NDArray[np.float64], parallel: bool, instances: Instances
+) -> bool:
+    """Whether t in float32 tells too little of where a hit is. farthest: t; ray: PacketView's."""
+    across, down, direction = (
+        float(np.linalg.norm(ray[at : at + 3]))
+        for at in (ACROSS, DOWN, SHARED if parallel else VARYING)
+    )
+    away = _T_ROUNDING * farthest * direction
+    pixel = min(across, down) * (1.0 if parallel else farthest)
+    size = float(np.linalg.norm(instances.bounds[-1, 1] - instances.bounds[-1, 0]))
+    return away > min(_HIT_PX * pixel, _HIT_OF_SCENE * size)
 
 
 def _sphere_boxes(

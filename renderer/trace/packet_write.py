@@ -16,8 +16,9 @@ from renderer.trace.compiled import inlined, kernel
 from renderer.trace.image import Image
 from renderer.trace.instances import World, world_pointers
 from renderer.trace.packet_effects import Effects
+from renderer.trace.packet_refine import exact_parameters, exact_points
 from renderer.trace.packet_shade import add_reflections, shade_square
-from renderer.trace.packet_surface import find_surfaces, scene_pointers, square_rays
+from renderer.trace.packet_surface import find_surfaces, points_on, scene_pointers, square_rays
 from renderer.trace.packet_tile import (
     BEST,
     NOTHING,
@@ -30,7 +31,7 @@ from renderer.trace.packet_tile import (
     new_tile,
 )
 from renderer.trace.packet_view import PacketView, view_pointers
-from renderer.trace.simd import LANES, bits, select, splat
+from renderer.trace.simd import LANES, bits, select, splat, to_f32, to_f64
 from renderer.trace.simd_memory import is_line, load, pointer, store_square, store_square3, stream
 from renderer.trace.stage import Stage, new_room, prepared
 
@@ -114,6 +115,10 @@ def draw_square(view, world, scene, effects, image, row, column, tile, square, f
     is_hit = seen != NOTHING
     z = -best if view.parallel else splat(np.float32(1)) / best
     t = select(is_hit, z * np.float32(view.scale), np.float32(np.inf))
+    t_exact = to_f64(t)
+    if view.coarse and bits(is_hit) != 0:
+        t_exact = exact_parameters(view, world, first, z, square, ints)
+        t = select(is_hit, to_f32(t_exact), np.float32(np.inf))
     if image.has_depth:
         store_square(floats, DEPTH + at, TILE, t)
     if not (image.has_color or image.has_normal or image.has_id or image.has_primitive):
@@ -139,12 +144,16 @@ def draw_square(view, world, scene, effects, image, row, column, tile, square, f
         )
         normal = surface.shading
         if image.has_color:
+            point = points_on(pixels, t)
+            if view.coarse:
+                point = exact_points(view, first, t_exact)
             color = shade_square(
-                view, world, scene, effects, pixels, first, t, surface, objects, floats, ints
-            )
+                view, world, scene, effects, pixels, first, t_exact, point, surface, objects,
+                floats, ints,
+            )  # fmt: skip
             if effects is not None:
                 color = add_reflections(
-                    view, world, scene, effects, pixels, square, t, surface, objects, color,
+                    view, world, scene, effects, pixels, square, point, surface, objects, color,
                     floats, ints,
                 )  # fmt: skip
     if image.has_id:

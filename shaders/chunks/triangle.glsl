@@ -8,15 +8,32 @@ float triangle_t(vec3 row, vec2 xy) {
     return perspective > 0.5 ? 1.0 / value : value;
 }
 
-// Barycentrics of the ray's hit, from the corners' image coordinates: the three areas that the pixel
-// makes with the projected edges. Source: Woop, Benthin and Wald, Watertight Ray/Triangle
-// Intersection (2013), with the pixel as origin.
-// Vertices are snapped to a fraction of a pixel, so that a centre may lie just outside: pulled back in.
-vec3 barycentrics(vec3 a, vec3 b, vec3 c, vec2 xy) {
-    vec2 p = a.xy - xy * weight(a.z);
-    vec2 q = b.xy - xy * weight(b.z);
-    vec2 r = c.xy - xy * weight(c.z);
-    vec3 areas = vec3(q.x * r.y - q.y * r.x, r.x * p.y - r.y * p.x, p.x * q.y - p.y * q.x);
+// The unit normal of a triangle's edges; `otherwise` where float32 has none for it. Divided first:
+// the square of a small triangle's normal would be 0.
+vec3 unit_across(vec3 first, vec3 second, vec3 otherwise) {
+    vec3 normal = cross(first, second);
+    float largest = max(max(abs(normal.x), abs(normal.y)), abs(normal.z));
+    return largest > 0.0 ? normalize(normal * (1.0 / largest)) : otherwise;
+}
+
+// A triangle's normal by the two shorter of its edges, one after the other: they keep a sliver's digits.
+vec3 face_normal(vec3 e, vec3 f, vec3 g, vec3 otherwise) {
+    float longest = max(max(dot(e, e), dot(f, f)), dot(g, g));
+    if (longest == dot(g, g)) {
+        return unit_across(e, f, otherwise);
+    }
+    return longest == dot(e, e) ? unit_across(f, g, otherwise) : unit_across(g, e, otherwise);
+}
+
+// A triangle's longest side over its height: at least 2 / sqrt(3).
+float slenderness(vec3 a, vec3 b, vec3 c) {
+    float longest = max(max(dot(b - a, b - a), dot(c - b, c - b)), dot(a - c, a - c));
+    return longest / length(cross(b - a, c - a));
+}
+
+// Barycentrics from the areas that a point makes with the edges. Vertices are snapped to a fraction of
+// a pixel, so that a centre may lie just outside: pulled back in.
+vec3 from_areas(vec3 areas) {
     float whole = areas.x + areas.y + areas.z;
     if (whole == 0.0) {
         return vec3(1.0, 0.0, 0.0);
@@ -25,10 +42,25 @@ vec3 barycentrics(vec3 a, vec3 b, vec3 c, vec2 xy) {
     return inside / (inside.x + inside.y + inside.z);
 }
 
-// The unit normal of a triangle's edges; `otherwise` where float32 has none for it. Divided first:
-// the square of a small triangle's normal would be 0.
-vec3 unit_across(vec3 first, vec3 second, vec3 otherwise) {
-    vec3 normal = cross(first, second);
-    float largest = max(max(abs(normal.x), abs(normal.y)), abs(normal.z));
-    return largest > 0.0 ? normalize(normal * (1.0 / largest)) : otherwise;
+// Barycentrics of the ray's hit, from the corners' image coordinates: the areas that the pixel makes
+// with the projected edges. Source: Woop, Benthin and Wald, Watertight Ray/Triangle Intersection
+// (2013), with the pixel as origin. doubt: how much larger the areas' terms are than the areas, which
+// is much where the triangle is seen as a sliver.
+vec3 barycentrics(vec3 a, vec3 b, vec3 c, vec2 xy, out float doubt) {
+    vec2 p = a.xy - xy * weight(a.z);
+    vec2 q = b.xy - xy * weight(b.z);
+    vec2 r = c.xy - xy * weight(c.z);
+    vec3 areas = vec3(q.x * r.y - q.y * r.x, r.x * p.y - r.y * p.x, p.x * q.y - p.y * q.x);
+    float sizes = length(q) * length(r) + length(r) * length(p) + length(p) * length(q);
+    doubt = sizes / abs(areas.x + areas.y + areas.z);
+    return from_areas(areas);
+}
+
+// The same of a point of the triangle: for one that is near the eye or seen edge on, whose areas in the
+// image have no digits left.
+vec3 barycentrics_at(vec3 a, vec3 b, vec3 c, vec3 point) {
+    vec3 p = a - point;
+    vec3 q = b - point;
+    vec3 r = c - point;
+    return from_areas(cross(b - a, c - a) * mat3(cross(q, r), cross(r, p), cross(p, q)));
 }
