@@ -12,6 +12,7 @@ import pytest
 
 from renderer.errors import LucidaError
 from renderer.scene import load_scene
+from renderer.scene.cancelling import cancelled_by
 from renderer.scene.limits import SHARED_BYTES
 
 
@@ -80,11 +81,35 @@ def test_one_buffer_shown_a_thousand_times_is_built_once(tmp_path: Path, monkeyp
     assert len({id(entry.shape.faces) for entry in objects}) == 1
 
 
-def test_primitives_of_one_list_of_vertices_have_only_their_own(tmp_path: Path) -> None:
+def test_primitives_of_one_list_of_vertices_have_only_their_own(
+    tmp_path: Path, monkeypatch
+) -> None:
+    from renderer.scene import models
+
+    build, sizes = models.build_mesh, []
+    monkeypatch.setattr(
+        models, "build_mesh", lambda part: sizes.append(len(part.vertices)) or build(part)
+    )
     one, two = load(gltf(CORNERS, FACES, own=False), tmp_path).objects
     assert (one.shape.vertices == CORNERS[:3]).all()
     assert {tuple(v) for v in two.shape.vertices} == {tuple(v) for v in CORNERS[[0, 1, 2, 3, 4]]}
     assert len(two.shape.faces) == 2
+    assert sizes == [3, 5]
+
+
+def test_reading_is_left_between_two_primitives(tmp_path: Path, monkeypatch) -> None:
+    from renderer.scene import models
+
+    build, built = models.build_mesh, []
+    monkeypatch.setattr(models, "build_mesh", lambda part: built.append(part) or build(part))
+
+    def check() -> None:
+        if built:
+            raise KeyboardInterrupt
+
+    with pytest.raises(KeyboardInterrupt), cancelled_by(check):
+        load(gltf(CORNERS, FACES), tmp_path)
+    assert len(built) == 1
 
 
 @pytest.mark.parametrize(
