@@ -12,6 +12,7 @@ import pytest
 from raster_reference import reference
 from trace_reference import ball
 
+from app.cameras.focus import scene_focus
 from app.images.picking import object_on_ray
 from app.outside.outlines import Ellipse, outlines
 from app.outside.screen import Screen
@@ -30,6 +31,7 @@ from renderer.scene.model import (
     Scene,
     SceneObject,
     Sphere,
+    View,
 )
 
 SIZE = (96, 64)
@@ -306,3 +308,15 @@ def test_outlines_of_a_translated_scene_are_those_at_the_origin() -> None:
             np.testing.assert_allclose(
                 np.sort(there.form.points, axis=0), np.sort(here.form.points, axis=0), atol=1e-3
             )
+
+
+def test_what_a_scene_is_about_reaches_no_farther_where_it_is_far() -> None:
+    """Flying, zooming and the fields of the eye go by it."""
+    by = 1e6 * ODD
+    scene, there = crowd(), moved(crowd(), by)
+    here, far = (
+        scene_focus(replace(s, view=View(camera_of("perspective", shift))))
+        for s, shift in ((scene, 0.0 * by), (there, by))
+    )
+    assert far.reach == pytest.approx(here.reach, rel=0.02)
+    np.testing.assert_allclose(np.array(far.center) - by, here.center, atol=1e-6)
