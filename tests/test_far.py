@@ -12,6 +12,12 @@ import pytest
 from raster_reference import reference
 from trace_reference import ball
 
+from app.cameras.focus import scene_focus
+from app.images.picking import object_on_ray
+from app.outside.outlines import Ellipse, outlines
+from app.outside.screen import Screen
+from app.teach import loop_parts
+from app.teach.probe import Probe
 from renderer import Camera, Rasterizer, Tracer
 from renderer.compare import CHANNELS, compare_frames
 from renderer.scene import shapes
@@ -25,6 +31,7 @@ from renderer.scene.model import (
     Scene,
     SceneObject,
     Sphere,
+    View,
 )
 
 SIZE = (96, 64)
@@ -253,3 +260,63 @@ def test_single_rays_start_anywhere() -> None:
     np.testing.assert_array_equal(hit, primitive >= 0)
     seen = same & hit
     np.testing.assert_allclose(t[seen], frame.depth.ravel()[seen], rtol=1e-4)
+
+
+@pytest.mark.parametrize("view", ["perspective", "parallel"])
+def test_probe_loops_and_picking_see_what_the_images_show(view: str) -> None:
+    by = 1e6 * ODD
+    scene, camera = moved(crowd(), by), camera_of(view, by)
+    with Tracer(scene) as tracer:
+        frame = tracer.render(camera, SIZE, channels=CHANNELS)
+    probe = Probe(scene)
+    model = loop_parts.Model(scene, probe.index)
+    off = 0
+    for i, j in np.random.default_rng(6).integers(0, SIZE[::-1], (60, 2)).tolist():
+        reading = probe.at((i, j), camera, SIZE)
+        seen = frame.id[i, j]
+        own = -1 if reading.hit is None else reading.hit.object
+        x, y = camera.image_point(i, j, SIZE)
+        ray = loop_parts.viewing_ray(camera, float(x), float(y))
+        hits = [loop_parts.intersect(entry, ray) for entry in model.objects]
+        nearest = min(hits, key=lambda hit: hit.t)
+        loops = -1 if nearest.object is None else nearest.object.number
+        picked = object_on_ray(scene, *camera.ray(i, j, SIZE))
+        assert own == loops == (-1 if picked is None else picked)
+        if own != seen:  # at an outline
+            off += 1
+            continue
+        np.testing.assert_allclose(loop_parts.color_at(model, ray, nearest), reading.color)
+        off += bool(np.abs(np.array(reading.color) - frame.color[i, j]).max() > 2e-3)
+        for entry, hit in zip(model.objects, hits, strict=True):
+            rows, columns = loop_parts.bounding_box(entry, camera, SIZE)
+            assert hit is loop_parts.MISS or (i in rows and j in columns)
+    assert off <= 2
+
+
+def test_outlines_of_a_translated_scene_are_those_at_the_origin() -> None:
+    by = 1e6 * ODD
+    drawn = [
+        outlines(shown, Screen(camera_of("perspective", shift), SIZE))[0]
+        for shown, shift in ((crowd(), 0.0 * by), (moved(crowd(), by), by))
+    ]
+    for here, there in zip(*drawn, strict=True):
+        assert type(here.form) is type(there.form)
+        if isinstance(here.form, Ellipse):
+            np.testing.assert_allclose(there.form.center, here.form.center, atol=1e-3)
+            np.testing.assert_allclose(there.form.radii, here.form.radii, rtol=1e-4)
+        elif here.name == "object 1":  # a box: no edge lies where rounding decides
+            np.testing.assert_allclose(
+                np.sort(there.form.points, axis=0), np.sort(here.form.points, axis=0), atol=1e-3
+            )
+
+
+def test_what_a_scene_is_about_reaches_no_farther_where_it_is_far() -> None:
+    """Flying, zooming and the fields of the eye go by it."""
+    by = 1e6 * ODD
+    scene, there = crowd(), moved(crowd(), by)
+    here, far = (
+        scene_focus(replace(s, view=View(camera_of("perspective", shift))))
+        for s, shift in ((scene, 0.0 * by), (there, by))
+    )
+    assert far.reach == pytest.approx(here.reach, rel=0.02)
+    np.testing.assert_allclose(np.array(far.center) - by, here.center, atol=1e-6)

@@ -162,3 +162,13 @@ def test_what_two_scenes_share_is_not_computed_again():
             np.testing.assert_array_equal(known, new)
             assert known.dtype == new.dtype
             assert not known.flags.writeable
+
+
+def test_equal_vertices_of_a_mesh_stay_equal_in_the_world():
+    rng = np.random.default_rng(7)
+    points = np.repeat(rng.normal(size=(1, 3)), 37, axis=0)
+    transform = np.eye(4)
+    transform[:3] = rng.normal(size=(3, 4)) * 1e3
+    flat = flatten(Scene((SceneObject(Mesh(points, [[0, 1, 2]], transform=transform)),)))
+    world = world_vertices(flat, (0.1, 0.2, 0.3))
+    np.testing.assert_array_equal(world, world[:1].repeat(37, axis=0))

@@ -9,6 +9,7 @@ from trace_reference import ball, cast, random_basis, scene_of, tree_of
 from renderer.camera import Camera
 from renderer.scene.flat import FlatScene, flatten
 from renderer.scene.model import Mesh
+from renderer.scene.positions import world_vertices
 from renderer.trace import Tracer
 
 
@@ -39,7 +40,7 @@ def closed_mesh(kind: str) -> Mesh:
 @pytest.mark.parametrize("kind", ["ball", "box", "squashed"])
 def test_rays_at_vertices_and_edges_do_not_leak(kind: str) -> None:
     flat = flatten(scene_of(closed_mesh(kind)))
-    vertices = flat.vertices.astype(float)
+    vertices = world_vertices(flat)
     random = np.random.default_rng(4)
     centre = vertices.mean(axis=0)
     a, b = vertices[flat.faces], vertices[np.roll(flat.faces, 1, axis=1)]

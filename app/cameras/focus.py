@@ -26,7 +26,7 @@ def _nothing() -> Points:
 
 @dataclass(frozen=True)
 class Focus:
-    """center: world space. reach: how far numbers of the eye sensibly go, world units.
+    """center: world space. reach: how far numbers of the eye sensibly go from there, world units.
 
     framed: corners (n, 3) of what a picture of the scene must hold. bounds: the 8 corners of a
     box round everything. World space; both empty in an empty scene.
@@ -46,7 +46,8 @@ def scene_focus(scene: Scene) -> Focus:
     balls = [_ball(entry, box) for entry, box in zip(scene.objects, corners, strict=True)]
     center = np.median([middle for middle, _ in balls], axis=0)
     extents = [float(np.linalg.norm(middle - center)) + radius for middle, radius in balls]
-    reach = 1.5 * max(float(np.median(extents)), *(abs(x) for x in scene.view.camera.eye))
+    eye = np.abs(np.asarray(scene.view.camera.eye) - center).max()
+    reach = 1.5 * max(float(np.median(extents)), float(eye))
     x, y, z = center.tolist()
     everything = np.concatenate(corners)
     return Focus(

@@ -131,7 +131,11 @@ def _vectors(state: AppState, draft: Draft, around: Surroundings) -> tuple[AppSt
             reach = around.focus.reach if name == "eye" else 1.0
             for axis, letter in enumerate("xyz"):
                 thirds.go(axis)
-                place, scale, mono = (name, axis), Scale(-reach, reach), around.fonts.mono
+                # Around 0, unless the scene is far from there.
+                middle = around.focus.center[axis] if name == "eye" else 0.0
+                middle = middle if abs(middle) > reach else 0.0
+                scale = Scale(middle - reach, middle + reach)
+                place, mono = (name, axis), around.fonts.mono
                 state, draft = component(
                     state,
                     draft,

@@ -20,7 +20,11 @@ def world_vertices(flat: FlatScene, origin: ArrayLike = (0.0, 0.0, 0.0)) -> F64:
     world = np.empty((len(flat.vertices), 3))
     for matrix, (first, count) in zip(flat.world_from_object, flat.object_vertices, strict=True):
         mine = slice(first, first + count)
-        world[mine] = flat.vertices[mine] @ matrix[:3, :3].T + (matrix[:3, 3] - origin)
+        # Column by column: a product of matrices may round equal vertices differently, and tear
+        # a mesh open where it has several at one place.
+        x, y, z = np.hsplit(flat.vertices[mine], 3)
+        turned = x * matrix[:3, 0] + y * matrix[:3, 1] + z * matrix[:3, 2]
+        world[mine] = turned + (matrix[:3, 3] - origin)
     return world
 
 

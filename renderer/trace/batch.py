@@ -21,7 +21,7 @@ class RayBatch:
         self, method: str, origins: ArrayLike, directions: ArrayLike, t_min: float, t_max: float
     ) -> None:
         vectors = (
-            _vectors("origins", origins, np.float64),  # as exact as the scene, wherever it is
+            _vectors("origins", origins, _exact(origins)),
             _vectors("directions", directions, np.float32),
         )
         self._call = method, vectors
@@ -61,6 +61,11 @@ class RayBatch:
         if self._error is not None:
             raise self._error
         return self._answer
+
+
+def _exact(value: ArrayLike) -> type:
+    """float64, as exact as the scene is, wherever it is; what is float32 already stays so."""
+    return np.float32 if getattr(value, "dtype", None) == np.float32 else np.float64
 
 
 def _vectors(name: str, value: ArrayLike, dtype: type) -> np.ndarray:

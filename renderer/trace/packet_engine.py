@@ -24,7 +24,7 @@ from renderer.trace.stage import Stage, new_room
 from renderer.trace.team import Team
 from renderer.trace.view import View
 
-Points = NDArray[np.float64]
+Points = NDArray[np.floating]  # float32 or float64
 Directions = NDArray[np.float32]
 KERNELS = "walk", "write"  # each compiled on its own; trees have others
 

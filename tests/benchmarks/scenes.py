@@ -25,6 +25,7 @@ from renderer.scene import (
     flatten,
     load_scene,
 )
+from renderer.scene.positions import world_vertices
 
 Vertices = NDArray[np.float32]
 Faces = NDArray[np.int32]
@@ -168,7 +169,8 @@ SUBJECTS: dict[str, Callable[[], Subject]] = {
 def model(path: str | Path) -> Subject:
     """All triangles of a model or scene file, as one mesh. Raises LucidaError."""
     flat = flatten(load_scene(path))
-    return Subject(Path(path).name, np.array(flat.vertices), np.array(flat.faces))
+    vertices = world_vertices(flat).astype(np.float32)
+    return Subject(Path(path).name, vertices, np.array(flat.faces))
 
 
 def scene_of(subject: Subject) -> Scene:
