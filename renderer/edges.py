@@ -22,7 +22,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from renderer.camera import NEAREST, Camera, Floats
-from renderer.scene.flat import CELL_NUDGE, CELL_X, SPECULAR_CHECKERED, FlatScene
+from renderer.scene.flat import CELL_NUDGE, SPECULAR_CHECKERED, FlatScene
+from renderer.scene.positions import world_corners
 
 Ints = NDArray[np.integer]
 Numbers = NDArray[np.integer] | NDArray[np.floating]
@@ -100,9 +101,9 @@ class Lines:
         if not hit.any():
             return distance
         owners = np.concatenate([self.flat.face_object, self.flat.sphere_object])
-        material = self.flat.materials[owners[np.where(hit, primitive, 0)]]
-        checkered = hit & (material[:, SPECULAR_CHECKERED, 3] != 0)
-        rows = material[:, CELL_X:].astype(float)
+        owner = owners[np.where(hit, primitive, 0)]
+        checkered = hit & (self.flat.materials[owner, SPECULAR_CHECKERED, 3] != 0)
+        rows = self.flat.cells[owner]
 
         def cell(axis: int, di: float, dj: float) -> Floats:
             at = self.parameter(primitive, i + di, j + dj, t)
@@ -188,21 +189,18 @@ class Lines:
         triangle, _ = self._kinds(primitive)
         if self.camera.is_parallel:
             return limit
-        box = self._object_boxes(primitive[triangle])
-        corners = np.stack([box[:, (k, k >> 1, k >> 2) & np.array(1), (0, 1, 2)] for k in range(8)])
-        farthest = self.camera.project(corners, self.size).parameter.max(axis=0)
+        corners = self._object_boxes(primitive[triangle])
+        farthest = self.camera.project(corners, self.size).parameter.max(axis=1)
         limit[triangle] = CLIPPED_FROM * np.maximum(farthest, 0.0)
         return limit
 
     def _object_boxes(self, triangle: Ints) -> Floats:
-        """The boxes (n, 2, 3) around the objects that triangles belong to."""
-        boxes = np.empty((len(triangle), 2, 3))
+        """The corners (n, 8, 3) of the boxes around the objects that triangles belong to."""
         owner = self.flat.face_object[triangle]
-        for number in np.unique(owner):
-            first, count = self.flat.object_faces[number]
-            points = self.flat.vertices[self.flat.faces[first : first + count]].reshape(-1, 3)
-            boxes[owner == number] = points.min(axis=0), points.max(axis=0)
-        return boxes
+        bounds, matrix = self.flat.object_bounds[owner], self.flat.world_from_object[owner]
+        which = np.array(list(np.ndindex(2, 2, 2)))
+        corners = bounds[:, which, np.arange(3)] @ np.swapaxes(matrix[:, :3, :3], 1, 2)
+        return corners + matrix[:, None, :3, 3]
 
     def _largest_parameter(self) -> float:
         """The ray parameter of the scene's and the eye's largest coordinate."""
@@ -226,14 +224,14 @@ class Lines:
         return (primitive >= 0) & (primitive < triangles), primitive >= triangles
 
     def _corners(self, triangle: Ints) -> tuple[Floats, Floats, Floats]:
-        a, b, c = self.flat.vertices[self.flat.faces[triangle].T].astype(float)
+        a, b, c = np.moveaxis(world_corners(self.flat, triangle), 1, 0)
         return a, b, c
 
     def _sphere_terms(
         self, primitive: Ints, origin: Floats, direction: Floats
     ) -> tuple[Floats, Floats, Floats]:
         """Discriminant (negative: missed), the parameter nearest to the centre, |direction|^2."""
-        sphere = self.flat.spheres[primitive - len(self.flat.faces)].astype(float)
+        sphere = self.flat.spheres[primitive - len(self.flat.faces)]
         to_center = sphere[:, :3] - origin
         square = np.einsum("nk,nk->n", direction, direction)
         middle = np.einsum("nk,nk->n", to_center, direction) / square
@@ -276,8 +274,7 @@ class Lines:
         """
         origin, direction = self.camera.ray(i, j, self.size)
         along = direction / np.linalg.norm(direction, axis=1, keepdims=True)
-        box = self._object_boxes(triangle)
-        size = np.linalg.norm(box[:, 1] - box[:, 0], axis=1)
+        size = np.linalg.norm(np.ptp(self._object_boxes(triangle), axis=1), axis=1)
         corners = self._corners(triangle)
         far = [np.linalg.norm(corner - self.camera.eye, axis=1) for corner in corners]
         touches = np.zeros(len(triangle), bool)

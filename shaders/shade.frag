@@ -1,6 +1,7 @@
 #version 330 core
 // Once a pixel: from the number of the primitive that is seen to the hit and its colour.
-// HAS_TRIANGLES, HAS_SPHERES, HAS_NORMALS, HAS_COLORS, HAS_CHECKERS: constants that are put in above,
+// HAS_TRIANGLES, HAS_TURNED (an object's directions are not the world's), HAS_SPHERES, HAS_NORMALS,
+// HAS_COLORS, HAS_CHECKERS: constants that are put in above,
 // so that a scene does not pay for what it has not (renderer/raster/programs.py).
 
 #include "chunks/triangle.glsl"
@@ -10,7 +11,7 @@
 uniform isampler2D primitives;
 uniform sampler2D triangle_rows;
 uniform isampler2D faces;     // three vertices, object
-uniform sampler2D vertices;   // position, normal, colour of each
+uniform sampler2D vertices;   // position in its object's space, normal, colour of each
 uniform int triangle_count;
 
 layout(location = 0) out vec4 color;
@@ -30,14 +31,15 @@ void main() {
         hit.object = face.w;
         hit.t = triangle_t(texelFetch(triangle_rows, texel(primitive), 0).xyz, xy);
         vec3 anchor = object_anchor(hit.object);
-        vec3 anchor_world = object_anchor_world(hit.object);
+        mat3 world_from_object = HAS_TURNED ? object_matrix(hit.object) : mat3(1.0);
+        vec3 anchor_inside = object_texel(hit.object, 0).xyz;
         mat3 corners = mat3(
             texelFetch(vertices, texel(3 * face.x), 0).xyz,
             texelFetch(vertices, texel(3 * face.y), 0).xyz,
             texelFetch(vertices, texel(3 * face.z), 0).xyz);
-        vec3 a = corners[0] - anchor_world;
-        vec3 b = corners[1] - anchor_world;
-        vec3 c = corners[2] - anchor_world;
+        vec3 a = world_from_object * (corners[0] - anchor_inside);
+        vec3 b = world_from_object * (corners[1] - anchor_inside);
+        vec3 c = world_from_object * (corners[2] - anchor_inside);
         vec3 weights;
         float reach = sqrt(max(max(dot(a, a), dot(b, b)), dot(c, c)) / dot(d, d));
         float doubt = 0.0;
@@ -56,7 +58,10 @@ void main() {
         if (!far || !is_far(8.0 * doubt * reach / slenderness(a, b, c), hit.t)) {
             weights = barycentrics_at(a, b, c, hit.point);
         }
-        hit.normal = face_normal(corners);
+        hit.normal = face_normal(
+            world_from_object * (corners[1] - corners[0]),
+            world_from_object * (corners[2] - corners[1]),
+            world_from_object * (corners[0] - corners[2]), hit.to_viewer);
         if (HAS_NORMALS) {
             mat3 normals = mat3(
                 texelFetch(vertices, texel(3 * face.x + 1), 0).xyz,

@@ -1,17 +1,25 @@
 #version 330 core
 // All triangles of the scene, each vertex seen from the anchor of its object.
+// HAS_TURNED: a constant that is put in above, whether an object's directions are not the world's.
 
 #include "chunks/camera.glsl"
 #include "chunks/tables.glsl"
 
 uniform sampler2D objects;  // object_rows() in setup.py
 
-in vec3 vertex;
+in vec3 vertex;  // in its object's space
 in int object;
 
 void main() {
-    vec4 anchor = texelFetch(objects, texel(8 * object), 0);
-    vec3 anchor_world = texelFetch(objects, texel(8 * object + 1), 0).xyz;
-    vec3 point = anchor.xyz + image_from_world * (vertex - anchor_world);
-    gl_Position = clip_from_image(point, anchor.w);
+    vec4 inside = texelFetch(objects, texel(15 * object), 0);
+    vec3 anchor = texelFetch(objects, texel(15 * object + 1), 0).xyz;
+    mat3 image_from_object = image_from_world;
+    if (HAS_TURNED) {
+        image_from_object = transpose(mat3(
+            texelFetch(objects, texel(15 * object + 3), 0).xyz,
+            texelFetch(objects, texel(15 * object + 4), 0).xyz,
+            texelFetch(objects, texel(15 * object + 5), 0).xyz));
+    }
+    vec3 point = anchor + image_from_object * (vertex - inside.xyz);
+    gl_Position = clip_from_image(point, inside.w);
 }

@@ -7,6 +7,7 @@ import numpy as np
 
 from renderer.frame import Frame
 from renderer.scene.flat import flatten
+from renderer.scene.positions import world_vertices
 
 
 def reference(scene, camera, size):
@@ -42,12 +43,12 @@ def reference(scene, camera, size):
 
 def candidates(flat, o, d):
     """For each primitive, the ray parameters of its hits, NaN where there is none."""
-    corners = flat.vertices.astype(float)[flat.faces]
+    corners = world_vertices(flat)[flat.faces]
     for a, b, c in corners:
         t, b1, b2 = triangle_hit(a, b, c, o, d)
         inside = (b1 >= 0) & (b2 >= 0) & (b1 + b2 <= 1)
         yield (np.where(inside, t, np.nan),)
-    for x, y, z, radius in flat.spheres.astype(float):
+    for x, y, z, radius in flat.spheres:
         f = o - (x, y, z)
         square, middle = dot(d, d), -dot(f, d) / dot(d, d)
         off = f + middle[:, None] * d
@@ -70,13 +71,14 @@ def shade(flat, o, d, t, primitive):
     triangles = len(flat.faces)
     geometric, smooth = np.zeros_like(d), np.zeros_like(d)
     tint = np.ones_like(d)
+    vertices = world_vertices(flat)
     for k, number in enumerate(primitive):
         if number >= triangles:
-            center, radius = np.split(flat.spheres[number - triangles].astype(float), [3])
+            center, radius = np.split(flat.spheres[number - triangles], [3])
             geometric[k] = (point[k] - center) / radius
             continue
         face = flat.faces[number]
-        a, b, c = flat.vertices[face].astype(float)
+        a, b, c = vertices[face]
         geometric[k] = unit(np.cross(b - a, c - a))
         _, b1, b2 = triangle_hit(a, b, c, o[k], d[k])
         weights = np.array([1 - b1 - b2, b1, b2])
@@ -85,7 +87,7 @@ def shade(flat, o, d, t, primitive):
         if np.abs(normals).max(axis=1).min() > 0:
             mean = weights @ normals
             if np.linalg.norm(mean) >= 1e-6:
-                smooth[k] = unit(mean) * np.sign(normals.sum(0) @ geometric[k])
+                smooth[k] = unit(mean) * (1 if normals.sum(0) @ geometric[k] >= -1e-5 else -1)
     side = np.where(dot(geometric, d) < 0, 1.0, -1.0)[:, None]
     geometric *= side
     flat_there = np.abs(smooth).max(axis=1, keepdims=True) == 0
@@ -94,14 +96,14 @@ def shade(flat, o, d, t, primitive):
     n = np.where(away > 0, unit(n - away * toward), n)
     owners = np.concatenate([flat.face_object, flat.sphere_object])[primitive]
     material = flat.materials[owners].astype(float)
-    linear, offset = material[:, 3:, :3], material[:, 3:, 3]
+    linear, offset = flat.cells[owners, :, :3], flat.cells[owners, :, 3]
     cell = np.einsum("nij,nj->ni", linear, point) + offset
     cell -= 1e-3 * unit(np.einsum("nij,nj->ni", linear, geometric))
     odd = np.floor(cell).sum(axis=1) % 2 == 1
     other = (odd & (material[:, 1, 3] > 0))[:, None]
     albedo = np.where(other, material[:, 2, :3], material[:, 0, :3]) * tint
     color = flat.ambient * albedo
-    for (x, y, z, is_point), (r, g, b, _) in flat.lights.astype(float):
+    for (x, y, z, is_point), (r, g, b, _) in flat.lights:
         to_light = unit((x, y, z) - point) if is_point else np.tile((x, y, z), (len(point), 1))
         half = unit(to_light - toward)
         highlight = np.maximum(0, dot(n, half)) ** material[:, 0, 3]

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from renderer.errors import LucidaError
-from renderer.scene.flat import CELL_X, flatten
+from renderer.scene.flat import flatten
 from renderer.scene.model import (
     Checker,
     DirectionalLight,
@@ -17,6 +17,7 @@ from renderer.scene.model import (
     SceneObject,
     Sphere,
 )
+from renderer.scene.positions import lights_from, near_point, world_corners, world_vertices
 
 TRIANGLE = [[0, 0, 0], [1, 0, 0], [0, 1, 0]]
 
@@ -38,12 +39,17 @@ def test_objects_keep_their_order_and_primitives_their_numbers():
     assert not any(array.flags.writeable for array in flat)
 
 
-def test_vertices_and_normals_are_in_world_space():
+def test_vertices_are_in_the_objects_space_and_normals_in_the_worlds():
     transform = np.diag([2.0, 1.0, -4.0, 1.0])
     transform[:3, 3] = 10, 0, 0
     tilted = np.tile(np.array([1.0, 0.0, 1.0]) / np.sqrt(2), (3, 1))
     flat = flatten(Scene((SceneObject(mesh(normals=tilted, transform=transform)),)))
-    np.testing.assert_allclose(flat.vertices, [[10, 0, 0], [12, 0, 0], [10, 1, 0]])
+    np.testing.assert_array_equal(flat.vertices, TRIANGLE)
+    world = [[10, 0, 0], [12, 0, 0], [10, 1, 0]]
+    np.testing.assert_array_equal(world_vertices(flat), world)
+    np.testing.assert_array_equal(world_vertices(flat, (9, 0, 0)), np.array(world) - (9, 0, 0))
+    np.testing.assert_array_equal(world_corners(flat, np.array([0, 0])), [world, world])
+    np.testing.assert_array_equal(flat.bounds, [[10, 0, 0], [12, 1, 0]])
     expected = np.array([0.5, 0, -0.25]) / np.linalg.norm([0.5, 0, -0.25])
     np.testing.assert_allclose(flat.normals, np.tile(expected, (3, 1)), rtol=1e-6)
 
@@ -57,7 +63,7 @@ def test_a_mesh_without_normals_or_colours_is_flat_and_white():
 def test_checker_cells_are_centred_on_the_objects_origin():
     checkered = Material(checker=Checker(size=2.0))
     flat = flatten(Scene((SceneObject(Sphere((10, 0, 0)), checkered),)))
-    cell = flat.materials[0, CELL_X:] @ np.array([[10, 0, 0, 1], [11.1, 0, 0, 1]]).T
+    cell = flat.cells[0] @ np.array([[10, 0, 0, 1], [11.1, 0, 0, 1]]).T
     np.testing.assert_allclose(cell, [[0.5, 1.05], [0.5, 0.5], [0.5, 0.5]], atol=1e-5)
     np.testing.assert_array_equal(flat.materials[0, 1, 3], 1)
 
@@ -67,6 +73,20 @@ def test_lights_are_rows():
     flat = flatten(Scene((), lights))
     np.testing.assert_allclose(flat.lights[:, 0], [[1, 2, 3, 1], [0, 1, 0, 0]])
     np.testing.assert_allclose(flat.lights[:, 1], [[0.5, 0.5, 0.5, 0], [1, 1, 1, 0]])
+
+
+def test_lights_and_hits_are_relative_to_the_scenes_point_nearest_to_the_eye():
+    at = 1e9 + 0.25
+    lights = (PointLight((at + 1, 0, 0)), DirectionalLight((0, -2, 0)))
+    flat = flatten(Scene((SceneObject(Sphere((at, 0, 0), 0.5)),), lights))
+    for eye, point in (((at, 0.25, 9), (at, 0.25, 0.5)), ((0, 0, 0), (at - 0.5, 0, 0))):
+        near = near_point(flat, eye)
+        np.testing.assert_array_equal(near, point)
+        rows = lights_from(flat, near)
+        np.testing.assert_array_equal(
+            rows[:, 0], [[*(at + 1 - near[0], *-near[1:]), 1], [0, 1, 0, 0]]
+        )
+        assert rows.dtype == np.float32
 
 
 def test_an_empty_scene_is_legal():
@@ -125,8 +145,11 @@ def test_what_two_scenes_share_is_not_computed_again():
     first = Scene(tuple(objects))
     moved = replace(objects[1].shape, transform=np.diag([2.0, 3.0, 4.0, 1.0]))
     shiny = replace(objects[0], material=Material(specular=(1, 1, 1)))
+    shifted = replace(objects[1].shape, transform=np.eye(4) + np.eye(4, k=3))
     for changed in (
         [objects[0], replace(objects[1], shape=moved), *objects[2:]],
+        [objects[0], replace(objects[1], shape=shifted), *objects[2:]],
+        [*objects[:2], SceneObject(Sphere((3, 2, 1), 0.25)), *objects[3:]],
         [shiny, *objects[1:]],
         [objects[0], SceneObject(mesh()), *objects[2:]],  # another number of vertices
         [objects[0], objects[2], objects[1], *objects[3:]],

@@ -139,7 +139,7 @@ def test_telephoto(distance: float, projection: str, both) -> None:
         camera = Camera.look_at(eye, (0.85, 0.1, 0.4))
         camera = replace(camera, viewport=(-half, half, -half, half), projection=projection)
         assert not (wrong := pair.unexplained(camera, (128, 128))), wrong
-    exact = packet_view(View.of(camera), (128, 128), pair.packets.instances).exact
+    exact = packet_view(View.of(camera), (128, 128), pair.packets.instances, np.zeros(3)).exact
     assert exact[0] == 1
 
 

@@ -200,7 +200,7 @@ def test_every_crossing_of_a_torus_is_found() -> None:
     flat = flatten(scene)
     assert len(flat.faces) > 10 * RUN
     index, rng = Index(flat), np.random.default_rng(2)
-    corners = flat.vertices[flat.faces].astype(float)
+    corners = index.vertices[flat.faces]
     for _ in range(200):
         origin, toward = rng.normal(size=3) * 2, rng.normal(size=3) * 0.3
         direction = toward - origin

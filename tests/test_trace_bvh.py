@@ -2,19 +2,29 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from trace_reference import ball, cast, closest, random_scene, scene_of, tree_of
 
 from renderer.scene.flat import FlatScene, flatten
-from renderer.scene.model import Mesh, Scene, Sphere
+from renderer.scene.model import Mesh, Scene, Shape, Sphere
 from renderer.trace.bvh import MAX_DEPTH, Bvh, build
 from renderer.trace.team import Team
 
 
+def binary(flat: FlatScene, team: Team, leaf_size: int = 4) -> Bvh:
+    """The tree over a scene whose meshes all stand at the origin."""
+    spheres = flat.spheres.astype(np.float32)
+    spheres.setflags(write=False)
+    return build(flat.vertices, flat.faces, spheres, team, leaf_size)
+
+
 def primitive_boxes(flat: FlatScene) -> tuple[np.ndarray, np.ndarray]:
     corners = flat.vertices[flat.faces].astype(float).reshape(-1, 3, 3)
-    centre, radius = flat.spheres[:, :3].astype(float), flat.spheres[:, 3:].astype(float)
+    spheres = flat.spheres.astype(np.float32).astype(float)
+    centre, radius = spheres[:, :3], spheres[:, 3:]
     low = np.concatenate([corners.min(axis=1), centre - radius])
     return low, np.concatenate([corners.max(axis=1), centre + radius])
 
@@ -49,6 +59,13 @@ def check(flat: FlatScene, bvh: Bvh, leaf_size: int) -> None:
     assert deepest == bvh.depth
 
 
+RANDOM = random_scene(np.random.default_rng(1))
+
+
+def unmoved(shape: Shape) -> Shape:
+    return replace(shape, transform=np.eye(4)) if isinstance(shape, Mesh) else shape
+
+
 def soup(count: int, seed: int = 0, spread: float = 1.0) -> Scene:
     random = np.random.default_rng(seed)
     centres = random.normal(size=(count, 1, 3)) * spread
@@ -66,11 +83,11 @@ def test_every_primitive_is_in_one_leaf(threads: int, leaf_size: int) -> None:
         soup(1),
         soup(2),
         soup(30_000),
-        random_scene(np.random.default_rng(1)),
+        Scene(tuple(replace(e, shape=unmoved(e.shape)) for e in RANDOM.objects)),
         scene_of(*(Sphere((x * 1e-3, 1e3, 1e-3), 0.1) for x in range(200))),
     ):
         flat = flatten(scene)
-        check(flat, build(flat, team, leaf_size), leaf_size)
+        check(flat, binary(flat, team, leaf_size), leaf_size)
     team.close()
 
 
@@ -78,7 +95,7 @@ def test_every_primitive_is_in_one_leaf(threads: int, leaf_size: int) -> None:
 def test_triangles_that_cannot_be_told_apart_are_halved(count: int) -> None:
     vertices = np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0]], float)
     flat = flatten(scene_of(Mesh(vertices, np.tile([0, 1, 2], (count, 1)))))
-    bvh = build(flat, Team(1))
+    bvh = binary(flat, Team(1))
     check(flat, bvh, 4)
     assert bvh.depth <= np.ceil(np.log2(count)) + 1
     t, primitive, _, _, _ = cast(
@@ -93,7 +110,7 @@ def test_the_depth_is_bounded_where_sizes_explode() -> None:
     corners = np.array([[1, 0, 0], [0, 1, 0], [0, 0, 1]])
     vertices = (sizes[:, None, None] * corners).reshape(-1, 3)
     flat = flatten(scene_of(Mesh(vertices, np.arange(len(vertices)).reshape(-1, 3))))
-    bvh = build(flat, Team(1), 1)
+    bvh = binary(flat, Team(1), 1)
     check(flat, bvh, 1)
     assert bvh.depth <= MAX_DEPTH + 32
 
@@ -102,7 +119,7 @@ def test_triangles_without_area_are_no_trouble() -> None:
     vertices = np.zeros((300, 3))
     vertices[:, 0] = np.arange(300) // 3
     flat = flatten(scene_of(Mesh(vertices, np.arange(300).reshape(-1, 3))))
-    check(flat, build(flat, Team(1)), 4)
+    check(flat, binary(flat, Team(1)), 4)
 
 
 def test_large_trees_find_what_all_primitives_tried_in_turn_give() -> None:
@@ -122,5 +139,5 @@ def test_large_trees_find_what_all_primitives_tried_in_turn_give() -> None:
 
 def test_the_tree_does_not_depend_on_the_threads() -> None:
     flat = flatten(soup(40_000))
-    trees = [build(flat, Team(threads)) for threads in (2, 2)]
+    trees = [binary(flat, Team(threads)) for threads in (2, 2)]
     assert all(np.array_equal(a, b) for a, b in zip(*trees, strict=True))

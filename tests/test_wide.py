@@ -22,15 +22,18 @@ from renderer.trace.wide import (
     tree_of_mesh,
 )
 
-EMPTY = flatten(Scene(()))
-
 
 def wide(mesh: Mesh, threads: int = 2) -> WideTree:
     team = Team(threads)
     try:
-        return tree_of_mesh(mesh.vertices, mesh.faces, EMPTY, team)
+        return tree_of_mesh(mesh.vertices, mesh.faces, team)
     finally:
         team.close()
+
+
+def top_bounds(instances: Instances) -> np.ndarray:
+    """Of the upper tree, in the world."""
+    return instances.bounds[-1] + instances.world_from_space[-1, :3, 3]
 
 
 def shards(count: int, seed: int = 1) -> Mesh:
@@ -102,7 +105,7 @@ def test_boxes_are_leaves_of_one(count: int) -> None:
     low = random.uniform(-1, 1, (count, 3)).astype(np.float32)
     high = low + random.uniform(0, 0.1, (count, 3)).astype(np.float32)
     team = Team(2)
-    box, child, _ = tree_of_boxes(low, high, EMPTY, team)
+    box, child, _ = tree_of_boxes(low, high, team)
     team.close()
     is_leaf = child <= FIRST_LEAF
     item = FIRST_LEAF - child[is_leaf]
@@ -137,14 +140,14 @@ def test_objects_share_the_tree_of_a_shared_mesh() -> None:
     assert world.sphere_object.tolist() == [2]
     first = np.cumsum([0, len(mesh.faces), len(mesh.faces), len(other.faces)])
     assert world.first_primitive.tolist() == first.tolist()
-    assert instances.bounds[-1, :, 0] == pytest.approx([-4, 10], abs=1e-4)
+    assert top_bounds(instances)[:, 0] == pytest.approx([-4, 10], abs=1e-4)
 
     # Move one object: the trees stay, the upper tree follows.
     moved = scene_of(mesh, placed(mesh, 7), Sphere((9, 0, 0)), other, placed(mesh, -20))
     instances.update(moved, flatten(moved))
     assert instances.world.box is world.box
     assert instances.world.corner is world.corner
-    assert instances.bounds[-1, 0, 0] == pytest.approx(-21, abs=1e-4)
+    assert top_bounds(instances)[0, 0] == pytest.approx(-21, abs=1e-4)
 
     # Another mesh: only it is built.
     changed = scene_of(mesh, shards(60, seed=5))

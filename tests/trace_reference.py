@@ -24,7 +24,8 @@ from renderer.scene.model import (
     Shape,
     Sphere,
 )
-from renderer.trace.bvh import build, packed
+from renderer.scene.positions import world_vertices
+from renderer.trace.bvh import tree_of_scene
 from renderer.trace.kernel import viewing_ray
 from renderer.trace.team import Team
 from renderer.trace.traverse import Tree, any_hit, closest_hit
@@ -55,7 +56,7 @@ def closest(flat: FlatScene, origins: np.ndarray, directions: np.ndarray, t_rang
     best, second = np.full(n, np.inf), np.full(n, np.inf)
     primitive, b1, b2 = np.full(n, -1), np.zeros(n), np.zeros(n)
     doubtful = np.zeros(n, bool)
-    vertices = flat.vertices.astype(float)
+    vertices = world_vertices(flat)
     for number, (i, j, k) in enumerate(flat.faces):
         a, e1, e2 = vertices[i], vertices[j] - vertices[i], vertices[k] - vertices[i]
         if not np.cross(e1, e2).any():
@@ -75,7 +76,7 @@ def closest(flat: FlatScene, origins: np.ndarray, directions: np.ndarray, t_rang
         second = np.where(closer, best, np.where(hit, np.minimum(second, t), second))
         best, primitive = np.where(closer, t, best), np.where(closer, number, primitive)
         b1, b2 = np.where(closer, u, b1), np.where(closer, v, b2)
-    for number, (x, y, z, radius) in enumerate(flat.spheres.astype(float), len(flat.faces)):
+    for number, (x, y, z, radius) in enumerate(flat.spheres, len(flat.faces)):
         f = origins - (x, y, z)
         a = np.einsum("ij,ij->i", directions, directions)
         b = np.einsum("ij,ij->i", directions, f)
@@ -121,13 +122,13 @@ def _shaded_hit(flat: FlatScene, origin, direction, t, primitive, b1, b2):
     if primitive < len(flat.faces):
         owner = flat.face_object[primitive]
         corners = flat.faces[primitive]
-        a, b, c = flat.vertices[corners].astype(float)
+        a, b, c = flat.vertices[corners].astype(float) @ flat.world_from_object[owner, :3, :3].T
         weights = np.array([1 - b1 - b2, b1, b2])
         g = _unit(np.cross(b - a, c - a))
         tint = weights @ flat.colors[corners].astype(float)
         normals = flat.normals[corners].astype(float)
     else:
-        sphere = flat.spheres[primitive - len(flat.faces)].astype(float)
+        sphere = flat.spheres[primitive - len(flat.faces)]
         owner = flat.sphere_object[primitive - len(flat.faces)]
         g, normals = _unit(point - sphere[:3]), np.zeros((3, 3))
     side = 1 if g @ direction < 0 else -1
@@ -135,20 +136,20 @@ def _shaded_hit(flat: FlatScene, origin, direction, t, primitive, b1, b2):
     if normals.any(axis=1).all():
         smooth = weights @ normals
         if np.linalg.norm(smooth) >= 1e-6:
-            n = _unit(smooth) * side * (1 if normals.sum(axis=0) @ g >= 0 else -1)
+            n = _unit(smooth) * side * (1 if normals.sum(axis=0) @ g >= -1e-5 else -1)
     cosine = n @ along
     if cosine > -1e-3:
         n = _unit(n - (cosine + 1e-3) * along)
 
     material = flat.materials[owner].astype(float)
     albedo = material[0, :3]
-    linear = material[3:, :3]
-    cell = linear @ point + material[3:, 3] - 1e-3 * _unit(linear @ (side * g))
+    linear = flat.cells[owner, :, :3]
+    cell = linear @ point + flat.cells[owner, :, 3] - 1e-3 * _unit(linear @ (side * g))
     if material[1, 3] and np.floor(cell).sum() % 2:
         albedo = material[2, :3]
     albedo = albedo * tint
     color = flat.ambient * albedo
-    for place, rgb in flat.lights.astype(float):
+    for place, rgb in flat.lights:
         light = _unit(place[:3] - point) if place[3] else place[:3]
         half = light - along
         highlight = max(0.0, n @ _unit(half)) ** material[0, 3]
@@ -158,7 +159,7 @@ def _shaded_hit(flat: FlatScene, origin, direction, t, primitive, b1, b2):
 
 def tree_of(flat: FlatScene, leaf_size: int = 4) -> Tree:
     team = Team(1)
-    return packed(build(flat, team, leaf_size), flat, team)
+    return tree_of_scene(flat, team, leaf_size)
 
 
 @numba.njit(error_model="numpy")

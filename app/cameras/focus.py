@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from renderer.camera import Vector
-from renderer.scene.flat import extent
+from renderer.scene.boxes import extent
 from renderer.scene.model import Scene, SceneObject, Sphere
 
 Points = NDArray[np.float64]

@@ -70,13 +70,13 @@ class Model:
     def _object(self, number: int) -> Object:
         flat, sphere = self.flat, int(self.flat.object_sphere[number])
         if sphere >= 0:
-            center, radius = flat.spheres[sphere, :3].astype(float), float(flat.spheres[sphere, 3])
+            center, radius = flat.spheres[sphere, :3], float(flat.spheres[sphere, 3])
             vertices, faces = np.zeros((0, 3)), np.zeros((0, 3), np.int64)
             low, high = center - radius, center + radius
         else:
             first, count = flat.object_faces[number]
             used, faces = np.unique(flat.faces[first : first + count], return_inverse=True)
-            vertices = flat.vertices[used].astype(float)
+            vertices = self.index.vertices[used]
             faces = faces.reshape(-1, 3).astype(np.int64)
             low, high = vertices.min(axis=0), vertices.max(axis=0)
         name = self.scene.objects[number].name or f"object {number}"

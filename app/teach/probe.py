@@ -132,7 +132,7 @@ class Probe:
     def _corners(self, hit: Hit | None) -> tuple[Vector, ...]:
         if hit is None or hit.primitive >= len(self.flat.faces):
             return ()
-        return tuple(_three(self.flat.vertices[k]) for k in self.flat.faces[hit.primitive])
+        return tuple(_three(self.index.vertices[k]) for k in self.flat.faces[hit.primitive])
 
     def _sphere(self, hit: Hit | None) -> tuple[Vector, float] | None:
         if hit is None or hit.primitive < len(self.flat.faces):

@@ -111,7 +111,7 @@ def shade(flat: FlatScene, hit: Hit, is_lit: LitTest | None = None) -> Shading:
     """The colour at a hit, taken apart. is_lit: tells shadows; None: there are none."""
     material = flat.materials[hit.object]
     albedo = _three(
-        scalar.albedo_at(flat, material, hit.point, hit.geometric, hit.primitive, hit.b1, hit.b2)
+        scalar.albedo_at(flat, hit.object, hit.point, hit.geometric, hit.primitive, hit.b1, hit.b2)
     )
     specular = _three(material[SPECULAR_CHECKERED])
     shininess = float(material[DIFFUSE_SHININESS, 3])

@@ -9,6 +9,7 @@ from __future__ import annotations
 from typing import Any
 
 import moderngl
+import numpy as np
 
 from renderer.raster.resources import Owner
 from renderer.raster.sources import link
@@ -16,34 +17,46 @@ from renderer.scene.flat import SPECULAR_CHECKERED, FlatScene
 
 
 class Programs:
-    """Compiled once for a context; the shading pass once for each kind of scene."""
+    """Compiled once for a context; some of them once for each kind of scene."""
 
     def __init__(self, context: moderngl.Context) -> None:
         self._context = context
         self._owner = Owner()
-        self._shade: dict[tuple[bool, ...], moderngl.Program] = {}
+        self._special: dict[tuple[object, ...], moderngl.Program] = {}
         self.clear = self._owner.own(link(context, "screen.vert", "clear.frag"))
-        self.triangles = self._owner.own(link(context, "triangles.vert", "triangles.frag"))
         self.spheres = self._owner.own(link(context, "spheres.vert", "spheres.frag"))
         self.background = self._owner.own(link(context, "screen.vert", "background.frag"))
+
+    def triangles(self, flat: FlatScene) -> moderngl.Program:
+        """The first pass for the scene's triangles."""
+        return self._linked("triangles.vert", "triangles.frag", {"HAS_TURNED": _has_turned(flat)})
 
     def shade(self, flat: FlatScene) -> moderngl.Program:
         """The shading pass for what the scene has."""
         features = {
             "HAS_TRIANGLES": len(flat.faces) > 0,
+            "HAS_TURNED": _has_turned(flat),
             "HAS_SPHERES": len(flat.spheres) > 0,
             "HAS_NORMALS": bool(flat.normals.any()),
             "HAS_COLORS": bool((flat.colors != 1).any()),
             "HAS_CHECKERS": bool(flat.materials[:, SPECULAR_CHECKERED, 3].any()),
         }
-        key = tuple(features.values())
-        if key not in self._shade:
-            program = link(self._context, "screen.vert", "shade.frag", features)
-            self._shade[key] = self._owner.own(program)
-        return self._shade[key]
+        return self._linked("screen.vert", "shade.frag", features)
+
+    def _linked(self, vertex: str, fragment: str, features: dict[str, bool]) -> moderngl.Program:
+        key = (vertex, *features.values())
+        if key not in self._special:
+            program = link(self._context, vertex, fragment, features)
+            self._special[key] = self._owner.own(program)
+        return self._special[key]
 
     def release(self) -> None:
         self._owner.release()
+
+
+def _has_turned(flat: FlatScene) -> bool:
+    """Whether an object is turned or scaled, not only somewhere else."""
+    return bool((flat.world_from_object[:, :3, :3] != np.eye(3)).any())
 
 
 def set_uniform(program: moderngl.Program, name: str, value: Any) -> None:

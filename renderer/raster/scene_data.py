@@ -19,6 +19,7 @@ from renderer.raster.setup import (
     SPHERE_TEXELS,
     camera_block,
     image_space,
+    light_rows,
     object_rows,
     sphere_rows,
     triangle_rows,
@@ -54,11 +55,11 @@ class SceneData:
             "triangle_rows": np.zeros((triangles, 4), np.float32),
             "spheres": np.zeros((spheres, SPHERE_TEXELS, 4), np.float32),
             "objects": np.zeros((objects, OBJECT_TEXELS, 4), np.float32),
+            "lights": np.zeros(flat.lights.shape, np.float32),
         }
         fixed = {
             "faces": np.concatenate([flat.faces, flat.face_object[:, None]], axis=1),
             "vertices": np.stack([flat.vertices, flat.normals, flat.colors], axis=1),
-            "lights": flat.lights,
         }
         self._tables = {
             name: self._owner.own(Table(self._context, name, array))
@@ -83,7 +84,9 @@ class SceneData:
             content = [(vertices, "3f4", "vertex"), (objects, "1i4", "object")]
             indices = own(context.buffer(flat.faces))
             self._triangles = own(
-                context.vertex_array(programs.triangles, content, indices, index_element_size=4)
+                context.vertex_array(
+                    programs.triangles(flat), content, indices, index_element_size=4
+                )
             )
 
     def release(self) -> None:
@@ -111,13 +114,14 @@ class SceneData:
             return
         self._last = None
         flat, tables = self._flat, self._tables
-        space = image_space(camera, size, self._setup.object_bounds)
-        objects = object_rows(flat, self._setup, camera, space)
+        space = image_space(camera, size, flat)
+        objects = object_rows(flat, self._setup, space)
         self._block.write(camera_block(camera, size, self.margin(size), space, flat))
         tables["objects"].write(objects)
+        tables["lights"].write(light_rows(flat, space))
         if len(flat.faces):
             rows = tables["triangle_rows"].texels[: len(flat.faces), :3]
-            triangle_rows(self._setup.planes, space, camera.is_parallel, rows)
+            triangle_rows(self._setup, space, camera.is_parallel, rows)
             tables["triangle_rows"].write()
         if len(flat.spheres):
             tables["spheres"].write(sphere_rows(flat, space, objects))

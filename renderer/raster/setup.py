@@ -8,9 +8,11 @@ parameter of the ray that goes through it. Perspective keeps x and y multiplied 
 are affine in the point. Pixel centres are exact in float32 in these coordinates.
 
 float32 keeps 7 digits, so nothing large may cancel on the GPU. Each object is therefore seen from
-an anchor of its own: the point of its bounding box that is nearest to the eye. A triangle's plane
-meets a ray at t (parallel) or 1/t (perspective) that is affine in x and y: the three coefficients
-are composed here, where N.(a - eye) may cancel without harm.
+an anchor of its own: the point of its bounding box that is nearest to the eye. Vertices lie in
+their object's space, and only what they are apart from the anchor there is computed with. What
+belongs to no object, the lights, is relative to the scene's point nearest to the eye (near_point).
+A triangle's plane meets a ray at t (parallel) or 1/t (perspective) that is affine in x and y: the
+three coefficients are composed here, where N.(a - eye) may cancel without harm.
 """
 
 from __future__ import annotations
@@ -21,10 +23,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from renderer.camera import NEAREST, Camera, Floats
-from renderer.scene.flat import CELL_X, FlatScene, extent
+from renderer.scene.flat import FlatScene
+from renderer.scene.positions import lights_from, near_point, world_vertices
 
-# Anchor in image coordinates, near | anchor in the world | six rows of the material
-OBJECT_TEXELS = 8
+# Anchor in the object's space, near | anchor in image coordinates | anchor from the scene's near
+# point | three rows: vectors of the object's space to image coordinates | three: to the world's
+# directions | three of the material | three of the checker's cells
+OBJECT_TEXELS = 15
+IMAGE, WORLD, MATERIAL, CELLS = 3, 6, 9, 12
 SPHERE_TEXELS = 3
 
 FLOAT32_MAX = float(np.finfo(np.float32).max)
@@ -56,80 +62,90 @@ CAMERA_BLOCK = np.dtype(
 
 
 class SceneSetup(NamedTuple):
-    """What a scene needs once, in float64. planes (m, 4): normal and -offset, so that N.p - offset
-    is 0 on the triangle. object_bounds (objects, 2, 3). vertex_object (n,): int32."""
+    """What a scene needs once. middle (3,): of the scene's bounds, float64. planes (m, 4): normal
+    and -offset in the world, relative to the middle, so that N.p - offset is 0 on the triangle;
+    float64. object_from_world (objects, 3, 3): of directions. vertex_object (n,): int32."""
 
+    middle: Floats
     planes: Floats
-    object_bounds: Floats
+    object_from_world: Floats
     vertex_object: NDArray[np.int32]
 
 
 class ImageSpace(NamedTuple):
     """Image coordinates of one camera and size.
 
-    image_from_world (3, 4): rows x, y (times t in perspective), t. step_x, step_y (3,): world
-    vectors of one pixel to the right and up, on the plane t = 1 in perspective. origin, direction
-    (3,): the ray through the image's centre. clip_z: z in clip space is clip_z[0] * t + clip_z[1],
-    in perspective less twice the object's near (objects,), which is 0 in parallel projection.
-    t_low, t_high: around all t > 0 of the scene that are drawn.
+    image_from_world (3, 4), for points relative to the eye: rows x, y (times t in perspective), t.
+    step_x, step_y (3,): world vectors of one pixel to the right and up, on the plane t = 1 in
+    perspective. eye, across, direction (3,): the ray through the image's centre starts at eye +
+    across. clip_z: z in clip space is clip_z[0] * t + clip_z[1], in perspective less twice the
+    object's near (objects,), which is 0 in parallel projection. t_low, t_high: around all t > 0 of
+    the scene that are drawn.
     """
 
     image_from_world: Floats
     step_x: Floats
     step_y: Floats
-    origin: Floats
+    eye: Floats
+    across: Floats
     direction: Floats
     clip_z: tuple[float, float]
     near: Floats
     t_low: float
     t_high: float
 
+    def at(self, from_eye: Floats) -> Floats:
+        """The image coordinates (n, 3) of points (n, 3) relative to the eye."""
+        image: Floats = from_eye @ self.image_from_world[:, :3].T + self.image_from_world[:, 3]
+        return image
+
 
 def scene_setup(flat: FlatScene) -> SceneSetup:
-    """Planes of triangles and bounds of objects."""
-    corners = [flat.vertices[flat.faces[:, k]].astype(np.float64) for k in range(3)]
+    """Planes of triangles, the objects' inverses and the vertices' objects."""
+    middle = flat.bounds.mean(axis=0)
+    vertices = world_vertices(flat, middle)
     planes = np.empty((len(flat.faces), 4))
-    planes[:, :3] = np.cross(corners[1] - corners[0], corners[2] - corners[0])
-    planes[:, 3] = -np.einsum("ij,ij->i", planes[:, :3], corners[0])
-    bounds = np.zeros((len(flat.materials), 2, 3))
-    vertex_object = np.zeros(len(flat.vertices), np.int32)
-    for number, (first, count) in enumerate(flat.object_faces):
-        sphere = flat.object_sphere[number]
-        if sphere >= 0:
-            center, radius = flat.spheres[sphere, :3], flat.spheres[sphere, 3]
-            bounds[number] = center - radius, center + radius
-        elif count:
-            # An object's vertices lie together (flat.py).
-            faces = flat.faces[first : first + count]
-            mine = slice(faces.min(), faces.max() + 1)
-            vertex_object[mine] = number
-            bounds[number] = extent(flat.vertices[mine])
-    return SceneSetup(planes, bounds, vertex_object)
+    for first, count in flat.object_faces:
+        mine = slice(first, first + count)
+        a, b, c = (vertices[flat.faces[mine, k]] for k in range(3))
+        planes[mine, :3] = np.cross(b - a, c - a)
+        planes[mine, 3] = -np.einsum("ij,ij->i", planes[mine, :3], a)
+    numbers = np.arange(len(flat.materials), dtype=np.int32)
+    return SceneSetup(
+        middle,
+        planes,
+        np.asarray(np.linalg.inv(flat.world_from_object[:, :3, :3]), np.float64),
+        np.repeat(numbers, flat.object_vertices[:, 1]),
+    )
 
 
-def image_space(camera: Camera, size: tuple[int, int], bounds: Floats) -> ImageSpace:
-    """Image coordinates of `camera` for an image of (width, height). bounds: the objects'
-    (SceneSetup)."""
+def image_space(camera: Camera, size: tuple[int, int], flat: FlatScene) -> ImageSpace:
+    """Image coordinates of `camera` for an image of (width, height)."""
     width, height = size
     left, right, bottom, top = camera.viewport
     x, y = (left + right) / 2, (bottom + top) / 2
     u, v, w = (np.asarray(vector) for vector in (camera.u, camera.v, camera.w))
     eye, across = np.asarray(camera.eye), x * u + y * v
     unit = 1.0 if camera.is_parallel else camera.distance
-    camera_from_world = camera.camera_from_world
-    t_row = -camera_from_world[2] / unit
-    middle = bounds.mean(axis=1) @ t_row[:3] + t_row[3]
-    half = (bounds[:, 1] - bounds[:, 0]) / 2 @ np.abs(t_row[:3])
-    fitted = _fitted(middle - half, middle + half)
+    camera_from_eye = np.zeros((4, 4))
+    camera_from_eye[:3, :3], camera_from_eye[3, 3] = camera.camera_from_world[:3, :3], 1.0
+    t_row = -camera_from_eye[2] / unit
+    # The boxes of objects lie as they do: in each one's own space.
+    matrix, bounds = flat.world_from_object, flat.object_bounds
+    from_eye = np.einsum("nij,nj->ni", matrix[:, :3, :3], bounds.mean(axis=1))
+    middle = (from_eye + (matrix[:, :3, 3] - eye)) @ t_row[:3]
+    half = np.einsum("ni,ni->n", np.abs(t_row[:3] @ matrix[:, :3, :3]), bounds[:, 1] - bounds[:, 0])
+    fitted = _fitted(middle - half / 2, middle + half / 2)
     clip_near, clip_far = (1.0, 2.0) if not camera.is_parallel else fitted.box
     clip_from_camera = camera.clip_from_camera(clip_near * unit, clip_far * unit)
-    clip = clip_from_camera @ camera_from_world / unit
+    clip = clip_from_camera @ camera_from_eye / unit
     clip_z = (-clip_from_camera[2, 2], clip_from_camera[2, 3] / unit)
     return ImageSpace(
         image_from_world=np.stack([clip[0] * width / 2, clip[1] * height / 2, t_row]),
         step_x=(right - left) / width * u,
         step_y=(top - bottom) / height * v,
-        origin=eye + across if camera.is_parallel else eye,
+        eye=eye,
+        across=across if camera.is_parallel else np.zeros(3),
         direction=-w if camera.is_parallel else across - camera.distance * w,
         clip_z=clip_z if camera.is_parallel else (1.0, 0.0),
         near=np.zeros(len(bounds)) if camera.is_parallel else fitted.near,
@@ -167,7 +183,7 @@ def camera_block(
     return block
 
 
-def triangle_rows(planes: Floats, space: ImageSpace, is_parallel: bool, out: NDArray) -> None:
+def triangle_rows(setup: SceneSetup, space: ImageSpace, is_parallel: bool, out: NDArray) -> None:
     """Coefficients (c0, c1, c2) of each triangle, into out, float32 (m, 3).
 
     t (parallel) or 1/t (perspective) of the ray of pixel (x, y) is c0 * x + c1 * y + c2. A triangle
@@ -175,10 +191,10 @@ def triangle_rows(planes: Floats, space: ImageSpace, is_parallel: bool, out: NDA
     """
     basis = np.zeros((4, 4))
     basis[:3, 0], basis[:3, 1], basis[:3, 2] = space.step_x, space.step_y, space.direction
-    basis[:, 3] = *space.origin, 1.0
+    basis[:, 3] = *(space.eye - setup.middle + space.across), 1.0
     columns, divisor = ((0, 1, 3), 2) if is_parallel else ((0, 1, 2), 3)
-    for start in range(0, len(planes), BLOCK):
-        products = planes[start : start + BLOCK] @ basis
+    for start in range(0, len(setup.planes), BLOCK):
+        products = setup.planes[start : start + BLOCK] @ basis
         rows = out[start : start + BLOCK]
         with np.errstate(all="ignore"):
             scale = -products[:, divisor]
@@ -188,24 +204,31 @@ def triangle_rows(planes: Floats, space: ImageSpace, is_parallel: bool, out: NDA
         rows[~(size < 1e30)] = 0, 0, -1
 
 
-def object_rows(
-    flat: FlatScene, setup: SceneSetup, camera: Camera, space: ImageSpace
-) -> NDArray[np.float32]:
-    """(objects, OBJECT_TEXELS, 4): each object's anchor, and its material with the checker's map
-    taken relative to the anchor."""
+def object_rows(flat: FlatScene, setup: SceneSetup, space: ImageSpace) -> NDArray[np.float32]:
+    """(objects, OBJECT_TEXELS, 4): what each object is seen by, and its material, with the
+    checker's map taken relative to the anchor."""
     rows = np.zeros((len(flat.materials), OBJECT_TEXELS, 4), np.float32)
-    low, high = setup.object_bounds[:, 0], setup.object_bounds[:, 1]
-    anchor = np.clip(np.asarray(camera.eye), low, high).astype(np.float32)
-    world = anchor.astype(np.float64)
-    rows[:, 0, :3] = world @ space.image_from_world[:, :3].T + space.image_from_world[:, 3]
+    linear, place = flat.world_from_object[:, :3, :3], flat.world_from_object[:, :3, 3]
+    eye = np.einsum("nij,nj->ni", setup.object_from_world, space.eye - place)
+    # Rounded: the difference from a vertex has no other rounding.
+    rows[:, 0, :3] = np.clip(eye, flat.object_bounds[:, 0], flat.object_bounds[:, 1])
     rows[:, 0, 3] = space.near
-    rows[:, 1, :3] = anchor
-    rows[:, 2:] = flat.materials
-    cells = flat.materials[:, CELL_X:].astype(np.float64)
-    moved = np.einsum("nij,nj->ni", cells[:, :, :3], world) + cells[:, :, 3]
+    turned = np.einsum("nij,nj->ni", linear, rows[:, 0, :3].astype(np.float64))
+    rows[:, 1, :3] = space.at(turned + (place - space.eye))
+    rows[:, 2, :3] = turned + (place - near_point(flat, space.eye))
+    rows[:, IMAGE:WORLD, :3] = space.image_from_world[:, :3] @ linear
+    rows[:, WORLD:MATERIAL, :3] = linear
+    rows[:, MATERIAL:CELLS] = flat.materials
+    cell = np.einsum("nij,nj->ni", flat.cells[:, :, :3], turned + place) + flat.cells[:, :, 3]
+    rows[:, CELLS:, :3] = flat.cells[:, :, :3]
     # Cells repeat by twos: what is whole and even may go, so that the rest keeps its digits.
-    rows[:, 2 + CELL_X :, 3] = moved - 2 * np.floor(moved / 2)
+    rows[:, CELLS:, 3] = cell - 2 * np.floor(cell / 2)
     return rows
+
+
+def light_rows(flat: FlatScene, space: ImageSpace) -> NDArray[np.float32]:
+    """(lights, 2, 4): FlatScene.lights, points relative to the scene's near point."""
+    return lights_from(flat, near_point(flat, space.eye))
 
 
 def sphere_rows(flat: FlatScene, space: ImageSpace, objects: NDArray) -> NDArray[np.float32]:
@@ -213,14 +236,14 @@ def sphere_rows(flat: FlatScene, space: ImageSpace, objects: NDArray) -> NDArray
     origin of the ray through the image's centre, |that|^2 - radius^2 | from the object's anchor to
     the centre, the object's number. objects: from object_rows()."""
     rows = np.zeros((len(flat.spheres), SPHERE_TEXELS, 4), np.float32)
-    center, radius = flat.spheres[:, :3].astype(np.float64), flat.spheres[:, 3].astype(np.float64)
-    rows[:, 0, :3] = center @ space.image_from_world[:, :3].T + space.image_from_world[:, 3]
+    to_center, radius = flat.spheres[:, :3] - space.eye, flat.spheres[:, 3]
+    rows[:, 0, :3] = space.at(to_center)
     rows[:, 0, 3] = radius
-    from_center = space.origin - center
+    from_center = space.across - to_center
     rows[:, 1, :3] = from_center
     distance = np.linalg.norm(from_center, axis=1)
     rows[:, 1, 3] = (distance - radius) * (distance + radius)
-    rows[:, 2, :3] = center - objects[flat.sphere_object, 1, :3]
+    rows[:, 2, :3] = -objects[flat.sphere_object, 0, :3]
     rows[:, 2, 3] = flat.sphere_object
     return rows
 

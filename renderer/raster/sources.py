@@ -93,12 +93,12 @@ def link(
     constants: Mapping[str, bool] | None = None,
     read: Callable[[str], str] = read_shader,
 ) -> moderngl.Program:
-    """The program of two stages under shaders/; the fragment shader gets the constants.
+    """The program of two stages under shaders/; both get the constants.
 
     Raises LucidaError naming the file and line where the driver does not accept one.
     """
     stages = {
-        "vertex_shader": Source(vertex, read),
+        "vertex_shader": Source(vertex, read, constants),
         "fragment_shader": Source(fragment, read, constants),
     }
     try:

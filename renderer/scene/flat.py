@@ -1,7 +1,14 @@
-"""A scene as flat arrays in world space: the one form that both renderers read.
+"""A scene as flat arrays: the one form that both renderers read.
 
 Owns the arrays' layout. Knows nothing of cameras, BVHs or GL. The rasterizer uploads these arrays
 as textures, the tracer's kernel indexes them: neither sees a SceneObject.
+
+The world is float64, and float32 is only ever a distance from something near. A mesh's vertices are
+float32 in the object's own space, from the object's origin; where that stands in the world is a
+float64 matrix. Who needs a point of the world composes it in float64 and takes it relative to the
+eye, or to what the eye is near, before it becomes float32. So a scene a million units from the
+world's origin looks as it does at the origin, and all renderers see the very same triangles.
+float64 itself ends where a step of it is to be seen: at 1e9 units it is 1e-7 units.
 
 A primitive is a triangle or a sphere: triangles have the numbers 0 to m - 1, in the order of the
 objects, and sphere s has the number m + s.
@@ -15,43 +22,55 @@ import numpy as np
 from numpy.typing import NDArray
 
 from renderer.errors import LucidaError
+from renderer.scene.boxes import extent, world_boxes
 from renderer.scene.model import (
     Checker,
-    Material,
     Mesh,
     PointLight,
     Scene,
-    SceneObject,
     Shape,
     Sphere,
 )
 
 F32 = NDArray[np.float32]
+F64 = NDArray[np.float64]
 I32 = NDArray[np.int32]
 
 # Rows of a material, each four numbers.
-DIFFUSE_SHININESS, SPECULAR_CHECKERED, CHECKER_DIFFUSE, CELL_X, CELL_Y, CELL_Z = range(6)
+DIFFUSE_SHININESS, SPECULAR_CHECKERED, CHECKER_DIFFUSE = range(3)
 
 # Cells: how far below the surface a checker is looked up, so that a face that lies in a cell's
 # border stays inside one cell. shaders/chunks/shading.glsl has the same number.
 CELL_NUDGE = 1e-3
 
+# A triangle's vertex normals are turned where their sum points to the other side of it than its
+# winding says, by more than this: a sum that lies in the triangle's plane, up to rounding, is not.
+# shaders/chunks/shading.glsl has the same number.
+OTHER_SIDE = -1e-5
+
 
 class FlatScene(NamedTuple):
-    """float32 and int32 arrays, C order, read-only; any of them may have length 0.
+    """Arrays in C order, read-only; any of them may have length 0.
 
-    vertices (n, 3), normals (n, 3; 0: flat), colors (n, 3): world space, linear light
-    faces (m, 3): vertices of triangle m. face_object (m,): its object
-    spheres (k, 4): centre, radius. sphere_object (k,): its object
-    object_faces (objects, 2): first triangle and number of triangles of each object
-    object_sphere (objects,): its sphere, or -1
-    materials (objects, 6, 4): diffuse rgb, shininess | specular rgb, 1 if checkered | the other
-        cells' diffuse rgb, 0 | three rows of cell_from_world, an affine map of world points to
-        checker cells: the cell of point p is floor(cell_from_world p), and a cell whose three
-        numbers have an odd sum takes the other diffuse
-    lights (l, 2, 4): x, y, z, 1 if a point, 0 if a unit direction towards the light | rgb, 0
-    ambient (3,), background (3,)
-    bounds (2, 3): lowest and highest corner of everything; both 0 for an empty scene
+    vertices (n, 3): float32, in the space of their object
+    normals (n, 3; 0: flat), colors (n, 3): float32, world space, linear light
+    faces (m, 3): int32, vertices of triangle m. face_object (m,): int32, its object
+    spheres (k, 4): float64, centre, radius, world space. sphere_object (k,): int32, its object
+    object_faces (objects, 2): int32, first triangle and number of triangles of each object
+    object_vertices (objects, 2): int32, first vertex and number of vertices
+    object_sphere (objects,): int32, its sphere, or -1
+    object_bounds (objects, 2, 3): float64, lowest and highest corner in its own space
+    world_from_object (objects, 4, 4): float64; a sphere's own space begins at its centre
+    materials (objects, 3, 4): float32, diffuse rgb, shininess | specular rgb, 1 if checkered |
+        the other cells' diffuse rgb, 0
+    cells (objects, 3, 4): float64, cell_from_world, an affine map of world points to checker cells:
+        the cell of point p is floor(cell_from_world p), and a cell whose three numbers have an odd
+        sum takes the other diffuse
+    lights (l, 2, 4): float64 (float32 from lights_from()), x, y, z, 1 if a point, 0 if a unit
+        direction towards the light | rgb, 0
+    ambient (3,), background (3,): float32
+    bounds (2, 3): float64, lowest and highest corner of everything in the world, around each
+        object's own bounds; both 0 for an empty scene
     """
 
     vertices: F32
@@ -59,111 +78,110 @@ class FlatScene(NamedTuple):
     colors: F32
     faces: I32
     face_object: I32
-    spheres: F32
+    spheres: F64
     sphere_object: I32
     object_faces: I32
+    object_vertices: I32
     object_sphere: I32
+    object_bounds: F64
+    world_from_object: F64
     materials: F32
-    lights: F32
+    cells: F64
+    lights: F64 | F32
     ambient: F32
     background: F32
-    bounds: F32
+    bounds: F64
 
 
 def flatten(scene: Scene, known: tuple[Scene, FlatScene] | None = None) -> FlatScene:
     """The scene's arrays. Raises LucidaError where a transformed mesh leaves float32's range.
 
     known: a scene that was flattened before, and its arrays; what the two scenes have in common
-    (the same objects of Python's, at the same place) is copied from them.
+    (the same arrays of Python's meshes, at the same place) is taken from them.
     """
-    count = len(scene.objects)
-    vertices: list[F32] = []
-    normals: list[F32] = []
-    colors: list[F32] = []
-    faces: list[I32] = []
-    face_object: list[I32] = []
-    spheres: list[tuple[float, float, float, float]] = []
-    sphere_object: list[int] = []
-    object_faces = np.zeros((count, 2), np.int32)
-    object_sphere = np.full(count, -1, np.int32)
-    materials = np.zeros((count, 6, 4), np.float32)
-    first_vertex = first_face = 0
-    same_so_far = known is not None
-    for number, entry in enumerate(scene.objects):
-        shape = entry.shape
-        old = known[0].objects[number] if known and number < len(known[0].objects) else None
-        transform: NDArray[np.float64] = np.eye(4)
-        object_faces[number] = first_face, 0
-        if isinstance(shape, Sphere):
-            transform[:3, 3] = shape.center
-            object_sphere[number] = len(spheres)
-            spheres.append((*shape.center, shape.radius))
-            sphere_object.append(number)
-        else:
-            transform = shape.transform
-            if known and old and same_so_far and old.shape is shape:
-                parts = _known_parts(known[1], shape, first_vertex, first_face)
-            else:
-                parts = _world_parts(number, entry, shape, first_vertex)
-            vertices.append(parts[0])
-            normals.append(parts[1])
-            colors.append(parts[2])
-            faces.append(parts[3])
-            face_object.append(np.full(len(shape.faces), number, np.int32))
-            object_faces[number, 1] = len(shape.faces)
-            first_vertex += len(shape.vertices)
-            first_face += len(shape.faces)
-        if known and old is entry:
-            materials[number] = known[1].materials[number]
-        else:
-            materials[number] = _material_rows(entry.material, transform)
-        same_so_far = same_so_far and old is not None and _room(old.shape) == _room(shape)
-    flat_vertices = _stack(vertices, (0, 3), np.float32)
-    flat_spheres = np.array(spheres, np.float32).reshape(-1, 4)
+    kept = _kept(scene, known[0]) if known else 0
+    is_same = known is not None and kept == len(scene.objects) == len(known[0].objects)
+    layout = _same_layout(known[1]) if known and is_same else _new_layout(scene)
+    world_from_object = _world_from_object(scene)
+    object_bounds = _object_bounds(scene, known, kept)
+    low, high = _checked_boxes(scene, world_from_object, object_bounds)
+    spheres = [(*s.center, s.radius) for s in _shapes(scene) if isinstance(s, Sphere)]
     flat = FlatScene(
-        vertices=flat_vertices,
-        normals=_stack(normals, (0, 3), np.float32),
-        colors=_stack(colors, (0, 3), np.float32),
-        faces=_stack(faces, (0, 3), np.int32),
-        face_object=_stack(face_object, (0,), np.int32),
-        spheres=flat_spheres,
-        sphere_object=np.array(sphere_object, np.int32),
-        object_faces=object_faces,
-        object_sphere=object_sphere,
-        materials=materials,
+        **layout._asdict(),
+        normals=_normals(scene, known, kept),
+        spheres=np.array(spheres, np.float64).reshape(-1, 4),
+        object_bounds=object_bounds,
+        world_from_object=world_from_object,
+        materials=_material_rows(scene),
+        cells=_cell_rows(scene, world_from_object),
         lights=_light_rows(scene),
         ambient=np.array(scene.ambient, np.float32),
         background=np.array(scene.background, np.float32),
-        bounds=_bounds(flat_vertices, flat_spheres),
+        bounds=np.stack([low.min(0), high.max(0)]) if len(low) else np.zeros((2, 3)),
     )
     for array in flat:
         array.setflags(write=False)
     return flat
 
 
-def _world_parts(
-    number: int, entry: SceneObject, mesh: Mesh, first_vertex: int
-) -> tuple[F32, F32, F32, I32]:
-    """A mesh's part of the vertices, normals, colors and faces."""
-    transform = mesh.transform
-    with np.errstate(over="ignore", invalid="ignore"):
-        world = mesh.vertices @ transform[:3, :3].T + transform[:3, 3]
-        usable = (np.abs(world) < 1e15).all()
-    if not usable:
-        field = f"object {number} ({entry.name})" if entry.name else f"object {number}"
-        raise LucidaError(field, "its transform is too large", "scale it down")
-    colors = np.ones_like(mesh.vertices) if mesh.colors is None else mesh.colors
-    faces = mesh.faces + np.int32(first_vertex)
-    return world.astype(np.float32), _world_normals(mesh), colors, faces
+class _Layout(NamedTuple):
+    """What does not change where objects are moved."""
+
+    vertices: F32
+    colors: F32
+    faces: I32
+    face_object: I32
+    sphere_object: I32
+    object_faces: I32
+    object_vertices: I32
+    object_sphere: I32
 
 
-def _known_parts(
-    flat: FlatScene, mesh: Mesh, first_vertex: int, first_face: int
-) -> tuple[F32, F32, F32, I32]:
-    """The same, of a mesh that is at the same place of flattened arrays."""
-    vertices = slice(first_vertex, first_vertex + len(mesh.vertices))
-    faces = slice(first_face, first_face + len(mesh.faces))
-    return flat.vertices[vertices], flat.normals[vertices], flat.colors[vertices], flat.faces[faces]
+def _same_layout(flat: FlatScene) -> _Layout:
+    return _Layout(*(getattr(flat, name) for name in _Layout._fields))
+
+
+def _new_layout(scene: Scene) -> _Layout:
+    shapes = _shapes(scene)
+    meshes = [shape for shape in shapes if isinstance(shape, Mesh)]
+    counts = [_room(shape) for shape in shapes]
+    object_vertices, object_faces = (
+        _ranges([count[kind] for count in counts]) for kind in range(2)
+    )
+    spheres = np.array([isinstance(shape, Sphere) for shape in shapes], bool)
+    colors = [np.ones_like(m.vertices) if m.colors is None else m.colors for m in meshes]
+    firsts = object_vertices[~spheres, 0]
+    faces = [m.faces + k if k else m.faces for m, k in zip(meshes, firsts, strict=True)]
+    numbers = np.arange(len(shapes), dtype=np.int32)
+    return _Layout(
+        vertices=_stack([mesh.vertices for mesh in meshes], np.float32),
+        colors=_stack(colors, np.float32),
+        faces=_stack(faces, np.int32),
+        face_object=np.repeat(numbers, object_faces[:, 1]),
+        sphere_object=numbers[spheres],
+        object_faces=object_faces,
+        object_vertices=object_vertices,
+        object_sphere=np.where(spheres, np.cumsum(spheres) - 1, -1).astype(np.int32),
+    )
+
+
+def _shapes(scene: Scene) -> list[Shape]:
+    return [entry.shape for entry in scene.objects]
+
+
+def _kept(scene: Scene, old: Scene) -> int:
+    """How many of the first objects have the arrays that they had before, wherever they stand."""
+    for number, pair in enumerate(zip(_shapes(scene), _shapes(old), strict=False)):
+        if _arrays(pair[0]) != _arrays(pair[1]):
+            return number
+    return min(len(scene.objects), len(old.objects))
+
+
+def _arrays(shape: Shape) -> tuple[int, ...]:
+    """Which arrays a shape is made of; nothing, for a sphere."""
+    if isinstance(shape, Sphere):
+        return ()
+    return id(shape.vertices), id(shape.faces), id(shape.normals), id(shape.colors)
 
 
 def _room(shape: Shape) -> tuple[int, int]:
@@ -171,8 +189,69 @@ def _room(shape: Shape) -> tuple[int, int]:
     return (len(shape.vertices), len(shape.faces)) if isinstance(shape, Mesh) else (0, 0)
 
 
-def _stack(parts: list, shape: tuple[int, ...], dtype: type) -> np.ndarray:
-    return np.concatenate(parts) if parts else np.zeros(shape, dtype)
+def _ranges(counts: list[int]) -> I32:
+    """(first, count) of each of several parts of an array, one after another."""
+    count = np.array(counts, np.int32)
+    return np.stack([np.cumsum(count, dtype=np.int32) - count, count], axis=1)
+
+
+def _stack(parts: list, dtype: type) -> np.ndarray:
+    if len(parts) == 1:
+        return parts[0]
+    return np.concatenate(parts) if parts else np.zeros((0, 3), dtype)
+
+
+def _world_from_object(scene: Scene) -> F64:
+    matrices = np.tile(np.eye(4), (len(scene.objects), 1, 1))
+    for matrix, shape in zip(matrices, _shapes(scene), strict=True):
+        if isinstance(shape, Sphere):
+            matrix[:3, 3] = shape.center
+        else:
+            matrix[:] = shape.transform
+    return matrices
+
+
+def _object_bounds(scene: Scene, known: tuple[Scene, FlatScene] | None, kept: int) -> F64:
+    bounds = np.empty((len(scene.objects), 2, 3))
+    for number, shape in enumerate(_shapes(scene)):
+        if isinstance(shape, Sphere):
+            bounds[number, 0], bounds[number, 1] = -shape.radius, shape.radius
+        elif known and number < kept:
+            bounds[number] = known[1].object_bounds[number]
+        else:
+            bounds[number] = extent(shape.vertices)
+    return bounds
+
+
+def _checked_boxes(scene: Scene, world_from_object: F64, object_bounds: F64) -> tuple[F64, F64]:
+    """The objects' boxes in the world. Raises LucidaError for one that float32 cannot square."""
+    with np.errstate(over="ignore", invalid="ignore"):
+        low, high = world_boxes(world_from_object, object_bounds)
+        usable = ((np.abs(low) < 1e15) & (np.abs(high) < 1e15)).all(axis=1)
+    if not usable.all():
+        number = int(np.argmin(usable))
+        name = scene.objects[number].name
+        field = f"object {number} ({name})" if name else f"object {number}"
+        raise LucidaError(field, "its transform is too large", "scale it down")
+    return low, high
+
+
+def _normals(scene: Scene, known: tuple[Scene, FlatScene] | None, kept: int) -> F32:
+    """World normals; those of meshes that were not turned since are taken from what is known."""
+    parts: list[F32] = []
+    is_new = known is None or kept < max(len(scene.objects), len(known[0].objects))
+    for number, shape in enumerate(_shapes(scene)):
+        if isinstance(shape, Sphere):
+            continue
+        if known and number < kept:
+            first, count = known[1].object_vertices[number]
+            old = known[1].world_from_object[number]
+            if np.array_equal(old[:3, :3], shape.transform[:3, :3]):
+                parts.append(known[1].normals[first : first + count])
+                continue
+        is_new = True
+        parts.append(_world_normals(shape))
+    return _stack(parts, np.float32) if known is None or is_new else known[1].normals
 
 
 def _world_normals(mesh: Mesh) -> F32:
@@ -185,21 +264,26 @@ def _world_normals(mesh: Mesh) -> F32:
     return np.divide(world, lengths, out=np.zeros_like(world), where=lengths > 0).astype(np.float32)
 
 
-def _material_rows(material: Material, world_from_object: np.ndarray) -> F32:
-    rows = np.zeros((6, 4), np.float32)
-    rows[DIFFUSE_SHININESS] = *material.diffuse, material.shininess
-    rows[SPECULAR_CHECKERED] = *material.specular, material.checker is not None
-    checker = material.checker or Checker()
-    rows[CHECKER_DIFFUSE, :3] = checker.diffuse
-    # The half cell puts an object's own planes (a floor's y = 0) in the middle of a cell.
-    object_from_world = np.linalg.inv(world_from_object)
-    rows[CELL_X:] = object_from_world[:3] / checker.size
-    rows[CELL_X:, 3] += 0.5
+def _material_rows(scene: Scene) -> F32:
+    rows = np.zeros((len(scene.objects), 3, 4), np.float32)
+    for row, entry in zip(rows, scene.objects, strict=True):
+        material = entry.material
+        row[DIFFUSE_SHININESS] = *material.diffuse, material.shininess
+        row[SPECULAR_CHECKERED] = *material.specular, material.checker is not None
+        row[CHECKER_DIFFUSE, :3] = (material.checker or Checker()).diffuse
     return rows
 
 
-def _light_rows(scene: Scene) -> F32:
-    rows = np.zeros((len(scene.lights), 2, 4), np.float32)
+def _cell_rows(scene: Scene, world_from_object: F64) -> F64:
+    size = np.array([(e.material.checker or Checker()).size for e in scene.objects])
+    rows = np.linalg.inv(world_from_object)[:, :3] / size[:, None, None]
+    # The half cell puts an object's own planes (a floor's y = 0) in the middle of a cell.
+    rows[:, :, 3] += 0.5
+    return rows
+
+
+def _light_rows(scene: Scene) -> F64:
+    rows = np.zeros((len(scene.lights), 2, 4))
     for row, light in zip(rows, scene.lights, strict=True):
         if isinstance(light, PointLight):
             row[0] = *light.position, 1
@@ -207,28 +291,3 @@ def _light_rows(scene: Scene) -> F32:
             row[0, :3] = -np.asarray(light.direction) / np.linalg.norm(light.direction)
         row[1, :3] = light.color
     return rows
-
-
-def extent(vertices: F32) -> tuple[F32, F32]:
-    """The lowest and the highest corner (3,) of points (n, 3), n > 0, in C order."""
-    # Many numbers a row: along rows of three, NumPy takes ten times as long.
-    whole = len(vertices) // 64 * 64
-    parts = [vertices[whole:]]
-    if whole:
-        rows = vertices[:whole].reshape(-1, 64 * 3)
-        parts += [rows.min(0).reshape(64, 3), rows.max(0).reshape(64, 3)]
-    corners = np.concatenate(parts)
-    return corners.min(0), corners.max(0)
-
-
-def _bounds(vertices: F32, spheres: F32) -> F32:
-    low, high = [], []
-    if len(vertices):
-        lowest, highest = extent(vertices)
-        low, high = [lowest], [highest]
-    if len(spheres):
-        low.append((spheres[:, :3] - spheres[:, 3:]).min(0))
-        high.append((spheres[:, :3] + spheres[:, 3:]).max(0))
-    if not low:
-        return np.zeros((2, 3), np.float32)
-    return np.stack([np.min(low, 0), np.max(high, 0)]).astype(np.float32)

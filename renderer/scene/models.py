@@ -126,7 +126,7 @@ def _gltf_objects(path: Path) -> list[SceneObject]:
         material = instance.material or _material(file.parts[key])
         name = instance.name or path.stem
         try:
-            placed = replace(mesh, transform=instance.matrix)
+            placed = replace(mesh, transform=instance.matrix @ mesh.transform)
         except LucidaError as error:
             raise error.within(f"node {name!r}"[:80]) from None
         objects.append(SceneObject(placed, material, name))

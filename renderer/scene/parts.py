@@ -5,6 +5,7 @@ Owns the repairs: what is dropped, what is computed, what is refused. Knows noth
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 from typing import Any
 
@@ -19,6 +20,7 @@ from renderer.scene.normals import face_normals, merge_positions, smooth_normals
 
 NEEDLE = 1e-9  # height over longest side below which a triangle has no area that could be seen
 SMALLEST_AREA = 1e-18  # its square must not vanish in float32, in which the renderers compute
+FAR = 64.0  # times its own size: farther from the file's origin than that, a mesh gets its own
 
 
 @dataclass(frozen=True, eq=False)
@@ -43,8 +45,10 @@ def build_mesh(part: Part) -> Mesh | None:
 
     Polygons become fans of triangles. Faces without area go, and so do faces that repeat another's
     three positions (both would be hit at the same distance), and vertices that no face uses.
-    Without usable normals in the file they are computed, smooth up to CREASE_DEG. Raises
-    LucidaError where a face uses a vertex that does not exist, or one that is NaN or infinite.
+    Without usable normals in the file they are computed, smooth up to CREASE_DEG. A mesh that is
+    small against its coordinates (a map's, a plant's) gets an origin of its own, from which they
+    are float32, and a transform to where it stands. Raises LucidaError where a face uses a vertex
+    that does not exist, or one that is NaN or infinite.
     """
     vertices = _floats(part.vertices, (3,), "vertices")
     faces = _indices(part.faces)
@@ -65,8 +69,9 @@ def build_mesh(part: Part) -> Mesh | None:
             "faces", f"use vertex {wrong} of {len(vertices)}", "export the model again"
         )
     _check_used(vertices, faces)
+    origin = _own_origin(vertices, faces)
     with np.errstate(over="ignore", invalid="ignore"):  # of vertices that no face uses
-        positions = vertices.astype(np.float32)
+        positions = (vertices - origin).astype(np.float32)
     keep = _visible(positions, faces)
     faces = faces[keep]
     if not len(faces):
@@ -83,7 +88,9 @@ def build_mesh(part: Part) -> Mesh | None:
         source, faces = _used(faces, len(positions))
         unit = unit[source]
     colors = None if vertex_colors is None else vertex_colors[source]
-    return Mesh(positions[source], faces.astype(np.int32), unit, colors)
+    transform = np.eye(4)
+    transform[:3, 3] = origin
+    return Mesh(positions[source], faces.astype(np.int32), unit, colors, transform)
 
 
 def linear_colors(colors: Any, linear: bool = False) -> NDArray[np.float32] | None:
@@ -153,6 +160,24 @@ def _check_used(vertices: NDArray[np.float64], faces: NDArray[np.int64]) -> None
             f"{len(wrong_used)} of {len(vertices)} are NaN or too large, the first ({point})",
             f"repair the model; stay within {LARGEST:g}",
         )
+
+
+def _own_origin(vertices: NDArray[np.float64], faces: NDArray[np.int64]) -> NDArray[np.float64]:
+    """Where the mesh's own space begins in the file's: at its origin, or near a far mesh.
+
+    Then at a multiple of a power of two, of about the mesh's size: exact, and a pattern of cells
+    whose side is a smaller power of two stays what it was.
+    """
+    used = np.zeros(len(vertices), bool)
+    used[faces] = True
+    low, high = vertices[used].min(axis=0), vertices[used].max(axis=0)
+    size = float((high - low).max())
+    middle = (low + high) / 2
+    if not np.abs(middle).max() > FAR * size > 0:
+        return np.zeros(3)
+    step = 2.0 ** math.ceil(math.log2(size))
+    origin: NDArray[np.float64] = np.round(middle / step) * step
+    return origin
 
 
 def _visible(positions: NDArray[np.float32], faces: NDArray[np.int64]) -> NDArray[np.bool_]:

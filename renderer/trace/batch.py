@@ -20,12 +20,16 @@ class RayBatch:
     def __init__(
         self, method: str, origins: ArrayLike, directions: ArrayLike, t_min: float, t_max: float
     ) -> None:
-        self._call = method, (_vectors("origins", origins), _vectors("directions", directions))
+        vectors = (
+            _vectors("origins", origins, np.float64),  # as exact as the scene, wherever it is
+            _vectors("directions", directions, np.float32),
+        )
+        self._call = method, vectors
         self._limits = float(t_min), float(t_max)
         self.finished = threading.Event()
         self._answer: Any = None
         self._error: BaseException | None = None
-        origins, directions = self._call[1]
+        origins, directions = vectors
         if len(origins) != len(directions):
             problem = f"are {len(directions)}"
             raise LucidaError("directions", problem, f"give {len(origins)}: one a ray")
@@ -59,10 +63,10 @@ class RayBatch:
         return self._answer
 
 
-def _vectors(name: str, value: ArrayLike) -> np.ndarray:
-    """Contiguous float32 (n, 3)."""
+def _vectors(name: str, value: ArrayLike, dtype: type) -> np.ndarray:
+    """Contiguous numbers (n, 3)."""
     try:
-        array = np.ascontiguousarray(value, np.float32)
+        array: np.ndarray = np.ascontiguousarray(value, dtype)
     except (TypeError, ValueError):
         raise LucidaError(name, "is not an array of numbers", "give n x 3 numbers") from None
     if array.ndim != 2 or array.shape[1] != 3:

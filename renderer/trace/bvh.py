@@ -9,8 +9,10 @@ from __future__ import annotations
 from typing import Any, NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
 
 from renderer.scene.flat import FlatScene
+from renderer.scene.positions import world_vertices
 from renderer.trace.atomic import take_next
 from renderer.trace.compiled import inlined, kernel
 from renderer.trace.control import new_control
@@ -28,7 +30,10 @@ from renderer.trace.split import (
 )
 from renderer.trace.team import Team
 from renderer.trace.traverse import Tree
-from renderer.trace.vectors import cross, minus, row
+from renderer.trace.vectors import row
+
+F32 = NDArray[np.float32]
+I32 = NDArray[np.int32]
 
 LEAF_SIZE = 4  # primitives
 MAX_DEPTH = 48  # deeper nodes are halved by count, whatever their shape: depth stays bounded
@@ -53,13 +58,15 @@ class Bvh(NamedTuple):
     depth: int
 
 
-def build(flat: FlatScene, team: Team, leaf_size: int = LEAF_SIZE) -> Bvh:
-    """The tree over a scene's primitives, leaves of at most leaf_size; no nodes for no primitives.
+def build(vertices: F32, faces: I32, spheres: F32, team: Team, leaf_size: int = LEAF_SIZE) -> Bvh:
+    """The tree over primitives, leaves of at most leaf_size; no nodes for no primitives.
+
+    vertices (n, 3), faces (m, 3), spheres (k, 4; centre, radius): read-only, in one space.
 
     The threads split the top of the tree, each time to pieces of half the size, until the pieces
     are small enough to go round; then they take the pieces.
     """
-    count = len(flat.faces) + len(flat.spheres)
+    count = len(faces) + len(spheres)
     # A tree of n leaves has 2 n - 1 nodes; the pages of those that stay unused cost nothing.
     bounds, links = np.empty((2 * count, 6), np.float32), np.empty((2 * count, 2), np.int32)
     levels = np.empty(2 * count, np.uint8)
@@ -68,10 +75,7 @@ def build(flat: FlatScene, team: Team, leaf_size: int = LEAF_SIZE) -> Bvh:
     records = np.empty((count + 1, RECORD), np.float32)  # the last is only read, and not used
     records[-1] = 0
     numbers = records.view(np.int32)[:count]
-    _share(
-        team, count, _fill_records,
-        flat.vertices, flat.faces, flat.spheres, records[:count], numbers,
-    )  # fmt: skip
+    _share(team, count, _fill_records, vertices, faces, spheres, records[:count], numbers)
 
     levels[0], links[0] = 1, (0, count)
     used, piece = 1, max(PIECE, count // (16 * team.size))
@@ -87,17 +91,35 @@ def build(flat: FlatScene, team: Team, leaf_size: int = LEAF_SIZE) -> Bvh:
     return _read_only(bvh)
 
 
-def packed(bvh: Bvh, flat: FlatScene, team: Team) -> Tree:
-    """The tree with its shapes, in the order of the leaves, as closest_hit walks it."""
-    shapes = np.zeros((len(bvh.order), 9), np.float32)
-    _share(
-        team, len(shapes), _fill_shapes, flat.vertices, flat.faces, flat.spheres, bvh.order, shapes
-    )
+def tree_of_scene(flat: FlatScene, team: Team, leaf_size: int = LEAF_SIZE) -> Tree:
+    """The tree of a scene with its shapes, in the order of the leaves, as closest_hit walks it.
+
+    All in float64, relative to the middle of the scene, but for the boxes.
+    """
+    middle = flat.bounds.mean(axis=0)
+    vertices, spheres = world_vertices(flat, middle), flat.spheres.copy()
+    spheres[:, :3] -= middle
+    points, balls = vertices.astype(np.float32), spheres.astype(np.float32)
+    for array in (points, balls):
+        array.setflags(write=False)
+    bvh = build(points, flat.faces, balls, team, leaf_size)
+    shapes = np.zeros((len(bvh.order), 9))
+    _share(team, len(shapes), _fill_shapes, vertices, flat.faces, spheres, bvh.order, shapes)
+    shapes[_without_area(flat)[bvh.order]] = np.nan
     # One node waits at each level, and a last one is pushed before it is taken.
     extent = float(np.abs(bvh.bounds[:1]).max(initial=0.0))
+    triangles, room = len(flat.faces), bvh.depth + 1
     return _read_only(
-        Tree(bvh.bounds, bvh.links, bvh.order, shapes, len(flat.faces), bvh.depth + 1, extent)
+        Tree(middle, bvh.bounds, bvh.links, bvh.order, shapes, triangles, room, extent)
     )
+
+
+def _without_area(flat: FlatScene) -> NDArray[np.bool_]:
+    """Primitives without a normal, which must not be hit. In their own space: where a triangle's
+    corners are in one line there, rounding might give it an area in the world."""
+    a, b, c = (flat.vertices[flat.faces[:, k]].astype(np.float64) for k in range(3))
+    is_flat = ~np.cross(b - a, c - a).any(axis=1)
+    return np.append(is_flat, np.zeros(len(flat.spheres), np.bool_))
 
 
 def _read_only(tree: Any) -> Any:
@@ -194,13 +216,8 @@ def _fill_shapes(vertices, faces, spheres, order, shapes, control):
                 row(vertices, np.int64(faces[number, 1])),
                 row(vertices, np.int64(faces[number, 2])),
             )
-            # Without an area there is no normal: such a triangle must not be hit.
-            x, y, z = cross(minus(b, a), minus(c, a))
-            empty = x == 0.0 and y == 0.0 and z == 0.0
             for k in range(3):
-                shapes[i, k] = np.nan if empty else a[k]
-                shapes[i, 3 + k] = np.nan if empty else b[k]
-                shapes[i, 6 + k] = np.nan if empty else c[k]
+                shapes[i, k], shapes[i, 3 + k], shapes[i, 6 + k] = a[k], b[k], c[k]
 
 
 @kernel

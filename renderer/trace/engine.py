@@ -10,7 +10,7 @@ from __future__ import annotations
 from renderer.camera import Camera
 from renderer.scene.flat import flatten
 from renderer.scene.model import Scene
-from renderer.trace.bvh import build, packed
+from renderer.trace.bvh import tree_of_scene
 from renderer.trace.control import Control, cancel, new_control
 from renderer.trace.image import Image, new_image
 from renderer.trace.kernel import trace_image
@@ -42,7 +42,7 @@ class Engine:
     def set_scene(self, scene: Scene) -> None:
         """Prepares another scene."""
         self._flat = flatten(scene)
-        self._tree = packed(build(self._flat, self._team), self._flat, self._team)
+        self._tree = tree_of_scene(self._flat, self._team)
 
     def trace(self, view: View, image: Image, control: Control) -> None:
         """Fills the image; returns early if cancelled. Blocks without a finished mark are open."""

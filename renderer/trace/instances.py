@@ -5,7 +5,8 @@ cameras; rays and packets alike walk what is made here.
 
 A mesh's tree is in the mesh's own space. An object is an instance of its mesh: a transform and the
 root of a tree. So a moved object costs a new box in the upper tree, and objects that share a mesh
-share its tree. Spheres stand in the upper tree beside the instances.
+share its tree. Spheres stand in the upper tree beside the instances. The upper tree's space is the
+world, seen from the middle of the scene: its boxes are float32 wherever the scene is.
 """
 
 from __future__ import annotations
@@ -15,6 +16,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from renderer.scene.boxes import world_boxes
 from renderer.scene.flat import DIFFUSE_SHININESS, FlatScene
 from renderer.scene.model import Mesh, Scene
 from renderer.trace.compiled import inlined
@@ -50,7 +52,8 @@ class World(NamedTuple):
         the winding's side; its length changes only where the transform changes angles.
     attributes: int32, HAS_NORMALS, HAS_COLORS, IS_STRETCHED, IS_UNMOVED.
     dark_cosine: float32, for each object the cosine below which its highlights are nothing.
-    spheres: float64, 4 a sphere: centre, radius. sphere_object: int32.
+    spheres: float64, 4 a sphere: centre, radius, in the world. sphere_object: int32.
+    middle: float64, 3: the world's point from which the upper tree's space is seen.
     instances, triangles: how many; sphere k has the primitive number triangles + k.
     is_empty: there is nothing to see.
     """
@@ -71,6 +74,7 @@ class World(NamedTuple):
     dark_cosine: NDArray[np.float32]
     spheres: NDArray[np.float64]
     sphere_object: NDArray[np.int32]
+    middle: NDArray[np.float64]
     top: int
     instances: int
     triangles: int
@@ -97,6 +101,7 @@ def world_pointers(world):
         pointer(world.dark_cosine),
         pointer(world.spheres),
         pointer(world.sphere_object),
+        pointer(world.middle),
         world.top,
         world.instances,
         world.triangles,
@@ -108,8 +113,8 @@ class Instances:
     """The two levels of one scene.
 
     world: what kernels walk. world_from_space: float64 (instances + 1, 4, 4), the transform of each
-    instance, and of the world itself, in whose space the upper tree is. bounds: float64
-    (instances + 1, 2, 3), lowest and highest corner in each of these spaces.
+    instance, and of the upper tree's space. bounds: float64 (instances + 1, 2, 3), lowest and
+    highest corner in each of these spaces.
     """
 
     def __init__(self, scene: Scene, flat: FlatScene, team: Team) -> None:
@@ -117,13 +122,13 @@ class Instances:
         self._trees: dict[tuple[int, int], WideTree] = {}
         self._meshes: list[Mesh] = []
         self._numbers: dict[tuple[int, int], int] = {}
-        self._build_trees(scene, flat)
+        self._build_trees(scene)
         self._place(scene, flat)
 
     def update(self, scene: Scene, flat: FlatScene) -> None:
         """Follows a changed scene; meshes whose arrays are the same objects keep their trees."""
         if not {_key(mesh) for mesh in _meshes(scene)} <= set(self._trees):
-            self._build_trees(scene, flat)
+            self._build_trees(scene)
         self._place(scene, flat)
 
     @property
@@ -132,7 +137,7 @@ class Instances:
         levels = self._top_levels + max((tree.levels for tree in self._trees.values()), default=0)
         return (WIDTH - 1) * levels + 2 * WIDTH
 
-    def _build_trees(self, scene: Scene, flat: FlatScene) -> None:
+    def _build_trees(self, scene: Scene) -> None:
         """A tree for each mesh that has none; meshes no longer used lose theirs."""
         trees: dict[tuple[int, int], WideTree] = {}
         meshes: list[Mesh] = []
@@ -141,7 +146,7 @@ class Instances:
             if key not in trees:
                 meshes.append(mesh)
                 trees[key] = self._trees.get(key) or tree_of_mesh(
-                    mesh.vertices, mesh.faces, flat, self._team
+                    mesh.vertices, mesh.faces, self._team
                 )
         # Only now, as building may be given up. Meshes are kept alive: their arrays' identities
         # are the keys.
@@ -181,19 +186,21 @@ class Instances:
         object_number = np.array([number for number, _ in objects], np.int32)
         matrix = np.array([mesh.transform for mesh in meshes]).reshape(-1, 4, 4)
         bounds = np.array([self._trees[_key(mesh)].bounds for mesh in meshes]).reshape(-1, 2, 3)
-        spheres = flat.spheres.astype(np.float64)
-        low, high = _world_boxes(matrix, bounds)
-        low = np.concatenate([low, spheres[:, :3] - spheres[:, 3:]])
-        high = np.concatenate([high, spheres[:, :3] + spheres[:, 3:]])
+        middle, spheres = flat.bounds.mean(axis=0), flat.spheres
+        low, high = world_boxes(matrix, bounds)
+        low = np.concatenate([low, spheres[:, :3] - spheres[:, 3:]]) - middle
+        high = np.concatenate([high, spheres[:, :3] + spheres[:, 3:]]) - middle
         margin = _OUTWARDS * np.maximum(np.abs(low), np.abs(high))
         low, high = low - margin, high + margin
         whole = np.stack([low.min(0), high.max(0)]) if len(low) else np.zeros((2, 3))
-        self.world_from_space = np.concatenate([matrix, np.eye(4)[None]])
+        of_top = np.eye(4)
+        of_top[:3, 3] = middle
+        self.world_from_space = np.concatenate([matrix, of_top[None]])
         self.bounds = np.concatenate([bounds, whole[None]])
         top_box, top_child, self._top_levels = np.empty(0, np.float32), np.empty(0, np.int32), 1
         if len(low):
             top_box, top_child, self._top_levels = tree_of_boxes(
-                low.astype(np.float32), high.astype(np.float32), flat, self._team
+                low.astype(np.float32), high.astype(np.float32), self._team
             )
         normal_matrix, is_stretched = _normal_matrices(matrix)
         shininess = flat.materials[:, DIFFUSE_SHININESS, 3]
@@ -212,8 +219,9 @@ class Instances:
             normal_matrix=normal_matrix.astype(np.float32).reshape(-1),
             attributes=_attributes(meshes, is_stretched),
             dark_cosine=(_NO_HIGHLIGHT ** (1 / shininess)).astype(np.float32),
-            spheres=spheres.reshape(-1),
+            spheres=spheres.reshape(-1).copy(),
             sphere_object=flat.sphere_object.copy(),
+            middle=middle,
             top=FIRST_LEAF if len(low) == 1 else 0,
             instances=len(meshes),
             triangles=len(flat.faces),
@@ -232,21 +240,6 @@ def _meshes(scene: Scene) -> list[Mesh]:
 
 def _key(mesh: Mesh) -> tuple[int, int]:
     return id(mesh.vertices), id(mesh.faces)
-
-
-def _world_boxes(
-    world_from_object: NDArray[np.float64], bounds: NDArray[np.float64]
-) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """Boxes around transformed boxes, (n, 3) each.
-
-    Source: Arvo, "Transforming Axis-Aligned Bounding Boxes", Graphics Gems 1990.
-    """
-    linear, position = world_from_object[:, :3, :3], world_from_object[:, :3, 3]
-    first, second = linear * bounds[:, :1], linear * bounds[:, 1:]
-    return (
-        np.minimum(first, second).sum(2) + position,
-        np.maximum(first, second).sum(2) + position,
-    )
 
 
 def _attributes(meshes: list[Mesh], is_stretched: NDArray[np.bool_]) -> NDArray[np.int32]:

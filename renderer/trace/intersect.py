@@ -1,6 +1,6 @@
 """Where a ray meets a triangle, a sphere, a box. One shape each; the BVH is traverse.py's.
 
-Rays and arithmetic are float64, the stored shapes float32: their coordinates are exact.
+Rays, shapes and arithmetic are float64; boxes are stored in float32, and a little too large.
 """
 
 from __future__ import annotations
@@ -15,6 +15,7 @@ from renderer.trace.vectors import dot, minus, plus, row, times
 
 HUGE = 1e290  # stands for 1 / 0: finite, because 0 * inf would be NaN
 ROUNDING = 1e-15  # of the coordinates: more than a few float64 roundings add up to
+BOX_ROUNDING = 1.2e-7  # of the boxes' coordinates: more than their rounding to float32
 
 
 class BoxRay(NamedTuple):
@@ -45,12 +46,12 @@ def _inverse(x):
 def box_ray(origin, direction, extent):
     """extent: the largest |coordinate| of the boxes, which with the origin's scales the slack.
 
-    The slack covers the rounding of this test and of the triangle's, so that no box is missed
-    whose triangle would be hit, even by a ray that runs in one of the box's faces.
+    The slack covers the rounding of boxes, of this test and of the triangle's, so that no box is
+    missed whose triangle would be hit, even by a ray that runs in one of the box's faces.
     Source: after Ize, "Robust BVH Ray Traversal", 2013.
     """
     ox, oy, oz = origin
-    slack = ROUNDING * (max(abs(ox), abs(oy), abs(oz)) + extent)
+    slack = ROUNDING * max(abs(ox), abs(oy), abs(oz)) + BOX_ROUNDING * extent
     ix, iy, iz = _inverse(direction[0]), _inverse(direction[1]), _inverse(direction[2])
     sx, sy, sz = math.copysign(slack, ix), math.copysign(slack, iy), math.copysign(slack, iz)
     enter = (0 if ix >= 0.0 else 3, 1 if iy >= 0.0 else 4, 2 if iz >= 0.0 else 5)
@@ -90,7 +91,7 @@ def sheared_ray(origin, direction):
 def hit_triangle(shapes, i, ray):
     """(t, b1, b2) where the ray's line meets triangle i; t is NaN where it does not.
 
-    shapes: float32 (n, 9), corners a, b, c, or NaN for a triangle that is never hit. b1, b2:
+    shapes: float64 (n, 9), corners a, b, c, or NaN for a triangle that is never hit. b1, b2:
     barycentrics of b and c.
 
     In sheared coordinates the ray is the z axis, and the question is whether the origin lies in a
@@ -128,7 +129,7 @@ def hit_triangle(shapes, i, ray):
 def hit_sphere(shapes, i, origin, direction, t_min, t_max):
     """The least t within (t_min, t_max) where the ray meets sphere i; NaN if there is none.
 
-    shapes: float32 (n, 9), of which centre and radius are used. A tangent ray counts as a hit.
+    shapes: float64 (n, 9), of which centre and radius are used. A tangent ray counts as a hit.
     Source: Haines, Günther and Akenine-Möller, "Precision Improvements for Ray/Sphere
     Intersection", Ray Tracing Gems 2019, ch. 7.
     """

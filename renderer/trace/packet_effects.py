@@ -20,6 +20,7 @@ from renderer.trace.rays_hit import any_hit, closest_hit
 from renderer.trace.simd import LANES, bits, fma, lane_of, lowest_bit, mask_of, splat, vmax
 from renderer.trace.simd_math import dot_lanes, minus_lanes, scaled_lanes, select_lanes
 from renderer.trace.simd_memory import load, shifted, store
+from renderer.trace.vectors import plus
 
 # Vectors in the scratch: where rays start, where they go, how far.
 ORIGIN, DIRECTION, REACH = SECONDARY, SECONDARY + 3 * LANES, SECONDARY + 6 * LANES
@@ -46,15 +47,17 @@ def effects_of(
     """
     if not shadows and not mirror_depth:
         return None
-    away = _AWAY * np.abs(bounds).max() + _AWAY_OF_EYE * np.abs(eye).max()
+    middle = bounds.mean(axis=0)
+    away = _AWAY * np.abs(bounds - middle).max() + _AWAY_OF_EYE * np.abs(eye - middle).max()
     return Effects(shadows, mirror_depth, np.float32(away))
 
 
 @inlined
-def lit_pixels(world, effects, point, geometric, to_light, light, mask, floats, ints):
+def lit_pixels(view, world, effects, point, geometric, to_light, light, mask, floats, ints):
     """Which pixels of the mask see a light.
 
-    to_light: unit vectors. light: its position, where it is a point (light[3] not 0).
+    point: relative to the view's near_point. to_light: unit vectors. light: its position, relative
+    to the same, where it is a point (light[3] not 0).
     """
     faces_light = mask & (dot_lanes(geometric, to_light) > np.float32(0))
     if not effects.shadows:
@@ -79,7 +82,7 @@ def lit_pixels(world, effects, point, geometric, to_light, light, mask, floats, 
     while left != 0:
         lane = lowest_bit(left)
         left &= left - 1
-        start, way = _lane3(floats, ORIGIN + lane), _lane3(floats, DIRECTION + lane)
+        start, way = _start(view, floats, lane), _lane3(floats, DIRECTION + lane)
         limit = floats[REACH + lane]
         if any_hit(world, start, way, np.float32(0), limit, shifted(ints, WAITING_NODES)):
             lit &= ~(np.int64(1) << lane)
@@ -94,6 +97,13 @@ def _lane3(floats, at):
         np.float64(floats[at + LANES]),
         np.float64(floats[at + 2 * LANES]),
     )
+
+
+@inlined
+def _start(view, floats, lane):
+    """Where a lane's ray starts, in the world."""
+    near = view.near_point
+    return plus(_lane3(floats, ORIGIN + lane), (near[0], near[1], near[2]))
 
 
 @inlined
@@ -128,14 +138,14 @@ def reflectance(scene, objects):
         number = lane_of(objects, lowest_bit(left))
         mask = objects == number
         left &= ~bits(mask)
-        at = np.int64(number) * 24 + 4 * SPECULAR_CHECKERED
+        at = np.int64(number) * 12 + 4 * SPECULAR_CHECKERED
         r, g, b = scene.materials[at], scene.materials[at + 1], scene.materials[at + 2]
         color = select_lanes(mask, (splat(r), splat(g), splat(b)), color)
     return color
 
 
 @inlined
-def trace_square(world, pixels, mask, square, floats, ints):
+def trace_square(view, world, pixels, mask, square, floats, ints):
     """Finds what 16 rays hit, one after another, in the lanes of the mask; gives their t.
 
     What is seen is written where a packet would write it, so that find_surfaces() takes it.
@@ -148,7 +158,7 @@ def trace_square(world, pixels, mask, square, floats, ints):
     while left != 0:
         lane = lowest_bit(left)
         left &= left - 1
-        start, way = _lane3(floats, ORIGIN + lane), _lane3(floats, DIRECTION + lane)
+        start, way = _start(view, floats, lane), _lane3(floats, DIRECTION + lane)
         t, slot, space = closest_hit(
             world, start, way, np.float32(0), np.float32(np.inf),
             shifted(floats, WAITING_DEPTHS), shifted(ints, WAITING_NODES),

@@ -9,8 +9,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from renderer.camera import Camera
-from renderer.scene.flat import flatten
+from renderer.scene.flat import FlatScene, flatten
 from renderer.scene.model import Scene
+from renderer.scene.positions import lights_from, near_point
 from renderer.trace.control import Control, cancel, new_control
 from renderer.trace.image import Image, new_image
 from renderer.trace.instances import Instances
@@ -23,7 +24,8 @@ from renderer.trace.stage import Stage, new_room
 from renderer.trace.team import Team
 from renderer.trace.view import View
 
-Rays = NDArray[np.float32]
+Points = NDArray[np.float64]
+Directions = NDArray[np.float32]
 KERNELS = "walk", "write"  # each compiled on its own; trees have others
 
 
@@ -53,9 +55,9 @@ class PacketEngine:
         """Compiles kernels, or finds them in the cache, by an image that is over at once."""
         view, image, over = View.of(Camera.canonical()), new_image((1, 1), ()), new_control()
         cancel(over)
-        of_image = packet_view(view, (1, 1), self.instances)
+        of_image, near = self._seen_from(view, (1, 1))
         if "write" in kernels:
-            self._writing(view, of_image, image)
+            self._writing(view, of_image, near, image)
         if "walk" in kernels:
             self._walk(of_image, Stage(0, new_room()), image, over)
 
@@ -66,25 +68,31 @@ class PacketEngine:
         self.instances.update(scene, self._flat)
 
     def closest_hits(
-        self, origins: Rays, directions: Rays, t_min: float, t_max: float
+        self, origins: Points, directions: Directions, t_min: float, t_max: float
     ) -> tuple[NDArray[np.float32], NDArray[np.int32]]:
         """(t, primitive) of many rays: see rays.py."""
         return closest_hits(self.instances, self._team, origins, directions, t_min, t_max)
 
     def any_hits(
-        self, origins: Rays, directions: Rays, t_min: float, t_max: float
+        self, origins: Points, directions: Directions, t_min: float, t_max: float
     ) -> NDArray[np.bool_]:
         """Whether each of many rays hits anything: see rays.py."""
         return any_hits(self.instances, self._team, origins, directions, t_min, t_max)
 
     def trace(self, view: View, image: Image, control: Control) -> None:
         """Fills the image; returns early if cancelled. Blocks without a finished mark are open."""
-        of_image = packet_view(view, (image.width, image.height), self.instances)
-        self._walk(of_image, self._writing(view, of_image, image), image, control)
+        of_image, near = self._seen_from(view, (image.width, image.height))
+        self._walk(of_image, self._writing(view, of_image, near, image), image, control)
 
-    def _writing(self, view: View, of_image: PacketView, image: Image) -> Stage:
-        effects = effects_of(*self._effects, self.instances.bounds[-1], view.eye)
-        return writing_stage(of_image, self.instances.world, self._flat, effects, image)
+    def _seen_from(self, view: View, size: tuple[int, int]) -> tuple[PacketView, FlatScene]:
+        """The camera, and the scene with its lights relative to near_point."""
+        point = near_point(self._flat, view.eye)
+        near = self._flat._replace(lights=lights_from(self._flat, point))
+        return packet_view(view, size, self.instances, point), near
+
+    def _writing(self, view: View, of_image: PacketView, near: FlatScene, image: Image) -> Stage:
+        effects = effects_of(*self._effects, self._flat.bounds, view.eye)
+        return writing_stage(of_image, self.instances.world, near, effects, image)
 
     def _walk(self, of_image: PacketView, writing: Stage, image: Image, control: Control) -> None:
         self._team.run(

@@ -9,7 +9,6 @@ from __future__ import annotations
 import numpy as np
 
 from renderer.scene.flat import (
-    CELL_X,
     CHECKER_DIFFUSE,
     DIFFUSE_SHININESS,
     SPECULAR_CHECKERED,
@@ -73,10 +72,10 @@ def shade_square(
         object_number = lane_of(objects, lowest_bit(left))
         mask = objects == object_number
         left &= ~bits(mask)
-        m = np.int64(object_number) * 24
-        albedo = _albedo(view, scene.materials, m, first, t, point, geometric, tint)
+        m = np.int64(object_number) * 12
+        albedo = _albedo(view, scene, m, first, t, point, geometric, tint)
         lit = shade_material(
-            world, scene, effects, object_number, mask, pixels.direction, point, geometric,
+            view, world, scene, effects, object_number, mask, pixels.direction, point, geometric,
             shading, albedo, floats, ints,
         )  # fmt: skip
         color = select_lanes(mask, lit, color)
@@ -94,7 +93,7 @@ def add_reflections(
         if bits(mask) == 0:
             break
         pixels = reflected_rays(effects, pixels, point, surface)
-        t = trace_square(world, pixels, mask, square, floats, ints)
+        t = trace_square(view, world, pixels, mask, square, floats, ints)
         surface, objects, _primitives = find_surfaces(
             view, world, scene, None, pixels, square, t, True, False, ints
         )
@@ -119,57 +118,59 @@ def _row(materials, at):
 
 
 @inlined
-def _albedo(view, materials, m, first, t, point, geometric, tint):
+def _albedo(view, scene, m, first, t, point, geometric, tint):
     """The diffuse reflectance of the material at m, or its checker's, times the vertex colours."""
+    materials = scene.materials
     r, g, b = _row(materials, m + 4 * DIFFUSE_SHININESS)
     albedo = (splat(r), splat(g), splat(b))
     if materials[m + 4 * SPECULAR_CHECKERED + 3] != np.float32(0):
         r, g, b = _row(materials, m + 4 * CHECKER_DIFFUSE)
-        is_other = is_other_cell(view, materials, m, first, t, point, geometric)
+        is_other = is_other_cell(view, scene.cells, m, first, t, point, geometric)
         albedo = select_lanes(is_other, (splat(r), splat(g), splat(b)), albedo)
     return albedo[0] * tint[0], albedo[1] * tint[1], albedo[2] * tint[2]
 
 
 @inlined
-def is_other_cell(view, materials, m, first, t, point, geometric):
+def is_other_cell(view, cells, m, first, t, point, geometric):
     """Mask of pixels that see a cell of odd number, just below the surface.
 
     In float64, along the ray: what a pixel covers may be small against the cell's coordinates.
     """
     across = normalized_lanes(
         (
-            _direction(materials, m + 4 * CELL_X, geometric),
-            _direction(materials, m + 4 * CELL_X + 4, geometric),
-            _direction(materials, m + 4 * CELL_X + 8, geometric),
+            _direction(cells, m, geometric),
+            _direction(cells, m + 4, geometric),
+            _direction(cells, m + 8, geometric),
         )
     )
     is_odd = lane_row() < np.float32(0)
     for axis in range(3):
         nudge = across[0] if axis == 0 else (across[1] if axis == 1 else across[2])
-        row = m + 4 * (CELL_X + axis)
+        row = m + 4 * axis
         if first is None:
-            half = _half_cell_at(materials, row, point)
+            half = _half_cell_at(view, cells, row, point)
         else:
-            half = _half_cell(view, materials, row, first, t)
+            half = _half_cell(view, cells, row, first, t)
         half = fma(to_f64(nudge), -0.5 * CELL_NUDGE, half)
         is_odd = is_odd ^ (half - vfloor(half) >= 0.5)
     return is_odd
 
 
 @inlined
-def _direction(materials, row, a):
-    return fma(a[0], materials[row], fma(a[1], materials[row + 1], a[2] * materials[row + 2]))
+def _direction(cells, row, a):
+    x, y, z = np.float32(cells[row]), np.float32(cells[row + 1]), np.float32(cells[row + 2])
+    return fma(a[0], x, fma(a[1], y, a[2] * z))
 
 
 @inlined
-def _half_cell(view, materials, row, first, t):
+def _half_cell(view, cells, row, first, t):
     """Half of one coordinate of the pixels' cells, F64; t: F64."""
     ray = view.ray
-    right, down = _half_along(materials, row, ray, ACROSS), _half_along(materials, row, ray, DOWN)
-    shared = _half_along(materials, row, ray, SHARED)
-    varying = _half_along(materials, row, ray, VARYING)
+    right, down = _half_along(cells, row, ray, ACROSS), _half_along(cells, row, ray, DOWN)
+    shared = _half_along(cells, row, ray, SHARED)
+    varying = _half_along(cells, row, ray, VARYING)
     varying += np.float64(first[0]) * right + np.float64(first[1]) * down
-    constant = 0.5 * np.float64(materials[row + 3])
+    constant = 0.5 * cells[row + 3]
     if view.parallel:
         varying += constant
     else:
@@ -181,26 +182,24 @@ def _half_cell(view, materials, row, first, t):
 
 
 @inlined
-def _half_cell_at(materials, row, point):
-    """The same for points."""
-    a, b = 0.5 * np.float64(materials[row]), 0.5 * np.float64(materials[row + 1])
-    c, d = 0.5 * np.float64(materials[row + 2]), 0.5 * np.float64(materials[row + 3])
+def _half_cell_at(view, cells, row, point):
+    """The same for points relative to the view's near_point."""
+    a, b, c = 0.5 * cells[row], 0.5 * cells[row + 1], 0.5 * cells[row + 2]
+    d = 0.5 * cells[row + 3] + _half_along(cells, row, view.near_point, 0)
     x, y, z = to_f64(point[0]), to_f64(point[1]), to_f64(point[2])
     return fma(x, a, fma(y, b, fma(z, c, splat(d))))
 
 
 @inlined
-def _half_along(materials, row, ray, at):
+def _half_along(cells, row, ray, at):
     return 0.5 * (
-        np.float64(materials[row]) * ray[at]
-        + np.float64(materials[row + 1]) * ray[at + 1]
-        + np.float64(materials[row + 2]) * ray[at + 2]
+        cells[row] * ray[at] + cells[row + 1] * ray[at + 1] + cells[row + 2] * ray[at + 2]
     )
 
 
 @inlined
 def shade_material(
-    world, scene, effects, object_number, mask, direction, point, geometric, shading, albedo,
+    view, world, scene, effects, object_number, mask, direction, point, geometric, shading, albedo,
     floats, ints,
 ):  # fmt: skip
     """The light that the pixels of one object, in the lanes of the mask, send to the viewer.
@@ -208,7 +207,7 @@ def shade_material(
     Source: Marschner and Shirley, Fundamentals of Computer Graphics, ch. 4 (Blinn and Phong).
     """
     materials, lights = scene.materials, scene.lights
-    m, dark_cosine = np.int64(object_number) * 24, world.dark_cosine[object_number]
+    m, dark_cosine = np.int64(object_number) * 12, world.dark_cosine[object_number]
     specular = _row(materials, m + 4 * SPECULAR_CHECKERED)
     shininess = materials[m + 4 * DIFFUSE_SHININESS + 3]
     is_shiny = specular[0] + specular[1] + specular[2] > np.float32(0)
@@ -229,7 +228,7 @@ def shade_material(
         if effects is not None:
             light = lx, ly, lz, lights[lamp + 3]
             in_light = lit_pixels(
-                world, effects, point, geometric, to_light, light, mask, floats, ints
+                view, world, effects, point, geometric, to_light, light, mask, floats, ints
             )
             cosine = select(in_light, cosine, np.float32(0))
         rgb = lights[lamp + 4], lights[lamp + 5], lights[lamp + 6]

@@ -10,11 +10,15 @@ from typing import NamedTuple
 
 import numpy as np
 
+from renderer.scene import flat
 from renderer.trace.compiled import inlined
 from renderer.trace.packet_view import ORIGIN, ROW_X, ROW_Y, ROW_Z, ROWS
 from renderer.trace.simd import fma, lane_column, lane_row, splat
 from renderer.trace.vectors import cross, dot, minus, times
 from renderer.trace.wide import CORNERS, WIDTH
+
+
+OTHER_SIDE = np.float32(flat.OTHER_SIDE)
 
 
 class Vertices(NamedTuple):
@@ -53,8 +57,8 @@ def barycentrics(view, corner, slot, space, first):
 
 
 @inlined
-def barycentrics_at(world, slot, space, point):
-    """(b0, b1, b2) of a slot's triangle at 16 points of it, F32."""
+def barycentrics_at(view, world, slot, space, point):
+    """(b0, b1, b2) of a slot's triangle at 16 points of it, F32, relative to near_point."""
     at = slot // WIDTH * CORNERS + slot % WIDTH
     a = _corner(world.corner, at)
     u, v = (
@@ -64,8 +68,8 @@ def barycentrics_at(world, slot, space, point):
     n = cross(u, v)
     # Vectors whose product with a point of the triangle is b1, or b2, up to a constant.
     scale = 1.0 / dot(n, n)
-    b1 = _weight(world, space, times(scale, cross(v, n)), a, point)
-    b2 = _weight(world, space, times(scale, cross(n, u)), a, point)
+    b1 = _weight(view, world, space, times(scale, cross(v, n)), a, point)
+    b2 = _weight(view, world, space, times(scale, cross(n, u)), a, point)
     return np.float32(1) - b1 - b2, b1, b2
 
 
@@ -79,13 +83,14 @@ def _corner(corner, at):
 
 
 @inlined
-def _weight(world, space, g, a, point):
+def _weight(view, world, space, g, a, point):
     """g . (q - a), q the object's point that is seen at a point of the world."""
-    m, r = world.object_from_world, 12 * space
+    near, m, r = view.near_point, world.object_from_world, 12 * space
     x = g[0] * m[r] + g[1] * m[r + 4] + g[2] * m[r + 8]
     y = g[0] * m[r + 1] + g[1] * m[r + 5] + g[2] * m[r + 9]
     z = g[0] * m[r + 2] + g[1] * m[r + 6] + g[2] * m[r + 10]
-    constant = dot(g, (m[r + 3], m[r + 7], m[r + 11])) - dot(g, a)
+    at_near = dot((x, y, z), (near[0], near[1], near[2]))
+    constant = at_near + dot(g, (m[r + 3], m[r + 7], m[r + 11])) - dot(g, a)
     value = fma(point[2], np.float32(z), splat(np.float32(constant)))
     return fma(point[0], np.float32(x), fma(point[1], np.float32(y), value))
 
@@ -164,8 +169,9 @@ def _is_set(normals, at):
 
 @inlined
 def agrees(normals, vertices, x, y, z):
-    """Whether a triangle's vertex normals are, by their sum, on the side of (x, y, z)."""
+    """Whether a triangle's vertex normals are, by their sum, not on the other side of (x, y, z)."""
     a, b, c = vertices.a, vertices.b, vertices.c
     along_x = (normals[a] + normals[b] + normals[c]) * x
     along_y = (normals[a + 1] + normals[b + 1] + normals[c + 1]) * y
-    return along_x + along_y + (normals[a + 2] + normals[b + 2] + normals[c + 2]) * z >= 0
+    along_z = (normals[a + 2] + normals[b + 2] + normals[c + 2]) * z
+    return along_x + along_y + along_z >= OTHER_SIDE

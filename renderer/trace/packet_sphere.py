@@ -217,9 +217,9 @@ def is_near_hit(z, middle):
 
 
 @inlined
-def sphere_normal_at(spheres, sphere, point):
-    """Outward unit normals of a sphere at 16 points of it."""
-    x, y, z = _numbers(spheres, 4 * sphere)
+def sphere_normal_at(view, spheres, sphere, point):
+    """Outward unit normals of a sphere at 16 points of it, relative to the view's near_point."""
+    x, y, z = minus(_numbers(spheres, 4 * sphere), _numbers(view.near_point, 0))
     return normalized_lanes(
         (point[0] - np.float32(x), point[1] - np.float32(y), point[2] - np.float32(z))
     )

@@ -48,6 +48,7 @@ from renderer.trace.simd_math import (
     select_lanes,
 )
 from renderer.trace.simd_memory import gather, load, pointer, store
+from renderer.trace.vectors import minus
 from renderer.trace.wide import WIDTH
 
 GRAZING = np.float32(shade.GRAZING)
@@ -62,6 +63,7 @@ class SceneArrays(NamedTuple):
     normals: object
     colors: object
     materials: object
+    cells: object
     lights: object
     light_count: object
     ambient: object
@@ -77,6 +79,7 @@ def scene_pointers(scene):
         pointer(scene.normals),
         pointer(scene.colors),
         pointer(scene.materials),
+        pointer(scene.cells),
         pointer(scene.lights),
         len(scene.lights),
         (ambient[0], ambient[1], ambient[2]),
@@ -85,7 +88,7 @@ def scene_pointers(scene):
 
 
 class Pixels(NamedTuple):
-    """The rays of a square's pixels: origins and directions."""
+    """The rays of a square's pixels: origins, relative to the view's near_point, and directions."""
 
     origin: object
     direction: object
@@ -109,31 +112,39 @@ def square_rays(view, first):
     """The rays of the 4 x 4 pixels whose first is at the image point `first`."""
     x, y = lane_column() + first[0], lane_row() + first[1]
     ray = view.ray
-    varying = _ray_lanes(ray, _X, x, y), _ray_lanes(ray, _Y, x, y), _ray_lanes(ray, _Z, x, y)
-    shared = (
-        splat(np.float32(ray[SHARED])),
-        splat(np.float32(ray[SHARED + 1])),
-        splat(np.float32(ray[SHARED + 2])),
-    )
+    shared = ray[SHARED], ray[SHARED + 1], ray[SHARED + 2]
+    varying = ray[VARYING], ray[VARYING + 1], ray[VARYING + 2]
+    point = view.near_point[0], view.near_point[1], view.near_point[2]
     if view.parallel:
-        return Pixels(varying, shared)
-    return Pixels(shared, varying)
+        return Pixels(_ray_lanes(ray, minus(varying, point), x, y), _splat3(shared))
+    return Pixels(_splat3(minus(shared, point)), _ray_lanes(ray, varying, x, y))
+
+
+@inlined
+def _splat3(a):
+    return splat(np.float32(a[0])), splat(np.float32(a[1])), splat(np.float32(a[2]))
 
 
 @inlined
 def points_on(pixels, t):
-    """The points of rays at t."""
+    """The points of rays at t, relative to what the origins are."""
     o, d = pixels.origin, pixels.direction
     return fma(t, d[0], o[0]), fma(t, d[1], o[1]), fma(t, d[2], o[2])
 
 
 @inlined
-def _ray_lanes(ray, axis, x, y):
-    return fma(
-        x,
-        np.float32(ray[ACROSS + axis]),
-        fma(y, np.float32(ray[DOWN + axis]), splat(np.float32(ray[VARYING + axis]))),
+def _ray_lanes(ray, start, x, y):
+    return (
+        _ray_axis(ray, start, _X, x, y),
+        _ray_axis(ray, start, _Y, x, y),
+        _ray_axis(ray, start, _Z, x, y),
     )
+
+
+@inlined
+def _ray_axis(ray, start, axis, x, y):
+    below = fma(y, np.float32(ray[DOWN + axis]), splat(np.float32(start[axis])))
+    return fma(x, np.float32(ray[ACROSS + axis]), below)
 
 
 @inlined
@@ -159,7 +170,7 @@ def find_surfaces(
             mask = seen == number
             sphere = np.int64(FIRST_SPHERE) - number
             if first is None:
-                normal = sphere_normal_at(world.spheres, sphere, points_on(pixels, depth))
+                normal = sphere_normal_at(view, world.spheres, sphere, points_on(pixels, depth))
             else:
                 normal = sphere_normal(view, world.spheres, sphere, first, depth)
             facing = scaled_lanes(viewers_side(normal, pixels.direction), normal)
@@ -242,7 +253,7 @@ def instance_surface(
             left &= ~bits(same)
             vertices = vertices_of(scene.faces, world.face[slot] + world.first_primitive[space])
             if first is None:
-                weights = barycentrics_at(world, slot, space, points_on(pixels, depth))
+                weights = barycentrics_at(view, world, slot, space, points_on(pixels, depth))
             else:
                 weights = barycentrics(view, world.corner, slot, space, first)
             if wanted & HAS_COLORS:

@@ -56,6 +56,7 @@ class PacketView(NamedTuple):
     coarse: float32 is too coarse for where hits are (packet_refine.py).
     rows: float32, ROWS a space; rows_exact: the same in float64. exact: uint8, whether to use them.
     ray: float64, 12 numbers in world space (VARYING ...).
+    near_point: float64, 3: the world's point that float32 points are relative to (near_point()).
     sphere_box: float32, 4 a sphere: left, top, right, bottom of its image, or a superset.
     """
 
@@ -73,6 +74,7 @@ class PacketView(NamedTuple):
     rows_exact: NDArray[np.float64]
     exact: NDArray[np.uint8]
     ray: NDArray[np.float64]
+    near_point: NDArray[np.float64]
     sphere_box: NDArray[np.float32]
 
 
@@ -94,12 +96,15 @@ def view_pointers(view):
         pointer(view.rows_exact),
         pointer(view.exact),
         pointer(view.ray),
+        pointer(view.near_point),
         pointer(view.sphere_box),
     )
 
 
-def packet_view(view: View, size: tuple[int, int], instances: Instances) -> PacketView:
-    """The numbers for an image of (width, height)."""
+def packet_view(
+    view: View, size: tuple[int, int], instances: Instances, near_point: NDArray[np.float64]
+) -> PacketView:
+    """The numbers for an image of (width, height). near_point: see PacketView."""
     width, height = size
     eye, u, v, back = (np.array(vector) for vector in (view.eye, view.u, view.v, view.back))
     # What a pixel to the right, and one down, are on the image plane.
@@ -116,7 +121,8 @@ def packet_view(view: View, size: tuple[int, int], instances: Instances) -> Pack
 
     # The unit of Z: the farthest corner of the scene.
     corners = np.array(np.meshgrid(*instances.bounds[-1].T)).reshape(3, 8)
-    farthest = np.abs(to_t @ (corners - eye[:, None])).max()
+    from_eye = instances.world_from_space[-1, :3, 3] - eye
+    farthest = np.abs(to_t @ (corners + from_eye[:, None])).max()
     scale = 2.0 ** math.ceil(math.log2(farthest)) if 0 < farthest < math.inf else 1.0
     linear[2] /= scale
     if not view.parallel:
@@ -147,6 +153,7 @@ def packet_view(view: View, size: tuple[int, int], instances: Instances) -> Pack
             rows_exact=rows.reshape(-1),
             exact=is_exact,
             ray=ray,
+            near_point=near_point,
             sphere_box=_sphere_boxes(linear, shift, eye, view.parallel, instances),
         )
 

@@ -29,16 +29,17 @@ _CHUNK = 256  # rays that a thread takes at a time
 def closest_hits(
     instances: Instances,
     team: Team,
-    origins: NDArray[np.float32],
+    origins: NDArray[np.float64],
     directions: NDArray[np.float32],
     t_min: float = 0.0,
     t_max: float = np.inf,
 ) -> tuple[NDArray[np.float32], NDArray[np.int32]]:
     """(t, primitive) of the closest hit along each ray; inf and -1 where there is none.
 
-    origins, directions: float32 (n, 3), C order, world space; directions of any length.
+    origins, directions: float64 and float32 (n, 3), C order, world space; directions of any length.
     t: float32 (n,), in units of the direction, t_min < t < t_max. primitive: int32 (n,), numbers of
-    the flat scene. Arithmetic is float32. A ray that holds NaN or has no direction hits nothing.
+    the flat scene. Arithmetic is float32, from the ray's origin in each object's space.
+    A ray that holds NaN or has no direction hits nothing.
     """
     t, primitive = np.empty(len(origins), np.float32), np.empty(len(origins), np.int32)
     limits = np.array([t_min, t_max], np.float32)
@@ -53,7 +54,7 @@ def closest_hits(
 def any_hits(
     instances: Instances,
     team: Team,
-    origins: NDArray[np.float32],
+    origins: NDArray[np.float64],
     directions: NDArray[np.float32],
     t_min: float = 0.0,
     t_max: float = np.inf,

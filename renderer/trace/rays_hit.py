@@ -21,6 +21,7 @@ from renderer.trace.compiled import inlined
 from renderer.trace.instances import IS_UNMOVED
 from renderer.trace.simd import LANES, bits, fma, lowest_bit, select, smallest, splat, vmax, vmin
 from renderer.trace.simd_memory import load, store
+from renderer.trace.vectors import minus
 from renderer.trace.wide import BOX, CORNERS, FIRST_LEAF, WIDTH
 
 _ROUNDING = np.float32(5e-7)  # relative: more than the roundings of a box test add up to
@@ -180,6 +181,13 @@ def instance_ray(world, space, origin, direction):
 
 
 @inlined
+def top_ray(world, origin, direction):
+    """The ray in the space of the upper tree."""
+    middle = world.middle
+    return space_ray(minus(origin, (middle[0], middle[1], middle[2])), direction)
+
+
+@inlined
 def sphere_on_ray(world, sphere, origin, direction, t_min, t_max):
     """The least t within (t_min, t_max) where the ray meets a sphere; inf: none.
 
@@ -277,7 +285,7 @@ def closest_hit(world, origin, direction, t_min, t_max, floats, ints):
     closest, slot, in_space = t_max, np.int64(-1), np.int64(-1)
     if world.is_empty:
         return np.float32(np.inf), slot, in_space
-    ray = space_ray(origin, direction)
+    ray = top_ray(world, origin, direction)
     floats[_WAITING_DEPTHS], ints[0] = np.float32(-np.inf), world.top
     top = 1
     while top > 0:
@@ -348,7 +356,7 @@ def any_hit(world, origin, direction, t_min, t_max, ints):
     """Whether anything is hit with t_min < t < t_max; stops at the first, in no order."""
     if world.is_empty:
         return False
-    ray = space_ray(origin, direction)
+    ray = top_ray(world, origin, direction)
     ints[0] = world.top
     top = 1
     while top > 0:

@@ -24,19 +24,13 @@ from renderer.trace.vectors import (
 )
 
 # Rows of a material, of a type that row() is compiled for.
-DIFFUSE_SHININESS, SPECULAR_CHECKERED, CHECKER_DIFFUSE, CELL_X, CELL_Y, CELL_Z = (
+DIFFUSE_SHININESS, SPECULAR_CHECKERED, CHECKER_DIFFUSE = (
     np.int64(number)
-    for number in (
-        flat.DIFFUSE_SHININESS,
-        flat.SPECULAR_CHECKERED,
-        flat.CHECKER_DIFFUSE,
-        flat.CELL_X,
-        flat.CELL_Y,
-        flat.CELL_Z,
-    )
+    for number in (flat.DIFFUSE_SHININESS, flat.SPECULAR_CHECKERED, flat.CHECKER_DIFFUSE)
 )
-FIRST, SECOND = np.int64(0), np.int64(1)
+FIRST, SECOND, THIRD = np.int64(0), np.int64(1), np.int64(2)
 CELL_NUDGE = flat.CELL_NUDGE
+OTHER_SIDE = flat.OTHER_SIDE
 GRAZING = 1e-3  # the cosine that shading normals keep, at least, towards the viewer
 
 
@@ -62,6 +56,13 @@ def corners_of(faces, triangle):
 
 
 @inlined
+def turned(matrix, a):
+    """A direction in an object's space, in the world."""
+    x, y, z = row(matrix, FIRST), row(matrix, SECOND), row(matrix, THIRD)
+    return dot(x, a), dot(y, a), dot(z, a)
+
+
+@inlined
 def normals_at(scene, direction, point, primitive, b1, b2):
     """(geometric, shading) unit normals at a hit, both on the viewer's side."""
     triangles = len(scene.faces)
@@ -72,7 +73,9 @@ def normals_at(scene, direction, point, primitive, b1, b2):
         return facing, _not_grazing(facing, direction)
     i, j, k = corners_of(scene.faces, primitive)
     a, b, c = row(scene.vertices, i), row(scene.vertices, j), row(scene.vertices, k)
-    geometric = normalized(cross(minus(b, a), minus(c, a)))
+    # A mesh's vertices are in its own space; so are two edges, until they are turned.
+    matrix = scene.world_from_object[object_of(scene.face_object, scene.sphere_object, primitive)]
+    geometric = normalized(cross(turned(matrix, minus(b, a)), turned(matrix, minus(c, a))))
     facing = _facing(geometric, direction)
     shading = facing
     n0, n1, n2 = row(scene.normals, i), row(scene.normals, j), row(scene.normals, k)
@@ -81,7 +84,7 @@ def normals_at(scene, direction, point, primitive, b1, b2):
         size = length(smooth)
         if size >= 1e-6:
             # Normals that disagree with the winding are turned, for the whole triangle alike.
-            turn = 1.0 if dot(plus(n0, plus(n1, n2)), geometric) >= 0.0 else -1.0
+            turn = 1.0 if dot(plus(n0, plus(n1, n2)), geometric) >= OTHER_SIDE else -1.0
             if dot(geometric, direction) >= 0.0:
                 turn = -turn
             shading = times(turn / size, smooth)
@@ -109,10 +112,14 @@ def _not_grazing(normal, direction):
 
 
 @inlined
-def albedo_at(scene, material, point, geometric, primitive, b1, b2):
-    """The diffuse reflectance: the material's, or its checker's, times the vertices' colours."""
+def albedo_at(scene, number, point, geometric, primitive, b1, b2):
+    """The diffuse reflectance of object `number`: the material's, or its checker's, times the
+    vertices' colours."""
+    material = scene.materials[number]
     albedo = row(material, DIFFUSE_SHININESS)
-    if material[SPECULAR_CHECKERED, 3] != 0.0 and _is_other_cell(material, point, geometric):
+    if material[SPECULAR_CHECKERED, 3] != 0.0 and _is_other_cell(
+        scene.cells[number], point, geometric
+    ):
         albedo = row(material, CHECKER_DIFFUSE)
     if primitive < len(scene.faces):
         i, j, k = corners_of(scene.faces, primitive)
@@ -123,13 +130,13 @@ def albedo_at(scene, material, point, geometric, primitive, b1, b2):
 
 
 @inlined
-def _is_other_cell(material, point, geometric):
+def _is_other_cell(cells, point, geometric):
     """Whether the point lies in a cell of odd number, just below the surface."""
-    x, y, z = row(material, CELL_X), row(material, CELL_Y), row(material, CELL_Z)
+    x, y, z = row(cells, FIRST), row(cells, SECOND), row(cells, THIRD)
     across = normalized((dot(x, geometric), dot(y, geometric), dot(z, geometric)))
-    u = dot(x, point) + material[CELL_X, 3] - CELL_NUDGE * across[0]
-    v = dot(y, point) + material[CELL_Y, 3] - CELL_NUDGE * across[1]
-    w = dot(z, point) + material[CELL_Z, 3] - CELL_NUDGE * across[2]
+    u = dot(x, point) + cells[FIRST, 3] - CELL_NUDGE * across[0]
+    v = dot(y, point) + cells[SECOND, 3] - CELL_NUDGE * across[1]
+    w = dot(z, point) + cells[THIRD, 3] - CELL_NUDGE * across[2]
     return (u % 2.0 >= 1.0) ^ (v % 2.0 >= 1.0) ^ (w % 2.0 >= 1.0)
 
 
@@ -140,14 +147,15 @@ def color_at(scene, direction, point, geometric, shading, primitive, b1, b2):
     Highlights are not cut off where the surface turns away from the light.
     Source: Marschner and Shirley, Fundamentals of Computer Graphics, ch. 4 (Blinn and Phong).
     """
-    material = scene.materials[object_of(scene.face_object, scene.sphere_object, primitive)]
-    albedo = albedo_at(scene, material, point, geometric, primitive, b1, b2)
+    number = object_of(scene.face_object, scene.sphere_object, primitive)
+    material = scene.materials[number]
+    albedo = albedo_at(scene, number, point, geometric, primitive, b1, b2)
     specular = row(material, SPECULAR_CHECKERED)
     shininess = np.float64(material[DIFFUSE_SHININESS, 3])
     along = normalized(direction)
     color = each_times(rgb(scene.ambient), albedo)
-    for number in range(len(scene.lights)):
-        lamp = scene.lights[number]
+    for light in range(len(scene.lights)):
+        lamp = scene.lights[light]
         to_light = row(lamp, FIRST)
         if lamp[0, 3] != 0.0:
             to_light = minus(to_light, point)

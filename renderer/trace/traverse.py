@@ -11,21 +11,24 @@ import numpy as np
 
 from renderer.trace.compiled import inlined
 from renderer.trace.intersect import box_ray, enter_box, hit_sphere, hit_triangle, sheared_ray
+from renderer.trace.vectors import minus
 
 
 class Tree(NamedTuple):
     """A BVH ready for traversal: its nodes, and the shapes in the order of its leaves.
 
+    middle: float64 (3,), the point of the world that bounds and shapes are relative to.
     bounds: float32 (nodes, 6), low x, y, z, high x, y, z of node 0, the root, and the others.
     links: int32 (nodes, 2): (first child, 0), the second child being the next node; or, for a
         leaf, (first shape, number of shapes).
     order: int32 (n,), the primitive number of each shape.
-    shapes: float32 (n, 9), corners a, b, c of a triangle, or centre and radius of a sphere.
+    shapes: float64 (n, 9), corners a, b, c of a triangle, or centre and radius of a sphere.
     triangles: primitives from this number on are spheres.
     stack_size: how many nodes can wait in a traversal.
-    extent: the largest |coordinate|.
+    extent: the largest |coordinate| of bounds.
     """
 
+    middle: np.ndarray
     bounds: np.ndarray
     links: np.ndarray
     order: np.ndarray
@@ -51,6 +54,7 @@ def closest_hit(tree, stack, origin, direction, t_min, t_max):
     closest, primitive, b1, b2 = t_max, np.int64(-1), 0.0, 0.0
     if len(order) == 0:
         return np.inf, primitive, b1, b2
+    origin = minus(origin, (tree.middle[0], tree.middle[1], tree.middle[2]))
     to_boxes = box_ray(origin, direction, tree.extent)
     to_triangles = sheared_ray(origin, direction)
     node, top = np.int64(0), 0
@@ -102,6 +106,7 @@ def any_hit(tree, stack, origin, direction, t_min, t_max):
     waiting, _ = stack
     if len(tree.order) == 0:
         return False
+    origin = minus(origin, (tree.middle[0], tree.middle[1], tree.middle[2]))
     to_boxes = box_ray(origin, direction, tree.extent)
     to_triangles = sheared_ray(origin, direction)
     waiting[0] = 0

@@ -15,7 +15,6 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from renderer.scene.flat import FlatScene
 from renderer.trace.atomic import take_next
 from renderer.trace.bvh import MAX_DEPTH, Bvh, build
 from renderer.trace.compiled import kernel
@@ -29,6 +28,8 @@ FIRST_LEAF = -2  # leaf k is the child FIRST_LEAF - k
 BOX = 6 * WIDTH  # floats of a node's boxes
 CORNERS = 9 * WIDTH  # floats of a leaf's corners
 _FAR = np.float32(3.4e38)
+_NO_SPHERES = np.zeros((0, 4), np.float32)
+_NO_SPHERES.setflags(write=False)
 _CHUNK = 256  # leaves that a thread takes at a time
 _LEVELS = 2 * MAX_DEPTH + 64  # more than any binary tree has
 
@@ -70,15 +71,9 @@ def aligned(count: int, dtype: type) -> NDArray:
     return room[first : first + count]
 
 
-def tree_of_mesh(
-    vertices: NDArray[np.float32], faces: NDArray[np.int32], scene: FlatScene, team: Team
-) -> WideTree:
-    """The tree over the triangles faces (m, 3), m > 0, of vertices (n, 3).
-
-    scene: any; its arrays stand in for what the builder takes beside a mesh.
-    """
-    mesh = scene._replace(vertices=vertices, faces=faces, spheres=scene.spheres[:0])
-    binary = build(mesh, team, leaf_size=WIDTH)
+def tree_of_mesh(vertices: NDArray[np.float32], faces: NDArray[np.int32], team: Team) -> WideTree:
+    """The tree over the triangles faces (m, 3), m > 0, of vertices (n, 3)."""
+    binary = build(vertices, faces, _NO_SPHERES, team, leaf_size=WIDTH)
     box, child, leaves, levels = collapse(binary)
     corner = aligned(len(leaves) * CORNERS, np.float32)
     face = np.empty(len(leaves) * WIDTH, np.int32)
@@ -93,7 +88,7 @@ def tree_of_mesh(
 
 
 def tree_of_boxes(
-    low: NDArray[np.float32], high: NDArray[np.float32], scene: FlatScene, team: Team
+    low: NDArray[np.float32], high: NDArray[np.float32], team: Team
 ) -> tuple[NDArray[np.float32], NDArray[np.int32], int]:
     """(box, child, levels) of a tree whose leaf k is box k, low[k] to high[k]; (n, 3), n > 0."""
     count = len(low)
@@ -103,8 +98,7 @@ def tree_of_boxes(
     faces = np.stack([first, first + np.int32(count), first], axis=1)
     for array in (vertices, faces):
         array.setflags(write=False)
-    boxes = scene._replace(vertices=vertices, faces=faces, spheres=scene.spheres[:0])
-    binary = build(boxes, team, leaf_size=1)
+    binary = build(vertices, faces, _NO_SPHERES, team, leaf_size=1)
     box, child, leaves, levels = collapse(binary)
     is_leaf = child <= FIRST_LEAF
     child[is_leaf] = FIRST_LEAF - binary.order[leaves[FIRST_LEAF - child[is_leaf], 0]]

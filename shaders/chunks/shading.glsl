@@ -5,12 +5,12 @@
 #include "chunks/tables.glsl"
 
 uniform sampler2D objects;  // object_rows() in setup.py
-uniform sampler2D lights;   // position or direction, 1 if a point | rgb
+uniform sampler2D lights;   // position from the scene's near point, or direction, 1 if a point | rgb
 
 struct Hit {
     float t;
     int object;
-    vec3 point;          // relative to the object's anchor
+    vec3 point;          // relative to the object's anchor, in the world's directions
     vec3 normal;         // of the surface, unit
     vec3 smooth_normal;  // interpolated, unit; 0 where the surface is flat
     vec3 vertex_color;
@@ -18,25 +18,29 @@ struct Hit {
 };
 
 vec4 object_texel(int object, int row) {
-    return texelFetch(objects, texel(8 * object + row), 0);
+    return texelFetch(objects, texel(15 * object + row), 0);
 }
 
+// In image coordinates.
 vec3 object_anchor(int object) {
-    return object_texel(object, 0).xyz;
-}
-
-vec3 object_anchor_world(int object) {
     return object_texel(object, 1).xyz;
 }
 
-// Interpolated vertex normal on the winding's side of the triangle, 0 where a vertex has none.
+// Directions of the object's space to the world's.
+mat3 object_matrix(int object) {
+    return transpose(mat3(
+        object_texel(object, 6).xyz, object_texel(object, 7).xyz, object_texel(object, 8).xyz));
+}
+
+// Interpolated vertex normal on the winding's side of the triangle, 0 where a vertex has none. Normals
+// whose sum lies in the triangle's plane, up to rounding, stay as they are.
 vec3 smooth_normal(mat3 normals, vec3 weights, vec3 normal) {
     if (normals[0] == vec3(0.0) || normals[1] == vec3(0.0) || normals[2] == vec3(0.0)) {
         return vec3(0.0);
     }
     vec3 mean = normals * weights;
     float size = length(mean);
-    float side = sign(dot(normals[0] + normals[1] + normals[2], normal));
+    float side = dot(normals[0] + normals[1] + normals[2], normal) >= -1e-5 ? 1.0 : -1.0;
     return size < 1e-6 ? vec3(0.0) : side * mean / size;
 }
 
@@ -54,33 +58,33 @@ void face_viewer(inout Hit hit) {
 
 // Diffuse reflectance: a checker is a solid pattern of cells, and a face on a border takes the cell inside.
 vec3 albedo(Hit hit) {
-    vec4 diffuse = object_texel(hit.object, 2);
-    if (!HAS_CHECKERS || object_texel(hit.object, 3).w == 0.0) {
+    vec4 diffuse = object_texel(hit.object, 9);
+    if (!HAS_CHECKERS || object_texel(hit.object, 10).w == 0.0) {
         return diffuse.rgb * hit.vertex_color;
     }
-    vec4 x = object_texel(hit.object, 5);
-    vec4 y = object_texel(hit.object, 6);
-    vec4 z = object_texel(hit.object, 7);
+    vec4 x = object_texel(hit.object, 12);
+    vec4 y = object_texel(hit.object, 13);
+    vec4 z = object_texel(hit.object, 14);
     mat3 cell_from_world = transpose(mat3(x.xyz, y.xyz, z.xyz));
     vec3 cell = cell_from_world * hit.point + vec3(x.w, y.w, z.w);
     cell = floor(cell - 1e-3 * normalize(cell_from_world * hit.normal));
     bool other = mod(cell.x + cell.y + cell.z, 2.0) > 0.5;
-    return (other ? object_texel(hit.object, 4).rgb : diffuse.rgb) * hit.vertex_color;
+    return (other ? object_texel(hit.object, 11).rgb : diffuse.rgb) * hit.vertex_color;
 }
 
 vec3 shaded(Hit hit) {
     vec3 n = hit.smooth_normal;
     vec3 diffuse = albedo(hit);
-    vec3 specular = object_texel(hit.object, 3).rgb;
-    float shininess = object_texel(hit.object, 2).w;
-    vec3 anchor_world = object_anchor_world(hit.object);
+    vec3 specular = object_texel(hit.object, 10).rgb;
+    float shininess = object_texel(hit.object, 9).w;
+    vec3 anchor = object_texel(hit.object, 2).xyz;
     vec3 sum = ambient * diffuse;
     for (int number = 0; number < light_count; ++number) {
         vec4 light = texelFetch(lights, texel(2 * number), 0);
         vec3 rgb = texelFetch(lights, texel(2 * number + 1), 0).rgb;
         vec3 l = light.xyz;
         if (light.w > 0.5) {
-            l = l - anchor_world - hit.point;
+            l = (l - anchor) - hit.point;
             float away = length(l);
             if (away < 1e-12) {
                 continue;

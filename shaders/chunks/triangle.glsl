@@ -8,13 +8,21 @@ float triangle_t(vec3 row, vec2 xy) {
     return perspective > 0.5 ? 1.0 / value : value;
 }
 
-// A triangle's normal by its two shorter edges: they keep the digits of a sliver's.
-vec3 face_normal(mat3 corners) {
-    vec3 e = corners[1] - corners[0];
-    vec3 f = corners[2] - corners[1];
-    vec3 g = corners[0] - corners[2];
+// The unit normal of a triangle's edges; `otherwise` where float32 has none for it. Divided first:
+// the square of a small triangle's normal would be 0.
+vec3 unit_across(vec3 first, vec3 second, vec3 otherwise) {
+    vec3 normal = cross(first, second);
+    float largest = max(max(abs(normal.x), abs(normal.y)), abs(normal.z));
+    return largest > 0.0 ? normalize(normal * (1.0 / largest)) : otherwise;
+}
+
+// A triangle's normal by the two shorter of its edges, one after the other: they keep a sliver's digits.
+vec3 face_normal(vec3 e, vec3 f, vec3 g, vec3 otherwise) {
     float longest = max(max(dot(e, e), dot(f, f)), dot(g, g));
-    return normalize(longest == dot(g, g) ? cross(e, f) : longest == dot(e, e) ? cross(f, g) : cross(g, e));
+    if (longest == dot(g, g)) {
+        return unit_across(e, f, otherwise);
+    }
+    return longest == dot(e, e) ? unit_across(f, g, otherwise) : unit_across(g, e, otherwise);
 }
 
 // A triangle's longest side over its height: at least 2 / sqrt(3).

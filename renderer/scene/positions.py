@@ -1,0 +1,48 @@
+"""Where the things of a flat scene stand in the world, and what float32 numbers are relative to.
+
+Owns the two ways out of an object's own space: into float64 (for all that computes in it), and into
+float32 relative to a point near the eye. Knows nothing of cameras.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from renderer.scene.flat import FlatScene
+
+F32 = NDArray[np.float32]
+F64 = NDArray[np.float64]
+
+
+def world_vertices(flat: FlatScene, origin: ArrayLike = (0.0, 0.0, 0.0)) -> F64:
+    """All vertices in the world, relative to `origin`: float64 (n, 3)."""
+    world = np.empty((len(flat.vertices), 3))
+    for matrix, (first, count) in zip(flat.world_from_object, flat.object_vertices, strict=True):
+        mine = slice(first, first + count)
+        world[mine] = flat.vertices[mine] @ matrix[:3, :3].T + (matrix[:3, 3] - origin)
+    return world
+
+
+def world_corners(flat: FlatScene, triangles: NDArray[np.integer]) -> F64:
+    """The corners of some triangles in the world: float64 (n, 3, 3), corner by corner."""
+    matrix = flat.world_from_object[flat.face_object[triangles]]
+    corners = flat.vertices[flat.faces[triangles]].astype(np.float64)
+    world: F64 = corners @ np.swapaxes(matrix[:, :3, :3], 1, 2) + matrix[:, None, :3, 3]
+    return world
+
+
+def near_point(flat: FlatScene, eye: ArrayLike) -> F64:
+    """The point (3,) of the scene's bounds that is nearest to the eye: what float32 numbers that
+    belong to no object in particular, lights and hits, are relative to."""
+    point: F64 = np.clip(np.asarray(eye, np.float64), *flat.bounds)
+    return point
+
+
+def lights_from(flat: FlatScene, point: F64) -> F32:
+    """The scene's lights as float32, points relative to `point`; read-only."""
+    lights = flat.lights.astype(np.float64)
+    lights[:, 0, :3] -= lights[:, 0, 3:] * point
+    rows = lights.astype(np.float32)
+    rows.setflags(write=False)
+    return rows
