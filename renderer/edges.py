@@ -132,7 +132,8 @@ class Lines:
 
     def normal_slope(self, primitive: Ints, i: Ints, j: Ints) -> tuple[Floats, Floats]:
         """How much a triangle's smooth normal changes a pixel; 0 where there is none. And what
-        float32 does not know of it: a sliver's barycentrics are small differences."""
+        float32 does not know of its normal: a sliver's, and its barycentrics, are small differences
+        of some thirty roundings in all."""
         slope, unknown = np.zeros(len(primitive)), np.zeros(len(primitive))
         triangle, _ = self._kinds(primitive)
         a, b, c = self._corners(primitive[triangle])
@@ -156,7 +157,8 @@ class Lines:
         longest = np.max([((q - p) ** 2).sum(axis=1) for p, q in ((a, b), (b, c), (c, a))], axis=0)
         with np.errstate(divide="ignore", invalid="ignore"):
             sliver = longest / np.linalg.norm(whole, axis=1)
-        unknown[triangle] = ROUNDING_32 * sliver * np.ptp(normals, axis=1).max(axis=1)
+        varies = np.where(normals.any(axis=(1, 2)), np.ptp(normals, axis=1).max(axis=1), 1.0)
+        unknown[triangle] = 4 * ROUNDING_32 * sliver * varies
         return np.nan_to_num(slope), np.nan_to_num(unknown)
 
     def parameter(self, primitive: Ints, i: Numbers, j: Numbers, t: Floats) -> Floats:

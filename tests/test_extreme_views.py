@@ -74,6 +74,28 @@ def test_checkers_and_lights_are_exact_from_very_far_away(shape, projection, pac
         assert not (wrong := agrees(scene, camera, SIZE, reference, packets)), wrong
 
 
+def test_a_sliver_much_smaller_than_a_pixel_covers_no_line(packets):
+    """The first triangle's corners are on one line in float32; the other gives them an origin."""
+    corners = [
+        (-36.458343505859375, 48.4150276184082, -17.39499855041504),
+        (-276.6924743652344, 49.78589630126953, -10.32468032836914),
+        (160.10025024414062, 40.300350189208984, -24.407995223999023),
+        (-423.083740234375, -19.627660751342773, -35.41630554199219),
+        (334.024169921875, 60.122798919677734, 18.41884422302246),
+        (334.024169921875, 60.122798919677734, 18.41884422302246),
+    ]
+    camera = Camera(
+        eye=(-11394.465768069042, 35.54910206161289, -111.88827822565413),
+        u=(0, 0, 1),
+        v=(0, -1, 0),
+        w=(-1, 0, 0),
+        distance=0.9758834893139058,
+        viewport=(-1491.0331231032555, 6662.334465369282, -1207.0175101026534, 6946.350078369885),
+    )
+    packets.set_scene(Scene((SceneObject(Mesh(corners, np.arange(6).reshape(2, 3))),)))
+    assert (packets.render(camera, (19, 17), ("id",)).id == -1).all()
+
+
 def test_a_very_small_sphere_far_away_shows_its_near_side(packets, reference):
     scene = Scene((SceneObject(Sphere((0, 0, 0), 0.2)),))
     rng = np.random.default_rng(3)

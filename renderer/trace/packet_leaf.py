@@ -61,6 +61,8 @@ from renderer.trace.wide import CORNERS, WIDTH
 # terms it counts as 0.
 DOUBTFUL = np.float32(1000)
 EDGE_ON = np.float64(1e-13)
+# An edge function of corners that are `x` pixels from the image's middle is that much of x wrong.
+SPECK_PX, SPECK_ROUNDING = np.float64(1 / 64), np.float64(2.0**-21)
 
 _E0, _E1, _E2, _KEY = np.arange(4)  # a triangle's functions, in the order of their coefficients
 
@@ -175,8 +177,9 @@ def key_function_exact(view, corner, leaf, space, pa, pb, pc):
     """(coefficients of the key, sign of the volume) in float64, then rounded.
 
     The key is -inf for a triangle seen edge-on, and for one that is so small, or so far away, that
-    two of its corners are one point in float32. pa, pb, pc: its corners as edge_function() takes
-    them, which then is 0 everywhere: the triangle would cover a line, or all of the image.
+    float32 makes one point of two of its corners, or one line of all three. pa, pb, pc: its corners
+    as edge_function() takes them, which then is 0 everywhere, or nothing but rounding: the triangle
+    would cover a line, or all of the image.
     """
     a, b, c = _camera_corners_exact(view, corner, leaf, space)
     ha, hb, hc = a[2], b[2], c[2]
@@ -185,10 +188,23 @@ def key_function_exact(view, corner, leaf, space, pa, pb, pc):
     (kx, ky, k1), volume, terms = key_function(view, a, b, c, ha, hb, hc)
     is_seen = vabs(volume) > terms * EDGE_ON
     is_seen = is_seen & _differ(pa, pb) & _differ(pb, pc) & _differ(pc, pa)
+    is_seen = is_seen & ~_is_speck(a[0] / ha, a[1] / ha, b[0] / hb, b[1] / hb, c[0] / hc, c[1] / hc)
     zero = splat(np.float32(0))
     kx, ky = select(is_seen, to_f32(kx), zero), select(is_seen, to_f32(ky), zero)
     k1 = select(is_seen, to_f32(k1), np.float32(-np.inf))
     return (kx, ky, k1), select(volume >= np.float64(0), splat(np.float32(1)), np.float32(-1))
+
+
+@inlined
+def _is_speck(ax, ay, bx, by, cx, cy):
+    """Which triangles of the image are smaller than SPECK_PX and thinner than float32 can tell."""
+    x1, y1, x2, y2 = bx - ax, by - ay, cx - ax, cy - ay
+    x3, y3 = x2 - x1, y2 - y1
+    square = vmax(vmax(fma(x1, x1, y1 * y1), fma(x2, x2, y2 * y2)), fma(x3, x3, y3 * y3))
+    area = vabs(fma(x1, y2, -(y1 * x2)))
+    # Twice the area is the longest side times the height.
+    height = fma(vabs(ax) + vabs(ay), SPECK_ROUNDING, splat(SPECK_ROUNDING))
+    return (square < SPECK_PX * SPECK_PX) & (area * area < square * (height * height))
 
 
 @inlined
