@@ -75,7 +75,8 @@ class Comparison:
     explained: pixels by cause. "outline": at the edge of what one of the two saw. "meeting": where
     two surfaces meet. "clip": where near or far cuts, or nearer to the eye than triangles are
     rasterized. "checker": at a cell's border. "grazing": the surface is so oblique, or so small,
-    that TOLERANCE_PX moves its depth or its smooth normal by more than the difference.
+    that TOLERANCE_PX moves its depth, its smooth normal or its vertices' colours by more than the
+    difference.
     unexplained: all others; shading: those of them where only the colour differs.
     max_...: the largest errors among the agreeing pixels; errors: by channel, over all pixels.
     labels: uint8 (height, width). times_s: what each renderer took.
@@ -304,7 +305,8 @@ def _explain(
         np.fmin(lines.clip_px(first, i, j, t_first), lines.clip_px(second, i, j, t_second)),
         np.where(same, lines.checker_px(second, i, j, t), np.inf),
     ]
-    # How far it is to where depth and normal are the other image's, if they are not already.
+    # How far it is to where depth and normal are the other image's, if they are not already; and
+    # if they are, to where the vertices' colours are.
     turned = np.abs(raster.channel("normal")[i, j] - ray.channel("normal")[i, j]).max(axis=1)
     with np.errstate(divide="ignore", invalid="ignore"):
         difference = np.abs(t_first - t_second)
@@ -314,8 +316,13 @@ def _explain(
         bent = turned / normal_slope
         bent[turned <= unknown] = TOLERANCE_PX
         bent[turned <= NORMAL] = 0
-    grazing = same & ((moved > 0) | (bent > 0))
-    distances.append(np.where(grazing, np.maximum(moved, bent), np.inf))
+        colors = np.stack([frame.channel("color")[i, j] for frame in (raster, ray)])
+        faded = np.abs(colors[1] - colors[0]) / (
+            colors.max(axis=0) * lines.tint_slope(second, i, j)
+        )
+        faded[colors[0] == colors[1]] = 0
+    jump = np.where((moved > 0) | (bent > 0), np.maximum(moved, bent), faded.max(axis=1))
+    distances.append(np.where(same & (jump > 0), jump, np.inf))
     labels = np.full(len(i), AGREE, np.uint8)
     for label in range(len(CAUSES), 0, -1):
         labels[distances[label - 1] <= TOLERANCE_PX] = label

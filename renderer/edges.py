@@ -138,28 +138,45 @@ class Lines:
         triangle, _ = self._kinds(primitive)
         a, b, c = self._corners(primitive[triangle])
         normals = self.flat.normals[self.flat.faces[primitive[triangle]]].astype(float)
-        whole = np.cross(b - a, c - a)
 
         def normal(di: float, dj: float) -> Floats:
-            origin, direction = self.camera.ray(i[triangle] + di, j[triangle] + dj, self.size)
-            # Barycentrics, up to a factor: volumes that the ray spans with the edges.
-            from_eye = np.stack([a, b, c], axis=1) - origin[:, None]
-            edges = np.cross(np.roll(from_eye, -1, axis=1), np.roll(from_eye, -2, axis=1))
-            weights = np.einsum("nkx,nx->nk", edges, direction)
-            weights *= np.sign(np.einsum("nx,nx->n", whole, direction))[:, None]
-            mean = np.einsum("nk,nkx->nx", weights, normals)
+            i_, j_ = i[triangle] + di, j[triangle] + dj
+            mean = np.einsum("nk,nkx->nx", self._weights(primitive[triangle], i_, j_), normals)
             with np.errstate(invalid="ignore"):
                 return mean / np.linalg.norm(mean, axis=1, keepdims=True)
 
-        across = (normal(0, STEP_PX) - normal(0, -STEP_PX)) / (2 * STEP_PX)
-        down = (normal(STEP_PX, 0) - normal(-STEP_PX, 0)) / (2 * STEP_PX)
-        slope[triangle] = np.sqrt((across**2 + down**2).sum(axis=1))
+        slope[triangle] = np.linalg.norm(_changes(normal), axis=1)
         longest = np.max([((q - p) ** 2).sum(axis=1) for p, q in ((a, b), (b, c), (c, a))], axis=0)
         with np.errstate(divide="ignore", invalid="ignore"):
-            sliver = longest / np.linalg.norm(whole, axis=1)
+            sliver = longest / np.linalg.norm(np.cross(b - a, c - a), axis=1)
         varies = np.where(normals.any(axis=(1, 2)), np.ptp(normals, axis=1).max(axis=1), 1.0)
         unknown[triangle] = 4 * ROUNDING_32 * sliver * varies
         return np.nan_to_num(slope), np.nan_to_num(unknown)
+
+    def tint_slope(self, primitive: Ints, i: Ints, j: Ints) -> Floats:
+        """How much of itself a triangle's interpolated vertex colour changes a pixel: (n, 3)."""
+        slope = np.zeros((len(primitive), 3))
+        triangle, _ = self._kinds(primitive)
+        colors = self.flat.colors[self.flat.faces[primitive[triangle]]].astype(float)
+
+        def tint(di: float, dj: float) -> Floats:
+            i_, j_ = i[triangle] + di, j[triangle] + dj
+            return np.einsum("nk,nkx->nx", self._weights(primitive[triangle], i_, j_), colors)
+
+        with np.errstate(divide="ignore", invalid="ignore"):
+            slope[triangle] = _changes(tint) / tint(0, 0)
+        return np.nan_to_num(slope)
+
+    def _weights(self, triangle: Ints, i: Numbers, j: Numbers) -> Floats:
+        """The barycentrics (n, 3) where rays meet the planes of triangles."""
+        origin, direction = self.camera.ray(i, j, self.size)
+        from_eye = np.stack(self._corners(triangle), axis=1) - origin[:, None]
+        # Volumes that the ray spans with the edges.
+        edges = np.cross(np.roll(from_eye, -1, axis=1), np.roll(from_eye, -2, axis=1))
+        volumes = np.einsum("nkx,nx->nk", edges, direction)
+        with np.errstate(divide="ignore", invalid="ignore"):
+            weights: Floats = volumes / volumes.sum(axis=1, keepdims=True)
+        return weights
 
     def parameter(self, primitive: Ints, i: Numbers, j: Numbers, t: Floats) -> Floats:
         """The ray parameter where the ray of (i, j) meets the primitive's extended surface.
@@ -323,6 +340,13 @@ def _segment_px(point: Floats, start: Floats, end: Floats) -> Floats:
         part = np.clip(np.nan_to_num(part), 0, 1)[:, None]
         distance = np.linalg.norm(point - (start + part * along), axis=1)
     return np.where(np.isnan(distance), np.inf, distance)
+
+
+def _changes(function: Function) -> Floats:
+    """How much each of the numbers (n, 3) that a function of the pixel's position gives changes."""
+    across = (function(0, STEP_PX) - function(0, -STEP_PX)) / (2 * STEP_PX)
+    down = (function(STEP_PX, 0) - function(-STEP_PX, 0)) / (2 * STEP_PX)
+    return np.hypot(across, down)
 
 
 def _gradient(function: Function) -> tuple[Floats, Floats]:

@@ -198,6 +198,18 @@ def test_smooth_normals_of_triangles_that_are_parts_of_a_pixel(size, explained):
     assert counts(compare_frames(flat, camera, size_px, wrong, frame)) == {expected: 1}
 
 
+@pytest.mark.parametrize(("size", "explained"), [(0.01, True), (10.0, False)])
+def test_vertex_colours_of_triangles_that_are_parts_of_a_pixel(size, explained):
+    corners = np.array([(0, 0, -2), (size, 0, -2), (0, size, -2)]) - (size / 3, size / 3, 0)
+    mesh = Mesh(corners, [[0, 1, 2]], colors=np.eye(3) * 0.8 + 0.1)
+    flat = flatten(Scene((SceneObject(mesh),)))
+    frame = image(2, 0, 0, (33, 33))
+    wrong = changed(frame, (16, 16), color=(0.53, 0.48, 0.5))
+    camera = replace(CAMERA, viewport=(-0.5, 0.5, -0.5, 0.5))
+    expected = "grazing" if explained else "unexplained"
+    assert counts(compare_frames(flat, camera, (33, 33), wrong, frame)) == {expected: 1}
+
+
 def test_edges_in_the_eyes_plane_are_quiet():
     floor = SceneObject(Mesh([(-1, -1, 0), (1, -1, 0), (0, -1, -9)], [[0, 1, 2]]))
     flat = flatten(Scene((floor, wall(-20))))
