@@ -17,7 +17,6 @@ from renderer.trace.simd import fma, lane_column, lane_row, splat
 from renderer.trace.vectors import cross, dot, minus, times
 from renderer.trace.wide import CORNERS, WIDTH
 
-
 OTHER_SIDE = np.float32(flat.OTHER_SIDE)
 
 

@@ -14,7 +14,6 @@ import numpy as np
 from renderer import Camera
 from renderer.scene import shapes
 from renderer.scene.flat import FlatScene
-from renderer.scene.positions import world_corners
 from renderer.scene.model import (
     Checker,
     DirectionalLight,
@@ -26,6 +25,7 @@ from renderer.scene.model import (
     Shape,
     Sphere,
 )
+from renderer.scene.positions import world_corners
 
 Random = np.random.Generator
 
