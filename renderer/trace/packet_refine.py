@@ -104,8 +104,8 @@ def _lanes(p, column, row):
 
 @inlined
 def exact_points(view, first, t):
-    """The points of a square's rays at t, F64, relative to the near_point: three F32, rounded
-    only at the end."""
+    """The points of a square's rays at t, F64, relative to the view's near_point: three F32, which
+    are rounded only at the end."""
     return (
         _coordinate(view, 0, first, t),
         _coordinate(view, 1, first, t),
@@ -115,16 +115,10 @@ def exact_points(view, first, t):
 
 @inlined
 def _coordinate(view, axis, first, t):
-    ray = view.ray
+    ray, near = view.ray, view.near_point[axis]
     across, down, shared = ray[ACROSS + axis], ray[DOWN + axis], ray[SHARED + axis]
-    start = ray[VARYING + axis]
-    # Of a parallel view, the origins vary; of a perspective one, they are the shared eye.
-    if view.parallel:
-        start -= view.near_point[axis]
-    else:
-        shared -= view.near_point[axis]
-    start += np.float64(first[0]) * across + np.float64(first[1]) * down
+    start = ray[VARYING + axis] + np.float64(first[0]) * across + np.float64(first[1]) * down
     varying = fma(to_f64(lane_column()), across, fma(to_f64(lane_row()), down, splat(start)))
     if view.parallel:
-        return to_f32(fma(t, shared, varying))
-    return to_f32(fma(t, varying, splat(shared)))
+        return to_f32(fma(t, shared, varying - near))
+    return to_f32(fma(t, varying, splat(shared - near)))

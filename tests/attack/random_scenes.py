@@ -25,6 +25,7 @@ from renderer.scene.model import (
     Shape,
     Sphere,
 )
+from renderer.scene.positions import world_corners
 
 Random = np.random.Generator
 
@@ -192,7 +193,7 @@ def random_point(rng: Random, flat: FlatScene, primitive: int) -> tuple[np.ndarr
         normal = rng.normal(size=3)
         normal /= np.linalg.norm(normal)
         return sphere[:3] + sphere[3] * normal, normal
-    corners = flat.vertices[flat.faces[primitive]].astype(float)
+    corners = world_corners(flat, np.array([primitive]))[0]
     weights = rng.dirichlet(np.ones(3)) if rng.random() < 0.8 else np.eye(3)[rng.integers(3)]
     normal = np.cross(corners[1] - corners[0], corners[2] - corners[0])
     size = np.linalg.norm(normal)
@@ -205,7 +206,7 @@ def bounds_of_object(flat: FlatScene, primitive: int) -> np.ndarray:
         center, radius = np.split(flat.spheres[primitive - len(flat.faces)], [3])
         return np.stack([center - radius, center + radius])
     first, count = flat.object_faces[flat.face_object[primitive]]
-    corners = flat.vertices[flat.faces[first : first + count]].reshape(-1, 3)
+    corners = world_corners(flat, np.arange(first, first + count)).reshape(-1, 3)
     return np.stack([corners.min(0), corners.max(0)])
 
 
