@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 from renderer.camera import Camera
 from renderer.frame import Frame
 from renderer.scene.flat import FlatScene
+from renderer.scene.positions import world_vertices
 
 
 def hits_nothing(*frames: Frame) -> bool:
@@ -47,7 +48,7 @@ def _parameters(flat: FlatScene, camera: Camera) -> tuple[NDArray[np.float64], N
     unit = 1.0 if camera.is_parallel else camera.distance
     back = -camera.camera_from_world[2] / unit
     low, high = np.full((2, len(flat.object_sphere)), np.inf)
-    corners = (flat.vertices @ back[:3] + back[3])[flat.faces]
+    corners = (world_vertices(flat) @ back[:3] + back[3])[flat.faces]
     np.minimum.at(low, flat.face_object, corners.min(axis=1))
     np.minimum.at(high, flat.face_object, -corners.max(axis=1))
     centers = flat.spheres[:, :3] @ back[:3] + back[3]

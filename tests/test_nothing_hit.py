@@ -102,3 +102,11 @@ def test_the_window_s_words(gl_backend):
     told = "Nothing is hit in either image: everything is behind the eye"
     assert comparing.headline(empty) == (told, False)
     assert comparing.headline(empty, "shadows") == (told, False)
+
+
+def test_an_object_far_away_is_judged_where_it_stands():
+    mesh = Mesh([(0, 0, -4), (1, 0, -6), (0, 1, -6)], [[0, 1, 2]])
+    moved = np.eye(4)
+    moved[:3, 3] = (0, 0, 1e6)
+    flat = flatten(Scene((SceneObject(replace(mesh, transform=moved)),)))
+    assert why_nothing_is_hit(flat, Camera()) == "everything is behind the eye"
