@@ -142,6 +142,49 @@ class TestRays:
         assert "backwards" in hint("-3/16, -5/16, 1")
         assert "parallel ray" in hint("0, 0, -1")
 
+    @pytest.mark.parametrize("projection", ["perspective", "parallel"])
+    def test_every_mistake_by_hand(self, projection):
+        """Pixel (2, 6) of 8 x 4 in 2 x 1, which is at u = 3/8, v = 1/8."""
+        camera = Camera((1, 2, 3), distance=3.0, viewport=(-1, 1, -0.5, 0.5), projection=projection)
+        points = {
+            "rows count upwards": (3 / 8, -1 / 8),
+            "columns count leftwards": (-3 / 8, 1 / 8),
+            "the corner, not the centre": (2 / 8, 2 / 8),
+            "no half pixel": (4 / 8, 0),
+            "half a pixel too far": (5 / 8, -1 / 8),
+            "row and column exchanged": (-5 / 8, -7 / 8),
+            "width and height exchanged": (14 / 8, 5 / 16),
+            "u and v exchanged": (1 / 8, 3 / 8),
+        }
+        parallel = projection == "parallel"
+        rays = {}
+        for name, (x, y) in points.items():
+            on, to = (1 + x, 2 + y, 3), (x, y, -3)
+            rays[name] = (on, (0, 0, -1)) if parallel else ((1, 2, 3), to)
+        x, y = 3 / 8, 1 / 8
+        seen, through = (1 + x, 2 + y, 3), (x, y, -3)
+        if parallel:
+            rays |= {
+                "along +w": (seen, (0, 0, 1)),
+                "no eye": ((x, y, 0), (0, 0, -1)),
+                "the camera's coordinates": ((x, y, 0), (0, 0, -1)),
+                "as in perspective": ((1, 2, 3), through),
+            }
+        else:
+            rays |= {
+                "along +w": ((1, 2, 3), (x, y, 3)),
+                "a point, not a direction": ((1, 2, 3), (1 + x, 2 + y, 0)),
+                "no distance": ((1, 2, 3), (x, y, -1)),
+                "the camera's coordinates": ((1, 2, 3), through),
+                "as in parallel projection": (seen, (0, 0, -1)),
+            }
+        found = list(mistakes(camera, 1, 5, (8, 4)))
+        assert [mistake.name for mistake in found] == list(rays)
+        for mistake in found:
+            origin, direction = rays[mistake.name]
+            assert mistake.ray.origin == pytest.approx(origin), mistake.name
+            assert mistake.ray.direction == pytest.approx(direction), mistake.name
+
     @pytest.mark.parametrize("distance", [0.5, 3.0])
     def test_backwards_is_told_at_every_distance(self, distance):
         """x u + y v + d w, by hand: with d = 1 alone, d and d^2 are the same."""

@@ -169,6 +169,16 @@ class TestLight:
         assert wall[0, 7].tolist() == [0, 255, 0]
         assert wall[4, 0].tolist() == [0, 0, 0]
 
+    def test_the_wall_is_as_large_as_all_pictures_together(self):
+        """Moved up and to the left too: as when all are moved one way and back."""
+        white = np.ones((4, 6, 3), np.float32)
+        wall = light.projected(white, ((-1, 0), (0, -2), (2, 3)))
+        assert wall.shape == (4 + 3, 6 + 5, 3)
+        for channel, (top, left) in enumerate(((0, 2), (1, 0), (3, 5))):
+            lit = np.zeros((7, 11), bool)
+            lit[top : top + 4, left : left + 6] = True
+            assert (wall[..., channel] == 255 * lit).all()
+
     def test_the_triangle_of_projectors(self):
         assert light.triangle(10) == ((-10, 0), (5, -9), (5, 9))
 
