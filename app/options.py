@@ -21,6 +21,7 @@ RESOLUTIONS = (
 MAGNIFICATIONS = (1, 2, 4, 8, 16, 32, 64)
 EXPOSURE_LIMIT_EV = 8.0
 LARGEST_ZOOM = 32.0
+CYCLES_S = (1.0, 60.0)
 
 Channel = Literal["color", "depth", "normal", "id"]
 Component = Literal["rgb", "red", "green", "blue"]
@@ -95,17 +96,25 @@ class LaboratoryOptions:
     projectors' pictures are moved apart, in parts of the image's height. side_px: screen pixels a
     side of a magnified pixel. zoom: the magnification of raster image and vector drawing, 1 to
     LARGEST_ZOOM; zoom_center: what is in the middle, in parts of the picture's width and height.
+    content: what projectors and displays show, the image or a test picture. display: which one.
+    playing: its cycle, which takes cycle_s seconds, within CYCLES_S, goes on by itself; phase:
+    where it stands, 0 to 1, and while it plays, where it began.
     """
 
-    page: Literal["kinds", "bitmaps", "exposure", "projectors", "subpixels", "array", "vector"] = (
-        "kinds"
-    )
+    page: Literal[
+        "kinds", "bitmaps", "exposure", "projectors", "displays", "subpixels", "array", "vector"
+    ] = "kinds"
     method: Literal["threshold", "ordered", "floyd-steinberg"] = "floyd-steinberg"
     after_ev: float = 0.0
     apart: float = 0.0
     side_px: int = 36
     zoom: float = 1.0
     zoom_center: tuple[float, float] = (0.5, 0.5)
+    content: Literal["image", "test"] = "image"
+    display: Literal["tube", "dlp", "lcd", "led"] = "tube"
+    playing: bool = False
+    phase: float = 0.0
+    cycle_s: float = 8.0
 
 
 @dataclass(frozen=True)

@@ -157,6 +157,8 @@ class TestReading:
              "options.laboratory.zoom: 0 is out of range; give 1 to 32"),
             ("images.pixel_size = 8", "laboratory.side_px = 1000000", 22,
              "options.laboratory.side_px: 1e+06 is out of range; give 3 to 300"),
+            ("images.pixel_size = 8", "laboratory.cycle_s = 0", 22,
+             "options.laboratory.cycle_s: 0 is out of range; give 1 to 60"),
             ("options.shadows", "options.preferences", 26, "options.preferences: is unknown"),
             ("[0, 0, 5]", "[0, 0]", 20, "camera.eye: has 2 entries; give 3"),
             ("[0, 0, 0]", "[5, 5, 5]", 25, "options.outside.camera.target: (5, 5, 5) is the eye"),

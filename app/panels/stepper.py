@@ -17,6 +17,7 @@ from app.lettering import lettering
 from app.options import Pixel, StepperOptions
 from app.panels.canvas import Marks, canvas
 from app.panels.code import LINE, code, code_size_px
+from app.panels.rows import follow
 from app.teach.loop_parts import (
     Canvas,
     DepthBuffer,
@@ -82,7 +83,7 @@ def controls(options: StepperOptions, playing: bool) -> tuple[StepperOptions, Wi
         shown = ("Pause" if playing else "Play") if name == "play" else label
         needed = width if name == "play" else _button_width(shown)
         if count:
-            _follow(needed)
+            follow(needed)
         if imgui.button(f"{shown}###{name}", ImVec2(needed, 0)):
             wish = name
         imgui.set_item_tooltip(tip)
@@ -112,7 +113,7 @@ def keys() -> Wish:
 
 def _speed(options: StepperOptions) -> StepperOptions:
     width = 8 * imgui.get_font_size()
-    _follow(width + imgui.calc_text_size("steps/s").x)
+    follow(width + imgui.calc_text_size("steps/s").x)
     imgui.set_next_item_width(width)
     changed, speed = imgui.slider_float(
         "steps/s", options.speed, SLOWEST, FASTEST, "%.0f", imgui.SliderFlags_.logarithmic
@@ -125,7 +126,7 @@ def _canvas_size(options: StepperOptions) -> StepperOptions:
         return f"{size[0]} x {size[1]}"
 
     width = imgui.calc_text_size("64 x 48").x + 2.2 * imgui.get_frame_height()
-    _follow(width + imgui.calc_text_size("pixels").x)
+    follow(width + imgui.calc_text_size("pixels").x)
     imgui.set_next_item_width(width)
     if imgui.begin_combo("pixels", name(options.canvas)):
         for size in CANVASES:
@@ -137,7 +138,7 @@ def _canvas_size(options: StepperOptions) -> StepperOptions:
 
 def _order(options: StepperOptions) -> StepperOptions:
     width = imgui.calc_text_size("object order").x + 2.2 * imgui.get_frame_height()
-    _follow(width)
+    follow(width)
     imgui.set_next_item_width(width)
     if imgui.begin_combo("##order", ORDERS[options.order]):
         for key, text in ORDERS.items():
@@ -352,15 +353,6 @@ def _tables(moment: Moment, fonts: Fonts) -> None:
             imgui.pop_font()
             imgui.pop_text_wrap_pos()
         imgui.end_table()
-
-
-def _follow(width: float) -> None:
-    """The next item in this row, where it has room; else in the next one."""
-    spacing = imgui.get_style().item_spacing.x
-    end = imgui.get_item_rect_max().x + spacing + width
-    edge = imgui.get_cursor_screen_pos().x + imgui.get_content_region_avail().x
-    if end <= edge:
-        imgui.same_line()
 
 
 def _button_width(text: str) -> float:

@@ -3,7 +3,8 @@
 kinds       bitmap, grayscale, colour, half and single float: bits, bytes, what each is good for
 bitmaps     one bit a pixel: threshold, ordered dither, Floyd-Steinberg
 stored      an image as it is kept in a kind, and what is seen when it is exposed afterwards
-light       three projectors whose light adds; the subpixels of a display
+light       three projectors whose light adds; the subpixels of a display; test pictures
+displays    tube, DLP, LCD and LED in time, whose mean over a cycle is the pixel's colour
 memory      the array itself: canvas[i, j], row-major order, memory offsets
 disk        the sizes of files, and files of what is stored
 """

@@ -13,7 +13,14 @@ from typing import Any, get_args, get_type_hints
 
 import msgspec
 
-from app.options import EXPOSURE_LIMIT_EV, LARGEST_ZOOM, MAGNIFICATIONS, PIXEL_SIZES, Options
+from app.options import (
+    CYCLES_S,
+    EXPOSURE_LIMIT_EV,
+    LARGEST_ZOOM,
+    MAGNIFICATIONS,
+    PIXEL_SIZES,
+    Options,
+)
 from app.teach.lecture.under import under
 from app.teach.recording import check_canvas
 from renderer.camera import Camera
@@ -31,6 +38,8 @@ RANGES = {
     "images.magnification": (MAGNIFICATIONS[0], MAGNIFICATIONS[-1]),
     "laboratory.side_px": (3, 300),
     "laboratory.zoom": (1, LARGEST_ZOOM),
+    "laboratory.phase": (0, 1),
+    "laboratory.cycle_s": CYCLES_S,
 }
 
 OWN = ("preferences", "bookmarks")  # the user's own, which no step changes
