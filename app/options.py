@@ -26,6 +26,7 @@ CYCLES_S = (1.0, 60.0)
 Channel = Literal["color", "depth", "normal", "id"]
 Component = Literal["rgb", "red", "green", "blue"]
 Transfer = Literal["srgb", "linear"]
+Language = Literal["python", "julia", "c"]
 CompareMode = Literal["absolute", "signed", "wipe", "flip"]
 
 
@@ -98,7 +99,8 @@ class LaboratoryOptions:
     LARGEST_ZOOM; zoom_center: what is in the middle, in parts of the picture's width and height.
     content: what projectors and displays show, the image or a test picture. display: which one.
     playing: its cycle, which takes cycle_s seconds, within CYCLES_S, goes on by itself; phase:
-    where it stands, 0 to 1, and while it plays, where it began.
+    where it stands, 0 to 1, and while it plays, where it began. order: how the array page lays an
+    image into memory, row after row or column after column.
     """
 
     page: Literal[
@@ -115,6 +117,7 @@ class LaboratoryOptions:
     playing: bool = False
     phase: float = 0.0
     cycle_s: float = 8.0
+    order: Literal["row", "column"] = "row"
 
 
 @dataclass(frozen=True)
@@ -176,8 +179,9 @@ class Options:
     highlight: what a lecture points out: fields of the camera's panel, and views, in small letters.
 
     shadows, mirrors: what only image order has. one_based: pixels are counted from 1, as in the
-    lecture, or from 0, as in arrays. presets_in_perspective: those of the camera's that can be,
-    are. bookmarks: in the order of their numbers.
+    lecture, or from 0, as in arrays. language: of the programs that are shown.
+    presets_in_perspective: those of the camera's that can be, are. bookmarks: in the order of
+    their numbers.
     """
 
     images: ImageOptions = field(default_factory=ImageOptions)
@@ -193,5 +197,6 @@ class Options:
     shadows: bool = False
     mirrors: bool = False
     one_based: bool = True
+    language: Language = "python"
     presets_in_perspective: bool = False
     bookmarks: tuple[Bookmark, ...] = ()

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 import re
 from dataclasses import fields
 from pathlib import Path
@@ -13,6 +14,7 @@ from hypothesis import strategies as st
 
 from app.options import Options
 from app.state import AppState
+from app.teach.languages import LANGUAGES
 from app.teach.lecture import text as texts
 from app.teach.lecture.exercises import ChoiceExercise, RayExercise, VectorExercise
 from app.teach.lecture.options import ELSEWHERE
@@ -363,9 +365,10 @@ class TestTheBuiltInLecture:
         assert 20 <= len(titles) == len(set(titles))
 
     def test_it_fits_a_slide(self):
-        for step in self.lecture.steps:
-            words = len(re.findall(r"\w+", texts.plain(step.blocks)))
-            assert 5 <= words <= 85, (step.title, words)
+        for step, language in itertools.product(self.lecture.steps, LANGUAGES):
+            shown = texts.in_language(step.blocks, language)
+            words = len(re.findall(r"\w+", texts.plain(shown)))
+            assert 5 <= words <= 85, (step.title, language, words)
 
     def test_every_kind_of_exercise_is_in_it(self):
         kinds = {type(step.exercise) for step in self.lecture.steps} - {type(None)}

@@ -20,7 +20,7 @@ from app.panels.formula import Formula, formula
 from app.panels.rows import follow
 from app.state import AppState
 from app.teach.color_formulas import color_lines
-from app.teach.copying import as_latex, as_python, as_text
+from app.teach.copying import as_c, as_julia, as_latex, as_python, as_text
 from app.teach.formulas import hit_lines, ray_lines
 from app.teach.notation import Indexing, Line, number
 from app.teach.reading import SEEN, Crossing, Meeting, Reading
@@ -36,6 +36,8 @@ COPIES: tuple[tuple[str, Callable[[Reading, Indexing], str]], ...] = (
     ("Text", as_text),
     ("LaTeX", as_latex),
     ("Python", as_python),
+    ("Julia", as_julia),
+    ("C", as_c),
 )
 RAYS = {"pixel": "this pixel", "row": "its row", "column": "its column"}
 # Lines whose value is a colour, which is shown beside them.

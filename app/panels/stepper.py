@@ -14,9 +14,10 @@ from imgui_bundle import ImVec2, imgui
 
 from app import theme
 from app.lettering import lettering
-from app.options import Pixel, StepperOptions
+from app.options import Language, Pixel, StepperOptions
 from app.panels.canvas import Marks, canvas
-from app.panels.code import LINE, code, code_size_px
+from app.panels.code import code_size_px
+from app.panels.listing import LEGIBLE_EM, Listing, listing
 from app.panels.rows import follow
 from app.teach.loop_parts import (
     Canvas,
@@ -44,7 +45,7 @@ TITLES = {
 # Panels so much wider than high have code, canvases and numbers beside one another, or the numbers.
 ALL_BESIDE, NUMBERS_BESIDE = 1.9, 1.2
 LEFT, UPPER = 0.64, 0.64  # the code's part of a panel whose numbers stand beside it
-LEGIBLE_EM = 0.85  # the least size of the code, where the width allows
+RUNNING = "Python, as it runs"
 SLOWEST, FASTEST = 1.0, 20_000.0
 
 Wish = Literal["", "first", "back", "play", "step", "pixel", "object", "last"]
@@ -90,6 +91,14 @@ def controls(options: StepperOptions, playing: bool) -> tuple[StepperOptions, Wi
     options = _speed(options)
     options = _canvas_size(options)
     return _order(options), wish
+
+
+def language(chosen: Language) -> Language:
+    """Whether the same lines stand beside it in Julia. What runs is Python in any case."""
+    follow(imgui.calc_text_size("Julia").x + 1.5 * imgui.get_frame_height())
+    changed, beside = imgui.checkbox("Julia", chosen == "julia")
+    imgui.set_item_tooltip("the same lines in Julia, for reading; Python is what runs")
+    return ("julia" if beside else "python") if changed else chosen
 
 
 def keys() -> Wish:
@@ -152,27 +161,34 @@ def _order(options: StepperOptions) -> StepperOptions:
 
 
 def run_panel(
-    recording: Recording, moment: Moment | None, picture: Picture, room: ImVec2, fonts: Fonts
+    recording: Recording,
+    moment: Moment | None,
+    picture: Picture,
+    room: ImVec2,
+    fonts: Fonts,
+    in_julia: bool = False,
 ) -> Answer:
-    """Code, canvas, variables and counters, in a room."""
+    """Code, canvas, variables and counters, in a room. in_julia: the code in Julia, too."""
     imgui.push_font(fonts.bold, 0.0)
     title = TITLES[recording.order]
     if imgui.calc_text_size(title).x > room.x:
         title = title.partition(":")[0]
     imgui.text(title)
     imgui.pop_font()
+    follow(imgui.calc_text_size(RUNNING).x)
+    imgui.text_colored(theme.DIM, RUNNING)
     if moment is None:
         imgui.text_colored(theme.DIM, "running ...")
         return Answer()
     answer = _slider(recording, moment)
     left = imgui.get_content_region_avail()
     below = imgui.get_cursor_screen_pos()
-    lines = recording.source.lines
+    lines = Listing(recording.source.lines, in_julia, _called())
     longest, count = _largest()  # of both: they are shown in one size
     em = imgui.get_font_size()
     if left.x > ALL_BESIDE * left.y:
         size_px = _code_px(longest, count, 0.46 * left.x, left.y, em)
-        _code(lines, moment, size_px, ImVec2(0.46 * left.x, left.y), fonts)
+        listing(lines, moment.line, size_px, ImVec2(0.46 * left.x, left.y), fonts)
         x = 0.48 * left.x
         imgui.set_cursor_screen_pos(ImVec2(below.x + x, below.y))
         imgui.begin_group()
@@ -183,7 +199,7 @@ def run_panel(
         return answer
     if left.x > NUMBERS_BESIDE * left.y:  # the canvases below the code, the numbers right of both
         size_px = beside_px((left.x, left.y), em)
-        _code(lines, moment, size_px, ImVec2(LEFT * left.x, UPPER * left.y), fonts)
+        listing(lines, moment.line, size_px, ImVec2(LEFT * left.x, UPPER * left.y), fonts)
         rest = left.y - (imgui.get_cursor_screen_pos().y - below.y)
         imgui.begin_group()
         answer = _canvases(recording, moment, picture, ImVec2(LEFT * left.x, rest), answer)
@@ -192,7 +208,7 @@ def run_panel(
         _numbers(moment, ImVec2((0.98 - LEFT) * left.x, left.y), size_px, fonts)
         return answer
     size_px = _code_px(longest, count, left.x, 0.56 * left.y, em)
-    _code(lines, moment, size_px, ImVec2(left.x, 0.58 * left.y), fonts)
+    listing(lines, moment.line, size_px, ImVec2(left.x, 0.58 * left.y), fonts)
     left = imgui.get_content_region_avail()
     below = imgui.get_cursor_screen_pos()
     imgui.begin_group()
@@ -230,23 +246,6 @@ def _code_px(longest: str, count: int, width: float, height: float, em: float) -
     """The code's size: all of it where that can be read, else as wide as there is room."""
     least = LEGIBLE_EM * em
     return code_size_px(longest, width, min(1.6 * em, max(least, height / (1.22 * count))))
-
-
-def _code(
-    lines: tuple[str, ...], moment: Moment, size_px: float, room: ImVec2, fonts: Fonts
-) -> None:
-    """The code; where not all of it has room, the part around the present line."""
-    line_px = LINE * size_px
-    needed = len(lines) * line_px
-    height = min(needed, max(1, int(room.y / line_px)) * line_px)  # no line is cut
-    flags = imgui.WindowFlags_.no_scrollbar | imgui.WindowFlags_.no_scroll_with_mouse
-    imgui.begin_child("code", ImVec2(room.x, height), 0, flags)
-    if needed > height:
-        above = moment.line - int(0.5 * height / line_px)
-        imgui.set_scroll_y(min(max(0.0, above * line_px), needed - height))
-    with lettering(fonts.mono, size_px):
-        code(lines, moment.line, size_px, room.x, _called())
-    imgui.end_child()
 
 
 @functools.cache

@@ -2,7 +2,7 @@
 
 Owns the way from the state to the pages' pictures: the image is drawn by the rasterizer at the
 pages' own size, a thread makes what they show of it (teach/imagelab/), here it is put on the
-screen. The table of sizes and the array's cells are laboratory_tables.py's.
+screen. What stands beside the pictures is the other laboratory_*.py's.
 """
 
 from __future__ import annotations
@@ -27,14 +27,10 @@ from app.storage.files import describe
 from app.teach.imagelab import disk
 from app.teach.imagelab.pages import Image, Panel, Plan, panels, plan
 from app.views.base import Host, View
+from app.views.laboratory_array import ArrayPage
 from app.views.laboratory_displays import LANES_EM, DisplaysPage
 from app.views.laboratory_pictures import HEADING_EM, draw_panel
-from app.views.laboratory_tables import (
-    array_about,
-    array_cells,
-    luminance_weights,
-    sizes_table,
-)
+from app.views.laboratory_tables import luminance_weights, sizes_table
 from app.views.laboratory_tools import toolbar
 from app.views.laboratory_vector import VectorPage
 from app.views.outside import OutsideView
@@ -45,7 +41,8 @@ LABORATORY = "Laboratory"
 SMALLEST_PX = 60
 LETTERS = 105.0  # a line over the whole view
 GAP_EM = 0.6
-LEAST_EM, LEAST_ROW_EM = 13.0, 8.5  # of the pictures with their titles, two rows, and one
+ROWS_EM = 13.0  # of the pictures with their titles, two rows of them, at the least
+LEAST_EM = {"displays": 8.5, "array": 22.0}  # of pages that are otherwise
 ABOUT_A_PIXEL = ("subpixels", "displays", "array")  # a click on these pages chooses it
 
 
@@ -164,7 +161,7 @@ class LaboratoryView(View):
         """Scrolled where the window is too low for it."""
         avail, em = imgui.get_content_region_avail(), imgui.get_font_size()
         below = self._below_px(options.page)
-        least = below + (LEAST_EM if options.page != "displays" else LEAST_ROW_EM) * em
+        least = below + LEAST_EM.get(options.page, ROWS_EM) * em
         if avail.y >= least:
             self._content(host, options, avail, below)
             return
@@ -224,18 +221,23 @@ class LaboratoryView(View):
     def _array_page(
         self, host: Host, made: _Made, color: Image, place: Callable[[int], ImVec2]
     ) -> None:
-        """The image, framed where the cells beside it are from."""
+        """The image, framed where the cells are from; the cells, the program, the memory."""
         scale, em = framebuffer_scale(), imgui.get_font_size()
-        pixel = self._pixel(host.state, made.plan)
-        extent = ImVec2(made.plan.cell[0] / scale, made.plan.cell[1] / scale + 2.5 * em)
-        table = array_about(color, pixel, extent, host.state.options.one_based)
+        # The image may be newer than what the thread has made, and of another size.
+        now = replace(made.plan, image=(color.shape[1], color.shape[0]))
+        pixel = self._pixel(host.state, now)
+        extent = ImVec2(made.plan.cell[0] / scale, made.plan.cell[1] / scale + HEADING_EM * em)
+        page = ArrayPage(host.state, color, pixel, extent, host.fonts)
+        table = page.table()
         region = (table.i, table.j, len(table.rows), len(table.rows[0]))
         for number, panel in enumerate(made.panels):
             self._panel(host, number, replace(panel, region=region), place(number), made.plan)
-        at = place(len(made.panels))
-        chosen = array_cells(table, color.shape[1], pixel, at, extent, host.fonts)
+        chosen = page.cells(table, place(1))
+        language = page.program(place(2))
+        host.apply(host.state.with_options(language=language))
+        chosen = page.in_memory(place(3)) or chosen
         if chosen is not None:
-            self._choose(host, chosen, made.plan)
+            self._choose(host, chosen, now)
 
     def _panel(self, host: Host, number: int, panel: Panel, at: ImVec2, made: Plan) -> None:
         assert self._uploads is not None

@@ -14,6 +14,7 @@ from app.options import LARGEST_ZOOM, LaboratoryOptions
 from app.panels.rows import follow
 from app.teach.imagelab.bitmaps import TITLES
 from app.teach.imagelab.displays import DISPLAYS
+from app.teach.imagelab.memory import ORDERS
 from app.teach.imagelab.pages import LARGEST_APART, PAGE_TITLES
 from app.views.base import Host
 
@@ -52,6 +53,13 @@ def toolbar(host: Host) -> LaboratoryOptions:
             moved, number = imgui.combo("##base", number, FIRST)
             if moved:
                 host.apply(host.state.with_options(one_based=number == 0))
+            follow(18 * imgui.get_font_size())
+            imgui.set_next_item_width(18 * imgui.get_font_size())
+            orders = list(ORDERS)
+            moved, number = imgui.combo(
+                "##order", orders.index(options.order), list(ORDERS.values())
+            )
+            changed = replace(changed, order=orders[number]) if moved else changed
         case "vector":
             moved, zoom = imgui.slider_float(
                 "zoom##zoom",

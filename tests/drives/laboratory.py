@@ -6,6 +6,7 @@ import threading
 from typing import Any
 
 import numpy as np
+from imgui_bundle import imgui
 from window_driver import ATTEMPTS, PATIENT_S, Driver, Key
 
 from app.teach.imagelab import disk, kinds
@@ -179,6 +180,35 @@ def drive_a_click_chooses_the_pixel_of_the_array(d: Driver) -> None:
     d.ctx.item_click(_item("cell 0 0"))
     d.settle()
     assert d.window.state.marked != (7, 10)
+    _close(d)
+
+
+def drive_the_array_in_other_languages_and_orders(d: Driver) -> None:
+    d.window.change(d.window.state.with_options(images={"resolution": (32, 24)}, marked=(7, 10)))
+    _open(d, page="array")
+    for language, first in (
+        ("Python", "import numpy"),
+        ("Julia", "using Colors"),
+        ("C", "#include"),
+    ):
+        d.ctx.item_click(_item(f"{language}##language"))
+        d.settle()
+        d.ctx.item_click(_item("Copy"))
+        d.ctx.yield_()
+        assert imgui.get_clipboard_text().startswith(first)
+    assert d.window.state.options.language == "c"
+    assert "(i - 1) * W + (j - 1)" in imgui.get_clipboard_text()
+    d.window.change(d.window.state.with_options(laboratory={"order": "column"}, one_based=False))
+    d.settle()
+    d.ctx.item_click(_item("Copy"))
+    d.ctx.yield_()
+    assert "(j * H + i)" in imgui.get_clipboard_text()
+    d.ctx.item_click(_item("byte 0"))  # a pixel before it in memory: the same column
+    d.settle()
+    row, column = d.window.state.marked or (0, 0)
+    assert column == 10 and row < 7
+    d.window.undo()
+    assert d.window.state.marked == (7, 10)
     _close(d)
 
 

@@ -64,7 +64,7 @@ def plan(page: str, room: Size, heading_px: int, gap_px: int, resolution: Size |
         "kinds": (3, 2) if wide else (2, 3),
         "bitmaps": (2, 2),
         "projectors": (1, 1),
-        "array": (2, 1) if room[0] > 1.8 * room[1] else (1, 2),
+        "array": (2, 2) if wide else (1, 4),  # the image, the cells, the program, the memory
     }.get(page, (2, 1) if wide else (1, 2))
     cell = (
         max(SMALLEST_CELL, (room[0] - (columns - 1) * gap_px) // columns),
