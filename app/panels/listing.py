@@ -11,12 +11,14 @@ from dataclasses import dataclass
 
 from imgui_bundle import ImVec2, imgui
 
+from app import theme
 from app.lettering import lettering
 from app.panels.code import LINE, code, code_size_px
 from app.teach.languages import julia
 from app.theme import Fonts
 
 LEGIBLE_EM = 0.85  # the least size of the code, where the width allows
+BESIDE_EM = 0.78  # and of two beside each other; where that is too large, they share the height
 
 
 @dataclass(frozen=True)
@@ -35,16 +37,25 @@ def listing(shown: Listing, lit: int, size_px: float, room: ImVec2, fonts: Fonts
         _lines("code", shown.lines, lit, size_px, room, shown.called, fonts)
         return
     twin = _twin(shown.lines)
-    gap = imgui.get_style().item_spacing
-    half = 0.5 * (room.x - gap.x)
-    beside_px = code_size_px(max((*shown.lines, *twin.lines), key=len), half, size_px)
-    beside = beside_px >= LEGIBLE_EM * imgui.get_font_size()
+    python, in_julia = _narrow(shown.lines), _narrow(twin.lines)
+    gap, caption = imgui.get_style().item_spacing, imgui.get_text_line_height_with_spacing()
+    half, least_px = 0.5 * (room.x - gap.x), BESIDE_EM * imgui.get_font_size()
+    all_px = max(least_px, (room.y - caption) / (LINE * len(in_julia)))
+    beside_px = code_size_px(max((*python, *in_julia), key=len), half, min(size_px, all_px))
+    beside = beside_px >= least_px
     size_px = beside_px if beside else size_px
-    part = ImVec2(half, room.y) if beside else ImVec2(room.x, 0.5 * (room.y - gap.y))
-    _lines("code", shown.lines, lit, size_px, part, shown.called, fonts)
+    height = room.y if beside else 0.5 * (room.y - gap.y)
+    part = ImVec2(half if beside else room.x, height - caption)
+    imgui.begin_group()
+    imgui.text_colored(theme.DIM, "Python, which runs: from 0")
+    _lines("code", python, lit, size_px, part, shown.called, fonts)
+    imgui.end_group()
     if beside:
         imgui.same_line()
-    _lines("julia", twin.lines, twin.line_of[lit], size_px, part, {}, fonts)
+    imgui.begin_group()
+    imgui.text_colored(theme.DIM, "Julia, for reading: from 1")
+    _lines("julia", in_julia, twin.line_of[lit], size_px, part, {}, fonts)
+    imgui.end_group()
 
 
 def _lines(
@@ -68,6 +79,13 @@ def _lines(
     with lettering(fonts.mono, size_px):
         code(lines, lit, size_px, room.x, called)
     imgui.end_child()
+
+
+@functools.cache
+def _narrow(lines: tuple[str, ...]) -> tuple[str, ...]:
+    """The lines, indented half as far: two of them share a row."""
+    indents = [len(line) - len(line.lstrip()) for line in lines]
+    return tuple(line[indent // 2 :] for line, indent in zip(lines, indents, strict=True))
 
 
 @functools.cache

@@ -175,8 +175,9 @@ def run_panel(
         title = title.partition(":")[0]
     imgui.text(title)
     imgui.pop_font()
-    follow(imgui.calc_text_size(RUNNING).x)
-    imgui.text_colored(theme.DIM, RUNNING)
+    if not in_julia:  # the listings say it
+        follow(imgui.calc_text_size(RUNNING).x)
+        imgui.text_colored(theme.DIM, RUNNING)
     if moment is None:
         imgui.text_colored(theme.DIM, "running ...")
         return Answer()
@@ -197,7 +198,9 @@ def run_panel(
         imgui.set_cursor_screen_pos(ImVec2(below.x + 0.755 * left.x, below.y))
         _numbers(moment, ImVec2(0.245 * left.x, left.y), size_px, fonts)
         return answer
-    if left.x > NUMBERS_BESIDE * left.y:  # the canvases below the code, the numbers right of both
+    if (
+        left.x > NUMBERS_BESIDE * left.y and not in_julia
+    ):  # the canvases below the code, the numbers right of both
         size_px = beside_px((left.x, left.y), em)
         listing(lines, moment.line, size_px, ImVec2(LEFT * left.x, UPPER * left.y), fonts)
         rest = left.y - (imgui.get_cursor_screen_pos().y - below.y)
