@@ -2,11 +2,15 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
+from app.options import LaboratoryOptions
 from app.teach.imagelab import displays
 from app.teach.imagelab.displays import DISPLAYS
+from app.views import laboratory_displays
 from renderer.images import to_srgb8
 
 MOMENTS = 3000
@@ -117,3 +121,42 @@ def test_a_pixels_course_over_the_cycle(color):
 def test_what_a_display_can_show():
     wild = np.array([[[np.nan, -1, 0.25], [np.inf, 3, 0.5]]], np.float32)
     assert displays.shown(wild, 1.0).tolist() == [[[0, 0, 0.5], [1, 1, 1]]]
+
+
+class Still:
+    """A host that counts the frames it is asked for."""
+
+    def __init__(self, moves: bool = True) -> None:
+        self.moves, self.asked = moves, 0
+
+    def animate(self) -> None:
+        self.asked += 1
+
+
+def test_the_clock_of_a_cycle(monkeypatch):
+    now_s = [100.0]
+    monkeypatch.setattr(laboratory_displays.time, "monotonic", lambda: now_s[0])
+    page, host = laboratory_displays.DisplaysPage(), Still()
+    options = LaboratoryOptions(page="displays", phase=0.9, cycle_s=2.0)
+
+    def phase(passed_s: float, **changes: object) -> float:
+        now_s[0] += passed_s
+        return page.now(host, replace(options, **changes)).phase  # type: ignore[arg-type]
+
+    assert phase(1.0) == phase(1.0) == 0.9 and not host.asked
+    assert phase(1.0, playing=True) == 0.9 and host.asked == 1  # it begins
+    assert phase(0.1, playing=True) == pytest.approx(0.95)
+    assert phase(0.2, playing=True) == pytest.approx(0.05)  # the next cycle
+    assert phase(60.0, playing=True) == pytest.approx(0.175)  # a frame that took long
+    page.unseen()
+    assert phase(60.0, playing=True) == pytest.approx(0.175)
+    asked = host.asked
+    assert phase(0.1) == 0.9 and host.asked == asked
+    assert phase(0.1, phase=0.3) == 0.3  # somebody has set it
+    assert phase(0.1, phase=7.25) == 0.25  # of a session's file
+    phase(0.1, cycle_s=0.0, playing=True)
+    assert 0 <= phase(0.1, cycle_s=0.0, playing=True) < 1
+    host.moves = False  # a picture of the window
+    asked = host.asked
+    still = phase(0.1, playing=True, phase=0.5)
+    assert still == phase(0.1, playing=True, phase=0.5) == 0.5 and host.asked == asked

@@ -136,7 +136,7 @@ class DisplaysPage:
             used = imgui.calc_text_size(title).x + em
         times = float(display.gain(side).mean())
         note = fitting_words(
-            f"gray: {display.gray}; fully on, {times:.1f} times as bright as the white seen",
+            f"gray: {display.gray}; fully on: {times:.1f} times white",
             avail.x - used,
         )
         draw.add_text(ImVec2(corner.x + used, corner.y), theme.u32(theme.DIM), note)

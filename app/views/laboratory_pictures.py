@@ -45,6 +45,8 @@ def draw_panel(
     imgui.set_cursor_screen_pos(origin)
     imgui.invisible_button(name, extent)
     draw.add_image(imgui.ImTextureRef(texture.glo), origin, far)
+    round_it = ImVec2(origin.x - 1, origin.y - 1), ImVec2(far.x + 1, far.y + 1)
+    draw.add_rect(*round_it, theme.u32(theme.LINE))  # a white picture ends where it ends
     if not panel.magnification:
         return None
     unit = panel.magnification / scale

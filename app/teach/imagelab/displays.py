@@ -120,13 +120,13 @@ DISPLAYS: dict[str, Display] = {
     ),
     "lcd": Display(
         "LCD",
-        "light behind, stripes let it through",
-        "the stripe lets less through, all the time",
+        "light behind filter stripes",
+        "the stripe lets less through",
         _held,
         1.0,
         _stripes(0.29, 0.92, 0.02),
         22,
-        "the row that is set",
+        "the row being set",
     ),
     "led": Display(
         "LED",
