@@ -24,11 +24,12 @@ from app.teach.imagelab.displays import DISPLAYS
 from app.teach.imagelab.light import CHANNELS
 from app.teach.imagelab.pages import Image, Plan, display_part
 from app.views.base import Host
+from app.views.laboratory_schemes import NAMES, Scheme
 from app.views.laboratory_tables import BARS
 
 LONGEST_FRAME_S = 0.25  # what a frame that took longer is taken for
 LANES_EM = 8.0  # of the page, below the pictures
-SLIDER_EM = 8.0
+SLIDER_EM, SCHEME_EM = 8.0, 14.0
 LAST_PHASE = 1.0 - 1e-6  # 1 is 0 of the next cycle
 CLAMP = int(imgui.SliderFlags_.always_clamp)
 
@@ -43,6 +44,7 @@ class DisplaysPage:
         self._size = (1, 1)  # rows and columns of what is seen
         self._drawn: Any = None  # what the lanes were made from
         self._course: NDArray[np.float32] = np.zeros((1, 3), np.float32)
+        self._part: tuple[Image, Pixel] = np.zeros((1, 1, 3), np.float32), (0, 0)
         self._about: tuple[Pixel, Any, int] = (0, 0), (0.0, 0.0, 0.0), 1  # pixel, colour, side
 
     def unseen(self) -> None:
@@ -124,7 +126,7 @@ class DisplaysPage:
             part, first, side, place = display_part(color, plan, options, key[3], pixel)
             self._size = part.shape[0], part.shape[1]
             self._course = displays.course(display, part, place)
-            self._drawn = key
+            self._drawn, self._part = key, (part, place)
             self._about = (first[0] + place[0], first[1] + place[1]), part[place], side
         seen, shown, side = self._about
         corner, avail = imgui.get_cursor_screen_pos(), imgui.get_content_region_avail()
@@ -142,7 +144,10 @@ class DisplaysPage:
         draw.add_text(ImVec2(corner.x + used, corner.y), theme.u32(theme.DIM), note)
         low = ImVec2(corner.x + 5.0 * em, corner.y + 1.5 * em)
         height = max(0.8 * em, min(2.4 * em, (avail.y - 1.6 * em) / 3))
-        width = max(1.0, avail.x - 5.0 * em)
+        scheme_px = (
+            SCHEME_EM * em if options.display in NAMES and avail.x > 3 * SCHEME_EM * em else 0
+        )
+        width = max(1.0, avail.x - 5.0 * em - scheme_px)
         for channel in range(3):
             y = low.y + channel * height
             with lettering(host.fonts.mono, em):
@@ -156,7 +161,21 @@ class DisplaysPage:
         far = low.y + 3 * height
         draw.add_line(ImVec2(x, low.y - 2), ImVec2(x, far), theme.u32(theme.PANEL), 5.0)
         draw.add_line(ImVec2(x, low.y - 2), ImVec2(x, far), theme.u32(theme.TEXT), 2.0)
+        if scheme_px:
+            beside = ImVec2(low.x + width + em, low.y)
+            self._scheme(options, Scheme(beside, ImVec2(scheme_px - em, far - low.y)))
         imgui.dummy(ImVec2(avail.x, far - corner.y))
+
+    def _scheme(self, options: LaboratoryOptions, scheme: Scheme) -> None:
+        """How the pixel that is addressed is made."""
+        part, place = self._part
+        if options.display == "tube":
+            at_work = displays.at_work("tube", options.phase, *part.shape[:2])
+            assert at_work is not None
+            scheme.tube(part[at_work[:2]])
+        else:
+            light = DISPLAYS["dlp"].light(part, options.phase)
+            scheme.dlp(options.phase, bool(light[place].any()))
 
 
 def _lane(draw: imgui.ImDrawList, light: Any, low: ImVec2, extent: ImVec2, color: str) -> None:
