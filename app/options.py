@@ -32,6 +32,7 @@ MAGNIFICATIONS = (1, 2, 4, 8, 16, 32, 64)
 Channel = Literal["color", "depth", "normal", "id"]
 Component = Literal["rgb", "red", "green", "blue"]
 Transfer = Literal["srgb", "linear"]
+Language = Literal["python", "julia", "c"]
 CompareMode = Literal["absolute", "signed", "wipe", "flip"]
 
 
@@ -101,18 +102,28 @@ class LaboratoryOptions:
     after_ev: the exposure, in stops, of an image that has been stored. apart: how far the three
     projectors' pictures are moved apart, in parts of the image's height. side_px: screen pixels a
     side of a magnified pixel. zoom: the magnification of raster image and vector drawing;
-    zoom_center: what is in the middle, in parts of the picture's width and height.
+    zoom_center: what is in the middle, in parts of the picture's width and height. content: what
+    projectors and displays show, the image or a test picture. display: which one. playing: its
+    cycle, which takes cycle_s seconds, goes on by itself; phase: where it stands, 0 to 1, and while
+    it plays, where it began. order: how the array page lays an image into memory, row after row or
+    column after column.
     """
 
-    page: Literal["kinds", "bitmaps", "exposure", "projectors", "subpixels", "array", "vector"] = (
-        "kinds"
-    )
+    page: Literal[
+        "kinds", "bitmaps", "exposure", "projectors", "displays", "subpixels", "array", "vector"
+    ] = "kinds"
     method: Literal["threshold", "ordered", "floyd-steinberg"] = "floyd-steinberg"
     after_ev: Annotated[float, Range(-6, 6)] = 0.0
     apart: Annotated[float, Range(0, 0.4)] = 0.0
     side_px: Annotated[int, Range(3, 300)] = 36
     zoom: Annotated[float, Range(1, 32)] = 1.0
     zoom_center: tuple[Part, Part] = (0.5, 0.5)
+    content: Literal["image", "test"] = "image"
+    display: Literal["tube", "dlp", "lcd", "led"] = "tube"
+    playing: bool = False
+    phase: Part = 0.0
+    cycle_s: Annotated[float, Range(1, 60)] = 8.0
+    order: Literal["row", "column"] = "row"
 
 
 @dataclass(frozen=True)
@@ -173,8 +184,9 @@ class Options:
     highlight: what a lecture points out: fields of the camera's panel, and views, in small letters.
 
     shadows, mirrors: what only image order has. one_based: pixels are counted from 1, as in the
-    lecture, or from 0, as in arrays. presets_in_perspective: those of the camera's that can be,
-    are. bookmarks: in the order of their numbers.
+    lecture, or from 0, as in arrays. language: of the programs that are shown.
+    presets_in_perspective: those of the camera's that can be, are. bookmarks: in the order of
+    their numbers.
     """
 
     images: ImageOptions = field(default_factory=ImageOptions)
@@ -190,6 +202,7 @@ class Options:
     shadows: bool = False
     mirrors: bool = False
     one_based: bool = True
+    language: Language = "python"
     presets_in_perspective: bool = False
     bookmarks: Annotated[tuple[Bookmark, ...], AtMost(9)] = ()
 

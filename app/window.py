@@ -102,6 +102,7 @@ class MainWindow:
         self._focused: tuple[Scene, Focus] | None = None
         self.traveller = Traveller()
         self.traveller.instant = not smooth
+        self.moves = smooth
         self._fly = Fly()
         self._over: View | None = None
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 import re
 from dataclasses import fields
 from pathlib import Path
@@ -13,6 +14,7 @@ from hypothesis import strategies as st
 
 from app.options import Options
 from app.state import AppState
+from app.teach.languages import LANGUAGES
 from app.teach.lecture import text as texts
 from app.teach.lecture.exercises import ChoiceExercise, RayExercise, VectorExercise
 from app.teach.lecture.options import ELSEWHERE
@@ -157,6 +159,8 @@ class TestReading:
              "options.laboratory.zoom: 0 is out of range; give 1 to 32"),
             ("images.pixel_size = 8", "laboratory.side_px = 1000000", 22,
              "options.laboratory.side_px: 1000000 is out of range; give 3 to 300"),
+             ("images.pixel_size = 8", "laboratory.cycle_s = 0", 22,
+              "options.laboratory.cycle_s: 0 is out of range; give 1 to 60"),
             ("options.shadows", "options.preferences", 26, "options.preferences: is unknown"),
             ("[0, 0, 5]", "[0, 0]", 20, "camera.eye: has 2 entries; give 3"),
             ("[0, 0, 0]", "[5, 5, 5]", 25, "options.outside.camera.target: (5, 5, 5) is the eye"),
@@ -380,9 +384,10 @@ class TestTheBuiltInLecture:
         assert 20 <= len(titles) == len(set(titles))
 
     def test_it_fits_a_slide(self):
-        for step in self.lecture.steps:
-            words = len(re.findall(r"\w+", texts.plain(step.blocks)))
-            assert 5 <= words <= 85, (step.title, words)
+        for step, language in itertools.product(self.lecture.steps, LANGUAGES):
+            shown = texts.in_language(step.blocks, language)
+            words = len(re.findall(r"\w+", texts.plain(shown)))
+            assert 5 <= words <= 85, (step.title, language, words)
 
     def test_every_kind_of_exercise_is_in_it(self):
         kinds = {type(step.exercise) for step in self.lecture.steps} - {type(None)}

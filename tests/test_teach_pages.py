@@ -2,11 +2,21 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
 from app.options import LaboratoryOptions
-from app.teach.imagelab.pages import LARGEST_APART, PAGES, Plan, panels, plan
+from app.teach.imagelab.pages import (
+    LARGEST_APART,
+    PAGES,
+    Plan,
+    display_part,
+    panels,
+    plan,
+)
+from renderer.images import to_srgb8
 
 ROOMS = [(1200, 900), (600, 900), (400, 300), (1900, 500)]
 
@@ -31,7 +41,8 @@ def test_every_picture_fits_its_cell(page, room, resolution):
     options = LaboratoryOptions(page=page, apart=LARGEST_APART, after_ev=1.0)
     made = panels(page, image(divided), divided, options, 0.0, (0, 0))
     assert 1 <= len(made) <= divided.columns * divided.rows
-    for panel in made:
+    test = replace(options, content="test")
+    for panel in (*made, *panels(page, image(divided), divided, test, 0.0, (0, 0))):
         height, width = panel.picture.shape[:2]
         assert panel.picture.dtype == np.uint8 and panel.title and panel.caption
         assert 0 < width <= divided.cell[0] and 0 < height <= divided.cell[1], (page, panel.title)
@@ -51,3 +62,39 @@ def test_pages_say_what_they_show():
     assert set(np.unique(made[1].picture)) == {0, 255}
     share = float((made[3].picture[..., 0] == 255).mean())
     assert made[3].caption == f"{100 * share:.1f} % white"
+
+
+def test_a_display_is_seen_at_a_moment_beside_its_mean():
+    divided = plan("displays", (1200, 600), 40, 10, (40, 30))
+    options = LaboratoryOptions(page="displays", display="dlp", side_px=60, phase=0.5)
+    color = image(divided)
+    now, mean = panels("displays", color, divided, options, 1.0, (3, 5))
+    part, first, side, place = display_part(color, divided, options, 1.0, (3, 5))
+    assert (first[0] + place[0], first[1] + place[1]) == (3, 5)
+    rows, columns = part.shape[:2]
+    seen = to_srgb8(color[first[0] : first[0] + rows, first[1] : first[1] + columns], 1.0)
+    np.testing.assert_array_equal(mean.picture[::side, ::side], seen)
+    assert now.region == mean.region == (3, 5, 1, 1)
+    assert now.picture.shape == mean.picture.shape
+    middles = now.picture[side // 2 :: side, side // 2 :: side]
+    np.testing.assert_array_equal(middles[..., 1] == 255, part[..., 1] > 0.5)  # half of its third
+    assert middles[..., 0].max() < 50 and middles[..., 2].max() < 50
+
+
+def test_a_test_picture_has_every_mixture_of_light():
+    divided = plan("subpixels", (1200, 600), 40, 10, (40, 30))
+    options = LaboratoryOptions(page="subpixels", content="test")
+    bars, stripes = panels("subpixels", image(divided), divided, options, 5.0, (0, 0))
+    side = bars.picture.shape[1] // 8
+    shown = [tuple(bars.picture[0, column * side]) for column in range(8)]
+    assert shown[1:4] == [(255, 255, 0), (0, 255, 255), (0, 255, 0)]  # yellow, cyan, green
+    assert shown[4] == (255, 0, 255) and shown[0] == (255, 255, 255)
+    yellow = stripes.picture[0, side : 2 * side]
+    assert yellow.max(axis=0).tolist() == [255, 255, 0]
+    divided = plan("projectors", (900, 700), 40, 10, None)
+    options = LaboratoryOptions(page="projectors", content="test", apart=0.22)
+    (wall,) = panels("projectors", image(divided), divided, options, 3.0, (0, 0))
+    seen, count = np.unique(wall.picture.reshape(-1, 3), axis=0, return_counts=True)
+    mixtures = {tuple(color) for color in seen.tolist()}
+    assert mixtures == {(r, g, b) for r in (0, 255) for g in (0, 255) for b in (0, 255)}
+    assert count.min() > 0.01 * count.sum()  # each is to be seen

@@ -17,9 +17,10 @@ from app import theme
 from app.lettering import hall_px, lettering
 from app.options import Pixel
 from app.panels.formula import Formula, formula
+from app.panels.rows import follow
 from app.state import AppState
 from app.teach.color_formulas import color_lines
-from app.teach.copying import as_latex, as_python, as_text
+from app.teach.copying import as_c, as_julia, as_latex, as_python, as_text
 from app.teach.formulas import hit_lines, ray_lines
 from app.teach.notation import Line, number
 from app.teach.reading import SEEN, Crossing, Meeting, Reading
@@ -36,6 +37,8 @@ COPIES: tuple[tuple[str, Callable[[Reading, Indexing], str]], ...] = (
     ("Text", as_text),
     ("LaTeX", as_latex),
     ("Python", as_python),
+    ("Julia", as_julia),
+    ("C", as_c),
 )
 RAYS = {"pixel": "this pixel", "row": "its row", "column": "its column"}
 # Lines whose value is a colour, which is shown beside them.
@@ -57,20 +60,20 @@ def toolbar(state: AppState, pixel: Pixel | None, size: Size, reading: Reading |
     """Which pixel, counted how, the rays, the copies. pixel: the marked one, or under the mouse."""
     indexing = state.options.indexing
     state = _pixel_fields(state, pixel, size, indexing)
-    _follow(imgui.calc_text_size("from 1").x + 1.6 * imgui.get_frame_height())
+    follow(imgui.calc_text_size("from 1").x + 1.6 * imgui.get_frame_height())
     changed, one_based = imgui.checkbox("from 1", state.options.one_based)
     imgui.set_item_tooltip("count rows and columns from 1, as in the lecture, or from 0, as arrays")
     if changed:
         state = state.with_options(one_based=one_based)
     state = _rays_field(state)
     pins = state.options.probe.pins
-    _follow(_button_width("Pin"))
+    follow(_button_width("Pin"))
     imgui.begin_disabled(pixel is None or pixel in pins)
     if imgui.button("Pin") and pixel is not None:
         state = state.with_options(probe={"pins": (*pins, pixel)})
     imgui.end_disabled()
     imgui.set_item_tooltip("keep this pixel at hand, and its ray in the outside view")
-    _follow(_button_width("Copy ..."))
+    follow(_button_width("Copy ..."))
     imgui.begin_disabled(reading is None)
     if imgui.button("Copy ..."):
         imgui.open_popup("copy")
@@ -90,7 +93,7 @@ def pin_row(state: AppState, pins: Iterable[Pin], pixel: Pixel | None) -> AppSta
         name = f"{count + 1}: {indexing.text(pin.pixel)}"
         side = imgui.get_frame_height()
         if count:
-            _follow(_button_width(name) + side)
+            follow(_button_width(name) + side)
         if pin.color is not None:
             _swatch(tuple(part / 255 for part in pin.color), side)
             imgui.same_line(0, 0)
@@ -116,7 +119,7 @@ def _pixel_fields(state: AppState, pixel: Pixel | None, size: Size, indexing: In
     imgui.begin_disabled(pixel is None)
     for k, name in enumerate(("row i", "column j")):
         if k:
-            _follow(width + imgui.calc_text_size(name).x + theme.px(12))
+            follow(width + imgui.calc_text_size(name).x + theme.px(12))
         imgui.align_text_to_frame_padding()
         imgui.text(name)
         imgui.same_line()
@@ -143,7 +146,7 @@ def _pixel_fields(state: AppState, pixel: Pixel | None, size: Size, indexing: In
 def _rays_field(state: AppState) -> AppState:
     name = f"Rays: {RAYS[state.options.probe.rays]}"
     widest = max(_button_width(f"Rays: {text}") for text in RAYS.values())
-    _follow(widest)
+    follow(widest)
     if imgui.button(f"{name}###rays", ImVec2(widest, 0)):
         imgui.open_popup("rays")
     imgui.set_item_tooltip("which viewing rays the outside view shows")
@@ -345,15 +348,6 @@ def _swatch(color: Iterable[float], side: float) -> None:
     draw.add_rect_filled(at, far, theme.u32(ImVec4(red, green, blue, 1.0)))
     draw.add_rect(at, far, theme.u32(theme.PLAIN))
     imgui.dummy(ImVec2(side, side))
-
-
-def _follow(width: float) -> None:
-    """The next item in this row, where it has room; else in the next one."""
-    spacing = imgui.get_style().item_spacing.x
-    end = imgui.get_item_rect_max().x + spacing + width
-    edge = imgui.get_cursor_screen_pos().x + imgui.get_content_region_avail().x
-    if end <= edge:
-        imgui.same_line()
 
 
 def _button_width(text: str) -> float:

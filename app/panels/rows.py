@@ -111,3 +111,12 @@ def line() -> None:
     imgui.dummy((0, 0))
     imgui.separator()
     imgui.dummy((0, 0))
+
+
+def follow(width: float) -> None:
+    """The next item, so wide, in this row, where it has room; else in the next one."""
+    spacing = imgui.get_style().item_spacing.x
+    end = imgui.get_item_rect_max().x + spacing + width
+    edge = imgui.get_cursor_screen_pos().x + imgui.get_content_region_avail().x
+    if end <= edge:
+        imgui.same_line()

@@ -15,9 +15,11 @@ from imgui_bundle import ImVec2, imgui
 from app import theme
 from app.bounds import range_of
 from app.lettering import lettering
-from app.options import Pixel, StepperOptions
+from app.options import Language, Pixel, StepperOptions
 from app.panels.canvas import Marks, canvas
-from app.panels.code import LINE, code, code_size_px
+from app.panels.code import code_size_px
+from app.panels.listing import LEGIBLE_EM, Listing, listing
+from app.panels.rows import follow
 from app.teach.loop_parts import (
     Canvas,
     DepthBuffer,
@@ -45,8 +47,8 @@ TITLES = {
 # Panels so much wider than high have code, canvases and numbers beside one another, or the numbers.
 ALL_BESIDE, NUMBERS_BESIDE = 1.9, 1.2
 LEFT, UPPER = 0.64, 0.64  # the code's part of a panel whose numbers stand beside it
-LEGIBLE_EM = 0.85  # the least size of the code, where the width allows
 INDICES = ("i", "j", "rows", "columns")  # the variables that count pixels
+RUNNING = "Python, as it runs"
 
 Wish = Literal["", "first", "back", "play", "step", "pixel", "object", "last"]
 _BUTTONS: tuple[tuple[Wish, str, str], ...] = (
@@ -84,13 +86,21 @@ def controls(options: StepperOptions, playing: bool) -> tuple[StepperOptions, Wi
         shown = ("Pause" if playing else "Play") if name == "play" else label
         needed = width if name == "play" else _button_width(shown)
         if count:
-            _follow(needed)
+            follow(needed)
         if imgui.button(f"{shown}###{name}", ImVec2(needed, 0)):
             wish = name
         imgui.set_item_tooltip(tip)
     options = _speed(options)
     options = _canvas_size(options)
     return _order(options), wish
+
+
+def language(chosen: Language) -> Language:
+    """Whether the same lines stand beside it in Julia. What runs is Python in any case."""
+    follow(imgui.calc_text_size("Julia").x + 1.5 * imgui.get_frame_height())
+    changed, beside = imgui.checkbox("Julia", chosen == "julia")
+    imgui.set_item_tooltip("the same lines in Julia, for reading; Python is what runs")
+    return ("julia" if beside else "python") if changed else chosen
 
 
 def keys() -> Wish:
@@ -114,7 +124,7 @@ def keys() -> Wish:
 
 def _speed(options: StepperOptions) -> StepperOptions:
     width = 8 * imgui.get_font_size()
-    _follow(width + imgui.calc_text_size("steps/s").x)
+    follow(width + imgui.calc_text_size("steps/s").x)
     imgui.set_next_item_width(width)
     changed, speed = imgui.slider_float(
         "steps/s",
@@ -131,7 +141,7 @@ def _canvas_size(options: StepperOptions) -> StepperOptions:
         return f"{size[0]} x {size[1]}"
 
     width = imgui.calc_text_size("64 x 48").x + 2.2 * imgui.get_frame_height()
-    _follow(width + imgui.calc_text_size("pixels").x)
+    follow(width + imgui.calc_text_size("pixels").x)
     imgui.set_next_item_width(width)
     if imgui.begin_combo("pixels", name(options.canvas)):
         for size in CANVASES:
@@ -143,7 +153,7 @@ def _canvas_size(options: StepperOptions) -> StepperOptions:
 
 def _order(options: StepperOptions) -> StepperOptions:
     width = imgui.calc_text_size("object order").x + 2.2 * imgui.get_frame_height()
-    _follow(width)
+    follow(width)
     imgui.set_next_item_width(width)
     if imgui.begin_combo("##order", ORDERS[options.order]):
         for key, text in ORDERS.items():
@@ -157,27 +167,35 @@ def _order(options: StepperOptions) -> StepperOptions:
 
 
 def run_panel(
-    recording: Recording, moment: Moment | None, picture: Picture, room: ImVec2, fonts: Fonts
+    recording: Recording,
+    moment: Moment | None,
+    picture: Picture,
+    room: ImVec2,
+    fonts: Fonts,
+    in_julia: bool = False,
 ) -> Answer:
-    """Code, canvas, variables and counters, in a room."""
+    """Code, canvas, variables and counters, in a room. in_julia: the code in Julia, too."""
     imgui.push_font(fonts.bold, 0.0)
     title = TITLES[recording.order]
     if imgui.calc_text_size(title).x > room.x:
         title = title.partition(":")[0]
     imgui.text(title)
     imgui.pop_font()
+    if not in_julia:  # the listings say it
+        follow(imgui.calc_text_size(RUNNING).x)
+        imgui.text_colored(theme.DIM, RUNNING)
     if moment is None:
         imgui.text_colored(theme.DIM, "running ...")
         return Answer()
     answer = _slider(recording, moment)
     left = imgui.get_content_region_avail()
     below = imgui.get_cursor_screen_pos()
-    lines = recording.source.lines
+    lines = Listing(recording.source.lines, in_julia, _called())
     longest, count = _largest()  # of both: they are shown in one size
     em = imgui.get_font_size()
     if left.x > ALL_BESIDE * left.y:
         size_px = _code_px(longest, count, 0.46 * left.x, left.y, em)
-        _code(lines, moment, size_px, ImVec2(0.46 * left.x, left.y), fonts)
+        listing(lines, moment.line, size_px, ImVec2(0.46 * left.x, left.y), fonts)
         x = 0.48 * left.x
         imgui.set_cursor_screen_pos(ImVec2(below.x + x, below.y))
         imgui.begin_group()
@@ -186,9 +204,11 @@ def run_panel(
         imgui.set_cursor_screen_pos(ImVec2(below.x + 0.755 * left.x, below.y))
         _numbers(moment, ImVec2(0.245 * left.x, left.y), size_px, fonts)
         return answer
-    if left.x > NUMBERS_BESIDE * left.y:  # the canvases below the code, the numbers right of both
+    if (
+        left.x > NUMBERS_BESIDE * left.y and not in_julia
+    ):  # the canvases below the code, the numbers right of both
         size_px = beside_px((left.x, left.y), em)
-        _code(lines, moment, size_px, ImVec2(LEFT * left.x, UPPER * left.y), fonts)
+        listing(lines, moment.line, size_px, ImVec2(LEFT * left.x, UPPER * left.y), fonts)
         rest = left.y - (imgui.get_cursor_screen_pos().y - below.y)
         imgui.begin_group()
         answer = _canvases(recording, moment, picture, ImVec2(LEFT * left.x, rest), answer)
@@ -197,7 +217,7 @@ def run_panel(
         _numbers(moment, ImVec2((0.98 - LEFT) * left.x, left.y), size_px, fonts)
         return answer
     size_px = _code_px(longest, count, left.x, 0.56 * left.y, em)
-    _code(lines, moment, size_px, ImVec2(left.x, 0.58 * left.y), fonts)
+    listing(lines, moment.line, size_px, ImVec2(left.x, 0.58 * left.y), fonts)
     left = imgui.get_content_region_avail()
     below = imgui.get_cursor_screen_pos()
     imgui.begin_group()
@@ -235,23 +255,6 @@ def _code_px(longest: str, count: int, width: float, height: float, em: float) -
     """The code's size: all of it where that can be read, else as wide as there is room."""
     least = LEGIBLE_EM * em
     return code_size_px(longest, width, min(1.6 * em, max(least, height / (1.22 * count))))
-
-
-def _code(
-    lines: tuple[str, ...], moment: Moment, size_px: float, room: ImVec2, fonts: Fonts
-) -> None:
-    """The code; where not all of it has room, the part around the present line."""
-    line_px = LINE * size_px
-    needed = len(lines) * line_px
-    height = min(needed, max(1, int(room.y / line_px)) * line_px)  # no line is cut
-    flags = imgui.WindowFlags_.no_scrollbar | imgui.WindowFlags_.no_scroll_with_mouse
-    imgui.begin_child("code", ImVec2(room.x, height), 0, flags)
-    if needed > height:
-        above = moment.line - int(0.5 * height / line_px)
-        imgui.set_scroll_y(min(max(0.0, above * line_px), needed - height))
-    with lettering(fonts.mono, size_px):
-        code(lines, moment.line, size_px, room.x, _called())
-    imgui.end_child()
 
 
 @functools.cache
@@ -361,15 +364,6 @@ def _tables(moment: Moment, fonts: Fonts) -> None:
                 imgui.text_colored(theme.DIM, Indexing.ARRAY.told)  # as the code beside it
             imgui.pop_text_wrap_pos()
         imgui.end_table()
-
-
-def _follow(width: float) -> None:
-    """The next item in this row, where it has room; else in the next one."""
-    spacing = imgui.get_style().item_spacing.x
-    end = imgui.get_item_rect_max().x + spacing + width
-    edge = imgui.get_cursor_screen_pos().x + imgui.get_content_region_avail().x
-    if end <= edge:
-        imgui.same_line()
 
 
 def _button_width(text: str) -> float:

@@ -1,4 +1,4 @@
-"""A pixel's reading for the clipboard: as text, as LaTeX, as a Python program.
+"""A pixel's reading for the clipboard: as text, as LaTeX, as a program in Python, Julia or C.
 
 Owns how lines are set one below another, and the program. Knows nothing of the clipboard.
 """
@@ -9,6 +9,7 @@ from collections.abc import Iterable
 
 from app.teach.color_formulas import color_lines
 from app.teach.formulas import hit_lines, pixel_text, ray_lines
+from app.teach.languages import c, julia
 from app.teach.notation import Line, number
 from app.teach.reading import SEEN, Meeting, Reading
 from renderer.pixels import Indexing
@@ -75,6 +76,16 @@ def as_python(reading: Reading, indexing: Indexing = Indexing.LECTURE) -> str:
         "print(origin, direction, color, rgb)",
     ]
     return "\n".join(lines) + "\n"
+
+
+def as_julia(reading: Reading, indexing: Indexing = Indexing.LECTURE) -> str:
+    """The same program in Julia, of its standard library."""
+    return julia.program(as_python(reading, indexing))
+
+
+def as_c(reading: Reading, indexing: Indexing = Indexing.LECTURE) -> str:
+    """The same program in C, a whole file; link it with -lm."""
+    return c.program(as_python(reading, indexing))
 
 
 def _background_program(reading: Reading) -> list[str]:

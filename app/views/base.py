@@ -23,12 +23,14 @@ from renderer.camera import Camera
 class Host(Protocol):
     """The window as its views see it. All of it is used in the window's thread.
 
-    renderers: both images of the present state. files: opening and saving.
+    renderers: both images of the present state. files: opening and saving. moves: whether things
+    may move by themselves; not where a picture of the window is taken.
     """
 
     fonts: Fonts
     files: Files
     renderers: Renderers
+    moves: bool
 
     @property
     def state(self) -> AppState: ...

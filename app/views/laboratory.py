@@ -2,7 +2,7 @@
 
 Owns the way from the state to the pages' pictures: the image is drawn by the rasterizer at the
 pages' own size, a thread makes what they show of it (teach/imagelab/), here it is put on the
-screen. The table of sizes and the array's cells are laboratory_tables.py's.
+screen. What stands beside the pictures is the other laboratory_*.py's.
 """
 
 from __future__ import annotations
@@ -27,12 +27,10 @@ from app.storage.files import describe
 from app.teach.imagelab import disk
 from app.teach.imagelab.pages import Image, Panel, Plan, panels, plan
 from app.views.base import Host, View
-from app.views.laboratory_tables import (
-    array_about,
-    array_cells,
-    luminance_weights,
-    sizes_table,
-)
+from app.views.laboratory_array import ArrayPage
+from app.views.laboratory_displays import LANES_EM, DisplaysPage
+from app.views.laboratory_pictures import HEADING_EM, draw_panel
+from app.views.laboratory_tables import luminance_weights, sizes_table
 from app.views.laboratory_tools import toolbar
 from app.views.laboratory_vector import VectorPage
 from app.views.outside import OutsideView
@@ -43,7 +41,9 @@ LABORATORY = "Laboratory"
 SMALLEST_PX = 60
 LETTERS = 105.0  # a line over the whole view
 GAP_EM = 0.6
-LEAST_EM = 13.0  # of the pictures with their titles, two rows of them
+ROWS_EM = 13.0  # of the pictures with their titles, two rows of them, at the least
+LEAST_EM = {"displays": 8.5, "array": 22.0}  # of pages that are otherwise
+ABOUT_A_PIXEL = ("subpixels", "displays", "array")  # a click on these pages chooses it
 
 
 @dataclass(frozen=True, eq=False)
@@ -70,6 +70,7 @@ class LaboratoryView(View):
 
     def __init__(self, outside: OutsideView) -> None:
         self.vector = VectorPage(outside)
+        self.displays = DisplaysPage()
         self._vector_seen = False
         self._uploads: Uploads | None = None
         self._work: Background[_Made] | None = None
@@ -121,6 +122,7 @@ class LaboratoryView(View):
 
     def unseen(self, host: Host) -> None:
         self._seen = False
+        self.displays.unseen()
         self._source = None  # a large array; drawn anew when it is seen
 
     def draw(self, host: Host) -> None:
@@ -132,6 +134,10 @@ class LaboratoryView(View):
         with lettering(None, hall_px(imgui.get_content_region_avail().x, LETTERS)):
             self._others = host.renderers.size
             options = toolbar(host)
+            if options.page == "displays":
+                options = self.displays.controls(host)
+            else:
+                self.displays.unseen()
             self._vector_seen = options.page == "vector"
             if self._vector_seen:
                 self._vector_page(host, options)
@@ -155,7 +161,7 @@ class LaboratoryView(View):
         """Scrolled where the window is too low for it."""
         avail, em = imgui.get_content_region_avail(), imgui.get_font_size()
         below = self._below_px(options.page)
-        least = below + LEAST_EM * em
+        least = below + LEAST_EM.get(options.page, ROWS_EM) * em
         if avail.y >= least:
             self._content(host, options, avail, below)
             return
@@ -174,7 +180,7 @@ class LaboratoryView(View):
         state, scale, em = host.state, framebuffer_scale(), imgui.get_font_size()
         corner = imgui.get_cursor_screen_pos()
         room = max(1, int(avail.x * scale)), max(1, int((avail.y - below) * scale))
-        heading = round(2.5 * em * scale)
+        heading = round(HEADING_EM * em * scale)
         divided = plan(
             options.page, room, heading, round(GAP_EM * em * scale), state.images.resolution
         )
@@ -192,7 +198,7 @@ class LaboratoryView(View):
             row, column = divmod(number, made.columns)
             return ImVec2(
                 corner.x + column * (made.cell[0] / scale + GAP_EM * em),
-                corner.y + row * (made.cell[1] / scale + 2.5 * em + GAP_EM * em),
+                corner.y + row * (made.cell[1] / scale + (HEADING_EM + GAP_EM) * em),
             )
 
         if options.page == "array":
@@ -200,6 +206,11 @@ class LaboratoryView(View):
             return
         for number, panel in enumerate(self._made.panels):
             self._panel(host, number, panel, place(number), made)
+        if options.page == "displays":
+            imgui.set_cursor_screen_pos(ImVec2(corner.x, corner.y + avail.y - below + 0.4 * em))
+            pixel = self._pixel(state, made)
+            source = self._source
+            self.displays.lanes(host, options, made, source.color, source.number, pixel)
         if options.page == "kinds":
             luminance_weights(place(len(self._made.panels)), made.cell[0] / scale, host.fonts)
             imgui.set_cursor_screen_pos(ImVec2(corner.x, corner.y + avail.y - below + 0.4 * em))
@@ -210,56 +221,32 @@ class LaboratoryView(View):
     def _array_page(
         self, host: Host, made: _Made, color: Image, place: Callable[[int], ImVec2]
     ) -> None:
-        """The image, framed where the cells beside it are from."""
+        """The image, framed where the cells are from; the cells, the program, the memory."""
         scale, em = framebuffer_scale(), imgui.get_font_size()
-        pixel = self._pixel(host.state, made.plan)
-        extent = ImVec2(made.plan.cell[0] / scale, made.plan.cell[1] / scale + 2.5 * em)
-        table = array_about(color, pixel, extent, host.state.options.one_based)
+        # The image may be newer than what the thread has made, and of another size.
+        now = replace(made.plan, image=(color.shape[1], color.shape[0]))
+        pixel = self._pixel(host.state, now)
+        extent = ImVec2(made.plan.cell[0] / scale, made.plan.cell[1] / scale + HEADING_EM * em)
+        page = ArrayPage(host.state, color, pixel, extent, host.fonts)
+        table = page.table()
         region = (table.i, table.j, len(table.rows), len(table.rows[0]))
         for number, panel in enumerate(made.panels):
             self._panel(host, number, replace(panel, region=region), place(number), made.plan)
-        at = place(len(made.panels))
-        chosen = array_cells(table, color.shape[1], pixel, at, extent, host.fonts)
+        chosen = page.cells(table, place(1))
+        language = page.program(place(2))
+        host.apply(host.state.with_options(language=language))
+        chosen = page.in_memory(place(3)) or chosen
         if chosen is not None:
-            self._choose(host, chosen, made.plan)
+            self._choose(host, chosen, now)
 
     def _panel(self, host: Host, number: int, panel: Panel, at: ImVec2, made: Plan) -> None:
         assert self._uploads is not None
-        scale, em = framebuffer_scale(), imgui.get_font_size()
-        draw = imgui.get_window_draw_list()
-        with lettering(host.fonts.bold, em):
-            draw.add_text(at, theme.u32(theme.TEXT), panel.title)
-        draw.add_text(ImVec2(at.x, at.y + 1.15 * em), theme.u32(theme.DIM), panel.caption)
-        texture = self._uploads.get(f"panel {number}")
-        if texture is None:
-            return
-        origin = ImVec2(np.floor(at.x * scale) / scale, np.floor((at.y + 2.5 * em) * scale) / scale)
-        extent = ImVec2(texture.size[0] / scale, texture.size[1] / scale)
-        far = ImVec2(origin.x + extent.x, origin.y + extent.y)
-        imgui.set_cursor_screen_pos(origin)
-        imgui.invisible_button(f"panel {number}", extent)
-        draw.add_image(imgui.ImTextureRef(texture.glo), origin, far)
-        if not panel.magnification:
-            return
-        unit = panel.magnification / scale
-        if imgui.is_item_active() and _is_about_a_pixel(host.state.options.laboratory.page):
-            mouse = imgui.get_io().mouse_pos
-            row = panel.first[0] + int((mouse.y - origin.y) / unit)
-            column = panel.first[1] + int((mouse.x - origin.x) / unit)
-            inside = (
-                min(max(row, 0), made.image[1] - 1),
-                min(max(column, 0), made.image[0] - 1),
-            )
+        name, width = f"panel {number}", made.cell[0] / framebuffer_scale()
+        held = draw_panel(name, panel, self._uploads.get(name), at, width, host.fonts)
+        if held is not None and host.state.options.laboratory.page in ABOUT_A_PIXEL:
+            row, column = held
+            inside = min(max(row, 0), made.image[1] - 1), min(max(column, 0), made.image[0] - 1)
             self._choose(host, inside, made)
-        if panel.region is not None:
-            first, left, rows, columns = panel.region
-            low = ImVec2(
-                origin.x + (left - panel.first[1]) * unit,
-                origin.y + (first - panel.first[0]) * unit,
-            )
-            high = ImVec2(low.x + columns * unit, low.y + rows * unit)
-            draw.add_rect(low, high, theme.u32(theme.rgb("#000000", 0.8)), 0.0, 4.0)
-            draw.add_rect(low, high, theme.u32(theme.MARK), 0.0, 2.0)
 
     # From the state to the pictures.
 
@@ -343,6 +330,8 @@ class LaboratoryView(View):
     # Beside the pictures.
 
     def _below_px(self, page: str) -> float:
+        if page == "displays":
+            return LANES_EM * imgui.get_font_size()
         return 7.6 * imgui.get_text_line_height_with_spacing() if page == "kinds" else 0.0
 
     def _export(self, host: Host, format: disk.Format) -> None:
@@ -361,11 +350,6 @@ class LaboratoryView(View):
             (f"{format.name} files", format.ending),
             store,
         )
-
-
-def _is_about_a_pixel(page: str) -> bool:
-    """Whether a page is about one pixel, which a click chooses."""
-    return page in ("subpixels", "array")
 
 
 def _drawn(host: Host, wanted: Wanted) -> Image:

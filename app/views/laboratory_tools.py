@@ -5,13 +5,17 @@ Knows nothing of pictures.
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import replace
 
 from imgui_bundle import imgui
 
 from app.bounds import range_of, whole_range_of
 from app.options import LaboratoryOptions
+from app.panels.rows import follow
 from app.teach.imagelab.bitmaps import TITLES
+from app.teach.imagelab.displays import DISPLAYS
+from app.teach.imagelab.memory import ORDERS
 from app.teach.imagelab.pages import PAGE_TITLES
 from app.views.base import Host
 
@@ -33,19 +37,30 @@ def toolbar(host: Host) -> LaboratoryOptions:
                 "apart##apart", options.apart, *range_of(LaboratoryOptions, "apart"), "%.2f"
             )
             changed = replace(changed, apart=apart) if moved else changed
-        case "subpixels":
-            moved, side_px = imgui.slider_int(
-                "a pixel on the screen##side",
-                options.side_px,
-                *whole_range_of(LaboratoryOptions, "side_px"),
-            )
-            changed = replace(changed, side_px=side_px) if moved else changed
+            changed = _content(changed, "white discs")
+        case "displays" | "subpixels":
+            changed = _content(_display(changed), "test picture")
+            if changed.content == "image":  # a test picture is as large as there is room
+                follow((14 + 9) * imgui.get_font_size())
+                moved, side_px = imgui.slider_int(
+                    "a pixel on the screen##side",
+                    options.side_px,
+                    *whole_range_of(LaboratoryOptions, "side_px"),
+                )
+                changed = replace(changed, side_px=side_px) if moved else changed
         case "array":
             imgui.set_next_item_width(18 * imgui.get_font_size())
             number = 0 if host.state.options.one_based else 1
             moved, number = imgui.combo("##base", number, FIRST)
             if moved:
                 host.apply(host.state.with_options(one_based=number == 0))
+            follow(18 * imgui.get_font_size())
+            imgui.set_next_item_width(18 * imgui.get_font_size())
+            orders = list(ORDERS)
+            moved, number = imgui.combo(
+                "##order", orders.index(options.order), list(ORDERS.values())
+            )
+            changed = replace(changed, order=orders[number]) if moved else changed
         case "vector":
             moved, zoom = imgui.slider_float(
                 "zoom##zoom",
@@ -63,13 +78,33 @@ def toolbar(host: Host) -> LaboratoryOptions:
 
 
 def _pages(options: LaboratoryOptions) -> LaboratoryOptions:
-    page: str = options.page
-    for name, title in PAGE_TITLES.items():
-        if imgui.radio_button(f"{title}##page", name == page):
-            page = name
-        imgui.same_line(0, imgui.get_font_size())
-    imgui.new_line()
+    page = _radio("page", PAGE_TITLES, options.page)
     return replace(options, page=page)  # type: ignore[arg-type]
+
+
+def _radio(name: str, titles: Mapping[str, str], chosen: str) -> str:
+    """Buttons in a row, in several where they must; gives what is chosen now."""
+    for number, (one, title) in enumerate(titles.items()):
+        if number:
+            follow(imgui.calc_text_size(title).x + 1.5 * imgui.get_frame_height())
+        if imgui.radio_button(f"{title}##{name}", one == chosen):
+            chosen = one
+    return chosen
+
+
+def _content(options: LaboratoryOptions, test: str) -> LaboratoryOptions:
+    """Whether a test picture takes the image's place."""
+    if options.page != "subpixels":
+        follow(imgui.calc_text_size(test).x + 1.5 * imgui.get_frame_height())
+    moved, is_test = imgui.checkbox(f"{test}##content", options.content == "test")
+    return replace(options, content="test" if is_test else "image") if moved else options
+
+
+def _display(options: LaboratoryOptions) -> LaboratoryOptions:
+    if options.page != "displays":
+        return options
+    titles = {name: display.title for name, display in DISPLAYS.items()}
+    return replace(options, display=_radio("display", titles, options.display))  # type: ignore[arg-type]
 
 
 def _exposure(options: LaboratoryOptions) -> LaboratoryOptions:

@@ -24,10 +24,12 @@ from app.panels.slide import Slides
 from app.panels.typesetting import first_mistake
 from app.state import AppState
 from app.storage.files import describe
+from app.teach.languages import LANGUAGES
 from app.teach.lecture.model import Lecture, Step
 from app.teach.lecture.reading import BUILTIN, load_lecture
 from app.teach.lecture.session import Session
 from app.teach.lecture.states import state_of
+from app.teach.lecture.text import Block, in_language, languages
 from app.views.base import Host, View
 from renderer.errors import LucidaError
 from renderer.scene.apart import ModelReader
@@ -216,18 +218,32 @@ class LectureView(View):
     def _body(
         self, host: Host, session: Session, slides: Slides, sizes: tuple[float, float]
     ) -> None:
-        avail = imgui.get_content_region_avail()
         step = session.step
+        blocks = self._in_language(host, step)
+        avail = imgui.get_content_region_avail()
         if step.exercise is None:
-            slides.text(step.blocks, (avail.x, avail.y), sizes)
+            slides.text(blocks, (avail.x, avail.y), sizes)
             return
         # Smaller, and always the same: what is said to an answer must have room, and nothing jumps.
         size = sizes[0] + 0.5 * (sizes[1] - sizes[0])
         sizes = (min(sizes[0], size), size)
-        if step.blocks:
-            slides.text(step.blocks, (avail.x, 0.4 * avail.y), sizes)
+        if blocks:
+            slides.text(blocks, (avail.x, 0.4 * avail.y), sizes)
             imgui.dummy(ImVec2(0, 0.5 * sizes[0]))
         exercise(step.exercise, session.answers, slides, host.fonts, sizes)
+
+    def _in_language(self, host: Host, step: Step) -> tuple[Block, ...]:
+        """The step's text; above it the languages, where its programs are there in several."""
+        chosen = host.state.options.language
+        offered = languages(step.blocks)
+        for number, (name, title) in enumerate(LANGUAGES.items()):
+            if name not in offered:
+                continue
+            if number:
+                imgui.same_line(0, imgui.get_font_size())
+            if imgui.radio_button(f"{title}##language", name == chosen):
+                host.apply(host.state.with_options(language=name))
+        return in_language(step.blocks, host.state.options.language)
 
     def _error_height(self, session: Session, width: float) -> float:
         if not session.error:

@@ -86,6 +86,8 @@ class StepperView(View):
         self._seen = True
         options = host.state.options.stepper
         changed, wish = panel.controls(options, self.playing)
+        language = panel.language(host.state.options.language)
+        host.apply(host.state.with_options(language=language))
         wish = self._asked or panel.keys() or wish
         self._asked = ""
         if changed != options:
@@ -184,8 +186,9 @@ class StepperView(View):
                 self.moments[order] = moment
                 self._upload(run, moment, host.state.images.exposure_ev)
             answer = panel.run_panel(
-                run, moment, self._picture(order), imgui.get_content_region_avail(), host.fonts
-            )
+                run, moment, self._picture(order), imgui.get_content_region_avail(), host.fonts,
+                host.state.options.language == "julia",
+            )  # fmt: skip
             imgui.end_child()
             if answer.step is not None:
                 wanted[at] = answer.step

@@ -6,7 +6,8 @@ import threading
 from typing import Any
 
 import numpy as np
-from window_driver import ATTEMPTS, PATIENT_S, Driver
+from imgui_bundle import imgui
+from window_driver import ATTEMPTS, PATIENT_S, Driver, Key
 
 from app.teach.imagelab import disk, kinds
 from app.teach.imagelab.pages import PAGE_TITLES
@@ -180,3 +181,88 @@ def drive_a_click_chooses_the_pixel_of_the_array(d: Driver) -> None:
     d.settle()
     assert d.window.state.marked != (7, 10)
     _close(d)
+
+
+def drive_the_array_in_other_languages_and_orders(d: Driver) -> None:
+    d.window.change(d.window.state.with_options(images={"resolution": (32, 24)}, marked=(7, 10)))
+    _open(d, page="array")
+    for language, first in (
+        ("Python", "import numpy"),
+        ("Julia", "using Colors"),
+        ("C", "#include"),
+    ):
+        d.ctx.item_click(_item(f"{language}##language"))
+        d.settle()
+        d.ctx.item_click(_item("Copy"))
+        d.ctx.yield_()
+        assert imgui.get_clipboard_text().startswith(first)
+    assert d.window.state.options.language == "c"
+    assert "(i - 1) * W + (j - 1)" in imgui.get_clipboard_text()
+    d.window.change(d.window.state.with_options(laboratory={"order": "column"}, one_based=False))
+    d.settle()
+    d.ctx.item_click(_item("Copy"))
+    d.ctx.yield_()
+    assert "(j * H + i)" in imgui.get_clipboard_text()
+    d.ctx.item_click(_item("byte 0"))  # a pixel before it in memory: the same column
+    d.settle()
+    row, column = d.window.state.marked or (0, 0)
+    assert column == 10 and row < 7
+    d.window.undo()
+    assert d.window.state.marked == (7, 10)
+    _close(d)
+
+
+def drive_a_display_plays_stops_and_is_stepped(d: Driver) -> None:
+    d.window.change(d.window.state.with_options(images={"resolution": (32, 24)}))
+    view = _open(d, page="displays", display="dlp", phase=0.25, cycle_s=1.0)
+    past = len(d.window.history.past)
+    asked: list[None] = []
+    animate = d.window.animate
+    d.window.animate = lambda: (asked.append(None), animate())[1]  # type: ignore[method-assign]
+    try:
+        d.ctx.yield_(5)
+        assert not asked  # at rest no frame is asked for
+        still = view.made[0].picture
+        d.ctx.item_click(_item("###play"))
+        assert d.window.state.options.laboratory.playing
+        seen: list[np.ndarray] = []
+        d.until(lambda: _collected(seen, view.made[0].picture) > 4)
+        assert asked and not view.settled
+        d.ctx.item_click(_item("###play"))
+        d.settle()
+        options = d.window.state.options.laboratory
+        assert not options.playing and options.phase != 0.25
+        asked.clear()
+        d.ctx.yield_(5)
+        assert not asked
+        d.window.change(d.window.state.with_options(laboratory={"phase": 0.25}))
+        d.settle()
+        np.testing.assert_array_equal(view.made[0].picture, still)
+        past += 1  # by change()
+        d.ctx.item_click(_item("Step"))
+        d.settle()
+        assert d.window.state.options.laboratory.phase == 13 / 48
+        d.ctx.key_press(Key.left_arrow)
+        d.settle()
+        assert d.window.state.options.laboratory.phase == 12 / 48
+        # Hidden, it rests, and goes on from there.
+        d.ctx.key_press(Key.space)
+        assert d.window.state.options.laboratory.playing
+        d.window.change(d.window.state.with_options(laboratory={"page": "kinds"}))
+        past += 1
+        d.settle()
+        asked.clear()
+        d.ctx.yield_(5)
+        assert not asked
+        assert len(d.window.history.past) == past  # neither play nor steps are steps of undo
+    finally:
+        del d.window.animate
+    d.window.change(d.window.state.with_options(laboratory={"playing": False}))
+    _close(d)
+
+
+def _collected(seen: list[np.ndarray], picture: np.ndarray) -> int:
+    """How many different pictures there were so far."""
+    if not seen or (picture != seen[-1]).any():
+        seen.append(picture)
+    return len(seen)

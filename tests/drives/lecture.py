@@ -361,3 +361,21 @@ def drive_a_lecture_is_opened_and_dropped(d: Driver) -> None:
     assert _shown(d) == {LECTURE, "Raster"}
     d.window.undo()  # what was there before is one step of undo away
     assert d.window.state == d.start
+
+
+def drive_a_program_in_the_language_that_is_chosen(d: Driver) -> None:
+    text = "```python\\nx = 1\\n```\\n```c\\nint x = 1;\\n```\\n\\nA **number**."
+    _give(d, SMALL.replace("One **ball** at $z = -3$.", text))
+    d.ctx.mouse_teleport_to_pos((3, SIZE[1] - 3))
+    d.ctx.yield_(2)
+    before = d.picture()
+    d.ctx.item_click(_item(d, "C##language"))
+    d.settle()
+    d.ctx.mouse_teleport_to_pos((3, SIZE[1] - 3))
+    d.ctx.yield_(2)
+    assert d.window.state.options.language == "c"
+    assert changed(before, d.picture()) > 0.0005
+    d.ctx.key_press(int(Key.page_down))
+    d.settle()
+    assert d.window.state.options.language == "c"  # the reader's own
+    d.window.change(d.window.state.with_options(language="python"))

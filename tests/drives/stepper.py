@@ -193,3 +193,19 @@ def drive_the_palette_steps_and_shows_the_keys(d: Driver) -> None:
         d.ctx.yield_(3)
         assert d.window.state.options.stepper.steps == steps
     leave(d)
+
+
+def drive_the_same_lines_stand_beside_it_in_julia(d: Driver) -> None:
+    enter(d, steps=(0, 0), canvas=(16, 12), order="image")
+    d.ctx.item_click(f"{WINDOW}/Julia")
+    d.ctx.yield_(2)
+    assert d.window.state.options.language == "julia"
+    for _ in range(3):
+        press(d, "step")  # with two listings in the panel as with one
+    assert view(d).moments[Order.IMAGE].step == 3
+    d.ctx.item_click(f"{WINDOW}/Julia")
+    d.ctx.yield_(2)
+    assert d.window.state.options.language == "python"
+    d.window.undo()
+    assert d.window.state.options.language == "julia"
+    leave(d)

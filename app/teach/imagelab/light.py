@@ -15,6 +15,7 @@ Offset = tuple[int, int]  # rows down, columns to the right
 # Where red, green and blue stand when they are moved apart by 1: an upright triangle.
 APART = ((-1.0, 0.0), (0.5, -0.866), (0.5, 0.866))
 CHANNELS = ("red", "green", "blue")
+BARS = ((1, 1, 1), (1, 1, 0), (0, 1, 1), (0, 1, 0), (1, 0, 1), (1, 0, 0), (0, 0, 1), (0, 0, 0))
 
 
 def triangle(distance_px: float) -> tuple[Offset, Offset, Offset]:
@@ -77,3 +78,21 @@ def window(image: NDArray, i: int, j: int, rows: int, columns: int) -> tuple[int
     first = min(max(0, i - rows // 2), max(0, height - rows))
     left = min(max(0, j - columns // 2), max(0, width - columns))
     return first, left, image[first : first + rows, left : left + columns]
+
+
+def bars(rows: int, columns: int) -> NDArray[np.float32]:
+    """A test picture (rows, columns, 3), linear: white, yellow, cyan, green, magenta, red, blue,
+    black side by side; below, grays from black to white."""
+    across = np.arange(columns)
+    picture = np.tile(np.array(BARS, np.float32)[across * len(BARS) // columns], (rows, 1, 1))
+    ramp = np.linspace(0, 1, columns, dtype=np.float32)
+    picture[rows - rows // 4 :] = ramp[:, None]
+    return picture
+
+
+def disc(rows: int, columns: int) -> NDArray[np.float32]:
+    """A test picture (rows, columns, 3), linear: a white disc, as large as fits."""
+    i, j = np.ogrid[:rows, :columns]
+    away = np.hypot(i + 0.5 - rows / 2, j + 0.5 - columns / 2)
+    white = (away < min(rows, columns) / 2).astype(np.float32)
+    return np.repeat(white[..., None], 3, axis=2)

@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 from app.bounds import range_of
 from app.options import LaboratoryOptions, Pixel
-from app.teach.imagelab import light
+from app.teach.imagelab import displays, light
 from app.teach.imagelab.bitmaps import TITLES
 from app.teach.imagelab.kinds import BITMAP, COLOR, FLOAT, GRAY, KINDS
 from app.teach.imagelab.stored import clipped, levels, shown, store
@@ -33,14 +33,16 @@ SMALLEST_CELL = 8
 class Panel:
     """A picture with a heading. region: first row and column, rows and columns of the pixels that
     another panel magnifies. magnification: screen pixels a side of an image's pixel; 0: not a
-    plain picture of the image. first: the image's pixel, row and column, at its corner."""
+    plain picture of the image. first: the image's pixel, row and column, at its corner. at_work:
+    pixels that a display addresses, as in region."""
 
     title: str
     caption: str
     picture: Bytes
     magnification: int = 0
     first: Pixel = (0, 0)
-    region: tuple[int, int, int, int] | None = None
+    region: displays.Region | None = None
+    at_work: displays.Region | None = None
 
 
 @dataclass(frozen=True)
@@ -63,7 +65,7 @@ def plan(page: str, room: Size, heading_px: int, gap_px: int, resolution: Size |
         "kinds": (3, 2) if wide else (2, 3),
         "bitmaps": (2, 2),
         "projectors": (1, 1),
-        "array": (2, 1) if room[0] > 1.8 * room[1] else (1, 2),
+        "array": (2, 2) if wide else (1, 4),  # the image, the cells, the program, the memory
     }.get(page, (2, 1) if wide else (1, 2))
     cell = (
         max(SMALLEST_CELL, (room[0] - (columns - 1) * gap_px) // columns),
@@ -129,6 +131,8 @@ def _projectors(
     color: Image, plan: Plan, options: LaboratoryOptions, taken_ev: float, pixel: Pixel
 ) -> tuple[Panel, ...]:
     distance = options.apart * color.shape[0]
+    if options.content == "test":
+        color, taken_ev = light.disc(*color.shape[:2]), 0.0
     wall = light.projected(color, light.triangle(distance), taken_ev)
     words = "aligned" if not distance else "apart"
     title = "Three projectors: red, green, blue"
@@ -138,17 +142,73 @@ def _projectors(
 def _subpixels(
     color: Image, plan: Plan, options: LaboratoryOptions, taken_ev: float, pixel: Pixel
 ) -> tuple[Panel, ...]:
-    picture = to_srgb8(color, taken_ev)
-    side = max(3, options.side_px)
-    rows, columns = max(1, plan.cell[1] // side), max(1, plan.cell[0] // side)
-    first, left, part = light.window(picture, *pixel, rows, columns)
-    stripes = light.subpixels(np.ascontiguousarray(part), side, gap=max(1, side // 12))
-    region = (first, left, *part.shape[:2])
+    part, (first, left), side = _magnified_part(color, plan, options, pixel, 3)
+    ev = 0.0 if options.content == "test" else taken_ev
+    stripes = light.subpixels(to_srgb8(part, ev), side, gap=max(1, side // 12))
     caption = f"{part.shape[1]} x {part.shape[0]} pixels, each of three stripes"
+    subpixels = Panel("Its subpixels", caption, stripes)
+    if options.content == "test":
+        return (Panel("Test picture", caption, light.magnified(to_srgb8(part), side)), subpixels)
+    region = (first, left, *part.shape[:2])
+    picture = to_srgb8(color, taken_ev)
+    return (_whole("The image", "the frame is what is magnified", picture, plan, region), subpixels)
+
+
+def _displays(
+    color: Image, plan: Plan, options: LaboratoryOptions, taken_ev: float, pixel: Pixel
+) -> tuple[Panel, ...]:
+    display, phase = displays.DISPLAYS[options.display], options.phase % 1.0
+    part, first, side, place = display_part(color, plan, options, taken_ev, pixel)
+    at_work = displays.at_work(options.display, phase, *part.shape[:2])
+    if at_work is not None:
+        at_work = (at_work[0] + first[0], at_work[1] + first[1], *at_work[2:])
+    marked = (place[0] + first[0], place[1] + first[1], 1, 1)
     return (
-        _whole("The image", "the frame is what is magnified", picture, plan, region),
-        Panel("Its subpixels", caption, stripes),
+        Panel(
+            f"{display.title}: {displays.moment(options.display, phase)}",
+            f"{display.way}; framed: {display.framed}" if display.framed else display.way,
+            displays.instant(display, part, phase, side),
+            side,
+            first,
+            marked,
+            at_work,
+        ),
+        Panel(
+            "What the eye sees: the mean",
+            "over a cycle, and over each pixel",
+            light.magnified(to_srgb8(part), side),
+            side,
+            first,
+            marked,
+        ),
     )
+
+
+def display_part(
+    color: Image, plan: Plan, options: LaboratoryOptions, taken_ev: float, pixel: Pixel
+) -> tuple[Image, Pixel, int, Pixel]:
+    """What is seen of a display: the colours that it shows, (rows, columns, 3), linear, 0..1; the
+    image's pixel at its corner; screen pixels a side of a pixel; the place of `pixel` in it."""
+    least = displays.LEAST_SIDE_PX
+    part, (first, left), side = _magnified_part(color, plan, options, pixel, least)
+    part = displays.shown(part, 0.0 if options.content == "test" else taken_ev)
+    rows, columns = part.shape[:2]
+    i, j = min(max(pixel[0] - first, 0), rows - 1), min(max(pixel[1] - left, 0), columns - 1)
+    return part, (first, left), side, (i, j)
+
+
+def _magnified_part(
+    color: Image, plan: Plan, options: LaboratoryOptions, pixel: Pixel, least: int
+) -> tuple[Image, Pixel, int]:
+    """The pixels about one that have room, or as many of a test picture; the first of them, row
+    and column; screen pixels a side of a pixel, `least` or more."""
+    test = options.content == "test"
+    side = max(least, plan.cell[0] // len(light.BARS) if test else options.side_px)
+    rows, columns = max(1, plan.cell[1] // side), max(1, plan.cell[0] // side)
+    if test:
+        return light.bars(rows, columns), (0, 0), side
+    first, left, part = light.window(color, *pixel, rows, columns)
+    return np.ascontiguousarray(part), (first, left), side
 
 
 def _array(
@@ -164,7 +224,7 @@ def _whole(
     caption: str,
     picture: Bytes,
     plan: Plan,
-    region: tuple[int, int, int, int] | None = None,
+    region: displays.Region | None = None,
 ) -> Panel:
     """A picture magnified for its cell; of one that is too large, the middle."""
     most = max(1, plan.cell[1] // plan.magnification), max(1, plan.cell[0] // plan.magnification)
@@ -180,6 +240,7 @@ PAGES: dict[str, Page] = {
     "bitmaps": _bitmaps,
     "exposure": _exposure,
     "projectors": _projectors,
+    "displays": _displays,
     "subpixels": _subpixels,
     "array": _array,
 }
@@ -188,6 +249,7 @@ PAGE_TITLES = {
     "bitmaps": "One bit",
     "exposure": "Exposure",
     "projectors": "Projectors",
+    "displays": "Displays",
     "subpixels": "Subpixels",
     "array": "Array",
     "vector": "Raster and vector",  # drawn by a view of its own

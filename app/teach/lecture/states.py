@@ -16,10 +16,10 @@ from app.teach.lecture.options import OWN
 def state_of(step: Step, base: AppState) -> AppState:
     """The step's own state: its scene, its view and its options, whatever was there before.
 
-    base: the present state, of which only what is the user's own stays, and where in a lecture it
-    is.
+    base: the present state, of which only what is the user's own stays, the language of programs,
+    and where in a lecture it is.
     """
-    kept = {name: getattr(base.options, name) for name in OWN}
+    kept = {name: getattr(base.options, name) for name in (*OWN, "language")}
     options = replace(Options(), **kept, marked=step.pixel, highlight=step.highlight)
     keep = is_orthonormal(step.view.camera)
     state = AppState(step.scene, step.view, keep, options, base.step)

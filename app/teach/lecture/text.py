@@ -2,11 +2,13 @@ r"""Markdown with formulas, into blocks to draw.
 
 Owns what of Markdown a lecture may use: headings (#), paragraphs, lists (- or 1.), code (```),
 questions to the class (>), **bold**, *italic*, `code`, $formulas$ and $$displayed formulas$$.
-\$ is a dollar sign. Knows nothing of fonts or of how a formula is set.
+\$ is a dollar sign. A program may stand there in several languages (```python, ```julia, ```c, one
+after another), one of which is shown. Knows nothing of fonts or of how a formula is set.
 """
 
 from __future__ import annotations
 
+import itertools
 import re
 from collections.abc import Iterator
 from dataclasses import dataclass
@@ -14,6 +16,7 @@ from functools import lru_cache
 from itertools import groupby
 from typing import NamedTuple
 
+from app.teach.languages import LANGUAGES
 from renderer.errors import LucidaError
 
 
@@ -130,6 +133,28 @@ def plain(blocks: tuple[Block, ...]) -> str:
             case _:
                 parts.append(words(block.line))
     return "\n".join(parts)
+
+
+def in_language(blocks: tuple[Block, ...], language: str) -> tuple[Block, ...]:
+    """The text with one of each program that is there in several languages, one fence after
+    another: in that language, or else the first."""
+    kept: list[Block] = []
+    for same, group in itertools.groupby(blocks, lambda block: _language(block) != ""):
+        programs = list(group)
+        if same:
+            programs = [one for one in programs if _language(one) == language] or programs[:1]
+        kept += programs
+    return tuple(kept)
+
+
+def languages(blocks: tuple[Block, ...]) -> tuple[str, ...]:
+    """The languages that a text has programs in, where there are several to choose from."""
+    found = tuple(dict.fromkeys(name for name in map(_language, blocks) if name))
+    return found if len(found) > 1 else ()
+
+
+def _language(block: Block) -> str:
+    return block.language if isinstance(block, Code) and block.language in LANGUAGES else ""
 
 
 def words(line: Line) -> str:
