@@ -13,6 +13,7 @@ import ctypes
 import os
 import sys
 import threading
+import time
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from typing import Any
@@ -28,6 +29,7 @@ from renderer.errors import LucidaError
 
 REQUIRED = (3, 3)
 NICER = 5
+LONGEST_PLACING_S = 0.25  # that is waited for a window manager to place the window
 
 
 @dataclass(frozen=True)
@@ -135,6 +137,27 @@ def set_size(size: tuple[int, int]) -> None:
         glfw.set_window_size(window, *size)
 
 
+def show_window(draw: Callable[[], None]) -> None:
+    """Shows the current window, hidden so far, in front, and waits a moment until a window manager
+    has placed it. draw: puts the picture into it; called then, what was drawn before is lost."""
+    window = glfw.get_current_context()
+    if not window:
+        return
+    placed = threading.Event()
+
+    def refresh(_window: Any) -> None:
+        draw()
+        glfw.swap_buffers(window)
+        placed.set()
+
+    glfw.set_window_refresh_callback(window, refresh)  # type: ignore[arg-type]
+    glfw.show_window(window)
+    end_s = time.monotonic() + LONGEST_PLACING_S
+    while not placed.is_set() and time.monotonic() < end_s:
+        glfw.wait_events_timeout(LONGEST_PLACING_S / 10)
+    glfw.set_window_refresh_callback(window, None)  # type: ignore[arg-type]
+
+
 def toggle_full_screen() -> None:
     """Lets the current window cover its monitor, or gives it back its place."""
     window = glfw.get_current_context()
@@ -186,11 +209,7 @@ def _monitor_of(place: tuple[int, int, int, int]) -> Any:
 
 @dataclass(frozen=True)
 class Target:
-    """What the window is drawn into, and its size now: (width, height) in pixels.
-
-    A framebuffer of moderngl's knows the size that a window had when its context was made, and no
-    later one.
-    """
+    """What a frame is drawn into, and its size: (width, height) in pixels."""
 
     framebuffer: moderngl.Framebuffer
     size: tuple[int, int]
@@ -200,45 +219,6 @@ class Target:
         width, height = self.size
         data = self.framebuffer.read((0, 0, width, height), components=3, alignment=1)
         return np.frombuffer(data, np.uint8).reshape(height, width, 3)[::-1]
-
-
-class Canvas:
-    """What the window is drawn into on the null platform: a framebuffer of any size.
-
-    There, the window's own has the size that it was made with, at most that of an imaginary
-    monitor of 1920 x 1080. Left bound, so that pictures of the window are read from it.
-    """
-
-    def __init__(self, context: moderngl.Context) -> None:
-        self._context = context
-        self._target: moderngl.Framebuffer | None = None
-
-    def bind(self) -> None:
-        """Call before ImGui draws."""
-        size = glfw.get_framebuffer_size(glfw.get_current_context())
-        if self._target is None or self._target.size != size:
-            old, color = self._target, self._context.renderbuffer(size, 4)
-            self._target = self._context.framebuffer([color])
-            self._target.use()
-            # Not before: while it makes a framebuffer, moderngl binds the last one again.
-            if old is not None:
-                _release(old)
-        self._target.use()
-
-    @property
-    def framebuffer(self) -> moderngl.Framebuffer | None:
-        """What was drawn into; None before the first frame."""
-        return self._target
-
-    def release(self) -> None:
-        if self._target is not None:
-            _release(self._target)
-            self._target = None
-
-
-def _release(target: moderngl.Framebuffer) -> None:
-    for part in (*target.color_attachments, target):
-        part.release()
 
 
 class _Loader:

@@ -45,6 +45,8 @@ class Stage:
         self._presenting = False
         self._before = layout.LAYOUTS[0].name
         self._frames = 0
+        self._layout = ""  # that of the frame before
+        self._placing = LAID_OUT  # frames until the windows have their places
 
     def begin(self, view: View, host: Host, context: moderngl.Context) -> None:
         """Once for each view, when there is a context. One that fails (a shader that the driver
@@ -70,6 +72,17 @@ class Stage:
         if self._frames < LAID_OUT or self.failures:
             return False
         return all(self.views[name].settled for name in self.rects)
+
+    def place(self) -> bool:
+        """Whether windows are still on their way to their places; call once a frame, when all of
+        it has been laid out."""
+        name = layout.current().name
+        if name != self._layout or self._restoring is not None or layout.is_to_be_made():
+            self._placing = LAID_OUT
+        else:
+            self._placing = max(0, self._placing - 1)
+        self._layout = name
+        return self._placing > 0 or not all(layout.is_placed(view) for view in self.shown)
 
     # What actions ask for.
 

@@ -17,13 +17,14 @@ import numpy as np
 from imgui_bundle import hello_imgui, imgui, immapp
 
 from app import layout, theme
+from app.canvas import Canvas
 from app.platform import (
-    Canvas,
     Platform,
     Target,
     create_context,
     flush_opengl,
     set_size,
+    show_window,
     start_platform,
 )
 from app.signals import ended_by_signals
@@ -111,8 +112,7 @@ class Run:
         self._platform = platform
         self._size = size
         self._canvas: Canvas | None = None
-        self._context: moderngl.Context | None = None
-        self.on_drawn: Callable[[Target], None] | None = None  # each frame, drawn
+        self.on_drawn: Callable[[Target], None] | None = None  # each frame that is shown, drawn
         self.take_picture = take_picture
         self._error: BaseException | None = None
         self._quiet_frames = 0
@@ -158,6 +158,7 @@ class Run:
         params = hello_imgui.RunnerParams()
         params.app_window_params.window_title = title(state.scene)
         params.app_window_params.window_geometry.size = size
+        params.app_window_params.hidden = self._platform.has_display  # until there is a picture
         _settings(params, remember)
         params.app_window_params.restore_previous_geometry = not params.ini_disable
         docking = hello_imgui.DefaultImGuiWindowType.provide_full_screen_dock_space
@@ -214,45 +215,47 @@ class Run:
         return call
 
     def _begin(self) -> None:
-        self._context = context = create_context()
+        context = create_context()
         if not self._platform.has_display:
             set_size(self._size)
-            self._canvas = Canvas(context)
+        self._canvas = Canvas(context)
         self.window.begin(context)
 
     def _before_render(self) -> None:
         theme.follow(self.window.state.preferences)
         if self._canvas is not None:
-            self._canvas.bind()
-        drawn = self._drawn
-        if drawn is not None:
-            drawn.framebuffer.use()
+            io = imgui.get_io()  # not the window: that may be of another size by now
+            size, scale = io.display_size, io.display_framebuffer_scale
+            pixels = max(1, round(size.x * scale.x)), max(1, round(size.y * scale.y))
+            drawn = self._canvas.bind(pixels, self.window.is_rearranging())
             drawn.framebuffer.clear(*self.params.imgui_window_params.background_color)
             self.window.renderers.underlay.paint(drawn)
 
-    @property
-    def _drawn(self) -> Target | None:
-        """What this frame is drawn into; None before there is an OpenGL context."""
-        canvas = self._canvas.framebuffer if self._canvas is not None else None
-        if canvas is not None:
-            return Target(canvas, canvas.size)
-        if self._context is None:
-            return None
-        io = imgui.get_io()  # not the window: that may be of another size by now
-        size, scale = io.display_size, io.display_framebuffer_scale
-        pixels = round(size.x * scale.x), round(size.y * scale.y)
-        return Target(self._context.detect_framebuffer(0), pixels)
-
     def _before_swap(self) -> None:
-        drawn = self._drawn
-        if drawn is not None:
-            self.window.shell.after_drawing(drawn)
+        canvas = self._canvas
+        if canvas is None:
+            return
+        shown = canvas.shown
+        if canvas.keeps or shown is None:
+            hello_imgui.request_refresh()
+        else:
+            self.window.shell.after_drawing(shown)
             if self.on_drawn is not None:
-                self.on_drawn(drawn)
+                self.on_drawn(shown)
+        canvas.show(self._platform.has_display)
+
+    def _show_window(self) -> None:
+        """Once there is a picture: a window that is shown before is black until then."""
+        window = self.params.app_window_params
+        if window.hidden and self._canvas is not None and self._canvas.shown is not None:
+            window.hidden = False
+            canvas = self._canvas
+            show_window(lambda: canvas.show(in_window=True))
 
     def _after_frame(self) -> None:
         if self._ended:  # before the first frame: HelloImGui has forgotten it since
             self.params.app_shall_exit = True
+        self._show_window()
         if not self._platform.has_display:
             flush_opengl()
         if not self.take_picture:

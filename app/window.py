@@ -124,6 +124,10 @@ class MainWindow:
         moving = self.files.busy or self.traveller.under_way
         return views and self.renderers.settled(self.state) and not moving
 
+    def is_rearranging(self) -> bool:
+        """Whether the frame that has been laid out is no picture yet; call once a frame."""
+        return self.shell.stage.place() or self.lecture.is_entering
+
     @property
     def lecture(self) -> LectureView:
         view = self.views[LECTURE]

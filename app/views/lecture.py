@@ -105,7 +105,12 @@ class LectureView(View):
     @property
     def settled(self) -> bool:
         reading = self._reading is not None and self._reading.busy
-        return self.session is None or (self._entered and self._arranged and not reading)
+        return not (self.is_entering or (self.session is not None and reading))
+
+    @property
+    def is_entering(self) -> bool:
+        """Whether a step's views are still to be put into their places."""
+        return self.session is not None and not (self._entered and self._arranged)
 
     def begin(self, host: Host, context: moderngl.Context) -> None:
         self._reading = Background("lucida-lecture", host.animate)
