@@ -23,7 +23,8 @@ run: setup
 	@$(PYTHON_IN_VENV) -m app $(ARGS)
 
 # Nothing may follow: pytest's closing line is the last.
-test: setup
+test:
+	@sh scripts/setup.sh tests
 	@$(PYTHON_IN_VENV) -m pytest $(ARGS)
 
 # In .venv-bench, which has the peers and sees the packages of .venv.

@@ -24,6 +24,7 @@ INSTRUMENTS = "InstrumentSpace"  # below or beside: tabs
 
 CAMERA_WIDTH_EM = 19.5
 PRESENTATION = "Presentation"  # what presentation mode shows
+LECTURE = "Lecture"  # what a lecture shows, each step in its own way
 ARRANGING_FRAMES = 3  # until the dock spaces of a layout are there again
 ROUNDED_PX = 1.5  # that ImGui gives a dock space more or less than was asked for
 LEAST_ROOM_PX = 200.0  # for both images; in less, ImGui's smallest sizes decide
@@ -116,7 +117,7 @@ LAYOUTS = (
         },
     ),
     Layout(
-        "Lecture",
+        LECTURE,
         (
             (MAIN, RIGHT_SPACE, imgui.Dir.right, 0.36),
             (MAIN, CAMERA_SPACE, imgui.Dir.left, 0.42),

@@ -145,17 +145,18 @@ def show_window(draw: Callable[[], None]) -> None:
         return
     placed = threading.Event()
 
-    def refresh(_window: Any) -> None:
-        draw()
-        glfw.swap_buffers(window)
-        placed.set()
+    def refresh(_window: Any) -> None:  # stays: None is no callback for glfw
+        if not placed.is_set():
+            placed.set()
+            draw()
+            glfw.swap_buffers(window)
 
-    glfw.set_window_refresh_callback(window, refresh)  # type: ignore[arg-type]
+    glfw.set_window_refresh_callback(window, refresh)
     glfw.show_window(window)
     end_s = time.monotonic() + LONGEST_PLACING_S
     while not placed.is_set() and time.monotonic() < end_s:
         glfw.wait_events_timeout(LONGEST_PLACING_S / 10)
-    glfw.set_window_refresh_callback(window, None)  # type: ignore[arg-type]
+    placed.set()
 
 
 def toggle_full_screen() -> None:

@@ -24,7 +24,7 @@ from app.stage import Stage
 from app.state import AppState
 from app.storage.capture import Captures, Rect
 from app.storage.files import Files, describe
-from app.storage.session import session_of
+from app.storage.session import Session, session_of
 from app.storage.session_store import Keeper
 from app.theme import Fonts
 from app.views.base import Host, View
@@ -112,7 +112,7 @@ class Shell:
         """Once a frame, before the views. Both are the window."""
         self.stage.follow(window.state.preferences)
         self.stage.leave_out_hidden(host)
-        self._keep(window.state)
+        self._keep(window)
         for said in self.files.poll_said():
             self.toasts.add(said)
         done = self.captures.poll()
@@ -136,11 +136,15 @@ class Shell:
         """Once a frame, when all is drawn, before it is shown."""
         self.captures.after_drawing(target)
 
-    def end(self, state: AppState) -> None:
+    def end(self, window: Window) -> None:
         """Once, at the end."""
         self.captures.close()
         if self._keeper is not None:
-            self._keeper.close(session_of(state, self.stage.arrangement()))
+            self._keeper.close(self._session(window))
+
+    def _session(self, window: Window) -> Session:
+        state = window.state
+        return session_of(state, self.stage.arrangement(), window.lecture.kept(state))
 
     def _messages(self, window: Window) -> None:
         """One message at a time: what was asked for first, then what failed by itself."""
@@ -172,16 +176,16 @@ class Shell:
             return None
         return failure if not _same(failure, self._failure) else None
 
-    def _keep(self, state: AppState) -> None:
+    def _keep(self, window: Window) -> None:
         keeper = self._keeper
         if keeper is None:
             return
-        io = imgui.get_io()
-        if state is not self._kept or io.want_save_ini_settings:
+        io, state, answered = imgui.get_io(), window.state, window.lecture.take_answered()
+        if state is not self._kept or io.want_save_ini_settings or answered:
             self._kept, io.want_save_ini_settings = state, False
             keeper.mark()
         if keeper.due():
-            keeper.save(session_of(state, self.stage.arrangement()))
+            keeper.save(self._session(window))
 
     def _view_in_use(self) -> str:
         stage = self.stage

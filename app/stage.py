@@ -43,7 +43,8 @@ class Stage:
         self._hovered: View | None = None
         self._restoring: Arrangement | None = None
         self._presenting = False
-        self._before = layout.LAYOUTS[0].name
+        self._before = layout.LAYOUTS[0].name, ""  # presentation mode: layout and focus
+        self._focus_back: str | None = None  # the view that gets the keyboard; "" for none
         self._frames = 0
         self._layout = ""  # that of the frame before
         self._placing = LAID_OUT  # frames until the windows have their places
@@ -117,23 +118,37 @@ class Stage:
         self._next_focus = self.maximised or was
 
     def follow(self, preferences: Preferences) -> None:
-        """Presentation mode has a layout of its own; call once a frame, before the views."""
+        """Presentation mode has a layout of its own, except in a lecture, which is made to be
+        presented; call once a frame, before the views."""
         self._frames += 1
         self._restore()
         if preferences.presentation != self._presenting:
             self._presenting = preferences.presentation
-            if self._presenting:
-                self._before = layout.current().name
+            if self._presenting and layout.current().name != layout.LECTURE:
+                self._before = layout.current().name, self.focused
                 layout.switch(layout.PRESENTATION)
             elif layout.current().name == layout.PRESENTATION:
-                back = self._before != layout.PRESENTATION
-                layout.switch(self._before if back else layout.LAYOUTS[0].name)
+                name, self._focus_back = self._before
+                layout.switch(name if name != layout.PRESENTATION else layout.LAYOUTS[0].name)
+                self._placing = LAID_OUT
+        self._give_focus_back()
         if self._next_focus:
             name, self._next_focus = self._next_focus, ""
             if self.maximised and self.maximised != name:
                 self.maximised = name
             view = self.views[name]
             imgui.set_window_focus(_large_label(view) if self.maximised else view.label)
+
+    def _give_focus_back(self) -> None:
+        """To whoever had the keyboard before presentation mode, or in the last session; ImGui gives
+        it to any window that it docks."""
+        if self._focus_back is None or self._placing > 0:
+            return
+        self.focused, self._focus_back = self._focus_back, None
+        if not self.focused:
+            imgui.set_window_focus(None)
+        elif self.is_shown(self.focused):
+            self._next_focus = self.focused
 
     def take_hovered(self) -> View | None:
         """The view that the mouse was over in the last frame; call once a frame."""
@@ -148,7 +163,8 @@ class Stage:
         kept = {view.name: view.sections for view in self.views.values()}
         sections = {name: opened for name, opened in kept.items() if opened is not None}
         windows = imgui.save_ini_settings_to_memory()
-        return Arrangement(layout.current().name, visible, windows, sections)
+        name, large = layout.current().name, self.maximised
+        return Arrangement(name, visible, windows, sections, large, self.focused)
 
     def restore(self, arrangement: Arrangement, presenting: bool) -> None:
         """Puts everything where it stood; in the next frames."""
@@ -157,6 +173,13 @@ class Stage:
         for name, opened in arrangement.sections.items():
             if name in self.views:
                 self.views[name].open_sections(opened)
+
+    def begin_afresh(self) -> None:
+        """Where no session is gone on with: HelloImGui shows the layout of the last window, which
+        may be one that is empty outside of a lecture or of presentation mode."""
+        empty = layout.LECTURE, layout.PRESENTATION
+        if self._frames == 2 and self._restoring is None and layout.current().name in empty:
+            layout.switch(layout.LAYOUTS[0].name)
 
     def _restore(self) -> None:
         if self._restoring is None or self._frames < 2:
@@ -168,6 +191,10 @@ class Stage:
             for view in self.views.values():
                 visible = view.name in self._restoring.visible
                 layout.window_of(view).is_visible = visible
+            if self._restoring.maximised in self._restoring.visible:
+                self.maximised = self._restoring.maximised
+            focused = self._restoring.focused
+            self._focus_back = focused if focused in self._restoring.visible else ""
         self._restoring = None
 
     def before_frame(self) -> None:

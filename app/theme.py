@@ -161,7 +161,9 @@ def follow(preferences: Preferences) -> None:
     look = look_of(preferences, height_px, style.font_scale_dpi)
     scale = style.font_scale_dpi * look.scale
     # HelloImGui scales the sizes to the display in its second frame, whatever was done before.
-    if height_px <= 0 or (look == _used[0] and math.isclose(style._main_scale, scale, abs_tol=1e-3)):
+    if height_px <= 0 or (
+        look == _used[0] and math.isclose(style._main_scale, scale, abs_tol=1e-3)
+    ):
         return
     _used[0] = look
     kept = style.font_scale_dpi, style.font_size_base

@@ -12,7 +12,6 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
-import moderngl
 import numpy as np
 from imgui_bundle import hello_imgui, imgui, immapp
 
@@ -30,6 +29,7 @@ from app.platform import (
 from app.signals import ended_by_signals
 from app.start import Start, begin_scene, begin_session
 from app.state import AppState
+from app.storage.session import source_of
 from app.storage.session_store import settings_folder
 from app.storage.settings import settings_file
 from app.views.base import View
@@ -118,7 +118,8 @@ class Run:
         self._quiet_frames = 0
         self._ended = False
         self._start_s = 0.0
-        self.params = self._parameters(state, size, remember and not take_picture)
+        fresh = start is not None and start.fresh
+        self.params = self._parameters(state, size, remember and not take_picture, fresh)
 
     def run(self) -> np.ndarray:
         """Shows the window until it is closed; gives its last picture, uint8 (height, width, 3).
@@ -143,6 +144,10 @@ class Run:
         if start.session is not None:
             presenting = start.state.preferences.presentation
             self.window.shell.stage.restore(start.session.arrangement, presenting)
+        if start.lecture is not None:
+            self.window.lecture.resume(start.lecture)
+        elif start.session is not None and start.session.lecture is not None:
+            self.window.lecture.put_off(start.session.lecture, source_of(start.state.scene))
         self.window.files.message = start.message
         if start.opened and start.opened not in BUILTIN_SCENES:
             self.window.files.recent.add(str(Path(start.opened).absolute()))
@@ -153,13 +158,13 @@ class Run:
         self._ended = self.params.app_shall_exit = True
 
     def _parameters(
-        self, state: AppState, size: tuple[int, int], remember: bool
+        self, state: AppState, size: tuple[int, int], remember: bool, fresh: bool
     ) -> hello_imgui.RunnerParams:
         params = hello_imgui.RunnerParams()
         params.app_window_params.window_title = title(state.scene)
         params.app_window_params.window_geometry.size = size
         params.app_window_params.hidden = self._platform.has_display  # until there is a picture
-        _settings(params, remember)
+        _settings(params, remember, fresh)
         params.app_window_params.restore_previous_geometry = not params.ini_disable
         docking = hello_imgui.DefaultImGuiWindowType.provide_full_screen_dock_space
         params.imgui_window_params.default_imgui_window_type = docking
@@ -298,9 +303,10 @@ def _folder() -> Path | None:
         return None
 
 
-def _settings(params: hello_imgui.RunnerParams, remember: bool) -> None:
-    """The layout is kept in the user's settings folder, never in the working directory."""
-    path = settings_file() if remember else None
+def _settings(params: hello_imgui.RunnerParams, remember: bool, fresh: bool) -> None:
+    """The layout is kept in the user's settings folder, never in the working directory. fresh: the
+    one that is there is put aside."""
+    path = settings_file(fresh) if remember else None
     params.ini_disable = path is None
     if path is not None:
         params.ini_folder_type = hello_imgui.IniFolderType.absolute_path

@@ -247,6 +247,8 @@ class MainWindow:
         self.renderers.update(self.state, moving)
         self._proportion.keep(self.lecture.arrangements)
         self.shell.frame(self, self)
+        if not self.lecture.is_given:
+            self.shell.stage.begin_afresh()
         self.lecture.follow(self)
         run_shortcuts(self)
         if self._asked is not None:
@@ -289,7 +291,7 @@ class MainWindow:
 
     def end(self) -> None:
         """Once, before the context goes."""
-        self.shell.end(self.state)
+        self.shell.end(self)
         for view in self.views.values():
             view.end()
         self.renderers.end()

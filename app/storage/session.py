@@ -16,6 +16,7 @@ import msgspec
 
 from app.options import EXPOSURE_LIMIT_EV, PIXEL_SIZES, Options
 from app.state import AppState
+from app.storage.kept_lecture import KeptLecture
 from renderer.errors import LucidaError
 from renderer.frame import LARGEST_SIDE
 from renderer.scene import BUILTIN_SCENES, Scene, View
@@ -34,34 +35,46 @@ class NewerVersionError(LucidaError):
 class Arrangement:
     """Where the windows inside the window are. layout: its name. visible: the names of the views
     that are shown. windows: places and docks, as ImGui writes them. sections: which parts of a view
-    are folded open, by the view's name, where the user has chosen."""
+    are folded open, by the view's name, where the user has chosen. maximised: the name of the view
+    that covers all others, focused: of the one that has the keyboard, or ""."""
 
     layout: str = ""
     visible: tuple[str, ...] = ()
     windows: str = ""
     sections: dict[str, tuple[str, ...]] = field(default_factory=dict)
+    maximised: str = ""
+    focused: str = ""
 
 
 @dataclass(frozen=True)
 class Session:
-    """A session file. scene: what load_scene takes. The rest as in AppState."""
+    """A session file. scene: what load_scene takes. lecture: the one that was given, or None. The
+    rest as in AppState."""
 
     scene: str
     view: View
     keep_orthonormal: bool = True
     options: Options = field(default_factory=Options)
     arrangement: Arrangement = field(default_factory=Arrangement)
+    lecture: KeptLecture | None = None
 
     def state(self, scene: Scene) -> AppState:
         """The state that was kept, in the scene that was loaded for it."""
         return AppState(scene, self.view, self.keep_orthonormal, self.options)
 
 
-def session_of(state: AppState, arrangement: Arrangement) -> Session:
+def session_of(
+    state: AppState, arrangement: Arrangement, lecture: KeptLecture | None = None
+) -> Session:
     """What to keep of a state. A scene from no file is not kept: the first built-in one is."""
-    origin = state.scene.origin
-    source = origin.source if origin is not None and origin.source else BUILTIN_SCENES[0]
-    return Session(source, state.view, state.keep_orthonormal, state.options, arrangement)
+    source = source_of(state.scene)
+    return Session(source, state.view, state.keep_orthonormal, state.options, arrangement, lecture)
+
+
+def source_of(scene: Scene) -> str:
+    """What load_scene takes for a scene; the first built-in one's name for one from no file."""
+    origin = scene.origin
+    return origin.source if origin is not None and origin.source else BUILTIN_SCENES[0]
 
 
 def to_bytes(session: Session) -> bytes:
