@@ -18,7 +18,7 @@ from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from typing import Any
 
-import imgui_bundle  # noqa: F401 - before glfw, so that both use the same GLFW library
+from imgui_bundle import imgui  # before glfw, so that both use the same GLFW library
 
 # isort: split
 import glfw
@@ -121,6 +121,38 @@ def set_title(text: str) -> None:
     window = glfw.get_current_context()
     if window:
         glfw.set_window_title(window, text)
+
+
+class Keys:
+    """Gives the current window's keys to ImGui, each with its own modifiers.
+
+    A frame of ImGui's has one set of modifiers, those at its end. Where Ctrl is let go in the frame
+    in which P was pressed (by a remote desktop, a macro pad, or any hand while a frame takes long),
+    it would see P alone: a change of modifiers after a key waits for the next frame.
+    """
+
+    def __init__(self) -> None:
+        self._waiting: list[tuple[int, int, int, int]] = []
+        self._pressed = False  # whether a key was, since the last frame began
+        self._window = glfw.get_current_context()
+        if self._window:
+            glfw.set_key_callback(self._window, lambda _window, *event: self._take(*event))
+
+    def begin_frame(self) -> None:
+        """Once a frame, when ImGui has taken what came before it."""
+        waiting, self._waiting = self._waiting, []
+        self._pressed = False
+        for event in waiting:
+            self._take(*event)
+
+    def _take(self, key: int, code: int, action: int, modifiers: int) -> None:
+        is_modifier = glfw.KEY_LEFT_SHIFT <= key <= glfw.KEY_RIGHT_SUPER
+        if self._waiting or (is_modifier and self._pressed):
+            self._waiting.append((key, code, action, modifiers))
+            return
+        self._pressed = self._pressed or (action == glfw.PRESS and not is_modifier)
+        address = ctypes.cast(self._window, ctypes.c_void_p).value or 0
+        imgui.backends.glfw_key_callback(address, key, code, action, modifiers)
 
 
 def on_drop(dropped: Callable[[list[str]], None]) -> None:

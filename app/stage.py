@@ -40,11 +40,12 @@ class Stage:
         self.failures: dict[str, Exception] = {}
         self._to_begin: dict[str, Callable[[], None]] = {}  # of those that could not
         self._next_focus = ""
+        self._keyboard = self._next_keyboard = ""  # as focused, but "" while something else has it
         self._hovered: View | None = None
         self._restoring: Arrangement | None = None
         self._presenting = False
         self._before = layout.LAYOUTS[0].name, ""  # presentation mode: layout and focus
-        self._focus_back: str | None = None  # the view that gets the keyboard; "" for none
+        self._keyboard_for: str | None = None  # who gets it once all have their places
         self._frames = 0
         self._layout = ""  # that of the frame before
         self._placing = LAID_OUT  # frames until the windows have their places
@@ -125,13 +126,14 @@ class Stage:
         if preferences.presentation != self._presenting:
             self._presenting = preferences.presentation
             if self._presenting and layout.current().name != layout.LECTURE:
-                self._before = layout.current().name, self.focused
+                self._before = layout.current().name, self.keyboard
+                self._keyboard_for = None
                 layout.switch(layout.PRESENTATION)
             elif layout.current().name == layout.PRESENTATION:
-                name, self._focus_back = self._before
+                name, focused = self._before
                 layout.switch(name if name != layout.PRESENTATION else layout.LAYOUTS[0].name)
-                self._placing = LAID_OUT
-        self._give_focus_back()
+                self.give_keyboard(focused)
+        self._give_keyboard()
         if self._next_focus:
             name, self._next_focus = self._next_focus, ""
             if self.maximised and self.maximised != name:
@@ -139,20 +141,29 @@ class Stage:
             view = self.views[name]
             imgui.set_window_focus(_large_label(view) if self.maximised else view.label)
 
-    def _give_focus_back(self) -> None:
-        """To whoever had the keyboard before presentation mode, or in the last session; ImGui gives
-        it to any window that it docks."""
-        if self._focus_back is None or self._placing > 0:
+    @property
+    def keyboard(self) -> str:
+        """The view that has the keyboard, or is to get it; "" for none."""
+        return self._keyboard if self._keyboard_for is None else self._keyboard_for
+
+    def give_keyboard(self, name: str) -> None:
+        """Gives a view the keyboard, "" for none, once all windows have their places: ImGui gives
+        it to any that it docks."""
+        self._keyboard_for, self._placing = name, max(self._placing, 1)
+
+    def _give_keyboard(self) -> None:
+        if self._keyboard_for is None or self._placing > 0:
             return
-        self.focused, self._focus_back = self._focus_back, None
-        if not self.focused:
+        name, self._keyboard_for = self._keyboard_for, None
+        if not name:
             imgui.set_window_focus(None)
-        elif self.is_shown(self.focused):
-            self._next_focus = self.focused
+        elif self.is_shown(name):
+            self._next_focus = name
 
     def take_hovered(self) -> View | None:
         """The view that the mouse was over in the last frame; call once a frame."""
         hovered, self._hovered = self._hovered, None
+        self._keyboard, self._next_keyboard = self._next_keyboard, ""
         return hovered
 
     # Sessions.
@@ -164,7 +175,7 @@ class Stage:
         sections = {name: opened for name, opened in kept.items() if opened is not None}
         windows = imgui.save_ini_settings_to_memory()
         name, large = layout.current().name, self.maximised
-        return Arrangement(name, visible, windows, sections, large, self.focused)
+        return Arrangement(name, visible, windows, sections, large, self._keyboard)
 
     def restore(self, arrangement: Arrangement, presenting: bool) -> None:
         """Puts everything where it stood; in the next frames."""
@@ -194,7 +205,7 @@ class Stage:
             if self._restoring.maximised in self._restoring.visible:
                 self.maximised = self._restoring.maximised
             focused = self._restoring.focused
-            self._focus_back = focused if focused in self._restoring.visible else ""
+            self.give_keyboard(focused if focused in self._restoring.visible else "")
         self._restoring = None
 
     def before_frame(self) -> None:
@@ -262,7 +273,7 @@ class Stage:
             if imgui.is_item_hovered() and imgui.is_mouse_double_clicked(imgui.MouseButton_.left):
                 still_open = False
             if imgui.is_window_focused(imgui.FocusedFlags_.root_and_child_windows):
-                self.focused = view.name
+                self.focused = self._next_keyboard = view.name
             self._draw_content(view, host)
         finally:
             imgui.end()
@@ -297,7 +308,7 @@ class Stage:
 
     def _note_focus(self, view: View) -> None:
         if imgui.is_window_focused(imgui.FocusedFlags_.root_and_child_windows):
-            self.focused = view.name
+            self.focused = self._next_keyboard = view.name
             if self.maximised and self.maximised != view.name:
                 self.maximised = self._next_focus = view.name  # by Ctrl+Tab, for instance
 

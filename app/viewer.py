@@ -18,6 +18,7 @@ from imgui_bundle import hello_imgui, imgui, immapp
 from app import layout, theme
 from app.canvas import Canvas
 from app.platform import (
+    Keys,
     Platform,
     Target,
     create_context,
@@ -112,6 +113,7 @@ class Run:
         self._platform = platform
         self._size = size
         self._canvas: Canvas | None = None
+        self._keys: Keys | None = None
         self.on_drawn: Callable[[Target], None] | None = None  # each frame that is shown, drawn
         self.take_picture = take_picture
         self._error: BaseException | None = None
@@ -221,13 +223,17 @@ class Run:
 
     def _begin(self) -> None:
         context = create_context()
-        if not self._platform.has_display:
+        if self._platform.has_display:
+            self._keys = Keys()
+        else:
             set_size(self._size)
         self._canvas = Canvas(context)
         self.window.begin(context)
 
     def _before_render(self) -> None:
         theme.follow(self.window.state.preferences)
+        if self._keys is not None:
+            self._keys.begin_frame()
         if self._canvas is not None:
             io = imgui.get_io()  # not the window: that may be of another size by now
             size, scale = io.display_size, io.display_framebuffer_scale

@@ -249,7 +249,11 @@ class MainWindow:
         self.shell.frame(self, self)
         if not self.lecture.is_given:
             self.shell.stage.begin_afresh()
+        arrangements = self.lecture.arrangements
         self.lecture.follow(self)
+        if self.lecture.arrangements != arrangements:
+            begun, stage = self.lecture.take_begun(), self.shell.stage
+            stage.give_keyboard(LECTURE if begun else stage.keyboard)
         run_shortcuts(self)
         if self._asked is not None:
             self._asked, state = resolution_box(self._asked, self.state)

@@ -11,18 +11,21 @@ import os
 import shutil
 import subprocess
 import sys
+import threading
 import time
 from collections.abc import Callable
 from pathlib import Path
 
 import numpy as np
-from PIL import ImageGrab
+from PIL import Image, ImageGrab
 
 ROOT = Path(__file__).parent.parent
 PATIENT_S = 120.0  # the first picture of an installation waits for compiled kernels
 NEEDED = ("Xvfb", "openbox", "xdotool")
 INSTALL = "sudo apt-get install --no-install-recommends xvfb openbox xdotool"
+STATUS_PX = 50
 REST_S = 2.5  # longer than the window ever waits between two frames
+PAUSE_S = 0.3  # between two keys
 QUIET = {"stdout": subprocess.DEVNULL, "stderr": subprocess.DEVNULL}
 
 
@@ -76,16 +79,21 @@ class Desk:
         return done.stdout.split()
 
     def key(self, *chords: str) -> None:
-        """Presses each chord, such as ctrl+plus, at once, as a remote desktop does."""
-        self.xdotool("key", *chords)
+        """Presses chords, such as ctrl+plus, each at once, as a remote desktop does."""
+        for chord in chords:
+            self.xdotool("key", chord, "sleep", PAUSE_S)
 
     def chord(self, modifier: str, key: str) -> None:
         """Holds a modifier, presses a key, as a finger does."""
         self.xdotool("keydown", modifier, "sleep", 0.1, "key", key, "sleep", 0.1, "keyup", modifier)
 
-    def click(self, x: float, y: float) -> None:
+    def click(self, x: int, y: int) -> None:
         press = "sleep", 0.1, "mousedown", 1, "sleep", 0.1, "mouseup", 1, "sleep", 0.1
-        self.xdotool("mousemove", int(x), int(y), *press)
+        self.xdotool("mousemove", x, y, *press)
+
+    def rest(self) -> None:
+        """Puts the mouse where it points at nothing: the middle of the status line."""
+        self.xdotool("mousemove", self.size[0] // 2, self.size[1] - 30)
 
     def type(self, text: str) -> None:
         self.xdotool("type", "--delay", 60, text)
@@ -106,17 +114,37 @@ class Desk:
             assert since_s < end_s, "the window never rests"
         return last
 
-    def burst(self, do: Callable[[], None]) -> list[np.ndarray]:
-        """Does something; all different pictures from before it until the screen rests."""
-        frames = [self.picture()]
-        do()
-        since_s = time.monotonic()
-        while time.monotonic() < since_s + REST_S:
+    def burst(self, do: Callable[[], None]) -> list[float]:
+        """The black parts of all different pictures from before something is done, which changes
+        the screen, until that rests. Menu bar and status line are black in some looks: without."""
+        doing = threading.Thread(target=do)
+        last = self.picture()
+        parts, since_s = [_black(last)], time.monotonic()
+        end_s = since_s + PATIENT_S
+        doing.start()
+        while doing.is_alive() or len(parts) == 1 or time.monotonic() < since_s + REST_S:
+            assert time.monotonic() < end_s, f"{len(parts)} different pictures, and no rest"
             now = self.picture()
-            if (now != frames[-1]).any():
-                frames.append(now)
-                since_s = time.monotonic()
-        return frames
+            if (now != last).any():
+                last, since_s = now, time.monotonic()
+                parts.append(_black(now))
+        return parts
+
+
+def check_same(one: np.ndarray, other: np.ndarray, folder: Path) -> None:
+    """Both screens show the same above the status line, which tells times; otherwise they are left
+    in the folder."""
+    differ = (one != other)[:-STATUS_PX].any(axis=2)
+    if differ.any():
+        for name, picture in (("one", one), ("other", other)):
+            Image.fromarray(picture).save(folder / f"{name}.png")
+        rows, columns = np.nonzero(differ)
+        box = columns.min(), rows.min(), columns.max(), rows.max()
+        raise AssertionError(f"{len(rows)} pixels differ, within {box}: see {folder}")
+
+
+def _black(picture: np.ndarray) -> float:
+    return float((picture[60:-60].max(axis=2) < 6).mean())
 
 
 class Program:
@@ -141,7 +169,7 @@ class Program:
         window = desk.xdotool("search", "--onlyvisible", "--name", "^Lucida")[-1]
         size = "windowsize", "--sync", window, width, height - 20
         desk.xdotool(*size, "windowmove", window, 0, 0, "windowactivate", "--sync", window)
-        desk.xdotool("mousemove", width // 2, height - 4)
+        desk.rest()
         desk.still()
 
     def _is_shown(self) -> bool:

@@ -65,7 +65,7 @@ class LectureView(View):
         self._arranged = True
         self._entered = False  # whether the step's state has been taken
         self._put_off: tuple[KeptLecture, KeptLecture, str] | None = None
-        self._answered = False
+        self._answered = self._begun = False
         self.arrangements = 0  # how often the views have been put into their places
 
     # What actions and buttons ask for.
@@ -79,6 +79,11 @@ class LectureView(View):
         """Goes on with a lecture in the state and the views that the window has."""
         self.session = session
         self._entered = self._arranged = True
+
+    def take_begun(self) -> bool:
+        """Whether a lecture was begun since this was asked last."""
+        begun, self._begun = self._begun, False
+        return begun
 
     def put_off(self, kept: KeptLecture, scene: str) -> None:
         """A lecture that cannot be read now stays in the session until another one is given.
@@ -154,6 +159,7 @@ class LectureView(View):
             return
         if not self._entered:  # to be seen from the last row, whichever way it was begun
             self.restore(host, presentation=True)
+            self._begun = True
         self._follow_undo(host.state.step, self.session)
         if not self._arranged and layout.current().name == layout.LECTURE:
             self._arrange(self.session.step)
