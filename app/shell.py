@@ -54,6 +54,7 @@ class Shell:
         self._fonts = fonts
         self._keeper = keeper
         self._kept: AppState | None = None
+        self._popup = False  # whether a popup was open at the end of the last frame
         self._failure: Exception | None = None  # the one whose message was closed
 
     @property
@@ -86,7 +87,7 @@ class Shell:
         self.files.save_picture_dialog(name, lambda path: self._picture_to(what, path))
 
     def escape(self, window: Window) -> None:
-        """Ends the nearest thing: what lies on top, then what is large, then what takes long."""
+        """Ends the nearest thing: what lies on top, what takes long, the mark, what is large."""
         if self.palette.open:
             self.palette.open = False
         elif self.files.dialog.is_open:
@@ -99,6 +100,8 @@ class Shell:
             self.help = False
         elif self.files.loading:
             self.files.cancel()
+        elif window.state.marked is not None:
+            window.change(window.state.with_options(marked=None))
         elif self.stage.maximised:
             self.stage.maximise()
         elif window.state.preferences.presentation:
@@ -119,9 +122,12 @@ class Shell:
         if done is not None:
             self.toasts.add(*done)
 
-    def draw(self, window: Window) -> None:
-        """Once a frame: what lies over the views."""
-        if imgui.shortcut(int(imgui.Key.escape), imgui.InputFlags_.route_global):
+    def draw(self, window: Window, boxed: bool = False) -> None:
+        """Once a frame: what lies over the views. boxed: a box was open that Escape closes."""
+        # A popup or a menu is ImGui's to close, as long as nobody else asks for the key.
+        if not (self._popup or boxed) and imgui.shortcut(
+            int(imgui.Key.escape), imgui.InputFlags_.route_global
+        ):
             self.escape(window)
         if self.help:
             self.help = help_sheet(self._fonts, __version__)
@@ -131,6 +137,11 @@ class Shell:
         self._messages(window)
         self.palette.draw(lambda: entries(window), self._fonts)
         self.toasts.draw()
+
+    def note_popups(self) -> None:
+        """Once a frame, at its end: ImGui closes a popup by Escape before the next one begins."""
+        any_popup = imgui.PopupFlags_.any_popup_id | imgui.PopupFlags_.any_popup_level
+        self._popup = bool(imgui.is_popup_open("", int(any_popup)))
 
     def after_drawing(self, target: Target) -> None:
         """Once a frame, when all is drawn, before it is shown."""

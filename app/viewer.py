@@ -231,6 +231,7 @@ class Run:
         self.window.begin(context)
 
     def _before_render(self) -> None:
+        self.window.shell.note_popups()
         theme.follow(self.window.state.preferences)
         if self._keys is not None:
             self._keys.begin_frame()

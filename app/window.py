@@ -189,6 +189,13 @@ class MainWindow:
         hello_imgui.request_refresh()
 
     def undo(self) -> None:
+        """One step back; what was entered last and is not legal is the last step."""
+        pending = [view for view in self.views.values() if view.has_pending]
+        if pending:
+            for view in pending:
+                view.drop_pending()
+            self.animate()
+            return
         self._cancel_drags()
         self.traveller.stop()
         self.history = self.history.undo()
@@ -199,7 +206,7 @@ class MainWindow:
         self.history = self.history.redo()
 
     def can_undo(self) -> bool:
-        return bool(self.history.past)
+        return bool(self.history.past) or any(view.has_pending for view in self.views.values())
 
     def can_redo(self) -> bool:
         return bool(self.history.future)
@@ -255,10 +262,11 @@ class MainWindow:
             begun, stage = self.lecture.take_begun(), self.shell.stage
             stage.give_keyboard(LECTURE if begun else stage.keyboard)
         run_shortcuts(self)
+        boxed = self._asked is not None
         if self._asked is not None:
             self._asked, state = resolution_box(self._asked, self.state)
             self.change(state)
-        self.shell.draw(self)
+        self.shell.draw(self, boxed)
         frame_views(self.state, self.shell.stage.rects)
         if self.files.busy or self.renderers.unfinished(self.state):
             hello_imgui.request_refresh()

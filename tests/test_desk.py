@@ -30,7 +30,8 @@ def session(home: Path) -> dict[str, object]:
 
 
 def test_thirty_changes_of_type_size_leave_every_pixel_as_it_was(desk: Desk, tmp_path: Path):
-    changes = ["ctrl+plus", "ctrl+plus", "ctrl+0", "F9", "ctrl+plus", "F9", "ctrl+minus", "F9", "ctrl+0", "F9"]
+    sizes, style = ["ctrl+plus", "ctrl+plus", "ctrl+0"], "F9"
+    changes = [*sizes, style, "ctrl+plus", style, "ctrl+minus", style, "ctrl+0", style]
     with Program(desk, tmp_path) as program:
         before = desk.still()
         black = desk.burst(lambda: desk.key(*changes * 3))

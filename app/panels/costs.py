@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 
 from app import theme
 from app.options import CostOptions
+from app.panels.checks import radio_button
 from app.teach.costs import (
     LEAST_PIXELS,
     LEAST_TRIANGLES,
@@ -59,7 +60,7 @@ def controls(options: CostOptions, told: Told) -> tuple[CostOptions, bool]:
     imgui.text("against")
     for name in AGAINST:
         imgui.same_line()
-        if imgui.radio_button(name, options.against == name):
+        if radio_button(name, options.against == name):
             options = replace(options, against=name)
     imgui.same_line()
     again = imgui.button("Measure again")

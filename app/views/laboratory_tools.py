@@ -10,6 +10,7 @@ from dataclasses import replace
 from imgui_bundle import imgui
 
 from app.options import LARGEST_ZOOM, LaboratoryOptions
+from app.panels.checks import radio_button
 from app.teach.imagelab.bitmaps import TITLES
 from app.teach.imagelab.pages import LARGEST_APART, PAGE_TITLES
 from app.views.base import Host
@@ -65,7 +66,7 @@ def toolbar(host: Host) -> LaboratoryOptions:
 def _pages(options: LaboratoryOptions) -> LaboratoryOptions:
     page: str = options.page
     for name, title in PAGE_TITLES.items():
-        if imgui.radio_button(f"{title}##page", name == page):
+        if radio_button(f"{title}##page", name == page):
             page = name
         imgui.same_line(0, imgui.get_font_size())
     imgui.new_line()
