@@ -25,7 +25,8 @@ run: setup
 	@$(PYTHON_IN_VENV) -P -m app $(ARGS)
 
 # Nothing may follow: pytest's closing line is the last.
-test: setup
+test:
+	@sh scripts/setup.sh tests
 	@$(PYTHON_IN_VENV) -m pytest $(ARGS)
 
 # What takes too long for each change: random events, mutations and what else is in tests/attack.

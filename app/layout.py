@@ -24,7 +24,9 @@ INSTRUMENTS = "InstrumentSpace"  # below or beside: tabs
 
 CAMERA_WIDTH_EM = 19.5
 PRESENTATION = "Presentation"  # what presentation mode shows
+LECTURE = "Lecture"  # what a lecture shows, each step in its own way
 ARRANGING_FRAMES = 3  # until the dock spaces of a layout are there again
+ROUNDED_PX = 1.5  # that ImGui gives a dock space more or less than was asked for
 LEAST_ROOM_PX = 200.0  # for both images; in less, ImGui's smallest sizes decide
 
 Split = tuple[str, str, imgui.Dir, float]  # space, new space, where, its part of the room
@@ -115,7 +117,7 @@ LAYOUTS = (
         },
     ),
     Layout(
-        "Lecture",
+        LECTURE,
         (
             (MAIN, RIGHT_SPACE, imgui.Dir.right, 0.36),
             (MAIN, CAMERA_SPACE, imgui.Dir.left, 0.42),
@@ -177,6 +179,20 @@ def window_of(view: View) -> hello_imgui.DockableWindow:
     return window
 
 
+def is_placed(view: View) -> bool:
+    """Whether ImGui draws a view's window in this frame, or one that it is a tab behind. While a
+    window is on its way to a dock, it does not."""
+    window = imgui.internal.find_window_by_name(view.label)
+    if window is not None and window.dock_node is not None:
+        window = window.dock_node.visible_window
+    return window is not None and not window.hidden
+
+
+def is_to_be_made() -> bool:
+    """Whether the next frame begins with the dock spaces of a layout made anew."""
+    return bool(hello_imgui.get_runner_params().docking_params.layout_reset)
+
+
 def arrange(views: Iterable[View], places: dict[str, str]) -> None:
     """Shows some of these views in other spaces of the present layout, and hides the rest.
 
@@ -207,10 +223,13 @@ def whole() -> tuple[tuple[float, float], tuple[float, float]] | None:
 @dataclass
 class _Share:
     """A space's part of what it was split off from. room: of that, when the part was last kept;
-    settling: frames until the new sizes are there; again: frames in which they are made anew."""
+    size: that it was given then, which ImGui rounds: a part that was taken from rounded sizes
+    would creep with each change; settling: frames until the new sizes are there; again: frames in
+    which they are made anew."""
 
     part: float = 0.5
     room: float = 0.0
+    size: float = 0.0
     settling: int = 0
     again: int = 0
 
@@ -224,11 +243,11 @@ class _Share:
             size = max(1.0, self.part * room)
             new = (size, node.size.y) if x else (node.size.x, size)
             imgui.internal.dock_builder_set_node_size(node.id_, new)
-            self.room, self.settling = room, 2
+            self.room, self.size, self.settling = room, size, 2
         elif self.settling:
             self.settling -= 1
-        elif room > LEAST_ROOM_PX:
-            self.part = size / room
+        elif room > LEAST_ROOM_PX and abs(size - self.size) > ROUNDED_PX:  # moved by the user
+            self.part, self.size = size / room, size
 
 
 class Proportion:
@@ -241,18 +260,18 @@ class Proportion:
 
     def __init__(self) -> None:
         self._layout = ""
-        self._shares: dict[str, _Share] = {}
+        self._shares: dict[tuple[str, str], _Share] = {}  # by layout and space
         self._em_px = 0.0
+        self._camera = (0.0, 0.0)  # its width when it was last seen; that in em, not rounded
         self._arranged = 0
 
     def keep(self, arranged: int = 0) -> None:
         """Call once a frame. arranged: another number when arrange() has been called since."""
-        anew, self._arranged = arranged != self._arranged, arranged
+        layout = current()
+        anew = arranged != self._arranged or layout.name != self._layout
+        self._arranged, self._layout = arranged, layout.name
         if not imgui.is_mouse_down(imgui.MouseButton_.left):
             self._widen_camera()
-        layout = current()
-        if layout.name != self._layout:
-            self._layout, self._shares = layout.name, {}
         for whole, space, direction, _ in layout.splits:
             # The camera's width is its numbers'. What is not beside MAIN, ImGui divides as it was.
             if whole != MAIN or space == CAMERA_SPACE:
@@ -262,7 +281,7 @@ class Proportion:
             parent = node.parent_node if node is not None else None
             if node is None or parent is None or min(*parent.size, *node.size) <= 0:
                 continue
-            share = self._shares.setdefault(space, _Share())
+            share = self._shares.setdefault((layout.name, space), _Share())
             if anew and share.room:
                 share.again = ARRANGING_FRAMES
             share.keep(node, parent, across)
@@ -276,12 +295,16 @@ class Proportion:
             return
         em_px = imgui.get_font_size()
         least = math.floor(camera_width_px(parent.size.x, em_px))
-        width = node.size.x * (em_px / self._em_px if self._em_px else 1.0)
         follows = em_px != self._em_px and self._em_px > 0  # the type's size has changed
+        if abs(node.size.x - self._camera[0]) > ROUNDED_PX:  # moved by the user
+            self._camera = node.size.x, node.size.x / (self._em_px or em_px)
+        width = self._camera[1] * em_px
         self._em_px = em_px
-        if least >= 1 and (follows or node.size.x < least - 1):
+        short = node.size.x < (least - 1 if least == self._camera[0] else least)
+        if least >= 1 and (follows or short):
             width = max(min(width, 0.5 * parent.size.x) if follows else 0.0, least)
             imgui.internal.dock_builder_set_node_size(node.id_, (width, node.size.y))
+            self._camera = width, self._camera[1]
 
 
 def _side(

@@ -7,15 +7,12 @@ from __future__ import annotations
 
 import time
 from collections.abc import Callable
-from dataclasses import replace
 from pathlib import Path
 
 from app.platform import Target, start_platform
-from app.start import Start, begin_scene
-from app.state import AppState
+from app.start import Start, begin_lecture, begin_scene, first_state
 from app.storage.capture import free_path
 from app.teach.lecture.model import Lecture
-from app.teach.lecture.states import state_of
 from app.viewer import (
     DEFAULT_PICTURE,
     DEFAULT_SIZE,
@@ -52,7 +49,8 @@ def run_lecture(
         picture = free_path(DEFAULT_PICTURE)
         check_writable(picture)
         print(f"lucida: no display ({platform.reason}): drawing the step once, into {picture}")
-    start = Start(first_state(lecture, number))
+    shown = picture is not None
+    start = Start(first_state(lecture, number)) if shown else begin_lecture(lecture, number)
     run = Run(platform, start.state, size or DEFAULT_SIZE, picture is not None, start=start)
     run.window.lecture.give(lecture, path, number)
     pixels = run.run()
@@ -108,15 +106,6 @@ def export_lecture(
     run.on_drawn = _Export(run, files, progress).drawn
     run.run()
     return files
-
-
-def first_state(lecture: Lecture, number: int = 0) -> AppState:
-    """What a lecture begins with: the step's state, to be seen from the last row."""
-    step = lecture.steps[number]
-    seen = AppState.for_scene(step.scene, step.view).with_options(
-        preferences={"presentation": True, "reduced_motion": False}
-    )
-    return state_of(step, replace(seen, step=(lecture.source, number)))
 
 
 class _Export:

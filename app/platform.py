@@ -13,11 +13,12 @@ import ctypes
 import os
 import sys
 import threading
+import time
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from typing import Any
 
-import imgui_bundle  # noqa: F401 - before glfw, so that both use the same GLFW library
+from imgui_bundle import imgui  # before glfw, so that both use the same GLFW library
 
 # isort: split
 import glfw
@@ -28,6 +29,7 @@ from renderer.errors import LucidaError, one_line
 
 REQUIRED = (3, 3)
 NICER = 5
+LONGEST_PLACING_S = 0.25  # that is waited for a window manager to place the window
 
 
 @dataclass(frozen=True)
@@ -121,6 +123,38 @@ def set_title(text: str) -> None:
         glfw.set_window_title(window, one_line(text))
 
 
+class Keys:
+    """Gives the current window's keys to ImGui, each with its own modifiers.
+
+    A frame of ImGui's has one set of modifiers, those at its end. Where Ctrl is let go in the frame
+    in which P was pressed (by a remote desktop, a macro pad, or any hand while a frame takes long),
+    it would see P alone: a change of modifiers after a key waits for the next frame.
+    """
+
+    def __init__(self) -> None:
+        self._waiting: list[tuple[int, int, int, int]] = []
+        self._pressed = False  # whether a key was, since the last frame began
+        self._window = glfw.get_current_context()
+        if self._window:
+            glfw.set_key_callback(self._window, lambda _window, *event: self._take(*event))
+
+    def begin_frame(self) -> None:
+        """Once a frame, when ImGui has taken what came before it."""
+        waiting, self._waiting = self._waiting, []
+        self._pressed = False
+        for event in waiting:
+            self._take(*event)
+
+    def _take(self, key: int, code: int, action: int, modifiers: int) -> None:
+        is_modifier = glfw.KEY_LEFT_SHIFT <= key <= glfw.KEY_RIGHT_SUPER
+        if self._waiting or (is_modifier and self._pressed):
+            self._waiting.append((key, code, action, modifiers))
+            return
+        self._pressed = self._pressed or (action == glfw.PRESS and not is_modifier)
+        address = ctypes.cast(self._window, ctypes.c_void_p).value or 0
+        imgui.backends.glfw_key_callback(address, key, code, action, modifiers)
+
+
 def on_drop(dropped: Callable[[list[str]], None]) -> None:
     """Calls `dropped` with the paths of files that are dropped on the current window."""
     window = glfw.get_current_context()
@@ -143,6 +177,28 @@ def set_size(size: tuple[int, int]) -> None:
     window = glfw.get_current_context()
     if window and glfw.get_window_size(window) != size:
         glfw.set_window_size(window, *size)
+
+
+def show_window(draw: Callable[[], None]) -> None:
+    """Shows the current window, hidden so far, in front, and waits a moment until a window manager
+    has placed it. draw: puts the picture into it; called then, what was drawn before is lost."""
+    window = glfw.get_current_context()
+    if not window:
+        return
+    placed = threading.Event()
+
+    def refresh(_window: Any) -> None:  # stays: None is no callback for glfw
+        if not placed.is_set():
+            placed.set()
+            draw()
+            glfw.swap_buffers(window)
+
+    glfw.set_window_refresh_callback(window, refresh)
+    glfw.show_window(window)
+    end_s = time.monotonic() + LONGEST_PLACING_S
+    while not placed.is_set() and time.monotonic() < end_s:
+        glfw.wait_events_timeout(LONGEST_PLACING_S / 10)
+    placed.set()
 
 
 def toggle_full_screen() -> None:
@@ -190,11 +246,7 @@ def _monitor_of(place: tuple[int, int, int, int]) -> Any:
 
 @dataclass(frozen=True)
 class Target:
-    """What the window is drawn into, and its size now: (width, height) in pixels.
-
-    A framebuffer of moderngl's knows the size that a window had when its context was made, and no
-    later one.
-    """
+    """What a frame is drawn into, and its size: (width, height) in pixels."""
 
     framebuffer: moderngl.Framebuffer
     size: tuple[int, int]
@@ -204,45 +256,6 @@ class Target:
         width, height = self.size
         data = self.framebuffer.read((0, 0, width, height), components=3, alignment=1)
         return np.frombuffer(data, np.uint8).reshape(height, width, 3)[::-1]
-
-
-class Canvas:
-    """What the window is drawn into on the null platform: a framebuffer of any size.
-
-    There, the window's own has the size that it was made with, at most that of an imaginary
-    monitor of 1920 x 1080. Left bound, so that pictures of the window are read from it.
-    """
-
-    def __init__(self, context: moderngl.Context) -> None:
-        self._context = context
-        self._target: moderngl.Framebuffer | None = None
-
-    def bind(self) -> None:
-        """Call before ImGui draws."""
-        size = glfw.get_framebuffer_size(glfw.get_current_context())
-        if self._target is None or self._target.size != size:
-            old, color = self._target, self._context.renderbuffer(size, 4)
-            self._target = self._context.framebuffer([color])
-            self._target.use()
-            # Not before: while it makes a framebuffer, moderngl binds the last one again.
-            if old is not None:
-                _release(old)
-        self._target.use()
-
-    @property
-    def framebuffer(self) -> moderngl.Framebuffer | None:
-        """What was drawn into; None before the first frame."""
-        return self._target
-
-    def release(self) -> None:
-        if self._target is not None:
-            _release(self._target)
-            self._target = None
-
-
-def _release(target: moderngl.Framebuffer) -> None:
-    for part in (*target.color_attachments, target):
-        part.release()
 
 
 class _Loader:

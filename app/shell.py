@@ -24,7 +24,7 @@ from app.stage import Stage
 from app.state import AppState
 from app.storage.capture import Captures, Rect
 from app.storage.files import Files, Outside, describe
-from app.storage.session import session_of
+from app.storage.session import Session, session_of
 from app.storage.session_store import Keeper
 from app.theme import Fonts
 from app.views.base import Host, View
@@ -57,6 +57,7 @@ class Shell:
         self._fonts = fonts
         self._keeper = keeper
         self._kept: AppState | None = None
+        self._popup = False  # whether a popup was open at the end of the last frame
         self._failure: Exception | None = None  # the one whose message was closed
 
     @property
@@ -89,7 +90,7 @@ class Shell:
         self.files.save_picture_dialog(name, lambda path: self._picture_to(what, path))
 
     def escape(self, window: Window) -> None:
-        """Ends the nearest thing: what lies on top, then what is large, then what takes long."""
+        """Ends the nearest thing: what lies on top, what takes long, the mark, what is large."""
         if self.palette.open:
             self.palette.open = False
         elif self.files.dialog.is_open:
@@ -104,6 +105,8 @@ class Shell:
             self.help = False
         elif self.files.loading:
             self.files.cancel()
+        elif window.state.marked is not None:
+            window.change(window.state.with_options(marked=None))
         elif self.stage.maximised:
             self.stage.maximise()
         elif window.state.preferences.presentation:
@@ -117,16 +120,19 @@ class Shell:
         """Once a frame, before the views. Both are the window."""
         self.stage.follow(window.state.preferences)
         self.stage.leave_out_hidden(host)
-        self._keep(window.state)
+        self._keep(window)
         for said in self.files.poll_said():
             self.toasts.add(said)
         done = self.captures.poll()
         if done is not None:
             self.toasts.add(*done)
 
-    def draw(self, window: Window) -> None:
-        """Once a frame: what lies over the views."""
-        if imgui.shortcut(int(imgui.Key.escape), imgui.InputFlags_.route_global):
+    def draw(self, window: Window, boxed: bool = False) -> None:
+        """Once a frame: what lies over the views. boxed: a box was open that Escape closes."""
+        # A popup or a menu is ImGui's to close, as long as nobody else asks for the key.
+        if not (self._popup or boxed) and imgui.shortcut(
+            int(imgui.Key.escape), imgui.InputFlags_.route_global
+        ):
             self.escape(window)
         if self.help:
             self.help = help_sheet(self._fonts, __version__)
@@ -137,15 +143,24 @@ class Shell:
         self.palette.draw(lambda: entries(window), self._fonts)
         self.toasts.draw()
 
+    def note_popups(self) -> None:
+        """Once a frame, at its end: ImGui closes a popup by Escape before the next one begins."""
+        any_popup = imgui.PopupFlags_.any_popup_id | imgui.PopupFlags_.any_popup_level
+        self._popup = bool(imgui.is_popup_open("", int(any_popup)))
+
     def after_drawing(self, target: Target) -> None:
         """Once a frame, when all is drawn, before it is shown."""
         self.captures.after_drawing(target)
 
-    def end(self, state: AppState) -> None:
+    def end(self, window: Window) -> None:
         """Once, at the end."""
         self.captures.close()
         if self._keeper is not None:
-            self._keeper.close(session_of(state, self.stage.arrangement()))
+            self._keeper.close(self._session(window))
+
+    def _session(self, window: Window) -> Session:
+        state = window.state
+        return session_of(state, self.stage.arrangement(), window.lecture.kept(state))
 
     def _messages(self, window: Window) -> None:
         """One message at a time: what was asked for first, then what failed by itself."""
@@ -184,16 +199,16 @@ class Shell:
             return None
         return failure if not _same(failure, self._failure) else None
 
-    def _keep(self, state: AppState) -> None:
+    def _keep(self, window: Window) -> None:
         keeper = self._keeper
         if keeper is None:
             return
-        io = imgui.get_io()
-        if state is not self._kept or io.want_save_ini_settings:
+        io, state, answered = imgui.get_io(), window.state, window.lecture.take_answered()
+        if state is not self._kept or io.want_save_ini_settings or answered:
             self._kept, io.want_save_ini_settings = state, False
             keeper.mark()
         if keeper.due():
-            keeper.save(session_of(state, self.stage.arrangement()))
+            keeper.save(self._session(window))
 
     def _view_in_use(self) -> str:
         stage = self.stage

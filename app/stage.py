@@ -40,11 +40,15 @@ class Stage:
         self.failures: dict[str, Exception] = {}
         self._to_begin: dict[str, Callable[[], None]] = {}  # of those that could not
         self._next_focus = ""
+        self._keyboard = self._next_keyboard = ""  # as focused, but "" while something else has it
         self._hovered: View | None = None
         self._restoring: Arrangement | None = None
         self._presenting = False
-        self._before = layout.LAYOUTS[0].name
+        self._before = layout.LAYOUTS[0].name, ""  # presentation mode: layout and focus
+        self._keyboard_for: str | None = None  # who gets it once all have their places
         self._frames = 0
+        self._layout = ""  # that of the frame before
+        self._placing = LAID_OUT  # frames until the windows have their places
 
     def begin(self, view: View, host: Host, context: moderngl.Context) -> None:
         """Once for each view, when there is a context. One that fails (a shader that the driver
@@ -70,6 +74,17 @@ class Stage:
         if self._frames < LAID_OUT or self.failures:
             return False
         return all(self.views[name].settled for name in self.rects)
+
+    def place(self) -> bool:
+        """Whether windows are still on their way to their places; call once a frame, when all of
+        it has been laid out."""
+        name = layout.current().name
+        if name != self._layout or self._restoring is not None or layout.is_to_be_made():
+            self._placing = LAID_OUT
+        else:
+            self._placing = max(0, self._placing - 1)
+        self._layout = name
+        return self._placing > 0 or not all(layout.is_placed(view) for view in self.shown)
 
     # What actions ask for.
 
@@ -104,17 +119,21 @@ class Stage:
         self._next_focus = self.maximised or was
 
     def follow(self, preferences: Preferences) -> None:
-        """Presentation mode has a layout of its own; call once a frame, before the views."""
+        """Presentation mode has a layout of its own, except in a lecture, which is made to be
+        presented; call once a frame, before the views."""
         self._frames += 1
         self._restore()
         if preferences.presentation != self._presenting:
             self._presenting = preferences.presentation
-            if self._presenting:
-                self._before = layout.current().name
+            if self._presenting and layout.current().name != layout.LECTURE:
+                self._before = layout.current().name, self.keyboard
+                self._keyboard_for = None
                 layout.switch(layout.PRESENTATION)
             elif layout.current().name == layout.PRESENTATION:
-                back = self._before != layout.PRESENTATION
-                layout.switch(self._before if back else layout.LAYOUTS[0].name)
+                name, focused = self._before
+                layout.switch(name if name != layout.PRESENTATION else layout.LAYOUTS[0].name)
+                self.give_keyboard(focused)
+        self._give_keyboard()
         if self._next_focus:
             name, self._next_focus = self._next_focus, ""
             if self.maximised and self.maximised != name:
@@ -122,9 +141,29 @@ class Stage:
             view = self.views[name]
             imgui.set_window_focus(_large_label(view) if self.maximised else view.label)
 
+    @property
+    def keyboard(self) -> str:
+        """The view that has the keyboard, or is to get it; "" for none."""
+        return self._keyboard if self._keyboard_for is None else self._keyboard_for
+
+    def give_keyboard(self, name: str) -> None:
+        """Gives a view the keyboard, "" for none, once all windows have their places: ImGui gives
+        it to any that it docks."""
+        self._keyboard_for, self._placing = name, max(self._placing, 1)
+
+    def _give_keyboard(self) -> None:
+        if self._keyboard_for is None or self._placing > 0:
+            return
+        name, self._keyboard_for = self._keyboard_for, None
+        if not name:
+            imgui.set_window_focus(None)
+        elif self.is_shown(name):
+            self._next_focus = name
+
     def take_hovered(self) -> View | None:
         """The view that the mouse was over in the last frame; call once a frame."""
         hovered, self._hovered = self._hovered, None
+        self._keyboard, self._next_keyboard = self._next_keyboard, ""
         return hovered
 
     # Sessions.
@@ -135,7 +174,8 @@ class Stage:
         kept = {view.name: view.sections for view in self.views.values()}
         sections = {name: opened for name, opened in kept.items() if opened is not None}
         windows = imgui.save_ini_settings_to_memory()
-        return Arrangement(layout.current().name, visible, windows, sections)
+        name, large = layout.current().name, self.maximised
+        return Arrangement(name, visible, windows, sections, large, self._keyboard)
 
     def restore(self, arrangement: Arrangement, presenting: bool) -> None:
         """Puts everything where it stood; in the next frames."""
@@ -144,6 +184,13 @@ class Stage:
         for name, opened in arrangement.sections.items():
             if name in self.views:
                 self.views[name].open_sections(opened)
+
+    def begin_afresh(self) -> None:
+        """Where no session is gone on with: HelloImGui shows the layout of the last window, which
+        may be one that is empty outside of a lecture or of presentation mode."""
+        empty = layout.LECTURE, layout.PRESENTATION
+        if self._frames == 2 and self._restoring is None and layout.current().name in empty:
+            layout.switch(layout.LAYOUTS[0].name)
 
     def _restore(self) -> None:
         if self._restoring is None or self._frames < 2:
@@ -155,6 +202,10 @@ class Stage:
             for view in self.views.values():
                 visible = view.name in self._restoring.visible
                 layout.window_of(view).is_visible = visible
+            if self._restoring.maximised in self._restoring.visible:
+                self.maximised = self._restoring.maximised
+            focused = self._restoring.focused
+            self.give_keyboard(focused if focused in self._restoring.visible else "")
         self._restoring = None
 
     def before_frame(self) -> None:
@@ -222,7 +273,7 @@ class Stage:
             if imgui.is_item_hovered() and imgui.is_mouse_double_clicked(imgui.MouseButton_.left):
                 still_open = False
             if imgui.is_window_focused(imgui.FocusedFlags_.root_and_child_windows):
-                self.focused = view.name
+                self.focused = self._next_keyboard = view.name
             self._draw_content(view, host)
         finally:
             imgui.end()
@@ -257,7 +308,7 @@ class Stage:
 
     def _note_focus(self, view: View) -> None:
         if imgui.is_window_focused(imgui.FocusedFlags_.root_and_child_windows):
-            self.focused = view.name
+            self.focused = self._next_keyboard = view.name
             if self.maximised and self.maximised != view.name:
                 self.maximised = self._next_focus = view.name  # by Ctrl+Tab, for instance
 

@@ -1,4 +1,5 @@
-"""What the window begins with: a scene of the command line's, the last session, or the default.
+"""What the window begins with: a scene of the command line's, a lecture, the last session, or the
+default scene.
 
 Owns the choice. Knows nothing of how the window is made. No window waits for a large model: it
 begins without, and reads that while its first frames are drawn.
@@ -12,10 +13,15 @@ from pathlib import Path
 
 from imgui_bundle import hello_imgui
 
+from app.options import Options
 from app.state import AppState
 from app.storage.files import Opened, describe, opened_scene
+from app.storage.kept_lecture import KeptLecture
 from app.storage.session import Session
 from app.storage.session_store import Found, Keeper, take_place
+from app.teach.lecture.model import Lecture
+from app.teach.lecture.session import Session as LectureSession
+from app.teach.lecture.states import state_of
 from renderer.errors import LucidaError
 from renderer.scene import BUILTIN_SCENES, Scene, View, load_scene, load_view
 from renderer.scene.apart import is_large
@@ -45,7 +51,8 @@ class Later:
 class Start:
     """What a window begins with. session: what it goes on with, None for nothing. keeper: what
     saves it. message: what the user is told about it. opened: a scene for the recent files. later:
-    what takes the place of the state's scene as soon as it is read."""
+    what takes the place of the state's scene as soon as it is read. lecture: the one that is gone
+    on with. fresh: begin as on the first day, with no layout of a window before."""
 
     state: AppState
     session: Session | None = None
@@ -53,6 +60,8 @@ class Start:
     message: str = ""
     opened: str = ""
     later: Later | None = None
+    lecture: LectureSession | None = None
+    fresh: bool = False
 
 
 def begin_scene(
@@ -86,23 +95,74 @@ def begin_session(fresh: bool = False, folder: Path | None = None) -> Start:
     """
     place = take_place(folder)
     if place is None:
-        return begin_scene()
+        return replace(begin_scene(), fresh=fresh)
     keeper = Keeper(place, hello_imgui.request_refresh)
     found = Found() if fresh else place.load()
     session = found.session
     if session is None:
-        return replace(begin_scene(), keeper=keeper, message=found.message)
+        return replace(begin_scene(), keeper=keeper, message=found.message, fresh=fresh)
+    lecture, message = _lecture(session.lecture)
+    start = _gone_on(session, lecture)
+    both = "\n".join(said for said in (message, start.message) if said)
+    return replace(start, keeper=keeper, lecture=lecture, message=both)
+
+
+def begin_lecture(lecture: Lecture, number: int = 0, folder: Path | None = None) -> Start:
+    """A lecture at a step, which is kept as the session. What is the user's own in the last session
+    stays; the rest ends, as the last session does when another scene is opened."""
+    place = take_place(folder)
+    if place is None:
+        return Start(first_state(lecture, number))
+    found = place.load()
+    own = found.session.options if found.session is not None else Options()
+    keeper = Keeper(place, hello_imgui.request_refresh)
+    return Start(first_state(lecture, number, own), keeper=keeper, message=found.message)
+
+
+def first_state(lecture: Lecture, number: int = 0, options: Options | None = None) -> AppState:
+    """What a lecture begins with: the step's state, to be seen from the last row. options: the
+    user's."""
+    step = lecture.steps[number]
+    seen = replace(
+        AppState.for_scene(step.scene, step.view),
+        options=options or Options(),
+        step=(lecture.source, number),
+    )
+    seen = seen.with_options(preferences={"presentation": True, "reduced_motion": False})
+    return state_of(step, seen)
+
+
+def _lecture(kept: KeptLecture | None) -> tuple[LectureSession | None, str]:
+    """The lecture of a session, and what the user is told about it."""
+    if kept is None:
+        return None, ""
+    try:
+        lecture = LectureSession.resumed(kept)
+    except LucidaError as error:
+        again = "Its step and the answers are kept: they come back with the file."
+        return None, f"The last session's lecture could not be opened. {error}. {again}"
+    if not lecture.differs_from(kept) or not kept.file:
+        return lecture, ""
+    restore = "Backspace shows its step as it is now." if kept.in_step else ""
+    return lecture, f"{lecture.lecture.source} has changed since the last session. {restore}"
+
+
+def _gone_on(session: Session, lecture: LectureSession | None) -> Start:
+    """The session's scene, or what is shown instead."""
+    if lecture is not None and session.lecture is not None and session.lecture.in_step:
+        state = replace(session.state(lecture.step.scene), step=lecture.place)
+        return Start(state, session)
     message = ""
     try:
         scene = _soon(session.source)
     except LucidaError as error:
         scene, message = None, f"The last session's scene could not be opened. {error}"
     if scene is not None:
-        return Start(session.state(scene), session, keeper)
+        return Start(session.state(scene), session)
     view = session.view
     later = None if message else Later(session.source, lambda _: view)
     default = load_scene(BUILTIN_SCENES[0])
-    return Start(session.state(default), session, keeper, message, later=later)
+    return Start(session.state(default), session, message=message, later=later)
 
 
 class _LargeModelError(Exception):

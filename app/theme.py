@@ -9,6 +9,7 @@ draw, never at import. Knows nothing of what is shown.
 from __future__ import annotations
 
 import functools
+import math
 from dataclasses import dataclass, fields, replace
 from typing import Any
 
@@ -157,13 +158,17 @@ def follow(preferences: Preferences) -> None:
     style = imgui.get_style()
     height_px = imgui.get_io().display_size.y
     look = look_of(preferences, height_px, style.font_scale_dpi)
-    if look == _used[0] or height_px <= 0:
+    scale = style.font_scale_dpi * look.scale
+    # HelloImGui scales the sizes to the display in its second frame, whatever was done before.
+    if height_px <= 0 or (
+        look == _used[0] and math.isclose(style._main_scale, scale, abs_tol=1e-3)
+    ):
         return
     _used[0] = look
     kept = style.font_scale_dpi, style.font_size_base
     _set_style()
     style.font_scale_dpi, style.font_size_base = kept
-    style.scale_all_sizes(style.font_scale_dpi * look.scale)
+    style.scale_all_sizes(scale)
     style.font_scale_main = look.scale
 
 
@@ -192,7 +197,8 @@ class Fonts:
 
 def _reset_sizes(style: imgui.Style) -> None:
     """ImGui's own sizes, at 100 %. A theme leaves some as they are; scaled again at each change,
-    they would grow without end: the smallest window soon larger than the screen."""
+    they would grow without end: the smallest window soon larger than the screen, the lines of a
+    tab's x as thick as the window is wide."""
     fresh = imgui.Style()
     for name in _scaled_sizes():
         setattr(style, name, getattr(fresh, name))
@@ -200,10 +206,11 @@ def _reset_sizes(style: imgui.Style) -> None:
 
 @functools.cache
 def _scaled_sizes() -> tuple[str, ...]:
-    """The names of what scale_all_sizes() scales, found by trying."""
+    """The names of what scale_all_sizes() scales, found by trying: also _main_scale, the product
+    of all scales so far, which the lines of a tab's x are as thick as."""
     style, before = imgui.Style(), {}
     for name in dir(style):
-        value = None if name.startswith("_") else getattr(style, name)
+        value = None if name.startswith("__") else getattr(style, name)
         if isinstance(value, ImVec2):
             setattr(style, name, ImVec2(8, 8))
         elif isinstance(value, float):

@@ -12,18 +12,19 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
-import moderngl
 import numpy as np
 from imgui_bundle import hello_imgui, imgui, immapp
 
 from app import layout, theme
+from app.canvas import Canvas
 from app.platform import (
-    Canvas,
+    Keys,
     Platform,
     Target,
     create_context,
     flush_opengl,
     set_size,
+    show_window,
     start_platform,
 )
 from app.signals import ended_by_signals
@@ -31,6 +32,7 @@ from app.start import Start, begin_scene, begin_session
 from app.state import AppState
 from app.storage.capture import free_path
 from app.storage.paths import is_unicode
+from app.storage.session import source_of
 from app.storage.session_store import settings_folder
 from app.storage.settings import settings_file
 from app.views.base import View
@@ -114,15 +116,16 @@ class Run:
         self._platform = platform
         self._size = size
         self._canvas: Canvas | None = None
-        self._context: moderngl.Context | None = None
-        self.on_drawn: Callable[[Target], None] | None = None  # each frame, drawn
+        self._keys: Keys | None = None
+        self.on_drawn: Callable[[Target], None] | None = None  # each frame that is shown, drawn
         self.take_picture = take_picture
         self._error: BaseException | None = None
         self._quiet_frames = 0
         self._told = compile_note.note()
         self._ended = False
         self._start_s = 0.0
-        self.params = self._parameters(state, size, remember and not take_picture)
+        fresh = start is not None and start.fresh
+        self.params = self._parameters(state, size, remember and not take_picture, fresh)
 
     def run(self) -> np.ndarray:
         """Shows the window until it is closed; gives its last picture, uint8 (height, width, 3).
@@ -147,6 +150,10 @@ class Run:
         if start.session is not None:
             presenting = start.state.preferences.presentation
             self.window.shell.stage.restore(start.session.arrangement, presenting)
+        if start.lecture is not None:
+            self.window.lecture.resume(start.lecture)
+        elif start.session is not None and start.session.lecture is not None:
+            self.window.lecture.put_off(start.session.lecture, source_of(start.state.scene))
         self.window.files.message = start.message
         if start.opened and start.opened not in BUILTIN_SCENES:
             self.window.files.recent.add(str(Path(start.opened).absolute()))
@@ -157,12 +164,13 @@ class Run:
         self._ended = self.params.app_shall_exit = True
 
     def _parameters(
-        self, state: AppState, size: tuple[int, int], remember: bool
+        self, state: AppState, size: tuple[int, int], remember: bool, fresh: bool
     ) -> hello_imgui.RunnerParams:
         params = hello_imgui.RunnerParams()
         params.app_window_params.window_title = title(state.scene)
         params.app_window_params.window_geometry.size = size
-        _settings(params, remember)
+        params.app_window_params.hidden = self._platform.has_display  # until there is a picture
+        _settings(params, remember, fresh)
         params.app_window_params.restore_previous_geometry = not params.ini_disable
         docking = hello_imgui.DefaultImGuiWindowType.provide_full_screen_dock_space
         params.imgui_window_params.default_imgui_window_type = docking
@@ -218,41 +226,47 @@ class Run:
         return call
 
     def _begin(self) -> None:
-        self._context = context = create_context()
-        if not self._platform.has_display:
+        context = create_context()
+        if self._platform.has_display:
+            self._keys = Keys()
+        else:
             set_size(self._size)
-            self._canvas = Canvas(context)
+        self._canvas = Canvas(context)
         self.window.begin(context)
 
     def _before_render(self) -> None:
+        self.window.shell.note_popups()
         theme.follow(self.window.state.preferences)
+        if self._keys is not None:
+            self._keys.begin_frame()
         if self._canvas is not None:
-            self._canvas.bind()
-        drawn = self._drawn
-        if drawn is not None:
-            drawn.framebuffer.use()
+            io = imgui.get_io()  # not the window: that may be of another size by now
+            size, scale = io.display_size, io.display_framebuffer_scale
+            pixels = max(1, round(size.x * scale.x)), max(1, round(size.y * scale.y))
+            drawn = self._canvas.bind(pixels, self.window.is_rearranging())
             drawn.framebuffer.clear(*self.params.imgui_window_params.background_color)
             self.window.renderers.underlay.paint(drawn)
 
-    @property
-    def _drawn(self) -> Target | None:
-        """What this frame is drawn into; None before there is an OpenGL context."""
-        canvas = self._canvas.framebuffer if self._canvas is not None else None
-        if canvas is not None:
-            return Target(canvas, canvas.size)
-        if self._context is None:
-            return None
-        io = imgui.get_io()  # not the window: that may be of another size by now
-        size, scale = io.display_size, io.display_framebuffer_scale
-        pixels = round(size.x * scale.x), round(size.y * scale.y)
-        return Target(self._context.detect_framebuffer(0), pixels)
-
     def _before_swap(self) -> None:
-        drawn = self._drawn
-        if drawn is not None:
-            self.window.shell.after_drawing(drawn)
+        canvas = self._canvas
+        if canvas is None:
+            return
+        shown = canvas.shown
+        if canvas.keeps or shown is None:
+            hello_imgui.request_refresh()
+        else:
+            self.window.shell.after_drawing(shown)
             if self.on_drawn is not None:
-                self.on_drawn(drawn)
+                self.on_drawn(shown)
+        canvas.show(self._platform.has_display)
+
+    def _show_window(self) -> None:
+        """Once there is a picture: a window that is shown before is black until then."""
+        window = self.params.app_window_params
+        if window.hidden and self._canvas is not None and self._canvas.shown is not None:
+            window.hidden = False
+            canvas = self._canvas
+            show_window(lambda: canvas.show(in_window=True))
 
     def _tell_compiling(self) -> None:
         """Says once, where nobody looks at the window, what it waits for."""
@@ -263,6 +277,7 @@ class Run:
     def _after_frame(self) -> None:
         if self._ended:  # before the first frame: HelloImGui has forgotten it since
             self.params.app_shall_exit = True
+        self._show_window()
         if not self._platform.has_display:
             flush_opengl()
         if not self.take_picture:
@@ -306,9 +321,10 @@ def _folder() -> Path | None:
         return None
 
 
-def _settings(params: hello_imgui.RunnerParams, remember: bool) -> None:
-    """The layout is kept in the user's settings folder, never in the working directory."""
-    path = settings_file() if remember else None
+def _settings(params: hello_imgui.RunnerParams, remember: bool, fresh: bool) -> None:
+    """The layout is kept in the user's settings folder, never in the working directory. fresh: the
+    one that is there is put aside."""
+    path = settings_file(fresh) if remember else None
     if path is not None and not is_unicode(str(path)):
         path = None  # ImGui takes UTF-8 only
     params.ini_disable = path is None

@@ -129,6 +129,10 @@ class MainWindow:
         moving = self.files.busy or self.traveller.under_way
         return views and self.renderers.settled(self.state) and not moving
 
+    def is_rearranging(self) -> bool:
+        """Whether the frame that has been laid out is no picture yet; call once a frame."""
+        return self.shell.stage.place() or self.lecture.is_entering
+
     @property
     def lecture(self) -> LectureView:
         view = self.views[LECTURE]
@@ -195,6 +199,13 @@ class MainWindow:
         hello_imgui.request_refresh()
 
     def undo(self) -> None:
+        """One step back; what was entered last and is not legal is the last step."""
+        pending = [view for view in self.views.values() if view.has_pending]
+        if pending:
+            for view in pending:
+                view.drop_pending()
+            self.animate()
+            return
         self._cancel_drags()
         self.traveller.stop()
         self.history = self.history.undo()
@@ -205,7 +216,7 @@ class MainWindow:
         self.history = self.history.redo()
 
     def can_undo(self) -> bool:
-        return bool(self.history.past)
+        return bool(self.history.past) or any(view.has_pending for view in self.views.values())
 
     def can_redo(self) -> bool:
         return bool(self.history.future)
@@ -255,9 +266,16 @@ class MainWindow:
         self.renderers.update(self.state, moving)
         self._proportion.keep(self.lecture.arrangements)
         self.shell.frame(self, self)
+        if not self.lecture.is_given:
+            self.shell.stage.begin_afresh()
+        arrangements = self.lecture.arrangements
         self.lecture.follow(self)
+        if self.lecture.arrangements != arrangements:
+            begun, stage = self.lecture.take_begun(), self.shell.stage
+            stage.give_keyboard(LECTURE if begun else stage.keyboard)
         if not self._is_typing:
             run_shortcuts(self)
+        boxed = self._asked is not None or self._going is not None
         if self._asked is not None:
             self._asked, state = resolution_box(self._asked, self.state)
             self.change(state)
@@ -265,7 +283,7 @@ class MainWindow:
             self._going, pixel = pixel_box(self._going, self.state)
             if pixel is not None:
                 self._go_to(pixel)
-        self.shell.draw(self)
+        self.shell.draw(self, boxed)
         frame_views(self.state, self.shell.stage.rects)
         if self.files.busy or self.renderers.unfinished(self.state):
             hello_imgui.request_refresh()
@@ -302,7 +320,7 @@ class MainWindow:
 
     def end(self) -> None:
         """Once, before the context goes."""
-        self.shell.end(self.state)
+        self.shell.end(self)
         for view in self.views.values():
             view.end()
         self.renderers.end()

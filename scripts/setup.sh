@@ -5,6 +5,8 @@
 # Run it again at any time: what is up to date is left alone, without touching the network. Each
 # step leaves a stamp in .venv that holds what it was made from; a stamp that differs is redone.
 #
+# setup.sh tests: also the display, window manager and keyboard that some tests use.
+#
 # PYTHON=/path/to/python chooses the interpreter. pip's own configuration (mirrors) is respected.
 
 # shellcheck disable=SC2086 # a list of packages is meant to be split
@@ -13,13 +15,16 @@ cd "$(dirname "$0")/.."
 
 VENV=.venv
 GL_PACKAGES="libegl1 libgl1 libgl1-mesa-dri libosmesa6"
+DESK_PACKAGES="xvfb openbox xdotool"
 LOCALE=en_US.UTF-8
 
 main() {
     usable_venv || make_venv
     step packages "$(cat requirements.txt requirements-dev.txt)"
     step project "$(pwd && cat pyproject.toml)"
-    step system "$GL_PACKAGES $LOCALE $(cat /etc/os-release 2>/dev/null || uname -s)"
+    distribution=$(cat /etc/os-release 2>/dev/null || uname -s)
+    step system "$GL_PACKAGES $LOCALE $distribution"
+    [ "${1:-}" != tests ] || step desk "$DESK_PACKAGES $distribution"
 }
 
 # step NAME INPUT: run install_NAME unless it was last done from the same INPUT.
@@ -138,6 +143,17 @@ except Exception:
 END
 }
 
+# Nothing here is fatal: tests that need a display say so, and are skipped.
+install_desk() {
+    has_apt || return 0
+    missing=$(missing_packages $DESK_PACKAGES)
+    [ -n "$missing" ] || return 0
+    if has_rights && apt_install $missing; then
+        return
+    fi
+    say "tests on a display are skipped; for them run: $(apt_command $missing)"
+}
+
 # Nothing here is fatal: without the locale, formulas are plain text.
 install_locale() {
     ! locale -a 2>/dev/null | grep -qi '^en_US\.utf-*8$' || return 0
@@ -203,4 +219,4 @@ apt_get() {
 
 apt_command() { echo "sudo apt-get update && sudo apt-get install --no-install-recommends $*"; }
 
-main
+main "$@"

@@ -5,6 +5,7 @@ skipped with the reason; where CI is set it fails.
 """
 
 import os
+import sys
 
 import pytest
 from hypothesis import settings
@@ -50,3 +51,17 @@ def gl(rasterizer):
     """The rasterizer's context, current."""
     with rasterizer.current() as context:
         yield context
+
+
+@pytest.fixture(scope="session")
+def desk():
+    """A display with a window manager, for the whole run."""
+    from desk import Desk, missing
+
+    reason = missing() if sys.platform.startswith("linux") else "made for X11 on Linux"
+    if reason:
+        if os.environ.get("CI") and sys.platform.startswith("linux"):
+            pytest.fail(reason)
+        pytest.skip(reason)
+    with Desk() as display:
+        yield display

@@ -48,6 +48,14 @@ def test_a_broken_file_is_moved_aside(folder, content):
     assert (folder / "window.broken").read_bytes() == content
 
 
+def test_a_fresh_start_puts_the_layout_aside(folder):
+    folder.mkdir()
+    (folder / "window.ini").write_text(GOOD)
+    assert settings_file(fresh=True) == folder / "window.ini"
+    assert not (folder / "window.ini").exists()
+    assert (folder / "window.before").read_text() == GOOD
+
+
 def test_where_no_file_can_be_there_is_none(folder, monkeypatch):
     folder.write_text("a file in the folder's place")
     assert settings_file() is None

@@ -111,12 +111,14 @@ class TestScript:
         (self.tools / name).write_text(content)
         (self.tools / name).chmod(0o755)
 
-    def setup(self, checkout: Path, **environment: str) -> tuple[int, str, list[str]]:
+    def setup(
+        self, checkout: Path, *arguments: str, **environment: str
+    ) -> tuple[int, str, list[str]]:
         """Exit status, standard error, and the calls of Python and apt that changed something."""
         log = checkout / "log"
         log.write_text("")
         end = subprocess.run(
-            ["/bin/sh", "scripts/setup.sh"],
+            ["/bin/sh", "scripts/setup.sh", *arguments],
             cwd=checkout,
             env={"PATH": str(self.tools), "LOG": str(log), **environment},
             capture_output=True,
@@ -194,6 +196,23 @@ class TestScript:
         (installed,) = [call for call in calls if " install --yes " in call]
         assert installed.endswith("libegl1 libgl1 libgl1-mesa-dri")
         assert self.setup(checkout) == (0, "", [])
+
+    def test_tests_get_a_display_which_nothing_else_needs(self, checkout):
+        self.with_apt()
+        self.stand_in("id", "#!/bin/sh\necho 0\n")
+        _, _, calls = self.setup(checkout)
+        assert not [call for call in calls if "xvfb" in call]
+        status, _, calls = self.setup(checkout, "tests")
+        assert status == 0
+        (installed,) = [call for call in calls if " install --yes " in call]
+        assert installed.endswith("xvfb openbox xdotool")
+        assert self.setup(checkout, "tests") == (0, "", [])
+
+    def test_without_the_right_to_install_a_display_it_goes_on(self, checkout):
+        self.with_apt()
+        status, told, _ = self.setup(checkout, "tests")
+        assert status == 0
+        assert "sudo apt-get install --no-install-recommends xvfb openbox xdotool" in told
 
     def with_apt(self) -> None:
         self.stand_in("apt-get", APT_GET)

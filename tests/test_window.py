@@ -163,7 +163,9 @@ def xvfb() -> Iterator[str]:
 
 
 def test_on_a_display(tmp_path: Path, xvfb: str) -> None:
+    """The window is not to be seen before there is a picture to see in it."""
     script = """
+import glfw
 from pathlib import Path
 from app.platform import start_platform
 from app.state import AppState
@@ -173,7 +175,15 @@ from renderer.scene import load_scene
 platform = start_platform()
 assert platform.has_display, platform.reason
 state = AppState.for_scene(load_scene("still-life"))
-save_png(Path("out.png"), Run(platform, state, (1280, 720), take_picture=True).run())
+run = Run(platform, state, (1280, 720), take_picture=True)
+visible = []
+
+def look(target):
+    visible.append(glfw.get_window_attrib(glfw.get_current_context(), glfw.VISIBLE))
+
+run.on_drawn = look
+save_png(Path("out.png"), run.run())
+assert visible[0] == 0 and set(visible[1:]) == {1}, visible
 """
     done = run(["-c", script], tmp_path, xvfb)
     assert done.returncode == 0, done.stderr

@@ -23,7 +23,7 @@ from app import layout, viewer
 from app.platform import start_platform
 
 folder, mode = Path(sys.argv[1]), sys.argv[2]
-viewer.settings_file = lambda: folder / "window.ini"
+viewer.settings_file = lambda fresh=False: folder / "window.ini"
 viewer._folder = lambda: folder
 start = viewer.begin_session(folder=folder)
 run = viewer.Run(start_platform(want_display=False), start.state, (900, 600), start=start)

@@ -222,8 +222,7 @@ IMAGE = (
         "Image",
         "Take the mark away",
         changing(lambda state: state.with_options(marked=None)),
-        "Esc",
-        (int(Key.escape),),
+        "Esc",  # which ends other things first: the shell's
         can=lambda w: w.state.marked is not None,
     ),
 )

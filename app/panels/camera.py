@@ -25,6 +25,7 @@ from app.panels.camera_sections import (
     look_section,
     presets_section,
 )
+from app.panels.checks import checkbox, radio_button
 from app.panels.fields import Scale, number_field
 from app.panels.lens import Surroundings, component, lens
 from app.panels.pointing import pointed
@@ -103,12 +104,12 @@ def _projection(state: AppState, around: Surroundings) -> AppState | None:
     parallel = state.camera.is_parallel
     half = imgui.get_content_region_avail().x / 2
     wanted = parallel
-    if imgui.radio_button("perspective", not parallel):
+    if radio_button("perspective", not parallel):
         wanted = False
     imgui.set_item_tooltip(PERSPECTIVE)
     if imgui.get_item_rect_size().x < half:  # else below: a narrow panel, or very large type
         imgui.same_line(imgui.get_style().window_padding.x + half)
-    if imgui.radio_button("parallel", parallel):
+    if radio_button("parallel", parallel):
         wanted = True
     imgui.set_item_tooltip(PARALLEL)
     if wanted == parallel:
@@ -151,7 +152,7 @@ def _vectors(state: AppState, draft: Draft, around: Surroundings) -> tuple[AppSt
 
 
 def _orthonormal(state: AppState) -> AppState:
-    changed, keep = imgui.checkbox("keep orthonormal", state.keep_orthonormal)
+    changed, keep = checkbox("keep orthonormal", state.keep_orthonormal)
     imgui.set_item_tooltip(ORTHONORMAL)
     return state.with_keep_orthonormal(keep) if changed else state
 

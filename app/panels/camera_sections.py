@@ -14,6 +14,7 @@ from app.cameras.focus import Focus
 from app.cameras.presets import PRESETS, Preset, look_at
 from app.cameras.text import FORMS, Form
 from app.panels import rows
+from app.panels.checks import checkbox
 from app.panels.fields import Scale, number_field
 from app.state import AppState
 from renderer.camera import Camera, Vector
@@ -104,7 +105,7 @@ def presets_section(state: AppState) -> tuple[AppState, Asked]:
                 asked = Asked(preset=named[name])
             imgui.set_item_tooltip(named[name].note)
     perspective = state.options.presets_in_perspective
-    changed, perspective = imgui.checkbox("in perspective", perspective)
+    changed, perspective = checkbox("in perspective", perspective)
     imgui.set_item_tooltip(
         "Off: parallel rays, as on an engineer's drawing.\n"
         "On: the same directions from an eye (cavalier and cabinet are parallel always)."

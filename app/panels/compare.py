@@ -17,6 +17,7 @@ from app.images import comparing
 from app.images.comparing import LABELS, MODES, Scale
 from app.lettering import fitting_words
 from app.options import CompareOptions, Pixel
+from app.panels.checks import checkbox
 from app.state import AppState
 from renderer.compare import LABEL_COLORS, Comparison
 
@@ -66,7 +67,7 @@ def toolbar(state: AppState) -> AppState:
             state = comparing.with_mode(state, mode)
         imgui.set_item_tooltip(told)
     flow.next(_check_width("causes"))
-    changed, on = imgui.checkbox("causes", options.causes)
+    changed, on = checkbox("causes", options.causes)
     if changed:
         state = state.with_options(compare={"causes": on})
     imgui.set_item_tooltip("Mark the pixels that differ, in the colours of their causes.")

@@ -16,6 +16,7 @@ from numpy.typing import NDArray
 from app import theme
 from app.bounds import whole_range_of
 from app.options import CostOptions
+from app.panels.checks import radio_button
 from app.teach.costs import (
     RENDERERS,
     WATCHED,
@@ -47,7 +48,7 @@ def controls(options: CostOptions, told: Told) -> tuple[CostOptions, bool]:
     imgui.text("against")
     for name in AGAINST:
         imgui.same_line()
-        if imgui.radio_button(name, options.against == name):
+        if radio_button(name, options.against == name):
             options = replace(options, against=name)
     imgui.same_line()
     again = imgui.button("Measure again")

@@ -16,6 +16,7 @@ from pathlib import Path
 from imgui_bundle import ImVec2, imgui
 
 from app import theme
+from app.panels.checks import checkbox
 from app.storage.folders import FolderReader, Listing, starting_points
 from renderer.errors import one_line
 
@@ -174,7 +175,7 @@ class FileDialog:
             self.cancel()
         if not question.saves:
             imgui.same_line()
-            changed, self._all_files = imgui.checkbox("all files", self._all_files)
+            changed, self._all_files = checkbox("all files", self._all_files)
             if changed:
                 self._go(self._listing.folder)
 

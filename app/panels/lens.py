@@ -15,6 +15,7 @@ from app.cameras.focus import Focus
 from app.cameras.navigation import distance_for, dollied, with_shift
 from app.cameras.presets import clip_around
 from app.panels import rows
+from app.panels.checks import checkbox
 from app.panels.fields import Scale, number_field, short_number
 from app.panels.pointing import pointed
 from app.state import AppState
@@ -186,7 +187,7 @@ def _dolly(state: AppState, around: Surroundings) -> AppState:
 
 def _viewport(state: AppState, draft: Draft, around: Surroundings) -> tuple[AppState, Draft]:
     rows.row("viewport", "", RECTANGLE, around.fonts)
-    changed, fit = imgui.checkbox("fit to the aspect ratio", state.view.fit)
+    changed, fit = checkbox("fit to the aspect ratio", state.view.fit)
     imgui.set_item_tooltip(FIT)
     if changed:
         state = state.with_fit(fit)
@@ -243,7 +244,7 @@ def _clip(state: AppState, draft: Draft, around: Surroundings) -> tuple[AppState
         draft = draft.following(state.camera)
         halves.begin(column)
         entered = draft.value(name)
-        changed, on = imgui.checkbox(name, entered is not None)
+        changed, on = checkbox(name, entered is not None)
         imgui.set_item_tooltip(tooltip)
         if changed:
             state, draft = edit_field(state, draft, name, fitted[column] if on else None)

@@ -16,6 +16,7 @@ from imgui_bundle import ImVec2, ImVec4, imgui
 from app import theme
 from app.lettering import hall_px, lettering
 from app.options import Pixel
+from app.panels.checks import checkbox
 from app.panels.formula import Formula, formula
 from app.panels.rows import follow
 from app.state import AppState
@@ -61,7 +62,7 @@ def toolbar(state: AppState, pixel: Pixel | None, size: Size, reading: Reading |
     indexing = state.options.indexing
     state = _pixel_fields(state, pixel, size, indexing)
     follow(imgui.calc_text_size("from 1").x + 1.6 * imgui.get_frame_height())
-    changed, one_based = imgui.checkbox("from 1", state.options.one_based)
+    changed, one_based = checkbox("from 1", state.options.one_based)
     imgui.set_item_tooltip("count rows and columns from 1, as in the lecture, or from 0, as arrays")
     if changed:
         state = state.with_options(one_based=one_based)

@@ -17,6 +17,7 @@ from app.bounds import range_of
 from app.lettering import lettering
 from app.options import Language, Pixel, StepperOptions
 from app.panels.canvas import Marks, canvas
+from app.panels.checks import checkbox
 from app.panels.code import code_size_px
 from app.panels.listing import LEGIBLE_EM, Listing, listing
 from app.panels.rows import follow
@@ -98,7 +99,7 @@ def controls(options: StepperOptions, playing: bool) -> tuple[StepperOptions, Wi
 def language(chosen: Language) -> Language:
     """Whether the same lines stand beside it in Julia. What runs is Python in any case."""
     follow(imgui.calc_text_size("Julia").x + 1.5 * imgui.get_frame_height())
-    changed, beside = imgui.checkbox("Julia", chosen == "julia")
+    changed, beside = checkbox("Julia", chosen == "julia")
     imgui.set_item_tooltip("the same lines in Julia, for reading; Python is what runs")
     return ("julia" if beside else "python") if changed else chosen
 

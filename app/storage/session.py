@@ -14,6 +14,7 @@ import msgspec
 from app.bounds import check
 from app.options import Options
 from app.state import AppState
+from app.storage.kept_lecture import KeptLecture
 from app.storage.paths import restored, stored
 from renderer.errors import LucidaError
 from renderer.scene import BUILTIN_SCENES, Scene, View
@@ -30,24 +31,28 @@ class NewerVersionError(LucidaError):
 class Arrangement:
     """Where the windows inside the window are. layout: its name. visible: the names of the views
     that are shown. windows: places and docks, as ImGui writes them. sections: which parts of a view
-    are folded open, by the view's name, where the user has chosen."""
+    are folded open, by the view's name, where the user has chosen. maximised: the name of the view
+    that covers all others, focused: of the one that has the keyboard, or ""."""
 
     layout: str = ""
     visible: tuple[str, ...] = ()
     windows: str = ""
     sections: dict[str, tuple[str, ...]] = field(default_factory=dict)
+    maximised: str = ""
+    focused: str = ""
 
 
 @dataclass(frozen=True)
 class Session:
-    """A session file. scene: what load_scene takes, as paths.stored() writes it. The rest as in
-    AppState."""
+    """A session file. scene: what load_scene takes, as paths.stored() writes it. lecture: the one
+    that was given, or None. The rest as in AppState."""
 
     scene: str
     view: View
     keep_orthonormal: bool = True
     options: Options = field(default_factory=Options)
     arrangement: Arrangement = field(default_factory=Arrangement)
+    lecture: KeptLecture | None = None
 
     @property
     def source(self) -> str:
@@ -59,11 +64,18 @@ class Session:
         return AppState(scene, self.view, self.keep_orthonormal, self.options)
 
 
-def session_of(state: AppState, arrangement: Arrangement) -> Session:
+def session_of(
+    state: AppState, arrangement: Arrangement, lecture: KeptLecture | None = None
+) -> Session:
     """What to keep of a state. A scene from no file is not kept: the first built-in one is."""
-    origin = state.scene.origin
-    source = origin.source if origin is not None and origin.source else BUILTIN_SCENES[0]
-    return Session(stored(source), state.view, state.keep_orthonormal, state.options, arrangement)
+    source = stored(source_of(state.scene))
+    return Session(source, state.view, state.keep_orthonormal, state.options, arrangement, lecture)
+
+
+def source_of(scene: Scene) -> str:
+    """What load_scene takes for a scene; the first built-in one's name for one from no file."""
+    origin = scene.origin
+    return origin.source if origin is not None and origin.source else BUILTIN_SCENES[0]
 
 
 def to_bytes(session: Session) -> bytes:

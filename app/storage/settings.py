@@ -14,11 +14,11 @@ SMALLEST_PX, LARGEST_PX = 64, 16384  # sides of a window that somebody could hav
 LARGEST_BYTES = 1 << 20
 
 
-def settings_file() -> Path | None:
+def settings_file(fresh: bool = False) -> Path | None:
     """The file for the layout, in the user's settings folder, which is made if it must be.
 
     None where it cannot be kept, or where what stands there is no file. A file that no window
-    can have left is moved aside.
+    can have left is moved aside; with `fresh` any is.
     """
     import platformdirs
 
@@ -31,6 +31,8 @@ def settings_file() -> Path | None:
             return None
         if not _is_sane(path):
             path.replace(path.with_suffix(".broken"))
+        elif fresh:
+            path.replace(path.with_suffix(".before"))
         return path
     except (OSError, RuntimeError):  # RuntimeError: there is no home
         return None

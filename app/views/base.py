@@ -121,5 +121,13 @@ class View:
     def cancel(self) -> None:
         """Ends a drag under way: something else has changed the state."""
 
+    @property
+    def has_pending(self) -> bool:
+        """Whether something was entered that is not in the state, because it is not legal."""
+        return False
+
+    def drop_pending(self) -> None:
+        """Takes that back."""
+
     def end(self) -> None:
         """Once, before the context goes."""

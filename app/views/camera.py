@@ -36,6 +36,13 @@ class CameraView(View):
     def open_sections(self, names: tuple[str, ...]) -> None:
         self._sections = Sections(self._sections.look, chosen=names)
 
+    @property
+    def has_pending(self) -> bool:
+        return self._draft is not None and self._draft.error is not None
+
+    def drop_pending(self) -> None:
+        self._draft = None
+
     def draw(self, host: Host) -> None:
         state = host.state
         if self._dolly is None or not imgui.is_any_item_active():  # while it is dragged, it stays

@@ -13,6 +13,7 @@ from imgui_bundle import ImVec2, ImVec4, imgui
 from app import theme
 from app.lettering import fitting_words, lettering
 from app.options import Language, Pixel
+from app.panels.checks import radio_button
 from app.panels.code import LINE, code_size_px
 from app.state import AppState
 from app.teach.imagelab import array_code, memory
@@ -109,7 +110,7 @@ class ArrayPage:
         for number, (one, title) in enumerate(LANGUAGES.items()):
             if number:
                 imgui.same_line(0, 0.7 * em)
-            if imgui.radio_button(f"{title}##language", one == language):
+            if radio_button(f"{title}##language", one == language):
                 language = one
         values = tuple(float(value) for value in self.color[self.pixel])
         listed = array_code.lines(

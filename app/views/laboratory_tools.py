@@ -12,6 +12,7 @@ from imgui_bundle import imgui
 
 from app.bounds import range_of, whole_range_of
 from app.options import LaboratoryOptions
+from app.panels.checks import checkbox, radio_button
 from app.panels.rows import follow
 from app.teach.imagelab.bitmaps import TITLES
 from app.teach.imagelab.displays import DISPLAYS
@@ -87,7 +88,7 @@ def _radio(name: str, titles: Mapping[str, str], chosen: str) -> str:
     for number, (one, title) in enumerate(titles.items()):
         if number:
             follow(imgui.calc_text_size(title).x + 1.5 * imgui.get_frame_height())
-        if imgui.radio_button(f"{title}##{name}", one == chosen):
+        if radio_button(f"{title}##{name}", one == chosen):
             chosen = one
     return chosen
 
@@ -96,7 +97,7 @@ def _content(options: LaboratoryOptions, test: str) -> LaboratoryOptions:
     """Whether a test picture takes the image's place."""
     if options.page != "subpixels":
         follow(imgui.calc_text_size(test).x + 1.5 * imgui.get_frame_height())
-    moved, is_test = imgui.checkbox(f"{test}##content", options.content == "test")
+    moved, is_test = checkbox(f"{test}##content", options.content == "test")
     return replace(options, content="test" if is_test else "image") if moved else options
 
 

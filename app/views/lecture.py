@@ -19,11 +19,14 @@ from imgui_bundle import ImVec2, imgui
 from app import layout, theme
 from app.background import Background
 from app.lettering import lettering
+from app.panels.checks import radio_button
 from app.panels.exercise import exercise
 from app.panels.slide import Slides
 from app.panels.typesetting import first_mistake
 from app.state import AppState
 from app.storage.files import describe
+from app.storage.kept_lecture import KeptLecture
+from app.storage.session import source_of
 from app.teach.languages import LANGUAGES
 from app.teach.lecture.model import Lecture, Step
 from app.teach.lecture.reading import BUILTIN, load_lecture
@@ -36,7 +39,6 @@ from renderer.scene.apart import ModelReader
 from renderer.scene.models import read_by
 
 LECTURE = "Lecture"
-LAYOUT = "Lecture"  # of layout.LAYOUTS
 LARGEST = 0.036  # of the text, in parts of the window's height
 SMALLEST = 0.021
 RESTORE = "back to the step"
@@ -65,6 +67,8 @@ class LectureView(View):
         self._slides: Slides | None = None
         self._arranged = True
         self._entered = False  # whether the step's state has been taken
+        self._put_off: tuple[KeptLecture, KeptLecture, str] | None = None
+        self._answered = self._begun = False
         self.arrangements = 0  # how often the views have been put into their places
 
     # What actions and buttons ask for.
@@ -72,7 +76,36 @@ class LectureView(View):
     def give(self, lecture: Lecture, path: Path, number: int = 0) -> None:
         """Begins a lecture at a step, in the next frame."""
         self.session = Session(lecture, path, number)
-        self._entered = False
+        self._entered, self._put_off = False, None
+
+    def resume(self, session: Session) -> None:
+        """Goes on with a lecture in the state and the views that the window has."""
+        self.session = session
+        self._entered = self._arranged = True
+
+    def take_begun(self) -> bool:
+        """Whether a lecture was begun since this was asked last."""
+        begun, self._begun = self._begun, False
+        return begun
+
+    def put_off(self, kept: KeptLecture, scene: str) -> None:
+        """A lecture that cannot be read now stays in the session until another one is given.
+        scene: what is shown instead of its step's."""
+        self._put_off = replace(kept, in_step=False), kept, scene
+
+    def kept(self, state: AppState) -> KeptLecture | None:
+        """What a session file keeps of the lecture."""
+        if self.session is not None:
+            return self.session.kept(state)
+        if self._put_off is None:
+            return None
+        elsewhere, kept, scene = self._put_off
+        return kept if source_of(state.scene) == scene else elsewhere
+
+    def take_answered(self) -> bool:
+        """Whether something was answered since this was asked last."""
+        answered, self._answered = self._answered, False
+        return answered
 
     def give_builtin(self) -> None:
         """Begins the built-in lecture."""
@@ -93,21 +126,27 @@ class LectureView(View):
         if self.session is not None and self.session.go(self.session.number + steps):
             self.restore(window)
 
-    def restore(self, window: Changeable) -> None:
+    def restore(self, window: Changeable, **preferences: bool) -> None:
         """Back to the step's own scene, camera, options and views."""
         if self.session is None:
             return
         state = replace(window.state, step=self.session.place)
+        state = state.with_options(preferences=preferences)
         window.change(state_of(self.session.step, state))
         self._entered, self._arranged = True, False
-        layout.switch(LAYOUT)
+        layout.switch(layout.LECTURE)
 
     # The frame.
 
     @property
     def settled(self) -> bool:
         reading = self._reading is not None and self._reading.busy
-        return self.session is None or (self._entered and self._arranged and not reading)
+        return not (self.is_entering or (self.session is not None and reading))
+
+    @property
+    def is_entering(self) -> bool:
+        """Whether a step's views are still to be put into their places."""
+        return self.session is not None and not (self._entered and self._arranged)
 
     def begin(self, host: Host, context: moderngl.Context) -> None:
         self._reading = Background("lucida-lecture", host.animate)
@@ -121,10 +160,11 @@ class LectureView(View):
         """Once a frame, whether or not the view is seen: takes steps and newer files."""
         if self.session is None:
             return
-        if not self._entered:
-            self.restore(host)
+        if not self._entered:  # to be seen from the last row, whichever way it was begun
+            self.restore(host, presentation=True)
+            self._begun = True
         self._follow_undo(host.state.step, self.session)
-        if not self._arranged and layout.current().name == LAYOUT:
+        if not self._arranged and layout.current().name == layout.LECTURE:
             self._arrange(self.session.step)
             self._arranged = True
             host.animate()
@@ -136,7 +176,7 @@ class LectureView(View):
             return
         if session.go(place[1]):
             self._arranged = False
-            layout.switch(LAYOUT)
+            layout.switch(layout.LECTURE)
 
     def _follow_file(self, host: Host, session: Session) -> None:
         assert self._reading is not None
@@ -230,7 +270,10 @@ class LectureView(View):
         if blocks:
             slides.text(blocks, (avail.x, 0.4 * avail.y), sizes)
             imgui.dummy(ImVec2(0, 0.5 * sizes[0]))
-        exercise(step.exercise, session.answers, slides, host.fonts, sizes)
+        answers = session.answers
+        before = replace(answers, texts=dict(answers.texts))
+        exercise(step.exercise, answers, slides, host.fonts, sizes)
+        self._answered = self._answered or answers != before
 
     def _in_language(self, host: Host, step: Step) -> tuple[Block, ...]:
         """The step's text; above it the languages, where its programs are there in several."""
@@ -241,7 +284,7 @@ class LectureView(View):
                 continue
             if number:
                 imgui.same_line(0, imgui.get_font_size())
-            if imgui.radio_button(f"{title}##language", name == chosen):
+            if radio_button(f"{title}##language", name == chosen):
                 host.apply(host.state.with_options(language=name))
         return in_language(step.blocks, host.state.options.language)
 

@@ -67,7 +67,7 @@ MODULES: dict[str, tuple[str, ...]] = {
     "app/teach/imagelab/memory.py": ("teach_imagelab", "teach_pages"),
     "app/teach/imagelab/pages.py": ("teach_pages",),
     "app/teach/imagelab/stored.py": ("teach_imagelab",),
-    "app/teach/lecture/answers.py": ("teach_exercises",),
+    "app/arithmetic.py": ("teach_exercises", "fields"),
     "app/teach/lecture/exercises.py": ("teach_exercises",),
     "app/teach/lecture/flow.py": ("teach_flow",),
     "app/teach/lecture/mistakes.py": ("teach_exercises",),

@@ -11,7 +11,7 @@ from app.panels import formula
 from app.teach.lecture.model import Lecture
 from app.teach.lecture.reading import BUILTIN, load_lecture
 from app.teach.lecture.states import state_of
-from app.views.lecture import LAYOUT, LECTURE, RESTORE, LectureView
+from app.views.lecture import LECTURE, RESTORE, LectureView
 
 SMALL = """\
 title = "Small"
@@ -62,7 +62,7 @@ def _answer(d: Driver, field: str, text: str) -> None:
 
 def drive_keys_and_buttons_walk_the_steps(d: Driver) -> None:
     first, second = _give(d).steps
-    assert layout.current().name == LAYOUT
+    assert layout.current().name == layout.LECTURE
     assert d.window.state == state_of(first, d.window.state)
     assert _shown(d) == {LECTURE, "Raster"}
     before = d.picture()

@@ -338,3 +338,41 @@ def drive_a_narrow_window_keeps_its_menus_and_its_status(d: Driver) -> None:
     d.settle()
     d.ctx.menu_click("//##MainMenuBar/View/Shadows (ray image only)")
     assert d.window.state.options.shadows
+
+
+def drive_escape_ends_what_lies_on_top_before_it_takes_the_mark_away(d: Driver) -> None:
+    window = d.window
+    window.change(window.state.with_options(marked=(20, 30)))
+    d.settle()
+    d.ctx.item_click("//Raster/strip Raster/##channel")
+    d.ctx.yield_(3)
+    any_popup = int(imgui.PopupFlags_.any_popup)
+    assert imgui.is_popup_open("", any_popup)
+    press(d, int(Key.escape))
+    assert not imgui.is_popup_open("", any_popup)
+    assert window.state.marked == (20, 30)
+    window.ask_resolution()
+    d.ctx.yield_(3)
+    press(d, int(Key.escape))
+    assert window._asked is None
+    assert window.state.marked == (20, 30)
+    press(d, int(Key.f1))
+    assert window.shell.help
+    press(d, int(Key.escape))
+    assert not window.shell.help
+    assert window.state.marked == (20, 30)
+    press(d, int(Key.escape))
+    assert window.state.marked is None
+
+
+def drive_undo_takes_back_a_number_that_is_not_legal_before_any_edit(d: Driver) -> None:
+    d.type("eye.y", "2.5")
+    edited = d.window.state
+    assert edited != d.start
+    d.type("left", "9")  # and right is smaller
+    assert d.window.views["Camera"].has_pending
+    press(d, CTRL | int(Key.z))
+    assert d.window.state == edited
+    assert not d.window.views["Camera"].has_pending
+    press(d, CTRL | int(Key.z))
+    assert d.window.state.camera == d.start.camera

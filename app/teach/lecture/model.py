@@ -69,8 +69,11 @@ class Lecture:
     def followed(self, number: int, newer: Lecture) -> int:
         """Where to go on in a newer version of this lecture: at the step of the same title that
         is nearest, otherwise at the same number."""
-        title = self.steps[number].title
-        same = [k for k, step in enumerate(newer.steps) if step.title == title]
+        return newer.nearest(self.steps[number].title, number)
+
+    def nearest(self, title: str, number: int) -> int:
+        """The number of the step of that title that is nearest to a number, otherwise that."""
+        same = [k for k, step in enumerate(self.steps) if step.title == title]
         if same:
             return min(same, key=lambda k: abs(k - number))
-        return min(number, len(newer.steps) - 1)
+        return min(max(number, 0), len(self.steps) - 1)

@@ -1,7 +1,7 @@
 """A lecture while it is given: at which step it stands, and whether its file has changed.
 
-Owns the number of the step and the answers so far. Knows nothing of windows; the file is read
-again by whoever has a thread for it.
+Owns the number of the step and the answers so far, and what a session file keeps of them. Knows
+nothing of windows; the file is read again by whoever has a thread for it.
 """
 
 from __future__ import annotations
@@ -9,9 +9,13 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 from pathlib import Path
 
+from app.state import AppState
+from app.storage.kept_lecture import KeptAnswers, KeptLecture
+from app.storage.paths import restored, stored
 from app.teach.lecture.exercises import Verdict
 from app.teach.lecture.model import Lecture, Step
-from app.teach.lecture.watching import Watch, signature
+from app.teach.lecture.reading import BUILTIN, load_lecture
+from app.teach.lecture.watching import Watch, fingerprint, signature
 
 
 @dataclass
@@ -35,6 +39,51 @@ class Session:
         self.error = ""
         self._answers: dict[str, Answers] = {}
         self._watch = Watch(signature(path))
+        self._fingerprint = fingerprint(path)
+
+    @classmethod
+    def resumed(cls, kept: KeptLecture) -> Session:
+        """The lecture where it stood, read again. Raises LucidaError. In a file that has changed
+        meanwhile it stands at the step of the same title; what was said to answers is left out."""
+        path = Path(restored(kept.file)) if kept.file else BUILTIN
+        agreed = frozenset(Path(restored(file)) for file in kept.outside)
+        session = cls(load_lecture(path, agreed), path)
+        session.number = session.lecture.nearest(kept.title, kept.number)
+        changed = session.differs_from(kept)
+        for title, answers in kept.answers.items():
+            said = None if changed or answers.verdict is None else Verdict(*answers.verdict)
+            session._answers[title] = Answers(
+                dict(answers.texts), answers.chosen, said, answers.solved
+            )
+        return session
+
+    def differs_from(self, kept: KeptLecture) -> bool:
+        """Whether the file is another one than when that was kept."""
+        return self._fingerprint != kept.fingerprint
+
+    def kept(self, state: AppState) -> KeptLecture:
+        """What a session file keeps. state: the window's."""
+        answers = {
+            title: KeptAnswers(
+                dict(one.texts),
+                one.chosen,
+                None
+                if one.verdict is None
+                else (one.verdict.right, one.verdict.text, one.verdict.field),
+                one.solved,
+            )
+            for title, one in self._answers.items()
+            if one != Answers()
+        }
+        return KeptLecture(
+            "" if self.path == BUILTIN else stored(str(self.path.absolute())),
+            self._fingerprint,
+            self.number,
+            self.step.title,
+            state.step == self.place and state.scene is self.step.scene,
+            answers,
+            tuple(stored(str(file)) for file in self.lecture.outside),
+        )
 
     @property
     def step(self) -> Step:
@@ -69,3 +118,4 @@ class Session:
         """Goes on in a newer version, at the same step."""
         self.number = self.lecture.followed(self.number, lecture)
         self.lecture, self.error = lecture, ""
+        self._fingerprint = fingerprint(self.path)

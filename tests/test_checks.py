@@ -1,0 +1,15 @@
+"""The edges of empty boxes can be seen in every look."""
+
+import pytest
+
+from app import theme
+
+
+@pytest.mark.parametrize(
+    "palette", [theme.DARK, theme.LIGHT, theme.PRESENTED_DARK, theme.PRESENTED_LIGHT]
+)
+def test_an_empty_box_stands_out_from_its_panel(palette):
+    edge, *behind = (
+        (color.x, color.y, color.z) for color in (palette.PLAIN, palette.PANEL, palette.POPUP)
+    )
+    assert all(theme.contrast(edge, ground) >= 3 for ground in behind)

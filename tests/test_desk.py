@@ -1,0 +1,73 @@
+"""The window on a desk: what only a real display, a window manager and a home that outlives a start
+can show."""
+
+from __future__ import annotations
+
+import json
+import sys
+from pathlib import Path
+
+import numpy as np
+import pytest
+from desk import Desk, Program, check_same
+
+pytestmark = [
+    pytest.mark.timeout(600),
+    pytest.mark.skipif(not sys.platform.startswith("linux"), reason="made for X11 on Linux"),
+]
+COLUMN = 1100, 560  # in the lecture's column, where nothing is
+
+
+def at_rest(desk: Desk) -> np.ndarray:
+    """The screen with no widget under the mouse or marked for the keyboard."""
+    desk.click(*COLUMN)
+    desk.rest()
+    return desk.still()
+
+
+def session(home: Path) -> dict[str, object]:
+    return json.loads((home / "CONFIG" / "lucida" / "session-1.json").read_bytes())
+
+
+def test_thirty_changes_of_type_size_leave_every_pixel_as_it_was(desk: Desk, tmp_path: Path):
+    sizes, style = ["ctrl+plus", "ctrl+plus", "ctrl+0"], "F9"
+    changes = [*sizes, style, "ctrl+plus", style, "ctrl+minus", style, "ctrl+0", style]
+    with Program(desk, tmp_path) as program:
+        before = desk.still()
+        black = desk.burst(lambda: desk.key(*changes * 3))
+        assert len(black) > 5
+        assert max(black) < black[0] + 0.2, f"a frame was black: {black}"
+        check_same(before, desk.still(), tmp_path)
+        program.quit()
+
+
+def test_a_lecture_comes_back_and_fresh_is_as_on_the_first_day(desk: Desk, tmp_path: Path):
+    lectured, other = tmp_path / "one", tmp_path / "other"
+    for home in (lectured, other):
+        home.mkdir()
+    with Program(desk, lectured, "lecture") as program:
+        begun = at_rest(desk)
+        black = desk.burst(lambda: desk.key("Next", "Next", "Next", "Prior", "Next"))
+        assert max(black) < max(black[0], black[-1]) + 0.2, f"a frame was black: {black}"
+        desk.click(300, 300)  # marks a pixel, which is a change of the step
+        desk.key("ctrl+plus", "F9")  # in a lecture that is a change of style alone
+        left = at_rest(desk)
+        program.quit()
+    kept = session(lectured)
+    assert (kept["lecture"]["number"], kept["lecture"]["in_step"]) == (3, True)
+    assert kept["arrangement"]["layout"] == "Lecture"
+    assert "Lecture" in kept["arrangement"]["visible"]
+    with Program(desk, lectured) as program:
+        check_same(left, desk.still(), tmp_path)
+        program.quit()
+    with Program(desk, lectured, "--fresh") as program:
+        fresh = desk.still()
+        program.quit()
+    with Program(desk, other) as program:
+        check_same(fresh, desk.still(), tmp_path)
+        desk.key("ctrl+shift+p")
+        desk.type("Begin Images")
+        desk.key("Return")
+        desk.still()
+        check_same(begun, at_rest(desk), tmp_path)  # the same place by either way
+        program.quit()
