@@ -31,11 +31,11 @@ from app.teach.lecture.reading import BUILTIN, load_lecture
 from app.teach.lecture.states import state_of
 from app.teach.loop_parts import Model
 from app.teach.loops import image_order, object_order
-from app.teach.notation import Indexing
 from app.teach.probe import Probe
 from app.teach.reading import Reading
 from app.teach.recording import Order
 from app.teach.source import source_of
+from renderer.pixels import Indexing
 from renderer.scene import load_scene
 
 CC = shutil.which("gcc") or shutil.which("cc")
