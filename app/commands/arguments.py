@@ -274,7 +274,7 @@ def progress_bar(label: str) -> Iterator[Callable[[float], None]]:
     with tqdm(
         total=1.0, desc=label, bar_format=layout, delay=1, leave=False, disable=hidden
     ) as bar:
-        told = ""
+        told = compile_note.note()  # of what was compiled before
 
         def report(fraction: float) -> None:
             nonlocal told
