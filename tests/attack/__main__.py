@@ -20,8 +20,11 @@ from pathlib import Path
 FOLDER = Path(__file__).parent
 # All together in about half an hour. What is not named here runs with its own defaults.
 MODEST = {
-    "mutations": ("--sample", "4"),
+    "kill_saves": ("--times", "200"),
+    "mutated_files": ("--files", "1500"),
+    "mutations": ("--sample", "3"),
     "random_events": ("--minutes", "5"),
+    "random_views": ("--views", "1500"),
 }
 LIMIT_S = 1200.0  # of one of them
 
