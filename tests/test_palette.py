@@ -94,7 +94,7 @@ VIEWS = [replace(entry, also=SYNONYMS.get(entry.name[6:], "")) for entry in VIEW
         ("fov", "Go to Camera"),
         ("field of view", "Go to Camera"),
         ("ortho", "Parallel projection"),
-        ("about", "About Lucida"),
+        ("about", "Mouse and keys"),
         ("grid", "Pixel grid and values"),
         ("wireframe", "Export diagram as SVG..."),
         ("screenshot", "Save a picture of the window"),

@@ -7,17 +7,13 @@ from __future__ import annotations
 
 from typing import Literal
 
-from app import __version__, layout
+from app import layout
 from app.actions.base import CTRL, SHIFT, Action, Key, changing
 from app.bounds import range_of
 from app.options import Preferences
 from app.state import AppState
 from app.storage import bookmarks
 
-ABOUT = (
-    f"Lucida {__version__}: one camera, two renderers. MIT license. "
-    "`lucida doctor` tells what works on this machine."
-)
 SMALLEST_SCALE, LARGEST_SCALE = range_of(Preferences, "font_scale")
 FONT_SCALES = (SMALLEST_SCALE, 0.9, 1.0, 1.25, 1.5, 1.75, 2.0, 2.5, LARGEST_SCALE)
 
@@ -229,5 +225,4 @@ HELP = (
         (int(Key.f4),),
         can=lambda w: w.renderers.failure is not None or bool(w.shell.stage.failures),
     ),
-    Action("Help", "About Lucida", lambda w: w.files.say(ABOUT), separated=True),
 )

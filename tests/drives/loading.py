@@ -49,8 +49,10 @@ class Patiently:
     this process."""
 
     def __init__(self, folder: Path) -> None:
-        (folder / "patient_reader.py").write_text(PATIENT_READER)
-        self.folder = str(folder)
+        own = folder / "patient"  # not the current folder, from which children take no modules
+        own.mkdir(exist_ok=True)
+        (own / "patient_reader.py").write_text(PATIENT_READER)
+        self.folder = str(own)
 
     def __enter__(self) -> None:
         self.kept = apart.start_child, apart.read_model
