@@ -146,6 +146,17 @@ def test_a_good_cache_is_used_and_nothing_is_said(
     assert not caplog.records
 
 
+def test_a_relative_folder_which_may_have_come_with_the_users_files_is_passed_over(
+    mine: Path, fresh: None, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(mine)
+    monkeypatch.setenv("NUMBA_CACHE_DIR", "theirs")
+    monkeypatch.setattr(compiled.platformdirs, "user_cache_dir", lambda *_, **__: "also-theirs")
+    folder = compiled.cache_folder()
+    assert folder is None or not folder.is_relative_to(mine)
+    assert list(mine.iterdir()) == []
+
+
 def test_the_folder_beside_the_package_is_judged_too(
     mine: Path, fresh: None, monkeypatch: pytest.MonkeyPatch
 ) -> None:
