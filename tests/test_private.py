@@ -187,6 +187,23 @@ def test_a_file_in_the_current_folder_does_not_choose_the_cache(
     assert not (mine / "theirs").exists()
 
 
+@pytest.mark.parametrize("is_readable", [False, True])
+def test_settings_of_numba_in_the_current_folder_are_passed_over(
+    mine: Path, is_readable: bool
+) -> None:
+    (mine / ".numba_config.yaml").write_text("disable_jit: 1\n")
+    (mine / "library").mkdir()
+    reader = "def safe_load(file):\n    return {'disable_jit': 1}\n"
+    (mine / "library" / "yaml.py").write_text(reader if is_readable else "raise ImportError\n")
+    script = "from renderer.trace import compiled; print(compiled.config.DISABLE_JIT)"
+    path = os.pathsep.join([str(mine / "library"), str(ROOT)])
+    done = subprocess.run(
+        [sys.executable, "-P", "-c", script], cwd=mine, env={**os.environ, "PYTHONPATH": path},
+        capture_output=True, text=True, timeout=100,
+    )  # fmt: skip
+    assert (done.stdout, done.stderr) == ("0\n", "")
+
+
 def test_the_command_line_says_it_in_one_line(mine: Path) -> None:
     (mine / "shared").mkdir()
     (mine / "shared").chmod(0o777)

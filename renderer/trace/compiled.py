@@ -55,6 +55,11 @@ _INSIDE = {
     "pipeline_class": PartCompiler,
 }
 
+# numba takes settings from a file in the current folder, at its import and for each compilation. It
+# may have come with anything: what counts is the environment.
+config._config_fname = os.devnull
+config.reload_config()
+
 _LOCATOR = "UserProvidedCacheLocator"  # numba's name for: CACHE_DIR, and nowhere else
 _cache_dir_lock = threading.Lock()
 
