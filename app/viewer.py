@@ -17,6 +17,7 @@ from imgui_bundle import hello_imgui, imgui, immapp
 
 from app import layout, theme
 from app.canvas import Canvas
+from app.panels.focusing import Focusing
 from app.platform import (
     Keys,
     Platform,
@@ -117,6 +118,7 @@ class Run:
         self._size = size
         self._canvas: Canvas | None = None
         self._keys: Keys | None = None
+        self._focusing = Focusing()
         self.on_drawn: Callable[[Target], None] | None = None  # each frame that is shown, drawn
         self.take_picture = take_picture
         self._error: BaseException | None = None
@@ -196,9 +198,9 @@ class Run:
         callbacks.load_additional_fonts = self._guarded(self.window.fonts.load)
         callbacks.setup_imgui_style = self._guarded(lambda: theme.begin(state.preferences))
         callbacks.post_init = self._guarded(self._begin)
-        callbacks.pre_new_frame = self._guarded(self.window.shell.stage.before_frame)
+        callbacks.pre_new_frame = self._guarded(self._before_frame)
         # Before the views are drawn: too early for their images. See _before_render().
-        callbacks.custom_background = lambda: None
+        callbacks.custom_background = self._guarded(self._focusing.begin_frame)
         callbacks.before_swap = self._guarded(self._before_swap)
         callbacks.before_imgui_render = self._guarded(self._before_render)
         callbacks.show_menus = self._guarded(self.window.menus)
@@ -233,6 +235,10 @@ class Run:
             set_size(self._size)
         self._canvas = Canvas(context)
         self.window.begin(context)
+
+    def _before_frame(self) -> None:
+        self.window.shell.stage.before_frame()
+        self._focusing.before_frame()
 
     def _before_render(self) -> None:
         self.window.shell.note_popups()

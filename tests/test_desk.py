@@ -71,3 +71,15 @@ def test_a_lecture_comes_back_and_fresh_is_as_on_the_first_day(desk: Desk, tmp_p
         desk.still()
         check_same(begun, at_rest(desk), tmp_path)  # the same place by either way
         program.quit()
+
+
+def test_what_is_typed_right_after_tab_is_in_the_next_field(desk: Desk, tmp_path: Path):
+    with Program(desk, tmp_path) as program:
+        desk.key("ctrl+g")
+        desk.still()
+        desk.xdotool("key", "--delay", 0, "3", "1", "Tab", "4", "1")  # faster than frames
+        desk.still()
+        desk.key("Return")
+        desk.still()
+        program.quit()
+    assert session(tmp_path)["options"]["marked"] == [30, 40]

@@ -14,6 +14,7 @@ import trimesh
 
 from renderer.errors import LucidaError
 from renderer.scene import Mesh, Scene, SceneObject, flatten, framing, load_scene, shapes
+from renderer.scene.guard import tidy_text
 from renderer.scene.models import load_model
 from renderer.scene.normals import face_normals, merge_positions, smooth_normals
 from renderer.scene.parts import Part, build_mesh, linear_colors
@@ -346,6 +347,11 @@ def test_texts_with_a_byte_order_mark(
 def test_a_comment_that_ends_in_a_backslash_takes_no_line_away(tmp_path: Path) -> None:
     text = OBJ_TRIANGLE.replace("v 1", "# from C:\\models\\\nv 1").replace(" 2 3", " 2\\\n 3")
     assert len(load_one(write(tmp_path / "t.obj", text)).vertices) == 3
+
+
+def test_a_comment_of_many_backslashes_is_read_in_linear_time() -> None:
+    text = b"#" + b"\\" * 1_000_000 + b"x\nf 1 2 \\\n3\n"  # in quadratic time: an hour
+    assert tidy_text(text).endswith("x\nf 1 2  3\n\n")
 
 
 # Numbers that are none.

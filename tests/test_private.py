@@ -146,6 +146,17 @@ def test_a_good_cache_is_used_and_nothing_is_said(
     assert not caplog.records
 
 
+def test_a_relative_folder_which_may_have_come_with_the_users_files_is_passed_over(
+    mine: Path, fresh: None, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(mine)
+    monkeypatch.setenv("NUMBA_CACHE_DIR", "theirs")
+    monkeypatch.setattr(compiled.platformdirs, "user_cache_dir", lambda *_, **__: "also-theirs")
+    folder = compiled.cache_folder()
+    assert folder is None or not folder.is_relative_to(mine)
+    assert list(mine.iterdir()) == []
+
+
 def test_the_folder_beside_the_package_is_judged_too(
     mine: Path, fresh: None, monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -174,6 +185,23 @@ def test_a_file_in_the_current_folder_does_not_choose_the_cache(
     assert str(mine / "theirs") == config.CACHE_DIR
     assert config.CACHE_LOCATOR_CLASSES == "InTreeCacheLocator"
     assert not (mine / "theirs").exists()
+
+
+@pytest.mark.parametrize("is_readable", [False, True])
+def test_settings_of_numba_in_the_current_folder_are_passed_over(
+    mine: Path, is_readable: bool
+) -> None:
+    (mine / ".numba_config.yaml").write_text("disable_jit: 1\n")
+    (mine / "library").mkdir()
+    reader = "def safe_load(file):\n    return {'disable_jit': 1}\n"
+    (mine / "library" / "yaml.py").write_text(reader if is_readable else "raise ImportError\n")
+    script = "from renderer.trace import compiled; print(compiled.config.DISABLE_JIT)"
+    path = os.pathsep.join([str(mine / "library"), str(ROOT)])
+    done = subprocess.run(
+        [sys.executable, "-P", "-c", script], cwd=mine, env={**os.environ, "PYTHONPATH": path},
+        capture_output=True, text=True, timeout=100,
+    )  # fmt: skip
+    assert (done.stdout, done.stderr) == ("0\n", "")
 
 
 def test_the_command_line_says_it_in_one_line(mine: Path) -> None:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import threading
 from dataclasses import replace
 from pathlib import Path
 
@@ -10,6 +11,7 @@ import pytest
 from test_files import wait_for
 
 from app.state import AppState, History
+from app.storage import files as storage_files
 from app.storage import scene_watch
 from app.storage.files import Files, Opened
 from app.storage.scene_watch import LOOK_S, SceneWatch
@@ -53,6 +55,13 @@ def follow(files: Files, scene: Scene, looks: int = 4) -> Opened | None:
         files.follow(scene)
     wait_for(lambda: not files._rereading._working and files._rereading._waiting is None)
     return files.poll()
+
+
+def loaded(files: Files) -> Opened:
+    """What the loading under way brings."""
+    while (opened := files.poll()) is None:
+        pass
+    return opened
 
 
 def test_it_is_looked_at_now_and_then_not_in_every_frame(path: Path, monkeypatch) -> None:
@@ -154,10 +163,7 @@ def test_a_dropped_scene_that_now_names_a_file_elsewhere_is_asked_about(
 ) -> None:
     (path.parent.parent / "out.obj").write_text(TRIANGLE)
     files.open_all([str(path)], dropped=True)
-    opened = None
-    while opened is None:
-        opened = files.poll()
-    scene = opened.scene
+    scene = loaded(files).scene
     assert scene is not None
     follow(files, scene)
     path.write_text(BALL + MODEL.replace("m.obj", "../out.obj"))
@@ -165,11 +171,40 @@ def test_a_dropped_scene_that_now_names_a_file_elsewhere_is_asked_about(
     assert files.outside is not None
     assert files.outside.files == (path.parent.parent / "out.obj",)
     files.outside.again()
-    opened = None
-    while opened is None:
-        opened = files.poll()
+    opened = loaded(files)
     assert opened.scene is not None
     assert opened.agreed == frozenset([path.parent.parent / "out.obj"])
+
+
+def test_each_question_about_files_elsewhere_opens_what_it_asked_about(
+    path: Path, files: Files, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """The shown scene is read again, and asks, while another one is still being loaded."""
+    (path.parent.parent / "out.obj").write_text(TRIANGLE)
+    other = path.with_name("other.toml")
+    other.write_text(MODEL.replace("m.obj", "../out.obj"))
+    files.open_all([str(path)], dropped=True)
+    shown = loaded(files).scene
+    assert shown is not None
+    files.follow(shown)
+    gate, load = threading.Event(), storage_files.load_scene
+
+    def slow(source: str) -> Scene:
+        if Path(source) == other:
+            gate.wait(60)
+        return load(source)
+
+    monkeypatch.setattr(storage_files, "load_scene", slow)
+    path.write_text(BALL + MODEL.replace("m.obj", "../out.obj"))
+    for _ in range(4):
+        files.follow(shown)
+    files.open_all([str(other)], dropped=True)
+    for name in (path.name, other.name):
+        while files.outside is None or files.outside.name != name:
+            files.poll()
+        gate.set()
+    files.outside.again()
+    assert loaded(files).sources == (str(other),)
 
 
 class Window:

@@ -103,6 +103,7 @@ class Files:
         self._asking: tuple[dialogs.open_file | dialogs.save_file, Paths] | None = None
         self._native = native
         self._source = ""
+        self._again: Callable[[frozenset[Path]], None] = lambda more: None  # loads with consent
         self._began_s = 0.0
         self.dialog = FileDialog(wake)
         self.recent = RecentFiles(folder, wake)
@@ -233,7 +234,7 @@ class Files:
         if outcome is None or isinstance(outcome.error, CancelledError):
             return None
         if isinstance(outcome.error, OutsideError):
-            self._ask_outside(outcome.error)
+            self._ask_outside(outcome.error, self._again)
         elif outcome.error is not None:
             self.message = describe(outcome.error)
         elif outcome.value is not None:
@@ -251,10 +252,12 @@ class Files:
         if isinstance(outcome.error, OutsideError):
             source = outcome.error.source
             agreed = self._guarded.get(source, frozenset())
-            self._again = lambda more: self._load(
-                source, lambda all_: open_sources([source], True, all_), agreed | more
+            self._ask_outside(
+                outcome.error,
+                lambda more: self._load(
+                    source, lambda all_: open_sources([source], True, all_), agreed | more
+                ),
             )
-            self._ask_outside(outcome.error)
         elif outcome.error is not None:
             self.message = self._mistake = describe(outcome.error)
         return outcome.value
@@ -291,8 +294,10 @@ class Files:
 
         self._loading.submit(loaded)
 
-    def _ask_outside(self, error: OutsideError) -> None:
-        again, files = self._again, error.files
+    def _ask_outside(
+        self, error: OutsideError, again: Callable[[frozenset[Path]], None]
+    ) -> None:
+        files = error.files
         name = one_line(Path(error.source).name)
         self.outside = Outside(name, files, lambda: again(frozenset(files)))
 

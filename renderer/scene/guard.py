@@ -24,7 +24,7 @@ from renderer.scene.reading import read_file
 
 _SILENT = logging.NullHandler()
 _COMMENT = re.compile(r"^((?:f|v[nt]?)[ \t][^#\n]*)#[^\n]*", re.MULTILINE)
-_OPEN_COMMENT = re.compile(r"^([ \t]*#[^\n]*?)\\+$", re.MULTILINE)
+_COMMENT_LINE = re.compile(r"^[ \t]*#[^\n]*", re.MULTILINE)
 _INDENT = re.compile(r"^[ \t]+", re.MULTILINE)
 _TAB = re.compile(r"^(f|v[nt]?|o|g|usemtl|mtllib)[ \t]*\t[ \t]*", re.MULTILINE)
 
@@ -82,7 +82,7 @@ def tidy_text(data: bytes) -> str:
     text = data.decode("utf-8-sig", "replace").replace("\r\n", "\n").replace("\r", "\n")
     text = f"\n{text}\n"
     if "\\\n" in text:  # a backslash continues its line, unless that is a comment: # C:\models\
-        text = _OPEN_COMMENT.sub(r"\1", text).replace("\\\n", " ")
+        text = _COMMENT_LINE.sub(lambda line: line[0].rstrip("\\"), text).replace("\\\n", " ")
     if "\t" in text or "\n " in text:
         text = _TAB.sub(r"\1 ", _INDENT.sub("", text))
     if text.count("#") > text.count("\n#"):

@@ -8,7 +8,8 @@ kernels are made of and of the versions that compile them, so stale code is neve
 
 The folder lies in NUMBA_CACHE_DIR if that is set, else in the user's cache folder, else beside
 this package. What numba finds there it unpickles, and runs: a folder that others could write into
-is passed over. Where none of these will do, kernels are compiled anew in each process.
+is passed over, and so is a relative one, which would be looked for beside the user's files. Where
+none of these will do, kernels are compiled anew in each process.
 """
 
 from __future__ import annotations
@@ -53,6 +54,11 @@ _INSIDE = {
     "_nrt": False,
     "pipeline_class": PartCompiler,
 }
+
+# numba takes settings from a file in the current folder, at its import and for each compilation. It
+# may have come with anything: what counts is the environment.
+config._config_fname = os.devnull
+config.reload_config()
 
 _LOCATOR = "UserProvidedCacheLocator"  # numba's name for: CACHE_DIR, and nowhere else
 _cache_dir_lock = threading.Lock()
@@ -105,7 +111,7 @@ def cache_problem() -> str:
 @cache
 def _find_folder() -> tuple[Path | None, str]:
     problem = ""
-    for base in _bases():
+    for base in filter(Path.is_absolute, _bases()):
         try:
             folder = private_folder(base / source_hash())
         except LucidaError as error:

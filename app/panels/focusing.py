@@ -1,0 +1,50 @@
+"""What is typed right after Tab, kept for the field that Tab leads to.
+
+ImGui gives a field the keyboard in the frame after it was asked to, and drops the letters of that
+frame: of `1 Tab 13`, typed while a frame takes long, the second 1 would be lost. Here the events
+wait until the field has the keyboard.
+"""
+
+from __future__ import annotations
+
+from imgui_bundle import hello_imgui, imgui
+
+_FLAGS = imgui.internal.NavMoveFlags_
+_TO_A_FIELD = int(_FLAGS.is_tabbing) | int(_FLAGS.focus_api)
+
+
+class Focusing:
+    """For one window."""
+
+    def __init__(self) -> None:
+        self._held: imgui.ImVector_InputEvent | None = None
+        self._has_held = False  # in the frame before: not twice, whatever asks in each frame
+
+    def before_frame(self) -> None:
+        """Between two frames: takes the events away where a field is to get the keyboard."""
+        context = imgui.get_current_context()
+        is_asked = context.nav_move_submitted and context.nav_move_flags & _TO_A_FIELD
+        self._has_held = bool(is_asked) and not self._has_held
+        if self._has_held:
+            self._held = _copy(context.input_events_queue)
+            context.input_events_queue.clear()
+
+    def begin_frame(self) -> None:
+        """When a frame has begun: the events are for the next one, before any that have come since."""
+        if self._held is None:
+            return
+        queue = imgui.get_current_context().input_events_queue
+        since = _copy(queue)
+        queue.clear()
+        for event in (*self._held, *since):
+            queue.push_back(event)
+        if queue.size():
+            hello_imgui.request_refresh()
+        self._held = None
+
+
+def _copy(events: imgui.ImVector_InputEvent) -> imgui.ImVector_InputEvent:
+    copy = type(events)()
+    for event in events:
+        copy.push_back(event)
+    return copy
