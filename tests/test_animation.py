@@ -80,6 +80,26 @@ def test_every_camera_on_the_way_is_legal_and_the_ends_are_exact(
         assert passage.at(0.01) == end
 
 
+@given(cameras(), cameras(), st.booleans())
+def test_it_leaves_and_arrives_without_a_jump(one: Camera, two: Camera, fit: bool) -> None:
+    passage = Passage(View(one, fit), View(two, fit), FOCUS, BOUNDS, SIZE)
+    assume(passage.possible)
+    for part, end, other in ((1e-5, one, two), (1 - 1e-5, two, one)):
+        camera = passage.at(part).camera
+        np.testing.assert_allclose(camera.basis, end.basis, atol=1e-6)
+        if camera.projection != end.projection:
+            continue  # parallel rays, as they look from far off
+        assert camera.eye == pytest.approx(end.eye, rel=1e-5, abs=1e-5)
+        assert camera.viewport == pytest.approx(end.viewport, rel=1e-5, abs=1e-5)
+        assert camera.distance == pytest.approx(end.distance, rel=1e-5)
+        if end.near is not None and other.near is not None:
+            assert camera.near == pytest.approx(end.near, abs=1e-5)
+        if end.far is not None and other.far is not None:
+            assert camera.far == pytest.approx(end.far, abs=1e-5)
+        else:
+            assert camera.far is None
+
+
 @given(lookers(), lookers(), parts)
 def test_between_orthonormal_cameras_the_basis_stays_orthonormal(
     one: Camera, two: Camera, part: float
