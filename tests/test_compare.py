@@ -386,8 +386,8 @@ def test_the_depth_of_an_oblique_surface(part, cause, side):
 @pytest.mark.parametrize(("turned", "cause"), [(0.0018, "grazing"), (0.0021, "unexplained")])
 def test_the_normal_of_a_sliver(turned, cause):
     """4 / 2^21 of its length over its width: nobody knows it better."""
-    corners = [(-10.02, 0.0102, -2), (9.98, -0.0098, -2), (10, 0.0102, -2)]
-    mesh = Mesh(np.array(corners) + (0.05, 0.03, 0), [[0, 1, 2]])
+    corners = [(-9.97, 0.0402, -2), (10.03, 0.0202, -2), (10.05, 0.0402, -2)]
+    mesh = Mesh(corners, [[0, 1, 2]])
     flat = flatten(Scene((SceneObject(mesh),)))
     frame = image(2, 0, 0)
     row, column = np.array([11]), np.array([25])
