@@ -80,6 +80,26 @@ def test_every_camera_on_the_way_is_legal_and_the_ends_are_exact(
         assert passage.at(0.01) == end
 
 
+@given(cameras(), cameras(), st.booleans())
+def test_it_leaves_and_arrives_without_a_jump(one: Camera, two: Camera, fit: bool) -> None:
+    passage = Passage(View(one, fit), View(two, fit), FOCUS, BOUNDS, SIZE)
+    assume(passage.possible)
+    for part, end, other in ((1e-5, one, two), (1 - 1e-5, two, one)):
+        camera = passage.at(part).camera
+        np.testing.assert_allclose(camera.basis, end.basis, atol=1e-6)
+        if camera.projection != end.projection:
+            continue  # parallel rays, as they look from far off
+        assert camera.eye == pytest.approx(end.eye, rel=1e-5, abs=1e-5)
+        assert camera.viewport == pytest.approx(end.viewport, rel=1e-5, abs=1e-5)
+        assert camera.distance == pytest.approx(end.distance, rel=1e-5)
+        if end.near is not None and other.near is not None:
+            assert camera.near == pytest.approx(end.near, abs=1e-5)
+        if end.far is not None and other.far is not None:
+            assert camera.far == pytest.approx(end.far, abs=1e-5)
+        else:
+            assert camera.far is None
+
+
 @given(lookers(), lookers(), parts)
 def test_between_orthonormal_cameras_the_basis_stays_orthonormal(
     one: Camera, two: Camera, part: float
@@ -359,3 +379,35 @@ class TestTraveller:
             size = (0, 0)
         assert traveller.begin(state, target, Focus(), size) is target
         assert not traveller.under_way
+
+
+@pytest.mark.parametrize("scale", [1.0, 2.5])
+def test_half_way_is_half_of_the_turn_and_the_mean_of_the_stretch(scale: float) -> None:
+    """About one axis, evenly; lengths pass in their logarithm."""
+    axis = np.array([1.0, 2.0, -2.0]) / 3
+    cross = np.cross(np.eye(3), -axis)
+
+    def turn(angle: float) -> np.ndarray:
+        return np.eye(3) + np.sin(angle) * cross + (1 - np.cos(angle)) * cross @ cross
+
+    for angle in (0.0, 1e-9, 0.4, 1.8, 3.1):
+        u, v, w = (scale * turn(angle)).T
+        end = Camera(tuple(5 * w / scale), tuple(u), tuple(v), tuple(w))
+        passage = Passage(View(Camera(eye=(0, 0, 5))), View(end), (0, 0, 0), BOUNDS, SIZE)
+        for part, way in ((0.25, 0.15625), (0.5, 0.5)):
+            basis = passage.at(part).camera.basis
+            np.testing.assert_allclose(basis, scale**way * turn(way * angle), atol=1e-7)
+
+
+@pytest.mark.parametrize("name", ["v", "w", "u"])
+def test_half_a_turn_about_any_axis_ends_where_it_should(name: str) -> None:
+    """About its own axis, by a quarter at half the time, and upright where that is possible."""
+    axis = np.array(getattr(Camera(), name))
+    turned = 2 * np.outer(axis, axis) - np.eye(3)
+    u, v, w = (turned @ np.array(vector) for vector in ((1, 0, 0), (0, 1, 0), (0, 0, 1)))
+    end = Camera(tuple(5 * w), tuple(u), tuple(v), tuple(w))
+    passage = Passage(View(Camera(eye=(0, 0, 5))), View(end), (0, 0, 0), BOUNDS, SIZE)
+    basis = passage.at(0.5).camera.basis
+    np.testing.assert_allclose(basis @ axis, axis, atol=1e-9)
+    np.testing.assert_allclose(basis @ basis, turned, atol=1e-9)
+    np.testing.assert_allclose(passage.at(1 - 1e-5).camera.basis, turned, atol=1e-6)

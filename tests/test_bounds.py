@@ -176,3 +176,13 @@ def test_sliders_take_their_limits_from_the_fields():
 @pytest.mark.parametrize("value", [1, 4])
 def test_a_range_has_both_its_ends(value):
     assert Range(1, 4).problem(value) is None
+
+
+def test_a_list_may_be_as_long_as_its_bound():
+    assert AtMost(2).problem((1, 2)) is None
+    assert AtMost(2).problem((1, 2, 3)) == ("has 3 entries", "give at most 2")
+
+
+def test_what_is_no_number_becomes_the_default_or_else_the_least():
+    assert Range(1, 4).clamped(math.nan, None) == 1
+    assert Range(1, 4).clamped(math.nan, 3.0) == 3.0

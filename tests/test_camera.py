@@ -9,7 +9,8 @@ from hypothesis import assume, given
 from hypothesis import strategies as st
 
 from renderer import Camera, LucidaError
-from renderer.camera import volume
+from renderer.camera import LARGEST, SMALLEST, check_camera, volume
+from renderer.scene.model import View
 
 numbers = st.floats(-3, 3, allow_nan=False)
 vectors = st.tuples(numbers, numbers, numbers)
@@ -113,6 +114,7 @@ def test_look_at_aims_at_the_target_with_up_upwards():
     assert camera.determinant == pytest.approx(1)
     assert camera.fov_y_deg == pytest.approx(50)
     assert Camera.look_at((0, 0, 5), (0, 0, 0), distance=2).distance == 2
+    assert Camera.look_at((0, 0, 5), (0, 0, 0)) == Camera(eye=(0, 0, 5))
 
 
 @pytest.mark.parametrize(
@@ -157,6 +159,9 @@ def test_look_at_names_what_is_wrong(arguments, field):
         ({"near": 2, "far": 2}, "far", "2"),
         ({"far": 0.0}, "far", "0"),
         ({"far": math.nan}, "far", "nan"),
+        ({"near": math.inf}, "near", "inf"),
+        ({"far": math.inf}, "far", "inf"),
+        ({"near": "close"}, "near", "close"),
     ],
 )
 def test_an_illegal_camera_names_field_value_and_remedy(changes, field, value):
@@ -196,6 +201,10 @@ def test_fitted_has_the_images_aspect_and_loses_nothing(camera, size):
     assert left <= old[0] + tolerance and right >= old[1] - tolerance
     assert bottom <= old[2] + tolerance and top >= old[3] - tolerance
     assert left + right == pytest.approx(old[0] + old[1], abs=1e-9)
+    assert bottom + top == pytest.approx(old[2] + old[3], abs=1e-9)
+    # Nor is more seen than is needed: one of the two stays.
+    grown = (right - left) / (old[1] - old[0]), (top - bottom) / (old[3] - old[2])
+    assert min(grown) == pytest.approx(1)
 
 
 @given(cameras(), sizes, st.floats(-2, 2), st.floats(-2, 2))
@@ -219,3 +228,73 @@ def test_cameras_are_values():
     assert hash(camera) == hash(replace(camera))
     with pytest.raises(AttributeError):
         camera.distance = 2
+
+
+def test_the_smallest_and_the_largest_numbers_are_legal():
+    tiny, large = SMALLEST, LARGEST
+    for axis in ("u", "v", "w"):
+        vector = np.array(getattr(Camera(), axis)) * tiny
+        assert getattr(Camera(**{axis: vector}), axis) == tuple(vector)
+    camera = Camera(distance=tiny, near=tiny, eye=(large, -large, 0))
+    assert (camera.distance, camera.near, camera.eye) == (tiny, tiny, (large, -large, 0))
+    assert Camera(far=0.5).far == 0.5
+    assert Camera.look_at((0, 0, 0), (0, 0, -tiny), (0, tiny, 0)).basis == pytest.approx(np.eye(3))
+    for fov_y_deg in (0.5, 179.5):
+        camera = Camera.look_at((0, 0, 5), (0, 0, 0), fov_y_deg=fov_y_deg, aspect=0.5)
+        assert camera.fov_y_deg == pytest.approx(fov_y_deg)
+        assert camera.viewport == (-0.25, 0.25, -0.5, 0.5)
+
+
+@pytest.mark.parametrize(
+    ("changes", "told"),
+    [
+        ({"distance": 0}, "distance: 0 is not above 0; give"),
+        ({"distance": SMALLEST / 2}, "distance: 5e-13 is not above 1e-12; give"),
+        ({"distance": -3}, "distance: -3 is not above 0; give"),
+        ({"u": (0, 0, 0)}, "u: (0, 0, 0) is not independent of v and w; give u a part"),
+        ({"w": (0, SMALLEST / 2, 0)}, "w: (0, 5e-13, 0) is not independent of u and v"),
+        ({"near": 2, "far": 1}, "far: 1 is not above near = 2; give"),
+        ({"far": -1}, "far: -1 is not above 0; give"),
+        ({"eye": (2 * LARGEST, 0, 0)}, "eye: 2e+12 is too large; stay within 1e+12"),
+        ({"viewport": (100, 100 + 8e-8, 0, 1)}, "is empty; give left, right, bottom, top, left <"),
+        ({"viewport": (0, 1, 2, 1)}, "is empty; give left, right, bottom, top, bottom < top"),
+        ({"viewport": (-1, -2, 0, 1)}, "viewport: (-1, -2, 0, 1) is empty"),
+    ],
+)
+def test_what_is_told_of_illegal_numbers(changes, told):
+    with pytest.raises(LucidaError) as error:
+        Camera(**changes)
+    assert told in str(error.value)
+
+
+@pytest.mark.parametrize("fov_y_deg", [0, -1, 180, 180.5])
+def test_no_field_of_view_is_half_a_turn_or_nothing(fov_y_deg):
+    with pytest.raises(LucidaError, match="is not between 0 and 180"):
+        Camera.look_at((0, 0, 5), (0, 0, 0), fov_y_deg=fov_y_deg)
+
+
+def test_a_narrow_viewport_is_legal_where_its_numbers_tell_the_edges_apart():
+    for viewport in ((100, 100 + 1.2e-7, 0, 1), (0, 1, 1, 1 + 1.2e-9), 2 * (-1e-20, 1e-20)):
+        assert Camera(viewport=viewport).viewport == viewport
+
+
+def test_what_is_no_camera_is_refused():
+    camera = Camera()
+    assert check_camera(camera) is camera
+    with pytest.raises(LucidaError, match=r"is a View, not a Camera; give .for_size\(size\)"):
+        check_camera(View(camera))
+    with pytest.raises(LucidaError, match="is a str, not a Camera; give a Camera"):
+        check_camera("front")
+
+
+def test_three_vectors_span_a_volume():
+    """The determinant by its six products, one number at a time."""
+    for u, v, w, wanted in (
+        ((2, 0, 0), (0, 3, 0), (0, 0, 5), 30),
+        ((2, 0, 0), (0, 0, 3), (0, 5, 0), -30),
+        ((0, 2, 0), (0, 0, 3), (5, 0, 0), 30),
+        ((0, 2, 0), (3, 0, 0), (0, 0, 5), -30),
+        ((0, 0, 2), (3, 0, 0), (0, 5, 0), 30),
+        ((0, 0, 2), (0, 3, 0), (5, 0, 0), -30),
+    ):
+        assert volume(u, v, w) == wanted

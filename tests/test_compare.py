@@ -365,3 +365,56 @@ def test_both_renderers_are_compared(gl_backend):
     assert comparison.unexplained == 0
     assert comparison.agree > 600
     assert seen and seen[-1] == 1.0
+
+
+@pytest.mark.parametrize(("part", "cause"), [(0.95, "grazing"), (1.05, "unexplained")])
+@pytest.mark.parametrize("side", [1, -1])
+def test_the_depth_of_an_oblique_surface(part, cause, side):
+    """t = 2 / (1 + x) changes by 2 / 32 / (1 + x)^2 a pixel."""
+    across = 1 + (np.arange(32) - 15.5) / 32
+    flat = flatten(Scene((wall(-2, tilt=1.0),)))
+    depth = np.broadcast_to(2 / across, (24, 32)).astype(np.float32)
+    frame = changed(image(2, 0, 0), np.s_[:], depth=depth)
+    wrong = depth[12, 10] + side * part * 2 / 32 / across[10] ** 2 / 128
+    other = changed(frame, (12, 10), depth=wrong)
+    for pair in ((frame, other), (other, frame)):
+        assert counts(compare_frames(flat, CAMERA, SIZE, *pair)) == {cause: 1}
+    turned = changed(other, (12, 10), normal=(0, 0.1, 1))  # which is nowhere on a flat one
+    assert counts(compare_frames(flat, CAMERA, SIZE, frame, turned)) == {"unexplained": 1}
+
+
+@pytest.mark.parametrize(("turned", "cause"), [(0.0018, "grazing"), (0.0021, "unexplained")])
+def test_the_normal_of_a_sliver(turned, cause):
+    """4 / 2^21 of its length over its width: nobody knows it better."""
+    corners = [(-9.97, 0.0402, -2), (10.03, 0.0202, -2), (10.05, 0.0402, -2)]
+    mesh = Mesh(corners, [[0, 1, 2]])
+    flat = flatten(Scene((SceneObject(mesh),)))
+    frame = image(2, 0, 0)
+    row, column = np.array([11]), np.array([25])
+    assert Lines(flat, CAMERA, SIZE).outline_px(np.zeros(1, int), row, column)[0] > 0.02
+    other = changed(frame, (11, 25), normal=(0, turned, 1))
+    assert counts(compare_frames(flat, CAMERA, SIZE, frame, other)) == {cause: 1}
+
+
+def test_more_differing_pixels_than_edges_have_are_not_examined(monkeypatch):
+    flat = flatten(Scene((wall(-2), wall(-2))))  # surfaces that coincide meet everywhere
+    pair = image(2, 0, 0), image(2, 1, 2)
+    for most, cause in ((768, "meeting"), (767, "unexplained")):
+        monkeypatch.setattr("renderer.compare.MOST_EXAMINED", most)
+        assert counts(compare_frames(flat, CAMERA, SIZE, *pair)) == {cause: 768}
+
+
+def test_the_smallest_differences_are_told_as_they_are():
+    flat = flatten(Scene((wall(-2),)))
+    frame = image(2, 0, 0)
+    near = changed(frame, (3, 4), color=0.5 + 2e-5)
+    comparison = compare_frames(flat, CAMERA, SIZE, frame, near)
+    exact = float(encode_srgb(np.float32(0.5 + 2e-5)) - encode_srgb(np.float32(0.5)))
+    assert comparison.max_color_error == pytest.approx(exact, rel=1e-2)
+    assert comparison.worst == (3, 4)
+    other = changed(frame, (3, 4), id=7)
+    comparison = compare_frames(flat, CAMERA, SIZE, frame, other)
+    error = comparison.errors["id"]
+    assert (error.largest, error.infinite, error.differing, error.worst) == (1, 0, 1, (3, 4))
+    missed = compare_frames(flat, CAMERA, SIZE, image(np.inf, -1, -1), frame)
+    assert missed.max_color_error == missed.errors["depth"].rms == 0

@@ -10,7 +10,7 @@ import pytest
 from renderer import Camera
 from renderer.edges import Lines
 from renderer.scene.flat import flatten
-from renderer.scene.model import Mesh, Scene, SceneObject, Sphere
+from renderer.scene.model import Checker, Material, Mesh, Scene, SceneObject, Sphere
 
 SIZE = (320, 240)
 # Distance, viewport, basis and eye each other than the canonical camera's.
@@ -141,6 +141,7 @@ def test_where_planes_meet(camera: Camera) -> None:
     t = hits(lines, 0, i, j)
     wanted = nearest_px(camera, points, i, j)
     np.testing.assert_allclose(lines.meeting_px(first, second, i, j, t), wanted, atol=0.02)
+    np.testing.assert_allclose(lines.meeting_px(second, first, i, j, t), wanted, atol=0.02)
     assert np.isinf(lines.meeting_px(first, first, i, j, t)).all()
     assert np.isinf(lines.meeting_px(first, second - 2, i, j, t)).all()
 
@@ -197,3 +198,124 @@ def test_of_a_spheres_two_hits_the_nearer_to_t(camera: Camera) -> None:
         found.append(t)
     assert (found[0] < found[1]).all()
     np.testing.assert_allclose(np.mean(found, axis=0)[0], seen.parameter[0], rtol=0.05)
+
+
+CHECKERED = Material(checker=Checker(size=0.4))
+FLATTENED = np.array([[1.1, 0, 0.2, 0.1], [0, 0.7, 0, 0.2], [0.3, 0, 1.3, 0], [0, 0, 0, 1.0]])
+
+
+def checkered_plane() -> SceneObject:
+    shape = plane((0.3, 0.5, 1.0), (0, 0, -3)).shape
+    return SceneObject(replace(shape, transform=FLATTENED), CHECKERED)
+
+
+def cells(lines: Lines, i: np.ndarray, j: np.ndarray) -> np.ndarray:
+    """The checker cell (n, 3) that the only primitive shows at places of the image."""
+    origin, direction = lines.camera.ray(i, j, SIZE)
+    t = lines.parameter(np.zeros(i.size, int), i, j, np.zeros(i.size))
+    points = origin + t[:, None] * direction
+    if len(lines.flat.spheres):
+        normal = points - lines.flat.spheres[0, :3]
+        matrix = np.eye(4)
+        matrix[:3, 3] = lines.flat.spheres[0, :3]
+    else:
+        a, b, c = (FLATTENED @ [*v, 1.0] for v in checkered_plane().shape.vertices)
+        normal = np.broadcast_to(np.cross((b - a)[:3], (c - a)[:3]), points.shape)
+        matrix = FLATTENED
+    normal = normal * -np.sign((normal * direction).sum(axis=1, keepdims=True))
+    linear = np.linalg.inv(matrix)[:3] / 0.4
+    nudge = normal @ linear[:, :3].T
+    nudge *= 1e-3 / np.linalg.norm(nudge, axis=1, keepdims=True)
+    return np.floor(points @ linear[:, :3].T + linear[:, 3] + 0.5 - nudge)
+
+
+@named
+@pytest.mark.parametrize(
+    "entry",
+    [checkered_plane(), SceneObject(Sphere((0.2, 0.1, -3.0), 0.9), CHECKERED)],
+    ids=["plane", "sphere"],
+)
+def test_a_checker_cell_ends_at_the_distance_of_its_border(camera: Camera, entry) -> None:
+    """Up to there all round the place there is one cell, and a little further there is another."""
+    lines = Lines(flatten(Scene((entry,))), camera, SIZE)
+    rng = np.random.default_rng(8)
+    i, j = rng.uniform(85, 160, 1500), rng.uniform(130, 220, 1500)
+    primitive = np.zeros(len(i), int)
+    t = lines.parameter(primitive, i, j, np.zeros(len(i)))
+    inside = np.isfinite(t)
+    i, j, t, primitive = i[inside], j[inside], t[inside], primitive[inside]
+    found = lines.checker_px(primitive, i, j, t)
+    near = (found > 0.06) & (found < 0.8)
+    assert near.sum() > 40
+    angles = np.linspace(0, 2 * np.pi, 60, endpoint=False)[:, None]
+    here = cells(lines, i[near], j[near])
+    for part, same in ((0.9, True), (1.1, False)):
+        rows = i[near] + part * found[near] * np.sin(angles)
+        columns = j[near] + part * found[near] * np.cos(angles)
+        there = cells(lines, rows.ravel(), columns.ravel()).reshape(*rows.shape, 3)
+        stays = (there == here).all(axis=(0, 2))
+        # All but some at the cells' corners, and where a sphere leaves a layer of cells.
+        assert np.mean(stays == same) > 0.94
+    plain = Lines(flatten(Scene((replace(entry, material=Material()),))), camera, SIZE)
+    assert np.isinf(plain.checker_px(primitive, i, j, t)).all()
+    assert np.isinf(lines.checker_px(primitive - 1, i, j, t)).all()
+
+
+@named
+def test_smooth_normals_and_colours_change_as_their_interpolation_does(camera: Camera) -> None:
+    corners = np.array([(-1.5, -1.0, -4.0), (1.7, -0.6, -3.0), (0.2, 1.4, -5.0)])
+    normals = np.array([(0.6, 0, 0.8), (-0.28, 0, 0.96), (0, 0.8, 0.6)])
+    colors = np.array([(0.9, 0.2, 0.4), (0.3, 0.8, 0.5), (0.2, 0.6, 0.9)])
+    mesh = Mesh(corners, [[0, 1, 2]], normals, colors)
+    sphere = SceneObject(Sphere((0, 0, -9), 1.0))
+    lines = Lines(flatten(Scene((SceneObject(mesh), sphere))), camera, SIZE)
+    i, j = np.array([110.0, 125.0, 131.0]), np.array([150.0, 180.0, 190.0])
+
+    def interpolated(i_: np.ndarray, j_: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        origin, direction = camera.ray(i_, j_, SIZE)
+        across = np.cross(corners[1] - corners[0], corners[2] - corners[0])
+        t = (corners[0] - origin) @ across / (direction @ across)
+        weights = (origin + t[:, None] * direction) @ np.linalg.inv(corners)
+        normal = weights @ normals
+        return normal / np.linalg.norm(normal, axis=1, keepdims=True), weights @ colors
+
+    step = 1e-3
+    ways = [
+        [(after - before) / (2 * step) for before, after in zip(*ends, strict=True)]
+        for ends in (
+            (interpolated(i - step, j), interpolated(i + step, j)),
+            (interpolated(i, j - step), interpolated(i, j + step)),
+        )
+    ]
+    (normal_down, color_down), (normal_right, color_right) = ways
+    none = np.zeros(3, int)
+    slope, unknown = lines.normal_slope(none, i, j)
+    wanted = np.linalg.norm(np.hypot(normal_down, normal_right), axis=1)
+    np.testing.assert_allclose(slope, wanted, rtol=1e-4)
+    assert (unknown > 0).all() and (unknown < 1e-4).all()
+    wanted = np.hypot(color_down, color_right) / interpolated(i, j)[1]
+    np.testing.assert_allclose(lines.tint_slope(none, i, j), wanted, rtol=1e-4)
+    for primitive in (none + 1, none - 1):  # a sphere, and nothing
+        assert not np.any(lines.normal_slope(primitive, i, j))
+        assert lines.tint_slope(primitive, i, j).tolist() == np.zeros((3, 3)).tolist()
+
+
+@pytest.mark.parametrize("order", [(0, 1, 2), (1, 2, 0), (2, 1, 0)])
+def test_less_is_known_of_a_slivers_normal(order) -> None:
+    """As its longest edge's square to twice its area, and as its normals differ."""
+    corners = np.array([(0.25, 0.5, -3), (0.25, 1.5, -3), (0.24, 0.5, -3)])[list(order)]
+    normals = np.array([(0.6, 0, 0.8), (-0.6, 0, 0.8), (0, 0.6, 0.8)])[list(order)]
+    for given, varies in ((normals, 1.2), (None, 1.0)):
+        flat = flatten(Scene((SceneObject(Mesh(corners, [[0, 1, 2]], given)),)))
+        unknown = Lines(flat, PERSPECTIVE, SIZE).normal_slope(*np.zeros((3, 1), int))[1]
+        assert unknown == pytest.approx(4 * 2.0**-21 * 100 * varies, rel=1e-3)
+
+
+@pytest.mark.parametrize(("side", "touched"), [(-1, True), (1, False)])
+@pytest.mark.parametrize("order", [(0, 1, 2), (1, 2, 0), (2, 0, 1)])
+def test_an_edge_right_behind_the_eye_is_not_touched(side: int, touched: bool, order) -> None:
+    corners = np.array([(2e-4, 500, side * 2e-4), (2e-4, -500, side * 2e-4), (-900, 0, side * 9)])
+    flat = flatten(Scene((SceneObject(Mesh(corners[list(order)], [[0, 1, 2]])),)))
+    lines = Lines(flat, Camera(viewport=(-4, 4, -3, 3)), (32, 24))
+    distance = lines.outline_px(np.zeros(1, int), np.array([12]), np.array([22]))
+    assert (distance[0] == 0) == touched

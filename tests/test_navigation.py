@@ -284,3 +284,70 @@ def test_a_shift_keeps_the_viewport_s_size(camera: Camera, axis: int, value: flo
     assert high - low == pytest.approx(was_high - was_low)
     other = 2 - 2 * axis
     assert after.viewport[other : other + 2] == camera.viewport[other : other + 2]
+
+
+@pytest.mark.parametrize("mirrored", [1, -1])
+@pytest.mark.parametrize("upside_down", [1, -1])
+def test_orbit_turns_by_the_angles_of_the_drag(mirrored: int, upside_down: int) -> None:
+    camera = Camera(eye=(0, 1, 5), u=(mirrored, 0, 0), v=(0, upside_down, 0), w=(0, 0, 3))
+    after = navigation.orbited(camera, (0, 1, 0), 0.3, 0.2)
+    assert math.atan2(after.w[0], after.w[2]) == pytest.approx(-0.3 * mirrored)
+    assert math.asin(after.w[1] / 3) == pytest.approx(-0.2 * upside_down)
+    for up, elevation_deg in ((-3.0, 89.5), (3.0, -89.5)):
+        steepest = navigation.orbited(camera, (0, 1, 0), 0.0, upside_down * up)
+        assert math.degrees(math.asin(steepest.w[1] / 3)) == pytest.approx(elevation_deg)
+
+
+def test_where_the_wheel_stops_in_perspective() -> None:
+    """From a ten thousandth of the scene's reach to a hundred times it; back from anywhere."""
+    for before, after, may in (
+        (2.0, 1.0005, False),
+        (2.0, 1.002, True),
+        (1.0001, 1.0005, True),
+        (5.0, 1001.0, False),
+        (5.0, 999.0, True),
+        (3000.0, 2000.0, True),
+        (2.0, 2.0, True),
+    ):
+        cameras = (Camera(eye=(0, 0, z)) for z in (before, after))
+        assert navigation.may_zoom(*cameras, (0, 0, 1), (0, 0, 0), 10.0) == may
+
+
+def test_where_the_wheel_stops_with_parallel_rays() -> None:
+    """The viewport's width in the world counts: with u of length 2, four times its half."""
+    for before, after, may in (
+        (1.0, 0.2e-3, False),
+        (1.0, 0.3e-3, True),
+        (0.1e-3, 0.15e-3, True),
+        (1.0, 510.0, False),
+        (1.0, 490.0, True),
+        (1000.0, 900.0, True),
+        (1000.0, 1000.0, True),
+    ):
+        cameras = (
+            Camera(
+                u=(0, 2, 0), v=(1, 0, 0), viewport=(-h / 2, 3 * h / 2, -1, 1), projection="parallel"
+            )
+            for h in (before, after)
+        )
+        assert navigation.may_zoom(*cameras, (0, 0, 1), (0, 0, 0), 10.0) == may
+
+
+def test_how_far_off_a_point_is() -> None:
+    camera = Camera(eye=(1, 0, 5), distance=2.0)
+    assert navigation.parameter_of(camera, (0, 3, 0)) == pytest.approx(2.5)
+    parallel = replace(camera, projection="parallel")
+    assert navigation.parameter_of(parallel, (0, 3, 0)) == pytest.approx(5)
+    for point in ((0, 0, 5), (0, 0, 6)):
+        assert navigation.parameter_of(camera, point, behind=7.0) == 7
+        assert navigation.parameter_of(parallel, point) == 1
+
+
+def test_of_two_distances_with_one_field_of_view_the_larger() -> None:
+    """Of a viewport above the eye's axis: tan = d / (d^2 + 2)."""
+    camera = Camera(viewport=(-1, 1, 1, 2))
+    tan = math.tan(math.radians(15))
+    wanted = (1 / tan + math.sqrt(1 / tan**2 - 8)) / 2
+    assert navigation.distance_for(camera, 15) == pytest.approx(wanted)
+    with pytest.raises(LucidaError, match="is more than this off-axis viewport has"):
+        navigation.distance_for(camera, 20)

@@ -168,3 +168,63 @@ def test_an_image_that_follows_a_larger_window_is_reduced_in_a_smaller_one():
     assert here.magnification == 0.5
     assert place(ImageOptions(), (300, 300), (320, 310)).magnification == 1
     assert place(ImageOptions(pixel_size=4), (80, 75), (320, 300)).magnification == 4
+
+
+def test_what_is_seen_of_an_image_by_hand():
+    at = placement.Placement((10, 20), (100, 100), 8.0, (-12, 10), (80, 160))
+    assert at.visible == (0, 10, 68, 100)
+    assert at.visible_parts == (12 / 80, 0, 1, 90 / 160)
+    assert at.visible_pixels == (0, 1, 12, 10)
+    assert at.unit == (8, 8)
+    assert at.corner_of(3, 5) == (28, 34)
+    assert at.image_position(28, 34) == (2.5, 4.5)
+    assert at.pixel_at(-500, -500) == (0, 0)
+    assert at.pixel_at(500, 500) == (19, 9)
+    assert at.part_at(28, 34) == (0.5, 0.15)
+    assert not at.sees_all
+    assert not replace(at, extent=(81, 160)).whole
+
+
+def test_the_smallest_of_images_and_windows_show_something():
+    assert placed((10, 10), (100, 100), magnification=1 / 64).extent == (1, 1)
+    assert placed((10, 10), (0, 0)).visible == (0, 0, 1, 1)
+    assert placed((4096, 4096), (1, 1)).magnification == placement.LEAST
+
+
+def test_every_pixel_can_be_brought_into_sight():
+    """Along an axis on which it is in sight already, nothing moves; else it comes to the middle."""
+    size, pane = (40, 30), (320, 240)
+    options = ImageOptions(resolution=size, magnification=16.0, center=(0.3, 0.6))
+    at = place(options, size, pane)
+    top, left, bottom, right = at.visible_pixels
+    for row in range(30):
+        for column in range(40):
+            seen = left <= column < right, top <= row < bottom
+            changes = shown_pixel(at, (row, column))
+            assert (changes == {}) == all(seen)
+            moved = place(replace(options, **changes), size, pane)
+            for k, number in enumerate((column, row)):
+                middle = pane[k] / 2 - (number + 0.5) * 16
+                centered = min(max(middle, pane[k] - 16 * size[k]), 0)
+                wanted = at.origin[k] if seen[k] else centered
+                assert abs(moved.origin[k] - wanted) <= 1
+
+
+def test_windows_are_nearly_as_large_from_85_percent_on_both_ways():
+    large = (100, 200)
+    assert placement.common_pane([large, (85, 170)]) == (85, 170)
+    for other in ((84, 200), (100, 169), (84, 169)):
+        assert placement.common_pane([large, other]) == large
+
+
+def test_every_step_of_the_wheel():
+    for k, magnification in enumerate(placement.STEPS[1:-1], start=1):
+        fit = placement.LEAST / 2
+        assert stepped(magnification, 1, fit) == placement.STEPS[k + 1]
+        assert stepped(magnification, 0.3, fit) == placement.STEPS[k + 1]
+        assert stepped(magnification, -1, fit) == placement.STEPS[k - 1]
+    assert stepped(placement.LEAST, -1, fit) == placement.LEAST
+    assert stepped(7.5, 1, 1) == 8
+    assert stepped(7.5, -1, 1) == 6
+    assert stepped(2, 1, 7) == 3, "onwards from below the fit"
+    assert stepped(3, -1, 2) is None, "which is the fit"

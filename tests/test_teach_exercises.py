@@ -33,6 +33,9 @@ class TestAnswers:
             ("\u221a(2)/2", math.sqrt(0.5)),
             ("2e-3", 0.002),
             ("+3", 3.0),
+            ("2 + 3 \u00b7 4", 14.0),
+            ("-\u03c0/2", -math.pi / 2),
+            ("7".ljust(80, "0"), 7e79),
         ],
     )
     def test_numbers(self, text, value):
@@ -50,6 +53,22 @@ class TestAnswers:
             number(text)
 
     @pytest.mark.parametrize(
+        ("text", "told"),
+        [
+            (" ", "is empty; give a number"),
+            ("9" * 81, "is too long; give a number"),
+            (" 3 /0", "'3 /0' divides by zero"),
+            ("1e999", "'1e999' is not finite"),
+            ("1e400 - 1e400", "'1e400 - 1e400' is not finite"),
+            ("2**3", "'2**3' is not a number; give one such as"),
+        ],
+    )
+    def test_what_is_told_of_it(self, text, told):
+        with pytest.raises(LucidaError) as error:
+            number(text)
+        assert told in str(error.value)
+
+    @pytest.mark.parametrize(
         "text", ["(1/8, 0, -1)", "1/8, 0, -1", "[0.125; 0; -1]", "1/8 0 -1", "(1/8), 0, (-1)"]
     )
     def test_vectors(self, text):
@@ -65,6 +84,11 @@ class TestAnswers:
             "1/8", "0", "3", "-2/3", "5/16", "0.7071",
         ]  # fmt: skip
         assert vector_text(np.array([0.5, 0, -1])) == "(1/2, 0, -1)"
+        for below in (2, 3, 4, 5, 6, 8, 10, 12, 16, 24, 32):
+            assert text_of(1 / below) == f"1/{below}"
+        for value in (1 / 7, 1 / 9, 1 / 64, 0.25 + 1e-8):
+            assert text_of(value) == f"{value:.4g}"
+        assert text_of(0.25 + 1e-11) == "1/4"
 
 
 CANONICAL = RayExercise("Which?", Camera.canonical(), (1, 5), (8, 8))

@@ -34,20 +34,29 @@ MEMORY_BYTES = 16 << 30
 LEAST_S = 5.0
 
 
-def _prepare() -> None:
-    """No output; a bound on memory."""
+def _prepare() -> int:
+    """No output; a bound on memory. Gives what leads to the output that was."""
+    told = os.dup(1)
     nothing = os.open(os.devnull, os.O_WRONLY)
     os.dup2(nothing, 1)
     os.dup2(nothing, 2)
     resource.setrlimit(resource.RLIMIT_AS, (MEMORY_BYTES, MEMORY_BYTES))
+    return told
 
 
 class _Examples:
     """The same examples for all mutants, none kept. After conftest.py has said what it wants."""
 
+    count = 100
+
     def pytest_sessionstart(self) -> None:
         hypothesis.settings.register_profile(
-            "mutants", deadline=None, derandomize=True, database=None, print_blob=False
+            "mutants",
+            max_examples=self.count,
+            deadline=None,
+            derandomize=True,
+            database=None,
+            print_blob=False,
         )
         hypothesis.settings.load_profile("mutants")
 
@@ -90,15 +99,17 @@ def collected_run(root: Path, module: str, chosen: list[Mutant], tests: list[str
 
     {"error": ...} where the tests do not pass as they are.
     """
-    _prepare()
-    plugin = _Plugin(root, module, [mutant for mutant in chosen if mutant.function])
+    told = _prepare()
+    plugin = _Plugin(root, module, [mutant for mutant in chosen if mutant.function], told)
     status = pytest.main([*ARGUMENTS, f"--rootdir={root}", *tests], plugins=[plugin])
     return plugin.found or {"error": f"pytest ends with {int(status)}"}
 
 
 class _Plugin(_Examples):
-    def __init__(self, root: Path, module: str, chosen: list[Mutant]) -> None:
-        self._root, self._module, self._chosen = root, module, chosen
+    count = 25  # enough for most mutants; what survives is tried afresh, with all
+
+    def __init__(self, root: Path, module: str, chosen: list[Mutant], told: int) -> None:
+        self._root, self._module, self._chosen, self._told = root, module, chosen, told
         self._failed = ""
         self.found: dict[str, Any] = {}
 
@@ -116,19 +127,27 @@ class _Plugin(_Examples):
             return True
         killers: dict[str, int] = {}
         outcomes = {}
-        for mutant in self._chosen:
+        for number, mutant in enumerate(self._chosen, start=1):
             wanted = [item for item in items if mutant.function in reached[item.nodeid]]
             wanted.sort(key=lambda item: (-killers.get(item.nodeid, 0), lengths[item.nodeid]))
             if not wanted:
                 outcomes[mutant.key] = "unreached"
+                self._tell(number, mutant, "no test runs it")
                 continue
             limit_s = LEAST_S + 4 * sum(lengths[item.nodeid] for item in wanted)
             killer = forked(lambda m=mutant, w=wanted: self._try(m, w), limit_s)  # type: ignore[misc]
             outcomes[mutant.key] = "survived" if killer == "" else "killed"
+            if killer == "":
+                self._tell(number, mutant, f"{len(wanted)} tests pass")
             if killer:
                 killers[killer] = killers.get(killer, 0) + 1
         self.found = {"outcomes": outcomes, "reached": reached, "lengths": lengths}
         return True
+
+    def _tell(self, number: int, mutant: Mutant, why: str) -> None:
+        """Of one that is not noticed yet, at once: a module can take an hour."""
+        line = f"  ({number} of {len(self._chosen)}: {why}) line {mutant.line}: {mutant.key}\n"
+        os.write(self._told, line.encode())
 
     def _baseline(self, items: list[pytest.Item]) -> tuple[dict, dict, str]:
         """Of each test its time in seconds and the module's functions that it reaches; and one
