@@ -104,8 +104,8 @@ def _lanes(p, column, row):
 
 @inlined
 def exact_points(view, first, t):
-    """The points of a square's rays at t, F64, relative to the view's near_point: three F32, rounded
-    only at the end."""
+    """The points of a square's rays at t, F64, relative to the view's near_point: three F32, which
+    are rounded only at the end."""
     return (
         _coordinate(view, 0, first, t),
         _coordinate(view, 1, first, t),
