@@ -160,12 +160,9 @@ def _times_plot(unit: Unit, told: Told, size: ImVec2) -> None:
     lines = [[(n, 1e3 * t) for n, t in times_of(told, unit, renderer)] for renderer in RENDERERS]
     if not _begin("milliseconds, on this machine", unit, size, lines):
         return
-    at = 1
-    slower = [
-        dict(points).get(lines[0][at][0], 0.0) if len(lines[0]) > at else 0.0 for points in lines
-    ]
+    first = [points[0][1] if points else 0.0 for points in lines]
     for k, renderer in enumerate(RENDERERS):
-        _line(renderer, lines[k], renderer, at, above=slower[k] == max(slower))
+        _line(renderer, lines[k], renderer, 1, above=first[k] == max(first))
     implot.end_plot()
 
 
