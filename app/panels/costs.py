@@ -194,7 +194,7 @@ def _line(title: str, points: Sequence[Point], renderer: Renderer, at: int, abov
     x, y = points[min(at, len(points) - 1)]
     width = imgui.calc_text_size(title).x / 2
     offset = ImVec2(-0.3 * width, -1.2 * beside.y) if above else ImVec2(width + beside.x, beside.y)
-    implot.push_style_color(implot.Col_.inlay_text, color_of(renderer))
+    implot.push_style_color(implot.Col_.inlay_text, theme.legible(color_of(renderer)))
     implot.plot_text(title, x, y, offset)
     implot.pop_style_color()
 

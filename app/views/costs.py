@@ -80,7 +80,7 @@ class CostsView(View):
         panel.plot(options, told, ImVec2(room.x, max(60.0, room.y - below - gap)))
         imgui.push_text_wrap_pos(0.0)
         for renderer, line in said:
-            imgui.text_colored(panel.color_of(renderer), line)
+            imgui.text_colored(theme.legible(panel.color_of(renderer)), line)
         if explained:
             imgui.text_colored(theme.DIM, explained)
         imgui.pop_text_wrap_pos()
