@@ -6,6 +6,7 @@ counted or times measured.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from typing import Literal, NamedTuple
@@ -26,6 +27,7 @@ ORDERS: dict[Renderer, str] = {"raster": "Object order", "ray": "Image order"}
 SMOOTHED = 9  # frames
 SHORTEST_S = 1e-6  # a clock that is coarser tells 0
 POWERS = tuple(10.0**k for k in range(-3, 10))  # that an axis may show
+SMALL_EM = 28  # wide and high: a view that has no room for two plots
 MARGIN = 1.5  # beside the least and the most on an axis
 Unit = Literal["triangles", "pixels"]
 AGAINST: tuple[Literal["frames", "triangles", "pixels"], ...] = ("frames", "triangles", "pixels")
@@ -129,12 +131,15 @@ def frames_plot(told: Told, size: ImVec2) -> None:
 
 def plot(options: CostOptions, told: Told, size: ImVec2) -> None:
     """Steps and times, all axes logarithmic: a loop over n is a straight line that climbs like n.
-    Side by side where there is room, else one above the other."""
+    Side by side where there is room, else one above the other; in a small view, steps only."""
     unit = options.against
     if unit == "frames":
         frames_plot(told, size)
         return
     gap = imgui.get_style().item_spacing
+    if max(size.x, size.y) < SMALL_EM * imgui.get_font_size():
+        _steps_plot(unit, told, size)
+        return
     if size.x >= size.y:
         each = ImVec2((size.x - gap.x) / 2, size.y)
     else:
@@ -171,12 +176,18 @@ def _begin(title: str, unit: Unit, size: ImVec2, lines: Sequence[Sequence[Point]
     if not implot.begin_plot(title, size, flags):
         return False
     implot.setup_axes(unit, "")
+    em = imgui.get_font_size()
     x, y = implot.ImAxis_.x1, implot.ImAxis_.y1
     low, high = _powers_around([value for points in lines for _, value in points])
     for axis, least, most in ((x, *extent(unit)), (y, low, high)):
         implot.setup_axis_scale(axis, implot.Scale_.log10)
         implot.setup_axis_limits(axis, least / MARGIN, most * MARGIN, implot.Cond_.always)
-        implot.setup_axis_ticks(axis, list(POWERS), [_written(power) for power in POWERS])
+        # As many powers of ten as have room beside each other.
+        across = size.x / 2.5 if axis == x else size.y - 5 * em
+        fit = max(1.0, across / (1.5 * em))
+        every = max(1, math.ceil(math.log10(most / least) / fit))
+        ticks = [power for k, power in enumerate(POWERS) if k % every == 0]
+        implot.setup_axis_ticks(axis, ticks, [_written(power) for power in ticks])
     return True
 
 

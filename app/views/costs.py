@@ -73,7 +73,8 @@ class CostsView(View):
             imgui.text_colored(theme.ERROR, f"{renderer}: {problem}")
         room = imgui.get_content_region_avail()
         said = panel.said(options, told)
-        explained = EXPLAINED if options.against != "frames" else ""
+        roomy = room.y > 20 * imgui.get_font_size()
+        explained = EXPLAINED if roomy and options.against != "frames" else ""
         notes = [line for _, line in said] + ([explained] if explained else [])
         gap = imgui.get_style().item_spacing.y
         below = sum(imgui.calc_text_size(note, wrap_width=room.x).y + gap for note in notes)
