@@ -19,6 +19,7 @@ from renderer.scene.model import View
 Index = Annotated[int, Range(0, LARGEST_SIDE - 1)]
 Pixel = tuple[Index, Index]  # (row, column), 0-based, row 0 at the top
 Part = Annotated[float, Range(0, 1)]  # of a width or height
+Coordinate = Annotated[float, Range(-1e6, 1e6)]
 Rays = Annotated[int, Range(0, 64)]  # rows, or columns, of viewing rays
 Step = Annotated[int, Range(0, 1_000_000)]  # of a run of the loop stepper
 
@@ -82,7 +83,9 @@ class CompareOptions:
 class OutsideOptions:
     """The outside view. camera: the free camera that looks at the scene and the other camera;
     None: one that sees both. bundle: rows and columns of the bundle of viewing rays; (0, 0): none.
-    gizmo: what the handles in the view do to the camera.
+    gizmo: what the handles in the view do to the camera. target: a point to draw as **a**, and up
+    as an arrow at the eye: what a lecture makes a basis from; None: neither. parameters: the points
+    of the marked pixel's ray at t = 0 and 1.
     """
 
     camera: Camera | None = None
@@ -93,6 +96,9 @@ class OutsideOptions:
     ray: bool = True
     bundle: tuple[Rays, Rays] = (0, 0)
     gizmo: Literal["none", "move", "turn"] = "none"
+    target: tuple[Coordinate, Coordinate, Coordinate] | None = None
+    up: tuple[Coordinate, Coordinate, Coordinate] = (0.0, 1.0, 0.0)
+    parameters: bool = False
 
 
 @dataclass(frozen=True)

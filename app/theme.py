@@ -51,6 +51,9 @@ class Palette:
     LINE_WIDTH: float = 1.0
 
 
+# Of a colour's channels, red, green and blue; legible() makes text of them.
+CHANNELS = (rgb("#e5484d"), rgb("#46a758"), rgb("#4f8ff7"))
+
 # Okabe and Ito's colours; blue is lightened, or it drowns in the dark background.
 DARK = Palette(
     BASIS={"u": rgb("#d55e00"), "v": rgb("#009e73"), "w": rgb("#3f9be0")},

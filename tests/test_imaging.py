@@ -11,6 +11,7 @@ from app.images import imaging
 from app.images.marking import followed, moved
 from app.images.pixelvalues import is_dark, line_count, shown_bytes, value_lines
 from app.options import Channel, ImageOptions
+from app.panels.strip import told_now
 from app.state import AppState
 from renderer.camera import Camera
 from renderer.errors import LucidaError
@@ -194,3 +195,13 @@ def test_depths_beyond_the_range_are_its_ends():
     shown = shown_bytes(depth, replace(COLOR, channel="depth"), (2.0, 4.0))[0, :, 0].tolist()
     last = round(255 * FARTHEST_GRAY)
     assert shown == [255, 255, round(255 * (1 + FARTHEST_GRAY) / 2), last, last, 0]
+
+
+def test_the_strips_tooltips_say_what_is_chosen():
+    state = AppState.for_scene(Scene(()))
+    told = {part: told_now(state, part) for part in ("channel", "transfer", "component")}
+    assert told["transfer"].startswith("sRGB: linear light through")
+    assert told["component"].startswith("RGB: red, green and blue")
+    assert told["channel"].startswith("Colour: ")
+    assert told_now(imaging.with_transfer_switched(state), "transfer").startswith("linear: ")
+    assert told_now(state, "resolution") == ""

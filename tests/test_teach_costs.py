@@ -1,28 +1,29 @@
-"""The cost plot's measuring: which cases, in which order, what is kept. Never how long it took."""
+"""The cost plot's counting and measuring: which cases, in which order, what is kept. Never how long
+it took. test_teach_work.py has what is counted, and what is said of it."""
 
 from __future__ import annotations
 
 import math
 import threading
-import time
 
 import pytest
 
 from app.bounds import whole_range_of
 from app.options import CostOptions
+from app.panels.costs import Told, said
 from app.teach.costs import (
+    COUNTING,
     ROUNDS,
     Case,
     Meter,
     Sample,
     cases,
     count,
-    growth,
-    growth_text,
     measure,
     steps,
     torus_of,
 )
+from app.teach.work import Work
 from renderer.camera import Camera
 from renderer.errors import LucidaError
 from renderer.frame import Frame
@@ -53,6 +54,18 @@ class Fake:
 
     def release(self) -> None:
         self.released = True
+
+
+class FakeCounter:
+    """Counts nothing, and says which images it was asked for."""
+
+    def __init__(self) -> None:
+        self.asked: list[tuple[int, tuple[int, int]]] = []
+
+    def work(self, scene: Scene, camera: Camera, size) -> Work:
+        n, pixels = count(scene), size[0] * size[1]
+        self.asked.append((n, size))
+        return Work(n, pixels, n, 2 * pixels, pixels, int(pixels * (3 + math.log2(n))), pixels)
 
 
 @pytest.mark.parametrize("triangles", [18, 100, 1000, 12345, 100_000, MOST_TRIANGLES])
@@ -94,17 +107,6 @@ def test_a_measure_is_the_least_time_after_warming_up() -> None:
     assert sample.pixels == 80 * 60
 
 
-def test_growth_tells_the_loops_apart() -> None:
-    by_triangles, by_pixels = Fake(1e-6, 0), Fake(0, 1e-6)
-    counts = steps(100, 100_000, 5)
-    for fake, exponent in ((by_triangles, 1.0), (by_pixels, 0.0)):
-        samples = [measure(Case("ray", n, 4800), fake) for n in counts]
-        assert growth(samples, "triangles") == pytest.approx(exponent, abs=1e-6)
-    assert growth_text(samples, "triangles") == "~ triangles^0"
-    assert growth(samples[:1], "triangles") is None
-    assert growth_text(samples[:1], "triangles") == ""
-
-
 def gathered(meter: Meter, done: threading.Event) -> tuple[Sample, ...]:
     assert done.wait(60)
     return meter.samples
@@ -119,7 +121,7 @@ def test_a_meter_measures_what_is_asked_and_once() -> None:
 
     wanted = cases((100, 1000), (1200, 4800))
     assert len(wanted) == 8
-    meter = Meter(lambda: len(meter.samples) == 8 and done.set(), make)
+    meter = Meter(lambda: len(meter.samples) == 8 and done.set(), make, FakeCounter)
     meter.ask(wanted)
     samples = gathered(meter, done)
     assert [sample.case for sample in samples] == wanted
@@ -138,7 +140,7 @@ def test_a_meter_goes_on_with_the_renderer_that_works() -> None:
             raise LucidaError("OpenGL", "is missing", "install it")
         return Fake(0, 1e-9)
 
-    meter = Meter(lambda: meter.waiting == 0 and done.set(), make)
+    meter = Meter(lambda: meter.waiting == 0 and done.set(), make, FakeCounter)
     meter.ask(cases((100,), (1200, 4800)))
     samples = gathered(meter, done)
     assert [sample.case.renderer for sample in samples] == ["ray", "ray"]
@@ -157,7 +159,7 @@ def test_other_cases_take_the_place_of_waiting_ones() -> None:
             assert go.wait(60)
             return super().render(camera, size, channels)
 
-    meter = Meter(lambda: meter.waiting == 0 and done.set(), lambda _: Slow(0, 1e-9))
+    meter = Meter(lambda: meter.waiting == 0 and done.set(), lambda _: Slow(0, 1e-9), FakeCounter)
     meter.ask(cases((100, 1000, 10_000), (1200,), ("ray",)))
     assert begun.wait(60)
     meter.ask(cases((500,), (1200,), ("ray",)))
@@ -178,7 +180,7 @@ def test_watching_draws_again_and_again() -> None:
         if made["raster"].scene is torus_of(1000) and len(meter.history) >= 5:
             more.set()
 
-    meter = Meter(changed, made.__getitem__)
+    meter = Meter(changed, made.__getitem__, FakeCounter)
     meter.watch(100, 1200)
     assert enough.wait(60)
     assert meter.busy
@@ -200,7 +202,7 @@ def test_watching_goes_on_without_a_renderer() -> None:
             raise LucidaError("OpenGL", "is missing", "install it")
         return Fake(0, 1e-9)
 
-    meter = Meter(lambda: len(meter.history) >= 2 and enough.set(), make)
+    meter = Meter(lambda: len(meter.history) >= 2 and enough.set(), make, FakeCounter)
     meter.watch(100, 1200)
     assert enough.wait(60)
     meter.unwatch()
@@ -211,7 +213,9 @@ def test_watching_goes_on_without_a_renderer() -> None:
 
 def test_what_cannot_be_watched_is_told_and_the_meter_goes_on() -> None:
     enough = threading.Event()
-    meter = Meter(lambda: len(meter.history) >= 2 and enough.set(), lambda _: Fake(0, 1e-9))
+    meter = Meter(
+        lambda: len(meter.history) >= 2 and enough.set(), lambda _: Fake(0, 1e-9), FakeCounter
+    )
     for triangles, pixels in ((1, 1200), (100, 0), (10**9, 1200)):
         with pytest.raises(LucidaError, match="is out of range"):
             meter.watch(triangles, pixels)
@@ -222,31 +226,93 @@ def test_what_cannot_be_watched_is_told_and_the_meter_goes_on() -> None:
     assert meter.problems == {}
 
 
-@pytest.mark.filterwarnings("ignore::pytest.PytestUnhandledThreadExceptionWarning")
-def test_a_thread_that_fell_leaves_its_place_to_another() -> None:
-    fell, done, made = [], threading.Event(), []
+def test_the_steps_are_counted_before_anything_is_timed_and_once() -> None:
+    done, seen, counters = threading.Event(), [], []
 
     def changed() -> None:
-        if not fell:
-            fell.append(threading.current_thread())
-            raise RuntimeError("the window is gone")
+        seen.append((len(meter.work), len(meter.samples)))
         if meter.waiting == 0:
             done.set()
 
-    def make(renderer):
-        made.append(Fake(0, 1e-9))
-        return made[-1]
+    def counter() -> FakeCounter:
+        counters.append(FakeCounter())
+        return counters[-1]
 
-    meter = Meter(changed, make)
-    meter.ask(cases((100,), (1200,)))
-    while not fell:
-        time.sleep(0.01)
-    fell[0].join(60)
-    assert not meter.busy and made[0].released
-    meter.ask(cases((100, 1000), (1200,)))
+    meter = Meter(changed, lambda _: Fake(1e-6, 1e-9), counter)
+    meter.ask(cases((100, 1000), (1200, 4800)))
     assert done.wait(60)
-    assert len(meter.samples) == 4
+    assert seen[3] == (4, 0) and seen[-1] == (4, 8)
+    assert set(meter.work) == {(100, 1200), (100, 4800), (1000, 1200), (1000, 4800)}
+    done.clear()
+    meter.clear()
+    assert len(meter.work) == 4  # exact: nothing to count again
+    meter.ask(cases((100,), (1200, 4800)))
+    assert done.wait(60)
     meter.close()
+    assert sum(len(one.asked) for one in counters) == 4
+
+
+def test_times_are_measured_where_counting_fails() -> None:
+    done = threading.Event()
+
+    class Fails:
+        def work(self, scene, camera, size):
+            raise MemoryError
+
+    meter = Meter(lambda: meter.waiting == 0 and done.set(), lambda _: Fake(0, 1e-9), Fails)
+    meter.ask(cases((100, 1000), (1200,)))
+    assert len(gathered(meter, done)) == 4
+    assert meter.problems == {COUNTING: "MemoryError"}
+    assert meter.work == {}
+    meter.close()
+
+
+def test_the_meter_survives_whoever_listens_and_whatever_is_released() -> None:
+    done, threads = threading.Event(), set()
+
+    class Stuck(Fake):
+        def release(self) -> None:
+            raise RuntimeError("the context is gone")
+
+    def changed() -> None:
+        threads.add(threading.current_thread())
+        if meter.waiting == 0:
+            done.set()
+        raise RuntimeError("the window is gone")
+
+    meter = Meter(changed, lambda _: Stuck(0, 1e-9), FakeCounter)
+    meter.ask(cases((100, 1000), (1200,)))
+    assert len(gathered(meter, done)) == 4
+    assert len(threads) == 1  # the same to the end
+    done.clear()
+    meter.ask(cases((500,), (1200,)))
+    assert done.wait(60)
+    assert len(meter.samples) == 6
+    meter.close()
+    assert not meter.busy
+
+
+def test_nothing_is_said_of_times_while_they_are_measured_nor_of_flat_ones() -> None:
+    options = CostOptions("triangles")
+    counts = steps(100, 1_000_000, 6)
+    raster, ray = Fake(1e-6, 0), Fake(0, 1e-6)
+    wanted = cases(counts, (4800,))
+    fakes = {"raster": raster, "ray": ray}
+    samples = [measure(case, fakes[case.renderer]) for case in wanted]
+    work = [FakeCounter().work(torus_of(n), Camera.canonical(), (80, 60)) for n in counts]
+    of_object, of_image = said(options, Told(work, samples, (), 0, {}))
+    assert of_object == (
+        "raster",
+        "Object order: triangles set up ~ triangles; pixels tested: the same;"
+        " time ~ triangles where its line is steep.",
+    )
+    assert of_image[1].startswith(
+        "Image order: rays: the same; nodes visited ~ log triangles (+1.0"
+    )
+    assert "time" not in of_image[1]
+    assert "time" not in said(options, Told(work, samples, (), 3, {}))[0][1]
+    for few in range(4):
+        assert said(options, Told(work[:few], samples[: 2 * few], (), 12, {})) == []
 
 
 def test_both_renderers_are_measured(gl_backend) -> None:
@@ -254,10 +320,11 @@ def test_both_renderers_are_measured(gl_backend) -> None:
         return Tracer(Scene(())) if renderer == "ray" else Rasterizer(Scene(()), gl_backend)
 
     done = threading.Event()
-    meter = Meter(lambda: meter.waiting == 0 and done.set(), make)
+    meter = Meter(lambda: meter.waiting == 0 and done.set(), make, FakeCounter)
     meter.ask(cases((100, 1000), (1200,)))
     assert done.wait(200)
     assert meter.problems == {}
     assert {sample.case.renderer for sample in meter.samples} == {"raster", "ray"}
+    assert meter.work[1000, 1200].rays == 1200
     assert all(sample.time_s > 0 for sample in meter.samples)
     meter.close()

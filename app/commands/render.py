@@ -23,7 +23,7 @@ DESCRIPTION = "Draw a scene with one of the two renderers and write one channel 
 EPILOG = """\
 formats, by OUT's ending:
   .png .ppm   picture: 8-bit sRGB colours
-  .pgm .pbm   picture: its gray (luminance), or that cut at half, one bit a pixel
+  .pgm .pbm   picture: its gray (luminance), or that cut at half, one bit per pixel
   .pfm        numbers: float32, linear light, one or three a pixel
   .exr        numbers: float32 R G B, Z (depth), N.X N.Y N.Z (normal); uint32 id,
               4294967295 where nothing is hit
@@ -77,7 +77,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
         type=common.samples,
         default=1,
         metavar="N",
-        help="colour samples a pixel: 1, 4, 9, 16, 25, 36, 49 or 64 (default: 1)",
+        help="colour samples per pixel: 1, 4, 9, 16, 25, 36, 49 or 64 (default: 1)",
     )
     parser.add_argument("--view", metavar="VIEW.toml", help=common.VIEW_HELP)
     common.add_camera_options(parser)

@@ -21,13 +21,16 @@ CHANNELS: dict[Channel, tuple[str, str]] = {
     "id": ("Object", "which object is seen: a colour for each"),
 }
 COMPONENTS: dict[Component, tuple[str, str]] = {
-    "rgb": ("RGB", "all three channels of a colour"),
+    "rgb": ("RGB", "red, green and blue, all three channels of a colour"),
     "red": ("Red", "the red channel only, as gray"),
     "green": ("Green", "the green channel only, as gray"),
     "blue": ("Blue", "the blue channel only, as gray"),
 }
 TRANSFERS = {
-    "srgb": ("sRGB", "linear light through sRGB's curve, as screens expect it"),
+    "srgb": (
+        "sRGB",
+        "linear light through the standard's curve, about light^(1/2.2), as screens expect it",
+    ),
     "linear": ("linear", "linear light as it is, without sRGB's curve: too dark"),
 }
 _SIZE = re.compile(r"\s*(\d{1,6})\s*[x*,; \N{MULTIPLICATION SIGN}]\s*(\d{1,6})\s*", re.IGNORECASE)

@@ -168,12 +168,13 @@ def diagram(
         items += _ray(camera, size, hit, end, 1.6, f"bundle {hit.pixel[0]} {hit.pixel[1]}")
     if marked is not None and options.ray:
         items += _marked(camera, size, marked, end)
+        if options.parameters:
+            items += _parameters(camera, size, marked.pixel)
     if options.basis:
         items += _basis(camera)
-    eye = np.asarray(camera.eye)
-    items.append(Eye("eye", eye, -np.asarray(camera.w)))
-    items.append(Label("eye", "text", "eye", eye))
-    return items
+    if options.target is not None:
+        items += _target(camera, options)
+    return items + _eye(camera, options)
 
 
 def _volume(camera: Camera, end: float) -> list[Item]:
@@ -208,6 +209,28 @@ def _volume(camera: Camera, end: float) -> list[Item]:
         if near < plane:
             items.append(Lines("distance", "plane", axis, 1.0, 0.55, 0.25, dashed=True))
     return items
+
+
+def _eye(camera: Camera, options: OutsideOptions) -> list[Item]:
+    """The eye. Parallel rays have none: there **e** is the point that the basis starts from."""
+    eye = np.asarray(camera.eye)
+    if not camera.is_parallel:
+        return [Eye("eye", eye, -np.asarray(camera.w)), Label("eye", "text", "eye", eye)]
+    if not options.basis:
+        return []
+    return [Dot("e", "eye", eye), Label("e", "text", "e", eye)]
+
+
+def _target(camera: Camera, options: OutsideOptions) -> list[Item]:
+    """What a basis is made from: the target a, the way to it, and up, at the eye."""
+    eye, target, up = (np.asarray(v, float) for v in (camera.eye, options.target, options.up))
+    return [
+        Lines("to target", "extra", np.array([[eye, target]]), 1.6, dashed=True, layer=2),
+        Dot("target", "extra", target, 6.0),
+        Label("target", "extra", "a", target, away=eye, strong=True),
+        Arrow("up", "extra", eye, eye + up),
+        Label("up", "extra", "up", eye + up, away=eye, strong=True, least=8.0),
+    ]
 
 
 def _basis(camera: Camera) -> list[Item]:
@@ -258,3 +281,17 @@ def _marked(camera: Camera, size: Size, hit: Hit, end: float) -> list[Item]:
         items.append(Dot("hit", "mark", reached, 6.0))
         items.append(Label("hit", "mark", f"t = {t:.4g}", reached, away=origin))
     return items
+
+
+def _parameters(camera: Camera, size: Size, pixel: Pixel) -> list[Item]:
+    """Points of the pixel's ray at t = 0 and 1, and a piece of its line before it begins."""
+    x, y = (float(part) for part in camera.image_point(*pixel, size))
+    before, first, second = point_at(camera, [x] * 3, [y] * 3, [-0.6, 0.0, 1.0])
+    return [
+        Lines("behind", "ray", np.array([[before, first]]), 1.4, 0.6, 0.3, dashed=True, layer=2),
+        Label("t < 0", "ray", "t < 0", before, away=first),
+        Dot("t = 0", "ray", first, 5.0, layer=5),
+        Label("t = 0", "ray", "p (t = 0)", first, away=first - camera.v),
+        Dot("t = 1", "ray", second, 5.0, layer=5),
+        Label("t = 1", "ray", "p + d (t = 1)", second, away=second + camera.v),
+    ]

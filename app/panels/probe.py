@@ -330,9 +330,10 @@ def _result(reading: Reading, fonts: Fonts) -> None:
     imgui.same_line()
     imgui.push_font(fonts.mono, 0.0)
     imgui.align_text_to_frame_padding()
-    imgui.text("{:3d} {:3d} {:3d}".format(*reading.bytes))
+    for name, color, value in zip("RGB", theme.CHANNELS, reading.bytes, strict=True):
+        imgui.text_colored(theme.legible(color), f"{name} {value:3d}")
+        imgui.same_line()
     imgui.pop_font()
-    imgui.same_line()
     seen = reading.winner.name if reading.winner is not None else "background"
     imgui.text_colored(theme.DIM, f"{seen}, as sRGB bytes" * (reading.transfer == "srgb") or seen)
 

@@ -60,7 +60,7 @@ def image_strip(strip: Strip, state: AppState) -> AppState:
         if _drop_down(name, text, width):
             imgui.open_popup(name)
         low, high = imgui.get_item_rect_min(), imgui.get_item_rect_max()
-        imgui.set_item_tooltip(tooltip)
+        imgui.set_item_tooltip(f"{told_now(state, name)}{tooltip}")
         imgui.set_next_window_pos(ImVec2(low.x, high.y + 2), imgui.Cond_.appearing)
         if imgui.begin_popup(name):
             state = menu(strip, state)
@@ -73,6 +73,17 @@ def image_strip(strip: Strip, state: AppState) -> AppState:
     imgui.pop_style_var()
     imgui.set_cursor_screen_pos(ImVec2(start.x, far.y))
     return state
+
+
+def told_now(state: AppState, part: str) -> str:
+    """What the chosen entry of a part means, for its tooltip: `sRGB: linear light through ...`."""
+    options = state.images
+    chosen = {
+        "channel": CHANNELS[options.channel],
+        "transfer": TRANSFERS[options.transfer],
+        "component": COMPONENTS[options.component],
+    }
+    return ": ".join(chosen[part]) + ".\n" if part in chosen else ""
 
 
 def _drop_down(name: str, text: str, width: float) -> bool:

@@ -1,4 +1,4 @@
-"""What an image costs: both fast renderers' times against the number of triangles and of pixels.
+"""What an image costs: both loops' steps, counted, and both fast renderers' times, measured.
 
 Owns the scenes that are measured and the measuring, in a thread of its own. Knows nothing of how
 times are plotted. The rasterizer gets an OpenGL context of its own there: no window waits for it.
@@ -6,17 +6,18 @@ times are plotted. The rasterizer gets an OpenGL context of its own there: no wi
 
 from __future__ import annotations
 
+import logging
 import math
 import threading
 from collections import deque
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass
-from functools import lru_cache
+from functools import cached_property, lru_cache, partial
 from typing import Literal, Protocol
 
 from app.bounds import check
 from app.options import CostOptions
-from app.teach.notation import number
+from app.teach.work import Counter, Work
 from renderer.camera import Camera, Size
 from renderer.frame import Frame
 from renderer.scene import shapes
@@ -25,9 +26,13 @@ from renderer.scene.model import DirectionalLight, Material, Mesh, Scene, SceneO
 
 Renderer = Literal["raster", "ray"]
 RENDERERS: tuple[Renderer, ...] = ("raster", "ray")
+COUNTING = "counting"  # where problems are told, beside the renderers' names
 ROUNDS = 5  # times that each case is drawn; the least counts, others had company
 WATCHED = 240  # frames that are kept while watching
 WATCH_S = 0.04  # from one watched frame to the next, so that others have the processor too
+_LOG = logging.getLogger(__name__)
+
+Image = tuple[int, int]  # triangles and pixels, as they were asked for
 
 
 @dataclass(frozen=True)
@@ -40,6 +45,11 @@ class Case:
 
     def __post_init__(self) -> None:
         check(CostOptions, {"triangles": self.triangles, "pixels": self.pixels})
+
+    @property
+    def image(self) -> Image:
+        """What both renderers draw for this case."""
+        return self.triangles, self.pixels
 
     @property
     def size(self) -> Size:
@@ -118,24 +128,62 @@ def measure(case: Case, drawing: Drawing) -> Sample:
     return Sample(case, count(scene), width * height, min(times[1:]))
 
 
-class Meter:
-    """Measures in the background: cases that are asked for, or one again and again.
+class Counting(Protocol):
+    """What counts: a Counter."""
 
-    changed: called from its thread after each sample. make: how the renderers are made there; for
-    tests.
+    def work(self, scene: Scene, camera: Camera, size: Size) -> Work: ...
+
+
+class _Bench:
+    """What the meter's thread works with."""
+
+    def __init__(
+        self, make: Callable[[Renderer], Drawing], counter: Callable[[], Counting]
+    ) -> None:
+        self._make, self._counter = make, counter
+        self._drawings: dict[Renderer, Drawing] = {}
+        self.scenes: dict[Renderer, Scene] = {}  # that were watched last
+
+    def drawing(self, renderer: Renderer) -> Drawing:
+        if renderer not in self._drawings:
+            self._drawings[renderer] = self._make(renderer)
+        return self._drawings[renderer]
+
+    @cached_property
+    def counter(self) -> Counting:
+        return self._counter()
+
+    def release(self) -> None:
+        for drawing in self._drawings.values():
+            try:
+                _release(drawing)
+            except Exception:
+                _LOG.exception("lucida: a renderer of the cost plot was not released")
+
+
+class Meter:
+    """Counts and measures in the background: cases that are asked for, or one again and again.
+
+    The steps of all images are counted before the first is timed: that takes a moment, and is what
+    the plot's statement rests on. changed: called from its thread after each. make, counter: how
+    renderers and counter are made there; for tests.
     """
 
     def __init__(
         self,
         changed: Callable[[], None],
         make: Callable[[Renderer], Drawing] | None = None,
+        counter: Callable[[], Counting] = Counter,
     ) -> None:
         self._changed = changed
         self._make = make or _make
+        self._counter = counter
         self._lock = threading.Lock()
         self._wanted: list[Case] = []
         self._samples: list[Sample] = []
-        self._problems: dict[Renderer, str] = {}
+        self._uncounted: list[Image] = []
+        self._work: dict[Image, Work] = {}
+        self._problems: dict[str, str] = {}
         self._watched: tuple[Case, ...] = ()
         self._history: deque[tuple[float, float]] = deque(maxlen=WATCHED)
         self._stop = threading.Event()
@@ -149,16 +197,22 @@ class Meter:
             return tuple(self._samples)
 
     @property
-    def problems(self) -> dict[Renderer, str]:
-        """Why a renderer cannot be measured."""
+    def work(self) -> dict[Image, Work]:
+        """The steps of the images counted so far."""
+        with self._lock:
+            return dict(self._work)
+
+    @property
+    def problems(self) -> dict[str, str]:
+        """Why a renderer cannot be measured, or nothing be COUNTING."""
         with self._lock:
             return dict(self._problems)
 
     @property
     def waiting(self) -> int:
-        """How many cases are not yet measured."""
+        """How many images are not yet counted, and cases not yet measured."""
         with self._lock:
-            return len(self._wanted)
+            return len(self._uncounted) + len(self._wanted)
 
     @property
     def busy(self) -> bool:
@@ -167,9 +221,12 @@ class Meter:
 
     def ask(self, wanted: Iterable[Case]) -> None:
         """Measures these cases next, instead of those that were waiting. Known ones are kept."""
+        wanted = tuple(wanted)
         with self._lock:
             known = {sample.case for sample in self._samples}
             self._wanted = [case for case in wanted if case not in known]
+            images = dict.fromkeys(case.image for case in wanted)
+            self._uncounted = [image for image in images if image not in self._work]
             self._wake()
 
     def watch(self, triangles: int, pixels: int) -> None:
@@ -192,59 +249,69 @@ class Meter:
 
     def _wake(self) -> None:
         """With the lock held."""
-        needed = self._wanted or self._watched
+        needed = self._uncounted or self._wanted or self._watched
         if needed and self._thread is None and not self._closed:
             self._thread = threading.Thread(target=self._run, name="lucida costs", daemon=True)
             self._thread.start()
 
     def clear(self) -> None:
-        """Forgets all samples, and measures no more."""
+        """Forgets all samples, and measures no more. What was counted stays: it is exact."""
         with self._lock:
-            self._wanted, self._samples, self._problems = [], [], {}
+            self._uncounted, self._wanted, self._samples, self._problems = [], [], [], {}
             self._history.clear()
 
     def close(self, timeout_s: float = 2.0) -> None:
         """Ends after the case under way."""
         with self._lock:
-            self._wanted, self._watched, self._closed = [], (), True
+            self._uncounted, self._wanted, self._watched, self._closed = [], [], (), True
             self._stop.set()
             thread = self._thread
         if thread is not None:
             thread.join(timeout_s)
 
     def _run(self) -> None:
-        drawings: dict[Renderer, Drawing] = {}
-        scenes: dict[Renderer, Scene] = {}
+        bench = _Bench(self._make, self._counter)
         try:
-            while (task := self._next()) is not None:
-                if isinstance(task, Case):
-                    self._measure(task, drawings)
-                    scenes.clear()
-                else:
-                    self._watch_once(task, drawings, scenes)
-                self._changed()
+            while (task := self._next(bench)) is not None:
+                task()
+                try:
+                    self._changed()
+                except Exception:  # whoever listens: what is measured is kept, and goes on
+                    _LOG.exception("lucida: the cost plot was not told of a sample")
         finally:
             with self._lock:
                 if self._thread is threading.current_thread():  # an error: the next has another
                     self._thread = None
-            for drawing in drawings.values():
-                _release(drawing)
+            bench.release()
 
-    def _next(self) -> Case | tuple[Case, ...] | None:
+    def _next(self, bench: _Bench) -> Callable[[], None] | None:
         with self._lock:
             # Decided and said under one lock: whoever asks later starts another thread.
+            if self._uncounted:
+                return partial(self._count, self._uncounted[0], bench)
             if self._wanted:
-                return self._wanted[0]
-            if not self._watched:
-                self._thread = None
-            return self._watched or None
+                return partial(self._measure, self._wanted[0], bench)
+            if self._watched:
+                return partial(self._watch_once, self._watched, bench)
+            self._thread = None
+            return None
 
-    def _watch_once(
-        self,
-        watched: Iterable[Case],
-        drawings: dict[Renderer, Drawing],
-        scenes: dict[Renderer, Scene],
-    ) -> None:
+    def _count(self, image: Image, bench: _Bench) -> None:
+        """An image's steps; one that cannot be counted ends the counting."""
+        work, problem = None, ""
+        try:
+            size = Case("ray", *image).size
+            work = bench.counter.work(torus_of(image[0]), Camera.canonical().fitted(size), size)
+        except Exception as error:  # said beside the plot; the times are measured all the same
+            problem = _told(error)
+        with self._lock:
+            if work is not None:
+                self._work[image] = work
+                self._uncounted = [one for one in self._uncounted if one != image]
+            else:
+                self._problems[COUNTING], self._uncounted = problem, []
+
+    def _watch_once(self, watched: Iterable[Case], bench: _Bench) -> None:
         """One frame of each renderer, and a pause."""
         times = dict.fromkeys(RENDERERS, math.nan)
         for case in watched:
@@ -254,31 +321,27 @@ class Meter:
             camera = Camera.canonical().fitted(size)
             try:
                 scene = torus_of(case.triangles)
-                drawing = self._drawing(renderer, drawings)
-                if scenes.get(renderer) is not scene:
+                drawing = bench.drawing(renderer)
+                if bench.scenes.get(renderer) is not scene:
                     drawing.set_scene(scene)
-                    scenes[renderer] = scene
+                    bench.scenes[renderer] = scene
                     drawing.render(camera, size, channels=("color",))  # prepares it
                 times[renderer] = drawing.render(camera, size, channels=("color",)).time_s
             except Exception as error:  # said beside the plot, which goes on with the other one
                 with self._lock:
-                    self._problems[renderer] = str(error) or type(error).__name__
+                    self._problems[renderer] = _told(error)
         with self._lock:
             self._history.append((times["raster"], times["ray"]))
         self._stop.wait(WATCH_S)
 
-    def _drawing(self, renderer: Renderer, drawings: dict[Renderer, Drawing]) -> Drawing:
-        if renderer not in drawings:
-            drawings[renderer] = self._make(renderer)
-        return drawings[renderer]
-
-    def _measure(self, case: Case, drawings: dict[Renderer, Drawing]) -> None:
+    def _measure(self, case: Case, bench: _Bench) -> None:
         sample, problem = None, self.problems.get(case.renderer, "")
+        bench.scenes.pop(case.renderer, None)
         try:
             if not problem:
-                sample = measure(case, self._drawing(case.renderer, drawings))
+                sample = measure(case, bench.drawing(case.renderer))
         except Exception as error:  # said beside the plot, which goes on with the other renderer
-            problem = str(error) or type(error).__name__
+            problem = _told(error)
         with self._lock:
             if case in self._wanted:  # else it was taken back meanwhile
                 self._wanted.remove(case)
@@ -288,23 +351,8 @@ class Meter:
                 self._problems[case.renderer] = problem
 
 
-def growth(samples: Iterable[Sample], of: Literal["triangles", "pixels"]) -> float | None:
-    """The exponent k of time ~ n^k that fits best: 1 for a loop over n, near 0 where n does not
-    matter. None for fewer than two different n."""
-    points = [(math.log(getattr(one, of)), math.log(max(one.time_s, 1e-9))) for one in samples]
-    if len({x for x, _ in points}) < 2:
-        return None
-    mean_x = sum(x for x, _ in points) / len(points)
-    mean_y = sum(y for _, y in points) / len(points)
-    return sum((x - mean_x) * (y - mean_y) for x, y in points) / sum(
-        (x - mean_x) ** 2 for x, _ in points
-    )
-
-
-def growth_text(samples: Iterable[Sample], of: Literal["triangles", "pixels"]) -> str:
-    """`~ triangles^0.9`, or nothing while it is not known."""
-    exponent = growth(samples, of)
-    return "" if exponent is None else f"~ {of}^{number(round(exponent, 1))}"
+def _told(error: Exception) -> str:
+    return str(error) or type(error).__name__
 
 
 def _make(renderer: Renderer) -> Drawing:

@@ -19,8 +19,8 @@ from app.views.base import Host, View
 COSTS = "Costs"
 POINTS = 6  # a curve
 EXPLAINED = (
-    "Object order visits each triangle; image order asks a tree of boxes for each pixel, one level"
-    " more for twice the triangles. Flat: what every image costs anyway. n^1: proportional to n."
+    "Counted is what the lecture's two loops do, with a tree of boxes for the rays: the same on"
+    " every machine. Where times are flat, they are what every image costs."
 )
 
 
@@ -58,7 +58,10 @@ class CostsView(View):
         options = host.state.options.costs
         wanted = _cases(options)
         kept = [one for one in self._meter.samples if one.case in wanted]
-        told = panel.Told(kept, self._meter.history, self._meter.waiting, self._meter.problems)
+        counted, images = self._meter.work, dict.fromkeys(case.image for case in wanted)
+        work = [counted[image] for image in images if image in counted]
+        meter = self._meter
+        told = panel.Told(work, kept, meter.history, meter.waiting, meter.problems)
         changed, again = panel.controls(options, told)
         if changed != options:
             host.apply(host.state.with_options(costs=asdict(changed)))
@@ -69,10 +72,18 @@ class CostsView(View):
         for renderer, problem in told.problems.items():
             imgui.text_colored(theme.ERROR, f"{renderer}: {problem}")
         room = imgui.get_content_region_avail()
-        note = imgui.calc_text_size(EXPLAINED, wrap_width=room.x).y + 2 * theme.px(6)
-        panel.plot(options, told, ImVec2(room.x, max(60.0, room.y - note)))
+        said = panel.said(options, told)
+        roomy = room.y > 20 * imgui.get_font_size()
+        explained = EXPLAINED if roomy and options.against != "frames" else ""
+        notes = [line for _, line in said] + ([explained] if explained else [])
+        gap = imgui.get_style().item_spacing.y
+        below = sum(imgui.calc_text_size(note, wrap_width=room.x).y + gap for note in notes)
+        panel.plot(options, told, ImVec2(room.x, max(60.0, room.y - below - gap)))
         imgui.push_text_wrap_pos(0.0)
-        imgui.text_colored(theme.DIM, EXPLAINED)
+        for renderer, line in said:
+            imgui.text_colored(theme.legible(panel.color_of(renderer)), line)
+        if explained:
+            imgui.text_colored(theme.DIM, explained)
         imgui.pop_text_wrap_pos()
 
     def _ask(self, meter: Meter, options: CostOptions) -> None:

@@ -171,7 +171,7 @@ def triad(camera: Camera, origin: ImVec2, extent: ImVec2) -> str | None:
 
 
 def _axis_color(name: str, light: float) -> ImVec4:
-    """Greys of the world's axes: the colours are the basis's."""
+    """Grays of the world's axes: the colours are the basis's."""
     base = {"x": 0.86, "y": 0.95, "z": 0.76}[name] * light
     return ImVec4(base, base, base, 1.0)
 

@@ -56,6 +56,8 @@ def drive_curves_against_triangles_and_pixels(d: Driver) -> None:
         ]
         assert {one.case.renderer for one in samples} == {"raster", "ray"}
         assert len(samples) >= 2 * POINTS
+        assert len(meter(d).work) >= POINTS
+        assert all(one.nodes > one.rays == one.pixels for one in meter(d).work.values())
         d.picture()
     d.ctx.item_click(f"{WINDOW}/frames")
     d.ctx.yield_(3)

@@ -1,0 +1,90 @@
+"""What a line of a plot grows with: said of counts, and of times where they leave no doubt.
+
+Owns when enough is known to say anything. Knows nothing of what is counted or measured.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable, Sequence
+
+import numpy as np
+
+ENOUGH = 4  # different n, before anything is said of counts
+WIDE = 30  # times the least n, that the largest must be
+SAME = 1.25  # times the least count: what differs by less is called the same
+LOG_ERROR = 0.15  # of a count, that a + b log n may miss it by
+STEEP = 0.5  # the exponent between two neighbours from which a line of times counts as steep
+RUN = 3  # steep points in a row, at the right end
+EXPONENT_ERROR = 0.15  # of a line that is called proportional
+TIME_ERROR = 0.25  # of a time, that a proportional line may miss it by
+
+Point = tuple[float, float]
+
+
+def count_growth(points: Iterable[Point], n: str) -> str:
+    """What counts (n, count) grow with: `the same`, `~ n`, `~ log n`, `~ n^k`; "" too early."""
+    rising = _rising(points)
+    if len(rising) < ENOUGH or rising[-1][0] < WIDE * rising[0][0]:
+        return ""
+    x, y = np.array(rising).T
+    if y.max() <= SAME * y.min():
+        return "the same"
+    exponent = _slope(np.log(x), np.log(y))
+    if abs(exponent - 1) <= 0.05:
+        return f"~ {n}"
+    slope = _slope(np.log(x), y)
+    line = y.mean() + slope * (np.log(x) - np.log(x).mean())
+    if slope > 0 and (np.abs(line - y) <= LOG_ERROR * y).all():
+        return f"~ log {n}"
+    return f"~ {n}^{exponent:.1f}"
+
+
+def per_doubling(points: Iterable[Point]) -> float:
+    """How much is added to a count that grows as log n when n doubles; NaN for fewer than two."""
+    rising = _rising(points)
+    if len(rising) < 2:
+        return math.nan
+    x, y = np.array(rising).T
+    return _slope(np.log2(x), y)
+
+
+def is_proportional(points: Iterable[Point]) -> bool:
+    """Whether times (n, seconds) climb like n at the right end of their line.
+
+    Said only of a line that is steep there for a few points, and straight: a flat line measures
+    what every image costs, and a machine that does other things bends it.
+    """
+    rising = _rising(points)
+    logs = [(math.log(n), math.log(value)) for n, value in rising]
+    first = len(logs) - 1
+    while first > 0 and _steep(logs[first - 1], logs[first]):
+        first -= 1
+    run = np.array(logs[first:])
+    if len(run) < RUN:
+        return False
+    x, y = run.T
+    exponent = _slope(x, y)
+    line = y.mean() + exponent * (x - x.mean())
+    is_straight = (np.abs(line - y) <= math.log1p(TIME_ERROR)).all()
+    return bool(is_straight) and abs(exponent - 1) <= EXPONENT_ERROR
+
+
+def _steep(a: Point, b: Point) -> bool:
+    return b[1] - a[1] >= STEEP * (b[0] - a[0])
+
+
+def _rising(points: Iterable[Point]) -> Sequence[Point]:
+    """One point for each n, the least value, from the least n on; none that a log has no place
+    for."""
+    least: dict[float, float] = {}
+    for n, value in points:
+        if n > 0 and value > 0 and math.isfinite(value):
+            least[n] = min(value, least.get(n, math.inf))
+    return sorted(least.items())
+
+
+def _slope(x: np.ndarray, y: np.ndarray) -> float:
+    """Of the straight line that fits best."""
+    dx = x - x.mean()
+    return float((dx * (y - y.mean())).sum() / (dx * dx).sum())

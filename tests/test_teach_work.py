@@ -1,0 +1,169 @@
+"""What is counted for the cost plot, by hand where that can be done; and what is said of it."""
+
+from __future__ import annotations
+
+import math
+import random
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from app.teach.costs import Case, count, steps, torus_of
+from app.teach.growth import count_growth, is_proportional, per_doubling
+from app.teach.projected import mesh_extent, pixels_of
+from app.teach.work import Counter, Work, pixels_tested
+from renderer.camera import Camera
+from renderer.errors import LucidaError
+from renderer.scene.flat import flatten
+from renderer.scene.model import Mesh, Scene, SceneObject
+from renderer.scene.positions import world_vertices
+from renderer.trace.counting import counting_tree, trace_counts
+
+
+def triangles(*corners: tuple[tuple[float, float, float], ...]) -> Scene:
+    """A scene of one mesh."""
+    points = np.array(corners, np.float32).reshape(-1, 3)
+    faces = np.arange(len(points), dtype=np.int32).reshape(-1, 3)
+    return Scene((SceneObject(Mesh(points, faces)),))
+
+
+def work_of(scene: Scene, size: tuple[int, int], camera: Camera | None = None) -> Work:
+    return Counter().work(scene, camera or Camera.canonical(), size)
+
+
+# The canonical camera's image plane is z = -1, from -0.5 to 0.5: with 8 x 8 pixels, one is 0.125.
+LEFT_HALF = ((-0.5, -0.5, -1), (0, -0.5, -1), (-0.5, 0.5, -1))
+QUARTER = ((0, 0, -1), (0.5, 0, -1), (0, 0.5, -1))
+
+
+def test_the_steps_of_one_triangle() -> None:
+    # Its bounding box is the left half: 4 x 8 centres. The tree is a leaf, which each ray visits.
+    assert work_of(triangles(LEFT_HALF), (8, 8)) == Work(1, 64, 1, 32, 64, 64, 64)
+
+
+def test_boxes_are_counted_one_by_one_where_triangles_overlap() -> None:
+    # The same again twice as far: half as large on the image plane.
+    far = tuple((2 * x, 2 * y, 2 * z) for x, y, z in QUARTER)
+    scene = triangles(LEFT_HALF, QUARTER, far, QUARTER)
+    assert pixels_tested(scene, Camera.canonical(), (8, 8)) == 32 + 3 * 16
+
+
+def test_what_lies_beside_the_image_is_set_up_but_not_tested() -> None:
+    beside = ((3, 0, -1), (4, 0, -1), (3, 1, -1))
+    half_out = ((0.25, -0.5, -1), (9, -0.5, -1), (0.25, 0.5, -1))
+    between_centers = ((0.01, 0.01, -1), (0.05, 0.01, -1), (0.01, 0.05, -1))
+    scene = triangles(beside, half_out, between_centers)
+    work = work_of(scene, (8, 8))
+    assert (work.set_up, work.tested) == (3, 2 * 8)
+
+
+def test_no_step_without_objects_but_the_rays() -> None:
+    assert work_of(Scene(()), (8, 6)) == Work(0, 48, 0, 0, 48, 0, 0)
+
+
+def test_nodes_of_two_heaps_apart() -> None:
+    # Four triangles a leaf: two leaves and a root. Each ray visits the root; the 32 of the left
+    # half meet the left box, 32 the right one, and none meets both.
+    def heap(x: float) -> list:
+        box = ((x, -0.49, -1), (x + 0.48, -0.49, -1), (x, 0.49, -1))
+        return [tuple((a, b, c - 0.001 * k) for a, b, c in box) for k in range(4)]
+
+    tree = counting_tree(triangles(*heap(-0.49), *heap(0.01)))
+    assert len(tree.links) == 3
+    counts = trace_counts(tree, Camera.canonical(), (8, 8))
+    assert counts == (64, 64 + 64, 4 * 64)
+
+
+def test_pixels_tested_are_those_that_the_stepper_would_visit() -> None:
+    scene, size = torus_of(300), (31, 22)
+    camera = Camera.canonical().fitted(size)
+    for turned in (camera, Camera.look_at((0.4, 2, 3), (0, 0, -2)).fitted(size)):
+        flat = flatten(scene)
+        points, expected = world_vertices(flat), 0
+        for face in flat.faces:
+            extent = mesh_extent(points[face], np.array([[0, 1, 2]]), turned)
+            rows, columns = pixels_of(extent, turned, size)
+            expected += len(rows) * len(columns)
+        assert pixels_tested(scene, turned, size) == expected > 0
+
+
+def test_a_parallel_camera_counts_as_well() -> None:
+    camera = replace(Camera.canonical(), projection="parallel")
+    far = tuple((x, y, z - 5) for x, y, z in LEFT_HALF)
+    assert work_of(triangles(far), (8, 8), camera).tested == 32
+
+
+def test_behind_the_eye_is_said() -> None:
+    with pytest.raises(LucidaError, match="behind the eye"):
+        work_of(triangles(((0, 0, -1), (1, 0, -1), (0, 0, 1))), (8, 8))
+
+
+def test_the_same_numbers_everywhere() -> None:
+    case = Case("ray", 5000, 4800)
+    work = work_of(torus_of(5000), case.size, Camera.canonical().fitted(case.size))
+    assert work == work_of(torus_of(5000), case.size, Camera.canonical().fitted(case.size))
+    assert work == Work(4970, 4800, 4970, 11701, 4800, 58873, 22411)
+
+
+def test_what_both_loops_grow_with() -> None:
+    counter, by_triangles, by_pixels = Counter(), [], []
+    for n in steps(100, 200_000, 5):
+        case = Case("ray", n, 4800)
+        camera = Camera.canonical().fitted(case.size)
+        by_triangles.append(counter.work(torus_of(n), camera, case.size))
+        assert by_triangles[-1].triangles == count(torus_of(n))
+    for pixels in steps(1200, 100_000, 5):
+        case = Case("ray", 2000, pixels)
+        camera = Camera.canonical().fitted(case.size)
+        by_pixels.append(counter.work(torus_of(2000), camera, case.size))
+
+    def growth(work: list[Work], n: str, of: str) -> str:
+        return count_growth([(getattr(one, n), getattr(one, of)) for one in work], n)
+
+    said = {of: growth(by_triangles, "triangles", of) for of in ("set_up", "tested", "rays")}
+    assert said == {"set_up": "~ triangles", "tested": "the same", "rays": "the same"}
+    assert growth(by_triangles, "triangles", "nodes") == "~ log triangles"
+    nodes = [(one.triangles, one.nodes / one.rays) for one in by_triangles]
+    assert 0.3 < per_doubling(nodes) < 1.5
+    assert growth(by_pixels, "pixels", "set_up") == "the same"
+    for of in ("tested", "rays", "nodes"):
+        assert growth(by_pixels, "pixels", of) == "~ pixels"
+
+
+def test_nothing_is_said_of_too_few_counts() -> None:
+    points = [(100.0, 1.0), (1000.0, 10.0), (10_000.0, 100.0)]
+    assert count_growth([], "n") == count_growth(points, "n") == ""
+    assert count_growth([(n, n) for n in (100, 110, 120, 130, 140)], "n") == ""
+    assert count_growth([(100.0, 1.0)] * 9, "n") == ""
+    assert count_growth([*points, (1e5, 1000.0)], "n") == "~ n"
+    assert count_growth([(n, n * n) for n in (1, 10, 100, 1000)], "n") == "~ n^2.0"
+    assert math.isnan(per_doubling(points[:1]))
+
+
+COUNTS = tuple(float(n) for n in steps(100, 1_000_000, 6))
+
+
+def test_times_that_are_flat_and_then_climb() -> None:
+    assert is_proportional([(n, 1e-6 * n) for n in COUNTS])
+    assert is_proportional([(n, 3e-3 + 1e-6 * n) for n in COUNTS])
+    assert not is_proportional([(n, 0.1 + 1e-6 * n) for n in COUNTS])  # steep only at the end
+    assert not is_proportional([(n, 1e-3) for n in COUNTS])
+    assert not is_proportional([(n, 1e-3 * math.log(n)) for n in COUNTS])
+    assert not is_proportional([(n, 1e-6 * n) for n in COUNTS[:2]])
+    assert not is_proportional([])
+
+
+def test_a_busy_machine_is_not_believed() -> None:
+    """Whatever is added to times that do not climb, nothing is said of them."""
+    rng = random.Random(7)
+    for _ in range(300):
+        noisy = [(n, 1e-3 * (1 + rng.random() * rng.choice((0, 1, 20)))) for n in COUNTS]
+        assert not is_proportional(noisy)
+    # The lines of the plot that said n^0.4 on a busy machine.
+    assert not is_proportional(zip(COUNTS, (13, 16, 8, 16, 75, 230), strict=True))
+    assert not is_proportional(zip(COUNTS, (1.2, 1, 1.5, 2.3, 22, 26), strict=True))
+
+
+def test_times_that_a_clock_could_not_tell() -> None:
+    assert not is_proportional([(n, bad) for n in COUNTS for bad in (0.0, math.nan, math.inf)])
