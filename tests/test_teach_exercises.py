@@ -19,6 +19,7 @@ from app.teach.lecture.exercises import (
 from app.teach.lecture.mistakes import mistakes
 from renderer.camera import Camera
 from renderer.errors import LucidaError
+from renderer.pixels import Indexing
 
 
 class TestAnswers:
@@ -208,6 +209,21 @@ class TestRays:
             origin, direction = rays[mistake.name]
             assert mistake.ray.origin == pytest.approx(origin), mistake.name
             assert mistake.ray.direction == pytest.approx(direction), mistake.name
+
+    def test_hints_count_as_the_lecture_does(self):
+        exercise = replace(CANONICAL, indexing=Indexing.ARRAY)
+
+        def hint(direction: str) -> str:
+            return exercise.check({"origin": "0, 0, 0", "direction": direction}).text
+
+        # Row 1, column 5 of 8 x 8, from 0: u = (5 + 0.5) / 8 - 1/2.
+        assert hint("5.5/8 - 1/2, 1/2 - 1.5/8, -1") == "Right."
+        assert "corner" in hint("5/8 - 1/2, 1/2 - 1/8, -1")
+        assert "from 0: add the half" in hint("4.5/8 - 1/2, 1/2 - 0.5/8, -1")
+        assert "not at j + 1" in hint("6/8 - 1/2, 1/2 - 2/8, -1")
+        names = {mistake.name for mistake in mistakes(Camera(), 1, 5, (8, 8), Indexing.ARRAY)}
+        assert "a whole pixel" in names and "no half pixel" not in names
+        assert exercise.solution().startswith("Pixel (1, 5) lies")
 
     @pytest.mark.parametrize("distance", [0.5, 3.0])
     def test_backwards_is_told_at_every_distance(self, distance):

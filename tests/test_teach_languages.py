@@ -22,7 +22,7 @@ import pytest
 
 from app.options import Language
 from app.state import AppState
-from app.teach import loop_parts
+from app.teach import loop_parts, raster_parts
 from app.teach.copying import as_c, as_julia, as_python
 from app.teach.imagelab import array_code, memory
 from app.teach.languages import julia
@@ -30,7 +30,6 @@ from app.teach.lecture import text as texts
 from app.teach.lecture.reading import BUILTIN, load_lecture
 from app.teach.lecture.states import state_of
 from app.teach.loop_parts import Model
-from app.teach.loops import image_order, object_order
 from app.teach.probe import Probe
 from app.teach.reading import Reading
 from app.teach.recording import Order
@@ -340,8 +339,11 @@ def from_one(ranges: tuple[range, range]) -> tuple[range, ...]:
 @pytest.mark.parametrize("order", list(Order))
 def test_the_loops_in_julia_draw_the_same(order):
     written = julia.loops("\n".join(source_of(order.renderer).lines))
-    names = {name: getattr(loop_parts, name) for name in dir(loop_parts)}
+    names = {name: getattr(raster_parts, name) for name in dir(raster_parts)}
+    names |= {name: getattr(loop_parts, name) for name in dir(loop_parts)}
     names |= {
+        "prepared": lambda *given: tuple(map(FromOne, raster_parts.prepared(*given))),
+        "box_around": lambda *given: from_one(raster_parts.box_around(*given)),
         "Canvas": lambda *given: FromOne(loop_parts.Canvas(*given)),
         "DepthBuffer": lambda size: FromOne(loop_parts.DepthBuffer(size)),
         "bounding_box": lambda *given: from_one(loop_parts.bounding_box(*given)),
@@ -351,7 +353,7 @@ def test_the_loops_in_julia_draw_the_same(order):
     model, size = Model(scene), (12, 9)
     camera = scene.view.for_size(size)
     drawn = names[order.renderer.__name__](model, camera, size)
-    told = {Order.OBJECT: object_order, Order.IMAGE: image_order}[order](model, camera, size)
+    told = order.renderer(model, camera, size)
     np.testing.assert_array_equal(drawn.made.array, told.array)
 
 

@@ -121,6 +121,42 @@ class TestReading:
         assert state.preferences.presentation  # the speaker's own
         assert state_of(one, state_of(two, before)) == state
 
+    def test_a_lecture_counts_pixels_in_one_way(self):
+        """From 1; or from 0, in the file, in the window and in what is told of exercises."""
+        from_zero = FILE.replace("author =", "pixels_from = 0\nauthor =")
+        one, other = read(FILE), read(from_zero)
+        for lecture, pixel, asked, told in (
+            (one, (1, 2), (0, 2), "Pixel (1, 3) lies"),
+            (other, (2, 3), (1, 3), "Pixel (1, 3) lies"),
+        ):
+            step = lecture.steps[0]
+            assert (step.pixel, step.exercise.pixel) == (pixel, asked)
+            assert step.exercise.solution().startswith(told)
+            for number in (0, 1, 2):
+                base = AppState.for_scene(step.scene).with_options(one_based=lecture is other)
+                state = state_of(lecture.steps[number], base)
+                assert state.options.one_based == (lecture is one)
+        assert other.steps[0].exercise.indexing.text((1, 3)) == "(1, 3)"
+        last = from_zero.replace("pixel = [1, 3]", "pixel = [2, 3]")
+        assert read(last).steps[0].exercise.pixel == (2, 3)
+        with_two = FILE.replace("author =", "pixels_from = 2\nauthor =")
+        for text, told in (
+            (last.replace("[2, 3]\nsize", "[3, 3]\nsize"), "4x3; give a row up to 2 and a"),
+            (FILE.replace("[1, 3]", "[0, 3]"), "no pixel; give row and column, from 1"),
+            (from_zero.replace("[1, 3]", "[-1, 3]"), "no pixel; give row and column, from 0"),
+            (with_two, r"x\.toml:3: pixels_from: "),
+            (FILE.replace("options.shadows = true", "options.one_based = false"),
+             r"x\.toml:26: steps\[0\]\.options\.one_based: differs from pixels_from = 1; leave it"),
+        ):  # fmt: skip
+            with pytest.raises(LucidaError, match=told):
+                read(text)
+
+    def test_the_built_in_lecture_counts_from_one_and_says_so_first(self):
+        lecture = load_lecture(BUILTIN)
+        assert not any("one_based" in step.options for step in lecture.steps)
+        first = next(step for step in lecture.steps if "(i, j)" in step.text)
+        assert "from 1" in first.text
+
     def test_every_option_is_known_to_a_step(self):
         lines = [line for line in FILE.splitlines() if not line.startswith("options.")]
         for name in {entry.name for entry in fields(Options)} - set(ELSEWHERE):

@@ -26,11 +26,13 @@ MOST_DOTS = 500
 @dataclass(frozen=True)
 class Marks:
     """pixel: the one at work. box: rows and columns of a bounding box. dots: pixels that were
-    tested, and whether the object was hit there."""
+    tested, and whether the object was hit there. corners: of the triangle at work, (x, y) in pixels
+    from the upper left corner."""
 
     pixel: Pixel | None = None
     box: tuple[range, range] | None = None
     dots: tuple[tuple[Pixel, bool], ...] = ()
+    corners: tuple[tuple[float, float], ...] = ()
 
 
 def color_picture(color: NDArray[np.float64], exposure_ev: float) -> NDArray[np.uint8]:
@@ -91,7 +93,7 @@ def canvas(
     if unit >= SMALLEST_CELL:
         _grid(draw, corner, far, size, unit)
     draw.add_rect(corner, far, theme.u32(theme.PLAIN))
-    _draw_marks(draw, corner, unit, marks)
+    _draw_marks(draw, corner, far, unit, marks)
     if not clicked:
         return None
     mouse = imgui.get_io().mouse_pos
@@ -111,7 +113,9 @@ def _grid(
         draw.add_line(ImVec2(corner.x, y), ImVec2(far.x, y), color)
 
 
-def _draw_marks(draw: imgui.ImDrawList, corner: ImVec2, unit: float, marks: Marks) -> None:
+def _draw_marks(
+    draw: imgui.ImDrawList, corner: ImVec2, far: ImVec2, unit: float, marks: Marks
+) -> None:
     def cell(rows: Iterable[int], columns: Iterable[int]) -> tuple[ImVec2, ImVec2]:
         i, j = list(rows), list(columns)
         return (
@@ -128,11 +132,61 @@ def _draw_marks(draw: imgui.ImDrawList, corner: ImVec2, unit: float, marks: Mark
                 draw.add_circle_filled(middle, radius, theme.u32(theme.MARK))
             else:
                 draw.add_circle(middle, radius, theme.u32(theme.rgb("#ffffff")))
+    if marks.corners:
+        _triangle(draw, corner, far, unit, marks.corners)
     if marks.box is not None and marks.box[0] and marks.box[1]:
         _frame(draw, *cell(*marks.box), theme.rgb("#cc79a7"), 0.0, unit)
     if marks.pixel is not None:
         i, j = marks.pixel
         _frame(draw, *cell([i], [j]), theme.MARK, 1.0, unit)
+
+
+def _triangle(
+    draw: imgui.ImDrawList,
+    corner: ImVec2,
+    far: ImVec2,
+    unit: float,
+    places: tuple[tuple[float, float], ...],
+) -> None:
+    """The triangle's sides, as far as they lie on the canvas, and the names of its corners."""
+    points = [ImVec2(corner.x + x * unit, corner.y + y * unit) for x, y in places]
+    ends = [_within(corner, far, points[k - 1], points[k]) for k in range(len(points))]
+    width = theme.line_px(1.5)
+    for color, thick in (
+        (theme.u32(theme.rgb("#000000"), 0.6), width + 2),
+        (theme.u32(theme.RAY), width),
+    ):
+        for end in ends:
+            if end is not None:
+                draw.add_line(*end, color, thick)
+    em = imgui.get_font_size()
+    for name, point in zip("abc", points, strict=True):
+        x = min(max(point.x + 3, corner.x + 2), far.x - 0.6 * em)
+        y = min(max(point.y - 0.5 * em, corner.y), far.y - em)
+        if abs(x - point.x) + abs(y - point.y) < 2 * em:  # else it is the name of another place
+            draw.add_text(ImVec2(x + 1, y + 1), theme.u32(theme.rgb("#000000")), name)
+            draw.add_text(ImVec2(x, y), theme.u32(theme.rgb("#ffffff")), name)
+
+
+def _within(low: ImVec2, high: ImVec2, a: ImVec2, b: ImVec2) -> tuple[ImVec2, ImVec2] | None:
+    """The part of a line that lies in a rectangle. Source: Liang and Barsky, 1984."""
+    enter, leave = 0.0, 1.0
+    for start, way, least, most in (
+        (a.x, b.x - a.x, low.x, high.x),
+        (a.y, b.y - a.y, low.y, high.y),
+    ):
+        if way == 0.0:
+            if not least <= start <= most:
+                return None
+            continue
+        first, second = sorted(((least - start) / way, (most - start) / way))
+        enter, leave = max(enter, first), min(leave, second)
+    if enter > leave:
+        return None
+    return (
+        ImVec2(a.x + enter * (b.x - a.x), a.y + enter * (b.y - a.y)),
+        ImVec2(a.x + leave * (b.x - a.x), a.y + leave * (b.y - a.y)),
+    )
 
 
 def _frame(

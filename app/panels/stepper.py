@@ -29,6 +29,7 @@ from app.teach.loop_parts import (
     intersect,
     viewing_ray,
 )
+from app.teach.raster_parts import box_around, edge, prepared, project, shade, t_of, triangles
 from app.teach.recording import MOST_STEPS, Order, Recording
 from app.teach.source import source_of
 from app.teach.stepper import Moment
@@ -41,15 +42,20 @@ ORDERS: dict[Literal["both", "object", "image"], str] = {
     "object": "object order",
     "image": "image order",
 }
+FORMS: dict[Literal["triangles", "rays"], str] = {
+    "triangles": "by triangles",
+    "rays": "by rays",
+}
 TITLES = {
-    Order.OBJECT: "Object order: for each object, for each pixel",
+    Order.RASTER: "Rasterization: for each triangle, for each pixel",
+    Order.OBJECT: "Object order by rays: for each object, for each pixel",
     Order.IMAGE: "Image order: for each pixel, for each object",
 }
 # Panels so much wider than high have code, canvases and numbers beside one another, or the numbers.
 ALL_BESIDE, NUMBERS_BESIDE = 1.9, 1.2
 LEFT, UPPER = 0.64, 0.64  # the code's part of a panel whose numbers stand beside it
 INDICES = ("i", "j", "rows", "columns")  # the variables that count pixels
-RUNNING = "Python, as it runs"
+RUNNING = f"Python, counts {Indexing.ARRAY.told}"
 
 Wish = Literal["", "first", "back", "play", "step", "pixel", "object", "last"]
 _BUTTONS: tuple[tuple[Wish, str, str], ...] = (
@@ -58,7 +64,7 @@ _BUTTONS: tuple[tuple[Wish, str, str], ...] = (
     ("play", "", "play and pause (Space)"),
     ("step", "Step", "one step: one line (Right)"),
     ("pixel", "Next pixel", "to where the next pixel's turn begins (Down)"),
-    ("object", "Next object", "to where the next object's turn begins (Shift+Down)"),
+    ("object", "Next object", "to where the next object's or triangle's turn begins (Shift+Down)"),
     ("last", "Last", "to the end (End)"),
 )
 
@@ -79,8 +85,11 @@ class Answer:
     pixel: Pixel | None = None
 
 
-def controls(options: StepperOptions, playing: bool) -> tuple[StepperOptions, Wish]:
-    """The buttons, the speed, the canvas."""
+def controls(
+    options: StepperOptions, playing: bool, has_triangles: bool
+) -> tuple[StepperOptions, Wish]:
+    """The buttons, the speed, the canvas; in which form object order is, where the scene leaves a
+    choice."""
     wish: Wish = ""
     width = imgui.calc_text_size("Pause").x + 2 * imgui.get_style().frame_padding.x
     for count, (name, label, tip) in enumerate(_BUTTONS):
@@ -93,7 +102,14 @@ def controls(options: StepperOptions, playing: bool) -> tuple[StepperOptions, Wi
         imgui.set_item_tooltip(tip)
     options = _speed(options)
     options = _canvas_size(options)
-    return _order(options), wish
+    options = _order(options)
+    if options.order != "image":
+        imgui.begin_disabled(not has_triangles)
+        form = _form(options.form if has_triangles else "rays")
+        if has_triangles and form != options.form:
+            options = replace(options, form=form, steps=(0, options.steps[1]))
+        imgui.end_disabled()
+    return options, wish
 
 
 def language(chosen: Language) -> Language:
@@ -164,6 +180,22 @@ def _order(options: StepperOptions) -> StepperOptions:
     return options
 
 
+def _form(form: Literal["triangles", "rays"]) -> Literal["triangles", "rays"]:
+    width = imgui.calc_text_size("by triangles").x + 2.2 * imgui.get_frame_height()
+    follow(width)
+    imgui.set_next_item_width(width)
+    if imgui.begin_combo("##form", FORMS[form]):
+        for key, text in FORMS.items():
+            if imgui.selectable(text, key == form)[0]:
+                form = key
+        imgui.end_combo()
+    imgui.set_item_tooltip(
+        "object order, triangle by triangle, as graphics cards do it (spheres, which have none,\n"
+        "are drawn before, by their rays), or each object by the rays of its pixels"
+    )
+    return form
+
+
 # One algorithm.
 
 
@@ -173,18 +205,24 @@ def run_panel(
     picture: Picture,
     room: ImVec2,
     fonts: Fonts,
+    indexing: Indexing,
     in_julia: bool = False,
 ) -> Answer:
-    """Code, canvas, variables and counters, in a room. in_julia: the code in Julia, too."""
+    """Code, canvas, variables and counters, in a room. indexing: how pixels are counted in what
+    stands beside the code. in_julia: the code in Julia, too."""
     imgui.push_font(fonts.bold, 0.0)
     title = TITLES[recording.order]
     if imgui.calc_text_size(title).x > room.x:
         title = title.partition(":")[0]
     imgui.text(title)
     imgui.pop_font()
-    if not in_julia:  # the listings say it
-        follow(imgui.calc_text_size(RUNNING).x)
-        imgui.text_colored(theme.DIM, RUNNING)
+    notes = [] if in_julia else [RUNNING]  # the listings say it
+    if recording.order is Order.RASTER and len(recording.model.flat.spheres):
+        notes.append("spheres by rays, first")  # which have no triangles
+    if notes:
+        note = "; ".join(notes)
+        follow(imgui.calc_text_size(note).x)
+        imgui.text_colored(theme.DIM, note)
     if moment is None:
         imgui.text_colored(theme.DIM, "running ...")
         return Answer()
@@ -200,7 +238,9 @@ def run_panel(
         x = 0.48 * left.x
         imgui.set_cursor_screen_pos(ImVec2(below.x + x, below.y))
         imgui.begin_group()
-        answer = _canvases(recording, moment, picture, ImVec2(0.26 * left.x, left.y), answer)
+        answer = _canvases(
+            recording, moment, picture, ImVec2(0.26 * left.x, left.y), answer, indexing
+        )
         imgui.end_group()
         imgui.set_cursor_screen_pos(ImVec2(below.x + 0.755 * left.x, below.y))
         _numbers(moment, ImVec2(0.245 * left.x, left.y), size_px, fonts)
@@ -212,7 +252,9 @@ def run_panel(
         listing(lines, moment.line, size_px, ImVec2(LEFT * left.x, UPPER * left.y), fonts)
         rest = left.y - (imgui.get_cursor_screen_pos().y - below.y)
         imgui.begin_group()
-        answer = _canvases(recording, moment, picture, ImVec2(LEFT * left.x, rest), answer)
+        answer = _canvases(
+            recording, moment, picture, ImVec2(LEFT * left.x, rest), answer, indexing
+        )
         imgui.end_group()
         imgui.set_cursor_screen_pos(ImVec2(below.x + (LEFT + 0.02) * left.x, below.y))
         _numbers(moment, ImVec2((0.98 - LEFT) * left.x, left.y), size_px, fonts)
@@ -222,7 +264,7 @@ def run_panel(
     left = imgui.get_content_region_avail()
     below = imgui.get_cursor_screen_pos()
     imgui.begin_group()
-    answer = _canvases(recording, moment, picture, ImVec2(0.52 * left.x, left.y), answer)
+    answer = _canvases(recording, moment, picture, ImVec2(0.52 * left.x, left.y), answer, indexing)
     imgui.end_group()
     imgui.set_cursor_screen_pos(ImVec2(below.x + 0.54 * left.x, below.y))
     _numbers(moment, ImVec2(0.46 * left.x, left.y), size_px, fonts)
@@ -235,7 +277,8 @@ def _slider(recording: Recording, moment: Moment) -> Answer:
     imgui.set_next_item_width(-1)
     note = f"step %d of {most}"
     if recording.truncated:
-        note += f" (stopped after {MOST_STEPS}: take fewer pixels)"
+        less = "object order by rays" if recording.order is Order.RASTER else "fewer pixels"
+        note += f" (stopped after {MOST_STEPS}: take {less})"
     elif not recording.complete:
         note += " so far"
     changed, step = imgui.slider_int(
@@ -269,12 +312,20 @@ def _largest() -> tuple[str, int]:
 @functools.cache
 def _called() -> dict[str, str]:
     """The sources of what the loops call."""
-    parts = (viewing_ray, bounding_box, intersect, color_at, Canvas, DepthBuffer)
+    parts = (
+        viewing_ray, bounding_box, intersect, color_at, Canvas, DepthBuffer,
+        prepared, triangles, project, box_around, edge, t_of, shade,
+    )  # fmt: skip
     return {part.__name__: inspect.getsource(part).rstrip() for part in parts}
 
 
 def _canvases(
-    recording: Recording, moment: Moment, picture: Picture, room: ImVec2, answer: Answer
+    recording: Recording,
+    moment: Moment,
+    picture: Picture,
+    room: ImVec2,
+    answer: Answer,
+    indexing: Indexing,
 ) -> Answer:
     """The canvas, and in object order the depth buffer beside or below it: where it has room."""
     name, size = recording.order.name, recording.size
@@ -283,7 +334,7 @@ def _canvases(
     height = max(20.0, room.y - label)
     first = rest = ImVec2(room.x, height)
     beside = False
-    has_depth = recording.order is Order.OBJECT
+    has_depth = recording.order.has_depth
     if has_depth:
         below = max(20.0, height - 2 * spacing.y)
         across = room.x - spacing.x
@@ -296,9 +347,10 @@ def _canvases(
             choices, key=lambda one: min(one[0].x / size[0], one[0].y / size[1])
         )
     dots = tuple((test.pixel, test.t < float("inf")) for test in moment.tests)
-    marks = Marks(moment.pixel, moment.box, dots if recording.order is Order.OBJECT else ())
+    corners = tuple((corner.x, corner.y) for corner in moment.corners or ())
+    marks = Marks(moment.pixel, moment.box, dots if has_depth else (), corners)
     imgui.begin_group()
-    imgui.text_colored(theme.DIM, "canvas")
+    imgui.text_colored(theme.DIM, _caption(moment, indexing, room.x))
     clicked = canvas(picture.color, size, first, marks, f"canvas##{name}")
     imgui.set_item_tooltip("a click goes to a pixel's turn")
     imgui.end_group()
@@ -318,6 +370,15 @@ def _canvases(
     return replace(answer, pixel=clicked) if clicked is not None else answer
 
 
+def _caption(moment: Moment, indexing: Indexing, width: float) -> str:
+    """What stands above the canvas: which pixel's turn it is, as the window counts."""
+    if moment.pixel is None:
+        return "canvas"
+    pixel = f"pixel {indexing.text(moment.pixel)} {indexing.told}"
+    whole = f"canvas, {pixel}"
+    return whole if imgui.calc_text_size(whole).x <= width else pixel
+
+
 def _numbers(moment: Moment, room: ImVec2, code_px: float, fonts: Fonts) -> None:
     """The counters and the variables, in type about as large as the code's."""
     imgui.begin_child("numbers", room)
@@ -332,7 +393,7 @@ def _tables(moment: Moment, fonts: Fonts) -> None:
     flags = imgui.TableFlags_
     if imgui.begin_table("counters", 2, flags.sizing_fixed_fit | flags.no_saved_settings):
         for name, count, tip in (
-            ("tests", counters.tests, "how often an object and a ray were intersected"),
+            ("tests", counters.tests, "how often an object or a triangle was tested at a pixel"),
             ("writes", counters.writes, "how often a pixel of the canvas was set"),
             ("overwrites", counters.overwrites, "writes to a pixel that had been set before"),
         ):
@@ -363,6 +424,9 @@ def _tables(moment: Moment, fonts: Fonts) -> None:
             if variable.name in INDICES:
                 imgui.same_line()
                 imgui.text_colored(theme.DIM, Indexing.ARRAY.told)  # as the code beside it
+            elif variable.note:
+                imgui.same_line()
+                imgui.text_colored(theme.DIM, variable.note)
             imgui.pop_text_wrap_pos()
         imgui.end_table()
 

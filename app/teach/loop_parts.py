@@ -155,9 +155,16 @@ def color_at(scene: Model, ray: ViewingRay, hit: Hit) -> Color:
     """The light that comes along the ray from the hit; the background's for MISS."""
     if hit is MISS:
         return scene.background
-    flat, direction = scene.flat, ray.direction
-    where = hit.primitive, hit.b1, hit.b2
-    point = scalar.point_on(ray.origin, direction, hit.t)
+    point = scalar.point_on(ray.origin, ray.direction, hit.t)
+    return light_at(scene, ray.direction, point, (hit.primitive, hit.b1, hit.b2))
+
+
+def light_at(
+    scene: Model, direction: Vector, point: Vector, where: tuple[int, float, float]
+) -> Color:
+    """The light that a point sends to who looks along `direction`. where: on which triangle or
+    sphere, and its barycentrics b1, b2 there."""
+    flat = scene.flat
     geometric, normal = scalar.normals_at(flat, direction, point, *where)
     return _three(scalar.color_at(flat, direction, point, geometric, normal, *where))
 

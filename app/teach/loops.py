@@ -1,9 +1,10 @@
-"""The two algorithms as the lecture writes them: rasterization and ray tracing, by their loops.
+"""The two algorithms as the lecture writes them: object order and image order, by their loops.
 
 Owns the loops, and nothing else: the stepper shows these functions' sources while they run, which
-is why they carry no types. What they call is in loop_parts.py. Only the order of the loops differs,
-and what that makes of the test. Both take a Model, a Camera and a size (width, height), and give a
-Canvas.
+is why they carry no types. What they call is in loop_parts.py and raster_parts.py. Object order has
+two forms: rasterization, for triangles, as graphics cards do it; and by rays, for any shape, where
+against image order only the loops are swapped. All take a Model, a Camera and a size (width,
+height), and give a Canvas: the same one.
 """
 
 from __future__ import annotations
@@ -17,10 +18,32 @@ from app.teach.loop_parts import (
     intersect,
     viewing_ray,
 )
+from app.teach.raster_parts import box_around, edge, prepared, project, shade, t_of, triangles
+
+
+def rasterization(scene, camera, size):
+    """For each triangle, for each pixel of its bounding box."""
+    canvas, depth = prepared(scene, camera, size)
+    for triangle in triangles(scene, camera):
+        a, b, c = project(triangle, camera, size)
+        rows, columns = box_around(a, b, c, size)
+        for i in rows:
+            for j in columns:
+                p = (j + 0.5, i + 0.5)
+                ea = edge(b, c, p) / edge(b, c, a)
+                eb = edge(c, a, p) / edge(c, a, b)
+                ec = edge(a, b, p) / edge(a, b, c)
+                if min(ea, eb, ec) >= 0:
+                    z = ea * a.z + eb * b.z + ec * c.z
+                    t = t_of(z, camera)
+                    if t < depth[i, j]:
+                        depth[i, j] = t
+                        canvas[i, j] = shade(triangle, ea, eb, ec)
+    return canvas
 
 
 def object_order(scene, camera, size):
-    """For each object, for each pixel."""
+    """For each object, for each pixel, by the pixel's ray."""
     W, H = size
     left, right, bottom, top = camera.viewport
     canvas = Canvas(size, scene.background)

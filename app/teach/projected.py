@@ -83,12 +83,12 @@ def pixels_of(extent: Extent, camera: Camera, size: Size) -> tuple[range, range]
     """The rows and columns whose pixels' centres lie within an extent; see Camera.image_point."""
     width, height = size
     left, right, bottom, top = camera.viewport
-    columns = _whole(
+    columns = whole_within(
         (extent.left - left) / (right - left) * width - 0.5,
         (extent.right - left) / (right - left) * width - 0.5,
         width,
     )
-    rows = _whole(
+    rows = whole_within(
         (top - extent.top) / (top - bottom) * height - 0.5,
         (top - extent.bottom) / (top - bottom) * height - 0.5,
         height,
@@ -110,7 +110,7 @@ def _cut(local: Floats, t: Floats, faces: np.ndarray, least: float) -> Floats:
     return (local[a, :2] + part[:, None] * (local[b, :2] - local[a, :2])) / least
 
 
-def _whole(low: float, high: float, count: int) -> range:
+def whole_within(low: float, high: float, count: int) -> range:
     """The whole numbers from low to high that are within 0 to count - 1."""
     first = math.ceil(min(max(low - ROUNDING_PX, 0.0), count))
     last = math.floor(max(min(high + ROUNDING_PX, count - 1.0), -1.0))

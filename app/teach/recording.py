@@ -8,6 +8,7 @@ One thread runs, any other looks at what is there so far.
 
 from __future__ import annotations
 
+import math
 import sys
 import threading
 import time
@@ -20,7 +21,8 @@ from app.bounds import check, whole_range_of
 from app.options import StepperOptions
 from app.teach.columns import Column
 from app.teach.loop_parts import Model
-from app.teach.loops import image_order, object_order
+from app.teach.loops import image_order, object_order, rasterization
+from app.teach.raster_parts import t_of
 from app.teach.source import Source, source_of
 from renderer.camera import Camera, Size
 
@@ -31,14 +33,27 @@ _MISSING = object()
 
 
 class Order(Enum):
-    """Which algorithm."""
+    """Which algorithm. Object order has two forms: by triangles, and by rays."""
 
+    RASTER = "rasterization"
     OBJECT = "object order"
     IMAGE = "image order"
 
     @property
+    def has_depth(self) -> bool:
+        """Whether it needs a depth buffer: object order, in both forms."""
+        return self is not Order.IMAGE
+
+    @property
     def renderer(self) -> Callable[..., Any]:
-        return object_order if self is Order.OBJECT else image_order
+        return _RENDERERS[self]
+
+
+_RENDERERS = {
+    Order.RASTER: rasterization,
+    Order.OBJECT: object_order,
+    Order.IMAGE: image_order,
+}
 
 
 class CancelledError(Exception):
@@ -141,8 +156,9 @@ class _Recorder:
         self._log_values(values, step)
         self._log_writes(values, step)
         if self._after_test:
-            to.test_t.append(values["hit"].t)
-            to.tests.append((values["i"], values["j"], values["object"].number))
+            number, t = self._result(values)
+            to.test_t.append(t)
+            to.tests.append((values["i"], values["j"], number))
             to.test_steps.append(step)
         self._after_test = line == to.source.test
         if line == to.source.pixels.first:
@@ -154,6 +170,16 @@ class _Recorder:
         if step % _BREAK_EVERY == 0:
             self._take_a_break()
         return self._line
+
+    def _result(self, values: dict[str, Any]) -> tuple[int, float]:
+        """Which object has just been tested, and the t at which it affects the pixel, if it does
+        at all."""
+        if "hit" in values:
+            return values["object"].number, values["hit"].t
+        edges = values["ea"], values["eb"], values["ec"]
+        inside = min(edges) >= 0
+        z = sum(e * values[corner].z for e, corner in zip(edges, "abc", strict=True))
+        return values["triangle"].object.number, t_of(z, self._to.camera) if inside else math.inf
 
     def _log_values(self, values: dict[str, Any], step: int) -> None:
         last = self._last

@@ -31,8 +31,9 @@ class Source:
     """A function's text. lines: without its docstring. first_line: what is to be subtracted from
     Python's line numbers; shown: the number in `lines` of each of Python's, -1 for the docstring.
 
-    pixels: the loop over columns j, within that over rows. objects: the loop over objects. test:
-    the line that intersects an object; write: the one that sets a pixel of the canvas.
+    pixels: the loop over columns j, within that over rows. objects: the loop over objects, or over
+    their triangles. test: the line that intersects an object, or the last of a triangle's edge
+    functions; write: the one that sets a pixel of the canvas.
     """
 
     name: str
@@ -46,7 +47,7 @@ class Source:
 
 
 def source_of(function: Callable[..., Any]) -> Source:
-    """The source of object_order or image_order, or of a function with the same parts."""
+    """The source of one of the loops, or of a function with the same parts."""
     text = textwrap.dedent(inspect.getsource(function))
     tree = ast.parse(text).body[0]
     assert isinstance(tree, ast.FunctionDef)
@@ -65,10 +66,10 @@ def source_of(function: Callable[..., Any]) -> Source:
         for node in ast.walk(tree)
         if isinstance(node, ast.For)
     }
-    test = next(
+    test = max(
         node.lineno
         for node in ast.walk(tree)
-        if isinstance(node, ast.Call) and ast.unparse(node.func) == "intersect"
+        if isinstance(node, ast.Call) and ast.unparse(node.func) in ("intersect", "edge")
     )
     write = next(
         node.lineno
@@ -81,7 +82,7 @@ def source_of(function: Callable[..., Any]) -> Source:
         first_line=function.__code__.co_firstlineno,
         shown=tuple(shown),
         pixels=loops["j"],
-        objects=loops["object"],
+        objects=loops["object"] if "object" in loops else loops["triangle"],
         test=shown[test - 1],
         write=shown[write - 1],
     )

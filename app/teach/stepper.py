@@ -16,25 +16,30 @@ from numpy.typing import NDArray
 from app.teach.columns import Column
 from app.teach.loop_parts import MISS, Hit, Object, ViewingRay
 from app.teach.notation import number, text_tuple
+from app.teach.raster_parts import WHOLE, Corner, Triangle
 from app.teach.recording import Recording
 from renderer.camera import Floats
 
-SHOWN = ("object", "rows", "columns", "i", "j", "u", "v", "ray", "hit", "closest")
+SHOWN = ("object", "triangle", "a", "b", "c", "rows", "columns", "i", "j", "p", "u", "v", "ray",
+         "hit", "closest", "ea", "eb", "ec", "z", "t")  # fmt: skip
+EDGES = ("ea", "eb", "ec")
 
 
 @dataclass(frozen=True)
 class Variable:
-    """A variable's name and value as text. changed: by the line that has just run."""
+    """A variable's name and value as text. changed: by the line that has just run. note: what the
+    value tells, of an edge function: on which side of the edge the pixel is."""
 
     name: str
     text: str
     changed: bool
+    note: str = ""
 
 
 @dataclass(frozen=True)
 class Counters:
-    """tests: how often an object and a ray were intersected; writes to the canvas; overwrites:
-    those among them to a pixel that had been written before."""
+    """tests: how often an object or a triangle was tested at a pixel; writes to the canvas;
+    overwrites: those among them to a pixel that had been written before."""
 
     tests: int
     writes: int
@@ -43,7 +48,7 @@ class Counters:
 
 @dataclass(frozen=True)
 class Test:
-    """One execution of the inner line: t is infinite where the ray misses the object."""
+    """One execution of the inner line: t is infinite where the object does not affect the pixel."""
 
     pixel: tuple[int, int]
     object: int
@@ -54,11 +59,11 @@ class Test:
 class Moment:
     """What there is before a step's line is run.
 
-    line: its number in the source. pixel, object (its number), ray, box (rows, columns): None
-    outside the loop that sets them. canvas: linear light (height, width, 3), NaN where nothing is
-    set. depth: (height, width), None in image order. written: the pixel that the last line set.
-    tests: of the inner loop that is under way: in object order the object's, in image order the
-    pixel's.
+    line: its number in the source. pixel, object (its number), ray, box (rows, columns), triangle
+    and corners (its own, in the image): None outside the loop that sets them. canvas: linear light
+    (height, width, 3), NaN where nothing is set. depth: (height, width), None in image order.
+    written: the pixel that the last line set. tests: of the inner loop that is under way: in object
+    order the object's or the triangle's, in image order the pixel's.
     """
 
     step: int
@@ -68,6 +73,8 @@ class Moment:
     object: int | None
     ray: ViewingRay | None
     box: tuple[range, range] | None
+    triangle: Triangle | None
+    corners: tuple[Corner, ...] | None
     canvas: Floats
     depth: Floats | None
     written: tuple[int, int] | None
@@ -87,7 +94,10 @@ def moment_at(recording: Recording, step: int) -> Moment:
     now = {name: _value(log, step) for name, log in recording.values.items()}
     in_pixel, in_object = source.pixels.runs(line), source.objects.runs(line)
     pixel = (now["i"], now["j"]) if in_pixel else None
-    thing: Object | None = now["object"] if in_object else None
+    triangle: Triangle | None = now.get("triangle") if in_object else None
+    thing: Object | None = now.get("object") if in_object else None
+    if triangle is not None:
+        thing = triangle.object
     box: tuple[Any, Any] = now.get("rows"), now.get("columns")
     writes = recording.write_steps.count_upto(step)
 
@@ -101,8 +111,14 @@ def moment_at(recording: Recording, step: int) -> Moment:
         variables=tuple(_variables(recording, now, step)),
         pixel=pixel,
         object=None if thing is None else thing.number,
-        ray=now["ray"] if in_pixel and is_fresh("ray", recording.pixel_steps) else None,
+        ray=now.get("ray") if in_pixel and is_fresh("ray", recording.pixel_steps) else None,
         box=box if in_object and is_fresh("rows", recording.object_steps) else None,
+        triangle=triangle,
+        corners=(
+            tuple(now[name] for name in "abc")
+            if triangle is not None and is_fresh("c", recording.object_steps)
+            else None
+        ),
         canvas=_canvas(recording, writes, now),
         depth=_depth(recording, step, now),
         written=_written(recording, writes, step),
@@ -178,7 +194,12 @@ def _since(recording: Recording, name: str, step: int) -> int:
 
 def _variables(recording: Recording, now: dict[str, Any], step: int) -> list[Variable]:
     return [
-        Variable(name, describe(now[name]), _since(recording, name, step) == step)
+        Variable(
+            name,
+            describe(now[name]),
+            _since(recording, name, step) == step,
+            ("inside" if now[name] >= 0 else "outside") if name in EDGES else "",
+        )
         for name in SHOWN
         if now.get(name) is not None
     ]
@@ -190,6 +211,13 @@ def describe(value: Any) -> str:
         return f"{value.start} to {value.stop - 1}" if value else "none"
     if isinstance(value, Object):
         return value.name
+    if isinstance(value, Triangle):
+        part = "" if value.shares is WHOLE else ", clipped"
+        return f"{value.object.name}, number {value.primitive}{part}"
+    if isinstance(value, Corner):
+        return f"({value.x:.2f}, {value.y:.2f}), z = {number(value.z, fixed=True)}"
+    if isinstance(value, tuple) and len(value) == 2:
+        return f"({value[0]:g}, {value[1]:g})"
     if isinstance(value, ViewingRay):
         origin, direction = text_tuple(value.origin, True), text_tuple(value.direction, True)
         return f"{origin} + t {direction}"

@@ -31,10 +31,10 @@ from app.views.base import Host, View
 from app.views.outside import OutsideView
 from app.views.uploads import Uploads
 from renderer.camera import Camera, Size
+from renderer.scene.model import Sphere
 
 STEPPER = "Stepper"
 LONGEST_FRAME_S = 0.25  # what a frame that took longer is taken for
-ORDERS = (Order.OBJECT, Order.IMAGE)  # as in StepperOptions.steps
 _EDGES = ((0, 1), (0, 2), (0, 4), (1, 3), (1, 5), (2, 3), (2, 6), (3, 7), (4, 5), (4, 6), (5, 7),
           (6, 7))  # fmt: skip  # of a box's corners, numbered by their bits
 
@@ -85,7 +85,9 @@ class StepperView(View):
         self._uploads.begin_frame()
         self._seen = True
         options = host.state.options.stepper
-        changed, wish = panel.controls(options, self.playing)
+        scene = host.state.scene
+        has_triangles = any(not isinstance(one.shape, Sphere) for one in scene.objects)
+        changed, wish = panel.controls(options, self.playing, has_triangles)
         language = panel.language(host.state.options.language)
         host.apply(host.state.with_options(language=language))
         wish = self._asked or panel.keys() or wish
@@ -95,7 +97,9 @@ class StepperView(View):
             options = changed
         state = host.state
         camera = state.view.for_size(options.canvas)
-        pair = self._runs.of(state.scene, camera, options.canvas)
+        by_triangles = has_triangles and options.form == "triangles"
+        both = (Order.RASTER if by_triangles else Order.OBJECT, Order.IMAGE)
+        pair = self._runs.of(state.scene, camera, options.canvas, both)
         if self._runs.error is not None:
             imgui.text_colored(theme.ERROR, describe(self._runs.error))
             return
@@ -105,7 +109,7 @@ class StepperView(View):
             return
         if not pair.complete:
             host.animate()
-        orders = [one for one in ORDERS if options.order in ("both", _key(one))]
+        orders = [one for one in both if options.order in ("both", _key(one))]
         steps = self._moved(host, pair, orders, options, wish)
         self._panels(host, pair, orders, steps)
         self._show_outside(host, pair, orders)
@@ -119,9 +123,7 @@ class StepperView(View):
         if wish == "play":
             self.playing = not self.playing
             self._before_s, self._owed = time.monotonic(), 0.0
-            at_end = all(
-                options.steps[ORDERS.index(one)] >= len(pair.runs[one]) - 1 for one in orders
-            )
+            at_end = all(options.steps[_at(one)] >= len(pair.runs[one]) - 1 for one in orders)
             if self.playing and at_end:
                 options = replace(options, steps=(0, 0))
         elif wish:
@@ -131,12 +133,12 @@ class StepperView(View):
             host.animate()
         steps = list(options.steps)
         for order in orders:
-            run, at = pair.runs[order], ORDERS.index(order)
+            run, at = pair.runs[order], _at(order)
             # A place that the run has not come to yet is kept for when it has.
             if len(run) and ((wish and wish != "play") or taken):
                 steps[at] = _after(run, min(steps[at], len(run) - 1), wish, taken)
         if self.playing and all(
-            pair.complete and steps[ORDERS.index(one)] >= len(pair.runs[one]) - 1 for one in orders
+            pair.complete and steps[_at(one)] >= len(pair.runs[one]) - 1 for one in orders
         ):
             self.playing = False
         if not (pair.complete or wish or taken):  # where it is to stand may be recorded yet
@@ -179,7 +181,7 @@ class StepperView(View):
         for number, order in enumerate(orders):
             if number and beside:
                 imgui.same_line()
-            run, at = pair.runs[order], ORDERS.index(order)
+            run, at = pair.runs[order], _at(order)
             imgui.begin_child(order.value, size, imgui.ChildFlags_.borders)
             moment = moment_at(run, steps[at]) if len(run) else None
             if moment is not None:
@@ -187,7 +189,7 @@ class StepperView(View):
                 self._upload(run, moment, host.state.images.exposure_ev)
             answer = panel.run_panel(
                 run, moment, self._picture(order), imgui.get_content_region_avail(), host.fonts,
-                host.state.options.language == "julia",
+                host.state.options.indexing, host.state.options.language == "julia",
             )  # fmt: skip
             imgui.end_child()
             if answer.step is not None:
@@ -258,7 +260,11 @@ def _items(pair: Pair, run: Recording, moment: Moment, end: float) -> list[Item]
     bounding box on the image plane."""
     items: list[Item] = []
     name = run.order.name.lower()
-    if moment.object is not None:
+    if moment.triangle is not None:
+        points = np.array(moment.triangle.points)
+        sides = np.stack([points, np.roll(points, -1, axis=0)], axis=1)
+        items.append(Lines(f"{name} triangle", "ray", sides, 2.5, layer=3))
+    elif moment.object is not None:
         thing = run.model.objects[moment.object]
         items.append(Lines(f"{name} object", "extra", _box(thing.low, thing.high), 1.8, layer=2))
     if moment.box is not None and moment.box[0] and moment.box[1]:
@@ -297,13 +303,19 @@ def _plane_box(camera: Camera, size: Size, box: tuple[range, range]) -> Lines:
 
 
 def _key(order: Order) -> str:
-    return "object" if order is Order.OBJECT else "image"
+    return "image" if order is Order.IMAGE else "object"
+
+
+def _at(order: Order) -> int:
+    """Which of StepperOptions.steps is an algorithm's."""
+    return 1 if order is Order.IMAGE else 0
 
 
 def _fields(options: StepperOptions) -> dict[str, Any]:
     return {
         "canvas": options.canvas,
         "order": options.order,
+        "form": options.form,
         "steps": options.steps,
         "speed": options.speed,
     }

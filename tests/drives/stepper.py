@@ -17,7 +17,7 @@ from app.teach.stepper import Moment
 from app.views.outside import OUTSIDE, OutsideView
 from app.views.stepper import STEPPER, StepperView
 from renderer.images.display import encode_srgb
-from renderer.scene.model import Scene
+from renderer.scene.model import Scene, SceneObject, Sphere
 from renderer.trace import Tracer
 
 WINDOW = f"//###{STEPPER}"
@@ -29,10 +29,10 @@ def view(d: Driver) -> StepperView:
     return found
 
 
-def enter(d: Driver, **options: object) -> None:
+def enter(d: Driver, form: str = "rays", **options: object) -> None:
     layout.switch("Loops")
     d.ctx.yield_(5)
-    d.window.change(d.window.state.with_options(stepper=options))
+    d.window.change(d.window.state.with_options(stepper={"form": form, **options}))
     d.settle()
     d.until(lambda: len(view(d).moments) > 0)
 
@@ -136,6 +136,33 @@ def drive_one_order_alone_and_every_canvas(d: Driver) -> None:
         shape = view(d).moments[Order.OBJECT].canvas.shape
         assert shape == (canvas[1], canvas[0], 3)
         d.picture()
+
+
+def drive_rasterization_goes_from_triangle_to_triangle(d: Driver) -> None:
+    enter(d, form="triangles", steps=(0, 0), canvas=(8, 6), order="both")
+    assert list(view(d).moments) == [Order.RASTER, Order.IMAGE]
+    for name in ("object", "pixel", "step", "step"):
+        press(d, name)
+    now = view(d).moments[Order.RASTER]
+    assert now.triangle is not None and now.corners is not None and now.pixel is not None
+    d.settle()
+    assert strokes(d, "raster triangle") > 0 and strokes(d, "raster object") == 0
+    press(d, "last")
+    d.until(lambda: all(moment.finished for moment in view(d).moments.values()))
+    by_triangles, by_rays = (moment.canvas for moment in view(d).moments.values())
+    assert np.allclose(by_triangles, by_rays, atol=1e-9)
+    # The other form, by its control: from the beginning, and a step of undo.
+    steps = len(d.window.history.past)
+    d.ctx.item_click(f"{WINDOW}/##form")
+    d.ctx.item_click("//$FOCUSED/by rays")
+    d.until(lambda: Order.OBJECT in view(d).moments)
+    assert d.window.state.options.stepper.form == "rays"
+    assert view(d).moments[Order.OBJECT].step == 0
+    assert len(d.window.history.past) == steps + 1
+    d.window.change(d.window.state.with_scene(Scene((SceneObject(Sphere((0, 0, -3), 1)),))))
+    d.window.change(d.window.state.with_options(stepper={"form": "triangles"}))
+    d.settle()
+    d.until(lambda: Order.OBJECT in view(d).moments)  # it has no triangles
 
 
 def drive_the_outside_view_shows_the_ray_and_the_object(d: Driver) -> None:

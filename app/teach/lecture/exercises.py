@@ -17,6 +17,7 @@ from app.teach.lecture.mistakes import mistakes
 from app.teach.lecture.text import escaped
 from renderer.camera import Camera
 from renderer.errors import LucidaError
+from renderer.pixels import Indexing
 
 Floats = NDArray[np.float64]
 
@@ -38,6 +39,7 @@ class RayExercise:
 
     pixel: (row, column), 0-based. size: (width, height) of the image. scaled: any positive
     multiple of the direction counts. tolerance: the largest error, relative to the vector.
+    indexing: how the texts count pixels.
     """
 
     question: str
@@ -46,6 +48,7 @@ class RayExercise:
     size: tuple[int, int]
     scaled: bool = True
     tolerance: float = TOLERANCE
+    indexing: Indexing = Indexing.LECTURE
 
     @property
     def fields(self) -> tuple[str, ...]:
@@ -61,7 +64,7 @@ class RayExercise:
         wrong_direction = not self._is_direction(given["direction"], ray.direction)
         if not wrong_origin and not wrong_direction:
             return Verdict(True, "Right.")
-        for mistake in mistakes(self.camera, *self.pixel, self.size):
+        for mistake in mistakes(self.camera, *self.pixel, self.size, self.indexing):
             if self._is_origin(given["origin"], mistake.ray.origin) and self._is_direction(
                 given["direction"], mistake.ray.direction
             ):
@@ -70,7 +73,6 @@ class RayExercise:
 
     def solution(self) -> str:
         """The right ray, step by step, as a lecture's text. Source: the lecture, "any camera"."""
-        i, j = self.pixel[0] + 1, self.pixel[1] + 1
         x, y = (float(value) for value in self.camera.image_point(*self.pixel, self.size))
         ray = self.camera.ray(*self.pixel, self.size)
         if self.camera.is_parallel:
@@ -83,14 +85,15 @@ class RayExercise:
                 r"$\mathbf{p} = \mathbf{e}$, "
                 r"$\mathbf{d} = u\,\mathbf{u} + v\,\mathbf{v} - d\,\mathbf{w}$"
             )
+        pixel = self.indexing.text(self.pixel)
         return (
-            f"Pixel ({i}, {j}) lies at $u = {text_of(x)}$, $v = {text_of(y)}$.\n\n{rule}\n\n"
+            f"Pixel {pixel} lies at $u = {text_of(x)}$, $v = {text_of(y)}$.\n\n{rule}\n\n"
             f"origin `{vector_text(ray.origin)}`, direction `{vector_text(ray.direction)}`"
         )
 
     def _one_part(self, given: dict[str, Floats], wrong_origin: bool) -> Verdict:
         """No classic mistake as a whole: the first wrong part, and its own mistake if it is one."""
-        for mistake in mistakes(self.camera, *self.pixel, self.size):
+        for mistake in mistakes(self.camera, *self.pixel, self.size, self.indexing):
             if wrong_origin and self._is_origin(given["origin"], mistake.ray.origin):
                 return Verdict(False, mistake.hint, "origin")
             if not wrong_origin and self._is_direction(given["direction"], mistake.ray.direction):

@@ -3,6 +3,8 @@
 Pure. Knows nothing of exercises or windows. In the lecture's notation: i, j from 1, and
 
     x = left + (j - 0.5) / W (right - left),  y = top - (i - 0.5) / H (top - bottom)
+
+or from 0, and + 0.5.
 """
 
 from __future__ import annotations
@@ -14,6 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from renderer.camera import Camera, Ray
+from renderer.pixels import Indexing
 
 Floats = NDArray[np.float64]
 
@@ -27,8 +30,15 @@ class Mistake:
     hint: str
 
 
-def mistakes(camera: Camera, i: int, j: int, size: tuple[int, int]) -> Iterator[Mistake]:
+def mistakes(
+    camera: Camera,
+    i: int,
+    j: int,
+    size: tuple[int, int],
+    indexing: Indexing = Indexing.LECTURE,
+) -> Iterator[Mistake]:
     """What the wrong lines give for pixel (i, j), 0-based, of an image of (width, height).
+    indexing: how whoever makes them counts.
 
     Those whose ray happens to be the right one are not left out: compare with that one first.
     """
@@ -48,15 +58,21 @@ def mistakes(camera: Camera, i: int, j: int, size: tuple[int, int]) -> Iterator[
         _ray(camera, *_point(camera, i - 0.5, j - 0.5, size)),
         "That ray goes through the pixel's corner. Its centre is half a pixel further.",
     )
+    from_one = indexing is Indexing.LECTURE
     yield Mistake(
-        "no half pixel",
+        "no half pixel" if from_one else "a whole pixel",
         _ray(camera, *_point(camera, i + 0.5, j + 0.5, size)),
-        "i and j count from 1: the centre is at j - 0.5, not at j.",
+        "i and j count from 1: the centre is at j - 0.5, not at j."
+        if from_one
+        else "i and j count from 0: the centre is at j + 0.5, not at j + 1.",
     )
+    off = 1 if from_one else -1
     yield Mistake(
         "half a pixel too far",
-        _ray(camera, *_point(camera, i + 1, j + 1, size)),
-        "i and j count from 1: subtract the half pixel, do not add it.",
+        _ray(camera, *_point(camera, i + off, j + off, size)),
+        "i and j count from 1: subtract the half pixel, do not add it."
+        if from_one
+        else "i and j count from 0: add the half pixel, do not subtract it.",
     )
     yield Mistake(
         "row and column exchanged",

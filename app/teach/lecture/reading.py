@@ -11,6 +11,7 @@ from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
+from app.options import Options
 from app.teach.lecture import text as texts
 from app.teach.lecture.exercises import (
     ChoiceExercise,
@@ -38,6 +39,7 @@ from app.teach.lecture.under import under
 from app.teach.lecture.written import formulas_written
 from renderer.errors import LucidaError
 from renderer.frame import check_size
+from renderer.pixels import Indexing
 from renderer.scene.files import scene_from_tables
 from renderer.scene.limits import TOML_BYTES
 from renderer.scene.load import BUILTIN_SCENES, load_scene
@@ -122,12 +124,14 @@ class _Reader:
     def __init__(self, folder: Path, source: str, places: Places) -> None:
         self._folder, self._source, self._places = folder, source, places
         self._scenes: dict[str, Scene] = {}
+        self._indexing = Indexing.LECTURE
 
     def lecture(self, tables: dict[str, Any]) -> Lecture:
         file: LectureFile = to_struct(tables, LectureFile)
         _check_title("title", file.title, "the lecture's title")
         if not 1 <= len(file.steps) <= STEPS:
             raise LucidaError("steps", f"holds {len(file.steps)} steps", f"give 1 to {STEPS}")
+        self._indexing = Indexing(file.pixels_from)
         check_inside(self._named(file))
         for name, scene in file.scenes.items():
             with under(f"scenes.{name}"):
@@ -171,12 +175,12 @@ class _Reader:
         scene = self._scene(table.scene or BUILTIN_SCENES[0])
         view = scene.view if table.camera is None else self._view(table.camera)
         with under("options"):
-            options = options_from_table(table.options)
+            options = self._options(table.options)
         resolution = options.get("images", {}).get("resolution")
         exercise = None
         if table.exercise is not None:
             with under("exercise"):
-                exercise = _exercise(table.exercise, view)
+                exercise = _exercise(table.exercise, view, self._indexing)
         return Step(
             table.title,
             part,
@@ -186,11 +190,25 @@ class _Reader:
             view,
             _views(table.views),
             options,
-            None if table.pixel is None else _pixel(table.pixel, resolution),
+            None if table.pixel is None else _pixel(table.pixel, resolution, self._indexing),
             tuple(_known(f"highlight[{k}]", n, HIGHLIGHTS) for k, n in enumerate(table.highlight)),
             exercise,
             line,
         )
+
+    def _options(self, tables: dict[str, Any]) -> dict[str, Any]:
+        """The step's options; pixels are counted as the lecture says, in all of its steps."""
+        options = options_from_table(tables)
+        one_based = self._indexing is Indexing.LECTURE
+        if one_based != Options().one_based:
+            options = {"one_based": one_based} | options
+        if options.get("one_based", one_based) != one_based:
+            raise LucidaError(
+                "one_based",
+                f"differs from pixels_from = {self._indexing.value}",
+                "leave it out; pixels_from, beside the title, holds for the whole lecture",
+            )
+        return options
 
     def _scene(self, name: str) -> Scene:
         if name not in self._scenes:
@@ -247,7 +265,7 @@ def _views(names: list[str]) -> tuple[str, ...]:
     return tuple(names)
 
 
-def _exercise(table: Any, view: View) -> Exercise:
+def _exercise(table: Any, view: View, indexing: Indexing) -> Exercise:
     entry: RayTable | VectorTable | ChoiceTable = to_struct(table, AnyExercise)
     if not entry.question.strip():
         raise LucidaError("question", "is empty", "ask something")
@@ -255,18 +273,18 @@ def _exercise(table: Any, view: View) -> Exercise:
         texts.parse(entry.question)
     match entry:
         case RayTable():
-            return _ray_exercise(entry, view)
+            return _ray_exercise(entry, view, indexing)
         case VectorTable():
             return _vector_exercise(entry)
     return _choice_exercise(entry)
 
 
-def _ray_exercise(entry: RayTable, view: View) -> RayExercise:
+def _ray_exercise(entry: RayTable, view: View, indexing: Indexing) -> RayExercise:
     size = check_size(entry.size)
-    pixel = _pixel(entry.pixel, size)
+    pixel = _pixel(entry.pixel, size, indexing)
     camera = view.camera if entry.camera is None else view_from_table(entry.camera).camera
     tolerance = _tolerance(entry.tolerance)
-    return RayExercise(entry.question, camera, pixel, size, entry.scaled, tolerance)
+    return RayExercise(entry.question, camera, pixel, size, entry.scaled, tolerance, indexing)
 
 
 def _vector_exercise(entry: VectorTable) -> VectorExercise:
@@ -309,18 +327,23 @@ def _tolerance(value: float) -> float:
     return value
 
 
-def _pixel(pixel: tuple[int, int], size: tuple[int, int] | None) -> tuple[int, int]:
-    """Row and column from 1, as the lecture counts, to row and column from 0. size: (width,
-    height) of the image, where the file says it."""
-    if min(pixel) < 1:
-        raise LucidaError("pixel", f"{list(pixel)} is no pixel", "give row and column, from 1")
-    if size is not None and (pixel[0] > size[1] or pixel[1] > size[0]):
+def _pixel(
+    pixel: tuple[int, int], size: tuple[int, int] | None, indexing: Indexing
+) -> tuple[int, int]:
+    """Row and column as the lecture counts, to row and column from 0. size: (width, height) of the
+    image, where the file says it."""
+    if min(pixel) < indexing.value:
+        remedy = f"give row and column, {indexing.told}"
+        raise LucidaError("pixel", f"{list(pixel)} is no pixel", remedy)
+    row, column = indexing.pixel(*pixel)
+    if size is not None and (row >= size[1] or column >= size[0]):
+        last = indexing.numbers((size[1] - 1, size[0] - 1))
         raise LucidaError(
             "pixel",
             f"{list(pixel)} is not in an image of {size[0]}x{size[1]}",
-            f"give a row up to {size[1]} and a column up to {size[0]}",
+            f"give a row up to {last[0]} and a column up to {last[1]}",
         )
-    return pixel[0] - 1, pixel[1] - 1
+    return row, column
 
 
 def _known(field: str, name: str, names: tuple[str, ...]) -> str:

@@ -6,7 +6,7 @@ reading.py.
 
 from __future__ import annotations
 
-from typing import Any
+from typing import Any, Literal
 
 from msgspec import field
 
@@ -32,7 +32,7 @@ HIGHLIGHTS = (
 
 
 class StepTable(Table, kw_only=True):
-    """[[steps]]. pixel: the marked pixel, row and column from 1."""
+    """[[steps]]. pixel: the marked pixel, row and column, counted as the lecture does."""
 
     title: str
     part: str = ""
@@ -49,7 +49,7 @@ class StepTable(Table, kw_only=True):
 class RayTable(Table, kw_only=True, tag_field="kind", tag="ray"):
     """[steps.exercise] kind = "ray": the ray of a pixel of the step's camera, or of `camera`.
 
-    pixel: row and column from 1. size: width and height of the image.
+    pixel: row and column, counted as the lecture does. size: width and height of the image.
     """
 
     question: str
@@ -103,9 +103,11 @@ AnyExercise = RayTable | VectorTable | ChoiceTable
 
 
 class LectureFile(Table, kw_only=True):
-    """A lecture file. scenes: scenes as scene files hold them, by name, for the steps below."""
+    """A lecture file. pixels_from: what its first row and column are called, in the file and in the
+    window. scenes: scenes as scene files hold them, by name, for the steps below."""
 
     title: str
     author: str = ""
+    pixels_from: Literal[0, 1] = 1
     scenes: dict[str, Any] = field(default_factory=dict)
     steps: list[Any]
