@@ -294,9 +294,7 @@ class Files:
 
         self._loading.submit(loaded)
 
-    def _ask_outside(
-        self, error: OutsideError, again: Callable[[frozenset[Path]], None]
-    ) -> None:
+    def _ask_outside(self, error: OutsideError, again: Callable[[frozenset[Path]], None]) -> None:
         files = error.files
         name = one_line(Path(error.source).name)
         self.outside = Outside(name, files, lambda: again(frozenset(files)))
