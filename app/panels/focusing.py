@@ -30,7 +30,7 @@ class Focusing:
             context.input_events_queue.clear()
 
     def begin_frame(self) -> None:
-        """When a frame has begun: the events go into the next one, before later ones."""
+        """When a frame has begun: the events are for the next one, before what has come since."""
         if self._held is None:
             return
         queue = imgui.get_current_context().input_events_queue
