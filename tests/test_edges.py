@@ -330,10 +330,10 @@ def test_cells_of_little_more_than_a_pixel() -> None:
     side = 1.5 / 16  # at t = 2, where a pixel is 1/16 of a unit
     wall = SceneObject(plane((0, 0, 1), (0, 0, -2)).shape, Material(checker=Checker(size=side)))
     lines = Lines(flatten(Scene((wall,))), camera, size)
-    i, j = np.array([11.1, 12.2, 13.4, 11.0]), np.array([17.05, 14.3, 15.9, 16.6])
+    i, j = np.random.default_rng(4).uniform(9, 20, (2, 40))
     cells = np.stack(camera.image_point(i, j, size), axis=-1) * 2 / side + 0.5
     wanted = 1.5 * np.abs(cells - np.round(cells)).min(axis=1)
-    found = lines.checker_px(np.zeros(4, int), i, j, np.full(4, 2.0))
+    found = lines.checker_px(np.zeros(40, int), i, j, np.full(40, 2.0))
     np.testing.assert_allclose(found, wanted, atol=1e-3)
 
 
