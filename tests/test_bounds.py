@@ -9,7 +9,7 @@ from typing import Annotated, Any, get_args, get_origin, get_type_hints
 
 import pytest
 
-from app.bounds import AtMost, Range, check, clamped, range_of, whole_range_of
+from app.bounds import Accepted, AtMost, Range, check, clamped, range_of, whole_range_of
 from app.options import (
     Bookmark,
     CompareOptions,
@@ -186,3 +186,4 @@ def test_a_list_may_be_as_long_as_its_bound():
 def test_what_is_no_number_becomes_the_default_or_else_the_least():
     assert Range(1, 4).clamped(math.nan, None) == 1
     assert Range(1, 4).clamped(math.nan, 3.0) == 3.0
+    assert Accepted(Camera).clamped("no eye", (1, 2)) == (1, 2)

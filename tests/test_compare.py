@@ -418,3 +418,12 @@ def test_the_smallest_differences_are_told_as_they_are():
     assert (error.largest, error.infinite, error.differing, error.worst) == (1, 0, 1, (3, 4))
     missed = compare_frames(flat, CAMERA, SIZE, image(np.inf, -1, -1), frame)
     assert missed.max_color_error == missed.errors["depth"].rms == 0
+
+
+def test_false_colors_without_options_are_the_colours_differences_as_they_are():
+    flat = flatten(Scene((wall(-2),)))
+    frame = image(2, 0, 0)
+    other = changed(frame, (3, 4), color=0.2)
+    comparison = compare_frames(flat, CAMERA, SIZE, frame, other)
+    difference = signed_difference(frame, other, "color")
+    assert (comparison.false_color() == false_color(difference, "color", 1.0)).all()

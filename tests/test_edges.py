@@ -256,6 +256,9 @@ def test_a_checker_cell_ends_at_the_distance_of_its_border(camera: Camera, entry
         stays = (there == here).all(axis=(0, 2))
         # All but some at the cells' corners, and where a sphere leaves a layer of cells.
         assert np.mean(stays == same) > 0.94
+    behind = plane((0, 0, 1), (0, 0, -50))
+    second = Lines(flatten(Scene((behind, entry))), camera, SIZE)
+    np.testing.assert_allclose(second.checker_px(primitive + 1, i, j, t), found)
     plain = Lines(flatten(Scene((replace(entry, material=Material()),))), camera, SIZE)
     assert np.isinf(plain.checker_px(primitive, i, j, t)).all()
     assert np.isinf(lines.checker_px(primitive - 1, i, j, t)).all()
@@ -319,3 +322,26 @@ def test_an_edge_right_behind_the_eye_is_not_touched(side: int, touched: bool, o
     lines = Lines(flat, Camera(viewport=(-4, 4, -3, 3)), (32, 24))
     distance = lines.outline_px(np.zeros(1, int), np.array([12]), np.array([22]))
     assert (distance[0] == 0) == touched
+
+
+def test_cells_of_little_more_than_a_pixel() -> None:
+    """Of 1.5 pixels: the border is the one that is nearest to the pixel itself."""
+    camera, size = Camera(viewport=(-0.5, 0.5, -0.375, 0.375)), (32, 24)
+    side = 1.5 / 16  # at t = 2, where a pixel is 1/16 of a unit
+    wall = SceneObject(plane((0, 0, 1), (0, 0, -2)).shape, Material(checker=Checker(size=side)))
+    lines = Lines(flatten(Scene((wall,))), camera, size)
+    i, j = np.random.default_rng(4).uniform(9, 20, (2, 40))
+    cells = np.stack(camera.image_point(i, j, size), axis=-1) * 2 / side + 0.5
+    wanted = 1.5 * np.abs(cells - np.round(cells)).min(axis=1)
+    found = lines.checker_px(np.zeros(40, int), i, j, np.full(40, 2.0))
+    np.testing.assert_allclose(found, wanted, atol=1e-3)
+
+
+def test_from_where_on_a_long_triangle_is_rasterized() -> None:
+    """A millionth of its farthest corner's depth, and what float32 adds to that."""
+    corners = [(-400, -1, 400), (400, -1, 400), (0, -1, -400)]
+    lines = Lines(flatten(Scene((SceneObject(Mesh(corners, [[0, 1, 2]])),))), Camera(), (32, 24))
+    pixel = np.zeros(1, int), np.array([20]), np.array([9])
+    for part, cut in ((1.4e-6, True), (1.6e-6, False)):
+        distance = lines.clip_px(*pixel, np.array([part * 400]))
+        assert (distance[0] == 0) == cut

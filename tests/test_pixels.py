@@ -23,6 +23,7 @@ def test_pixels_are_counted_as_chosen():
     assert (lecture.short(PIXEL), array.short(PIXEL)) == ("1,12", "0,11")
     assert lecture.words(PIXEL) == "row 1, column 12"
     assert (lecture.told, array.told) == ("from 1", "from 0")
+    assert (lecture.offset, array.offset) == ("- 0.5", "+ 0.5")
     for indexing in Indexing:
         assert indexing.pixel(*indexing.numbers(PIXEL)) == PIXEL
 
