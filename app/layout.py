@@ -192,6 +192,20 @@ def arrange(views: Iterable[View], places: dict[str, str]) -> None:
     reset()
 
 
+def is_arranged(views: Iterable[View], places: dict[str, str]) -> bool:
+    """Whether these views stand as arrange() puts them."""
+    layout, params = current(), hello_imgui.get_runner_params().docking_params
+    for view in views:
+        if window_of(view).is_visible != (view.name in places):
+            return False
+        window = imgui.internal.find_window_by_name(view.label)
+        if view.name in places and window is not None:
+            space = params.dock_space_id_from_name(_own(layout, places[view.name]))
+            if window.dock_id != space:
+                return False
+    return True
+
+
 def whole() -> tuple[tuple[float, float], tuple[float, float]] | None:
     """Where all views together stand, and how large that is; in ImGui's pixels."""
     params = hello_imgui.get_runner_params().docking_params

@@ -9,7 +9,7 @@ from __future__ import annotations
 import contextlib
 from collections.abc import Iterator
 
-from imgui_bundle import imgui
+from imgui_bundle import ImVec2, imgui
 
 SMALLEST_PX = 1.0  # what has no room in its window may ask for less than nothing
 
@@ -24,6 +24,22 @@ def lettering(font: imgui.ImFont | None, size_px: float) -> Iterator[None]:
         yield
     finally:
         imgui.pop_font()
+
+
+@contextlib.contextmanager
+def at_most(size_px: float) -> Iterator[None]:
+    """Type and spacing inside are no larger than type of this size has them: what stands round a
+    text that is read gives way to it."""
+    style, part = imgui.get_style(), min(1.0, size_px / imgui.get_font_size())
+    names = ("window_padding", "frame_padding", "item_spacing", "item_inner_spacing")
+    for name in names:
+        size = getattr(style, name)
+        imgui.push_style_var(getattr(imgui.StyleVar_, name), ImVec2(part * size.x, part * size.y))
+    try:
+        with lettering(None, part * imgui.get_font_size()):
+            yield
+    finally:
+        imgui.pop_style_var(len(names))
 
 
 def fitting_words(text: str, width_px: float) -> str:

@@ -17,6 +17,7 @@ from app.images import comparing
 from app.images.comparing import LABELS, MODES, Scale
 from app.lettering import fitting_words
 from app.options import CompareOptions, Pixel
+from app.panels.sliders import slider_float
 from app.state import AppState
 from renderer.compare import LABEL_COLORS, Comparison
 
@@ -75,7 +76,7 @@ def toolbar(state: AppState) -> AppState:
     imgui.set_next_item_width(width)
     has_gain = options.mode in ("absolute", "signed") and state.images.channel != "id"
     imgui.begin_disabled(not has_gain)
-    changed, gain = imgui.slider_float(
+    changed, gain = slider_float(
         "##gain",
         options.gain,
         *range_of(CompareOptions, "gain"),

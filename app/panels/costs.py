@@ -16,6 +16,7 @@ from numpy.typing import NDArray
 from app import theme
 from app.bounds import whole_range_of
 from app.options import CostOptions
+from app.panels.sliders import slider_int
 from app.teach.costs import (
     RENDERERS,
     WATCHED,
@@ -68,7 +69,7 @@ def _slider(name: Literal["triangles", "pixels"], value: int) -> int:
     imgui.set_next_item_width(width)
     logarithmic = imgui.SliderFlags_.logarithmic | imgui.SliderFlags_.always_clamp
     limits = whole_range_of(CostOptions, name)
-    changed, chosen = imgui.slider_int(name, value, *limits, "%d", logarithmic)
+    changed, chosen = slider_int(name, value, *limits, "%d", logarithmic)
     return chosen if changed else value
 
 

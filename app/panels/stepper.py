@@ -17,7 +17,9 @@ from app.bounds import range_of
 from app.lettering import lettering
 from app.options import Pixel, StepperOptions
 from app.panels.canvas import Marks, canvas
-from app.panels.code import LINE, code, code_size_px
+from app.panels.code import LINE, code, narrowed
+from app.panels.sliders import slider_float, slider_int
+from app.panels.stepper_plan import Need, Place, Plan, canvases_in, plan
 from app.teach.loop_parts import (
     Canvas,
     DepthBuffer,
@@ -42,10 +44,8 @@ TITLES = {
     Order.OBJECT: "Object order: for each object, for each pixel",
     Order.IMAGE: "Image order: for each pixel, for each object",
 }
-# Panels so much wider than high have code, canvases and numbers beside one another, or the numbers.
-ALL_BESIDE, NUMBERS_BESIDE = 1.9, 1.2
-LEFT, UPPER = 0.64, 0.64  # the code's part of a panel whose numbers stand beside it
-LEGIBLE_EM = 0.85  # the least size of the code, where the width allows
+WANTED_EM = 1.25  # of the code
+LEAST_PX = 11.0  # of the code, at 100 %, unless the width forbids it
 INDICES = ("i", "j", "rows", "columns")  # the variables that count pixels
 
 Wish = Literal["", "first", "back", "play", "step", "pixel", "object", "last"]
@@ -116,7 +116,7 @@ def _speed(options: StepperOptions) -> StepperOptions:
     width = 8 * imgui.get_font_size()
     _follow(width + imgui.calc_text_size("steps/s").x)
     imgui.set_next_item_width(width)
-    changed, speed = imgui.slider_float(
+    changed, speed = slider_float(
         "steps/s",
         options.speed,
         *range_of(StepperOptions, "speed"),
@@ -157,9 +157,16 @@ def _order(options: StepperOptions) -> StepperOptions:
 
 
 def run_panel(
-    recording: Recording, moment: Moment | None, picture: Picture, room: ImVec2, fonts: Fonts
+    recording: Recording,
+    moment: Moment | None,
+    picture: Picture,
+    room: ImVec2,
+    fonts: Fonts,
+    alone: bool,
+    em_px: float,
 ) -> Answer:
-    """Code, canvas, variables and counters, in a room."""
+    """Code, canvas, variables and counters, in a room. alone: the other algorithm is not shown.
+    em_px: the window's size of type, which the code follows."""
     imgui.push_font(fonts.bold, 0.0)
     title = TITLES[recording.order]
     if imgui.calc_text_size(title).x > room.x:
@@ -170,42 +177,37 @@ def run_panel(
         imgui.text_colored(theme.DIM, "running ...")
         return Answer()
     answer = _slider(recording, moment)
-    left = imgui.get_content_region_avail()
-    below = imgui.get_cursor_screen_pos()
-    lines = recording.source.lines
-    longest, count = _largest()  # of both: they are shown in one size
-    em = imgui.get_font_size()
-    if left.x > ALL_BESIDE * left.y:
-        size_px = _code_px(longest, count, 0.46 * left.x, left.y, em)
-        _code(lines, moment, size_px, ImVec2(0.46 * left.x, left.y), fonts)
-        x = 0.48 * left.x
-        imgui.set_cursor_screen_pos(ImVec2(below.x + x, below.y))
-        imgui.begin_group()
-        answer = _canvases(recording, moment, picture, ImVec2(0.26 * left.x, left.y), answer)
-        imgui.end_group()
-        imgui.set_cursor_screen_pos(ImVec2(below.x + 0.755 * left.x, below.y))
-        _numbers(moment, ImVec2(0.245 * left.x, left.y), size_px, fonts)
-        return answer
-    if left.x > NUMBERS_BESIDE * left.y:  # the canvases below the code, the numbers right of both
-        size_px = beside_px((left.x, left.y), em)
-        _code(lines, moment, size_px, ImVec2(LEFT * left.x, UPPER * left.y), fonts)
-        rest = left.y - (imgui.get_cursor_screen_pos().y - below.y)
-        imgui.begin_group()
-        answer = _canvases(recording, moment, picture, ImVec2(LEFT * left.x, rest), answer)
-        imgui.end_group()
-        imgui.set_cursor_screen_pos(ImVec2(below.x + (LEFT + 0.02) * left.x, below.y))
-        _numbers(moment, ImVec2((0.98 - LEFT) * left.x, left.y), size_px, fonts)
-        return answer
-    size_px = _code_px(longest, count, left.x, 0.56 * left.y, em)
-    _code(lines, moment, size_px, ImVec2(left.x, 0.58 * left.y), fonts)
-    left = imgui.get_content_region_avail()
-    below = imgui.get_cursor_screen_pos()
+    corner, room = imgui.get_cursor_screen_pos(), imgui.get_content_region_avail()
+    lines = narrowed(recording.source.lines)
+    made = plan((round(room.x), round(room.y)), _need(recording, alone, em_px))
+
+    def to(place: Place) -> ImVec2:
+        imgui.set_cursor_screen_pos(ImVec2(corner.x + place.left, corner.y + place.top))
+        return ImVec2(*place.size)
+
+    _code(lines, moment, made.code_px, to(made.code), fonts)
+    place = to(made.canvases)
     imgui.begin_group()
-    answer = _canvases(recording, moment, picture, ImVec2(0.52 * left.x, left.y), answer)
+    answer = _canvases(recording, moment, picture, place, answer)
     imgui.end_group()
-    imgui.set_cursor_screen_pos(ImVec2(below.x + 0.54 * left.x, below.y))
-    _numbers(moment, ImVec2(0.46 * left.x, left.y), size_px, fonts)
+    _numbers(moment, to(made.numbers), made, fonts)
+    imgui.set_cursor_screen_pos(ImVec2(corner.x, corner.y + room.y))
     return answer
+
+
+def _need(recording: Recording, alone: bool, em_px: float) -> Need:
+    """Two beside each other are shown alike, whichever needs more."""
+    sources = [recording.source] if alone else [source_of(order.renderer) for order in Order]
+    lines = [narrowed(source.lines) for source in sources]
+    return Need(
+        longest=max(len(line) for one in lines for line in one),
+        lines=max(map(len, lines)),
+        canvas=recording.size,
+        has_depth=not alone or recording.order is Order.OBJECT,
+        em_px=imgui.get_font_size(),
+        wanted_px=WANTED_EM * em_px,
+        least_px=LEAST_PX * imgui.get_style().font_scale_dpi,
+    )
 
 
 def _slider(recording: Recording, moment: Moment) -> Answer:
@@ -217,24 +219,11 @@ def _slider(recording: Recording, moment: Moment) -> Answer:
         note += f" (stopped after {MOST_STEPS}: take fewer pixels)"
     elif not recording.complete:
         note += " so far"
-    changed, step = imgui.slider_int(
+    changed, step = slider_int(
         f"##step {recording.order.name}", moment.step, 0, most, note,
         imgui.SliderFlags_.always_clamp,
     )  # fmt: skip
     return Answer(step=step if changed else None)
-
-
-def beside_px(room: tuple[float, float], em: float) -> float:
-    """The code's size in a room (width, height) where the numbers stand right of it. em: the
-    window's own size of type."""
-    longest, count = _largest()
-    return _code_px(longest, count, LEFT * room[0], UPPER * room[1], em)
-
-
-def _code_px(longest: str, count: int, width: float, height: float, em: float) -> float:
-    """The code's size: all of it where that can be read, else as wide as there is room."""
-    least = LEGIBLE_EM * em
-    return code_size_px(longest, width, min(1.6 * em, max(least, height / (1.22 * count))))
 
 
 def _code(
@@ -255,14 +244,6 @@ def _code(
 
 
 @functools.cache
-def _largest() -> tuple[str, int]:
-    """The longest line of both sources, and the number of lines of the longer one."""
-    sources = [source_of(order.renderer) for order in Order]
-    lines = [line for source in sources for line in source.lines]
-    return max(lines, key=len), max(len(source.lines) for source in sources)
-
-
-@functools.cache
 def _called() -> dict[str, str]:
     """The sources of what the loops call."""
     parts = (viewing_ray, bounding_box, intersect, color_at, Canvas, DepthBuffer)
@@ -276,21 +257,10 @@ def _canvases(
     name, size = recording.order.name, recording.size
     label = imgui.get_text_line_height_with_spacing()
     spacing = imgui.get_style().item_spacing
-    height = max(20.0, room.y - label)
-    first = rest = ImVec2(room.x, height)
-    beside = False
     has_depth = recording.order is Order.OBJECT
-    if has_depth:
-        below = max(20.0, height - 2 * spacing.y)
-        across = room.x - spacing.x
-        half = ImVec2(0.5 * across, height)  # beside one another, of one size
-        choices = (
-            (ImVec2(room.x, 0.67 * below), ImVec2(room.x, 0.33 * below), False),
-            (half, half, True),
-        )
-        first, rest, beside = max(
-            choices, key=lambda one: min(one[0].x / size[0], one[0].y / size[1])
-        )
+    gap = spacing.x, spacing.y
+    upper, lower, beside = canvases_in((room.x, room.y), size, has_depth, label, gap)
+    first, rest = ImVec2(*upper), ImVec2(*lower)
     dots = tuple((test.pixel, test.t < float("inf")) for test in moment.tests)
     marks = Marks(moment.pixel, moment.box, dots if recording.order is Order.OBJECT else ())
     imgui.begin_group()
@@ -302,65 +272,79 @@ def _canvases(
         if beside:
             imgui.same_line()
         imgui.begin_group()
-        if beside:
-            imgui.text_colored(theme.DIM, "depth")
+        imgui.text_colored(theme.DIM, "depth")
         again = canvas(picture.depth, size, rest, Marks(moment.pixel, moment.box), f"depth##{name}")
         imgui.set_item_tooltip("for each pixel the nearest t so far, near ones bright")
-        if not beside:  # a line above it would be taken from the canvas
-            imgui.same_line()
-            imgui.text_colored(theme.DIM, "depth")
         imgui.end_group()
         clicked = clicked if clicked is not None else again
     return replace(answer, pixel=clicked) if clicked is not None else answer
 
 
-def _numbers(moment: Moment, room: ImVec2, code_px: float, fonts: Fonts) -> None:
-    """The counters and the variables, in type about as large as the code's."""
+def _numbers(moment: Moment, room: ImVec2, made: Plan, fonts: Fonts) -> None:
+    """The counters and the variables, in columns beside one another where there is more width than
+    height."""
     imgui.begin_child("numbers", room)
-    em = imgui.get_font_size()
-    with lettering(None, min(max(em, 0.92 * code_px), max(0.6 * em, room.x / 16))):
-        _tables(moment, fonts)
+    flags = imgui.TableFlags_.sizing_stretch_same | imgui.TableFlags_.no_saved_settings
+    with lettering(None, made.numbers_px):
+        rows = _rows(moment)
+        each = -(-len(rows) // made.columns)
+        if imgui.begin_table("columns", made.columns, flags):
+            imgui.table_next_row()
+            for number in range(made.columns):
+                imgui.table_next_column()
+                _table(f"numbers {number}", rows[number * each : (number + 1) * each], fonts)
+            imgui.end_table()
     imgui.end_child()
 
 
-def _tables(moment: Moment, fonts: Fonts) -> None:
+@dataclass(frozen=True)
+class _Row:
+    """A number and its name; note: beside it; tip: what it is."""
+
+    name: str
+    text: str
+    changed: bool = False
+    note: str = ""
+    tip: str = ""
+
+
+def _rows(moment: Moment) -> list[_Row]:
     counters = moment.counters
-    flags = imgui.TableFlags_
-    if imgui.begin_table("counters", 2, flags.sizing_fixed_fit | flags.no_saved_settings):
-        for name, count, tip in (
-            ("tests", counters.tests, "how often an object and a ray were intersected"),
-            ("writes", counters.writes, "how often a pixel of the canvas was set"),
-            ("overwrites", counters.overwrites, "writes to a pixel that had been set before"),
-        ):
-            imgui.table_next_row()
-            imgui.table_next_column()
-            imgui.text_colored(theme.DIM, name)
-            imgui.set_item_tooltip(tip)
-            imgui.table_next_column()
-            imgui.push_font(fonts.mono, 0.0)
-            imgui.text(f"{count:>7}")
-            imgui.pop_font()
-        imgui.end_table()
-    imgui.separator()
-    if imgui.begin_table("variables", 2, flags.no_saved_settings):
-        widest = imgui.calc_text_size("columns").x
-        imgui.table_setup_column("", imgui.TableColumnFlags_.width_fixed, widest)
-        imgui.table_setup_column("", imgui.TableColumnFlags_.width_stretch)
-        for variable in moment.variables:
-            color = theme.legible(theme.MARK) if variable.changed else theme.TEXT
-            imgui.table_next_row()
-            imgui.table_next_column()
-            imgui.text_colored(theme.DIM, variable.name)
-            imgui.table_next_column()
-            imgui.push_text_wrap_pos(0.0)
-            imgui.push_font(fonts.mono, 0.0)
-            imgui.text_colored(color, variable.text)
-            imgui.pop_font()
-            if variable.name in INDICES:
-                imgui.same_line()
-                imgui.text_colored(theme.DIM, Indexing.ARRAY.told)  # as the code beside it
-            imgui.pop_text_wrap_pos()
-        imgui.end_table()
+    counted = (
+        ("tests", counters.tests, "how often an object and a ray were intersected"),
+        ("writes", counters.writes, "how often a pixel of the canvas was set"),
+        ("overwrites", counters.overwrites, "writes to a pixel that had been set before"),
+    )
+    rows = [_Row(name, f"{count:>6}", tip=tip) for name, count, tip in counted]
+    for one in moment.variables:
+        note = Indexing.ARRAY.told if one.name in INDICES else ""  # as the code beside it
+        rows.append(_Row(one.name, one.text, one.changed, note))
+    return rows
+
+
+def _table(name: str, rows: list[_Row], fonts: Fonts) -> None:
+    if not rows or not imgui.begin_table(name, 2, imgui.TableFlags_.no_saved_settings):
+        return
+    widest = imgui.calc_text_size("overwrites").x
+    imgui.table_setup_column("", imgui.TableColumnFlags_.width_fixed, widest)
+    imgui.table_setup_column("", imgui.TableColumnFlags_.width_stretch)
+    for row in rows:
+        color = theme.legible(theme.MARK) if row.changed else theme.TEXT
+        imgui.table_next_row()
+        imgui.table_next_column()
+        imgui.text_colored(theme.DIM, row.name)
+        if row.tip:
+            imgui.set_item_tooltip(row.tip)
+        imgui.table_next_column()
+        imgui.push_text_wrap_pos(0.0)
+        imgui.push_font(fonts.mono, 0.0)
+        imgui.text_colored(color, row.text)
+        imgui.pop_font()
+        if row.note:
+            imgui.same_line()
+            imgui.text_colored(theme.DIM, row.note)
+        imgui.pop_text_wrap_pos()
+    imgui.end_table()
 
 
 def _follow(width: float) -> None:

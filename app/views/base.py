@@ -119,5 +119,12 @@ class View:
     def cancel(self) -> None:
         """Ends a drag under way: something else has changed the state."""
 
+    def as_set(self, state: AppState) -> AppState:
+        """The present state as it was made, without what the view has fitted to its size since."""
+        return state
+
+    def begin_anew(self) -> None:
+        """A lecture has taken a step: what the view keeps beside the state is as at first."""
+
     def end(self) -> None:
         """Once, before the context goes."""

@@ -11,6 +11,7 @@ from imgui_bundle import imgui
 
 from app.bounds import range_of, whole_range_of
 from app.options import LaboratoryOptions
+from app.panels.sliders import slider_float, slider_int
 from app.teach.imagelab.bitmaps import TITLES
 from app.teach.imagelab.pages import PAGE_TITLES
 from app.views.base import Host
@@ -29,12 +30,12 @@ def toolbar(host: Host) -> LaboratoryOptions:
         case "exposure":
             changed = _exposure(changed)
         case "projectors":
-            moved, apart = imgui.slider_float(
+            moved, apart = slider_float(
                 "apart##apart", options.apart, *range_of(LaboratoryOptions, "apart"), "%.2f"
             )
             changed = replace(changed, apart=apart) if moved else changed
         case "subpixels":
-            moved, side_px = imgui.slider_int(
+            moved, side_px = slider_int(
                 "a pixel on the screen##side",
                 options.side_px,
                 *whole_range_of(LaboratoryOptions, "side_px"),
@@ -47,7 +48,7 @@ def toolbar(host: Host) -> LaboratoryOptions:
             if moved:
                 host.apply(host.state.with_options(one_based=number == 0))
         case "vector":
-            moved, zoom = imgui.slider_float(
+            moved, zoom = slider_float(
                 "zoom##zoom",
                 options.zoom,
                 *range_of(LaboratoryOptions, "zoom"),
@@ -74,7 +75,7 @@ def _pages(options: LaboratoryOptions) -> LaboratoryOptions:
 
 def _exposure(options: LaboratoryOptions) -> LaboratoryOptions:
     limits = range_of(LaboratoryOptions, "after_ev")
-    moved, value = imgui.slider_float(
+    moved, value = slider_float(
         "exposure after storage##after", options.after_ev, *limits, "%+.1f EV"
     )
     return replace(options, after_ev=value) if moved else options

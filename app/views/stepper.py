@@ -16,6 +16,7 @@ import numpy as np
 from imgui_bundle import ImVec2, imgui
 
 from app import theme
+from app.lettering import at_most
 from app.options import Pixel, StepperOptions
 from app.outside.diagram import Dot, Item, Lines
 from app.outside.extent import end_parameter
@@ -33,6 +34,7 @@ from app.views.uploads import Uploads
 from renderer.camera import Camera, Size
 
 STEPPER = "Stepper"
+LINES = 30  # of the type round the code that the view has room for, at least
 LONGEST_FRAME_S = 0.25  # what a frame that took longer is taken for
 ORDERS = (Order.OBJECT, Order.IMAGE)  # as in StepperOptions.steps
 _EDGES = ((0, 1), (0, 2), (0, 4), (1, 3), (1, 5), (2, 3), (2, 6), (3, 7), (4, 5), (4, 6), (5, 7),
@@ -48,6 +50,7 @@ class StepperView(View):
         self._runs: Runs | None = None
         self._uploads: Uploads | None = None
         self.playing = self._seen = False
+        self._em_px = 0.0  # the window's size of type
         self._before_s = 0.0  # when the last frame of playing was
         self._owed = 0.0  # parts of a step that have not been taken
         self._drawn: dict[Order, Any] = {}  # what the textures were made from
@@ -80,7 +83,17 @@ class StepperView(View):
         self._outside.show(STEPPER, ())
         self._shown = None
 
+    def begin_anew(self) -> None:
+        self.playing = False
+        self._asked = ""
+
     def draw(self, host: Host) -> None:
+        """What stands round the code gives way to it where type is large."""
+        self._em_px = imgui.get_font_size()
+        with at_most(imgui.get_content_region_avail().y / LINES):
+            self._draw(host)
+
+    def _draw(self, host: Host) -> None:
         assert self._runs is not None and self._uploads is not None
         self._uploads.begin_frame()
         self._seen = True
@@ -184,8 +197,9 @@ class StepperView(View):
                 self.moments[order] = moment
                 self._upload(run, moment, host.state.images.exposure_ev)
             answer = panel.run_panel(
-                run, moment, self._picture(order), imgui.get_content_region_avail(), host.fonts
-            )
+                run, moment, self._picture(order), imgui.get_content_region_avail(), host.fonts,
+                alone=count == 1, em_px=self._em_px,
+            )  # fmt: skip
             imgui.end_child()
             if answer.step is not None:
                 wanted[at] = answer.step
