@@ -192,18 +192,15 @@ def arrange(views: Iterable[View], places: dict[str, str]) -> None:
     reset()
 
 
-def is_arranged(views: Iterable[View], places: dict[str, str]) -> bool:
-    """Whether these views stand as arrange() puts them."""
-    layout, params = current(), hello_imgui.get_runner_params().docking_params
+def docks(views: Iterable[View]) -> dict[str, int]:
+    """ImGui's numbers of the docks that these views stand in, of those that are to be seen; 0 for
+    one that floats."""
+    found = {}
     for view in views:
-        if window_of(view).is_visible != (view.name in places):
-            return False
-        window = imgui.internal.find_window_by_name(view.label)
-        if view.name in places and window is not None:
-            space = params.dock_space_id_from_name(_own(layout, places[view.name]))
-            if window.dock_id != space:
-                return False
-    return True
+        if window_of(view).is_visible:
+            window = imgui.internal.find_window_by_name(view.label)
+            found[view.name] = int(window.dock_id) if window is not None else 0
+    return found
 
 
 def whole() -> tuple[tuple[float, float], tuple[float, float]] | None:

@@ -42,6 +42,13 @@ def at_most(size_px: float) -> Iterator[None]:
         imgui.pop_style_var(len(names))
 
 
+def fitted_text(draw: imgui.ImDrawList, at: ImVec2, color: int, text: str, width_px: float) -> None:
+    """Draws a line at a place, in smaller type where it would be wider than it may be."""
+    wide = imgui.calc_text_size(text).x
+    with lettering(None, imgui.get_font_size() * min(1.0, width_px / max(wide, 1.0))):
+        draw.add_text(at, color, text)
+
+
 def fitting_words(text: str, width_px: float) -> str:
     """The text, or as many of its first words as have room, in the present font."""
     words = text.split(" ")

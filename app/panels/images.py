@@ -124,14 +124,14 @@ def _draw(pane: Pane, state: AppState, screen: Screen, room: Box, grab: Grab | N
             draw.add_image(imgui.ImTextureRef(picture.texture.glo), low, high)
         if pane.on_pixels is not None:
             pane.on_pixels(screen)
-        if state.images.grid:
-            draw_pixel_grid(draw, screen, state, pane.values, pane.depths, pane.fonts)
     width, height = pane.seen.size
     for number, pin in enumerate(state.options.probe.pins, 1):
         if pin[0] < height and pin[1] < width:
             draw_pin(draw, screen, pin, number)
     if state.marked is not None:
         draw_marked(draw, screen, state.marked)
+    if picture is not None and state.images.grid:  # numbers may reach over a mark
+        draw_pixel_grid(draw, screen, state, pane.values, pane.depths, pane.fonts)
     if pane.hovered is not None and grab is None:
         draw_hovered(draw, screen, pane.hovered)
     if pane.progress < 1.0:

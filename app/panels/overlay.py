@@ -22,6 +22,7 @@ MARGIN = 8.0
 PADDING = 6.0
 BAR = 84.0  # of the depth's legend
 MAP = 72.0  # the longer side of the map of a magnified image
+SEEN = 5.0  # the least side of the frame in it
 MOST_NAMES = 6
 NORMAL = (("x", "#ff7a6b"), ("y", "#6fd36f"), ("z", "#7aa8ff"))
 
@@ -187,7 +188,8 @@ def _map(
     left, top, right, bottom = parts
     low = ImVec2(corner.x + left * extent[0], corner.y + top * extent[1])
     high = ImVec2(
-        max(corner.x + right * extent[0], low.x + 3), max(corner.y + bottom * extent[1], low.y + 3)
+        max(corner.x + right * extent[0], low.x + SEEN),
+        max(corner.y + bottom * extent[1], low.y + SEEN),
     )
     draw.add_rect(low, high, theme.u32(theme.rgb("#000000")), 0.0, 3.5)
     draw.add_rect(low, high, theme.u32(theme.RAY), 0.0, 1.5)

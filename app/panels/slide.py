@@ -23,8 +23,9 @@ ASCENT = 0.78  # of the line's height, in all our fonts
 LABEL = 0.028
 TITLE = 0.07
 LARGEST, SMALLEST = 0.052, 0.024  # of the text: as large as it has room
-EXERCISE = 0.032  # of an exercise's: what is said to an answer must have room, and nothing jumps
+EXERCISE = 0.036  # of an exercise's: what is said to an answer must have room, and nothing jumps
 LEAST_PX = 13.0
+SCROLLED_PX = 1_000_000  # as high as a text may be that is scrolled
 SHORTEST_LINE, SHORTEST_ENLARGED = 20, 13  # letters a line: more are never too few to read
 
 
@@ -92,7 +93,12 @@ class Slides:
         room = (max(round(room[0]), 40), max(round(room[1]), 1))
         look = (framebuffer_scale(), theme.TEXT.x)
         _, size = self._lay(blocks, room, sizes.text, look)
-        return max(min(size * sizes.enlarged, sizes.most), min(size, sizes.most))
+        if sizes.enlarged <= 1.0:
+            return size
+        largest = max(size, min(size * sizes.enlarged, sizes.most))
+        bar = imgui.get_style().scrollbar_size
+        column = (max(room[0] - round(bar), 40), SCROLLED_PX)
+        return self._lay(blocks, column, (min(size, sizes.most), largest), look)[1]
 
     def height(self, blocks: tuple[Block, ...], width: float, size_px: float) -> float:
         """What a text of that size would take."""

@@ -46,6 +46,7 @@ TITLES = {
 }
 WANTED_EM = 1.25  # of the code
 LEAST_PX = 11.0  # of the code, at 100 %, unless the width forbids it
+LONG = ("object", "ray", "hit", "closest")  # the variables that take a whole line
 INDICES = ("i", "j", "rows", "columns")  # the variables that count pixels
 
 Wish = Literal["", "first", "back", "play", "step", "pixel", "object", "last"]
@@ -113,14 +114,14 @@ def keys() -> Wish:
 
 
 def _speed(options: StepperOptions) -> StepperOptions:
-    width = 8 * imgui.get_font_size()
-    _follow(width + imgui.calc_text_size("steps/s").x)
+    width = 6.5 * imgui.get_font_size()
+    _follow(width)
     imgui.set_next_item_width(width)
     changed, speed = slider_float(
-        "steps/s",
+        "##speed",
         options.speed,
         *range_of(StepperOptions, "speed"),
-        "%.0f",
+        "%.0f steps/s",
         imgui.SliderFlags_.logarithmic,
     )
     return replace(options, speed=speed) if changed else options
@@ -128,12 +129,12 @@ def _speed(options: StepperOptions) -> StepperOptions:
 
 def _canvas_size(options: StepperOptions) -> StepperOptions:
     def name(size: tuple[int, int]) -> str:
-        return f"{size[0]} x {size[1]}"
+        return f"{size[0]} x {size[1]} pixels"
 
-    width = imgui.calc_text_size("64 x 48").x + 2.2 * imgui.get_frame_height()
-    _follow(width + imgui.calc_text_size("pixels").x)
+    width = imgui.calc_text_size("64 x 48 pixels").x + 2.2 * imgui.get_frame_height()
+    _follow(width)
     imgui.set_next_item_width(width)
-    if imgui.begin_combo("pixels", name(options.canvas)):
+    if imgui.begin_combo("##pixels", name(options.canvas)):
         for size in CANVASES:
             if imgui.selectable(name(size), size == options.canvas)[0]:
                 options = replace(options, canvas=size, steps=(0, 0))
@@ -191,7 +192,6 @@ def run_panel(
     answer = _canvases(recording, moment, picture, place, answer)
     imgui.end_group()
     _numbers(moment, to(made.numbers), made, fonts)
-    imgui.set_cursor_screen_pos(ImVec2(corner.x, corner.y + room.y))
     return answer
 
 
@@ -287,13 +287,15 @@ def _numbers(moment: Moment, room: ImVec2, made: Plan, fonts: Fonts) -> None:
     flags = imgui.TableFlags_.sizing_stretch_same | imgui.TableFlags_.no_saved_settings
     with lettering(None, made.numbers_px):
         rows = _rows(moment)
-        each = -(-len(rows) // made.columns)
+        short = [row for row in rows if row.name not in LONG]
+        each = -(-len(short) // made.columns)
         if imgui.begin_table("columns", made.columns, flags):
             imgui.table_next_row()
             for number in range(made.columns):
                 imgui.table_next_column()
-                _table(f"numbers {number}", rows[number * each : (number + 1) * each], fonts)
+                _table(f"numbers {number}", short[number * each : (number + 1) * each], fonts)
             imgui.end_table()
+        _table("texts", [row for row in rows if row.name in LONG], fonts)
     imgui.end_child()
 
 

@@ -16,11 +16,13 @@ from app.panels.code import LINE, code_size_px
 Size = tuple[float, float]  # (width, height)
 
 USUAL_EM = 1.25  # of the code: where more is wanted, the rest gives way
-NUMBERS_EM = 13.5  # the width of a column of numbers
-ROWS, ROW_EM = 13, 1.32  # of the numbers, where the longest is broken; the height of one
+NUMBERS_EM = 12.0  # the width of a column of numbers
+SHORT, LONG, ROW_EM = 9, 4, 1.32  # how many numbers, and texts; the height of one
 WANTED_CANVAS = 0.44  # of the room's height
-WEIGHTS = (3.0, 2.0, 1.6)  # code, canvas, numbers
-UNREAD = 8.0  # the weight of what code lacks to be read at all
+WEIGHTS = (3.0, 2.4, 2.0)  # code, canvas, numbers
+UNREAD = 8.0  # the weight of what code and numbers lack to be read at all
+READ = 0.9  # the least of the numbers' type, in parts of the code's
+ENOUGH_EM = 0.9  # of the numbers' type
 GAP_EM = 0.6
 
 
@@ -116,12 +118,12 @@ def _plans(room: Size, need: Need) -> Iterator[Plan]:
 def _sizes(room: Size, need: Need) -> Iterator[tuple[float, float]]:
     """Sizes of the code in a room, and the height of as many whole lines as that has room for."""
     most = code_size_px(" " * need.longest, room[0], 1.35 * need.wanted_px)
-    all_px = room[1] / (LINE * need.lines)
+    all_px = (room[1] - 1) / (LINE * need.lines)
     for part in (1.0, 0.92, 0.84, 0.76, 0.66, 0.56):
         size = min(most, max(all_px, need.least_px)) * part
         if size >= min(most, need.least_px):
-            lines = min(need.lines, max(1, int(room[1] / (LINE * size) + 1e-6)))
-            yield size, lines * LINE * size
+            lines = min(need.lines, max(1, int(room[1] / (LINE * size))))
+            yield size, lines * LINE * size + 0.5
 
 
 def _with(code: Place, code_px: float, canvases: Place, numbers: Place, need: Need) -> Plan:
@@ -131,7 +133,7 @@ def _with(code: Place, code_px: float, canvases: Place, numbers: Place, need: Ne
 
 def _lettered(room: Size, columns: int, em_px: float) -> tuple[float, int]:
     """The size at which the numbers have room in so many columns."""
-    rows = -(-ROWS // columns) + (columns > 1)
+    rows = -(-SHORT // columns) + LONG
     return min(room[0] / (columns * NUMBERS_EM), room[1] / (rows * ROW_EM), 2 * em_px), columns
 
 
@@ -145,10 +147,11 @@ def _worth(made: Plan, room: Size, need: Need) -> float:
     parts = (
         min(made.code_px / need.wanted_px, 1.0) * shown**2,
         min(high / (WANTED_CANVAS * room[1]), 1.0),
-        min(made.numbers_px / em, 1.0),
+        min(made.numbers_px / (ENOUGH_EM * em), 1.0),
         min(made.code_px / need.least_px, 1.0),
+        min(made.numbers_px / (READ * need.least_px), 1.0),
     )
     # Logarithms: what is small costs more than what is large gains.
     more = max(1.0, need.wanted_px / (USUAL_EM * em)) ** 2
-    weights = (WEIGHTS[0] * more, *WEIGHTS[1:], UNREAD)
+    weights = (WEIGHTS[0] * more, *WEIGHTS[1:], UNREAD, UNREAD)
     return sum(w * math.log(max(part, 1e-3)) for w, part in zip(weights, parts, strict=True))

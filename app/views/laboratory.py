@@ -19,7 +19,7 @@ from imgui_bundle import ImVec2, imgui
 from app import theme
 from app.background import Background
 from app.images.pictures import Wanted
-from app.lettering import hall_px, lettering
+from app.lettering import fitted_text, hall_px, lettering
 from app.options import LaboratoryOptions, Pixel
 from app.panels.screen import available_px, framebuffer_scale
 from app.state import AppState
@@ -228,8 +228,9 @@ class LaboratoryView(View):
         scale, em = framebuffer_scale(), imgui.get_font_size()
         draw = imgui.get_window_draw_list()
         with lettering(host.fonts.bold, em):
-            draw.add_text(at, theme.u32(theme.TEXT), panel.title)
-        draw.add_text(ImVec2(at.x, at.y + 1.15 * em), theme.u32(theme.DIM), panel.caption)
+            fitted_text(draw, at, theme.u32(theme.TEXT), panel.title, made.cell[0] / scale)
+        below = ImVec2(at.x, at.y + 1.15 * em)
+        fitted_text(draw, below, theme.u32(theme.DIM), panel.caption, made.cell[0] / scale)
         texture = self._uploads.get(f"panel {number}")
         if texture is None:
             return

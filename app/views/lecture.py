@@ -38,6 +38,7 @@ from renderer.scene.models import read_by
 LECTURE = "Lecture"
 LAYOUT = "Lecture"  # of layout.LAYOUTS
 RESTORE = "back to the step"
+LAID_OUT = 8  # frames until every view has its place
 END = "End the lecture"
 
 
@@ -63,6 +64,8 @@ class LectureView(View):
         self._slides: Slides | None = None
         self._arranged = True
         self._entered = False  # whether the step's state has been taken
+        self._frames = 0  # that were drawn since the step's views were arranged
+        self._docks: dict[str, int] = {}  # where they stood then
         self._to_top = False  # a step's text is read from its beginning
         self.arrangements = 0  # how often the views have been put into their places
 
@@ -170,6 +173,7 @@ class LectureView(View):
 
     def _arrange(self, step: Step) -> None:
         layout.arrange(self._others.values(), _places(step))
+        self._frames = 0
         self.arrangements += 1
 
     def _is_as_given(self, host: Host, step: Step) -> bool:
@@ -179,7 +183,13 @@ class LectureView(View):
             state = view.as_set(state)
         if state_of(step, state) != state:
             return False
-        return not self._arranged or layout.is_arranged(self._others.values(), _places(step))
+        if not self._arranged:
+            return True
+        docks = layout.docks(self._others.values())
+        self._frames += 1
+        if self._frames <= LAID_OUT:
+            self._docks = docks
+        return docks == self._docks and set(docks) == set(_places(step))
 
     # The column.
 
@@ -196,9 +206,8 @@ class LectureView(View):
         with lettering(host.fonts.text, sizes.label), at_most(sizes.label):
             self._head(host, session, sizes)
             avail = imgui.get_content_region_avail()
-            foot = 2.6 * sizes.label
-            if not _fits_a_row(avail.x):
-                foot += imgui.get_frame_height_with_spacing()
+            rows = 1 if _fits_a_row(avail.x) else 2
+            foot = rows * imgui.get_frame_height_with_spacing() + imgui.get_style().item_spacing.y
             error = self._error_height(session, avail.x)
             child = ImVec2(avail.x, max(1.0, avail.y - foot - error))
             if imgui.begin_child("step", child):

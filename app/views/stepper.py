@@ -34,7 +34,8 @@ from app.views.uploads import Uploads
 from renderer.camera import Camera, Size
 
 STEPPER = "Stepper"
-LINES = 30  # of the type round the code that the view has room for, at least
+LEAST_PX = 13.0  # of type, at 100 %
+LINES = 40  # of the type round the code that the view has room for, at least
 LONGEST_FRAME_S = 0.25  # what a frame that took longer is taken for
 ORDERS = (Order.OBJECT, Order.IMAGE)  # as in StepperOptions.steps
 _EDGES = ((0, 1), (0, 2), (0, 4), (1, 3), (1, 5), (2, 3), (2, 6), (3, 7), (4, 5), (4, 6), (5, 7),
@@ -90,7 +91,8 @@ class StepperView(View):
     def draw(self, host: Host) -> None:
         """What stands round the code gives way to it where type is large."""
         self._em_px = imgui.get_font_size()
-        with at_most(imgui.get_content_region_avail().y / LINES):
+        least = LEAST_PX * imgui.get_style().font_scale_dpi
+        with at_most(max(least, imgui.get_content_region_avail().y / LINES)):
             self._draw(host)
 
     def _draw(self, host: Host) -> None:
