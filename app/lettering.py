@@ -31,7 +31,13 @@ def at_most(size_px: float) -> Iterator[None]:
     """Type and spacing inside are no larger than type of this size has them: what stands round a
     text that is read gives way to it."""
     style, part = imgui.get_style(), min(1.0, size_px / imgui.get_font_size())
-    names = ("window_padding", "frame_padding", "item_spacing", "item_inner_spacing")
+    names = (
+        "window_padding",
+        "frame_padding",
+        "item_spacing",
+        "item_inner_spacing",
+        "cell_padding",
+    )
     for name in names:
         size = getattr(style, name)
         imgui.push_style_var(getattr(imgui.StyleVar_, name), ImVec2(part * size.x, part * size.y))

@@ -14,7 +14,7 @@ from imgui_bundle import ImVec2, imgui
 
 from app import theme
 from app.bounds import range_of
-from app.lettering import lettering
+from app.lettering import at_most, lettering
 from app.options import Pixel, StepperOptions
 from app.panels.canvas import Marks, canvas
 from app.panels.code import LINE, code, narrowed
@@ -167,7 +167,7 @@ def run_panel(
     em_px: float,
 ) -> Answer:
     """Code, canvas, variables and counters, in a room. alone: the other algorithm is not shown.
-    em_px: the window's size of type, which the code follows."""
+    em_px: the size of type that was asked for, which the code follows."""
     imgui.push_font(fonts.bold, 0.0)
     title = TITLES[recording.order]
     if imgui.calc_text_size(title).x > room.x:
@@ -285,7 +285,7 @@ def _numbers(moment: Moment, room: ImVec2, made: Plan, fonts: Fonts) -> None:
     height."""
     imgui.begin_child("numbers", room)
     flags = imgui.TableFlags_.sizing_stretch_same | imgui.TableFlags_.no_saved_settings
-    with lettering(None, made.numbers_px):
+    with at_most(made.numbers_px), lettering(None, made.numbers_px):
         rows = _rows(moment)
         short = [row for row in rows if row.name not in LONG]
         each = -(-len(short) // made.columns)

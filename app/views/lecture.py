@@ -236,7 +236,7 @@ class LectureView(View):
         imgui.text_colored(theme.DIM, step.part or session.lecture.title)
         with lettering(host.fonts.bold, sizes.title):
             wide = imgui.calc_text_size(step.title).x
-        title_px = max(0.66 * sizes.title, sizes.title * min(1.0, width / max(wide, 1.0)))
+        title_px = max(0.66 * sizes.title, sizes.title * min(1.0, 0.98 * width / max(wide, 1.0)))
         with lettering(host.fonts.bold, title_px):
             imgui.push_text_wrap_pos(0.0)
             imgui.text(step.title)

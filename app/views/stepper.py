@@ -51,7 +51,7 @@ class StepperView(View):
         self._runs: Runs | None = None
         self._uploads: Uploads | None = None
         self.playing = self._seen = False
-        self._em_px = 0.0  # the window's size of type
+        self._em_px = 0.0  # the size of type that was asked for
         self._before_s = 0.0  # when the last frame of playing was
         self._owed = 0.0  # parts of a step that have not been taken
         self._drawn: dict[Order, Any] = {}  # what the textures were made from
@@ -90,7 +90,8 @@ class StepperView(View):
 
     def draw(self, host: Host) -> None:
         """What stands round the code gives way to it where type is large."""
-        self._em_px = imgui.get_font_size()
+        asked_px = theme.PRESENTED * imgui.get_io().display_size.y
+        self._em_px = max(imgui.get_font_size(), host.state.preferences.font_scale * asked_px)
         least = LEAST_PX * imgui.get_style().font_scale_dpi
         with at_most(max(least, imgui.get_content_region_avail().y / LINES)):
             self._draw(host)
