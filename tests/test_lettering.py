@@ -71,7 +71,7 @@ def test_a_lectures_type_is_that_of_a_slide(window):
     usual = sizes_of(column, height, 1.0, 1.0)
     assert usual.text[1] * points >= 21
     assert usual.label * points >= 12
-    assert usual.exercise * points >= 16
+    assert usual.exercise * points >= 14
     assert 2 * column / usual.text[1] >= 18  # letters a line
     larger = sizes_of(column, height, 1.5, 1.0)
     assert larger.exercise > usual.exercise and larger.enlarged == 1.5

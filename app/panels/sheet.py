@@ -13,7 +13,7 @@ from imgui_bundle import ImVec2, imgui
 from app import theme
 from app.actions.table import ACTIONS, MENUS, MOUSE
 
-COLUMN_EM = 24.0
+COLUMN_EM = 22.5
 NARROW_EM = 20.0  # a column of less has what a key does below the key
 KEYS = 0.36  # the keys' part of a column
 NAME = "Mouse and keys"

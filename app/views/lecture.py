@@ -248,7 +248,8 @@ class LectureView(View):
     ) -> None:
         """The text, as large as it fits; larger, it is scrolled."""
         step = session.step
-        bar = imgui.get_style().scrollbar_size if sizes.enlarged > 1.0 else 0.0
+        may_scroll = sizes.enlarged > 1.0 or step.exercise is not None
+        bar = imgui.get_style().scrollbar_size if may_scroll else 0.0
         width = room.x - bar
         if step.exercise is None:
             size = slides.fitting_px(step.blocks, (room.x, room.y), sizes)
