@@ -208,6 +208,17 @@ def arrange(views: Iterable[View], places: dict[str, str]) -> None:
     reset()
 
 
+def docks(views: Iterable[View]) -> dict[str, int]:
+    """ImGui's numbers of the docks that these views stand in, of those that are to be seen; 0 for
+    one that floats."""
+    found = {}
+    for view in views:
+        if window_of(view).is_visible:
+            window = imgui.internal.find_window_by_name(view.label)
+            found[view.name] = int(window.dock_id) if window is not None else 0
+    return found
+
+
 def whole() -> tuple[tuple[float, float], tuple[float, float]] | None:
     """Where all views together stand, and how large that is; in ImGui's pixels."""
     params = hello_imgui.get_runner_params().docking_params

@@ -9,8 +9,9 @@ from __future__ import annotations
 import contextlib
 from collections.abc import Iterator
 
-from imgui_bundle import imgui
+from imgui_bundle import ImVec2, imgui
 
+LEAST_FITTED = 0.7  # of the type of a line that is made smaller to have room
 SMALLEST_PX = 1.0  # what has no room in its window may ask for less than nothing
 
 
@@ -24,6 +25,37 @@ def lettering(font: imgui.ImFont | None, size_px: float) -> Iterator[None]:
         yield
     finally:
         imgui.pop_font()
+
+
+@contextlib.contextmanager
+def at_most(size_px: float) -> Iterator[None]:
+    """Type and spacing inside are no larger than type of this size has them: what stands round a
+    text that is read gives way to it."""
+    style, part = imgui.get_style(), min(1.0, size_px / imgui.get_font_size())
+    names = (
+        "window_padding",
+        "frame_padding",
+        "item_spacing",
+        "item_inner_spacing",
+        "cell_padding",
+    )
+    for name in names:
+        size = getattr(style, name)
+        imgui.push_style_var(getattr(imgui.StyleVar_, name), ImVec2(part * size.x, part * size.y))
+    try:
+        with lettering(None, part * imgui.get_font_size()):
+            yield
+    finally:
+        imgui.pop_style_var(len(names))
+
+
+def fitted_text(draw: imgui.ImDrawList, at: ImVec2, color: int, text: str, width_px: float) -> None:
+    """Draws a line at a place, in smaller type where it would be wider than it may be; of what
+    would be too small to read so, as many words as have room."""
+    part = min(1.0, width_px / max(imgui.calc_text_size(text).x, 1.0))
+    fits = part >= LEAST_FITTED
+    with lettering(None, imgui.get_font_size() * max(part, LEAST_FITTED)):
+        draw.add_text(at, color, text if fits else fitting_words(text, width_px))
 
 
 def fitting_words(text: str, width_px: float) -> str:

@@ -19,6 +19,7 @@ from app.options import Preferences
 
 TEXT_PX = 16.0
 PRESENTED = 0.024  # the least size of text in presentation mode, in parts of the window's height
+SURROUND = 0.034  # and its largest: what is read grows on, not the menus and tabs round it
 LEGIBLE = 4.5  # the least contrast of text with what is behind it (WCAG 2.1, 1.4.3)
 
 
@@ -145,7 +146,8 @@ def look_of(preferences: Preferences, height_px: float, dpi_scale: float = 1.0) 
     """The look that the preferences ask for in a window of this height, in ImGui's pixels."""
     scale = preferences.font_scale
     if preferences.presentation:
-        scale = max(scale, PRESENTED * height_px / (TEXT_PX * dpi_scale))
+        least, most = (part * height_px / (TEXT_PX * dpi_scale) for part in (PRESENTED, SURROUND))
+        scale = max(least, min(scale, most))
         scale = round(scale, 2)
     return Look(preferences.theme, preferences.presentation, scale)
 

@@ -2,12 +2,17 @@
 
 from __future__ import annotations
 
+import itertools
+
 import pytest
 
-from app.panels.code import LINE
+from app.panels.code import LINE, narrowed
 from app.panels.pixelgrid import ADVANCE, DIGITS_HIGH, LEADING, VALUES_FROM, text_size
 from app.panels.probe import HIGH_EM, WIDE_EM, type_px
-from app.panels.stepper import LEFT, UPPER, beside_px
+from app.panels.slide import sizes_of
+from app.panels.sliders import part_of
+from app.panels.stepper import LEAST_PX, WANTED_EM
+from app.panels.stepper_plan import Need, Plan, canvases_in, plan, plan_of_two
 from app.teach.recording import Order
 from app.teach.source import source_of
 
@@ -18,12 +23,72 @@ HALL_EM = 26.0
 
 @pytest.mark.parametrize("order", Order)
 def test_the_steppers_code_is_legible_and_whole(order):
-    size_px = beside_px(HALL_ROOM, HALL_EM)
-    assert size_px >= 0.02 * HALL_PX
-    lines = source_of(order.renderer).lines
-    assert len(lines) * LINE * size_px <= UPPER * HALL_ROOM[1]
-    letter_px = 0.5 * size_px
-    assert max(map(len, lines)) * letter_px <= LEFT * HALL_ROOM[0]
+    lines = narrowed(source_of(order.renderer).lines)
+    longest, has_depth = max(map(len, lines)), order.has_depth
+    wanted_px = WANTED_EM * HALL_EM
+    need = Need(longest, len(lines), (16, 12), has_depth, HALL_EM, wanted_px, LEAST_PX)
+    made = plan(HALL_ROOM, need)
+    assert made.code_px >= 0.022 * HALL_PX
+    assert len(lines) * LINE * made.code_px <= made.code.height + 0.01  # each is seen
+    assert longest * 0.5 * made.code_px <= made.code.width
+    first, _, _ = canvases_in(made.canvases.size, (16, 12), has_depth, 30.0, (10.0, 8.0))
+    assert min(first[1], 0.75 * first[0]) >= 0.25 * HALL_PX
+    assert made.numbers_px >= 0.016 * HALL_PX
+
+
+@pytest.mark.parametrize("room", [(774, 490), (600, 400), (1170, 790), (450, 600), (400, 430)])
+@pytest.mark.parametrize("has_depth", [False, True])
+@pytest.mark.parametrize("lines", [17, 26])
+def test_nothing_in_the_stepper_covers_anything_else(room, has_depth, lines):
+    for wanted_px in (20.0, 30.0, 40.0):
+        need = Need(50, lines, (16, 12), has_depth, 15.0, wanted_px, LEAST_PX)
+        assert_apart(plan(room, need), room)
+
+
+@pytest.mark.parametrize("room", [(774, 490), (600, 400), (450, 600), (1170, 500)])
+def test_nor_with_the_same_code_in_julia(room):
+    for set_px in (15.0, 26.0):
+        need = Need(50, 18, (16, 12), True, 15.0, WANTED_EM * set_px, LEAST_PX, 13, 4)
+        made = plan_of_two(room, need, set_px)
+        assert_apart(made, room)
+        assert made.code_px >= LEAST_PX and need.longest * 0.5 * made.code_px <= made.code.width
+
+
+def assert_apart(made: Plan, room: tuple[float, float]) -> None:
+    places = (made.code, made.canvases, made.numbers)
+    for place in places:
+        assert place.left >= 0 and place.left + place.width <= room[0] + 1
+        assert place.top >= 0 and place.top + place.height <= room[1] + 1
+    for one, two in itertools.combinations(places, 2):
+        beside = one.left + one.width <= two.left or two.left + two.width <= one.left
+        below = one.top + one.height <= two.top or two.top + two.height <= one.top
+        assert beside or below
+
+
+@pytest.mark.parametrize("room", [(774, 490), (600, 400), (1170, 790)])
+@pytest.mark.parametrize("has_depth", [False, True])
+def test_code_grows_with_the_type_before_what_stands_round_it(room, has_depth):
+    sizes = [
+        plan(room, Need(50, 17, (16, 12), has_depth, 15.0, WANTED_EM * em, LEAST_PX)).code_px
+        for em in (15.0, 20.0, 25.0, 32.0)
+    ]
+    assert sizes == sorted(sizes)
+    assert sizes[-1] >= 1.1 * sizes[0]
+
+
+@pytest.mark.parametrize("window", [(1024, 640), (1280, 720), (1920, 1080)])
+def test_a_lectures_type_is_that_of_a_slide(window):
+    """In points of a slide that is 540 high; the font's letters are 0.85 of its lines."""
+    column, height = 0.36 * window[0] - 36, float(window[1])
+    points = 0.85 * 540 / height
+    usual = sizes_of(column, height, 1.0, 1.0)
+    assert usual.text[1] * points >= 21
+    assert usual.label * points >= 12
+    assert usual.exercise * points >= 14
+    assert 2 * column / usual.text[1] >= 18  # letters a line
+    larger = sizes_of(column, height, 1.5, 1.0)
+    assert larger.exercise > usual.exercise and larger.enlarged == 1.5
+    assert (larger.label, larger.title) == (usual.label, usual.title)  # what is read grows
 
 
 def test_the_probes_type_leaves_the_table_in_sight():
@@ -44,3 +109,18 @@ def test_values_are_legible_from_the_magnification_at_which_they_appear(letters,
     assert letters * ADVANCE * size_px < VALUES_FROM
     assert ((lines - 1) * LEADING + DIGITS_HIGH) * size_px < 0.9 * VALUES_FROM
     assert LEADING > DIGITS_HIGH  # lines do not touch
+
+
+def test_a_slider_shows_where_its_value_stands():
+    assert part_of(5, 0, 10, False) == 0.5
+    assert part_of(10, 1, 100, True) == pytest.approx(0.5)
+    assert part_of(-3, 0, 10, False) == 0.0 and part_of(99, 0, 10, False) == 1.0
+    assert part_of(1, 1, 1, False) == 0.0
+
+
+def test_lines_are_narrowed_by_half_of_their_indents():
+    assert narrowed(("def f():", "    for i in x:", "        y")) == (
+        "def f():",
+        "  for i in x:",
+        "    y",
+    )

@@ -144,9 +144,15 @@ def test_the_sheet_holds_every_key_and_fits_columns():
             assert action.keys in text, action
     assert "1 to 9" in text
     for columns in (1, 2, 3):
-        placed = in_columns(parts, columns)
+        placed = in_columns(parts, columns, [len(rows) for _, rows in parts])
         assert len(placed) <= columns
         assert [part for column in placed for part in column] == parts
+
+
+def test_the_sheets_columns_are_equal_where_words_are_broken():
+    parts = [(str(k), [("", "")]) for k in range(4)]
+    placed = in_columns(parts, 2, [9, 1, 1, 1])
+    assert [len(column) for column in placed] == [1, 3]
 
 
 def test_steps_of_undo_have_words():

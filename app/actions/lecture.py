@@ -79,6 +79,7 @@ LECTURE = (
         (int(Key.backspace),),
         can=_restorable,
     ),
+    Action("Lecture", "End the lecture", lambda w: w.lecture.leave(w), can=_given),
     *(_stepping(wish, name, keys) for wish, name, keys in STEPPING),
     Action(
         "Lecture",

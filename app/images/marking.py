@@ -18,8 +18,8 @@ Size = tuple[int, int]  # (width, height)
 
 @dataclass(frozen=True)
 class Anchor:
-    """pixel, size: where the user has marked, in an image of which size. now: where that is, in
-    an image of the size now_size."""
+    """pixel, size: what was marked, in an image of which size; it may lie outside. now: where that
+    is, in an image of the size now_size."""
 
     pixel: Pixel
     size: Size
@@ -35,8 +35,8 @@ def followed(
     if marked is None:
         return None, None
     if anchor is None or anchor.now != marked:
-        marked = _inside(marked, size)
-        return marked, Anchor(marked, size, marked, size)
+        now = _inside(marked, size)
+        return now, Anchor(marked, size, now, size)
     if anchor.now_size == size:
         return marked, anchor
     now = moved(anchor.pixel, anchor.size, view, size)

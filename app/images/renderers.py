@@ -32,6 +32,7 @@ from renderer.scene.model import View
 NOTE_AFTER_S = 0.3
 MIRROR_DEPTH = 4
 NEARBY_PX = 4  # by which the halves of a window may differ
+IMAGE_SIZE = (640, 480)  # of the camera's image while no view shows it
 STILL_S = 0.3  # comparing reads the raster image back, which may cost a frame: not while dragging
 
 
@@ -137,7 +138,7 @@ class Renderers:
         assert self.pictures is not None
         self.pictures.begin_frame()
         self.underlay.begin_frame()
-        self._follow_resolution(state.images.resolution)
+        self._follow_resolution(state)
         self._tracing, self._to_trace = self._to_trace, False
         failed = self.raster_error is not None
         if self._raster_failed and not failed:  # it works again: what it broke is done again
@@ -151,28 +152,39 @@ class Renderers:
             self._compare(state)  # not in the frame of its arrival, which shows it first
         self.agreement.poll()
 
-    def _follow_resolution(self, resolution: tuple[int, int] | None) -> None:
-        """The chosen one holds where no image is to be seen too, and is forgotten with the choice:
-        then whoever needs a size gives one."""
+    def _follow_resolution(self, state: AppState) -> None:
+        """The chosen one holds where no image is to be seen too, and is forgotten with the choice.
+        Images that are hidden keep their size, but not from step to step of a lecture: what a step
+        shows does not depend on the one before."""
+        resolution = state.images.resolution
         if resolution is not None:
             self.size = resolution
-        elif self._chosen is not None and not self._panes_px:
-            self.size = (0, 0)
+        elif not self._panes_px and (self._chosen is not None or state.step is not None):
+            self.size = _unseen_size(state.images)
         self._chosen = resolution
+
+    def need_size(self, options: ImageOptions) -> None:
+        """Gives the images a size where none of them has been seen yet."""
+        if not min(self.size):
+            self.size = options.resolution or _unseen_size(options)
 
     # What is there.
 
-    def raster_picture(self, state: AppState, placement: Placement, under: bool) -> Picture | None:
+    def raster_picture(
+        self, state: AppState, placement: Placement, under: bool, name: str
+    ) -> Picture | None:
         """What is seen of the raster image in a window, drawn anew if it must be; None where that
-        failed. under: it is for the underlay."""
+        failed. under: it is for the underlay. name: of the picture, see ShownImage.picture."""
         assert self.pictures is not None
         wanted = Wanted(state.scene, self.camera(state), self.size)
-        return self.pictures.raster_in(placement, wanted, look_of(state.images), under=under)
+        return self.pictures.raster_in(placement, wanted, look_of(state.images), name, under)
 
-    def ray_picture(self, state: AppState, placement: Placement, under: bool) -> Picture | None:
+    def ray_picture(
+        self, state: AppState, placement: Placement, under: bool, name: str
+    ) -> Picture | None:
         """Likewise of the newest ray image that has arrived; None before the first."""
         assert self.pictures is not None
-        return self.pictures.ray_in(placement, look_of(state.images), under=under)
+        return self.pictures.ray_in(placement, look_of(state.images), name, under)
 
     def depths(self) -> tuple[float, float] | None:
         """The ray parameters that are shown white and darkest; None where nothing is hit."""
@@ -314,3 +326,9 @@ def _make_tracer(request: Request) -> Tracer:
 
     depth = MIRROR_DEPTH if request.mirrors else 0
     return Tracer(request.scene, shadows=request.shadows, mirror_depth=depth)
+
+
+def _unseen_size(options: ImageOptions) -> tuple[int, int]:
+    """(width, height) of images that no view shows."""
+    width, height = (side // options.pixel_size for side in IMAGE_SIZE)
+    return width, height

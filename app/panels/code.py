@@ -61,6 +61,13 @@ def code_size_px(longest: str, width_px: float, most_px: float) -> float:
     return min(most_px, width_px / (0.5 * len(longest) + 1.2))
 
 
+@functools.cache
+def narrowed(lines: tuple[str, ...]) -> tuple[str, ...]:
+    """The lines, indented half as far: a deep loop has room in larger type."""
+    indents = [len(line) - len(line.lstrip()) for line in lines]
+    return tuple(line[indent // 2 :] for line, indent in zip(lines, indents, strict=True))
+
+
 def _color(word: str) -> ImVec4:
     role = _ROLES.get(word.strip())
     if role is None:

@@ -18,6 +18,7 @@ from app.images.comparing import LABELS, MODES, Scale
 from app.lettering import fitting_words
 from app.options import CompareOptions, Pixel
 from app.panels.checks import checkbox
+from app.panels.sliders import slider_float
 from app.state import AppState
 from renderer.compare import LABEL_COLORS, Comparison
 
@@ -76,7 +77,7 @@ def toolbar(state: AppState) -> AppState:
     imgui.set_next_item_width(width)
     has_gain = options.mode in ("absolute", "signed") and state.images.channel != "id"
     imgui.begin_disabled(not has_gain)
-    changed, gain = imgui.slider_float(
+    changed, gain = slider_float(
         "##gain",
         options.gain,
         *range_of(CompareOptions, "gain"),

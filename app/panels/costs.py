@@ -19,6 +19,7 @@ from app import theme
 from app.bounds import whole_range_of
 from app.options import CostOptions
 from app.panels.checks import radio_button
+from app.panels.sliders import slider_int
 from app.teach.costs import RENDERERS, WATCHED, Renderer, Sample
 from app.teach.growth import Point, count_growth, is_proportional, per_doubling
 from app.teach.work import Work
@@ -93,7 +94,7 @@ def _slider(name: Unit, value: int) -> int:
     imgui.set_next_item_width(width)
     logarithmic = imgui.SliderFlags_.logarithmic | imgui.SliderFlags_.always_clamp
     limits = whole_range_of(CostOptions, name)
-    changed, chosen = imgui.slider_int(name, value, *limits, "%d", logarithmic)
+    changed, chosen = slider_int(name, value, *limits, "%d", logarithmic)
     return chosen if changed else value
 
 

@@ -23,6 +23,8 @@ def exercise(
 ) -> None:
     """Draws an exercise and takes up what is typed and chosen. sizes_px: of its text."""
     room = imgui.get_content_region_avail()
+    if imgui.get_scroll_max_y() <= 0:  # what is said to an answer may need a scrollbar
+        room.x -= imgui.get_style().scrollbar_size
     size = slides.text(parse(task.question), (room.x, 0.3 * room.y), sizes_px)
     imgui.dummy(ImVec2(0, 0.4 * size))
     with lettering(fonts.text, size):

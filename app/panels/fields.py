@@ -137,7 +137,7 @@ def number_field(
         return changed, new
     if not imgui.is_item_active() or not imgui.get_io().want_text_input:
         _draw_level(value, scale, color)
-    if tooltip and not imgui.is_item_active():
+    if tooltip and not marked and not imgui.is_item_active():  # what is wrong is told, too
         imgui.set_item_tooltip(f"{tooltip}\n{HINT}")
     chosen = _menu(label, value, reset)
     if chosen is not None:

@@ -12,6 +12,7 @@ from dataclasses import dataclass
 from imgui_bundle import ImVec2, imgui
 
 from app import theme
+from app.images.pictures import PANE
 from app.images.placement import Placement, place
 from app.images.shown import Picture
 from app.images.underlay import Underlay
@@ -23,11 +24,15 @@ from app.panels.pixelgrid import Values, draw_pixel_grid
 from app.panels.screen import Box, Screen
 from app.state import AppState
 
+MAP = "map"  # the whole image, small
+# What is seen of a state's image in a window, None for no image. The bool: whether it is for the
+# underlay; the string: which of the image's pictures.
+Drawn = Callable[[AppState, Placement, bool, str], Picture | None]
+
 
 @dataclass(frozen=True)
 class Pane:
-    """One image's window. picture: gives what is seen of a state's image, None for no image; asked
-    after the mouse has moved the camera; its last argument says whether it is for the underlay.
+    """One image's window. picture: asked after the mouse has moved the camera.
     underlay: where it can be put, having nothing under it; None: ImGui draws it. values: of some
     pixels, likewise; None: they are not written.
 
@@ -38,7 +43,7 @@ class Pane:
     """
 
     seen: Seen
-    picture: Callable[[AppState, Placement, bool], Picture | None]
+    picture: Drawn
     underlay: Underlay | None
     values: Values | None
     fonts: theme.Fonts
@@ -109,7 +114,7 @@ def image_pane(
 def _draw(pane: Pane, state: AppState, screen: Screen, room: Box, grab: Grab | None) -> None:
     draw = imgui.get_window_draw_list()
     low, high = screen.visible
-    picture = pane.picture(state, screen.placement, pane.underlay is not None)
+    picture = pane.picture(state, screen.placement, pane.underlay is not None, PANE)
     _surround(draw, room, low, low if picture is None else high)
     draw.push_clip_rect(*screen.pane, intersect_with_current_clip_rect=True)
     if picture is not None:
@@ -119,14 +124,14 @@ def _draw(pane: Pane, state: AppState, screen: Screen, room: Box, grab: Grab | N
             draw.add_image(imgui.ImTextureRef(picture.texture.glo), low, high)
         if pane.on_pixels is not None:
             pane.on_pixels(screen)
-        if state.images.grid:
-            draw_pixel_grid(draw, screen, state, pane.values, pane.depths, pane.fonts)
     width, height = pane.seen.size
     for number, pin in enumerate(state.options.probe.pins, 1):
         if pin[0] < height and pin[1] < width:
             draw_pin(draw, screen, pin, number)
     if state.marked is not None:
         draw_marked(draw, screen, state.marked)
+    if picture is not None and state.images.grid:  # numbers may reach over a mark
+        draw_pixel_grid(draw, screen, state, pane.values, pane.depths, pane.fonts)
     if pane.hovered is not None and grab is None:
         draw_hovered(draw, screen, pane.hovered)
     if pane.progress < 1.0:
@@ -135,12 +140,20 @@ def _draw(pane: Pane, state: AppState, screen: Screen, room: Box, grab: Grab | N
     if picture is not None:
         if pane.legend:
             draw_legend(draw, screen, state, pane.depths, pane.fonts)
-        draw_corner(draw, screen, state, pane.fonts)
+        draw_corner(draw, screen, state, lambda size: _map(pane, state, screen, size))
     if pane.note:
         draw_note(draw, screen, pane.note, pane.is_error)
     elif pane.hint:
         draw_hint(draw, screen, pane.hint)
     draw.pop_clip_rect()
+
+
+def _map(pane: Pane, state: AppState, screen: Screen, extent: tuple[int, int]) -> int | None:
+    """All of the image, (width, height) framebuffer pixels large; OpenGL's name of the texture."""
+    size = screen.placement.size
+    small = Placement(size, extent, extent[0] / size[0], (0, 0), extent)
+    picture = pane.picture(state, small, False, MAP)
+    return picture.texture.glo if picture is not None else None
 
 
 def _surround(draw: imgui.ImDrawList, room: Box, low: ImVec2, high: ImVec2) -> None:

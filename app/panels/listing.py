@@ -13,33 +13,34 @@ from imgui_bundle import ImVec2, imgui
 
 from app import theme
 from app.lettering import lettering
-from app.panels.code import LINE, code, code_size_px
+from app.panels.code import LINE, code, code_size_px, narrowed
 from app.teach.languages import julia
 from app.theme import Fonts
 
-LEGIBLE_EM = 0.85  # the least size of the code, where the width allows
-BESIDE_EM = 0.78  # and of two beside each other; where that is too large, they share the height
+# The least size of two beside each other; where that is too large, they share the height.
+BESIDE_EM = 0.78
 
 
 @dataclass(frozen=True)
 class Listing:
     """A function's lines in Python, whether they are wanted in Julia, too, and the sources of the
-    functions that they call."""
+    functions that they call. set_px: the size of the window's type."""
 
     lines: tuple[str, ...]
     in_julia: bool
     called: Mapping[str, str]
+    set_px: float
 
 
 def listing(shown: Listing, lit: int, size_px: float, room: ImVec2, fonts: Fonts) -> None:
     """The code, one line of it lit; in Julia beside it where both can be read, else below."""
     if not shown.in_julia:
-        _lines("code", shown.lines, lit, size_px, room, shown.called, fonts)
+        _lines("code", narrowed(shown.lines), lit, size_px, room, shown.called, fonts)
         return
     twin = _twin(shown.lines)
-    python, in_julia = _narrow(shown.lines), _narrow(twin.lines)
+    python, in_julia = narrowed(shown.lines), narrowed(twin.lines)
     gap, caption = imgui.get_style().item_spacing, imgui.get_text_line_height_with_spacing()
-    half, least_px = 0.5 * (room.x - gap.x), BESIDE_EM * imgui.get_font_size()
+    half, least_px = 0.5 * (room.x - gap.x), BESIDE_EM * shown.set_px
     all_px = max(least_px, (room.y - caption) / (LINE * len(in_julia)))
     beside_px = code_size_px(max((*python, *in_julia), key=len), half, min(size_px, all_px))
     beside = beside_px >= least_px
@@ -79,13 +80,6 @@ def _lines(
     with lettering(fonts.mono, size_px):
         code(lines, lit, size_px, room.x, called)
     imgui.end_child()
-
-
-@functools.cache
-def _narrow(lines: tuple[str, ...]) -> tuple[str, ...]:
-    """The lines, indented half as far: two of them share a row."""
-    indents = [len(line) - len(line.lstrip()) for line in lines]
-    return tuple(line[indent // 2 :] for line, indent in zip(lines, indents, strict=True))
 
 
 @functools.cache

@@ -12,6 +12,7 @@ from app.options import Pixel
 from app.panels.screen import Screen
 
 SMALLEST_FRAMED = 6  # a pixel as large as that gets a frame of its own size
+NUMBERED = 32.0  # as large, a pixel has numbers in it
 TICK = 9.0  # the lines that point at a marked pixel
 LARGEST_POINTED_AT = 24.0
 LEAP = 10  # with Shift
@@ -37,8 +38,10 @@ def draw_marked(draw: imgui.ImDrawList, screen: Screen, pixel: Pixel) -> None:
     """A heavier frame; where that is small, with a line towards it from each side, so that it is
     found at a glance."""
     middle, half = _middle(screen, pixel)
-    for width, color in ((5.0, theme.rgb("#000000", 0.75)), (2.0, theme.MARK)):
-        low, high = _square(middle, half, 1.5)
+    # Round numbers it is thin, and stands between them and the neighbours'.
+    grow, dark, bright = (0.5, 4.0, 2.0) if min(screen.cell) >= NUMBERED else (1.5, 5.0, 2.0)
+    for width, color in ((dark, theme.rgb("#000000", 0.75)), (bright, theme.MARK)):
+        low, high = _square(middle, half, grow)
         draw.add_rect(low, high, theme.u32(color), 0.0, width)
         if min(screen.cell) > LARGEST_POINTED_AT:
             continue

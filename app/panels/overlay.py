@@ -5,6 +5,8 @@ Owns their places and look: dark boxes in the lower corners, so that they are re
 
 from __future__ import annotations
 
+from collections.abc import Callable
+
 from imgui_bundle import ImVec2, ImVec4, imgui
 
 from app import theme
@@ -20,6 +22,7 @@ MARGIN = 8.0
 PADDING = 6.0
 BAR = 84.0  # of the depth's legend
 MAP = 72.0  # the longer side of the map of a magnified image
+SEEN = 5.0  # the least side of the frame in it
 MOST_NAMES = 6
 NORMAL = (("x", "#ff7a6b"), ("y", "#6fd36f"), ("z", "#7aa8ff"))
 
@@ -46,18 +49,24 @@ def draw_legend(
 
 
 def draw_corner(
-    draw: imgui.ImDrawList, screen: Screen, state: AppState, fonts: theme.Fonts
+    draw: imgui.ImDrawList,
+    screen: Screen,
+    state: AppState,
+    whole: Callable[[tuple[int, int]], int | None],
 ) -> None:
-    """The magnification, where that is not the window's; and a map, where not all is seen."""
+    """The magnification, where that is not the window's; and a map, where not all is seen. whole:
+    gives a texture of all of the image, of a size in framebuffer pixels."""
     placement, options = screen.placement, state.images
     if options.magnification is None and options.resolution is None:
         return
     text, size = magnification_text(placement.magnification), imgui.get_font_size()
     wide = imgui.calc_text_size(text).x
-    extent = (0.0, 0.0)
+    extent, pixels = (0.0, 0.0), [0, 0]
     if not placement.sees_all:
         longest = max(placement.size)
-        extent = (MAP * placement.size[0] / longest, MAP * placement.size[1] / longest)
+        side = round(theme.px(MAP) * screen.scale)
+        pixels = [max(1, round(side * part / longest)) for part in placement.size]
+        extent = (pixels[0] / screen.scale, pixels[1] / screen.scale)
     width = max(wide, extent[0]) + 2 * PADDING
     height = size + 2 * PADDING + (extent[1] + PADDING if extent[1] else 0)
     if not _fits(screen, width, height):
@@ -67,7 +76,7 @@ def draw_corner(
     draw.add_rect_filled(low, ImVec2(low.x + width, low.y + height), theme.u32(BOX), 4.0)
     if extent[1]:
         corner = ImVec2(low.x + (width - extent[0]) / 2, low.y + PADDING)
-        _map(draw, corner, extent, placement.visible_parts)
+        _map(draw, corner, extent, placement.visible_parts, whole((pixels[0], pixels[1])))
     at = ImVec2(low.x + (width - wide) / 2, low.y + height - PADDING - size)
     draw.add_text(at, theme.u32(TEXT), text)
 
@@ -167,17 +176,22 @@ def _map(
     corner: ImVec2,
     extent: tuple[float, float],
     parts: tuple[float, float, float, float],
+    texture: int | None,
 ) -> None:
-    """The whole image as a frame, and in it what is seen."""
+    """The whole image, and in it a frame round what is seen."""
     end = ImVec2(corner.x + extent[0], corner.y + extent[1])
-    draw.add_rect_filled(corner, end, theme.u32(theme.rgb("#ffffff", 0.12)))
+    if texture is None:
+        draw.add_rect_filled(corner, end, theme.u32(theme.rgb("#ffffff", 0.12)))
+    else:
+        draw.add_image(imgui.ImTextureRef(texture), corner, end)
     draw.add_rect(corner, end, theme.u32(DIM))
     left, top, right, bottom = parts
     low = ImVec2(corner.x + left * extent[0], corner.y + top * extent[1])
     high = ImVec2(
-        max(corner.x + right * extent[0], low.x + 3), max(corner.y + bottom * extent[1], low.y + 3)
+        max(corner.x + right * extent[0], low.x + SEEN),
+        max(corner.y + bottom * extent[1], low.y + SEEN),
     )
-    draw.add_rect_filled(low, high, theme.u32(theme.RAY, 0.35))
+    draw.add_rect(low, high, theme.u32(theme.rgb("#000000")), 0.0, 3.5)
     draw.add_rect(low, high, theme.u32(theme.RAY), 0.0, 1.5)
 
 

@@ -20,7 +20,7 @@ from app.state import AppState
 LINES_FROM, VALUES_FROM = 8.0, 32.0  # screen pixels a side of an image's pixel
 NAMES_FROM = 44.0  # units: each pixel has its own row and column, beside those at the edges
 MOST_VALUES = 1200  # more are thinned out: nobody reads them, and a frame would take too long
-LEAST_TEXT, MOST_TEXT = 8.5, 30.0
+LEAST_TEXT, MOST_TEXT = 8.5, 64.0
 # Of the fixed-width font, in its size. Digits have no descenders: their lines may be close.
 ADVANCE, DIGITS_TOP, DIGITS_HIGH = 0.5, 0.22, 0.61
 LEADING = 0.76

@@ -5,6 +5,7 @@ Made from the table of app/actions/table.py. Owns its look.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 
 from imgui_bundle import ImVec2, imgui
@@ -12,8 +13,9 @@ from imgui_bundle import ImVec2, imgui
 from app import theme
 from app.actions.table import ACTIONS, MENUS, MOUSE
 
-COLUMN_EM = 24.0
+COLUMN_EM = 22.5
 NARROW_EM = 20.0  # a column of less has what a key does below the key
+KEYS = 0.36  # the keys' part of a column
 NAME = "Mouse and keys"
 
 STEPPING = "Lecture/Loop stepper"  # the submenu whose keys hold only where the keyboard is
@@ -94,7 +96,10 @@ def help_sheet(fonts: theme.Fonts, version: str) -> bool:
         imgui.pop_text_wrap_pos()
         if imgui.begin_table("columns", columns, imgui.TableFlags_.sizing_stretch_same):
             imgui.table_next_row()
-            for part in in_columns(sections(), columns):
+            parts = sections()
+            width = size.x / columns - 1.5 * em
+            heights = [_lines(rows, width) for _, rows in parts]
+            for part in in_columns(parts, columns, heights):
                 imgui.table_next_column()
                 for heading, rows in part:
                     _section(heading, rows, fonts)
@@ -104,10 +109,11 @@ def help_sheet(fonts: theme.Fonts, version: str) -> bool:
 
 
 def in_columns(
-    parts: Sequence[tuple[str, list[Row]]], columns: int
+    parts: Sequence[tuple[str, list[Row]]], columns: int, lines: Sequence[int]
 ) -> list[list[tuple[str, list[Row]]]]:
-    """The parts in their order, so that the longest column is as short as can be."""
-    heights = [len(rows) + 2 for _, rows in parts]
+    """The parts in their order, so that the longest column is as short as can be. lines: that the
+    rows of each take."""
+    heights = [count + 2 for count in lines]
     for most in range(max(heights), sum(heights) + 1):
         found: list[list[tuple[str, list[Row]]]] = [[]]
         room = most
@@ -120,6 +126,16 @@ def in_columns(
         if len(found) <= columns:
             return found
     return [list(parts)]
+
+
+def _lines(rows: list[Row], width_px: float) -> int:
+    """How many lines the rows take in a column; keys and words are broken in their own parts."""
+    keys_px, words_px = KEYS * width_px, (1 - KEYS) * width_px
+    parts = [
+        max(imgui.calc_text_size(keys).x / keys_px, imgui.calc_text_size(what).x / words_px)
+        for keys, what in rows
+    ]
+    return sum(max(1, math.ceil(1.1 * part)) for part in parts)
 
 
 def _section(heading: str, rows: list[Row], fonts: theme.Fonts) -> None:
@@ -137,17 +153,19 @@ def _section(heading: str, rows: list[Row], fonts: theme.Fonts) -> None:
             imgui.text(what)
             imgui.unindent()
     imgui.pop_text_wrap_pos()
-    if not narrow and imgui.begin_table(heading, 2, imgui.TableFlags_.sizing_fixed_fit):
-        imgui.table_setup_column("keys", imgui.TableColumnFlags_.width_fixed)
-        imgui.table_setup_column("what", imgui.TableColumnFlags_.width_stretch)
+    if not narrow and imgui.begin_table(heading, 2, imgui.TableFlags_.sizing_stretch_prop):
+        # The same in every part: words stand below one another.
+        stretch = imgui.TableColumnFlags_.width_stretch
+        imgui.table_setup_column("keys", stretch, KEYS)
+        imgui.table_setup_column("what", stretch, 1 - KEYS)
         for keys, what in rows:
             imgui.table_next_row()
             imgui.table_next_column()
             imgui.push_font(fonts.bold, 0.0)
-            imgui.text(f"{keys}  ")
+            imgui.push_text_wrap_pos(0.0)
+            imgui.text(keys)
             imgui.pop_font()
             imgui.table_next_column()
-            imgui.push_text_wrap_pos(0.0)
             imgui.text(what)
             imgui.pop_text_wrap_pos()
         imgui.end_table()

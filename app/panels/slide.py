@@ -6,6 +6,7 @@ Owns fonts, colours and sizes. Where the pieces stand is teach/lecture/flow.py's
 from __future__ import annotations
 
 import functools
+from dataclasses import dataclass
 
 from imgui_bundle import ImVec2, ImVec4, imgui
 
@@ -18,6 +19,46 @@ from app.teach.lecture.text import Block
 from app.theme import Fonts
 
 ASCENT = 0.78  # of the line's height, in all our fonts
+# Sizes of a step's type, in parts of the window's height.
+LABEL = 0.028
+TITLE = 0.07
+LARGEST, SMALLEST = 0.052, 0.024  # of the text: as large as it has room
+EXERCISE = 0.031  # of an exercise's: what is said to an answer must have room, and nothing jumps
+LEAST_PX = 13.0
+SCROLLED_PX = 1_000_000  # as high as a text may be that is scrolled
+SHORTEST_LINE, SHORTEST_ENLARGED = 20, 13  # letters a line: more are never too few to read
+
+
+@dataclass(frozen=True)
+class Sizes:
+    """Of a step's type, in ImGui's pixels. text: the smallest and the largest of what fits into
+    its room; enlarged: what the reader has asked for more."""
+
+    label: float
+    title: float
+    text: tuple[float, float]
+    exercise: float
+    enlarged: float
+    most: float
+
+
+def sizes_of(width: float, height: float, scale: float, dpi: float) -> Sizes:
+    """For a column of that width in a window of that height. scale: of the type, which all that is
+    read follows; what stands round it does not."""
+
+    def part(of_height: float) -> float:
+        return max(LEAST_PX * dpi, of_height * height)
+
+    widest = max(LEAST_PX * dpi, 2 * width / SHORTEST_LINE)
+    most = max(LEAST_PX * dpi, 2 * width / SHORTEST_ENLARGED)
+    return Sizes(
+        label=part(LABEL),
+        title=part(TITLE),
+        text=(part(SMALLEST), max(part(SMALLEST), min(part(LARGEST), widest))),
+        exercise=min(part(EXERCISE) * scale, most),
+        enlarged=scale,
+        most=most,
+    )
 
 
 class Slides:
@@ -44,6 +85,20 @@ class Slides:
         self._draw(laid, corner, color)
         imgui.dummy(ImVec2(min(laid.width, room[0]), laid.height))
         return size
+
+    def fitting_px(
+        self, blocks: tuple[Block, ...], room: tuple[float, float], sizes: Sizes
+    ) -> float:
+        """The size at which a text fills its room, or is as large as asked for beyond that."""
+        room = (max(round(room[0]), 40), max(round(room[1]), 1))
+        look = (framebuffer_scale(), theme.TEXT.x)
+        _, size = self._lay(blocks, room, sizes.text, look)
+        if sizes.enlarged <= 1.0:
+            return size
+        largest = max(size, min(size * sizes.enlarged, sizes.most))
+        bar = imgui.get_style().scrollbar_size
+        column = (max(room[0] - round(bar), 40), SCROLLED_PX)
+        return self._lay(blocks, column, (min(size, sizes.most), largest), look)[1]
 
     def height(self, blocks: tuple[Block, ...], width: float, size_px: float) -> float:
         """What a text of that size would take."""

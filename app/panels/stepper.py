@@ -14,13 +14,24 @@ from imgui_bundle import ImVec2, imgui
 
 from app import theme
 from app.bounds import range_of
-from app.lettering import lettering
+from app.lettering import fitting_words
 from app.options import Language, Pixel, StepperOptions
 from app.panels.canvas import Marks, canvas
 from app.panels.checks import checkbox
-from app.panels.code import code_size_px
-from app.panels.listing import LEGIBLE_EM, Listing, listing
+from app.panels.code import narrowed
+from app.panels.listing import Listing, listing
 from app.panels.rows import follow
+from app.panels.sliders import slider_float, slider_int
+from app.panels.stepper_numbers import TEXTS, numbers
+from app.panels.stepper_plan import (
+    LONG,
+    SHORT,
+    Need,
+    Place,
+    canvases_in,
+    plan,
+    plan_of_two,
+)
 from app.teach.loop_parts import (
     Canvas,
     DepthBuffer,
@@ -32,7 +43,7 @@ from app.teach.loop_parts import (
 from app.teach.raster_parts import box_around, edge, prepared, project, shade, t_of, triangles
 from app.teach.recording import MOST_STEPS, Order, Recording
 from app.teach.source import source_of
-from app.teach.stepper import Moment
+from app.teach.stepper import SHOWN, Moment
 from app.theme import Fonts
 from renderer.pixels import Indexing
 
@@ -51,10 +62,8 @@ TITLES = {
     Order.OBJECT: "Object order by rays: for each object, for each pixel",
     Order.IMAGE: "Image order: for each pixel, for each object",
 }
-# Panels so much wider than high have code, canvases and numbers beside one another, or the numbers.
-ALL_BESIDE, NUMBERS_BESIDE = 1.9, 1.2
-LEFT, UPPER = 0.64, 0.64  # the code's part of a panel whose numbers stand beside it
-INDICES = ("i", "j", "rows", "columns")  # the variables that count pixels
+WANTED_EM = 1.25  # of the code
+LEAST_PX = 11.0  # of the code, at 100 %, unless the width forbids it
 RUNNING = f"Python, counts {Indexing.ARRAY.told}"
 
 Wish = Literal["", "first", "back", "play", "step", "pixel", "object", "last"]
@@ -75,6 +84,21 @@ class Picture:
 
     color: int | None
     depth: int | None
+
+
+@dataclass(frozen=True)
+class Shown:
+    """How algorithms are shown. orders: those that stand beside one another; canvas: its pixels,
+    (width, height). em_px: the size of type that was asked for, which the code follows; set_px: of
+    the window's own, which stands round it. indexing: how pixels are counted in what stands beside
+    the code. in_julia: the code in Julia, too."""
+
+    orders: tuple[Order, ...]
+    canvas: tuple[int, int]
+    em_px: float
+    set_px: float
+    indexing: Indexing
+    in_julia: bool
 
 
 @dataclass(frozen=True)
@@ -140,14 +164,14 @@ def keys() -> Wish:
 
 
 def _speed(options: StepperOptions) -> StepperOptions:
-    width = 8 * imgui.get_font_size()
-    follow(width + imgui.calc_text_size("steps/s").x)
+    width = 6.5 * imgui.get_font_size()
+    follow(width)
     imgui.set_next_item_width(width)
-    changed, speed = imgui.slider_float(
-        "steps/s",
+    changed, speed = slider_float(
+        "##speed",
         options.speed,
         *range_of(StepperOptions, "speed"),
-        "%.0f",
+        "%.0f steps/s",
         imgui.SliderFlags_.logarithmic,
     )
     return replace(options, speed=speed) if changed else options
@@ -155,12 +179,12 @@ def _speed(options: StepperOptions) -> StepperOptions:
 
 def _canvas_size(options: StepperOptions) -> StepperOptions:
     def name(size: tuple[int, int]) -> str:
-        return f"{size[0]} x {size[1]}"
+        return f"{size[0]} x {size[1]} pixels"
 
-    width = imgui.calc_text_size("64 x 48").x + 2.2 * imgui.get_frame_height()
-    follow(width + imgui.calc_text_size("pixels").x)
+    width = imgui.calc_text_size("64 x 48 pixels").x + 2.2 * imgui.get_frame_height()
+    follow(width)
     imgui.set_next_item_width(width)
-    if imgui.begin_combo("pixels", name(options.canvas)):
+    if imgui.begin_combo("##pixels", name(options.canvas)):
         for size in CANVASES:
             if imgui.selectable(name(size), size == options.canvas)[0]:
                 options = replace(options, canvas=size, steps=(0, 0))
@@ -205,18 +229,16 @@ def run_panel(
     picture: Picture,
     room: ImVec2,
     fonts: Fonts,
-    indexing: Indexing,
-    in_julia: bool = False,
+    shown: Shown,
 ) -> Answer:
-    """Code, canvas, variables and counters, in a room. indexing: how pixels are counted in what
-    stands beside the code. in_julia: the code in Julia, too."""
+    """Code, canvas, variables and counters, in a room."""
     imgui.push_font(fonts.bold, 0.0)
     title = TITLES[recording.order]
     if imgui.calc_text_size(title).x > room.x:
         title = title.partition(":")[0]
     imgui.text(title)
     imgui.pop_font()
-    notes = [] if in_julia else [RUNNING]  # the listings say it
+    notes = [] if shown.in_julia else [RUNNING]  # the listings say it
     if recording.order is Order.RASTER and len(recording.model.flat.spheres):
         notes.append("spheres by rays, first")  # which have no triangles
     if notes:
@@ -227,48 +249,44 @@ def run_panel(
         imgui.text_colored(theme.DIM, "running ...")
         return Answer()
     answer = _slider(recording, moment)
-    left = imgui.get_content_region_avail()
-    below = imgui.get_cursor_screen_pos()
-    lines = Listing(recording.source.lines, in_julia, _called())
-    longest, count = _largest()  # of both: they are shown in one size
-    em = imgui.get_font_size()
-    if left.x > ALL_BESIDE * left.y:
-        size_px = _code_px(longest, count, 0.46 * left.x, left.y, em)
-        listing(lines, moment.line, size_px, ImVec2(0.46 * left.x, left.y), fonts)
-        x = 0.48 * left.x
-        imgui.set_cursor_screen_pos(ImVec2(below.x + x, below.y))
-        imgui.begin_group()
-        answer = _canvases(
-            recording, moment, picture, ImVec2(0.26 * left.x, left.y), answer, indexing
-        )
-        imgui.end_group()
-        imgui.set_cursor_screen_pos(ImVec2(below.x + 0.755 * left.x, below.y))
-        _numbers(moment, ImVec2(0.245 * left.x, left.y), size_px, fonts)
-        return answer
-    if (
-        left.x > NUMBERS_BESIDE * left.y and not in_julia
-    ):  # the canvases below the code, the numbers right of both
-        size_px = beside_px((left.x, left.y), em)
-        listing(lines, moment.line, size_px, ImVec2(LEFT * left.x, UPPER * left.y), fonts)
-        rest = left.y - (imgui.get_cursor_screen_pos().y - below.y)
-        imgui.begin_group()
-        answer = _canvases(
-            recording, moment, picture, ImVec2(LEFT * left.x, rest), answer, indexing
-        )
-        imgui.end_group()
-        imgui.set_cursor_screen_pos(ImVec2(below.x + (LEFT + 0.02) * left.x, below.y))
-        _numbers(moment, ImVec2((0.98 - LEFT) * left.x, left.y), size_px, fonts)
-        return answer
-    size_px = _code_px(longest, count, left.x, 0.56 * left.y, em)
-    listing(lines, moment.line, size_px, ImVec2(left.x, 0.58 * left.y), fonts)
-    left = imgui.get_content_region_avail()
-    below = imgui.get_cursor_screen_pos()
+    corner, room = imgui.get_cursor_screen_pos(), imgui.get_content_region_avail()
+    need, extent = _need(shown), (round(room.x), round(room.y))
+    made = plan_of_two(extent, need, shown.set_px) if shown.in_julia else plan(extent, need)
+
+    def to(place: Place) -> ImVec2:
+        imgui.set_cursor_screen_pos(ImVec2(corner.x + place.left, corner.y + place.top))
+        return ImVec2(*place.size)
+
+    lines = Listing(recording.source.lines, shown.in_julia, _called(), shown.set_px)
+    listing(lines, moment.line, made.code_px, to(made.code), fonts)
+    place = to(made.canvases)
     imgui.begin_group()
-    answer = _canvases(recording, moment, picture, ImVec2(0.52 * left.x, left.y), answer, indexing)
+    answer = _canvases(recording, moment, picture, place, answer, shown.indexing)
     imgui.end_group()
-    imgui.set_cursor_screen_pos(ImVec2(below.x + 0.54 * left.x, below.y))
-    _numbers(moment, ImVec2(0.46 * left.x, left.y), size_px, fonts)
+    numbers(moment, to(made.numbers), made, fonts)
     return answer
+
+
+def _need(shown: Shown) -> Need:
+    """Two beside each other are shown alike, whichever needs more."""
+    lines = [narrowed(source_of(order.renderer).lines) for order in shown.orders]
+    names = [_names(order) for order in shown.orders]
+    return Need(
+        longest=max(len(line) for one in lines for line in one),
+        lines=max(map(len, lines)),
+        canvas=shown.canvas,
+        has_depth=any(order.has_depth for order in shown.orders),
+        em_px=imgui.get_font_size(),
+        wanted_px=WANTED_EM * shown.em_px,
+        least_px=LEAST_PX * imgui.get_style().font_scale_dpi,
+        short=max(SHORT, *(3 + sum(name not in TEXTS for name in one) for one in names)),
+        long=max(LONG, *(1 + sum(name in TEXTS for name in one) for one in names)),  # one wraps
+    )
+
+
+def _names(order: Order) -> list[str]:
+    """The variables that are shown of an algorithm."""
+    return [name for name in SHOWN if name in order.renderer.__code__.co_varnames]
 
 
 def _slider(recording: Recording, moment: Moment) -> Answer:
@@ -281,32 +299,11 @@ def _slider(recording: Recording, moment: Moment) -> Answer:
         note += f" (stopped after {MOST_STEPS}: take {less})"
     elif not recording.complete:
         note += " so far"
-    changed, step = imgui.slider_int(
+    changed, step = slider_int(
         f"##step {recording.order.name}", moment.step, 0, most, note,
         imgui.SliderFlags_.always_clamp,
     )  # fmt: skip
     return Answer(step=step if changed else None)
-
-
-def beside_px(room: tuple[float, float], em: float) -> float:
-    """The code's size in a room (width, height) where the numbers stand right of it. em: the
-    window's own size of type."""
-    longest, count = _largest()
-    return _code_px(longest, count, LEFT * room[0], UPPER * room[1], em)
-
-
-def _code_px(longest: str, count: int, width: float, height: float, em: float) -> float:
-    """The code's size: all of it where that can be read, else as wide as there is room."""
-    least = LEGIBLE_EM * em
-    return code_size_px(longest, width, min(1.6 * em, max(least, height / (1.22 * count))))
-
-
-@functools.cache
-def _largest() -> tuple[str, int]:
-    """The longest line of both sources, and the number of lines of the longer one."""
-    sources = [source_of(order.renderer) for order in Order]
-    lines = [line for source in sources for line in source.lines]
-    return max(lines, key=len), max(len(source.lines) for source in sources)
 
 
 @functools.cache
@@ -331,26 +328,15 @@ def _canvases(
     name, size = recording.order.name, recording.size
     label = imgui.get_text_line_height_with_spacing()
     spacing = imgui.get_style().item_spacing
-    height = max(20.0, room.y - label)
-    first = rest = ImVec2(room.x, height)
-    beside = False
     has_depth = recording.order.has_depth
-    if has_depth:
-        below = max(20.0, height - 2 * spacing.y)
-        across = room.x - spacing.x
-        half = ImVec2(0.5 * across, height)  # beside one another, of one size
-        choices = (
-            (ImVec2(room.x, 0.67 * below), ImVec2(room.x, 0.33 * below), False),
-            (half, half, True),
-        )
-        first, rest, beside = max(
-            choices, key=lambda one: min(one[0].x / size[0], one[0].y / size[1])
-        )
+    gap = spacing.x, spacing.y
+    upper, lower, beside = canvases_in((room.x, room.y), size, has_depth, label, gap)
+    first, rest = ImVec2(*upper), ImVec2(*lower)
     dots = tuple((test.pixel, test.t < float("inf")) for test in moment.tests)
     corners = tuple((corner.x, corner.y) for corner in moment.corners or ())
     marks = Marks(moment.pixel, moment.box, dots if has_depth else (), corners)
     imgui.begin_group()
-    imgui.text_colored(theme.DIM, _caption(moment, indexing, room.x))
+    imgui.text_colored(theme.DIM, _caption(moment, indexing, first.x))
     clicked = canvas(picture.color, size, first, marks, f"canvas##{name}")
     imgui.set_item_tooltip("a click goes to a pixel's turn")
     imgui.end_group()
@@ -358,13 +344,9 @@ def _canvases(
         if beside:
             imgui.same_line()
         imgui.begin_group()
-        if beside:
-            imgui.text_colored(theme.DIM, "depth")
+        imgui.text_colored(theme.DIM, "depth")
         again = canvas(picture.depth, size, rest, Marks(moment.pixel, moment.box), f"depth##{name}")
         imgui.set_item_tooltip("for each pixel the nearest t so far, near ones bright")
-        if not beside:  # a line above it would be taken from the canvas
-            imgui.same_line()
-            imgui.text_colored(theme.DIM, "depth")
         imgui.end_group()
         clicked = clicked if clicked is not None else again
     return replace(answer, pixel=clicked) if clicked is not None else answer
@@ -376,59 +358,7 @@ def _caption(moment: Moment, indexing: Indexing, width: float) -> str:
         return "canvas"
     pixel = f"pixel {indexing.text(moment.pixel)} {indexing.told}"
     whole = f"canvas, {pixel}"
-    return whole if imgui.calc_text_size(whole).x <= width else pixel
-
-
-def _numbers(moment: Moment, room: ImVec2, code_px: float, fonts: Fonts) -> None:
-    """The counters and the variables, in type about as large as the code's."""
-    imgui.begin_child("numbers", room)
-    em = imgui.get_font_size()
-    with lettering(None, min(max(em, 0.92 * code_px), max(0.6 * em, room.x / 16))):
-        _tables(moment, fonts)
-    imgui.end_child()
-
-
-def _tables(moment: Moment, fonts: Fonts) -> None:
-    counters = moment.counters
-    flags = imgui.TableFlags_
-    if imgui.begin_table("counters", 2, flags.sizing_fixed_fit | flags.no_saved_settings):
-        for name, count, tip in (
-            ("tests", counters.tests, "how often an object or a triangle was tested at a pixel"),
-            ("writes", counters.writes, "how often a pixel of the canvas was set"),
-            ("overwrites", counters.overwrites, "writes to a pixel that had been set before"),
-        ):
-            imgui.table_next_row()
-            imgui.table_next_column()
-            imgui.text_colored(theme.DIM, name)
-            imgui.set_item_tooltip(tip)
-            imgui.table_next_column()
-            imgui.push_font(fonts.mono, 0.0)
-            imgui.text(f"{count:>7}")
-            imgui.pop_font()
-        imgui.end_table()
-    imgui.separator()
-    if imgui.begin_table("variables", 2, flags.no_saved_settings):
-        widest = imgui.calc_text_size("columns").x
-        imgui.table_setup_column("", imgui.TableColumnFlags_.width_fixed, widest)
-        imgui.table_setup_column("", imgui.TableColumnFlags_.width_stretch)
-        for variable in moment.variables:
-            color = theme.legible(theme.MARK) if variable.changed else theme.TEXT
-            imgui.table_next_row()
-            imgui.table_next_column()
-            imgui.text_colored(theme.DIM, variable.name)
-            imgui.table_next_column()
-            imgui.push_text_wrap_pos(0.0)
-            imgui.push_font(fonts.mono, 0.0)
-            imgui.text_colored(color, variable.text)
-            imgui.pop_font()
-            if variable.name in INDICES:
-                imgui.same_line()
-                imgui.text_colored(theme.DIM, Indexing.ARRAY.told)  # as the code beside it
-            elif variable.note:
-                imgui.same_line()
-                imgui.text_colored(theme.DIM, variable.note)
-            imgui.pop_text_wrap_pos()
-        imgui.end_table()
+    return whole if imgui.calc_text_size(whole).x <= width else fitting_words(pixel, width)
 
 
 def _button_width(text: str) -> float:

@@ -129,5 +129,12 @@ class View:
     def drop_pending(self) -> None:
         """Takes that back."""
 
+    def as_set(self, state: AppState) -> AppState:
+        """The present state as it was made, without what the view has fitted to its size since."""
+        return state
+
+    def begin_anew(self) -> None:
+        """A lecture has taken a step: what the view keeps beside the state is as at first."""
+
     def end(self) -> None:
         """Once, before the context goes."""

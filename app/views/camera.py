@@ -10,14 +10,18 @@ from imgui_bundle import imgui
 
 from app.actions import camera as camera_actions
 from app.cameras.editing import Draft
+from app.lettering import at_most
 from app.panels.camera import Panel, camera_panel
 from app.panels.camera_sections import Asked, Sections
 from app.panels.lens import Surroundings
+from app.panels.rows import NARROW_EM
 from app.state import AppState
 from app.views.base import Host, View
 from renderer.camera import Vector
 
 CAMERA = "Camera"
+FITTING_EM = NARROW_EM + 0.5  # the width that full labels and numbers need
+LEAST_PX = 13.0  # of type, at 100 %
 
 
 class CameraView(View):
@@ -44,6 +48,12 @@ class CameraView(View):
         self._draft = None
 
     def draw(self, host: Host) -> None:
+        """Type that is too large for the numbers gives way to them."""
+        least = LEAST_PX * imgui.get_style().font_scale_dpi
+        with at_most(max(least, imgui.get_content_region_avail().x / FITTING_EM)):
+            self._draw(host)
+
+    def _draw(self, host: Host) -> None:
         state = host.state
         if self._dolly is None or not imgui.is_any_item_active():  # while it is dragged, it stays
             self._dolly = _focus_point(host, state)

@@ -94,7 +94,7 @@ class CompareView(ImageView):
         is_picture = mode in ("wipe", "flip")
         self._pane(
             host,
-            lambda state, placement, under: self._picture(both, state, placement, under),
+            lambda *wanted: self._picture(both, *wanted),
             (lambda state, channel, region: self._values(both, state, channel, region))
             if is_picture
             else None,
@@ -127,7 +127,7 @@ class CompareView(ImageView):
             draw_differences(screen, host.state, verdict.comparison, host.fonts)
 
     def _picture(
-        self, both: Renderers, state: AppState, placement: Placement, under: bool
+        self, both: Renderers, state: AppState, placement: Placement, under: bool, name: str
     ) -> Picture | None:
         """What is seen of the picture; None where there is none."""
         pictures, composed, shown = both.pictures, self._composed, self._shown
@@ -169,7 +169,7 @@ class CompareView(ImageView):
             if composed.version != self._version:
                 shown.set_channels({"color": picture})
                 self._version = composed.version
-            seen = shown.picture("pane", AS_IT_IS, placement, under=under)
+            seen = shown.picture(name, AS_IT_IS, placement, under=under)
             self._error = None
         except (LucidaError, moderngl.Error) as error:  # shown in the view, which goes on
             self._error, self._version = error, -1

@@ -19,6 +19,7 @@ from app.bounds import range_of
 from app.lettering import fitting_words, lettering
 from app.options import LaboratoryOptions, Pixel
 from app.panels.rows import follow
+from app.panels.sliders import slider_float
 from app.teach.imagelab import displays
 from app.teach.imagelab.displays import DISPLAYS
 from app.teach.imagelab.light import CHANNELS
@@ -96,7 +97,7 @@ class DisplaysPage:
             imgui.set_item_tooltip(tip)
         follow(SLIDER_EM * imgui.get_font_size() + imgui.calc_text_size("of the cycle").x)
         imgui.set_next_item_width(SLIDER_EM * imgui.get_font_size())
-        slid, percent = imgui.slider_float(
+        slid, percent = slider_float(
             "of the cycle", 100 * options.phase, 0.0, 100.0, "%.0f %%", CLAMP
         )
         if slid:
@@ -198,7 +199,7 @@ def _chosen(options: LaboratoryOptions) -> LaboratoryOptions:
     follow(SLIDER_EM * imgui.get_font_size() + imgui.calc_text_size("a cycle").x)
     imgui.set_next_item_width(SLIDER_EM * imgui.get_font_size())
     limits = range_of(LaboratoryOptions, "cycle_s")
-    timed, cycle_s = imgui.slider_float("a cycle", options.cycle_s, *limits, "%.0f s", CLAMP)
+    timed, cycle_s = slider_float("a cycle", options.cycle_s, *limits, "%.0f s", CLAMP)
     imgui.set_item_tooltip("a real one takes a hundredth of a second or less")
     return replace(options, cycle_s=cycle_s) if timed else options
 

@@ -10,7 +10,7 @@ import numpy as np
 from imgui_bundle import ImVec2, ImVec4, imgui
 
 from app import theme
-from app.lettering import fitting_words, lettering
+from app.lettering import fitted_text, lettering
 from app.options import Pixel
 from app.panels.screen import framebuffer_scale
 from app.teach.imagelab.displays import Region
@@ -33,9 +33,9 @@ def draw_panel(
     scale, em = framebuffer_scale(), imgui.get_font_size()
     draw = imgui.get_window_draw_list()
     with lettering(fonts.bold, em):
-        draw.add_text(at, theme.u32(theme.TEXT), fitting_words(panel.title, width))
-    caption = fitting_words(panel.caption, width)
-    draw.add_text(ImVec2(at.x, at.y + 1.15 * em), theme.u32(theme.DIM), caption)
+        fitted_text(draw, at, theme.u32(theme.TEXT), panel.title, width)
+    below = ImVec2(at.x, at.y + 1.15 * em)
+    fitted_text(draw, below, theme.u32(theme.DIM), panel.caption, width)
     if texture is None:
         return None
     top = at.y + HEADING_EM * em

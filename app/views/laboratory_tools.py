@@ -14,6 +14,7 @@ from app.bounds import range_of, whole_range_of
 from app.options import LaboratoryOptions
 from app.panels.checks import checkbox, radio_button
 from app.panels.rows import follow
+from app.panels.sliders import slider_float, slider_int
 from app.teach.imagelab.bitmaps import TITLES
 from app.teach.imagelab.displays import DISPLAYS
 from app.teach.imagelab.memory import ORDERS
@@ -34,7 +35,7 @@ def toolbar(host: Host) -> LaboratoryOptions:
         case "exposure":
             changed = _exposure(changed)
         case "projectors":
-            moved, apart = imgui.slider_float(
+            moved, apart = slider_float(
                 "apart##apart", options.apart, *range_of(LaboratoryOptions, "apart"), "%.2f"
             )
             changed = replace(changed, apart=apart) if moved else changed
@@ -43,7 +44,7 @@ def toolbar(host: Host) -> LaboratoryOptions:
             changed = _content(_display(changed), "test picture")
             if changed.content == "image":  # a test picture is as large as there is room
                 follow((14 + 9) * imgui.get_font_size())
-                moved, side_px = imgui.slider_int(
+                moved, side_px = slider_int(
                     "a pixel on the screen##side",
                     options.side_px,
                     *whole_range_of(LaboratoryOptions, "side_px"),
@@ -63,7 +64,7 @@ def toolbar(host: Host) -> LaboratoryOptions:
             )
             changed = replace(changed, order=orders[number]) if moved else changed
         case "vector":
-            moved, zoom = imgui.slider_float(
+            moved, zoom = slider_float(
                 "zoom##zoom",
                 options.zoom,
                 *range_of(LaboratoryOptions, "zoom"),
@@ -110,7 +111,7 @@ def _display(options: LaboratoryOptions) -> LaboratoryOptions:
 
 def _exposure(options: LaboratoryOptions) -> LaboratoryOptions:
     limits = range_of(LaboratoryOptions, "after_ev")
-    moved, value = imgui.slider_float(
+    moved, value = slider_float(
         "exposure after storage##after", options.after_ev, *limits, "%+.1f EV"
     )
     return replace(options, after_ev=value) if moved else options

@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 from app import theme
 from app.background import Background
 from app.bounds import range_of
-from app.lettering import lettering
+from app.lettering import fitted_text, lettering
 from app.options import LaboratoryOptions
 from app.outside.bitmap import bitmap, magnified
 from app.outside.sketch import Sketch
@@ -182,7 +182,8 @@ class VectorPage:
             top = pane.low.y - 2.5 * em
             with lettering(host.fonts.bold, em):
                 draw.add_text(ImVec2(pane.low.x, top), theme.u32(theme.TEXT), title)
-            draw.add_text(ImVec2(pane.low.x, top + 1.15 * em), theme.u32(theme.DIM), caption)
+            below = ImVec2(pane.low.x, top + 1.15 * em)
+            fitted_text(draw, below, theme.u32(theme.DIM), caption, pane.high.x - pane.low.x)
         words = "Export as SVG..."
         width = imgui.calc_text_size(words).x + em
         pane = panes[1]

@@ -18,10 +18,11 @@ from imgui_bundle import ImVec2, imgui
 
 from app import layout, theme
 from app.background import Background
-from app.lettering import lettering
+from app.lettering import at_most, lettering
+from app.options import Options
 from app.panels.checks import radio_button
 from app.panels.exercise import exercise
-from app.panels.slide import Slides
+from app.panels.slide import Sizes, Slides, sizes_of
 from app.panels.typesetting import first_mistake
 from app.state import AppState
 from app.storage.files import describe
@@ -29,6 +30,7 @@ from app.storage.kept_lecture import KeptLecture
 from app.storage.session import source_of
 from app.teach.languages import LANGUAGES
 from app.teach.lecture.model import Lecture, Step
+from app.teach.lecture.options import OWN
 from app.teach.lecture.reading import BUILTIN, load_lecture
 from app.teach.lecture.session import Session
 from app.teach.lecture.states import state_of
@@ -39,10 +41,9 @@ from renderer.scene.apart import ModelReader
 from renderer.scene.models import read_by
 
 LECTURE = "Lecture"
-LARGEST = 0.036  # of the text, in parts of the window's height
-SMALLEST = 0.021
 RESTORE = "back to the step"
-TITLE = 1.5  # of a step's title, in parts of the text's size
+LAID_OUT = 8  # frames until every view has its place
+END = "End the lecture"
 
 
 class Changeable(Protocol):
@@ -69,6 +70,9 @@ class LectureView(View):
         self._entered = False  # whether the step's state has been taken
         self._put_off: tuple[KeptLecture, KeptLecture, str] | None = None
         self._answered = self._begun = False
+        self._frames = 0  # that were drawn since the step's views were arranged
+        self._docks: dict[str, int] = {}  # where they stood then
+        self._to_top = False  # a step's text is read from its beginning
         self.arrangements = 0  # how often the views have been put into their places
 
     # What actions and buttons ask for.
@@ -107,6 +111,16 @@ class LectureView(View):
         answered, self._answered = self._answered, False
         return answered
 
+    def leave(self, window: Changeable) -> None:
+        """Ends the lecture: the step's scene and camera, in the layout and the type of a desk."""
+        if self.session is None:
+            return
+        self.session, state = None, window.state
+        kept = {name: getattr(state.options, name) for name in (*OWN, "language")}
+        state = replace(state, options=replace(Options(), **kept), step=None)
+        window.change(state.with_options(preferences={"presentation": False}))
+        layout.switch(layout.LAYOUTS[0].name)
+
     def give_builtin(self) -> None:
         """Begins the built-in lecture."""
         self.give(load_lecture(BUILTIN), BUILTIN)
@@ -134,6 +148,9 @@ class LectureView(View):
         state = state.with_options(preferences=preferences)
         window.change(state_of(self.session.step, state))
         self._entered, self._arranged = True, False
+        self._to_top = True
+        for view in self._others.values():
+            view.begin_anew()
         layout.switch(layout.LECTURE)
 
     # The frame.
@@ -197,14 +214,24 @@ class LectureView(View):
             self.restore(host)
 
     def _arrange(self, step: Step) -> None:
-        """The step's views in their places: the main one large, a second one below it."""
-        pictures = [name for name in step.views if name != "camera"]
-        spaces = dict(zip(pictures, (layout.MAIN, layout.LOWER_SPACE), strict=False))
-        if "camera" in step.views:
-            spaces["camera"] = layout.CAMERA_SPACE
-        places = {name.capitalize(): space for name, space in spaces.items()}
-        layout.arrange(self._others.values(), places)
+        layout.arrange(self._others.values(), _places(step))
+        self._frames = 0
         self.arrangements += 1
+
+    def _is_as_given(self, host: Host, step: Step) -> bool:
+        """Whether state and views are the step's own."""
+        state = host.state
+        for view in self._others.values():
+            state = view.as_set(state)
+        if state_of(step, state) != state:
+            return False
+        if not self._arranged:
+            return True
+        docks = layout.docks(self._others.values())
+        self._frames += 1
+        if self._frames <= LAID_OUT:
+            self._docks = docks
+        return docks == self._docks and set(docks) == set(_places(step))
 
     # The column.
 
@@ -215,18 +242,21 @@ class LectureView(View):
         session, slides = self.session, self._slides
         self._keys(host)
         assert slides is not None
-        height = imgui.get_io().display_size.y
-        sizes = (max(13.0, SMALLEST * height), max(16.0, LARGEST * height))
-        with lettering(host.fonts.text, sizes[0]):
+        style = imgui.get_style()
+        width, height = imgui.get_content_region_avail().x, imgui.get_io().display_size.y
+        sizes = sizes_of(width, height, host.state.preferences.font_scale, style.font_scale_dpi)
+        with lettering(host.fonts.text, sizes.label), at_most(sizes.label):
             self._head(host, session, sizes)
             avail = imgui.get_content_region_avail()
-            foot = 2.6 * sizes[0]
-            if not _fits_a_row(avail.x):
-                foot += imgui.get_frame_height_with_spacing()
+            rows = 1 if _fits_a_row(avail.x) else 2
+            foot = rows * imgui.get_frame_height_with_spacing() + imgui.get_style().item_spacing.y
             error = self._error_height(session, avail.x)
             child = ImVec2(avail.x, max(1.0, avail.y - foot - error))
             if imgui.begin_child("step", child):
-                self._body(host, session, slides, sizes)
+                if self._to_top:
+                    imgui.set_scroll_y(0.0)
+                    self._to_top = False
+                self._body(host, session, slides, sizes, child)
             imgui.end_child()
             if session.error:
                 imgui.push_text_wrap_pos(0.0)
@@ -242,37 +272,41 @@ class LectureView(View):
             if imgui.shortcut(int(key)):
                 self.advance(host, steps)
 
-    def _head(self, host: Host, session: Session, sizes: tuple[float, float]) -> None:
+    def _head(self, host: Host, session: Session, sizes: Sizes) -> None:
         step = session.step
         width = imgui.get_content_region_avail().x
         imgui.text_colored(theme.DIM, step.part or session.lecture.title)
-        size = TITLE * sizes[1]
-        with lettering(host.fonts.bold, size):
+        with lettering(host.fonts.bold, sizes.title):
             wide = imgui.calc_text_size(step.title).x
-        with lettering(host.fonts.bold, max(sizes[1], size * min(1.0, width / max(wide, 1.0)))):
+        title_px = max(0.66 * sizes.title, sizes.title * min(1.0, 0.98 * width / max(wide, 1.0)))
+        with lettering(host.fonts.bold, title_px):
             imgui.push_text_wrap_pos(0.0)
             imgui.text(step.title)
             imgui.pop_text_wrap_pos()
-        imgui.dummy(ImVec2(0, 0.25 * sizes[0]))
+        imgui.dummy(ImVec2(0, 0.25 * sizes.label))
 
     def _body(
-        self, host: Host, session: Session, slides: Slides, sizes: tuple[float, float]
+        self, host: Host, session: Session, slides: Slides, sizes: Sizes, room: ImVec2
     ) -> None:
+        """The text, as large as it fits; larger, it is scrolled."""
         step = session.step
+        top = imgui.get_cursor_pos().y
         blocks = self._in_language(host, step)
-        avail = imgui.get_content_region_avail()
+        may_scroll = sizes.enlarged > 1.0 or step.exercise is not None
+        bar = imgui.get_style().scrollbar_size if may_scroll else 0.0
+        width, height = room.x - bar, room.y - (imgui.get_cursor_pos().y - top)
         if step.exercise is None:
-            slides.text(blocks, (avail.x, avail.y), sizes)
+            size = slides.fitting_px(blocks, (room.x, height), sizes)
+            slides.text(blocks, (width, height), (size, size))
             return
-        # Smaller, and always the same: what is said to an answer must have room, and nothing jumps.
-        size = sizes[0] + 0.5 * (sizes[1] - sizes[0])
-        sizes = (min(sizes[0], size), size)
+        size = sizes.exercise
+        least = min(sizes.text[0], size)
         if blocks:
-            slides.text(blocks, (avail.x, 0.4 * avail.y), sizes)
-            imgui.dummy(ImVec2(0, 0.5 * sizes[0]))
+            slides.text(blocks, (width, 0.4 * height), (least, size))
+            imgui.dummy(ImVec2(0, 0.5 * size))
         answers = session.answers
         before = replace(answers, texts=dict(answers.texts))
-        exercise(step.exercise, answers, slides, host.fonts, sizes)
+        exercise(step.exercise, answers, slides, host.fonts, (least, size))
         self._answered = self._answered or answers != before
 
     def _in_language(self, host: Host, step: Step) -> tuple[Block, ...]:
@@ -315,8 +349,7 @@ class LectureView(View):
         imgui.set_item_tooltip("the next step (Page Down)")
         if fits:
             imgui.same_line(0, size)
-        changed = state_of(session.step, host.state) != host.state
-        imgui.begin_disabled(not changed)
+        imgui.begin_disabled(self._is_as_given(host, session.step))
         if imgui.button(f"{RESTORE}##restore", ImVec2(0 if fits else _walking_px(), 0)):
             self.restore(host)
         imgui.end_disabled()
@@ -332,6 +365,9 @@ class LectureView(View):
                 step = session.lecture.steps[number]
                 if imgui.selectable(f"{number + 1}  {step.title}", number == session.number)[0]:
                     self.go(host, number)
+        imgui.separator()
+        if imgui.selectable(END, False)[0]:
+            self.leave(host)
         imgui.end_popup()
 
     def _invite(self, host: Host) -> None:
@@ -345,6 +381,15 @@ class LectureView(View):
         imgui.push_text_wrap_pos(0.0)
         imgui.text_colored(theme.DIM, "A lecture's file can be dropped on the window, too.")
         imgui.pop_text_wrap_pos()
+
+
+def _places(step: Step) -> dict[str, str]:
+    """The dock spaces of a step's views: the main one large, a second one below it."""
+    pictures = [name for name in step.views if name != "camera"]
+    spaces = dict(zip(pictures, (layout.MAIN, layout.LOWER_SPACE), strict=False))
+    if "camera" in step.views:
+        spaces["camera"] = layout.CAMERA_SPACE
+    return {name.capitalize(): space for name, space in spaces.items()}
 
 
 def _walking_px() -> float:

@@ -59,7 +59,6 @@ Size = tuple[int, int]
 OUTSIDE = "Outside"
 SMALLEST_PX = 24  # a view that is smaller shows nothing
 GRID_PX = 7.0  # the least distance of the grid's lines, in widths of a line
-IMAGE_SIZE = (640, 480)  # of the camera's image while no other view shows it
 
 
 @dataclass(frozen=True, eq=False)
@@ -141,7 +140,6 @@ class OutsideView(View):
         self._gizmo.cancel()
 
     def unseen(self, host: Host) -> None:
-        host.renderers.forget_pane(self.name)
         self._made = None
         if self._ground is not None:
             self._ground.forget()
@@ -173,8 +171,7 @@ class OutsideView(View):
             self.unseen(host)  # nobody waits for what is not drawn
             return
         size = min(size[0], LARGEST_SIDE), min(size[1], LARGEST_SIDE, LARGEST_PIXELS // size[0])
-        if not min(host.renderers.size):
-            host.renderers.fit_pane(self.name, IMAGE_SIZE, host.state.images)
+        host.renderers.need_size(host.state.images)
         scale = framebuffer_scale()
         origin = imgui.get_cursor_screen_pos()
         extent = ImVec2(size[0] / scale, size[1] / scale)

@@ -24,7 +24,7 @@ from app.outside.sketch import Sketch
 from app.panels.screen import framebuffer_scale
 from app.storage.files import describe
 from app.views.base import Host
-from app.views.outside import IMAGE_SIZE, OUTSIDE, OutsideView
+from app.views.outside import OUTSIDE, OutsideView
 from app.views.outside_looking import nearest, scope_of, units_px
 from renderer.errors import LucidaError
 
@@ -55,8 +55,7 @@ class Sketcher:
         of symbols, as the view's own if not given. live: with the live image, if that is shown.
         Raises LucidaError, moderngl.Error."""
         both, state = host.renderers, host.state
-        if not min(both.size):
-            both.fit_pane(view.name, IMAGE_SIZE, state.images)
+        both.need_size(state.images)
         scale = framebuffer_scale()
         extent = ImVec2(size[0] / scale, size[1] / scale)
         scope = scope_of(host, size, ImVec2(0, 0), extent)

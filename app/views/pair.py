@@ -7,16 +7,14 @@ of the images changes, and the size of their windows.
 from __future__ import annotations
 
 import time
-from collections.abc import Callable
 from dataclasses import dataclass
 
 from imgui_bundle import ImVec2, imgui
 
 from app.images.marking import Anchor, followed
-from app.images.placement import Placement, place, shown_pixel
-from app.images.shown import Picture
+from app.images.placement import place, shown_pixel
 from app.panels.grips import Grab, Lens, Seen, Zoom
-from app.panels.images import Pane, image_pane
+from app.panels.images import Drawn, Pane, image_pane
 from app.panels.marks import walked
 from app.panels.pixelgrid import Values
 from app.panels.screen import Screen, available_px, is_at_the_bottom
@@ -67,6 +65,18 @@ class ImageView(View):
     def cancel(self) -> None:
         self._linked.grab = None
 
+    def as_set(self, state: AppState) -> AppState:
+        anchor = self._linked.anchor
+        if anchor is None or anchor.now != state.marked or anchor.pixel == state.marked:
+            return state
+        return state.with_options(marked=anchor.pixel)
+
+    def begin_anew(self) -> None:
+        """The mark is the step's, of the size that comes when its views are laid out."""
+        shared = self._linked
+        shared.grab = shared.zoom = shared.lens = shared.anchor = None
+        shared.steady_frames = 0
+
     def flown(self, host: Host) -> Camera | None:
         return host.state.camera
 
@@ -86,7 +96,7 @@ class ImageView(View):
     def _pane(
         self,
         host: Host,
-        picture: Callable[[AppState, Placement, bool], Picture | None],
+        picture: Drawn,
         values: Values | None,
         error: Exception | None,
         note: str = "",

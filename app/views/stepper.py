@@ -16,6 +16,7 @@ import numpy as np
 from imgui_bundle import ImVec2, imgui
 
 from app import theme
+from app.lettering import at_most
 from app.options import Pixel, StepperOptions
 from app.outside.diagram import Dot, Item, Lines
 from app.outside.extent import end_parameter
@@ -34,6 +35,8 @@ from renderer.camera import Camera, Size
 from renderer.scene.model import Sphere
 
 STEPPER = "Stepper"
+LEAST_PX = 13.0  # of type, at 100 %
+LINES = 40  # of the type round the code that the view has room for, at least
 LONGEST_FRAME_S = 0.25  # what a frame that took longer is taken for
 _EDGES = ((0, 1), (0, 2), (0, 4), (1, 3), (1, 5), (2, 3), (2, 6), (3, 7), (4, 5), (4, 6), (5, 7),
           (6, 7))  # fmt: skip  # of a box's corners, numbered by their bits
@@ -48,6 +51,7 @@ class StepperView(View):
         self._runs: Runs | None = None
         self._uploads: Uploads | None = None
         self.playing = self._seen = False
+        self._em_px = self._set_px = 0.0  # the size of type that was asked for, of the window's own
         self._before_s = 0.0  # when the last frame of playing was
         self._owed = 0.0  # parts of a step that have not been taken
         self._drawn: dict[Order, Any] = {}  # what the textures were made from
@@ -80,7 +84,20 @@ class StepperView(View):
         self._outside.show(STEPPER, ())
         self._shown = None
 
+    def begin_anew(self) -> None:
+        self.playing = False
+        self._asked = ""
+
     def draw(self, host: Host) -> None:
+        """What stands round the code gives way to it where type is large."""
+        asked_px = theme.PRESENTED * imgui.get_io().display_size.y
+        self._set_px = imgui.get_font_size()
+        self._em_px = max(self._set_px, host.state.preferences.font_scale * asked_px)
+        least = LEAST_PX * imgui.get_style().font_scale_dpi
+        with at_most(max(least, imgui.get_content_region_avail().y / LINES)):
+            self._draw(host)
+
+    def _draw(self, host: Host) -> None:
         assert self._runs is not None and self._uploads is not None
         self._uploads.begin_frame()
         self._seen = True
@@ -176,6 +193,11 @@ class StepperView(View):
             (room.x - spacing.x * (count - 1)) / count if beside else room.x,
             room.y if beside else (room.y - spacing.y * (count - 1)) / count,
         )
+        state = host.state
+        shown = panel.Shown(
+            tuple(orders), state.options.stepper.canvas, self._em_px, self._set_px,
+            state.options.indexing, state.options.language == "julia",
+        )  # fmt: skip
         self.moments = {}
         wanted = list(steps)
         for number, order in enumerate(orders):
@@ -189,7 +211,7 @@ class StepperView(View):
                 self._upload(run, moment, host.state.images.exposure_ev)
             answer = panel.run_panel(
                 run, moment, self._picture(order), imgui.get_content_region_avail(), host.fonts,
-                host.state.options.indexing, host.state.options.language == "julia",
+                shown,
             )  # fmt: skip
             imgui.end_child()
             if answer.step is not None:

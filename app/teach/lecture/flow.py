@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Protocol
 
 from app.teach.lecture.text import (
@@ -30,6 +30,7 @@ PARAGRAPH = 0.62  # between blocks
 ITEM = 0.3  # between a list's items
 INDENT = 1.25  # of a list
 CODE_SIZE = 0.92
+SMALLEST_FORMULA = 0.6  # of a displayed formula that is wide, in parts of its usual size
 HEADING_SIZE = 1.25
 ASIDE = 0.8  # beside a question's text
 
@@ -150,6 +151,11 @@ class _Column:
             case Formula(latex=latex):
                 piece = Piece(latex, "math", 1.12 * size, display=True)
                 extent = self._measure(piece)
+                room = self._width - INDENT * size
+                if extent.width > room:  # the formula gives way, not all of the text
+                    part = max(SMALLEST_FORMULA, 0.98 * room / extent.width)
+                    piece = replace(piece, size=part * piece.size)
+                    extent = self._measure(piece)
                 self.y += 0.15 * size
                 self._put(piece, INDENT * size, self.y + extent.ascent, "formula")
                 self.y += extent.ascent + extent.descent + 0.15 * size

@@ -1,0 +1,100 @@
+"""Type in a lecture hall: what is read grows with it, and is not cut."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from contextlib import contextmanager
+from typing import Any
+
+from window_driver import Driver
+
+from app.panels import slide
+from app.panels import stepper as panel
+from app.panels.code import LINE
+from app.panels.stepper_plan import Need, Plan, plan
+from app.teach.lecture.reading import BUILTIN, load_lecture
+from app.views.lecture import LECTURE
+
+SCALES = (1.0, 1.25, 1.5, 2.0)
+STEPPER_STEPS, TEXT_STEPS = (12, 13), (3, 0)
+
+
+@contextmanager
+def plans() -> Iterator[list[tuple[Plan, Need]]]:
+    """What the stepper has been laid out by."""
+    made: list[tuple[Plan, Need]] = []
+
+    def told(room: Any, need: Need) -> Plan:
+        made.append((plan(room, need), need))
+        return made[-1][0]
+
+    panel.plan = told  # type: ignore[assignment]
+    try:
+        yield made
+    finally:
+        panel.plan = plan
+
+
+@contextmanager
+def text_sizes() -> Iterator[list[float]]:
+    """The sizes that a lecture's texts are drawn in."""
+    sizes: list[float] = []
+    fitting_px = slide.Slides.fitting_px
+
+    def told(self: slide.Slides, *arguments: Any) -> float:
+        sizes.append(fitting_px(self, *arguments))
+        return sizes[-1]
+
+    slide.Slides.fitting_px = told  # type: ignore[method-assign]
+    try:
+        yield sizes
+    finally:
+        slide.Slides.fitting_px = fitting_px  # type: ignore[method-assign]
+
+
+def enlarge(d: Driver, scale: float) -> None:
+    d.window.change(d.window.state.with_options(preferences={"font_scale": scale}))
+    d.settle()
+
+
+def drive_code_and_text_grow_with_the_type(d: Driver) -> None:
+    d.window.lecture.give(load_lecture(BUILTIN), BUILTIN)
+    d.settle()
+    with plans() as made, text_sizes() as sizes:
+        for number in STEPPER_STEPS:
+            d.window.lecture.go(d.window, number)
+            code_px = []
+            for scale in SCALES:
+                enlarge(d, scale)
+                now, need = made[-1]
+                assert now.code.height >= need.lines * LINE * now.code_px  # no line is cut off
+                assert need.longest * 0.5 * now.code_px <= now.code.width
+                code_px.append(now.code_px)
+            assert code_px == sorted(code_px) and code_px[-1] > code_px[0], code_px
+            enlarge(d, 1.0)
+        for number in TEXT_STEPS:
+            d.window.lecture.go(d.window, number)
+            text_px = []
+            for scale in SCALES:
+                enlarge(d, scale)
+                text_px.append(sizes[-1])
+            assert text_px == sorted(text_px) and text_px[-1] > 1.2 * text_px[0], text_px
+            enlarge(d, 1.0)
+    d.window.lecture.leave(d.window)
+    d.settle()
+
+
+def drive_the_lecture_ends(d: Driver) -> None:
+    d.window.lecture.give(load_lecture(BUILTIN), BUILTIN)
+    d.settle()
+    d.window.lecture.go(d.window, 26)  # an image of 8 x 8 pixels
+    d.settle()
+    camera, scene = d.window.state.camera, d.window.state.scene
+    d.ctx.menu_click("//##MainMenuBar/Lecture/End the lecture")
+    d.settle()
+    state = d.window.state
+    assert not d.window.lecture.is_given and state.step is None
+    assert (state.scene, state.camera) == (scene, camera)
+    assert state.images.resolution is None and not state.preferences.presentation
+    shown = {view.name for view in d.window.shell.stage.shown}
+    assert {"Camera", "Raster", "Ray"} <= shown and LECTURE not in shown

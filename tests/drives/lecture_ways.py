@@ -1,0 +1,105 @@
+"""A step of the built-in lecture is the same, whichever way one comes to it."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+from imgui_bundle import imgui
+from window_driver import Driver
+
+from app.teach.lecture.reading import BUILTIN, load_lecture
+from app.views.lecture import LECTURE, RESTORE, LectureView
+
+PICTURED = (1, 3, 9, 19, 21, 29, 30)  # of steps with images, without, and with a resolution
+JUMPS = (0, 37, 3, 29, 1, 22, 12, 21, 2, 19)
+TABS_PX, STATUS_PX = 52, 40
+STILL = 6  # frames in which a mark finds its image's size
+
+
+def _begin(d: Driver) -> LectureView:
+    d.window.lecture.give(load_lecture(BUILTIN), BUILTIN)
+    _rest(d)
+    return d.window.lecture
+
+
+def _rest(d: Driver) -> None:
+    d.settle()
+    d.ctx.yield_(2 * STILL)
+    d.settle()
+
+
+def _go(d: Driver, number: int) -> None:
+    d.window.lecture.go(d.window, number)
+    _rest(d)
+
+
+def _facts(d: Driver) -> tuple[object, ...]:
+    """What a step is: its state, the images' size and camera, and where its views stand."""
+    state, both = d.window.state, d.window.renderers
+    return (
+        replace(state, options=replace(state.options, bookmarks=())),
+        both.size,
+        both.camera(state),
+        dict(sorted(d.window.shell.stage.rects.items())),
+    )
+
+
+def _same(one: np.ndarray, other: np.ndarray) -> bool:
+    """But for the tabs, which tell who has the keyboard, and the status line, which tells what goes
+    on in the background."""
+    rows = slice(TABS_PX, -STATUS_PX)
+    return np.array_equal(one[rows], other[rows])
+
+
+def _can_restore(d: Driver) -> bool:
+    info = d.ctx.item_info(f"//{LECTURE}/{RESTORE}##restore")
+    return not info.item_flags & int(imgui.ItemFlags_.disabled)
+
+
+def _leave(d: Driver) -> None:
+    d.window.lecture.leave(d.window)
+    d.settle()
+
+
+def _spoil(d: Driver) -> None:
+    """What a user may do between two steps."""
+    state = d.window.state
+    changed = state.with_options(
+        marked=(1, 2),
+        shadows=not state.options.shadows,
+        images={"resolution": None, "pixel_size": 4, "exposure_ev": 2.0, "channel": "depth"},
+        outside={"bundle": (2, 2), "volume": False},
+        stepper={"steps": (3, 3), "canvas": (4, 3)},
+        laboratory={"page": "array", "zoom": 3.0},
+    )
+    d.window.change(changed.with_camera(replace(state.camera, eye=(0.3, 0.4, 7.0))))
+    for name in ("Raster", "Camera", "Outside"):
+        d.window.shell.stage.show(name, not d.window.shell.stage.is_shown(name))
+    _rest(d)
+
+
+def drive_a_step_does_not_depend_on_the_way(d: Driver) -> None:
+    lecture = _begin(d)
+    assert lecture.session is not None
+    count = len(lecture.session.lecture.steps)
+    facts, pictures = [], {}
+    for number in range(count):
+        _go(d, number)
+        facts.append(_facts(d))
+        assert not _can_restore(d), number
+        if number in PICTURED:
+            pictures[number] = d.picture()
+    for number in (*reversed(range(count)), *JUMPS):
+        _go(d, number)
+        assert _facts(d) == facts[number], number
+        assert not _can_restore(d), number
+        if number in PICTURED:
+            assert _same(d.picture(), pictures[number]), number
+    for number in PICTURED:
+        _spoil(d)
+        assert _can_restore(d), number
+        _go(d, number)
+        assert _facts(d) == facts[number], number
+        assert _same(d.picture(), pictures[number]), number
+    _leave(d)

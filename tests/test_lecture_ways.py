@@ -1,0 +1,69 @@
+"""A step's state, and its mark, do not depend on what was there before."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import pytest
+
+from app.images.marking import followed
+from app.state import AppState
+from app.teach.lecture.flow import INDENT, Extent, Piece, lay
+from app.teach.lecture.options import OWN
+from app.teach.lecture.reading import BUILTIN, load_lecture
+from app.teach.lecture.states import state_of
+from app.teach.lecture.text import parse
+from renderer.scene import load_scene
+
+LECTURE = load_lecture(BUILTIN)
+
+
+def spoiled(state: AppState) -> AppState:
+    """What a user may have made of a state."""
+    changed = state.with_options(
+        marked=(1, 2),
+        shadows=not state.options.shadows,
+        images={"resolution": None, "pixel_size": 4, "exposure_ev": 2.0, "channel": "depth"},
+        outside={"bundle": (2, 2), "volume": False, "camera": state.camera},
+        stepper={"steps": (3, 3), "canvas": (4, 3)},
+        laboratory={"page": "array", "zoom": 3.0},
+    )
+    return changed.with_camera(replace(state.camera, eye=(0.3, 0.4, 7.0))).with_fit(False)
+
+
+@pytest.mark.parametrize("number", range(len(LECTURE.steps)))
+def test_a_steps_state_does_not_depend_on_the_way(number):
+    step = LECTURE.steps[number]
+    begun = AppState.for_scene(load_scene("spheres"))
+    own = state_of(step, begun)
+    for before in LECTURE.steps:
+        came = state_of(before, begun)
+        assert state_of(step, came) == own
+        assert state_of(step, spoiled(came)) == own
+    user = begun.with_options(preferences={"theme": "light", "font_scale": 1.5})
+    kept = {name: getattr(user.options, name) for name in OWN}
+    assert state_of(step, user) == replace(own, options=replace(own.options, **kept))
+
+
+def test_a_mark_outside_of_a_small_image_is_remembered_as_it_was_set():
+    view = load_scene("spheres").view
+    now, anchor = followed((19, 40), None, view, (30, 20))
+    assert now == (19, 29)
+    assert anchor is not None and anchor.pixel == (19, 40)  # which is the step's own
+    again, same = followed(now, anchor, view, (30, 20))
+    assert (again, same) == (now, anchor)
+
+
+def test_a_wide_formula_gives_way_and_not_the_text():
+    def measure(piece: Piece) -> Extent:
+        return Extent(0.5 * piece.size * len(piece.text), 0.8 * piece.size, 0.2 * piece.size)
+
+    blocks = parse("Some text.\n\n$$\nabcdefghijklmnopqrstuvwxyz\n$$\n")
+    laid = lay(blocks, 300.0, 24.0, measure)
+    assert laid.width <= 300.0
+    text, *_, formula = (placed.piece for placed in laid.pieces)
+    assert text.size == 24.0
+    assert 0.5 * 24.0 < formula.size < 1.12 * 24.0
+    narrow = lay(parse("$$\nab\n$$\n"), 300.0, 24.0, measure)
+    assert narrow.pieces[0].piece.size == pytest.approx(1.12 * 24.0)
+    assert narrow.pieces[0].x == INDENT * 24.0
