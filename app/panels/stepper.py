@@ -280,7 +280,7 @@ def _need(shown: Shown) -> Need:
         wanted_px=WANTED_EM * shown.em_px,
         least_px=LEAST_PX * imgui.get_style().font_scale_dpi,
         short=max(SHORT, *(3 + sum(name not in TEXTS for name in one) for one in names)),
-        long=max(LONG, *(sum(name in TEXTS for name in one) for one in names)),
+        long=max(LONG, *(1 + sum(name in TEXTS for name in one) for one in names)),  # one wraps
     )
 
 
