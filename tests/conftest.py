@@ -12,7 +12,9 @@ from hypothesis import settings
 
 from renderer.errors import LucidaError
 from renderer.raster import Rasterizer
+from renderer.scene import BUILTIN_SCENES, load_scene
 from renderer.scene.model import Scene
+from renderer.trace import Tracer
 
 settings.register_profile("lucida", deadline=None, derandomize=bool(os.environ.get("CI")))
 settings.load_profile("lucida")
@@ -63,5 +65,9 @@ def desk():
         if os.environ.get("CI") and sys.platform.startswith("linux"):
             pytest.fail(reason)
         pytest.skip(reason)
+    # Into the cache: a window that still compiles has no ray image, and is dark there.
+    scene = load_scene(BUILTIN_SCENES[0])
+    with Tracer(scene) as tracer:
+        tracer.render(scene.view.for_size((64, 36)), (64, 36))
     with Desk() as display:
         yield display
