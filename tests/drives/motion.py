@@ -110,9 +110,9 @@ def drive_images_are_on_the_screen_in_the_frame_of_their_change(d: Driver) -> No
     left, top, right, bottom = (round(edge) for edge in d.rect(RASTER))
     raster_in = found.raster_in
 
-    def ask(placement: Any, wanted: Any, look: Any, **more: Any) -> Any:
+    def ask(placement: Any, wanted: Any, look: Any, *more: Any, **named: Any) -> Any:
         asked.append(look.channel)
-        return raster_in(placement, wanted, look, **more)
+        return raster_in(placement, wanted, look, *more, **named)
 
     def look(target: Target) -> None:
         seen.append((asked[-1], hash(target.read()[top:bottom, left:right].tobytes())))
