@@ -161,6 +161,10 @@ def add_camera_options(parser: argparse.ArgumentParser) -> None:
     )
 
 
+def add_size_option(parser: argparse.ArgumentParser) -> None:
+    parser.add_argument("--size", type=size, default=DEFAULT_SIZE, metavar="WxH", help=SIZE_HELP)
+
+
 def add_from_option(parser: argparse.ArgumentParser) -> None:
     """--from 0 or 1, as `indexing`: always 0 unless it is given, so that scripts can rely on it."""
     parser.add_argument(

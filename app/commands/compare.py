@@ -38,13 +38,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("scene", metavar="SCENE", help=common.SCENE_HELP)
     parser.add_argument("--view", metavar="VIEW.toml", help=common.VIEW_HELP)
     common.add_camera_options(parser)
-    parser.add_argument(
-        "--size",
-        type=common.size,
-        default=common.DEFAULT_SIZE,
-        metavar="WxH",
-        help=common.SIZE_HELP,
-    )
+    common.add_size_option(parser)
     parser.add_argument(
         "-o", "--output", metavar="DIFF.png", help="write the picture (.png .ppm .pgm .pbm)"
     )

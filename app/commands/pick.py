@@ -42,13 +42,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("row", type=_whole, metavar="ROW", help="the pixel's row")
     parser.add_argument("column", type=_whole, metavar="COLUMN", help="and its column")
     common.add_from_option(parser)
-    parser.add_argument(
-        "--size",
-        type=common.size,
-        default=common.DEFAULT_SIZE,
-        metavar="WxH",
-        help=common.SIZE_HELP,
-    )
+    common.add_size_option(parser)
     parser.add_argument(
         "--renderer", choices=("raster", "ray"), default="ray", help="(default: ray)"
     )

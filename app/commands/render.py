@@ -65,13 +65,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
         default="color",
         help="what of each pixel to write (default: color)",
     )
-    parser.add_argument(
-        "--size",
-        type=common.size,
-        default=common.DEFAULT_SIZE,
-        metavar="WxH",
-        help=common.SIZE_HELP,
-    )
+    common.add_size_option(parser)
     parser.add_argument(
         "--samples",
         type=common.samples,
