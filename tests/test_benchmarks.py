@@ -286,24 +286,25 @@ class TestCommand:
         assert "out of luck" in capsys.readouterr().err
         assert len(json.loads((tmp_path / "bench.json").read_text())["tables"]) == 1
 
-    def test_the_readme_needs_all_tables(self, capsys):
-        assert command.main(["--readme", "--only", "build", "--no-peers"]) == 2
-        assert "--readme: needs all tables" in capsys.readouterr().err
+    def test_the_page_needs_all_tables(self, capsys):
+        assert command.main(["--document", "--only", "build", "--no-peers"]) == 2
+        assert "--document: needs all tables" in capsys.readouterr().err
 
-    def test_the_readmes_block_is_replaced(self, tmp_path, monkeypatch):
+    def test_the_page_s_block_is_replaced(self, tmp_path, monkeypatch):
         monkeypatch.setattr(command, "ROOT", tmp_path)
-        monkeypatch.setattr(command, "README_TABLES", ("speed",))
+        monkeypatch.setattr(command, "DOCUMENTED", ("speed",))
         monkeypatch.setattr(command, "TABLES", ("build",))
         monkeypatch.setattr(build, "measure", lambda session: [table()])
         monkeypatch.setattr(command.plot, "draw", lambda tables, path: True)
-        readme = tmp_path / "README.md"
-        readme.write_text(f"# Title\n{report.BEGIN}\nold\n{report.END}\nrest\n")
-        assert command.main(["--readme", "--no-peers", "--out", str(tmp_path / "out")]) == 0
-        text = readme.read_text()
+        page = tmp_path / "docs" / "speed.md"
+        page.parent.mkdir()
+        page.write_text(f"# Title\n{report.BEGIN}\nold\n{report.END}\nrest\n")
+        assert command.main(["--document", "--no-peers", "--out", str(tmp_path / "out")]) == 0
+        text = page.read_text()
         assert text.startswith("# Title\n")
         assert text.endswith(f"{report.END}\nrest\n")
         assert "old" not in text
-        for part in ("docs/bench.png", "| ours |", "| ratio | at least 2 x | 2.46 x | met |"):
+        for part in ("(bench.png)", "| ours |", "| ratio | at least 2 x | 2.46 x | met |"):
             assert part in text
 
     def test_what_was_measured_before_ctrl_c_is_written(self, tmp_path, monkeypatch):

@@ -1,4 +1,4 @@
-"""What the README shows is taken: its commands, its files, its Python."""
+"""What the README and the pages in docs/ show is taken: commands, files, Python, links."""
 
 from __future__ import annotations
 
@@ -14,19 +14,21 @@ from app.commands.arguments import Parser
 from renderer.scene import view_from_toml
 from renderer.scene.files import scene_from_toml
 
-TEXT = (Path(__file__).parent.parent / "README.md").read_text("utf-8")
+ROOT = Path(__file__).parent.parent
+PAGES = {
+    path.name: path.read_text("utf-8") for path in (ROOT / "README.md", *ROOT.glob("docs/*.md"))
+}
+TEXT = "\n".join(PAGES.values())
 
 
-def section(name: str) -> list[str]:
-    """The indented blocks of a section, without their indentation."""
-    text = TEXT.partition(f"\n## {name}\n")[2].partition("\n## ")[0]
-    assert text, name
-    blocks = re.findall(r"(?:^    .*\n(?:\n(?=    ))*)+", text, re.MULTILINE)
-    return [re.sub(r"^    ", "", block, flags=re.MULTILINE) for block in blocks]
+def blocks(page: str) -> list[str]:
+    """The indented blocks of a page, without their indentation."""
+    found = re.findall(r"(?:^    .*\n(?:\n(?=    ))*)+", PAGES[page], re.MULTILINE)
+    return [re.sub(r"^    ", "", block, flags=re.MULTILINE) for block in found]
 
 
 def commands() -> list[str]:
-    found = re.findall(r"^    (lucida\b.*)$", TEXT, re.MULTILINE)
+    found = re.findall(r"^    (lucida\b(?! =).*)$", TEXT, re.MULTILINE)
     return [re.split(r"\s{2,}", line)[0] for line in found]
 
 
@@ -45,14 +47,13 @@ def test_a_command_is_taken(line):
 
 
 def test_the_view_file():
-    blocks = section("The command line")
-    shown = view_from_toml(next(block for block in blocks if "[camera]" in block))
+    shown = view_from_toml(next(b for b in blocks("files.md") if b.startswith("[camera]")))
     assert shown.camera.far == 100.0
 
 
 def test_the_scene_file(tmp_path):
     (tmp_path / "bunny.obj").write_text("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n")
-    scene = scene_from_toml(section("Scene files")[0], tmp_path)
+    scene = scene_from_toml(blocks("files.md")[0], tmp_path)
     assert len(scene.objects) == 2
 
 
@@ -61,8 +62,20 @@ def test_python(tmp_path, monkeypatch, capsys, gl_backend):
         pytest.skip("once is enough")
     monkeypatch.chdir(tmp_path)
     names: dict = {}
-    exec(section("From Python")[0], names)
+    exec(blocks("python.md")[0], names)
     assert float(capsys.readouterr().out) == pytest.approx(float(names["t"]), rel=1e-6)
     assert sorted(path.name for path in tmp_path.iterdir()) == ["corner.toml", "depth.png"]
     assert names["shown"].shape == (480, 640, 3)
     assert np.isfinite(names["frame"].depth).any()
+
+
+@pytest.mark.parametrize("page", PAGES)
+def test_links_lead_to_files(page):
+    folder = ROOT if page == "README.md" else ROOT / "docs"
+    for link in re.findall(r"\]\(([^)#]+)", PAGES[page]):
+        assert link.startswith("https://") or (folder / link).is_file(), link
+
+
+def test_every_page_is_linked():
+    linked = set(re.findall(r"\(docs/(\w[\w-]*\.md)\)", PAGES["README.md"]))
+    assert linked == PAGES.keys() - {"README.md"}

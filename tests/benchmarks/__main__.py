@@ -15,7 +15,7 @@ from tests.benchmarks.tables import TABLES, measure
 
 ROOT = Path(__file__).resolve().parents[2]
 OUT = ROOT / "out" / "bench"
-README_TABLES = ("visibility", "processor", "build", "scaling")  # whole; of the others, the targets
+DOCUMENTED = ("visibility", "processor", "build", "scaling")  # whole; of the others, the targets
 
 
 def main(argv: list[str] | None = None) -> int:
@@ -37,15 +37,15 @@ def _parser() -> argparse.ArgumentParser:
     parser.add_argument("--out", type=Path, default=OUT, metavar="FOLDER")
     parser.add_argument("--no-peers", action="store_true", help="Lucida alone")
     parser.add_argument(
-        "--readme", action="store_true", help="write the tables into README.md and docs/bench.png"
+        "--document", action="store_true", help="write the tables into docs/speed.md"
     )
     return parser
 
 
 def _run(arguments: argparse.Namespace) -> int:
     names = _chosen(arguments.only)
-    if arguments.readme and arguments.only is not None:
-        raise LucidaError("--readme", "needs all tables", "leave out --only")
+    if arguments.document and arguments.only is not None:
+        raise LucidaError("--document", "needs all tables", "leave out --only")
     run = Run(arguments.quick, arguments.full, arguments.model)
     if not arguments.no_peers:
         run.say("looking for the peers")
@@ -81,11 +81,11 @@ def _run(arguments: argparse.Namespace) -> int:
     settings = {"quick": run.quick, "full": run.full, "model": run.file and str(run.file)}
     text = report.as_json(tables, machine, settings, versions(run.kinds), run.left_out)
     _write(arguments.out, tables, text)
-    if arguments.readme:
+    if arguments.document:
         if failed or stopped:
             why = "a table failed" if failed else "was stopped"
-            raise LucidaError("--readme", why, "README.md is as it was; start again")
-        _update_readme(run, machine, tables)
+            raise LucidaError("--document", why, "docs/speed.md is as it was; start again")
+        _document(run, machine, tables)
     return int(failed)
 
 
@@ -116,24 +116,24 @@ def _draw(tables: list[report.Table], path: Path) -> bool:
     return drawn
 
 
-def _update_readme(run: Run, machine: dict, tables: list[report.Table]) -> None:
-    """Puts the tables between README.md's marks, and the picture beside them."""
-    picture = "docs/bench.png"
-    drawn = _draw(tables, ROOT / picture)
+def _document(run: Run, machine: dict, tables: list[report.Table]) -> None:
+    """Puts the tables between the marks of docs/speed.md, and the picture beside it."""
+    picture = "bench.png"
+    drawn = _draw(tables, ROOT / "docs" / picture)
     peers = ", ".join(f"{name} {version}" for name, version in versions(run.kinds).items())
     parts = [
         f"`make bench` on {machine['cpu']}, {machine['processors']} processors, Python "
         f"{machine['python']}, numba {machine['packages']['numba']}; beside {peers or 'no peers'}. "
         "Medians of interleaved rounds, in ms; in brackets how many times as long as Lucida.",
         f"![Speed, building and scaling]({picture})" if drawn else "",
-        *(report.markdown(table) for table in tables if table.name in README_TABLES),
+        *(report.markdown(table) for table in tables if table.name in DOCUMENTED),
         "**Targets**",
         report.targets_markdown(tables),
     ]
     block = "\n\n".join(part.strip() for part in parts if part)
-    readme = ROOT / "README.md"
-    text = report.between_marks(readme.read_text(encoding="utf-8"), block)
-    with atomic_write(readme) as file:
+    page = ROOT / "docs" / "speed.md"
+    text = report.between_marks(page.read_text(encoding="utf-8"), block)
+    with atomic_write(page) as file:
         file.write(text.encode())
 
 

@@ -1,4 +1,4 @@
-"""What was measured, as tables: for the terminal, for the README and as JSON.
+"""What was measured, as tables: for the terminal, for docs/speed.md and as JSON.
 
 Owns the tables' form and the targets. Knows nothing of how anything is measured.
 """
@@ -114,7 +114,7 @@ def text(table: Table) -> str:
 
 
 def markdown(table: Table) -> str:
-    """For the README: the table and its notes, without the targets."""
+    """For docs/speed.md: the table and its notes, without the targets."""
     lines = [f"**{table.title}**", "", *_pipes(table.header, table.rows)]
     if table.notes:
         lines += ["", *table.notes]
@@ -122,7 +122,7 @@ def markdown(table: Table) -> str:
 
 
 def targets_markdown(tables: Iterable[Table]) -> str:
-    """For the README: the targets of all tables."""
+    """For docs/speed.md: the targets of all tables."""
     rows = [target.cells() for table in tables for target in table.targets]
     return "\n".join(_pipes(TARGET_HEADER, rows)) + "\n"
 
@@ -206,7 +206,7 @@ def between_marks(document: str, block: str) -> str:
     before, begin, rest = document.partition(BEGIN)
     _, end, after = rest.partition(END)
     if not begin or not end:
-        raise LucidaError("README.md", f"{BEGIN} or {END} is missing", "put them in")
+        raise LucidaError("docs/speed.md", f"{BEGIN} or {END} is missing", "put them in")
     return f"{before}{BEGIN}\n{block.strip()}\n{END}{after}"
 
 
