@@ -24,10 +24,11 @@ setup:
 run: setup
 	@$(PYTHON_IN_VENV) -P -m app $(ARGS)
 
+# As many processes as processors, each with whole files. ARGS="-n 0": all in one process.
 # Nothing may follow: pytest's closing line is the last.
 test:
 	@sh scripts/setup.sh tests
-	@$(PYTHON_IN_VENV) -m pytest $(ARGS)
+	@$(PYTHON_IN_VENV) -m pytest -n auto --dist loadgroup --no-loadscope-reorder $(ARGS)
 
 # What takes too long for each change: random events, mutations and what else is in tests/attack.
 attack: setup

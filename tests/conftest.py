@@ -20,6 +20,24 @@ settings.register_profile("lucida", deadline=None, derandomize=bool(os.environ.g
 settings.load_profile("lucida")
 
 
+def pytest_sessionstart(session):
+    """Into the cache, at once: or the first test that traces would wait for it, and hear of it."""
+    if not hasattr(session.config, "workerinput"):
+        scene = load_scene(BUILTIN_SCENES[0])
+        for shadows in (False, True):
+            with Tracer(scene, shadows=shadows) as tracer:
+                tracer.render(scene.view.for_size((64, 36)), (64, 36))
+
+
+def pytest_collection_modifyitems(items):
+    """What goes to one process whole: a file, whose fixtures are made once; of the driven windows a
+    topic. What takes longest begins first."""
+    items.sort(key=lambda item: not item.path.stem.startswith(("test_window", "test_desk")))
+    for item in items:
+        topic = getattr(item, "callspec", None) and item.callspec.params.get("topic")
+        item.add_marker(pytest.mark.xdist_group(f"{item.path.stem} {topic or ''}"))
+
+
 @pytest.fixture(scope="session", params=["egl", "osmesa"])
 def _session_rasterizer(request):
     """One rasterizer a platform for the whole run: its shaders compile once."""
@@ -65,9 +83,5 @@ def desk():
         if os.environ.get("CI") and sys.platform.startswith("linux"):
             pytest.fail(reason)
         pytest.skip(reason)
-    # Into the cache: a window that still compiles has no ray image, and is dark there.
-    scene = load_scene(BUILTIN_SCENES[0])
-    with Tracer(scene) as tracer:
-        tracer.render(scene.view.for_size((64, 36)), (64, 36))
     with Desk() as display:
         yield display
