@@ -5,12 +5,16 @@ Owns a thread. Knows nothing of the work. Scenes are loaded and images compared 
 
 from __future__ import annotations
 
+import contextlib
+import os
+import sys
 import threading
 from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Generic, TypeVar
 
 T = TypeVar("T")
+NICER = 5  # on Linux: what goes on beside the window gives way to it
 
 
 @dataclass(frozen=True)
@@ -75,3 +79,13 @@ class Background(Generic[T]):
             with self._changed:
                 self._working, self._outcome = False, outcome
             self._wake()
+
+
+def lower_priority() -> None:
+    """The calling thread, and the threads that it starts, give way to the window's (Linux)."""
+    if sys.platform.startswith("linux"):
+        with contextlib.suppress(OSError):
+            # There, and against POSIX, niceness belongs to a thread and is inherited.
+            thread = threading.get_native_id()
+            niceness = os.getpriority(os.PRIO_PROCESS, thread) + NICER
+            os.setpriority(os.PRIO_PROCESS, thread, min(niceness, 19))

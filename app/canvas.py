@@ -10,7 +10,7 @@ from __future__ import annotations
 
 import moderngl
 
-from app.platform import Target, copy_pixels
+from app.surface import Target, copy_pixels
 
 MOST_KEPT = 30  # frames in a row that are not shown: whatever goes wrong, the window goes on
 Size = tuple[int, int]

@@ -9,9 +9,10 @@ import time
 from collections.abc import Callable
 from pathlib import Path
 
-from app.platform import Target, start_platform
+from app.platform import start_platform
 from app.start import Start, begin_lecture, begin_scene, first_state
 from app.storage.capture import free_path
+from app.surface import Target
 from app.teach.lecture.model import Lecture
 from app.viewer import (
     DEFAULT_PICTURE,

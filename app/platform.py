@@ -23,12 +23,10 @@ from imgui_bundle import imgui  # before glfw, so that both use the same GLFW li
 # isort: split
 import glfw
 import moderngl
-import numpy as np
 
 from renderer.errors import LucidaError, one_line
 
 REQUIRED = (3, 3)
-NICER = 5
 LONGEST_PLACING_S = 0.25  # that is waited for a window manager to place the window
 
 
@@ -81,39 +79,6 @@ def flush_opengl() -> None:
     address = glfw.get_proc_address("glFlush")
     if address:
         ctypes.CFUNCTYPE(None)(ctypes.cast(address, ctypes.c_void_p).value or 0)()
-
-
-def copy_pixels(
-    source: int, source_box: tuple[int, ...], target: int, target_box: tuple[int, ...]
-) -> None:
-    """Copies colours from one framebuffer to another, both by their GL names, to the nearest pixel.
-    Boxes: left, bottom, right, top. Leaves both bound: moderngl does not know that."""
-    for kind, name in ((_READ_FRAMEBUFFER, source), (_DRAW_FRAMEBUFFER, target)):
-        _gl("glBindFramebuffer", kind, name)
-    _gl("glBlitFramebuffer", *source_box, *target_box, _COLOR_BUFFER_BIT, _NEAREST)
-
-
-_READ_FRAMEBUFFER, _DRAW_FRAMEBUFFER = 0x8CA8, 0x8CA9
-_COLOR_BUFFER_BIT, _NEAREST = 0x4000, 0x2600
-
-
-def _gl(name: str, *numbers: int) -> None:
-    """Calls a function of OpenGL that moderngl does not offer."""
-    address = glfw.get_proc_address(name)
-    if not address:
-        raise LucidaError("OpenGL", f"{name} is missing", "update the graphics driver")
-    kind = ctypes.CFUNCTYPE(None, *(ctypes.c_int for _ in numbers))
-    kind(ctypes.cast(address, ctypes.c_void_p).value or 0)(*numbers)
-
-
-def lower_priority() -> None:
-    """The calling thread, and the threads that it starts, give way to the window's (Linux)."""
-    if sys.platform.startswith("linux"):
-        with contextlib.suppress(OSError):
-            # There, and against POSIX, niceness belongs to a thread and is inherited.
-            thread = threading.get_native_id()
-            niceness = os.getpriority(os.PRIO_PROCESS, thread) + NICER
-            os.setpriority(os.PRIO_PROCESS, thread, min(niceness, 19))
 
 
 def set_title(text: str) -> None:
@@ -242,20 +207,6 @@ def _monitor_of(place: tuple[int, int, int, int]) -> Any:
         return max(wide, 0) * max(high, 0)
 
     return max(glfw.get_monitors(), key=shared, default=None)
-
-
-@dataclass(frozen=True)
-class Target:
-    """What a frame is drawn into, and its size: (width, height) in pixels."""
-
-    framebuffer: moderngl.Framebuffer
-    size: tuple[int, int]
-
-    def read(self) -> np.ndarray:
-        """What is drawn, uint8 (height, width, 3), row 0 at the top. Call before the swap."""
-        width, height = self.size
-        data = self.framebuffer.read((0, 0, width, height), components=3, alignment=1)
-        return np.frombuffer(data, np.uint8).reshape(height, width, 3)[::-1]
 
 
 class _Loader:

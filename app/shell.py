@@ -19,16 +19,18 @@ from app.panels.messages import Message, message_box
 from app.panels.palette import Palette
 from app.panels.sheet import help_sheet
 from app.panels.toasts import Toasts
-from app.platform import Target, toggle_full_screen
+from app.platform import toggle_full_screen
 from app.stage import Stage
 from app.state import AppState
 from app.storage.capture import Captures, Rect
-from app.storage.files import Files, Outside, describe
+from app.storage.files import Files, Outside
 from app.storage.session import Session, session_of
 from app.storage.session_store import Keeper
+from app.surface import Target
 from app.theme import Fonts
 from app.views.base import Host, View
-from renderer.errors import LucidaError, one_line
+from app.views.lecture import LectureView
+from renderer.errors import LucidaError, describe, one_line
 from renderer.scene.outside import LISTED
 
 OPEN = "Open anyway"
@@ -66,6 +68,9 @@ class Shell:
         return self.captures.busy
 
     # What actions ask for.
+
+    def toggle_palette(self) -> None:
+        self.palette.toggle()
 
     def toggle_help(self) -> None:
         self.help = not self.help
@@ -160,7 +165,7 @@ class Shell:
 
     def _session(self, window: Window) -> Session:
         state = window.state
-        return session_of(state, self.stage.arrangement(), window.lecture.kept(state))
+        return session_of(state, self.stage.arrangement(), window.view(LectureView).kept(state))
 
     def _messages(self, window: Window) -> None:
         """One message at a time: what was asked for first, then what failed by itself."""
@@ -203,7 +208,7 @@ class Shell:
         keeper = self._keeper
         if keeper is None:
             return
-        io, state, answered = imgui.get_io(), window.state, window.lecture.take_answered()
+        io, state, answered = imgui.get_io(), window.state, window.view(LectureView).take_answered()
         if state is not self._kept or io.want_save_ini_settings or answered:
             self._kept, io.want_save_ini_settings = state, False
             keeper.mark()

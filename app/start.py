@@ -15,14 +15,14 @@ from imgui_bundle import hello_imgui
 
 from app.options import Options
 from app.state import AppState
-from app.storage.files import Opened, describe, opened_scene
+from app.storage.files import Opened, opened_scene
 from app.storage.kept_lecture import KeptLecture
 from app.storage.session import Session
 from app.storage.session_store import Found, Keeper, take_place
 from app.teach.lecture.model import Lecture
 from app.teach.lecture.session import Session as LectureSession
 from app.teach.lecture.states import state_of
-from renderer.errors import LucidaError
+from renderer.errors import LucidaError, describe
 from renderer.scene import BUILTIN_SCENES, Scene, View, load_scene, load_view
 from renderer.scene.apart import is_large
 from renderer.scene.model import SceneObject

@@ -349,3 +349,8 @@ def contrast(one: Rgb, other: Rgb) -> float:
 def _luminance(color: Rgb) -> float:
     linear = (c / 12.92 if c <= 0.04045 else ((c + 0.055) / 1.055) ** 2.4 for c in color)
     return sum(w * c for w, c in zip((0.2126, 0.7152, 0.0722), linear, strict=True))
+
+
+def framebuffer_scale() -> float:
+    """Framebuffer pixels in one unit of ImGui's coordinates."""
+    return imgui.get_io().display_framebuffer_scale.x or 1.0

@@ -21,7 +21,6 @@ from app.panels.focusing import Focusing
 from app.platform import (
     Keys,
     Platform,
-    Target,
     create_context,
     flush_opengl,
     set_size,
@@ -36,6 +35,7 @@ from app.storage.paths import is_unicode
 from app.storage.session import source_of
 from app.storage.session_store import settings_folder
 from app.storage.settings import settings_file
+from app.surface import Target
 from app.views.base import View
 from app.window import MainWindow, title
 from renderer import compile_note

@@ -16,6 +16,7 @@ import moderngl
 from imgui_bundle import hello_imgui, imgui
 
 from app import layout, theme
+from app.actions.base import AView
 from app.actions.table import run_shortcuts
 from app.cameras.fly import Fly
 from app.cameras.focus import Focus, object_corners, scene_focus
@@ -33,7 +34,7 @@ from app.panels.status import Status, status_line
 from app.platform import on_drop, set_title
 from app.shell import Shell
 from app.state import AppState, History
-from app.storage.files import Files, Opened, describe
+from app.storage.files import Files, Opened
 from app.storage.session_store import Keeper
 from app.views.base import View
 from app.views.camera import CameraView
@@ -45,7 +46,7 @@ from app.views.outside import OUTSIDE, OutsideView
 from app.views.pair import RASTER, Linked, RasterView, RayView
 from app.views.probe import ProbeView
 from app.views.stepper import STEPPER, StepperView
-from renderer.errors import LucidaError
+from renderer.errors import LucidaError, describe
 from renderer.scene import Scene
 from renderer.scene.outside import outside_files
 
@@ -107,6 +108,9 @@ class MainWindow:
         self._over: View | None = None
 
     # What actions and views ask for.
+
+    def view(self, kind: type[AView]) -> AView:
+        return next(view for view in self.views.values() if isinstance(view, kind))
 
     @property
     def state(self) -> AppState:

@@ -54,3 +54,12 @@ def shortened(text: str, most: int) -> str:
 def _escaped(sign: str) -> str:
     code = ord(sign)
     return f"\\x{code - 0xDC00:02x}" if 0xDC80 <= code <= 0xDCFF else repr(sign)[1:-1]
+
+
+def describe(error: Exception) -> str:
+    """One line for the window."""
+    if isinstance(error, LucidaError):
+        return str(error)
+    if isinstance(error, MemoryError):
+        return "not enough memory; try a smaller image or model"
+    return one_line(f"{type(error).__name__}: {error}")

@@ -7,7 +7,8 @@ import argparse
 import numpy as np
 import pytest
 
-from app.commands.arguments import Parser, add_camera_options, with_camera_options
+from app.cameras.options import add_camera_options, with_camera_options
+from app.commands.arguments import Parser
 from renderer import Camera, LucidaError, View
 
 BASE = View(Camera(eye=(1, 2, 3), distance=2.0, near=0.5), fit=True)

@@ -18,12 +18,12 @@ from app.cameras.text import command_line
 from app.panels.dialog import FileDialog, Question
 from app.panels.toasts import Toasts
 from app.state import AppState
-from app.storage.files import Files, describe, open_sources
+from app.storage.files import Files, open_sources
 from app.storage.folders import read_folder
 from app.storage.paths import is_unicode, restored, stored
 from app.storage.recent import RecentFiles
 from app.storage.session import Arrangement, from_bytes, session_of, to_bytes
-from renderer.errors import LucidaError, one_line
+from renderer.errors import LucidaError, describe, one_line
 from renderer.scene import load_scene, save_scene
 
 TRIANGLE = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"

@@ -30,9 +30,10 @@ from PIL import Image
 
 from app import viewer
 from app.canvas import Canvas
-from app.panels.screen import framebuffer_scale
-from app.platform import Target, start_platform
+from app.platform import start_platform
 from app.state import AppState, History
+from app.surface import Target
+from app.theme import framebuffer_scale
 from app.viewer import Run
 from app.views import outside_mouse, pair
 from app.views.pair import RASTER, RAY

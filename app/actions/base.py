@@ -1,28 +1,39 @@
-"""What an action is: something that a menu, a key or the command palette does.
-
-Owns the structure, and what actions may ask of the window. The actions are in actions.py.
+"""What an action is: something that a menu, a key or the command palette does; and what it may ask
+of the window.
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Protocol
+from typing import Protocol, TypeVar
 
 from imgui_bundle import imgui
 
 from app.cameras.focus import Focus
 from app.images.renderers import Renderers
+from app.panels.toasts import Toasts
+from app.stage import Stage
 from app.state import AppState
-from app.storage.files import Files
-
-if TYPE_CHECKING:
-    from app.shell import Shell
-    from app.views.lecture import LectureView
-    from app.views.stepper import StepperView
+from app.views.base import Filing, View
 
 Key = imgui.Key
 CTRL, SHIFT, ALT = int(Key.mod_ctrl), int(Key.mod_shift), int(Key.mod_alt)
+AView = TypeVar("AView", bound=View)
+
+
+class Around(Protocol):
+    """What stands around the views, as actions ask for it."""
+
+    @property
+    def stage(self) -> Stage: ...
+    @property
+    def toasts(self) -> Toasts: ...
+    def toggle_palette(self) -> None: ...
+    def toggle_help(self) -> None: ...
+    def toggle_full_screen(self) -> None: ...
+    def picture(self, view: bool = False, copy: bool = False) -> None: ...
+    def picture_as(self, view: bool = False) -> None: ...
 
 
 class Window(Protocol):
@@ -40,15 +51,14 @@ class Window(Protocol):
     def can_undo(self) -> bool: ...
     def can_redo(self) -> bool: ...
     @property
-    def files(self) -> Files: ...
+    def files(self) -> Filing: ...
     @property
     def renderers(self) -> Renderers: ...
     @property
-    def shell(self) -> Shell: ...
-    @property
-    def lecture(self) -> LectureView: ...
-    @property
-    def stepper(self) -> StepperView: ...
+    def shell(self) -> Around: ...
+    def view(self, kind: type[AView]) -> AView:
+        """The window's own view of a class."""
+
     def ask_resolution(self) -> None: ...
     def ask_pixel(self) -> None: ...
     def retry(self) -> None: ...

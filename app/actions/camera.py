@@ -20,7 +20,7 @@ from app.cameras.reader import SOURCE, read_view
 from app.cameras.text import FORMS, Form, Subject, as_text
 from app.images.renderers import Renderers
 from app.state import AppState, is_orthonormal
-from app.storage.files import Files
+from app.views.base import Filing
 from renderer.camera import Camera
 from renderer.errors import LucidaError
 
@@ -35,7 +35,7 @@ class Mover(Protocol):
     @property
     def focus(self) -> Focus: ...
     @property
-    def files(self) -> Files: ...
+    def files(self) -> Filing: ...
     @property
     def renderers(self) -> Renderers: ...
     def travel(self, state: AppState) -> None: ...

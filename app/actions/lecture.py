@@ -11,12 +11,14 @@ from imgui_bundle import imgui
 from app.actions.base import Action, Key, Window, changing
 from app.panels.stepper import Wish
 from app.state import AppState
+from app.views.lecture import LectureView
+from app.views.stepper import StepperView
 
 STEPPER = "Stepper"  # the view's name
 
 
 def _given(window: Window) -> bool:
-    return window.lecture.is_given
+    return window.view(LectureView).is_given
 
 
 def _restorable(window: Window) -> bool:
@@ -27,7 +29,7 @@ def _stepping(wish: Wish, name: str, keys: str) -> Action:
     return Action(
         "Lecture/Loop stepper",
         f"Stepper: {name}",
-        lambda window: window.stepper.ask(wish),
+        lambda window: window.view(StepperView).ask(wish),
         keys,
         can=lambda window: STEPPER in window.shell.stage.rects,
         separated=wish == "play",
@@ -52,12 +54,16 @@ STEPPING: tuple[tuple[Wish, str, str], ...] = (
 )
 
 LECTURE = (
-    Action("Lecture", 'Begin "Images, rays and cameras"', lambda w: w.lecture.give_builtin()),
+    Action(
+        "Lecture",
+        'Begin "Images, rays and cameras"',
+        lambda w: w.view(LectureView).give_builtin(),
+    ),
     Action("Lecture", "Open lecture...", lambda w: w.files.open_lecture_dialog()),
     Action(
         "Lecture",
         "Next step",
-        lambda w: w.lecture.advance(w, 1),
+        lambda w: w.view(LectureView).advance(w, 1),
         "Page Down",
         (int(Key.page_down),),
         can=_given,
@@ -66,7 +72,7 @@ LECTURE = (
     Action(
         "Lecture",
         "Step before",
-        lambda w: w.lecture.advance(w, -1),
+        lambda w: w.view(LectureView).advance(w, -1),
         "Page Up",
         (int(Key.page_up),),
         can=_given,
@@ -74,12 +80,12 @@ LECTURE = (
     Action(
         "Lecture",
         "Back to the step's own state",
-        lambda w: w.lecture.restore(w),
+        lambda w: w.view(LectureView).restore(w),
         "Backspace",
         (int(Key.backspace),),
         can=_restorable,
     ),
-    Action("Lecture", "End the lecture", lambda w: w.lecture.leave(w), can=_given),
+    Action("Lecture", "End the lecture", lambda w: w.view(LectureView).leave(w), can=_given),
     *(_stepping(wish, name, keys) for wish, name, keys in STEPPING),
     Action(
         "Lecture",

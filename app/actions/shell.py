@@ -206,7 +206,7 @@ HELP = (
     Action(
         "Help",
         "Find a command",
-        lambda w: w.shell.palette.toggle(),
+        lambda w: w.shell.toggle_palette(),
         "Ctrl+Shift+P",
         (CTRL | SHIFT | int(Key.p),),
     ),

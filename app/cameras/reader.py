@@ -14,8 +14,8 @@ from typing import NoReturn
 
 import numpy as np
 
+from app.cameras.options import CAMERA_OPTIONS, add_camera_options, with_camera_options
 from app.cameras.text import FITTED
-from app.commands.arguments import CAMERA_OPTIONS, add_camera_options, with_camera_options
 from renderer.camera import Camera, Floats, Vector
 from renderer.errors import LucidaError
 from renderer.scene import view_from_toml

@@ -9,6 +9,7 @@ import argparse
 import json
 import math
 
+from app.cameras.options import add_camera_options
 from app.commands import arguments as common
 
 NAME = "compare"
@@ -37,7 +38,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
     parser.description, parser.epilog = DESCRIPTION, EPILOG
     parser.add_argument("scene", metavar="SCENE", help=common.SCENE_HELP)
     parser.add_argument("--view", metavar="VIEW.toml", help=common.VIEW_HELP)
-    common.add_camera_options(parser)
+    add_camera_options(parser)
     common.add_size_option(parser)
     parser.add_argument(
         "-o", "--output", metavar="DIFF.png", help="write the picture (.png .ppm .pgm .pbm)"

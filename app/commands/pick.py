@@ -9,6 +9,7 @@ import argparse
 import json
 from typing import TYPE_CHECKING, Any
 
+from app.cameras.options import add_camera_options
 from app.commands import arguments as common
 from renderer.errors import LucidaError, one_line
 from renderer.pixels import Indexing, Pixel
@@ -50,7 +51,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
         "--backend", choices=common.BACKENDS, default="auto", help=common.BACKEND_HELP
     )
     parser.add_argument("--view", metavar="VIEW.toml", help=common.VIEW_HELP)
-    common.add_camera_options(parser)
+    add_camera_options(parser)
     parser.add_argument("--json", action="store_true", help="print one JSON object")
 
 

@@ -8,6 +8,7 @@ from __future__ import annotations
 import argparse
 from typing import TYPE_CHECKING
 
+from app.cameras.options import add_camera_options
 from app.commands import arguments as common
 from renderer.errors import LucidaError, one_line
 
@@ -74,7 +75,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
         help="colour samples per pixel: 1, 4, 9, 16, 25, 36, 49 or 64 (default: 1)",
     )
     parser.add_argument("--view", metavar="VIEW.toml", help=common.VIEW_HELP)
-    common.add_camera_options(parser)
+    add_camera_options(parser)
     parser.add_argument(
         "--exposure",
         type=common.exposure_ev,

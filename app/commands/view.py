@@ -9,13 +9,11 @@ import argparse
 from pathlib import Path
 
 from app import __version__
+from app.cameras.options import CAMERA_OPTIONS, add_camera_options, with_camera_options
 from app.commands.arguments import (
-    CAMERA_OPTIONS,
     SCENE_HELP,
     VIEW_HELP,
-    add_camera_options,
     size,
-    with_camera_options,
 )
 
 NAME = "view"

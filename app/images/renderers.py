@@ -13,6 +13,7 @@ from collections.abc import Callable
 import moderngl
 from numpy.typing import NDArray
 
+from app.background import lower_priority
 from app.images.agreement import Agreement, Verdict
 from app.images.live import LiveTrace, RayImage, Request, Tracer
 from app.images.pictures import FAILURES, Pictures, Wanted
@@ -21,7 +22,6 @@ from app.images.reading import Region
 from app.images.shown import Picture
 from app.images.underlay import Underlay
 from app.options import ImageOptions
-from app.platform import lower_priority
 from app.state import AppState
 from renderer import compile_note
 from renderer.camera import Camera

@@ -16,7 +16,7 @@ import imgui_bundle
 from imgui_bundle import ImVec2, ImVec4, imgui, imgui_microtex
 
 from app import theme
-from app.panels.screen import framebuffer_scale
+from app.theme import framebuffer_scale
 
 ROW_GAP = 0.35  # between the rows of one formula, in parts of its type's size
 _BREAKS = (" = ", " + ", " - ")

@@ -12,8 +12,8 @@ from imgui_bundle import ImVec2, ImVec4, imgui, imgui_microtex
 
 from app import theme
 from app.panels import formula
-from app.panels.screen import framebuffer_scale
 from app.teach.lecture.plain import plain_math
+from app.theme import framebuffer_scale
 
 
 @dataclass(frozen=True, eq=False)

@@ -10,7 +10,7 @@ from dataclasses import dataclass
 from imgui_bundle import ImVec2, imgui
 
 from app import theme
-from app.storage.files import describe
+from renderer.errors import describe
 
 WIDTH_EM = 40.0
 

@@ -13,14 +13,10 @@ from imgui_bundle import ImVec2, imgui
 
 from app.images.placement import Placement
 from app.options import Pixel
+from app.theme import framebuffer_scale
 
 Box = tuple[ImVec2, ImVec2]  # upper left and lower right corner
 MAIN_DOCK = "MainDockSpace"  # HelloImGui's window that all others are docked in
-
-
-def framebuffer_scale() -> float:
-    """Framebuffer pixels in one unit of ImGui's coordinates."""
-    return imgui.get_io().display_framebuffer_scale.x or 1.0
 
 
 def available_px() -> tuple[int, int]:

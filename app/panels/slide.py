@@ -13,10 +13,9 @@ from imgui_bundle import ImVec2, ImVec4, imgui
 from app import theme
 from app.lettering import lettering
 from app.panels.inline_math import inline_math
-from app.panels.screen import framebuffer_scale
 from app.teach.lecture.flow import Extent, Laid, Piece, fitted, lay
 from app.teach.lecture.text import Block
-from app.theme import Fonts
+from app.theme import Fonts, framebuffer_scale
 
 ASCENT = 0.78  # of the line's height, in all our fonts
 # Sizes of a step's type, in parts of the window's height.

@@ -16,8 +16,8 @@ from pathlib import Path
 import numpy as np
 
 from app.background import Background
-from app.platform import Target
 from app.storage.clipboard import copy_png
+from app.surface import Target
 from renderer.atomic import atomic_write
 from renderer.errors import LucidaError
 

@@ -22,7 +22,7 @@ from app.storage.recent import RecentFiles
 from app.storage.scene_watch import SceneWatch
 from app.teach.lecture.model import Lecture
 from app.teach.lecture.reading import is_lecture, load_lecture
-from renderer.errors import LucidaError, one_line
+from renderer.errors import LucidaError, describe, one_line
 from renderer.raster import Prepared, prepare
 from renderer.scene import (
     BUILTIN_SCENES,
@@ -404,15 +404,6 @@ def open_lecture(source: str, agreed: frozenset[Path] = frozenset()) -> Opened:
     """Loads a file as a lecture, whatever it looks like. agreed: files outside of its folder that
     it may read. Raises LucidaError."""
     return Opened((source,), lecture=(load_lecture(source, agreed), Path(source).absolute()))
-
-
-def describe(error: Exception) -> str:
-    """One line for the window."""
-    if isinstance(error, LucidaError):
-        return str(error)
-    if isinstance(error, MemoryError):
-        return "not enough memory; try a smaller image or model"
-    return one_line(f"{type(error).__name__}: {error}")
 
 
 def _is_view(path: Path) -> bool:

@@ -5,7 +5,7 @@ Owns the two interfaces. Knows nothing of any one view.
 
 from __future__ import annotations
 
-from collections.abc import Hashable
+from collections.abc import Callable, Hashable
 from typing import ClassVar, Protocol
 
 import moderngl
@@ -15,9 +15,33 @@ from app.cameras.focus import Focus
 from app.images.renderers import Renderers
 from app.options import Pixel
 from app.state import AppState
-from app.storage.files import Files
+from app.storage.recent import RecentFiles
 from app.theme import Fonts
 from renderer.camera import Camera
+from renderer.scene import Scene
+from renderer.scene import View as SceneView
+
+
+class Filing(Protocol):
+    """What views and actions ask of the window's files. message: what went wrong."""
+
+    message: str
+
+    @property
+    def recent(self) -> RecentFiles: ...
+    def open(self, source: str) -> None: ...
+    def open_dialog(self) -> None: ...
+    def open_lecture_dialog(self) -> None: ...
+    def save_view_dialog(self, view: SceneView) -> None: ...
+    def save_scene_dialog(self, scene: Scene, view: SceneView) -> None: ...
+    def save_as_dialog(
+        self, title: str, name: str, kind: tuple[str, str], store: Callable[[str], str]
+    ) -> None:
+        """Asks where something is to go, and stores it there in the background. kind: in words, and
+        the ending. store: does it, and says what it did."""
+
+    def say(self, text: str) -> None:
+        """Something was done: tells it in passing."""
 
 
 class Host(Protocol):
@@ -28,10 +52,11 @@ class Host(Protocol):
     """
 
     fonts: Fonts
-    files: Files
     renderers: Renderers
     moves: bool
 
+    @property
+    def files(self) -> Filing: ...
     @property
     def state(self) -> AppState: ...
 

@@ -15,7 +15,7 @@ from imgui_bundle import ImVec2, ImVec4, imgui
 from numpy.typing import NDArray
 
 from app import theme
-from app.actions.table import FLIP_KEY
+from app.actions.compare import FLIP_KEY
 from app.images import comparing
 from app.images.composed import Composed, Mapping
 from app.images.pictures import Wanted
@@ -28,11 +28,10 @@ from app.panels import compare as panel
 from app.panels.differences import draw_differences
 from app.panels.screen import Screen
 from app.state import AppState
-from app.storage.files import describe
 from app.views.base import Host
 from app.views.pair import ImageView, Linked
 from renderer.compare import Comparison
-from renderer.errors import LucidaError
+from renderer.errors import LucidaError, describe
 from renderer.raster import Look
 
 NAME = "Compare"

@@ -21,11 +21,11 @@ from app.background import Background
 from app.images.pictures import Wanted
 from app.lettering import hall_px, lettering
 from app.options import LaboratoryOptions, Pixel
-from app.panels.screen import available_px, framebuffer_scale
+from app.panels.screen import available_px
 from app.state import AppState
-from app.storage.files import describe
 from app.teach.imagelab import disk
 from app.teach.imagelab.pages import Image, Panel, Plan, panels, plan
+from app.theme import framebuffer_scale
 from app.views.base import Host, View
 from app.views.laboratory_array import ArrayPage
 from app.views.laboratory_displays import LANES_EM, DisplaysPage
@@ -35,7 +35,7 @@ from app.views.laboratory_tools import toolbar
 from app.views.laboratory_vector import VectorPage
 from app.views.outside import OutsideView
 from app.views.uploads import Uploads
-from renderer.errors import LucidaError
+from renderer.errors import LucidaError, describe
 
 LABORATORY = "Laboratory"
 SMALLEST_PX = 60

@@ -12,10 +12,9 @@ from imgui_bundle import ImVec2, ImVec4, imgui
 from app import theme
 from app.lettering import fitted_text, lettering
 from app.options import Pixel
-from app.panels.screen import framebuffer_scale
 from app.teach.imagelab.displays import Region
 from app.teach.imagelab.pages import Panel
-from app.theme import Fonts
+from app.theme import Fonts, framebuffer_scale
 
 HEADING_EM = 2.5  # above each picture
 

@@ -23,13 +23,13 @@ from app.outside.bitmap import bitmap, magnified
 from app.outside.sketch import Sketch
 from app.outside.svg import svg
 from app.outside.vector import Drawing
-from app.panels.screen import framebuffer_scale
-from app.storage.files import describe
+from app.theme import framebuffer_scale
 from app.views.base import Host
 from app.views.outside import OutsideView
 from app.views.outside_vector import Sketcher, export_svg
 from app.views.uploads import Uploads
 from app.views.vector_painting import Magnified, Mark, paint, prepared
+from renderer.errors import describe
 from renderer.scene.reading import size_text
 
 PAGE_SIZE = (640, 480)  # of the drawing

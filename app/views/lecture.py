@@ -25,7 +25,6 @@ from app.panels.exercise import exercise
 from app.panels.slide import Sizes, Slides, sizes_of
 from app.panels.typesetting import first_mistake
 from app.state import AppState
-from app.storage.files import describe
 from app.storage.kept_lecture import KeptLecture
 from app.storage.session import source_of
 from app.teach.languages import LANGUAGES
@@ -36,7 +35,7 @@ from app.teach.lecture.session import Session
 from app.teach.lecture.states import state_of
 from app.teach.lecture.text import Block, in_language, languages
 from app.views.base import Host, View
-from renderer.errors import LucidaError
+from renderer.errors import LucidaError, describe
 from renderer.scene.apart import ModelReader
 from renderer.scene.models import read_by
 

@@ -32,9 +32,9 @@ from app.outside.projected import Primitive, project
 from app.outside.screen import Screen
 from app.outside.sketch import OPACITY
 from app.outside.solid import bundle_pixels, pixel_seen, plane_corners
-from app.panels.screen import available_px, framebuffer_scale, is_at_the_bottom
+from app.panels.screen import available_px, is_at_the_bottom
 from app.state import AppState
-from app.storage.files import describe
+from app.theme import framebuffer_scale
 from app.views.base import Host, View
 from app.views.outside_gizmo import Gizmo
 from app.views.outside_ground import Ground
@@ -49,7 +49,7 @@ from app.views.outside_looking import (
 from app.views.outside_mouse import Mouse, Scope
 from app.views.outside_tools import labels, legend, triad
 from renderer.camera import Camera
-from renderer.errors import LucidaError
+from renderer.errors import LucidaError, describe
 from renderer.frame import LARGEST_PIXELS, LARGEST_SIDE
 from renderer.raster.overlay import Overlay, plane_on_screen
 

@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 from app import theme
 from app.outside.extent import around, framed, outside_camera, way_of
 from app.outside.screen import NEAREST, Screen
-from app.panels.screen import framebuffer_scale
+from app.theme import framebuffer_scale
 from app.views.base import Host
 from app.views.outside_mouse import Scope
 from renderer.camera import Camera

@@ -21,12 +21,11 @@ from app.outside import svg
 from app.outside.extent import end_parameter
 from app.outside.paint import vector_paint
 from app.outside.sketch import Sketch
-from app.panels.screen import framebuffer_scale
-from app.storage.files import describe
+from app.theme import framebuffer_scale
 from app.views.base import Host
-from app.views.outside import OUTSIDE, OutsideView
+from app.views.outside import OutsideView
 from app.views.outside_looking import nearest, scope_of, units_px
-from renderer.errors import LucidaError
+from renderer.errors import LucidaError, describe
 
 if TYPE_CHECKING:
     from app.actions.base import Window
@@ -96,8 +95,7 @@ class Sketcher:
 
 def export_diagram(window: Window, live: bool = True) -> None:
     """The action: export_svg() of the window's outside view."""
-    view = window.shell.stage.views[OUTSIDE]
-    assert isinstance(view, OutsideView)
+    view = window.view(OutsideView)
     export_svg(view, cast(Host, window), live)  # the window is both
 
 

@@ -20,9 +20,9 @@ from app.panels.pixelgrid import Values
 from app.panels.screen import Screen, available_px, is_at_the_bottom
 from app.panels.strip import Strip, image_strip
 from app.state import AppState
-from app.storage.files import describe
 from app.views.base import Host, View
 from renderer.camera import Camera
+from renderer.errors import describe
 
 RASTER, RAY = "Raster", "Ray"
 PAUSE_S = 0.5  # turns of the wheel, or keys, closer together are one step of undo

@@ -24,13 +24,13 @@ from app.panels import formula
 from app.panels import probe as panel
 from app.panels.marks import walked
 from app.state import AppState
-from app.storage.files import describe
 from app.teach.bundles import Bundle, bundle, column_of, row_of
 from app.teach.probe import Probe
 from app.teach.reading import Reading
 from app.views.base import Host, View
 from app.views.outside import OutsideView
 from renderer.camera import Camera, Size
+from renderer.errors import describe
 
 PROBE = "Probe"
 MOST_SHOWN = 48  # rays of a row or a column

@@ -23,7 +23,6 @@ from app.outside.extent import end_parameter
 from app.outside.solid import plane_parameter, point_at
 from app.panels import stepper as panel
 from app.panels.canvas import color_picture, depth_picture
-from app.storage.files import describe
 from app.teach import stepper
 from app.teach.recording import Order, Recording
 from app.teach.runs import Pair, Runs
@@ -32,6 +31,7 @@ from app.views.base import Host, View
 from app.views.outside import OutsideView
 from app.views.uploads import Uploads
 from renderer.camera import Camera, Size
+from renderer.errors import describe
 from renderer.scene.model import Sphere
 
 STEPPER = "Stepper"

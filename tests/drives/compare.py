@@ -13,7 +13,7 @@ from window_driver import SIZE, Driver, Key
 from app.images import comparing
 from app.images.live import RayImage
 from app.options import Pixel
-from app.panels.screen import framebuffer_scale
+from app.theme import framebuffer_scale
 from app.views.compare import waiting
 from renderer.compare import LABEL_COLORS, SHADING, Comparison
 from renderer.difference import false_color, signed_difference

@@ -8,9 +8,9 @@ import numpy as np
 from imgui_bundle import imgui
 from window_driver import Driver
 
-from app.panels.screen import framebuffer_scale
 from app.storage.capture import Rect
 from app.teach.lecture.reading import BUILTIN, load_lecture
+from app.theme import framebuffer_scale
 from app.views.lecture import LECTURE, RESTORE, LectureView
 
 PICTURED = (1, 3, 9, 19, 21, 29, 30)  # of steps with images, without, and with a resolution

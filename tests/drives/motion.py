@@ -14,7 +14,7 @@ from app.cameras.navigation import moved
 from app.images import pictures as module
 from app.images.coarseness import Coarseness
 from app.images.pictures import Pictures
-from app.platform import Target
+from app.surface import Target
 from app.views.compare import CompareView
 from app.views.pair import RASTER, RAY
 from renderer.frame import CHANNELS

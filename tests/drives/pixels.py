@@ -9,7 +9,7 @@ from imgui_bundle import imgui
 from window_driver import Driver, Key
 
 from app.images.placement import Placement, place
-from app.panels.screen import framebuffer_scale
+from app.theme import framebuffer_scale
 from app.views.pair import RASTER, RAY
 from renderer.images import to_srgb8
 from renderer.images.display import picture

@@ -1,0 +1,49 @@
+"""What a frame is drawn into, and copying between such surfaces, in the window's own context."""
+
+from __future__ import annotations
+
+import ctypes
+from dataclasses import dataclass
+
+import glfw
+import moderngl
+import numpy as np
+
+from renderer.errors import LucidaError
+
+
+@dataclass(frozen=True)
+class Target:
+    """What a frame is drawn into, and its size: (width, height) in pixels."""
+
+    framebuffer: moderngl.Framebuffer
+    size: tuple[int, int]
+
+    def read(self) -> np.ndarray:
+        """What is drawn, uint8 (height, width, 3), row 0 at the top. Call before the swap."""
+        width, height = self.size
+        data = self.framebuffer.read((0, 0, width, height), components=3, alignment=1)
+        return np.frombuffer(data, np.uint8).reshape(height, width, 3)[::-1]
+
+
+def copy_pixels(
+    source: int, source_box: tuple[int, ...], target: int, target_box: tuple[int, ...]
+) -> None:
+    """Copies colours from one framebuffer to another, both by their GL names, to the nearest pixel.
+    Boxes: left, bottom, right, top. Leaves both bound: moderngl does not know that."""
+    for kind, name in ((_READ_FRAMEBUFFER, source), (_DRAW_FRAMEBUFFER, target)):
+        _gl("glBindFramebuffer", kind, name)
+    _gl("glBlitFramebuffer", *source_box, *target_box, _COLOR_BUFFER_BIT, _NEAREST)
+
+
+_READ_FRAMEBUFFER, _DRAW_FRAMEBUFFER = 0x8CA8, 0x8CA9
+_COLOR_BUFFER_BIT, _NEAREST = 0x4000, 0x2600
+
+
+def _gl(name: str, *numbers: int) -> None:
+    """Calls a function of OpenGL that moderngl does not offer."""
+    address = glfw.get_proc_address(name)
+    if not address:
+        raise LucidaError("OpenGL", f"{name} is missing", "update the graphics driver")
+    kind = ctypes.CFUNCTYPE(None, *(ctypes.c_int for _ in numbers))
+    kind(ctypes.cast(address, ctypes.c_void_p).value or 0)(*numbers)
