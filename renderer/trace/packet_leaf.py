@@ -33,6 +33,7 @@ from renderer.trace.packet_tile import (
     SEEN,
     SQUARE,
     TILE,
+    first_point,
 )
 from renderer.trace.packet_view import ORIGIN, ROW_X, ROW_Y, ROW_Z, ROWS
 from renderer.trace.simd import (
@@ -301,8 +302,8 @@ def see_leaf(view, corner, leaf, space, tile, least, floats, ints):
         square = lowest_bit(covered)
         covered &= covered - 1
         found = bits((squares_of & np.int32(1 << square)) != np.int32(0))
-        dx, dy = np.float32((square & 3) * SQUARE), np.float32((square >> 2) * SQUARE)
-        see_triangles(view, found, leaf, space, tile.x + dx, tile.y + dy, square, floats, ints)
+        x, y = first_point(tile, square)
+        see_triangles(view, found, leaf, space, x, y, square, floats, ints)
     return smallest(load(floats, LEAST))
 
 
