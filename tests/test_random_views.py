@@ -45,3 +45,9 @@ def test_a_fault_costs_a_line_and_the_exit_status(fault, monkeypatch, capsys):
     ]
     assert ("it broke" if fault == "crash" else "3 of ") in lines[0]
     assert "2 views fail" in lines[2]
+
+
+@pytest.mark.parametrize(("seed", "number"), [(20261122, 251)])
+def test_views_that_once_differed(seed: int, number: int) -> None:
+    """251: a triangle whose volume is hundreds of times smaller than its terms (packet_leaf.py)."""
+    assert main([f"--seed={seed}", f"--first={number}", "--views=1"]) == 0

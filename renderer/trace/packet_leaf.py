@@ -33,6 +33,7 @@ from renderer.trace.packet_tile import (
     SEEN,
     SQUARE,
     TILE,
+    first_point,
 )
 from renderer.trace.packet_view import ORIGIN, ROW_X, ROW_Y, ROW_Z, ROWS
 from renderer.trace.simd import (
@@ -56,10 +57,10 @@ from renderer.trace.wide import CORNERS, WIDTH
 
 # A triangle's volume is a sum of terms that can be far larger than it: where the triangle is seen
 # edge-on, or is a vast plain seen from just above. Where they are larger by DOUBTFUL, float32 has
-# too few digits left for t, and the leaf's keys are computed anew in float64. Seen exactly edge-on,
-# the volume is rounding and nothing else, and would be hit at any depth: below EDGE_ON of its
-# terms it counts as 0.
-DOUBTFUL = np.float32(1000)
+# too few digits left for t, and the leaf's keys are computed anew in float64: one leaf in three to
+# seven. Seen exactly edge-on, the volume is rounding and nothing else, and would be hit at any
+# depth: below EDGE_ON of its terms it counts as 0.
+DOUBTFUL = np.float32(8)
 EDGE_ON = np.float64(1e-13)
 # An edge function of corners that are `x` pixels from the image's middle is that much of x wrong.
 SPECK_PX, SPECK_ROUNDING = np.float64(1 / 64), np.float64(2.0**-21)
@@ -188,7 +189,12 @@ def key_function_exact(view, corner, leaf, space, pa, pb, pc):
     (kx, ky, k1), volume, terms = key_function(view, a, b, c, ha, hb, hc)
     is_seen = vabs(volume) > terms * EDGE_ON
     is_seen = is_seen & _differ(pa, pb) & _differ(pb, pc) & _differ(pc, pa)
-    is_seen = is_seen & ~_is_speck(a[0] / ha, a[1] / ha, b[0] / hb, b[1] / hb, c[0] / hc, c[1] / hc)
+    # Few leaves have any, and the divisions would take as long as all the rest.
+    close = vabs(ha * hb) * (2 * SPECK_PX)
+    if bits((vabs(b[0] * ha - a[0] * hb) < close) & (vabs(b[1] * ha - a[1] * hb) < close)) != 0:
+        is_seen = is_seen & ~_is_speck(
+            a[0] / ha, a[1] / ha, b[0] / hb, b[1] / hb, c[0] / hc, c[1] / hc
+        )
     zero = splat(np.float32(0))
     kx, ky = select(is_seen, to_f32(kx), zero), select(is_seen, to_f32(ky), zero)
     k1 = select(is_seen, to_f32(k1), np.float32(-np.inf))
@@ -301,8 +307,8 @@ def see_leaf(view, corner, leaf, space, tile, least, floats, ints):
         square = lowest_bit(covered)
         covered &= covered - 1
         found = bits((squares_of & np.int32(1 << square)) != np.int32(0))
-        dx, dy = np.float32((square & 3) * SQUARE), np.float32((square >> 2) * SQUARE)
-        see_triangles(view, found, leaf, space, tile.x + dx, tile.y + dy, square, floats, ints)
+        x, y = first_point(tile, square)
+        see_triangles(view, found, leaf, space, x, y, square, floats, ints)
     return smallest(load(floats, LEAST))
 
 

@@ -3,6 +3,9 @@
 Owns the parameter t and the hit's point in views for which t's last place in float32 is too
 coarse: very far away, or so narrow that it moves the point by a part of a pixel (packet_view.py
 says which). What is seen is known by then: it costs a plane or sphere for each that a square sees.
+
+Few views are coarse, and a square takes some nanoseconds: so this is called, not inlined, where it
+would take registers from what all views do, and its results go through the scratch.
 """
 
 from __future__ import annotations
@@ -12,7 +15,17 @@ import numpy as np
 from renderer.trace.compiled import inlined
 from renderer.trace.packet_smooth import camera_point
 from renderer.trace.packet_sphere import is_near_hit, moment, sphere_ray
-from renderer.trace.packet_tile import FIRST_SPHERE, NOTHING, OWNER, SEEN
+from renderer.trace.packet_tile import (
+    BEST,
+    EXACT_POINT,
+    EXACT_T,
+    FIRST_SPHERE,
+    NOTHING,
+    OWNER,
+    REST_OF_T,
+    SEEN,
+    first_point,
+)
 from renderer.trace.packet_view import ACROSS, DOWN, ROWS, SHARED, VARYING
 from renderer.trace.simd import (
     LANES,
@@ -27,14 +40,43 @@ from renderer.trace.simd import (
     to_f64,
     vsqrt,
 )
-from renderer.trace.simd_memory import load
+from renderer.trace.simd_memory import load, store
+from renderer.trace.stage import call_apart
 from renderer.trace.vectors import cross, dot, minus
 from renderer.trace.wide import CORNERS, WIDTH
 
 
 @inlined
-def exact_parameters(view, world, first, z, square, ints):
-    """t of a square's pixels, F64. first: its first image point; z: what the packet found, F32."""
+def refine_square(view, world, tile, square, floats, ints):
+    """Writes EXACT_T, inf where nothing is hit, REST_OF_T and EXACT_POINT of a square's pixels.
+
+    The points are relative to the view's near_point.
+    """
+    call_apart(_refine, (view, world, tile, square, floats, ints))
+
+
+@inlined
+def packet_depths(view, square, floats):
+    """Z of what a square's pixels see, as the packet found it."""
+    best = load(floats, BEST + LANES * square)
+    return -best if view.parallel else splat(np.float32(1)) / best
+
+
+@inlined
+def _refine(view, world, tile, square, floats, ints):
+    first = first_point(tile, square)
+    exact = _exact_parameters(view, world, first, packet_depths(view, square, floats), square, ints)
+    is_hit = load(ints, SEEN + LANES * square) != NOTHING
+    t = select(is_hit, to_f32(exact), np.float32(np.inf))
+    store(floats, EXACT_T, t)
+    store(floats, REST_OF_T, to_f32(exact - to_f64(t)))
+    for axis in range(3):
+        store(floats, EXACT_POINT + LANES * axis, _coordinate(view, axis, first, exact))
+
+
+@inlined
+def _exact_parameters(view, world, first, z, square, ints):
+    """t of a square's pixels, F64. z: what the packet found, F32."""
     seen = load(ints, SEEN + LANES * square)
     owner = load(ints, OWNER + LANES * square)
     exact = to_f64(z)
@@ -103,18 +145,8 @@ def _lanes(p, column, row):
 
 
 @inlined
-def exact_points(view, first, t):
-    """The points of a square's rays at t, F64, relative to the view's near_point: three F32, which
-    are rounded only at the end."""
-    return (
-        _coordinate(view, 0, first, t),
-        _coordinate(view, 1, first, t),
-        _coordinate(view, 2, first, t),
-    )
-
-
-@inlined
 def _coordinate(view, axis, first, t):
+    """One coordinate of the rays' points at t, F64, rounded only at the end."""
     ray, near = view.ray, view.near_point[axis]
     across, down, shared = ray[ACROSS + axis], ray[DOWN + axis], ray[SHARED + axis]
     start = ray[VARYING + axis] + np.float64(first[0]) * across + np.float64(first[1]) * down

@@ -22,6 +22,7 @@ from renderer.trace.packet_effects import (
     trace_square,
 )
 from renderer.trace.packet_surface import find_surfaces, points_on
+from renderer.trace.packet_tile import REST_OF_T
 from renderer.trace.packet_view import ACROSS, DOWN, SHARED, VARYING
 from renderer.trace.shade import CELL_NUDGE
 from renderer.trace.simd import (
@@ -47,6 +48,7 @@ from renderer.trace.simd_math import (
     scaled_lanes,
     select_lanes,
 )
+from renderer.trace.simd_memory import load
 
 _SMALLEST_LIGHT = np.float32(1e-12)  # a point light nearer than this gives no light
 _SMALLEST_HALF = np.float32(1e-12)  # with a half vector of a smaller square, there is no highlight
@@ -58,8 +60,8 @@ def shade_square(
 ):
     """The colours of a square: three F32; the background's where there is no object.
 
-    scene: SceneArrays. effects: Effects, or None. first: as for find_surfaces. t: ray parameters,
-    F64; None where `first` is. point: where they are hit. surface, objects: what the pixels see.
+    scene: SceneArrays. effects: Effects, or None. first: as for find_surfaces. t: ray parameters;
+    None where `first` is. point: where they are hit. surface, objects: what the pixels see.
     """
     background = scene.background
     color = (splat(background[0]), splat(background[1]), splat(background[2]))
@@ -73,7 +75,7 @@ def shade_square(
         mask = objects == object_number
         left &= ~bits(mask)
         m = np.int64(object_number) * 12
-        albedo = _albedo(view, scene, m, first, t, point, geometric, tint)
+        albedo = _albedo(view, scene, m, first, t, point, geometric, tint, floats)
         lit = shade_material(
             view, world, scene, effects, object_number, mask, pixels.direction, point, geometric,
             shading, albedo, floats, ints,
@@ -118,20 +120,20 @@ def _row(materials, at):
 
 
 @inlined
-def _albedo(view, scene, m, first, t, point, geometric, tint):
+def _albedo(view, scene, m, first, t, point, geometric, tint, floats):
     """The diffuse reflectance of the material at m, or its checker's, times the vertex colours."""
     materials = scene.materials
     r, g, b = _row(materials, m + 4 * DIFFUSE_SHININESS)
     albedo = (splat(r), splat(g), splat(b))
     if materials[m + 4 * SPECULAR_CHECKERED + 3] != np.float32(0):
         r, g, b = _row(materials, m + 4 * CHECKER_DIFFUSE)
-        is_other = is_other_cell(view, scene.cells, m, first, t, point, geometric)
+        is_other = is_other_cell(view, scene.cells, m, first, t, point, geometric, floats)
         albedo = select_lanes(is_other, (splat(r), splat(g), splat(b)), albedo)
     return albedo[0] * tint[0], albedo[1] * tint[1], albedo[2] * tint[2]
 
 
 @inlined
-def is_other_cell(view, cells, m, first, t, point, geometric):
+def is_other_cell(view, cells, m, first, t, point, geometric, floats):
     """Mask of pixels that see a cell of odd number, just below the surface.
 
     In float64, along the ray: what a pixel covers may be small against the cell's coordinates.
@@ -150,7 +152,7 @@ def is_other_cell(view, cells, m, first, t, point, geometric):
         if first is None:
             half = _half_cell_at(view, cells, row, point)
         else:
-            half = _half_cell(view, cells, row, first, t)
+            half = _half_cell(view, cells, row, first, t, floats)
         half = fma(to_f64(nudge), -0.5 * CELL_NUDGE, half)
         is_odd = is_odd ^ (half - vfloor(half) >= 0.5)
     return is_odd
@@ -163,8 +165,11 @@ def _direction(cells, row, a):
 
 
 @inlined
-def _half_cell(view, cells, row, first, t):
-    """Half of one coordinate of the pixels' cells, F64; t: F64."""
+def _half_cell(view, cells, row, first, t, floats):
+    """Half of one coordinate of the pixels' cells, F64."""
+    t = to_f64(t)
+    if view.coarse:
+        t = t + to_f64(load(floats, REST_OF_T))
     ray = view.ray
     right, down = _half_along(cells, row, ray, ACROSS), _half_along(cells, row, ray, DOWN)
     shared = _half_along(cells, row, ray, SHARED)

@@ -303,6 +303,12 @@ def bend_grazing(direction, mask, normal):
 
 
 @inlined
+def load3(floats, at):
+    """Loads three vectors, one behind the other."""
+    return load(floats, at), load(floats, at + LANES), load(floats, at + 2 * LANES)
+
+
+@inlined
 def store3(floats, at, a):
     """Stores three vectors, one behind the other."""
     store(floats, at, a[0])

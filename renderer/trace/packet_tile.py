@@ -29,8 +29,9 @@ SQUARES = (TILE // SQUARE) ** 2
 
 # One thread's scratch, float32: 12 coefficients and 4 bounds of a leaf's 16 triangles; a node's
 # children's depths; the least key of each square, and the best key of each pixel; six planes of
-# four numbers; a square's secondary rays; the tile's picture (packet_write.py); the depths of the
-# nodes that wait (to the end).
+# four numbers; a square's secondary rays; t, its rest and the points of a square whose hits were
+# found in float64 (packet_refine.py); the tile's picture (packet_write.py); the depths of the nodes
+# that wait (to the end).
 COEFFICIENTS = 0
 BOUNDS = COEFFICIENTS + 12 * LANES
 DEPTHS = BOUNDS + 4 * LANES
@@ -38,7 +39,10 @@ LEAST = DEPTHS + LANES
 BEST = LEAST + SQUARES
 PLANES = BEST + SQUARES * LANES
 SECONDARY = PLANES + 32
-PICTURE = SECONDARY + 7 * LANES
+EXACT_T = SECONDARY + 7 * LANES
+REST_OF_T = EXACT_T + LANES
+EXACT_POINT = REST_OF_T + LANES
+PICTURE = EXACT_POINT + 3 * LANES
 WAITING_DEPTHS = PICTURE + 7 * TILE * TILE
 # And int32: what each pixel sees, a slot, or FIRST_SPHERE - k for sphere k, or nothing; of which
 # instance; where each plane finds the coordinates that it needs of a box; the squares that each of
@@ -73,6 +77,13 @@ def new_tile(view, row, column):
     y = np.float32(row + 0.5 - 0.5 * view.height)
     last, slack = np.float32(TILE - 1), view.slack_px
     return Tile(x, y, x - slack, x + last + slack, y - slack, y + last + slack)
+
+
+@inlined
+def first_point(tile, square):
+    """The image point of a square's first pixel."""
+    dx, dy = np.float32((square & 3) * SQUARE), np.float32((square >> 2) * SQUARE)
+    return tile.x + dx, tile.y + dy
 
 
 @inlined

@@ -120,9 +120,8 @@ def packet_view(
         shift[:] = 0.0
 
     # The unit of Z: the farthest corner of the scene.
-    corners = np.array(np.meshgrid(*instances.bounds[-1].T)).reshape(3, 8)
-    from_eye = instances.world_from_space[-1, :3, 3] - eye
-    farthest = np.abs(to_t @ (corners + from_eye[:, None])).max()
+    low, high = instances.bounds[-1] + (instances.world_from_space[-1, :3, 3] - eye)
+    farthest = float((abs(to_t @ (low + high)) + abs(to_t) @ (high - low)) / 2)
     scale = 2.0 ** math.ceil(math.log2(farthest)) if 0 < farthest < math.inf else 1.0
     linear[2] /= scale
     if not view.parallel:
@@ -199,13 +198,13 @@ def _is_coarse(
     farthest: float, ray: NDArray[np.float64], parallel: bool, instances: Instances
 ) -> bool:
     """Whether t in float32 tells too little of where a hit is. farthest: t; ray: PacketView's."""
+    numbers = ray.tolist()
     across, down, direction = (
-        float(np.linalg.norm(ray[at : at + 3]))
-        for at in (ACROSS, DOWN, SHARED if parallel else VARYING)
+        math.hypot(*numbers[at : at + 3]) for at in (ACROSS, DOWN, SHARED if parallel else VARYING)
     )
     away = _T_ROUNDING * farthest * direction
     pixel = min(across, down) * (1.0 if parallel else farthest)
-    size = float(np.linalg.norm(instances.bounds[-1, 1] - instances.bounds[-1, 0]))
+    size = math.dist(*instances.bounds[-1].tolist())
     return away > min(_HIT_PX * pixel, _HIT_OF_SCENE * size)
 
 

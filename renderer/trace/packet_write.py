@@ -16,11 +16,18 @@ from renderer.trace.compiled import inlined, kernel
 from renderer.trace.image import Image
 from renderer.trace.instances import World, world_pointers
 from renderer.trace.packet_effects import Effects
-from renderer.trace.packet_refine import exact_parameters, exact_points
+from renderer.trace.packet_refine import packet_depths, refine_square
 from renderer.trace.packet_shade import add_reflections, shade_square
-from renderer.trace.packet_surface import find_surfaces, points_on, scene_pointers, square_rays
+from renderer.trace.packet_surface import (
+    find_surfaces,
+    load3,
+    points_on,
+    scene_pointers,
+    square_rays,
+)
 from renderer.trace.packet_tile import (
-    BEST,
+    EXACT_POINT,
+    EXACT_T,
     NOTHING,
     NUMBERS,
     PICTURE,
@@ -28,10 +35,11 @@ from renderer.trace.packet_tile import (
     SQUARE,
     SQUARES,
     TILE,
+    first_point,
     new_tile,
 )
 from renderer.trace.packet_view import PacketView, view_pointers
-from renderer.trace.simd import LANES, bits, select, splat, to_f32, to_f64
+from renderer.trace.simd import LANES, bits, select, splat
 from renderer.trace.simd_memory import is_line, load, pointer, store_square, store_square3, stream
 from renderer.trace.stage import Stage, new_room, prepared
 
@@ -110,15 +118,15 @@ def draw_square(view, world, scene, effects, image, row, column, tile, square, f
     i, j = row + (square >> 2) * SQUARE, column + (square & 3) * SQUARE
     if i >= image.height or j >= image.width:
         return
-    first = tile.x + np.float32(j - column), tile.y + np.float32(i - row)
-    best, seen = load(floats, BEST + LANES * square), load(ints, SEEN + LANES * square)
-    is_hit = seen != NOTHING
-    z = -best if view.parallel else splat(np.float32(1)) / best
-    t = select(is_hit, z * np.float32(view.scale), np.float32(np.inf))
-    t_exact = to_f64(t)
-    if view.coarse and bits(is_hit) != 0:
-        t_exact = exact_parameters(view, world, first, z, square, ints)
-        t = select(is_hit, to_f32(t_exact), np.float32(np.inf))
+    is_hit = load(ints, SEEN + LANES * square) != NOTHING
+    sees = bits(is_hit) != 0
+    z = t = splat(np.float32(np.inf))
+    if sees:
+        z = packet_depths(view, square, floats)
+        t = select(is_hit, z * np.float32(view.scale), t)
+        if view.coarse:
+            refine_square(view, world, tile, square, floats, ints)
+            t = load(floats, EXACT_T)
     if image.has_depth:
         store_square(floats, DEPTH + at, TILE, t)
     if not (image.has_color or image.has_normal or image.has_id or image.has_primitive):
@@ -128,7 +136,8 @@ def draw_square(view, world, scene, effects, image, row, column, tile, square, f
     background = scene.background
     color = (splat(background[0]), splat(background[1]), splat(background[2]))
     objects = primitives = splat(np.int32(-1))
-    if bits(is_hit) != 0:
+    if sees:
+        first = first_point(tile, square)
         pixels = square_rays(view, first)
         surface, objects, primitives = find_surfaces(
             view,
@@ -146,11 +155,10 @@ def draw_square(view, world, scene, effects, image, row, column, tile, square, f
         if image.has_color:
             point = points_on(pixels, t)
             if view.coarse:
-                point = exact_points(view, first, t_exact)
+                point = load3(floats, EXACT_POINT)
             color = shade_square(
-                view, world, scene, effects, pixels, first, t_exact, point, surface, objects,
-                floats, ints,
-            )  # fmt: skip
+                view, world, scene, effects, pixels, first, t, point, surface, objects, floats, ints
+            )
             if effects is not None:
                 color = add_reflections(
                     view, world, scene, effects, pixels, square, point, surface, objects, color,

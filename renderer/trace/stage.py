@@ -1,4 +1,5 @@
 """A kernel's stage that is compiled on its own: called by its address, with what it always needs.
+And a part that is compiled with its kernel, but called, not inlined.
 
 Owns how such a stage is handed to the kernel that calls it. Knows nothing of what either does.
 
@@ -73,16 +74,24 @@ def prepared(typing, function, always, room):
 
 def _code(context, module, function, signature, always_type):
     """A function of type _CODE, which calls numba's."""
+
+    def arguments(builder, own):
+        at = builder.bitcast(own[0], always_type.as_pointer())
+        return [builder.load(at, typ=always_type), *own[1:]]
+
+    return _calling(context, module, function, signature, _CODE, arguments)
+
+
+def _calling(context, module, function, signature, code_type, arguments):
+    """A function of LLVM's, which calls numba's with arguments(builder, its own)."""
     compiled = function.dispatcher.get_compile_result(signature)
     context.active_code_library.add_linking_library(compiled.library)
     callee = context.declare_function(module, compiled.fndesc)
-    code = ir.Function(module, _CODE, module.get_unique_name("lucida_stage"))
+    code = ir.Function(module, code_type, module.get_unique_name("lucida_stage"))
     code.linkage = "internal"
     builder = ir.IRBuilder(code.append_basic_block())
-    at = builder.bitcast(code.args[0], always_type.as_pointer())
-    always = builder.load(at, typ=always_type)
     context.call_conv.call_function(
-        builder, callee, signature.return_type, signature.args, [always, *code.args[1:]]
+        builder, callee, signature.return_type, signature.args, arguments(builder, code.args)
     )
     builder.ret_void()
     return code
@@ -98,3 +107,24 @@ def call_stage(typing, code, room, row, column, floats, ints):
         return context.get_dummy_value()
 
     return signature, codegen
+
+
+@intrinsic
+def call_apart(typing, function, arguments):
+    """function(*arguments), called and not inlined: for what is rarely needed, and would take
+    registers from what always is.
+
+    function: decorated by inlined(); without a result, and it raises nothing.
+    """
+    signature = function.get_call_type(typing, tuple(arguments), {})
+
+    def codegen(context, builder, sig, args):
+        values = [builder.extract_value(args[1], k) for k in range(len(signature.args))]
+        code_type = ir.FunctionType(ir.VoidType(), [value.type for value in values])
+        code = _calling(context, builder.module, function, signature, code_type, lambda _, own: own)
+        code.attributes.add("noinline")
+        code.attributes.add("cold")
+        builder.call(code, values)
+        return context.get_dummy_value()
+
+    return types.void(function, arguments), codegen

@@ -28,6 +28,9 @@ FIRST_LEAF = -2  # leaf k is the child FIRST_LEAF - k
 BOX = 6 * WIDTH  # floats of a node's boxes
 CORNERS = 9 * WIDTH  # floats of a leaf's corners
 _FAR = np.float32(3.4e38)
+# Where a leaf has no triangle: every comparison is false. Corners that coincide would look like a
+# triangle that needs float64 (packet_leaf.py), and more than half of all leaves are not full.
+_NO_CORNER = np.float32(np.nan)
 _NO_SPHERES = np.zeros((0, 4), np.float32)
 _NO_SPHERES.setflags(write=False)
 _CHUNK = 256  # leaves that a thread takes at a time
@@ -41,8 +44,8 @@ class WideTree(NamedTuple):
         inside out.
     child: int32, 16 a node: >= 0 a node, NO_CHILD, or FIRST_LEAF - k: leaf k.
     corner: float32, for each leaf x, y, z of the corners a, b, c, each of 16 triangles.
-    face: int32, 16 a leaf: the number of each triangle, -1 where the leaf is not full (there the
-        three corners coincide). A triangle's place in this array is called its slot.
+    face: int32, 16 a leaf: the number of each triangle, -1 where the leaf is not full (its corners
+        are NaN there). A triangle's place in this array is called its slot.
     normal: float32, for each leaf x, y, z of 16 unit normals by the winding; 0 for no area.
     bounds: float64 (2, 3), lowest and highest corner.
     levels: nodes on the longest way from the root, with which a traversal's stack grows.
@@ -194,13 +197,11 @@ def _fill_leaves(vertices, faces, order, leaves, corner, face, normal, control):
                 f = order[start + min(i, count - 1)]
                 face[k * WIDTH + i] = f if i < count else -1
                 a, b, c = np.int64(faces[f, 0]), np.int64(faces[f, 1]), np.int64(faces[f, 2])
-                if i >= count:
-                    b, c = a, a
                 at = k * CORNERS + i
                 for axis in range(3):
-                    corner[at + axis * WIDTH] = vertices[a, axis]
-                    corner[at + (3 + axis) * WIDTH] = vertices[b, axis]
-                    corner[at + (6 + axis) * WIDTH] = vertices[c, axis]
+                    corner[at + axis * WIDTH] = vertices[a, axis] if i < count else _NO_CORNER
+                    corner[at + (3 + axis) * WIDTH] = vertices[b, axis] if i < count else _NO_CORNER
+                    corner[at + (6 + axis) * WIDTH] = vertices[c, axis] if i < count else _NO_CORNER
                 # The normal, in float64: small triangles far from the origin keep theirs.
                 ux = np.float64(vertices[b, 0]) - np.float64(vertices[a, 0])
                 uy = np.float64(vertices[b, 1]) - np.float64(vertices[a, 1])
