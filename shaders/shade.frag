@@ -58,6 +58,10 @@ void main() {
         if (!far || !is_far(8.0 * doubt * reach / slenderness(a, b, c), hit.t)) {
             weights = barycentrics_at(a, b, c, hit.point);
         }
+        if (is_checkered(hit.object)) {
+            vec3 inside = anchor_inside;
+            hit.cell = cell_of(hit.object, hit.point, corners - mat3(inside, inside, inside), weights);
+        }
         hit.normal = face_normal(
             world_from_object * (corners[1] - corners[0]),
             world_from_object * (corners[2] - corners[1]),
@@ -85,6 +89,9 @@ void main() {
             ? sphere.from_anchor + normal
             : to_ray(anchor, xy) + (hit.t - anchor.z) * d;
         hit.normal = normalize(normal);
+        if (is_checkered(hit.object)) {
+            hit.cell = cell_from_world(hit.object) * hit.point;
+        }
     }
     face_viewer(hit);
     color = vec4(shaded(hit), 1.0);
