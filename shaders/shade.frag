@@ -52,10 +52,8 @@ void main() {
             hit.point = mat3(a, b, c) * weights;
         }
         // Where those are worse than t is, by a few roundings more: the other way round.
-        if (!far || !is_far(8.0 * doubt * reach, hit.t)) {
-            hit.point = to_ray(anchor, xy) + (hit.t - anchor.z) * d;
-        }
         if (!far || !is_far(8.0 * doubt * reach / slenderness(a, b, c), hit.t)) {
+            hit.point = to_ray(anchor, xy) + (hit.t - anchor.z) * d;
             weights = barycentrics_at(a, b, c, hit.point);
         }
         if (is_checkered(hit.object)) {
