@@ -43,6 +43,7 @@ void main() {
         vec3 weights;
         float reach = sqrt(max(max(dot(a, a), dot(b, b)), dot(c, c)) / dot(d, d));
         float doubt = 0.0;
+        float slender = slenderness(a, b, c);
         bool far = is_far(reach, hit.t);
         if (far) {
             weights = barycentrics(
@@ -52,13 +53,14 @@ void main() {
             hit.point = mat3(a, b, c) * weights;
         }
         // Where those are worse than t is, by a few roundings more: the other way round.
-        if (!far || !is_far(8.0 * doubt * reach / slenderness(a, b, c), hit.t)) {
+        bool by_ray = !far || !is_far(8.0 * doubt * reach / slender, hit.t);
+        if (by_ray) {
             hit.point = to_ray(anchor, xy) + (hit.t - anchor.z) * d;
             weights = barycentrics_at(a, b, c, hit.point);
         }
         if (is_checkered(hit.object)) {
-            vec3 inside = anchor_inside;
-            hit.cell = cell_of(hit.object, hit.point, corners - mat3(inside, inside, inside), weights);
+            mat3 inside = corners - mat3(anchor_inside, anchor_inside, anchor_inside);
+            hit.cell = cell_of(hit.object, hit.point, inside, weights, by_ray ? slender : 1.0);
         }
         hit.normal = face_normal(
             world_from_object * (corners[1] - corners[0]),

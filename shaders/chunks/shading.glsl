@@ -68,14 +68,14 @@ mat3 cell_from_world(int object) {
 
 // The checker's coordinates of a point, from the anchor's; of a triangle's point with these weights,
 // whose corners (from the anchor, in the object's space) are its columns. Cells lie along the object's
-// axes. A coordinate is taken from the corners where they are nearer than what the point's rounding
-// would be magnified to, as it is where an object is flattened.
-vec3 cell_of(int object, vec3 point, mat3 corners, vec3 weights) {
+// axes. A coordinate is taken from the corners where their rounding, `doubt` times as large by the
+// weights, is less than what the point's would be magnified to, as it is where an object is flattened.
+vec3 cell_of(int object, vec3 point, mat3 corners, vec3 weights, float doubt) {
     mat3 to_cell = cell_from_world(object);
     float per_length = object_texel(object, 11).w;
     mat3 rows = transpose(to_cell);
     vec3 magnified = length(point) * vec3(length(rows[0]), length(rows[1]), length(rows[2]));
-    vec3 apart = per_length * max(max(abs(corners[0]), abs(corners[1])), abs(corners[2]));
+    vec3 apart = doubt * per_length * max(max(abs(corners[0]), abs(corners[1])), abs(corners[2]));
     return mix(to_cell * point, per_length * (corners * weights), lessThan(apart, magnified));
 }
 
