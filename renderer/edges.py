@@ -24,6 +24,7 @@ from numpy.typing import NDArray
 from renderer.camera import NEAREST, Camera, Floats
 from renderer.scene.flat import CELL_NUDGE, SPECULAR_CHECKERED, FlatScene
 from renderer.scene.positions import world_corners
+from renderer.slivers import unknown_depth
 
 Ints = NDArray[np.integer]
 Numbers = NDArray[np.integer] | NDArray[np.floating]
@@ -60,7 +61,8 @@ class Lines:
     def meeting_px(self, first: Ints, second: Ints, i: Ints, j: Ints, t: Floats) -> Floats:
         """Distance from the line where the surfaces of two primitives meet; t: the hits' depth.
 
-        The surfaces are extended beyond their outlines. Surfaces that coincide meet everywhere.
+        The surfaces are extended beyond their outlines. Surfaces that coincide meet everywhere; so do
+        two of which float32 does not tell which is nearer.
         """
         pair = (first >= 0) & (second >= 0) & (first != second)
 
@@ -70,7 +72,13 @@ class Lines:
             )
 
         distance = _zero_px(gap)
-        distance[np.abs(gap(0, 0)) <= 4e-6 * np.abs(t)] = 0  # the depth buffer's last place
+        unknown = 4e-6 * np.abs(t)  # the depth buffer's last place
+        for primitive in (first, second):
+            triangle, _ = self._kinds(primitive)
+            corners = world_corners(self.flat, primitive[triangle])
+            at = i[triangle], j[triangle], t[triangle]
+            unknown[triangle] += unknown_depth(self.camera, self.size, corners, *at)
+        distance[np.abs(gap(0, 0)) <= unknown] = 0
         return np.where(pair, distance, np.inf)
 
     def clip_px(self, primitive: Ints, i: Ints, j: Ints, t: Floats) -> Floats:

@@ -1,0 +1,71 @@
+"""What float32 does not know of the depth of a triangle that is seen as a sliver.
+
+Owns that one bound, for renderer/edges.py. Knows nothing of scenes.
+
+Packets solve for the plane through a triangle's corners in the image (packet_leaf.key_function): the
+coefficients of x and y are differences of products, over the triangle's area there, each known to a
+few roundings of its terms. In a sliver the area is much smaller than the terms. Where it is smaller
+by DOUBTFUL, the packets go over to float64. Of a usual triangle float32's last places are unknown.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from renderer.camera import Camera, Floats
+
+Numbers = NDArray[np.integer] | NDArray[np.floating]
+
+DOUBTFUL = 1000.0  # packet_leaf.py has the same number
+_ROUNDINGS = 2.0**-21  # eight: of corners, their differences, products, and sums
+
+
+def unknown_depth(
+    camera: Camera, size: tuple[int, int], corners: Floats, i: Numbers, j: Numbers, t: Floats
+) -> Floats:
+    """By how much t of triangles may be wrong in float32, at their hits (n,).
+
+    corners (n, 3, 3): in the world. i, j: rows and columns of the pixels. t: the ray parameters.
+    """
+    a, first, second = _sides(camera, size, corners)
+    pixel = np.stack([j - (size[0] - 1) / 2, i - (size[1] - 1) / 2], axis=1)
+    if camera.is_parallel:
+        # t as a function of x and y, from corner a on.
+        crossed = first[:, 1::-1], second[:, 1::-1]
+        terms = np.abs(second[:, 2:] * crossed[0]) + np.abs(first[:, 2:] * crossed[1])
+        wrong = (terms * np.abs(pixel - a[:, :2])).sum(axis=1)
+        area_terms = np.abs(first[:, :2] * crossed[1]).sum(axis=1)
+        area = np.abs(first[:, 0] * second[:, 1] - first[:, 1] * second[:, 0])
+    else:
+        # 1 / t as a function of x, y and 1; its area is the volume that the corners span.
+        y1, h1, x1 = np.roll(first, -1, axis=1).T
+        y2, h2, x2 = np.roll(second, -1, axis=1).T
+        terms = np.stack(
+            [
+                np.abs(y1 * h2) + np.abs(h1 * y2),
+                np.abs(h1 * x2) + np.abs(x1 * h2),
+                np.abs(x1 * y2) + np.abs(y1 * x2),
+            ],
+            axis=1,
+        )
+        wrong = (terms * np.abs(np.column_stack([pixel, np.ones(len(pixel))]))).sum(axis=1) * t**2
+        area_terms = (terms * np.abs(a)).sum(axis=1)
+        area = np.abs(np.einsum("nk,nk->n", a, np.cross(first, second)))
+    with np.errstate(divide="ignore", invalid="ignore"):
+        result: Floats = np.where(area * DOUBTFUL > area_terms, _ROUNDINGS * wrong / area, 0.0)
+    return result
+
+
+def _sides(camera: Camera, size: tuple[int, int], corners: Floats) -> tuple[Floats, Floats, Floats]:
+    """The first corner, and the sides from it to the others, (n, 3) each: pixels from the image's
+    middle, right and down, in perspective multiplied by t; and t."""
+    left, right, bottom, top = camera.viewport
+    matrix = camera.camera_from_world
+    x, y, z = np.moveaxis(corners @ matrix[:3, :3].T + matrix[:3, 3], 2, 0)
+    t = -z if camera.is_parallel else -z / camera.distance
+    weight = 1.0 if camera.is_parallel else t
+    column = (x - (left + right) / 2 * weight) * (size[0] / (right - left))
+    row = ((top + bottom) / 2 * weight - y) * (size[1] / (top - bottom))
+    seen = np.stack([column, row, t], axis=2)
+    return seen[:, 0], seen[:, 1] - seen[:, 0], seen[:, 2] - seen[:, 0]
