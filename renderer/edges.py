@@ -24,7 +24,7 @@ from numpy.typing import NDArray
 from renderer.camera import NEAREST, Camera, Floats
 from renderer.scene.flat import CELL_NUDGE, SPECULAR_CHECKERED, FlatScene
 from renderer.scene.positions import world_corners
-from renderer.slivers import unknown_depth
+from renderer.slivers import seen_corners, unknown_depth
 
 Ints = NDArray[np.integer]
 Numbers = NDArray[np.integer] | NDArray[np.floating]
@@ -35,6 +35,8 @@ BEHIND = 1e-9  # outlines are clipped where the ray parameter falls below this p
 ROUNDING = 1e-12  # of the largest coordinate: what float64 cannot tell from the eye itself
 # What a place is known to in float32 after a few roundings, relatively to its distance.
 ROUNDING_32 = 2.0**-21
+# Pixels around the image into which GL clips, at least (raster/scene_data.py has the same number).
+MARGIN = 1024
 # What GL's clipping is wrong by itself, where it cuts a triangle at NEAREST of its farthest corner.
 CLIPPED_FROM = NEAREST + ROUNDING_32
 
@@ -211,14 +213,20 @@ class Lines:
 
     def _drawn_from(self, primitive: Ints) -> Floats:
         """The ray parameter from which on a primitive is rasterized, (n,). A sphere is from 0 on: a
-        box is drawn in its place, whose far sides are."""
+        box is drawn in its place, whose far sides are.
+
+        Clipping misplaces what is left of a triangle by ROUNDING_32 of its size. Nearer to the eye
+        that is more and more pixels: where it is more than MARGIN, nothing may be left in the image.
+        """
         limit = np.zeros(len(primitive))
         triangle, _ = self._kinds(primitive)
         if self.camera.is_parallel:
             return limit
         corners = self._object_boxes(primitive[triangle])
         farthest = self.camera.project(corners, self.size).parameter.max(axis=1)
-        limit[triangle] = CLIPPED_FROM * np.maximum(farthest, 0.0)
+        seen = seen_corners(self.camera, self.size, np.stack(self._corners(primitive[triangle]), 1))
+        vast = ROUNDING_32 / MARGIN * np.abs(seen[..., :2]).max(axis=(1, 2))
+        limit[triangle] = np.maximum(CLIPPED_FROM * np.maximum(farthest, 0.0), vast)
         return limit
 
     def _object_boxes(self, triangle: Ints) -> Floats:

@@ -2,8 +2,8 @@
 
 Owns that one bound, for renderer/edges.py. Knows nothing of scenes.
 
-Packets solve for the plane through a triangle's corners in the image (packet_leaf.key_function): the
-coefficients of x and y are differences of products, over the triangle's area there, each known to a
+Packets solve for the plane through a triangle's corners in the image (packet_leaf.key_function):
+the coefficients of x and y are differences of products, over the triangle's area there, each known to a
 few roundings of its terms. In a sliver the area is much smaller than the terms. Where it is smaller
 by DOUBTFUL, the packets go over to float64. Of a usual triangle float32's last places are unknown.
 """
@@ -28,7 +28,8 @@ def unknown_depth(
 
     corners (n, 3, 3): in the world. i, j: rows and columns of the pixels. t: the ray parameters.
     """
-    a, first, second = _sides(camera, size, corners)
+    seen = seen_corners(camera, size, corners)
+    a, first, second = seen[:, 0], seen[:, 1] - seen[:, 0], seen[:, 2] - seen[:, 0]
     pixel = np.stack([j - (size[0] - 1) / 2, i - (size[1] - 1) / 2], axis=1)
     if camera.is_parallel:
         # t as a function of x and y, from corner a on.
@@ -57,9 +58,9 @@ def unknown_depth(
     return result
 
 
-def _sides(camera: Camera, size: tuple[int, int], corners: Floats) -> tuple[Floats, Floats, Floats]:
-    """The first corner, and the sides from it to the others, (n, 3) each: pixels from the image's
-    middle, right and down, in perspective multiplied by t; and t."""
+def seen_corners(camera: Camera, size: tuple[int, int], corners: Floats) -> Floats:
+    """Points of the world in the image (n, 3, 3): pixels from its middle, right and down, in
+    perspective multiplied by t; and t. Points behind the eye have their place, too."""
     left, right, bottom, top = camera.viewport
     matrix = camera.camera_from_world
     x, y, z = np.moveaxis(corners @ matrix[:3, :3].T + matrix[:3, 3], 2, 0)
@@ -67,5 +68,5 @@ def _sides(camera: Camera, size: tuple[int, int], corners: Floats) -> tuple[Floa
     weight = 1.0 if camera.is_parallel else t
     column = (x - (left + right) / 2 * weight) * (size[0] / (right - left))
     row = ((top + bottom) / 2 * weight - y) * (size[1] / (top - bottom))
-    seen = np.stack([column, row, t], axis=2)
-    return seen[:, 0], seen[:, 1] - seen[:, 0], seen[:, 2] - seen[:, 0]
+    seen: Floats = np.stack([column, row, t], axis=2)
+    return seen

@@ -149,4 +149,6 @@ def test_what_is_forked_ends_with_whoever_started_it(tmp_path):
 
 def test_no_module_is_begun_when_the_time_is_over(capsys):
     assert mutations.main(["--minutes", "0"]) == 0
-    assert f"0 of {len(mutations.MODULES)} modules, 0 mutants, 0 survived" in capsys.readouterr().out
+    assert (
+        f"0 of {len(mutations.MODULES)} modules, 0 mutants, 0 survived" in capsys.readouterr().out
+    )
