@@ -45,3 +45,22 @@ def test_a_fault_costs_a_line_and_the_exit_status(fault, monkeypatch, capsys):
     ]
     assert ("it broke" if fault == "crash" else "3 of ") in lines[0]
     assert "2 views fail" in lines[2]
+
+
+@pytest.mark.parametrize(
+    ("seed", "number", "offset"),
+    [
+        (20261122, 449, 0.0),  # a flattened object's thin cells: t of packets in float32
+        (20261122, 9015, 0.0),
+        (5, 436, 1e6),
+        (20261122, 7779, 0.0),  # such cells from the rasterizer's points
+        (20261122, 4223, 0.0),  # and from a sliver's weights
+        (20261122, 8915, 0.0),  # the place along a sliver that a light is close to
+        (31415, 4902, 0.0),  # which of two slivers is nearer
+        (8675309, 3675, 0.0),
+        (161803, 1139, 0.0),  # a vast triangle of which clipping leaves nothing
+    ],
+)
+def test_views_that_were_wrong_once(seed, number, offset):
+    total = random_views.run(Task(seed, number, number + 1, offset))
+    assert not total.lines and total.seeing == 1
