@@ -24,7 +24,7 @@ from numpy.typing import NDArray
 from renderer.camera import NEAREST, Camera, Floats
 from renderer.scene.flat import CELL_NUDGE, SPECULAR_CHECKERED, FlatScene
 from renderer.scene.positions import world_corners
-from renderer.slivers import seen_corners, unknown_depth
+from renderer.slivers import seen_corners, unknown_depth, unknown_edge_px
 
 Ints = NDArray[np.integer]
 Numbers = NDArray[np.integer] | NDArray[np.floating]
@@ -294,9 +294,13 @@ class Lines:
             corners.append(np.stack([x, y, h], axis=1))
         pixel = np.stack([np.asarray(j, float), np.asarray(i, float)], axis=1)
         distance = np.full(len(triangle), np.inf)
+        seen = seen_corners(self.camera, self.size, np.stack(self._corners(triangle), axis=1))
         for first, second in ((0, 1), (1, 2), (2, 0)):
             p, q = self._clipped(corners[first], corners[second])
-            distance = np.fmin(distance, _segment_px(pixel, self._pixel(p), self._pixel(q)))
+            away = _segment_px(pixel, self._pixel(p), self._pixel(q))
+            ends = seen[:, first], seen[:, second]
+            away[away <= unknown_edge_px(self.size, *ends, self.camera.is_parallel, i, j)] = 0
+            distance = np.fmin(distance, away)
         distance[self._touches(triangle, i, j)] = 0
         return distance
 
