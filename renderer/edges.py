@@ -63,8 +63,8 @@ class Lines:
     def meeting_px(self, first: Ints, second: Ints, i: Ints, j: Ints, t: Floats) -> Floats:
         """Distance from the line where the surfaces of two primitives meet; t: the hits' depth.
 
-        The surfaces are extended beyond their outlines. Surfaces that coincide meet everywhere; so do
-        two of which float32 does not tell which is nearer.
+        The surfaces are extended beyond their outlines. Surfaces that coincide meet everywhere; so
+        do two of which float32 does not tell which is nearer.
         """
         pair = (first >= 0) & (second >= 0) & (first != second)
 
@@ -78,12 +78,13 @@ class Lines:
         for primitive in (first, second):
             triangle, _ = self._kinds(primitive)
             corners = world_corners(self.flat, primitive[triangle])
-            at = i[triangle], j[triangle], t[triangle]
+            own = self.parameter(primitive, i, j, t)[triangle]
+            at = i[triangle], j[triangle], own
             unknown[triangle] += unknown_depth(self.camera, self.size, corners, *at)
         distance[np.abs(gap(0, 0)) <= unknown] = 0
         return np.where(pair, distance, np.inf)
 
-    def clip_px(self, primitive: Ints, i: Ints, j: Ints, t: Floats) -> Floats:
+    def clip_px(self, primitive: Ints, i: Ints, j: Ints, t: Floats, drawn: bool = False) -> Floats:
         """Distance from the lines where near and far (or the eye's plane) cut the primitive.
 
         A surface that the eye itself lies on is cut everywhere: rounding decides where it begins;
@@ -97,7 +98,7 @@ class Lines:
                 here = self.parameter(primitive, i, j, t)
                 cut[np.abs(here - limit) <= max(1e-6 * limit, at_eye)] = 0
                 distance = np.fmin(distance, cut)
-        distance[t <= self._drawn_from(primitive)] = 0
+        distance[t <= self._drawn_from(primitive, drawn)] = 0
         return np.where(primitive >= 0, distance, np.inf)
 
     def checker_px(self, primitive: Ints, i: Ints, j: Ints, t: Floats) -> Floats:
@@ -211,12 +212,12 @@ class Lines:
         result[sphere] = np.where(is_near, near, far)
         return result
 
-    def _drawn_from(self, primitive: Ints) -> Floats:
+    def _drawn_from(self, primitive: Ints, drawn: bool = False) -> Floats:
         """The ray parameter from which on a primitive is rasterized, (n,). A sphere is from 0 on: a
         box is drawn in its place, whose far sides are.
 
         Clipping misplaces what is left of a triangle by ROUNDING_32 of its size. Nearer to the eye
-        that is more and more pixels: where it is more than MARGIN, nothing may be left in the image.
+        that is more and more pixels: where it is more than MARGIN, nothing may be left of it.
         """
         limit = np.zeros(len(primitive))
         triangle, _ = self._kinds(primitive)
@@ -226,7 +227,9 @@ class Lines:
         farthest = self.camera.project(corners, self.size).parameter.max(axis=1)
         seen = seen_corners(self.camera, self.size, np.stack(self._corners(primitive[triangle]), 1))
         vast = ROUNDING_32 / MARGIN * np.abs(seen[..., :2]).max(axis=(1, 2))
-        limit[triangle] = np.maximum(CLIPPED_FROM * np.maximum(farthest, 0.0), vast)
+        limit[triangle] = CLIPPED_FROM * np.maximum(farthest, 0.0)
+        if not drawn:  # by what was drawn, clipping has lost nothing
+            limit[triangle] = np.maximum(limit[triangle], vast)
         return limit
 
     def _object_boxes(self, triangle: Ints) -> Floats:

@@ -3,9 +3,10 @@
 Owns these bounds, for renderer/edges.py. Knows nothing of scenes.
 
 Packets solve for the plane through a triangle's corners in the image (packet_leaf.key_function):
-the coefficients of x and y are differences of products, over the triangle's area there, each known to a
-few roundings of its terms. In a sliver the area is much smaller than the terms. Where it is smaller
-by DOUBTFUL, the packets go over to float64. Of a usual triangle float32's last places are unknown.
+the coefficients of x and y are differences of products, over the triangle's area there, each known
+to a few roundings of its terms. In a sliver the area is much smaller than the terms. Where it is
+smaller by DOUBTFUL, the packets go over to float64. Of a usual triangle float32's last places are
+unknown.
 
 An edge is where (p + q) x (q - p) . (x, y, 1) is 0, of its ends' places in the image
 (packet_leaf.edge_function). Where both are seen nearly in one direction, or in opposite ones, from

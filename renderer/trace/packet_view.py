@@ -109,7 +109,8 @@ def packet_view(
     near_point: NDArray[np.float64],
     cells: Cells,
 ) -> PacketView:
-    """The numbers for an image of (width, height). near_point: see PacketView. cells: the scene's."""
+    """The numbers for an image of (width, height) of a scene with such cells. near_point: see
+    PacketView."""
     width, height = size
     eye, u, v, back = (np.array(vector) for vector in (view.eye, view.u, view.v, view.back))
     # What a pixel to the right, and one down, are on the image plane.
