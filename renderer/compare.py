@@ -311,7 +311,9 @@ def _explain(
     distances = [
         np.fmin(lines.outline_px(first, i, j), lines.outline_px(second, i, j)),
         lines.meeting_px(first, second, i, j, t),
-        np.fmin(lines.clip_px(first, i, j, t_first), lines.clip_px(second, i, j, t_second)),
+        np.fmin(
+            lines.clip_px(first, i, j, t_first, drawn=True), lines.clip_px(second, i, j, t_second)
+        ),
         np.where(same, lines.checker_px(second, i, j, t), np.inf),
     ]
     # How far it is to where depth and normal are the other image's, if they are not already; and

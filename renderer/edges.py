@@ -24,6 +24,7 @@ from numpy.typing import NDArray
 from renderer.camera import NEAREST, Camera, Floats
 from renderer.scene.flat import CELL_NUDGE, SPECULAR_CHECKERED, FlatScene
 from renderer.scene.positions import world_corners
+from renderer.slivers import seen_corners, unknown_depth, unknown_edge_px
 
 Ints = NDArray[np.integer]
 Numbers = NDArray[np.integer] | NDArray[np.floating]
@@ -34,6 +35,8 @@ BEHIND = 1e-9  # outlines are clipped where the ray parameter falls below this p
 ROUNDING = 1e-12  # of the largest coordinate: what float64 cannot tell from the eye itself
 # What a place is known to in float32 after a few roundings, relatively to its distance.
 ROUNDING_32 = 2.0**-21
+# Pixels around the image into which GL clips, at least (raster/scene_data.py has the same number).
+MARGIN = 1024
 # What GL's clipping is wrong by itself, where it cuts a triangle at NEAREST of its farthest corner.
 CLIPPED_FROM = NEAREST + ROUNDING_32
 
@@ -60,7 +63,8 @@ class Lines:
     def meeting_px(self, first: Ints, second: Ints, i: Ints, j: Ints, t: Floats) -> Floats:
         """Distance from the line where the surfaces of two primitives meet; t: the hits' depth.
 
-        The surfaces are extended beyond their outlines. Surfaces that coincide meet everywhere.
+        The surfaces are extended beyond their outlines. Surfaces that coincide meet everywhere; so
+        do two of which float32 does not tell which is nearer.
         """
         pair = (first >= 0) & (second >= 0) & (first != second)
 
@@ -70,10 +74,17 @@ class Lines:
             )
 
         distance = _zero_px(gap)
-        distance[np.abs(gap(0, 0)) <= 4e-6 * np.abs(t)] = 0  # the depth buffer's last place
+        unknown = 4e-6 * np.abs(t)  # the depth buffer's last place
+        for primitive in (first, second):
+            triangle, _ = self._kinds(primitive)
+            corners = world_corners(self.flat, primitive[triangle])
+            own = self.parameter(primitive, i, j, t)[triangle]
+            at = i[triangle], j[triangle], own
+            unknown[triangle] += unknown_depth(self.camera, self.size, corners, *at)
+        distance[np.abs(gap(0, 0)) <= unknown] = 0
         return np.where(pair, distance, np.inf)
 
-    def clip_px(self, primitive: Ints, i: Ints, j: Ints, t: Floats) -> Floats:
+    def clip_px(self, primitive: Ints, i: Ints, j: Ints, t: Floats, drawn: bool = False) -> Floats:
         """Distance from the lines where near and far (or the eye's plane) cut the primitive.
 
         A surface that the eye itself lies on is cut everywhere: rounding decides where it begins;
@@ -87,7 +98,7 @@ class Lines:
                 here = self.parameter(primitive, i, j, t)
                 cut[np.abs(here - limit) <= max(1e-6 * limit, at_eye)] = 0
                 distance = np.fmin(distance, cut)
-        distance[t <= self._drawn_from(primitive)] = 0
+        distance[t <= self._drawn_from(primitive, drawn)] = 0
         return np.where(primitive >= 0, distance, np.inf)
 
     def checker_px(self, primitive: Ints, i: Ints, j: Ints, t: Floats) -> Floats:
@@ -201,16 +212,24 @@ class Lines:
         result[sphere] = np.where(is_near, near, far)
         return result
 
-    def _drawn_from(self, primitive: Ints) -> Floats:
+    def _drawn_from(self, primitive: Ints, drawn: bool = False) -> Floats:
         """The ray parameter from which on a primitive is rasterized, (n,). A sphere is from 0 on: a
-        box is drawn in its place, whose far sides are."""
+        box is drawn in its place, whose far sides are.
+
+        Clipping misplaces what is left of a triangle by ROUNDING_32 of its size. Nearer to the eye
+        that is more and more pixels: where it is more than MARGIN, nothing may be left of it.
+        """
         limit = np.zeros(len(primitive))
         triangle, _ = self._kinds(primitive)
         if self.camera.is_parallel:
             return limit
         corners = self._object_boxes(primitive[triangle])
         farthest = self.camera.project(corners, self.size).parameter.max(axis=1)
+        seen = seen_corners(self.camera, self.size, np.stack(self._corners(primitive[triangle]), 1))
+        vast = ROUNDING_32 / MARGIN * np.abs(seen[..., :2]).max(axis=(1, 2))
         limit[triangle] = CLIPPED_FROM * np.maximum(farthest, 0.0)
+        if not drawn:  # by what was drawn, clipping has lost nothing
+            limit[triangle] = np.maximum(limit[triangle], vast)
         return limit
 
     def _object_boxes(self, triangle: Ints) -> Floats:
@@ -278,9 +297,13 @@ class Lines:
             corners.append(np.stack([x, y, h], axis=1))
         pixel = np.stack([np.asarray(j, float), np.asarray(i, float)], axis=1)
         distance = np.full(len(triangle), np.inf)
+        seen = seen_corners(self.camera, self.size, np.stack(self._corners(triangle), axis=1))
         for first, second in ((0, 1), (1, 2), (2, 0)):
             p, q = self._clipped(corners[first], corners[second])
-            distance = np.fmin(distance, _segment_px(pixel, self._pixel(p), self._pixel(q)))
+            away = _segment_px(pixel, self._pixel(p), self._pixel(q))
+            ends = seen[:, first], seen[:, second]
+            away[away <= unknown_edge_px(self.size, *ends, self.camera.is_parallel, i, j)] = 0
+            distance = np.fmin(distance, away)
         distance[self._touches(triangle, i, j)] = 0
         return distance
 

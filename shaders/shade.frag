@@ -43,6 +43,7 @@ void main() {
         vec3 weights;
         float reach = sqrt(max(max(dot(a, a), dot(b, b)), dot(c, c)) / dot(d, d));
         float doubt = 0.0;
+        float slender = slenderness(a, b, c);
         bool far = is_far(reach, hit.t);
         if (far) {
             weights = barycentrics(
@@ -52,11 +53,14 @@ void main() {
             hit.point = mat3(a, b, c) * weights;
         }
         // Where those are worse than t is, by a few roundings more: the other way round.
-        if (!far || !is_far(8.0 * doubt * reach, hit.t)) {
+        bool by_ray = !far || !is_far(8.0 * doubt * reach / slender, hit.t);
+        if (by_ray) {
             hit.point = to_ray(anchor, xy) + (hit.t - anchor.z) * d;
-        }
-        if (!far || !is_far(8.0 * doubt * reach / slenderness(a, b, c), hit.t)) {
             weights = barycentrics_at(a, b, c, hit.point);
+        }
+        if (is_checkered(hit.object)) {
+            mat3 inside = corners - mat3(anchor_inside, anchor_inside, anchor_inside);
+            hit.cell = cell_of(hit.object, hit.point, inside, weights, by_ray ? slender : 1.0);
         }
         hit.normal = face_normal(
             world_from_object * (corners[1] - corners[0]),
@@ -85,6 +89,9 @@ void main() {
             ? sphere.from_anchor + normal
             : to_ray(anchor, xy) + (hit.t - anchor.z) * d;
         hit.normal = normalize(normal);
+        if (is_checkered(hit.object)) {
+            hit.cell = cell_from_world(hit.object) * hit.point;
+        }
     }
     face_viewer(hit);
     color = vec4(shaded(hit), 1.0);

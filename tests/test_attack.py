@@ -3,6 +3,9 @@
 from __future__ import annotations
 
 import ast
+import subprocess
+import sys
+import time
 from pathlib import Path
 
 import pytest
@@ -114,3 +117,38 @@ def test_work_in_a_process_of_its_own_has_a_limit():
     assert forks.forked(lambda: {"a": [1, 2]}, 60.0) == {"a": [1, 2]}
     assert forks.forked(lambda: time.sleep(60), 0.3) is None
     assert forks.forked(lambda: 1 / 0, 60.0) is None
+
+
+@pytest.mark.skipif(sys.platform != "linux", reason="elsewhere a child goes on to its own end")
+def test_what_is_forked_ends_with_whoever_started_it(tmp_path):
+    """Also where that is killed, as an attack is that takes too long: nothing goes on behind it."""
+    told = tmp_path / "child"
+    code = (
+        "import os, time\nfrom pathlib import Path\nfrom tests.attack.forks import forked\n"
+        f"def work():\n    Path({str(told)!r}).write_text(str(os.getpid()))\n    time.sleep(60)\n"
+        "forked(work, 60.0)"
+    )
+    parent = subprocess.Popen([sys.executable, "-c", code], cwd=ROOT)
+    try:
+        end_s = time.monotonic() + 30
+        while not (told.exists() and told.read_text()) and time.monotonic() < end_s:
+            time.sleep(0.01)
+    finally:
+        parent.kill()
+        parent.wait()
+    child = Path("/proc", told.read_text(), "stat")
+    while time.monotonic() < end_s:
+        try:  # "Z" until somebody has asked for its end
+            if child.read_text().rpartition(")")[2].split()[0] == "Z":
+                return
+        except (FileNotFoundError, ProcessLookupError):
+            return
+        time.sleep(0.01)
+    raise AssertionError("it goes on")
+
+
+def test_no_module_is_begun_when_the_time_is_over(capsys):
+    assert mutations.main(["--minutes", "0"]) == 0
+    assert (
+        f"0 of {len(mutations.MODULES)} modules, 0 mutants, 0 survived" in capsys.readouterr().out
+    )

@@ -4,12 +4,14 @@ from __future__ import annotations
 
 import contextlib
 import time
+from functools import lru_cache
 from pathlib import Path
 
 import pytest
 
+from app.teach.lecture import text as texts
 from app.teach.lecture.places import Places
-from app.teach.lecture.reading import lecture_from_toml
+from app.teach.lecture.reading import PIECES, lecture_from_toml
 from app.teach.lecture.text import Math, Paragraph, Words, parse
 from renderer.errors import LucidaError
 from renderer.scene.limits import TOML_BYTES
@@ -86,12 +88,39 @@ def test_lines_are_found_in_linear_time(text: str) -> None:
 
 
 def test_a_lecture_of_the_largest_size_is_read() -> None:
-    text = steps_of(TOML_BYTES - 200_000, "Here is $x_1$ and **bold**.\n")
+    """Prose, with as many formulas as a lecture may have."""
+    formulas = "Here is $x_1$ and **bold**.\n\n" * (PIECES // 1000 // 8)
+    prose = "Words, and more words, and a word to end the line of words.\n" * 67
+    steps = [STEP.format(formulas + prose) for _ in range(998)]
+    text = 'title = "L"\n' + "".join(steps)
+    assert 0.95 * TOML_BYTES < len(text) < TOML_BYTES
     read = lecture(text)
-    assert len(read.formulas) > 100_000
-    number = 100_000
-    formula = read.formulas[number]
+    assert len(read.formulas) > 1900
+    formula = read.formulas[1900]
     assert text.split("\n")[formula.line - 1].startswith("Here is")
+
+
+@pytest.mark.parametrize(
+    "line",
+    ["$x$ ", "*a* ", "`a` ", "- a\n", "# a\n", "a\n\n", "> a\n\n", "$$\nx\n$$\n", "```\n```\n"],
+)
+def test_a_lecture_of_more_pieces_than_anybody_shows_is_refused_at_once(line, monkeypatch) -> None:
+    laid_out = 0
+    real = texts.parse.__wrapped__
+
+    def counted(text):
+        nonlocal laid_out
+        laid_out += len(text)
+        return real(text)
+
+    monkeypatch.setattr(texts, "parse", lru_cache(256)(counted))
+    text = steps_of(TOML_BYTES // 4, line)
+    with pytest.raises(LucidaError) as caught:
+        lecture(text)
+    said = str(caught.value)
+    assert f"brings the lecture to more than {PIECES} formulas and runs of words" in said
+    assert said.startswith("x.toml:") and "steps[" in said and "\n" not in said
+    assert laid_out < PIECES * len(line) * 2 + 10_000
 
 
 def test_formulas_keep_their_lines() -> None:

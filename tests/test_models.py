@@ -356,6 +356,8 @@ def test_a_comment_of_many_backslashes_is_read_in_linear_time() -> None:
 
 # Numbers that are none.
 
+SIGNALLING = np.full((3, 3), 0x7F800001, np.uint32).view(np.float32)  # NaN that complains
+
 
 @pytest.mark.parametrize(
     "part",
@@ -365,8 +367,10 @@ def test_a_comment_of_many_backslashes_is_read_in_linear_time() -> None:
         Part("", np.eye(3), [[0, 1, 2]], normals=[[np.nan] * 3, [1e300] * 3, [1e-300] * 3]),
         Part("", np.eye(3) * 1e15, [[0, 1, 2]]),
         Part("", np.eye(3) * 1e-20, [[0, 1, 2]]),
+        Part("", SIGNALLING, [[0, 1, 2]]),
+        Part("", np.eye(3), [[0, 1, 2]], normals=SIGNALLING, vertex_colors=SIGNALLING),
     ],
-    ids=range(5),
+    ids=range(7),
 )
 def test_hostile_numbers_give_a_mesh_or_none_without_a_warning(part: Part) -> None:
     with warnings.catch_warnings():

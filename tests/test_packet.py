@@ -24,6 +24,7 @@ from renderer.scene.model import Material, Mesh, PointLight, Scene, SceneObject,
 from renderer.trace.control import DONE, cancel, new_control
 from renderer.trace.engine import Engine
 from renderer.trace.image import Image, new_image, to_frame
+from renderer.trace.packet_cells import cells_of
 from renderer.trace.packet_engine import PacketEngine
 from renderer.trace.packet_view import packet_view
 from renderer.trace.team import Team
@@ -139,8 +140,10 @@ def test_telephoto(distance: float, projection: str, both) -> None:
         camera = Camera.look_at(eye, (0.85, 0.1, 0.4))
         camera = replace(camera, viewport=(-half, half, -half, half), projection=projection)
         assert not (wrong := pair.unexplained(camera, (128, 128))), wrong
-    exact = packet_view(View.of(camera), (128, 128), pair.packets.instances, np.zeros(3)).exact
-    assert exact[0] == 1
+    view = packet_view(
+        View.of(camera), (128, 128), pair.packets.instances, np.zeros(3), cells_of(pair.flat)
+    )
+    assert view.exact[0] == 1
 
 
 def test_no_leak_in_a_closed_mesh() -> None:

@@ -23,12 +23,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from renderer.camera import NEAREST, Camera, Floats
-from renderer.scene.flat import FlatScene
+from renderer.scene.flat import CHECKER_DIFFUSE, FlatScene
 from renderer.scene.positions import lights_from, near_point, world_vertices
 
 # Anchor in the object's space, near | anchor in image coordinates | anchor from the scene's near
 # point | three rows: vectors of the object's space to image coordinates | three: to the world's
-# directions | three of the material | three of the checker's cells
+# directions | three of the material, the last one's w the cells in a unit of the object's space |
+# three of the checker's cells
 OBJECT_TEXELS = 15
 IMAGE, WORLD, MATERIAL, CELLS = 3, 6, 9, 12
 SPHERE_TEXELS = 3
@@ -219,6 +220,9 @@ def object_rows(flat: FlatScene, setup: SceneSetup, space: ImageSpace) -> NDArra
     rows[:, IMAGE:WORLD, :3] = space.image_from_world[:, :3] @ linear
     rows[:, WORLD:MATERIAL, :3] = linear
     rows[:, MATERIAL:CELLS] = flat.materials
+    rows[:, MATERIAL + CHECKER_DIFFUSE, 3] = np.einsum(
+        "ni,ni->n", flat.cells[:, 0, :3], linear[:, :, 0]
+    )
     cell = np.einsum("nij,nj->ni", flat.cells[:, :, :3], turned + place) + flat.cells[:, :, 3]
     rows[:, CELLS:, :3] = flat.cells[:, :, :3]
     # Cells repeat by twos: what is whole and even may go, so that the rest keeps its digits.

@@ -114,11 +114,17 @@ def linear_colors(colors: Any, linear: bool = False) -> NDArray[np.float32] | No
     return np.clip(rgb, 0, BRIGHTEST) if linear else from_srgb(rgb)
 
 
-def _floats(value: Any, row: tuple[int, ...], name: str) -> NDArray[np.float64]:
+def _numbers(value: Any) -> NDArray[np.float64]:
+    """As an array; nothing where it is none. NaN of any kind stays NaN, without a warning."""
     try:
-        array = np.asarray(value, np.float64)
+        with np.errstate(invalid="ignore"):  # a signalling NaN
+            return np.asarray(value, np.float64)
     except (TypeError, ValueError):
-        array = np.zeros(0)
+        return np.zeros(0)
+
+
+def _floats(value: Any, row: tuple[int, ...], name: str) -> NDArray[np.float64]:
+    array = _numbers(value)
     if array.shape[1:] != row:
         raise LucidaError(name, "are not rows of 3 numbers", "export the model again")
     return array
@@ -140,10 +146,7 @@ def _attribute(value: Any, count: int) -> NDArray[Any] | None:
     """Rows of three numbers for `count` vertices or faces, or None."""
     if value is None:
         return None
-    try:
-        array = np.asarray(value, np.float64)
-    except (TypeError, ValueError):
-        return None
+    array = _numbers(value)
     return array if array.shape == (count, 3) else None
 
 

@@ -15,6 +15,7 @@ from renderer.scene.positions import lights_from, near_point
 from renderer.trace.control import Control, cancel, new_control
 from renderer.trace.image import Image, new_image
 from renderer.trace.instances import Instances
+from renderer.trace.packet_cells import cells_of
 from renderer.trace.packet_effects import effects_of
 from renderer.trace.packet_kernel import trace_packets
 from renderer.trace.packet_view import PacketView, packet_view
@@ -48,6 +49,7 @@ class PacketEngine:
         self._team = team
         self._scene = scene
         self._flat = flatten(scene)
+        self._cells = cells_of(self._flat)
         self.instances = Instances(scene, self._flat, team)
         self._compile(kernels)
 
@@ -64,6 +66,7 @@ class PacketEngine:
     def set_scene(self, scene: Scene) -> None:
         """Follows a changed scene; unchanged meshes (the same arrays) keep their trees."""
         self._flat = flatten(scene, (self._scene, self._flat))
+        self._cells = cells_of(self._flat)
         self._scene = scene
         self.instances.update(scene, self._flat)
 
@@ -88,7 +91,7 @@ class PacketEngine:
         """The camera, and the scene with its lights relative to near_point."""
         point = near_point(self._flat, view.eye)
         near = self._flat._replace(lights=lights_from(self._flat, point))
-        return packet_view(view, size, self.instances, point), near
+        return packet_view(view, size, self.instances, point, self._cells), near
 
     def _writing(self, view: View, of_image: PacketView, near: FlatScene, image: Image) -> Stage:
         effects = effects_of(*self._effects, self._flat.bounds, view.eye)

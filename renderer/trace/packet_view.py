@@ -27,6 +27,7 @@ from numpy.typing import NDArray
 
 from renderer.trace.compiled import inlined
 from renderer.trace.instances import Instances
+from renderer.trace.packet_cells import Cells, are_blurred
 from renderer.trace.simd_memory import pointer
 from renderer.trace.view import View
 
@@ -102,9 +103,14 @@ def view_pointers(view):
 
 
 def packet_view(
-    view: View, size: tuple[int, int], instances: Instances, near_point: NDArray[np.float64]
+    view: View,
+    size: tuple[int, int],
+    instances: Instances,
+    near_point: NDArray[np.float64],
+    cells: Cells,
 ) -> PacketView:
-    """The numbers for an image of (width, height). near_point: see PacketView."""
+    """The numbers for an image of (width, height) of a scene with such cells. near_point: see
+    PacketView."""
     width, height = size
     eye, u, v, back = (np.array(vector) for vector in (view.eye, view.u, view.v, view.back))
     # What a pixel to the right, and one down, are on the image plane.
@@ -147,7 +153,8 @@ def packet_view(
             z_far=np.float32(view.t_max / scale),
             z_near=np.float32(view.t_min / scale),
             scale=np.float64(scale),
-            coarse=_is_coarse(farthest, ray, view.parallel, instances),
+            coarse=_is_coarse(farthest, ray, view.parallel, instances)
+            or are_blurred(cells, eye, to_t, back if view.parallel else None, _T_ROUNDING),
             rows=rows.astype(np.float32).reshape(-1),
             rows_exact=rows.reshape(-1),
             exact=is_exact,

@@ -14,6 +14,7 @@ struct Hit {
     vec3 normal;         // of the surface, unit
     vec3 smooth_normal;  // interpolated, unit; 0 where the surface is flat
     vec3 vertex_color;
+    vec3 cell;           // the checker's coordinates, from the anchor's
     vec3 to_viewer;      // unit
 };
 
@@ -56,18 +57,38 @@ void face_viewer(inout Hit hit) {
     hit.smooth_normal = n;
 }
 
+bool is_checkered(int object) {
+    return HAS_CHECKERS && object_texel(object, 10).w != 0.0;
+}
+
+mat3 cell_from_world(int object) {
+    return transpose(mat3(
+        object_texel(object, 12).xyz, object_texel(object, 13).xyz, object_texel(object, 14).xyz));
+}
+
+// The checker's coordinates of a point, from the anchor's; of a triangle's point with these weights,
+// whose corners (from the anchor, in the object's space) are its columns. Cells lie along the object's
+// axes. A coordinate is taken from the corners where their rounding, `doubt` times as large by the
+// weights, is less than what the point's would be magnified to, as it is where an object is flattened.
+vec3 cell_of(int object, vec3 point, mat3 corners, vec3 weights, float doubt) {
+    mat3 to_cell = cell_from_world(object);
+    float per_length = object_texel(object, 11).w;
+    mat3 rows = transpose(to_cell);
+    vec3 magnified = length(point) * vec3(length(rows[0]), length(rows[1]), length(rows[2]));
+    vec3 apart = doubt * per_length * max(max(abs(corners[0]), abs(corners[1])), abs(corners[2]));
+    return mix(to_cell * point, per_length * (corners * weights), lessThan(apart, magnified));
+}
+
 // Diffuse reflectance: a checker is a solid pattern of cells, and a face on a border takes the cell inside.
 vec3 albedo(Hit hit) {
     vec4 diffuse = object_texel(hit.object, 9);
-    if (!HAS_CHECKERS || object_texel(hit.object, 10).w == 0.0) {
+    if (!is_checkered(hit.object)) {
         return diffuse.rgb * hit.vertex_color;
     }
-    vec4 x = object_texel(hit.object, 12);
-    vec4 y = object_texel(hit.object, 13);
-    vec4 z = object_texel(hit.object, 14);
-    mat3 cell_from_world = transpose(mat3(x.xyz, y.xyz, z.xyz));
-    vec3 cell = cell_from_world * hit.point + vec3(x.w, y.w, z.w);
-    cell = floor(cell - 1e-3 * normalize(cell_from_world * hit.normal));
+    vec3 anchor = vec3(
+        object_texel(hit.object, 12).w, object_texel(hit.object, 13).w, object_texel(hit.object, 14).w);
+    vec3 inward = normalize(cell_from_world(hit.object) * hit.normal);
+    vec3 cell = floor(hit.cell + anchor - 1e-3 * inward);
     bool other = mod(cell.x + cell.y + cell.z, 2.0) > 0.5;
     return (other ? object_texel(hit.object, 11).rgb : diffuse.rgb) * hit.vertex_color;
 }

@@ -42,18 +42,36 @@ vec3 from_areas(vec3 areas) {
     return inside / (inside.x + inside.y + inside.z);
 }
 
-// Barycentrics of the ray's hit, from the corners' image coordinates: the areas that the pixel makes
-// with the projected edges. Source: Woop, Benthin and Wald, Watertight Ray/Triangle Intersection
-// (2013), with the pixel as origin. doubt: how much larger the areas' terms are than the areas, which
-// is much where the triangle is seen as a sliver.
+// Weights of p, q and r that give 0, where qr is the longest side: of p by the height over that side,
+// which a sliver hardly knows; then of r along the side, whatever p's is, so that the place stays right.
+vec3 over_longest(vec2 p, vec2 q, vec2 r) {
+    vec2 side = r - q;
+    vec2 other = p - q;
+    float whole = side.x * other.y - side.y * other.x;
+    if (whole == 0.0) {
+        return vec3(1.0, 0.0, 0.0);
+    }
+    float of_p = clamp((q.x * side.y - q.y * side.x) / whole, 0.0, 1.0);
+    float of_r = clamp(-dot(q + of_p * other, side) / dot(side, side), 0.0, 1.0 - of_p);
+    return vec3(of_p, 1.0 - of_p - of_r, of_r);
+}
+
+// Barycentrics of the ray's hit, from the corners' image coordinates, with the pixel as origin, pulled
+// back in like from_areas'. doubt: how much larger the areas that the pixel makes with the sides are
+// composed from than the triangle's area is: much, where it is seen as a sliver.
 vec3 barycentrics(vec3 a, vec3 b, vec3 c, vec2 xy, out float doubt) {
     vec2 p = a.xy - xy * weight(a.z);
     vec2 q = b.xy - xy * weight(b.z);
     vec2 r = c.xy - xy * weight(c.z);
-    vec3 areas = vec3(q.x * r.y - q.y * r.x, r.x * p.y - r.y * p.x, p.x * q.y - p.y * q.x);
-    float sizes = length(q) * length(r) + length(r) * length(p) + length(p) * length(q);
-    doubt = sizes / abs(areas.x + areas.y + areas.z);
-    return from_areas(areas);
+    float whole = (r.x - q.x) * (p.y - q.y) - (r.y - q.y) * (p.x - q.x);
+    doubt = (length(q) * length(r) + length(r) * length(p) + length(p) * length(q)) / abs(whole);
+    float of_p = dot(r - q, r - q);
+    float of_q = dot(p - r, p - r);
+    float of_r = dot(q - p, q - p);
+    if (of_p >= max(of_q, of_r)) {
+        return over_longest(p, q, r);
+    }
+    return of_q >= of_r ? over_longest(q, r, p).zxy : over_longest(r, p, q).yzx;
 }
 
 // The same of a point of the triangle: for one that is near the eye or seen edge on, whose areas in the

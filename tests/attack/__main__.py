@@ -22,7 +22,7 @@ FOLDER = Path(__file__).parent
 MODEST = {
     "kill_saves": ("--times", "200"),
     "mutated_files": ("--files", "1500"),
-    "mutations": ("--sample", "3"),
+    "mutations": ("--sample", "3", "--minutes", "10"),
     "random_events": ("--minutes", "5"),
     "random_views": ("--views", "1500"),
 }

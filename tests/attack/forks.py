@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import contextlib
+import ctypes
 import json
 import os
 import select
@@ -23,6 +24,7 @@ def forked(work: Callable[[], Any], limit_s: float) -> Any:
         told = os.dup(2)  # work may close its own
         try:
             os.setpgid(0, 0)
+            _end_with_parent()
             os.close(reading)
             answer = json.dumps(work()).encode()
             with os.fdopen(writing, "wb") as pipe:
@@ -38,6 +40,13 @@ def forked(work: Callable[[], Any], limit_s: float) -> Any:
             end(child, signal.SIGKILL)
     os.waitpid(child, 0)
     return json.loads(data) if data else None
+
+
+def _end_with_parent() -> None:
+    """This process ends when the one that started it does, however that ends. On Linux; elsewhere
+    it goes on to its own end."""
+    with contextlib.suppress(OSError, AttributeError, TypeError):
+        ctypes.CDLL(None).prctl(1, int(signal.SIGKILL))  # PR_SET_PDEATHSIG
 
 
 def _read(reading: int, end_s: float) -> bytes:

@@ -8,15 +8,18 @@ function. Changes that are known to alter nothing stand in equivalent_mutants.to
 A process a module collects the tests once and forks for each mutant, which puts the changed code
 into the loaded functions. What no test notices there, and what runs at import, is tried again in a
 fresh interpreter, so that nothing survives by having been computed before; --once leaves out the
-second try, for whoever looks for tests to write. Needs fork.
+second try, for whoever looks for tests to write. --minutes: modules are taken in a random order as
+long as there is time. Needs fork.
 """
 
 from __future__ import annotations
 
 import argparse
+import math
 import os
 import random
 import sys
+import time
 import tomllib
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -108,6 +111,7 @@ def main(argv: Sequence[str]) -> int:
     parser.add_argument("--module", action="append", choices=MODULES, help="may be repeated")
     parser.add_argument("--sample", type=int, default=SAMPLE, help="of each module; 0: all")
     parser.add_argument("--seed", type=int, default=0)
+    parser.add_argument("--minutes", type=float, help="no further module after that long")
     parser.add_argument("--line", type=int, help="only the mutants of this line")
     parser.add_argument("--once", action="store_true", help="survivors are not tried again afresh")
     arguments = parser.parse_args(argv)
@@ -116,7 +120,15 @@ def main(argv: Sequence[str]) -> int:
         return 0
     known = _known()
     survivors: list[str] = []
-    for module in arguments.module or MODULES:
+    modules = list(arguments.module or MODULES)
+    end_s = math.inf
+    if arguments.minutes is not None:
+        random.shuffle(modules)
+        end_s = time.monotonic() + 60 * arguments.minutes
+    done = tried = 0
+    for module in modules:
+        if time.monotonic() >= end_s:
+            break
         chosen = mutants(ROOT, module)
         if arguments.line:
             chosen = [mutant for mutant in chosen if mutant.line == arguments.line]
@@ -125,11 +137,16 @@ def main(argv: Sequence[str]) -> int:
             chosen = [chosen[k] for k in sorted(rng.sample(range(len(chosen)), arguments.sample))]
         tally = _try_module(module, chosen, known, arguments.once)
         survivors += tally.survivors
+        done, tried = done + 1, tried + tally.tried
         print(
             f"{module}: {tally.tried} mutants, {tally.killed} noticed, {tally.known} known to be"
             f" equivalent, {len(tally.survivors)} survived",
             flush=True,
         )
+    print(
+        f"mutations: {done} of {len(modules)} modules, {tried} mutants, {len(survivors)} survived",
+        flush=True,
+    )
     return 1 if survivors else 0
 
 

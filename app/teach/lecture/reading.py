@@ -36,7 +36,7 @@ from app.teach.lecture.schema import (
     VectorTable,
 )
 from app.teach.lecture.under import under
-from app.teach.lecture.written import formulas_written
+from app.teach.lecture.written import formulas_written, pieces_written
 from renderer.errors import LucidaError
 from renderer.frame import check_size
 from renderer.pixels import Indexing
@@ -51,6 +51,7 @@ from renderer.scene.views import load_view, view_from_table
 
 BUILTIN = Path(__file__).parents[2] / "lectures" / "images-rays-cameras.toml"
 STEPS = 1000
+PIECES = 20_000  # of a lecture's texts: formulas, and runs of words in one style; a slide has ten
 TITLE_LETTERS = 300
 ANSWERS = 8  # of an exercise: vectors that are asked for, options
 MISTAKES = 32  # that are known of an answer
@@ -138,13 +139,20 @@ class _Reader:
                 self._scenes[name] = self._own_scene(scene, name)
         steps: list[Step] = []
         written: list[Written] = []
-        part = ""
+        part, pieces = "", 0
         for number, table in enumerate(file.steps):
             field = f"steps[{number}]"
             entry: StepTable = to_struct(table, StepTable, field)
             part = entry.part or part
             with under(field):
                 steps.append(self._step(entry, part, self._places.line(field)))
+            pieces += pieces_written(table)
+            if pieces > PIECES:
+                raise LucidaError(
+                    field,
+                    f"brings the lecture to more than {PIECES} formulas and runs of words",
+                    "divide it into several lectures",
+                )
             written += formulas_written(table, field, self._places, self._source)
         return Lecture(file.title, file.author, tuple(steps), self._source, tuple(written))
 

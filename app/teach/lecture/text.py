@@ -92,6 +92,8 @@ class TextError(LucidaError):
 
 
 _ITEM = re.compile(r"(?:[-*]|(\d+)\.)\s+(.*)")
+_BEGINS = re.compile(r"\s*(?:```|\$\$|#|>|(?:[-*]|\d+\.)\s+\S|$)")  # what no paragraph goes on with
+_SIGN = re.compile(r"[\\$*`]")  # without one, a line is only words
 _MARKS = (
     r"\\(?P<sign>[\\$*`>#-])"  # a sign that means itself
     r"|`(?P<code>[^`]+)`"
@@ -179,6 +181,19 @@ def formulas(blocks: tuple[Block, ...]) -> tuple[str, ...]:
     return tuple(found)
 
 
+def pieces(blocks: tuple[Block, ...]) -> int:
+    """How many pieces a text is laid out of: formulas, programs, runs of words in one style."""
+    count = 0
+    for block in blocks:
+        if isinstance(block, Code | Formula):
+            count += 1
+        elif isinstance(block, Listing):
+            count += sum(map(len, block.items))
+        else:
+            count += len(block.line)
+    return count
+
+
 def _blocks(lines: list[str]) -> Iterator[Block]:
     number = 0
     while number < len(lines):
@@ -206,7 +221,7 @@ def _blocks(lines: list[str]) -> Iterator[Block]:
         elif line.startswith("#"):
             level = len(line) - len(line.lstrip("#"))
             yield Heading(level, _line(line[level:].strip(), start))
-        elif _ITEM.fullmatch(line):
+        elif line[0] in "-*0123456789" and _ITEM.fullmatch(line):
             items, number = _items(lines, start)
             numbered = line[0].isdigit()
             yield Listing(tuple(_line(item, start + k) for k, item in items), numbered)
@@ -214,7 +229,7 @@ def _blocks(lines: list[str]) -> Iterator[Block]:
             asked = line.startswith(">")
             while number < len(lines) and _goes_on(lines[number], asked):
                 number += 1
-            content = " ".join(part.strip().lstrip(">").strip() for part in lines[start:number])
+            content = " ".join(map(_unasked if asked else str.strip, lines[start:number]))
             spans = _line(content, start)
             yield Question(spans) if asked else Paragraph(spans)
 
@@ -244,11 +259,12 @@ def _items(lines: list[str], start: int) -> tuple[list[tuple[int, str]], int]:
 
 def _goes_on(line: str, asked: bool) -> bool:
     """Whether a paragraph, or a question, goes on with this line."""
-    line = line.strip()
-    if asked:
-        return line.startswith(">")
-    begins = line.startswith(("```", "$$", "#", ">")) or _ITEM.fullmatch(line)
-    return bool(line) and not begins
+    return line.lstrip().startswith(">") if asked else not _BEGINS.match(line)
+
+
+def _unasked(line: str) -> str:
+    """A question's line without the sign that it begins with."""
+    return line.strip().lstrip(">").strip()
 
 
 def _text_of(lines: list[str], start: int, end: int) -> str:
@@ -258,7 +274,9 @@ def _text_of(lines: list[str], start: int, end: int) -> str:
 
 
 def _line(text: str, number: int) -> Line:
-    return tuple(_merged(_spans(text, number)))
+    if not _SIGN.search(text):
+        return (Words(text),) if text else ()
+    return tuple(_merged(list(_spans(text, number))))
 
 
 def _spans(text: str, number: int, bold: bool = False, italic: bool = False) -> Iterator[Span]:
@@ -296,18 +314,18 @@ def _plain(text: str, number: int, bold: bool, italic: bool) -> Words:
     return Words(text, bold, italic)
 
 
-def _merged(spans: Iterator[Span]) -> Iterator[Span]:
+def _merged(spans: list[Span]) -> Iterator[Span]:
     """Neighbours of one style as one."""
-    for style, group in groupby(spans, _style):
-        if style is None:
-            yield from group
-            continue
-        first, *rest = group
-        yield Words("".join([first[0], *(span[0] for span in rest)]), *style) if rest else first
-
-
-def _style(span: Span) -> tuple[bool, bool, bool] | None:
-    return span[1:] if type(span) is Words else None
+    styles = [span[1:] if type(span) is Words else None for span in spans]
+    if not any(one is not None and one == two for one, two in itertools.pairwise(styles)):
+        yield from spans
+        return
+    for style, group in groupby(zip(spans, styles, strict=True), lambda pair: pair[1]):
+        same = [span for span, _ in group]
+        if style is None or len(same) == 1:
+            yield from same
+        else:
+            yield Words("".join([span[0] for span in same]), *style)
 
 
 def _balanced(latex: str, number: int) -> str:

@@ -32,6 +32,11 @@ def formulas_written(
             yield Written(latex, f"{field}.{name}", source, first + line)
 
 
+def pieces_written(step: dict[str, Any]) -> int:
+    """How many pieces a step's texts are laid out of. step: as for formulas_written."""
+    return sum(texts.pieces(texts.parse(text)) for _, text in _texts_of(step))
+
+
 def _lines(formulas: tuple[str, ...], text: str) -> Iterator[int]:
     """The line in a text, from 0, in which each of its formulas begins.
 

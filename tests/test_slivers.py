@@ -1,0 +1,179 @@
+"""What float32 does not know of slivers, vast triangles and thin checkers: bounds, and no more."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from renderer import Camera
+from renderer.edges import MARGIN, Lines
+from renderer.raster import scene_data
+from renderer.scene import BUILTIN_SCENES, load_scene
+from renderer.scene.flat import flatten
+from renderer.scene.model import Checker, Material, Mesh, Scene, SceneObject, Sphere
+from renderer.slivers import DOUBTFUL, seen_corners, unknown_depth, unknown_edge_px
+from renderer.trace import packet_leaf
+from renderer.trace.packet_cells import are_blurred, cells_of
+
+SIZE = (300, 200)
+PERSPECTIVE = Camera(eye=(0.3, -0.2, 5.0), distance=1.5, viewport=(-0.8, 0.7, -0.4, 0.6))
+PARALLEL = replace(PERSPECTIVE, projection="parallel", viewport=(-3.2, 2.8, -1.6, 2.4))
+named = pytest.mark.parametrize("camera", [PERSPECTIVE, PARALLEL], ids=["perspective", "parallel"])
+
+
+def corners(height: float) -> np.ndarray:
+    """A triangle across the image, two units long."""
+    return np.array([[(-1, 0, 0.5), (1, 0.1, -0.5), (0.2, 0.06 + height, 0.3)]])
+
+
+def unknown(camera: Camera, height: float) -> float:
+    """Of its depth, in its middle."""
+    middle = camera.project(corners(height).mean(axis=1), SIZE)
+    at = (np.array([x]) for x in (middle.row[0], middle.column[0], middle.parameter[0]))
+    return float(unknown_depth(camera, SIZE, corners(height), *at)[0])
+
+
+def test_the_same_numbers_elsewhere():
+    assert packet_leaf.DOUBTFUL == DOUBTFUL
+    assert scene_data.MARGIN == MARGIN
+
+
+@named
+def test_points_are_seen_where_the_camera_projects_them(camera):
+    points = np.random.default_rng(1).uniform(-1, 1, (5, 3, 3))
+    seen = seen_corners(camera, SIZE, points)
+    wanted = camera.project(points, SIZE)
+    weight = 1.0 if camera.is_parallel else seen[..., 2]
+    np.testing.assert_allclose(seen[..., 2], wanted.parameter)
+    np.testing.assert_allclose(seen[..., 0] / weight + 149.5, wanted.column)
+    np.testing.assert_allclose(seen[..., 1] / weight + 99.5, wanted.row)
+
+
+@named
+def test_a_usual_triangles_depth_is_known_and_a_slivers_less_and_less(camera):
+    t = 5.0 if camera.is_parallel else 5.0 / 1.5
+    usual, thin, thinner = (unknown(camera, height) for height in (1.0, 0.02, 0.01))
+    assert usual < 1e-5 * t
+    assert 2 * usual < thin < 1e-3 * t
+    assert thin < thinner < 2 * thin
+    if camera.is_parallel:
+        assert unknown(camera, 1e-5) == 0  # float64, then
+
+
+@named
+def test_the_bound_holds_for_a_plane_in_float32(camera):
+    """The packets' formula, with corners, products and sums in float32, for slivers at random."""
+    rng = np.random.default_rng(2)
+    largest = 0.0
+    for _ in range(300):
+        triangle = corners(10 ** rng.uniform(-2, 0)) + rng.normal(scale=0.3, size=3)
+        seen = seen_corners(camera, SIZE, triangle)
+        weights = rng.dirichlet((1, 1, 1))
+        x, y, t = weights @ seen[0]
+        if not camera.is_parallel:
+            x, y = x / t, y / t
+        a, b, c = seen[0].astype(np.float32)
+        (ax, ay, ah), (x1, y1, z1), (x2, y2, z2) = a, b - a, c - a
+        if camera.is_parallel:
+            inverse = np.float32(1) / (x1 * y2 - y1 * x2)
+            kx, ky = (z1 * y2 - z2 * y1) * inverse, (z2 * x1 - z1 * x2) * inverse
+            found = np.float32(x) * kx + (np.float32(y) * ky + (ah - kx * ax - ky * ay))
+        else:
+            n = np.array([y1 * z2 - z1 * y2, z1 * x2 - x1 * z2, x1 * y2 - y1 * x2], np.float32)
+            n *= np.float32(1) / (ax * n[0] + ay * n[1] + ah * n[2])
+            found = 1 / (np.float32(x) * n[0] + (np.float32(y) * n[1] + n[2]))
+        at = (np.array([value]) for value in (y + 99.5, x + 149.5, t))
+        bound = unknown_depth(camera, SIZE, triangle, *at)[0]
+        if bound:
+            largest = max(largest, abs(float(found) - t) / (bound + 2e-7 * abs(t)))
+    assert 0.02 < largest < 1  # it holds, and not by orders of magnitude
+
+
+def test_two_surfaces_that_differ_by_more_than_the_bound_meet_nowhere_near():
+    """Parallel slivers, one above the other."""
+    low = high = corners(0.0005)[0]
+    bound = unknown(PARALLEL, 0.0005)
+    depth_buffer = 4e-6 * 5.0
+    assert bound > depth_buffer
+    middle = PARALLEL.project(low.mean(axis=0)[None], SIZE)
+    i, j = (np.round(value).astype(int) for value in (middle.row, middle.column))
+    for gap, meets in ((bound, True), (3 * bound + depth_buffer, False)):
+        both = np.concatenate([low, high + np.array((0, 0, gap))])
+        flat = flatten(Scene((SceneObject(Mesh(both, np.arange(6).reshape(2, 3))),)))
+        lines = Lines(flat, PARALLEL, SIZE)
+        px = lines.meeting_px(np.array([0]), np.array([1]), i, j, middle.parameter)
+        assert (px[0] == 0) == meets
+
+
+def test_clipping_loses_vast_triangles_only_right_before_the_eye():
+    floor = np.array([(-4e6, 0, 4e6), (4e6, 0, 4e6), (0, 0, -5e6)])
+    flat = flatten(Scene((SceneObject(Mesh(floor, [[0, 1, 2]])),)))
+    half = 1e-5
+    camera = Camera.look_at((1, 1.5, 2), (1, 0, 1), (0, 1, 0))
+    lines = Lines(flat, replace(camera, viewport=(-half, half, -half, half)), (40, 8))
+    i, j, primitive = np.array([4]), np.array([20]), np.array([0])
+    t = lines.parameter(primitive, i, j, np.ones(1))
+    from_t = float(lines._drawn_from(primitive)[0])
+    assert from_t > t[0]
+    assert lines.clip_px(primitive, i, j, t)[0] == 0
+    usual = Lines(flat, replace(camera, viewport=(-0.5, 0.5, -0.5, 0.5)), (40, 8))
+    assert usual._drawn_from(primitive)[0] < 30
+
+
+@named
+def test_an_edge_is_known_but_where_its_ends_are_seen_in_one_line_with_the_eye(camera):
+    """In float32 the packets' formula stays within the bound, and a usual edge is known well."""
+    rng = np.random.default_rng(3)
+    largest = 0.0
+    for away in (1.0, 1e-2, 1e-4):
+        for _ in range(100):
+            p, q = rng.normal(size=3) * (80, 60, 0), rng.normal(size=3) * (80, 60, 0)
+            h = (1.0, 1.0)
+            if not camera.is_parallel:  # before the eye and behind it, in opposite directions
+                h = 10 ** rng.uniform(0, 3), -(10 ** rng.uniform(-2, 0))
+                p, q = h[0] * p, h[1] * (p + away * q)
+            p[2], q[2] = h
+            exact, rounded = (
+                np.cross(a + b, b - a) for a, b in ((p, q), (p.astype("f4"), q.astype("f4")))
+            )
+            if not rounded[:2].any():  # one point, then: covers nothing
+                continue
+            far = 0.0 if camera.is_parallel else rng.uniform(0, 100)
+            x, y = -exact[2] * exact[:2] / (exact[:2] @ exact[:2])
+            if camera.is_parallel:
+                x, y = rng.uniform() * (q - p)[:2] + p[:2]
+            x, y = np.array([x, y]) + far * np.array([-exact[1], exact[0]]) / np.hypot(*exact[:2])
+            off = abs(rounded @ np.array([x, y, 1.0])) / np.hypot(*rounded[:2])
+            at = np.array([y + 99.5]), np.array([x + 149.5])
+            bound = unknown_edge_px(SIZE, p[None], q[None], camera.is_parallel, *at)[0]
+            assert off <= bound
+            largest = max(largest, off / bound)
+            if away == 1.0 and camera.is_parallel:
+                assert bound < 1 / 128
+    assert largest > 0.02
+
+
+def is_coarse_for_cells(scene: Scene, camera: Camera) -> bool:
+    eye, back = np.array(camera.eye), np.array(camera.w)
+    to_t = -camera.camera_from_world[2, :3]
+    return are_blurred(
+        cells_of(flatten(scene)), eye, to_t, back if camera.is_parallel else None, 2.0**-22
+    )
+
+
+@pytest.mark.parametrize("name", BUILTIN_SCENES)
+def test_usual_scenes_need_no_exact_cells(name):
+    scene = load_scene(name)
+    assert not is_coarse_for_cells(scene, scene.view.camera)
+
+
+@named
+def test_thin_cells_do(camera):
+    squeezed = np.diag((1e-3, 500.0, 300.0, 1.0))
+    mesh = Mesh(corners(1.0)[0], [[0, 1, 2]], transform=squeezed)
+    plain = Scene((SceneObject(mesh), SceneObject(Sphere((0, 0, 0), 1.0))))
+    assert not is_coarse_for_cells(plain, camera)
+    thin = Scene((SceneObject(mesh, Material(checker=Checker(size=0.1))),))
+    assert is_coarse_for_cells(thin, camera)
