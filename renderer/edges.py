@@ -24,7 +24,7 @@ from numpy.typing import NDArray
 from renderer.camera import NEAREST, Camera, Floats
 from renderer.scene.flat import CELL_NUDGE, SPECULAR_CHECKERED, FlatScene
 from renderer.scene.positions import world_corners
-from renderer.slivers import seen_corners, unknown_depth, unknown_edge_px
+from renderer.slivers import seen_corners, unknown_edge_px
 
 Ints = NDArray[np.integer]
 Numbers = NDArray[np.integer] | NDArray[np.floating]
@@ -63,8 +63,7 @@ class Lines:
     def meeting_px(self, first: Ints, second: Ints, i: Ints, j: Ints, t: Floats) -> Floats:
         """Distance from the line where the surfaces of two primitives meet; t: the hits' depth.
 
-        The surfaces are extended beyond their outlines. Surfaces that coincide meet everywhere; so
-        do two of which float32 does not tell which is nearer.
+        The surfaces are extended beyond their outlines. Surfaces that coincide meet everywhere.
         """
         pair = (first >= 0) & (second >= 0) & (first != second)
 
@@ -74,14 +73,7 @@ class Lines:
             )
 
         distance = _zero_px(gap)
-        unknown = 4e-6 * np.abs(t)  # the depth buffer's last place
-        for primitive in (first, second):
-            triangle, _ = self._kinds(primitive)
-            corners = world_corners(self.flat, primitive[triangle])
-            own = self.parameter(primitive, i, j, t)[triangle]
-            at = i[triangle], j[triangle], own
-            unknown[triangle] += unknown_depth(self.camera, self.size, corners, *at)
-        distance[np.abs(gap(0, 0)) <= unknown] = 0
+        distance[np.abs(gap(0, 0)) <= 4e-6 * np.abs(t)] = 0  # the depth buffer's last place
         return np.where(pair, distance, np.inf)
 
     def clip_px(self, primitive: Ints, i: Ints, j: Ints, t: Floats, drawn: bool = False) -> Floats:

@@ -1,12 +1,6 @@
-"""What float32 does not know of triangles that are seen as slivers: their depth, and their edges.
+"""What float32 does not know of the edges of triangles that are seen as slivers.
 
 Owns these bounds, for renderer/edges.py. Knows nothing of scenes.
-
-Packets solve for the plane through a triangle's corners in the image (packet_leaf.key_function):
-the coefficients of x and y are differences of products, over the triangle's area there, each known
-to a few roundings of its terms. In a sliver the area is much smaller than the terms. Where it is
-smaller by DOUBTFUL, the packets go over to float64. Of a usual triangle float32's last places are
-unknown.
 
 An edge is where (p + q) x (q - p) . (x, y, 1) is 0, of its ends' places in the image
 (packet_leaf.edge_function). Where both are seen nearly in one direction, or in opposite ones, from
@@ -22,45 +16,7 @@ from renderer.camera import Camera, Floats
 
 Numbers = NDArray[np.integer] | NDArray[np.floating]
 
-DOUBTFUL = 1000.0  # packet_leaf.py has the same number
 _ROUNDINGS = 2.0**-21  # eight: of corners, their differences, products, and sums
-
-
-def unknown_depth(
-    camera: Camera, size: tuple[int, int], corners: Floats, i: Numbers, j: Numbers, t: Floats
-) -> Floats:
-    """By how much t of triangles may be wrong in float32, at their hits (n,).
-
-    corners (n, 3, 3): in the world. i, j: rows and columns of the pixels. t: the ray parameters.
-    """
-    seen = seen_corners(camera, size, corners)
-    a, first, second = seen[:, 0], seen[:, 1] - seen[:, 0], seen[:, 2] - seen[:, 0]
-    pixel = np.stack([j - (size[0] - 1) / 2, i - (size[1] - 1) / 2], axis=1)
-    if camera.is_parallel:
-        # t as a function of x and y, from corner a on.
-        crossed = first[:, 1::-1], second[:, 1::-1]
-        terms = np.abs(second[:, 2:] * crossed[0]) + np.abs(first[:, 2:] * crossed[1])
-        wrong = (terms * np.abs(pixel - a[:, :2])).sum(axis=1)
-        area_terms = np.abs(first[:, :2] * crossed[1]).sum(axis=1)
-        area = np.abs(first[:, 0] * second[:, 1] - first[:, 1] * second[:, 0])
-    else:
-        # 1 / t as a function of x, y and 1; its area is the volume that the corners span.
-        y1, h1, x1 = np.roll(first, -1, axis=1).T
-        y2, h2, x2 = np.roll(second, -1, axis=1).T
-        terms = np.stack(
-            [
-                np.abs(y1 * h2) + np.abs(h1 * y2),
-                np.abs(h1 * x2) + np.abs(x1 * h2),
-                np.abs(x1 * y2) + np.abs(y1 * x2),
-            ],
-            axis=1,
-        )
-        wrong = (terms * np.abs(np.column_stack([pixel, np.ones(len(pixel))]))).sum(axis=1) * t**2
-        area_terms = (terms * np.abs(a)).sum(axis=1)
-        area = np.abs(np.einsum("nk,nk->n", a, np.cross(first, second)))
-    with np.errstate(divide="ignore", invalid="ignore"):
-        result: Floats = np.where(area * DOUBTFUL > area_terms, _ROUNDINGS * wrong / area, 0.0)
-    return result
 
 
 def unknown_edge_px(

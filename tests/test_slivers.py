@@ -13,8 +13,7 @@ from renderer.raster import scene_data
 from renderer.scene import BUILTIN_SCENES, load_scene
 from renderer.scene.flat import flatten
 from renderer.scene.model import Checker, Material, Mesh, Scene, SceneObject, Sphere
-from renderer.slivers import DOUBTFUL, seen_corners, unknown_depth, unknown_edge_px
-from renderer.trace import packet_leaf
+from renderer.slivers import seen_corners, unknown_edge_px
 from renderer.trace.packet_cells import are_blurred, cells_of
 
 SIZE = (300, 200)
@@ -23,20 +22,7 @@ PARALLEL = replace(PERSPECTIVE, projection="parallel", viewport=(-3.2, 2.8, -1.6
 named = pytest.mark.parametrize("camera", [PERSPECTIVE, PARALLEL], ids=["perspective", "parallel"])
 
 
-def corners(height: float) -> np.ndarray:
-    """A triangle across the image, two units long."""
-    return np.array([[(-1, 0, 0.5), (1, 0.1, -0.5), (0.2, 0.06 + height, 0.3)]])
-
-
-def unknown(camera: Camera, height: float) -> float:
-    """Of its depth, in its middle."""
-    middle = camera.project(corners(height).mean(axis=1), SIZE)
-    at = (np.array([x]) for x in (middle.row[0], middle.column[0], middle.parameter[0]))
-    return float(unknown_depth(camera, SIZE, corners(height), *at)[0])
-
-
-def test_the_same_numbers_elsewhere():
-    assert packet_leaf.DOUBTFUL == DOUBTFUL
+def test_the_margin_is_the_rasterizer_s():
     assert scene_data.MARGIN == MARGIN
 
 
@@ -49,62 +35,6 @@ def test_points_are_seen_where_the_camera_projects_them(camera):
     np.testing.assert_allclose(seen[..., 2], wanted.parameter)
     np.testing.assert_allclose(seen[..., 0] / weight + 149.5, wanted.column)
     np.testing.assert_allclose(seen[..., 1] / weight + 99.5, wanted.row)
-
-
-@named
-def test_a_usual_triangles_depth_is_known_and_a_slivers_less_and_less(camera):
-    t = 5.0 if camera.is_parallel else 5.0 / 1.5
-    usual, thin, thinner = (unknown(camera, height) for height in (1.0, 0.02, 0.01))
-    assert usual < 1e-5 * t
-    assert 2 * usual < thin < 1e-3 * t
-    assert thin < thinner < 2 * thin
-    if camera.is_parallel:
-        assert unknown(camera, 1e-5) == 0  # float64, then
-
-
-@named
-def test_the_bound_holds_for_a_plane_in_float32(camera):
-    """The packets' formula, with corners, products and sums in float32, for slivers at random."""
-    rng = np.random.default_rng(2)
-    largest = 0.0
-    for _ in range(300):
-        triangle = corners(10 ** rng.uniform(-2, 0)) + rng.normal(scale=0.3, size=3)
-        seen = seen_corners(camera, SIZE, triangle)
-        weights = rng.dirichlet((1, 1, 1))
-        x, y, t = weights @ seen[0]
-        if not camera.is_parallel:
-            x, y = x / t, y / t
-        a, b, c = seen[0].astype(np.float32)
-        (ax, ay, ah), (x1, y1, z1), (x2, y2, z2) = a, b - a, c - a
-        if camera.is_parallel:
-            inverse = np.float32(1) / (x1 * y2 - y1 * x2)
-            kx, ky = (z1 * y2 - z2 * y1) * inverse, (z2 * x1 - z1 * x2) * inverse
-            found = np.float32(x) * kx + (np.float32(y) * ky + (ah - kx * ax - ky * ay))
-        else:
-            n = np.array([y1 * z2 - z1 * y2, z1 * x2 - x1 * z2, x1 * y2 - y1 * x2], np.float32)
-            n *= np.float32(1) / (ax * n[0] + ay * n[1] + ah * n[2])
-            found = 1 / (np.float32(x) * n[0] + (np.float32(y) * n[1] + n[2]))
-        at = (np.array([value]) for value in (y + 99.5, x + 149.5, t))
-        bound = unknown_depth(camera, SIZE, triangle, *at)[0]
-        if bound:
-            largest = max(largest, abs(float(found) - t) / (bound + 2e-7 * abs(t)))
-    assert 0.02 < largest < 1  # it holds, and not by orders of magnitude
-
-
-def test_two_surfaces_that_differ_by_more_than_the_bound_meet_nowhere_near():
-    """Parallel slivers, one above the other."""
-    low = high = corners(0.0005)[0]
-    bound = unknown(PARALLEL, 0.0005)
-    depth_buffer = 4e-6 * 5.0
-    assert bound > depth_buffer
-    middle = PARALLEL.project(low.mean(axis=0)[None], SIZE)
-    i, j = (np.round(value).astype(int) for value in (middle.row, middle.column))
-    for gap, meets in ((bound, True), (3 * bound + depth_buffer, False)):
-        both = np.concatenate([low, high + np.array((0, 0, gap))])
-        flat = flatten(Scene((SceneObject(Mesh(both, np.arange(6).reshape(2, 3))),)))
-        lines = Lines(flat, PARALLEL, SIZE)
-        px = lines.meeting_px(np.array([0]), np.array([1]), i, j, middle.parameter)
-        assert (px[0] == 0) == meets
 
 
 def test_clipping_loses_vast_triangles_only_right_before_the_eye():
@@ -172,7 +102,8 @@ def test_usual_scenes_need_no_exact_cells(name):
 @named
 def test_thin_cells_do(camera):
     squeezed = np.diag((1e-3, 500.0, 300.0, 1.0))
-    mesh = Mesh(corners(1.0)[0], [[0, 1, 2]], transform=squeezed)
+    corners = [(-1, 0, 0.5), (1, 0.1, -0.5), (0.2, 1.06, 0.3)]
+    mesh = Mesh(corners, [[0, 1, 2]], transform=squeezed)
     plain = Scene((SceneObject(mesh), SceneObject(Sphere((0, 0, 0), 1.0))))
     assert not is_coarse_for_cells(plain, camera)
     thin = Scene((SceneObject(mesh, Material(checker=Checker(size=0.1))),))
