@@ -163,8 +163,9 @@ def test_of_two_clip_planes_the_nearer_line_counts():
         np.testing.assert_allclose(distance, np.min(wanted, axis=0), rtol=0.15, atol=0.01)
 
 
-@pytest.mark.parametrize(("height", "unexplained"), [(1e-17, 0), (1e-9, 768)])
+@pytest.mark.parametrize(("height", "unexplained"), [(0.9e-11, 0), (1.1e-11, 768)])
 def test_rounding_decides_whether_the_eye_sees_what_it_lies_on(height, unexplained):
+    """Within 1e-12 of the largest coordinate, the wall's width of 10."""
     flat = flatten(Scene((wall(0), wall(-2))))
     camera = replace(CAMERA, eye=(0, 3, height))  # not on the wall's diagonal
     on_it, through = image(height, 0, 0), image(2, 1, 2)

@@ -35,7 +35,7 @@ SAMPLE = 12  # of each module, where nothing else is asked for
 MODULES: dict[str, tuple[str, ...]] = {
     "renderer/camera.py": ("camera",),
     "renderer/compare.py": ("compare", "comparing", "nothing_hit"),
-    "renderer/edges.py": ("edges", "compare"),
+    "renderer/edges.py": ("edges", "edges_rounding", "compare"),
     "renderer/difference.py": ("difference", "comparing", "compare"),
     "renderer/pixels.py": ("pixels", "go_to_pixel"),
     "app/bounds.py": ("bounds", "state"),
