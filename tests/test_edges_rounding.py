@@ -27,7 +27,7 @@ def wall(depth: float, across: float = 0.0, up: float = 0.0) -> SceneObject:
 
 
 def test_surfaces_that_coincide_to_the_depth_buffers_last_place_meet_everywhere() -> None:
-    """To 4e-6 of their depth. The second wall's depth changes by 1e-5 of itself a pixel each way."""
+    """To 4e-6 of their depth. The second one's depth changes by 1e-5 of itself a pixel each way."""
     lines = Lines(flatten(Scene((wall(50), wall(50, 3.2e-4, 3.2e-4)))), CAMERA, SIZE)
     j = 15.5 + np.array([0.0, 0.38, 0.42, -0.38, -0.42, 3.0])
     i = np.full(6, 11.5)
@@ -55,8 +55,8 @@ def test_a_surface_in_a_clip_plane_is_cut_everywhere(camera: Camera, off: float,
 def test_a_cell_reaches_a_thousandth_beyond_the_surface(order, side: int) -> None:
     """On the side away from the viewer: so that a face that lies in a border has one colour. The
     wall crosses the border z = 0.5 at x = 0, which is seen where the wall is 1/1000 behind it."""
-    corners = np.array([(-0.3, -0.3, -0.003), (0.3, -0.3, 0.003), (0, 0.4, 0)])
-    checkered = triangle(corners + (0, 0, 0.5), order, checker=Checker(size=1.0))
+    corners = [(-0.3, -0.3, 0.497), (0.3, -0.3, 0.503), (0, 0.4, 0.5)]
+    checkered = triangle(corners, order, checker=Checker(size=1.0))
     eye = (0.0, 0.0, 2.5 * side + 0.5)
     camera = replace(CAMERA, eye=eye, w=(0, 0, side), u=(side, 0, 0))
     lines = Lines(flatten(Scene((checkered,))), camera, SIZE)
@@ -65,7 +65,7 @@ def test_a_cell_reaches_a_thousandth_beyond_the_surface(order, side: int) -> Non
     np.testing.assert_allclose(found, [0.28, 0.0, 0.72], atol=0.01)
 
 
-LARGE = [(40, 393, -291), (40, -157, -191), (900, -7, -291)], (40, -7, 9), 500
+LARGE = [(40, 393, 600), (40, -157, 700), (900, -7, 600)], (40, -7, 900), 500
 DISTANT = [(7, 2, 3), (7, 6, 3), (10, 2, -9)], (7, 4, 1000), 13
 
 
