@@ -33,7 +33,7 @@ SAMPLE = 12  # of each module, where nothing else is asked for
 
 # Which tests hold which module. Those that take long hold it too, but in no reasonable time.
 MODULES: dict[str, tuple[str, ...]] = {
-    "renderer/camera.py": ("camera",),
+    "renderer/camera.py": ("camera", "edges"),
     "renderer/compare.py": ("compare", "comparing", "nothing_hit"),
     "renderer/edges.py": ("edges", "edges_rounding", "compare"),
     "renderer/difference.py": ("difference", "comparing", "compare"),
