@@ -78,7 +78,9 @@ def test_pixels_have_the_colours_of_the_saved_pictures(channel: Channel):
 def test_normals_are_shown_to_the_nearest_byte():
     """-1 to 1 as 0 to 255: 0.61 is 205.3, -0.6 is 51."""
     normal = np.array([[[0.61, -0.6, 1.0]]], np.float32)
-    assert shown_bytes(normal, replace(COLOR, channel="normal"), None).tolist() == [[[205, 51, 255]]]
+    assert shown_bytes(normal, replace(COLOR, channel="normal"), None).tolist() == [
+        [[205, 51, 255]]
+    ]
 
 
 def test_components_and_linear_light():

@@ -43,7 +43,7 @@ MODULES: dict[str, tuple[str, ...]] = {
     "app/cameras/animation.py": ("animation",),
     "app/cameras/basis.py": ("basis",),
     "app/cameras/editing.py": ("basis", "camera_actions", "state", "fields", "clipboard_camera"),
-    "app/cameras/fly.py": ("navigation",),
+    "app/cameras/fly.py": ("fly", "navigation"),
     "app/cameras/focus.py": ("presets", "navigation", "animation", "outside"),
     "app/cameras/navigation.py": ("navigation",),
     "app/cameras/presets.py": ("presets", "animation"),
