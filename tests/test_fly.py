@@ -67,7 +67,7 @@ def frame(fly: Fly, host: Host) -> Iterator[Frame]:
     context = imgui.create_context()
     io = imgui.get_io()
     io.set_ini_filename("")
-    io.display_size = (100, 100)
+    io.display_size = imgui.ImVec2(100, 100)
     io.backend_flags |= imgui.BackendFlags_.renderer_has_textures.value
     down: set[Key] = set()
 

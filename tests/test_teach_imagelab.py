@@ -232,7 +232,7 @@ class TestLight:
     def test_the_test_picture_of_bars(self):
         """Each is two of 16 columns wide; the last quarter of the rows is a ramp."""
         picture = light.bars(9, 16)
-        names = "white yellow cyan green magenta red blue black".split()
+        names = ["white", "yellow", "cyan", "green", "magenta", "red", "blue", "black"]
         colors = {"white": (1, 1, 1), "yellow": (1, 1, 0), "cyan": (0, 1, 1), "green": (0, 1, 0)}
         colors |= {"magenta": (1, 0, 1), "red": (1, 0, 0), "blue": (0, 0, 1), "black": (0, 0, 0)}
         wanted = [colors[name] for name in names for _ in range(2)]

@@ -41,7 +41,7 @@ MODULES: dict[str, tuple[str, ...]] = {
     "app/bounds.py": ("bounds", "state"),
     "app/state.py": ("state", "bounds"),
     "app/cameras/animation.py": ("animation",),
-    "app/cameras/basis.py": ("basis",),
+    "app/cameras/basis.py": ("basis", "state"),
     "app/cameras/editing.py": ("basis", "camera_actions", "state", "fields", "clipboard_camera"),
     "app/cameras/fly.py": ("fly", "navigation"),
     "app/cameras/focus.py": ("presets", "navigation", "animation", "outside"),
