@@ -175,6 +175,8 @@ def test_a_new_mark_counts_from_where_it_is_set():
     assert (mark, anchor.pixel) == ((2, 3), (2, 3))
     assert followed(None, anchor, VIEW, (64, 36)) == (None, None)
     assert followed((99, 99), None, VIEW, (64, 36))[0] == (35, 63)
+    assert followed((0, 0), None, VIEW, (64, 36))[0] == (0, 0)
+    assert followed((-3, -3), None, VIEW, (64, 36))[0] == (0, 0)
 
 
 def test_objects_have_the_palette_s_colours_and_nothing_is_black():

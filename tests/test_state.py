@@ -133,7 +133,14 @@ def test_an_illegal_value_waits_and_the_camera_stays() -> None:
 def test_illegal_fields_are_told_and_kept_out(name: str, value: object) -> None:
     state, draft = edit_field(STATE, Draft.of(STATE.camera), name, value)
     assert state == STATE
-    assert draft.is_wrong(name)
+    assert [field for field in ("eye", "distance", "viewport") if draft.is_wrong(field)] == [name]
+
+
+def test_a_component_that_is_no_number_is_told_and_the_basis_stays() -> None:
+    state, draft = edit_component(STATE, Draft.of(STATE.camera), "w", 0, float("nan"))
+    assert state is STATE
+    assert draft.camera == STATE.camera
+    assert draft.error is not None
 
 
 def test_a_legal_edit_does_not_wait_for_an_illegal_one() -> None:
