@@ -44,7 +44,7 @@ MODULES: dict[str, tuple[str, ...]] = {
     "app/cameras/basis.py": ("basis", "state"),
     "app/cameras/editing.py": ("basis", "camera_actions", "state", "fields", "clipboard_camera"),
     "app/cameras/fly.py": ("fly", "navigation"),
-    "app/cameras/focus.py": ("presets", "navigation", "animation", "outside"),
+    "app/cameras/focus.py": ("focus", "presets"),
     "app/cameras/navigation.py": ("navigation",),
     "app/cameras/presets.py": ("presets", "animation"),
     "app/cameras/reader.py": ("clipboard_camera",),
