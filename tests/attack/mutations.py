@@ -36,7 +36,7 @@ MODULES: dict[str, tuple[str, ...]] = {
     "renderer/camera.py": ("camera", "edges"),
     "renderer/compare.py": ("compare", "comparing", "nothing_hit"),
     "renderer/edges.py": ("edges", "edges_rounding", "compare"),
-    "renderer/difference.py": ("difference", "comparing", "compare"),
+    "renderer/difference.py": ("difference", "comparing", "compare", "bounds"),
     "renderer/pixels.py": ("pixels", "go_to_pixel"),
     "app/bounds.py": ("bounds", "state"),
     "app/state.py": ("state", "bounds"),
