@@ -354,7 +354,9 @@ def test_of_two_distances_with_one_field_of_view_the_larger() -> None:
 
 
 def test_orbit_from_straight_above_leaves_the_horizon_level() -> None:
-    above = Camera(eye=(0, 5, 0), u=(1, 0, 0), v=(0, 0, -1), w=(0, 1, 0))
+    u, v = (0.6, 0, -0.8), (-0.8, 0, -0.6)
+    above = Camera(eye=(0, 5, 0), u=u, v=v, w=(0, 1, 0))
     after = navigation.orbited(above, (0, 0, 0), 0.0, 0.3)  # dragging upwards lowers the eye
-    assert after.eye == pytest.approx((0, 5 * math.cos(0.3), 5 * math.sin(0.3)))
-    assert after.u == pytest.approx((1, 0, 0))
+    sine, cosine = math.sin(0.3), math.cos(0.3)
+    assert after.eye == pytest.approx((4 * sine, 5 * cosine, 3 * sine))
+    assert after.u == pytest.approx(u)
