@@ -102,7 +102,9 @@ def test_matrices_are_named_column_by_column_and_what_opengl_takes() -> None:
     assert clip[10] == pytest.approx(-(20 + 0.5) / (20 - 0.5))
     assert clip[14] == pytest.approx(-2 * 20 * 0.5 / (20 - 0.5))
     assert "near = 0.5, far = 20.0" in text
-    assert "-0.0" not in text
+    behind = Camera(u=(-1, 0, 0), w=(0, 0, -1))
+    text = as_text("OpenGL matrices", Subject(View(behind), behind, "spheres", BOUNDS))
+    assert "-0.0," not in text and "-0.0]" not in text
 
 
 @pytest.mark.parametrize(
