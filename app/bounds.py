@@ -135,7 +135,7 @@ def _marks_inside(hint: Any) -> Iterator[Any]:
     """The marks of a hint, then those of what it is made of."""
     if get_origin(hint) is Annotated:
         yield from hint.__metadata__
-    for part in get_args(hint)[:1]:
+    for part in get_args(hint):
         yield from _marks_inside(part)
 
 
@@ -175,7 +175,7 @@ def _bounded_fields(kind: type, value: Any, path: str, problems: list[LucidaErro
 def _bounded_entries(
     hints: tuple[Any, ...], value: Any, default: Any, path: str, problems: list[LucidaError]
 ) -> Any:
-    many = hints[-1] is Ellipsis
+    many = Ellipsis in hints
     after = tuple(
         _bounded(
             hints[0] if many else hints[k],

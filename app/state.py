@@ -30,7 +30,7 @@ class AppState:
 
     scene: Scene
     view: View
-    keep_orthonormal: bool = True
+    keep_orthonormal: bool
     options: Options = field(default_factory=Options)
     step: tuple[str, int] | None = None
 

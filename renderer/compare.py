@@ -278,8 +278,8 @@ def _channel_error(difference: NDArray[np.float32], tolerance: float) -> Channel
     infinite = difference.size - int(np.count_nonzero(finite))
     values = difference if not infinite else difference[finite]
     squares = float(np.square(values, dtype=np.float64).mean()) if values.size else 0.0
-    sortable = difference if not infinite else np.where(finite, difference, np.inf)
-    row, column = np.unravel_index(int(np.argmax(sortable)), difference.shape)
+    # argmax takes NaN for the largest.
+    row, column = np.unravel_index(int(np.argmax(difference)), difference.shape)
     return ChannelError(
         largest=float(values.max(initial=0)),
         rms=math.sqrt(squares),
@@ -305,24 +305,23 @@ def _explain(
         for frame in (raster, ray)
     ]
     (first, t_first), (second, t_second) = seen
-    t = np.where(second >= 0, t_second, t_first)
     same = (first == second) & (first >= 0)
     # The cases in the order of CAUSES: each a distance in pixels.
     distances = [
         np.fmin(lines.outline_px(first, i, j), lines.outline_px(second, i, j)),
-        lines.meeting_px(first, second, i, j, t),
+        lines.meeting_px(first, second, i, j, t_second),
         np.fmin(
             lines.clip_px(first, i, j, t_first, drawn=True), lines.clip_px(second, i, j, t_second)
         ),
-        np.where(same, lines.checker_px(second, i, j, t), np.inf),
+        np.where(same, lines.checker_px(second, i, j, t_second), np.inf),
     ]
     # How far it is to where depth and normal are the other image's, if they are not already; and
     # if they are, to where the vertices' colours are.
     turned = np.abs(raster.channel("normal")[i, j] - ray.channel("normal")[i, j]).max(axis=1)
     with np.errstate(divide="ignore", invalid="ignore"):
         difference = np.abs(t_first - t_second)
-        moved = difference / lines.slope(second, i, j, t)
-        moved[difference <= DEPTH_RELATIVE * t] = 0
+        moved = difference / lines.slope(second, i, j, t_second)
+        moved[difference <= DEPTH_RELATIVE * t_second] = 0
         normal_slope, unknown = lines.normal_slope(second, i, j)
         bent = turned / normal_slope
         bent[turned <= unknown] = TOLERANCE_PX

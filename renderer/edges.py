@@ -28,7 +28,7 @@ from renderer.slivers import seen_corners, unknown_edge_px
 
 Ints = NDArray[np.integer]
 Numbers = NDArray[np.integer] | NDArray[np.floating]
-Function = Callable[[float, float], Floats]  # of an offset (rows, columns) in pixels
+Function = Callable[[Numbers, Numbers], Floats]  # of a place (rows, columns) in the image
 
 STEP_PX = 1 / 256  # of the central differences: well inside the tolerance, far above rounding
 BEHIND = 1e-9  # outlines are clipped where the ray parameter falls below this part of its largest
@@ -67,13 +67,11 @@ class Lines:
         """
         pair = (first >= 0) & (second >= 0) & (first != second)
 
-        def gap(di: float, dj: float) -> Floats:
-            return self.parameter(first, i + di, j + dj, t) - self.parameter(
-                second, i + di, j + dj, t
-            )
+        def gap(i: Numbers, j: Numbers) -> Floats:
+            return self.parameter(first, i, j, t) - self.parameter(second, i, j, t)
 
-        distance = _zero_px(gap)
-        distance[np.abs(gap(0, 0)) <= 4e-6 * np.abs(t)] = 0  # the depth buffer's last place
+        distance = _zero_px(gap, i, j)
+        distance[np.abs(gap(i, j)) <= 4e-6 * np.abs(t)] = 0  # the depth buffer's last place
         return np.where(pair, distance, np.inf)
 
     def clip_px(self, primitive: Ints, i: Ints, j: Ints, t: Floats, drawn: bool = False) -> Floats:
@@ -84,10 +82,10 @@ class Lines:
         """
         distance = np.full(len(primitive), np.inf)
         at_eye = ROUNDING * self._largest_parameter()
+        here = self.parameter(primitive, i, j, t)
         for limit in self.camera.t_range:
             if np.isfinite(limit):
-                cut = _zero_px(lambda di, dj: self.parameter(primitive, i + di, j + dj, t) - limit)  # noqa: B023
-                here = self.parameter(primitive, i, j, t)
+                cut = _zero_px(lambda i, j: self.parameter(primitive, i, j, t) - limit, i, j)  # noqa: B023
                 cut[np.abs(here - limit) <= max(1e-6 * limit, at_eye)] = 0
                 distance = np.fmin(distance, cut)
         distance[t <= self._drawn_from(primitive, drawn)] = 0
@@ -104,13 +102,13 @@ class Lines:
         if not hit.any():
             return distance
         owners = np.concatenate([self.flat.face_object, self.flat.sphere_object])
-        owner = owners[np.where(hit, primitive, 0)]
+        owner = owners[primitive]  # anybody's where nothing is hit
         checkered = hit & (self.flat.materials[owner, SPECULAR_CHECKERED, 3] != 0)
         rows = self.flat.cells[owner]
 
-        def cell(axis: int, di: float, dj: float) -> Floats:
-            at = self.parameter(primitive, i + di, j + dj, t)
-            origin, direction = self.camera.ray(i + di, j + dj, self.size)
+        def cell(axis: int, i: Numbers, j: Numbers) -> Floats:
+            at = self.parameter(primitive, i, j, t)
+            origin, direction = self.camera.ray(i, j, self.size)
             with np.errstate(divide="ignore", invalid="ignore"):  # what is not hit
                 point = origin + at[:, None] * direction
                 facing = self._facing(primitive, point, direction)
@@ -120,18 +118,20 @@ class Lines:
             return here - inward[:, axis]
 
         origin, direction = self.camera.ray(i, j, self.size)
-        away = np.linalg.norm(origin + t[:, None] * direction - self.camera.eye, axis=1)
+        with np.errstate(invalid="ignore"):  # what is not hit
+            away = np.linalg.norm(origin + t[:, None] * direction - self.camera.eye, axis=1)
         for axis in range(3):
-            border = np.round(cell(axis, 0, 0))
-            to_border = _zero_px(lambda di, dj: cell(axis, di, dj) - border)  # noqa: B023
+            here = cell(axis, i, j)
+            border = np.round(here)
+            to_border = _zero_px(lambda i, j: cell(axis, i, j) - border, i, j)  # noqa: B023
             unknown = ROUNDING_32 * away * np.linalg.norm(rows[:, axis, :3], axis=1)
-            to_border[np.abs(cell(axis, 0, 0) - border) <= unknown] = 0
+            to_border[np.abs(here - border) <= unknown] = 0
             distance = np.fmin(distance, to_border)
         return np.where(checkered, distance, np.inf)
 
     def slope(self, primitive: Ints, i: Ints, j: Ints, t: Floats) -> Floats:
         """How much the ray parameter changes a pixel, on the primitive's surface."""
-        return _gradient(lambda di, dj: self.parameter(primitive, i + di, j + dj, t))[0]
+        return _slope(lambda i, j: self.parameter(primitive, i, j, t), i, j)
 
     def normal_slope(self, primitive: Ints, i: Ints, j: Ints) -> tuple[Floats, Floats]:
         """How much a triangle's smooth normal changes a pixel; 0 where there is none. And what
@@ -142,13 +142,12 @@ class Lines:
         a, b, c = self._corners(primitive[triangle])
         normals = self.flat.normals[self.flat.faces[primitive[triangle]]].astype(float)
 
-        def normal(di: float, dj: float) -> Floats:
-            i_, j_ = i[triangle] + di, j[triangle] + dj
-            mean = np.einsum("nk,nkx->nx", self._weights(primitive[triangle], i_, j_), normals)
+        def normal(i: Numbers, j: Numbers) -> Floats:
+            mean = np.einsum("nk,nkx->nx", self._weights(primitive[triangle], i, j), normals)
             with np.errstate(invalid="ignore"):
                 return mean / np.linalg.norm(mean, axis=1, keepdims=True)
 
-        slope[triangle] = np.linalg.norm(_changes(normal), axis=1)
+        slope[triangle] = np.linalg.norm(_slope(normal, i[triangle], j[triangle]), axis=1)
         longest = np.max([((q - p) ** 2).sum(axis=1) for p, q in ((a, b), (b, c), (c, a))], axis=0)
         with np.errstate(divide="ignore", invalid="ignore"):
             sliver = longest / np.linalg.norm(np.cross(b - a, c - a), axis=1)
@@ -162,12 +161,12 @@ class Lines:
         triangle, _ = self._kinds(primitive)
         colors = self.flat.colors[self.flat.faces[primitive[triangle]]].astype(float)
 
-        def tint(di: float, dj: float) -> Floats:
-            i_, j_ = i[triangle] + di, j[triangle] + dj
-            return np.einsum("nk,nkx->nx", self._weights(primitive[triangle], i_, j_), colors)
+        def tint(i: Numbers, j: Numbers) -> Floats:
+            return np.einsum("nk,nkx->nx", self._weights(primitive[triangle], i, j), colors)
 
+        at = i[triangle], j[triangle]
         with np.errstate(divide="ignore", invalid="ignore"):
-            slope[triangle] = _changes(tint) / tint(0, 0)
+            slope[triangle] = _slope(tint, *at) / tint(*at)
         return np.nan_to_num(slope)
 
     def _weights(self, triangle: Ints, i: Numbers, j: Numbers) -> Floats:
@@ -271,12 +270,11 @@ class Lines:
     def _sphere_px(self, primitive: Ints, i: Ints, j: Ints) -> Floats:
         """Distance from the curve where the discriminant is 0."""
 
-        def discriminant(di: float, dj: float) -> Floats:
-            origin, direction = self.camera.ray(i + di, j + dj, self.size)
-            terms, _, square = self._sphere_terms(primitive, origin, direction)
-            return terms / square
+        def discriminant(i: Numbers, j: Numbers) -> Floats:
+            origin, direction = self.camera.ray(i, j, self.size)
+            return self._sphere_terms(primitive, origin, direction)[0]
 
-        return _zero_px(discriminant)
+        return _zero_px(discriminant, i, j)
 
     def _triangle_px(self, triangle: Ints, i: Ints, j: Ints) -> Floats:
         """Distance from the nearest of the three projected edges, clipped in front of the eye."""
@@ -357,24 +355,17 @@ def _segment_px(point: Floats, start: Floats, end: Floats) -> Floats:
     return np.where(np.isnan(distance), np.inf, distance)
 
 
-def _changes(function: Function) -> Floats:
-    """How much each of the numbers (n, 3) that a function of the pixel's position gives changes."""
-    across = (function(0, STEP_PX) - function(0, -STEP_PX)) / (2 * STEP_PX)
-    down = (function(STEP_PX, 0) - function(-STEP_PX, 0)) / (2 * STEP_PX)
-    return np.hypot(across, down)
-
-
-def _gradient(function: Function) -> tuple[Floats, Floats]:
-    """|gradient| of a function of the pixel's position, and its value; (n,) each."""
+def _slope(function: Function, i: Ints, j: Ints) -> Floats:
+    """How much each of the numbers, (n,) or (n, 3), that a function of the place gives changes a
+    pixel, in the direction in which it changes most."""
     with np.errstate(invalid="ignore", over="ignore"):
-        across = (function(0, STEP_PX) - function(0, -STEP_PX)) / (2 * STEP_PX)
-        down = (function(STEP_PX, 0) - function(-STEP_PX, 0)) / (2 * STEP_PX)
-        return np.hypot(across, down), function(0, 0)
+        across = function(i, j + STEP_PX) - function(i, j - STEP_PX)
+        down = function(i + STEP_PX, j) - function(i - STEP_PX, j)
+        return np.hypot(across, down) / (2 * STEP_PX)
 
 
-def _zero_px(function: Function) -> Floats:
+def _zero_px(function: Function, i: Ints, j: Ints) -> Floats:
     """Distance to where the function is 0, to first order, in pixels; inf where it is undefined."""
-    slope, value = _gradient(function)
     with np.errstate(divide="ignore", invalid="ignore"):
-        distance = np.abs(value) / slope
+        distance = np.abs(function(i, j)) / _slope(function, i, j)
     return np.where(np.isnan(distance), np.inf, distance)

@@ -63,6 +63,28 @@ def test_every_kind_of_change_is_made_and_types_and_errors_left_alone(tmp_path):
     assert outermost(tmp_path, "thing.py") == {"Thing.grown": (9, 13), "several": (16, 18)}
 
 
+def test_tolerances_are_changed_in_the_renderers_alone(tmp_path):
+    source = "LIMIT = 1 / 4\n\n\ndef near(size):\n    return size < 8e-6\n"
+    told = {}
+    for package in ("app", "renderer"):
+        (tmp_path / package).mkdir()
+        (tmp_path / package / "thing.py").write_text(source)
+        for mutant in mutants(tmp_path, f"{package}/thing.py"):
+            space: dict = {}
+            exec(compiled(tmp_path, mutant), space)
+            near = [size for size in (7e-7, 7e-6, 7e-5) if space["near"](size)]
+            told[package, mutant.key.split(" | ")[1]] = space["LIMIT"], near
+    assert {change for package, change in told if package == "app"} == {
+        "Lt -> LtE",
+        "Lt -> GtE",
+        "returns None",
+    }
+    assert told["renderer", "ten times"] == (2.5, [7e-7, 7e-6])
+    assert told["renderer", "a tenth"] == (0.025, [7e-7, 7e-6])
+    assert told["renderer", "ten times 8e-06"] == (0.25, [7e-7, 7e-6, 7e-5])
+    assert told["renderer", "a tenth 8e-06"] == (0.25, [7e-7])
+
+
 def test_a_mutants_code_has_its_change_and_no_other(tmp_path):
     (tmp_path / "thing.py").write_text(SOURCE)
     results = {}

@@ -185,6 +185,17 @@ def test_dependent_vectors_are_named():
         Camera(v=(2, 0, 0))
 
 
+def test_a_basis_is_usable_down_to_a_volume_of_1e_9():
+    """Of its unit vectors; and a look at what is 1e-8 off the direction of up."""
+    flat = {"u": (1, 0, 0), "v": (0, 2, 0)}
+    assert Camera(w=(3, 3, 1.1e-9 * math.sqrt(18)), **flat).determinant > 0
+    with pytest.raises(LucidaError, match=r"w: .* lies in the plane of u"):
+        Camera(w=(3, 3, 0.9e-9 * math.sqrt(18)), **flat)
+    Camera.look_at((0, 0, 5), (0, 0, 0), up=(1.1e-8, 0, 1))
+    with pytest.raises(LucidaError, match=r"up: .* along the view direction"):
+        Camera.look_at((0, 0, 5), (0, 0, 0), up=(0.9e-8, 0, 1))
+
+
 def test_points_behind_the_eye_have_no_pixel_in_perspective():
     row, column, parameter = Camera.canonical().project([(0, 0, 1), (0, 0, 0)], (4, 4))
     assert np.isnan(row).all()

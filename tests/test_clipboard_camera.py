@@ -16,7 +16,7 @@ from hypothesis import assume, example, given
 from hypothesis import strategies as st
 
 from app.cameras.reader import MOST_CHARACTERS, read_view
-from app.cameras.text import FORMS, Form, Subject, as_text
+from app.cameras.text import FORMS, Form, Subject, as_text, command_line
 from app.cli import main
 from app.commands import view as view_command
 from renderer.camera import Camera, volume
@@ -102,6 +102,37 @@ def test_matrices_are_named_column_by_column_and_what_opengl_takes() -> None:
     assert clip[10] == pytest.approx(-(20 + 0.5) / (20 - 0.5))
     assert clip[14] == pytest.approx(-2 * 20 * 0.5 / (20 - 0.5))
     assert "near = 0.5, far = 20.0" in text
+    behind = Camera(u=(-1, 0, 0), w=(0, 0, -1))
+    text = as_text("OpenGL matrices", Subject(View(behind), behind, "spheres", BOUNDS))
+    assert "-0.0," not in text and "-0.0]" not in text
+
+
+@pytest.mark.parametrize(
+    ("clip", "told"),
+    [
+        ({}, "near = 0.1, far = 100.0: fitted to the scene"),
+        ({"near": 0.5}, "near = 0.5, far = 500.0"),
+        ({"near": 0.02}, "near = 0.02, far = 100.0"),
+        ({"far": 20.0}, "near = 0.02, far = 20.0"),
+        ({"far": 400.0}, "near = 0.1, far = 400.0"),
+        ({"near": 0.5, "far": 20.0}, "near = 0.5, far = 20.0"),
+    ],
+)
+def test_of_matrices_a_clip_plane_that_is_not_set_is_found(
+    clip: dict[str, float], told: str
+) -> None:
+    """Without a scene 0.1 and 100; but never more than a factor of 1000 nearer or farther."""
+    camera = Camera(eye=(1, 2, 3), **clip)
+    text = as_text("OpenGL matrices", Subject(View(camera), camera, "spheres", np.zeros((0, 3))))
+    assert f"# {told}" in text.split("\n")
+
+
+def test_a_path_that_is_no_text_is_written_as_shells_write_bytes() -> None:
+    text = command_line(View(Camera()), "a 'b'\\\n\udcff.obj")
+    assert text.startswith(r"lucida render $'a \'b\'\\\n\xff.obj' -o image.png")
+    assert command_line(View(Camera()), "a 'b'").split(" --")[0] == (
+        """lucida render 'a '"'"'b'"'"'' -o image.png"""
+    )
 
 
 @pytest.mark.parametrize(

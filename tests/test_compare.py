@@ -9,7 +9,6 @@ from renderer import Camera, Frame
 from renderer.compare import (
     CAUSES,
     LABEL_COLORS,
-    NORMAL,
     SHADING,
     UNEXPLAINED,
     compare,
@@ -163,8 +162,9 @@ def test_of_two_clip_planes_the_nearer_line_counts():
         np.testing.assert_allclose(distance, np.min(wanted, axis=0), rtol=0.15, atol=0.01)
 
 
-@pytest.mark.parametrize(("height", "unexplained"), [(1e-17, 0), (1e-9, 768)])
+@pytest.mark.parametrize(("height", "unexplained"), [(0.9e-11, 0), (1.1e-11, 768)])
 def test_rounding_decides_whether_the_eye_sees_what_it_lies_on(height, unexplained):
+    """Within 1e-12 of the largest coordinate, the wall's width of 10."""
     flat = flatten(Scene((wall(0), wall(-2))))
     camera = replace(CAMERA, eye=(0, 3, height))  # not on the wall's diagonal
     on_it, through = image(height, 0, 0), image(2, 1, 2)
@@ -227,7 +227,8 @@ def test_vertex_colours_of_triangles_that_are_parts_of_a_pixel(size, explained):
     mesh = Mesh(corners, [[0, 1, 2]], colors=np.eye(3) * 0.8 + 0.1)
     flat = flatten(Scene((SceneObject(mesh),)))
     frame = image(2, 0, 0, (33, 33))
-    wrong = changed(frame, (16, 16), color=(0.53, 0.48, 0.5))
+    # Which depths that agree leave as it is.
+    wrong = changed(frame, (16, 16), color=(0.53, 0.48, 0.5), depth=2 * (1 + 0.9e-4))
     camera = replace(CAMERA, viewport=(-0.5, 0.5, -0.5, 0.5))
     expected = "grazing" if explained else "unexplained"
     assert counts(compare_frames(flat, camera, (33, 33), wrong, frame)) == {expected: 1}
@@ -294,7 +295,7 @@ def test_what_is_told_of_a_comparison():
     assert wrong.summary().split("\n")[2] == "unexplained: 1"
 
 
-@pytest.mark.parametrize(("normal", "agrees"), [(NORMAL, True), (1.001 * NORMAL, False)])
+@pytest.mark.parametrize(("normal", "agrees"), [(0.001, True), (0.001001, False)])
 def test_a_difference_of_the_tolerance_still_agrees(normal, agrees):
     flat = flatten(Scene((wall(-2),)))
     frame = image(2, 0, 0)
@@ -306,11 +307,12 @@ def test_a_difference_of_the_tolerance_still_agrees(normal, agrees):
 
 def test_the_difference_image_is_the_raster_image_darkened():
     flat = flatten(Scene((wall(-2),)))
-    frame = changed(image(2, 0, 0), (0, 0), color=(1.0, 1.0, 1.0))
+    ramp = np.linspace(0, 1, 32, dtype=np.float32)
+    frame = changed(image(2, 0, 0), 0, color=ramp[:, None])
     comparison = compare_frames(flat, CAMERA, SIZE, changed(frame, (3, 4), id=7), frame)
     picture = comparison.difference_image()
-    assert picture[0, 0].tolist() == [int(0.35 * 255)] * 3
-    assert picture[1, 1].tolist() == [int(255 * 0.35 * float(encode_srgb(np.float32(0.5))))] * 3
+    wanted = [int(0.35 * 255 * value) for value in encode_srgb(ramp)]
+    assert picture[0].tolist() == [[value] * 3 for value in wanted]
     difference = signed_difference(frame, frame, "depth")
     assert (comparison.false_color("depth", 4.0) == false_color(difference, "depth", 4.0)).all()
     assert LABEL_COLORS.shape == (256, 3)
@@ -405,13 +407,15 @@ def test_more_differing_pixels_than_edges_have_are_not_examined(monkeypatch):
 
 
 def test_the_smallest_differences_are_told_as_they_are():
+    """After the display transform, which makes those of dark colours 12.92 times as large."""
     flat = flatten(Scene((wall(-2),)))
-    frame = image(2, 0, 0)
-    near = changed(frame, (3, 4), color=0.5 + 2e-5)
-    comparison = compare_frames(flat, CAMERA, SIZE, frame, near)
-    exact = float(encode_srgb(np.float32(0.5 + 2e-5)) - encode_srgb(np.float32(0.5)))
-    assert comparison.max_color_error == pytest.approx(exact, rel=1e-2)
-    assert comparison.worst == (3, 4)
+    for color, by in ((0.5, 2e-6), (0.0, 5e-6)):
+        frame = changed(image(2, 0, 0), (3, 4), color=color)
+        near = changed(frame, (3, 4), color=color + by)
+        comparison = compare_frames(flat, CAMERA, SIZE, frame, near)
+        exact = float(encode_srgb(np.float32(color + by)) - encode_srgb(np.float32(color)))
+        assert comparison.max_color_error == pytest.approx(exact, rel=1e-2)
+        assert comparison.worst == (3, 4)
     other = changed(frame, (3, 4), id=7)
     comparison = compare_frames(flat, CAMERA, SIZE, frame, other)
     error = comparison.errors["id"]

@@ -262,6 +262,9 @@ def test_a_checker_cell_ends_at_the_distance_of_its_border(camera: Camera, entry
     plain = Lines(flatten(Scene((replace(entry, material=Material()),))), camera, SIZE)
     assert np.isinf(plain.checker_px(primitive, i, j, t)).all()
     assert np.isinf(lines.checker_px(primitive - 1, i, j, t)).all()
+    middle, one = (np.full(2, 119.5), np.full(2, 159.5)), np.array([0, -1])
+    found = lines.checker_px(one, *middle, np.array([3.0, np.inf]))  # without a warning
+    assert np.isfinite(found).tolist() == [True, False]
 
 
 @named
@@ -338,10 +341,14 @@ def test_cells_of_little_more_than_a_pixel() -> None:
 
 
 def test_from_where_on_a_long_triangle_is_rasterized() -> None:
-    """A millionth of its farthest corner's depth, and what float32 adds to that."""
-    corners = [(-400, -1, 400), (400, -1, 400), (0, -1, -400)]
-    lines = Lines(flatten(Scene((SceneObject(Mesh(corners, [[0, 1, 2]])),))), Camera(), (32, 24))
+    """A millionth of its farthest corner's depth, and what float32 adds to that; however it came
+    to be where it is."""
+    corners = np.array([(-400, -1, 400), (400, -1, 400), (0, -1, -400)])
+    turned = np.array([(0, 0, 1, 30), (0, 1, 0, 0), (-1, 0, 0, -70), (0, 0, 0, 1.0)])
+    own = (corners - turned[:3, 3]) @ turned[:3, :3]
     pixel = np.zeros(1, int), np.array([20]), np.array([9])
-    for part, cut in ((1.4e-6, True), (1.6e-6, False)):
-        distance = lines.clip_px(*pixel, np.array([part * 400]))
-        assert (distance[0] == 0) == cut
+    for mesh in (Mesh(corners, [[0, 1, 2]]), Mesh(own, [[0, 1, 2]], transform=turned)):
+        lines = Lines(flatten(Scene((SceneObject(mesh),))), Camera(), (32, 24))
+        for part, cut in ((1.4e-6, True), (1.6e-6, False)):
+            distance = lines.clip_px(*pixel, np.array([part * 400]))
+            assert (distance[0] == 0) == cut

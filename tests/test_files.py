@@ -143,6 +143,16 @@ def test_of_the_list_s_file_only_usable_paths_are_taken(tmp_path):
     assert [entry.missing for entry in recent.entries] == [True, True, *[False] * (MOST - 5)]
     recent.close()
     assert not Recent("/b").missing
+    assert Recent("/a/b").folder == "/a"
+
+
+def test_a_list_that_is_only_looked_at_is_not_written(tmp_path):
+    listed = b'[ "/b" ]'
+    (tmp_path / "recent.json").write_bytes(listed)
+    recent = RecentFiles(tmp_path, lambda: None)
+    wait_for(lambda: bool(recent.entries))
+    recent.close()
+    assert (tmp_path / "recent.json").read_bytes() == listed
 
 
 # Folders.

@@ -75,11 +75,19 @@ def test_pixels_have_the_colours_of_the_saved_pictures(channel: Channel):
     assert np.abs(shown.astype(int) - picture(image, channel, 0.5)).max() <= 1
 
 
+def test_normals_are_shown_to_the_nearest_byte():
+    """-1 to 1 as 0 to 255: 0.61 is 205.3, -0.6 is 51."""
+    normal = np.array([[[0.61, -0.6, 1.0]]], np.float32)
+    assert shown_bytes(normal, replace(COLOR, channel="normal"), None).tolist() == [
+        [[205, 51, 255]]
+    ]
+
+
 def test_components_and_linear_light():
     color = frame().color
     plain = to_srgb8(color)
     red = shown_bytes(color, replace(COLOR, component="red"), None)
-    assert (red == plain[..., :1]).all()
+    assert red.tolist() == np.stack([plain[..., 0]] * 3, axis=-1).tolist()
     tinted = shown_bytes(color, replace(COLOR, component="blue", tinted=True), None)
     assert (tinted == plain * np.array([0, 0, 1])).all()
     linear = shown_bytes(color, replace(COLOR, transfer="linear"), None)
@@ -95,7 +103,8 @@ def test_values_are_written_as_the_channel_needs():
     assert value_lines(np.array([[3.14159, np.inf, 12345.0]]), depth) == [["3.14", "-", "1e+04"]]
     normal = replace(COLOR, channel="normal")
     assert value_lines(np.array([[[1, 0, -0.5]]]), normal) == [["+1.00\n+0.00\n-0.50"]]
-    assert value_lines(np.array([[4, -1]]), replace(COLOR, channel="id")) == [["4", "-"]]
+    numbers = np.array([[4, 0, -1]])
+    assert value_lines(numbers, replace(COLOR, channel="id")) == [["4", "0", "-"]]
     for options in (COLOR, depth, normal, replace(COLOR, component="red")):
         array = np.zeros((1, 1) if options.channel == "depth" else (1, 1, 3), np.float32)
         assert value_lines(array, options)[0][0].count("\n") + 1 == line_count(options)
@@ -166,6 +175,8 @@ def test_a_new_mark_counts_from_where_it_is_set():
     assert (mark, anchor.pixel) == ((2, 3), (2, 3))
     assert followed(None, anchor, VIEW, (64, 36)) == (None, None)
     assert followed((99, 99), None, VIEW, (64, 36))[0] == (35, 63)
+    assert followed((0, 0), None, VIEW, (64, 36))[0] == (0, 0)
+    assert followed((-3, -3), None, VIEW, (64, 36))[0] == (0, 0)
 
 
 def test_objects_have_the_palette_s_colours_and_nothing_is_black():

@@ -11,8 +11,9 @@ import numpy as np
 import pytest
 
 from app.background import Background
+from app.images import agreement as agreement_module
 from app.images import live
-from app.images.agreement import Agreement
+from app.images.agreement import Agreement, Verdict
 from app.images.coarseness import FACTORS
 from app.images.live import LiveTrace, RayImage, Request
 from renderer.camera import Camera
@@ -21,6 +22,7 @@ from renderer.frame import CHANNELS, Frame
 from renderer.scene.model import Scene, SceneObject, Sphere
 
 SCENE, OTHER = Scene((SceneObject(Sphere()),)), Scene(())
+TWO = Scene((SceneObject(Sphere()), SceneObject(Sphere())))
 SIZE = (80, 64)
 PATIENT_S = 30.0  # only a hang takes this long
 
@@ -317,37 +319,52 @@ def test_the_newest_waiting_work_wins_and_errors_are_outcomes() -> None:
     background.close(PATIENT_S)
 
 
-def test_agreement_counts_the_pixels_that_differ() -> None:
+def agreeing(number: int = 0) -> Frame:
+    """2 x 4 pixels, of which the first shows the object of that number."""
+    shape = (2, 4)
+    ids = np.zeros(shape, np.int32)
+    ids[0, 0] = number
+    return Frame(
+        (4, 2),
+        np.zeros((*shape, 3), np.float32),
+        np.ones(shape, np.float32),
+        np.zeros((*shape, 3), np.float32),
+        ids,
+        np.zeros(shape, np.int32),
+    )
+
+
+def test_agreement_counts_the_pixels_that_differ(monkeypatch) -> None:
+    flattened = []
+    flatten = agreement_module.flatten
+    monkeypatch.setattr(
+        agreement_module, "flatten", lambda scene: flattened.append(scene) or flatten(scene)
+    )
     woken = threading.Semaphore(0)
     agreement = Agreement(woken.release)
     asked = Request(SCENE, Camera(eye=(0, 0, 3)), (4, 2))
 
-    def frame(number: int) -> Frame:
-        shape = (2, 4)
-        ids = np.zeros(shape, np.int32)
-        ids[0, 0] = number
-        return Frame(
-            (4, 2),
-            np.zeros((*shape, 3), np.float32),
-            np.ones(shape, np.float32),
-            np.zeros((*shape, 3), np.float32),
-            ids,
-            np.zeros(shape, np.int32),
-        )
+    def verdict_of(request: Request, raster: Frame) -> Verdict:
+        agreement.submit(RayImage(request, agreeing(), 1), raster)
+        assert agreement.busy
+        assert woken.acquire(timeout=PATIENT_S)
+        agreement.poll()
+        assert not agreement.busy
+        verdict = agreement.verdict_on(request)
+        assert verdict is not None
+        return verdict
 
-    agreement.submit(RayImage(asked, frame(0), 1), frame(0))
-    assert woken.acquire(timeout=PATIENT_S)
-    agreement.poll()
-    verdict = agreement.verdict_on(asked)
-    assert verdict is not None
-    assert verdict.text == "agree: all pixels"
+    assert verdict_of(asked, agreeing()).text == "agree: all pixels"
     assert agreement.verdict_on(replace(asked, size=(4, 3))) is None
     assert agreement.frame_of(asked) is not None
     assert agreement.frame_of(replace(asked, shadows=True)) is None
-    agreement.submit(RayImage(asked, frame(0), 1), frame(1))
-    assert woken.acquire(timeout=PATIENT_S)
-    agreement.poll()
-    verdict = agreement.verdict_on(asked)
-    assert verdict is not None
+    verdict = verdict_of(asked, agreeing(1))
     assert verdict.unexplained + ("edge" in verdict.text) > 0
+    # Shadows differ for a good reason: nothing is said of the rest either.
+    verdict = verdict_of(replace(asked, shadows=True), agreeing(1))
+    assert verdict.text == "not compared: only rays find shadows and mirrors"
+    assert verdict.unexplained == 0
+    verdict_of(replace(asked, scene=TWO), agreeing())
+    assert flattened == [SCENE, TWO]  # once each: it is costly
     agreement.close()
+    assert "lucida-compare" not in {thread.name for thread in threading.enumerate()}

@@ -351,3 +351,12 @@ def test_of_two_distances_with_one_field_of_view_the_larger() -> None:
     assert navigation.distance_for(camera, 15) == pytest.approx(wanted)
     with pytest.raises(LucidaError, match="is more than this off-axis viewport has"):
         navigation.distance_for(camera, 20)
+
+
+def test_orbit_from_straight_above_leaves_the_horizon_level() -> None:
+    u, v = (0.6, 0, -0.8), (-0.8, 0, -0.6)
+    above = Camera(eye=(0, 5, 0), u=u, v=v, w=(0, 1, 0))
+    after = navigation.orbited(above, (0, 0, 0), 0.0, 0.3)  # dragging upwards lowers the eye
+    sine, cosine = math.sin(0.3), math.cos(0.3)
+    assert after.eye == pytest.approx((4 * sine, 5 * cosine, 3 * sine))
+    assert after.u == pytest.approx(u)

@@ -131,7 +131,7 @@ def test_a_pixel_out_of_sight_is_brought_into_the_middle():
 
 @pytest.mark.parametrize(
     ("magnification", "text"),
-    [(1, "1:1"), (8, "8x"), (0.25, "1/4"), (1.5625, "1.56x"), (0.3, "0.3x")],
+    [(1, "1:1"), (8, "8x"), (0.25, "1/4"), (1.5625, "1.56x"), (0.3, "0.3x"), (128, "128x")],
 )
 def test_magnifications_in_words(magnification, text):
     assert magnification_text(magnification) == text
@@ -228,3 +228,14 @@ def test_every_step_of_the_wheel():
     assert stepped(7.5, -1, 1) == 6
     assert stepped(2, 1, 7) == 3, "onwards from below the fit"
     assert stepped(3, -1, 2) is None, "which is the fit"
+
+
+@pytest.mark.parametrize(
+    ("center", "wanted"),
+    [((1.0, 0.0), (0.75, 0.125)), ((0.0, 1.0), (0.25, 0.875)), ((0.6, 0.5), (0.6, 0.5))],
+)
+def test_the_middle_stays_half_a_window_away_from_the_images_border(center, wanted):
+    """A window of 100 x 50 shows half the width and a quarter of the height of 200 x 200."""
+    drawn = placement.Placement((100, 100), (100, 50), 2.0, (0, 0), (200, 200))
+    assert placement.clamped(center, drawn, 2.0) == wanted
+    assert placement.clamped(center, drawn, 0.25) == (0.5, 0.5)

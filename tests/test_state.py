@@ -67,6 +67,13 @@ def test_turning_the_switch_on_makes_the_basis_orthonormal() -> None:
     assert np.allclose(np.cross(state.camera.w, SKEWED.w), 0)
 
 
+def test_each_part_of_the_options_is_changed_by_its_name() -> None:
+    state = STATE.with_options(outside={"bundle": (3, 4)}, preferences={"theme": "light"})
+    assert state.outside.bundle == (3, 4)
+    assert state.preferences.theme == "light"
+    assert (state.images, state.compare) == (STATE.images, STATE.compare)
+
+
 def test_a_skewed_view_turns_the_switch_off() -> None:
     assert STATE.keep_orthonormal
     assert not STATE.with_view(View(SKEWED)).keep_orthonormal
@@ -83,17 +90,29 @@ def test_edits_keep_the_basis_orthonormal_and_its_handedness(
     name: str, axis: int, value: float, mirrored: bool, spin: tuple[float, float, float]
 ) -> None:
     camera = with_vector(Camera(u=(-1, 0, 0) if mirrored else (1, 0, 0)), "w", np.array(spin))
-    edited = with_component(camera, name, axis, value, keep_orthonormal=True)
+    assert is_orthonormal(camera)
+    assert np.allclose(np.multiply(camera.w, np.linalg.norm(spin)), spin)
+    edited = with_component(camera, name, axis, value)
     assert is_orthonormal(edited)
     assert getattr(edited, name)[axis] == pytest.approx(min(max(value, -1), 1), abs=1e-9)
     assert edited.determinant * camera.determinant > 0
 
 
+@pytest.mark.parametrize(("name", "taken"), [("u", "v"), ("v", "w"), ("w", "v")])
+def test_a_vector_may_take_the_place_of_another(name: str, taken: str) -> None:
+    """Of a skewed basis too: the one whose place it takes is turned out of the way."""
+    there = np.array(getattr(SKEWED, taken))
+    camera = with_vector(SKEWED, name, there)
+    assert is_orthonormal(camera)
+    assert np.allclose(getattr(camera, name), there / np.linalg.norm(there))
+    assert camera.determinant * SKEWED.determinant > 0
+
+
 def test_an_axis_can_be_left_and_reached() -> None:
-    camera = with_component(Camera(), "w", 2, 0.5, keep_orthonormal=True)
+    camera = with_component(Camera(), "w", 2, 0.5)
     assert camera.w[2] == 0.5
     assert np.linalg.norm(camera.w) == pytest.approx(1)
-    assert with_component(camera, "w", 2, 1.0, keep_orthonormal=True).w == pytest.approx((0, 0, 1))
+    assert with_component(camera, "w", 2, 1.0).w == pytest.approx((0, 0, 1))
 
 
 def test_dragging_back_brings_everything_back() -> None:
@@ -133,7 +152,14 @@ def test_an_illegal_value_waits_and_the_camera_stays() -> None:
 def test_illegal_fields_are_told_and_kept_out(name: str, value: object) -> None:
     state, draft = edit_field(STATE, Draft.of(STATE.camera), name, value)
     assert state == STATE
-    assert draft.is_wrong(name)
+    assert [field for field in ("eye", "distance", "viewport") if draft.is_wrong(field)] == [name]
+
+
+def test_a_component_that_is_no_number_is_told_and_the_basis_stays() -> None:
+    state, draft = edit_component(STATE, Draft.of(STATE.camera), "w", 0, float("nan"))
+    assert state is STATE
+    assert draft.camera == STATE.camera
+    assert draft.error is not None
 
 
 def test_a_legal_edit_does_not_wait_for_an_illegal_one() -> None:

@@ -240,6 +240,27 @@ class TestRays:
         assert not verdict.right
         assert "backwards" in verdict.text
 
+    @pytest.mark.parametrize(
+        ("exercise", "origin", "direction", "told", "field"),
+        [
+            # Both parts as one mistake gives them, of which one is wrong.
+            (CANONICAL, "0 0 0", "3/16, -5/16, -1", "minus sign", "direction"),
+            (PARALLEL, "0, 1/10 + 1/3, -1/8", "-1, 0, 0", "forgets the eye", "origin"),
+            # A mistake in one part alone.
+            (CANONICAL, "3/16, 5/16, 0", "3, 5, -16", "parallel ray", "origin"),
+            (CANONICAL, "0 0 0", "0 0 -1", "parallel ray", "direction"),
+            (CANONICAL, "0 0 0", "-3, -5, 16", "points backwards", "direction"),
+            # None that is known.
+            (CANONICAL, "0 0 7", "3, 5, -16", "begins at the eye", "origin"),
+            (PARALLEL, "7 7 7", "-1, 0, 0", "begins on the image plane", "origin"),
+            (CANONICAL, "0 0 0", "7, 5, -16", "the direction is not", "direction"),
+        ],
+    )
+    def test_what_is_wrong_is_told_at_its_field(self, exercise, origin, direction, told, field):
+        verdict = exercise.check({"origin": origin, "direction": direction})
+        assert told in verdict.text
+        assert (verdict.right, verdict.field) == (False, field)
+
     def test_length_counts_where_the_question_says_so(self):
         strict = replace(CANONICAL, scaled=False)
         verdict = strict.check({"origin": "0, 0, 0", "direction": "3, 5, -16"})
@@ -276,7 +297,17 @@ class TestVectors:
         assert other_way.field == "u" and "other way" in other_way.text
         assert "not right" in check({"w": "1, 0, 0", "u": "1 0 0"}).text
         assert check({"w": "1, 0, 0"}).field == "u"
+        for w, u in (("-1, 0, 0", "0 0 -5"), ("1, 0, 0", "0 0 1"), ("1, 0, 0", "1 0 0")):
+            assert not check({"w": w, "u": u}).right
         assert "(0, 0, -1)" in self.exercise.solution()
+
+
+@pytest.mark.parametrize(("length", "off"), [(0.1, 0.002), (1.0, 0.002), (100.0, 0.2)])
+def test_answers_may_be_rounded_to_three_digits(length, off):
+    """Two thousandths of the vector's length, or of 1."""
+    exercise = VectorExercise("p?", (Wanted("p", (length, 0, 0)),))
+    for part, right in ((0.95, True), (1.05, False)):
+        assert exercise.check({"p": f"{length}, {part * off:.9f}, 0"}).right == right
 
 
 def test_choices_have_feedback_for_each():

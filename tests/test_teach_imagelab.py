@@ -226,6 +226,26 @@ class TestLight:
         assert (first, left) == (2, 4)
         np.testing.assert_array_equal(part, image[2:5, 4:7])
         assert light.window(image, 2, 3, 50, 50)[2].shape == (5, 7)
+        assert light.window(image, 4, 6, 5, 7)[:2] == (0, 0)
+        assert light.window(image, 2, 3, 4, 4)[:2] == (0, 1)
+
+    def test_the_test_picture_of_bars(self):
+        """Each is two of 16 columns wide; the last quarter of the rows is a ramp."""
+        picture = light.bars(9, 16)
+        names = ["white", "yellow", "cyan", "green", "magenta", "red", "blue", "black"]
+        colors = {"white": (1, 1, 1), "yellow": (1, 1, 0), "cyan": (0, 1, 1), "green": (0, 1, 0)}
+        colors |= {"magenta": (1, 0, 1), "red": (1, 0, 0), "blue": (0, 0, 1), "black": (0, 0, 0)}
+        wanted = [colors[name] for name in names for _ in range(2)]
+        assert picture.shape == (9, 16, 3)
+        assert picture[:7].tolist() == [list(map(list, wanted))] * 7
+        np.testing.assert_allclose(picture[7:], np.ones((2, 16, 3)) * (np.mgrid[:16] / 15)[:, None])
+
+    def test_the_test_picture_of_a_disc(self):
+        """Of radius 2.5 about the middle: white where the pixel's centre is inside."""
+        rows = ["...##...", "..####..", "..####..", "..####..", "...##..."]
+        wanted = np.array([[letter == "#" for letter in row] for row in rows], float)
+        for picture in (light.disc(5, 8), light.disc(8, 5).swapaxes(0, 1)):
+            assert picture.tolist() == np.stack([wanted] * 3, axis=-1).tolist()
 
 
 class TestMemory:

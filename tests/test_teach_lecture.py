@@ -6,6 +6,7 @@ import itertools
 import re
 from dataclasses import fields
 from pathlib import Path
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -17,6 +18,7 @@ from app.state import AppState
 from app.teach.languages import LANGUAGES
 from app.teach.lecture import text as texts
 from app.teach.lecture.exercises import ChoiceExercise, RayExercise, VectorExercise
+from app.teach.lecture.model import Lecture
 from app.teach.lecture.options import ELSEWHERE
 from app.teach.lecture.places import Places, parsed_path
 from app.teach.lecture.reading import BUILTIN, lecture_from_toml, load_lecture
@@ -487,3 +489,12 @@ answers = [
 def test_an_escaped_text_is_shown_as_it_stands(typed):
     (block,) = texts.parse("typed: " + texts.escaped(typed))
     assert texts.words(block.line) == ("typed: " + typed)
+
+
+def test_in_a_newer_lecture_the_nearest_step_of_that_title_is_shown():
+    steps = tuple(SimpleNamespace(title=title) for title in "abaca")
+    found = [Lecture.nearest(SimpleNamespace(steps=steps), "a", k) for k in range(-2, 9)]
+    assert found == [0, 0, 0, 0, 2, 2, 4, 4, 4, 4, 4]
+    # Where there is none, the same number, as far as there are steps.
+    found = [Lecture.nearest(SimpleNamespace(steps=steps), "gone", k) for k in range(-2, 9)]
+    assert found == [0, 0, 0, 1, 2, 3, 4, 4, 4, 4, 4]

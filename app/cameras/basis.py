@@ -20,19 +20,13 @@ _NEXT = {"u": ("v", "w"), "v": ("w", "u"), "w": ("v", "u")}
 _TOWARDS = {"u": "w", "v": "w", "w": "u"}
 
 
-def with_component(
-    camera: Camera, name: str, axis: int, value: float, keep_orthonormal: bool
-) -> Camera:
-    """The camera with component `axis` (0, 1, 2) of u, v or w set to `value`.
+def with_component(camera: Camera, name: str, axis: int, value: float) -> Camera:
+    """The orthonormal camera with component `axis` (0, 1, 2) of u, v or w set to `value`.
 
-    keep_orthonormal: the edited vector stays of length 1 with exactly this component (cut to -1
-    to 1), its other two components keeping their ratio; the other vectors follow by Gram-Schmidt,
-    and the handedness stays. Otherwise the vector is set as it stands. Raises LucidaError.
+    The edited vector stays of length 1 with exactly this component (cut to -1 to 1), its other two
+    components keeping their ratio; the other vectors follow by Gram-Schmidt, and the handedness
+    stays. Raises LucidaError.
     """
-    vector = list(getattr(camera, name))
-    vector[axis] = value
-    if not keep_orthonormal:
-        return _with(camera, {name: _vector(np.array(vector, float))})
     value = min(max(value, -1.0), 1.0)
     rest = np.array(getattr(camera, name), float)
     rest[axis] = 0.0

@@ -58,7 +58,7 @@ def edit_component(
     if name in BASIS and state.keep_orthonormal:
         try:
             base = draft.base or draft.camera
-            camera = with_component(base, name, index, value, keep_orthonormal=True)
+            camera = with_component(base, name, index, value)
         except LucidaError as error:
             return state, replace(draft, error=error)
         basis = {entry: getattr(camera, entry) for entry in BASIS}

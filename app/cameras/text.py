@@ -85,13 +85,12 @@ def matrices(shown: Camera, bounds: Floats) -> str:
     """camera_from_world (OpenGL's view matrix) and clip_from_camera (its projection), for column
     vectors, column by column."""
     near, far = clip_around(shown, bounds)
-    note = f"# near = {near!r}, far = {far!r}: {FITTED}"
-    if shown.near is not None or shown.far is not None:
-        near = (
-            min(near, shown.far / 1000 if shown.far else near) if shown.near is None else shown.near
-        )
-        far = max(far, 1000 * near) if shown.far is None else shown.far
-        note = f"# near = {near!r}, far = {far!r}"
+    told = f": {FITTED}" if shown.near is None and shown.far is None else ""
+    if shown.far is not None:
+        near, far = shown.near or min(near, shown.far / 1000), shown.far
+    elif shown.near is not None:
+        near, far = shown.near, max(far, 1000 * shown.near)
+    note = f"# near = {near!r}, far = {far!r}{told}"
     tables = {
         "camera_from_world": shown.camera_from_world,
         "clip_from_camera": shown.clip_from_camera(near, far),

@@ -242,6 +242,6 @@ def magnification_text(magnification: float) -> str:
     """`1:1`, `8x`, `1.37x`, `1/4`."""
     if magnification == 1:
         return "1:1"
-    if magnification > 1 or round(1 / magnification) != 1 / magnification:
+    if round(1 / magnification) != 1 / magnification:
         return f"{magnification:.3g}x"
     return f"1/{round(1 / magnification)}"
