@@ -168,6 +168,7 @@ def _exposure(state: AppState, around: Surroundings) -> AppState:
         around.fonts.mono,
         EXPOSURE,
         reset=0.0,
+        unit=" EV",
     )
     if changed:
         state = state.with_options(images={"exposure_ev": value})

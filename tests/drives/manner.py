@@ -6,12 +6,13 @@ import os
 import threading
 
 import numpy as np
-from imgui_bundle import hello_imgui, imgui
+from imgui_bundle import ImVec2, hello_imgui, imgui
 from PIL import Image
 from window_driver import PATIENT_S, SIZE, Driver, Key
 
 from app import layout, theme
 from app.panels import loading
+from app.panels.sheet import planned, sections
 from app.views.camera import CAMERA
 from app.views.pair import RASTER, RAY
 from renderer.scene import load_scene, save_view
@@ -74,6 +75,23 @@ def drive_the_sheet_fits_the_window_at_every_size_of_type(d: Driver) -> None:
         d.picture()
         press(d, int(Key.escape))
         assert not d.window.shell.help
+
+
+def drive_the_sheet_is_seen_at_once_in_a_lecture_hall(d: Driver) -> None:
+    """In 1280 x 720 nothing has to be scrolled, and its type is not below 13 pixels."""
+    hello_imgui.change_window_size((1280, 720))
+    d.ctx.yield_(5)
+    press(d, int(Key.f1))
+    d.ctx.yield_(3)
+    sheet = d.ctx.window_info("//Mouse and keys").window
+    assert sheet is not None
+    assert sheet.scroll_max.y == 0
+    assert sheet.scroll_max.x == 0
+    plan = planned(sections(), ImVec2(1200, 600), imgui.get_font_size())
+    assert plan.size_px >= 13
+    press(d, int(Key.escape))
+    hello_imgui.change_window_size(SIZE)
+    d.ctx.yield_(5)
 
 
 def drive_looks_are_options_that_undo_takes_back(d: Driver) -> None:
