@@ -21,6 +21,10 @@ TEXT_PX = 16.0
 PRESENTED = 0.024  # the least size of text in presentation mode, in parts of the window's height
 SURROUND = 0.034  # and its largest: what is read grows on, not the menus and tabs round it
 LEGIBLE = 4.5  # the least contrast of text with what is behind it (WCAG 2.1, 1.4.3)
+SEEN = 3.0  # and of what is drawn (1.4.11)
+
+
+Rgb = tuple[float, float, float]  # sRGB, 0..1
 
 
 def rgb(text: str, alpha: float = 1.0) -> ImVec4:
@@ -322,11 +326,14 @@ def legible(color: ImVec4) -> ImVec4:
     return ImVec4(*_legible((color.x, color.y, color.z), (behind.x, behind.y, behind.z)), color.w)
 
 
-Rgb = tuple[float, float, float]
+def seen_on(color: ImVec4, ground: Rgb) -> ImVec4:
+    """The colour as it is drawn on a ground that is not the theme's: lighter or darker, where it
+    would not stand out."""
+    return ImVec4(*_legible((color.x, color.y, color.z), ground, SEEN), color.w)
 
 
 @functools.lru_cache(maxsize=256)
-def _legible(color: Rgb, behind: Rgb) -> Rgb:
+def _legible(color: Rgb, behind: Rgb, least: float = LEGIBLE) -> Rgb:
     end = 0.0 if _luminance(behind) > 0.18 else 1.0
     for step in range(21):
         part = step / 20
@@ -335,7 +342,7 @@ def _legible(color: Rgb, behind: Rgb) -> Rgb:
             color[1] + part * (end - color[1]),
             color[2] + part * (end - color[2]),
         )
-        if contrast(mixed, behind) >= LEGIBLE:
+        if contrast(mixed, behind) >= least:
             return mixed
     return (end, end, end)
 
