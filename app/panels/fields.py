@@ -13,7 +13,7 @@ from imgui_bundle import ImVec2, ImVec4, imgui
 
 from app import theme
 from app.arithmetic import number
-from app.panels import typed
+from app.panels import pending, typed
 from renderer.errors import LucidaError
 
 LEAST = 1e-3  # where dragging a logarithmic value ends
@@ -130,6 +130,7 @@ def number_field(
             # float32 in the widget: what was meant, not its nearest neighbour.
             new = float(f"{new:.7g}")
     if marked:
+        pending.here()
         imgui.pop_style_color()
         imgui.pop_style_var()
     imgui.pop_font()
