@@ -414,3 +414,15 @@ def drive_the_exposure_is_told_in_stops(d: Driver) -> None:
     finally:
         camera_panel.number_field = real
     assert set(units) == {("exposure", " EV")}
+
+
+def drive_large_numbers_keep_their_digits(d: Driver) -> None:
+    """Typed, shown in all widths, and dragged on from there without being rounded."""
+    d.type("eye.x", "-5432100")
+    assert d.window.state.camera.eye[0] == -5432100
+    d.settle()
+    d.picture()
+    d.drag_field("eye.x", 40)
+    moved = d.window.state.camera.eye[0]
+    assert moved != -5432100
+    assert abs(moved + 5432100) < 1000, "a drag does not round to one digit"
