@@ -20,6 +20,7 @@ from app.options import Preferences
 TEXT_PX = 16.0
 PRESENTED = 0.024  # the least size of text in presentation mode, in parts of the window's height
 SURROUND = 0.034  # and its largest: what is read grows on, not the menus and tabs round it
+LARGEST = 0.0445  # and otherwise: 200 % of a window 720 high, 300 % of one 1080 high
 LEGIBLE = 4.5  # the least contrast of text with what is behind it (WCAG 2.1, 1.4.3)
 SEEN = 3.0  # and of what is drawn (1.4.11)
 
@@ -149,10 +150,13 @@ def __getattr__(name: str) -> Any:
 def look_of(preferences: Preferences, height_px: float, dpi_scale: float = 1.0) -> Look:
     """The look that the preferences ask for in a window of this height, in ImGui's pixels."""
     scale = preferences.font_scale
+    least, most, largest = (
+        part * height_px / (TEXT_PX * dpi_scale) for part in (PRESENTED, SURROUND, LARGEST)
+    )
     if preferences.presentation:
-        least, most = (part * height_px / (TEXT_PX * dpi_scale) for part in (PRESENTED, SURROUND))
-        scale = max(least, min(scale, most))
-        scale = round(scale, 2)
+        scale = round(max(least, min(scale, most)), 2)
+    elif scale > 1.0:
+        scale = round(max(1.0, min(scale, largest)), 2)
     return Look(preferences.theme, preferences.presentation, scale)
 
 

@@ -11,7 +11,7 @@ from PIL import Image
 from window_driver import PATIENT_S, SIZE, Driver, Key
 
 from app import layout, theme
-from app.panels import loading
+from app.panels import loading, menus
 from app.panels.sheet import planned, sections
 from app.views.camera import CAMERA
 from app.views.pair import RASTER, RAY
@@ -92,6 +92,25 @@ def drive_the_sheet_is_seen_at_once_in_a_lecture_hall(d: Driver) -> None:
     press(d, int(Key.escape))
     hello_imgui.change_window_size(SIZE)
     d.ctx.yield_(5)
+
+
+def drive_menus_do_not_grow_without_end(d: Driver) -> None:
+    """200 % is granted in a window 720 high; menus end at a size at which they have room."""
+    bar, sizes = menus._bar, []
+
+    def watched(*rest: object) -> None:
+        sizes.append(imgui.get_font_size())
+        bar(*rest)
+
+    menus._bar = watched
+    try:
+        for scale, window, menu in ((1.0, 16, 16), (1.5, 24, 24), (2.0, 32, 24), (3.0, 32, 24)):
+            d.window.change(d.window.state.with_options(preferences={"font_scale": scale}))
+            d.ctx.yield_(3)
+            assert abs(imgui.get_font_size() - window) <= 1, scale
+            assert abs(sizes[-1] - menu) <= 1, scale
+    finally:
+        menus._bar = bar
 
 
 def drive_looks_are_options_that_undo_takes_back(d: Driver) -> None:
@@ -338,17 +357,20 @@ def drive_the_history_is_a_list(d: Driver) -> None:
 
 def drive_a_narrow_window_keeps_its_menus_and_its_status(d: Driver) -> None:
     d.window.change(d.window.state.with_options(preferences={"font_scale": 3.0}))
-    hello_imgui.change_window_size((640, 480))
     try:
-        d.until(lambda: imgui.get_io().display_size.x == 640)
-        d.settle()
-        d.picture()
-        d.ctx.menu_click("//##MainMenuBar/Menu/Help/Mouse and keys")
-        assert d.window.shell.help
-        d.ctx.yield_(3)
-        d.picture()
-        press(d, int(Key.escape))
-        assert not d.window.shell.help
+        for width, names in ((640, ("File", "Help")), (300, ("Menu",))):
+            hello_imgui.change_window_size((width, 480))
+            d.until(lambda width=width: imgui.get_io().display_size.x == width)
+            d.settle()
+            d.picture()
+            for name in names:
+                assert d.ctx.item_exists(f"//##MainMenuBar/##MenuBar/{name}"), (width, name)
+            press(d, int(Key.f1))
+            assert d.window.shell.help
+            d.ctx.yield_(3)
+            d.picture()
+            press(d, int(Key.escape))
+            assert not d.window.shell.help
     finally:
         hello_imgui.change_window_size(SIZE)
     d.until(lambda: imgui.get_io().display_size.x == SIZE[0])
