@@ -21,7 +21,7 @@ SHORT, LONG, ROW_EM = 9, 4, 1.25  # how many numbers, and texts, at least; the h
 WANTED_CANVAS = 0.44  # of the room's height
 WEIGHTS = (3.0, 2.4, 3.0)  # code, canvas, numbers
 UNREAD = 8.0  # the weight of what code and numbers lack to be read at all
-READ = 1.15  # the least of the numbers' type, in parts of the least of the code's
+READ = 1.0  # the least of the numbers' type, in parts of the least of the code's
 ENOUGH_EM, ENOUGH = 0.95, 0.0275  # of the numbers' type; in parts of the room's height
 GAP_EM = 0.6
 # With the same code in Julia: rooms so much wider than high have all beside one another; the least
