@@ -20,7 +20,12 @@ from app.options import Preferences
 TEXT_PX = 16.0
 PRESENTED = 0.024  # the least size of text in presentation mode, in parts of the window's height
 SURROUND = 0.034  # and its largest: what is read grows on, not the menus and tabs round it
+LARGEST = 0.0445  # and otherwise: 200 % of a window 720 high, 300 % of one 1080 high
 LEGIBLE = 4.5  # the least contrast of text with what is behind it (WCAG 2.1, 1.4.3)
+SEEN = 3.0  # and of what is drawn (1.4.11)
+
+
+Rgb = tuple[float, float, float]  # sRGB, 0..1
 
 
 def rgb(text: str, alpha: float = 1.0) -> ImVec4:
@@ -145,10 +150,13 @@ def __getattr__(name: str) -> Any:
 def look_of(preferences: Preferences, height_px: float, dpi_scale: float = 1.0) -> Look:
     """The look that the preferences ask for in a window of this height, in ImGui's pixels."""
     scale = preferences.font_scale
+    least, most, largest = (
+        part * height_px / (TEXT_PX * dpi_scale) for part in (PRESENTED, SURROUND, LARGEST)
+    )
     if preferences.presentation:
-        least, most = (part * height_px / (TEXT_PX * dpi_scale) for part in (PRESENTED, SURROUND))
-        scale = max(least, min(scale, most))
-        scale = round(scale, 2)
+        scale = round(max(least, min(scale, most)), 2)
+    elif scale > 1.0:
+        scale = round(max(1.0, min(scale, largest)), 2)
     return Look(preferences.theme, preferences.presentation, scale)
 
 
@@ -322,11 +330,14 @@ def legible(color: ImVec4) -> ImVec4:
     return ImVec4(*_legible((color.x, color.y, color.z), (behind.x, behind.y, behind.z)), color.w)
 
 
-Rgb = tuple[float, float, float]
+def seen_on(color: ImVec4, ground: Rgb) -> ImVec4:
+    """The colour as it is drawn on a ground that is not the theme's: lighter or darker, where it
+    would not stand out."""
+    return ImVec4(*_legible((color.x, color.y, color.z), ground, SEEN), color.w)
 
 
 @functools.lru_cache(maxsize=256)
-def _legible(color: Rgb, behind: Rgb) -> Rgb:
+def _legible(color: Rgb, behind: Rgb, least: float = LEGIBLE) -> Rgb:
     end = 0.0 if _luminance(behind) > 0.18 else 1.0
     for step in range(21):
         part = step / 20
@@ -335,7 +346,7 @@ def _legible(color: Rgb, behind: Rgb) -> Rgb:
             color[1] + part * (end - color[1]),
             color[2] + part * (end - color[2]),
         )
-        if contrast(mixed, behind) >= LEGIBLE:
+        if contrast(mixed, behind) >= least:
             return mixed
     return (end, end, end)
 

@@ -12,7 +12,8 @@ SCALE = Scale(-1.0, 1.0)
 
 @pytest.mark.parametrize("value", [0.0, 0.5, -0.5, 12.25, -12.25, 999.0, -999.5, 1e5, -1e-3])
 def test_the_usual_width_is_always_the_same(value: float) -> None:
-    text = fitting_format(value, SCALE, 20) % value
+    form = fitting_format(value, SCALE, 20)
+    text = form % value if "%" in form else form
     assert len(text) == WIDTH + (value < 0 and abs(value) >= 1000)
     assert len(short_number(value)) == 7
 
@@ -26,7 +27,50 @@ def test_in_less_room_the_whole_number_is_still_seen(value: float, characters: i
 
 
 def test_a_number_without_room_is_told_in_powers_of_ten() -> None:
-    assert fitting_format(123456.0, SCALE, 4) % 123456.0 == "1e+05"
+    assert fitting_format(123456.0, SCALE, 4).strip() == "1e5"
+    assert fitting_format(123456.0, SCALE, 2) == "1e5", "not even for that"
+
+
+@pytest.mark.parametrize(
+    ("value", "characters", "shown"),
+    [
+        (5.4e6, 8, " 5400000"),
+        (-5.4e6, 8, "-5400000"),
+        (-5.4e6, 20, "-5400000"),
+        (-5.4e6, 7, "-5.40e6"),
+        (-5.4e6, 6, "-5.4e6"),
+        (1234.5678, 8, "1234.568"),
+        (1234.5678, 6, "1234.6"),
+        (-1234.5678, 8, "-1234.57"),
+        (1.5e12, 8, "1.500e12"),
+        (999999.96, 8, "1000000"),
+    ],
+)
+def test_large_numbers_show_the_digits_that_a_hand_calculation_needs(value, characters, shown):
+    text = fitting_format(value, SCALE, characters)
+    assert text.strip() == shown.strip()
+    assert len(text) <= max(characters, 3)
+    assert float(text) == pytest.approx(value, rel=10.0 ** (3 - characters))
+
+
+@pytest.mark.parametrize(
+    ("value", "shown"),
+    [(0.001234567, "0.001235"), (1e-5, "1.000e-5"), (0.00999, "0.009990")],
+)
+def test_small_numbers_on_a_logarithmic_scale(value, shown):
+    assert fitting_format(value, Scale(0.1, 10.0, logarithmic=True), 12) == shown
+
+
+@pytest.mark.parametrize("value", [float("inf"), float("-inf"), float("nan")])
+def test_what_is_no_number_is_survived(value):
+    assert fitting_format(value, SCALE, 8)
+    assert len(short_number(value)) == 7
+
+
+def test_readouts_show_them_too():
+    assert short_number(5.4e6) == " 5.40e6"
+    assert short_number(-5.4e6) == "-5.40e6"
+    assert short_number(1234.5) == " 1234.5"
 
 
 @pytest.mark.parametrize(

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -132,3 +133,11 @@ def test_words_are_of_one_kind() -> None:
     everything = BUILTIN.read_text(encoding="utf-8")
     assert not re.search(r"\bgrey", everything, re.IGNORECASE)
     assert not re.search(r"\b(bits?|bytes|floats) a pixel", everything)
+
+
+def test_the_windows_words_are_of_one_kind() -> None:
+    """And those of its code, which nobody tells apart."""
+    for path in (Path(__file__).parents[1] / "app").glob("**/*.py"):
+        text = path.read_text(encoding="utf-8")
+        assert not re.search(r"\bgrey", text, re.IGNORECASE), path
+        assert not re.search(r"\b(bits?|bytes|floats|numbers?|samples) a pixel", text), path

@@ -33,7 +33,7 @@ def test_the_steppers_code_is_legible_and_whole(order):
     assert longest * 0.5 * made.code_px <= made.code.width
     first, _, _ = canvases_in(made.canvases.size, (16, 12), has_depth, 30.0, (10.0, 8.0))
     assert min(first[1], 0.75 * first[0]) >= 0.25 * HALL_PX
-    assert made.numbers_px >= 0.016 * HALL_PX
+    assert made.numbers_px >= 0.0185 * HALL_PX
 
 
 @pytest.mark.parametrize("room", [(774, 490), (600, 400), (1170, 790), (450, 600), (400, 430)])

@@ -33,6 +33,7 @@ from app.outside.solid import (
 )
 from app.views.outside_gizmo import (
     gl_matrices,
+    motion,
     nearest_rotation,
     rotation_between,
     rotation_of,
@@ -423,3 +424,27 @@ def test_rays_are_asked_for_without_waiting() -> None:
     other = replace(question, scene=Scene(()))
     assert hits.ask(other, tracer) == {(1, 2): None, (3, 4): None}
     hits.close()
+
+
+def test_a_motion_is_told_in_the_letters_of_the_basis() -> None:
+    camera = Camera.look_at((2.0, 1.5, 5.0), (0.3, 0.0, 1.0))
+    moved = replace(camera, eye=tuple(np.asarray(camera.eye) + 0.604 * np.asarray(camera.v)))
+    assert motion(camera, moved) == "Δv 0.604"
+    both = np.asarray(camera.eye) - 2 * np.asarray(camera.u) + 0.25 * np.asarray(camera.w)
+    assert motion(camera, replace(camera, eye=tuple(both))) == "Δu -2  Δw 0.25"
+    assert motion(camera, camera) == ""
+    # In units of the basis, as the formulas have it: e + v with v twice as long.
+    long = replace(camera, v=tuple(2 * np.asarray(camera.v)))
+    assert motion(long, replace(long, eye=tuple(np.add(long.eye, long.v)))) == "Δv 1"
+
+
+def test_a_turn_is_told_with_its_axis() -> None:
+    camera = Camera(eye=(0.0, 0.0, 5.0))
+    cosine, sine = np.cos(np.radians(30)), np.sin(np.radians(30))
+    about_v = replace(camera, u=(cosine, 0.0, -sine), w=(sine, 0.0, cosine))
+    assert motion(camera, about_v) == "about v: 30.0°"
+    assert motion(about_v, camera) == "about v: -30.0°"
+    about_w = replace(camera, u=(cosine, sine, 0.0), v=(-sine, cosine, 0.0))
+    assert motion(camera, about_w) == "about w: 30.0°"
+    askew = Camera.look_at((0.0, 0.0, 5.0), (5.0, 5.0, 0.0))
+    assert motion(camera, askew).startswith("turned by ")

@@ -8,8 +8,9 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
+from app import theme
 from app.outside.diagram import Dot, Face, Item, Lines
-from app.outside.paint import layers, role_color
+from app.outside.paint import ground_of, layers, role_color, vector_paint
 from app.outside.projected import project
 from app.outside.screen import Screen
 from app.outside.solid import pixel_corners, plane_corners
@@ -25,6 +26,7 @@ INNER = Camera(eye=(0.3, -0.2, 2.0), viewport=(-0.8, 0.9, -0.4, 0.6), w=(0.1, 0.
 PICTURE = np.array(
     [[(255, 0, 0, 255), (0, 255, 0, 255)], [(0, 0, 255, 255), (255, 255, 0, 255)]], np.uint8
 )
+DARK_GROUND = (0.0, 0.0, 0.0)
 EMPTY = Scene((), background=(0.0, 0.0, 0.0))
 BALL = Scene(
     (SceneObject(Sphere((0.0, 0.0, 0.0), 1.0), Material(diffuse=(0.1, 0.1, 0.1))),),
@@ -70,7 +72,7 @@ def drawn(
                 rasterizer.draw(camera, (SIZE[0] // coarse, SIZE[1] // coarse), "outside"),
                 camera,
                 SIZE,
-                layers(primitives),
+                layers(primitives, DARK_GROUND),
                 plane,
                 picture,
                 unit_px=unit_px,
@@ -307,3 +309,21 @@ def test_a_picture_to_be_copied_under_a_window_is_upside_down(rasterizer: Raster
         different = np.abs(turned[::-1].astype(int) - upright).max(axis=2) > 2
         assert different.mean() < 0.002  # edges of shapes: which pixels those cover
         assert np.abs(turned.astype(int) - upright).max() > 50
+
+
+@pytest.mark.parametrize("look", ["dark", "light"])
+@pytest.mark.parametrize("presented", [False, True])
+@pytest.mark.parametrize("background", [(0, 0, 0), (0.02, 0.03, 0.04), (0.2, 0.2, 0.2), (1, 1, 1)])
+def test_the_basis_stands_out_from_the_scenes_ground(monkeypatch, look, presented, background):
+    """By the ground that it is drawn on, not by the theme: light themes show dark scenes too."""
+    monkeypatch.setattr(theme, "_used", [theme.Look(look, presented)])
+    ground = ground_of(background, 0.0)
+    for name in "uvw":
+        color = role_color(name, ground)
+        assert theme.contrast((color.x, color.y, color.z), ground) >= 3.0
+        own = role_color(name)
+        if theme.contrast((own.x, own.y, own.z), ground) >= 3.0:
+            assert (color.x, color.y, color.z) == (own.x, own.y, own.z)
+    paint = vector_paint()
+    for name in "uvw":
+        assert theme.contrast(paint.color(name, 0.0), paint.background) >= 3.0

@@ -146,7 +146,11 @@ def test_the_sheet_holds_every_key_and_fits_columns():
     for columns in (1, 2, 3):
         placed = in_columns(parts, columns, [len(rows) for _, rows in parts])
         assert len(placed) <= columns
-        assert [part for column in placed for part in column] == parts
+        assert sorted(part for column in placed for part in column) == sorted(parts)
+        heights = [sum(len(rows) + 2 for _, rows in column) for column in placed]
+        assert max(heights) <= 1.1 * sum(heights) / columns, "of about one height"
+        for column in placed:
+            assert column == sorted(column, key=parts.index), "in their order"
 
 
 def test_the_sheets_columns_are_equal_where_words_are_broken():

@@ -19,7 +19,7 @@ from app.images.placement import (
 )
 from app.images.shown import section_of, whole
 from app.options import MAGNIFICATIONS, ImageOptions
-from app.panels.pixelgrid import thinning
+from app.panels.rulers import numbered, thinning
 
 SIZES = st.tuples(st.integers(1, 4096), st.integers(1, 4096))
 PANES = st.tuples(st.integers(1, 2500), st.integers(1, 2500))
@@ -27,8 +27,11 @@ CENTERS = st.tuples(st.floats(0, 1), st.floats(0, 1))
 FIXED = ImageOptions(resolution=(64, 36))
 
 
-def placed(size, pane, **options):
-    return place(ImageOptions(resolution=size, **options), size, pane)
+RULERS = st.tuples(st.integers(0, 80), st.integers(0, 40))
+
+
+def placed(size, pane, rulers=(0, 0), **options):
+    return place(ImageOptions(resolution=size, **options), size, pane, rulers)
 
 
 @pytest.mark.parametrize(
@@ -50,6 +53,55 @@ def test_fixed_images_are_fitted(size, pane, magnification):
         assert abs(2 * at.origin[k] + at.extent[k] - pane[k]) <= 1
 
 
+@given(SIZES, PANES, RULERS)
+def test_fitted_images_are_seen_whole_beside_their_rulers(size, pane, rulers):
+    at = placed(size, pane, rulers)
+    assume(at.magnification > placement.LEAST)
+    assert at.sees_all
+    assert at.visible_pixels == (0, 0, size[1], size[0])
+    if at.magnification < placement.RULED_FROM:
+        assert at.margin == (0, 0)
+    elif min(rulers) > 0:
+        assert at.margin in (rulers, (0, 0))
+        assert (at.margin == rulers) == all(
+            p >= placement.LEAST_RULED * r for p, r in zip(pane, rulers, strict=True)
+        )
+
+
+def test_rulers_stand_where_pixels_have_lines_between_them():
+    """By hand: an image of 16 x 9 in 480 x 400, with rulers of 30 and 20."""
+    at = placed((16, 9), (480, 400), (30, 20))
+    assert at.magnification == 28, "450 / 16"
+    assert at.margin == (30, 20)
+    assert at.origin == (30 + (450 - 448) // 2, 20 + (380 - 252) // 2)
+    assert placed((16, 9), (480, 400), (30, 20), grid=False).extent == (480, 270)
+    assert placed((64, 36), (520, 400), (30, 20)).magnification == 7, "8 leave no room for them"
+    assert placed((64, 36), (520, 400), (30, 20)).margin == (0, 0)
+
+
+def test_images_of_the_windows_own_size_leave_room_for_their_rulers():
+    options = ImageOptions(pixel_size=8)
+    size = placement.own_size(options, (480, 400), (30, 20))
+    assert size == (56, 47)
+    at = place(options, size, (480, 400), (30, 20))
+    assert at.magnification == 8
+    assert at.margin == (30, 20)
+    assert placement.own_size(replace(options, pixel_size=4), (480, 400), (30, 20)) == (120, 100)
+    assert placement.own_size(options, (80, 400), (30, 20)) == (10, 50), "too narrow for rulers"
+
+
+def test_rulers_number_the_first_pixel_and_round_numbers():
+    def texts(first, last, base, step):
+        return [pixel + base for pixel in numbered(first, last, base, step)]
+
+    assert texts(0, 5, 1, 1) == [1, 2, 3, 4, 5]
+    assert texts(0, 7, 1, 2) == [1, 3, 5, 7]
+    assert texts(0, 7, 0, 2) == [0, 2, 4, 6]
+    assert texts(0, 17, 1, 5) == [1, 5, 10, 15]
+    assert texts(0, 21, 0, 10) == [0, 10, 20]
+    assert texts(3, 21, 1, 10) == [10, 20], "the first pixel is not seen"
+
+
 def test_images_as_large_as_the_window_have_pixels_of_the_size_chosen():
     at = place(ImageOptions(pixel_size=8), (60, 50), (487, 404))
     assert at.magnification == 8
@@ -57,21 +109,23 @@ def test_images_as_large_as_the_window_have_pixels_of_the_size_chosen():
     assert at.whole
 
 
-@given(SIZES, PANES, CENTERS, st.sampled_from(MAGNIFICATIONS))
-def test_nothing_of_the_window_is_left_empty(size, pane, center, magnification):
-    at = placed(size, pane, magnification=magnification, center=center)
+@given(SIZES, PANES, RULERS, CENTERS, st.sampled_from(MAGNIFICATIONS))
+def test_nothing_of_the_window_is_left_empty(size, pane, rulers, center, magnification):
+    at = placed(size, pane, rulers, magnification=magnification, center=center)
     left, top, right, bottom = at.visible
     for k, (low, high) in enumerate(((left, right), (top, bottom))):
-        assert high - low == min(at.extent[k], pane[k])
+        assert high - low == min(at.extent[k], pane[k] - at.margin[k])
+        assert at.margin[k] <= low, "an image does not reach under its ruler"
+        assert high <= pane[k]
     first_row, first_column, last_row, last_column = at.visible_pixels
     assert 0 <= first_row < last_row <= size[1]
     assert 0 <= first_column < last_column <= size[0]
     assert at.whole
 
 
-@given(SIZES, PANES, CENTERS, st.sampled_from(MAGNIFICATIONS), st.data())
-def test_a_pixel_is_found_where_it_is_drawn(size, pane, center, magnification, data):
-    at = placed(size, pane, magnification=magnification, center=center)
+@given(SIZES, PANES, RULERS, CENTERS, st.sampled_from(MAGNIFICATIONS), st.data())
+def test_a_pixel_is_found_where_it_is_drawn(size, pane, rulers, center, magnification, data):
+    at = placed(size, pane, rulers, magnification=magnification, center=center)
     top, left, bottom, right = at.visible_pixels
     row = data.draw(st.integers(top, bottom - 1))
     column = data.draw(st.integers(left, right - 1))
@@ -83,9 +137,9 @@ def test_a_pixel_is_found_where_it_is_drawn(size, pane, center, magnification, d
     )
 
 
-@given(SIZES, PANES, CENTERS, st.sampled_from(MAGNIFICATIONS[:-1]), st.data())
-def test_magnifying_keeps_what_is_under_the_pointer(size, pane, center, factor, data):
-    at = placed(size, pane, magnification=factor, center=center)
+@given(SIZES, PANES, RULERS, CENTERS, st.sampled_from(MAGNIFICATIONS[:-1]), st.data())
+def test_magnifying_keeps_what_is_under_the_pointer(size, pane, rulers, center, factor, data):
+    at = placed(size, pane, rulers, magnification=factor, center=center)
     left, top, right, bottom = at.visible
     x, y = (
         data.draw(st.integers(left, right - 1)) + 0.5,
@@ -93,9 +147,12 @@ def test_magnifying_keeps_what_is_under_the_pointer(size, pane, center, factor, 
     )
     options = replace(ImageOptions(resolution=size), magnification=factor, center=center)
     closer = place(
-        replace(options, **zoomed_at(at, at.part_at(x, y), x, y, 2.0 * factor)), size, pane
+        replace(options, **zoomed_at(at, at.part_at(x, y), x, y, 2.0 * factor)), size, pane, rulers
     )
     assume(all(e > p for e, p in zip(at.extent, pane, strict=True)))
+    # What a new ruler covers cannot stay where it was.
+    assume(x >= closer.margin[0])
+    assume(y >= closer.margin[1])
     assert closer.part_at(x, y) == pytest.approx(at.part_at(x, y), abs=2 / (factor * min(size)))
 
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-from app.panels.fields import Scale, number_format, short_number
+from app.panels.fields import Scale, fitting_format, number_format, short_number
 from app.panels.status import (
     Status,
     agreement_text,
@@ -31,10 +31,11 @@ def test_fields_have_the_digits_that_their_scene_needs() -> None:
     wide, small, distance = Scale(-9, 9), Scale(-0.4, 0.4), Scale(0.1, 10, logarithmic=True)
     assert number_format(0.123, wide) % 0.1234 == "   0.123"
     assert number_format(0.123, small) % 0.1234 == "  0.1234"
-    assert number_format(2e-5, distance) % 2e-5 == "2.00e-05"
+    assert fitting_format(2e-5, distance, 20) == "2.000e-5"
     assert number_format(6e-17, Scale(-1, 1)) % 6e-17 == "   0.000"
     for value in (-999.9, -1e6, 1e12, -99.99, -150.0):
-        assert len(number_format(value, small) % value) in (8, 9)
+        form = fitting_format(value, small, 20)
+        assert len(form % value if "%" in form else form) in (8, 9)
 
 
 def test_an_image_that_no_view_has_wanted_has_no_time() -> None:

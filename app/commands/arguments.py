@@ -61,7 +61,7 @@ def size(text: str) -> tuple[int, int]:
 
 
 def samples(text: str) -> int:
-    """A square number of samples a pixel."""
+    """A square number of samples per pixel."""
     if not (_is_whole(text) and int(text) in SAMPLES):
         allowed = ", ".join(map(str, SAMPLES))
         raise argparse.ArgumentTypeError(f"{text!r} is not possible; give one of {allowed}")

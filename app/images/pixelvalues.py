@@ -33,7 +33,7 @@ def shown_bytes(values: NDArray, options: ImageOptions, depths: Depths) -> Bytes
         unit = np.clip(np.nan_to_num(values) * np.float32(0.5) + np.float32(0.5), 0, 1)
         shown = (np.where(hit, unit, 0) * 255 + 0.5).astype(np.uint8)
     else:
-        shown = _color_bytes(values, options)
+        shown = color_bytes(values, options)
     if options.component == "rgb":
         return shown
     index = _COMPONENTS.index(options.component)
@@ -58,7 +58,7 @@ def value_lines(
     if channel == "id":
         return [[str(k) if k >= 0 else "-" for k in row] for row in values.tolist()]
     if channel == "color" and options.values == "bytes":
-        numbers, form = _color_bytes(values, options), "{:3d}"
+        numbers, form = color_bytes(values, options), "{:3d}"
     else:
         numbers, form = values, "{:+.2f}" if channel == "normal" else "{:.2f}"
     if options.component != "rgb":
@@ -73,7 +73,8 @@ def line_count(options: ImageOptions) -> int:
     return 3 if several else 1
 
 
-def _color_bytes(values: NDArray, options: ImageOptions) -> Bytes:
+def color_bytes(values: NDArray, options: ImageOptions) -> Bytes:
+    """Linear colours as the screen shows them."""
     if options.transfer == "srgb":
         return to_srgb8(values, options.exposure_ev)
     exposed = np.nan_to_num(np.asarray(values, np.float32)) * np.float32(2.0**options.exposure_ev)

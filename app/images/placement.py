@@ -1,8 +1,9 @@
 """Where an image stands in its window, at which magnification, and what of it is to be seen.
 
 Owns the mapping between the pixels of an image and those of the screen, and the arithmetic of
-zooming and panning into it. Knows nothing of cameras, widgets or OpenGL. All lengths are
-framebuffer pixels, with the origin in the upper left corner of the window's content.
+zooming and panning into it; and the margin beside it in which rulers number magnified pixels. Knows
+nothing of cameras, widgets or OpenGL. All lengths are framebuffer pixels, with the origin in the
+upper left corner of the window's content.
 """
 
 from __future__ import annotations
@@ -24,6 +25,8 @@ STEPS = (
 )
 NEARLY = 0.85  # as large: of the width, and of the height
 WHOLE_FROM = 4.0  # a fitted image gives up a fifth of its size at most for pixels of one size
+RULED_FROM = 8.0  # from this magnification on there are lines between pixels, and rulers
+LEAST_RULED = 4  # a window that is that many rulers wide and high has room for them
 
 
 @dataclass(frozen=True)
@@ -31,7 +34,9 @@ class Placement:
     """An image of `size` pixels, drawn `extent` large at `origin` in a window of `pane`.
 
     origin may be negative, extent larger than pane. magnification: screen pixels a side of an
-    image's pixel. whole: whether each pixel is a square of whole screen pixels.
+    image's pixel. rulers: (width, height) of the ruler at the image's left and of the one above
+    it, where the magnification has them; (0, 0): never. whole: whether each pixel is a square of
+    whole screen pixels.
     """
 
     size: Size
@@ -39,6 +44,12 @@ class Placement:
     magnification: float
     origin: tuple[int, int]
     extent: Size
+    rulers: Size = (0, 0)
+
+    @property
+    def margin(self) -> Size:
+        """What the rulers take of the window, on the left and above."""
+        return margin_at(self.magnification, self.rulers)
 
     @property
     def unit(self) -> tuple[float, float]:
@@ -53,14 +64,15 @@ class Placement:
     def visible(self) -> tuple[int, int, int, int]:
         """Left, top, right, bottom of what is seen of the image."""
         (x, y), (width, height) = self.origin, self.extent
-        left, top = max(x, 0), max(y, 0)
+        left, top = max(x, self.margin[0]), max(y, self.margin[1])
         right, bottom = min(x + width, self.pane[0]), min(y + height, self.pane[1])
         return left, top, max(right, left + 1), max(bottom, top + 1)
 
     @property
     def sees_all(self) -> bool:
         """Whether nothing of the image is outside the window."""
-        return all(e <= p for e, p in zip(self.extent, self.pane, strict=True))
+        room = beside(self.pane, self.margin)
+        return all(e <= r for e, r in zip(self.extent, room, strict=True))
 
     @property
     def visible_parts(self) -> tuple[float, float, float, float]:
@@ -108,12 +120,17 @@ class Placement:
     def center_with(
         self, part: tuple[float, float], x: float, y: float, magnification: float
     ) -> tuple[float, float]:
-        """What the middle of the window must show, so that at another magnification the part
+        """What the middle of the image's room must show, so that at another magnification the part
         `part` of the image (of its width, height) stands at (x, y)."""
+        middle = self.middle_at(magnification)
         return tuple(  # type: ignore[return-value]
-            part[k] + (self.pane[k] / 2 - (x, y)[k]) / (self.size[k] * magnification)
-            for k in (0, 1)
+            part[k] + (middle[k] - (x, y)[k]) / (self.size[k] * magnification) for k in (0, 1)
         )
+
+    def middle_at(self, magnification: float) -> tuple[float, float]:
+        """The middle of the image's room: of the window without the rulers."""
+        margin = margin_at(magnification, self.rulers)
+        return (self.pane[0] + margin[0]) / 2, (self.pane[1] + margin[1]) / 2
 
     def part_at(self, x: float, y: float) -> tuple[float, float]:
         """A place of the window in parts of the image's width and height."""
@@ -126,10 +143,40 @@ def fit_magnification(size: Size, pane: Size) -> float:
     return float(math.floor(fit)) if fit >= WHOLE_FROM else max(fit, LEAST)
 
 
-def magnification_of(options: ImageOptions, size: Size, pane: Size) -> float:
-    """What the options come to for an image in a window."""
+def margin_at(magnification: float, rulers: Size) -> Size:
+    """What rulers of a (width, height) take of a window, on the left and above."""
+    return rulers if magnification >= RULED_FROM else (0, 0)
+
+
+def beside(pane: Size, margin: Size) -> Size:
+    """(width, height) of what a margin leaves of a window."""
+    return pane[0] - margin[0], pane[1] - margin[1]
+
+
+def rulers_in(pane: Size, rulers: Size) -> Size:
+    """The rulers of a window: none where it is too small for them."""
+    has_room = all(p >= LEAST_RULED * r for p, r in zip(pane, rulers, strict=True))
+    return rulers if has_room else (0, 0)
+
+
+def own_size(options: ImageOptions, pane: Size, rulers: Size) -> Size:
+    """(width, height) of an image that fills a window at the pixel size that was chosen."""
+    room = beside(pane, margin_at(options.pixel_size, rulers_in(pane, rulers)))
+    return max(1, room[0] // options.pixel_size), max(1, room[1] // options.pixel_size)
+
+
+def magnification_of(options: ImageOptions, size: Size, pane: Size, rulers: Size = (0, 0)) -> float:
+    """What the options come to for an image in a window. An image that would be ruled in all of
+    the window leaves room for its rulers, and has none where it is too small then."""
     if options.magnification is not None:
         return options.magnification
+    magnification = _unruled(options, size, pane)
+    if magnification >= RULED_FROM:
+        return _unruled(options, size, beside(pane, rulers))
+    return magnification
+
+
+def _unruled(options: ImageOptions, size: Size, pane: Size) -> float:
     if options.resolution is None and all(
         s * options.pixel_size <= p for s, p in zip(size, pane, strict=True)
     ):
@@ -146,19 +193,25 @@ def common_pane(panes: Sequence[Size]) -> Size:
     return min(p[0] for p in near), min(p[1] for p in near)
 
 
-def place(options: ImageOptions, size: Size, pane: Size) -> Placement:
-    """Where an image of `size` stands in a window of `pane`. What does not fill the window stands
-    in its middle; what is larger leaves nothing of it empty."""
-    magnification = magnification_of(options, size, pane)
+def place(options: ImageOptions, size: Size, pane: Size, rulers: Size = (0, 0)) -> Placement:
+    """Where an image of `size` stands in a window of `pane`, beside rulers that have a
+    (width, height) where they are shown. What does not fill its room stands in the middle; what is
+    larger leaves nothing of it empty."""
+    rulers = rulers_in(pane, rulers) if options.grid else (0, 0)
+    magnification = magnification_of(options, size, pane, rulers)
+    margin = margin_at(magnification, rulers)
     origin, extent = [0, 0], [1, 1]
     for k in (0, 1):
+        room = pane[k] - margin[k]
         extent[k] = max(1, round(size[k] * magnification))
-        if extent[k] <= pane[k]:
-            origin[k] = (pane[k] - extent[k]) // 2
+        if extent[k] <= room:
+            origin[k] = margin[k] + (room - extent[k]) // 2
         else:
-            wanted = round(pane[k] / 2 - options.center[k] * extent[k])
-            origin[k] = min(max(wanted, pane[k] - extent[k]), 0)
-    return Placement(size, pane, magnification, (origin[0], origin[1]), (extent[0], extent[1]))
+            wanted = round(room / 2 - options.center[k] * extent[k])
+            origin[k] = margin[k] + min(max(wanted, room - extent[k]), 0)
+    return Placement(
+        size, pane, magnification, (origin[0], origin[1]), (extent[0], extent[1]), rulers
+    )
 
 
 def stepped(magnification: float, steps: float, fit: float) -> float | None:
@@ -179,7 +232,7 @@ def stepped(magnification: float, steps: float, fit: float) -> float | None:
 def step_from(placement: Placement, options: ImageOptions, steps: float) -> float | None:
     """stepped() from where an image is."""
     fitted = replace(options, magnification=None)
-    fit = magnification_of(fitted, placement.size, placement.pane)
+    fit = magnification_of(fitted, placement.size, placement.pane, placement.rulers)
     return stepped(placement.magnification, steps, fit)
 
 
@@ -219,7 +272,7 @@ def shown_pixel(placement: Placement, pixel: tuple[int, int]) -> dict[str, objec
     if top <= pixel[0] < bottom and left <= pixel[1] < right:
         return {}
     part = (pixel[1] + 0.5) / placement.size[0], (pixel[0] + 0.5) / placement.size[1]
-    center = placement.part_at(placement.pane[0] / 2, placement.pane[1] / 2)
+    center = placement.part_at(*placement.middle_at(placement.magnification))
     kept = tuple(  # along an axis on which it is in sight, nothing moves
         center[k] if low <= pixel[1 - k] < high else part[k]
         for k, (low, high) in enumerate(((left, right), (top, bottom)))
@@ -230,10 +283,11 @@ def shown_pixel(placement: Placement, pixel: tuple[int, int]) -> dict[str, objec
 def clamped(
     center: tuple[float, float], placement: Placement, magnification: float
 ) -> tuple[float, float]:
-    """The nearest middle that leaves nothing of the window empty."""
+    """The nearest middle that leaves nothing of the image's room empty."""
+    room = beside(placement.pane, margin_at(magnification, placement.rulers))
     result = []
     for k in (0, 1):
-        half = placement.pane[k] / (2 * placement.size[k] * magnification)
+        half = room[k] / (2 * placement.size[k] * magnification)
         result.append(0.5 if half >= 0.5 else min(max(center[k], half), 1 - half))
     return result[0], result[1]
 

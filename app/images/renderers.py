@@ -17,7 +17,7 @@ from app.background import lower_priority
 from app.images.agreement import Agreement, Verdict
 from app.images.live import LiveTrace, RayImage, Request, Tracer
 from app.images.pictures import FAILURES, Pictures, Wanted
-from app.images.placement import Placement, common_pane, place
+from app.images.placement import Placement, common_pane, own_size, place
 from app.images.reading import Region
 from app.images.shown import Picture
 from app.images.underlay import Underlay
@@ -51,6 +51,7 @@ class Renderers:
         self.ray_image: RayImage | None = None
         self.size = (0, 0)  # (width, height) of both images; (0, 0) before the first layout
         self._panes_px: dict[str, tuple[int, int]] = {}
+        self._rulers_px = (0, 0)
         self._chosen: tuple[int, int] | None = None  # the resolution, in the last frame
         self._arrived_s = 0.0
         self._compared: Request | None = None
@@ -73,15 +74,22 @@ class Renderers:
 
     # What is to be drawn.
 
-    def fit_pane(self, name: str, pane_px: tuple[int, int], options: ImageOptions) -> None:
+    def fit_pane(
+        self,
+        name: str,
+        pane_px: tuple[int, int],
+        options: ImageOptions,
+        rulers_px: tuple[int, int] = (0, 0),
+    ) -> None:
         """Says how large the window of an image is, (width, height) in framebuffer pixels: both
-        images get the size of the largest of them, or the resolution that was chosen."""
-        self._panes_px[name] = pane_px
+        images get the size of the largest of them, or the resolution that was chosen. rulers_px:
+        of the rulers beside magnified pixels, see Placement."""
+        self._panes_px[name], self._rulers_px = pane_px, rulers_px
         if options.resolution is not None:
             self.size = options.resolution
             return
         pane = common_pane(list(self._panes_px.values()))
-        width, height = (max(1, side // options.pixel_size) for side in pane)
+        width, height = own_size(options, pane, rulers_px if options.grid else (0, 0))
         width, height = min(width, LARGEST_SIDE), min(height, LARGEST_SIDE)
         self.size = (width, min(height, LARGEST_PIXELS // width))
 
@@ -101,7 +109,11 @@ class Renderers:
         if not panes or not min(self.size):
             return None
         room = min(pane[0] for pane in panes), min(pane[1] for pane in panes)
-        return place(state.images, self.size, room)
+        return self.placed(state.images, room)
+
+    def placed(self, options: ImageOptions, room_px: tuple[int, int]) -> Placement:
+        """Where the images stand in a room, (width, height) framebuffer pixels."""
+        return place(options, self.size, room_px, self._rulers_px)
 
     def forget_pane(self, name: str) -> None:
         """Says that an image's window is not to be seen."""

@@ -14,6 +14,8 @@ from app import theme
 from app.outside.diagram import Role
 from app.outside.projected import Primitive, Shape, Strokes
 from app.outside.vector import Color, Paint
+from renderer.camera import Vector
+from renderer.images.display import to_srgb8
 from renderer.raster.lines import (
     BARE,
     CORNER,
@@ -52,10 +54,11 @@ Rgba = tuple[float, float, float, float]
 CASING: Rgba = (0.03, 0.035, 0.04, 0.6)
 
 
-def role_color(role: Role) -> ImVec4:
-    """The colour of a role in the theme in use."""
+def role_color(role: Role, ground: theme.Rgb | None = None) -> ImVec4:
+    """The colour of a role in the theme in use. ground: what it is drawn on; None: a panel."""
     if role in theme.BASIS:
-        return theme.BASIS[role]
+        color = theme.BASIS[role]
+        return color if ground is None else theme.seen_on(color, ground)
     if role == "ray":
         return theme.RAY
     return theme.MARK if role == "mark" else FIXED[role]
@@ -63,29 +66,36 @@ def role_color(role: Role) -> ImVec4:
 
 def vector_paint() -> Paint:
     """The colours of a vector drawing on the theme's own ground."""
-    light = theme.BACKGROUND.x > 0.5
-    darker = DARKER if light else {}
+    ground = theme.BACKGROUND
+    behind = (ground.x, ground.y, ground.z)
+    darker = DARKER if ground.x > 0.5 else {}
 
     def color(role: Role, tint: float) -> Color:
-        found = darker.get(role, role_color(role))
+        found = darker.get(role, role_color(role, behind))
         end = 1.0 if tint > 0 else 0.0
         red, green, blue = (part + abs(tint) * (end - part) for part in (found.x, found.y, found.z))
         return red, green, blue
 
-    plain, ground = theme.PLAIN, theme.BACKGROUND
-    outline = plain.x, plain.y, plain.z
-    return Paint(color, outline, (ground.x, ground.y, ground.z))
+    plain = theme.PLAIN
+    return Paint(color, (plain.x, plain.y, plain.z), behind)
 
 
-def layers(primitives: Iterable[Primitive]) -> list[Layer]:
+def ground_of(background: Vector, exposure_ev: float) -> theme.Rgb:
+    """What a scene's background, in linear light, is shown as: what is drawn over it must stand out
+    from it, not from the theme's own ground."""
+    red, green, blue = to_srgb8(np.array(background, np.float32), exposure_ev).tolist()
+    return red / 255, green / 255, blue / 255
+
+
+def layers(primitives: Iterable[Primitive], ground: theme.Rgb) -> list[Layer]:
     """What Overlay.draw() takes: by layer, the lowest first; texts are left out."""
     shapes: dict[int, list[np.ndarray]] = {}
     strokes: dict[int, list[np.ndarray]] = {}
     for part in primitives:
         if isinstance(part, Strokes):
-            strokes.setdefault(part.layer, []).append(_segments(part))
+            strokes.setdefault(part.layer, []).append(_segments(part, ground))
         elif isinstance(part, Shape):
-            shapes.setdefault(part.layer, []).append(_corners(part))
+            shapes.setdefault(part.layer, []).append(_corners(part, ground))
     return [
         (
             np.concatenate(shapes.get(layer, [np.empty(0, CORNER)])),
@@ -95,11 +105,11 @@ def layers(primitives: Iterable[Primitive]) -> list[Layer]:
     ]
 
 
-def _segments(part: Strokes) -> np.ndarray:
+def _segments(part: Strokes, ground: theme.Rgb) -> np.ndarray:
     rows = np.zeros(len(part.points), SEGMENT)
     rows["start"], rows["end"] = part.points[:, 0], part.points[:, 1]
     rows["depth"], rows["before"] = part.depth, part.before
-    rows["color"] = _color(part.role, part.opacity, part.tint)
+    rows["color"] = _color(part.role, part.opacity, part.tint, ground)
     rows["width"], rows["hidden"] = part.width_px, part.hidden
     # Round ends of pale lines would show where they meet.
     ends = ROUND_START | ROUND_END if part.opacity == 1 else 0
@@ -108,19 +118,19 @@ def _segments(part: Strokes) -> np.ndarray:
     return rows
 
 
-def _corners(part: Shape) -> np.ndarray:
+def _corners(part: Shape, ground: theme.Rgb) -> np.ndarray:
     count = len(part.points) - 2
     fan = np.stack([np.zeros(count, int), np.arange(count) + 1, np.arange(count) + 2], axis=1)
     rows = np.zeros(3 * count, CORNER)
     rows["corner"] = part.points[fan.ravel()]
     rows["depth"] = part.depth[fan.ravel()]
-    rows["color"] = _color(part.role, part.opacity, part.tint)
+    rows["color"] = _color(part.role, part.opacity, part.tint, ground)
     rows["hidden"], rows["flags"] = part.hidden, ON_PLANE * part.on_plane
     return rows
 
 
-def _color(role: Role, opacity: float, tint: float) -> Rgba:
-    color = role_color(role)
+def _color(role: Role, opacity: float, tint: float, ground: theme.Rgb) -> Rgba:
+    color = role_color(role, ground)
     end = 1.0 if tint > 0 else 0.0
     red, green, blue = (part + abs(tint) * (end - part) for part in (color.x, color.y, color.z))
     return red, green, blue, color.w * opacity

@@ -14,7 +14,7 @@ from app import theme
 from app.cameras.basis import measures
 from app.cameras.editing import BASIS, Draft
 from app.cameras.navigation import switched_projection
-from app.panels import rows
+from app.panels import pending, rows
 from app.panels.basis import basis_readout
 from app.panels.camera_sections import (
     Asked,
@@ -92,10 +92,13 @@ def _panel(state: AppState, panel: Panel, around: Surroundings) -> tuple[AppStat
     rows.line()
     state = _exposure(state, around)
     draft = draft.following(state.camera)
-    if draft.error is not None:  # in the place of what follows: nothing is pushed out of sight
-        return state, Panel(_error(draft), panel.sections, target)
     target = _resets(state) or target
     state, sections, asked = _sections(state, panel.sections, around)
+    draft = draft.following(state.camera)
+    if draft.error is not None:
+        leaves = target is not None or asked.preset is not None or asked.view is not None
+        if pending.note("camera", str(draft.error), "Back to the camera shown") or leaves:
+            draft = Draft.of(draft.camera)
     return state, Panel(draft, sections, target, asked)
 
 
@@ -168,6 +171,7 @@ def _exposure(state: AppState, around: Surroundings) -> AppState:
         around.fonts.mono,
         EXPOSURE,
         reset=0.0,
+        unit=" EV",
     )
     if changed:
         state = state.with_options(images={"exposure_ev": value})
@@ -217,13 +221,3 @@ def _sections(
     chosen = tuple(opened) if any_toggled else sections.chosen
     sections = replace(sections, frames=sections.frames + 1, chosen=chosen)
     return state, sections, next((one for one in asked if one != NOTHING), NOTHING)
-
-
-def _error(draft: Draft) -> Draft:
-    """What is wrong with the numbers, and a way back."""
-    imgui.push_text_wrap_pos(0.0)
-    imgui.text_colored(theme.ERROR, str(draft.error))
-    imgui.pop_text_wrap_pos()
-    if imgui.button("Back to the camera shown"):
-        return Draft.of(draft.camera)
-    return draft

@@ -13,7 +13,7 @@ from app import theme
 from app.cameras.focus import Focus
 from app.cameras.presets import PRESETS, Preset, look_at
 from app.cameras.text import FORMS, Form
-from app.panels import rows
+from app.panels import pending, rows
 from app.panels.checks import checkbox
 from app.panels.fields import Scale, number_field
 from app.state import AppState
@@ -163,10 +163,8 @@ def look_section(
     if imgui.button("From the camera", (width, 0)):
         look = LookAt()
     imgui.set_item_tooltip("Back to the camera's own eye, the scene's middle and y upwards.")
-    if look.error is not None:
-        imgui.push_text_wrap_pos(0.0)
-        imgui.text_colored(theme.ERROR, str(look.error))
-        imgui.pop_text_wrap_pos()
+    if look.error is not None and pending.note("look", str(look.error), "Back to the camera's own"):
+        look = LookAt()
     return look, asked
 
 

@@ -13,7 +13,7 @@ from imgui_bundle import ImVec2, ImVec4, imgui
 
 from app import theme
 from app.arithmetic import number
-from app.panels import typed
+from app.panels import pending, typed
 from renderer.errors import LucidaError
 
 LEAST = 1e-3  # where dragging a logarithmic value ends
@@ -66,22 +66,43 @@ class Scale:
 
 def number_format(value: float, scale: Scale) -> str:
     """Eight characters wide for all but extreme values, so that nothing moves."""
-    tiny = scale.logarithmic and 0 < value < 0.01
-    if tiny or abs(value) >= 1000:
-        return "%8.2e"
     small_scene = scale.high - scale.low < 1.5 and abs(value) < 100
     return "%8.4f" if small_scene else "%8.3f"
 
 
+def is_extreme(value: float, scale: Scale) -> bool:
+    """Whether a number has not the usual decimals."""
+    return abs(value) >= 1000 or (scale.logarithmic and 0 < value < 0.01)
+
+
 def fitting_format(value: float, scale: Scale, characters: int) -> str:
-    """The usual format where there is room for it; otherwise as many digits as there are."""
-    usual = number_format(value, scale)
+    """The usual format where there is room for it; otherwise as many digits as there are. Of an
+    extreme value the text itself."""
+    if is_extreme(value, scale):
+        most = WIDTH + (value < 0)
+        return densest(value, min(characters, most)).rjust(min(characters, WIDTH))
     if characters >= WIDTH:
-        return usual
+        return number_format(value, scale)
     for decimals in (3, 2, 1, 0):
         if len(f"{value:.{decimals}f}") <= characters:
             return f"%{characters}.{decimals}f"
-    return "%.0e"
+    return densest(value, characters)
+
+
+def densest(value: float, characters: int) -> str:
+    """The number with as many of its digits as so many characters can hold: 5400000, 1.235e-3."""
+    if not math.isfinite(value):
+        return str(value)
+    fixed = (f"{value:.{decimals}f}" for decimals in range(characters, -1, -1))
+    powers = (f"{value:.{decimals}e}" for decimals in range(characters, -1, -1))
+    short = (f"{digits}e{int(power)}" for digits, _, power in (t.partition("e") for t in powers))
+    texts = [text for text in (*fixed, *short) if len(text) <= characters]
+    return max(texts, key=_digit_count, default=f"{value:.0e}".replace("e+0", "e"))
+
+
+def _digit_count(text: str) -> int:
+    """The significant ones."""
+    return len(text.partition("e")[0].lstrip("-0.").replace(".", ""))
 
 
 def short_number(value: float) -> str:
@@ -89,7 +110,7 @@ def short_number(value: float) -> str:
     for limit, digits in ((10, 3), (100, 2), (1000, 1)):
         if abs(value) < limit - 0.5 * 10**-digits:
             return f"{value:7.{digits}f}"
-    return f"{value:7.0e}"
+    return densest(value, 6 + (value < 0)).rjust(7)
 
 
 def number_field(
@@ -130,6 +151,7 @@ def number_field(
             # float32 in the widget: what was meant, not its nearest neighbour.
             new = float(f"{new:.7g}")
     if marked:
+        pending.here()
         imgui.pop_style_color()
         imgui.pop_style_var()
     imgui.pop_font()
@@ -138,7 +160,8 @@ def number_field(
     if not imgui.is_item_active() or not imgui.get_io().want_text_input:
         _draw_level(value, scale, color)
     if tooltip and not marked and not imgui.is_item_active():  # what is wrong is told, too
-        imgui.set_item_tooltip(f"{tooltip}\n{HINT}")
+        whole = f"{value:.10g}\n" if is_extreme(value, scale) else ""
+        imgui.set_item_tooltip(f"{whole}{tooltip}\n{HINT}")
     chosen = _menu(label, value, reset)
     if chosen is not None:
         return chosen != value, chosen

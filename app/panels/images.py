@@ -13,7 +13,7 @@ from imgui_bundle import ImVec2, imgui
 
 from app import theme
 from app.images.pictures import PANE
-from app.images.placement import Placement, place
+from app.images.placement import Placement
 from app.images.shown import Picture
 from app.images.underlay import Underlay
 from app.options import Pixel
@@ -21,6 +21,7 @@ from app.panels.grips import Grab, Lens, Seen, Zoom, drag, magnify, wheel
 from app.panels.marks import claim_keys, draw_hovered, draw_marked, draw_pin
 from app.panels.overlay import draw_corner, draw_hint, draw_legend, draw_note
 from app.panels.pixelgrid import Values, draw_pixel_grid
+from app.panels.rulers import draw_rulers
 from app.panels.screen import Box, Screen
 from app.state import AppState
 
@@ -76,17 +77,17 @@ class PaneResult:
 def image_pane(
     pane: Pane,
     state: AppState,
-    room_px: tuple[int, int],
+    placed: Callable[[AppState], Placement],
     grab: Grab | None,
     zoom: Zoom | None = None,
     lens: Lens | None = None,
 ) -> PaneResult:
-    """Draws the image into what is left of the current window, room_px (width, height) framebuffer
-    pixels, and follows the mouse over it. zoom, lens: the last."""
+    """Draws the image into what is left of the current window, and follows the mouse over it.
+    placed: where it stands there. zoom, lens: the last."""
     seen, io = pane.seen, imgui.get_io()
     start, avail = imgui.get_cursor_screen_pos(), imgui.get_content_region_avail()
     room = start, ImVec2(start.x + avail.x, start.y + avail.y)
-    screen = Screen.here(place(state.images, seen.size, room_px))
+    screen = Screen.here(placed(state))
     low, high = screen.visible
     imgui.set_cursor_screen_pos(low)
     buttons = imgui.ButtonFlags_
@@ -106,7 +107,7 @@ def image_pane(
     elif over and io.mouse_wheel:
         state, zoom = wheel(seen, state, last_zoom, io.mouse_wheel, screen)
     if state.images != before.images:
-        screen = Screen(place(state.images, seen.size, room_px), screen.corner, screen.scale)
+        screen = Screen(placed(state), screen.corner, screen.scale)
     _draw(pane, state, screen, room, grab)
     return PaneResult(state, grab, hovered if grab is None else None, zoom, lens, keyed)
 
@@ -132,6 +133,10 @@ def _draw(pane: Pane, state: AppState, screen: Screen, room: Box, grab: Grab | N
         draw_marked(draw, screen, state.marked)
     if picture is not None and state.images.grid:  # numbers may reach over a mark
         draw_pixel_grid(draw, screen, state, pane.values, pane.depths, pane.fonts)
+    if picture is not None:
+        draw.pop_clip_rect()
+        draw_rulers(draw, screen, state, pane.fonts)
+        draw.push_clip_rect(*screen.pane, intersect_with_current_clip_rect=True)
     if pane.hovered is not None and grab is None:
         draw_hovered(draw, screen, pane.hovered)
     if pane.progress < 1.0:

@@ -12,15 +12,23 @@ from app import layout, theme
 from app.actions.base import Action, Window
 from app.actions.table import ACTIONS, MENUS
 from app.changes import change
+from app.lettering import at_most
 from app.state import History
 from app.storage import bookmarks
 from renderer.scene import BUILTIN_SCENES
 
 HISTORY_STEPS = 15
+LARGEST = theme.SURROUND  # of the menus' type, in parts of the window's height
 
 
 def menu_bar(window: Window, history: History) -> None:
-    """All menus; call in HelloImGui's show_menus. A bar that is too narrow for them has one."""
+    """All menus; call in HelloImGui's show_menus. A bar that is too narrow for them has one. Their
+    type grows with the window's up to a size at which the longest one has room."""
+    with at_most(LARGEST * imgui.get_io().display_size.y):
+        _bar(window, history)
+
+
+def _bar(window: Window, history: History) -> None:
     gap = 2 * imgui.get_style().item_spacing.x
     needed = sum(imgui.calc_text_size(menu).x + gap for menu in MENUS)
     if needed <= imgui.get_window_width():

@@ -1,4 +1,4 @@
-"""What is drawn between and into magnified pixels: lines, the numbers of rows and columns, values.
+"""What is drawn between and into magnified pixels: lines, values, and the pixels' names.
 
 Owns from which size on each is drawn, and thins out what would not be legible. Asks for the values
 of the pixels that are seen, and of no others.
@@ -13,16 +13,18 @@ from numpy.typing import NDArray
 
 from app import theme
 from app.images.pixelvalues import Depths, is_dark, line_count, shown_bytes, value_lines
+from app.images.placement import RULED_FROM
 from app.images.reading import Region
+from app.panels.rulers import ADVANCE, thinning
 from app.panels.screen import Screen
 from app.state import AppState
 
-LINES_FROM, VALUES_FROM = 8.0, 32.0  # screen pixels a side of an image's pixel
-NAMES_FROM = 44.0  # units: each pixel has its own row and column, beside those at the edges
+VALUES_FROM = 32.0  # screen pixels a side of an image's pixel
+NAMES_FROM = 44.0  # units: each pixel has its own row and column, beside those in the rulers
 MOST_VALUES = 1200  # more are thinned out: nobody reads them, and a frame would take too long
 LEAST_TEXT, MOST_TEXT = 8.5, 64.0
 # Of the fixed-width font, in its size. Digits have no descenders: their lines may be close.
-ADVANCE, DIGITS_TOP, DIGITS_HIGH = 0.5, 0.22, 0.61
+DIGITS_TOP, DIGITS_HIGH = 0.22, 0.61
 LEADING = 0.76
 FILLED = 0.84  # of a pixel's height, by its lines
 
@@ -39,28 +41,13 @@ def draw_pixel_grid(
 ) -> None:
     """Everything that the magnification leaves room for."""
     side_px = min(screen.placement.unit)
-    if side_px < LINES_FROM:
+    if side_px < RULED_FROM:
         return
     _lines(draw, screen)
-    low, high = screen.visible
-    band = ImVec2(0, 0)
-    if min(screen.cell) < NAMES_FROM or values is None:
-        band = _rulers(draw, screen, state, fonts)
     if side_px >= VALUES_FROM and values is not None:
-        inner = ImVec2(low.x + band.x, low.y + band.y)
-        draw.push_clip_rect(inner, high, intersect_with_current_clip_rect=True)
+        draw.push_clip_rect(*screen.visible, intersect_with_current_clip_rect=True)
         _values(draw, screen, state, values, depths, fonts)
         draw.pop_clip_rect()
-
-
-def thinning(cell: float, needed: float) -> int:
-    """Every how many pixels a text has room: 1, 2, 5, 10, 20 ..."""
-    factor = 1
-    while True:
-        for step in (1, 2, 5):
-            if factor * step * cell >= needed:
-                return factor * step
-        factor *= 10
 
 
 def text_size(width: float, height: float, letters: int, lines: int) -> float:
@@ -85,46 +72,6 @@ def _lines(draw: imgui.ImDrawList, screen: Screen) -> None:
     for row in range(max(top, 1), bottom):
         y = screen.point(row, 0).y
         draw.add_rect_filled(ImVec2(low.x, y), ImVec2(high.x, y + width), color)
-
-
-def _rulers(draw: imgui.ImDrawList, screen: Screen, state: AppState, fonts: theme.Fonts) -> ImVec2:
-    """Columns along the upper edge, rows along the left one, on dark bands; gives the width of the
-    left and the height of the upper band."""
-    low, high, mono = *screen.visible, fonts.mono or imgui.get_font()
-    (width, height), (columns, rows) = screen.cell, screen.placement.size
-    top, left, bottom, right = screen.placement.visible_pixels
-    base, size = state.options.indexing.value, max(13.0, 0.85 * imgui.get_font_size())
-    digit = ADVANCE * size
-    band_x, band_y = digit * len(str(rows)) + 6, size + 2
-    if high.x - low.x < 4 * band_x or high.y - low.y < 4 * band_y:
-        return ImVec2(0, 0)
-    band, plain = theme.u32(theme.rgb("#0c0d0f", 0.8)), theme.u32(theme.rgb("#e8eaed"))
-    draw.add_rect_filled(low, ImVec2(high.x, low.y + band_y), band)
-    draw.add_rect_filled(ImVec2(low.x, low.y + band_y), ImVec2(low.x + band_x, high.y), band)
-    marked = state.marked
-    draw.push_clip_rect(low, high, intersect_with_current_clip_rect=True)
-    step = thinning(width, digit * (len(str(columns)) + 1))
-    for column in range(left, right):
-        text, x = str(column + base), screen.point(0, column + 0.5).x
-        if (column + base) % step and not (column == 0 and step > 1):
-            continue
-        x -= digit * len(text) / 2
-        if low.x + band_x <= x <= high.x - digit * len(text):
-            on = marked is not None and marked[1] == column
-            color = theme.u32(theme.MARK) if on else plain
-            draw.add_text(mono, size, ImVec2(x, low.y + 1), color, text)
-    step = thinning(height, size + 2)
-    for row in range(top, bottom):
-        text, y = str(row + base), screen.point(row + 0.5, 0).y - size / 2
-        if (row + base) % step and not (row == 0 and step > 1):
-            continue
-        if low.y + band_y <= y <= high.y - size:
-            x = low.x + band_x - 3 - digit * len(text)
-            on = marked is not None and marked[0] == row
-            color = theme.u32(theme.MARK) if on else plain
-            draw.add_text(mono, size, ImVec2(x, y), color, text)
-    draw.pop_clip_rect()
-    return ImVec2(band_x, band_y)
 
 
 def _values(

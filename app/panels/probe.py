@@ -176,7 +176,6 @@ def reading_panel(reading: Reading, indexing: Indexing, fonts: Fonts) -> None:
         if reading.hit is not None and _section("Hit", fonts):
             _lines(written.hit, size_px)
         if _section("Colour", fonts):
-            _result(reading, fonts)
             _lines(written.color, size_px, swatches=reading)
 
 
@@ -321,21 +320,6 @@ def _parameter(crossing: Crossing, color: ImVec4, on_ray: bool, fonts: Fonts) ->
             ImVec2(low.x + blank - theme.px(2), y), ImVec2(high.x + theme.px(2), y),
             theme.u32(theme.ERROR), theme.line_px(1.6),
         )  # fmt: skip
-
-
-def _result(reading: Reading, fonts: Fonts) -> None:
-    """The colour as it is shown, and its bytes."""
-    side = 1.4 * imgui.get_text_line_height()
-    _swatch(reading.display, side)
-    imgui.same_line()
-    imgui.push_font(fonts.mono, 0.0)
-    imgui.align_text_to_frame_padding()
-    for name, color, value in zip("RGB", theme.CHANNELS, reading.bytes, strict=True):
-        imgui.text_colored(theme.legible(color), f"{name} {value:3d}")
-        imgui.same_line()
-    imgui.pop_font()
-    seen = reading.winner.name if reading.winner is not None else "background"
-    imgui.text_colored(theme.DIM, f"{seen}, as sRGB bytes" * (reading.transfer == "srgb") or seen)
 
 
 # Parts.

@@ -52,8 +52,9 @@ class Screen:
 
     @property
     def pane(self) -> Box:
-        """All of the window's content."""
-        return self.corner, self._point(*map(float, self.placement.pane))
+        """All of the window's content, but for the rulers."""
+        near, far = self.placement.margin, self.placement.pane
+        return self._point(*map(float, near)), self._point(*map(float, far))
 
     @property
     def visible(self) -> Box:

@@ -16,13 +16,13 @@ from app.panels.code import LINE, code_size_px
 Size = tuple[float, float]  # (width, height)
 
 USUAL_EM = 1.25  # of the code: where more is wanted, the rest gives way
-NUMBERS_EM = 12.0  # the width of a column of numbers
-SHORT, LONG, ROW_EM = 9, 4, 1.32  # how many numbers, and texts, at least; the height of one
+NUMBERS_EM = 11.6  # the width of a column of numbers
+SHORT, LONG, ROW_EM = 9, 4, 1.25  # how many numbers, and texts, at least; the height of one
 WANTED_CANVAS = 0.44  # of the room's height
-WEIGHTS = (3.0, 2.4, 2.0)  # code, canvas, numbers
+WEIGHTS = (3.0, 2.4, 3.0)  # code, canvas, numbers
 UNREAD = 8.0  # the weight of what code and numbers lack to be read at all
-READ = 0.9  # the least of the numbers' type, in parts of the code's
-ENOUGH_EM = 0.9  # of the numbers' type
+READ = 1.0  # the least of the numbers' type, in parts of the least of the code's
+ENOUGH_EM, ENOUGH = 0.95, 0.0275  # of the numbers' type; in parts of the room's height
 GAP_EM = 0.6
 # With the same code in Julia: rooms so much wider than high have all beside one another; the least
 # and the largest of the code's type, where the width allows.
@@ -172,7 +172,7 @@ def _worth(made: Plan, room: Size, need: Need) -> float:
     parts = (
         min(made.code_px / need.wanted_px, 1.0) * shown**2,
         min(high / (WANTED_CANVAS * room[1]), 1.0),
-        min(made.numbers_px / (ENOUGH_EM * em), 1.0),
+        min(made.numbers_px / min(ENOUGH_EM * em, ENOUGH * room[1]), 1.0),
         min(made.code_px / need.least_px, 1.0),
         min(made.numbers_px / (READ * need.least_px), 1.0),
     )

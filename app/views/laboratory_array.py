@@ -73,7 +73,7 @@ class ArrayPage:
         """The pixels one after another in memory. Gives the one that was clicked."""
         em, options = imgui.get_font_size(), self.state.options
         order = options.laboratory.order
-        self._heading(at, "In memory", f"{array_code.ONE_AFTER_ANOTHER[order]}, 12 bytes a pixel")
+        self._heading(at, "In memory", f"{array_code.ONE_AFTER_ANOTHER[order]}, 12 bytes per pixel")
         row_px = ROW_EM * em
         room = self.extent.y - HEADING_EM * em
         count = max(1, min(MOST_ROWS, int(room / row_px)))

@@ -30,7 +30,7 @@ def sizes_table(
         return None
     titles = (
         "",
-        "bits a pixel",
+        "bits per pixel",
         "x".join(map(str, LECTURE_SIZE)),
         f"this image, {size[0]}x{size[1]}",
     )

@@ -27,7 +27,7 @@ from app.options import OutsideOptions, Pixel
 from app.outside.diagram import Hit, Item, diagram
 from app.outside.extent import end_parameter
 from app.outside.hits import Question, RayHits
-from app.outside.paint import CASING, layers
+from app.outside.paint import CASING, ground_of, layers
 from app.outside.projected import Primitive, project
 from app.outside.screen import Screen
 from app.outside.sketch import OPACITY
@@ -194,7 +194,7 @@ class OutsideView(View):
             draw.add_image(imgui.ImTextureRef(texture.glo), origin, far)
         draw.push_clip_rect(origin, far, True)
         assert self._made is not None
-        labels(self._made.primitives, origin, scale, host.fonts)
+        labels(self._made.primitives, origin, scale, host.fonts, _ground(host.state))
         self._handles(host, scope)
         self._tools(host, scope)
         draw.pop_clip_rect()
@@ -254,7 +254,9 @@ class OutsideView(View):
             self._gizmo.cancel()
             return
         state = host.state
-        camera = self._gizmo.draw(scope, state.camera, kind, state.keep_orthonormal)
+        camera = self._gizmo.draw(
+            scope, state.camera, kind, state.keep_orthonormal, _ground(state), host.fonts
+        )
         if camera != state.camera:
             host.apply(state.with_camera(camera), self._gizmo.gesture)
         if self._gizmo.dragging:
@@ -321,7 +323,7 @@ class OutsideView(View):
                 ground.textures,
                 camera,
                 size,
-                layers(primitives),
+                layers(primitives, _ground(state)),
                 plane,
                 picture,
                 state.images.exposure_ev,
@@ -356,6 +358,11 @@ class OutsideView(View):
             return None, hits
         seen = both.depth_at(state, pixel)
         return Hit(pixel, known[pixel] if seen is None else seen), hits
+
+
+def _ground(state: AppState) -> theme.Rgb:
+    """What most of the diagram is drawn on."""
+    return ground_of(state.scene.background, state.images.exposure_ev)
 
 
 def with_outside(state: AppState, options: OutsideOptions) -> AppState:

@@ -9,12 +9,12 @@ from dataclasses import dataclass, replace
 from typing import Literal
 
 import numpy as np
-from imgui_bundle import imgui, imguizmo
+from imgui_bundle import ImVec2, imgui, imguizmo
 from numpy.typing import NDArray
 
 from app import theme
 from app.views.outside_mouse import Scope
-from app.views.outside_tint import handle_colors, recolor
+from app.views.outside_tint import handle_colors, hide_text, recolor
 from renderer.camera import Camera, Vector, volume
 from renderer.errors import LucidaError
 
@@ -23,6 +23,9 @@ Floats = NDArray[np.float64]
 
 LENGTH = 0.2  # of the view: the handles' length in clip space
 WIDTH, ARROW, RING = 3.0, 7.0, 2.5  # at 100 %: of lines, their heads, rings
+TEXT_AT = 18.0  # at 100 %: what the motion's text is away from the eye, to the right and below
+LEAST_PART = 1e-4  # of the largest part of a motion: what is less is rounding
+ALONG = 0.999  # the cosine from which on a turn is about an axis of the basis
 NEAREST = 0.02  # of the view's distance: an eye that is nearer has no handles
 
 
@@ -56,11 +59,17 @@ class Gizmo:
         self._drag = None
 
     def draw(
-        self, scope: Scope, camera: Camera, kind: Literal["move", "turn"], orthonormal: bool
+        self,
+        scope: Scope,
+        camera: Camera,
+        kind: Literal["move", "turn"],
+        orthonormal: bool,
+        ground: theme.Rgb,
+        fonts: theme.Fonts,
     ) -> Camera:
         """Draws the handles into the current window, and gives the camera as they have moved it.
 
-        orthonormal: the basis stays so to the last digit.
+        orthonormal: the basis stays so to the last digit. ground: what they are drawn on.
         """
         matrices = gl_matrices(scope.shown, np.asarray(camera.eye), scope.reach)
         if matrices is None:
@@ -85,7 +94,8 @@ class Gizmo:
         draw = imgui.get_window_draw_list()
         first = draw.vtx_buffer.size()
         moved = gizmo.manipulate(_matrix16(view), _matrix16(projection), operation, mode, matrix)
-        recolor(draw, first, handle_colors())
+        recolor(draw, first, handle_colors(ground))
+        hide_text(draw, first)
         using = gizmo.is_using()
         self.over = using or gizmo.is_over()
         if not using:
@@ -94,10 +104,11 @@ class Gizmo:
         if self._drag is None:
             self._count += 1
             self._drag = _Drag(camera, frame, self._count)
-        if not moved:
-            return camera
-        result = np.asarray(matrix.values, float).reshape(4, 4).T
-        return self._moved(camera, result, kind, orthonormal)
+        if moved:
+            result = np.asarray(matrix.values, float).reshape(4, 4).T
+            camera = self._moved(camera, result, kind, orthonormal)
+        _write(motion(self._drag.camera, camera), projection @ view, camera, scope, fonts)
+        return camera
 
     def _moved(self, camera: Camera, result: Floats, kind: str, orthonormal: bool) -> Camera:
         assert self._drag is not None
@@ -112,6 +123,44 @@ class Gizmo:
             return turned.orthonormalized() if orthonormal else turned
         except LucidaError:  # beyond the numbers: the camera stays
             return camera
+
+
+def motion(before: Camera, after: Camera) -> str:
+    """What a handle has done, in the letters of the basis: by how much of u, v and w the eye is
+    displaced, or by which angle the basis has turned, about which of them."""
+    moved = np.linalg.solve(before.basis, np.subtract(after.eye, before.eye))
+    rotation = rotation_between(before, after)
+    angle = np.degrees(np.arccos(np.clip((np.trace(rotation) - 1) / 2, -1, 1)))
+    if angle > 0.0 and np.abs(rotation - np.eye(3)).max() > 1e-9:
+        axis = np.array([rotation[k - 1, k - 2] - rotation[k - 2, k - 1] for k in range(3)])
+        along = rotation_of(before).T @ axis / max(float(np.linalg.norm(axis)), 1e-30)
+        name = int(np.abs(along).argmax())
+        if abs(along[name]) > ALONG:
+            return f"about {'uvw'[name]}: {np.copysign(angle, along[name]):.1f}°"
+        return f"turned by {angle:.1f}°"
+    least = LEAST_PART * float(np.abs(moved).max())
+    parts = [f"Δ{n} {x:.4g}" for n, x in zip("uvw", moved, strict=True) if abs(x) > least]
+    return "  ".join(parts)
+
+
+def _write(
+    text: str, clip_from_world: Floats, camera: Camera, scope: Scope, fonts: theme.Fonts
+) -> None:
+    """Beside the eye, on a ground of its own. The font is the one that has Greek letters."""
+    x, y, _, w = clip_from_world @ np.append(camera.eye, 1.0)
+    if not text or not w > 0:
+        return
+    at = ImVec2(
+        scope.origin.x + (x / w + 1) / 2 * scope.extent.x + theme.px(TEXT_AT),
+        scope.origin.y + (1 - y / w) / 2 * scope.extent.y + theme.px(TEXT_AT),
+    )
+    imgui.push_font(fonts.bold, 0.0)
+    size, pad = imgui.calc_text_size(text), theme.px(5)
+    low, far = ImVec2(at.x - pad, at.y - pad), ImVec2(at.x + size.x + pad, at.y + size.y + pad)
+    draw = imgui.get_window_draw_list()
+    draw.add_rect_filled(low, far, theme.u32(theme.PANEL, 0.9), theme.px(3))
+    draw.add_text(at, theme.u32(theme.TEXT), text)
+    imgui.pop_font()
 
 
 def gl_matrices(camera: Camera, point: Floats, reach: float) -> tuple[Floats, Floats] | None:

@@ -1,4 +1,4 @@
-"""The handles in the colours of the basis: ImGuizmo has no setting for its own.
+"""The handles in the colours of the basis, and without ImGuizmo's text: it has no setting for them.
 
 Owns the exchange of colours in what was drawn. Knows nothing of handles and of cameras.
 """
@@ -19,12 +19,14 @@ Rgb = tuple[int, int, int]
 # ImGuizmo's own: of the axes x, y, z, and of the handle under the mouse. They come with several
 # opacities, which stay.
 AXES: dict[str, Rgb] = {"u": (170, 0, 0), "v": (0, 170, 0), "w": (0, 0, 170)}
-HELD: Rgb = (255, 128, 0)  # almost the colour of u
+HELD: Rgb = (255, 128, 16)  # almost the colour of u
+SHADOW = np.uint32(0xFF000000)  # black: of the text alone, which is drawn over it
 
 
-def handle_colors() -> dict[Rgb, ImVec4]:
-    """What takes the place of ImGuizmo's colours in the theme in use."""
-    colors = {AXES[name]: theme.BASIS[name] for name in AXES}
+def handle_colors(ground: theme.Rgb) -> dict[Rgb, ImVec4]:
+    """What takes the place of ImGuizmo's colours in the theme in use. ground: what the handles
+    stand on."""
+    colors = {AXES[name]: theme.seen_on(theme.BASIS[name], ground) for name in AXES}
     return {**colors, HELD: theme.rgb("#ffffff")}
 
 
@@ -36,6 +38,15 @@ def recolor(draw: imgui.ImDrawList, first: int, colors: Mapping[Rgb, ImVec4]) ->
         changed = rgb == _packed(old)
         rest = packed[changed] & 0xFF000000
         packed[changed] = rest | _packed(tuple(round(255 * x) for x in (new.x, new.y, new.z)))
+
+
+def hide_text(draw: imgui.ImDrawList, first: int) -> None:
+    """Makes the text transparent that ImGuizmo wrote last, which names the basis x, y and z: the
+    letters of its shadow, and as many after them."""
+    packed = vertex_colors(draw)[first:]
+    shadow = np.flatnonzero(packed == SHADOW)
+    if len(shadow):
+        packed[shadow[0] : shadow[0] + 2 * len(shadow)] = 0
 
 
 def vertex_colors(draw: imgui.ImDrawList) -> NDArray[np.uint32]:

@@ -177,9 +177,14 @@ def _axis_color(name: str, light: float) -> ImVec4:
 
 
 def labels(
-    primitives: Iterable[Primitive], origin: ImVec2, scale: float, fonts: theme.Fonts
+    primitives: Iterable[Primitive],
+    origin: ImVec2,
+    scale: float,
+    fonts: theme.Fonts,
+    ground: theme.Rgb,
 ) -> None:
-    """Draws the texts of a diagram. scale: framebuffer pixels in one of ImGui's units."""
+    """Draws the texts of a diagram. scale: framebuffer pixels in one of ImGui's units. ground: what
+    they stand on."""
     draw = imgui.get_window_draw_list()
     shadow = theme.u32(theme.rgb("#07080a", 0.62))
     for part in primitives:
@@ -203,4 +208,5 @@ def labels(
             angle = k * math.pi / 4
             at = ImVec2(x + offset * math.cos(angle), y + offset * math.sin(angle))
             draw.add_text(font, size, at, shadow, part.text)
-        draw.add_text(font, size, ImVec2(x, y), theme.u32(role_color(part.role)), part.text)
+        color = theme.u32(role_color(part.role, ground))
+        draw.add_text(font, size, ImVec2(x, y), color, part.text)

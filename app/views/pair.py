@@ -12,11 +12,12 @@ from dataclasses import dataclass
 from imgui_bundle import ImVec2, imgui
 
 from app.images.marking import Anchor, followed
-from app.images.placement import place, shown_pixel
+from app.images.placement import Placement, shown_pixel
 from app.panels.grips import Grab, Lens, Seen, Zoom
 from app.panels.images import Drawn, Pane, image_pane
 from app.panels.marks import walked
 from app.panels.pixelgrid import Values
+from app.panels.rulers import ruler_sizes
 from app.panels.screen import Screen, available_px, is_at_the_bottom
 from app.panels.strip import Strip, image_strip
 from app.state import AppState
@@ -107,12 +108,16 @@ class ImageView(View):
         where what is seen is no channel, which then has no legend either."""
         both, shared = host.renderers, self._linked
         self._strip(host)
-        room_px = available_px()
-        both.fit_pane(self.name, room_px, host.state.images)
+        room_px, options = available_px(), host.state.images
+        both.fit_pane(self.name, room_px, options, ruler_sizes(options))
         room_px = both.common_room(room_px)
+
+        def placed(state: AppState) -> Placement:
+            return both.placed(state.images, room_px)
+
         self._keep_mark(host)
         corner = imgui.get_cursor_screen_pos()
-        self._before_image(host, Screen.here(place(host.state.images, both.size, room_px)))
+        self._before_image(host, Screen.here(placed(host.state)))
         imgui.set_cursor_screen_pos(corner)
         state = host.state
         seen = Seen(
@@ -134,11 +139,11 @@ class ImageView(View):
             hint=_hint(both.nothing_hit(state)),
             progress=progress,
             legend=legend,
-            hovered=self._hovered(host, room_px),
+            hovered=self._hovered(host, placed(state)),
             depths=both.depths() if state.images.channel == "depth" else None,
             on_pixels=lambda screen: self._on_pixels(host, screen),
         )
-        result = image_pane(pane, state, room_px, shared.grab, shared.zoom, shared.lens)
+        result = image_pane(pane, state, placed, shared.grab, shared.zoom, shared.lens)
         shared.grab, shared.zoom = result.grab, result.zoom or shared.zoom
         shared.lens = result.lens or shared.lens
         if result.hovered is not None:
@@ -147,9 +152,9 @@ class ImageView(View):
         kind = "wheel" if result.lens is None else "magnify"
         host.apply(result.state, self._gesture(kind) if turned else None)
         if result.keyed:
-            self._walk(host, room_px)
+            self._walk(host, placed(host.state))
         imgui.set_cursor_screen_pos(corner)
-        self._over_image(host, Screen.here(place(host.state.images, both.size, room_px)))
+        self._over_image(host, Screen.here(placed(host.state)))
 
     def _before_image(self, host: Host, screen: Screen) -> None:
         """For items that take the mouse before the image does."""
@@ -164,13 +169,12 @@ class ImageView(View):
         if not host.state.preferences.presentation:
             host.apply(image_strip(Strip(self.name, host.ask_resolution), host.state))
 
-    def _hovered(self, host: Host, room_px: tuple[int, int]) -> tuple[int, int] | None:
+    def _hovered(self, host: Host, placement: Placement) -> tuple[int, int] | None:
         """The pixel to frame: in the other image always, in this one where it can be seen."""
         if host.hovered is None:
             return None
         size = host.renderers.size
-        cell = place(host.state.images, size, room_px).magnification
-        if host.hovered[0] == self.name and cell <= NARROW_CELL:
+        if host.hovered[0] == self.name and placement.magnification <= NARROW_CELL:
             return None
         row, column = host.hovered[1]
         return (row, column) if row < size[1] and column < size[0] else None
@@ -186,7 +190,7 @@ class ImageView(View):
         if marked != state.marked:
             host.amend(state.with_options(marked=marked))
 
-    def _walk(self, host: Host, room_px: tuple[int, int]) -> None:
+    def _walk(self, host: Host, placement: Placement) -> None:
         """The arrow keys move the mark, which stays in sight."""
         shared, frame = self._linked, imgui.get_frame_count()
         if shared.walked_frame == frame:  # one image has the mouse, the other the keyboard
@@ -198,8 +202,7 @@ class ImageView(View):
         if pixel is None:
             return
         shared.walked_frame = frame
-        moved = shown_pixel(place(state.images, size, room_px), pixel)
-        state = state.with_options(marked=pixel, images=moved)
+        state = state.with_options(marked=pixel, images=shown_pixel(placement, pixel))
         host.apply(state, self._gesture("walk"))
 
     def _gesture(self, kind: str) -> tuple[str, int]:

@@ -1,7 +1,7 @@
 """The pixel probe: the numbers of the marked pixel's viewing ray, live while the camera moves.
 
-Owns the readings, and the lines that it adds to the outside view. How a reading is shown is
-panels/probe.py's, what it consists of teach/probe.py's.
+Owns the readings, the image's histogram, and the lines that it adds to the outside view. How a
+reading is shown is panels/probe.py's, what it consists of teach/probe.py's.
 """
 
 from __future__ import annotations
@@ -16,12 +16,14 @@ from imgui_bundle import imgui
 
 from app import theme
 from app.background import Background
+from app.images.histogram import Histogram, histogram
 from app.images.renderers import MIRROR_DEPTH
 from app.options import Pixel
 from app.outside.diagram import Arrow, Dot, Item, Lines
 from app.outside.extent import end_parameter
 from app.panels import formula
 from app.panels import probe as panel
+from app.panels.histogram import values_and_histogram
 from app.panels.marks import walked
 from app.state import AppState
 from app.teach.bundles import Bundle, bundle, column_of, row_of
@@ -52,6 +54,9 @@ class ProbeView(View):
         self._outside = outside
         self._making: Background[Probe] | None = None
         self._bundles: Background[tuple[Any, Bundle]] | None = None
+        self._counting: Background[Histogram] | None = None
+        self._counted: Any = None  # what the histogram is of, or is being made of
+        self.histogram: Histogram | None = None
         self._probe: Probe | None = None
         self._wanted: Any = None  # the scene that is being prepared, or is
         self._error = ""
@@ -64,15 +69,16 @@ class ProbeView(View):
 
     @property
     def settled(self) -> bool:
-        both = (self._making, self._bundles)
-        return not self._seen or not any(work is not None and work.busy for work in both)
+        works = (self._making, self._bundles, self._counting)
+        return not self._seen or not any(work is not None and work.busy for work in works)
 
     def begin(self, host: Host, context: moderngl.Context) -> None:
         self._making = Background("lucida-probe", host.animate)
         self._bundles = Background("lucida-probe-rays", host.animate)
+        self._counting = Background("lucida-histogram", host.animate)
 
     def end(self) -> None:
-        for work in (self._making, self._bundles):
+        for work in (self._making, self._bundles, self._counting):
             if work is not None:
                 work.close()
         formula.release()
@@ -96,6 +102,9 @@ class ProbeView(View):
         pins = self._pins(host, size)
         if pins:
             host.apply(panel.pin_row(host.state, pins, pixel))
+        problem = self._count(host)
+        shown = (reading.bytes, reading.display) if reading is not None else None
+        values_and_histogram(shown, self.histogram, problem, host.fonts)
         imgui.separator()
         imgui.begin_child("reading")
         if self._error:
@@ -123,6 +132,24 @@ class ProbeView(View):
         if self._wanted is not state.scene:
             self._wanted, scene = state.scene, state.scene
             self._making.submit(lambda: Probe(scene))
+
+    def _count(self, host: Host) -> str:
+        """Follows the ray image with its histogram, counted in the background once an image; gives
+        why there is none. While an image is on its way, the one before is shown."""
+        assert self._counting is not None
+        both, images = host.renderers, host.state.images
+        outcome = self._counting.poll()
+        if outcome is not None:
+            self.histogram = outcome.value
+        if not both.is_tracing:
+            self.histogram = self._counted = None
+            return "a ray image in sight has one"
+        image = both.ray_image
+        key = (image, images.exposure_ev, images.transfer)
+        if image is not None and image.factor == 1 and key != self._counted:
+            self._counted, color = key, image.frame.channel("color")
+            self._counting.submit(lambda: histogram(color, images))
+        return "..."
 
     def _pixel(self, host: Host, size: Size) -> Pixel | None:
         """The marked pixel, else the one under the mouse."""

@@ -12,6 +12,7 @@ from window_driver import Driver, Key, changed
 
 from app.cameras.presets import PRESETS
 from app.cameras.travel import DURATION_S
+from app.panels import camera as camera_panel
 from app.panels import typed
 from app.state import is_orthonormal
 from app.views.pair import RASTER, RAY
@@ -394,3 +395,34 @@ def drive_sections_stay_as_the_user_leaves_them(d: Driver) -> None:
     assert d.ctx.item_info("//Camera/##look.eye.x").id_ != 0
     assert view.sections == ("Look at",)
     close_sections(d)
+
+
+def drive_the_exposure_is_told_in_stops(d: Driver) -> None:
+    d.type("exposure", "-1/2")
+    assert d.window.state.images.exposure_ev == -0.5, d.window.state.images.exposure_ev
+    d.settle()
+    before = d.images()[0].mean()
+    d.type("exposure", "1")
+    d.settle()
+    assert d.images()[0].mean() > before + 10
+    real, units = camera_panel.number_field, []
+    camera_panel.number_field = lambda *rest, **named: (
+        units.append((rest[0], named.get("unit"))) or real(*rest, **named)
+    )
+    try:
+        d.ctx.yield_(2)
+    finally:
+        camera_panel.number_field = real
+    assert set(units) == {("exposure", " EV")}
+
+
+def drive_large_numbers_keep_their_digits(d: Driver) -> None:
+    """Typed, shown in all widths, and dragged on from there without being rounded."""
+    d.type("eye.x", "-5432100")
+    assert d.window.state.camera.eye[0] == -5432100
+    d.settle()
+    d.picture()
+    d.drag_field("eye.x", 40)
+    moved = d.window.state.camera.eye[0]
+    assert moved != -5432100
+    assert abs(moved + 5432100) < 1000, "a drag does not round to one digit"

@@ -6,12 +6,13 @@ import os
 import threading
 
 import numpy as np
-from imgui_bundle import hello_imgui, imgui
+from imgui_bundle import ImVec2, hello_imgui, imgui
 from PIL import Image
 from window_driver import PATIENT_S, SIZE, Driver, Key
 
 from app import layout, theme
-from app.panels import loading
+from app.panels import loading, menus
+from app.panels.sheet import planned, sections
 from app.views.camera import CAMERA
 from app.views.pair import RASTER, RAY
 from renderer.scene import load_scene, save_view
@@ -74,6 +75,42 @@ def drive_the_sheet_fits_the_window_at_every_size_of_type(d: Driver) -> None:
         d.picture()
         press(d, int(Key.escape))
         assert not d.window.shell.help
+
+
+def drive_the_sheet_is_seen_at_once_in_a_lecture_hall(d: Driver) -> None:
+    """In 1280 x 720 nothing has to be scrolled, and its type is not below 13 pixels."""
+    hello_imgui.change_window_size((1280, 720))
+    d.ctx.yield_(5)
+    press(d, int(Key.f1))
+    d.ctx.yield_(3)
+    sheet = d.ctx.window_info("//Mouse and keys").window
+    assert sheet is not None
+    assert sheet.scroll_max.y == 0
+    assert sheet.scroll_max.x == 0
+    plan = planned(sections(), ImVec2(1200, 600), imgui.get_font_size())
+    assert plan.size_px >= 13
+    press(d, int(Key.escape))
+    hello_imgui.change_window_size(SIZE)
+    d.ctx.yield_(5)
+
+
+def drive_menus_do_not_grow_without_end(d: Driver) -> None:
+    """200 % is granted in a window 720 high; menus end at a size at which they have room."""
+    bar, sizes = menus._bar, []
+
+    def watched(*rest: object) -> None:
+        sizes.append(imgui.get_font_size())
+        bar(*rest)
+
+    menus._bar = watched
+    try:
+        for scale, window, menu in ((1.0, 16, 16), (1.5, 24, 24), (2.0, 32, 24), (3.0, 32, 24)):
+            d.window.change(d.window.state.with_options(preferences={"font_scale": scale}))
+            d.ctx.yield_(3)
+            assert abs(imgui.get_font_size() - window) <= 1, scale
+            assert abs(sizes[-1] - menu) <= 1, scale
+    finally:
+        menus._bar = bar
 
 
 def drive_looks_are_options_that_undo_takes_back(d: Driver) -> None:
@@ -320,17 +357,20 @@ def drive_the_history_is_a_list(d: Driver) -> None:
 
 def drive_a_narrow_window_keeps_its_menus_and_its_status(d: Driver) -> None:
     d.window.change(d.window.state.with_options(preferences={"font_scale": 3.0}))
-    hello_imgui.change_window_size((640, 480))
     try:
-        d.until(lambda: imgui.get_io().display_size.x == 640)
-        d.settle()
-        d.picture()
-        d.ctx.menu_click("//##MainMenuBar/Menu/Help/Mouse and keys")
-        assert d.window.shell.help
-        d.ctx.yield_(3)
-        d.picture()
-        press(d, int(Key.escape))
-        assert not d.window.shell.help
+        for width, names in ((640, ("File", "Help")), (300, ("Menu",))):
+            hello_imgui.change_window_size((width, 480))
+            d.until(lambda width=width: imgui.get_io().display_size.x == width)
+            d.settle()
+            d.picture()
+            for name in names:
+                assert d.ctx.item_exists(f"//##MainMenuBar/##MenuBar/{name}"), (width, name)
+            press(d, int(Key.f1))
+            assert d.window.shell.help
+            d.ctx.yield_(3)
+            d.picture()
+            press(d, int(Key.escape))
+            assert not d.window.shell.help
     finally:
         hello_imgui.change_window_size(SIZE)
     d.until(lambda: imgui.get_io().display_size.x == SIZE[0])

@@ -9,6 +9,7 @@ from imgui_bundle import hello_imgui
 from window_driver import SIZE, Driver, Key
 
 from app import theme
+from app.outside.paint import ground_of
 from app.outside.projected import Strokes
 from app.outside.screen import Screen
 from app.outside.solid import plane_corners
@@ -212,9 +213,9 @@ def drive_it_is_drawn_anew_in_another_look(d: Driver) -> None:
     drawn: list[theme.Palette] = []
     layers = outside.layers
 
-    def watched(primitives: Any) -> Any:
+    def watched(primitives: Any, ground: theme.Rgb) -> Any:
         drawn.append(theme.used().palette)
-        return layers(primitives)
+        return layers(primitives, ground)
 
     outside.layers = watched
     palettes = theme.LIGHT, theme.PRESENTED_LIGHT, theme.PRESENTED_DARK, theme.DARK
@@ -321,12 +322,68 @@ def drive_handles_have_the_colours_of_the_basis(d: Driver) -> None:
                 d.ctx.yield_(3)
                 own = {packed(*color) for color in (*outside_tint.AXES.values(), outside_tint.HELD)}
                 assert not seen & own
-                for color in theme.BASIS.values():
+                ground = ground_of(d.window.state.scene.background, 0.0)
+                for basis in theme.BASIS.values():
+                    color = theme.seen_on(basis, ground)
                     parts = (round(255 * part) for part in (color.x, color.y, color.z))
                     assert packed(*parts) in seen
             press(d, name)
     finally:
         outside_gizmo.recolor = recolor
+
+
+def drive_a_motion_is_told_in_the_letters_of_the_basis(d: Driver) -> None:
+    """While a handle is dragged: our own text, and none of ImGuizmo's, which says X, Y, Z."""
+    enter(d)
+    window, start = d.window, d.window.state.camera
+    told: list[str] = []
+    visible: list[int] = []
+    held: set[int] = set()
+    motion, hide_text = outside_gizmo.motion, outside_gizmo.hide_text
+
+    def watched(before: Camera, after: Camera) -> str:
+        told.append(motion(before, after))
+        return told[-1]
+
+    def counted(draw: Any, first: int) -> None:
+        before = (outside_tint.vertex_colors(draw)[first:] == outside_tint.SHADOW).sum()
+        hide_text(draw, first)
+        after = outside_tint.vertex_colors(draw)[first:]
+        assert (after == 0).sum() == 2 * before
+        assert packed(*outside_tint.HELD) not in (after & 0xFFFFFF).tolist()
+        visible.append(int(before))
+        held.update((after & 0xFFFFFF).tolist())
+
+    outside_gizmo.motion, outside_gizmo.hide_text = watched, counted
+    try:
+        press(d, "move eye")
+        d.ctx.yield_(2)
+        at = scope(d)
+        x, y = place(d, np.asarray(start.eye))
+        up = place(d, np.add(start.eye, 0.1 * at.reach * np.asarray(start.v)))
+        way = np.array([up[0] - x, up[1] - y])
+        way = way / np.linalg.norm(way)
+        grip = np.array([x, y]) + 0.4 * LENGTH * at.extent.x * way
+        d.ctx.mouse_teleport_to_pos(tuple(grip))
+        d.ctx.yield_(3)
+        d.ctx.mouse_down(0)
+        for pixels in (10, 30, 60):
+            d.ctx.mouse_teleport_to_pos(tuple(grip + pixels * way))
+            d.ctx.yield_(2)
+        d.picture()
+        moved = np.subtract(window.state.camera.eye, start.eye) @ start.v
+        d.ctx.mouse_up(0)
+        d.ctx.yield_(2)
+    finally:
+        outside_gizmo.motion, outside_gizmo.hide_text = motion, hide_text
+    assert told[-1] == f"Δv {moved:.4g}"
+    ground = ground_of(window.state.scene.background, 0.0)
+    shown = [theme.seen_on(theme.BASIS[name], ground) for name in "uvw"]
+    expected = {packed(*(round(255 * x) for x in (c.x, c.y, c.z))) for c in shown}
+    expected |= {0, 0xFFFFFF, packed(170, 170, 170)}  # hidden, held, the way from the beginning
+    assert held <= expected, f"colours of ImGuizmo's own: {[hex(c) for c in held - expected]}"
+    assert max(visible) > 0, "ImGuizmo wrote nothing that could be hidden"
+    press(d, "move eye")
 
 
 def packed(red: int, green: int, blue: int) -> int:

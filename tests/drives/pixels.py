@@ -8,7 +8,7 @@ import numpy as np
 from imgui_bundle import imgui
 from window_driver import Driver, Key
 
-from app.images.placement import Placement, place
+from app.images.placement import Placement
 from app.theme import framebuffer_scale
 from app.views.pair import RASTER, RAY
 from renderer.images import to_srgb8
@@ -25,7 +25,7 @@ def choose(d: Driver, path: str) -> None:
 
 def placement(d: Driver, name: str = RASTER) -> Placement:
     both = d.window.renderers
-    return place(d.window.state.images, both.size, both.common_room(both._panes_px[name]))
+    return both.placed(d.window.state.images, both.common_room(both._panes_px[name]))
 
 
 def without_overlays(image: np.ndarray) -> np.ndarray:
@@ -153,18 +153,13 @@ def drive_magnified_pixels_are_squares_with_a_grid(d: Driver) -> None:
     d.settle()
     plain = d.images()
     for name, image in zip((RASTER, RAY), plain, strict=True):
-        at = placement(d, name)
-        frame = window.renderers.agreement.pair[1 if name == RASTER else 2]
-        expected = picture(frame).repeat(8, axis=0).repeat(8, axis=1)
-        left, top, right, bottom = at.visible
-        x, y = at.origin
-        expected = expected[top - y : bottom - y, left - x : right - x].astype(np.int16)
+        expected = magnified(d, name, "color")
         difference = np.abs(without_overlays(image) - without_overlays(expected)).max(axis=2)
         assert (difference <= 1).all(), "nearest neighbour: nothing is blurred or shifted"
     d.ctx.key_press(ALT | int(Key.x))
     d.settle()
-    for name, before, after in zip((RASTER, RAY), plain, d.images(), strict=True):
-        lines = np.abs(after - before).max(axis=2) > 4
+    for name, after in zip((RASTER, RAY), d.images(), strict=True):
+        lines = np.abs(after - magnified(d, name, "color")).max(axis=2) > 4
         at, (height, width) = placement(d, name), lines.shape
         columns = (np.arange(width) + at.visible[0] - at.origin[0]) % 8 == 0
         rows = (np.arange(height) + at.visible[1] - at.origin[1]) % 8 == 0
@@ -179,32 +174,88 @@ def drive_magnified_pixels_are_squares_with_a_grid(d: Driver) -> None:
     assert (np.abs(fine[0] - d.images()[0]) <= 1).all(), "no lines between smaller pixels"
 
 
+def magnified(d: Driver, name: str, channel: str) -> np.ndarray:
+    """What is seen of an image whose pixels are magnified by a whole number."""
+    at, request = placement(d, name), d.window.renderers.agreement.pair
+    frame, factor = request[1 if name == RASTER else 2], round(at.magnification)
+    large = picture(frame, channel).repeat(factor, axis=0).repeat(factor, axis=1)
+    (left, top, right, bottom), (x, y) = at.visible, at.origin
+    return large[top - y : bottom - y, left - x : right - x].astype(np.int16)
+
+
+def drive_rulers_stand_beside_the_image(d: Driver) -> None:
+    """No number covers a pixel; both images have the same place, and picking is exact."""
+    window, scale = d.window, framebuffer_scale()
+    choose(d, "Resolution/16 x 9")
+    at = placement(d)
+    assert at == placement(d, RAY)
+    assert at.magnification >= 8
+    wide, high = at.margin
+    assert wide > 0
+    assert high > 0
+    for name, image in zip((RASTER, RAY), d.images(), strict=True):
+        covered = np.abs(image - magnified(d, name, "color")).max(axis=2) > 4
+        side = round(at.magnification)
+        covered[::side] = covered[:, ::side] = False  # the lines between pixels
+        assert not covered.any(), f"pixels of {name} are covered"
+
+    def rulers() -> tuple[np.ndarray, np.ndarray]:
+        left, top, right, bottom = (round(edge * scale) for edge in d.rect(RASTER))
+        whole = d.picture().astype(np.int16)
+        return whole[top - high : top, left:right], whole[top:bottom, left - wide : left]
+
+    from_one = rulers()
+    assert all(np.ptp(ruler) > 100 for ruler in from_one), "there are no numbers"
+    window.change(window.state.with_options(one_based=False))
+    d.settle()
+    for before, after in zip(from_one, rulers(), strict=True):
+        assert np.abs(after - before).max() > 60, "they follow the way to count"
+    # The pixel under the pointer is the one that is drawn there, to the corners.
+    for row, column in ((0, 0), (8, 15), (4, 7)):
+        d.ctx.mouse_teleport_to_pos(d.point(RASTER, (column + 0.5) / 16, (row + 0.5) / 9))
+        d.ctx.yield_(3)
+        assert window._hovered == (RASTER, (row, column))
+    left, top, *_ = d.rect(RASTER)
+    for place in ((left - 5, top + 5), (left + 5, top - 5)):
+        d.ctx.mouse_teleport_to_pos(place)
+        d.ctx.yield_(3)
+        assert window._hovered is None, "a ruler is no pixel"
+    # Where pixels become large enough for rulers, what is under the pointer stays there.
+    choose(d, "Resolution/640 x 360")
+    choose(d, "Magnification/4x")
+    d.ctx.mouse_teleport_to_pos(tuple(map(round, d.point(RASTER, 0.4, 0.6))))
+    d.ctx.yield_(3)
+    pixel = window._hovered[1]
+    d.ctx.key_down(int(Key.mod_ctrl))
+    while not any(placement(d).margin):
+        d.ctx.mouse_wheel_y(1)
+        d.ctx.yield_(2)
+        assert np.abs(np.subtract(window._hovered[1], pixel)).max() <= 1
+    d.ctx.key_up(int(Key.mod_ctrl))
+    assert placement(d).magnification == 8
+    # Without lines between pixels there are no rulers; with large numbers in them there are.
+    choose(d, "Magnification/64x")
+    assert any(placement(d).margin)
+    d.ctx.key_press(ALT | int(Key.x))
+    d.settle()
+    assert placement(d).margin == (0, 0)
+
+
 def drive_values_are_written_into_large_pixels(d: Driver) -> None:
     window = d.window
     choose(d, "Resolution/64 x 36")
     choose(d, "Magnification/32x")
-    seen: dict[str, tuple[np.ndarray, np.ndarray]] = {}
     for number, channel in enumerate(("color", "depth", "normal", "id")):
         d.ctx.key_press(ALT | (int(Key._1) + number))
         d.settle()
         assert window.state.images.channel == channel
         raster = d.images()[0]
-        d.ctx.key_press(ALT | int(Key.x))
-        d.settle()
-        plain = without_overlays(d.images()[0])
-        d.ctx.key_press(ALT | int(Key.x))
-        d.settle()
-        seen[channel] = without_overlays(raster), plain
-        cell = np.abs(seen[channel][0] - plain).max(axis=2) > 60
+        cell = without_overlays(np.abs(raster - magnified(d, RASTER, channel)).max(axis=2)) > 60
         assert cell.mean() > 0.02, "there are no numbers in the pixels"
-    # Another way to count changes the rulers; another way to write, the numbers.
+    # Another way to write changes the numbers.
     d.ctx.key_press(ALT | int(Key._1))
     d.settle()
-    before = d.images()[0]
-    window.change(window.state.with_options(one_based=False))
-    d.settle()
     counted = d.images()[0]
-    assert np.abs(counted - before)[:20].max() > 60
     d.ctx.key_press(ALT | int(Key.v))
     d.settle()
     assert np.abs(without_overlays(d.images()[0] - counted)).max() > 60
@@ -212,7 +263,7 @@ def drive_values_are_written_into_large_pixels(d: Driver) -> None:
     window.change(window.state.with_options(images={"magnification": 64.0}))
     d.settle()
     large = d.images()[0]
-    window.change(window.state.with_options(one_based=True))
+    window.change(window.state.with_options(one_based=False))
     d.settle()
     assert np.abs(without_overlays(d.images()[0] - large)).max() > 60
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import threading
 from dataclasses import replace
 
 import numpy as np
@@ -13,7 +14,9 @@ from app.outside.projected import Strokes
 from app.panels import formula
 from app.teach.formulas import ray_lines
 from app.teach.reading import Reading
+from app.views import probe as probe_view
 from app.views.outside import OUTSIDE, OutsideView
+from app.views.pair import RAY
 from app.views.probe import PROBE, ProbeView
 from renderer.images.display import to_srgb8
 from renderer.scene.model import Scene
@@ -230,6 +233,45 @@ def drive_shadows_mirrors_and_an_empty_scene(d: Driver) -> None:
     found = reading(d)
     assert found.meetings == () and found.hit is None
     d.picture()
+    leave(d)
+
+
+def drive_the_histogram_is_of_the_image_that_is_shown(d: Driver) -> None:
+    """Counted once an image, in the background, and again where it is shown otherwise."""
+    enter(d)
+    d.window.change(d.window.state.with_options(marked=(120, 150)))
+    d.settle()
+    real, counted = probe_view.histogram, []
+
+    def counting(color, images):
+        counted.append(threading.current_thread().name)
+        return real(color, images)
+
+    probe_view.histogram = counting
+    try:
+        for ev in (0.5, 1.5):
+            d.window.change(d.window.state.with_options(images={"exposure_ev": ev}))
+            d.settle()
+            d.ctx.yield_(10)
+            found = view(d).histogram
+            assert found is not None
+            shown = to_srgb8(d.window.renderers.ray_image.frame.color, ev)
+            for k in range(3):
+                assert (found.counts[k] == np.bincount(shown[..., k].ravel(), minlength=256)).all()
+        assert counted == ["lucida-histogram"] * 2
+        d.window.change(d.window.state.with_options(marked=(20, 30)))
+        d.settle()
+        assert len(counted) == 2, "another pixel, the same image"
+    finally:
+        probe_view.histogram = real
+    # No ray image in sight: the histogram of one that is gone is not shown.
+    d.window.shell.stage.show(RAY, False)
+    d.ctx.yield_(4)
+    assert view(d).histogram is None
+    d.window.shell.stage.show(RAY)
+    d.settle()
+    d.ctx.yield_(4)
+    assert view(d).histogram is not None
     leave(d)
 
 

@@ -1,7 +1,7 @@
 """The image laboratory's core: one linear image in the representations that the lecture names.
 
 kinds       bitmap, grayscale, colour, half and single float: bits, bytes, what each is good for
-bitmaps     one bit a pixel: threshold, ordered dither, Floyd-Steinberg
+bitmaps     one bit per pixel: threshold, ordered dither, Floyd-Steinberg
 stored      an image as it is kept in a kind, and what is seen when it is exposed afterwards
 light       three projectors whose light adds; the subpixels of a display; test pictures
 displays    tube, DLP, LCD and LED in time, whose mean over a cycle is the pixel's colour

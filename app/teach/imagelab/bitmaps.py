@@ -1,4 +1,4 @@
-"""From gray to one bit a pixel: a threshold, an ordered dither, and error diffusion.
+"""From gray to one bit per pixel: a threshold, an ordered dither, and error diffusion.
 
 Knows nothing of colours, files or windows. Values are linear light in 0..1, where 1 is white: the
 dithers keep its mean, so that from afar a region of bits sends the light that the gray did.

@@ -12,7 +12,7 @@ LECTURE_SIZE = (1024, 1024)  # the lecture's megapixel
 
 @dataclass(frozen=True)
 class Kind:
-    """name: as files and switches give it. bits: of one pixel. channels: numbers a pixel.
+    """name: as files and switches give it. bits: of one pixel. channels: numbers per pixel.
 
     levels: what one number can be, in words. use: what the kind is good for.
     """

@@ -106,7 +106,7 @@ def _bitmaps(
     color: Image, plan: Plan, options: LaboratoryOptions, taken_ev: float, pixel: Pixel
 ) -> tuple[Panel, ...]:
     gray = store(color, GRAY, taken_ev)
-    found = [_whole("Grayscale", "8 bits a pixel", shown(gray), plan)]
+    found = [_whole("Grayscale", "8 bits per pixel", shown(gray), plan)]
     for method, title in TITLES.items():
         kept = store(color, BITMAP, taken_ev, method)
         white = f"{100 * float(kept.array.mean()):.1f} % white"

@@ -1,0 +1,40 @@
+"""How often each value occurs in an image as it is shown: the histogram of red, green and blue.
+
+Pure numpy on an image that has been traced or read back already. Knows nothing of windows.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from app.images.pixelvalues import color_bytes
+from app.options import ImageOptions
+
+VALUES = 256
+MOST_PIXELS = 1 << 19  # of a larger image, every n-th row and column: the shape is the same
+HIGHEST = 10  # the bar that counts for the height: those of a plain background are cut
+ROOM = 1.3  # over the highest bar that is not cut
+
+
+@dataclass(frozen=True, eq=False)
+class Histogram:
+    """counts: of pixels, float32 (3, 256). top: the count that is shown as high as there is room;
+    higher ones are cut. every: which rows and columns are counted: 1 for all."""
+
+    counts: NDArray[np.float32]
+    top: float
+    every: int
+
+
+def histogram(color: NDArray[np.float32], options: ImageOptions) -> Histogram:
+    """Of linear colours (height, width, 3), through the display transform of the options."""
+    every = max(1, math.ceil(math.sqrt(color.shape[0] * color.shape[1] / MOST_PIXELS)))
+    shown = color_bytes(color[::every, ::every], options)
+    counts = [np.bincount(shown[..., k].ravel(), minlength=VALUES) for k in range(3)]
+    order = np.sort(np.concatenate(counts))
+    high = order[-HIGHEST] or order[-1]
+    return Histogram(np.array(counts, np.float32), ROOM * max(float(high), 1.0), every)
