@@ -14,7 +14,7 @@ def main() -> int:
     # For libraries that start Python, as glfw does: not to search the current folder for modules.
     os.environ["PYTHONSAFEPATH"] = "1"
     try:
-        from app import process
+        from app.window import process
 
         process.interrupt_between_imports()
         from app.cli import main as run

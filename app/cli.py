@@ -15,7 +15,7 @@ from collections.abc import Sequence
 
 from app.commands import COMMANDS, view
 from app.commands.arguments import TRACEBACK_VARIABLE, Parser
-from app.process import interrupt_between_imports, open_streams
+from app.window.process import interrupt_between_imports, open_streams
 from renderer.errors import LucidaError, one_line
 
 FAILED = 2

@@ -16,12 +16,12 @@ from typing import Any
 
 from imgui_bundle import hello_imgui
 
-from app import layout
-from app.lecturing import run_lecture
-from app.platform import start_platform
-from app.state import AppState
-from app.teach.lecture.reading import BUILTIN, load_lecture
-from app.viewer import Run, save_png
+from app.host import layout
+from app.lecture.reading import BUILTIN, load_lecture
+from app.state.app_state import AppState
+from app.window.lecturing import run_lecture
+from app.window.platform import start_platform
+from app.window.viewer import Run, save_png
 from renderer.scene import load_scene
 
 FOLDER = Path(__file__).parent

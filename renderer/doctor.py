@@ -135,7 +135,7 @@ def _shows() -> str:
 def _compiles() -> str:
     import numba
 
-    from renderer.trace.compiled import cache_folder, cache_problem
+    from renderer.trace.compile.compiled import cache_folder, cache_problem
 
     affinity = getattr(os, "sched_getaffinity", None)
     cores = len(affinity(0)) if affinity else os.cpu_count() or 1

@@ -11,10 +11,10 @@ from numba.core.codegen import JITCodeLibrary
 
 from renderer.scene.flat import flatten
 from renderer.scene.model import Mesh, Scene, SceneObject
-from renderer.trace import inlining
-from renderer.trace.instances import Instances
-from renderer.trace.packet_engine import PacketEngine
-from renderer.trace.team import Team
+from renderer.trace.bvh.instances import Instances
+from renderer.trace.compile import numba_compiler as inlining
+from renderer.trace.packets.engine import PacketEngine
+from renderer.trace.threads.thread_pool import Team
 
 TRIPLE = "aarch64-unknown-linux-gnu"
 ELF, AARCH64 = b"\x7fELF", 183  # e_machine of an object file, at byte 18

@@ -15,7 +15,7 @@ from app.cameras.focus import Focus, scene_focus
 from app.cameras.navigation import switched_projection
 from app.cameras.presets import PRESETS, preset_view
 from app.cameras.travel import DURATION_S, Ends, Traveller
-from app.state import AppState, History, is_orthonormal
+from app.state.app_state import AppState, History, is_orthonormal
 from renderer.camera import Camera, volume
 from renderer.scene import load_scene
 from renderer.scene.model import Scene, View

@@ -9,8 +9,10 @@ from typing import Annotated, Any, get_args, get_origin, get_type_hints
 
 import pytest
 
-from app.bounds import Accepted, AtMost, Range, check, clamped, range_of, whole_range_of
-from app.options import (
+from app.lecture.options import options_from_table
+from app.state.app_state import AppState
+from app.state.bounds import Accepted, AtMost, Range, check, clamped, range_of, whole_range_of
+from app.state.options import (
     Bookmark,
     CompareOptions,
     ImageOptions,
@@ -20,9 +22,7 @@ from app.options import (
     ProbeOptions,
     StepperOptions,
 )
-from app.state import AppState
 from app.storage.session import Arrangement, from_bytes, session_of, to_bytes
-from app.teach.lecture.options import options_from_table
 from renderer.camera import Camera
 from renderer.errors import LucidaError
 from renderer.scene import View, load_scene

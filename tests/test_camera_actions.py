@@ -9,13 +9,13 @@ from typing import Any
 
 import pytest
 
-from app.actions import camera as camera_actions
-from app.actions.camera import CAMERA, EDIT
-from app.actions.table import ACTIONS
-from app.cameras.fly import KEYS
+from app.camera_panel import actions as camera_actions
+from app.camera_panel.actions import CAMERA, EDIT
 from app.cameras.focus import Focus, scene_focus
 from app.cameras.presets import PRESETS
-from app.state import AppState
+from app.host.fly import KEYS
+from app.state.app_state import AppState
+from app.window.action_table import ACTIONS
 from renderer.camera import Camera
 from renderer.scene import load_scene
 

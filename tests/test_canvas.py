@@ -6,7 +6,7 @@ import moderngl
 import numpy as np
 import pytest
 
-from app.canvas import MOST_KEPT, Canvas
+from app.window.canvas import MOST_KEPT, Canvas
 
 SIZE = (30, 20)
 

@@ -12,8 +12,8 @@ import pytest
 from PIL import Image
 
 from app.cli import main
-from app.panels import formula
-from app.teach.lecture.reading import is_lecture
+from app.lecture.reading import is_lecture
+from app.widgets import formula
 
 ROOT = Path(__file__).parent.parent
 LECTURE = '''\

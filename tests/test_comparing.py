@@ -5,9 +5,9 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from app.images import comparing
-from app.options import ImageOptions
-from app.state import AppState
+from app.compare import comparing
+from app.state.app_state import AppState
+from app.state.options import ImageOptions
 from renderer import Camera, Frame, load_scene
 from renderer.compare import CAUSES, SHADING, UNEXPLAINED, compare_frames
 from renderer.difference import LARGEST_GAIN

@@ -7,9 +7,9 @@ from types import SimpleNamespace
 import pytest
 
 from app.commands.arguments import progress_bar
-from app.window import _agreement, _agrees
+from app.window.main_window import _agreement, _agrees
 from renderer import compile_note
-from renderer.trace import compiled
+from renderer.trace.compile import compiled
 
 
 def doubled(x):

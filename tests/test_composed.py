@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from app.images.composed import RIM, Composed, Mapping, marks
+from app.compare.composed import RIM, Composed, Mapping, marks
 from renderer import Frame
 from renderer.compare import AGREE, CAUSES, LABEL_COLORS, SHADING, UNEXPLAINED
 from renderer.difference import (

@@ -16,8 +16,8 @@ from app.cameras.focus import scene_focus
 from app.images.picking import object_on_ray
 from app.outside.outlines import Ellipse, outlines
 from app.outside.screen import Screen
-from app.teach import loop_parts
-from app.teach.probe import Probe
+from app.probe.model import Probe
+from app.stepper import loop_parts
 from renderer import Camera, Rasterizer, Tracer
 from renderer.compare import CHANNELS, compare_frames
 from renderer.scene import shapes

@@ -16,10 +16,10 @@ from PIL import Image
 
 from app.storage import clipboard
 from app.storage.capture import Captures, cut, free_path
-from app.storage.files import Files, open_sources
-from app.storage.folders import read_folder, starting_points
 from app.storage.recent import LONGEST, MOST, Recent, RecentFiles
-from app.surface import Target
+from app.widgets.folders import read_folder, starting_points
+from app.widgets.surface import Target
+from app.window.files import Files, open_sources
 from renderer.errors import LucidaError
 from renderer.scene import load_scene, save_view, shapes
 

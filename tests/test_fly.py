@@ -10,10 +10,10 @@ import numpy as np
 import pytest
 from imgui_bundle import imgui
 
-from app.cameras.fly import Fly
 from app.cameras.focus import Focus
-from app.state import AppState
-from app.views.base import View
+from app.host.fly import Fly
+from app.host.view import View
+from app.state.app_state import AppState
 from renderer.camera import LARGEST, Camera
 from renderer.scene.model import Scene
 

@@ -5,10 +5,10 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from app import theme
 from app.images import histogram as module
 from app.images.histogram import histogram
-from app.options import ImageOptions
+from app.state.options import ImageOptions
+from app.widgets import theme
 from renderer.images.display import to_srgb8
 
 

@@ -10,9 +10,9 @@ import pytest
 from app.images import imaging
 from app.images.marking import followed, moved
 from app.images.pixelvalues import is_dark, line_count, shown_bytes, value_lines
-from app.options import Channel, ImageOptions
-from app.panels.strip import told_now
-from app.state import AppState
+from app.pair.toolbar import told_now
+from app.state.app_state import AppState
+from app.state.options import Channel, ImageOptions
 from renderer.camera import Camera
 from renderer.errors import LucidaError
 from renderer.frame import Frame

@@ -8,12 +8,12 @@ from pathlib import Path
 
 import pytest
 
-from app.start import Start, begin_lecture, begin_session
+from app.lecture.reading import BUILTIN, load_lecture
+from app.lecture.session import Session
+from app.lecture.view import LectureView
 from app.storage.kept_lecture import KeptLecture
 from app.storage.session import Arrangement, from_bytes, session_of, to_bytes
-from app.teach.lecture.reading import BUILTIN, load_lecture
-from app.teach.lecture.session import Session
-from app.views.lecture import LectureView
+from app.window.start import Start, begin_lecture, begin_session
 from renderer.errors import LucidaError
 
 LECTURE = """

@@ -9,10 +9,10 @@ from pathlib import Path
 
 import pytest
 
-from app.teach.lecture import text as texts
-from app.teach.lecture.places import Places
-from app.teach.lecture.reading import PIECES, lecture_from_toml
-from app.teach.lecture.text import Math, Paragraph, Words, parse
+from app.lecture import text as texts
+from app.lecture.places import Places
+from app.lecture.reading import PIECES, lecture_from_toml
+from app.lecture.text import Math, Paragraph, Words, parse
 from renderer.errors import LucidaError
 from renderer.scene.limits import TOML_BYTES
 

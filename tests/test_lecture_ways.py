@@ -7,12 +7,12 @@ from dataclasses import replace
 import pytest
 
 from app.images.marking import followed
-from app.state import AppState
-from app.teach.lecture.flow import INDENT, Extent, Piece, lay
-from app.teach.lecture.options import OWN
-from app.teach.lecture.reading import BUILTIN, load_lecture
-from app.teach.lecture.states import state_of
-from app.teach.lecture.text import parse
+from app.lecture.flow import INDENT, Extent, Piece, lay
+from app.lecture.options import OWN
+from app.lecture.reading import BUILTIN, load_lecture
+from app.lecture.states import state_of
+from app.lecture.text import parse
+from app.state.app_state import AppState
 from renderer.scene import load_scene
 
 LECTURE = load_lecture(BUILTIN)

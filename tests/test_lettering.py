@@ -6,15 +6,15 @@ import itertools
 
 import pytest
 
-from app.panels.code import LINE, narrowed
-from app.panels.pixelgrid import ADVANCE, DIGITS_HIGH, LEADING, VALUES_FROM, text_size
-from app.panels.probe import HIGH_EM, WIDE_EM, type_px
-from app.panels.slide import sizes_of
-from app.panels.sliders import part_of
-from app.panels.stepper import LEAST_PX, WANTED_EM
-from app.panels.stepper_plan import Need, Plan, canvases_in, plan, plan_of_two
-from app.teach.recording import Order
-from app.teach.source import source_of
+from app.lecture.slide import sizes_of
+from app.pair.pixelgrid import ADVANCE, DIGITS_HIGH, LEADING, VALUES_FROM, text_size
+from app.probe.panel import HIGH_EM, WIDE_EM, type_px
+from app.stepper.panel import LEAST_PX, WANTED_EM
+from app.stepper.plan import Need, Plan, canvases_in, plan, plan_of_two
+from app.stepper.recording import Order
+from app.stepper.source import source_of
+from app.widgets.code import LINE, narrowed
+from app.widgets.sliders import part_of
 
 HALL_PX = 1080.0  # the height of a projector's picture
 HALL_ROOM = (1160.0, 740.0)  # of the main view beside a lecture's column there

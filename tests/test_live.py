@@ -10,12 +10,12 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 import pytest
 
-from app.background import Background
 from app.images import agreement as agreement_module
-from app.images import live
+from app.images import progressive_ray as live
 from app.images.agreement import Agreement, Verdict
 from app.images.coarseness import FACTORS
-from app.images.live import LiveTrace, RayImage, Request
+from app.images.progressive_ray import LiveTrace, RayImage, Request
+from app.widgets.background import Background
 from renderer.camera import Camera
 from renderer.errors import LucidaError
 from renderer.frame import CHANNELS, Frame

@@ -14,13 +14,14 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from app.storage.files import Files, Opened
+from app.window.files import Files, Opened
 from renderer.errors import LucidaError
-from renderer.scene import apart, load_scene
-from renderer.scene.apart import CancelledError, ModelReader, is_large
+from renderer.scene import load_scene
+from renderer.scene import subprocess_reader as apart
 from renderer.scene.model import Mesh, SceneObject
 from renderer.scene.models import read_by, read_model
 from renderer.scene.packing import read_value, write_value
+from renderer.scene.subprocess_reader import CancelledError, ModelReader, is_large
 
 PATIENT_S = 120.0
 ROOT = Path(__file__).parent.parent

@@ -11,7 +11,7 @@ from hypothesis import assume, given
 from hypothesis import strategies as st
 
 from app.cameras import navigation
-from app.cameras.fly import way_flown
+from app.host.fly import way_flown
 from renderer.camera import Camera, volume
 from renderer.errors import LucidaError
 

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from app.cli import main
-from app.images import comparing
+from app.compare import comparing
 from renderer import Camera, Scene, load_scene
 from renderer.compare import compare
 from renderer.nothing_hit import middle_of, why_nothing_is_hit

@@ -12,17 +12,17 @@ from types import SimpleNamespace
 import msgspec
 import pytest
 
-from app import process
-from app.background import Background
 from app.cameras.text import command_line
-from app.panels.dialog import FileDialog, Question
-from app.panels.toasts import Toasts
-from app.state import AppState
-from app.storage.files import Files, open_sources
-from app.storage.folders import read_folder
+from app.state.app_state import AppState
 from app.storage.paths import is_unicode, restored, stored
 from app.storage.recent import RecentFiles
 from app.storage.session import Arrangement, from_bytes, session_of, to_bytes
+from app.widgets.background import Background
+from app.widgets.dialog import FileDialog, Question
+from app.widgets.folders import read_folder
+from app.widgets.toasts import Toasts
+from app.window import process
+from app.window.files import Files, open_sources
 from renderer.errors import LucidaError, describe, one_line
 from renderer.scene import load_scene, save_scene
 
@@ -145,7 +145,7 @@ def test_streams_take_any_text(encoding: str, monkeypatch) -> None:
 
 
 def test_names_that_are_dropped_are_decoded_as_files_names_are(monkeypatch) -> None:
-    from app import platform
+    from app.window import platform
 
     dropped: list[list[str]] = []
     window = SimpleNamespace()

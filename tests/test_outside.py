@@ -13,13 +13,9 @@ import pytest
 from hypothesis import assume, given
 from hypothesis import strategies as st
 
-from app.options import OutsideOptions
 from app.outside.diagram import Arrow, Hit, Label, Lines, diagram, polyline
 from app.outside.extent import end_parameter, framed, outside_camera
-from app.outside.hits import Question, RayHits
-from app.outside.projected import Shape, Strokes, Text, project
-from app.outside.screen import Screen
-from app.outside.solid import (
+from app.outside.frustum import (
     MOST_GRID_LINES,
     bundle_pixels,
     grid,
@@ -31,13 +27,17 @@ from app.outside.solid import (
     point_at,
     rectangle,
 )
-from app.views.outside_gizmo import (
+from app.outside.gizmo import (
     gl_matrices,
     motion,
     nearest_rotation,
     rotation_between,
     rotation_of,
 )
+from app.outside.hits import Question, RayHits
+from app.outside.projected import Shape, Strokes, Text, project
+from app.outside.screen import Screen
+from app.state.options import OutsideOptions
 from renderer.camera import Camera
 from renderer.errors import LucidaError
 from renderer.raster.overlay import plane_on_screen, screen_from_world

@@ -8,12 +8,12 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from app import theme
 from app.outside.diagram import Dot, Face, Item, Lines
+from app.outside.frustum import pixel_corners, plane_corners
 from app.outside.paint import ground_of, layers, role_color, vector_paint
 from app.outside.projected import project
 from app.outside.screen import Screen
-from app.outside.solid import pixel_corners, plane_corners
+from app.widgets import theme
 from renderer.camera import Camera
 from renderer.errors import LucidaError
 from renderer.raster import Rasterizer

@@ -11,10 +11,10 @@ import pytest
 from test_files import wait_for
 
 from app.cli import main
-from app.shell import outside_question
-from app.storage.files import Files, Outside, open_sources
-from app.teach.lecture.reading import load_lecture
-from app.window import title
+from app.lecture.reading import load_lecture
+from app.window.files import Files, Outside, open_sources
+from app.window.main_window import title
+from app.window.shell import outside_question
 from renderer.errors import LucidaError
 from renderer.scene import load_scene
 from renderer.scene.outside import OutsideError, kept_inside, outside, outside_files, scene_files

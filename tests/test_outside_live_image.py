@@ -14,11 +14,11 @@ from numpy.typing import NDArray
 from PIL import Image as PngImage
 
 from app.outside.diagram import Lines
-from app.outside.hidden import Hidden
+from app.outside.frustum import pixel_corners, plane_corners
+from app.outside.image_bitmap import MOST_PIXELS, standing
+from app.outside.occlusion import Hidden
 from app.outside.projected import project
 from app.outside.screen import Screen
-from app.outside.solid import pixel_corners, plane_corners
-from app.outside.standing import MOST_PIXELS, standing
 from app.outside.svg import svg
 from app.outside.vector import Drawing, Image, Line, Paint, drawing
 from renderer.camera import Camera

@@ -21,14 +21,14 @@ from renderer.frame import Frame
 from renderer.scene import BUILTIN_SCENES, load_scene
 from renderer.scene.flat import flatten
 from renderer.scene.model import Material, Mesh, PointLight, Scene, SceneObject, Sphere
-from renderer.trace.control import DONE, cancel, new_control
-from renderer.trace.engine import Engine
-from renderer.trace.image import Image, new_image, to_frame
-from renderer.trace.packet_cells import cells_of
-from renderer.trace.packet_engine import PacketEngine
-from renderer.trace.packet_view import packet_view
-from renderer.trace.team import Team
-from renderer.trace.view import View
+from renderer.trace.arguments.image import Image, new_image, to_frame
+from renderer.trace.arguments.view import View
+from renderer.trace.jobs.engine import Engine
+from renderer.trace.packets.cells import cells_of
+from renderer.trace.packets.engine import PacketEngine
+from renderer.trace.packets.view import packet_view
+from renderer.trace.threads.control import DONE, cancel, new_control
+from renderer.trace.threads.thread_pool import Team
 
 # The corners' coordinates, the plane through them, the key and its inverse are rounded about a
 # dozen times; each rounding is half of this. The comparison of random cameras also allows what

@@ -6,13 +6,21 @@ from dataclasses import replace
 
 import pytest
 
-from app.actions.palette import Entry, found, score
-from app.actions.synonyms import SYNONYMS
-from app.actions.table import ACTIONS, MENUS
-from app.changes import change
-from app.panels.sheet import in_columns, sections
-from app.state import AppState
-from app.views import camera, compare, costs, laboratory, lecture, outside, pair, probe, stepper
+from app.camera_panel import view as camera
+from app.compare import view as compare
+from app.costs import view as costs
+from app.laboratory import view as laboratory
+from app.lecture import view as lecture
+from app.outside import view as outside
+from app.pair import view as pair
+from app.probe import view as probe
+from app.state.app_state import AppState
+from app.state.changes import change
+from app.stepper import view as stepper
+from app.window.action_table import ACTIONS, MENUS
+from app.window.palette_search import Entry, found, score
+from app.window.shortcut_sheet import in_columns, sections
+from app.window.synonyms import SYNONYMS
 from renderer.scene import load_scene
 
 ENTRIES = [

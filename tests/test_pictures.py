@@ -10,10 +10,10 @@ import moderngl
 import numpy as np
 import pytest
 
-from app.images import parts
+from app.images import progressive_raster as parts
 from app.images.coarseness import Coarseness
-from app.images.pictures import Pictures, Wanted
 from app.images.shown import Picture, whole
+from app.images.textures import Pictures, Wanted
 from renderer.errors import LucidaError
 from renderer.frame import CHANNELS, Frame
 from renderer.raster import Look, Rasterizer
@@ -27,7 +27,7 @@ PATIENT_FRAMES = 500
 @pytest.fixture
 def pictures(gl, monkeypatch) -> Iterator[Pictures]:
     """Their full images are refined at once, and take many strips."""
-    monkeypatch.setattr("app.images.pictures.MOVING_S", 0.0)
+    monkeypatch.setattr("app.images.textures.MOVING_S", 0.0)
     monkeypatch.setattr(parts, "STRIP_PIXELS", 1)
     monkeypatch.setattr(Coarseness, "full_s", lambda *_: 20 * parts.STRIP_S)
     made = Pictures(gl)

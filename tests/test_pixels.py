@@ -7,10 +7,10 @@ import re
 
 import pytest
 
-from app.actions.image import COUNTING
-from app.actions.table import ACTIONS
 from app.cli import main
-from app.options import Options
+from app.pair.actions import COUNTING
+from app.state.options import Options
+from app.window.action_table import ACTIONS
 from renderer.pixels import Indexing
 
 PIXEL = (0, 11)

@@ -13,7 +13,7 @@ from hypothesis import strategies as st
 from app.cameras.focus import object_corners, scene_focus
 from app.cameras.presets import MARGIN, PRESETS, Preset, clip_around, framed, look_at
 from app.cameras.presets import preset_view as make_view
-from app.state import is_orthonormal
+from app.state.app_state import is_orthonormal
 from renderer.camera import Camera, volume
 from renderer.errors import LucidaError
 from renderer.scene import BUILTIN_SCENES, Mesh, Scene, SceneObject, Sphere, load_scene, shapes

@@ -15,7 +15,7 @@ from numba.core import config
 
 from renderer.errors import LucidaError
 from renderer.private import private_folder
-from renderer.trace import compiled
+from renderer.trace.compile import compiled
 
 ROOT = Path(__file__).parent.parent
 pytestmark = pytest.mark.skipif(not hasattr(os, "geteuid"), reason="POSIX's owners and rights")

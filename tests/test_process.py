@@ -21,7 +21,7 @@ finished = True
 IMPORTER = """\
 import signal, time
 signal.signal(signal.SIGINT, signal.default_int_handler)  # whatever this process has inherited
-from app.process import interrupt_between_imports
+from app.window.process import interrupt_between_imports
 interrupt_between_imports()
 try:
     import interrupted
@@ -89,7 +89,7 @@ sys.exit(main())
 
 
 @pytest.mark.parametrize(
-    "name", ["app.process", "app.cli", "argparse", "app.commands", "app.commands.view"]
+    "name", ["app.window.process", "app.cli", "argparse", "app.commands", "app.commands.view"]
 )
 def test_ctrl_c_during_the_first_imports_is_quiet(tmp_path, name):
     end = run("-c", AT_AN_IMPORT, name, stderr=subprocess.PIPE, cwd=tmp_path)

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from app.images.pixelvalues import shown_bytes
-from app.options import ImageOptions
+from app.state.options import ImageOptions
 from renderer.camera import Camera
 from renderer.frame import Frame
 from renderer.images import to_srgb8

@@ -11,9 +11,9 @@ from renderer.errors import LucidaError
 from renderer.scene.flat import flatten
 from renderer.scene.model import Mesh, Scene, SceneObject, Sphere
 from renderer.trace import Tracer
-from renderer.trace.instances import Instances
-from renderer.trace.rays import any_hits, closest_hits
-from renderer.trace.team import Team
+from renderer.trace.bvh.instances import Instances
+from renderer.trace.rays.query import any_hits, closest_hits
+from renderer.trace.threads.thread_pool import Team
 
 # float32, relative to the origin: corners, shear and t are each rounded a few times. For a ray that
 # grazes a triangle, or meets it near its origin, that counts for more.

@@ -8,7 +8,7 @@ from raster_reference import reference
 from test_far import agree, moved, placed
 from trace_reference import closest, shaded
 
-from app.teach.probe import Probe
+from app.probe.model import Probe
 from renderer import Camera, Rasterizer, Tracer
 from renderer.compare import CHANNELS, compare_frames
 from renderer.frame import Frame

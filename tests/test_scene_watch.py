@@ -10,13 +10,13 @@ from pathlib import Path
 import pytest
 from test_files import wait_for
 
-from app.state import AppState, History
-from app.storage import files as storage_files
+from app.state.app_state import AppState, History
 from app.storage import scene_watch
-from app.storage.files import Files, Opened
 from app.storage.scene_watch import LOOK_S, SceneWatch
-from app.teach.lecture.watching import REST_S
-from app.window import MainWindow
+from app.storage.watching import REST_S
+from app.window import files as storage_files
+from app.window.files import Files, Opened
+from app.window.main_window import MainWindow
 from renderer.scene import Scene, load_scene
 
 BALL = "[[objects]]\ntype = 'sphere'\n"
@@ -43,7 +43,7 @@ def path(tmp_path: Path) -> Path:
 
 @pytest.fixture
 def files(monkeypatch):
-    monkeypatch.setattr("app.storage.files.time.monotonic", Clock())
+    monkeypatch.setattr("app.window.files.time.monotonic", Clock())
     files = Files(lambda: None)
     yield files
     files.close()

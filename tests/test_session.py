@@ -16,9 +16,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from app.options import Bookmark
-from app.start import begin_session
-from app.state import AppState
+from app.state.app_state import AppState
+from app.state.options import Bookmark
 from app.storage.session import (
     LARGEST_BYTES,
     VERSION,
@@ -29,6 +28,7 @@ from app.storage.session import (
     to_bytes,
 )
 from app.storage.session_store import Keeper, take_place
+from app.window.start import begin_session
 from renderer.camera import Camera
 from renderer.errors import LucidaError
 from renderer.scene import BUILTIN_SCENES, View, load_scene
@@ -354,7 +354,7 @@ import sys
 from pathlib import Path
 from app.storage.session import Arrangement, session_of, to_bytes
 from app.storage.session_store import take_place
-from app.state import AppState
+from app.state.app_state import AppState
 from renderer.scene import load_scene
 
 state = AppState.for_scene(load_scene("spheres"))

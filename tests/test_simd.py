@@ -11,9 +11,11 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from renderer.trace import simd, simd_math, simd_memory
-from renderer.trace.compiled import kernel
-from renderer.trace.simd_memory import load, pointer, store
+from renderer.trace.compile.compiled import kernel
+from renderer.trace.simd import lanes as simd
+from renderer.trace.simd import math as simd_math
+from renderer.trace.simd import memory as simd_memory
+from renderer.trace.simd.memory import load, pointer, store
 
 random = np.random.default_rng(1)
 

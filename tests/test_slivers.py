@@ -14,7 +14,7 @@ from renderer.scene import BUILTIN_SCENES, load_scene
 from renderer.scene.flat import flatten
 from renderer.scene.model import Checker, Material, Mesh, Scene, SceneObject, Sphere
 from renderer.slivers import seen_corners, unknown_edge_px
-from renderer.trace.packet_cells import are_blurred, cells_of
+from renderer.trace.packets.cells import are_blurred, cells_of
 
 SIZE = (300, 200)
 PERSPECTIVE = Camera(eye=(0.3, -0.2, 5.0), distance=1.5, viewport=(-0.8, 0.7, -0.4, 0.6))

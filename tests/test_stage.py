@@ -9,9 +9,9 @@ import numpy as np
 import pytest
 from numba.core.errors import TypingError
 
-from renderer.trace.compiled import inlined
-from renderer.trace.simd_memory import pointer
-from renderer.trace.stage import ROOM_BYTES, call_stage, new_room, prepared
+from renderer.trace.compile.compiled import inlined
+from renderer.trace.compile.stage import ROOM_BYTES, call_stage, new_room, prepared
+from renderer.trace.simd.memory import pointer
 
 
 class Always(NamedTuple):

@@ -7,10 +7,10 @@ from pathlib import Path
 
 import pytest
 
-from app import start
-from app.start import begin_scene, begin_session
 from app.storage.session import Arrangement, session_of
 from app.storage.session_store import Keeper, take_place
+from app.window import start
+from app.window.start import begin_scene, begin_session
 from renderer.errors import LucidaError
 from renderer.scene import load_scene, save_view
 

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-from app.panels.fields import Scale, fitting_format, number_format, short_number
-from app.panels.status import (
+from app.widgets.fields import Scale, fitting_format, number_format, short_number
+from app.window.status import (
     Status,
     agreement_text,
     fitting,

@@ -8,10 +8,7 @@ import threading
 
 import pytest
 
-from app.bounds import whole_range_of
-from app.options import CostOptions
-from app.panels.costs import Told, said
-from app.teach.costs import (
+from app.costs.model import (
     COUNTING,
     ROUNDS,
     Case,
@@ -23,7 +20,10 @@ from app.teach.costs import (
     steps,
     torus_of,
 )
-from app.teach.work import Work
+from app.costs.panel import Told, said
+from app.costs.work import Work
+from app.state.bounds import whole_range_of
+from app.state.options import CostOptions
 from renderer.camera import Camera
 from renderer.errors import LucidaError
 from renderer.frame import Frame

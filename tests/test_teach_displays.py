@@ -7,10 +7,10 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from app.options import LaboratoryOptions
-from app.teach.imagelab import displays
-from app.teach.imagelab.displays import DISPLAYS
-from app.views import laboratory_displays
+from app.laboratory import displays
+from app.laboratory import displays_view as laboratory_displays
+from app.laboratory.displays import DISPLAYS
+from app.state.options import LaboratoryOptions
 from renderer.images import to_srgb8
 
 MOMENTS = 3000

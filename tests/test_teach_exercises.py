@@ -8,15 +8,15 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from app.arithmetic import number, text_of, vector, vector_text
-from app.teach.lecture.exercises import (
+from app.explaining.arithmetic import number, text_of, vector, vector_text
+from app.lecture.exercises import (
     ChoiceExercise,
     Option,
     RayExercise,
     VectorExercise,
     Wanted,
 )
-from app.teach.lecture.mistakes import mistakes
+from app.lecture.mistakes import mistakes
 from renderer.camera import Camera
 from renderer.errors import LucidaError
 from renderer.pixels import Indexing

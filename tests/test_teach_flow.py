@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import pytest
 
-from app.teach.lecture.flow import Extent, Laid, Piece, fitted, lay
-from app.teach.lecture.plain import plain_math
-from app.teach.lecture.text import parse
+from app.explaining.plain import plain_math
+from app.lecture.flow import Extent, Laid, Piece, fitted, lay
+from app.lecture.text import parse
 
 
 def measure(piece: Piece) -> Extent:

@@ -11,8 +11,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 from PIL import Image
 
-from app.teach.imagelab import bitmaps, disk, kinds, light, memory
-from app.teach.imagelab.stored import clipped, levels, shown, store
+from app.laboratory import bitmaps, disk, kinds, light, memory
+from app.laboratory.stored import clipped, levels, shown, store
 from renderer.errors import LucidaError
 from renderer.frame import Frame
 from renderer.images import gray_picture, to_srgb8

@@ -20,20 +20,20 @@ from typing import Any
 import numpy as np
 import pytest
 
-from app.options import Language
-from app.state import AppState
-from app.teach import loop_parts, raster_parts
-from app.teach.copying import as_c, as_julia, as_python
-from app.teach.imagelab import array_code, memory
-from app.teach.languages import julia
-from app.teach.lecture import text as texts
-from app.teach.lecture.reading import BUILTIN, load_lecture
-from app.teach.lecture.states import state_of
-from app.teach.loop_parts import Model
-from app.teach.probe import Probe
-from app.teach.reading import Reading
-from app.teach.recording import Order
-from app.teach.source import source_of
+from app.explaining.languages import julia
+from app.laboratory import array_code, memory
+from app.lecture import text as texts
+from app.lecture.reading import BUILTIN, load_lecture
+from app.lecture.states import state_of
+from app.probe.copying import as_c, as_julia, as_python
+from app.probe.model import Probe
+from app.probe.reading import Reading
+from app.state.app_state import AppState
+from app.state.options import Language
+from app.stepper import loop_parts, raster_parts
+from app.stepper.loop_parts import Model
+from app.stepper.recording import Order
+from app.stepper.source import source_of
 from renderer.pixels import Indexing
 from renderer.scene import load_scene
 

@@ -13,18 +13,18 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from app.options import Options
-from app.state import AppState
-from app.teach.languages import LANGUAGES
-from app.teach.lecture import text as texts
-from app.teach.lecture.exercises import ChoiceExercise, RayExercise, VectorExercise
-from app.teach.lecture.model import Lecture
-from app.teach.lecture.options import ELSEWHERE
-from app.teach.lecture.places import Places, parsed_path
-from app.teach.lecture.reading import BUILTIN, lecture_from_toml, load_lecture
-from app.teach.lecture.states import state_of
-from app.teach.lecture.watching import Watch, signature
-from app.teach.probe import Probe
+from app.explaining.languages import LANGUAGES
+from app.lecture import text as texts
+from app.lecture.exercises import ChoiceExercise, RayExercise, VectorExercise
+from app.lecture.model import Lecture
+from app.lecture.options import ELSEWHERE
+from app.lecture.places import Places, parsed_path
+from app.lecture.reading import BUILTIN, lecture_from_toml, load_lecture
+from app.lecture.states import state_of
+from app.probe.model import Probe
+from app.state.app_state import AppState
+from app.state.options import Options
+from app.storage.watching import Watch, signature
 from renderer.camera import Camera
 from renderer.errors import LucidaError
 from renderer.scene import load_scene

@@ -10,14 +10,14 @@ from hypothesis import given
 from hypothesis import strategies as st
 from trace_reference import closest, random_camera, random_scene
 
-from app.teach.bundles import MOST_RAYS, bundle, column_of, row_of
-from app.teach.color_formulas import color_lines
-from app.teach.copying import all_lines, as_latex, as_python, as_text
-from app.teach.crossings import RUN, Index
-from app.teach.formulas import hit_lines, ray_lines
-from app.teach.notation import latex_number, number
-from app.teach.probe import Probe
-from app.teach.reading import BEHIND, FAR, HIDDEN, NEAR, SEEN, Reading
+from app.explaining.notation import latex_number, number
+from app.probe.bundles import MOST_RAYS, bundle, column_of, row_of
+from app.probe.color_formulas import color_lines
+from app.probe.copying import all_lines, as_latex, as_python, as_text
+from app.probe.crossings import RUN, Index
+from app.probe.formulas import hit_lines, ray_lines
+from app.probe.model import Probe
+from app.probe.reading import BEHIND, FAR, HIDDEN, NEAR, SEEN, Reading
 from renderer.camera import Camera
 from renderer.errors import LucidaError
 from renderer.images.display import encode_srgb, to_srgb8

@@ -10,12 +10,12 @@ import numpy as np
 import pytest
 from test_teach_stepper import TWO_BOXES, cameras, last, recorded
 
-from app.teach import stepper
-from app.teach.loop_parts import Model
-from app.teach.loops import image_order, object_order, rasterization
-from app.teach.raster_parts import WHOLE, Corner, box_around, edge, project, t_of, triangles
-from app.teach.recording import Order
-from app.teach.stepper import moment_at
+from app.stepper import model as stepper
+from app.stepper.loop_parts import Model
+from app.stepper.loops import image_order, object_order, rasterization
+from app.stepper.model import moment_at
+from app.stepper.raster_parts import WHOLE, Corner, box_around, edge, project, t_of, triangles
+from app.stepper.recording import Order
 from renderer.camera import Camera, Size
 from renderer.compare import compare_frames
 from renderer.frame import CHANNELS

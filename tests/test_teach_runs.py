@@ -9,12 +9,12 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from app.panels.canvas import CELL, LEAST_CELL, cell_of, color_picture, depth_picture
-from app.panels.code import _words
-from app.panels.formula import breakable
-from app.teach.recording import Order
-from app.teach.runs import Pair, Runs
-from app.teach.stepper import moment_at
+from app.stepper.model import moment_at
+from app.stepper.recording import Order
+from app.stepper.runs import Pair, Runs
+from app.widgets.canvas import CELL, LEAST_CELL, cell_of, color_picture, depth_picture
+from app.widgets.code import _words
+from app.widgets.formula import breakable
 from renderer.camera import Camera
 from renderer.errors import LucidaError
 from renderer.images.display import to_srgb8

@@ -10,12 +10,13 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from app.teach import loops, recording, stepper
-from app.teach.loop_parts import MISS, Model, bounding_box
-from app.teach.loops import image_order, object_order
-from app.teach.projected import EVERYTHING, NOTHING, mesh_extent, sphere_extent
-from app.teach.recording import Order, Recording
-from app.teach.stepper import Moment, moment_at
+from app.explaining.projected import EVERYTHING, NOTHING, mesh_extent, sphere_extent
+from app.stepper import loops, recording
+from app.stepper import model as stepper
+from app.stepper.loop_parts import MISS, Model, bounding_box
+from app.stepper.loops import image_order, object_order
+from app.stepper.model import Moment, moment_at
+from app.stepper.recording import Order, Recording
 from renderer.camera import Camera
 from renderer.compare import compare_frames
 from renderer.errors import LucidaError

@@ -9,16 +9,16 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from app.teach.costs import Case, count, steps, torus_of
-from app.teach.growth import count_growth, is_proportional, per_doubling
-from app.teach.projected import mesh_extent, pixels_of
-from app.teach.work import Counter, Work, pixels_tested
+from app.costs.growth import count_growth, is_proportional, per_doubling
+from app.costs.model import Case, count, steps, torus_of
+from app.costs.work import Counter, Work, pixels_tested
+from app.explaining.projected import mesh_extent, pixels_of
 from renderer.camera import Camera
 from renderer.errors import LucidaError
 from renderer.scene.flat import flatten
 from renderer.scene.model import Mesh, Scene, SceneObject
 from renderer.scene.positions import world_vertices
-from renderer.trace.counting import counting_tree, trace_counts
+from renderer.trace.jobs.counting import counting_tree, trace_counts
 
 
 def triangles(*corners: tuple[tuple[float, float, float], ...]) -> Scene:

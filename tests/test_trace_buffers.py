@@ -9,8 +9,9 @@ import pytest
 
 from renderer.camera import Camera
 from renderer.scene.model import Scene, SceneObject, Sphere
-from renderer.trace import Tracer, buffers
-from renderer.trace.buffers import Buffers
+from renderer.trace import Tracer
+from renderer.trace.arguments import buffers
+from renderer.trace.arguments.buffers import Buffers
 
 LAYOUTS = [((20, 30, 3), np.float32), ((0, 0), np.int32), ((20, 30), np.int32)]
 

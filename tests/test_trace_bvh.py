@@ -10,8 +10,8 @@ from trace_reference import ball, cast, closest, random_scene, scene_of, tree_of
 
 from renderer.scene.flat import FlatScene, flatten
 from renderer.scene.model import Mesh, Scene, Shape, Sphere
-from renderer.trace.bvh import MAX_DEPTH, Bvh, build
-from renderer.trace.team import Team
+from renderer.trace.bvh.binary import MAX_DEPTH, Bvh, build
+from renderer.trace.threads.thread_pool import Team
 
 
 def binary(flat: FlatScene, team: Team, leaf_size: int = 4) -> Bvh:

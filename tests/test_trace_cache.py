@@ -12,7 +12,7 @@ from pathlib import Path
 import pytest
 
 import renderer
-from renderer.trace import compiled
+from renderer.trace.compile import compiled
 
 HANG_S = 280
 SCRIPT = """
@@ -21,8 +21,8 @@ from renderer.scene.model import Scene, SceneObject, Sphere
 from renderer.trace import Tracer
 frame = Tracer(Scene((SceneObject(Sphere((0, 0, -3))),))).render(Camera(), (5, 5), ("depth",))
 assert frame.depth[2, 2] == 2, frame.depth
-from renderer.trace import compiled
-from renderer.trace.packet_kernel import trace_packets as kernel
+from renderer.trace.compile import compiled
+from renderer.trace.packets.kernel import trace_packets as kernel
 print(compiled.cache_folder(), sum(kernel.stats.cache_hits.values()))
 """
 
@@ -75,7 +75,7 @@ def test_a_read_only_installation_caches_for_the_user(installation: Path, tmp_pa
     shown = "from renderer.trace import compiled; print(compiled.cache_folder())"
     folders = {folder, finish(start(installation, cache, shown))}
     assert len(folders) == 1
-    for edited in ("trace/intersect.py", "trace/vectors.py", "scene/flat.py"):
+    for edited in ("trace/scalar/intersect.py", "trace/scalar/vectors.py", "scene/flat.py"):
         with (installation / edited).open("a") as text:
             text.write("\n")
         folders.add(finish(start(installation, cache, shown)))
@@ -112,7 +112,7 @@ class Counted(subprocess.Popen):
         super().__init__(*args, **kwargs)
         started.append(self)
 subprocess.Popen = Counted
-from renderer.trace import precompile
+from renderer.trace.jobs import precompile
 precompile.default_threads = lambda: 2
 from renderer.camera import Camera
 from renderer.scene.model import Scene, SceneObject, Sphere
@@ -125,7 +125,7 @@ def test_kernels_are_compiled_in_processes_of_their_own(installation: Path, tmp_
     script = COUNTED + (
         "frame = tracer.render(Camera(), (5, 5), ('depth',))\n"
         "assert frame.depth[2, 2] == 2, frame.depth\n"
-        "from renderer.trace.packet_kernel import trace_packets as kernel\n"
+        "from renderer.trace.packets.kernel import trace_packets as kernel\n"
         "print([p.poll() for p in started], sum(kernel.stats.cache_misses.values()))"
     )
     assert finish(start(installation, tmp_path / "cache", script)) == "[0, 0, 0] 0"
@@ -157,9 +157,9 @@ def test_closing_a_tracer_ends_the_compiling_processes(installation: Path, tmp_p
 
 SHORTCUTS = """
 import sys
-from renderer.trace.compiling import compile_part
-from renderer.trace.shortcuts import take_shortcuts
-from renderer.trace.bvh import _grow_pieces as kernel
+from renderer.trace.jobs.compile_child import compile_part
+from renderer.trace.compile.numba_shortcuts import take_shortcuts
+from renderer.trace.bvh.binary import _grow_pieces as kernel
 if sys.argv[1:] == ["short"]:
     take_shortcuts()
 compile_part("trees")

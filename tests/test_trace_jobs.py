@@ -21,10 +21,11 @@ from renderer.camera import Camera
 from renderer.errors import LucidaError
 from renderer.frame import Frame
 from renderer.scene.model import Mesh, Scene, Sphere
-from renderer.trace import TraceJob, Tracer, instances
-from renderer.trace.garbage import no_full_collections
-from renderer.trace.image import BLOCK
-from renderer.trace.team import Team
+from renderer.trace import TraceJob, Tracer
+from renderer.trace.arguments.image import BLOCK
+from renderer.trace.bvh import instances
+from renderer.trace.compile.gc_pause import no_full_collections
+from renderer.trace.threads.thread_pool import Team
 
 FRONT = Camera.look_at((0, 0, 5), (0, 0, 0), fov_y_deg=40)
 SMALL, LARGE = (48, 32), (2048, 2048)

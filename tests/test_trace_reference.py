@@ -8,7 +8,7 @@ from trace_reference import cast, closest, kernel_rays, random_camera, random_sc
 
 from renderer.scene.flat import flatten
 from renderer.trace import Tracer
-from renderer.trace.view import View
+from renderer.trace.arguments.view import View
 
 ALL = ("color", "depth", "normal", "id", "primitive")
 SIZE = (37, 29)

@@ -15,7 +15,7 @@ from renderer.frame import Frame
 from renderer.scene.flat import flatten
 from renderer.scene.model import Checker, Material, Mesh, Scene, SceneObject, Sphere
 from renderer.trace import Tracer
-from renderer.trace.tracer import METHODS
+from renderer.trace.jobs.tracer import METHODS
 
 ALL = ("color", "depth", "normal", "id", "primitive")
 FRONT = Camera.look_at((0, 0, 5), (0, 0, 0), fov_y_deg=40)

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import pytest
 
-from app.panels import formula
-from app.panels.typesetting import first_mistake, mistake
-from app.teach.lecture.reading import BUILTIN, lecture_from_toml, load_lecture
+from app.lecture.reading import BUILTIN, lecture_from_toml, load_lecture
+from app.lecture.typesetting import first_mistake, mistake
+from app.widgets import formula
 
 pytestmark = pytest.mark.skipif(
     not formula.available(), reason="formulas are set only with the locale en_US.UTF-8"

@@ -10,9 +10,7 @@ from trace_reference import ball
 
 from renderer.scene.flat import flatten
 from renderer.scene.model import Mesh, Scene, SceneObject, Sphere
-from renderer.trace.instances import Instances
-from renderer.trace.team import Team
-from renderer.trace.wide import (
+from renderer.trace.bvh.bvh16 import (
     CORNERS,
     FIRST_LEAF,
     NO_CHILD,
@@ -21,6 +19,8 @@ from renderer.trace.wide import (
     tree_of_boxes,
     tree_of_mesh,
 )
+from renderer.trace.bvh.instances import Instances
+from renderer.trace.threads.thread_pool import Team
 
 
 def wide(mesh: Mesh, threads: int = 2) -> WideTree:

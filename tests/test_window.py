@@ -130,7 +130,7 @@ def test_mistakes_are_one_line(tmp_path: Path) -> None:
 
 
 def test_no_opengl_is_one_clear_error(monkeypatch: pytest.MonkeyPatch) -> None:
-    from app import platform
+    from app.window import platform
     from renderer.errors import LucidaError
 
     monkeypatch.delenv("DISPLAY", raising=False)
@@ -167,9 +167,9 @@ def test_on_a_display(tmp_path: Path, xvfb: str) -> None:
     script = """
 import glfw
 from pathlib import Path
-from app.platform import start_platform
-from app.state import AppState
-from app.viewer import Run, save_png
+from app.window.platform import start_platform
+from app.state.app_state import AppState
+from app.window.viewer import Run, save_png
 from renderer.scene import load_scene
 
 platform = start_platform()
@@ -195,9 +195,9 @@ def test_a_window_that_is_resized(tmp_path: Path, xvfb: str) -> None:
     script = """
 import glfw
 import numpy as np
-from app.platform import start_platform
-from app.state import AppState
-from app.viewer import Run, save_png
+from app.window.platform import start_platform
+from app.state.app_state import AppState
+from app.window.viewer import Run, save_png
 from renderer.scene import load_scene
 
 platform = start_platform()
@@ -243,9 +243,9 @@ def test_idle_means_idle_and_settings_are_the_users(tmp_path: Path, xvfb: str) -
     """Once all is still, next to no frames are drawn; the layout is kept in the user's folder."""
     script = """
 import sys, threading, time
-from app.platform import start_platform
-from app.state import AppState
-from app.viewer import Run
+from app.window.platform import start_platform
+from app.state.app_state import AppState
+from app.window.viewer import Run
 from renderer.scene import load_scene
 
 platform = start_platform()
@@ -280,9 +280,9 @@ def test_signals_close_the_window_and_the_next_start_finds_its_layout(
 ) -> None:
     script = """
 import os, signal, sys, threading, time
-from app.platform import start_platform
-from app.state import AppState
-from app.viewer import Run
+from app.window.platform import start_platform
+from app.state.app_state import AppState
+from app.window.viewer import Run
 from renderer.scene import load_scene
 
 number = getattr(signal, sys.argv[1])

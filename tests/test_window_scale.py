@@ -17,10 +17,10 @@ SCRIPT = """
 import sys
 from pathlib import Path
 from imgui_bundle import imgui
-from app import theme
-from app.platform import start_platform
-from app.state import AppState
-from app.viewer import Run, save_png
+from app.widgets import theme
+from app.window.platform import start_platform
+from app.state.app_state import AppState
+from app.window.viewer import Run, save_png
 from renderer.scene import load_scene
 
 state = AppState.for_scene(load_scene("spheres"))

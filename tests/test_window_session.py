@@ -19,8 +19,9 @@ pytestmark = pytest.mark.timeout(LIMIT_S + 60)
 WINDOW = """
 import os, signal, sys
 from pathlib import Path
-from app import layout, viewer
-from app.platform import start_platform
+from app.host import layout
+from app.window import viewer
+from app.window.platform import start_platform
 
 folder, mode = Path(sys.argv[1]), sys.argv[2]
 viewer.settings_file = lambda fresh=False: folder / "window.ini"

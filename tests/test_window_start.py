@@ -10,7 +10,7 @@ import pytest
 from PIL import Image
 from test_window import LIMIT_S, run
 
-from renderer.scene.apart import is_large
+from renderer.scene.subprocess_reader import is_large
 
 pytestmark = pytest.mark.timeout(LIMIT_S + 60)
 
@@ -19,10 +19,10 @@ import json, sys
 from pathlib import Path
 from PIL import Image
 from imgui_bundle import hello_imgui
-from app import layout
-from app.platform import start_platform
-from app.state import AppState
-from app.viewer import Run
+from app.host import layout
+from app.window.platform import start_platform
+from app.state.app_state import AppState
+from app.window.viewer import Run
 from renderer.raster import sources
 from renderer.scene import load_scene
 
@@ -131,9 +131,9 @@ def test_the_window_is_there_before_a_large_model(tmp_path: Path) -> None:
     (tmp_path / "large.obj").write_text(text)
     assert is_large(tmp_path / "large.obj")
     script = """
-from app.platform import start_platform
-from app.start import begin_scene
-from app.viewer import Run
+from app.window.platform import start_platform
+from app.window.start import begin_scene
+from app.window.viewer import Run
 
 start = begin_scene("large.obj")
 run = Run(start_platform(want_display=False), start.state, (900, 600), remember=False, start=start)

@@ -25,10 +25,10 @@ from renderer.scene.model import (
     Sphere,
 )
 from renderer.scene.positions import world_vertices
-from renderer.trace.bvh import tree_of_scene
-from renderer.trace.kernel import viewing_ray
-from renderer.trace.team import Team
-from renderer.trace.traverse import Tree, any_hit, closest_hit
+from renderer.trace.bvh.binary import tree_of_scene
+from renderer.trace.scalar.kernel import viewing_ray
+from renderer.trace.scalar.traverse import Tree, any_hit, closest_hit
+from renderer.trace.threads.thread_pool import Team
 
 LIGHTS = (PointLight((4, 5, 3), (0.8, 0.7, 0.6)), DirectionalLight((-1, -2, -1), (0.3, 0.3, 0.5)))
 

@@ -28,15 +28,16 @@ os.environ.pop("WAYLAND_DISPLAY", None)
 from imgui_bundle import hello_imgui, imgui
 from PIL import Image
 
-from app import viewer
-from app.canvas import Canvas
-from app.platform import start_platform
-from app.state import AppState, History
-from app.surface import Target
-from app.theme import framebuffer_scale
-from app.viewer import Run
-from app.views import outside_mouse, pair
-from app.views.pair import RASTER, RAY
+from app.outside import mouse as outside_mouse
+from app.pair import view as pair
+from app.pair.view import RASTER, RAY
+from app.state.app_state import AppState, History
+from app.widgets.surface import Target
+from app.widgets.theme import framebuffer_scale
+from app.window import viewer
+from app.window.canvas import Canvas
+from app.window.platform import start_platform
+from app.window.viewer import Run
 from renderer.scene import load_scene
 
 SIZE = (1100, 720)

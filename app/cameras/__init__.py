@@ -1,5 +1,5 @@
 """The camera in the user's hands: editing its numbers, moving it, presets, passages, text forms.
 
-Pure but for fly.py and travel.py, which follow the window's frames. The camera itself, its formulas
+Pure; travel.py is told of the window's frames. The camera itself, its formulas
 and matrices, is renderer/camera.py.
 """

@@ -10,7 +10,7 @@ from dataclasses import dataclass, replace
 from typing import Any
 
 from app.cameras.basis import with_component
-from app.state import AppState
+from app.state.app_state import AppState
 from renderer.camera import Camera
 from renderer.errors import LucidaError
 

@@ -12,7 +12,7 @@ from dataclasses import dataclass, replace
 
 from app.cameras.animation import Passage
 from app.cameras.focus import Focus
-from app.state import AppState, is_orthonormal
+from app.state.app_state import AppState, is_orthonormal
 from renderer.camera import Camera
 from renderer.scene.model import View
 

@@ -120,7 +120,7 @@ def check_is_scene(source: str) -> None:
     """Raises LucidaError where a lecture's file is given in a scene's place."""
     if not source.lower().endswith(".toml"):
         return
-    from app.teach.lecture.reading import is_lecture
+    from app.lecture.reading import is_lecture
 
     if is_lecture(source):
         raise LucidaError("", "is a lecture, not a scene", f"lucida lecture {source}", source)

@@ -14,7 +14,7 @@ from app.commands.view import window_size
 from renderer.errors import LucidaError, one_line
 
 if TYPE_CHECKING:
-    from app.teach.lecture.model import Lecture
+    from app.lecture.model import Lecture
 
 NAME = "lecture"
 EXPORT_SIZE = (1920, 1080)
@@ -66,7 +66,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
 
 
 def run(arguments: argparse.Namespace) -> int:
-    from app.teach.lecture.reading import BUILTIN, load_lecture
+    from app.lecture.reading import BUILTIN, load_lecture
     from renderer.scene.outside import OutsideError
 
     path = Path(arguments.file) if arguments.file is not None else BUILTIN
@@ -75,7 +75,7 @@ def run(arguments: argparse.Namespace) -> int:
     except OutsideError as error:
         if arguments.export is not None:
             raise LucidaError("", error.problem, "add --outside to agree", error.source) from None
-        from app.lecturing import ask_lecture
+        from app.window.lecturing import ask_lecture
 
         return ask_lecture(path, error, arguments.size)
     if arguments.check:
@@ -83,7 +83,9 @@ def run(arguments: argparse.Namespace) -> int:
     if arguments.export is not None:
         if not arguments.export.strip():  # from an unset variable, say
             raise LucidaError("--export", "names no folder", "give one, or . for this one")
-        from app.lecturing import export_lecture  # after the quick mistakes: it loads the window
+        from app.window.lecturing import (
+            export_lecture,  # after the quick mistakes: it loads the window
+        )
 
         folder = Path(arguments.export)
         size = arguments.size or EXPORT_SIZE
@@ -91,15 +93,15 @@ def run(arguments: argparse.Namespace) -> int:
             written = export_lecture(lecture, path, folder, size, progress)
         print(f"{arguments.export}: {len(written)} pictures, {size[0]}x{size[1]}")
         return 0
-    from app.lecturing import run_lecture
+    from app.window.lecturing import run_lecture
 
     return run_lecture(path, lecture, arguments.size)
 
 
 def _check(lecture: Lecture, name: str) -> int:
     """Says what is in the lecture. Raises LucidaError for a formula that cannot be set."""
-    from app.panels import formula
-    from app.panels.typesetting import first_mistake
+    from app.lecture.typesetting import first_mistake
+    from app.widgets import formula
 
     mistake = first_mistake(lecture.formulas)
     if mistake is not None:

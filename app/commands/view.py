@@ -1,6 +1,6 @@
 """`lucida [SCENE]`: the window with both renderers side by side.
 
-Knows nothing of how the window is made (app/viewer.py).
+Knows nothing of how the window is made (app/window/viewer.py).
 """
 
 from __future__ import annotations
@@ -83,7 +83,7 @@ def run(arguments: argparse.Namespace) -> int:
     any_camera = any(getattr(arguments, name) is not None for name in CAMERA_OPTIONS)
     if arguments.scene is not None:
         check_is_scene(arguments.scene)
-    from app.viewer import run_viewer  # after the quick mistakes: it loads the whole window
+    from app.window.viewer import run_viewer  # after the quick mistakes: it loads the whole window
 
     return run_viewer(
         arguments.scene,

@@ -9,8 +9,8 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from app.background import Background
-from app.images.live import RayImage, Request
+from app.images.progressive_ray import RayImage, Request
+from app.widgets.background import Background
 from renderer.frame import Frame
 from renderer.scene.flat import FlatScene, flatten
 from renderer.scene.model import Scene

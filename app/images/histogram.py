@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from app.images.pixelvalues import color_bytes
-from app.options import ImageOptions
+from app.state.options import ImageOptions
 
 VALUES = 256
 MOST_PIXELS = 1 << 19  # of a larger image, every n-th row and column: the shape is the same

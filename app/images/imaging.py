@@ -9,8 +9,8 @@ from __future__ import annotations
 import re
 from typing import get_args
 
-from app.options import Channel, Component, ImageOptions
-from app.state import AppState
+from app.state.app_state import AppState
+from app.state.options import Channel, Component, ImageOptions
 from renderer.errors import LucidaError
 from renderer.frame import check_size
 

@@ -10,7 +10,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
-from app.options import Pixel
+from app.state.options import Pixel
 from renderer.scene.model import View
 
 Size = tuple[int, int]  # (width, height)

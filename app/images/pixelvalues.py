@@ -11,7 +11,7 @@ import math
 import numpy as np
 from numpy.typing import NDArray
 
-from app.options import ImageOptions
+from app.state.options import ImageOptions
 from renderer.images.display import FARTHEST_GRAY, ID_PALETTE, LUMINANCE, from_srgb, to_srgb8
 
 Bytes = NDArray[np.uint8]

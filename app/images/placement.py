@@ -12,8 +12,8 @@ import math
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
-from app.bounds import range_of
-from app.options import ImageOptions
+from app.state.bounds import range_of
+from app.state.options import ImageOptions
 
 Size = tuple[int, int]  # (width, height)
 

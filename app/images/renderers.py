@@ -13,16 +13,16 @@ from collections.abc import Callable
 import moderngl
 from numpy.typing import NDArray
 
-from app.background import lower_priority
 from app.images.agreement import Agreement, Verdict
-from app.images.live import LiveTrace, RayImage, Request, Tracer
-from app.images.pictures import FAILURES, Pictures, Wanted
 from app.images.placement import Placement, common_pane, own_size, place
-from app.images.reading import Region
+from app.images.progressive_ray import LiveTrace, RayImage, Request, Tracer
+from app.images.readback import Region
 from app.images.shown import Picture
+from app.images.textures import FAILURES, Pictures, Wanted
 from app.images.underlay import Underlay
-from app.options import ImageOptions
-from app.state import AppState
+from app.state.app_state import AppState
+from app.state.options import ImageOptions
+from app.widgets.background import lower_priority
 from renderer import compile_note
 from renderer.camera import Camera
 from renderer.frame import LARGEST_PIXELS, LARGEST_SIDE, Frame

@@ -13,7 +13,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from app.images.shown import Picture
-from app.surface import Target, copy_pixels
+from app.widgets.surface import Target, copy_pixels
 
 Box = tuple[int, int, int, int]  # left, top, right, bottom: framebuffer pixels, row 0 at the top
 

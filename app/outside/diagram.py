@@ -15,8 +15,7 @@ from typing import Literal
 import numpy as np
 from numpy.typing import NDArray
 
-from app.options import OutsideOptions, Pixel
-from app.outside.solid import (
+from app.outside.frustum import (
     MOST_GRID_LINES,
     Size,
     grid,
@@ -26,6 +25,7 @@ from app.outside.solid import (
     point_at,
     rectangle,
 )
+from app.state.options import OutsideOptions, Pixel
 from renderer.camera import Camera
 
 Floats = NDArray[np.float64]

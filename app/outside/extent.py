@@ -11,7 +11,7 @@ from collections.abc import Iterable
 import numpy as np
 from numpy.typing import NDArray
 
-from app.outside.solid import plane_corners
+from app.outside.frustum import plane_corners
 from renderer.camera import LARGEST, Camera, Vector
 from renderer.errors import LucidaError
 

@@ -11,8 +11,8 @@ from typing import Any
 
 import numpy as np
 
-from app.background import Background
-from app.options import Pixel
+from app.state.options import Pixel
+from app.widgets.background import Background
 from renderer.camera import Camera
 from renderer.errors import LucidaError
 from renderer.scene.model import Scene

@@ -10,10 +10,10 @@ from collections.abc import Iterable
 import numpy as np
 from imgui_bundle import ImVec4
 
-from app import theme
 from app.outside.diagram import Role
 from app.outside.projected import Primitive, Shape, Strokes
 from app.outside.vector import Color, Paint
+from app.widgets import theme
 from renderer.camera import Vector
 from renderer.images.display import to_srgb8
 from renderer.raster.lines import (

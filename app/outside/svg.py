@@ -18,7 +18,7 @@ import numpy as np
 from numpy.typing import NDArray
 from PIL import Image
 
-from app.outside.standing import Standing
+from app.outside.image_bitmap import Standing
 from app.outside.vector import Arc, Area, Color, Drawing, Letters, Line, Part, Spot
 from renderer.atomic import atomic_write
 

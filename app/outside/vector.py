@@ -19,10 +19,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from app.outside.diagram import Role
-from app.outside.hidden import Hidden, clipped, cut_polygon, divided, runs_of
+from app.outside.image_bitmap import Standing, plane_t, standing
+from app.outside.occlusion import Hidden, clipped, cut_polygon, divided, runs_of
 from app.outside.outlines import Edges, Ellipse, Outline
 from app.outside.projected import Primitive, Shape, Strokes, Text
-from app.outside.standing import Standing, plane_t, standing
 from renderer.camera import Camera
 from renderer.raster.overlay import Plane
 

@@ -1,5 +1,5 @@
-"""What outlives the window: files that are opened and saved, sessions, recent files, pictures.
+"""What outlives the window: sessions, recent files, pictures, the clipboard.
 
-files           dialogs, dropped files, loading in the background
 session         what was open, as text; session_store: where it is kept
+scene_watch     whether the files of the scene that is shown have been saved anew
 """

@@ -15,9 +15,9 @@ from pathlib import Path
 
 import numpy as np
 
-from app.background import Background
 from app.storage.clipboard import copy_png
-from app.surface import Target
+from app.widgets.background import Background
+from app.widgets.surface import Target
 from renderer.atomic import atomic_write
 from renderer.errors import LucidaError
 

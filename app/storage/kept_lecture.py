@@ -1,6 +1,6 @@
 """A lecture in a session file: which one, where it stood, what had been answered.
 
-Owns the structure. Knows nothing of lectures (teach/lecture/session.py makes it and reads it).
+Owns the structure. Knows nothing of lectures (lecture/session.py makes it and reads it).
 """
 
 from __future__ import annotations

@@ -14,8 +14,8 @@ from pathlib import Path
 
 import msgspec
 
-from app.background import Background
 from app.storage.paths import restored, stored
+from app.widgets.background import Background
 from renderer.atomic import atomic_write
 from renderer.errors import LucidaError, one_line
 from renderer.scene.reading import read_file

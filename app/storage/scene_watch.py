@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from app.teach.lecture.watching import Watch, signature
+from app.storage.watching import Watch, signature
 from renderer.scene import Scene
 from renderer.scene.outside import scene_files
 

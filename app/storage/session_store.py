@@ -16,8 +16,8 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
 
-from app.background import Background
 from app.storage.session import LARGEST_BYTES, NewerVersionError, Session, from_bytes, to_bytes
+from app.widgets.background import Background
 from renderer.atomic import atomic_write
 from renderer.errors import LucidaError
 from renderer.scene.reading import read_file

@@ -5,8 +5,8 @@ Importing this package is quick: numba and the compiled kernels are loaded by a 
 
 import warnings
 
-from renderer.trace.jobs import TraceJob
-from renderer.trace.tracer import Tracer
+from renderer.trace.jobs.image_job import TraceJob
+from renderer.trace.jobs.tracer import Tracer
 
 __all__ = ["TraceJob", "Tracer"]
 

@@ -18,13 +18,13 @@ import numpy as np
 from imgui_bundle import hello_imgui, imgui
 from window_driver import SIZE, Driver, Key
 
-from app import layout
-from app.actions.table import ACTIONS
-from app.bounds import check
-from app.options import Options
-from app.platform import set_size
+from app.host import layout
+from app.pair.view import RASTER, RAY
+from app.state.bounds import check
+from app.state.options import Options
 from app.storage.session import from_bytes, session_of, to_bytes
-from app.views.pair import RASTER, RAY
+from app.window.action_table import ACTIONS
+from app.window.platform import set_size
 from renderer.camera import Camera
 from renderer.errors import LucidaError
 from renderer.scene import View, save_view

@@ -24,7 +24,7 @@ from pathlib import Path
 import msgspec
 import numpy as np
 
-from app.state import AppState
+from app.state.app_state import AppState
 from app.storage.recent import RecentFiles
 from app.storage.session import Arrangement, from_bytes, session_of, to_bytes
 from app.storage.session_store import take_place

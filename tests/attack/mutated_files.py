@@ -31,7 +31,7 @@ import trimesh.exchange.off
 import trimesh.exchange.ply
 import trimesh.exchange.stl
 
-from app.teach.lecture.reading import load_lecture
+from app.lecture.reading import load_lecture
 from renderer.errors import LucidaError
 from renderer.scene import flatten, load_scene, load_view
 from tests.attack.seed_files import seed_files

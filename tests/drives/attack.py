@@ -5,10 +5,10 @@ from __future__ import annotations
 from imgui_bundle import imgui
 from window_driver import SIZE, Driver
 
-from app import layout
-from app.platform import set_size
-from app.views.camera import CAMERA
-from app.views.pair import RAY
+from app.camera_panel.view import CAMERA
+from app.host import layout
+from app.pair.view import RAY
+from app.window.platform import set_size
 
 PROJECTIONS = ("perspective", "parallel")
 

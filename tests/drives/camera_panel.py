@@ -10,12 +10,12 @@ import pytest
 from imgui_bundle import imgui
 from window_driver import Driver, Key, changed
 
+from app.camera_panel import panel as camera_panel
 from app.cameras.presets import PRESETS
 from app.cameras.travel import DURATION_S
-from app.panels import camera as camera_panel
-from app.panels import typed
-from app.state import is_orthonormal
-from app.views.pair import RASTER, RAY
+from app.pair.view import RASTER, RAY
+from app.state.app_state import is_orthonormal
+from app.widgets import typed
 from renderer.camera import Camera
 
 SIZE = (400, 300)

@@ -10,11 +10,11 @@ import numpy as np
 from imgui_bundle import hello_imgui, imgui
 from window_driver import SIZE, Driver, Key
 
-from app.images import comparing
-from app.images.live import RayImage
-from app.options import Pixel
-from app.theme import framebuffer_scale
-from app.views.compare import waiting
+from app.compare import comparing
+from app.compare.view import waiting
+from app.images.progressive_ray import RayImage
+from app.state.options import Pixel
+from app.widgets.theme import framebuffer_scale
 from renderer.compare import LABEL_COLORS, SHADING, Comparison
 from renderer.difference import false_color, signed_difference
 from renderer.frame import Frame

@@ -7,9 +7,9 @@ import math
 from imgui_bundle import hello_imgui
 from window_driver import Driver
 
-from app import layout
-from app.teach.costs import Meter
-from app.views.costs import COSTS, POINTS, CostsView
+from app.costs.model import Meter
+from app.costs.view import COSTS, POINTS, CostsView
+from app.host import layout
 
 WINDOW = f"//###{COSTS}"
 

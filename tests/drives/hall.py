@@ -8,12 +8,12 @@ from typing import Any
 
 from window_driver import Driver
 
-from app.panels import slide
-from app.panels import stepper as panel
-from app.panels.code import LINE
-from app.panels.stepper_plan import Need, Plan, plan
-from app.teach.lecture.reading import BUILTIN, load_lecture
-from app.views.lecture import LECTURE
+from app.lecture import slide
+from app.lecture.reading import BUILTIN, load_lecture
+from app.lecture.view import LECTURE
+from app.stepper import panel
+from app.stepper.plan import Need, Plan, plan
+from app.widgets.code import LINE
 
 SCALES = (1.0, 1.25, 1.5, 2.0)
 STEPPER_STEPS, TEXT_STEPS = (12, 13), (3, 0)

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from window_driver import IMAGES, Driver, Key
 
-from app.views.pair import RASTER, RAY
+from app.pair.view import RASTER, RAY
 
 
 def drive_undo_and_redo(d: Driver) -> None:

@@ -6,7 +6,7 @@ import numpy as np
 from imgui_bundle import hello_imgui
 from window_driver import SIZE, Driver, Key
 
-from app.views.pair import RASTER, RAY
+from app.pair.view import RASTER, RAY
 
 
 def drive_pixels_can_be_large_and_are_marked(d: Driver) -> None:

@@ -9,10 +9,10 @@ import numpy as np
 from imgui_bundle import imgui
 from window_driver import ATTEMPTS, PATIENT_S, Driver, Key
 
-from app.teach.imagelab import disk, kinds
-from app.teach.imagelab.pages import PAGE_TITLES
-from app.teach.imagelab.stored import shown, store
-from app.views.laboratory import LABORATORY, LaboratoryView
+from app.laboratory import disk, kinds
+from app.laboratory.pages import PAGE_TITLES
+from app.laboratory.stored import shown, store
+from app.laboratory.view import LABORATORY, LaboratoryView
 from renderer.images import to_srgb8
 
 

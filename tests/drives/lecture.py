@@ -6,12 +6,12 @@ import numpy as np
 from imgui_bundle import hello_imgui, imgui
 from window_driver import SIZE, Driver, Key, changed
 
-from app import layout
-from app.panels import formula
-from app.teach.lecture.model import Lecture
-from app.teach.lecture.reading import BUILTIN, load_lecture
-from app.teach.lecture.states import state_of
-from app.views.lecture import LECTURE, RESTORE, LectureView
+from app.host import layout
+from app.lecture.model import Lecture
+from app.lecture.reading import BUILTIN, load_lecture
+from app.lecture.states import state_of
+from app.lecture.view import LECTURE, RESTORE, LectureView
+from app.widgets import formula
 
 SMALL = """\
 title = "Small"

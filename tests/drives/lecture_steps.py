@@ -7,9 +7,9 @@ import itertools
 import numpy as np
 from window_driver import Driver, Key
 
-from app.teach.lecture.reading import BUILTIN, load_lecture
-from app.teach.lecture.states import state_of
-from app.views.lecture import LECTURE
+from app.lecture.reading import BUILTIN, load_lecture
+from app.lecture.states import state_of
+from app.lecture.view import LECTURE
 
 
 def drive_every_step_shows_its_own_state(d: Driver) -> None:

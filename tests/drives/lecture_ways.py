@@ -8,10 +8,10 @@ import numpy as np
 from imgui_bundle import imgui
 from window_driver import Driver
 
+from app.lecture.reading import BUILTIN, load_lecture
+from app.lecture.view import LECTURE, RESTORE, LectureView
 from app.storage.capture import Rect
-from app.teach.lecture.reading import BUILTIN, load_lecture
-from app.theme import framebuffer_scale
-from app.views.lecture import LECTURE, RESTORE, LectureView
+from app.widgets.theme import framebuffer_scale
 
 PICTURED = (1, 3, 9, 19, 21, 29, 30)  # of steps with images, without, and with a resolution
 JUMPS = (0, 37, 3, 29, 1, 22, 12, 21, 2, 19)

@@ -10,11 +10,12 @@ from imgui_bundle import ImVec2, hello_imgui, imgui
 from PIL import Image
 from window_driver import PATIENT_S, SIZE, Driver, Key
 
-from app import layout, theme
-from app.panels import loading, menus
-from app.panels.sheet import planned, sections
-from app.views.camera import CAMERA
-from app.views.pair import RASTER, RAY
+from app.camera_panel.view import CAMERA
+from app.host import layout
+from app.pair.view import RASTER, RAY
+from app.widgets import theme
+from app.window import loading, menus
+from app.window.shortcut_sheet import planned, sections
 from renderer.scene import load_scene, save_view
 
 NO_ERROR = int(imgui.test_engine.TestOpFlags_.no_error)

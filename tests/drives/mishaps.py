@@ -9,8 +9,8 @@ import moderngl
 from imgui_bundle import imgui
 from window_driver import Driver
 
-from app.views.camera import CAMERA
-from app.views.pair import RAY
+from app.camera_panel.view import CAMERA
+from app.pair.view import RAY
 from renderer.errors import LucidaError
 
 

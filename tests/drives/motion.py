@@ -11,12 +11,12 @@ from imgui_bundle import hello_imgui
 from window_driver import Driver
 
 from app.cameras.navigation import moved
-from app.images import pictures as module
+from app.compare.view import CompareView
+from app.images import textures as module
 from app.images.coarseness import Coarseness
-from app.images.pictures import Pictures
-from app.surface import Target
-from app.views.compare import CompareView
-from app.views.pair import RASTER, RAY
+from app.images.textures import Pictures
+from app.pair.view import RASTER, RAY
+from app.widgets.surface import Target
 from renderer.frame import CHANNELS
 
 

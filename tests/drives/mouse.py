@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from window_driver import Driver, Key, changed
 
-from app.views.pair import RASTER, RAY
+from app.pair.view import RASTER, RAY
 
 
 def drive_the_mouse_turns_moves_and_zooms(d: Driver) -> None:

@@ -6,7 +6,7 @@ from dataclasses import replace
 
 from window_driver import RASTER, RAY, Driver
 
-from app.window import _agreement, _agrees
+from app.window.main_window import _agreement, _agrees
 
 WHY = "everything is behind the eye"
 

@@ -8,15 +8,17 @@ import numpy as np
 from imgui_bundle import hello_imgui
 from window_driver import SIZE, Driver, Key
 
-from app import theme
+from app.outside import gizmo as outside_gizmo
+from app.outside import tint as outside_tint
+from app.outside import view as outside
+from app.outside.frustum import plane_corners
+from app.outside.gizmo import LENGTH
+from app.outside.mouse import Scope
 from app.outside.paint import ground_of
 from app.outside.projected import Strokes
 from app.outside.screen import Screen
-from app.outside.solid import plane_corners
-from app.views import outside, outside_gizmo, outside_tint
-from app.views.outside import OUTSIDE, OutsideView
-from app.views.outside_gizmo import LENGTH
-from app.views.outside_mouse import Scope
+from app.outside.view import OUTSIDE, OutsideView
+from app.widgets import theme
 from renderer.camera import Camera
 from renderer.scene.model import Sphere
 

@@ -11,10 +11,10 @@ from window_driver import Driver, Key
 
 from app.cameras.travel import DURATION_S
 from app.images.coarseness import Coarseness
+from app.outside import ground as outside_ground
+from app.outside.ground import Ground
 from app.outside.projected import Strokes
-from app.views import outside_ground
-from app.views.outside import OUTSIDE, OutsideView
-from app.views.outside_ground import Ground
+from app.outside.view import OUTSIDE, OutsideView
 
 
 def view(d: Driver) -> OutsideView:

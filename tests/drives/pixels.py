@@ -9,8 +9,8 @@ from imgui_bundle import imgui
 from window_driver import Driver, Key
 
 from app.images.placement import Placement
-from app.theme import framebuffer_scale
-from app.views.pair import RASTER, RAY
+from app.pair.view import RASTER, RAY
+from app.widgets.theme import framebuffer_scale
 from renderer.images import to_srgb8
 from renderer.images.display import picture
 

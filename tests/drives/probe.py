@@ -9,15 +9,15 @@ import numpy as np
 from imgui_bundle import hello_imgui, imgui
 from window_driver import RASTER, SIZE, Driver, Key
 
-from app import layout
+from app.host import layout
 from app.outside.projected import Strokes
-from app.panels import formula
-from app.teach.formulas import ray_lines
-from app.teach.reading import Reading
-from app.views import probe as probe_view
-from app.views.outside import OUTSIDE, OutsideView
-from app.views.pair import RAY
-from app.views.probe import PROBE, ProbeView
+from app.outside.view import OUTSIDE, OutsideView
+from app.pair.view import RAY
+from app.probe import view as probe_view
+from app.probe.formulas import ray_lines
+from app.probe.reading import Reading
+from app.probe.view import PROBE, ProbeView
+from app.widgets import formula
 from renderer.images.display import to_srgb8
 from renderer.scene.model import Scene
 

@@ -8,14 +8,14 @@ import numpy as np
 from imgui_bundle import hello_imgui
 from window_driver import Driver, Key
 
-from app import layout
-from app.actions.commanding import entries
+from app.host import layout
 from app.outside.projected import Strokes
-from app.panels.sheet import sections
-from app.teach.recording import Order
-from app.teach.stepper import Moment
-from app.views.outside import OUTSIDE, OutsideView
-from app.views.stepper import STEPPER, StepperView
+from app.outside.view import OUTSIDE, OutsideView
+from app.stepper.model import Moment
+from app.stepper.recording import Order
+from app.stepper.view import STEPPER, StepperView
+from app.window.palette_entries import entries
+from app.window.shortcut_sheet import sections
 from renderer.images.display import encode_srgb
 from renderer.scene.model import Scene, SceneObject, Sphere
 from renderer.trace import Tracer

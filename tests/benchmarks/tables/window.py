@@ -184,7 +184,7 @@ class Script:
         """The left button held over the ray image, the mouse going round in loops."""
         from imgui_bundle import imgui
 
-        from app.views.pair import RAY
+        from app.pair.view import RAY
 
         pane = imgui.internal.find_window_by_name(self._window.views[RAY].label)
         x, y = pane.pos.x + pane.size.x / 2, pane.pos.y + pane.size.y / 2
@@ -244,9 +244,9 @@ class Script:
 
 
 def _worker(mesh: str, seconds: float, steps: int) -> None:
-    from app.platform import start_platform
-    from app.state import AppState
-    from app.viewer import Run as WindowRun
+    from app.state.app_state import AppState
+    from app.window.platform import start_platform
+    from app.window.viewer import Run as WindowRun
     from renderer.scene import View
 
     subject: Subject = SUBJECTS[mesh]() if mesh in SUBJECTS else model(mesh)

@@ -1,0 +1,1 @@
+"""The camera's panel: every number of the camera, presets, look at, copy and paste."""

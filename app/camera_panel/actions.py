@@ -1,0 +1,221 @@
+"""The actions of the camera: projection, presets, framing, copying and pasting.
+
+Owns their names and keys, and what they do with the window; panels and menus share it. The
+cameras are presets.py's and navigation.py's, the texts text.py's and reader.py's.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import replace
+from typing import Protocol
+
+from imgui_bundle import imgui
+
+from app.cameras.focus import Focus
+from app.cameras.navigation import switched_projection
+from app.cameras.presets import PRESETS, Preset, framed, preset_view
+from app.cameras.reader import SOURCE, read_view
+from app.cameras.text import FORMS, Form, Subject, as_text
+from app.host.action import CTRL, SHIFT, Action, Key, Window, changing
+from app.host.view import Filing
+from app.images.renderers import Renderers
+from app.state.app_state import AppState, is_orthonormal
+from renderer.camera import Camera
+from renderer.errors import LucidaError
+
+SQUARE = (1, 1)  # an image before the first layout
+
+
+class Mover(Protocol):
+    """What of the window the camera's actions need; actions and views both have it."""
+
+    @property
+    def state(self) -> AppState: ...
+    @property
+    def focus(self) -> Focus: ...
+    @property
+    def files(self) -> Filing: ...
+    @property
+    def renderers(self) -> Renderers: ...
+    def travel(self, state: AppState) -> None: ...
+
+
+def with_its_basis(state: AppState) -> AppState:
+    """The state whose switch says what its basis is: presets set it, on and off."""
+    return replace(state, keep_orthonormal=is_orthonormal(state.camera))
+
+
+def switch_projection(window: Mover) -> None:
+    camera = switched_projection(window.state.camera, window.focus.center)
+    window.travel(window.state.with_camera(camera))
+
+
+def go_home(window: Mover) -> None:
+    window.travel(window.state.with_view(window.state.scene.view))
+
+
+def go_to_canonical(window: Mover) -> None:
+    view = replace(window.state.view, camera=Camera.canonical())
+    window.travel(window.state.with_view(view))
+
+
+def go_to_preset(window: Mover, preset: Preset, perspective: bool | None = None) -> None:
+    """Passes to a preset, with the scene in the picture. perspective: None for what is chosen."""
+    state, focus = window.state, window.focus
+    if perspective is None:
+        perspective = state.options.presets_in_perspective
+    width, height = window.renderers.size if min(window.renderers.size) else SQUARE
+    try:
+        view = preset_view(
+            preset, state.view, focus.framed, focus.bounds, width / height, perspective
+        )
+    except LucidaError as error:
+        window.files.message = str(error)
+        return
+    window.travel(with_its_basis(state.with_view(view)))
+
+
+def frame_scene(window: Mover) -> None:
+    """Moves the camera, as it is turned, so that the scene fills the picture."""
+    try:
+        camera = framed(window.state.camera, window.focus.framed, window.focus.bounds)
+    except LucidaError as error:
+        window.files.message = str(error)
+        return
+    window.travel(window.state.with_camera(camera))
+
+
+def copy(window: Mover, form: Form) -> None:
+    """The camera as text into the clipboard."""
+    state = window.state
+    origin = state.scene.origin
+    source = (origin.source if origin is not None else "") or "SCENE"
+    shown = window.renderers.camera(state)
+    text = as_text(form, Subject(state.view, shown, source, window.focus.bounds))
+    imgui.set_clipboard_text(text)
+    window.files.say(f"The camera is in the clipboard: {form}.")
+
+
+def paste(window: Mover) -> None:
+    """The camera of the clipboard's text; a message says what to do where there is none."""
+    try:
+        text = imgui.get_clipboard_text() or ""
+    except RuntimeError:  # the system has no clipboard, or no text in it
+        text = ""
+    try:
+        view = read_view(text, window.state.view)
+    except LucidaError as error:
+        window.files.message = str(error)
+        return
+    window.travel(with_its_basis(window.state.with_view(view)))
+    window.files.say(f"The camera is pasted from the {SOURCE}.")
+
+
+def _copying(form: Form) -> Callable[[Window], None]:
+    return lambda window: copy(window, form)
+
+
+def _to_preset(preset: Preset) -> Action:
+    """A preset, with the key that it has in other programs of the field."""
+    number = {
+        "Front": (1, 0), "Back": (1, CTRL), "Right": (3, 0), "Left": (3, CTRL),
+        "Top": (7, 0), "Bottom": (7, CTRL), "Isometric": (9, 0),
+    }.get(preset.name)  # fmt: skip
+    keys, chords = "", tuple[int, ...]()
+    if number is not None:
+        digit, modifier = number
+        keys = f"{'Ctrl+' if modifier else ''}Keypad {digit}"
+        chords = (modifier | (int(Key.keypad0) + digit),)
+    return Action(
+        "Camera/Presets",
+        preset.name,
+        lambda window: go_to_preset(window, preset),
+        keys,
+        chords,
+        separated=preset.name in ("Isometric", "Cavalier"),
+    )
+
+
+CAMERA = (
+    Action(
+        "Camera",
+        "Parallel projection",
+        switch_projection,
+        "P",
+        (int(Key.p),),
+        is_on=lambda state: state.camera.is_parallel,
+    ),
+    Action(
+        "Camera",
+        "Keep orthonormal",
+        changing(lambda state: state.with_keep_orthonormal(not state.keep_orthonormal)),
+        "O",
+        (int(Key.o),),
+        is_on=lambda state: state.keep_orthonormal,
+    ),
+    Action(
+        "Camera",
+        "Fit to the image's aspect ratio",
+        changing(lambda state: state.with_fit(not state.view.fit)),
+        is_on=lambda state: state.view.fit,
+    ),
+    Action(
+        "Camera",
+        "Scene's view",
+        go_home,
+        "Home, H",
+        (int(Key.home), int(Key.h)),
+        separated=True,
+    ),
+    Action("Camera", "Canonical camera", go_to_canonical),
+    Action(
+        "Camera",
+        "Aim at the object under the mouse",
+        lambda window: window.focus_object(),
+        "F",
+        (int(Key.f),),
+    ),
+    Action("Camera", "Frame the scene", frame_scene, "Shift+F", (SHIFT | int(Key.f),)),
+    *(_to_preset(preset) for preset in PRESETS),
+    Action(
+        "Camera/Presets",
+        "In perspective",
+        changing(
+            lambda state: state.with_options(
+                presets_in_perspective=not state.options.presets_in_perspective
+            )
+        ),
+        is_on=lambda state: state.options.presets_in_perspective,
+        separated=True,
+    ),
+    Action(
+        "Camera",
+        "Jump, without a passage",
+        changing(
+            lambda state: state.with_options(
+                preferences={"reduced_motion": not state.preferences.reduced_motion}
+            )
+        ),
+        is_on=lambda state: state.preferences.reduced_motion,
+    ),
+)
+
+EDIT = (
+    Action(
+        "Edit",
+        "Copy camera",
+        _copying(FORMS[0]),
+        "Ctrl+Shift+C",
+        (CTRL | SHIFT | int(Key.c),),
+        separated=True,
+    ),
+    *(Action("Edit/Copy camera as", form[0].upper() + form[1:], _copying(form)) for form in FORMS),
+    Action("Edit", "Paste camera", paste, "Ctrl+V", (CTRL | int(Key.v),)),
+)
+
+MOUSE = (
+    ("W, A, S, D, Q, E over a 3D view", "fly: forward, left, back, right, down, up; Shift: faster"),
+    ("Alt+drag, or drag while flying", "look around: the eye stays"),
+    ("right-click a number", "reset it, copy it, paste one"),
+)

@@ -1,0 +1,222 @@
+"""The camera's panel: every number of the camera, to drag and to type.
+
+Owns the panel's order and the words of eye and basis; projection.py has the picture's numbers,
+sections.py what stands below. Gets a state and a draft and returns new ones.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+from imgui_bundle import imgui
+
+from app.camera_panel.basis_numbers import basis_readout
+from app.camera_panel.projection import Surroundings, component, lens
+from app.camera_panel.sections import (
+    Asked,
+    Sections,
+    canonical,
+    copy_section,
+    header,
+    look_section,
+    presets_section,
+)
+from app.cameras.basis import measures
+from app.cameras.editing import BASIS, Draft
+from app.cameras.navigation import switched_projection
+from app.state.app_state import AppState
+from app.widgets import pending, rows, theme
+from app.widgets.checks import checkbox, radio_button
+from app.widgets.fields import Scale, number_field
+from app.widgets.highlight import pointed
+
+ROLES = {
+    "eye": ("eye", "", "The eye e: where all viewing rays start (perspective)."),
+    "u": ("u", "right", "u: to the right in the image. A pixel's x counts in lengths of u."),
+    "v": ("v", "up", "v: up in the image. A pixel's y counts in lengths of v."),
+    "w": ("w", "back", "w: backwards, against the view direction: the camera looks along -w."),
+}
+PERSPECTIVE = """\
+All rays start at the eye and go through their pixel on the image plane:
+origin = e,  direction = x u + y v - d w"""
+PARALLEL = """\
+All rays go along -w and start at their pixel, on the plane of the eye:
+origin = e + x u + y v,  direction = -w"""
+ORTHONORMAL = """\
+On: u, v, w stay of length 1 and at right angles; the others follow the one you edit.
+Off: any three independent vectors: skewed, scaled or left-handed."""
+EXPOSURE = "In stops: +1 doubles the light of both images before it is shown."
+
+# From these heights of the window on, in parts of the type's size, sections begin open.
+PRESETS_OPEN_EM, OTHERS_OPEN_EM = 46.0, 58.0
+
+
+NOTHING = Asked()
+
+
+@dataclass(frozen=True)
+class Panel:
+    """What the panel has entered or told, and what it asks for: a state to pass to (`target`),
+    and what its sections ask for."""
+
+    draft: Draft
+    sections: Sections
+    target: AppState | None = None
+    asked: Asked = NOTHING
+
+
+def camera_panel(state: AppState, panel: Panel, around: Surroundings) -> tuple[AppState, Panel]:
+    """Draws the panel into the current window."""
+    em, style = imgui.get_font_size(), imgui.get_style()
+    imgui.push_style_var(imgui.StyleVar_.item_spacing, (style.item_spacing.x, 0.2 * em))
+    imgui.push_style_var(imgui.StyleVar_.frame_padding, (style.frame_padding.x, 0.19 * em))
+    try:
+        return _panel(state, panel, around)
+    finally:
+        imgui.pop_style_var(2)
+
+
+def _panel(state: AppState, panel: Panel, around: Surroundings) -> tuple[AppState, Panel]:
+    draft = panel.draft.following(state.camera)
+    with pointed("projection", state):
+        target = _projection(state, around)
+    rows.line()
+    state, draft = _vectors(state, draft, around)
+    found = measures(*(draft.following(state.camera).value(name) for name in BASIS))
+    basis_readout(found, around.fonts.mono)
+    with pointed("keep_orthonormal", state):
+        state = _orthonormal(state)
+    rows.line()
+    state, draft = lens(state, draft, around)
+    rows.line()
+    state = _exposure(state, around)
+    draft = draft.following(state.camera)
+    target = _resets(state) or target
+    state, sections, asked = _sections(state, panel.sections, around)
+    draft = draft.following(state.camera)
+    if draft.error is not None:
+        leaves = target is not None or asked.preset is not None or asked.view is not None
+        if pending.note("camera", str(draft.error), "Back to the camera shown") or leaves:
+            draft = Draft.of(draft.camera)
+    return state, Panel(draft, sections, target, asked)
+
+
+def _projection(state: AppState, around: Surroundings) -> AppState | None:
+    """The two buttons; gives the state that they ask for."""
+    parallel = state.camera.is_parallel
+    half = imgui.get_content_region_avail().x / 2
+    wanted = parallel
+    if radio_button("perspective", not parallel):
+        wanted = False
+    imgui.set_item_tooltip(PERSPECTIVE)
+    if imgui.get_item_rect_size().x < half:  # else below: a narrow panel, or very large type
+        imgui.same_line(imgui.get_style().window_padding.x + half)
+    if radio_button("parallel", parallel):
+        wanted = True
+    imgui.set_item_tooltip(PARALLEL)
+    if wanted == parallel:
+        return None
+    return state.with_camera(switched_projection(state.camera, around.focus.center))
+
+
+def _vectors(state: AppState, draft: Draft, around: Surroundings) -> tuple[AppState, Draft]:
+    thirds = rows.Thirds()
+    imgui.text_colored(theme.DIM, "")
+    for axis, letter in enumerate("xyz"):
+        thirds.go(axis)
+        middle = (thirds.field_px - imgui.calc_text_size(letter).x) / 2
+        imgui.set_cursor_pos_x(imgui.get_cursor_pos_x() + middle)
+        imgui.text_colored(theme.DIM, letter)
+    for name, (label, role, tooltip) in ROLES.items():
+        color = theme.BASIS.get(name, theme.PLAIN)
+        with pointed(name, state):
+            rows.label(label, role, color if name in BASIS else theme.TEXT, around.fonts, tooltip)
+            reach = around.focus.reach if name == "eye" else 1.0
+            for axis, letter in enumerate("xyz"):
+                thirds.go(axis)
+                # Around 0, unless the scene is far from there.
+                middle = around.focus.center[axis] if name == "eye" else 0.0
+                middle = middle if abs(middle) > reach else 0.0
+                scale = Scale(middle - reach, middle + reach)
+                place, mono = (name, axis), around.fonts.mono
+                state, draft = component(
+                    state,
+                    draft,
+                    place,
+                    f"{name}.{letter}",
+                    thirds.field_px,
+                    scale,
+                    color,
+                    tooltip,
+                    mono,
+                )
+    return state, draft
+
+
+def _orthonormal(state: AppState) -> AppState:
+    changed, keep = checkbox("keep orthonormal", state.keep_orthonormal)
+    imgui.set_item_tooltip(ORTHONORMAL)
+    return state.with_keep_orthonormal(keep) if changed else state
+
+
+def _exposure(state: AppState, around: Surroundings) -> AppState:
+    width = rows.row("exposure", "", EXPOSURE, around.fonts)
+    changed, value = number_field(
+        "exposure",
+        state.images.exposure_ev,
+        width,
+        Scale(-4.0, 4.0),
+        theme.PLAIN,
+        around.fonts.mono,
+        EXPOSURE,
+        reset=0.0,
+        unit=" EV",
+    )
+    if changed:
+        state = state.with_options(images={"exposure_ev": value})
+    return state
+
+
+def _resets(state: AppState) -> AppState | None:
+    """The two cameras to begin with; gives the state that they ask for."""
+    target = None
+    width = (imgui.get_content_region_avail().x - imgui.get_style().item_spacing.x) / 2
+    if imgui.button("Scene's view", (width, 0)):
+        target = state.with_view(state.scene.view)
+    imgui.set_item_tooltip("Back to the camera that the scene came with (Home).")
+    imgui.same_line()
+    if imgui.button("Canonical", (width, 0)):
+        target = state.with_view(canonical(state.view))
+    imgui.set_item_tooltip(
+        "The lecture's camera: eye 0, u = x, v = y, w = z, d = 1, viewport 1 x 1."
+    )
+    return target
+
+
+def _sections(
+    state: AppState, sections: Sections, around: Surroundings
+) -> tuple[AppState, Sections, Asked]:
+    asked = [NOTHING]
+    opened: list[str] = []
+    any_toggled = False
+
+    def is_open(name: str, room_em: float) -> bool:
+        nonlocal any_toggled
+        now, toggled = header(name, sections, room_em)
+        if now:
+            opened.append(name)
+        any_toggled = any_toggled or toggled
+        return now
+
+    if is_open("Presets", PRESETS_OPEN_EM):
+        state, wanted = presets_section(state)
+        asked.append(wanted)
+    if is_open("Look at", OTHERS_OPEN_EM):
+        look, wanted = look_section(sections.look, state, around.focus, around.fonts.mono)
+        sections = replace(sections, look=look)
+        asked.append(wanted)
+    if is_open("Copy and paste", OTHERS_OPEN_EM):
+        asked.append(copy_section())
+    chosen = tuple(opened) if any_toggled else sections.chosen
+    sections = replace(sections, frames=sections.frames + 1, chosen=chosen)
+    return state, sections, next((one for one in asked if one != NOTHING), NOTHING)

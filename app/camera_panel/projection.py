@@ -1,0 +1,273 @@
+"""The camera panel's numbers of the picture: distance, field of view, viewport, clip planes.
+
+Owns their words and their coupling as it is shown. Gets a state and a draft and returns new ones.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+from imgui_bundle import ImVec4, imgui
+
+from app.cameras.editing import Draft, edit_component, edit_field
+from app.cameras.focus import Focus
+from app.cameras.navigation import distance_for, dollied, with_shift
+from app.cameras.presets import clip_around
+from app.state.app_state import AppState
+from app.widgets import rows, theme
+from app.widgets.checks import checkbox
+from app.widgets.fields import Scale, number_field, short_number
+from app.widgets.highlight import pointed
+from renderer.camera import Camera, Vector
+from renderer.errors import LucidaError
+
+VIEWPORT = (
+    ("left", "The viewport's left edge, in units of u."),
+    ("right", "The viewport's right edge, in units of u."),
+    ("bottom", "The viewport's lower edge, in units of v."),
+    ("top", "The viewport's upper edge, in units of v."),
+)
+SHIFTS = (
+    ("shift x", "u", "Off-axis: the middle of the viewport along u. Its size stays."),
+    ("shift y", "v", "Off-axis: the middle of the viewport along v. Its size stays."),
+)
+RECTANGLE = "The rectangle of the image plane that is the image, in units of u and v."
+DISTANCE = "d: how far the image plane lies from the eye along -w, in units of w."
+FIELD_OF_VIEW = """\
+The vertical angle between the viewport's lower and upper edge, seen from the eye.
+It and d are one number: the viewport stays, d changes."""
+DOLLY = """\
+Dolly zoom: the eye goes back and d grows with it, so that what is in focus keeps its size
+(the marked pixel's point, or the scene's middle); only the perspective changes.
+The number: how far the focus is from the eye, in units of w."""
+PLANES = (
+    ("near", "Nothing nearer is drawn: a plane, along -w in units of w. Off: fitted to the scene."),
+    ("far", "Nothing farther is drawn: a plane, along -w in units of w. Off: fitted to the scene."),
+)
+FIT = """\
+On: the viewport is widened or heightened to the image's shape.
+Off: it is used as it stands, and the picture may look stretched."""
+NO_EYE = "none, rays are parallel"
+
+LEAST_FOV_DEG, MOST_FOV_DEG = 0.5, 175.0  # where dragging ends
+
+
+@dataclass(frozen=True)
+class Surroundings:
+    """What the panel must know beside the state. shown: the camera that the images are drawn
+    with. dolly: the world point that the dolly zoom keeps."""
+
+    fonts: theme.Fonts
+    shown: Camera
+    focus: Focus
+    dolly: Vector
+
+
+def lens(state: AppState, draft: Draft, around: Surroundings) -> tuple[AppState, Draft]:
+    """All of them, into the current window."""
+    with pointed("distance", state):
+        state, draft = _distance(state, draft.following(state.camera), around)
+    state, draft = _field_of_view(state, draft.following(state.camera), around)
+    state = _dolly(state, around)
+    rows.line()
+    with pointed("viewport", state):
+        state, draft = _viewport(state, draft.following(state.camera), around)
+    state, draft = _shift(state, draft, around)
+    _as_drawn(around)
+    with pointed("clip", state):
+        return _clip(state, draft, around)
+
+
+def component(
+    state: AppState,
+    draft: Draft,
+    place: tuple[str, int],
+    label: str,
+    width_px: float,
+    scale: Scale,
+    color: ImVec4,
+    tooltip: str,
+    mono: imgui.ImFont | None,
+) -> tuple[AppState, Draft]:
+    """One number of a field of several. place: the field's name, and which number of it. Its
+    menu resets it to the scene's own camera."""
+    name, index = place
+    draft = draft.following(state.camera)
+    changed, value = number_field(
+        label,
+        draft.value(name)[index],
+        width_px,
+        scale,
+        color,
+        mono,
+        tooltip,
+        draft.is_wrong(name),
+        getattr(state.scene.view.camera, name)[index],
+    )
+    if imgui.is_item_activated():
+        draft = draft.begun()
+    if changed:
+        state, draft = edit_component(state, draft, name, index, value)
+    return state, draft
+
+
+def _distance(state: AppState, draft: Draft, around: Surroundings) -> tuple[AppState, Draft]:
+    width = rows.row("d", "distance", DISTANCE, around.fonts)
+    imgui.begin_disabled(state.camera.is_parallel)
+    changed, value = number_field(
+        "distance",
+        draft.value("distance"),
+        width,
+        Scale(0.1, 10.0, logarithmic=True),
+        theme.PLAIN,
+        around.fonts.mono,
+        DISTANCE,
+        draft.is_wrong("distance"),
+        state.scene.view.camera.distance,
+    )
+    if imgui.is_item_activated():
+        draft = draft.begun()
+    imgui.end_disabled()
+    return edit_field(state, draft, "distance", value) if changed else (state, draft)
+
+
+def _field_of_view(state: AppState, draft: Draft, around: Surroundings) -> tuple[AppState, Draft]:
+    """The distance as an angle, of the viewport as drawn."""
+    width = rows.row("field of view", "", FIELD_OF_VIEW, around.fonts, derived=True)
+    if state.camera.is_parallel:
+        rows.instead(NO_EYE)
+        return state, draft
+    # The distance may have been changed in this very frame.
+    shown = replace(around.shown, distance=state.camera.distance)
+    changed, value = number_field(
+        "field of view",
+        shown.fov_y_deg,
+        width,
+        Scale(0.0, 120.0, least=LEAST_FOV_DEG, most=MOST_FOV_DEG),
+        theme.PLAIN,
+        around.fonts.mono,
+        FIELD_OF_VIEW,
+        draft.is_wrong("field of view"),
+        unit="\N{DEGREE SIGN} vertical",
+    )
+    if not changed:
+        return state, draft
+    try:
+        distance = distance_for(shown, value)
+    except LucidaError as error:
+        return state, replace(draft, error=error)
+    return edit_field(state, draft, "distance", distance)
+
+
+def _dolly(state: AppState, around: Surroundings) -> AppState:
+    width = rows.row("dolly zoom", "", DOLLY, around.fonts, derived=True)
+    camera, reach = state.camera, around.focus.reach
+    depth = -float((camera.camera_from_world @ [*around.dolly, 1.0])[2])
+    if camera.is_parallel or not depth > 0:
+        rows.instead(NO_EYE if camera.is_parallel else "none, the focus is behind the eye")
+        return state
+    changed, value = number_field(
+        "dolly zoom",
+        depth,
+        width,
+        Scale(0.02 * reach, 20.0 * reach, logarithmic=True),
+        theme.PLAIN,
+        around.fonts.mono,
+        DOLLY,
+        unit=" to the focus",
+    )
+    if not (changed and value > 0):
+        return state
+    try:
+        return state.with_camera(dollied(camera, around.dolly, camera.distance * value / depth))
+    except (LucidaError, OverflowError):  # as far as numbers go
+        return state
+
+
+def _viewport(state: AppState, draft: Draft, around: Surroundings) -> tuple[AppState, Draft]:
+    rows.row("viewport", "", RECTANGLE, around.fonts)
+    changed, fit = checkbox("fit to the aspect ratio", state.view.fit)
+    imgui.set_item_tooltip(FIT)
+    if changed:
+        state = state.with_fit(fit)
+    halves = rows.Halves()
+    for index, (name, tooltip) in enumerate(VIEWPORT):
+        width = halves.label(index % 2, name, tooltip)
+        color = theme.BASIS["u" if index < 2 else "v"]
+        place, scale = ("viewport", index), _scale(state, around)
+        state, draft = component(
+            state, draft, place, name, width, scale, color, tooltip, around.fonts.mono
+        )
+    return state, draft.following(state.camera)
+
+
+def _shift(state: AppState, draft: Draft, around: Surroundings) -> tuple[AppState, Draft]:
+    halves = rows.Halves()
+    for axis, (name, vector, tooltip) in enumerate(SHIFTS):
+        width = halves.label(axis, name, tooltip)
+        low, high = state.camera.viewport[2 * axis : 2 * axis + 2]
+        changed, value = number_field(
+            name,
+            (low + high) / 2,
+            width,
+            _scale(state, around),
+            theme.BASIS[vector],
+            around.fonts.mono,
+            tooltip,
+            reset=0.0,
+        )
+        if changed:
+            try:
+                state = state.with_camera(with_shift(state.camera, axis, value))
+                draft = draft.following(state.camera)
+            except LucidaError as error:
+                draft = replace(draft, error=error)
+    return state, draft
+
+
+def _as_drawn(around: Surroundings) -> None:
+    imgui.push_font(around.fonts.mono, 0.0)
+    edges = "".join(map(short_number, around.shown.viewport))
+    imgui.push_text_wrap_pos(0.0)
+    imgui.text_colored(theme.DIM, f"drawn{edges}")
+    imgui.pop_text_wrap_pos()
+    imgui.set_item_tooltip("The viewport as drawn: left, right, bottom, top.")
+    imgui.pop_font()
+
+
+def _clip(state: AppState, draft: Draft, around: Surroundings) -> tuple[AppState, Draft]:
+    """Near and far: each a switch and a field, which shows the fitted plane while it is off."""
+    fitted = clip_around(around.shown, around.focus.bounds)
+    reach, halves = around.focus.reach, rows.Halves()
+    for column, (name, tooltip) in enumerate(PLANES):
+        draft = draft.following(state.camera)
+        halves.begin(column)
+        entered = draft.value(name)
+        changed, on = checkbox(name, entered is not None)
+        imgui.set_item_tooltip(tooltip)
+        if changed:
+            state, draft = edit_field(state, draft, name, fitted[column] if on else None)
+            entered = draft.value(name)
+        width = halves.field(column)
+        imgui.begin_disabled(entered is None)
+        changed, value = number_field(
+            f"{name} plane",
+            fitted[column] if entered is None else entered,
+            width,
+            Scale(0.01 * reach, 10.0 * reach, logarithmic=True),
+            theme.PLAIN,
+            around.fonts.mono,
+            tooltip,
+            draft.is_wrong(name),
+            fitted[column],
+        )
+        imgui.end_disabled()
+        if changed:
+            state, draft = edit_field(state, draft, name, value)
+    return state, draft
+
+
+def _scale(state: AppState, around: Surroundings) -> Scale:
+    """Of the viewport's numbers: lengths for parallel rays, else slopes."""
+    reach = around.focus.reach if state.camera.is_parallel else 1.0
+    return Scale(-reach, reach)

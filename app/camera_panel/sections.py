@@ -1,0 +1,189 @@
+"""The camera panel's sections below its numbers: presets, look at, copy and paste.
+
+Owns their widgets and words. Gives what was asked for; the view does it (camera_panel/view.py).
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+from imgui_bundle import imgui
+
+from app.cameras.focus import Focus
+from app.cameras.presets import PRESETS, Preset, look_at
+from app.cameras.text import FORMS, Form
+from app.state.app_state import AppState
+from app.widgets import pending, rows, theme
+from app.widgets.checks import checkbox
+from app.widgets.fields import Scale, number_field
+from renderer.camera import Camera, Vector
+from renderer.errors import LucidaError
+from renderer.scene.model import View
+
+FORM_NOTES: dict[Form, str] = {
+    "view file": "VIEW.toml, for --view, for scene files, and to open.",
+    "command line": "lucida render ..., for a terminal.",
+    "Python": "Runs as it is.",
+    "OpenGL matrices": "camera_from_world and clip_from_camera as drawn, column by column.",
+}
+PASTE_NOTE = "Reads any of the four from the clipboard (Ctrl+V)."
+LOOK_FIELDS = (
+    ("eye", "Where the camera is."),
+    ("target", "What it looks at: in the middle of an on-axis image."),
+    ("up", "Which direction is up in the image; not along the view direction."),
+)
+ORDER = (
+    ("Front", "Left", "Top"),
+    ("Back", "Right", "Bottom"),
+    ("Isometric", "Dimetric"),
+    ("Cavalier", "Cabinet"),
+)
+
+
+@dataclass(frozen=True)
+class LookAt:
+    """What has been entered into the form. eye: None for the camera's own; target likewise for
+    the scene's middle."""
+
+    eye: Vector | None = None
+    target: Vector | None = None
+    up: Vector = (0.0, 1.0, 0.0)
+    error: LucidaError | None = None
+
+    def entered(self, name: str, value: Vector) -> LookAt:
+        """The form with another eye, target or up."""
+        fields = {"eye": self.eye, "target": self.target, "up": self.up, name: value}
+        return LookAt(fields["eye"], fields["target"], fields["up"] or self.up)
+
+
+@dataclass(frozen=True)
+class Sections:
+    """Entered, but not yet done. frames: drawn so far. chosen: the sections that are open since the
+    user has opened or shut one; None: those that had room."""
+
+    look: LookAt = LookAt()
+    frames: int = 0
+    chosen: tuple[str, ...] | None = None
+
+
+@dataclass(frozen=True)
+class Asked:
+    """What was clicked, if anything: a preset, a view to pass to, a form to copy, paste."""
+
+    preset: Preset | None = None
+    view: View | None = None
+    copy: Form | None = None
+    paste: bool = False
+
+
+def header(name: str, sections: Sections, room_em: float) -> tuple[bool, bool]:
+    """A section's header: (whether it is open, whether it was opened or shut now). It begins as
+    the user has left it, else open where the panel's window is higher than room_em."""
+    if sections.frames < 8:  # until the window has its size
+        high = imgui.get_window_height() > room_em * imgui.get_font_size()
+        opened = high if sections.chosen is None else name in sections.chosen
+        imgui.set_next_item_open(opened, imgui.Cond_.always)
+    opened = imgui.collapsing_header(name)
+    toggled = imgui.is_item_toggled_open()
+    if toggled:
+        imgui.internal.mark_ini_settings_dirty()  # it belongs to what a session keeps
+    return opened, toggled
+
+
+def presets_section(state: AppState) -> tuple[AppState, Asked]:
+    """The presets' buttons, and whether those that can be are in perspective."""
+    asked = Asked()
+    spacing = imgui.get_style().item_spacing.x
+    width = (imgui.get_content_region_avail().x - 2 * spacing) / 3
+    named = {preset.name: preset for preset in PRESETS}
+    for row in ORDER:
+        for column, name in enumerate(row):
+            if column:
+                imgui.same_line()
+            if imgui.button(name, (width, 0)):
+                asked = Asked(preset=named[name])
+            imgui.set_item_tooltip(named[name].note)
+    perspective = state.options.presets_in_perspective
+    changed, perspective = checkbox("in perspective", perspective)
+    imgui.set_item_tooltip(
+        "Off: parallel rays, as on an engineer's drawing.\n"
+        "On: the same directions from an eye (cavalier and cabinet are parallel always)."
+    )
+    if changed:
+        state = state.with_options(presets_in_perspective=perspective)
+    return state, asked
+
+
+def look_section(
+    look: LookAt, state: AppState, focus: Focus, mono: imgui.ImFont | None
+) -> tuple[LookAt, Asked]:
+    """The form for eye, target and up."""
+    thirds = rows.Thirds()
+    now = {
+        "eye": look.eye or state.camera.eye,
+        "target": look.target or focus.center,
+        "up": look.up,
+    }
+    for name, note in LOOK_FIELDS:
+        imgui.align_text_to_frame_padding()
+        imgui.text_colored(theme.TEXT, name)
+        imgui.set_item_tooltip(note)
+        reach = 1.0 if name == "up" else focus.reach
+        for axis, letter in enumerate("xyz"):
+            thirds.go(axis)
+            changed, value = number_field(
+                f"look.{name}.{letter}",
+                now[name][axis],
+                thirds.field_px,
+                Scale(-reach, reach),
+                theme.PLAIN,
+                mono,
+                note,
+                look.error is not None and look.error.field == name,
+                reset=(0.0, 1.0, 0.0)[axis] if name == "up" else None,
+            )
+            if changed:
+                x, y, z = (value if k == axis else now[name][k] for k in range(3))
+                look = look.entered(name, (x, y, z))
+    asked = Asked()
+    spacing = imgui.get_style().item_spacing.x
+    width = (imgui.get_content_region_avail().x - spacing) / 2
+    if imgui.button("Look there", (width, 0)):
+        try:
+            asked = Asked(view=look_at(state.view, now["eye"], now["target"], now["up"]))
+            look = replace(look, error=None)
+        except LucidaError as error:
+            look = replace(look, error=error)
+    imgui.set_item_tooltip(
+        "w = from target to eye, of length 1;  u = up x w, of length 1;  v = w x u.\n"
+        "Distance, viewport and projection stay."
+    )
+    imgui.same_line()
+    if imgui.button("From the camera", (width, 0)):
+        look = LookAt()
+    imgui.set_item_tooltip("Back to the camera's own eye, the scene's middle and y upwards.")
+    if look.error is not None and pending.note("look", str(look.error), "Back to the camera's own"):
+        look = LookAt()
+    return look, asked
+
+
+def copy_section() -> Asked:
+    """The four forms, and paste."""
+    asked = Asked()
+    spacing = imgui.get_style().item_spacing.x
+    width = (imgui.get_content_region_avail().x - spacing) / 2
+    for number, form in enumerate(FORMS):
+        if number % 2:
+            imgui.same_line()
+        if imgui.button(f"{form[0].upper()}{form[1:]}", (width, 0)):
+            asked = Asked(copy=form)
+        imgui.set_item_tooltip(f"Copy the camera. {FORM_NOTES[form]}")
+    if imgui.button("Paste", (width, 0)):
+        asked = Asked(paste=True)
+    imgui.set_item_tooltip(PASTE_NOTE)
+    return asked
+
+
+def canonical(view: View) -> View:
+    """The lecture's camera, in place of the view's."""
+    return replace(view, camera=Camera.canonical())

@@ -1,0 +1,90 @@
+"""The camera's panel as a view.
+
+Owns the draft of numbers that are no camera yet, and what the panel's sections ask for: a passage
+to a preset, copying, pasting. The panel itself is camera_panel/panel.py.
+"""
+
+from __future__ import annotations
+
+from imgui_bundle import imgui
+
+from app.camera_panel import actions as camera_actions
+from app.camera_panel.panel import Panel, camera_panel
+from app.camera_panel.projection import Surroundings
+from app.camera_panel.sections import Asked, Sections
+from app.cameras.editing import Draft
+from app.host.view import Host, View
+from app.state.app_state import AppState
+from app.widgets.lettering import at_most
+from app.widgets.rows import NARROW_EM
+from renderer.camera import Vector
+
+CAMERA = "Camera"
+FITTING_EM = NARROW_EM + 0.5  # the width that full labels and numbers need
+LEAST_PX = 13.0  # of type, at 100 %
+
+
+class CameraView(View):
+    name = CAMERA
+    title = "Camera"
+
+    def __init__(self) -> None:
+        self._draft: Draft | None = None
+        self._sections = Sections()
+        self._dolly: Vector | None = None
+
+    @property
+    def sections(self) -> tuple[str, ...] | None:
+        return self._sections.chosen
+
+    def open_sections(self, names: tuple[str, ...]) -> None:
+        self._sections = Sections(self._sections.look, chosen=names)
+
+    @property
+    def has_pending(self) -> bool:
+        return self._draft is not None and self._draft.error is not None
+
+    def drop_pending(self) -> None:
+        self._draft = None
+
+    def draw(self, host: Host) -> None:
+        """Type that is too large for the numbers gives way to them."""
+        least = LEAST_PX * imgui.get_style().font_scale_dpi
+        with at_most(max(least, imgui.get_content_region_avail().x / FITTING_EM)):
+            self._draw(host)
+
+    def _draw(self, host: Host) -> None:
+        state = host.state
+        if self._dolly is None or not imgui.is_any_item_active():  # while it is dragged, it stays
+            self._dolly = _focus_point(host, state)
+        shown = host.renderers.camera(state)
+        around = Surroundings(host.fonts, shown, host.focus, self._dolly)
+        panel = Panel(self._draft or Draft.of(state.camera), self._sections)
+        state, panel = camera_panel(state, panel, around)
+        self._draft, self._sections = panel.draft, panel.sections
+        host.apply(state)
+        if panel.target is not None:
+            host.travel(panel.target)
+        self._do(host, panel.asked)
+
+    def _do(self, host: Host, asked: Asked) -> None:
+        if asked.preset is not None:
+            perspective = host.state.options.presets_in_perspective
+            camera_actions.go_to_preset(host, asked.preset, perspective)
+        elif asked.view is not None:
+            host.travel(camera_actions.with_its_basis(host.state.with_view(asked.view)))
+        elif asked.copy is not None:
+            camera_actions.copy(host, asked.copy)
+        elif asked.paste:
+            camera_actions.paste(host)
+
+
+def _focus_point(host: Host, state: AppState) -> Vector:
+    """What the dolly zoom keeps: the point that the marked pixel shows, or the scene's middle."""
+    if state.marked is not None:
+        parameter = host.renderers.depth_at(state, state.marked)
+        if parameter is not None:
+            ray = host.renderers.camera(state).ray(*state.marked, host.renderers.size)
+            x, y, z = (ray.origin + parameter * ray.direction).tolist()
+            return x, y, z
+    return host.focus.center

@@ -1,0 +1,113 @@
+"""The actions of the compare view: its modes, its gain, its divider, steps from pixel to pixel."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+from app.compare import comparing
+from app.host.action import SHIFT, Action, Key, Window, changing
+from app.state.app_state import AppState
+from app.state.options import CompareMode
+from renderer.compare import Comparison
+
+FLIP_KEY = Key.x  # held, it shows the other image; read by the compare view
+
+
+def _differing(change: Callable[[AppState, Comparison], AppState]) -> Callable[[Window], None]:
+    """A change that needs to know where the images differ; nothing happens until it is known."""
+
+    def run(window: Window) -> None:
+        verdict = window.renderers.verdict(window.state)
+        if verdict is not None:
+            window.change(change(window.state, verdict.comparison))
+
+    return run
+
+
+def _differ(window: Window) -> bool:
+    verdict = window.renderers.verdict(window.state)
+    return verdict is not None and verdict.comparison.agree < verdict.comparison.pixels
+
+
+def _compare(window: Window, mode: CompareMode) -> None:
+    window.change(comparing.with_mode(window.state, mode))
+    window.shell.stage.show("Compare")
+
+
+def _comparing(number: int, mode: CompareMode, name: str) -> Action:
+    return Action(
+        "View/Compare",
+        name,
+        lambda window: _compare(window, mode),
+        f"F{5 + number}",
+        (int(Key.f5) + number,),
+        is_on=lambda state: state.compare.mode == mode,
+    )
+
+
+def _gain(factor: float) -> Callable[[AppState], AppState]:
+    return lambda state: comparing.with_gain(state, state.compare.gain * factor)
+
+
+def _divider(step: float) -> Callable[[AppState], AppState]:
+    return lambda state: comparing.with_divider(state, state.compare.divider + step)
+
+
+COMPARING = (
+    *(_comparing(number, mode, name) for number, (mode, name, _) in enumerate(comparing.MODES)),
+    Action(
+        "View/Compare",
+        "The other image (hold the key)",
+        changing(lambda state: state.with_options(compare={"flipped": not state.compare.flipped})),
+        "X",
+        is_on=lambda state: state.compare.flipped,
+    ),
+    Action(
+        "View/Compare",
+        "Mark the causes",
+        changing(lambda state: state.with_options(compare={"causes": not state.compare.causes})),
+        "K",
+        (int(Key.k),),
+        is_on=lambda state: state.compare.causes,
+    ),
+    Action("View/Compare", "More gain", changing(_gain(2.0)), "]", (int(Key.right_bracket),)),
+    Action("View/Compare", "Less gain", changing(_gain(0.5)), "[", (int(Key.left_bracket),)),
+    Action(
+        "View/Compare",
+        "Divider to the right",
+        changing(_divider(comparing.DIVIDER_STEP)),
+        "Shift+]",
+        (SHIFT | int(Key.right_bracket),),
+    ),
+    Action(
+        "View/Compare",
+        "Divider to the left",
+        changing(_divider(-comparing.DIVIDER_STEP)),
+        "Shift+[",
+        (SHIFT | int(Key.left_bracket),),
+    ),
+    Action(
+        "View/Compare",
+        "Next differing pixel",
+        _differing(comparing.stepped),
+        "N",
+        (int(Key.n),),
+        can=_differ,
+    ),
+    Action(
+        "View/Compare",
+        "Previous differing pixel",
+        _differing(lambda state, comparison: comparing.stepped(state, comparison, forward=False)),
+        "Shift+N",
+        (SHIFT | int(Key.n),),
+        can=_differ,
+    ),
+    Action(
+        "View/Compare",
+        "Worst pixel",
+        _differing(comparing.at_worst),
+        "Shift+M",
+        (SHIFT | int(Key.m),),
+        can=_differ,
+    ),
+)

@@ -1,0 +1,375 @@
+"""The compare view's controls and numbers: modes, gain, colour bar, causes, errors, steps.
+
+Owns their look and their order, and how many of them have room. Gets a state and returns a new
+one. Knows nothing of the image between them.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+
+from imgui_bundle import ImVec2, ImVec4, imgui
+
+from app.compare import comparing
+from app.compare.comparing import LABELS, MODES, Scale
+from app.state.app_state import AppState
+from app.state.bounds import range_of
+from app.state.options import CompareOptions, Pixel
+from app.widgets import theme
+from app.widgets.checks import checkbox
+from app.widgets.lettering import fitting_words
+from app.widgets.sliders import slider_float
+from renderer.compare import LABEL_COLORS, Comparison
+
+DrawMap = Callable[[ImVec2, ImVec2, bool], None]  # two corners; whether the signed map
+
+IMAGE_LEAST = 0.6  # the part of the height that stays for the image, unless even that is little
+SMALL_EM = 22.0  # a view that is less high has no line for what the images' own windows have too
+DIGITS = 6  # of a count
+VALUES_COLUMNS = 58  # of a pixel's values
+NEXT = "next"
+COLORS_COMPARED = (
+    "Colours are compared as display values (sRGB, exposure 0), by the channel of light that\n"
+    "differs most; depths relative to the ray image's."
+)
+
+
+@dataclass(frozen=True)
+class Told:
+    """What there is to tell. comparison: None while it is not known. headline: one line; color:
+    its colour. pixel: the one whose values are shown.
+    """
+
+    headline: str
+    color: ImVec4
+    comparison: Comparison | None = None
+    pixel: Pixel | None = None
+
+
+@dataclass(frozen=True)
+class Wish:
+    """What was clicked. step: to the next differing pixel (1) or the one before (-1), of `label`
+    or, for None, of any. worst: to the pixel of the largest error."""
+
+    state: AppState
+    step: int = 0
+    label: int | None = None
+    worst: bool = False
+
+
+def toolbar(state: AppState) -> AppState:
+    """Modes, gain and the switch of the causes, in as many lines as they need."""
+    options = state.compare
+    flow = Flow()
+    for mode, name, told in MODES:
+        flow.next(_button_width(name))
+        if _choice(name, options.mode == mode):
+            state = comparing.with_mode(state, mode)
+        imgui.set_item_tooltip(told)
+    flow.next(_check_width("causes"))
+    changed, on = checkbox("causes", options.causes)
+    if changed:
+        state = state.with_options(compare={"causes": on})
+    imgui.set_item_tooltip("Mark the pixels that differ, in the colours of their causes.")
+    width = 9 * imgui.get_font_size()
+    flow.next(width)
+    imgui.set_next_item_width(width)
+    has_gain = options.mode in ("absolute", "signed") and state.images.channel != "id"
+    imgui.begin_disabled(not has_gain)
+    changed, gain = slider_float(
+        "##gain",
+        options.gain,
+        *range_of(CompareOptions, "gain"),
+        "gain %.3g",
+        imgui.SliderFlags_.logarithmic,
+    )
+    if changed:
+        state = comparing.with_gain(state, gain)
+    imgui.set_item_tooltip("What the difference is multiplied with. Keys [ and ]")
+    imgui.end_disabled()
+    return state
+
+
+@dataclass(frozen=True)
+class Footer:
+    """The lines below the image that have room, those of the counts and of the errors by number.
+    height: of all."""
+
+    counts: int
+    errors: int
+    values: bool
+    height: float
+
+
+def footer_plan(available: float, fonts: theme.Fonts) -> Footer:
+    """What has room in a view of that height: the headline and the scale always, then the counts,
+    the errors, the values of a pixel. Depends on sizes alone, so that nothing jumps."""
+    line, row = imgui.get_text_line_height_with_spacing(), imgui.get_frame_height_with_spacing()
+    height = imgui.get_style().item_spacing.y + line + _scale_height()
+    room = (1 - IMAGE_LEAST) * available - height
+    counts = lines([_count_width(cause.name) for cause in LABELS])
+    counts = counts if counts * row <= room else 0
+    errors = lines(_error_widths(fonts)) if counts else 0
+    errors = errors if (counts + errors) * row <= room else 0
+    wide = _mono_width(fonts, VALUES_COLUMNS) <= imgui.get_content_region_avail().x
+    values = bool(errors) and wide and (counts + errors) * row + 2 * line <= room
+    return Footer(counts, errors, values, height + (counts + errors) * row + values * 2 * line)
+
+
+def footer(
+    state: AppState,
+    told: Told,
+    plan: Footer,
+    fonts: theme.Fonts,
+    draw_map: DrawMap,
+) -> Wish:
+    """Everything below the image. draw_map: draws the colour map between two corners."""
+    imgui.push_font(fonts.bold, 0.0)
+    shown = fitting_words(told.headline, imgui.get_content_region_avail().x)
+    imgui.text_colored(told.color, shown)
+    imgui.pop_font()
+    if shown != told.headline:
+        imgui.set_item_tooltip(told.headline)
+    state = _scale_row(state, draw_map)
+    wish = Wish(state)
+    if plan.counts:
+        wish = _counts(wish, told.comparison, fonts)
+    if plan.errors:
+        wish = _errors(wish, told.comparison, fonts)
+    if plan.values:
+        _values(state, told, fonts)
+    return wish
+
+
+class Flow:
+    """Puts items beside each other, and begins a line where there is no room."""
+
+    def __init__(self) -> None:
+        self._room = imgui.get_content_region_avail().x
+        self._used = 0.0
+
+    def next(self, width: float) -> None:
+        """Call before an item of that width."""
+        spacing = imgui.get_style().item_spacing.x
+        if self._used and self._used + spacing + width <= self._room:
+            imgui.same_line()
+            self._used += spacing + width
+        else:
+            self._used = width
+
+
+def lines(widths: list[float]) -> int:
+    """How many lines Flow needs."""
+    spacing, room = imgui.get_style().item_spacing.x, imgui.get_content_region_avail().x
+    count, used = 0, 0.0
+    for width in widths:
+        if count and used + spacing + width <= room:
+            used += spacing + width
+        else:
+            count, used = count + 1, width
+    return count
+
+
+def _scale_row(state: AppState, draw_map: DrawMap) -> AppState:
+    """The colour bar; in the other modes what takes its place, of the same height."""
+    top = imgui.get_cursor_pos_y()
+    options = state.compare
+    if options.mode in ("absolute", "signed"):
+        signed = options.mode == "signed"
+        scale = comparing.scale(state.images.channel, options.gain, signed)
+        scale = replace(scale, title=scale.title + comparing.measured_at(state.images))
+        _color_bar(scale, signed, draw_map)
+    elif options.mode == "wipe":
+        imgui.set_next_item_width(-1)
+        changed, percent = imgui.slider_float("##divider", 100 * options.divider, 0.0, 100.0, " ")
+        if changed:
+            state = comparing.with_divider(state, percent / 100)
+        imgui.set_item_tooltip("Where the divider stands. It can be dragged in the image, too.")
+        text = f"raster left of {100 * options.divider:.0f} %, ray right of it"
+        imgui.text(fitting_words(text, imgui.get_content_region_avail().x))
+    else:
+        for flipped, name in ((False, "raster"), (True, "ray")):
+            if flipped:
+                imgui.same_line()
+            if _choice(f"show {name}", options.flipped == flipped):
+                state = state.with_options(compare={"flipped": flipped})
+        imgui.same_line()
+        imgui.align_text_to_frame_padding()
+        imgui.text_disabled("hold X: the other one")
+    imgui.set_cursor_pos_y(top + _scale_height())
+    imgui.dummy(ImVec2(0, 0))
+    imgui.set_cursor_pos_y(top + _scale_height())
+    return state
+
+
+def _scale_height() -> float:
+    return 2 * imgui.get_text_line_height_with_spacing() + imgui.get_style().item_spacing.y
+
+
+def _color_bar(scale: Scale, signed: bool, draw_map: DrawMap) -> None:
+    """The map from end to end, and below it what its ends and its middle mean."""
+    at, width = imgui.get_cursor_screen_pos(), imgui.get_content_region_avail().x
+    height = imgui.get_text_line_height()
+    end = ImVec2(at.x + width, at.y + height)
+    draw_map(at, end, signed)
+    draw = imgui.get_window_draw_list()
+    draw.add_rect(at, end, theme.u32(theme.DIM))
+    imgui.dummy(ImVec2(width, height))
+    imgui.set_item_tooltip(COLORS_COMPARED)
+    below = imgui.get_cursor_screen_pos()
+    low, high, gap = scale.low, scale.high, 2 * imgui.get_font_size()
+    if _wide(low) + _wide(scale.middle) + _wide(high) + gap > width:
+        low, high = scale.short
+    texts = [(low, 0.0), (high, 1.0), (scale.middle, 0.5 if signed else 0.0)]
+    if not signed and _wide(scale.title) + 2 * max(map(_wide, (high, scale.middle))) + gap < width:
+        texts.append((scale.title, 0.5))
+    for text, part in texts:
+        _text_at(draw, below, width, text, part)
+
+
+def _wide(text: str) -> float:
+    return imgui.calc_text_size(text).x
+
+
+def _text_at(draw: imgui.ImDrawList, at: ImVec2, width: float, text: str, part: float) -> None:
+    """Text in a line: at its left end (0), its middle, or its right end (1)."""
+    left = at.x + part * (width - _wide(text))
+    draw.add_text(ImVec2(left, at.y), theme.u32(theme.TEXT), text)
+
+
+def _counts(wish: Wish, comparison: Comparison | None, fonts: theme.Fonts) -> Wish:
+    """Each cause with its colour and its pixels; a click goes to the next of them."""
+    found = comparing.counts(comparison) if comparison is not None else {}
+    flow = Flow()
+    draw = imgui.get_window_draw_list()
+    for cause in LABELS:
+        flow.next(_count_width(cause.name))
+        count = found.get(cause.label, 0)
+        text = str(count) if comparison is not None else "..."
+        at, size = imgui.get_cursor_screen_pos(), imgui.get_frame_height()
+        imgui.begin_disabled(not count)
+        width = _count_width(cause.name)
+        if imgui.button(f"##{cause.name}", ImVec2(width, size)):
+            step = -1 if imgui.get_io().key_shift else 1
+            wish = Wish(wish.state, step, cause.label)
+        imgui.end_disabled()
+        imgui.set_item_tooltip(f"{cause.told}\nClick: the next of these pixels; Shift: the last.")
+        red, green, blue = (int(c) / 255 for c in LABEL_COLORS[cause.label])
+        pad = imgui.get_style().frame_padding
+        edge = size - 2 * pad.y
+        low = ImVec2(at.x + pad.x, at.y + pad.y)
+        draw.add_rect_filled(
+            low, ImVec2(low.x + edge, low.y + edge), theme.u32(ImVec4(red, green, blue, 1)), 2.0
+        )
+        color = theme.u32(theme.TEXT if count else theme.DIM)
+        draw.add_text(ImVec2(low.x + edge + pad.x, low.y), color, cause.name)
+        imgui.push_font(fonts.mono, 0.0)
+        right = at.x + width - pad.x - imgui.calc_text_size(text).x
+        draw.add_text(ImVec2(right, low.y), color, text)
+        imgui.pop_font()
+    return wish
+
+
+def _count_width(name: str) -> float:
+    style, height = imgui.get_style(), imgui.get_text_line_height()
+    digits = imgui.calc_text_size("0" * DIGITS).x
+    return height + imgui.calc_text_size(name).x + digits + 4 * style.frame_padding.x
+
+
+def _errors(wish: Wish, comparison: Comparison | None, fonts: theme.Fonts) -> Wish:
+    """Buttons that go to pixels, and the errors over the whole image."""
+    channel, indexing = wish.state.images.channel, wish.state.options.indexing
+    differ = comparison is not None and comparison.agree < comparison.pixels
+    flow, widths = Flow(), _error_widths(fonts)
+    flow.next(widths[0])
+    imgui.begin_disabled(not differ)
+    if imgui.button(NEXT):
+        wish = Wish(wish.state, -1 if imgui.get_io().key_shift else 1)
+    imgui.end_disabled()
+    imgui.set_item_tooltip("Mark the next pixel that differs, and magnify there. Keys N, Shift+N")
+    flow.next(widths[1])
+    worst = comparison.errors[channel].worst if comparison is not None else (0, 0)
+    imgui.begin_disabled(comparison is None)
+    imgui.push_font(fonts.mono, 0.0)
+    if imgui.button(f"worst {indexing.text(worst)}###worst"):
+        wish = Wish(wish.state, worst=True)
+    imgui.pop_font()
+    imgui.end_disabled()
+    imgui.set_item_tooltip(
+        f"Mark the pixel of the largest error, and magnify there: row and column {indexing.told}. "
+        "Shift+M"
+    )
+    flow.next(widths[2])
+    imgui.push_font(fonts.mono, 0.0)
+    text = comparing.error_text(comparison, channel) if comparison is not None else "..."
+    text += comparing.measured_at(wish.state.images)
+    imgui.align_text_to_frame_padding()
+    imgui.text(text)
+    imgui.pop_font()
+    imgui.set_item_tooltip(COLORS_COMPARED)
+    return wish
+
+
+def _error_widths(fonts: theme.Fonts) -> list[float]:
+    """Of the two buttons, and of the errors' usual text."""
+    pad = 2 * imgui.get_style().frame_padding.x
+    return [
+        _button_width(NEXT),
+        _mono_width(fonts, len("worst (1000, 1000)")) + pad,
+        _mono_width(fonts, len("max 100.0/255  RMS  10.000/255  at 0 EV")),
+    ]
+
+
+def _mono_width(fonts: theme.Fonts, columns: int) -> float:
+    imgui.push_font(fonts.mono, 0.0)
+    width = imgui.calc_text_size("0" * columns).x
+    imgui.pop_font()
+    return width
+
+
+def _values(state: AppState, told: Told, fonts: theme.Fonts) -> None:
+    """What both images have at a pixel, one above the other; the lines are kept without one."""
+    line = imgui.get_text_line_height_with_spacing()
+    if told.comparison is None or told.pixel is None:
+        top = imgui.get_cursor_pos_y()
+        if told.comparison is not None:
+            imgui.text_disabled("Point at a pixel, or click it: its values in both images")
+        imgui.set_cursor_pos_y(top)
+        imgui.dummy(ImVec2(1, 2 * line - imgui.get_style().item_spacing.y))
+        return
+    raster, ray, difference = comparing.pixel_values(
+        told.comparison, told.pixel, state.images.channel
+    )
+    cause = comparing.cause_at(told.comparison, told.pixel)
+    imgui.push_font(fonts.mono, 0.0)
+    indexing = state.options.indexing
+    pixel = f"{indexing.text(told.pixel)} {indexing.told}"
+    name = cause.name if cause is not None else "agree"
+    imgui.text(f"raster {raster:24} pixel {pixel}: {name}")
+    imgui.text(f"ray    {ray:24} ray - raster {difference}" if difference else f"ray    {ray}")
+    imgui.pop_font()
+
+
+def _choice(name: str, on: bool) -> bool:
+    """A button that is one of several; lit where it is the chosen one."""
+    if on:
+        imgui.push_style_color(imgui.Col_.button, theme.ACCENT)
+        imgui.push_style_color(imgui.Col_.button_hovered, theme.ACCENT)
+        imgui.push_style_color(imgui.Col_.text, theme.rgb("#ffffff"))
+    pressed = imgui.button(name)
+    if on:
+        imgui.pop_style_color(3)
+    return pressed
+
+
+def _button_width(name: str) -> float:
+    return imgui.calc_text_size(name).x + 2 * imgui.get_style().frame_padding.x
+
+
+def _check_width(name: str) -> float:
+    return (
+        imgui.get_frame_height()
+        + imgui.get_style().item_inner_spacing.x
+        + (imgui.calc_text_size(name).x)
+    )

@@ -1,0 +1,303 @@
+"""The cost plot's panel: both loops' steps and both renderers' times, against triangles or pixels.
+
+Owns the plots' look, their controls and what is said of them. Knows nothing of how steps are
+counted or times measured.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from typing import Literal, NamedTuple
+
+import numpy as np
+from imgui_bundle import ImVec2, ImVec4, imgui, implot
+from numpy.typing import NDArray
+
+from app.costs.growth import Point, count_growth, is_proportional, per_doubling
+from app.costs.model import RENDERERS, WATCHED, Renderer, Sample
+from app.costs.work import Work
+from app.state.bounds import whole_range_of
+from app.state.options import CostOptions
+from app.widgets import theme
+from app.widgets.checks import radio_button
+from app.widgets.sliders import slider_int
+
+TITLES: dict[Renderer, str] = {"raster": "raster, object order", "ray": "ray, image order"}
+ORDERS: dict[Renderer, str] = {"raster": "Object order", "ray": "Image order"}
+SMOOTHED = 9  # frames
+SHORTEST_S = 1e-6  # a clock that is coarser tells 0
+POWERS = tuple(10.0**k for k in range(-3, 10))  # that an axis may show
+SMALL_EM = 28  # wide and high: a view that has no room for two plots
+MARGIN = 1.5  # beside the least and the most on an axis
+Unit = Literal["triangles", "pixels"]
+AGAINST: tuple[Literal["frames", "triangles", "pixels"], ...] = ("frames", "triangles", "pixels")
+
+
+@dataclass(frozen=True)
+class Told:
+    """What the panel shows. work, samples: of a growing number. history: the last frames' times,
+    (raster, ray) in seconds. waiting: how many images and cases are to be counted and measured yet.
+    problems: why a renderer cannot be measured."""
+
+    work: Sequence[Work]
+    samples: Sequence[Sample]
+    history: Sequence[tuple[float, float]]
+    waiting: int
+    problems: dict[str, str]
+
+
+class Steps(NamedTuple):
+    """A kind of counted steps: a line of the plot. of: the field of Work. at: the point that has
+    the title, above or below it."""
+
+    of: Literal["set_up", "tested", "rays", "nodes"]
+    title: str
+    renderer: Renderer
+    at: int
+    above: bool
+
+
+STEPS = (
+    Steps("set_up", "triangles set up", "raster", 3, above=False),
+    Steps("tested", "pixels tested", "raster", 1, above=True),
+    Steps("rays", "rays", "ray", 1, above=False),
+    Steps("nodes", "nodes visited", "ray", 1, above=True),
+)
+
+
+def controls(options: CostOptions, told: Told) -> tuple[CostOptions, bool]:
+    """(options, whether everything is to be measured again)."""
+    imgui.align_text_to_frame_padding()
+    imgui.text("against")
+    for name in AGAINST:
+        imgui.same_line()
+        if radio_button(name, options.against == name):
+            options = replace(options, against=name)
+    imgui.same_line()
+    again = imgui.button("Measure again")
+    if told.waiting:
+        imgui.same_line()
+        imgui.text_colored(theme.DIM, f"measuring, {told.waiting} to go ...")
+    # What is plotted along the axis is not to be chosen.
+    if options.against != "triangles":
+        options = replace(options, triangles=_slider("triangles", options.triangles))
+    if options.against != "pixels":
+        options = replace(options, pixels=_slider("pixels", options.pixels))
+    return options, again
+
+
+def _slider(name: Unit, value: int) -> int:
+    """A number that differs by factors."""
+    width = min(22 * imgui.get_font_size(), 0.6 * imgui.get_content_region_avail().x)
+    imgui.set_next_item_width(width)
+    logarithmic = imgui.SliderFlags_.logarithmic | imgui.SliderFlags_.always_clamp
+    limits = whole_range_of(CostOptions, name)
+    changed, chosen = slider_int(name, value, *limits, "%d", logarithmic)
+    return chosen if changed else value
+
+
+def frames_plot(told: Told, size: ImVec2) -> None:
+    """The last frames' times, as they come, and pale; strong: the median of the last few."""
+    if not implot.begin_plot(
+        "##frames", size, implot.Flags_.no_mouse_text | implot.Flags_.no_menus
+    ):
+        return
+    times = 1e3 * np.array(told.history, float).reshape(-1, 2)
+    implot.setup_axes("frames", "milliseconds", implot.AxisFlags_.no_tick_labels)
+    top = max(
+        [
+            0.1,
+            *(float(smoothed(column[np.isfinite(column)]).max(initial=0.1)) for column in times.T),
+        ]
+    )
+    limits = implot.Cond_.always
+    implot.setup_axis_limits(implot.ImAxis_.x1, 0, WATCHED - 1, limits)
+    implot.setup_axis_limits(implot.ImAxis_.y1, 0, _round_up(1.3 * top), limits)
+    implot.setup_legend(implot.Location_.north_west)
+    at = np.arange(WATCHED - len(times), WATCHED, dtype=float)
+    for column, renderer in enumerate(RENDERERS):
+        shown = np.isfinite(times[:, column])
+        if shown.any():
+            values = times[shown, column]
+            steady = smoothed(values)
+            pale = _spec(renderer)
+            pale.line_color = ImVec4(pale.line_color.x, pale.line_color.y, pale.line_color.z, 0.35)
+            pale.line_weight = theme.line_px(1.0)
+            implot.plot_line(f"##{renderer}", at[shown], values, pale)
+            label = f"{TITLES[renderer]}  {steady[-1]:8.2f} ms###{renderer}"
+            implot.plot_line(label, at[shown], steady, _spec(renderer))
+    implot.end_plot()
+
+
+def plot(options: CostOptions, told: Told, size: ImVec2) -> None:
+    """Steps and times, all axes logarithmic: a loop over n is a straight line that climbs like n.
+    Side by side where there is room, else one above the other; in a small view, steps only."""
+    unit = options.against
+    if unit == "frames":
+        frames_plot(told, size)
+        return
+    gap = imgui.get_style().item_spacing
+    if max(size.x, size.y) < SMALL_EM * imgui.get_font_size():
+        _steps_plot(unit, told, size)
+        return
+    if size.x >= size.y:
+        each = ImVec2((size.x - gap.x) / 2, size.y)
+    else:
+        each = ImVec2(size.x, (size.y - gap.y) / 2)
+    _steps_plot(unit, told, each)
+    if size.x >= size.y:
+        imgui.same_line()
+    _times_plot(unit, told, each)
+
+
+def _steps_plot(unit: Unit, told: Told, size: ImVec2) -> None:
+    """What is counted."""
+    lines = [points_of(told.work, unit, steps.of) for steps in STEPS]
+    if not _begin("steps, counted", unit, size, lines):
+        return
+    for steps, points in zip(STEPS, lines, strict=True):
+        _line(steps.title, points, steps.renderer, steps.at, steps.above)
+    implot.end_plot()
+
+
+def _times_plot(unit: Unit, told: Told, size: ImVec2) -> None:
+    """What is measured."""
+    lines = [[(n, 1e3 * t) for n, t in times_of(told, unit, renderer)] for renderer in RENDERERS]
+    if not _begin("milliseconds, on this machine", unit, size, lines):
+        return
+    first = [points[0][1] if points else 0.0 for points in lines]
+    for k, renderer in enumerate(RENDERERS):
+        _line(renderer, lines[k], renderer, 1, above=first[k] == max(first))
+    implot.end_plot()
+
+
+def _begin(title: str, unit: Unit, size: ImVec2, lines: Sequence[Sequence[Point]]) -> bool:
+    flags = implot.Flags_.no_mouse_text | implot.Flags_.no_menus | implot.Flags_.no_legend
+    if not implot.begin_plot(title, size, flags):
+        return False
+    implot.setup_axes(unit, "")
+    em = imgui.get_font_size()
+    x, y = implot.ImAxis_.x1, implot.ImAxis_.y1
+    low, high = _powers_around([value for points in lines for _, value in points])
+    for axis, least, most in ((x, *extent(unit)), (y, low, high)):
+        implot.setup_axis_scale(axis, implot.Scale_.log10)
+        implot.setup_axis_limits(axis, least / MARGIN, most * MARGIN, implot.Cond_.always)
+        # As many powers of ten as have room beside each other.
+        across = size.x / 2.5 if axis == x else size.y - 5 * em
+        fit = max(1.0, across / (1.5 * em))
+        every = max(1, math.ceil(math.log10(most / least) / fit))
+        ticks = [power for k, power in enumerate(POWERS) if k % every == 0]
+        implot.setup_axis_ticks(axis, ticks, [_written(power) for power in ticks])
+    return True
+
+
+def _line(title: str, points: Sequence[Point], renderer: Renderer, at: int, above: bool) -> None:
+    """A line with its title at a point: left above it or right below it, where the line is not."""
+    if not points:
+        return
+    points = sorted(points)
+    spec = _spec(renderer)
+    spec.marker = implot.Marker_.circle
+    spec.marker_size = theme.px(4.5)
+    xs, ys = np.array(points, float).T
+    implot.plot_line(title, xs.copy(), ys.copy(), spec)
+    beside = ImVec2(theme.px(10), 0.8 * imgui.get_font_size())
+    x, y = points[min(at, len(points) - 1)]
+    width = imgui.calc_text_size(title).x / 2
+    offset = ImVec2(-0.3 * width, -1.2 * beside.y) if above else ImVec2(width + beside.x, beside.y)
+    implot.push_style_color(implot.Col_.inlay_text, theme.legible(color_of(renderer)))
+    implot.plot_text(title, x, y, offset)
+    implot.pop_style_color()
+
+
+def points_of(work: Sequence[Work], unit: Unit, of: str) -> list[Point]:
+    """(n, steps), one for each image."""
+    return [(float(getattr(one, unit)), float(getattr(one, of))) for one in work]
+
+
+def times_of(told: Told, unit: Unit, renderer: Renderer) -> list[Point]:
+    """(n, seconds) of a renderer's samples."""
+    return [
+        (float(getattr(one, unit)), max(one.time_s, SHORTEST_S))
+        for one in told.samples
+        if one.case.renderer == renderer
+    ]
+
+
+def said(options: CostOptions, told: Told) -> list[tuple[Renderer, str]]:
+    """What the plots show, in a line for each loop; only what is certain: counts, once there are
+    enough, and of a time that it climbs in proportion, where its line is steep and straight."""
+    unit = options.against
+    if unit == "frames":
+        return []
+    lines: list[tuple[Renderer, str]] = []
+    for renderer in RENDERERS:
+        parts = []
+        for steps in STEPS:
+            if steps.renderer == renderer:
+                points = points_of(told.work, unit, steps.of)
+                growth = count_growth(points, unit)
+                if growth == f"~ log {unit}":
+                    rays = points_of(told.work, unit, "rays")[0][1]
+                    each = per_doubling(points) / rays
+                    growth += f" (+{each:.1f} for each ray, with twice the {unit})"
+                if growth:
+                    parts.append(f"{steps.title}{' ' if growth[0] == '~' else ': '}{growth}")
+        if not told.waiting and is_proportional(times_of(told, unit, renderer)):
+            parts.append(f"time ~ {unit} where its line is steep")
+        if parts:
+            lines.append((renderer, f"{ORDERS[renderer]}: {'; '.join(parts)}."))
+    return lines
+
+
+def smoothed(times: NDArray[np.float64]) -> NDArray[np.float64]:
+    """The median of each time and the few before it: a moment's disturbance does not show."""
+    if not len(times):
+        return times
+    padded = np.concatenate([np.repeat(times[:1], SMOOTHED - 1), times])
+    return np.median(np.lib.stride_tricks.sliding_window_view(padded, SMOOTHED), axis=1)
+
+
+def _spec(renderer: Renderer) -> implot.Spec:
+    spec = implot.Spec()
+    spec.line_color = spec.marker_fill_color = spec.marker_line_color = color_of(renderer)
+    spec.line_weight = theme.line_px(2.2)
+    return spec
+
+
+def color_of(renderer: Renderer) -> ImVec4:
+    """Blue and orange, which everybody tells apart; orange is the rays' everywhere."""
+    return theme.RAY if renderer == "ray" else theme.BASIS["w"]
+
+
+def extent(unit: Unit) -> tuple[int, int]:
+    """The least and the most that is plotted."""
+    return (
+        (100, whole_range_of(CostOptions, "triangles")[1])
+        if unit == "triangles"
+        else (1200, 1_228_800)
+    )
+
+
+def _powers_around(values: Sequence[float]) -> tuple[float, float]:
+    """The lowest and highest number on the axis: whole powers of ten around all."""
+    known = values or [1.0]
+    low = 10.0 ** np.floor(np.log10(min(known)))
+    high = 10.0 ** np.ceil(np.log10(max(known) * 1.05))
+    return float(low), float(max(high, 10 * low))
+
+
+def _written(value: float) -> str:
+    """A power of ten on an axis: 0.1, 100, 10k, 1M."""
+    for unit, letter in ((1e6, "M"), (1e3, "k")):
+        if value >= unit:
+            return f"{value / unit:g}{letter}"
+    return f"{value:g}"
+
+
+def _round_up(value: float) -> float:
+    """To 1, 2 or 5 times a power of ten, so that the axis seldom moves."""
+    power = 10.0 ** np.floor(np.log10(value))
+    return float(next(step * power for step in (1, 2, 5, 10) if step * power >= value))

@@ -1,0 +1,117 @@
+"""The cost plot as a view: it measures while it is seen, in the background.
+
+Owns what is asked of the meter. How it measures is costs/model.py's.
+"""
+
+from __future__ import annotations
+
+from dataclasses import asdict
+
+import moderngl
+from imgui_bundle import ImVec2, imgui, implot
+
+from app.costs import panel
+from app.costs.model import Case, Meter, cases, steps
+from app.host.view import Host, View
+from app.state.options import CostOptions
+from app.widgets import theme
+
+COSTS = "Costs"
+POINTS = 6  # a curve
+EXPLAINED = (
+    "Counted is what the lecture's two loops do, with a tree of boxes for the rays: the same on"
+    " every machine. Where times are flat, they are what every image costs."
+)
+
+
+class CostsView(View):
+    name = COSTS
+    title = "Costs"
+
+    def __init__(self) -> None:
+        self._meter: Meter | None = None
+        self._asked: tuple[Case, ...] = ()
+
+    @property
+    def settled(self) -> bool:
+        return self._meter is None or not self._meter.waiting
+
+    @property
+    def meter(self) -> Meter | None:
+        return self._meter
+
+    def begin(self, host: Host, context: moderngl.Context) -> None:
+        if implot.get_current_context() is None:
+            implot.create_context()
+        self._meter = Meter(host.animate)
+
+    def end(self) -> None:
+        if self._meter is not None:
+            self._meter.close()
+
+    def unseen(self, host: Host) -> None:
+        if self._meter is not None:
+            self._stop(self._meter)
+
+    def draw(self, host: Host) -> None:
+        assert self._meter is not None
+        options = host.state.options.costs
+        wanted = _cases(options)
+        kept = [one for one in self._meter.samples if one.case in wanted]
+        counted, images = self._meter.work, dict.fromkeys(case.image for case in wanted)
+        work = [counted[image] for image in images if image in counted]
+        meter = self._meter
+        told = panel.Told(work, kept, meter.history, meter.waiting, meter.problems)
+        changed, again = panel.controls(options, told)
+        if changed != options:
+            host.apply(host.state.with_options(costs=asdict(changed)))
+        if again:
+            self._meter.clear()
+            self._asked = ()
+        self._ask(self._meter, changed)
+        for renderer, problem in told.problems.items():
+            imgui.text_colored(theme.ERROR, f"{renderer}: {problem}")
+        room = imgui.get_content_region_avail()
+        said = panel.said(options, told)
+        roomy = room.y > 20 * imgui.get_font_size()
+        explained = EXPLAINED if roomy and options.against != "frames" else ""
+        notes = [line for _, line in said] + ([explained] if explained else [])
+        gap = imgui.get_style().item_spacing.y
+        below = sum(imgui.calc_text_size(note, wrap_width=room.x).y + gap for note in notes)
+        panel.plot(options, told, ImVec2(room.x, max(60.0, room.y - below - gap)))
+        imgui.push_text_wrap_pos(0.0)
+        for renderer, line in said:
+            imgui.text_colored(theme.legible(panel.color_of(renderer)), line)
+        if explained:
+            imgui.text_colored(theme.DIM, explained)
+        imgui.pop_text_wrap_pos()
+
+    def _ask(self, meter: Meter, options: CostOptions) -> None:
+        """What is to be measured now."""
+        if options.against == "frames":
+            meter.ask(())
+            self._asked = ()
+            meter.watch(options.triangles, options.pixels)
+            return
+        meter.unwatch()
+        wanted = tuple(_cases(options))
+        # Not while a slider is dragged: each of its values would be measured.
+        if wanted != self._asked and not imgui.is_any_item_active():
+            self._asked = wanted
+            meter.ask(wanted)
+
+    def _stop(self, meter: Meter) -> None:
+        meter.unwatch()
+        if self._asked:
+            meter.ask(())
+            self._asked = ()
+
+
+def _cases(options: CostOptions) -> list[Case]:
+    """A curve of each renderer; none of frames, which are watched."""
+    if options.against == "frames":
+        return []
+    counts = steps(*panel.extent(options.against), POINTS)
+    if options.against == "triangles":
+        return cases(counts, (options.pixels,))
+    return cases((options.triangles,), counts)

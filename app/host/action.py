@@ -1,0 +1,88 @@
+"""What an action is: something that a menu, a key or the command palette does; and what it may ask
+of the window.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Protocol, TypeVar
+
+from imgui_bundle import imgui
+
+from app.cameras.focus import Focus
+from app.host.stage import Stage
+from app.host.view import Filing, View
+from app.images.renderers import Renderers
+from app.state.app_state import AppState
+from app.widgets.toasts import Toasts
+
+Key = imgui.Key
+CTRL, SHIFT, ALT = int(Key.mod_ctrl), int(Key.mod_shift), int(Key.mod_alt)
+AView = TypeVar("AView", bound=View)
+
+
+class Around(Protocol):
+    """What stands around the views, as actions ask for it."""
+
+    @property
+    def stage(self) -> Stage: ...
+    @property
+    def toasts(self) -> Toasts: ...
+    def toggle_palette(self) -> None: ...
+    def toggle_help(self) -> None: ...
+    def toggle_full_screen(self) -> None: ...
+    def picture(self, view: bool = False, copy: bool = False) -> None: ...
+    def picture_as(self, view: bool = False) -> None: ...
+
+
+class Window(Protocol):
+    """What actions ask of the window. shell: what stands around the views."""
+
+    @property
+    def state(self) -> AppState: ...
+    @property
+    def focus(self) -> Focus: ...
+    def change(self, state: AppState) -> None: ...
+    def travel(self, state: AppState) -> None: ...
+    def focus_object(self) -> None: ...
+    def undo(self) -> None: ...
+    def redo(self) -> None: ...
+    def can_undo(self) -> bool: ...
+    def can_redo(self) -> bool: ...
+    @property
+    def files(self) -> Filing: ...
+    @property
+    def renderers(self) -> Renderers: ...
+    @property
+    def shell(self) -> Around: ...
+    def view(self, kind: type[AView]) -> AView:
+        """The window's own view of a class."""
+
+    def ask_resolution(self) -> None: ...
+    def ask_pixel(self) -> None: ...
+    def retry(self) -> None: ...
+    def quit(self) -> None: ...
+
+
+@dataclass(frozen=True)
+class Action:
+    """menu: where it stands, such as "View" or, for a submenu, "View/Pixels". keys: as shown;
+    chords: as ImGui takes them, any of them.
+
+    is_on: for switches. can: whether it is possible now. separated: a line above it.
+    """
+
+    menu: str
+    name: str
+    run: Callable[[Window], None]
+    keys: str = ""
+    chords: tuple[int, ...] = ()
+    is_on: Callable[[AppState], bool] | None = None
+    can: Callable[[Window], bool] | None = None
+    separated: bool = False
+
+
+def changing(change: Callable[[AppState], AppState]) -> Callable[[Window], None]:
+    """What runs a change of the state, as a step of its own."""
+    return lambda window: window.change(change(window.state))

@@ -1,0 +1,85 @@
+"""Flying through a 3D view with the keys W, A, S, D, Q and E, held with the mouse over it.
+
+Owns the keys, the speed, and what belongs to one flight. The motion is navigation.py's; which
+camera flies says the view (View.flown).
+"""
+
+from __future__ import annotations
+
+from imgui_bundle import imgui
+
+from app.cameras.navigation import flown
+from app.host.view import Host, View
+from renderer.errors import LucidaError
+
+Key = imgui.Key
+
+# Right, up and forward.
+KEYS = {
+    Key.w: (0, 0, 1),
+    Key.s: (0, 0, -1),
+    Key.a: (-1, 0, 0),
+    Key.d: (1, 0, 0),
+    Key.q: (0, -1, 0),
+    Key.e: (0, 1, 0),
+}
+SPEED = 0.35  # of the scene's reach, in a second
+FASTER = 4.0  # with Shift
+LONGEST_FRAME_S = 0.1  # a frame that took longer, or came after a rest, counts as that
+
+
+def held() -> tuple[int, int, int]:
+    """Where the keys that are down lead: right, up and forward; (0, 0, 0) where they mean
+    something else (text, a shortcut with Ctrl or Alt, a menu)."""
+    io = imgui.get_io()
+    popup = imgui.PopupFlags_.any_popup
+    if io.want_text_input or io.key_ctrl or io.key_alt or io.key_super:
+        return 0, 0, 0
+    if imgui.is_popup_open("", int(popup)):
+        return 0, 0, 0
+    ways = [way for key, way in KEYS.items() if imgui.is_key_down(key)]
+    right, up, forward = (sum(way[k] for way in ways) for k in range(3))
+    return right, up, forward
+
+
+def way_flown(reach: float, frame_s: float, faster: bool) -> float:
+    """How far a frame leads, in world units. reach: the scene's. frame_s: how long it took."""
+    return SPEED * reach * min(frame_s, LONGEST_FRAME_S) * (FASTER if faster else 1.0)
+
+
+class Fly:
+    """One flight after another. A flight lasts while keys are held, stays in the view in which it
+    began, and is one step of undo."""
+
+    def __init__(self) -> None:
+        self._view: View | None = None
+        self._number = 0
+
+    @property
+    def under_way(self) -> bool:
+        return self._view is not None
+
+    def frame(self, host: Host, over: View | None) -> None:
+        """Once a frame. over: the view that the mouse is over."""
+        right, up, forward = held()
+        if not (right or up or forward):
+            self._view = None
+            return
+        began = self._view is None
+        if began:
+            self._view = over
+            self._number += 1
+        camera = self._view.flown(host) if self._view is not None else None
+        if self._view is None or camera is None:
+            self._view = None
+            return
+        io = imgui.get_io()
+        length = way_flown(host.focus.reach, io.delta_time, io.key_shift)
+        try:
+            camera = flown(camera, right * length, up * length, forward * length)
+        except LucidaError:  # as far out as numbers go
+            return
+        # In the middle of a drag, both are one step.
+        gesture = None if imgui.is_any_item_active() else ("fly", self._number)
+        host.apply(self._view.with_flown(host.state, camera), gesture)
+        host.animate()

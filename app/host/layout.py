@@ -1,0 +1,376 @@
+"""Where the windows are docked: the layouts to choose from.
+
+Owns the dock spaces and which view stands where in each layout. Knows nothing of what the views
+show. A layout is one table: its splits, and the space of each view; a view that a layout does not
+name is docked beside the last one of its INSTRUMENTS space, hidden. HelloImGui keeps the user's
+changes of each layout, also between runs.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterable, Sequence
+from dataclasses import dataclass
+
+from imgui_bundle import hello_imgui, imgui
+
+from app.host.view import View
+
+MAIN = "MainDockSpace"  # HelloImGui's own name for what is left over
+CAMERA_SPACE = "CameraSpace"
+RIGHT_SPACE = "RightSpace"  # beside MAIN, at the same size
+LOWER_SPACE = "LowerSpace"  # below MAIN
+INSTRUMENTS = "InstrumentSpace"  # below or beside: tabs
+
+CAMERA_WIDTH_EM = 19.5
+PRESENTATION = "Presentation"  # what presentation mode shows
+LECTURE = "Lecture"  # what a lecture shows, each step in its own way
+ARRANGING_FRAMES = 3  # until the dock spaces of a layout are there again
+ROUNDED_PX = 1.5  # that ImGui gives a dock space more or less than was asked for
+LEAST_ROOM_PX = 200.0  # for both images; in less, ImGui's smallest sizes decide
+
+Split = tuple[str, str, imgui.Dir, float]  # space, new space, where, its part of the room
+
+
+@dataclass(frozen=True)
+class Layout:
+    """places: view to space, for the views that it shows, in the tabs' order."""
+
+    name: str
+    splits: tuple[Split, ...]
+    places: dict[str, str]
+
+
+_CAMERA: Split = (MAIN, CAMERA_SPACE, imgui.Dir.left, 0.0)  # its width is the panel's
+
+LAYOUTS = (
+    Layout(
+        "Side by side",
+        (
+            _CAMERA,
+            (MAIN, INSTRUMENTS, imgui.Dir.down, 0.4),
+            (MAIN, RIGHT_SPACE, imgui.Dir.right, 0.5),
+        ),
+        {"Camera": CAMERA_SPACE, "Raster": MAIN, "Ray": RIGHT_SPACE},
+    ),
+    Layout(
+        "Four views",
+        (
+            _CAMERA,
+            (MAIN, RIGHT_SPACE, imgui.Dir.right, 0.5),
+            (MAIN, LOWER_SPACE, imgui.Dir.down, 0.5),
+            (RIGHT_SPACE, INSTRUMENTS, imgui.Dir.down, 0.5),
+        ),
+        {
+            "Camera": CAMERA_SPACE,
+            "Raster": MAIN,
+            "Ray": RIGHT_SPACE,
+            "Outside": LOWER_SPACE,
+            "Compare": INSTRUMENTS,
+        },
+    ),
+    Layout(
+        "Outside view",
+        (
+            _CAMERA,
+            (MAIN, INSTRUMENTS, imgui.Dir.right, 0.34),
+            (INSTRUMENTS, RIGHT_SPACE, imgui.Dir.up, 0.5),
+        ),
+        {"Camera": CAMERA_SPACE, "Outside": MAIN, "Raster": RIGHT_SPACE, "Ray": INSTRUMENTS},
+    ),
+    Layout(
+        "Compare",
+        (
+            _CAMERA,
+            (MAIN, INSTRUMENTS, imgui.Dir.right, 0.34),
+            (INSTRUMENTS, RIGHT_SPACE, imgui.Dir.up, 0.5),
+        ),
+        {"Camera": CAMERA_SPACE, "Compare": MAIN, "Raster": RIGHT_SPACE, "Ray": INSTRUMENTS},
+    ),
+    Layout(
+        "Probe",
+        (
+            _CAMERA,
+            (MAIN, INSTRUMENTS, imgui.Dir.right, 0.46),
+            (MAIN, LOWER_SPACE, imgui.Dir.down, 0.62),
+            (MAIN, RIGHT_SPACE, imgui.Dir.right, 0.5),
+        ),
+        {
+            "Camera": CAMERA_SPACE,
+            "Raster": MAIN,
+            "Ray": RIGHT_SPACE,
+            "Outside": LOWER_SPACE,
+            "Probe": INSTRUMENTS,
+        },
+    ),
+    Layout(
+        "Loops",
+        (
+            (MAIN, RIGHT_SPACE, imgui.Dir.right, 0.27),
+            (RIGHT_SPACE, INSTRUMENTS, imgui.Dir.down, 0.5),
+        ),
+        {
+            "Stepper": MAIN,
+            "Outside": RIGHT_SPACE,
+            "Raster": INSTRUMENTS,
+            "Ray": INSTRUMENTS,
+        },
+    ),
+    Layout(
+        LECTURE,
+        (
+            (MAIN, RIGHT_SPACE, imgui.Dir.right, 0.36),
+            (MAIN, CAMERA_SPACE, imgui.Dir.left, 0.42),
+            (MAIN, LOWER_SPACE, imgui.Dir.down, 0.5),
+            (RIGHT_SPACE, INSTRUMENTS, imgui.Dir.down, 0.5),
+        ),
+        {"Raster": MAIN, "Ray": MAIN, "Outside": MAIN, "Lecture": RIGHT_SPACE},
+    ),
+    Layout(
+        PRESENTATION,
+        (
+            (MAIN, INSTRUMENTS, imgui.Dir.down, 0.4),
+            (MAIN, RIGHT_SPACE, imgui.Dir.right, 0.5),
+        ),
+        {"Raster": MAIN, "Ray": RIGHT_SPACE},
+    ),
+)
+
+
+def docking(
+    views: Sequence[View],
+    draw: Callable[[View], Callable[[], None]],
+    window_width_px: float,
+    em_px: float,
+) -> list[hello_imgui.DockingParams]:
+    """Every layout, as HelloImGui takes it; the first is the default. draw: gives the function
+    that draws a view's window."""
+    camera = camera_width_px(window_width_px, em_px) / window_width_px
+    return [_docking(layout, views, draw, camera) for layout in LAYOUTS]
+
+
+def camera_width_px(window_width_px: float, em_px: float) -> float:
+    """What the camera's panel needs for its numbers, but never more than half of a small window."""
+    return min(0.5 * window_width_px, CAMERA_WIDTH_EM * em_px)
+
+
+def current() -> Layout:
+    """The layout that is shown."""
+    name = hello_imgui.current_layout_name()
+    return next((layout for layout in LAYOUTS if layout.name == name), LAYOUTS[0])
+
+
+def switch(name: str) -> None:
+    """Shows another layout, as the user left it."""
+    if name != hello_imgui.current_layout_name() and any(name == one.name for one in LAYOUTS):
+        hello_imgui.switch_layout(name)
+
+
+def reset() -> None:
+    """The layout that is shown, as it was made."""
+    hello_imgui.get_runner_params().docking_params.layout_reset = True
+
+
+def window_of(view: View) -> hello_imgui.DockableWindow:
+    """What HelloImGui knows of a view in the layout that is shown: whether it is to be seen."""
+    params = hello_imgui.get_runner_params().docking_params
+    window = params.dockable_window_of_name(view.label)
+    assert window is not None, view.label
+    return window
+
+
+def is_placed(view: View) -> bool:
+    """Whether ImGui draws a view's window in this frame, or one that it is a tab behind. While a
+    window is on its way to a dock, it does not."""
+    window = imgui.internal.find_window_by_name(view.label)
+    if window is not None and window.dock_node is not None:
+        window = window.dock_node.visible_window
+    return window is not None and not window.hidden
+
+
+def is_to_be_made() -> bool:
+    """Whether the next frame begins with the dock spaces of a layout made anew."""
+    return bool(hello_imgui.get_runner_params().docking_params.layout_reset)
+
+
+def arrange(views: Iterable[View], places: dict[str, str]) -> None:
+    """Shows some of these views in other spaces of the present layout, and hides the rest.
+
+    places: view to space. Takes effect in the next frame; what the user has moved stands again
+    where the layout puts it. How large the spaces are is Proportion's to keep.
+    """
+    layout = current()
+    for view in views:
+        window = window_of(view)
+        window.is_visible = view.name in places
+        if view.name in places:
+            window.dock_space_name = _own(layout, places[view.name])
+    reset()
+
+
+def docks(views: Iterable[View]) -> dict[str, int]:
+    """ImGui's numbers of the docks that these views stand in, of those that are to be seen; 0 for
+    one that floats."""
+    found = {}
+    for view in views:
+        if window_of(view).is_visible:
+            window = imgui.internal.find_window_by_name(view.label)
+            found[view.name] = int(window.dock_id) if window is not None else 0
+    return found
+
+
+def whole() -> tuple[tuple[float, float], tuple[float, float]] | None:
+    """Where all views together stand, and how large that is; in ImGui's pixels."""
+    params = hello_imgui.get_runner_params().docking_params
+    number = params.dock_space_id_from_name(MAIN)
+    node = imgui.internal.dock_builder_get_node(number) if number is not None else None
+    if node is None:
+        return None
+    while parent := node.parent_node:
+        node = parent
+    return (node.pos.x, node.pos.y), (node.size.x, node.size.y)
+
+
+@dataclass
+class _Share:
+    """A space's part of what it was split off from. room: of that, when the part was last kept;
+    size: that it was given then, which ImGui rounds: a part that was taken from rounded sizes
+    would creep with each change; settling: frames until the new sizes are there; again: frames in
+    which they are made anew."""
+
+    part: float = 0.5
+    room: float = 0.0
+    size: float = 0.0
+    settling: int = 0
+    again: int = 0
+
+    def keep(self, node: imgui.internal.DockNode, parent: imgui.internal.DockNode, x: bool) -> None:
+        size, room = (node.size.x, parent.size.x) if x else (node.size.y, parent.size.y)
+        kept = (node.size_ref.x, parent.size_ref.x) if x else (node.size_ref.y, parent.size_ref.y)
+        if not self.room and 0 < kept[0] < kept[1]:
+            self.part = kept[0] / kept[1]  # as saved, or the layout's
+        if room != self.room or self.again:
+            self.again = max(0, self.again - 1)
+            size = max(1.0, self.part * room)
+            new = (size, node.size.y) if x else (node.size.x, size)
+            imgui.internal.dock_builder_set_node_size(node.id_, new)
+            self.room, self.size, self.settling = room, size, 2
+        elif self.settling:
+            self.settling -= 1
+        elif room > LEAST_ROOM_PX and abs(size - self.size) > ROUNDED_PX:  # moved by the user
+            self.part, self.size = size / room, size
+
+
+class Proportion:
+    """Keeps the spaces' shares of the room when the window is resized, and the camera's panel as
+    wide as its numbers are.
+
+    ImGui would give all of the difference to one of them. The user's own division stays, also
+    when the views are arranged anew.
+    """
+
+    def __init__(self) -> None:
+        self._layout = ""
+        self._shares: dict[tuple[str, str], _Share] = {}  # by layout and space
+        self._em_px = 0.0
+        self._camera = (0.0, 0.0)  # its width when it was last seen; that in em, not rounded
+        self._arranged = 0
+
+    def keep(self, arranged: int = 0) -> None:
+        """Call once a frame. arranged: another number when arrange() has been called since."""
+        layout = current()
+        anew = arranged != self._arranged or layout.name != self._layout
+        self._arranged, self._layout = arranged, layout.name
+        if not imgui.is_mouse_down(imgui.MouseButton_.left):
+            self._widen_camera()
+        for whole, space, direction, _ in layout.splits:
+            # The camera's width is its numbers'. What is not beside MAIN, ImGui divides as it was.
+            if whole != MAIN or space == CAMERA_SPACE:
+                continue
+            across = direction in (imgui.Dir.left, imgui.Dir.right)
+            node = _side(_node(space), imgui.internal.Axis.x if across else imgui.internal.Axis.y)
+            parent = node.parent_node if node is not None else None
+            if node is None or parent is None or min(*parent.size, *node.size) <= 0:
+                continue
+            share = self._shares.setdefault((layout.name, space), _Share())
+            if anew and share.room:
+                share.again = ARRANGING_FRAMES
+            share.keep(node, parent, across)
+
+    def _widen_camera(self) -> None:
+        """A window that was restored, or enlarged, may leave the panel less than it needs; its
+        width follows the type's size."""
+        node = _node(CAMERA_SPACE)
+        parent = node.parent_node if node is not None else None
+        if node is None or parent is None or not (parent.size.x > 0 and node.size.y > 0):
+            return
+        em_px = imgui.get_font_size()
+        least = math.floor(camera_width_px(parent.size.x, em_px))
+        follows = em_px != self._em_px and self._em_px > 0  # the type's size has changed
+        if abs(node.size.x - self._camera[0]) > ROUNDED_PX:  # moved by the user
+            self._camera = node.size.x, node.size.x / (self._em_px or em_px)
+        width = self._camera[1] * em_px
+        self._em_px = em_px
+        short = node.size.x < (least - 1 if least == self._camera[0] else least)
+        if least >= 1 and (follows or short):
+            width = max(min(width, 0.5 * parent.size.x) if follows else 0.0, least)
+            imgui.internal.dock_builder_set_node_size(node.id_, (width, node.size.y))
+            self._camera = width, self._camera[1]
+
+
+def _side(
+    node: imgui.internal.DockNode | None, axis: imgui.internal.Axis
+) -> imgui.internal.DockNode | None:
+    """The node, or the one round it, that stands beside (x), or above or below (y), another."""
+    while node is not None:
+        parent = node.parent_node
+        if parent is None or parent.split_axis == axis:
+            return node
+        node = parent
+    return None
+
+
+def _docking(
+    layout: Layout,
+    views: Sequence[View],
+    draw: Callable[[View], Callable[[], None]],
+    camera: float,
+) -> hello_imgui.DockingParams:
+    params = hello_imgui.DockingParams()
+    params.layout_name = layout.name
+    params.docking_splits = [
+        _split(_own(layout, space), _own(layout, new), direction, ratio or camera)
+        for space, new, direction, ratio in layout.splits
+    ]
+    windows = []
+    for view in views:
+        space = _own(layout, layout.places.get(view.name, INSTRUMENTS))
+        window = hello_imgui.DockableWindow(view.label, space, draw(view))
+        window.is_visible = view.name in layout.places
+        window.call_begin_end = False
+        windows.append(window)
+    params.dockable_windows = windows
+    # A tab has a close button already.
+    params.main_dock_space_node_flags = int(imgui.internal.DockNodeFlagsPrivate_.no_close_button)
+    return params
+
+
+def _own(layout: Layout, space: str) -> str:
+    """A layout's own name of a space: HelloImGui keeps one table of names for all layouts."""
+    return MAIN if space == MAIN else f"{space} of {layout.name}"
+
+
+def _node(space: str) -> imgui.internal.DockNode | None:
+    """A dock space of the layout that is shown; None while it is not there."""
+    params = hello_imgui.get_runner_params().docking_params
+    number = params.dock_space_id_from_name(_own(current(), space))
+    return imgui.internal.dock_builder_get_node(number) if number is not None else None
+
+
+def _split(
+    space: str, new_space: str, direction: imgui.Dir, ratio: float
+) -> hello_imgui.DockingSplit:
+    split = hello_imgui.DockingSplit()
+    split.initial_dock, split.new_dock = space, new_space
+    split.direction, split.ratio = direction, ratio
+    return split

@@ -1,0 +1,340 @@
+"""Which views are to be seen: shown, hidden, in front, or one of them over all the others.
+
+Owns the views' ImGui windows and what is transient about them: the focus, the one that is
+maximised, where each stands. Knows nothing of what views show. Layouts are layout.py's.
+"""
+
+from __future__ import annotations
+
+import sys
+import traceback
+from collections.abc import Callable
+
+import moderngl
+from imgui_bundle import imgui
+
+from app.host import layout
+from app.host.view import Host, View
+from app.images.textures import FAILURES
+from app.state.options import Preferences
+from app.storage.session import Arrangement
+from app.widgets.messages import failure_note
+
+Rect = tuple[float, float, float, float]  # left, top, right, bottom, ImGui's pixels
+LAID_OUT = 3  # frames that it takes until every window has its place
+
+
+class Stage:
+    """All views of a window. maximised: the name of the one that covers the others, or "".
+
+    focused: the name of the one that has the keyboard, or "". rects: what each one's content
+    takes, of those that were drawn in this frame or the one before. failures: of views that could
+    not be drawn, until somebody tries again.
+    """
+
+    def __init__(self, views: list[View]) -> None:
+        self.views = {view.name: view for view in views}
+        self.maximised = ""
+        self.focused = ""
+        self.rects: dict[str, Rect] = {}
+        self.failures: dict[str, Exception] = {}
+        self._to_begin: dict[str, Callable[[], None]] = {}  # of those that could not
+        self._next_focus = ""
+        self._keyboard = self._next_keyboard = ""  # as focused, but "" while something else has it
+        self._hovered: View | None = None
+        self._restoring: Arrangement | None = None
+        self._presenting = False
+        self._before = layout.LAYOUTS[0].name, ""  # presentation mode: layout and focus
+        self._keyboard_for: str | None = None  # who gets it once all have their places
+        self._frames = 0
+        self._layout = ""  # that of the frame before
+        self._placing = LAID_OUT  # frames until the windows have their places
+
+    def begin(self, view: View, host: Host, context: moderngl.Context) -> None:
+        """Once for each view, when there is a context. One that fails (a shader that the driver
+        does not take) says so in its place, where it is tried again; the others go on."""
+        try:
+            view.begin(host, context)
+        except FAILURES as error:
+            self.failures[view.name] = error
+            self._to_begin[view.name] = lambda: self.begin(view, host, context)
+
+    def retry(self) -> None:
+        """Tries again what has failed."""
+        for name in list(self.failures):
+            self._retry(name)
+
+    def _retry(self, name: str) -> None:
+        del self.failures[name]
+        self._to_begin.pop(name, _nothing)()
+
+    @property
+    def settled(self) -> bool:
+        """Whether the views are laid out, and nothing will change by itself in those to be seen."""
+        if self._frames < LAID_OUT or self.failures:
+            return False
+        return all(self.views[name].settled for name in self.rects)
+
+    def place(self) -> bool:
+        """Whether windows are still on their way to their places; call once a frame, when all of
+        it has been laid out."""
+        name = layout.current().name
+        if name != self._layout or self._restoring is not None or layout.is_to_be_made():
+            self._placing = LAID_OUT
+        else:
+            self._placing = max(0, self._placing - 1)
+        self._layout = name
+        return self._placing > 0 or not all(layout.is_placed(view) for view in self.shown)
+
+    # What actions ask for.
+
+    @property
+    def shown(self) -> list[View]:
+        """The views that are to be seen, or are tabs behind others."""
+        return [view for view in self.views.values() if layout.window_of(view).is_visible]
+
+    def is_shown(self, name: str) -> bool:
+        return layout.window_of(self.views[name]).is_visible
+
+    def show(self, name: str, shown: bool = True) -> None:
+        """Shows a view and gives it the keyboard; or hides it."""
+        layout.window_of(self.views[name]).is_visible = shown
+        if shown:
+            self._next_focus = name
+        elif self.maximised == name:
+            self.maximised = ""
+
+    def focus_next(self, step: int) -> None:
+        """Gives the keyboard to the next view, or the one before (step -1)."""
+        names = [view.name for view in self.shown]
+        if names:
+            here = names.index(self.focused) if self.focused in names else -max(step, 0)
+            self._next_focus = names[(here + step) % len(names)]
+
+    def maximise(self, name: str = "") -> None:
+        """Lets a view cover all others, or ends that. name: "" for the one that has the focus."""
+        name = name or self.focused or self.maximised
+        was = self.maximised
+        self.maximised = "" if was or not name else name
+        self._next_focus = self.maximised or was
+
+    def follow(self, preferences: Preferences) -> None:
+        """Presentation mode has a layout of its own, except in a lecture, which is made to be
+        presented; call once a frame, before the views."""
+        self._frames += 1
+        self._restore()
+        if preferences.presentation != self._presenting:
+            self._presenting = preferences.presentation
+            if self._presenting and layout.current().name != layout.LECTURE:
+                self._before = layout.current().name, self.keyboard
+                self._keyboard_for = None
+                layout.switch(layout.PRESENTATION)
+            elif layout.current().name == layout.PRESENTATION:
+                name, focused = self._before
+                layout.switch(name if name != layout.PRESENTATION else layout.LAYOUTS[0].name)
+                self.give_keyboard(focused)
+        self._give_keyboard()
+        if self._next_focus:
+            name, self._next_focus = self._next_focus, ""
+            if self.maximised and self.maximised != name:
+                self.maximised = name
+            view = self.views[name]
+            imgui.set_window_focus(_large_label(view) if self.maximised else view.label)
+
+    @property
+    def keyboard(self) -> str:
+        """The view that has the keyboard, or is to get it; "" for none."""
+        return self._keyboard if self._keyboard_for is None else self._keyboard_for
+
+    def give_keyboard(self, name: str) -> None:
+        """Gives a view the keyboard, "" for none, once all windows have their places: ImGui gives
+        it to any that it docks."""
+        self._keyboard_for, self._placing = name, max(self._placing, 1)
+
+    def _give_keyboard(self) -> None:
+        if self._keyboard_for is None or self._placing > 0:
+            return
+        name, self._keyboard_for = self._keyboard_for, None
+        if not name:
+            imgui.set_window_focus(None)
+        elif self.is_shown(name):
+            self._next_focus = name
+
+    def take_hovered(self) -> View | None:
+        """The view that the mouse was over in the last frame; call once a frame."""
+        hovered, self._hovered = self._hovered, None
+        self._keyboard, self._next_keyboard = self._next_keyboard, ""
+        return hovered
+
+    # Sessions.
+
+    def arrangement(self) -> Arrangement:
+        """Where everything stands now."""
+        visible = tuple(view.name for view in self.shown)
+        kept = {view.name: view.sections for view in self.views.values()}
+        sections = {name: opened for name, opened in kept.items() if opened is not None}
+        windows = imgui.save_ini_settings_to_memory()
+        name, large = layout.current().name, self.maximised
+        return Arrangement(name, visible, windows, sections, large, self._keyboard)
+
+    def restore(self, arrangement: Arrangement, presenting: bool) -> None:
+        """Puts everything where it stood; in the next frames."""
+        self._restoring = arrangement
+        self._presenting = presenting
+        for name, opened in arrangement.sections.items():
+            if name in self.views:
+                self.views[name].open_sections(opened)
+
+    def begin_afresh(self) -> None:
+        """Where no session is gone on with: HelloImGui shows the layout of the last window, which
+        may be one that is empty outside of a lecture or of presentation mode."""
+        empty = layout.LECTURE, layout.PRESENTATION
+        if self._frames == 2 and self._restoring is None and layout.current().name in empty:
+            layout.switch(layout.LAYOUTS[0].name)
+
+    def _restore(self) -> None:
+        if self._restoring is None or self._frames < 2:
+            return
+        if self._frames == 2 and self._restoring.layout:
+            layout.switch(self._restoring.layout)
+            return
+        if layout.current().name == self._restoring.layout:
+            for view in self.views.values():
+                visible = view.name in self._restoring.visible
+                layout.window_of(view).is_visible = visible
+            if self._restoring.maximised in self._restoring.visible:
+                self.maximised = self._restoring.maximised
+            focused = self._restoring.focused
+            self.give_keyboard(focused if focused in self._restoring.visible else "")
+        self._restoring = None
+
+    def before_frame(self) -> None:
+        """Between two frames, when ImGui takes settings."""
+        waiting = self._restoring
+        if waiting is not None and self._frames == 2 and waiting.windows:
+            imgui.load_ini_settings_from_memory(waiting.windows)
+
+    # Drawing.
+
+    def leave_out_hidden(self, host: Host) -> None:
+        """Once a frame: HelloImGui does not ask views to be drawn that are hidden."""
+        for view in self.views.values():
+            if not layout.window_of(view).is_visible:
+                self._leave_out(view, host)
+
+    def draw(self, view: View, host: Host) -> None:
+        """A view's ImGui window, where it is shown."""
+        window = layout.window_of(view)
+        large = self.maximised == view.name
+        padding = view.padding
+        if padding is not None:
+            imgui.push_style_var(imgui.StyleVar_.window_padding, padding)
+        opened, visible = imgui.begin(view.label, True, view.flags)
+        if not visible:  # closed; whoever hides it meanwhile is not overruled
+            window.is_visible = False
+        if padding is not None:
+            imgui.pop_style_var()
+        try:
+            if imgui.is_item_hovered() and imgui.is_mouse_double_clicked(imgui.MouseButton_.left):
+                self.maximise(view.name)  # the last item is the tab
+            self._note_focus(view)
+            if opened and not self.maximised:
+                self._draw_content(view, host)
+            elif not large:
+                self._leave_out(view, host)
+        finally:
+            imgui.end()
+        if large:
+            self._draw_large(view, host)
+
+    def _draw_large(self, view: View, host: Host) -> None:
+        """The view over all the others; with another id, so that its dock stays as it is."""
+        place = layout.whole()
+        if place is None:
+            return
+        imgui.set_next_window_pos(place[0])
+        imgui.set_next_window_size(place[1])
+        if view.padding is not None:
+            imgui.push_style_var(imgui.StyleVar_.window_padding, view.padding)
+        imgui.push_style_var(imgui.StyleVar_.window_rounding, 0.0)
+        flags = imgui.WindowFlags_
+        _, still_open = imgui.begin(
+            _large_label(view),
+            True,
+            view.flags
+            | flags.no_docking
+            | flags.no_collapse
+            | flags.no_resize
+            | flags.no_move
+            | flags.no_saved_settings,
+        )
+        imgui.pop_style_var(1 if view.padding is None else 2)
+        try:
+            if imgui.is_item_hovered() and imgui.is_mouse_double_clicked(imgui.MouseButton_.left):
+                still_open = False
+            if imgui.is_window_focused(imgui.FocusedFlags_.root_and_child_windows):
+                self.focused = self._next_keyboard = view.name
+            self._draw_content(view, host)
+        finally:
+            imgui.end()
+        if not still_open:
+            self.maximise()
+
+    def _draw_content(self, view: View, host: Host) -> None:
+        corner, room = imgui.get_cursor_screen_pos(), imgui.get_content_region_avail()
+        if imgui.is_window_hovered(imgui.HoveredFlags_.root_and_child_windows):
+            self._hovered = view
+        self.rects[view.name] = (corner.x, corner.y, corner.x + room.x, corner.y + room.y)
+        failure = self.failures.get(view.name)
+        if failure is not None:
+            if failure_note(view.title, failure):
+                self._retry(view.name)
+            return
+        stacks = imgui.internal.ErrorRecoveryState()
+        imgui.internal.error_recovery_store_state(stacks)
+        try:
+            view.draw(host)
+        except Exception as error:  # whatever it is, the other views go on
+            if not isinstance(error, FAILURES):  # a mistake of ours: where it is
+                traceback.print_exception(error, file=sys.stderr)
+            self.failures[view.name] = error
+            _unwind(stacks)
+
+    def _leave_out(self, view: View, host: Host) -> None:
+        """A view that is not to be seen in this frame: no image is fitted to it any more."""
+        self.rects.pop(view.name, None)
+        host.renderers.forget_pane(view.name)
+        view.unseen(host)
+
+    def _note_focus(self, view: View) -> None:
+        if imgui.is_window_focused(imgui.FocusedFlags_.root_and_child_windows):
+            self.focused = self._next_keyboard = view.name
+            if self.maximised and self.maximised != view.name:
+                self.maximised = self._next_focus = view.name  # by Ctrl+Tab, for instance
+
+
+def _nothing() -> None:
+    pass
+
+
+def _unwind(stacks: imgui.internal.ErrorRecoveryState) -> None:
+    """Ends what a view had begun in ImGui when it failed; nothing of that is a mistake."""
+    io = imgui.get_io()
+    told = (
+        io.config_error_recovery_enable_assert,
+        io.config_error_recovery_enable_debug_log,
+        io.config_error_recovery_enable_tooltip,
+    )
+    io.config_error_recovery_enable_assert = False
+    io.config_error_recovery_enable_debug_log = False
+    io.config_error_recovery_enable_tooltip = False
+    imgui.internal.error_recovery_try_to_recover_state(stacks)
+    (
+        io.config_error_recovery_enable_assert,
+        io.config_error_recovery_enable_debug_log,
+        io.config_error_recovery_enable_tooltip,
+    ) = told
+
+
+def _large_label(view: View) -> str:
+    return f"{view.title}###{view.name} maximised"

@@ -1,0 +1,110 @@
+"""A raster image that is drawn over several frames, because one has no time for all its triangles,
+or for all its pixels.
+
+Owns how far it is. Knows nothing of who wants it, and of when. A GPU draws a million triangles in a
+part of a frame: then there is one part. Where OpenGL runs on the CPU, the window's own thread
+transforms every vertex, and waits for every pixel.
+"""
+
+from __future__ import annotations
+
+import time
+
+from app.images.progressive_ray import reduced
+from renderer.camera import Camera
+from renderer.raster import Rasterizer
+from renderer.raster.targets import Textures
+
+PART_S = 0.005  # what a part may take of the window's thread
+WORTH_S = 0.015  # an image whose triangles take less is drawn at once
+FEWEST = 10_000  # triangles a part
+STRIP_S = 0.02  # what a part may take to be shaded
+STRIP_PIXELS = 1 << 16  # a part, at least: a small image says little of what a large one takes
+
+
+class Pace:
+    """What a triangle takes of the window's thread, as measured: of its processor time, which
+    other programs do not lengthen."""
+
+    def __init__(self) -> None:
+        self._triangle_s = 0.0
+
+    def measured(self, triangles: int, time_s: float) -> None:
+        if triangles < FEWEST or time_s <= 0.0:  # other things take the time; a coarse clock
+            return
+        triangle_s = time_s / triangles
+        # Parts that are to be seen take longer than others: at once slower, then quicker by halves.
+        if self._triangle_s > triangle_s:
+            triangle_s = (self._triangle_s + triangle_s) / 2
+        self._triangle_s = triangle_s
+
+    def part_of(self, triangles: int) -> int:
+        """How many of so many triangles to draw in a frame."""
+        if self._triangle_s * triangles <= WORTH_S:
+            return triangles
+        return min(max(int(PART_S / self._triangle_s), FEWEST), triangles)
+
+
+class Drawing:
+    """An image of a rasterizer's scene, reduced by `factor`.
+
+    places: two of the rasterizer's (see Rasterizer.draw). shown: the one that is seen meanwhile,
+    which an image in several parts leaves alone. expected_s: what shading is likely to take of the
+    GPU, or of what stands in for it. at_once: in one part, whatever it takes.
+    """
+
+    def __init__(
+        self,
+        rasterizer: Rasterizer,
+        camera: Camera,
+        size: tuple[int, int],
+        factor: int,
+        places: tuple[str, str],
+        shown: str | None,
+        pace: Pace,
+        expected_s: float = 0.0,
+        at_once: bool = False,
+    ) -> None:
+        self.factor = factor
+        self.size = reduced(size, factor)
+        width, height = self.size
+        self._rasterizer, self._camera, self._pace = rasterizer, camera, pace
+        rows = height if expected_s <= STRIP_S else int(height * STRIP_S / expected_s)
+        self._rows = min(max(rows, STRIP_PIXELS // width, 1), height)  # a strip
+        is_quick = self._rows == height and pace.part_of(self._triangles) == self._triangles
+        self._is_whole = at_once or is_quick
+        self.place = places[0] if self._is_whole or places[0] != shown else places[1]
+        self._first = self._first_row = 0
+        self._is_prepared = self._is_seen = False
+
+    @property
+    def _triangles(self) -> int:
+        return self._rasterizer.triangles
+
+    def go_on(self) -> Textures | None:
+        """Draws the next part; the image, once it is complete. Raises LucidaError."""
+        what, height = (self._camera, self.size, self.place), self.size[1]
+        start_s = time.thread_time()
+        if self._is_whole:
+            drawn = self._rasterizer.draw(*what)
+            self._pace.measured(self._triangles, time.thread_time() - start_s)
+            return drawn
+        if not self._is_seen:
+            count = self._next()
+            self._is_seen = self._rasterizer.see(*what, self._first, count)
+            self._pace.measured(count, time.thread_time() - start_s)
+            self._first += count
+            if not self._is_seen or self._rows < height:
+                return None
+        rows = self._first_row, min(self._first_row + self._rows, height)
+        shaded = self._rasterizer.shade(*what, rows)
+        self._first_row = rows[1]
+        return shaded if rows[1] == height else None
+
+    def _next(self) -> int:
+        """How many triangles are next."""
+        count = self._pace.part_of(self._triangles)
+        if count < self._triangles and not self._is_prepared:
+            count = 0  # tables of all triangles are made for the camera: enough for one frame
+        self._is_prepared = True
+        return min(count, self._triangles - self._first)

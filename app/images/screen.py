@@ -1,0 +1,97 @@
+"""From the pixels of an image to places on the screen, and back.
+
+Owns the conversion between framebuffer pixels, in which images are placed, and ImGui's units.
+Knows nothing of what is drawn there.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+from imgui_bundle import ImVec2, imgui
+
+from app.images.placement import Placement
+from app.state.options import Pixel
+from app.widgets.theme import framebuffer_scale
+
+Box = tuple[ImVec2, ImVec2]  # upper left and lower right corner
+MAIN_DOCK = "MainDockSpace"  # HelloImGui's window that all others are docked in
+
+
+def available_px() -> tuple[int, int]:
+    """What is left of the current window's content, (width, height) in framebuffer pixels."""
+    avail, scale = imgui.get_content_region_avail(), framebuffer_scale()
+    return max(1, math.floor(avail.x * scale)), max(1, math.floor(avail.y * scale))
+
+
+def is_at_the_bottom() -> bool:
+    """Whether the current window has nothing but the background under it: it is docked, and not in
+    a floating window."""
+    root = imgui.internal.get_current_window().root_window_dock_tree
+    return imgui.is_window_docked() and root.name.startswith(MAIN_DOCK)
+
+
+@dataclass(frozen=True)
+class Screen:
+    """An image's place on the screen. corner: of its window's content, on a whole pixel.
+
+    scale: framebuffer pixels in a unit.
+    """
+
+    placement: Placement
+    corner: ImVec2
+    scale: float
+
+    @classmethod
+    def here(cls, placement: Placement) -> Screen:
+        """At the current window's cursor."""
+        scale, at = framebuffer_scale(), imgui.get_cursor_screen_pos()
+        corner = ImVec2(math.floor(at.x * scale) / scale, math.floor(at.y * scale) / scale)
+        return cls(placement, corner, scale)
+
+    @property
+    def pane(self) -> Box:
+        """All of the window's content, but for the rulers."""
+        near, far = self.placement.margin, self.placement.pane
+        return self._point(*map(float, near)), self._point(*map(float, far))
+
+    @property
+    def visible(self) -> Box:
+        """What is seen of the image."""
+        left, top, right, bottom = map(float, self.placement.visible)
+        return self._point(left, top), self._point(right, bottom)
+
+    @property
+    def visible_px(self) -> tuple[int, int, int, int]:
+        """Left, top, right, bottom of it in framebuffer pixels of the main window."""
+        at = imgui.get_main_viewport().pos
+        x = round((self.corner.x - at.x) * self.scale)
+        y = round((self.corner.y - at.y) * self.scale)
+        left, top, right, bottom = self.placement.visible
+        return x + left, y + top, x + right, y + bottom
+
+    @property
+    def cell(self) -> tuple[float, float]:
+        """Width and height of an image's pixel, in units."""
+        width, height = self.placement.unit
+        return width / self.scale, height / self.scale
+
+    def pane_px(self, mouse: ImVec2) -> tuple[float, float]:
+        """A place of the screen in framebuffer pixels from the window's corner."""
+        return (mouse.x - self.corner.x) * self.scale, (mouse.y - self.corner.y) * self.scale
+
+    def pixel(self, mouse: ImVec2) -> Pixel:
+        """The pixel under the mouse; beside the image, the nearest."""
+        return self.placement.pixel_at(*self.pane_px(mouse))
+
+    def position(self, mouse: ImVec2) -> tuple[float, float]:
+        """Row and column of the mouse, where a pixel's centre has whole numbers."""
+        return self.placement.image_position(*self.pane_px(mouse))
+
+    def point(self, row: float, column: float) -> ImVec2:
+        """Where a pixel's upper left corner is."""
+        return self._point(*self.placement.corner_of(row, column))
+
+    def _point(self, x: float, y: float) -> ImVec2:
+        return ImVec2(self.corner.x + x / self.scale, self.corner.y + y / self.scale)

@@ -1,0 +1,98 @@
+"""What a stored image costs on disk, and the files themselves.
+
+Owns which kind goes into which format. Knows nothing of the formats (renderer/images/).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from app.laboratory.kinds import BITMAP, COLOR, FLOAT, GRAY, HALF, Kind
+from app.laboratory.stored import store
+from renderer.atomic import atomic_write
+from renderer.images import check_image_path, encode_array
+
+
+@dataclass(frozen=True)
+class Format:
+    """A file format for a kind. note: how it keeps the numbers."""
+
+    kind: Kind
+    ending: str
+    note: str
+
+    @property
+    def name(self) -> str:
+        return self.ending[1:].upper()
+
+
+FORMATS = (
+    Format(BITMAP, ".pbm", "as they are, 8 pixels a byte"),
+    Format(BITMAP, ".png", "compressed, lossless"),
+    Format(GRAY, ".pgm", "as they are"),
+    Format(GRAY, ".png", "compressed, lossless"),
+    Format(COLOR, ".ppm", "as they are"),
+    Format(COLOR, ".png", "compressed, lossless"),
+    Format(HALF, ".exr", "compressed, lossless"),
+    Format(FLOAT, ".pfm", "as they are"),
+    Format(FLOAT, ".exr", "compressed, lossless"),
+)
+
+
+@dataclass(frozen=True)
+class Entry:
+    """A line of the table. storage_bytes: of the pixels in memory. file_bytes: of the file."""
+
+    format: Format
+    storage_bytes: int
+    file_bytes: int
+
+
+def encoded(array: NDArray, format: Format) -> bytes:
+    """The file of a stored array; array: as stored.Stored has it for the format's kind."""
+    return encode_array(np.ascontiguousarray(array), format.ending)
+
+
+def sizes(
+    color: ArrayLike,
+    taken_ev: float = 0.0,
+    method: str = "threshold",
+    cancelled: Callable[[], bool] = lambda: False,
+) -> tuple[Entry, ...]:
+    """The size of every file of a linear image (H, W, 3): encodes each of them in memory.
+
+    It takes a second or so for a large image: call it in a thread. cancelled: asked between the
+    files; the entries so far are given where it says yes.
+    """
+    entries: list[Entry] = []
+    kept = None
+    for format in FORMATS:
+        if cancelled():
+            break
+        if kept is None or kept.kind is not format.kind:
+            kept = store(color, format.kind, taken_ev, method)
+        entries.append(Entry(format, kept.storage_bytes, len(encoded(kept.array, format))))
+    return tuple(entries)
+
+
+def export(
+    path: str | Path,
+    color: ArrayLike,
+    kind: Kind,
+    taken_ev: float = 0.0,
+    method: str = "threshold",
+) -> int:
+    """Writes a linear image (H, W, 3) as it is kept in `kind`, whole or not at all; gives the
+    file's bytes. Raises LucidaError for an ending that cannot hold the kind, or a bad place."""
+    endings = tuple(entry.ending for entry in FORMATS if entry.kind is kind)
+    ending = check_image_path(path, endings)
+    format = next(f for f in FORMATS if f.kind is kind and f.ending == ending)
+    content = encoded(store(color, kind, taken_ev, method).array, format)
+    with atomic_write(path) as file:
+        file.write(content)
+    return len(content)

@@ -1,0 +1,256 @@
+"""The laboratory's pages: what each shows of an image, as pictures of the very size of the screen.
+
+Pure: arrays in, pictures and words out; meant for a thread. Knows nothing of windows and texts'
+sizes. Screen sizes are (width, height) in framebuffer pixels.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from app.laboratory import displays, light
+from app.laboratory.bitmaps import TITLES
+from app.laboratory.kinds import BITMAP, COLOR, FLOAT, GRAY, KINDS
+from app.laboratory.stored import clipped, levels, shown, store
+from app.state.bounds import range_of
+from app.state.options import LaboratoryOptions, Pixel
+from renderer.images.display import Bytes, to_srgb8
+from renderer.scene.reading import size_text
+
+Size = tuple[int, int]
+Image = NDArray[np.float32]
+
+_, LARGEST_APART = range_of(LaboratoryOptions, "apart")
+DOT_PX = 2  # a side of a bitmap's pixel, so that a class sees it
+SMALLEST_CELL = 8
+
+
+@dataclass(frozen=True, eq=False)
+class Panel:
+    """A picture with a heading. region: first row and column, rows and columns of the pixels that
+    another panel magnifies. magnification: screen pixels a side of an image's pixel; 0: not a
+    plain picture of the image. first: the image's pixel, row and column, at its corner. at_work:
+    pixels that a display addresses, as in region."""
+
+    title: str
+    caption: str
+    picture: Bytes
+    magnification: int = 0
+    first: Pixel = (0, 0)
+    region: displays.Region | None = None
+    at_work: displays.Region | None = None
+
+
+@dataclass(frozen=True)
+class Plan:
+    """How a page divides its room. columns, rows: of cells. cell: the size of one. image: the
+    size that the image should have. magnification: screen pixels a side of an image's pixel."""
+
+    columns: int
+    rows: int
+    cell: Size
+    image: Size
+    magnification: int
+
+
+def plan(page: str, room: Size, heading_px: int, gap_px: int, resolution: Size | None) -> Plan:
+    """The division of a page's room. heading_px: of the text over each picture. resolution: the
+    image's, where it is fixed."""
+    wide = room[0] > 1.15 * room[1]
+    columns, rows = {
+        "kinds": (3, 2) if wide else (2, 3),
+        "bitmaps": (2, 2),
+        "projectors": (1, 1),
+        "array": (2, 2) if wide else (1, 4),  # the image, the cells, the program, the memory
+    }.get(page, (2, 1) if wide else (1, 2))
+    cell = (
+        max(SMALLEST_CELL, (room[0] - (columns - 1) * gap_px) // columns),
+        max(SMALLEST_CELL, (room[1] - (rows - 1) * gap_px) // rows - heading_px),
+    )
+    free = cell
+    if page == "projectors":  # room to move them apart
+        height = int(cell[1] / (1 + 1.5 * LARGEST_APART))
+        free = max(SMALLEST_CELL, cell[0] - int(1.74 * LARGEST_APART * height)), height
+    if resolution is not None:
+        fitting = max(1, min(free[0] // resolution[0], free[1] // resolution[1]))
+        return Plan(columns, rows, cell, resolution, fitting)
+    dot = DOT_PX if page == "bitmaps" and min(cell) > 200 else 1
+    return Plan(columns, rows, cell, (max(1, free[0] // dot), max(1, free[1] // dot)), dot)
+
+
+def panels(
+    page: str, color: Image, plan: Plan, options: LaboratoryOptions, taken_ev: float, pixel: Pixel
+) -> tuple[Panel, ...]:
+    """The pictures of a page. color: (H, W, 3), linear. pixel: what is looked at, 0-based."""
+    return PAGES[page](color, plan, options, taken_ev, pixel)
+
+
+def _kinds(
+    color: Image, plan: Plan, options: LaboratoryOptions, taken_ev: float, pixel: Pixel
+) -> tuple[Panel, ...]:
+    found = []
+    for kind in KINDS:
+        kept = store(color, kind, taken_ev, options.method)
+        bits = "1 bit" if kind.bits == 1 else f"{kind.bits} bits"
+        caption = f"{bits} a pixel, {size_text(kept.storage_bytes)}"
+        picture = shown(kept, options.after_ev)
+        found.append(_whole(kind.title, caption, picture, plan))
+    return tuple(found)
+
+
+def _bitmaps(
+    color: Image, plan: Plan, options: LaboratoryOptions, taken_ev: float, pixel: Pixel
+) -> tuple[Panel, ...]:
+    gray = store(color, GRAY, taken_ev)
+    found = [_whole("Grayscale", "8 bits per pixel", shown(gray), plan)]
+    for method, title in TITLES.items():
+        kept = store(color, BITMAP, taken_ev, method)
+        white = f"{100 * float(kept.array.mean()):.1f} % white"
+        found.append(_whole(title, white, shown(kept), plan))
+    return tuple(found)
+
+
+def _exposure(
+    color: Image, plan: Plan, options: LaboratoryOptions, taken_ev: float, pixel: Pixel
+) -> tuple[Panel, ...]:
+    lost = 100 * float(clipped(color, taken_ev).mean())
+    found = []
+    for kind in (COLOR, FLOAT):
+        picture = shown(store(color, kind, taken_ev), options.after_ev)
+        clip = "nothing" if kind.is_float else f"{lost:.1f} % of the pixels"
+        caption = f"{levels(picture)} levels; clipped: {clip}"
+        found.append(_whole(f"{kind.title}, {kind.bits} bits", caption, picture, plan))
+    return tuple(found)
+
+
+def _projectors(
+    color: Image, plan: Plan, options: LaboratoryOptions, taken_ev: float, pixel: Pixel
+) -> tuple[Panel, ...]:
+    distance = options.apart * color.shape[0]
+    if options.content == "test":
+        color, taken_ev = light.disc(*color.shape[:2]), 0.0
+    wall = light.projected(color, light.triangle(distance), taken_ev)
+    words = "aligned" if not distance else "apart"
+    title = "Three projectors: red, green, blue"
+    return (_whole(title, f"{words}; where pictures overlap, their light adds", wall, plan),)
+
+
+def _subpixels(
+    color: Image, plan: Plan, options: LaboratoryOptions, taken_ev: float, pixel: Pixel
+) -> tuple[Panel, ...]:
+    part, (first, left), side = _magnified_part(color, plan, options, pixel, 3)
+    ev = 0.0 if options.content == "test" else taken_ev
+    stripes = light.subpixels(to_srgb8(part, ev), side, gap=max(1, side // 12))
+    caption = f"{part.shape[1]} x {part.shape[0]} pixels, each of three stripes"
+    subpixels = Panel("Its subpixels", caption, stripes)
+    if options.content == "test":
+        return (Panel("Test picture", caption, light.magnified(to_srgb8(part), side)), subpixels)
+    region = (first, left, *part.shape[:2])
+    picture = to_srgb8(color, taken_ev)
+    return (_whole("The image", "the frame is what is magnified", picture, plan, region), subpixels)
+
+
+def _displays(
+    color: Image, plan: Plan, options: LaboratoryOptions, taken_ev: float, pixel: Pixel
+) -> tuple[Panel, ...]:
+    display, phase = displays.DISPLAYS[options.display], options.phase % 1.0
+    part, first, side, place = display_part(color, plan, options, taken_ev, pixel)
+    at_work = displays.at_work(options.display, phase, *part.shape[:2])
+    if at_work is not None:
+        at_work = (at_work[0] + first[0], at_work[1] + first[1], *at_work[2:])
+    marked = (place[0] + first[0], place[1] + first[1], 1, 1)
+    return (
+        Panel(
+            f"{display.title}: {displays.moment(options.display, phase)}",
+            f"{display.way}; framed: {display.framed}" if display.framed else display.way,
+            displays.instant(display, part, phase, side),
+            side,
+            first,
+            marked,
+            at_work,
+        ),
+        Panel(
+            "What the eye sees: the mean",
+            "over a cycle, and over each pixel",
+            light.magnified(to_srgb8(part), side),
+            side,
+            first,
+            marked,
+        ),
+    )
+
+
+def display_part(
+    color: Image, plan: Plan, options: LaboratoryOptions, taken_ev: float, pixel: Pixel
+) -> tuple[Image, Pixel, int, Pixel]:
+    """What is seen of a display: the colours that it shows, (rows, columns, 3), linear, 0..1; the
+    image's pixel at its corner; screen pixels a side of a pixel; the place of `pixel` in it."""
+    least = displays.LEAST_SIDE_PX
+    part, (first, left), side = _magnified_part(color, plan, options, pixel, least)
+    part = displays.shown(part, 0.0 if options.content == "test" else taken_ev)
+    rows, columns = part.shape[:2]
+    i, j = min(max(pixel[0] - first, 0), rows - 1), min(max(pixel[1] - left, 0), columns - 1)
+    return part, (first, left), side, (i, j)
+
+
+def _magnified_part(
+    color: Image, plan: Plan, options: LaboratoryOptions, pixel: Pixel, least: int
+) -> tuple[Image, Pixel, int]:
+    """The pixels about one that have room, or as many of a test picture; the first of them, row
+    and column; screen pixels a side of a pixel, `least` or more."""
+    test = options.content == "test"
+    side = max(least, plan.cell[0] // len(light.BARS) if test else options.side_px)
+    rows, columns = max(1, plan.cell[1] // side), max(1, plan.cell[0] // side)
+    if test:
+        return light.bars(rows, columns), (0, 0), side
+    first, left, part = light.window(color, *pixel, rows, columns)
+    return np.ascontiguousarray(part), (first, left), side
+
+
+def _array(
+    color: Image, plan: Plan, options: LaboratoryOptions, taken_ev: float, pixel: Pixel
+) -> tuple[Panel, ...]:
+    height, width = color.shape[:2]
+    caption = f"{height} rows of {width} pixels, {size_text(color.nbytes)}"
+    return (_whole("canvas", caption, to_srgb8(color, taken_ev), plan),)
+
+
+def _whole(
+    title: str,
+    caption: str,
+    picture: Bytes,
+    plan: Plan,
+    region: displays.Region | None = None,
+) -> Panel:
+    """A picture magnified for its cell; of one that is too large, the middle."""
+    most = max(1, plan.cell[1] // plan.magnification), max(1, plan.cell[0] // plan.magnification)
+    height, width = picture.shape[:2]
+    first, left, part = light.window(picture, height // 2, width // 2, *most)
+    large = light.magnified(part, plan.magnification)
+    return Panel(title, caption, large, plan.magnification, (first, left), region)
+
+
+Page = Callable[[Image, Plan, LaboratoryOptions, float, Pixel], tuple[Panel, ...]]
+PAGES: dict[str, Page] = {
+    "kinds": _kinds,
+    "bitmaps": _bitmaps,
+    "exposure": _exposure,
+    "projectors": _projectors,
+    "displays": _displays,
+    "subpixels": _subpixels,
+    "array": _array,
+}
+PAGE_TITLES = {
+    "kinds": "Kinds",
+    "bitmaps": "One bit",
+    "exposure": "Exposure",
+    "projectors": "Projectors",
+    "displays": "Displays",
+    "subpixels": "Subpixels",
+    "array": "Array",
+    "vector": "Raster and vector",  # drawn by a view of its own
+}

@@ -1,0 +1,78 @@
+"""The laboratory's pictures on the screen: with a heading, frames about pixels, and clicks on them.
+
+Owns their looks. Knows nothing of how a picture is made.
+"""
+
+from __future__ import annotations
+
+import moderngl
+import numpy as np
+from imgui_bundle import ImVec2, ImVec4, imgui
+
+from app.laboratory.displays import Region
+from app.laboratory.pages import Panel
+from app.state.options import Pixel
+from app.widgets import theme
+from app.widgets.lettering import fitted_text, lettering
+from app.widgets.theme import Fonts, framebuffer_scale
+
+HEADING_EM = 2.5  # above each picture
+
+
+def draw_panel(
+    name: str,
+    panel: Panel,
+    texture: moderngl.Texture | None,
+    at: ImVec2,
+    width: float,
+    fonts: Fonts,
+) -> Pixel | None:
+    """A picture below its heading, which has that width. Gives the image's pixel that the mouse
+    holds; it may lie beside the image."""
+    scale, em = framebuffer_scale(), imgui.get_font_size()
+    draw = imgui.get_window_draw_list()
+    with lettering(fonts.bold, em):
+        fitted_text(draw, at, theme.u32(theme.TEXT), panel.title, width)
+    below = ImVec2(at.x, at.y + 1.15 * em)
+    fitted_text(draw, below, theme.u32(theme.DIM), panel.caption, width)
+    if texture is None:
+        return None
+    top = at.y + HEADING_EM * em
+    origin = ImVec2(np.floor(at.x * scale) / scale, np.floor(top * scale) / scale)
+    extent = ImVec2(texture.size[0] / scale, texture.size[1] / scale)
+    far = ImVec2(origin.x + extent.x, origin.y + extent.y)
+    imgui.set_cursor_screen_pos(origin)
+    imgui.invisible_button(name, extent)
+    draw.add_image(imgui.ImTextureRef(texture.glo), origin, far)
+    round_it = ImVec2(origin.x - 1, origin.y - 1), ImVec2(far.x + 1, far.y + 1)
+    draw.add_rect(*round_it, theme.u32(theme.LINE))  # a white picture ends where it ends
+    if not panel.magnification:
+        return None
+    unit = panel.magnification / scale
+    for region, color in ((panel.region, theme.MARK), (panel.at_work, theme.RAY)):
+        if region is not None:
+            _frame(draw, panel, region, origin, unit, color)
+    if not imgui.is_item_active():
+        return None
+    mouse = imgui.get_io().mouse_pos
+    return (
+        panel.first[0] + int((mouse.y - origin.y) / unit),
+        panel.first[1] + int((mouse.x - origin.x) / unit),
+    )
+
+
+def _frame(
+    draw: imgui.ImDrawList,
+    panel: Panel,
+    region: Region,
+    origin: ImVec2,
+    unit: float,
+    color: ImVec4,
+) -> None:
+    first, left, rows, columns = region
+    low = ImVec2(
+        origin.x + (left - panel.first[1]) * unit, origin.y + (first - panel.first[0]) * unit
+    )
+    high = ImVec2(low.x + columns * unit, low.y + rows * unit)
+    draw.add_rect(low, high, theme.u32(theme.rgb("#000000", 0.8)), 0.0, 4.0)
+    draw.add_rect(low, high, theme.u32(color), 0.0, 2.0)

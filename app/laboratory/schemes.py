@@ -1,0 +1,77 @@
+"""Beside a display's light: how one of its pixels is made, in a small drawing.
+
+The tube from the side, with its three beams, the mask's hole and the dots behind; the colour wheel
+and a mirror of a DLP display. Knows nothing of time: what is drawn is handed in.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+
+from imgui_bundle import ImVec2, ImVec4, imgui
+
+from app.widgets import theme
+
+COLORS = ("#ff4d4d", "#33cc66", "#5f9bff")  # red, green and blue light, in both themes to be seen
+NAMES = ("tube", "dlp")
+
+
+class Scheme:
+    """Draws in a rectangle; places are in parts of it."""
+
+    def __init__(self, low: ImVec2, extent: ImVec2) -> None:
+        self._low, self._extent = low, extent
+        self._draw = imgui.get_window_draw_list()
+        self._unit = min(extent.x, 2 * extent.y) / 16
+
+    def _at(self, x: float, y: float) -> ImVec2:
+        return ImVec2(self._low.x + x * self._extent.x, self._low.y + y * self._extent.y)
+
+    def _line(
+        self, start: tuple[float, float], end: tuple[float, float], color: ImVec4, width: float
+    ) -> None:
+        self._draw.add_line(self._at(*start), self._at(*end), theme.u32(color), width)
+
+    def _word(self, text: str, x: float, y: float) -> None:
+        at, size = self._at(x, y), imgui.calc_text_size(text)
+        left = min(max(at.x - size.x / 2, self._low.x), self._low.x + self._extent.x - size.x)
+        self._draw.add_text(ImVec2(left, at.y - size.y / 2), theme.u32(theme.DIM), text)
+
+    def tube(self, strengths: Sequence[float]) -> None:
+        """Three guns, whose beams cross in a hole of the mask. strengths: of the beams, 0 to 1."""
+        mask, screen, gun = 0.66, 0.93, 0.06
+        grow = (screen - mask) / (mask - gun)
+        for channel, strength in enumerate(strengths):
+            y = (0.22, 0.55, 0.88)[channel]
+            meets = 0.55 + (0.55 - y) * grow
+            color = theme.rgb(COLORS[channel])
+            beam = theme.rgb(COLORS[channel], 0.12 + 0.88 * min(max(float(strength), 0.0), 1.0))
+            self._line((gun, y), (screen, meets), beam, theme.line_px(2.0))
+            self._draw.add_circle_filled(self._at(gun, y), 0.5 * self._unit, theme.u32(color))
+            self._draw.add_circle_filled(
+                self._at(screen, meets), 0.4 * self._unit, theme.u32(color)
+            )
+        for top, bottom in ((0.16, 0.46), (0.64, 0.96)):
+            self._line((mask, top), (mask, bottom), theme.PLAIN, theme.line_px(3.0))
+        for name, x in (("beams", gun), ("mask", mask), ("dots", screen)):
+            self._word(name, x, 0.04)
+
+    def dlp(self, phase: float, is_on: bool) -> None:
+        """The wheel, through which white light takes one colour after another, and a mirror that
+        sends it onto the wall or beside it."""
+        middle, radius = self._at(0.2, 0.55), 0.36 * self._extent.y
+        for channel in range(3):
+            begin = 2 * math.pi * (channel / 3 - phase)
+            self._draw.path_line_to(middle)
+            self._draw.path_arc_to(middle, radius, begin, begin + 2 * math.pi / 3)
+            self._draw.path_fill_convex(theme.u32(theme.rgb(COLORS[channel])))
+        light = theme.rgb(COLORS[min(int(3 * phase), 2)])
+        rim = (middle.x + radius - self._low.x) / self._extent.x
+        mirror, width = (0.66, 0.55), theme.line_px(2.5)
+        self._line((rim, 0.55), mirror, light, width)
+        self._line(mirror, (0.92, 0.2 if is_on else 0.92), light, width)
+        tilt = 0.12 if is_on else -0.12
+        self._line((0.66 - tilt / 4, 0.43), (0.66 + tilt / 4, 0.67), theme.TEXT, theme.line_px(3.5))
+        for name, x, y in (("wheel", 0.2, 0.04), ("mirror", 0.62, 0.3), ("wall", 0.92, 0.08)):
+            self._word(name, x, y)

@@ -1,0 +1,84 @@
+"""What stands beside the laboratory's kinds of image: what they cost, how colour becomes gray.
+
+Owns their looks. Knows nothing of how an image is made.
+"""
+
+from __future__ import annotations
+
+from imgui_bundle import ImVec2, imgui
+
+from app.laboratory import disk
+from app.laboratory.kinds import KINDS, LECTURE_SIZE
+from app.widgets import theme
+from app.widgets.lettering import lettering
+from app.widgets.theme import Fonts
+from renderer.images.display import LUMINANCE
+from renderer.scene.reading import size_text
+
+BARS = ("#e5484d", "#46a758", "#4f8ff7")  # red, green and blue, as light as text must be
+
+
+def sizes_table(
+    size: tuple[int, int], entries: tuple[disk.Entry, ...], fonts: Fonts
+) -> disk.Format | None:
+    """A line a kind: bits, bytes of the lecture's megapixel and of this image, and of its files.
+
+    Gives the format whose button was pressed.
+    """
+    flags = imgui.TableFlags_.borders_inner_h | imgui.TableFlags_.sizing_fixed_fit
+    if not imgui.begin_table("sizes", 5, int(flags | imgui.TableFlags_.no_saved_settings)):
+        return None
+    titles = (
+        "",
+        "bits per pixel",
+        "x".join(map(str, LECTURE_SIZE)),
+        f"this image, {size[0]}x{size[1]}",
+    )
+    for title in (*titles, "on disk (click to save)"):
+        imgui.table_setup_column(title)
+    with lettering(fonts.bold, imgui.get_font_size()):
+        imgui.table_headers_row()
+    chosen = None
+    for kind in KINDS:
+        imgui.table_next_row()
+        imgui.table_next_column()
+        imgui.text(kind.title)
+        for text in (
+            f"{kind.bits}",
+            size_text(kind.storage_bytes(LECTURE_SIZE)),
+            size_text(kind.storage_bytes(size)),
+        ):
+            imgui.table_next_column()
+            with lettering(fonts.mono, imgui.get_font_size()):
+                imgui.text(f"{text:>8}")
+        imgui.table_next_column()
+        for entry in entries:
+            if entry.format.kind is not kind:
+                continue
+            name = f"{entry.format.name} {size_text(entry.file_bytes)}"
+            if imgui.small_button(f"{name}##{kind.name}{entry.format.ending}"):
+                chosen = entry.format
+            imgui.set_item_tooltip(f"{entry.format.note}; click to save")
+            imgui.same_line()
+        imgui.new_line()
+    imgui.end_table()
+    return chosen
+
+
+def luminance_weights(at: ImVec2, width: float, fonts: Fonts) -> None:
+    """How colour becomes gray: Rec. 709's weights, as bars of their length."""
+    em = imgui.get_font_size()
+    draw = imgui.get_window_draw_list()
+    with lettering(fonts.bold, em):
+        draw.add_text(at, theme.u32(theme.TEXT), "From colour to gray")
+    y = at.y + 1.15 * em
+    draw.add_text(ImVec2(at.x, y), theme.u32(theme.DIM), "luminance of linear light (Rec. 709)")
+    y += 2.0 * em
+    longest = width - 6.5 * em
+    for name, weight, color in zip("RGB", LUMINANCE, BARS, strict=True):
+        with lettering(fonts.mono, em):
+            draw.add_text(ImVec2(at.x, y), theme.u32(theme.TEXT), f"{weight:.4f} {name}")
+        low = ImVec2(at.x + 5.5 * em, y + 0.1 * em)
+        high = ImVec2(low.x + max(2.0, longest * float(weight)), y + 0.95 * em)
+        draw.add_rect_filled(low, high, theme.u32(theme.rgb(color)), 2.0)
+        y += 1.5 * em

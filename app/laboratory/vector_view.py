@@ -1,0 +1,233 @@
+"""The laboratory's page "Raster and vector": one diagram in both ways, under one magnification.
+
+Owns the two panes, what the mouse does in them, and the thread that makes both. The diagram is the
+outside view's; the raster image has the same pixels at every magnification.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from typing import Any
+
+import moderngl
+import numpy as np
+from imgui_bundle import ImVec2, imgui
+from numpy.typing import NDArray
+
+from app.host.view import Host
+from app.outside.bitmap import bitmap, magnified
+from app.outside.sketch import Sketch
+from app.outside.svg import svg
+from app.outside.vector import Drawing
+from app.outside.vector_painting import Magnified, Mark, paint, prepared
+from app.outside.vector_view import Sketcher, export_svg
+from app.outside.view import OutsideView
+from app.state.bounds import range_of
+from app.state.options import LaboratoryOptions
+from app.widgets import theme
+from app.widgets.background import Background
+from app.widgets.lettering import fitted_text, lettering
+from app.widgets.theme import framebuffer_scale
+from app.widgets.uploads import Uploads
+from renderer.errors import describe
+from renderer.scene.reading import size_text
+
+PAGE_SIZE = (640, 480)  # of the drawing
+PIXELS = (160, 120)  # of its raster image
+UNITS = (1.6, 1.5)  # of lines and of symbols, in the drawing's pixels
+WHEEL_STEP = 1.25
+NAME = "vector"  # of the raster image's texture
+
+
+@dataclass(frozen=True, eq=False)
+class Both:
+    """The diagram in both ways. svg_bytes: of the file."""
+
+    sketch: Sketch
+    drawing: Drawing
+    marks: tuple[Mark, ...]
+    picture: NDArray[np.uint8]
+    svg_bytes: int
+
+
+@dataclass(frozen=True)
+class Pane:
+    """Where the page stands on the screen when all of it is seen."""
+
+    low: ImVec2
+    high: ImVec2
+
+
+class VectorPage:
+    """outside: whose diagram it is."""
+
+    def __init__(self, outside: OutsideView) -> None:
+        self._outside = outside
+        self._sketcher = Sketcher()
+        self._work: Background[Both] | None = None
+        self._asked: Sketch | None = None
+        self._shown: tuple[Any, ...] = ()
+        self.error: Exception | None = None
+        self.made: Both | None = None
+
+    @property
+    def settled(self) -> bool:
+        busy = self._work is not None and self._work.busy
+        return not busy and self._outside.settled and self._asked is not None
+
+    def begin(self, host: Host) -> None:
+        self._work = Background("lucida-vector", host.animate)
+
+    def end(self) -> None:
+        if self._work is not None:
+            self._work.close()
+
+    def draw(self, host: Host, options: LaboratoryOptions, uploads: Uploads) -> None:
+        """Into the rest of the window. Raises LucidaError, moderngl.Error."""
+        self._follow(host)
+        if self.error is not None:
+            imgui.text_colored(theme.ERROR, describe(self.error))
+            return
+        if self.made is None:
+            return
+        panes = _panes()
+        changed = options
+        for number, pane in enumerate(panes):
+            changed = self._mouse(f"pane {number}", pane, changed)
+        zoom, corner = changed.zoom, _corner(changed)
+        draw = imgui.get_window_draw_list()
+        texture = self._pixels(panes[0], zoom, corner, uploads)
+        if texture is not None:
+            draw.add_image(imgui.ImTextureRef(texture.glo), panes[0].low, panes[0].high)
+        low, high = panes[1].low, panes[1].high
+        scale = (high.x - low.x) * zoom / PAGE_SIZE[0]
+        origin = (
+            low.x - corner[0] * PAGE_SIZE[0] * scale,
+            low.y - corner[1] * PAGE_SIZE[1] * scale,
+        )
+        view = Magnified(origin, scale)
+        paint(draw, self.made.drawing, self.made.marks, view, low, high, host.fonts)
+        for pane in panes:
+            draw.add_rect(pane.low, pane.high, theme.u32(theme.LINE))
+        self._captions(host, panes)
+        if changed != options:
+            host.apply(host.state.with_options(laboratory=changed), "vector pane")
+
+    def _follow(self, host: Host) -> None:
+        assert self._work is not None
+        sketch = self._sketcher.follow(self._outside, host, PAGE_SIZE, UNITS)
+        if sketch is not self._asked:
+            self._asked = sketch
+            self._work.submit(lambda: _both(sketch))
+        outcome = self._work.poll()
+        if outcome is not None:
+            self.error = outcome.error
+        if outcome is not None and outcome.value is not None:
+            self.made = outcome.value
+
+    def _pixels(
+        self, pane: Pane, zoom: float, corner: tuple[float, float], uploads: Uploads
+    ) -> moderngl.Texture | None:
+        """What is seen of the raster image, pixel by pixel of the screen: ImGui would smooth it."""
+        assert self.made is not None
+        scale = framebuffer_scale()
+        size = round((pane.high.x - pane.low.x) * scale), round((pane.high.y - pane.low.y) * scale)
+        key = (self.made, size, zoom, corner)
+        if key != self._shown:
+            part = magnified(self.made.picture, size, corner, (1 / zoom, 1 / zoom))
+            uploads.put(NAME, part)
+            self._shown = key
+        return uploads.get(NAME)
+
+    def _mouse(self, name: str, pane: Pane, options: LaboratoryOptions) -> LaboratoryOptions:
+        """A drag moves, the wheel magnifies about the pointer."""
+        extent = ImVec2(pane.high.x - pane.low.x, pane.high.y - pane.low.y)
+        imgui.set_cursor_screen_pos(pane.low)
+        imgui.invisible_button(name, extent)
+        imgui.set_item_key_owner(imgui.Key.mouse_wheel_y)
+        io = imgui.get_io()
+        center = options.zoom_center
+        if imgui.is_item_active() and (io.mouse_delta.x or io.mouse_delta.y):
+            x = center[0] - io.mouse_delta.x / extent.x / options.zoom
+            y = center[1] - io.mouse_delta.y / extent.y / options.zoom
+            options = replace(options, zoom_center=_held((x, y), options.zoom))
+        if imgui.is_item_hovered() and io.mouse_wheel:
+            least, most = range_of(LaboratoryOptions, "zoom")
+            zoom = min(max(options.zoom * WHEEL_STEP**io.mouse_wheel, least), most)
+            mouse = (
+                (io.mouse_pos.x - pane.low.x) / extent.x - 0.5,
+                (io.mouse_pos.y - pane.low.y) / extent.y - 0.5,
+            )
+            step = 1 / options.zoom - 1 / zoom
+            moved = center[0] + mouse[0] * step, center[1] + mouse[1] * step
+            options = replace(options, zoom=zoom, zoom_center=_held(moved, zoom))
+        return options
+
+    def _captions(self, host: Host, panes: tuple[Pane, Pane]) -> None:
+        assert self.made is not None
+        em = imgui.get_font_size()
+        draw = imgui.get_window_draw_list()
+        picture = self.made.picture
+        texts = (
+            (
+                "Raster image",
+                f"{PIXELS[0]} x {PIXELS[1]} pixels, {size_text(picture.nbytes)}",
+            ),
+            (
+                "Vector drawing",
+                f"{len(self.made.drawing.parts)} shapes, {size_text(self.made.svg_bytes)} as SVG",
+            ),
+        )
+        for pane, (title, caption) in zip(panes, texts, strict=True):
+            top = pane.low.y - 2.5 * em
+            with lettering(host.fonts.bold, em):
+                draw.add_text(ImVec2(pane.low.x, top), theme.u32(theme.TEXT), title)
+            below = ImVec2(pane.low.x, top + 1.15 * em)
+            fitted_text(draw, below, theme.u32(theme.DIM), caption, pane.high.x - pane.low.x)
+        words = "Export as SVG..."
+        width = imgui.calc_text_size(words).x + em
+        pane = panes[1]
+        if pane.high.x - pane.low.x > width + imgui.calc_text_size(texts[1][1]).x + em:
+            place = ImVec2(pane.high.x - width, pane.low.y - 2.0 * em)
+            imgui.set_cursor_screen_pos(place)
+            if imgui.button(words, ImVec2(width, 0)):
+                export_svg(self._outside, host, live=False)  # as it is shown here
+
+
+def _both(sketch: Sketch) -> Both:
+    drawing = sketch.draw()
+    picture = bitmap(drawing, PIXELS)
+    return Both(sketch, drawing, prepared(drawing), picture, len(svg(drawing).encode()))
+
+
+def _panes() -> tuple[Pane, Pane]:
+    """Two of the page's proportions, side by side or one below the other, under their headings."""
+    corner, avail = imgui.get_cursor_screen_pos(), imgui.get_content_region_avail()
+    em = imgui.get_font_size()
+    gap, heading = 0.6 * em, 2.5 * em
+    beside = (avail.x - gap) / 2, avail.y - heading
+    below = avail.x, (avail.y - gap) / 2 - heading
+    fits = [min(room[0] / PAGE_SIZE[0], room[1] / PAGE_SIZE[1]) for room in (beside, below)]
+    scale = max(max(fits), 0.02)
+    width, height = np.floor(PAGE_SIZE[0] * scale), np.floor(PAGE_SIZE[1] * scale)
+    step = (beside[0] + gap, 0.0) if fits[0] >= fits[1] else (0.0, height + heading + gap)
+
+    def pane(number: int) -> Pane:
+        x = float(np.floor(corner.x + number * step[0]))
+        y = float(np.floor(corner.y + heading + number * step[1]))
+        return Pane(ImVec2(x, y), ImVec2(x + width, y + height))
+
+    return pane(0), pane(1)
+
+
+def _held(center: tuple[float, float], zoom: float) -> tuple[float, float]:
+    """Nearest to it, so that nothing beside the page is seen."""
+    half = 0.5 / zoom
+    x, y = (min(max(part, half), 1 - half) for part in center)
+    return x, y
+
+
+def _corner(options: LaboratoryOptions) -> tuple[float, float]:
+    """The upper left corner of what is seen, in parts of the page."""
+    x, y = _held(options.zoom_center, options.zoom)
+    return x - 0.5 / options.zoom, y - 0.5 / options.zoom

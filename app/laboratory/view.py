@@ -1,0 +1,362 @@
+"""The image laboratory: the current image in the representations that the lecture names.
+
+Owns the way from the state to the pages' pictures: the image is drawn by the rasterizer at the
+pages' own size, a thread makes what they show of it (teach/imagelab/), here it is put on the
+screen. What stands beside the pictures is the other laboratory_*.py's.
+"""
+
+from __future__ import annotations
+
+import itertools
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from typing import Any
+
+import moderngl
+import numpy as np
+from imgui_bundle import ImVec2, imgui
+
+from app.host.view import Host, View
+from app.images.screen import available_px
+from app.images.textures import Wanted
+from app.laboratory import disk
+from app.laboratory.array_view import ArrayPage
+from app.laboratory.displays_view import LANES_EM, DisplaysPage
+from app.laboratory.pages import Image, Panel, Plan, panels, plan
+from app.laboratory.pictures import HEADING_EM, draw_panel
+from app.laboratory.tables import luminance_weights, sizes_table
+from app.laboratory.tools import toolbar
+from app.laboratory.vector_view import VectorPage
+from app.outside.view import OutsideView
+from app.state.app_state import AppState
+from app.state.options import LaboratoryOptions, Pixel
+from app.widgets import theme
+from app.widgets.background import Background
+from app.widgets.lettering import hall_px, lettering
+from app.widgets.theme import framebuffer_scale
+from app.widgets.uploads import Uploads
+from renderer.errors import LucidaError, describe
+
+LABORATORY = "Laboratory"
+SMALLEST_PX = 60
+LETTERS = 105.0  # a line over the whole view
+GAP_EM = 0.6
+ROWS_EM = 13.0  # of the pictures with their titles, two rows of them, at the least
+LEAST_EM = {"displays": 8.5, "array": 22.0}  # of pages that are otherwise
+ABOUT_A_PIXEL = ("subpixels", "displays", "array")  # a click on these pages chooses it
+
+
+@dataclass(frozen=True, eq=False)
+class _Source:
+    """The linear image that the pages are made of, and what it was drawn from."""
+
+    wanted: Wanted
+    color: Image
+    number: int  # of the image; its address may be a later one's, too
+
+
+@dataclass(frozen=True, eq=False)
+class _Made:
+    """What the thread has made, and of what."""
+
+    key: tuple[Any, ...]
+    plan: Plan
+    panels: tuple[Panel, ...]
+
+
+class LaboratoryView(View):
+    name = LABORATORY
+    title = "Image laboratory"
+
+    def __init__(self, outside: OutsideView) -> None:
+        self.vector = VectorPage(outside)
+        self.displays = DisplaysPage()
+        self._vector_seen = False
+        self._uploads: Uploads | None = None
+        self._work: Background[_Made] | None = None
+        self._sizing: Background[tuple[tuple[Any, ...], tuple[disk.Entry, ...]]] | None = None
+        self._source: _Source | None = None
+        self._numbers = itertools.count()
+        self._asked: tuple[Any, ...] = ()
+        self._made: _Made | None = None
+        self._sizes_asked: tuple[Any, ...] = ()
+        self._sizes: tuple[disk.Entry, ...] = ()
+        self._error = ""
+        self._seen = False
+        self._others = (0, 0)  # the size of the other views' images
+
+    @property
+    def settled(self) -> bool:
+        if not self._seen or self._error:
+            return True
+        if self._vector_seen:
+            return self.vector.settled
+        busy = any(work is not None and work.busy for work in (self._work, self._sizing))
+        return not busy and self._made is not None and self._made.key == self._asked
+
+    @property
+    def made(self) -> tuple[Panel, ...]:
+        """What is shown; nothing on the page that is a view of its own."""
+        if self._vector_seen:
+            return ()
+        return self._made.panels if self._made is not None else ()
+
+    @property
+    def sizes(self) -> tuple[disk.Entry, ...]:
+        """The files' sizes, as far as they are known."""
+        return self._sizes
+
+    def begin(self, host: Host, context: moderngl.Context) -> None:
+        self._uploads = Uploads(context)
+        self._work = Background("lucida-laboratory", host.animate)
+        self._sizing = Background("lucida-sizes", host.animate)
+        self.vector.begin(host)
+
+    def end(self) -> None:
+        self.vector.end()
+        for work in (self._work, self._sizing):
+            if work is not None:
+                work.close()
+        if self._uploads is not None:
+            self._uploads.release()
+
+    def unseen(self, host: Host) -> None:
+        self._seen = False
+        self.displays.unseen()
+        self._source = None  # a large array; drawn anew when it is seen
+
+    def draw(self, host: Host) -> None:
+        assert self._uploads is not None
+        self._seen = True
+        self._uploads.begin_frame()
+        if min(available_px()) < SMALLEST_PX:
+            return
+        with lettering(None, hall_px(imgui.get_content_region_avail().x, LETTERS)):
+            self._others = host.renderers.size
+            options = toolbar(host)
+            if options.page == "displays":
+                options = self.displays.controls(host)
+            else:
+                self.displays.unseen()
+            self._vector_seen = options.page == "vector"
+            if self._vector_seen:
+                self._vector_page(host, options)
+            else:
+                self._page(host, options)
+
+    # The page.
+
+    def _vector_page(self, host: Host, options: LaboratoryOptions) -> None:
+        assert self._uploads is not None
+        try:
+            self.vector.draw(host, options, self._uploads)
+            self._error = ""
+        except (LucidaError, moderngl.Error) as error:
+            self._error = describe(error)
+            imgui.push_text_wrap_pos(0.0)
+            imgui.text_colored(theme.ERROR, self._error)
+            imgui.pop_text_wrap_pos()
+
+    def _page(self, host: Host, options: LaboratoryOptions) -> None:
+        """Scrolled where the window is too low for it."""
+        avail, em = imgui.get_content_region_avail(), imgui.get_font_size()
+        below = self._below_px(options.page)
+        least = below + LEAST_EM.get(options.page, ROWS_EM) * em
+        if avail.y >= least:
+            self._content(host, options, avail, below)
+            return
+        # The scrollbar is there by this alone: its width changes nothing that it depends on.
+        flags = int(imgui.WindowFlags_.always_vertical_scrollbar)
+        if imgui.begin_child("page", avail, 0, flags):
+            corner = imgui.get_cursor_screen_pos()
+            width = imgui.get_content_region_avail().x
+            self._content(host, options, ImVec2(width, least), below)
+            imgui.set_cursor_screen_pos(ImVec2(corner.x, corner.y + least))
+            imgui.dummy(ImVec2(0.0, 0.0))
+        imgui.end_child()
+
+    def _content(self, host: Host, options: LaboratoryOptions, avail: ImVec2, below: float) -> None:
+        """avail: the room for all of it. below: how much of that is below the pictures."""
+        state, scale, em = host.state, framebuffer_scale(), imgui.get_font_size()
+        corner = imgui.get_cursor_screen_pos()
+        room = max(1, int(avail.x * scale)), max(1, int((avail.y - below) * scale))
+        heading = round(HEADING_EM * em * scale)
+        divided = plan(
+            options.page, room, heading, round(GAP_EM * em * scale), state.images.resolution
+        )
+        self._follow(host, divided, options)
+        if self._error:
+            imgui.push_text_wrap_pos(0.0)
+            imgui.text_colored(theme.ERROR, self._error)
+            imgui.pop_text_wrap_pos()
+            return
+        if self._made is None or self._source is None:
+            return
+        made = self._made.plan
+
+        def place(number: int) -> ImVec2:
+            row, column = divmod(number, made.columns)
+            return ImVec2(
+                corner.x + column * (made.cell[0] / scale + GAP_EM * em),
+                corner.y + row * (made.cell[1] / scale + (HEADING_EM + GAP_EM) * em),
+            )
+
+        if options.page == "array":
+            self._array_page(host, self._made, self._source.color, place)
+            return
+        for number, panel in enumerate(self._made.panels):
+            self._panel(host, number, panel, place(number), made)
+        if options.page == "displays":
+            imgui.set_cursor_screen_pos(ImVec2(corner.x, corner.y + avail.y - below + 0.4 * em))
+            pixel = self._pixel(state, made)
+            source = self._source
+            self.displays.lanes(host, options, made, source.color, source.number, pixel)
+        if options.page == "kinds":
+            luminance_weights(place(len(self._made.panels)), made.cell[0] / scale, host.fonts)
+            imgui.set_cursor_screen_pos(ImVec2(corner.x, corner.y + avail.y - below + 0.4 * em))
+            picked = sizes_table(made.image, self._sizes, host.fonts)
+            if picked is not None:
+                self._export(host, picked)
+
+    def _array_page(
+        self, host: Host, made: _Made, color: Image, place: Callable[[int], ImVec2]
+    ) -> None:
+        """The image, framed where the cells are from; the cells, the program, the memory."""
+        scale, em = framebuffer_scale(), imgui.get_font_size()
+        # The image may be newer than what the thread has made, and of another size.
+        now = replace(made.plan, image=(color.shape[1], color.shape[0]))
+        pixel = self._pixel(host.state, now)
+        extent = ImVec2(made.plan.cell[0] / scale, made.plan.cell[1] / scale + HEADING_EM * em)
+        page = ArrayPage(host.state, color, pixel, extent, host.fonts)
+        table = page.table()
+        region = (table.i, table.j, len(table.rows), len(table.rows[0]))
+        for number, panel in enumerate(made.panels):
+            self._panel(host, number, replace(panel, region=region), place(number), made.plan)
+        chosen = page.cells(table, place(1))
+        language = page.program(place(2))
+        host.apply(host.state.with_options(language=language))
+        chosen = page.in_memory(place(3)) or chosen
+        if chosen is not None:
+            self._choose(host, chosen, now)
+
+    def _panel(self, host: Host, number: int, panel: Panel, at: ImVec2, made: Plan) -> None:
+        assert self._uploads is not None
+        name, width = f"panel {number}", made.cell[0] / framebuffer_scale()
+        held = draw_panel(name, panel, self._uploads.get(name), at, width, host.fonts)
+        if held is not None and host.state.options.laboratory.page in ABOUT_A_PIXEL:
+            row, column = held
+            inside = min(max(row, 0), made.image[1] - 1), min(max(column, 0), made.image[0] - 1)
+            self._choose(host, inside, made)
+
+    # From the state to the pictures.
+
+    def _follow(self, host: Host, divided: Plan, options: LaboratoryOptions) -> None:
+        assert self._uploads is not None
+        assert self._work is not None
+        state = host.state
+        wanted = Wanted(state.scene, state.view.for_size(divided.image), divided.image)
+        try:
+            if self._source is None or self._source.wanted != wanted:
+                self._source = _Source(wanted, _drawn(host, wanted), next(self._numbers))
+            outcome = self._work.poll()
+            if outcome is not None and outcome.error is not None:
+                raise outcome.error
+            if outcome is not None and outcome.value is not None:
+                self._made = outcome.value
+                for number, panel in enumerate(self._made.panels):
+                    self._uploads.put(f"panel {number}", panel.picture)
+            self._error = ""
+        except (LucidaError, moderngl.Error) as error:
+            self._error = describe(error)
+            return
+        source, taken_ev = self._source, state.images.exposure_ev
+        color = source.color
+        pixel = self._pixel(state, divided)
+        # The other pages' options are none of this one's.
+        key = (source.number, divided, options, taken_ev, pixel)
+        if key != self._asked:
+            self._asked = key
+            page = options.page
+            self._work.submit(
+                lambda: _Made(key, divided, panels(page, color, divided, options, taken_ev, pixel))
+            )
+        self._take_sizes()
+        if options.page == "kinds":
+            self._follow_sizes(source, options.method, taken_ev)
+
+    def _take_sizes(self) -> None:
+        """What the thread of the files' sizes has found; on any page: it may have been left."""
+        assert self._sizing is not None
+        outcome = self._sizing.poll()
+        if (
+            outcome is not None
+            and outcome.value is not None
+            and outcome.value[0] == self._sizes_asked
+        ):
+            self._sizes = outcome.value[1]
+
+    def _follow_sizes(self, source: _Source, method: str, taken_ev: float) -> None:
+        """The files' sizes, encoded in a thread of their own; a newer image ends the old one's."""
+        assert self._sizing is not None
+        key, color = (source.number, method, taken_ev), source.color
+        if key != self._sizes_asked:
+            self._sizes_asked = key
+            self._sizing.submit(
+                lambda: (
+                    key,
+                    disk.sizes(color, taken_ev, method, lambda: self._sizes_asked != key),
+                )
+            )
+
+    def _pixel(self, state: AppState, divided: Plan) -> Pixel:
+        """The marked pixel in this image, which may have another size than the other views'."""
+        width, height = divided.image
+        if state.marked is None:
+            return height // 2, width // 2
+        row, column = state.marked
+        if state.images.resolution is None and min(self._others):
+            row = int((row + 0.5) / self._others[1] * height)
+            column = int((column + 0.5) / self._others[0] * width)
+        return min(row, height - 1), min(column, width - 1)
+
+    def _choose(self, host: Host, pixel: Pixel, divided: Plan) -> None:
+        """Marks a pixel of this image in all views."""
+        row, column = pixel
+        if host.state.images.resolution is None and min(self._others):
+            row = int((row + 0.5) / divided.image[1] * self._others[1])
+            column = int((column + 0.5) / divided.image[0] * self._others[0])
+        host.apply(host.state.with_options(marked=(row, column)))
+
+    # Beside the pictures.
+
+    def _below_px(self, page: str) -> float:
+        if page == "displays":
+            return LANES_EM * imgui.get_font_size()
+        return 7.6 * imgui.get_text_line_height_with_spacing() if page == "kinds" else 0.0
+
+    def _export(self, host: Host, format: disk.Format) -> None:
+        """Asks where, and writes the image that is shown there, as it is stored."""
+        assert self._source is not None
+        color, options = self._source.color, host.state.options.laboratory
+        taken_ev = host.state.images.exposure_ev
+
+        def store(path: str) -> str:
+            count = disk.export(path, color, format.kind, taken_ev, options.method)
+            return f"Saved {path}, {count} bytes."
+
+        host.files.save_as_dialog(
+            f"Save the image as {format.kind.title.lower()}",
+            f"{format.kind.name}{format.ending}",
+            (f"{format.name} files", format.ending),
+            store,
+        )
+
+
+def _drawn(host: Host, wanted: Wanted) -> Image:
+    """The rasterizer's image in linear light: float32 (H, W, 3)."""
+    pictures = host.renderers.pictures
+    assert pictures is not None
+    texture = pictures.beside(wanted, LABORATORY).color
+    width, height = wanted.size
+    values = np.frombuffer(texture.read(), np.float32).reshape(height, width, 4)
+    return np.ascontiguousarray(values[..., :3])

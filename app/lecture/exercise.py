@@ -1,0 +1,108 @@
+"""Exercises on the screen: fields to type into, options to choose, and what is said to them.
+
+Owns their looks. What is right is lecture/exercises.py's.
+"""
+
+from __future__ import annotations
+
+from imgui_bundle import ImVec2, imgui
+
+from app.lecture.exercises import ChoiceExercise, Exercise, RayExercise, VectorExercise
+from app.lecture.session import Answers
+from app.lecture.slide import Slides
+from app.lecture.text import parse
+from app.widgets import theme
+from app.widgets.lettering import lettering
+from app.widgets.theme import Fonts
+
+LETTERS = "ABCDEFGH"
+
+
+def exercise(
+    task: Exercise, answers: Answers, slides: Slides, fonts: Fonts, sizes_px: tuple[float, float]
+) -> None:
+    """Draws an exercise and takes up what is typed and chosen. sizes_px: of its text."""
+    room = imgui.get_content_region_avail()
+    if imgui.get_scroll_max_y() <= 0:  # what is said to an answer may need a scrollbar
+        room.x -= imgui.get_style().scrollbar_size
+    size = slides.text(parse(task.question), (room.x, 0.3 * room.y), sizes_px)
+    imgui.dummy(ImVec2(0, 0.4 * size))
+    with lettering(fonts.text, size):
+        if isinstance(task, ChoiceExercise):
+            _choice(task, answers, slides, size)
+        else:
+            _vectors(task, answers, fonts, size)
+        if answers.verdict is not None:
+            imgui.dummy(ImVec2(0, 0.3 * size))
+            color = theme.GOOD if answers.verdict.right else theme.legible(theme.ERROR)
+            slides.text(parse(answers.verdict.text), (room.x, room.y), (size, size), color)
+        if answers.solved:
+            imgui.dummy(ImVec2(0, 0.3 * size))
+            slides.text(parse(task.solution()), (room.x, room.y), (size, size))
+
+
+def _vectors(
+    task: RayExercise | VectorExercise, answers: Answers, fonts: Fonts, size: float
+) -> None:
+    entered = False
+    wide = max(imgui.calc_text_size(name).x for name in task.fields) + 0.8 * size
+    for name in task.fields:
+        start = imgui.get_cursor_pos_x()
+        imgui.align_text_to_frame_padding()
+        wrong = answers.verdict is not None and answers.verdict.field == name
+        color = theme.legible(theme.BASIS[name]) if name in theme.BASIS else theme.TEXT
+        imgui.text_colored(theme.legible(theme.ERROR) if wrong else color, name)
+        imgui.same_line(start + wide)
+        imgui.set_next_item_width(-1)
+        with lettering(fonts.mono, size):
+            done, text = imgui.input_text_with_hint(
+                f"##{name}",
+                "( , , )",
+                answers.texts.get(name, ""),
+                imgui.InputTextFlags_.enter_returns_true,
+            )
+        if text != answers.texts.get(name, ""):
+            answers.texts[name] = text
+            answers.verdict = None
+        entered = entered or done
+    imgui.dummy(ImVec2(0, 0.2 * size))
+    if imgui.button("Check") or entered:
+        answers.verdict = task.check(answers.texts)
+    _solution(answers, size)
+
+
+def _choice(task: ChoiceExercise, answers: Answers, slides: Slides, size: float) -> None:
+    for number, option in enumerate(task.options):
+        chosen = answers.chosen == number
+        width = imgui.get_content_region_avail().x
+        pad, letter = 0.45 * size, 1.9 * size
+        blocks = parse(option.text)
+        height = slides.height(blocks, width - letter - pad, size) + 2 * pad
+        corner = imgui.get_cursor_screen_pos()
+        if imgui.invisible_button(f"option {number}", ImVec2(width, height)):
+            answers.chosen, answers.verdict = number, task.check(number)
+        hovered = imgui.is_item_hovered()
+        fill = theme.FRAME_HOVERED if hovered else theme.FRAME
+        edge = theme.LINE
+        if chosen and answers.verdict is not None:
+            edge = theme.GOOD if answers.verdict.right else theme.ERROR
+        draw = imgui.get_window_draw_list()
+        far = ImVec2(corner.x + width, corner.y + height)
+        draw.add_rect_filled(corner, far, theme.u32(fill), theme.px(4))
+        draw.add_rect(corner, far, theme.u32(edge), theme.px(4), theme.line_px(2 if chosen else 1))
+        at = ImVec2(corner.x + 0.6 * size, corner.y + pad + 0.16 * size)
+        draw.add_text(at, theme.u32(theme.DIM), LETTERS[number % len(LETTERS)])
+        below = imgui.get_cursor_screen_pos()
+        imgui.set_cursor_screen_pos(ImVec2(corner.x + letter, corner.y + pad))
+        slides.text(blocks, (width - letter - pad, height), (size, size))
+        imgui.set_cursor_screen_pos(below)
+    imgui.dummy(ImVec2(0, 0.1 * size))
+    _solution(answers, size, same_line=False)
+
+
+def _solution(answers: Answers, size: float, same_line: bool = True) -> None:
+    if same_line:
+        imgui.same_line(0, 0.6 * size)
+    label = "Hide the solution" if answers.solved else "Show the solution"
+    if imgui.button(f"{label}###solution"):
+        answers.solved = not answers.solved

@@ -1,0 +1,224 @@
+"""Questions with checked answers: a pixel's ray, vectors, a choice; each says what was wrong.
+
+Pure. Knows nothing of files (reading.py) or of fields on a screen. Answers come as typed texts,
+or as the number of an option.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from app.explaining.arithmetic import text_of, vector, vector_text
+from app.lecture.mistakes import mistakes
+from app.lecture.text import escaped
+from renderer.camera import Camera
+from renderer.errors import LucidaError
+from renderer.pixels import Indexing
+
+Floats = NDArray[np.float64]
+
+TOLERANCE = 2e-3  # an answer may be rounded to three digits
+
+
+@dataclass(frozen=True)
+class Verdict:
+    """Whether an answer is right, and what to tell. field: which part it is about, or empty."""
+
+    right: bool
+    text: str
+    field: str = ""
+
+
+@dataclass(frozen=True)
+class RayExercise:
+    """Given the camera and a pixel, give its viewing ray.
+
+    pixel: (row, column), 0-based. size: (width, height) of the image. scaled: any positive
+    multiple of the direction counts. tolerance: the largest error, relative to the vector.
+    indexing: how the texts count pixels.
+    """
+
+    question: str
+    camera: Camera
+    pixel: tuple[int, int]
+    size: tuple[int, int]
+    scaled: bool = True
+    tolerance: float = TOLERANCE
+    indexing: Indexing = Indexing.LECTURE
+
+    @property
+    def fields(self) -> tuple[str, ...]:
+        return "origin", "direction"
+
+    def check(self, answers: Mapping[str, str]) -> Verdict:
+        """The verdict on the texts in the two fields."""
+        given = _vectors(answers, self.fields)
+        if isinstance(given, Verdict):
+            return given
+        ray = self.camera.ray(*self.pixel, self.size)
+        wrong_origin = not self._is_origin(given["origin"], ray.origin)
+        wrong_direction = not self._is_direction(given["direction"], ray.direction)
+        if not wrong_origin and not wrong_direction:
+            return Verdict(True, "Right.")
+        for mistake in mistakes(self.camera, *self.pixel, self.size, self.indexing):
+            if self._is_origin(given["origin"], mistake.ray.origin) and self._is_direction(
+                given["direction"], mistake.ray.direction
+            ):
+                return Verdict(False, mistake.hint, "origin" if wrong_origin else "direction")
+        return self._one_part(given, wrong_origin)
+
+    def solution(self) -> str:
+        """The right ray, step by step, as a lecture's text. Source: the lecture, "any camera"."""
+        x, y = (float(value) for value in self.camera.image_point(*self.pixel, self.size))
+        ray = self.camera.ray(*self.pixel, self.size)
+        if self.camera.is_parallel:
+            rule = (
+                r"$\mathbf{p} = \mathbf{e} + u\,\mathbf{u} + v\,\mathbf{v}$, "
+                r"$\mathbf{d} = -\mathbf{w}$"
+            )
+        else:
+            rule = (
+                r"$\mathbf{p} = \mathbf{e}$, "
+                r"$\mathbf{d} = u\,\mathbf{u} + v\,\mathbf{v} - d\,\mathbf{w}$"
+            )
+        pixel = self.indexing.text(self.pixel)
+        return (
+            f"Pixel {pixel} lies at $u = {text_of(x)}$, $v = {text_of(y)}$.\n\n{rule}\n\n"
+            f"origin `{vector_text(ray.origin)}`, direction `{vector_text(ray.direction)}`"
+        )
+
+    def _one_part(self, given: dict[str, Floats], wrong_origin: bool) -> Verdict:
+        """No classic mistake as a whole: the first wrong part, and its own mistake if it is one."""
+        for mistake in mistakes(self.camera, *self.pixel, self.size, self.indexing):
+            if wrong_origin and self._is_origin(given["origin"], mistake.ray.origin):
+                return Verdict(False, mistake.hint, "origin")
+            if not wrong_origin and self._is_direction(given["direction"], mistake.ray.direction):
+                return Verdict(False, mistake.hint, "direction")
+        if wrong_origin:
+            where = "on the image plane" if self.camera.is_parallel else "at the eye"
+            return Verdict(False, f"Not yet: the ray begins {where}.", "origin")
+        ray = self.camera.ray(*self.pixel, self.size)
+        if _is_multiple(given["direction"], ray.direction, self.tolerance):
+            text = "The direction is right, its length is not: do not normalise it."
+            return Verdict(False, text, "direction")
+        if _is_multiple(-given["direction"], ray.direction, self.tolerance):
+            return Verdict(
+                False, "That points backwards: t > 0 must lead into the scene.", "direction"
+            )
+        return Verdict(False, "Not yet: the origin is right, the direction is not.", "direction")
+
+    def _is_origin(self, given: Floats, exact: Floats) -> bool:
+        return _is_close(given, exact, self.tolerance)
+
+    def _is_direction(self, given: Floats, exact: Floats) -> bool:
+        compare = _is_multiple if self.scaled else _is_close
+        return compare(given, exact, self.tolerance)
+
+
+@dataclass(frozen=True)
+class Wanted:
+    """A vector that is asked for. scaled: any positive multiple counts. wrong: answers that are
+    known to be wrong, each with what to tell."""
+
+    name: str
+    value: tuple[float, float, float]
+    scaled: bool = False
+    wrong: tuple[tuple[tuple[float, float, float], str], ...] = ()
+
+
+@dataclass(frozen=True)
+class VectorExercise:
+    """Give one vector or several, such as u, v, w of an eye, a target and an up."""
+
+    question: str
+    wanted: tuple[Wanted, ...]
+    tolerance: float = TOLERANCE
+
+    @property
+    def fields(self) -> tuple[str, ...]:
+        return tuple(wanted.name for wanted in self.wanted)
+
+    def check(self, answers: Mapping[str, str]) -> Verdict:
+        """The verdict on the texts in the fields: the first wrong one is told."""
+        given = _vectors(answers, self.fields)
+        if isinstance(given, Verdict):
+            return given
+        for wanted in self.wanted:
+            value, exact = given[wanted.name], np.asarray(wanted.value)
+            compare = _is_multiple if wanted.scaled else _is_close
+            if compare(value, exact, self.tolerance):
+                continue
+            for wrong, text in wanted.wrong:
+                if compare(value, np.asarray(wrong), self.tolerance):
+                    return Verdict(False, text, wanted.name)
+            name = escaped(wanted.name)
+            if _is_multiple(value, exact, self.tolerance):
+                text = f"The direction of {name} is right, its length is not."
+            elif _is_multiple(-value, exact, self.tolerance):
+                text = f"{name} points the other way."
+            else:
+                text = f"Not yet: {name} is not right."
+            return Verdict(False, text, wanted.name)
+        return Verdict(True, "Right.")
+
+    def solution(self) -> str:
+        return "\n\n".join(
+            f"{escaped(wanted.name)} = `{vector_text(np.asarray(wanted.value))}`"
+            for wanted in self.wanted
+        )
+
+
+@dataclass(frozen=True)
+class Option:
+    """One answer to choose. feedback: what to tell who chose it."""
+
+    text: str
+    feedback: str
+    right: bool = False
+
+
+@dataclass(frozen=True)
+class ChoiceExercise:
+    """Choose one of several answers; exactly one is right."""
+
+    question: str
+    options: tuple[Option, ...]
+
+    def check(self, chosen: int) -> Verdict:
+        """The verdict on an option, by its number from 0."""
+        option = self.options[chosen]
+        return Verdict(option.right, option.feedback)
+
+    def solution(self) -> str:
+        right = next(option for option in self.options if option.right)
+        return f"{right.text}\n\n{right.feedback}"
+
+
+Exercise = RayExercise | VectorExercise | ChoiceExercise
+
+
+def _vectors(answers: Mapping[str, str], names: tuple[str, ...]) -> dict[str, Floats] | Verdict:
+    """The answers as vectors, or what is wrong with the first that is none."""
+    given = {}
+    for name in names:
+        try:
+            given[name] = vector(answers.get(name, ""))
+        except LucidaError as error:
+            return Verdict(False, escaped(f"{name}: {error}"), name)
+    return given
+
+
+def _is_close(given: Floats, exact: Floats, tolerance: float) -> bool:
+    return bool(np.linalg.norm(given - exact) <= tolerance * max(1.0, float(np.linalg.norm(exact))))
+
+
+def _is_multiple(given: Floats, exact: Floats, tolerance: float) -> bool:
+    """Whether two vectors have one direction; never for a vector without one."""
+    lengths = np.linalg.norm(given), np.linalg.norm(exact)
+    if min(lengths) < 1e-12:
+        return False
+    return bool(np.linalg.norm(given / lengths[0] - exact / lengths[1]) <= tolerance)

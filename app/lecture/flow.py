@@ -1,0 +1,254 @@
+"""A lecture's text broken into lines and put into its places, for a column of any width.
+
+Pure: how wide a word or a formula is, it asks. Knows nothing of fonts, colours or windows. Lengths
+are in pixels, y downwards from the column's top.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
+from typing import Protocol
+
+from app.lecture.text import (
+    Block,
+    Code,
+    Formula,
+    Heading,
+    Line,
+    Listing,
+    Math,
+    Paragraph,
+    Question,
+    Words,
+)
+
+# In parts of the text's size.
+LEADING = 1.32  # from line to line
+PARAGRAPH = 0.62  # between blocks
+ITEM = 0.3  # between a list's items
+INDENT = 1.25  # of a list
+CODE_SIZE = 0.92
+SMALLEST_FORMULA = 0.6  # of a displayed formula that is wide, in parts of its usual size
+HEADING_SIZE = 1.25
+ASIDE = 0.8  # beside a question's text
+
+
+@dataclass(frozen=True)
+class Extent:
+    """How large a piece is: ascent above the baseline, descent below it."""
+
+    width: float
+    ascent: float
+    descent: float
+
+
+@dataclass(frozen=True)
+class Piece:
+    """A word, several, or a formula. size: of its text. style: "text", "bold", "italic", "code" or
+    "math" (of LaTeX); display: a formula by itself."""
+
+    text: str
+    style: str
+    size: float
+    display: bool = False
+
+
+@dataclass(frozen=True)
+class Placed:
+    """A piece in its place: its left edge and its baseline. kind: of the block it is in."""
+
+    piece: Piece
+    x: float
+    baseline: float
+    kind: str
+
+
+@dataclass(frozen=True)
+class Box:
+    """What is behind a block, "code" or "question": left, top, right, bottom."""
+
+    kind: str
+    left: float
+    top: float
+    right: float
+    bottom: float
+
+
+@dataclass(frozen=True)
+class Laid:
+    """A column of text. height: of all of it. width: of its widest line."""
+
+    pieces: tuple[Placed, ...]
+    boxes: tuple[Box, ...]
+    height: float
+    width: float
+
+
+class Measure(Protocol):
+    """How large pieces are."""
+
+    def __call__(self, piece: Piece) -> Extent: ...
+
+
+def lay(blocks: tuple[Block, ...], width: float, size: float, measure: Measure) -> Laid:
+    """The blocks in a column of that width. size: of the text."""
+    column = _Column(width, size, measure)
+    for number, block in enumerate(blocks):
+        if number:
+            column.y += PARAGRAPH * size
+        column.block(block)
+    right = max((p.x + measure(p.piece).width for p in column.pieces), default=0.0)
+    return Laid(tuple(column.pieces), tuple(column.boxes), column.y, right)
+
+
+def fitted(
+    blocks: tuple[Block, ...],
+    room: tuple[float, float],
+    sizes: tuple[float, float],
+    measure: Measure,
+) -> tuple[Laid, float]:
+    """The blocks as large as they fit into the room, (width, height), and the size that took.
+
+    sizes: the smallest and the largest; where even the smallest does not fit, it is used.
+    """
+    smallest, largest = sizes
+    size = largest
+    while True:
+        laid = lay(blocks, room[0], size, measure)
+        if (laid.height <= room[1] and laid.width <= room[0] + 1) or size <= smallest:
+            return laid, size
+        size = max(smallest, size * 0.95)
+
+
+class _Column:
+    """Fills downwards from y."""
+
+    def __init__(self, width: float, size: float, measure: Measure) -> None:
+        self.y = 0.0
+        self.pieces: list[Placed] = []
+        self.boxes: list[Box] = []
+        self._width, self._size, self._measure = width, size, measure
+
+    def block(self, block: Block) -> None:
+        size = self._size
+        match block:
+            case Heading(line=line):
+                self._lines(line, 0.0, HEADING_SIZE * size, "heading", bold=True)
+            case Paragraph(line=line):
+                self._lines(line, 0.0, size, "text")
+            case Question(line=line):
+                top = self.y
+                self.y += 0.35 * size
+                self._lines(line, ASIDE * size, size, "question")
+                self.y += 0.35 * size
+                self.boxes.append(Box("question", 0.0, top, self._width, self.y))
+            case Listing(items=items, numbered=numbered):
+                self._listing(items, numbered)
+            case Code(text=text):
+                self._code(text)
+            case Formula(latex=latex):
+                piece = Piece(latex, "math", 1.12 * size, display=True)
+                extent = self._measure(piece)
+                room = self._width - INDENT * size
+                if extent.width > room:  # the formula gives way, not all of the text
+                    part = max(SMALLEST_FORMULA, 0.98 * room / extent.width)
+                    piece = replace(piece, size=part * piece.size)
+                    extent = self._measure(piece)
+                self.y += 0.15 * size
+                self._put(piece, INDENT * size, self.y + extent.ascent, "formula")
+                self.y += extent.ascent + extent.descent + 0.15 * size
+
+    def _listing(self, items: tuple[Line, ...], numbered: bool) -> None:
+        size = self._size
+        for number, item in enumerate(items):
+            if number:
+                self.y += ITEM * size
+            first = len(self.pieces)
+            self._lines(item, INDENT * size, size, "item")
+            mark = Piece(f"{number + 1}." if numbered else "•", "text", size)
+            baseline = self.pieces[first].baseline if len(self.pieces) > first else self.y
+            x = INDENT * size - self._measure(mark).width - 0.4 * size
+            self._put(mark, max(0.0, x), baseline, "mark")
+
+    def _code(self, text: str) -> None:
+        """Lines as they are; the size gives way where one is too long."""
+        lines = text.splitlines() or [""]
+        inset = 0.5 * self._size
+        size = CODE_SIZE * self._size
+        widest = max(self._measure(Piece(line, "code", size)).width for line in lines)
+        if widest > self._width - 2 * inset:
+            size *= max(0.5, (self._width - 2 * inset) / widest)
+        top = self.y
+        self.y += inset
+        for line in lines:
+            if line:
+                piece = Piece(line, "code", size)
+                ascent = self._measure(piece).ascent
+                self._put(piece, inset, self.y + ascent, "code")
+            self.y += 1.25 * size
+        self.y += inset - 0.1 * size
+        self.boxes.append(Box("code", 0.0, top, self._width, self.y))
+
+    def _lines(self, line: Line, left: float, size: float, kind: str, bold: bool = False) -> None:
+        """A paragraph, broken where it must be."""
+        space = self._measure(Piece(" ", "text", size)).width
+        x = left
+        row: list[tuple[Piece, Extent, float]] = []
+        for atom in _atoms(line, size, bold):
+            extents = [self._measure(piece) for piece in atom]
+            wide = sum(extent.width for extent in extents)
+            if row and x + wide > self._width:
+                self._end_row(row, size, kind)
+                row, x = [], left
+            for piece, extent in zip(atom, extents, strict=True):
+                row.append((piece, extent, x))
+                x += extent.width
+            x += space
+        self._end_row(row, size, kind)
+
+    def _end_row(self, row: list[tuple[Piece, Extent, float]], size: float, kind: str) -> None:
+        """High formulas push the line down, and the next one."""
+        if not row:
+            return
+        usual = self._measure(Piece("x", "text", size))
+        air = (LEADING * size - usual.ascent - usual.descent) / 2
+        above = max(max(extent.ascent for _, extent, _ in row), usual.ascent)
+        below = max(max(extent.descent for _, extent, _ in row), usual.descent)
+        baseline = self.y + air + above
+        for piece, _, x in row:
+            self._put(piece, x, baseline, kind)
+        self.y = baseline + below + air
+
+    def _put(self, piece: Piece, x: float, baseline: float, kind: str) -> None:
+        self.pieces.append(Placed(piece, x, baseline, kind))
+
+
+def _atoms(line: Line, size: float, bold: bool) -> Iterator[list[Piece]]:
+    """What must not be broken: words, with the formulas and the signs that touch them."""
+    atom: list[Piece] = []
+    for span in line:
+        if isinstance(span, Math):
+            atom.append(Piece(span.latex, "math", size))
+            continue
+        for part in re.findall(r"\s+|\S+", span.text):
+            if not part.isspace():
+                atom.append(Piece(part, _style(span, bold), size * _scale(span)))
+            elif atom:
+                yield atom
+                atom = []
+    if atom:
+        yield atom
+
+
+def _style(words: Words, bold: bool) -> str:
+    if words.code:
+        return "code"
+    if words.bold or bold:
+        return "bold"
+    return "italic" if words.italic else "text"
+
+
+def _scale(words: Words) -> float:
+    return CODE_SIZE if words.code else 1.0

@@ -1,0 +1,80 @@
+"""The `options` of a step: changes of the window's options (app/state/options.py), by name.
+
+Knows nothing of steps, and no option by its name: whatever is added to the options can be set in a
+lecture at once, within the bounds that stand on its field.
+"""
+
+from __future__ import annotations
+
+from dataclasses import fields, is_dataclass
+from functools import lru_cache
+from typing import Any, get_args, get_type_hints
+
+import msgspec
+
+from app.lecture.under import under
+from app.state.bounds import check
+from app.state.options import Options
+from renderer.camera import Camera
+from renderer.errors import LucidaError
+from renderer.scene.reading import suggestion
+from renderer.scene.tables import to_struct
+from renderer.scene.views import view_from_table
+
+_types = lru_cache(get_type_hints)  # which takes long
+
+OWN = ("preferences", "bookmarks")  # the user's own, which no step changes
+ELSEWHERE = (*OWN, "marked", "highlight")  # what has a field of its own in a step
+
+NAMES = tuple(entry.name for entry in fields(Options) if entry.name not in ELSEWHERE)
+
+
+def options_from_table(tables: dict[str, Any]) -> dict[str, Any]:
+    """The changes as AppState.with_options() takes them. Raises LucidaError."""
+    types = _types(Options)
+    changes: dict[str, Any] = {}
+    for name, value in tables.items():
+        if name not in NAMES:
+            raise LucidaError(name, "is unknown", suggestion(name, NAMES))
+        kind = types[name]
+        if not is_dataclass(kind):
+            changes[name] = getattr(to_struct({name: value}, _struct(Options)), name)
+        elif not isinstance(value, dict):
+            raise LucidaError(name, "is not a table", f"give e.g. {name}.{fields(kind)[0].name}")
+        else:
+            with under(name):
+                changes[name] = _part(kind, value)
+    check(Options, changes)
+    return changes
+
+
+def _part(kind: Any, table: dict[str, Any]) -> dict[str, Any]:
+    """Changes of one part of the options; its cameras are tables as in a scene file."""
+    types = _types(kind)
+    changes: dict[str, Any] = {}
+    for name, value in table.items():
+        if Camera in get_args(types.get(name)) and isinstance(value, dict):
+            with under(name):
+                changes[name] = _camera(value)
+    others = {name: value for name, value in table.items() if name not in changes}
+    struct = to_struct(others, _struct(kind))
+    return changes | {name: getattr(struct, name) for name in others}
+
+
+def _camera(table: dict[str, Any]) -> Camera:
+    try:
+        return view_from_table(table).camera
+    except LucidaError as error:  # without its own "camera.", the field is named already
+        field = error.field.removeprefix("camera").removeprefix(".")
+        raise LucidaError(field, error.problem, error.remedy) from None
+
+
+def _struct(kind: Any) -> type[msgspec.Struct]:
+    """A structure of a dataclass's fields, all optional, in which an unknown one is an error."""
+    types = _types(kind)
+    kept = [
+        (entry.name, types[entry.name], None)
+        for entry in fields(kind)
+        if Camera not in get_args(types[entry.name])
+    ]
+    return msgspec.defstruct(kind.__name__, kept, forbid_unknown_fields=True)

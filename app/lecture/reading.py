@@ -1,0 +1,375 @@
+"""A lecture file into a lecture; every mistake with the file, the line and the field.
+
+Owns the way from the tables of schema.py to steps. Knows nothing of windows.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+from dataclasses import replace
+from pathlib import Path
+from typing import Any
+
+from app.lecture import text as texts
+from app.lecture.exercises import (
+    ChoiceExercise,
+    Exercise,
+    Option,
+    RayExercise,
+    VectorExercise,
+    Wanted,
+)
+from app.lecture.model import Lecture, Step, Written
+from app.lecture.options import options_from_table
+from app.lecture.places import Places, located
+from app.lecture.schema import (
+    HIGHLIGHTS,
+    PANEL,
+    VIEWS,
+    AnyExercise,
+    ChoiceTable,
+    LectureFile,
+    RayTable,
+    StepTable,
+    VectorTable,
+)
+from app.lecture.under import under
+from app.lecture.written import formulas_written, pieces_written
+from app.state.options import Options
+from renderer.errors import LucidaError
+from renderer.frame import check_size
+from renderer.pixels import Indexing
+from renderer.scene.files import scene_from_tables
+from renderer.scene.limits import TOML_BYTES
+from renderer.scene.load import BUILTIN_SCENES, load_scene
+from renderer.scene.model import Scene, View
+from renderer.scene.outside import check_inside, kept_inside
+from renderer.scene.reading import decode_text, read_file, suggestion
+from renderer.scene.tables import parse_toml, to_struct
+from renderer.scene.views import load_view, view_from_table
+
+BUILTIN = Path(__file__).parents[1] / "lectures" / "images-rays-cameras.toml"
+STEPS = 1000
+PIECES = 20_000  # of a lecture's texts: formulas, and runs of words in one style; a slide has ten
+TITLE_LETTERS = 300
+ANSWERS = 8  # of an exercise: vectors that are asked for, options
+MISTAKES = 32  # that are known of an answer
+_STEPS_LINE = re.compile(r"^[ \t]*(\[\[[ \t]*steps[ \t]*\]\]|steps[ \t]*=)", re.MULTILINE)
+
+
+def is_lecture(path: str | Path) -> bool:
+    """Whether a file is meant as a lecture: a .toml that has steps, and no objects of its own.
+
+    One that is broken is known by a line that begins a step. A file that cannot be read is none.
+    """
+    if Path(path).suffix.lower() != ".toml":
+        return False
+    try:
+        text = decode_text(read_file(Path(path), TOML_BYTES), str(path))
+    except LucidaError:
+        return False
+    try:
+        keys = set(parse_toml(text))
+    except LucidaError:
+        return _STEPS_LINE.search(text) is not None
+    return "objects" not in keys and not keys.isdisjoint(("steps", "scenes"))
+
+
+def load_lecture(path: str | Path, agreed: frozenset[Path] | None = frozenset()) -> Lecture:
+    """The lecture in a file. Raises LucidaError: `file:line: field: problem; remedy`.
+
+    agreed: files outside of its folder that it may read; None: any. OutsideError names others.
+    """
+    with kept_inside(Path(path), agreed) as fence:
+        lecture = _load(path)
+    return replace(lecture, outside=tuple(fence.outside))
+
+
+def _load(path: str | Path) -> Lecture:
+    data = read_file(Path(path), TOML_BYTES)
+    try:
+        text = decode_text(data, str(path))
+    except LucidaError as error:
+        raise _at_its_line(error, str(path)) from None
+    return lecture_from_toml(text, Path(path).parent, str(path))
+
+
+def lecture_from_toml(text: str, folder: Path, source: str) -> Lecture:
+    """The lecture in a text. folder: where the paths of its scenes and views begin. source: the
+    file's name, for errors."""
+    try:
+        tables = parse_toml(text)
+    except LucidaError as error:
+        if error.field == "lucida":  # the version: then the text is TOML
+            raise located(error, Places(text), source) from None
+        raise _at_its_line(error, source) from None
+    try:
+        places = Places(text)
+    except RecursionError:
+        raise LucidaError(
+            "", "is nested too deeply", "write it with fewer brackets", source
+        ) from None
+    try:
+        return _Reader(folder, source, places).lecture(tables)
+    except texts.TextError as error:
+        where = f"{source}:{places.line(error.field) + error.line}"
+        raise LucidaError(error.field, error.problem, error.remedy, where) from None
+    except LucidaError as error:
+        raise located(error, places, source) from None
+
+
+class _Reader:
+    """Reads one file; keeps its scenes, each of which is read once."""
+
+    def __init__(self, folder: Path, source: str, places: Places) -> None:
+        self._folder, self._source, self._places = folder, source, places
+        self._scenes: dict[str, Scene] = {}
+        self._indexing = Indexing.LECTURE
+
+    def lecture(self, tables: dict[str, Any]) -> Lecture:
+        file: LectureFile = to_struct(tables, LectureFile)
+        _check_title("title", file.title, "the lecture's title")
+        if not 1 <= len(file.steps) <= STEPS:
+            raise LucidaError("steps", f"holds {len(file.steps)} steps", f"give 1 to {STEPS}")
+        self._indexing = Indexing(file.pixels_from)
+        check_inside(self._named(file))
+        for name, scene in file.scenes.items():
+            with under(f"scenes.{name}"):
+                self._scenes[name] = self._own_scene(scene, name)
+        steps: list[Step] = []
+        written: list[Written] = []
+        part, pieces = "", 0
+        for number, table in enumerate(file.steps):
+            field = f"steps[{number}]"
+            entry: StepTable = to_struct(table, StepTable, field)
+            part = entry.part or part
+            with under(field):
+                steps.append(self._step(entry, part, self._places.line(field)))
+            pieces += pieces_written(table)
+            if pieces > PIECES:
+                raise LucidaError(
+                    field,
+                    f"brings the lecture to more than {PIECES} formulas and runs of words",
+                    "divide it into several lectures",
+                )
+            written += formulas_written(table, field, self._places, self._source)
+        return Lecture(file.title, file.author, tuple(steps), self._source, tuple(written))
+
+    def _named(self, file: LectureFile) -> Iterator[Path]:
+        """The files that the lecture names itself: models, scenes, views."""
+        entries = [entry for table in file.scenes.values() for entry in _objects_of(table)]
+        names = [entry.get("file") for entry in entries if isinstance(entry, dict)]
+        for step in file.steps:
+            if isinstance(step, dict):
+                scene = step.get("scene")
+                inside = scene in file.scenes or scene in BUILTIN_SCENES
+                names += [None if inside else scene, step.get("camera")]
+        return (self._folder / name for name in names if isinstance(name, str))
+
+    def _own_scene(self, table: Any, name: str) -> Scene:
+        if name in BUILTIN_SCENES:
+            raise LucidaError("", "is the name of a built-in scene", "give it another")
+        if not isinstance(table, dict):
+            raise LucidaError("", "is not a table", f"write it as [scenes.{name}]")
+        return scene_from_tables(table, self._folder, name)
+
+    def _step(self, table: StepTable, part: str, line: int) -> Step:
+        _check_title("title", table.title, "the step's title")
+        if table.part:
+            _check_title("part", table.part, "the part's title")
+        with under("text"):
+            blocks = texts.parse(table.text)
+        scene = self._scene(table.scene or BUILTIN_SCENES[0])
+        view = scene.view if table.camera is None else self._view(table.camera)
+        with under("options"):
+            options = self._options(table.options)
+        resolution = options.get("images", {}).get("resolution")
+        exercise = None
+        if table.exercise is not None:
+            with under("exercise"):
+                exercise = _exercise(table.exercise, view, self._indexing)
+        return Step(
+            table.title,
+            part,
+            table.text,
+            blocks,
+            scene,
+            view,
+            _views(table.views),
+            options,
+            None if table.pixel is None else _pixel(table.pixel, resolution, self._indexing),
+            tuple(_known(f"highlight[{k}]", n, HIGHLIGHTS) for k, n in enumerate(table.highlight)),
+            exercise,
+            line,
+        )
+
+    def _options(self, tables: dict[str, Any]) -> dict[str, Any]:
+        """The step's options; pixels are counted as the lecture says, in all of its steps."""
+        options = options_from_table(tables)
+        one_based = self._indexing is Indexing.LECTURE
+        if one_based != Options().one_based:
+            options = {"one_based": one_based} | options
+        if options.get("one_based", one_based) != one_based:
+            raise LucidaError(
+                "one_based",
+                f"differs from pixels_from = {self._indexing.value}",
+                "leave it out; pixels_from, beside the title, holds for the whole lecture",
+            )
+        return options
+
+    def _scene(self, name: str) -> Scene:
+        if name not in self._scenes:
+            known = name in BUILTIN_SCENES
+            if not known and not Path(name).suffix:
+                names = (*self._scenes, *BUILTIN_SCENES)
+                names = tuple(dict.fromkeys(names))
+                raise LucidaError("scene", f"{name!r} is unknown", suggestion(name, names))
+            try:
+                self._scenes[name] = load_scene(name if known else self._folder / name)
+            except LucidaError as error:
+                raise _of_file(error, "scene") from None
+        return self._scenes[name]
+
+    def _view(self, camera: dict[str, Any] | str) -> View:
+        if not isinstance(camera, str):
+            return view_from_table(camera)
+        try:
+            return load_view(self._folder / camera)
+        except LucidaError as error:
+            raise _of_file(error, "camera") from None
+
+
+def _objects_of(table: Any) -> list[Any]:
+    """The objects in the table of a scene, which may be anything yet."""
+    entries = table.get("objects") if isinstance(table, dict) else None
+    return entries if isinstance(entries, list) else []
+
+
+def _check_title(field: str, title: str, what: str) -> None:
+    if not title.strip():
+        raise LucidaError(field, "is empty", f"give {what}")
+    if len(title) > TITLE_LETTERS:
+        raise LucidaError(field, f"is {len(title)} characters long", f"stay within {TITLE_LETTERS}")
+
+
+def _check_answers(field: str, count: int, most: int = ANSWERS) -> None:
+    if count > most:
+        raise LucidaError(field, f"holds {count}", f"give at most {most}")
+
+
+def _views(names: list[str]) -> tuple[str, ...]:
+    for number, name in enumerate(names):
+        _known(f"views[{number}]", name, (*VIEWS, PANEL))
+    if len(set(names)) < len(names):
+        raise LucidaError("views", "names one twice", "name each view once")
+    pictures = [name for name in names if name != PANEL]
+    if not 1 <= len(pictures) <= 2:
+        raise LucidaError(
+            "views",
+            f"names {len(pictures)} besides {PANEL!r}",
+            "give one or two: a class looks at one thing at a time",
+        )
+    return tuple(names)
+
+
+def _exercise(table: Any, view: View, indexing: Indexing) -> Exercise:
+    entry: RayTable | VectorTable | ChoiceTable = to_struct(table, AnyExercise)
+    if not entry.question.strip():
+        raise LucidaError("question", "is empty", "ask something")
+    with under("question"):
+        texts.parse(entry.question)
+    match entry:
+        case RayTable():
+            return _ray_exercise(entry, view, indexing)
+        case VectorTable():
+            return _vector_exercise(entry)
+    return _choice_exercise(entry)
+
+
+def _ray_exercise(entry: RayTable, view: View, indexing: Indexing) -> RayExercise:
+    size = check_size(entry.size)
+    pixel = _pixel(entry.pixel, size, indexing)
+    camera = view.camera if entry.camera is None else view_from_table(entry.camera).camera
+    tolerance = _tolerance(entry.tolerance)
+    return RayExercise(entry.question, camera, pixel, size, entry.scaled, tolerance, indexing)
+
+
+def _vector_exercise(entry: VectorTable) -> VectorExercise:
+    if not entry.answers:
+        raise LucidaError("answers", "is empty", "give at least one vector")
+    _check_answers("answers", len(entry.answers))
+    wanted: list[Wanted] = []
+    for number, answer in enumerate(entry.answers):
+        if any(answer.name == other.name for other in wanted):
+            field = f"answers[{number}].name"
+            raise LucidaError(field, f"{answer.name!r} is there already", "give another name")
+        _check_answers(f"answers[{number}].wrong", len(answer.wrong), MISTAKES)
+        for place, known in enumerate(answer.wrong):
+            with under(f"answers[{number}].wrong[{place}].feedback"):
+                texts.parse(known.feedback)
+        wrong = tuple((known.value, known.feedback) for known in answer.wrong)
+        wanted.append(Wanted(answer.name, answer.value, answer.scaled, wrong))
+    return VectorExercise(entry.question, tuple(wanted), _tolerance(entry.tolerance))
+
+
+def _choice_exercise(entry: ChoiceTable) -> ChoiceExercise:
+    _check_answers("options", len(entry.options))
+    right = sum(option.right for option in entry.options)
+    if len(entry.options) < 2:
+        raise LucidaError("options", f"holds {len(entry.options)}", "give at least two")
+    if right != 1:
+        raise LucidaError("options", f"has {right} right ones", "set right = true in exactly one")
+    for number, option in enumerate(entry.options):
+        with under(f"options[{number}].text"):
+            texts.parse(option.text)
+        with under(f"options[{number}].feedback"):
+            texts.parse(option.feedback)
+    options = tuple(Option(o.text, o.feedback, o.right) for o in entry.options)
+    return ChoiceExercise(entry.question, options)
+
+
+def _tolerance(value: float) -> float:
+    if not 0 < value <= 0.1:
+        raise LucidaError("tolerance", f"{value:g} is out of range", "give up to 0.1, e.g. 0.002")
+    return value
+
+
+def _pixel(
+    pixel: tuple[int, int], size: tuple[int, int] | None, indexing: Indexing
+) -> tuple[int, int]:
+    """Row and column as the lecture counts, to row and column from 0. size: (width, height) of the
+    image, where the file says it."""
+    if min(pixel) < indexing.value:
+        remedy = f"give row and column, {indexing.told}"
+        raise LucidaError("pixel", f"{list(pixel)} is no pixel", remedy)
+    row, column = indexing.pixel(*pixel)
+    if size is not None and (row >= size[1] or column >= size[0]):
+        last = indexing.numbers((size[1] - 1, size[0] - 1))
+        raise LucidaError(
+            "pixel",
+            f"{list(pixel)} is not in an image of {size[0]}x{size[1]}",
+            f"give a row up to {last[0]} and a column up to {last[1]}",
+        )
+    return row, column
+
+
+def _known(field: str, name: str, names: tuple[str, ...]) -> str:
+    if name not in names:
+        raise LucidaError(field, f"{name[:40]!r} is unknown", suggestion(name, names))
+    return name
+
+
+def _at_its_line(error: LucidaError, source: str) -> LucidaError:
+    """An error whose field is `line 5, column 9`, as `file:5: column 9`, as editors find it."""
+    place = re.fullmatch(r"line (\d+)(?:, (column \d+))?", error.field)
+    if place is None:
+        return error.in_file(source)
+    where = f"{source}:{place[1]}"
+    return LucidaError(place[2] or "", error.problem, error.remedy, where)
+
+
+def _of_file(error: LucidaError, field: str) -> LucidaError:
+    """An error in another file, told as the problem of the field that names the file."""
+    parts = [part for part in (error.source, error.field) if part and part != field]
+    return LucidaError(field, ": ".join([*parts, error.problem]), error.remedy)

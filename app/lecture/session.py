@@ -1,0 +1,121 @@
+"""A lecture while it is given: at which step it stands, and whether its file has changed.
+
+Owns the number of the step and the answers so far, and what a session file keeps of them. Knows
+nothing of windows; the file is read again by whoever has a thread for it.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from pathlib import Path
+
+from app.lecture.exercises import Verdict
+from app.lecture.model import Lecture, Step
+from app.lecture.reading import BUILTIN, load_lecture
+from app.state.app_state import AppState
+from app.storage.kept_lecture import KeptAnswers, KeptLecture
+from app.storage.paths import restored, stored
+from app.storage.watching import Watch, fingerprint, signature
+
+
+@dataclass
+class Answers:
+    """What has been answered to a step's exercise. texts: typed, by field. chosen: the option.
+
+    verdict: on the last answer; None: not asked yet. solved: whether the solution is shown.
+    """
+
+    texts: dict[str, str] = field(default_factory=dict)
+    chosen: int | None = None
+    verdict: Verdict | None = None
+    solved: bool = False
+
+
+class Session:
+    """path: the lecture's file, watched for changes."""
+
+    def __init__(self, lecture: Lecture, path: Path, number: int = 0) -> None:
+        self.lecture, self.path, self.number = lecture, path, number
+        self.error = ""
+        self._answers: dict[str, Answers] = {}
+        self._watch = Watch(signature(path))
+        self._fingerprint = fingerprint(path)
+
+    @classmethod
+    def resumed(cls, kept: KeptLecture) -> Session:
+        """The lecture where it stood, read again. Raises LucidaError. In a file that has changed
+        meanwhile it stands at the step of the same title; what was said to answers is left out."""
+        path = Path(restored(kept.file)) if kept.file else BUILTIN
+        agreed = frozenset(Path(restored(file)) for file in kept.outside)
+        session = cls(load_lecture(path, agreed), path)
+        session.number = session.lecture.nearest(kept.title, kept.number)
+        changed = session.differs_from(kept)
+        for title, answers in kept.answers.items():
+            said = None if changed or answers.verdict is None else Verdict(*answers.verdict)
+            session._answers[title] = Answers(
+                dict(answers.texts), answers.chosen, said, answers.solved
+            )
+        return session
+
+    def differs_from(self, kept: KeptLecture) -> bool:
+        """Whether the file is another one than when that was kept."""
+        return self._fingerprint != kept.fingerprint
+
+    def kept(self, state: AppState) -> KeptLecture:
+        """What a session file keeps. state: the window's."""
+        answers = {
+            title: KeptAnswers(
+                dict(one.texts),
+                one.chosen,
+                None
+                if one.verdict is None
+                else (one.verdict.right, one.verdict.text, one.verdict.field),
+                one.solved,
+            )
+            for title, one in self._answers.items()
+            if one != Answers()
+        }
+        return KeptLecture(
+            "" if self.path == BUILTIN else stored(str(self.path.absolute())),
+            self._fingerprint,
+            self.number,
+            self.step.title,
+            state.step == self.place and state.scene is self.step.scene,
+            answers,
+            tuple(stored(str(file)) for file in self.lecture.outside),
+        )
+
+    @property
+    def step(self) -> Step:
+        return self.lecture.steps[self.number]
+
+    @property
+    def place(self) -> tuple[str, int]:
+        """The lecture and the step, as states name them."""
+        return self.lecture.source, self.number
+
+    @property
+    def answers(self) -> Answers:
+        """Those to the present step."""
+        return self._answers.setdefault(self.step.title, Answers())
+
+    def go(self, number: int) -> bool:
+        """Goes to a step, the first or the last for a number beyond; whether that is another."""
+        number = min(max(number, 0), len(self.lecture.steps) - 1)
+        moved, self.number = number != self.number, number
+        return moved
+
+    def has_changed(self, time_s: float) -> bool:
+        """Whether the file has been saved anew and is to be read again; once for each time."""
+        return self._watch.changed(signature(self.path), time_s)
+
+    @property
+    def expects(self) -> bool:
+        """Whether the file is being written: ask soon again."""
+        return self._watch.waiting
+
+    def take(self, lecture: Lecture) -> None:
+        """Goes on in a newer version, at the same step."""
+        self.number = self.lecture.followed(self.number, lecture)
+        self.lecture, self.error = lecture, ""
+        self._fingerprint = fingerprint(self.path)

@@ -1,0 +1,26 @@
+"""From a step to the state of the window.
+
+Pure. Knows nothing of how a view is shown: that is the window's part of a step (lecture/view.py).
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+from app.lecture.model import Step
+from app.lecture.options import OWN
+from app.state.app_state import AppState, is_orthonormal
+from app.state.options import Options
+
+
+def state_of(step: Step, base: AppState) -> AppState:
+    """The step's own state: its scene, its view and its options, whatever was there before.
+
+    base: the present state, of which only what is the user's own stays, the language of programs,
+    and where in a lecture it is.
+    """
+    kept = {name: getattr(base.options, name) for name in (*OWN, "language")}
+    options = replace(Options(), **kept, marked=step.pixel, highlight=step.highlight)
+    keep = is_orthonormal(step.view.camera)
+    state = AppState(step.scene, step.view, keep, options, base.step)
+    return state.with_options(**step.options)

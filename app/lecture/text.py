@@ -1,0 +1,340 @@
+r"""Markdown with formulas, into blocks to draw.
+
+Owns what of Markdown a lecture may use: headings (#), paragraphs, lists (- or 1.), code (```),
+questions to the class (>), **bold**, *italic*, `code`, $formulas$ and $$displayed formulas$$.
+\$ is a dollar sign. A program may stand there in several languages (```python, ```julia, ```c, one
+after another), one of which is shown. Knows nothing of fonts or of how a formula is set.
+"""
+
+from __future__ import annotations
+
+import itertools
+import re
+from collections.abc import Iterator
+from dataclasses import dataclass
+from functools import lru_cache
+from itertools import groupby
+from typing import NamedTuple
+
+from app.explaining.languages import LANGUAGES
+from renderer.errors import LucidaError
+
+
+class Words(NamedTuple):
+    """A run of text in one style."""
+
+    text: str
+    bold: bool = False
+    italic: bool = False
+    code: bool = False
+
+
+class Math(NamedTuple):
+    """A formula in the line, as LaTeX."""
+
+    latex: str
+
+
+Span = Words | Math
+Line = tuple[Span, ...]
+
+
+@dataclass(frozen=True)
+class Heading:
+    level: int
+    line: Line
+
+
+@dataclass(frozen=True)
+class Paragraph:
+    line: Line
+
+
+@dataclass(frozen=True)
+class Question:
+    """What is asked of the class."""
+
+    line: Line
+
+
+@dataclass(frozen=True)
+class Listing:
+    """A list; numbered from 1, or with bullets."""
+
+    items: tuple[Line, ...]
+    numbered: bool = False
+
+
+@dataclass(frozen=True)
+class Code:
+    """Lines of code, as they stand. language: what the fence says, or empty."""
+
+    text: str
+    language: str = ""
+
+
+@dataclass(frozen=True)
+class Formula:
+    """A displayed formula, as LaTeX."""
+
+    latex: str
+
+
+Block = Heading | Paragraph | Question | Listing | Code | Formula
+
+
+class TextError(LucidaError):
+    """A mistake in a text. line: where, 0 for the text's first line."""
+
+    def __init__(self, line: int, problem: str, remedy: str) -> None:
+        super().__init__("", problem, remedy)
+        self.line = line
+
+
+_ITEM = re.compile(r"(?:[-*]|(\d+)\.)\s+(.*)")
+_BEGINS = re.compile(r"\s*(?:```|\$\$|#|>|(?:[-*]|\d+\.)\s+\S|$)")  # what no paragraph goes on with
+_SIGN = re.compile(r"[\\$*`]")  # without one, a line is only words
+_MARKS = (
+    r"\\(?P<sign>[\\$*`>#-])"  # a sign that means itself
+    r"|`(?P<code>[^`]+)`"
+    r"|(?P<displayed>\$\$)"  # a displayed formula's sign, which has no place in a line
+    r"|\$(?P<latex>(?:[^$\\]++|\\.)++)\$"
+)
+_STRONG = r"|\*\*(?P<strong>.+?)\*\*(?!\*)"
+_SLANTED = r"|\*(?![\s*])(?P<slanted>.+?)(?<!\s)\*|(?P<open>\*(?![\s*]))"
+# By whether bold and italic text can begin: not inside itself.
+_SPANS = {
+    (strong, slanted): re.compile(_MARKS + _STRONG * strong + _SLANTED * slanted)
+    for strong in (False, True)
+    for slanted in (False, True)
+}
+LETTERS = 50_000  # of a text; a slide has some hundred
+
+
+@lru_cache(256)
+def parse(text: str) -> tuple[Block, ...]:
+    """The blocks of a text. Raises TextError where a fence or a formula does not end, or the text
+    is too long to be shown."""
+    if len(text) > LETTERS:
+        remedy = f"stay within {LETTERS}, in several steps"
+        raise TextError(0, f"is a text of {len(text)} characters", remedy)
+    return tuple(_blocks(text.splitlines()))
+
+
+def plain(blocks: tuple[Block, ...]) -> str:
+    """The words of a text without their marks; formulas as their LaTeX."""
+    parts = []
+    for block in blocks:
+        match block:
+            case Listing():
+                parts += [words(item) for item in block.items]
+            case Code():
+                parts.append(block.text)
+            case Formula():
+                parts.append(block.latex)
+            case _:
+                parts.append(words(block.line))
+    return "\n".join(parts)
+
+
+def in_language(blocks: tuple[Block, ...], language: str) -> tuple[Block, ...]:
+    """The text with one of each program that is there in several languages, one fence after
+    another: in that language, or else the first."""
+    kept: list[Block] = []
+    for same, group in itertools.groupby(blocks, lambda block: _language(block) != ""):
+        programs = list(group)
+        if same:
+            programs = [one for one in programs if _language(one) == language] or programs[:1]
+        kept += programs
+    return tuple(kept)
+
+
+def languages(blocks: tuple[Block, ...]) -> tuple[str, ...]:
+    """The languages that a text has programs in, where there are several to choose from."""
+    found = tuple(dict.fromkeys(name for name in map(_language, blocks) if name))
+    return found if len(found) > 1 else ()
+
+
+def _language(block: Block) -> str:
+    return block.language if isinstance(block, Code) and block.language in LANGUAGES else ""
+
+
+def words(line: Line) -> str:
+    """A line's words without their marks."""
+    return "".join(span.text if isinstance(span, Words) else span.latex for span in line)
+
+
+def escaped(text: str) -> str:
+    """A text that is shown as it stands, whatever signs are in it: what somebody has typed."""
+    return re.sub(r"([\\$*`])", r"\\\1", text)
+
+
+def formulas(blocks: tuple[Block, ...]) -> tuple[str, ...]:
+    """All formulas of a text, as LaTeX."""
+    found = []
+    for block in blocks:
+        if isinstance(block, Formula):
+            found.append(block.latex)
+        elif not isinstance(block, Code):
+            lines = block.items if isinstance(block, Listing) else (block.line,)
+            found += [span.latex for line in lines for span in line if isinstance(span, Math)]
+    return tuple(found)
+
+
+def pieces(blocks: tuple[Block, ...]) -> int:
+    """How many pieces a text is laid out of: formulas, programs, runs of words in one style."""
+    count = 0
+    for block in blocks:
+        if isinstance(block, Code | Formula):
+            count += 1
+        elif isinstance(block, Listing):
+            count += sum(map(len, block.items))
+        else:
+            count += len(block.line)
+    return count
+
+
+def _blocks(lines: list[str]) -> Iterator[Block]:
+    number = 0
+    while number < len(lines):
+        line = lines[number].strip()
+        start = number
+        number += 1
+        if not line:
+            continue
+        if line.startswith("```"):
+            while number < len(lines) and lines[number].strip() != "```":
+                number += 1
+            if number == len(lines):
+                raise TextError(start, "the code does not end", "close it by a line of ```")
+            yield Code("\n".join(lines[start + 1 : number]), line[3:].strip())
+            number += 1
+        elif line.startswith("$$"):
+            while not (
+                lines[number - 1].rstrip().endswith("$$") and _text_of(lines, start, number)
+            ):
+                _check_ends_there(lines[number - 1], 2 * (number - 1 == start), number - 1)
+                if number == len(lines):
+                    raise TextError(start, "the formula does not end", "close it by $$")
+                number += 1
+            yield Formula(_balanced(_text_of(lines, start, number), start))
+        elif line.startswith("#"):
+            level = len(line) - len(line.lstrip("#"))
+            yield Heading(level, _line(line[level:].strip(), start))
+        elif line[0] in "-*0123456789" and _ITEM.fullmatch(line):
+            items, number = _items(lines, start)
+            numbered = line[0].isdigit()
+            yield Listing(tuple(_line(item, start + k) for k, item in items), numbered)
+        else:
+            asked = line.startswith(">")
+            while number < len(lines) and _goes_on(lines[number], asked):
+                number += 1
+            content = " ".join(map(_unasked if asked else str.strip, lines[start:number]))
+            spans = _line(content, start)
+            yield Question(spans) if asked else Paragraph(spans)
+
+
+def _check_ends_there(line: str, begin: int, number: int) -> None:
+    """Raises TextError where a displayed formula ends in a line, from the sign `begin` on, that
+    goes on with text."""
+    if "$$" in line.strip()[begin:]:
+        raise TextError(
+            number, "text follows a displayed formula's $$", "begin a new line after it"
+        )
+
+
+def _items(lines: list[str], start: int) -> tuple[list[tuple[int, str]], int]:
+    """A list's items, each with its line after `start`, and the number of the line behind it."""
+    items: list[tuple[int, list[str]]] = []
+    number = start
+    while number < len(lines) and lines[number].strip():
+        item = _ITEM.fullmatch(lines[number].strip())
+        if item:
+            items.append((number - start, [item[2]]))
+        else:  # a line that goes on with the item above it
+            items[-1][1].append(lines[number].strip())
+        number += 1
+    return [(where, " ".join(parts)) for where, parts in items], number
+
+
+def _goes_on(line: str, asked: bool) -> bool:
+    """Whether a paragraph, or a question, goes on with this line."""
+    return line.lstrip().startswith(">") if asked else not _BEGINS.match(line)
+
+
+def _unasked(line: str) -> str:
+    """A question's line without the sign that it begins with."""
+    return line.strip().lstrip(">").strip()
+
+
+def _text_of(lines: list[str], start: int, end: int) -> str:
+    """What is between the $$ of a displayed formula; empty where it is not closed yet."""
+    whole = "\n".join(lines[start:end]).strip()
+    return whole[2:-2].strip() if len(whole) > 4 and whole.endswith("$$") else ""
+
+
+def _line(text: str, number: int) -> Line:
+    if not _SIGN.search(text):
+        return (Words(text),) if text else ()
+    return tuple(_merged(list(_spans(text, number))))
+
+
+def _spans(text: str, number: int, bold: bool = False, italic: bool = False) -> Iterator[Span]:
+    pattern = _SPANS[not bold, not italic]
+    at = start = 0  # of what is not yet given, and of what is not yet looked at
+    while match := pattern.search(text, start):
+        kind, start = match.lastgroup, match.end()
+        if kind == "open":  # nothing closes it, nor any later one: they are not looked for again
+            pattern = _SPANS[not bold, False]
+            continue
+        if kind == "displayed":
+            raise TextError(
+                number, "$$ stands within a line", "give it lines of its own, or write $ ... $"
+            )
+        if at < match.start():
+            yield _plain(text[at : match.start()], number, bold, italic)
+        at, inner = start, match[kind or 0]
+        if kind == "latex":
+            yield Math(_balanced(inner.strip(), number))
+        elif kind == "strong":
+            yield from _spans(inner, number, True, italic)
+        elif kind == "slanted":
+            yield from _spans(inner, number, bold, True)
+        else:
+            yield Words(inner, bold, italic, code=kind == "code")
+    if at < len(text):
+        yield _plain(text[at:], number, bold, italic)
+
+
+def _plain(text: str, number: int, bold: bool, italic: bool) -> Words:
+    if "$" in text:
+        raise TextError(
+            number, "a formula does not end", r"close it by $, or write \$ for a dollar"
+        )
+    return Words(text, bold, italic)
+
+
+def _merged(spans: list[Span]) -> Iterator[Span]:
+    """Neighbours of one style as one."""
+    styles = [span[1:] if type(span) is Words else None for span in spans]
+    if not any(one is not None and one == two for one, two in itertools.pairwise(styles)):
+        yield from spans
+        return
+    for style, group in groupby(zip(spans, styles, strict=True), lambda pair: pair[1]):
+        same = [span for span, _ in group]
+        if style is None or len(same) == 1:
+            yield from same
+        else:
+            yield Words("".join([span[0] for span in same]), *style)
+
+
+def _balanced(latex: str, number: int) -> str:
+    """The formula, if its braces match."""
+    depth = 0
+    for sign in re.sub(r"\\[{}\\]", "", latex):
+        depth += (sign == "{") - (sign == "}")
+        if depth < 0:
+            break
+    if depth:
+        raise TextError(number, f"the braces of {latex[:40]!r} do not match", "correct the formula")
+    return latex

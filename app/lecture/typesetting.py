@@ -1,0 +1,84 @@
+"""Whether formulas can be set: commands that MicroTeX does not know, and what it refuses.
+
+Owns how MicroTeX's answer is read. Knows nothing of windows: it works without one, in any thread.
+MicroTeX throws where a formula makes no sense to it; a command that it does not know it draws as
+it is written, in red.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable
+
+import numpy as np
+from imgui_bundle import ImVec4, imgui_microtex
+
+from app.lecture.model import Written
+from app.widgets.formula import available
+from renderer.errors import LucidaError, one_line
+
+_SIZE_PX = 24.0
+_WHITE = ImVec4(1, 1, 1, 1)
+_COMMAND = re.compile(r"\\(?:[A-Za-z]+|.)", re.DOTALL)
+_COLORED = re.compile(
+    r"\\(?:textcolor|color|fgcolor|bgcolor|colorbox|fcolorbox)\s*(?:\[[^\]]*\])?\s*\{[^{}]*\}"
+)
+_IN_PAIRS = (r"\left", r"\right", r"\begin", r"\end")  # which are unknown when they stand alone
+
+
+def first_mistake(formulas: Iterable[Written]) -> LucidaError | None:
+    """The first formula that cannot be set, as `file:line: field: problem; remedy`.
+
+    None where all can be, and where nothing is known of it: there formulas are shown as text.
+    """
+    for written in formulas:
+        told = mistake(written.latex)
+        if told is not None:
+            at, problem = told
+            where = f"{written.source}:{written.line + written.latex.count(chr(10), 0, at)}"
+            return LucidaError(written.field, problem, "correct the formula", where)
+    return None
+
+
+def mistake(latex: str) -> tuple[int, str] | None:
+    """What is wrong with a formula, and from which of its characters on; None if it can be set."""
+    if not available():
+        return None
+    try:
+        if not _has_red(_COLORED.sub("", latex)):
+            return None
+    except RuntimeError as error:
+        reason = one_line(str(error)).split("caused by:")[-1].strip().rstrip("!.")
+        return 0, f"{_short(latex)} cannot be set: {reason}"
+    commands = list(_COMMAND.finditer(latex))
+    commands.sort(key=lambda command: command[0] in _IN_PAIRS)  # those last
+    for command in commands:
+        if _is_unknown(command[0]):
+            if command[0] in _IN_PAIRS:
+                problem = (
+                    f"{command[0]} in {_short(latex)} has no partner, or is of an unknown kind"
+                )
+                return command.start(), problem
+            return command.start(), f"{command[0]} is no command that formulas know"
+    return 0, f"{_short(latex)} holds what formulas do not know"
+
+
+def _is_unknown(command: str) -> bool:
+    try:
+        return _has_red(command)
+    except RuntimeError:  # it wants something to stand on
+        return False
+
+
+def _has_red(latex: str) -> bool:
+    made = imgui_microtex.render(latex, _SIZE_PX, _WHITE)
+    if not made.width or not made.height:
+        return False
+    pixels = np.asarray(made.pixels_as_array())
+    red = (pixels[..., 0] > 0) & (pixels[..., 1] == 0) & (pixels[..., 2] == 0)
+    return bool((red & (pixels[..., 3] > 0)).any())
+
+
+def _short(latex: str) -> str:
+    """As much of a formula as a line has room for; repr() would double its backslashes."""
+    return f"'{one_line(latex[:40])}'"

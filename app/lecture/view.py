@@ -1,0 +1,411 @@
+"""The guided lecture: a column of text beside the views that a step shows.
+
+Owns the session of the lecture that is given, and the way from a step to what the window shows.
+Texts are drawn by lecture/slide.py, exercises by lecture/exercise.py; steps and their states are
+teach/lecture/'s.
+"""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Sequence
+from dataclasses import replace
+from pathlib import Path
+from typing import Protocol
+
+import moderngl
+from imgui_bundle import ImVec2, imgui
+
+from app.explaining.languages import LANGUAGES
+from app.host import layout
+from app.host.view import Host, View
+from app.lecture.exercise import exercise
+from app.lecture.model import Lecture, Step
+from app.lecture.options import OWN
+from app.lecture.reading import BUILTIN, load_lecture
+from app.lecture.session import Session
+from app.lecture.slide import Sizes, Slides, sizes_of
+from app.lecture.states import state_of
+from app.lecture.text import Block, in_language, languages
+from app.lecture.typesetting import first_mistake
+from app.state.app_state import AppState
+from app.state.options import Options
+from app.storage.kept_lecture import KeptLecture
+from app.storage.session import source_of
+from app.widgets import theme
+from app.widgets.background import Background
+from app.widgets.checks import radio_button
+from app.widgets.lettering import at_most, lettering
+from renderer.errors import LucidaError, describe
+from renderer.scene.models import read_by
+from renderer.scene.subprocess_reader import ModelReader
+
+LECTURE = "Lecture"
+RESTORE = "back to the step"
+LAID_OUT = 8  # frames until every view has its place
+END = "End the lecture"
+
+
+class Changeable(Protocol):
+    """The window, as steps change it."""
+
+    @property
+    def state(self) -> AppState: ...
+    def change(self, state: AppState) -> None: ...
+
+
+class LectureView(View):
+    """others: the views that steps show, by their names in a lecture with a capital."""
+
+    name = LECTURE
+    title = "Lecture"
+    padding = ImVec2(18, 14)
+
+    def __init__(self, others: Sequence[View]) -> None:
+        self._others = {view.name: view for view in others}
+        self.session: Session | None = None
+        self._reading: Background[tuple[Lecture, LucidaError | None]] | None = None
+        self._slides: Slides | None = None
+        self._arranged = True
+        self._entered = False  # whether the step's state has been taken
+        self._put_off: tuple[KeptLecture, KeptLecture, str] | None = None
+        self._answered = self._begun = False
+        self._frames = 0  # that were drawn since the step's views were arranged
+        self._docks: dict[str, int] = {}  # where they stood then
+        self._to_top = False  # a step's text is read from its beginning
+        self.arrangements = 0  # how often the views have been put into their places
+
+    # What actions and buttons ask for.
+
+    def give(self, lecture: Lecture, path: Path, number: int = 0) -> None:
+        """Begins a lecture at a step, in the next frame."""
+        self.session = Session(lecture, path, number)
+        self._entered, self._put_off = False, None
+
+    def resume(self, session: Session) -> None:
+        """Goes on with a lecture in the state and the views that the window has."""
+        self.session = session
+        self._entered = self._arranged = True
+
+    def take_begun(self) -> bool:
+        """Whether a lecture was begun since this was asked last."""
+        begun, self._begun = self._begun, False
+        return begun
+
+    def put_off(self, kept: KeptLecture, scene: str) -> None:
+        """A lecture that cannot be read now stays in the session until another one is given.
+        scene: what is shown instead of its step's."""
+        self._put_off = replace(kept, in_step=False), kept, scene
+
+    def kept(self, state: AppState) -> KeptLecture | None:
+        """What a session file keeps of the lecture."""
+        if self.session is not None:
+            return self.session.kept(state)
+        if self._put_off is None:
+            return None
+        elsewhere, kept, scene = self._put_off
+        return kept if source_of(state.scene) == scene else elsewhere
+
+    def take_answered(self) -> bool:
+        """Whether something was answered since this was asked last."""
+        answered, self._answered = self._answered, False
+        return answered
+
+    def leave(self, window: Changeable) -> None:
+        """Ends the lecture: the step's scene and camera, in the layout and the type of a desk."""
+        if self.session is None:
+            return
+        self.session, state = None, window.state
+        kept = {name: getattr(state.options, name) for name in (*OWN, "language")}
+        state = replace(state, options=replace(Options(), **kept), step=None)
+        window.change(state.with_options(preferences={"presentation": False}))
+        layout.switch(layout.LAYOUTS[0].name)
+
+    def give_builtin(self) -> None:
+        """Begins the built-in lecture."""
+        self.give(load_lecture(BUILTIN), BUILTIN)
+
+    @property
+    def is_given(self) -> bool:
+        return self.session is not None
+
+    def go(self, window: Changeable, number: int) -> None:
+        """Goes to a step, which takes its own state."""
+        if self.session is not None:
+            self.session.go(number)
+            self.restore(window)
+
+    def advance(self, window: Changeable, steps: int) -> None:
+        """Goes some steps on, or back."""
+        if self.session is not None and self.session.go(self.session.number + steps):
+            self.restore(window)
+
+    def restore(self, window: Changeable, **preferences: bool) -> None:
+        """Back to the step's own scene, camera, options and views."""
+        if self.session is None:
+            return
+        state = replace(window.state, step=self.session.place)
+        state = state.with_options(preferences=preferences)
+        window.change(state_of(self.session.step, state))
+        self._entered, self._arranged = True, False
+        self._to_top = True
+        for view in self._others.values():
+            view.begin_anew()
+        layout.switch(layout.LECTURE)
+
+    # The frame.
+
+    @property
+    def settled(self) -> bool:
+        reading = self._reading is not None and self._reading.busy
+        return not (self.is_entering or (self.session is not None and reading))
+
+    @property
+    def is_entering(self) -> bool:
+        """Whether a step's views are still to be put into their places."""
+        return self.session is not None and not (self._entered and self._arranged)
+
+    def begin(self, host: Host, context: moderngl.Context) -> None:
+        self._reading = Background("lucida-lecture", host.animate)
+        self._slides = Slides(host.fonts)
+
+    def end(self) -> None:
+        if self._reading is not None:
+            self._reading.close()
+
+    def follow(self, host: Host) -> None:
+        """Once a frame, whether or not the view is seen: takes steps and newer files."""
+        if self.session is None:
+            return
+        if not self._entered:  # to be seen from the last row, whichever way it was begun
+            self.restore(host, presentation=True)
+            self._begun = True
+        self._follow_undo(host.state.step, self.session)
+        if not self._arranged and layout.current().name == layout.LECTURE:
+            self._arrange(self.session.step)
+            self._arranged = True
+            host.animate()
+        self._follow_file(host, self.session)
+
+    def _follow_undo(self, place: tuple[str, int] | None, session: Session) -> None:
+        """Undo and redo pass from a step's states into another's: then so do text and views."""
+        if place is None or place[0] != session.lecture.source:
+            return
+        if session.go(place[1]):
+            self._arranged = False
+            layout.switch(layout.LECTURE)
+
+    def _follow_file(self, host: Host, session: Session) -> None:
+        assert self._reading is not None
+        if session.has_changed(time.monotonic()):
+            agreed = frozenset(session.lecture.outside)
+            self._reading.submit(lambda: _read(session.path, agreed))
+        if session.expects:
+            host.animate()
+        outcome = self._reading.poll()
+        if outcome is None:
+            return
+        if outcome.error is not None:
+            session.error = describe(outcome.error)
+        elif outcome.value is not None:
+            lecture, mistake = outcome.value
+            session.take(lecture)
+            session.error = "" if mistake is None else str(mistake)  # seen in the formula, too
+            self.restore(host)
+
+    def _arrange(self, step: Step) -> None:
+        layout.arrange(self._others.values(), _places(step))
+        self._frames = 0
+        self.arrangements += 1
+
+    def _is_as_given(self, host: Host, step: Step) -> bool:
+        """Whether state and views are the step's own."""
+        state = host.state
+        for view in self._others.values():
+            state = view.as_set(state)
+        if state_of(step, state) != state:
+            return False
+        if not self._arranged:
+            return True
+        docks = layout.docks(self._others.values())
+        self._frames += 1
+        if self._frames <= LAID_OUT:
+            self._docks = docks
+        return docks == self._docks and set(docks) == set(_places(step))
+
+    # The column.
+
+    def draw(self, host: Host) -> None:
+        if self.session is None:
+            self._invite(host)
+            return
+        session, slides = self.session, self._slides
+        self._keys(host)
+        assert slides is not None
+        style = imgui.get_style()
+        width, height = imgui.get_content_region_avail().x, imgui.get_io().display_size.y
+        sizes = sizes_of(width, height, host.state.preferences.font_scale, style.font_scale_dpi)
+        with lettering(host.fonts.text, sizes.label), at_most(sizes.label):
+            self._head(host, session, sizes)
+            avail = imgui.get_content_region_avail()
+            rows = 1 if _fits_a_row(avail.x) else 2
+            foot = rows * imgui.get_frame_height_with_spacing() + imgui.get_style().item_spacing.y
+            error = self._error_height(session, avail.x)
+            child = ImVec2(avail.x, max(1.0, avail.y - foot - error))
+            if imgui.begin_child("step", child):
+                if self._to_top:
+                    imgui.set_scroll_y(0.0)
+                    self._to_top = False
+                self._body(host, session, slides, sizes, child)
+            imgui.end_child()
+            if session.error:
+                imgui.push_text_wrap_pos(0.0)
+                imgui.text_colored(theme.ERROR, session.error)
+                imgui.pop_text_wrap_pos()
+            self._foot(host, session)
+
+    def _keys(self, host: Host) -> None:
+        """The arrow keys, where the column has the keyboard; Page Up and Down are actions."""
+        if imgui.is_any_item_active():
+            return
+        for key, steps in ((imgui.Key.left_arrow, -1), (imgui.Key.right_arrow, 1)):
+            if imgui.shortcut(int(key)):
+                self.advance(host, steps)
+
+    def _head(self, host: Host, session: Session, sizes: Sizes) -> None:
+        step = session.step
+        width = imgui.get_content_region_avail().x
+        imgui.text_colored(theme.DIM, step.part or session.lecture.title)
+        with lettering(host.fonts.bold, sizes.title):
+            wide = imgui.calc_text_size(step.title).x
+        title_px = max(0.66 * sizes.title, sizes.title * min(1.0, 0.98 * width / max(wide, 1.0)))
+        with lettering(host.fonts.bold, title_px):
+            imgui.push_text_wrap_pos(0.0)
+            imgui.text(step.title)
+            imgui.pop_text_wrap_pos()
+        imgui.dummy(ImVec2(0, 0.25 * sizes.label))
+
+    def _body(
+        self, host: Host, session: Session, slides: Slides, sizes: Sizes, room: ImVec2
+    ) -> None:
+        """The text, as large as it fits; larger, it is scrolled."""
+        step = session.step
+        top = imgui.get_cursor_pos().y
+        blocks = self._in_language(host, step)
+        may_scroll = sizes.enlarged > 1.0 or step.exercise is not None
+        bar = imgui.get_style().scrollbar_size if may_scroll else 0.0
+        width, height = room.x - bar, room.y - (imgui.get_cursor_pos().y - top)
+        if step.exercise is None:
+            size = slides.fitting_px(blocks, (room.x, height), sizes)
+            slides.text(blocks, (width, height), (size, size))
+            return
+        size = sizes.exercise
+        least = min(sizes.text[0], size)
+        if blocks:
+            slides.text(blocks, (width, 0.4 * height), (least, size))
+            imgui.dummy(ImVec2(0, 0.5 * size))
+        answers = session.answers
+        before = replace(answers, texts=dict(answers.texts))
+        exercise(step.exercise, answers, slides, host.fonts, (least, size))
+        self._answered = self._answered or answers != before
+
+    def _in_language(self, host: Host, step: Step) -> tuple[Block, ...]:
+        """The step's text; above it the languages, where its programs are there in several."""
+        chosen = host.state.options.language
+        offered = languages(step.blocks)
+        for number, (name, title) in enumerate(LANGUAGES.items()):
+            if name not in offered:
+                continue
+            if number:
+                imgui.same_line(0, imgui.get_font_size())
+            if radio_button(f"{title}##language", name == chosen):
+                host.apply(host.state.with_options(language=name))
+        return in_language(step.blocks, host.state.options.language)
+
+    def _error_height(self, session: Session, width: float) -> float:
+        if not session.error:
+            return 0.0
+        return float(imgui.calc_text_size(session.error, wrap_width=width).y) + 8.0
+
+    def _foot(self, host: Host, session: Session) -> None:
+        """Back, the place in the lecture, next; the outline; the way back to the step."""
+        number, count = session.number, len(session.lecture.steps)
+        size = imgui.get_font_size()
+        fits = _fits_a_row(imgui.get_content_region_avail().x)
+        imgui.begin_disabled(number == 0)
+        if imgui.button("<##back", ImVec2(2.4 * size, 0)):
+            self.advance(host, -1)
+        imgui.end_disabled()
+        imgui.set_item_tooltip("the step before (Page Up)")
+        imgui.same_line()
+        if imgui.button(f"{number + 1} / {count}##outline", ImVec2(5.0 * size, 0)):
+            imgui.open_popup("outline")
+        imgui.set_item_tooltip("all steps")
+        imgui.same_line()
+        imgui.begin_disabled(number == count - 1)
+        if imgui.button(">##next", ImVec2(2.4 * size, 0)):
+            self.advance(host, 1)
+        imgui.end_disabled()
+        imgui.set_item_tooltip("the next step (Page Down)")
+        if fits:
+            imgui.same_line(0, size)
+        imgui.begin_disabled(self._is_as_given(host, session.step))
+        if imgui.button(f"{RESTORE}##restore", ImVec2(0 if fits else _walking_px(), 0)):
+            self.restore(host)
+        imgui.end_disabled()
+        imgui.set_item_tooltip("its own scene, camera and views (Backspace)")
+        self._outline(host, session)
+
+    def _outline(self, host: Host, session: Session) -> None:
+        if not imgui.begin_popup("outline"):
+            return
+        for part, numbers in session.lecture.outline():
+            imgui.separator_text(part or session.lecture.title)
+            for number in numbers:
+                step = session.lecture.steps[number]
+                if imgui.selectable(f"{number + 1}  {step.title}", number == session.number)[0]:
+                    self.go(host, number)
+        imgui.separator()
+        if imgui.selectable(END, False)[0]:
+            self.leave(host)
+        imgui.end_popup()
+
+    def _invite(self, host: Host) -> None:
+        imgui.push_text_wrap_pos(0.0)
+        imgui.text("A guided lecture: steps of text, each with its own scene, camera and views.")
+        imgui.pop_text_wrap_pos()
+        if imgui.button('Begin "Images, rays and cameras"'):
+            self.give_builtin()
+        if imgui.button("Open lecture..."):
+            host.files.open_lecture_dialog()
+        imgui.push_text_wrap_pos(0.0)
+        imgui.text_colored(theme.DIM, "A lecture's file can be dropped on the window, too.")
+        imgui.pop_text_wrap_pos()
+
+
+def _places(step: Step) -> dict[str, str]:
+    """The dock spaces of a step's views: the main one large, a second one below it."""
+    pictures = [name for name in step.views if name != "camera"]
+    spaces = dict(zip(pictures, (layout.MAIN, layout.LOWER_SPACE), strict=False))
+    if "camera" in step.views:
+        spaces["camera"] = layout.CAMERA_SPACE
+    return {name.capitalize(): space for name, space in spaces.items()}
+
+
+def _walking_px() -> float:
+    """The width of the buttons that walk the steps."""
+    return 9.8 * imgui.get_font_size() + 2 * imgui.get_style().item_spacing.x
+
+
+def _fits_a_row(width: float) -> bool:
+    """Whether the way back to the step has room beside them."""
+    text = imgui.calc_text_size(RESTORE).x + 2 * imgui.get_style().frame_padding.x
+    return bool(_walking_px() + imgui.get_font_size() + text <= width)
+
+
+def _read(path: Path, agreed: frozenset[Path]) -> tuple[Lecture, LucidaError | None]:
+    """A lecture's file read again, and the first of its formulas that cannot be set. agreed: files
+    outside of its folder that it may read."""
+    with read_by(ModelReader().read):  # a large model of its scenes' in a process of its own
+        lecture = load_lecture(path, agreed)
+    return lecture, first_mistake(lecture.formulas)

@@ -1,0 +1,75 @@
+"""Where in a lecture's file its formulas stand, for whoever has to say which one is wrong.
+
+Owns which fields of a step are texts. Knows nothing of how formulas are set.
+"""
+
+from __future__ import annotations
+
+import re
+from bisect import bisect_right
+from collections.abc import Iterator
+from itertools import accumulate
+from typing import Any
+
+from app.lecture import text as texts
+from app.lecture.model import Written
+from app.lecture.places import Places
+
+_SOLID = re.compile(r"[^\s>]+")
+
+
+def formulas_written(
+    step: dict[str, Any], field: str, places: Places, source: str
+) -> Iterator[Written]:
+    """All formulas of a step. step: its table, as read and found to be legal. field: its path.
+    source: the file's name."""
+    for name, text in _texts_of(step):
+        formulas = texts.formulas(texts.parse(text))
+        if not formulas:
+            continue
+        first = places.line(f"{field}.{name}")
+        for latex, line in zip(formulas, _lines(formulas, text), strict=True):
+            yield Written(latex, f"{field}.{name}", source, first + line)
+
+
+def pieces_written(step: dict[str, Any]) -> int:
+    """How many pieces a step's texts are laid out of. step: as for formulas_written."""
+    return sum(texts.pieces(texts.parse(text)) for _, text in _texts_of(step))
+
+
+def _lines(formulas: tuple[str, ...], text: str) -> Iterator[int]:
+    """The line in a text, from 0, in which each of its formulas begins.
+
+    Both are compared without white space and the signs that a question's lines begin with: a
+    formula may go on in the next line. Each is looked for behind the one before: one pass.
+    """
+    pieces = list(_SOLID.finditer(text))
+    solid = "".join(piece[0] for piece in pieces)
+    ends = list(accumulate(len(piece[0]) for piece in pieces))  # of the pieces, in `solid`
+    at = line = counted = 0
+    for latex in formulas:
+        bare = f"${''.join(_SOLID.findall(latex))}$"
+        start = solid.find(bare, at)
+        if start >= 0:
+            number = bisect_right(ends, start + 1)
+            here = pieces[number].start() if number < len(pieces) else len(text)
+            line += text.count("\n", counted, here)
+            counted, at = here, start + len(bare)
+        yield line
+
+
+def _texts_of(step: dict[str, Any]) -> Iterator[tuple[str, str]]:
+    """The texts of a step, with their fields below it."""
+    if "text" in step:
+        yield "text", step["text"]
+    exercise = step.get("exercise")
+    if exercise is None:
+        return
+    yield "exercise.question", exercise["question"]
+    for number, option in enumerate(exercise.get("options", ())):
+        yield f"exercise.options[{number}].text", option["text"]
+        yield f"exercise.options[{number}].feedback", option["feedback"]
+    for number, answer in enumerate(exercise.get("answers", ())):
+        for place, wrong in enumerate(answer.get("wrong", ())):
+            field = f"exercise.answers[{number}].wrong[{place}].feedback"
+            yield field, wrong["feedback"]

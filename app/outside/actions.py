@@ -1,0 +1,132 @@
+"""The outside view's actions: its switches, its handles, from where it looks.
+
+Owns their names and keys. What is switched is outside/switches.py's.
+"""
+
+from __future__ import annotations
+
+from app.cameras.navigation import switched_projection
+from app.host.action import CTRL, SHIFT, Action, Key, Window, changing
+from app.outside.extent import around, framed, outside_camera, way_of
+from app.outside.switches import (
+    AXIS_NAMES,
+    HANDLES,
+    SWITCHES,
+    Switch,
+    is_on,
+    toggled,
+    with_gizmo,
+)
+from app.outside.vector_view import export_diagram
+from app.state.app_state import AppState
+from app.state.options import OutsideOptions
+from renderer.camera import Camera
+from renderer.errors import LucidaError
+
+MENU, PICTURE = "View/Outside view", "File/Picture"
+ASPECT = 1.4  # of a view along an axis: another one sees no less
+KEYS = {"bundle": ("B", Key.b), "move": ("G", Key.g), "turn": ("T", Key.t)}
+
+
+def _with(state: AppState, options: OutsideOptions) -> AppState:
+    return state.with_options(outside=options)
+
+
+def _keys(name: str) -> tuple[str, tuple[int, ...]]:
+    shown, key = KEYS.get(name, ("", None))
+    return shown, () if key is None else (int(key),)
+
+
+def _looking(window: Window) -> Camera:
+    """The camera that looks now."""
+    state = window.state
+    home = state.scene.view.for_size(window.renderers.size)
+    points = around(window.focus.framed, home, window.renderers.camera(state))
+    return state.outside.camera or outside_camera([points], state.scene.view.camera, ASPECT)
+
+
+def _look(window: Window, camera: Camera | None) -> None:
+    window.travel(window.state.with_options(outside={"camera": camera}))
+
+
+def _along(window: Window, axis: str) -> None:
+    state = window.state
+    points = around(window.focus.framed, window.renderers.camera(state))
+    _look(window, framed(points, way_of(axis), ASPECT, _looking(window).projection))
+
+
+def _switch_projection(window: Window) -> None:
+    try:
+        _look(window, switched_projection(_looking(window), window.focus.center))
+    except LucidaError:  # beyond the numbers: the camera stays
+        return
+
+
+def _shown(switch: Switch) -> Action:
+    return Action(
+        MENU,
+        f"Show {switch.name}",
+        changing(lambda state: _with(state, toggled(state.outside, switch.field))),
+        *_keys(switch.field),
+        is_on=lambda state: is_on(state.outside, switch.field),
+    )
+
+
+def _handles(kind: str, name: str) -> Action:
+    return Action(
+        MENU,
+        f"Handles: {name}",
+        changing(lambda state: _with(state, with_gizmo(state.outside, kind))),
+        *_keys(kind),
+        is_on=lambda state: state.outside.gizmo == kind,
+        separated=kind == "move",
+    )
+
+
+def _axis(axis: str, name: str) -> Action:
+    return Action(MENU, f"Look {name}", lambda window: _along(window, axis), separated=axis == "x")
+
+
+OUTSIDE = (
+    *(_shown(switch) for switch in SWITCHES),
+    *(_handles(kind, name) for kind, name, _ in HANDLES),
+    Action(
+        MENU,
+        "Fit all",
+        lambda window: _look(window, None),
+        "Shift+H",
+        (SHIFT | int(Key.h),),
+        is_on=lambda state: state.outside.camera is None,
+        separated=True,
+    ),
+    Action(
+        MENU,
+        "Look from the camera",
+        lambda window: _look(window, window.renderers.camera(window.state)),
+        "Shift+C",
+        (SHIFT | int(Key.c),),
+    ),
+    Action(
+        MENU,
+        "Parallel outside camera",
+        _switch_projection,
+        is_on=lambda state: state.outside.camera is not None and state.outside.camera.is_parallel,
+    ),
+    *(_axis(axis, name) for axis, name in AXIS_NAMES.items()),
+)
+
+DIAGRAM = (
+    Action(
+        PICTURE,
+        "Export diagram as SVG...",
+        export_diagram,
+        "Ctrl+Shift+E",
+        (CTRL | SHIFT | int(Key.e),),
+        separated=True,
+    ),
+    Action(
+        PICTURE,
+        "Export diagram as SVG without the live image...",
+        lambda window: export_diagram(window, live=False),
+    ),
+)

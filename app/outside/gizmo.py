@@ -1,0 +1,217 @@
+"""Handles in the outside view that move the eye of the other camera and turn its basis (ImGuizmo).
+
+Owns the drag of a handle. Knows nothing of what else is drawn.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from typing import Literal
+
+import numpy as np
+from imgui_bundle import ImVec2, imgui, imguizmo
+from numpy.typing import NDArray
+
+from app.outside.mouse import Scope
+from app.outside.tint import handle_colors, hide_text, recolor
+from app.widgets import theme
+from renderer.camera import Camera, Vector, volume
+from renderer.errors import LucidaError
+
+gizmo = imguizmo.im_guizmo
+Floats = NDArray[np.float64]
+
+LENGTH = 0.2  # of the view: the handles' length in clip space
+WIDTH, ARROW, RING = 3.0, 7.0, 2.5  # at 100 %: of lines, their heads, rings
+TEXT_AT = 18.0  # at 100 %: what the motion's text is away from the eye, to the right and below
+LEAST_PART = 1e-4  # of the largest part of a motion: what is less is rounding
+ALONG = 0.999  # the cosine from which on a turn is about an axis of the basis
+NEAREST = 0.02  # of the view's distance: an eye that is nearer has no handles
+
+
+@dataclass(frozen=True)
+class _Drag:
+    """camera: at its beginning. frame: the handles' axes then, columns of a rotation."""
+
+    camera: Camera
+    frame: Floats
+    number: int
+
+
+class Gizmo:
+    """One for the view. over: whether the mouse was over a handle, or drags one."""
+
+    def __init__(self) -> None:
+        self.over = False
+        self._drag: _Drag | None = None
+        self._count = 0
+
+    @property
+    def gesture(self) -> tuple[str, int]:
+        """What the changes of one drag have in common, for undo."""
+        return ("outside gizmo", self._count)
+
+    @property
+    def dragging(self) -> bool:
+        return self._drag is not None
+
+    def cancel(self) -> None:
+        self._drag = None
+
+    def draw(
+        self,
+        scope: Scope,
+        camera: Camera,
+        kind: Literal["move", "turn"],
+        orthonormal: bool,
+        ground: theme.Rgb,
+        fonts: theme.Fonts,
+    ) -> Camera:
+        """Draws the handles into the current window, and gives the camera as they have moved it.
+
+        orthonormal: the basis stays so to the last digit. ground: what they are drawn on.
+        """
+        matrices = gl_matrices(scope.shown, np.asarray(camera.eye), scope.reach)
+        if matrices is None:
+            self.over, self._drag = False, None
+            return camera
+        view, projection = matrices
+        frame = rotation_of(camera) if self._drag is None else self._drag.frame
+        if self._drag is not None:
+            frame = rotation_between(self._drag.camera, camera) @ frame
+        placed = np.eye(4)
+        placed[:3, :3], placed[:3, 3] = frame, camera.eye
+        matrix = _matrix16(placed)
+        gizmo.begin_frame()
+        gizmo.set_orthographic(scope.shown.is_parallel)
+        gizmo.set_drawlist()
+        gizmo.set_rect(scope.origin.x, scope.origin.y, scope.extent.x, scope.extent.y)
+        gizmo.set_gizmo_size_clip_space(LENGTH)
+        gizmo.allow_axis_flip(False)
+        operation = gizmo.OPERATION.translate if kind == "move" else gizmo.OPERATION.rotate
+        mode = gizmo.MODE.local  # its x, y and z are then u, v and w
+        _widen()
+        draw = imgui.get_window_draw_list()
+        first = draw.vtx_buffer.size()
+        moved = gizmo.manipulate(_matrix16(view), _matrix16(projection), operation, mode, matrix)
+        recolor(draw, first, handle_colors(ground))
+        hide_text(draw, first)
+        using = gizmo.is_using()
+        self.over = using or gizmo.is_over()
+        if not using:
+            self._drag = None
+            return camera
+        if self._drag is None:
+            self._count += 1
+            self._drag = _Drag(camera, frame, self._count)
+        if moved:
+            result = np.asarray(matrix.values, float).reshape(4, 4).T
+            camera = self._moved(camera, result, kind, orthonormal)
+        _write(motion(self._drag.camera, camera), projection @ view, camera, scope, fonts)
+        return camera
+
+    def _moved(self, camera: Camera, result: Floats, kind: str, orthonormal: bool) -> Camera:
+        assert self._drag is not None
+        if not np.isfinite(result).all():
+            return camera
+        try:
+            if kind == "move":
+                return replace(camera, eye=_vector(result[:3, 3]))
+            turn = nearest_rotation(result[:3, :3] @ self._drag.frame.T)
+            basis = {name: _vector(turn @ getattr(self._drag.camera, name)) for name in "uvw"}
+            turned = replace(camera, **basis)  # type: ignore[arg-type]
+            return turned.orthonormalized() if orthonormal else turned
+        except LucidaError:  # beyond the numbers: the camera stays
+            return camera
+
+
+def motion(before: Camera, after: Camera) -> str:
+    """What a handle has done, in the letters of the basis: by how much of u, v and w the eye is
+    displaced, or by which angle the basis has turned, about which of them."""
+    moved = np.linalg.solve(before.basis, np.subtract(after.eye, before.eye))
+    rotation = rotation_between(before, after)
+    angle = np.degrees(np.arccos(np.clip((np.trace(rotation) - 1) / 2, -1, 1)))
+    if angle > 0.0 and np.abs(rotation - np.eye(3)).max() > 1e-9:
+        axis = np.array([rotation[k - 1, k - 2] - rotation[k - 2, k - 1] for k in range(3)])
+        along = rotation_of(before).T @ axis / max(float(np.linalg.norm(axis)), 1e-30)
+        name = int(np.abs(along).argmax())
+        if abs(along[name]) > ALONG:
+            return f"about {'uvw'[name]}: {np.copysign(angle, along[name]):.1f}°"
+        return f"turned by {angle:.1f}°"
+    least = LEAST_PART * float(np.abs(moved).max())
+    parts = [f"Δ{n} {x:.4g}" for n, x in zip("uvw", moved, strict=True) if abs(x) > least]
+    return "  ".join(parts)
+
+
+def _write(
+    text: str, clip_from_world: Floats, camera: Camera, scope: Scope, fonts: theme.Fonts
+) -> None:
+    """Beside the eye, on a ground of its own. The font is the one that has Greek letters."""
+    x, y, _, w = clip_from_world @ np.append(camera.eye, 1.0)
+    if not text or not w > 0:
+        return
+    at = ImVec2(
+        scope.origin.x + (x / w + 1) / 2 * scope.extent.x + theme.px(TEXT_AT),
+        scope.origin.y + (1 - y / w) / 2 * scope.extent.y + theme.px(TEXT_AT),
+    )
+    imgui.push_font(fonts.bold, 0.0)
+    size, pad = imgui.calc_text_size(text), theme.px(5)
+    low, far = ImVec2(at.x - pad, at.y - pad), ImVec2(at.x + size.x + pad, at.y + size.y + pad)
+    draw = imgui.get_window_draw_list()
+    draw.add_rect_filled(low, far, theme.u32(theme.PANEL, 0.9), theme.px(3))
+    draw.add_text(at, theme.u32(theme.TEXT), text)
+    imgui.pop_font()
+
+
+def gl_matrices(camera: Camera, point: Floats, reach: float) -> tuple[Floats, Floats] | None:
+    """View and projection as OpenGL has them, for handles at a point; None where the point is not
+    well in front of the camera."""
+    view = camera.camera_from_world.copy()
+    depth = -float(view[2, :3] @ point + view[2, 3])  # in units of w
+    scale = max(abs(depth), reach / float(np.linalg.norm(camera.w)))
+    if not np.isfinite(depth) or depth < NEAREST * scale or depth < 1e-9:
+        return None
+    if camera.is_parallel:
+        return view, camera.clip_from_camera(-20 * scale, 20 * scale)
+    return view, camera.clip_from_camera(1e-3 * depth, 1e3 * scale)
+
+
+def rotation_of(camera: Camera) -> Floats:
+    """A right-handed orthonormal frame along the basis, (3, 3), as columns: for handles."""
+    clean = camera.orthonormalized()
+    frame = np.column_stack([clean.u, clean.v, clean.w])
+    if volume(clean.u, clean.v, clean.w) < 0:
+        frame[:, 0] = -frame[:, 0]
+    return frame
+
+
+def rotation_between(before: Camera, after: Camera) -> Floats:
+    """The rotation that takes one camera's basis to another's."""
+    return nearest_rotation(after.basis @ np.linalg.inv(before.basis))
+
+
+def nearest_rotation(matrix: Floats) -> Floats:
+    """The rotation nearest to a matrix (3, 3) that is almost one. Source: Kabsch 1976."""
+    left, _, right = np.linalg.svd(matrix)
+    signs = np.array([1.0, 1.0, np.sign(np.linalg.det(left @ right))])
+    rotation: Floats = (left * signs) @ right
+    return rotation
+
+
+def _widen() -> None:
+    """Lines as wide as others that teach."""
+    style = gizmo.get_style()
+    style.translation_line_thickness = theme.line_px(WIDTH)
+    style.translation_line_arrow_size = theme.px(ARROW)
+    style.rotation_line_thickness = style.rotation_outer_line_thickness = theme.line_px(RING)
+    style.center_circle_size = theme.px(ARROW)
+
+
+def _matrix16(matrix: Floats) -> imguizmo.im_guizmo.Matrix16:
+    """Column by column, as OpenGL has it."""
+    return gizmo.Matrix16(matrix.T.ravel().tolist())
+
+
+def _vector(values: Floats) -> Vector:
+    x, y, z = values.tolist()
+    return x, y, z

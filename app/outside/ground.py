@@ -1,0 +1,137 @@
+"""The scene from outside, without anything over it: drawn at once, made smooth when it is still.
+
+Where OpenGL runs on the CPU, a full picture takes longer than a frame: then it is coarse while the
+view moves. Owns the pictures of one scene and camera, and when they are drawn. Knows nothing of
+what stands in the scene.
+"""
+
+from __future__ import annotations
+
+import math
+import time
+from dataclasses import dataclass, replace
+
+import moderngl
+
+from app.images.coarseness import Coarseness
+from app.images.progressive_ray import reduced
+from app.images.textures import Pictures, Wanted
+from renderer.raster.overlay import Overlay
+from renderer.raster.targets import Textures
+
+PLACE, COARSE = "Outside", "Outside, coarse"  # see Rasterizer.draw
+STILL_S = 0.15  # without a change of the view, before it is drawn in full, its edges made smooth
+FRAME_S = 0.008  # what a picture may take of a frame while the view moves
+COARSEST = 4
+SLOW_S = 0.06  # a scene that takes longer to prepare for a camera keeps its edges as they are
+# Parts of a pixel by which the pictures of a mean are shifted: no two in a row or column. The last
+# is not, so that what lies behind is decided at the pixels' centres.
+SHIFTS = ((-0.125, -0.375), (0.375, -0.125), (0.125, 0.375), (-0.375, 0.125), (0.0, 0.0))
+
+
+@dataclass(frozen=True, eq=False)
+class Picture:
+    """The scene from outside. changed_s: since when it is wanted. number: of its drawing. parts:
+    how many of the SHIFTS are in its mean; all of them also where there will be none. factor: it
+    is so many times as coarse."""
+
+    wanted: Wanted
+    textures: Textures
+    changed_s: float
+    number: int
+    parts: int = 0
+    mean: moderngl.Texture | None = None
+    factor: int = 1
+
+    @property
+    def smooth(self) -> bool:
+        return self.mean is not None and self.parts == len(SHIFTS)
+
+
+class Ground:
+    """One for the view, in its context. It stays while only the other camera moves."""
+
+    def __init__(self, context: moderngl.Context) -> None:
+        self._picture: Picture | None = None
+        self._drawn = 0
+        self._read: tuple[object, float] | None = None
+        self._timer = context.query(time=True)
+        # Factor and pixels of the one whose time is still to be read.
+        self._timed: tuple[int, int] | None = None
+        self._coarseness = Coarseness(FRAME_S, FRAME_S, COARSEST)
+
+    @property
+    def settled(self) -> bool:
+        """Whether it is full, and its edges are as smooth as they will be."""
+        picture = self._picture
+        return picture is None or (picture.parts == len(SHIFTS) and picture.factor == 1)
+
+    @property
+    def factor(self) -> int:
+        """How coarse the last picture is; 1: it is full."""
+        return self._picture.factor if self._picture is not None else 1
+
+    def forget(self) -> None:
+        self._picture = None
+
+    def t_at(self, part: tuple[float, float], overlay: Overlay) -> float:
+        """The ray parameter of the scene as it is seen, see Overlay.t_at(); infinity without a
+        picture. Read once."""
+        picture = self._picture
+        if picture is None:
+            return math.inf
+        key = (picture, part)
+        if self._read is None or self._read[0] != key:
+            self._read = key, overlay.t_at(picture.textures, part)
+        return self._read[1]
+
+    def picture(self, wanted: Wanted, pictures: Pictures, overlay: Overlay) -> Picture:
+        """Drawn at once; when it has been still, in full, and again with smooth edges, a part of
+        that in each call. Raises LucidaError."""
+        now_s, picture = time.monotonic(), self._picture
+        self._read_time()
+        if picture is None or picture.wanted != wanted:
+            if picture is None or picture.wanted.scene is not wanted.scene:
+                self._coarseness.forget()
+            factor = self._coarseness.changed(wanted.size[0] * wanted.size[1], now_s)
+            self._picture = None
+            self._picture = picture = self._draw(wanted, pictures, now_s, factor)
+        elif now_s - picture.changed_s <= max(STILL_S, self._coarseness.rest_s):
+            pass
+        elif picture.factor > 1:
+            self._picture = picture = self._draw(wanted, pictures, picture.changed_s, 1)
+        elif picture.parts < len(SHIFTS):
+            shift = wanted.camera.shifted(*SHIFTS[picture.parts], wanted.size)
+            textures = self._beside(replace(wanted, camera=shift), pictures)
+            mean = overlay.gather(textures, picture.parts == 0, 1 / len(SHIFTS))
+            self._picture = picture = replace(
+                picture, textures=textures, parts=picture.parts + 1, mean=mean
+            )
+        return picture
+
+    def _draw(self, wanted: Wanted, pictures: Pictures, changed_s: float, factor: int) -> Picture:
+        start_s = time.monotonic()
+        textures = self._beside(wanted, pictures, factor)
+        self._drawn += 1
+        slow = time.monotonic() - start_s > SLOW_S
+        return Picture(
+            wanted,
+            textures,
+            changed_s,
+            self._drawn,
+            len(SHIFTS) if slow and factor == 1 else 0,
+            factor=factor,
+        )
+
+    def _beside(self, wanted: Wanted, pictures: Pictures, factor: int = 1) -> Textures:
+        size = reduced(wanted.size, factor)
+        with self._timer:
+            textures = pictures.beside(replace(wanted, size=size), COARSE if factor > 1 else PLACE)
+        self._timed = factor, size[0] * size[1]
+        return textures
+
+    def _read_time(self) -> None:
+        """A frame later: at once, it would wait for the GPU."""
+        if self._timed is not None:
+            self._coarseness.measured(*self._timed, self._timer.elapsed * 1e-9)
+            self._timed = None

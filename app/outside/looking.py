@@ -1,0 +1,82 @@
+"""How the outside view looks: which camera it looks with, how far there is to see, how wide lines
+are.
+
+Owns the camera that sees everything and those along the world's axes. Knows nothing of the mouse
+and of what is drawn.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+from imgui_bundle import ImVec2
+from numpy.typing import NDArray
+
+from app.host.view import Host
+from app.outside.extent import around, framed, outside_camera, way_of
+from app.outside.mouse import Scope
+from app.outside.screen import NEAREST, Screen
+from app.widgets import theme
+from app.widgets.theme import framebuffer_scale
+from renderer.camera import Camera
+
+Floats = NDArray[np.float64]
+Size = tuple[int, int]
+
+LETTER_PX = 26.0  # round what is framed, for letters
+ROOMY_PX = 330.0  # a smaller view has smaller symbols
+
+
+def scope_of(host: Host, size: Size, origin: ImVec2, extent: ImVec2) -> Scope:
+    """The camera that looks, for a picture of `size` that takes `extent` of the window."""
+    points = _points(host)
+    center = (points.min(axis=0) + points.max(axis=0)) / 2
+    reach = float(np.linalg.norm(points.max(axis=0) - points.min(axis=0))) / 2
+    camera = host.state.outside.camera or camera_for_all(host, size, extent)
+    x, y, z = center.tolist()
+    middle, reach = (x, y, z), max(reach, 1e-9)
+    return Scope(camera, camera.fitted(size), origin, extent, middle, reach)
+
+
+def camera_for_all(host: Host, size: Size, extent: ImVec2) -> Camera:
+    """The one that sees everything."""
+    home, room = host.state.scene.view.camera, theme.px(LETTER_PX)
+    margin = margin_for(extent.x, room), margin_for(extent.y, room)
+    return outside_camera([_points(host)], home, size[0] / size[1], margin)
+
+
+def camera_along(host: Host, scope: Scope, axis: str) -> Camera:
+    """The one that looks along an axis of the world and sees everything."""
+    aspect = scope.extent.x / max(scope.extent.y, 1.0)
+    return framed(_points(host), way_of(axis), aspect, scope.camera.projection)
+
+
+def nearest(camera: Camera, scope: Scope) -> float:
+    """The least t of lines that are drawn: a small part of the distance to the middle."""
+    unit = 1.0 if camera.is_parallel else camera.distance
+    away = scope.reach / float(np.linalg.norm(camera.w)) / unit
+    z = float((camera.camera_from_world @ [*scope.center, 1.0])[2])
+    return NEAREST * max(-z / unit, away)
+
+
+def units_px(extent: ImVec2) -> tuple[float, float]:
+    """The width of a line that teaches and the size of symbols, in a view of this extent."""
+    symbol_px = framebuffer_scale() * min(theme.px(1), min(extent.x, extent.y) / ROOMY_PX)
+    # In presentation mode lines are thick, but the picture is not made of them.
+    return (theme.line_px(framebuffer_scale()) + symbol_px) / 2, symbol_px
+
+
+def widest_px(screen: Screen, corners: Floats) -> float:
+    """The longest side of a polygon (n, 3) on the screen, as far as it is to be seen."""
+    points, _, _ = screen.segments(np.stack([corners, np.roll(corners, -1, axis=0)], axis=1))
+    return float(np.linalg.norm(points[:, 1] - points[:, 0], axis=1).max(initial=0.0))
+
+
+def margin_for(side: float, room: float) -> float:
+    """A side of the view in that of what it must hold, with room on both ends."""
+    return min(max(side / max(side - 2 * room, 1.0), 1.0), 1.6)
+
+
+def _points(host: Host) -> Floats:
+    """Around what there is to see: the scene, the camera, and where the scene has put it."""
+    home = host.state.scene.view.for_size(host.renderers.size)
+    return around(host.focus.framed, home, host.renderers.camera(host.state))

@@ -1,0 +1,119 @@
+"""The outside view as a vector drawing: for its export as SVG and for the image laboratory.
+
+Owns the way from the window to a Sketch, in the window's thread; the drawing is made in another.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Hashable
+from dataclasses import replace
+from typing import TYPE_CHECKING, cast
+
+import moderngl
+import numpy as np
+from imgui_bundle import ImVec2
+from numpy.typing import NDArray
+
+from app.host.view import Host
+from app.images.renderers import look_of
+from app.images.textures import Wanted
+from app.outside import svg
+from app.outside.extent import end_parameter
+from app.outside.looking import nearest, scope_of, units_px
+from app.outside.paint import vector_paint
+from app.outside.sketch import Sketch
+from app.outside.view import OutsideView
+from app.widgets import theme
+from app.widgets.theme import framebuffer_scale
+from renderer.errors import LucidaError, describe
+
+if TYPE_CHECKING:
+    from app.host.action import Window
+
+Size = tuple[int, int]
+PLACE = "Vector"  # see Rasterizer.draw
+ALONE = (1280, 960)  # of a drawing while the outside view is not to be seen
+
+
+class Sketcher:
+    """Sketches of one page size; the same one again as long as nothing has changed."""
+
+    def __init__(self) -> None:
+        self._key: Hashable = None
+        self._sketch: Sketch | None = None
+
+    def follow(
+        self,
+        view: OutsideView,
+        host: Host,
+        size: Size,
+        units: tuple[float, float] | None = None,
+        live: bool = False,
+    ) -> Sketch:
+        """A drawing's inputs as they are now. units: the width of a line that teaches and the size
+        of symbols, as the view's own if not given. live: with the live image, if that is shown.
+        Raises LucidaError, moderngl.Error."""
+        both, state = host.renderers, host.state
+        both.need_size(state.images)
+        scale = framebuffer_scale()
+        extent = ImVec2(size[0] / scale, size[1] / scale)
+        scope = scope_of(host, size, ImVec2(0, 0), extent)
+        looking, camera, image_size = scope.shown, both.camera(state), both.size
+        options = replace(state.outside, camera=None)
+        marked, hits = view.rays(host, camera, image_size)
+        unit, symbol = units or units_px(extent)
+        key = (
+            state.scene, looking, size, camera, image_size, options, marked, tuple(hits),
+            view.extra, unit, symbol, theme.used(),
+        )  # fmt: skip
+        if self._sketch is not None and key == self._key and not live:
+            return self._sketch
+        assert both.pictures is not None
+        picture = self._picture(host) if live and options.image else None
+        surface = both.pictures.beside(Wanted(state.scene, looking, size), PLACE).surface
+        values = np.frombuffer(surface.read(), np.float32).reshape(size[1], size[0], 4)
+        self._key = key
+        self._sketch = Sketch(
+            state.scene, looking, size, nearest(looking, scope), unit, symbol, camera, image_size,
+            options, end_parameter(camera, host.focus.framed), tuple(hits), marked, view.extra,
+            values[..., 3].copy(), vector_paint(), picture, both.live.tracer_of(state.scene),
+        )  # fmt: skip
+        return self._sketch
+
+    def _picture(self, host: Host) -> NDArray[np.uint8] | None:
+        """The raster image as it stands on the image plane; waits for the GPU."""
+        both, state = host.renderers, host.state
+        assert both.pictures is not None
+        wanted = Wanted(state.scene, both.camera(state), both.size)
+        texture = both.pictures.raster(wanted, look_of(state.images))
+        if texture is None:
+            return None
+        width, height = texture.size
+        rgba = np.frombuffer(texture.read(), np.uint8).reshape(height, width, 4)
+        return rgba[..., :3].copy()
+
+
+def export_diagram(window: Window, live: bool = True) -> None:
+    """The action: export_svg() of the window's outside view."""
+    view = window.view(OutsideView)
+    export_svg(view, cast(Host, window), live)  # the window is both
+
+
+def export_svg(view: OutsideView, host: Host, live: bool) -> None:
+    """Asks where, and writes the diagram as it is now; the view's own page where it is seen. live:
+    with the live image, if that is shown; else nothing in it has pixels."""
+    try:
+        sketch = Sketcher().follow(view, host, view.size_px or ALONE, live=live)
+    except (LucidaError, moderngl.Error) as error:
+        host.files.message = describe(error)
+        return
+    name = sketch.scene.name
+
+    def store(path: str) -> str:
+        made = sketch.draw()
+        count = svg.write(path, made, f"{name}: the outside view" if name else "The outside view")
+        return " ".join([f"Saved {path}, {count} bytes.", *made.notes[1:]])
+
+    host.files.save_as_dialog(
+        "Export the diagram as SVG", "diagram.svg", ("SVG files", svg.ENDING), store
+    )

@@ -1,0 +1,381 @@
+"""The outside view: the scene and the camera in it, seen by a second, free camera.
+
+Owns what is kept from frame to frame: the scene's picture from outside, the diagram over it, the
+rays' hits. What is drawn is app/outside/'s, how is renderer/raster/overlay.py's; the mouse, the
+handles and the legend have modules beside this one.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from functools import partial
+from typing import Any
+
+import moderngl
+import numpy as np
+from imgui_bundle import ImVec2, imgui
+from numpy.typing import NDArray
+
+from app.cameras.travel import Ends
+from app.host.view import Host, View
+from app.images.picking import object_on_ray
+from app.images.renderers import look_of
+from app.images.screen import available_px, is_at_the_bottom
+from app.images.shown import Picture
+from app.images.textures import Wanted
+from app.outside.diagram import Hit, Item, diagram
+from app.outside.extent import end_parameter
+from app.outside.frustum import bundle_pixels, pixel_seen, plane_corners
+from app.outside.gizmo import Gizmo
+from app.outside.ground import Ground
+from app.outside.hits import Question, RayHits
+from app.outside.looking import (
+    camera_along,
+    camera_for_all,
+    nearest,
+    scope_of,
+    units_px,
+    widest_px,
+)
+from app.outside.mouse import Mouse, Scope
+from app.outside.paint import CASING, ground_of, layers
+from app.outside.projected import Primitive, project
+from app.outside.screen import Screen
+from app.outside.sketch import OPACITY
+from app.outside.tools import labels, legend, triad
+from app.state.app_state import AppState
+from app.state.options import OutsideOptions, Pixel
+from app.widgets import theme
+from app.widgets.theme import framebuffer_scale
+from renderer.camera import Camera
+from renderer.errors import LucidaError, describe
+from renderer.frame import LARGEST_PIXELS, LARGEST_SIDE
+from renderer.raster.overlay import Overlay, plane_on_screen
+
+Floats = NDArray[np.float64]
+Size = tuple[int, int]
+
+OUTSIDE = "Outside"
+SMALLEST_PX = 24  # a view that is smaller shows nothing
+GRID_PX = 7.0  # the least distance of the grid's lines, in widths of a line
+
+
+@dataclass(frozen=True, eq=False)
+class _Made:
+    """The last picture, and what it was made from."""
+
+    key: tuple[Any, ...]
+    texture: moderngl.Texture
+    primitives: list[Primitive]
+
+
+class OutsideView(View):
+    """extra: lines of other instruments, by their names; set by show()."""
+
+    name = OUTSIDE
+    title = "Outside view"
+    padding = ImVec2(1, 1)
+    flags = int(
+        imgui.WindowFlags_.no_scrollbar
+        | imgui.WindowFlags_.no_scroll_with_mouse
+        | imgui.WindowFlags_.no_background
+    )
+
+    def __init__(self) -> None:
+        self._mouse, self._gizmo = Mouse(), Gizmo()
+        self._overlay: Overlay | None = None
+        self._hits: RayHits | None = None
+        self._ground: Ground | None = None
+        self._error = ""
+        self._made: _Made | None = None
+        self._extra: dict[str, tuple[Item, ...]] = {}
+        self.scope: Scope | None = None  # the view as it was last drawn
+
+    @property
+    def settled(self) -> bool:
+        still = self._ground is None or self._ground.settled
+        return still and (self._hits is None or not self._hits.busy)
+
+    @property
+    def over_handle(self) -> bool:
+        """Whether the mouse is over one of the handles, or drags it."""
+        return self._gizmo.over
+
+    @property
+    def primitives(self) -> Sequence[Primitive]:
+        """The diagram as it was last drawn, in pixels of the view: for vector pictures."""
+        return self._made.primitives if self._made is not None else ()
+
+    @property
+    def extra(self) -> tuple[Item, ...]:
+        """What other instruments have added."""
+        return tuple(item for items in self._extra.values() for item in items)
+
+    @property
+    def size_px(self) -> Size | None:
+        """The picture's size, (width, height); None while the view is not to be seen."""
+        return self._made.texture.size if self._made is not None else None
+
+    def show(self, source: str, items: Sequence[Item]) -> None:
+        """Adds lines, arrows, labels, ... of another instrument; the last ones of each source
+        stay until it gives others, or none."""
+        if items:
+            self._extra[source] = tuple(items)
+        else:
+            self._extra.pop(source, None)
+
+    def begin(self, host: Host, context: moderngl.Context) -> None:
+        self._overlay, self._ground = Overlay(context), Ground(context)
+        self._hits = RayHits(host.animate)
+
+    def end(self) -> None:
+        if self._hits is not None:
+            self._hits.close()
+        if self._overlay is not None:
+            self._overlay.release()
+
+    def cancel(self) -> None:
+        self._mouse.cancel()
+        self._gizmo.cancel()
+
+    def unseen(self, host: Host) -> None:
+        self._made = None
+        if self._ground is not None:
+            self._ground.forget()
+
+    def flown(self, host: Host) -> Camera | None:
+        return self.scope.camera if self.scope is not None else None
+
+    def with_flown(self, state: AppState, camera: Camera) -> AppState:
+        return state.with_options(outside={"camera": camera})
+
+    def ends(self, host: Host, target: AppState) -> Ends | None:
+        """Where the camera that looks passes from and to, if nothing but that leads to a target;
+        None where it is not to be seen."""
+        state, scope, size = host.state, self.scope, self.size_px
+        changed = state.outside.camera != target.outside.camera
+        if scope is None or size is None or not changed or state.view != target.view:
+            return None
+        end = target.outside.camera or camera_for_all(host, size, scope.extent)
+        return Ends(scope.camera, end, size)
+
+    def object_under(self, host: Host) -> int | None:
+        if self.scope is None:
+            return None
+        return object_on_ray(host.state.scene, *self.scope.ray(imgui.get_mouse_pos()))
+
+    def draw(self, host: Host) -> None:
+        size = available_px()
+        if min(size) < SMALLEST_PX:
+            self.unseen(host)  # nobody waits for what is not drawn
+            return
+        size = min(size[0], LARGEST_SIDE), min(size[1], LARGEST_SIDE, LARGEST_PIXELS // size[0])
+        host.renderers.need_size(host.state.images)
+        scale = framebuffer_scale()
+        origin = imgui.get_cursor_screen_pos()
+        extent = ImVec2(size[0] / scale, size[1] / scale)
+        scope = self._follow_mouse(host, size, origin, extent)
+        is_under = is_at_the_bottom()
+        texture = self._texture(host, scope.shown, size, scope, is_under)
+        draw = imgui.get_window_draw_list()
+        far = ImVec2(origin.x + extent.x, origin.y + extent.y)
+        if texture is None:
+            draw.add_rect_filled(origin, far, theme.u32(theme.BACKGROUND))
+            imgui.set_cursor_screen_pos(ImVec2(origin.x + theme.px(8), origin.y + theme.px(8)))
+            imgui.text_wrapped(self._error)
+            return
+        if is_under:
+            assert self._overlay is not None
+            left, top = round(origin.x * scale), round(origin.y * scale)
+            picture = Picture(texture, self._overlay.target)
+            host.renderers.underlay.put(picture, (left, top, left + size[0], top + size[1]))
+        else:
+            draw.add_image(imgui.ImTextureRef(texture.glo), origin, far)
+        draw.push_clip_rect(origin, far, True)
+        assert self._made is not None
+        labels(self._made.primitives, origin, scale, host.fonts, _ground(host.state))
+        self._handles(host, scope)
+        self._tools(host, scope)
+        draw.pop_clip_rect()
+
+    # What the mouse does.
+
+    def _follow_mouse(self, host: Host, size: Size, origin: ImVec2, extent: ImVec2) -> Scope:
+        scope = self._scope(host, size, origin, extent)
+        imgui.set_cursor_screen_pos(origin)
+        if self._gizmo.over and host.state.outside.gizmo != "none":
+            imgui.dummy(extent)  # ImGuizmo takes no click where an item is under the mouse
+            return scope
+        buttons = imgui.ButtonFlags_
+        imgui.set_next_item_allow_overlap()
+        imgui.invisible_button(
+            f"image##{self.name}",
+            extent,
+            buttons.mouse_button_left | buttons.mouse_button_right | buttons.mouse_button_middle,
+        )
+        was_dragging = self._mouse.dragging
+        camera, gesture = self._mouse.follow(scope)
+        state = host.state
+        if camera != scope.camera:
+            state = state.with_options(outside={"camera": camera})
+            host.apply(state, gesture)
+        pixel = None
+        if imgui.is_item_hovered() or self._mouse.clicked():
+            pixel = self._pixel_under(host, scope)
+        if pixel is not None:
+            if self._mouse.clicked():
+                marked = None if host.state.marked == pixel else pixel
+                host.change(host.state.with_options(marked=marked))
+            elif not was_dragging:
+                host.hover(self.name, pixel)
+        return self._scope(host, size, origin, extent)
+
+    def _scope(self, host: Host, size: Size, origin: ImVec2, extent: ImVec2) -> Scope:
+        self.scope = scope_of(host, size, origin, extent)
+        return self.scope
+
+    def _pixel_under(self, host: Host, scope: Scope) -> Pixel | None:
+        """The pixel of the image plane that is to be seen under the mouse."""
+        outside = host.state.outside
+        if not (outside.image or outside.grid):
+            return None
+        camera, mouse = host.renderers.camera(host.state), imgui.get_io().mouse_pos
+        ground, overlay, place = self._ground, self._overlay, scope.part(mouse)
+        hidden_at = None
+        if ground is not None and overlay is not None:
+            hidden_at = partial(ground.t_at, place, overlay)
+        return pixel_seen(camera, host.renderers.size, *scope.ray(mouse), hidden_at)
+
+    def _handles(self, host: Host, scope: Scope) -> None:
+        kind = host.state.outside.gizmo
+        if kind == "none":
+            self._gizmo.over = False
+            self._gizmo.cancel()
+            return
+        state = host.state
+        camera = self._gizmo.draw(
+            scope, state.camera, kind, state.keep_orthonormal, _ground(state), host.fonts
+        )
+        if camera != state.camera:
+            host.apply(state.with_camera(camera), self._gizmo.gesture)
+        if self._gizmo.dragging:
+            host.animate()
+
+    def _tools(self, host: Host, scope: Scope) -> None:
+        state = host.state
+        options, clicked = legend(state.outside, scope.origin, scope.extent)
+        axis = triad(scope.shown, scope.origin, scope.extent)
+        if clicked == "fit":
+            options = replace(options, camera=None)
+        elif clicked == "camera":
+            options = replace(options, camera=host.renderers.camera(state))
+        elif axis is not None:
+            options = replace(options, camera=camera_along(host, scope, axis))
+        if options.camera != state.outside.camera:
+            host.travel(with_outside(state, options))
+        elif options != state.outside:
+            host.apply(with_outside(state, options))
+
+    # The picture.
+
+    def _texture(
+        self, host: Host, camera: Camera, size: Size, scope: Scope, is_under: bool
+    ) -> moderngl.Texture | None:
+        """The view's picture, made anew if anything of it has changed; None where that failed.
+        is_under: it is for the underlay."""
+        both, state = host.renderers, host.state
+        assert self._overlay is not None
+        assert self._ground is not None
+        assert both.pictures is not None
+        inner, image_size = both.camera(state), both.size
+        options = state.outside
+        marked, hits = self.rays(host, inner, image_size)
+        try:
+            picture, drawn = None, 0
+            if options.image:
+                wanted = Wanted(state.scene, inner, image_size)
+                _, drawn = both.pictures.linear(wanted)
+                picture = both.pictures.raster(wanted, look_of(state.images))
+            wanted = Wanted(state.scene, camera, size)
+            ground = self._ground.picture(wanted, both.pictures, self._overlay)
+            if not self._ground.settled:
+                host.animate()
+            unit_px, symbol_px = units_px(scope.extent)
+            key = (
+                state.scene, camera, size, inner, image_size, replace(options, camera=None),
+                marked, tuple(hits), drawn, state.images, unit_px, symbol_px, ground.number,
+                ground.smooth, is_under, theme.used(), tuple(self._extra.items()),
+            )  # fmt: skip
+            if self._made is not None and self._made.key == key:
+                return self._made.texture
+            end = end_parameter(inner, host.focus.framed)
+            screen = Screen(camera, size, nearest(camera, scope), unit_px, symbol_px)
+            parts = int(widest_px(screen, plane_corners(inner)) / (GRID_PX * unit_px))
+            items = diagram(inner, image_size, options, end, hits, marked, parts)
+            for extra in self._extra.values():
+                items += extra
+            primitives = project(items, screen)
+            corners = plane_corners(inner)[[0, 1, 3]]
+            behind = corners[0] + np.asarray(inner.w)  # the side of the image plane to look from
+            plane = plane_on_screen(camera, size, corners, behind)
+            texture = self._overlay.draw(
+                ground.textures,
+                camera,
+                size,
+                layers(primitives, _ground(state)),
+                plane,
+                picture,
+                state.images.exposure_ev,
+                opacity=OPACITY,
+                unit_px=unit_px,
+                casing=CASING,
+                number=(ground.number, ground.parts),
+                mean=ground.mean if ground.smooth else None,
+                upside_down=is_under,
+            )
+        except (LucidaError, moderngl.Error) as error:
+            self._made = None
+            self._ground.forget()
+            self._error = describe(error)
+            return None
+        self._made = _Made(key, texture, primitives)
+        return texture
+
+    def rays(self, host: Host, camera: Camera, size: Size) -> tuple[Hit | None, list[Hit]]:
+        """The marked pixel's ray and the bundle's, as far as their ends are known."""
+        both, state = host.renderers, host.state
+        assert self._hits is not None
+        options = state.outside
+        pixel = ray_pixel(host) if options.ray else None
+        pixels = [(int(i), int(j)) for i, j in bundle_pixels(size, options.bundle)]
+        asked = pixels + ([pixel] if pixel is not None else [])
+        question = Question(state.scene, camera, size, tuple(asked))
+        tracer = both.live.tracer_of(state.scene) if asked else None
+        known = self._hits.ask(question, tracer)
+        hits = [Hit(entry, known[entry]) for entry in pixels]
+        if pixel is None:
+            return None, hits
+        seen = both.depth_at(state, pixel)
+        return Hit(pixel, known[pixel] if seen is None else seen), hits
+
+
+def _ground(state: AppState) -> theme.Rgb:
+    """What most of the diagram is drawn on."""
+    return ground_of(state.scene.background, state.images.exposure_ev)
+
+
+def with_outside(state: AppState, options: OutsideOptions) -> AppState:
+    """The state with other options of this view."""
+    return state.with_options(outside=options)
+
+
+def ray_pixel(host: Host) -> Pixel | None:
+    """The pixel whose ray is drawn: the marked one, else the one under the mouse."""
+    pixel = host.state.marked
+    if pixel is None and host.hovered is not None:
+        pixel = host.hovered[1]
+    width, height = host.renderers.size
+    if pixel is None or not (0 <= pixel[0] < height and 0 <= pixel[1] < width):
+        return None
+    return pixel

@@ -1,0 +1,131 @@
+"""The pixel under the mouse, the one that the user has marked, and those of the probe's pins.
+
+Owns how they look, and the keys that move the mark. Knows nothing of how pixels are drawn.
+"""
+
+from __future__ import annotations
+
+from imgui_bundle import ImVec2, imgui
+
+from app.images.screen import Screen
+from app.state.options import Pixel
+from app.widgets import theme
+
+SMALLEST_FRAMED = 6  # a pixel as large as that gets a frame of its own size
+NUMBERED = 32.0  # as large, a pixel has numbers in it
+TICK = 9.0  # the lines that point at a marked pixel
+LARGEST_POINTED_AT = 24.0
+LEAP = 10  # with Shift
+
+_KEYS = {
+    imgui.Key.left_arrow: (0, -1),
+    imgui.Key.right_arrow: (0, 1),
+    imgui.Key.up_arrow: (-1, 0),
+    imgui.Key.down_arrow: (1, 0),
+}
+_FLOATING = int(imgui.WindowFlags_.no_docking | imgui.WindowFlags_.no_saved_settings)
+
+
+def draw_hovered(draw: imgui.ImDrawList, screen: Screen, pixel: Pixel) -> None:
+    """A frame round a pixel: its own border where that is large enough to see."""
+    middle, half = _middle(screen, pixel)
+    for grow, color in ((2.0, theme.rgb("#000000", 0.7)), (1.0, theme.MARK)):
+        low, high = _square(middle, half, grow)
+        draw.add_rect(low, high, theme.u32(color), 0.0, 1.0)
+
+
+def draw_marked(draw: imgui.ImDrawList, screen: Screen, pixel: Pixel) -> None:
+    """A heavier frame; where that is small, with a line towards it from each side, so that it is
+    found at a glance."""
+    middle, half = _middle(screen, pixel)
+    # Round numbers it is thin, and stands between them and the neighbours'.
+    grow, dark, bright = (0.5, 4.0, 2.0) if min(screen.cell) >= NUMBERED else (1.5, 5.0, 2.0)
+    for width, color in ((dark, theme.rgb("#000000", 0.75)), (bright, theme.MARK)):
+        low, high = _square(middle, half, grow)
+        draw.add_rect(low, high, theme.u32(color), 0.0, width)
+        if min(screen.cell) > LARGEST_POINTED_AT:
+            continue
+        for dx, dy in ((-1, 0), (1, 0), (0, -1), (0, 1)):
+            start, end = half[0 if dx else 1] + 2.0, half[0 if dx else 1] + 2.0 + TICK
+            draw.add_line(
+                ImVec2(middle.x + dx * start, middle.y + dy * start),
+                ImVec2(middle.x + dx * end, middle.y + dy * end),
+                theme.u32(color),
+                width,
+            )
+
+
+def draw_pin(draw: imgui.ImDrawList, screen: Screen, pixel: Pixel, number: int) -> None:
+    """A thin frame with a number beside it, in the colour that its ray has in the outside view."""
+    middle, half = _middle(screen, pixel)
+    for width, color in ((3.5, theme.rgb("#000000", 0.7)), (1.5, theme.RAY)):
+        low, high = _square(middle, half, 1.0)
+        draw.add_rect(low, high, theme.u32(color), 0.0, width)
+    text = str(number)
+    size = imgui.calc_text_size(text)
+    left, top = middle.x + half[0] + 3.0, middle.y - half[1] - size.y
+    corner, far = ImVec2(left, top), ImVec2(left + size.x + 6.0, top + size.y)
+    draw.add_rect_filled(corner, far, theme.u32(theme.rgb("#000000", 0.7)), 2.0)
+    draw.add_text(ImVec2(left + 3.0, top), theme.u32(theme.RAY), text)
+
+
+def claim_keys() -> bool:
+    """The arrow keys belong to the current item while the mouse rests on it, or while it has the
+    keyboard: they do not move on to another one. Gives whether they do.
+
+    ImGui's own answer is that nothing is hovered from a key of its navigation (Tab, say) on until
+    the mouse moves: the mouse rests on the image all the same. A box that floats over the views
+    keeps its keys.
+    """
+    resting = imgui.is_item_hovered(imgui.HoveredFlags_.no_nav_override) and not _in_a_box()
+    if not (resting or imgui.is_item_focused()):
+        return False
+    item = imgui.get_item_id()
+    for key in _KEYS:
+        imgui.internal.set_key_owner(key, item)
+    return True
+
+
+def _in_a_box() -> bool:
+    """Whether another window has the keyboard that floats over the views, which can be docked."""
+    window, here = imgui.get_current_context().nav_window, imgui.internal.get_current_window()
+    if window is None or window.root_window.id_ == here.root_window.id_:
+        return False
+    return window.root_window.flags & _FLOATING == _FLOATING
+
+
+def walked(pixel: Pixel | None, size: tuple[int, int], start: Pixel) -> Pixel | None:
+    """The marked pixel after the arrow keys of this frame; None where none was pressed.
+
+    size: (width, height) of the image, which is not left. start: where a first mark is set.
+    """
+    io = imgui.get_io()
+    if io.want_text_input or io.key_ctrl or io.key_alt or io.key_super:
+        return None
+    rows = columns = pressed = 0
+    for key, (down, right) in _KEYS.items():
+        if imgui.is_key_pressed(key):
+            step = LEAP if io.key_shift else 1
+            rows, columns, pressed = rows + step * down, columns + step * right, 1
+    if not pressed:
+        return None
+    if pixel is None:
+        return start
+    return (
+        min(max(pixel[0] + rows, 0), size[1] - 1),
+        min(max(pixel[1] + columns, 0), size[0] - 1),
+    )
+
+
+def _middle(screen: Screen, pixel: Pixel) -> tuple[ImVec2, tuple[float, float]]:
+    """A pixel's centre on the screen, and half its width and height as framed."""
+    half = [side / 2 if side >= SMALLEST_FRAMED else 5.0 for side in screen.cell]
+    return screen.point(pixel[0] + 0.5, pixel[1] + 0.5), (half[0], half[1])
+
+
+def _square(middle: ImVec2, half: tuple[float, float], grow: float) -> tuple[ImVec2, ImVec2]:
+    width, height = half[0] + grow, half[1] + grow
+    return (
+        ImVec2(middle.x - width, middle.y - height),
+        ImVec2(middle.x + width, middle.y + height),
+    )

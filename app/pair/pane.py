@@ -1,0 +1,174 @@
+"""An image in a window: shown pixel by pixel, with what is drawn over it.
+
+Owns the order in which its parts are drawn. What the mouse does over it is in image_mouse.py;
+marks, the pixel grid and the legends have modules of their own.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+from imgui_bundle import ImVec2, imgui
+
+from app.images.placement import Placement
+from app.images.screen import Box, Screen
+from app.images.shown import Picture
+from app.images.textures import PANE
+from app.images.underlay import Underlay
+from app.pair.image_mouse import Grab, Lens, Seen, Zoom, drag, magnify, wheel
+from app.pair.marks import claim_keys, draw_hovered, draw_marked, draw_pin
+from app.pair.overlay import draw_corner, draw_hint, draw_legend, draw_note
+from app.pair.pixelgrid import Values, draw_pixel_grid
+from app.pair.rulers import draw_rulers
+from app.state.app_state import AppState
+from app.state.options import Pixel
+from app.widgets import theme
+
+MAP = "map"  # the whole image, small
+# What is seen of a state's image in a window, None for no image. The bool: whether it is for the
+# underlay; the string: which of the image's pictures.
+Drawn = Callable[[AppState, Placement, bool, str], Picture | None]
+
+
+@dataclass(frozen=True)
+class Pane:
+    """One image's window. picture: asked after the mouse has moved the camera.
+    underlay: where it can be put, having nothing under it; None: ImGui draws it. values: of some
+    pixels, likewise; None: they are not written.
+
+    note: text over the image, which is darkened: it is not of now. hint: text over an image as it
+    is. progress: of the image under way, 1 for none. hovered: the pixel
+    under the mouse, to be marked here. depths: that are shown white and darkest. legend: whether
+    the channel's colours are explained. on_pixels: draws on the image, below everything else.
+    """
+
+    seen: Seen
+    picture: Drawn
+    underlay: Underlay | None
+    values: Values | None
+    fonts: theme.Fonts
+    note: str = ""
+    is_error: bool = False
+    hint: str = ""
+    progress: float = 1.0
+    legend: bool = True
+    hovered: Pixel | None = None
+    depths: tuple[float, float] | None = None
+    on_pixels: Callable[[Screen], None] | None = None
+
+
+@dataclass(frozen=True)
+class PaneResult:
+    """hovered: the pixel under the mouse. zoom: what the wheel zoomed at, None if it rests.
+
+    lens: where the wheel has magnified, None if it rests. keyed: whether the arrow keys are
+    the image's.
+    """
+
+    state: AppState
+    grab: Grab | None
+    hovered: Pixel | None
+    zoom: Zoom | None
+    lens: Lens | None = None
+    keyed: bool = False
+
+
+def image_pane(
+    pane: Pane,
+    state: AppState,
+    placed: Callable[[AppState], Placement],
+    grab: Grab | None,
+    zoom: Zoom | None = None,
+    lens: Lens | None = None,
+) -> PaneResult:
+    """Draws the image into what is left of the current window, and follows the mouse over it.
+    placed: where it stands there. zoom, lens: the last."""
+    seen, io = pane.seen, imgui.get_io()
+    start, avail = imgui.get_cursor_screen_pos(), imgui.get_content_region_avail()
+    room = start, ImVec2(start.x + avail.x, start.y + avail.y)
+    screen = Screen.here(placed(state))
+    low, high = screen.visible
+    imgui.set_cursor_screen_pos(low)
+    buttons = imgui.ButtonFlags_
+    imgui.invisible_button(
+        f"image##{seen.name}",
+        ImVec2(high.x - low.x, high.y - low.y),
+        buttons.mouse_button_left | buttons.mouse_button_right | buttons.mouse_button_middle,
+    )
+    over = imgui.is_item_hovered()
+    keyed = claim_keys()
+    hovered = screen.pixel(io.mouse_pos) if over else None
+    before, last_zoom, last_lens = state, zoom, lens
+    zoom = lens = None
+    state, grab = drag(seen, state, grab, screen)
+    if over and io.mouse_wheel and io.key_ctrl:
+        state, lens = magnify(state, io.mouse_wheel, screen, last_lens)
+    elif over and io.mouse_wheel:
+        state, zoom = wheel(seen, state, last_zoom, io.mouse_wheel, screen)
+    if state.images != before.images:
+        screen = Screen(placed(state), screen.corner, screen.scale)
+    _draw(pane, state, screen, room, grab)
+    return PaneResult(state, grab, hovered if grab is None else None, zoom, lens, keyed)
+
+
+def _draw(pane: Pane, state: AppState, screen: Screen, room: Box, grab: Grab | None) -> None:
+    draw = imgui.get_window_draw_list()
+    low, high = screen.visible
+    picture = pane.picture(state, screen.placement, pane.underlay is not None, PANE)
+    _surround(draw, room, low, low if picture is None else high)
+    draw.push_clip_rect(*screen.pane, intersect_with_current_clip_rect=True)
+    if picture is not None:
+        if pane.underlay is not None:
+            pane.underlay.put(picture, screen.visible_px)
+        else:
+            draw.add_image(imgui.ImTextureRef(picture.texture.glo), low, high)
+        if pane.on_pixels is not None:
+            pane.on_pixels(screen)
+    width, height = pane.seen.size
+    for number, pin in enumerate(state.options.probe.pins, 1):
+        if pin[0] < height and pin[1] < width:
+            draw_pin(draw, screen, pin, number)
+    if state.marked is not None:
+        draw_marked(draw, screen, state.marked)
+    if picture is not None and state.images.grid:  # numbers may reach over a mark
+        draw_pixel_grid(draw, screen, state, pane.values, pane.depths, pane.fonts)
+    if picture is not None:
+        draw.pop_clip_rect()
+        draw_rulers(draw, screen, state, pane.fonts)
+        draw.push_clip_rect(*screen.pane, intersect_with_current_clip_rect=True)
+    if pane.hovered is not None and grab is None:
+        draw_hovered(draw, screen, pane.hovered)
+    if pane.progress < 1.0:
+        end = ImVec2(low.x + (high.x - low.x) * pane.progress, high.y)
+        draw.add_rect_filled(ImVec2(low.x, high.y - 3), end, theme.u32(theme.RAY))
+    if picture is not None:
+        if pane.legend:
+            draw_legend(draw, screen, state, pane.depths, pane.fonts)
+        draw_corner(draw, screen, state, lambda size: _map(pane, state, screen, size))
+    if pane.note:
+        draw_note(draw, screen, pane.note, pane.is_error)
+    elif pane.hint:
+        draw_hint(draw, screen, pane.hint)
+    draw.pop_clip_rect()
+
+
+def _map(pane: Pane, state: AppState, screen: Screen, extent: tuple[int, int]) -> int | None:
+    """All of the image, (width, height) framebuffer pixels large; OpenGL's name of the texture."""
+    size = screen.placement.size
+    small = Placement(size, extent, extent[0] / size[0], (0, 0), extent)
+    picture = pane.picture(state, small, False, MAP)
+    return picture.texture.glo if picture is not None else None
+
+
+def _surround(draw: imgui.ImDrawList, room: Box, low: ImVec2, high: ImVec2) -> None:
+    """Fills what the image leaves of the window (whose own background would be drawn twice)."""
+    start, end = room
+    for corner, far in (
+        (start, ImVec2(end.x, low.y)),
+        (ImVec2(start.x, high.y), end),
+        (ImVec2(start.x, low.y), ImVec2(low.x, high.y)),
+        (ImVec2(high.x, low.y), ImVec2(end.x, high.y)),
+    ):
+        if far.x > corner.x and far.y > corner.y:
+            draw.add_rect_filled(corner, far, theme.u32(theme.BACKGROUND))

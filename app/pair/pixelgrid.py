@@ -1,0 +1,124 @@
+"""What is drawn between and into magnified pixels: lines, values, and the pixels' names.
+
+Owns from which size on each is drawn, and thins out what would not be legible. Asks for the values
+of the pixels that are seen, and of no others.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+from imgui_bundle import ImVec2, imgui
+from numpy.typing import NDArray
+
+from app.images.pixelvalues import Depths, is_dark, line_count, shown_bytes, value_lines
+from app.images.placement import RULED_FROM
+from app.images.readback import Region
+from app.images.screen import Screen
+from app.pair.rulers import ADVANCE, thinning
+from app.state.app_state import AppState
+from app.widgets import theme
+
+VALUES_FROM = 32.0  # screen pixels a side of an image's pixel
+NAMES_FROM = 44.0  # units: each pixel has its own row and column, beside those in the rulers
+MOST_VALUES = 1200  # more are thinned out: nobody reads them, and a frame would take too long
+LEAST_TEXT, MOST_TEXT = 8.5, 64.0
+# Of the fixed-width font, in its size. Digits have no descenders: their lines may be close.
+DIGITS_TOP, DIGITS_HIGH = 0.22, 0.61
+LEADING = 0.76
+FILLED = 0.84  # of a pixel's height, by its lines
+
+Values = Callable[[AppState, str, Region], NDArray | None]  # of a channel's pixels
+
+
+def draw_pixel_grid(
+    draw: imgui.ImDrawList,
+    screen: Screen,
+    state: AppState,
+    values: Values | None,
+    depths: Depths,
+    fonts: theme.Fonts,
+) -> None:
+    """Everything that the magnification leaves room for."""
+    side_px = min(screen.placement.unit)
+    if side_px < RULED_FROM:
+        return
+    _lines(draw, screen)
+    if side_px >= VALUES_FROM and values is not None:
+        draw.push_clip_rect(*screen.visible, intersect_with_current_clip_rect=True)
+        _values(draw, screen, state, values, depths, fonts)
+        draw.pop_clip_rect()
+
+
+def text_size(width: float, height: float, letters: int, lines: int) -> float:
+    """The size of the text in a pixel of that width and height. letters: of its longest line."""
+    return min(width / ((letters + 0.8) * ADVANCE), FILLED * height / _high(lines), MOST_TEXT)
+
+
+def _high(lines: int) -> float:
+    """From the top of the first line's digits to the foot of the last one's, in the text's size."""
+    return (lines - 1) * LEADING + DIGITS_HIGH
+
+
+def _lines(draw: imgui.ImDrawList, screen: Screen) -> None:
+    low, high = screen.visible
+    top, left, bottom, right = screen.placement.visible_pixels
+    width = 1 / screen.scale
+    # Gray is seen on black and on white.
+    color = theme.u32(theme.rgb("#808080", 0.55))
+    for column in range(max(left, 1), right):
+        x = screen.point(0, column).x
+        draw.add_rect_filled(ImVec2(x, low.y), ImVec2(x + width, high.y), color)
+    for row in range(max(top, 1), bottom):
+        y = screen.point(row, 0).y
+        draw.add_rect_filled(ImVec2(low.x, y), ImVec2(high.x, y + width), color)
+
+
+def _values(
+    draw: imgui.ImDrawList,
+    screen: Screen,
+    state: AppState,
+    values: Values,
+    depths: Depths,
+    fonts: theme.Fonts,
+) -> None:
+    """Each pixel's value, and from NAMES_FROM on its row and column."""
+    options, (width, height) = state.images, screen.cell
+    mono = fonts.mono or imgui.get_font()
+    region = screen.placement.visible_pixels
+    top, left, bottom, right = region
+    array = values(state, options.channel, region)
+    if array is None or array.size == 0:
+        return
+    texts = value_lines(array, options)
+    dark = is_dark(shown_bytes(array, options, depths)).tolist()
+    named = min(width, height) >= NAMES_FROM
+    longest = max((len(line) for text in texts for line in text[0].split("\n")), default=1)
+    longest = max(longest, max(len(line) for row in texts for line in row[-1].split("\n")))
+    if named:
+        name = state.options.indexing.short((bottom - 1, right - 1))
+        longest = max(longest, len(name))
+    lines = line_count(options) + named
+    size = text_size(width, height, longest, lines)
+    skip = 1
+    if size < LEAST_TEXT:  # a text reaches over its neighbours, which get none
+        skip, size = thinning(size, LEAST_TEXT), LEAST_TEXT
+    while (bottom - top) * (right - left) / skip**2 > MOST_VALUES:
+        skip += 1
+    black, white = theme.u32(theme.rgb("#000000")), theme.u32(theme.rgb("#ffffff"))
+    dim = {False: theme.u32(theme.rgb("#000000", 0.6)), True: theme.u32(theme.rgb("#ffffff", 0.65))}
+    for row in range(top + -top % skip, bottom, skip):
+        y = screen.point(row + 0.5, 0).y - (DIGITS_TOP + _high(lines) / 2) * size
+        for column in range(left + -left % skip, right, skip):
+            text, on_dark = texts[row - top][column - left], dark[row - top][column - left]
+            x = screen.point(0, column + 0.5).x
+            below = y
+            if named:
+                name = state.options.indexing.short((row, column))
+                at = ImVec2(x - ADVANCE * size * len(name) / 2, y)
+                draw.add_text(mono, size, at, dim[on_dark], name)
+                below += LEADING * size
+            for line in text.split("\n"):
+                at = ImVec2(x - ADVANCE * size * len(line) / 2, below)
+                draw.add_text(mono, size, at, white if on_dark else black, line)
+                below += LEADING * size

@@ -1,0 +1,219 @@
+"""A strip above each image: which channel, how large, how magnified, and how it is displayed.
+
+Owns its look. Everything on it is also in the menu "Image" and on keys; both images share it.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+from imgui_bundle import ImVec2, imgui
+
+from app.images.imaging import (
+    CHANNELS,
+    COMPONENTS,
+    TRANSFERS,
+    resolution_text,
+    size_text,
+    with_channel,
+    with_component,
+    with_magnification,
+    with_pixel_size,
+    with_resolution,
+)
+from app.images.placement import magnification_text
+from app.state.app_state import AppState
+from app.state.options import MAGNIFICATIONS, PIXEL_SIZES, RESOLUTIONS
+from app.widgets import theme
+
+PADDING = ImVec2(6, 2)
+GAP = 2.0
+ARROW = 0.9  # the room of the triangle, in the font's size
+
+
+@dataclass(frozen=True)
+class Strip:
+    """What the strip must know. name: of the view. ask_resolution: opens the box to type one."""
+
+    name: str
+    ask_resolution: Callable[[], None]
+
+
+def image_strip(strip: Strip, state: AppState) -> AppState:
+    """Draws the strip into the current window."""
+    imgui.push_style_var(imgui.StyleVar_.frame_padding, PADDING)
+    imgui.push_style_color(imgui.Col_.button, theme.rgb("#000000", 0.0))
+    imgui.push_id(f"strip {strip.name}")
+    start, room = imgui.get_cursor_screen_pos(), imgui.get_content_region_avail().x
+    height = imgui.get_frame_height()
+    far = ImVec2(start.x + room, start.y + height)
+    imgui.get_window_draw_list().add_rect_filled(start, far, theme.u32(theme.PANEL))
+    for place, (name, label, tooltip, menu) in enumerate(_PARTS):
+        text = label(state)
+        width = _width(text)
+        if width > room:
+            break
+        room -= width + GAP
+        if place:
+            imgui.same_line(0, GAP)
+        if _drop_down(name, text, width):
+            imgui.open_popup(name)
+        low, high = imgui.get_item_rect_min(), imgui.get_item_rect_max()
+        imgui.set_item_tooltip(f"{told_now(state, name)}{tooltip}")
+        imgui.set_next_window_pos(ImVec2(low.x, high.y + 2), imgui.Cond_.appearing)
+        if imgui.begin_popup(name):
+            state = menu(strip, state)
+            imgui.end_popup()
+    if room > 0 and _PARTS:
+        imgui.same_line(0, 0)
+        imgui.dummy(ImVec2(0, height))
+    imgui.pop_id()
+    imgui.pop_style_color()
+    imgui.pop_style_var()
+    imgui.set_cursor_screen_pos(ImVec2(start.x, far.y))
+    return state
+
+
+def told_now(state: AppState, part: str) -> str:
+    """What the chosen entry of a part means, for its tooltip: `sRGB: linear light through ...`."""
+    options = state.images
+    chosen = {
+        "channel": CHANNELS[options.channel],
+        "transfer": TRANSFERS[options.transfer],
+        "component": COMPONENTS[options.component],
+    }
+    return ": ".join(chosen[part]) + ".\n" if part in chosen else ""
+
+
+def _drop_down(name: str, text: str, width: float) -> bool:
+    """A flat button with a small triangle behind its text."""
+    at = imgui.get_cursor_screen_pos()
+    pressed = imgui.button(f"##{name}", ImVec2(width, 0))
+    size, draw = imgui.get_font_size(), imgui.get_window_draw_list()
+    color = imgui.get_color_u32(imgui.Col_.text)
+    draw.add_text(ImVec2(at.x + PADDING.x, at.y + PADDING.y), color, text)
+    x, y = at.x + width - PADDING.x - 0.25 * size, at.y + PADDING.y + 0.56 * size
+    side = 0.22 * size
+    draw.add_triangle_filled(
+        ImVec2(x - side, y - 0.6 * side),
+        ImVec2(x + side, y - 0.6 * side),
+        ImVec2(x, y + 0.8 * side),
+        theme.u32(theme.DIM),
+    )
+    return pressed
+
+
+def _width(text: str) -> float:
+    return imgui.calc_text_size(text).x + 2 * PADDING.x + ARROW * imgui.get_font_size()
+
+
+def _item(text: str, on: bool, keys: str = "", tooltip: str = "") -> bool:
+    pressed = imgui.menu_item(text, keys, on)[0]
+    if tooltip:
+        imgui.set_item_tooltip(tooltip)
+    return pressed
+
+
+def _channel(strip: Strip, state: AppState) -> AppState:
+    for number, (channel, (name, tooltip)) in enumerate(CHANNELS.items()):
+        if _item(name, state.images.channel == channel, f"Alt+{number + 1}", tooltip):
+            state = with_channel(state, channel)
+    return state
+
+
+def _resolution(strip: Strip, state: AppState) -> AppState:
+    now = state.images.resolution
+    for size in PIXEL_SIZES:
+        name = "As large as the window" if size == 1 else f"Window, pixels {size} x {size}"
+        on = now is None and state.images.pixel_size == size
+        if _item(name, on, "Alt+W" if size == 1 else ""):
+            state = with_pixel_size(state, size)
+    imgui.separator()
+    for resolution in RESOLUTIONS:
+        if _item(size_text(resolution), now == resolution):
+            state = with_resolution(state, resolution)
+    imgui.separator()
+    own = now is not None and now not in RESOLUTIONS
+    if _item(
+        f"Another size ({size_text(now)})..." if own and now else "Another size...", own, "Alt+S"
+    ):
+        strip.ask_resolution()
+    return state
+
+
+def _magnification(strip: Strip, state: AppState) -> AppState:
+    now = state.images.magnification
+    if _item("Fit", now is None, "Alt+0", "All of the image in its window."):
+        state = with_magnification(state, None)
+    for factor in MAGNIFICATIONS:
+        keys = "Alt+A" if factor == 1 else ""
+        tooltip = "Ctrl+wheel magnifies at the pointer, Ctrl+drag moves the image."
+        if _item(magnification_text(factor), now == factor, keys, tooltip):
+            state = with_magnification(state, factor)
+    imgui.separator()
+    if _item("Pixel grid", state.images.grid, "Alt+X", "Lines from 8x on, numbers from 32x on."):
+        state = state.with_options(images={"grid": not state.images.grid})
+    floats = state.images.values == "floats"
+    if _item("Values as linear light", floats, "Alt+V", "A pixel's numbers: 0 to 255, or light."):
+        state = state.with_options(images={"values": "bytes" if floats else "floats"})
+    return state
+
+
+def _transfer(strip: Strip, state: AppState) -> AppState:
+    for transfer, (name, tooltip) in TRANSFERS.items():
+        if _item(name, state.images.transfer == transfer, "Alt+L", tooltip):
+            state = state.with_options(images={"transfer": transfer})
+    return state
+
+
+def _component(strip: Strip, state: AppState) -> AppState:
+    for component, (name, tooltip) in COMPONENTS.items():
+        keys = "" if component == "rgb" else f"Alt+{name[0]}"
+        if _item(name, state.images.component == component, keys, tooltip) and (
+            state.images.component != component
+        ):
+            state = with_component(state, component)
+    imgui.separator()
+    if _item("In its own colour", state.images.tinted, "Alt+T", "A single channel, not as gray."):
+        state = state.with_options(images={"tinted": not state.images.tinted})
+    return state
+
+
+def _magnification_text(state: AppState) -> str:
+    factor = state.images.magnification
+    return "Fit" if factor is None else magnification_text(factor)
+
+
+_PARTS = (
+    (
+        "channel",
+        lambda state: CHANNELS[state.images.channel][0],
+        "What both images show: colour, depth, normal or object (Alt+1 to Alt+4).",
+        _channel,
+    ),
+    (
+        "resolution",
+        lambda state: resolution_text(state.images),
+        "How many pixels both images have: as many as fit the window, or a fixed number.",
+        _resolution,
+    ),
+    (
+        "magnification",
+        _magnification_text,
+        "How large a pixel of the images is on the screen (Ctrl+wheel over an image).",
+        _magnification,
+    ),
+    (
+        "transfer",
+        lambda state: TRANSFERS[state.images.transfer][0],
+        "How linear light becomes what the screen gets (Alt+L).",
+        _transfer,
+    ),
+    (
+        "component",
+        lambda state: COMPONENTS[state.images.component][0],
+        "All of a colour, or one of its channels (Alt+R, Alt+G, Alt+B).",
+        _component,
+    ),
+)

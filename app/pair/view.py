@@ -1,0 +1,240 @@
+"""The raster and the ray image, side by side and linked: one class, made twice.
+
+Owns what both share: the drag under way, what the wheel zooms at, the mark's place while the size
+of the images changes, and the size of their windows.
+"""
+
+from __future__ import annotations
+
+import time
+from dataclasses import dataclass
+
+from imgui_bundle import ImVec2, imgui
+
+from app.host.view import Host, View
+from app.images.marking import Anchor, followed
+from app.images.placement import Placement, shown_pixel
+from app.images.screen import Screen, available_px, is_at_the_bottom
+from app.pair.image_mouse import Grab, Lens, Seen, Zoom
+from app.pair.marks import walked
+from app.pair.pane import Drawn, Pane, image_pane
+from app.pair.pixelgrid import Values
+from app.pair.rulers import ruler_sizes
+from app.pair.toolbar import Strip, image_strip
+from app.state.app_state import AppState
+from renderer.camera import Camera
+from renderer.errors import describe
+
+RASTER, RAY = "Raster", "Ray"
+PAUSE_S = 0.5  # turns of the wheel, or keys, closer together are one step of undo
+STEADY = 6  # frames of one size, two panes each
+NARROW_CELL = 4.0  # a hovered pixel that large gets a frame in the image under the mouse too
+
+
+@dataclass
+class Linked:
+    """What the two images share. walked_frame: the last one in which a key has moved the mark.
+    size, steady_frames: of the images, and how often they were drawn at that size."""
+
+    grab: Grab | None = None
+    zoom: Zoom | None = None
+    lens: Lens | None = None
+    anchor: Anchor | None = None
+    gesture_number: int = 0
+    gesture_s: float = 0.0
+    walked_frame: int = -1
+    size: tuple[int, int] = (0, 0)
+    steady_frames: int = 0
+
+
+class ImageView(View):
+    """One of the two images."""
+
+    padding = ImVec2(1, 1)
+    flags = int(
+        imgui.WindowFlags_.no_scrollbar
+        | imgui.WindowFlags_.no_scroll_with_mouse
+        | imgui.WindowFlags_.no_background
+    )
+
+    def __init__(self, linked: Linked) -> None:
+        self._linked = linked
+
+    def unseen(self, host: Host) -> None:
+        host.renderers.forget_pane(self.name)
+
+    def cancel(self) -> None:
+        self._linked.grab = None
+
+    def as_set(self, state: AppState) -> AppState:
+        anchor = self._linked.anchor
+        if anchor is None or anchor.now != state.marked or anchor.pixel == state.marked:
+            return state
+        return state.with_options(marked=anchor.pixel)
+
+    def begin_anew(self) -> None:
+        """The mark is the step's, of the size that comes when its views are laid out."""
+        shared = self._linked
+        shared.grab = shared.zoom = shared.lens = shared.anchor = None
+        shared.steady_frames = 0
+
+    def flown(self, host: Host) -> Camera | None:
+        return host.state.camera
+
+    def with_flown(self, state: AppState, camera: Camera) -> AppState:
+        return state.with_camera(camera)
+
+    def object_under(self, host: Host) -> int | None:
+        if host.hovered is None or host.hovered[0] != self.name:
+            return None
+        row, column = host.hovered[1]
+        frame = host.renderers.agreement.frame_of(host.renderers.request(host.state))
+        if frame is None or row >= frame.size[1] or column >= frame.size[0]:
+            return None
+        number = int(frame.channel("id")[row, column])
+        return number if number >= 0 else None
+
+    def _pane(
+        self,
+        host: Host,
+        picture: Drawn,
+        values: Values | None,
+        error: Exception | None,
+        note: str = "",
+        progress: float = 1.0,
+        legend: bool = True,
+    ) -> None:
+        """Draws an image into what is left of the window. values: of its channel's pixels; None
+        where what is seen is no channel, which then has no legend either."""
+        both, shared = host.renderers, self._linked
+        self._strip(host)
+        room_px, options = available_px(), host.state.images
+        both.fit_pane(self.name, room_px, options, ruler_sizes(options))
+        room_px = both.common_room(room_px)
+
+        def placed(state: AppState) -> Placement:
+            return both.placed(state.images, room_px)
+
+        self._keep_mark(host)
+        corner = imgui.get_cursor_screen_pos()
+        self._before_image(host, Screen.here(placed(host.state)))
+        imgui.set_cursor_screen_pos(corner)
+        state = host.state
+        seen = Seen(
+            name=self.name,
+            shown=both.camera(state),
+            size=both.size,
+            center=host.focus.center,
+            reach=host.focus.reach,
+            depth_at=lambda pixel: both.depth_at(state, pixel),
+        )
+        pane = Pane(
+            seen=seen,
+            picture=picture,
+            underlay=both.underlay if is_at_the_bottom() else None,
+            values=values,
+            fonts=host.fonts,
+            note=describe(error) if error else note,
+            is_error=error is not None,
+            hint=_hint(both.nothing_hit(state)),
+            progress=progress,
+            legend=legend,
+            hovered=self._hovered(host, placed(state)),
+            depths=both.depths() if state.images.channel == "depth" else None,
+            on_pixels=lambda screen: self._on_pixels(host, screen),
+        )
+        result = image_pane(pane, state, placed, shared.grab, shared.zoom, shared.lens)
+        shared.grab, shared.zoom = result.grab, result.zoom or shared.zoom
+        shared.lens = result.lens or shared.lens
+        if result.hovered is not None:
+            host.hover(self.name, result.hovered)
+        turned = result.zoom is not None or result.lens is not None
+        kind = "wheel" if result.lens is None else "magnify"
+        host.apply(result.state, self._gesture(kind) if turned else None)
+        if result.keyed:
+            self._walk(host, placed(host.state))
+        imgui.set_cursor_screen_pos(corner)
+        self._over_image(host, Screen.here(placed(host.state)))
+
+    def _before_image(self, host: Host, screen: Screen) -> None:
+        """For items that take the mouse before the image does."""
+
+    def _on_pixels(self, host: Host, screen: Screen) -> None:
+        """For what is drawn on the image, below the grid, the marks and the legends."""
+
+    def _over_image(self, host: Host, screen: Screen) -> None:
+        """For what is drawn over the image."""
+
+    def _strip(self, host: Host) -> None:
+        if not host.state.preferences.presentation:
+            host.apply(image_strip(Strip(self.name, host.ask_resolution), host.state))
+
+    def _hovered(self, host: Host, placement: Placement) -> tuple[int, int] | None:
+        """The pixel to frame: in the other image always, in this one where it can be seen."""
+        if host.hovered is None:
+            return None
+        size = host.renderers.size
+        if host.hovered[0] == self.name and placement.magnification <= NARROW_CELL:
+            return None
+        row, column = host.hovered[1]
+        return (row, column) if row < size[1] and column < size[0] else None
+
+    def _keep_mark(self, host: Host) -> None:
+        """Where the images have another size, the mark is where the same ray is."""
+        shared, state, size = self._linked, host.state, host.renderers.size
+        shared.steady_frames = shared.steady_frames + 1 if size == shared.size else 0
+        shared.size = size
+        if shared.anchor is None and shared.steady_frames < STEADY:
+            return  # a session's mark belongs to the size that comes when the layout is done
+        marked, shared.anchor = followed(state.marked, shared.anchor, state.view, size)
+        if marked != state.marked:
+            host.amend(state.with_options(marked=marked))
+
+    def _walk(self, host: Host, placement: Placement) -> None:
+        """The arrow keys move the mark, which stays in sight."""
+        shared, frame = self._linked, imgui.get_frame_count()
+        if shared.walked_frame == frame:  # one image has the mouse, the other the keyboard
+            return
+        state, size = host.state, host.renderers.size
+        middle = (size[1] // 2, size[0] // 2)
+        start = host.hovered[1] if host.hovered is not None else middle
+        pixel = walked(state.marked, size, start)
+        if pixel is None:
+            return
+        shared.walked_frame = frame
+        state = state.with_options(marked=pixel, images=shown_pixel(placement, pixel))
+        host.apply(state, self._gesture("walk"))
+
+    def _gesture(self, kind: str) -> tuple[str, int]:
+        """The gesture that a turn of the wheel, or a key, belongs to."""
+        shared, now_s = self._linked, time.monotonic()
+        shared.gesture_number += now_s - shared.gesture_s > PAUSE_S
+        shared.gesture_s = now_s
+        return (kind, shared.gesture_number)
+
+
+class RasterView(ImageView):
+    name = RASTER
+    title = "Raster  object order"
+
+    def draw(self, host: Host) -> None:
+        both = host.renderers
+        self._pane(host, both.raster_picture, both.raster_values, both.raster_error)
+
+
+class RayView(ImageView):
+    name = RAY
+    title = "Ray  image order"
+
+    def draw(self, host: Host) -> None:
+        both, image = host.renderers, host.renderers.ray_image
+        refining = image is not None and image.factor > 1
+        progress = both.live.progress if refining else 1.0
+        note = both.preparing()
+        self._pane(host, both.ray_picture, both.ray_values, both.ray_error, note, progress)
+        both.trace(host.state)
+
+
+def _hint(nothing_hit: str) -> str:
+    """What an image that shows nothing says."""
+    return f"nothing is hit: {nothing_hit}\nHome: back to the scene's view" if nothing_hit else ""

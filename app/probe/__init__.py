@@ -1,0 +1,1 @@
+"""The probe: everything that happens along the viewing ray of one pixel."""

@@ -1,0 +1,204 @@
+"""A pixel's reading for the clipboard: as text, as LaTeX, as a program in Python, Julia or C.
+
+Owns how lines are set one below another, and the program. Knows nothing of the clipboard.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+
+from app.explaining.languages import c, julia
+from app.explaining.notation import Line, number
+from app.probe.color_formulas import color_lines
+from app.probe.formulas import hit_lines, pixel_text, ray_lines
+from app.probe.reading import SEEN, Meeting, Reading
+from renderer.pixels import Indexing
+
+
+def all_lines(reading: Reading, indexing: Indexing = Indexing.LECTURE) -> list[Line]:
+    """Every line of a reading, from the pixel's number to its bytes."""
+    return [*ray_lines(reading, indexing), *hit_lines(reading), *color_lines(reading)]
+
+
+def as_text(reading: Reading, indexing: Indexing = Indexing.LECTURE) -> str:
+    """The lines and the table of intersections, in columns."""
+    lines = [f"pixel in {pixel_text(reading, indexing)}", ""]
+    lines += _text_of(ray_lines(reading, indexing))
+    lines += ["", *_table(reading.meetings), ""]
+    lines += _text_of([*hit_lines(reading), *color_lines(reading)])
+    return "\n".join(lines) + "\n"
+
+
+def as_latex(reading: Reading, indexing: Indexing = Indexing.LECTURE) -> str:
+    """The lines as an `align*` of amsmath."""
+    rows = []
+    for line in all_lines(reading, indexing):
+        left, equal, right = line.latex.partition(" = ")
+        rows.append(rf"{left} &= {right} \\" if equal else rf"& {line.latex} \\")
+        if line.latex_numbers:
+            sign, space, rest = line.latex_numbers.partition(" ")
+            rows.append(
+                rf"&= {rest} \\" if sign == "=" and space else rf"& {line.latex_numbers} \\"
+            )
+    rows[-1] = rows[-1].removesuffix(r" \\")
+    body = [rf"% Pixel in {pixel_text(reading, indexing)}", r"\begin{align*}"]
+    return "\n".join([*body, *(f"  {row}" for row in rows), r"\end{align*}"]) + "\n"
+
+
+def as_python(reading: Reading, indexing: Indexing = Indexing.LECTURE) -> str:
+    """A program, of NumPy alone, that computes the ray, the hit and the colour of the pixel.
+
+    It leaves them in its variables origin, direction, t, point, normal, color and rgb; of a pixel
+    of the background only origin, direction, color and rgb.
+    """
+    camera = reading.camera
+    i, j = indexing.numbers(reading.pixel)
+    like = "as in the lecture" if indexing is Indexing.LECTURE else "as arrays are"
+    parallel = camera.is_parallel
+    lines = [
+        f"# The viewing ray and the colour of the pixel in {pixel_text(reading, indexing)}.",
+        "import numpy as np",
+        "",
+        f"i, j = {i}, {j}  # row and column, counted {indexing.told}, {like}",
+        f"W, H = {reading.size[0]}, {reading.size[1]}",
+        *(f"{name} = {_array(getattr(camera, name))}" for name in ("eye", "u", "v", "w")),
+        f"d = {camera.distance!r}  # distance of the viewport along -w",
+        f"left, right, bottom, top = {camera.viewport!r}",
+        "",
+        f"x = left + (right - left) * (j {indexing.offset}) / W  # the lecture's u",
+        f"y = top - (top - bottom) * (i {indexing.offset}) / H  # and v",
+        f"origin = {'eye + x * u + y * v' if parallel else 'eye'}",
+        f"direction = {'-w' if parallel else 'x * u + y * v - d * w'}",
+        "",
+        *(_hit_program(reading) if reading.hit is not None else _background_program(reading)),
+        "",
+        *_display_program(reading),
+        "print(origin, direction, color, rgb)",
+    ]
+    return "\n".join(lines) + "\n"
+
+
+def as_julia(reading: Reading, indexing: Indexing = Indexing.LECTURE) -> str:
+    """The same program in Julia, of its standard library."""
+    return julia.program(as_python(reading, indexing))
+
+
+def as_c(reading: Reading, indexing: Indexing = Indexing.LECTURE) -> str:
+    """The same program in C, a whole file; link it with -lm."""
+    return c.program(as_python(reading, indexing))
+
+
+def _background_program(reading: Reading) -> list[str]:
+    return ["# The ray hits nothing.", f"color = {_array(reading.background)}"]
+
+
+def _hit_program(reading: Reading) -> list[str]:
+    assert reading.hit is not None
+    assert reading.shading is not None
+    lines = [f"# The nearest hit: {reading.meetings[0].name}."]
+    if reading.sphere is not None:
+        center, radius = reading.sphere
+        lines += [
+            f"center, radius = {_array(center)}, {radius!r}",
+            "f = origin - center",
+            "a, b, c = direction @ direction, f @ direction, f @ f - radius**2",
+            f"t = (-b {_root_sign(reading)} np.sqrt(b * b - a * c)) / a",
+            "point = origin + t * direction",
+            "normal = (point - center) / radius",
+        ]
+    else:
+        lines += [
+            *(
+                f"{name} = {_array(corner)}"
+                for name, corner in zip("abc", reading.corners, strict=True)
+            ),
+            "normal = np.cross(b - a, c - a)",
+            "normal /= np.linalg.norm(normal)",
+            "t = normal @ (a - origin) / (normal @ direction)",
+            "point = origin + t * direction",
+        ]
+    lines.append("normal *= -np.sign(normal @ direction)  # towards the viewer")
+    if reading.hit.is_smooth:
+        lines.append(f"normal = {_array(reading.hit.normal)}  # interpolated between the corners'")
+    return [*lines, "", *_light_program(reading)]
+
+
+def _root_sign(reading: Reading) -> str:
+    """Which root of the sphere's equation is the hit."""
+    seen = reading.meetings[0]
+    at = next(k for k, crossing in enumerate(seen.crossings) if crossing.standing == SEEN)
+    return "-" if at == 0 and len(seen.crossings) > 1 else "+"
+
+
+def _light_program(reading: Reading) -> list[str]:
+    shading = reading.shading
+    assert shading is not None
+    lines = [
+        "# Blinn and Phong's light; colours are linear.",
+        f"albedo, specular = {_array(shading.albedo)}, {_array(shading.specular)}",
+        f"shininess = {shading.shininess!r}",
+        "to_viewer = -direction / np.linalg.norm(direction)",
+        f"color = {_array(shading.ambient_light)} * albedo",
+    ]
+    for lamp in shading.lamps:
+        name = f"light {lamp.number + 1}"
+        if not lamp.is_lit:
+            lines.append(f"# {name} is shadowed")
+            continue
+        to_light = f"{_array(lamp.place)} - point" if lamp.is_point else _array(lamp.place)
+        lines += [
+            f"l = {to_light}  # {name}",
+            *(["l /= np.linalg.norm(l)"] if lamp.is_point else []),
+            "h = l + to_viewer",
+            "h /= max(np.linalg.norm(h), 1e-300)",
+            "diffuse = max(0.0, normal @ l) * albedo",
+            "highlight = max(0.0, normal @ h) ** shininess * specular",
+            f"color += {_array(lamp.color)} * (diffuse + highlight)",
+        ]
+    for k, bounce in enumerate(reading.bounces, start=1):
+        lines.append(
+            f"color += {_array(bounce.weight)} * {_array(bounce.color)}  # mirrored ray {k}"
+        )
+    return lines
+
+
+def _display_program(reading: Reading) -> list[str]:
+    lines = ["# The display: exposure, curve, 8 bits."]
+    lines.append(f"exposed = np.clip(2.0**{reading.exposure_ev!r} * color, 0, 1)")
+    if reading.transfer == "linear":
+        lines.append("shown = exposed")
+    else:
+        lines.append(
+            "shown = np.where(exposed <= 0.0031308, 12.92 * exposed,"
+            " 1.055 * exposed ** (1 / 2.4) - 0.055)"
+        )
+    return [*lines, "rgb = np.floor(255 * shown + 0.5).astype(int)"]
+
+
+def _text_of(lines: Iterable[Line]) -> list[str]:
+    text = []
+    for line in lines:
+        text.append(f"{line.name}:")
+        text.append(f"    {line.text}")
+        if line.text_numbers:
+            text.append(f"      {line.text_numbers}")
+    return text
+
+
+def _table(meetings: Iterable[Meeting]) -> list[str]:
+    rows = [("object", "t", "")]
+    for meeting in meetings:
+        nearest = meeting.nearest
+        if nearest is None:
+            rows.append((meeting.name, "-", "not met"))
+        else:
+            rows.append((meeting.name, number(nearest.t, fixed=True), nearest.standing))
+    widths = [max(len(row[k]) for row in rows) for k in range(2)]
+    return [
+        f"{name:<{widths[0]}}  {t:>{widths[1]}}  {standing}".rstrip() for name, t, standing in rows
+    ]
+
+
+def _array(values: Iterable[float]) -> str:
+    """Numbers that read back exactly."""
+    return "np.array([" + ", ".join(repr(float(value)) for value in values) + "])"

@@ -1,0 +1,357 @@
+"""A pixel's viewing ray as the lecture writes it down, line by line, with the pixel's numbers.
+
+Owns the lines from the pixel to the hit. Those of the colour are color_formulas.py's; how numbers
+are written, notation.py's. Knows nothing of how lines are drawn.
+
+Symbols: i, j the pixel, H, W the image, u, v where it lies on the image plane (bold: the basis),
+d the distance of the viewport, bold d the direction, bold p the origin.
+"""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+
+from app.explaining.notation import (
+    Line,
+    Slot,
+    formula,
+    latex_number,
+    number,
+    scalar_slot,
+    vector_slot,
+)
+from app.probe.reading import Reading
+from renderer.camera import Camera
+from renderer.pixels import Indexing
+
+LECTURE_VIEWPORT = (-0.5, 0.5, -0.5, 0.5)
+
+
+def ray_lines(reading: Reading, indexing: Indexing = Indexing.LECTURE) -> list[Line]:
+    """u, v; the direction in the camera's and in the world's coordinates; the origin; the ray;
+    which t count."""
+    camera = reading.camera
+    lines = [_u(reading, indexing), _v(reading, indexing)]
+    lines += _parallel(reading) if camera.is_parallel else _perspective(reading)
+    p, d = vector_slot("p", reading.origin), vector_slot("d", reading.direction)
+    ray = Line(
+        "ray",
+        "ray",
+        rf"\mathbf{{r}}(t) = {p.latex} + t\,{d.latex}",
+        rf"= {p.latex_value} + t\,{d.latex_value}",
+        f"vec(r)(t) = {p.text} + t {d.text}",
+        f"= {p.text_value} + t {d.text_value}",
+        (*reading.origin, *reading.direction),
+    )
+    return [*lines, ray, _range(camera)]
+
+
+def hit_lines(reading: Reading) -> list[Line]:
+    """How t follows from the object that is seen; the hit; the normals. Empty for a miss."""
+    hit = reading.hit
+    if hit is None:
+        return []
+    found = _sphere_t(reading) if reading.sphere is not None else _triangle_t(reading)
+    t = scalar_slot("t", hit.t, factor=True)
+    p, d = vector_slot("p", reading.origin), vector_slot("d", reading.direction)
+    point = formula(
+        "point",
+        "hit point",
+        (r"\mathbf{x} = \mathbf{r}(t)", "vec(x) = vec(r)(t)"),
+        (r"<p> + <t>\,<d>", "<p> + <t> <d>"),
+        {"p": p, "t": t, "d": d},
+        hit.point,
+    )
+    lines = [*found, point, _geometric_normal(reading)]
+    if hit.is_smooth:
+        lines.append(
+            _stated(
+                "normal",
+                "normal for the light, between the corners'",
+                "n",
+                (
+                    r"\frac{b_0 \mathbf{n}_a + b_1 \mathbf{n}_b + b_2 \mathbf{n}_c}{|\dots|}",
+                    "(b0 vec(n_a) + b1 vec(n_b) + b2 vec(n_c)) / |...|",
+                ),
+                hit.normal,
+            )
+        )
+    return lines
+
+
+def pixel_text(reading: Reading, indexing: Indexing) -> str:
+    """`row 3, column 5 of 1280 x 720, from 1`, counted as asked."""
+    width, height = reading.size
+    return f"{indexing.words(reading.pixel)} of {width} x {height}, {indexing.told}"
+
+
+# The image plane.
+
+
+def _u(reading: Reading, indexing: Indexing) -> Line:
+    left, right, _, _ = reading.camera.viewport
+    slots = {
+        "j": _count("j", reading.pixel[1] + indexing.value),
+        "W": _count("W", reading.size[0]),
+        "l": scalar_slot(r"\mathrm{left}", left, "left"),
+        "lf": scalar_slot(r"\mathrm{left}", left, "left", factor=True),
+        "r": scalar_slot(r"\mathrm{right}", right, "right"),
+    }
+    offset = indexing.offset
+    if reading.camera.viewport == LECTURE_VIEWPORT:
+        rhs = rf"\frac{{<j> {offset}}}{{<W>}} - 0.5", f"(<j> {offset}) / <W> - 0.5"
+    else:
+        rhs = (
+            rf"<l> + (<r> - <lf>)\,\frac{{<j> {offset}}}{{<W>}}",
+            f"<l> + (<r> - <lf>) (<j> {offset}) / <W>",
+        )
+    return formula("u", "along u", ("u", "u"), rhs, slots, reading.x)
+
+
+def _v(reading: Reading, indexing: Indexing) -> Line:
+    _, _, bottom, top = reading.camera.viewport
+    slots = {
+        "i": _count("i", reading.pixel[0] + indexing.value),
+        "H": _count("H", reading.size[1]),
+        "t": scalar_slot(r"\mathrm{top}", top, "top"),
+        "b": scalar_slot(r"\mathrm{bottom}", bottom, "bottom", factor=True),
+    }
+    offset = indexing.offset
+    if reading.camera.viewport == LECTURE_VIEWPORT:
+        rhs = (
+            rf"-\left(\frac{{<i> {offset}}}{{<H>}} - 0.5\right)",
+            f"-((<i> {offset}) / <H> - 0.5)",
+        )
+    else:
+        rhs = (
+            rf"<t> - (<t> - <b>)\,\frac{{<i> {offset}}}{{<H>}}",
+            f"<t> - (<t> - <b>) (<i> {offset}) / <H>",
+        )
+    return formula("v", "along v", ("v", "v"), rhs, slots, reading.y)
+
+
+def _count(symbol: str, value: int) -> Slot:
+    return Slot(symbol, symbol, str(value), str(value))
+
+
+# Direction and origin.
+
+
+def _perspective(reading: Reading) -> list[Line]:
+    camera = reading.camera
+    in_camera = (reading.x, reading.y, -camera.distance)
+    combination = {
+        **_basis(camera),
+        "x": scalar_slot("u", reading.x, factor=True),
+        "y": scalar_slot("v", reading.y, factor=True),
+        "d": scalar_slot("d", camera.distance, factor=True),
+    }
+    return [
+        _camera_vector("camera direction", "direction, camera", ("u", "v", "-d"), in_camera),
+        formula(
+            "direction",
+            "direction, world",
+            (r"\mathbf{d}", "vec(d)"),
+            (r"<x>\,<u> + <y>\,<v> - <d>\,<w>", "<x> <u> + <y> <v> - <d> <w>"),
+            combination,
+            reading.direction,
+        ),
+        formula(
+            "origin",
+            "origin",
+            (r"\mathbf{p}", "vec(p)"),
+            (r"\mathbf{eye}", "eye"),
+            {},
+            reading.origin,
+        ),
+    ]
+
+
+def _parallel(reading: Reading) -> list[Line]:
+    combination = {
+        **_basis(reading.camera),
+        "eye": vector_slot("eye", reading.camera.eye, "eye"),
+        "x": scalar_slot("u", reading.x, factor=True),
+        "y": scalar_slot("v", reading.y, factor=True),
+    }
+    return [
+        _camera_vector("camera direction", "direction, camera", ("0", "0", "-1"), (0.0, 0.0, -1.0)),
+        formula(
+            "direction",
+            "direction, world",
+            (r"\mathbf{d}", "vec(d)"),
+            ("-<w>", "-<w>"),
+            combination,
+            reading.direction,
+        ),
+        formula(
+            "origin",
+            "origin",
+            (r"\mathbf{p}", "vec(p)"),
+            (r"<eye> + <x>\,<u> + <y>\,<v>", "<eye> + <x> <u> + <y> <v>"),
+            combination,
+            reading.origin,
+        ),
+    ]
+
+
+def _basis(camera: Camera) -> dict[str, Slot]:
+    return {name: vector_slot(name, getattr(camera, name)) for name in ("u", "v", "w")}
+
+
+def _camera_vector(
+    key: str, name: str, symbols: tuple[str, str, str], value: tuple[float, float, float]
+) -> Line:
+    shown = r",\ ".join(symbols), ", ".join(symbols)
+    return formula(
+        key, name, (r"\mathbf{d}_{uvw}", "d_uvw"), (f"({shown[0]})", f"({shown[1]})"), {}, value
+    )
+
+
+def _range(camera: Camera) -> Line:
+    """Which t count: t > 0, or what near and far leave."""
+    low, high = camera.t_range
+    if camera.near is None and camera.far is None:
+        return Line("range", "half a line", "t > 0", "", "t > 0", "", (low, high))
+    over, plain_over = ("", "") if camera.is_parallel else ("d", "/d")
+    symbols, plain = [], []
+    for clip, name in ((camera.near, "near"), (camera.far, "far")):
+        symbol = rf"\mathrm{{{name}}}"
+        symbols.append(rf"\frac{{{symbol}}}{{{over}}}" if over else symbol)
+        plain.append(name + plain_over)
+        if clip is None:
+            symbols[-1], plain[-1] = (r"\infty", "inf") if name == "far" else ("0", "0")
+    return Line(
+        "range",
+        "clipped by near and far",
+        f"{symbols[0]} < t < {symbols[1]}",
+        f"{latex_number(low)} < t < {latex_number(high)}",
+        f"{plain[0]} < t < {plain[1]}",
+        f"{number(low)} < t < {number(high)}",
+        (low, high),
+    )
+
+
+# Where the ray meets what is seen.
+
+
+def _sphere_t(reading: Reading) -> list[Line]:
+    """The quadratic a t^2 + 2 b t + c = 0 and its root."""
+    assert reading.hit is not None
+    assert reading.sphere is not None
+    center, radius = reading.sphere
+    d, f = np.array(reading.direction), np.subtract(reading.origin, center)
+    a, b, c = float(d @ d), float(f @ d), float(f @ f - radius * radius)
+    p, way = vector_slot("p", reading.origin), vector_slot("d", reading.direction)
+    middle, r = vector_slot("c", center), scalar_slot("R", radius, factor=True)
+    quadratic = Line(
+        "sphere",
+        "the sphere's points",
+        r"|\mathbf{p} + t\,\mathbf{d} - \mathbf{c}|^2 = R^2",
+        rf"|{p.latex_value} + t\,{way.latex_value} - {middle.latex_value}|^2 = {r.latex_value}^2",
+        "|vec(p) + t vec(d) - vec(c)|^2 = R^2",
+        f"|{p.text_value} + t {way.text_value} - {middle.text_value}|^2 = {r.text_value}^2",
+        (a, b, c),
+    )
+    t = reading.hit.t
+    # The nearer root is -, and + where the ray begins inside the sphere, or is clipped there.
+    sign = "-" if t <= -b / a else "+"
+    slots = {
+        "a": scalar_slot("a", a, factor=True),
+        "b": scalar_slot("b", b, factor=True),
+        "c": scalar_slot("c", c, factor=True),
+    }
+    root = formula(
+        "t",
+        r"its root: a = d·d, b = d·(p - c), c = |p - c|² - R²",
+        ("t", "t"),
+        (rf"\frac{{-<b> {sign} \sqrt{{<b>^2 - <a> \cdot <c>}}}}{{<a>}}",
+         f"(-<b> {sign} sqrt(<b>^2 - <a> * <c>)) / <a>"),
+        slots,
+        t,
+    )  # fmt: skip
+    return [quadratic, root]
+
+
+def _triangle_t(reading: Reading) -> list[Line]:
+    """Where the triangle's plane is met, and that it is inside."""
+    hit = reading.hit
+    assert hit is not None
+    slots = {
+        "n": vector_slot("g", hit.geometric),
+        "a": vector_slot("a", reading.corners[0]),
+        "p": vector_slot("p", reading.origin),
+        "d": vector_slot("d", reading.direction),
+    }
+    plane = formula(
+        "t",
+        f"the plane of triangle {hit.primitive}",
+        ("t", "t"),
+        (r"\frac{<n> \cdot (<a> - <p>)}{<n> \cdot <d>}", "<n> . (<a> - <p>) / (<n> . <d>)"),
+        slots,
+        hit.t,
+    )
+    weights = (1 - hit.b1 - hit.b2, hit.b1, hit.b2)
+    corners = [vector_slot(name, at) for name, at in zip("abc", reading.corners, strict=True)]
+    factors = [scalar_slot(f"b_{k}", weight, factor=True) for k, weight in enumerate(weights)]
+    sums = [
+        " + ".join(pair)
+        for pair in (
+            [rf"{f.latex}\,{c.latex}" for f, c in zip(factors, corners, strict=True)],
+            [rf"{f.latex_value}\,{c.latex_value}" for f, c in zip(factors, corners, strict=True)],
+            [f"{f.text} {c.text}" for f, c in zip(factors, corners, strict=True)],
+            [f"{f.text_value} {c.text_value}" for f, c in zip(factors, corners, strict=True)],
+        )
+    ]
+    inside = Line(
+        "inside",
+        "inside: no weight of a corner is negative",
+        rf"\mathbf{{x}} = {sums[0]}",
+        f"= {sums[1]}",
+        f"vec(x) = {sums[2]}",
+        f"= {sums[3]}",
+        weights,
+    )
+    return [plane, inside]
+
+
+def _geometric_normal(reading: Reading) -> Line:
+    hit = reading.hit
+    assert hit is not None
+    if reading.sphere is not None:
+        center, radius = reading.sphere
+        slots = {"x": vector_slot("x", hit.point), "c": vector_slot("c", center)}
+        outside = (
+            math.dist(reading.origin, center) >= radius
+            or np.dot(hit.geometric, np.subtract(hit.point, center)) > 0
+        )
+        first, second = ("<x>", "<c>") if outside else ("<c>", "<x>")
+        return formula(
+            "geometric",
+            "normal" if outside else "normal, towards the viewer",
+            (r"\mathbf{n}", "vec(n)"),
+            (rf"\frac{{{first} - {second}}}{{|{first} - {second}|}}",
+             f"({first} - {second}) / |{first} - {second}|"),
+            slots,
+            hit.geometric,
+        )  # fmt: skip
+    symbol = "g" if hit.is_smooth else "n"
+    a, b, c = (np.array(corner) for corner in reading.corners)
+    is_front = np.cross(b - a, c - a) @ np.array(hit.geometric) >= 0
+    sign = "" if is_front else "-"
+    product = (
+        r"\frac{(\mathbf{b} - \mathbf{a}) \times (\mathbf{c} - \mathbf{a})}{|\dots|}",
+        "(vec(b) - vec(a)) x (vec(c) - vec(a)) / |...|",
+    )
+    name = "normal of the triangle, towards the viewer"
+    return _stated("geometric", name, symbol, (sign + product[0], sign + product[1]), hit.geometric)
+
+
+def _stated(
+    key: str, name: str, symbol: str, right: tuple[str, str], value: tuple[float, float, float]
+) -> Line:
+    """A line whose numbers are only the result."""
+    slot = vector_slot(symbol, value)
+    return formula(key, name, (slot.latex, slot.text), right, {}, value)

@@ -1,0 +1,284 @@
+"""The pixel probe: the numbers of the marked pixel's viewing ray, live while the camera moves.
+
+Owns the readings, the image's histogram, and the lines that it adds to the outside view. How a
+reading is shown is probe/panel.py's, what it consists of probe/model.py's.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from typing import Any
+
+import moderngl
+import numpy as np
+from imgui_bundle import imgui
+
+from app.host.view import Host, View
+from app.images.histogram import Histogram, histogram
+from app.images.renderers import MIRROR_DEPTH
+from app.outside.diagram import Arrow, Dot, Item, Lines
+from app.outside.extent import end_parameter
+from app.outside.view import OutsideView
+from app.pair.marks import walked
+from app.probe import panel
+from app.probe.bundles import Bundle, bundle, column_of, row_of
+from app.probe.histogram import values_and_histogram
+from app.probe.model import Probe
+from app.probe.reading import Reading
+from app.state.app_state import AppState
+from app.state.options import Pixel
+from app.widgets import formula, theme
+from app.widgets.background import Background
+from renderer.camera import Camera, Size
+from renderer.errors import describe
+
+PROBE = "Probe"
+MOST_SHOWN = 48  # rays of a row or a column
+ARROWS = (
+    imgui.Key.left_arrow,
+    imgui.Key.right_arrow,
+    imgui.Key.up_arrow,
+    imgui.Key.down_arrow,
+)
+NORMAL = 0.12  # the length of a normal's arrow, in parts of the scene's reach
+HINT = "Point at a pixel in an image or on the image plane. A click keeps it; the arrow keys walk."
+
+
+class ProbeView(View):
+    name = PROBE
+    title = "Probe"
+
+    def __init__(self, outside: OutsideView) -> None:
+        self._outside = outside
+        self._making: Background[Probe] | None = None
+        self._bundles: Background[tuple[Any, Bundle]] | None = None
+        self._counting: Background[Histogram] | None = None
+        self._counted: Any = None  # what the histogram is of, or is being made of
+        self.histogram: Histogram | None = None
+        self._probe: Probe | None = None
+        self._wanted: Any = None  # the scene that is being prepared, or is
+        self._error = ""
+        self._seen = False
+        self.reading: Reading | None = None  # the one that is shown
+        self._readings: dict[Any, Reading] = {}
+        self._bundle_key: Any = None
+        self._bundle: tuple[Any, Bundle] | None = None
+        self._shown: Any = None  # what the outside view's lines were made from
+
+    @property
+    def settled(self) -> bool:
+        works = (self._making, self._bundles, self._counting)
+        return not self._seen or not any(work is not None and work.busy for work in works)
+
+    def begin(self, host: Host, context: moderngl.Context) -> None:
+        self._making = Background("lucida-probe", host.animate)
+        self._bundles = Background("lucida-probe-rays", host.animate)
+        self._counting = Background("lucida-histogram", host.animate)
+
+    def end(self) -> None:
+        for work in (self._making, self._bundles, self._counting):
+            if work is not None:
+                work.close()
+        formula.release()
+
+    def unseen(self, host: Host) -> None:
+        self._seen = False
+        self._outside.show(PROBE, ())
+        self._shown = None
+
+    def draw(self, host: Host) -> None:
+        state, size = host.state, host.renderers.size
+        self._seen = True
+        if min(size) < 1:
+            return
+        self._prepare(state)
+        self._walk(host, size)
+        pixel = self._pixel(host, size)
+        reading = self._reading(host.state, pixel, host.renderers.camera(host.state), size)
+        self.reading = reading
+        host.apply(panel.toolbar(host.state, pixel, size, reading))
+        pins = self._pins(host, size)
+        if pins:
+            host.apply(panel.pin_row(host.state, pins, pixel))
+        problem = self._count(host)
+        shown = (reading.bytes, reading.display) if reading is not None else None
+        values_and_histogram(shown, self.histogram, problem, host.fonts)
+        imgui.separator()
+        imgui.begin_child("reading")
+        if self._error:
+            _wrapped(self._error, theme.ERROR)
+        elif pixel is None:
+            _wrapped(HINT, theme.DIM)
+        elif reading is None:
+            _wrapped("preparing the scene for the probe ...", theme.DIM)
+        else:
+            panel.reading_panel(reading, host.state.options.indexing, host.fonts)
+        imgui.end_child()
+        self._show_outside(host, reading, size)
+
+    # What is read.
+
+    def _prepare(self, state: AppState) -> None:
+        """The scene's index, made in the background once a scene."""
+        assert self._making is not None
+        outcome = self._making.poll()
+        if outcome is not None:
+            if outcome.value is not None and outcome.value.scene is self._wanted:
+                self._probe, self._error = outcome.value, ""
+            elif outcome.error is not None:
+                self._error = describe(outcome.error)
+        if self._wanted is not state.scene:
+            self._wanted, scene = state.scene, state.scene
+            self._making.submit(lambda: Probe(scene))
+
+    def _count(self, host: Host) -> str:
+        """Follows the ray image with its histogram, counted in the background once an image; gives
+        why there is none. While an image is on its way, the one before is shown."""
+        assert self._counting is not None
+        both, images = host.renderers, host.state.images
+        outcome = self._counting.poll()
+        if outcome is not None:
+            self.histogram = outcome.value
+        if not both.is_tracing:
+            self.histogram = self._counted = None
+            return "a ray image in sight has one"
+        image = both.ray_image
+        key = (image, images.exposure_ev, images.transfer)
+        if image is not None and image.factor == 1 and key != self._counted:
+            self._counted, color = key, image.frame.channel("color")
+            self._counting.submit(lambda: histogram(color, images))
+        return "..."
+
+    def _pixel(self, host: Host, size: Size) -> Pixel | None:
+        """The marked pixel, else the one under the mouse."""
+        pixel = host.state.marked
+        if pixel is None and host.hovered is not None:
+            pixel = host.hovered[1]
+        if pixel is None or not (0 <= pixel[0] < size[1] and 0 <= pixel[1] < size[0]):
+            return None
+        return pixel
+
+    def _reading(
+        self, state: AppState, pixel: Pixel | None, camera: Camera, size: Size
+    ) -> Reading | None:
+        """The pixel's reading, computed anew where anything of it has changed."""
+        probe = self._probe
+        if pixel is None or probe is None or probe.scene is not state.scene:
+            return None
+        images, options = state.images, state.options
+        look = (images.exposure_ev, images.transfer, options.shadows, options.mirrors)
+        key = (probe.scene, pixel, camera, size, look)
+        reading = self._readings.pop(key, None)
+        if reading is None:
+            depth = MIRROR_DEPTH if options.mirrors else 0
+            reading = probe.at(
+                pixel, camera, size, images.exposure_ev, images.transfer, options.shadows, depth
+            )
+        self._readings[key] = reading
+        while len(self._readings) > 1 + len(options.probe.pins):  # the oldest goes first
+            self._readings.pop(next(iter(self._readings)))
+        return reading
+
+    def _pins(self, host: Host, size: Size) -> list[panel.Pin]:
+        state, camera = host.state, host.renderers.camera(host.state)
+        pins = []
+        for pixel in state.options.probe.pins:
+            inside = pixel[0] < size[1] and pixel[1] < size[0]
+            reading = self._reading(state, pixel if inside else None, camera, size)
+            pins.append(panel.Pin(pixel, reading.bytes if reading is not None else None))
+        return pins
+
+    def _walk(self, host: Host, size: Size) -> None:
+        """The arrow keys, while the panel has them: they are taken from ImGui's navigation, to
+        which Tab remains."""
+        shift = int(imgui.Key.mod_shift)
+        flags = int(imgui.InputFlags_.repeat | imgui.InputFlags_.route_focused)
+        taken = [
+            imgui.shortcut(modifier | int(key), flags) for key in ARROWS for modifier in (0, shift)
+        ]
+        if not any(taken) or imgui.is_any_item_active():
+            return
+        start = self._pixel(host, size) or (size[1] // 2, size[0] // 2)
+        pixel = walked(host.state.marked, size, start)
+        if pixel is not None:
+            host.apply(host.state.with_options(marked=pixel), (PROBE, "walk"))
+
+    # What the outside view shows of it.
+
+    def _show_outside(self, host: Host, reading: Reading | None, size: Size) -> None:
+        state, camera = host.state, host.renderers.camera(host.state)
+        rays = self._row_or_column(state, reading, camera, size)
+        pins = state.options.probe.pins
+        key = (state.scene, camera, size, reading, pins, rays)
+        if self._shown is not None and all(
+            one is other or one == other for one, other in zip(self._shown, key, strict=True)
+        ):
+            return
+        self._shown = key
+        end = end_parameter(camera, host.focus.framed)
+        items: list[Item] = []
+        if rays is not None:
+            items.append(_ray_lines("rays", rays.origins, rays.directions, rays.t, end, 0.45))
+        readings = [self._reading(state, pin, camera, size) for pin in pins]
+        for pin in (one for one in readings if one is not None):
+            t = pin.hit.t if pin.hit is not None else math.inf
+            items.append(
+                _ray_lines("pin", [pin.origin], [pin.direction], [t], end, 0.9, dashed=True)
+            )
+            if pin.hit is not None:
+                items.append(Dot("pinned hit", "mark", np.array(pin.hit.point), 3.5))
+        if reading is not None and reading.hit is not None:
+            items += _normal(reading, NORMAL * host.focus.reach)
+        self._outside.show(PROBE, items)
+
+    def _row_or_column(
+        self, state: AppState, reading: Reading | None, camera: Camera, size: Size
+    ) -> Bundle | None:
+        """The rays of the row or column, as they were when they were last known."""
+        assert self._bundles is not None
+        outcome = self._bundles.poll()
+        if outcome is not None and outcome.value is not None:
+            self._bundle = outcome.value
+        which, probe = state.options.probe.rays, self._probe
+        if which == "pixel" or reading is None or probe is None:
+            self._bundle_key = self._bundle = None
+            return None
+        place = reading.pixel[0] if which == "row" else reading.pixel[1]
+        key = (probe.scene, which, place, camera, size)
+        if key != self._bundle_key:
+            self._bundle_key = key
+            pixels = row_of(place, size) if which == "row" else column_of(place, size)
+            few = pixels[np.unique(np.linspace(0, len(pixels) - 1, MOST_SHOWN).astype(int))]
+            self._bundles.submit(lambda: (key, bundle(probe, few, camera, size)))
+        return self._bundle[1] if self._bundle is not None else None
+
+
+def _ray_lines(
+    name: str,
+    origins: Any,
+    directions: Any,
+    t: Any,
+    end: float,
+    opacity: float,
+    dashed: bool = False,
+) -> Lines:
+    """Rays up to their hits, or to the scene's end."""
+    origin, direction = np.asarray(origins, float), np.asarray(directions, float)
+    reach = np.asarray(t, float)
+    far = origin + np.where(np.isfinite(reach), reach, end)[:, None] * direction
+    segments = np.stack([origin, far], axis=1)
+    return Lines(name, "ray", segments, 1.2, opacity, hidden=0.2, dashed=dashed, layer=2)
+
+
+def _normal(reading: Reading, length: float) -> Sequence[Item]:
+    assert reading.hit is not None
+    point = np.array(reading.hit.point)
+    tip = point + length * np.array(reading.hit.normal)
+    return [Arrow("normal", "extra", point, tip, width=2.2, head=10.0)]
+
+
+def _wrapped(text: str, color: Any) -> None:
+    imgui.push_text_wrap_pos(0.0)
+    imgui.text_colored(color, text)
+    imgui.pop_text_wrap_pos()

@@ -1,0 +1,163 @@
+"""What the window shows, as one immutable value, and the list of such values that undo walks.
+
+Owns AppState and History. Knows nothing of windows, widgets, renderers or files. Panels take a
+state and return a new one (dataclasses.replace); the viewer compares old and new.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Hashable
+from dataclasses import dataclass, field, replace
+from typing import Any
+
+from app.state.bounds import clamped
+from app.state.options import (
+    CompareOptions,
+    ImageOptions,
+    Options,
+    OutsideOptions,
+    Pixel,
+    Preferences,
+)
+from renderer.camera import Camera
+from renderer.scene.model import Scene, View
+
+MOST_UNDO_STEPS = 500
+ORTHONORMAL = 1e-6  # the largest deviation of a dot product or length
+
+
+@dataclass(frozen=True)
+class AppState:
+    """Everything that undo brings back. Scenes are compared by identity.
+
+    keep_orthonormal: edits of u, v or w keep the basis orthonormal. options: see options.py;
+    the properties below name its parts. step: that of the lecture that the state was shown in, as
+    the lecture's source and the step's number from 0; None outside of lectures.
+    """
+
+    scene: Scene
+    view: View
+    keep_orthonormal: bool
+    options: Options = field(default_factory=Options)
+    step: tuple[str, int] | None = None
+
+    @classmethod
+    def for_scene(cls, scene: Scene, view: View | None = None) -> AppState:
+        """A scene seen by its own view, or by `view`."""
+        view = scene.view if view is None else view
+        return cls(scene, view, keep_orthonormal=is_orthonormal(view.camera))
+
+    @property
+    def camera(self) -> Camera:
+        """The camera as the user edits it; view.for_size() gives the one to draw with."""
+        return self.view.camera
+
+    @property
+    def images(self) -> ImageOptions:
+        return self.options.images
+
+    @property
+    def compare(self) -> CompareOptions:
+        return self.options.compare
+
+    @property
+    def outside(self) -> OutsideOptions:
+        return self.options.outside
+
+    @property
+    def preferences(self) -> Preferences:
+        return self.options.preferences
+
+    @property
+    def marked(self) -> Pixel | None:
+        return self.options.marked
+
+    @property
+    def has_effects(self) -> bool:
+        """Whether the ray image shows what only rays find."""
+        return self.options.shadows or self.options.mirrors
+
+    def with_options(self, **changes: Any) -> AppState:
+        """The state with other options: fields of Options, or of one of its parts by its name,
+        as in with_options(images={"exposure_ev": 1.0}, shadows=True). What a key or a field asks
+        for beyond an option's bounds comes to the nearest bound."""
+        changes = {
+            name: replace(getattr(self.options, name), **value)
+            if isinstance(value, dict)
+            else value
+            for name, value in changes.items()
+        }
+        return replace(self, options=clamped(replace(self.options, **changes)))
+
+    def with_camera(self, camera: Camera) -> AppState:
+        """The state with another camera; itself where nothing changes."""
+        if camera == self.camera:
+            return self
+        return replace(self, view=replace(self.view, camera=camera))
+
+    def with_view(self, view: View) -> AppState:
+        """The state with another view. A basis that is not orthonormal turns the switch off."""
+        keep = self.keep_orthonormal and is_orthonormal(view.camera)
+        return replace(self, view=view, keep_orthonormal=keep)
+
+    def with_scene(self, scene: Scene, view: View | None = None) -> AppState:
+        """The state with another scene, seen by its own view or by `view`."""
+        state = replace(self, scene=scene, keep_orthonormal=True)
+        return state.with_view(scene.view if view is None else view)
+
+    def with_fit(self, fit: bool) -> AppState:
+        return replace(self, view=replace(self.view, fit=fit))
+
+    def with_keep_orthonormal(self, keep: bool) -> AppState:
+        """The switch; turning it on makes the basis orthonormal at once."""
+        state = replace(self, keep_orthonormal=keep)
+        if keep and not is_orthonormal(self.camera):
+            return state.with_camera(self.camera.orthonormalized())
+        return state
+
+
+@dataclass(frozen=True)
+class History:
+    """A present state with the ones before and after it.
+
+    gesture: what the last change belonged to; changes of one gesture (a drag) are one step.
+    """
+
+    present: AppState
+    past: tuple[AppState, ...] = ()
+    future: tuple[AppState, ...] = ()
+    gesture: Hashable = None
+
+    def change(self, state: AppState, gesture: Hashable = None) -> History:
+        """The history after a change. gesture: equal to the last change's for the same drag;
+        None for a step of its own."""
+        if state == self.present:
+            return self
+        if gesture is not None and gesture == self.gesture and self.past:
+            return replace(self, present=state, future=())
+        past = (*self.past, self.present)[-MOST_UNDO_STEPS:]
+        return History(state, past, (), gesture)
+
+    def amended(self, state: AppState) -> History:
+        """The history with another present, and no step: what follows from a change of the window
+        and is nothing that the user has done."""
+        return self if state == self.present else replace(self, present=state)
+
+    def undo(self) -> History:
+        """One step back; itself at the beginning."""
+        if not self.past:
+            return self
+        return History(self.past[-1], self.past[:-1], (self.present, *self.future))
+
+    def redo(self) -> History:
+        """One step forward; itself at the end."""
+        if not self.future:
+            return self
+        return History(self.future[0], (*self.past, self.present), self.future[1:])
+
+
+def is_orthonormal(camera: Camera) -> bool:
+    """Whether u, v, w are of length 1 and at right angles, of either handedness."""
+    basis = camera.basis
+    gram = basis.T @ basis
+    return bool(abs(gram - [[1, 0, 0], [0, 1, 0], [0, 0, 1]]).max() < ORTHONORMAL)

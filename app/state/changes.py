@@ -1,0 +1,51 @@
+"""What a step of undo changed, in a few words.
+
+Owns the words. Knows nothing of menus.
+"""
+
+from __future__ import annotations
+
+from dataclasses import fields, is_dataclass
+from typing import Any
+
+from app.state.app_state import AppState
+
+WORDS = {
+    "exposure_ev": "exposure",
+    "pixel_size": "pixel size",
+    "font_scale": "type size",
+    "one_based": "pixels counted from 1",
+    "fit": "fit to the aspect ratio",
+}
+
+
+def change(before: AppState, after: AppState) -> str:
+    """What leads from one state to the next: `camera: eye, w`."""
+    if after.step is not None and before.step != after.step:
+        return f"lecture: step {after.step[1] + 1}"
+    if before.scene is not after.scene:
+        return f"scene: {after.scene.name or 'without a name'}"
+    parts = []
+    camera = _changed(before.camera, after.camera)
+    if camera:
+        parts.append("camera: " + (", ".join(camera) if len(camera) < 4 else "view"))
+    if before.view.fit != after.view.fit:
+        parts.append(WORDS["fit"])
+    if before.keep_orthonormal != after.keep_orthonormal and not parts:
+        parts.append("keep orthonormal")
+    parts += _changed(before.options, after.options)
+    return ", ".join(parts[:3]) or "nothing to be seen"
+
+
+def _changed(before: Any, after: Any) -> list[str]:
+    """The names of the fields that differ, those of parts in their place."""
+    names: list[str] = []
+    for field in fields(before):
+        old, new = getattr(before, field.name), getattr(after, field.name)
+        if old == new:
+            continue
+        if is_dataclass(old) and type(old) is type(new):
+            names += _changed(old, new)
+        else:
+            names.append(WORDS.get(field.name, field.name.replace("_", " ")))
+    return names

@@ -1,0 +1,1 @@
+"""The loop stepper: object order and image order, line by line."""

@@ -1,0 +1,189 @@
+"""What the two teaching renderers call: rays, objects, hits, colours, the canvas.
+
+Owns these parts, for one ray and one object at a time. Knows nothing of loops, nor that somebody
+watches. Pixels are (i, j) = (row, column), 0-based; vectors are tuples of three floats.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, field
+from typing import NamedTuple
+
+import numpy as np
+
+from app.explaining.projected import mesh_extent, pixels_of, sphere_extent
+from app.probe.crossings import Index
+from renderer import pure_python as scalar
+from renderer.camera import Camera, Floats, Size, Vector
+from renderer.scene.flat import FlatScene, flatten
+from renderer.scene.model import Color, Scene
+
+
+class ViewingRay(NamedTuple):
+    """r(t) = origin + t direction, for t_min < t < t_max."""
+
+    origin: Vector
+    direction: Vector
+    t_min: float
+    t_max: float
+
+
+@dataclass(frozen=True, eq=False)
+class Object:
+    """An object of the scene: a sphere, or triangles. low, high: the corners of its box."""
+
+    number: int
+    name: str
+    sphere: int  # its number in the flat scene, or -1
+    vertices: Floats = field(repr=False)
+    faces: np.ndarray = field(repr=False)
+    low: Vector
+    high: Vector
+    index: Index = field(repr=False)
+
+
+class Hit(NamedTuple):
+    """Where a ray meets an object: t, and which triangle or sphere, where on it."""
+
+    t: float
+    object: Object | None = None
+    primitive: int = -1
+    b1: float = 0.0
+    b2: float = 0.0
+
+
+MISS = Hit(math.inf)
+
+
+class Model:
+    """A scene, prepared for the loops."""
+
+    def __init__(self, scene: Scene, index: Index | None = None) -> None:
+        scalar.load()
+        self.scene = scene
+        self.index = Index(flatten(scene)) if index is None else index
+        self.flat: FlatScene = self.index.flat
+        self.background: Color = _three(self.flat.background)
+        self.objects = tuple(self._object(number) for number in range(len(scene.objects)))
+
+    def _object(self, number: int) -> Object:
+        flat, sphere = self.flat, int(self.flat.object_sphere[number])
+        if sphere >= 0:
+            center, radius = flat.spheres[sphere, :3], float(flat.spheres[sphere, 3])
+            vertices, faces = np.zeros((0, 3)), np.zeros((0, 3), np.int64)
+            low, high = center - radius, center + radius
+        else:
+            first, count = flat.object_faces[number]
+            used, faces = np.unique(flat.faces[first : first + count], return_inverse=True)
+            vertices = self.index.vertices[used]
+            faces = faces.reshape(-1, 3).astype(np.int64)
+            low, high = vertices.min(axis=0), vertices.max(axis=0)
+        name = self.scene.objects[number].name or f"object {number}"
+        return Object(number, name, sphere, vertices, faces, _three(low), _three(high), self.index)
+
+
+class Canvas:
+    """An array of colours, canvas[i, j], height by width. What is not yet set is NaN.
+
+    log: everything that was ever written, (i, j, colour).
+    """
+
+    def __init__(self, size: Size, background: Color = (math.nan, math.nan, math.nan)) -> None:
+        width, height = size
+        self.background = background
+        self.array = np.full((height, width, 3), background)
+        self.log: list[tuple[int, int, Color]] = []
+
+    def __setitem__(self, pixel: tuple[int, int], color: Color) -> None:
+        self.array[pixel] = color
+        self.log.append((*pixel, color))
+
+
+class DepthBuffer:
+    """For each pixel the t of the nearest hit so far; infinity in the beginning. log: as above."""
+
+    def __init__(self, size: Size) -> None:
+        width, height = size
+        self.array = np.full((height, width), math.inf)
+        self.log: list[tuple[int, int, float]] = []
+
+    def __getitem__(self, pixel: tuple[int, int]) -> float:
+        return float(self.array[pixel])
+
+    def __setitem__(self, pixel: tuple[int, int], t: float) -> None:
+        self.array[pixel] = t
+        self.log.append((*pixel, t))
+
+
+def viewing_ray(camera: Camera, u: float, v: float) -> ViewingRay:
+    """The ray through (u, v) on the image plane."""
+    across = scalar.plus(scalar.times(u, camera.u), scalar.times(v, camera.v))
+    if camera.is_parallel:
+        origin = scalar.plus(camera.eye, across)
+        direction = scalar.times(-1.0, camera.w)
+    else:
+        origin = camera.eye
+        direction = scalar.minus(across, scalar.times(camera.distance, camera.w))
+    return ViewingRay(origin, direction, *camera.t_range)
+
+
+def bounding_box(object: Object, camera: Camera, size: Size) -> tuple[range, range]:
+    """The rows and the columns of the pixels that the object's projection can touch."""
+    if object.sphere >= 0:
+        x, y, z, radius = object.index.flat.spheres[object.sphere].tolist()
+        extent = sphere_extent(np.array([x, y, z]), radius, camera)
+    else:
+        extent = mesh_extent(object.vertices, object.faces, camera)
+    return pixels_of(extent, camera, size)
+
+
+def intersect(object: Object, ray: ViewingRay) -> Hit:
+    """The ray's nearest hit with one object, or MISS."""
+    origin, direction, t_min, t_max = ray
+    flat = object.index.flat
+    if object.sphere >= 0:
+        t = float(scalar.hit_sphere(flat.spheres, object.sphere, origin, direction, t_min, t_max))
+        return MISS if math.isnan(t) else Hit(t, object, len(flat.faces) + object.sphere)
+    if not _meets_box(object.low, object.high, origin, direction):
+        return MISS
+    found = object.index.mesh_hit(object.number, origin, direction, t_min, t_max)
+    return MISS if found is None else Hit(found[0], object, *found[1:])
+
+
+def color_at(scene: Model, ray: ViewingRay, hit: Hit) -> Color:
+    """The light that comes along the ray from the hit; the background's for MISS."""
+    if hit is MISS:
+        return scene.background
+    point = scalar.point_on(ray.origin, ray.direction, hit.t)
+    return light_at(scene, ray.direction, point, (hit.primitive, hit.b1, hit.b2))
+
+
+def light_at(
+    scene: Model, direction: Vector, point: Vector, where: tuple[int, float, float]
+) -> Color:
+    """The light that a point sends to who looks along `direction`. where: on which triangle or
+    sphere, and its barycentrics b1, b2 there."""
+    flat = scene.flat
+    geometric, normal = scalar.normals_at(flat, direction, point, *where)
+    return _three(scalar.color_at(flat, direction, point, geometric, normal, *where))
+
+
+def _meets_box(low: Vector, high: Vector, origin: Vector, direction: Vector) -> bool:
+    """Whether the ray's line meets a box, made a little larger. Kay and Kajiya's slabs, 1986."""
+    enter, leave = -math.inf, math.inf
+    for k in range(3):
+        slack = 1e-9 * (abs(low[k]) + abs(high[k]) + abs(origin[k]))
+        to_low, to_high = low[k] - slack - origin[k], high[k] + slack - origin[k]
+        if direction[k] == 0.0:
+            if to_low > 0.0 or to_high < 0.0:
+                return False
+            continue
+        first, second = to_low / direction[k], to_high / direction[k]
+        enter, leave = max(enter, min(first, second)), min(leave, max(first, second))
+    return enter <= leave
+
+
+def _three(values: object) -> Vector:
+    x, y, z = (float(value) for value in np.asarray(values, float))
+    return x, y, z

@@ -1,0 +1,81 @@
+"""The two algorithms as the lecture writes them: object order and image order, by their loops.
+
+Owns the loops, and nothing else: the stepper shows these functions' sources while they run, which
+is why they carry no types. What they call is in loop_parts.py and raster_parts.py. Object order has
+two forms: rasterization, for triangles, as graphics cards do it; and by rays, for any shape, where
+against image order only the loops are swapped. All take a Model, a Camera and a size (width,
+height), and give a Canvas: the same one.
+"""
+
+from __future__ import annotations
+
+from app.stepper.loop_parts import (
+    MISS,
+    Canvas,
+    DepthBuffer,
+    bounding_box,
+    color_at,
+    intersect,
+    viewing_ray,
+)
+from app.stepper.raster_parts import box_around, edge, prepared, project, shade, t_of, triangles
+
+
+def rasterization(scene, camera, size):
+    """For each triangle, for each pixel of its bounding box."""
+    canvas, depth = prepared(scene, camera, size)
+    for triangle in triangles(scene, camera):
+        a, b, c = project(triangle, camera, size)
+        rows, columns = box_around(a, b, c, size)
+        for i in rows:
+            for j in columns:
+                p = (j + 0.5, i + 0.5)
+                ea = edge(b, c, p) / edge(b, c, a)
+                eb = edge(c, a, p) / edge(c, a, b)
+                ec = edge(a, b, p) / edge(a, b, c)
+                if min(ea, eb, ec) >= 0:
+                    z = ea * a.z + eb * b.z + ec * c.z
+                    t = t_of(z, camera)
+                    if t < depth[i, j]:
+                        depth[i, j] = t
+                        canvas[i, j] = shade(triangle, ea, eb, ec)
+    return canvas
+
+
+def object_order(scene, camera, size):
+    """For each object, for each pixel, by the pixel's ray."""
+    W, H = size
+    left, right, bottom, top = camera.viewport
+    canvas = Canvas(size, scene.background)
+    depth = DepthBuffer(size)
+    for object in scene.objects:
+        rows, columns = bounding_box(object, camera, size)
+        for i in rows:
+            for j in columns:
+                u = left + (j + 0.5) / W * (right - left)
+                v = top - (i + 0.5) / H * (top - bottom)
+                ray = viewing_ray(camera, u, v)
+                hit = intersect(object, ray)
+                if hit.t < depth[i, j]:
+                    depth[i, j] = hit.t
+                    canvas[i, j] = color_at(scene, ray, hit)
+    return canvas
+
+
+def image_order(scene, camera, size):
+    """For each pixel, for each object."""
+    W, H = size
+    left, right, bottom, top = camera.viewport
+    canvas = Canvas(size)
+    for i in range(H):
+        for j in range(W):
+            u = left + (j + 0.5) / W * (right - left)
+            v = top - (i + 0.5) / H * (top - bottom)
+            ray = viewing_ray(camera, u, v)
+            closest = MISS
+            for object in scene.objects:
+                hit = intersect(object, ray)
+                if hit.t < closest.t:
+                    closest = hit
+            canvas[i, j] = color_at(scene, ray, closest)
+    return canvas

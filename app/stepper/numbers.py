@@ -1,0 +1,89 @@
+"""The counters and variables of the loop stepper, in columns.
+
+Owns their look. What they are is stepper/model.py's, how much room they have plan.py's.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from imgui_bundle import ImVec2, imgui
+
+from app.stepper.model import Moment
+from app.stepper.plan import Plan
+from app.widgets import theme
+from app.widgets.lettering import at_most, lettering
+from app.widgets.theme import Fonts
+from renderer.pixels import Indexing
+
+TEXTS = ("object", "triangle", "a", "b", "c", "ray", "hit", "closest")  # take a whole line
+INDICES = ("i", "j", "rows", "columns")  # the variables that count pixels
+
+
+def numbers(moment: Moment, room: ImVec2, made: Plan, fonts: Fonts) -> None:
+    """The counters and the variables, in columns beside one another where there is more width than
+    height."""
+    imgui.begin_child("numbers", room)
+    flags = imgui.TableFlags_.sizing_stretch_same | imgui.TableFlags_.no_saved_settings
+    with at_most(made.numbers_px), lettering(None, made.numbers_px):
+        rows = _rows(moment)
+        short = [row for row in rows if row.name not in TEXTS]
+        each = -(-len(short) // made.columns)
+        if imgui.begin_table("columns", made.columns, flags):
+            imgui.table_next_row()
+            for number in range(made.columns):
+                imgui.table_next_column()
+                _table(f"numbers {number}", short[number * each : (number + 1) * each], fonts)
+            imgui.end_table()
+        _table("texts", [row for row in rows if row.name in TEXTS], fonts)
+    imgui.end_child()
+
+
+@dataclass(frozen=True)
+class _Row:
+    """A number and its name; note: beside it; tip: what it is."""
+
+    name: str
+    text: str
+    changed: bool = False
+    note: str = ""
+    tip: str = ""
+
+
+def _rows(moment: Moment) -> list[_Row]:
+    counters = moment.counters
+    counted = (
+        ("tests", counters.tests, "how often an object or a triangle was tested at a pixel"),
+        ("writes", counters.writes, "how often a pixel of the canvas was set"),
+        ("overwrites", counters.overwrites, "writes to a pixel that had been set before"),
+    )
+    rows = [_Row(name, f"{count:>6}", tip=tip) for name, count, tip in counted]
+    for one in moment.variables:
+        note = Indexing.ARRAY.told if one.name in INDICES else one.note  # as the code beside it
+        rows.append(_Row(one.name, one.text, one.changed, note))
+    return rows
+
+
+def _table(name: str, rows: list[_Row], fonts: Fonts) -> None:
+    if not rows or not imgui.begin_table(name, 2, imgui.TableFlags_.no_saved_settings):
+        return
+    widest = imgui.calc_text_size("overwrites").x
+    imgui.table_setup_column("", imgui.TableColumnFlags_.width_fixed, widest)
+    imgui.table_setup_column("", imgui.TableColumnFlags_.width_stretch)
+    for row in rows:
+        color = theme.legible(theme.MARK) if row.changed else theme.TEXT
+        imgui.table_next_row()
+        imgui.table_next_column()
+        imgui.text_colored(theme.DIM, row.name)
+        if row.tip:
+            imgui.set_item_tooltip(row.tip)
+        imgui.table_next_column()
+        imgui.push_text_wrap_pos(0.0)
+        imgui.push_font(fonts.mono, 0.0)
+        imgui.text_colored(color, row.text)
+        imgui.pop_font()
+        if row.note:
+            imgui.same_line()
+            imgui.text_colored(theme.DIM, row.note)
+        imgui.pop_text_wrap_pos()
+    imgui.end_table()

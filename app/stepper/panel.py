@@ -1,0 +1,365 @@
+"""The loop stepper's panel: the controls, and one algorithm's code, canvas, variables, counters.
+
+Owns the layout. Gets options and moments, returns wishes. What a moment is, is stepper/model.py's.
+"""
+
+from __future__ import annotations
+
+import functools
+import inspect
+from dataclasses import dataclass, replace
+from typing import Literal
+
+from imgui_bundle import ImVec2, imgui
+
+from app.state.bounds import range_of
+from app.state.options import Language, Pixel, StepperOptions
+from app.stepper.listing import Listing, listing
+from app.stepper.loop_parts import (
+    Canvas,
+    DepthBuffer,
+    bounding_box,
+    color_at,
+    intersect,
+    viewing_ray,
+)
+from app.stepper.model import SHOWN, Moment
+from app.stepper.numbers import TEXTS, numbers
+from app.stepper.plan import (
+    LONG,
+    SHORT,
+    Need,
+    Place,
+    canvases_in,
+    plan,
+    plan_of_two,
+)
+from app.stepper.raster_parts import box_around, edge, prepared, project, shade, t_of, triangles
+from app.stepper.recording import MOST_STEPS, Order, Recording
+from app.stepper.source import source_of
+from app.widgets import theme
+from app.widgets.canvas import Marks, canvas
+from app.widgets.checks import checkbox
+from app.widgets.code import narrowed
+from app.widgets.lettering import fitting_words
+from app.widgets.rows import follow
+from app.widgets.sliders import slider_float, slider_int
+from app.widgets.theme import Fonts
+from renderer.pixels import Indexing
+
+CANVASES = ((4, 3), (8, 6), (16, 12), (32, 24), (64, 48))
+ORDERS: dict[Literal["both", "object", "image"], str] = {
+    "both": "both",
+    "object": "object order",
+    "image": "image order",
+}
+FORMS: dict[Literal["triangles", "rays"], str] = {
+    "triangles": "by triangles",
+    "rays": "by rays",
+}
+TITLES = {
+    Order.RASTER: "Rasterization: for each triangle, for each pixel",
+    Order.OBJECT: "Object order by rays: for each object, for each pixel",
+    Order.IMAGE: "Image order: for each pixel, for each object",
+}
+WANTED_EM = 1.25  # of the code
+LEAST_PX = 11.0  # of the code, at 100 %, unless the width forbids it
+RUNNING = f"Python, counts {Indexing.ARRAY.told}"
+
+Wish = Literal["", "first", "back", "play", "step", "pixel", "object", "last"]
+_BUTTONS: tuple[tuple[Wish, str, str], ...] = (
+    ("first", "First", "to the beginning (Home)"),
+    ("back", "Back", "one step back (Left)"),
+    ("play", "", "play and pause (Space)"),
+    ("step", "Step", "one step: one line (Right)"),
+    ("pixel", "Next pixel", "to where the next pixel's turn begins (Down)"),
+    ("object", "Next object", "to where the next object's or triangle's turn begins (Shift+Down)"),
+    ("last", "Last", "to the end (End)"),
+)
+
+
+@dataclass(frozen=True)
+class Picture:
+    """OpenGL's names of an algorithm's pictures. depth: None in image order."""
+
+    color: int | None
+    depth: int | None
+
+
+@dataclass(frozen=True)
+class Shown:
+    """How algorithms are shown. orders: those that stand beside one another; canvas: its pixels,
+    (width, height). em_px: the size of type that was asked for, which the code follows; set_px: of
+    the window's own, which stands round it. indexing: how pixels are counted in what stands beside
+    the code. in_julia: the code in Julia, too."""
+
+    orders: tuple[Order, ...]
+    canvas: tuple[int, int]
+    em_px: float
+    set_px: float
+    indexing: Indexing
+    in_julia: bool
+
+
+@dataclass(frozen=True)
+class Answer:
+    """What was asked for in a run's panel: a step to go to, a pixel whose turn is wanted."""
+
+    step: int | None = None
+    pixel: Pixel | None = None
+
+
+def controls(
+    options: StepperOptions, playing: bool, has_triangles: bool
+) -> tuple[StepperOptions, Wish]:
+    """The buttons, the speed, the canvas; in which form object order is, where the scene leaves a
+    choice."""
+    wish: Wish = ""
+    width = imgui.calc_text_size("Pause").x + 2 * imgui.get_style().frame_padding.x
+    for count, (name, label, tip) in enumerate(_BUTTONS):
+        shown = ("Pause" if playing else "Play") if name == "play" else label
+        needed = width if name == "play" else _button_width(shown)
+        if count:
+            follow(needed)
+        if imgui.button(f"{shown}###{name}", ImVec2(needed, 0)):
+            wish = name
+        imgui.set_item_tooltip(tip)
+    options = _speed(options)
+    options = _canvas_size(options)
+    options = _order(options)
+    if options.order != "image":
+        imgui.begin_disabled(not has_triangles)
+        form = _form(options.form if has_triangles else "rays")
+        if has_triangles and form != options.form:
+            options = replace(options, form=form, steps=(0, options.steps[1]))
+        imgui.end_disabled()
+    return options, wish
+
+
+def language(chosen: Language) -> Language:
+    """Whether the same lines stand beside it in Julia. What runs is Python in any case."""
+    follow(imgui.calc_text_size("Julia").x + 1.5 * imgui.get_frame_height())
+    changed, beside = checkbox("Julia", chosen == "julia")
+    imgui.set_item_tooltip("the same lines in Julia, for reading; Python is what runs")
+    return ("julia" if beside else "python") if changed else chosen
+
+
+def keys() -> Wish:
+    """What the keys ask for, while the panel has them: they are taken from ImGui's navigation, to
+    which Tab and Enter remain."""
+    key, shift = imgui.Key, int(imgui.Key.mod_shift)
+    focused = int(imgui.InputFlags_.route_focused)
+    repeated = focused | int(imgui.InputFlags_.repeat)
+    table: tuple[tuple[Wish, int, int], ...] = (
+        ("play", int(key.space), focused),
+        ("step", int(key.right_arrow), repeated),
+        ("back", int(key.left_arrow), repeated),
+        ("pixel", int(key.down_arrow), repeated),
+        ("object", shift | int(key.down_arrow), repeated),
+        ("first", int(key.home), focused),
+        ("last", int(key.end), focused),
+    )
+    pressed = [wish for wish, chord, flags in table if imgui.shortcut(chord, flags)]
+    return pressed[0] if pressed and not imgui.is_any_item_active() else ""
+
+
+def _speed(options: StepperOptions) -> StepperOptions:
+    width = 6.5 * imgui.get_font_size()
+    follow(width)
+    imgui.set_next_item_width(width)
+    changed, speed = slider_float(
+        "##speed",
+        options.speed,
+        *range_of(StepperOptions, "speed"),
+        "%.0f steps/s",
+        imgui.SliderFlags_.logarithmic,
+    )
+    return replace(options, speed=speed) if changed else options
+
+
+def _canvas_size(options: StepperOptions) -> StepperOptions:
+    def name(size: tuple[int, int]) -> str:
+        return f"{size[0]} x {size[1]} pixels"
+
+    width = imgui.calc_text_size("64 x 48 pixels").x + 2.2 * imgui.get_frame_height()
+    follow(width)
+    imgui.set_next_item_width(width)
+    if imgui.begin_combo("##pixels", name(options.canvas)):
+        for size in CANVASES:
+            if imgui.selectable(name(size), size == options.canvas)[0]:
+                options = replace(options, canvas=size, steps=(0, 0))
+        imgui.end_combo()
+    return options
+
+
+def _order(options: StepperOptions) -> StepperOptions:
+    width = imgui.calc_text_size("object order").x + 2.2 * imgui.get_frame_height()
+    follow(width)
+    imgui.set_next_item_width(width)
+    if imgui.begin_combo("##order", ORDERS[options.order]):
+        for key, text in ORDERS.items():
+            if imgui.selectable(text, key == options.order)[0]:
+                options = replace(options, order=key)
+        imgui.end_combo()
+    return options
+
+
+def _form(form: Literal["triangles", "rays"]) -> Literal["triangles", "rays"]:
+    width = imgui.calc_text_size("by triangles").x + 2.2 * imgui.get_frame_height()
+    follow(width)
+    imgui.set_next_item_width(width)
+    if imgui.begin_combo("##form", FORMS[form]):
+        for key, text in FORMS.items():
+            if imgui.selectable(text, key == form)[0]:
+                form = key
+        imgui.end_combo()
+    imgui.set_item_tooltip(
+        "object order, triangle by triangle, as graphics cards do it (spheres, which have none,\n"
+        "are drawn before, by their rays), or each object by the rays of its pixels"
+    )
+    return form
+
+
+# One algorithm.
+
+
+def run_panel(
+    recording: Recording,
+    moment: Moment | None,
+    picture: Picture,
+    room: ImVec2,
+    fonts: Fonts,
+    shown: Shown,
+) -> Answer:
+    """Code, canvas, variables and counters, in a room."""
+    imgui.push_font(fonts.bold, 0.0)
+    title = TITLES[recording.order]
+    if imgui.calc_text_size(title).x > room.x:
+        title = title.partition(":")[0]
+    imgui.text(title)
+    imgui.pop_font()
+    notes = [] if shown.in_julia else [RUNNING]  # the listings say it
+    if recording.order is Order.RASTER and len(recording.model.flat.spheres):
+        notes.append("spheres by rays, first")  # which have no triangles
+    if notes:
+        note = "; ".join(notes)
+        follow(imgui.calc_text_size(note).x)
+        imgui.text_colored(theme.DIM, note)
+    if moment is None:
+        imgui.text_colored(theme.DIM, "running ...")
+        return Answer()
+    answer = _slider(recording, moment)
+    corner, room = imgui.get_cursor_screen_pos(), imgui.get_content_region_avail()
+    need, extent = _need(shown), (round(room.x), round(room.y))
+    made = plan_of_two(extent, need, shown.set_px) if shown.in_julia else plan(extent, need)
+
+    def to(place: Place) -> ImVec2:
+        imgui.set_cursor_screen_pos(ImVec2(corner.x + place.left, corner.y + place.top))
+        return ImVec2(*place.size)
+
+    lines = Listing(recording.source.lines, shown.in_julia, _called(), shown.set_px)
+    listing(lines, moment.line, made.code_px, to(made.code), fonts)
+    place = to(made.canvases)
+    imgui.begin_group()
+    answer = _canvases(recording, moment, picture, place, answer, shown.indexing)
+    imgui.end_group()
+    numbers(moment, to(made.numbers), made, fonts)
+    return answer
+
+
+def _need(shown: Shown) -> Need:
+    """Two beside each other are shown alike, whichever needs more."""
+    lines = [narrowed(source_of(order.renderer).lines) for order in shown.orders]
+    names = [_names(order) for order in shown.orders]
+    return Need(
+        longest=max(len(line) for one in lines for line in one),
+        lines=max(map(len, lines)),
+        canvas=shown.canvas,
+        has_depth=any(order.has_depth for order in shown.orders),
+        em_px=imgui.get_font_size(),
+        wanted_px=WANTED_EM * shown.em_px,
+        least_px=LEAST_PX * imgui.get_style().font_scale_dpi,
+        short=max(SHORT, *(3 + sum(name not in TEXTS for name in one) for one in names)),
+        long=max(LONG, *(1 + sum(name in TEXTS for name in one) for one in names)),  # one wraps
+    )
+
+
+def _names(order: Order) -> list[str]:
+    """The variables that are shown of an algorithm."""
+    return [name for name in SHOWN if name in order.renderer.__code__.co_varnames]
+
+
+def _slider(recording: Recording, moment: Moment) -> Answer:
+    """Where the run stands: dragged to any step."""
+    most = max(1, len(recording) - 1)
+    imgui.set_next_item_width(-1)
+    note = f"step %d of {most}"
+    if recording.truncated:
+        less = "object order by rays" if recording.order is Order.RASTER else "fewer pixels"
+        note += f" (stopped after {MOST_STEPS}: take {less})"
+    elif not recording.complete:
+        note += " so far"
+    changed, step = slider_int(
+        f"##step {recording.order.name}", moment.step, 0, most, note,
+        imgui.SliderFlags_.always_clamp,
+    )  # fmt: skip
+    return Answer(step=step if changed else None)
+
+
+@functools.cache
+def _called() -> dict[str, str]:
+    """The sources of what the loops call."""
+    parts = (
+        viewing_ray, bounding_box, intersect, color_at, Canvas, DepthBuffer,
+        prepared, triangles, project, box_around, edge, t_of, shade,
+    )  # fmt: skip
+    return {part.__name__: inspect.getsource(part).rstrip() for part in parts}
+
+
+def _canvases(
+    recording: Recording,
+    moment: Moment,
+    picture: Picture,
+    room: ImVec2,
+    answer: Answer,
+    indexing: Indexing,
+) -> Answer:
+    """The canvas, and in object order the depth buffer beside or below it: where it has room."""
+    name, size = recording.order.name, recording.size
+    label = imgui.get_text_line_height_with_spacing()
+    spacing = imgui.get_style().item_spacing
+    has_depth = recording.order.has_depth
+    gap = spacing.x, spacing.y
+    upper, lower, beside = canvases_in((room.x, room.y), size, has_depth, label, gap)
+    first, rest = ImVec2(*upper), ImVec2(*lower)
+    dots = tuple((test.pixel, test.t < float("inf")) for test in moment.tests)
+    corners = tuple((corner.x, corner.y) for corner in moment.corners or ())
+    marks = Marks(moment.pixel, moment.box, dots if has_depth else (), corners)
+    imgui.begin_group()
+    imgui.text_colored(theme.DIM, _caption(moment, indexing, first.x))
+    clicked = canvas(picture.color, size, first, marks, f"canvas##{name}")
+    imgui.set_item_tooltip("a click goes to a pixel's turn")
+    imgui.end_group()
+    if has_depth:
+        if beside:
+            imgui.same_line()
+        imgui.begin_group()
+        imgui.text_colored(theme.DIM, "depth")
+        again = canvas(picture.depth, size, rest, Marks(moment.pixel, moment.box), f"depth##{name}")
+        imgui.set_item_tooltip("for each pixel the nearest t so far, near ones bright")
+        imgui.end_group()
+        clicked = clicked if clicked is not None else again
+    return replace(answer, pixel=clicked) if clicked is not None else answer
+
+
+def _caption(moment: Moment, indexing: Indexing, width: float) -> str:
+    """What stands above the canvas: which pixel's turn it is, as the window counts."""
+    if moment.pixel is None:
+        return "canvas"
+    pixel = f"pixel {indexing.text(moment.pixel)} {indexing.told}"
+    whole = f"canvas, {pixel}"
+    return whole if imgui.calc_text_size(whole).x <= width else fitting_words(pixel, width)
+
+
+def _button_width(text: str) -> float:
+    return imgui.calc_text_size(text).x + 2 * imgui.get_style().frame_padding.x

@@ -1,0 +1,182 @@
+"""How code, canvases and numbers share the room of one algorithm in the loop stepper.
+
+Pure: chooses among a few arrangements the one in which the code is as large as wanted and as much
+as possible of the rest can be read. Lengths are ImGui's pixels.
+"""
+
+from __future__ import annotations
+
+import functools
+import math
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
+
+from app.widgets.code import LINE, code_size_px
+
+Size = tuple[float, float]  # (width, height)
+
+USUAL_EM = 1.25  # of the code: where more is wanted, the rest gives way
+NUMBERS_EM = 11.6  # the width of a column of numbers
+SHORT, LONG, ROW_EM = 9, 4, 1.25  # how many numbers, and texts, at least; the height of one
+WANTED_CANVAS = 0.44  # of the room's height
+WEIGHTS = (3.0, 2.4, 3.0)  # code, canvas, numbers
+UNREAD = 8.0  # the weight of what code and numbers lack to be read at all
+READ = 1.0  # the least of the numbers' type, in parts of the least of the code's
+ENOUGH_EM, ENOUGH = 0.95, 0.0275  # of the numbers' type; in parts of the room's height
+GAP_EM = 0.6
+# With the same code in Julia: rooms so much wider than high have all beside one another; the least
+# and the largest of the code's type, where the width allows.
+ALL_BESIDE, LEGIBLE_EM, LARGEST_EM = 1.9, 0.85, 1.6
+
+
+@dataclass(frozen=True)
+class Place:
+    """A part of the room, from its upper left corner."""
+
+    left: float
+    top: float
+    width: float
+    height: float
+
+    @property
+    def size(self) -> Size:
+        return self.width, self.height
+
+
+@dataclass(frozen=True)
+class Plan:
+    """code_px, numbers_px: the sizes of their type. columns: of the numbers."""
+
+    code: Place
+    canvases: Place
+    numbers: Place
+    code_px: float
+    numbers_px: float
+    columns: int
+
+
+@dataclass(frozen=True)
+class Need:
+    """What is to be shown. longest: letters of the code's longest line; lines: of the code.
+    canvas: its pixels, (width, height). em_px: the size of the type round it; wanted_px: of the
+    code, and least_px: its least. short, long: how many numbers there are, and texts."""
+
+    longest: int
+    lines: int
+    canvas: tuple[int, int]
+    has_depth: bool
+    em_px: float
+    wanted_px: float
+    least_px: float
+    short: int = SHORT
+    long: int = LONG
+
+
+@functools.lru_cache(256)
+def plan(room: Size, need: Need) -> Plan:
+    """The best arrangement."""
+    return max(_plans(room, need), key=lambda one: _worth(one, room, need))
+
+
+def plan_of_two(room: Size, need: Need, set_px: float) -> Plan:
+    """Where the same code stands in Julia, too, which takes as much room again: the code has all of
+    the width, unless that is much more than the height. set_px: the size of the window's type."""
+    width, height = room
+    if width > ALL_BESIDE * height:
+        code = Place(0, 0, 0.46 * width, height)
+        canvases = Place(0.48 * width, 0, 0.26 * width, height)
+        numbers = Place(0.755 * width, 0, 0.245 * width, height)
+    else:
+        top = 0.58 * height + GAP_EM * need.em_px
+        code = Place(0, 0, width, 0.58 * height)
+        canvases = Place(0, top, 0.52 * width, height - top)
+        numbers = Place(0.54 * width, top, 0.46 * width, height - top)
+    least = max(need.least_px, LEGIBLE_EM * set_px)
+    all_px = code.height / (LINE * need.lines)
+    most = min(LARGEST_EM * set_px, max(least, all_px))
+    made = _with(code, code_size_px(" " * need.longest, code.width, most), canvases, numbers, need)
+    return replace(made, numbers_px=max(made.numbers_px, READ * need.least_px))  # then scrolled
+
+
+def canvases_in(
+    room: Size, canvas: tuple[int, int], has_depth: bool, label: float, gap: Size
+) -> tuple[Size, Size, bool]:
+    """Rooms for the canvas and the depth buffer, and whether these stand beside one another. label:
+    the height of the line above them."""
+    height = max(20.0, room[1] - label)
+    whole = room[0], height
+    if not has_depth:
+        return whole, whole, False
+    half = 0.5 * (room[0] - gap[0]), height
+    each = room[0], max(20.0, 0.5 * (height - label - gap[1]))
+    choices = ((each, each, False), (half, half, True))
+    return max(choices, key=lambda one: min(one[0][0] / canvas[0], one[0][1] / canvas[1]))
+
+
+def _plans(room: Size, need: Need) -> Iterator[Plan]:
+    width, height = room
+    gap = GAP_EM * need.em_px
+    for percent in range(36, 85, 4):
+        left = percent / 100 * width
+        right = width - left - gap
+        for code_px, tall in _sizes((left, height), need):
+            code, rest = Place(0, 0, left, tall), height - tall - gap
+            below, beside = Place(0, tall + gap, left, rest), Place(left + gap, 0, right, height)
+            yield _with(code, code_px, below, beside, need)
+            yield _with(code, code_px, beside, below, need)
+            for part in (0.36, 0.48, 0.6):
+                split = part * height
+                upper = Place(left + gap, 0, right, split)
+                lower = Place(left + gap, split + gap, right, height - split - gap)
+                yield _with(Place(0, 0, left, tall), code_px, upper, lower, need)
+                middle = Place(left + gap, 0, part * right, height)
+                last = Place(left + 2 * gap + part * right, 0, (1 - part) * right - gap, height)
+                yield _with(code, code_px, middle, last, need)
+    for code_px, tall in _sizes(room, need):
+        code, top, rest = Place(0, 0, width, tall), tall + gap, height - tall - gap
+        for part in (0.4, 0.5, 0.6):
+            canvases = Place(0, top, part * width, rest)
+            numbers = Place(part * width + gap, top, (1 - part) * width - gap, rest)
+            yield _with(code, code_px, canvases, numbers, need)
+
+
+def _sizes(room: Size, need: Need) -> Iterator[tuple[float, float]]:
+    """Sizes of the code in a room, and the height of as many whole lines as that has room for."""
+    most = code_size_px(" " * need.longest, room[0], 1.35 * need.wanted_px)
+    all_px = (room[1] - 1) / (LINE * need.lines)
+    for part in (1.0, 0.92, 0.84, 0.76, 0.66, 0.56):
+        size = min(most, max(all_px, need.least_px)) * part
+        if size >= min(most, need.least_px):
+            lines = min(need.lines, max(1, int(room[1] / (LINE * size))))
+            yield size, lines * LINE * size + 0.5
+
+
+def _with(code: Place, code_px: float, canvases: Place, numbers: Place, need: Need) -> Plan:
+    size, columns = max(_lettered(numbers.size, count, need) for count in (1, 2, 3))
+    return Plan(code, canvases, numbers, code_px, min(size, max(need.em_px, code_px)), columns)
+
+
+def _lettered(room: Size, columns: int, need: Need) -> tuple[float, int]:
+    """The size at which the numbers have room in so many columns."""
+    rows = -(-need.short // columns) + need.long
+    return min(room[0] / (columns * NUMBERS_EM), room[1] / (rows * ROW_EM), 2 * need.em_px), columns
+
+
+def _worth(made: Plan, room: Size, need: Need) -> float:
+    em = need.em_px
+    first, _, _ = canvases_in(
+        made.canvases.size, need.canvas, need.has_depth, 1.3 * em, (0.4 * em, 0.3 * em)
+    )
+    high = min(first[1], first[0] * need.canvas[1] / need.canvas[0])
+    shown = min(1.0, made.code.height / (LINE * made.code_px * need.lines))
+    parts = (
+        min(made.code_px / need.wanted_px, 1.0) * shown**2,
+        min(high / (WANTED_CANVAS * room[1]), 1.0),
+        min(made.numbers_px / min(ENOUGH_EM * em, ENOUGH * room[1]), 1.0),
+        min(made.code_px / need.least_px, 1.0),
+        min(made.numbers_px / (READ * need.least_px), 1.0),
+    )
+    # Logarithms: what is small costs more than what is large gains.
+    more = max(1.0, need.wanted_px / (USUAL_EM * em)) ** 2
+    weights = (WEIGHTS[0] * more, *WEIGHTS[1:], UNREAD, UNREAD)
+    return sum(w * math.log(max(part, 1e-3)) for w, part in zip(weights, parts, strict=True))

@@ -1,0 +1,211 @@
+"""What the stepped rasterization calls: clipping, projection, edge functions, depth, shading.
+
+Owns these parts, for one triangle at a time. Knows nothing of loops, nor that somebody watches.
+Places in the image are (x, y) in pixels from its upper left corner, y downwards: the centre of
+pixel (i, j), from 0, is (j + 0.5, i + 0.5).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from functools import lru_cache
+from typing import NamedTuple
+
+import numpy as np
+
+from app.explaining.projected import whole_within
+from app.stepper.loop_parts import (
+    Canvas,
+    DepthBuffer,
+    Model,
+    Object,
+    bounding_box,
+    color_at,
+    intersect,
+    light_at,
+    viewing_ray,
+)
+from renderer import pure_python as scalar
+from renderer.camera import NEAREST, Camera, Floats, Size, Vector
+from renderer.scene.model import Color
+
+WHOLE: tuple[Vector, ...] = ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0))
+FLAT = 1e-12  # parts of a triangle's extent: one so thin is seen from its edge
+
+
+class Corner(NamedTuple):
+    """A triangle's corner in the image. z: what is linear there: 1/t in perspective, t in parallel
+    projection."""
+
+    x: float
+    y: float
+    z: float
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Triangle:
+    """What the camera can see of a triangle of the scene, or a part of that: clipping makes up to
+    three of one.
+
+    primitive: its number in the flat scene. points: its corners, world space. shares: theirs of the
+    whole triangle's corners, each of which sums to 1.
+    """
+
+    scene: Model
+    camera: Camera
+    object: Object
+    primitive: int
+    points: tuple[Vector, ...]
+    shares: tuple[Vector, ...] = WHOLE
+
+
+def prepared(scene: Model, camera: Camera, size: Size) -> tuple[Canvas, DepthBuffer]:
+    """The canvas in the colour of the background, and infinite depths; then what has no triangles:
+    spheres, each pixel of their boxes by its ray."""
+    canvas, depth = Canvas(size, scene.background), DepthBuffer(size)
+    for object in scene.objects:
+        if object.sphere < 0:
+            continue
+        rows, columns = bounding_box(object, camera, size)
+        for i in rows:
+            for j in columns:
+                u, v = (float(place) for place in camera.image_point(i, j, size))
+                ray = viewing_ray(camera, u, v)
+                hit = intersect(object, ray)
+                if hit.t < depth[i, j]:
+                    depth[i, j] = hit.t
+                    canvas[i, j] = color_at(scene, ray, hit)
+    return canvas, depth
+
+
+def triangles(scene: Model, camera: Camera) -> Iterator[Triangle]:
+    """The scene's triangles, one after another. What lies behind the eye, before near or beyond far
+    is cut off: of a triangle that reaches there, the rest comes as one to three triangles."""
+    for object in scene.objects:
+        if object.sphere >= 0:
+            continue
+        first = int(scene.flat.object_faces[object.number, 0])
+        t = _parameters(object.vertices, camera)
+        t_min, t_max = camera.t_range
+        t_low, t_high = t[object.faces].min(axis=1), t[object.faces].max(axis=1)
+        if not camera.is_parallel and t_low.min() <= 0:
+            t_min = max(t_min, NEAREST * float(t_high.max()))  # where 1/t is still a number
+        whole = (t_low > t_min) & (t_high < t_max)
+        for number in np.flatnonzero((t_high > t_min) & (t_low < t_max)).tolist():
+            face = object.faces[number]
+            points = tuple(_vector(point) for point in object.vertices[face].tolist())
+            if whole[number]:
+                yield Triangle(scene, camera, object, first + number, points)
+                continue
+            corners = list(zip(points, WHOLE, t[face].tolist(), strict=True))
+            rest = _cut(_cut(corners, t_min, 1.0), t_max, -1.0)
+            for k in range(1, len(rest) - 1):  # a fan round the first corner
+                fan = rest[0], rest[k], rest[k + 1]
+                points, shares = tuple(one[0] for one in fan), tuple(one[1] for one in fan)
+                yield Triangle(scene, camera, object, first + number, points, shares)
+
+
+def project(triangle: Triangle, camera: Camera, size: Size) -> tuple[Corner, Corner, Corner]:
+    """Where its corners are in the image."""
+    a, b, c = (_corner(point, camera, size) for point in triangle.points)
+    return a, b, c
+
+
+def box_around(a: Corner, b: Corner, c: Corner, size: Size) -> tuple[range, range]:
+    """The rows and columns of the pixels whose centres lie in the triangle's bounding box; none of
+    a triangle that is seen from its edge."""
+    x, y = (a.x, b.x, c.x), (a.y, b.y, c.y)
+    extent = max(max(x) - min(x), max(y) - min(y))
+    columns = whole_within(min(x) - 0.5, max(x) - 0.5, size[0])
+    rows = whole_within(min(y) - 0.5, max(y) - 0.5, size[1])
+    if not (rows and columns and abs(edge(a, b, c)) > FLAT * extent * extent):
+        return range(0), range(0)
+    return rows, columns
+
+
+def edge(a: Sequence[float], b: Sequence[float], p: Sequence[float]) -> float:
+    """The edge function: 0 on the line from a to b, of one sign on either side of it. Twice the
+    area of a, b, p. Source: Pineda, "A Parallel Algorithm for Polygon Rasterization", 1988."""
+    # Of b to a it is the same with the other sign, to the last bit: no gap between neighbours.
+    return (a[0] - p[0]) * (b[1] - p[1]) - (a[1] - p[1]) * (b[0] - p[0])
+
+
+def t_of(z: float, camera: Camera) -> float:
+    """The ray parameter of a depth z in the image."""
+    return z if camera.is_parallel else 1 / z
+
+
+def shade(triangle: Triangle, ea: float, eb: float, ec: float) -> Color:
+    """The light that comes from a point of the triangle, given by its edge functions in the image.
+    In perspective the near corners have a smaller share in the point than in its image."""
+    camera = triangle.camera
+    shares = np.array([ea, eb, ec])
+    if not camera.is_parallel:
+        shares /= _parameters(np.array(triangle.points), camera)
+        shares /= shares.sum()
+    point = _vector((shares @ triangle.points).tolist())
+    _, b1, b2 = _vector((shares @ triangle.shares).tolist())
+    back = scalar.times(-1.0, camera.w)
+    direction = back if camera.is_parallel else scalar.minus(point, camera.eye)
+    return light_at(triangle.scene, direction, point, (triangle.primitive, b1, b2))
+
+
+@lru_cache(maxsize=4)
+def _inverse(camera: Camera) -> tuple[Vector, Vector, Vector]:
+    """The rows of the basis's inverse."""
+    across, up, back = (_vector(row) for row in camera.camera_from_world[:3, :3].tolist())
+    return across, up, back
+
+
+def _parameters(points: Floats, camera: Camera) -> Floats:
+    """The ray parameters of points (n, 3), each by the same arithmetic as _corner's."""
+    x, y, z = (points - camera.eye).T
+    back = _inverse(camera)[2]
+    unit = 1.0 if camera.is_parallel else camera.distance
+    t: Floats = -(back[0] * x + back[1] * y + back[2] * z) / unit
+    return t
+
+
+def _corner(point: Vector, camera: Camera, size: Size) -> Corner:
+    offset = scalar.minus(point, camera.eye)
+    x, y, z = (scalar.dot(row, offset) for row in _inverse(camera))
+    t = -z / (1.0 if camera.is_parallel else camera.distance)
+    left, right, bottom, top = camera.viewport
+    if not camera.is_parallel:
+        x, y = x / t, y / t
+    return Corner(
+        (x - left) / (right - left) * size[0],
+        (top - y) / (top - bottom) * size[1],
+        t if camera.is_parallel else 1 / t,
+    )
+
+
+def _cut(
+    corners: list[tuple[Vector, Vector, float]], bound: float, side: float
+) -> list[tuple[Vector, Vector, float]]:
+    """What of a polygon of (point, shares, t) lies beyond t = bound (side 1), or before it (-1).
+
+    Source: Sutherland and Hodgman, "Reentrant Polygon Clipping", 1974.
+    """
+    kept = []
+    for k, here in enumerate(corners):
+        last = corners[k - 1]
+        inside, was_inside = side * (here[2] - bound) > 0, side * (last[2] - bound) > 0
+        if inside != was_inside:
+            # Always from without to within: two triangles with this edge get the same point.
+            out, into = (last, here) if inside else (here, last)
+            part = (bound - out[2]) / (into[2] - out[2])
+            kept.append((_between(out[0], into[0], part), _between(out[1], into[1], part), bound))
+        if inside:
+            kept.append(here)
+    return kept
+
+
+def _between(a: Vector, b: Vector, part: float) -> Vector:
+    return scalar.plus(a, scalar.times(part, scalar.minus(b, a)))
+
+
+def _vector(values: Sequence[float]) -> Vector:
+    x, y, z = values
+    return x, y, z

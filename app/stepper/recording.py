@@ -1,0 +1,220 @@
+"""A run of a teaching renderer, recorded line by line: any step of it can be looked at again.
+
+Owns the tracing of lines and the log. What is logged is what changes: lines, variables, writes; a
+moment is put together from the log when it is asked for (moments.py). Knows nothing of windows.
+
+One thread runs, any other looks at what is there so far.
+"""
+
+from __future__ import annotations
+
+import math
+import sys
+import threading
+import time
+from collections.abc import Callable
+from enum import Enum
+from types import FrameType
+from typing import Any
+
+from app.explaining.columns import Column
+from app.state.bounds import check, whole_range_of
+from app.state.options import StepperOptions
+from app.stepper.loop_parts import Model
+from app.stepper.loops import image_order, object_order, rasterization
+from app.stepper.raster_parts import t_of
+from app.stepper.source import Source, source_of
+from renderer.camera import Camera, Size
+
+MOST_STEPS = whole_range_of(StepperOptions, "steps")[1]
+# The interpreter is left to other threads for a moment, this often.
+_BREAK_EVERY, _BREAK_AFTER_S, _BREAK_S = 8, 0.001, 0.0003
+_MISSING = object()
+
+
+class Order(Enum):
+    """Which algorithm. Object order has two forms: by triangles, and by rays."""
+
+    RASTER = "rasterization"
+    OBJECT = "object order"
+    IMAGE = "image order"
+
+    @property
+    def has_depth(self) -> bool:
+        """Whether it needs a depth buffer: object order, in both forms."""
+        return self is not Order.IMAGE
+
+    @property
+    def renderer(self) -> Callable[..., Any]:
+        return _RENDERERS[self]
+
+
+_RENDERERS = {
+    Order.RASTER: rasterization,
+    Order.OBJECT: object_order,
+    Order.IMAGE: image_order,
+}
+
+
+class CancelledError(Exception):
+    """Ends a run that is no longer wanted, or too long."""
+
+
+class Recording:
+    """A run of one algorithm on a small canvas. Nothing happens before run() or start().
+
+    A step is a line about to be run; the last one is the function's return.
+    size: (width, height); LucidaError where it is out of the canvas's bounds.
+    """
+
+    def __init__(self, model: Model, camera: Camera, size: Size, order: Order) -> None:
+        check(StepperOptions, {"canvas": size})
+        self.model, self.camera, self.size, self.order = model, camera, size, order
+        self.source: Source = source_of(order.renderer)
+        self.complete = False  # run to its end
+        self.truncated = False  # stopped after MOST_STEPS
+        self.error: Exception | None = None
+        self._cancelled = False
+        self._steps = 0
+        # Of each step its line. Of each variable, from which step on it has which value.
+        self.lines = Column("u1")
+        self.values: dict[str, tuple[Column, list[Any]]] = {}
+        # Steps at which the bodies of the two loops begin.
+        self.pixel_steps, self.object_steps = Column("i4"), Column("i4")
+        # Tests: the step from which on the result is there; row, column, object; t.
+        self.test_steps, self.tests, self.test_t = Column("i4"), Column("i4", 3), Column("f8")
+        # Writes to the canvas and to the depth buffer: step, row and column, colour or t; and how
+        # many writes so far went to a pixel that had been written before.
+        self.write_steps, self.write_pixels = Column("i4"), Column("i4", 2)
+        self.write_colors, self.overwrites = Column("f8", 3), Column("i4")
+        self.depth_steps, self.depth_pixels = Column("i4"), Column("i4", 2)
+        self.depth_t = Column("f8")
+
+    def __len__(self) -> int:
+        """How many steps there are so far."""
+        return self._steps
+
+    def cancel(self) -> None:
+        """Ends the run soon. From any thread."""
+        self._cancelled = True
+
+    def start(self, done: Callable[[], None] | None = None) -> threading.Thread:
+        """Runs in a thread of its own; done: called there at the end."""
+        thread = threading.Thread(target=self._run_quietly, args=(done,), daemon=True)
+        thread.name = f"lucida {self.order.value}"
+        thread.start()
+        return thread
+
+    def run(self) -> None:
+        """Runs to the end, MOST_STEPS, or cancel()."""
+        recorder = _Recorder(self)
+        before = sys.gettrace()
+        sys.settrace(recorder.enter)
+        try:
+            self.order.renderer(self.model, self.camera, self.size)
+            self.complete = True
+        except CancelledError:
+            self.truncated = not self._cancelled
+        finally:
+            sys.settrace(before)
+
+    def _run_quietly(self, done: Callable[[], None] | None) -> None:
+        try:
+            self.run()
+        except Exception as error:  # shown where the picture would be
+            self.error = error
+        if done is not None:
+            done()
+
+
+class _Recorder:
+    """The trace functions: see sys.settrace."""
+
+    def __init__(self, recording: Recording) -> None:
+        self._to = recording
+        self._code = recording.order.renderer.__code__
+        self._shown = recording.source.shown
+        self._last: dict[str, Any] = dict.fromkeys(self._code.co_varnames, _MISSING)
+        self._written: set[tuple[int, int]] = set()
+        self._after_test = self._failed = False
+        self._break_s = time.perf_counter()
+
+    def enter(self, frame: FrameType, event: str, argument: Any) -> Any:
+        """Of all functions called, only the renderer's lines are of interest."""
+        return self._line if frame.f_code is self._code else None
+
+    def _line(self, frame: FrameType, event: str, argument: Any) -> Any:
+        if event == "exception":
+            self._failed = True
+        if self._failed:  # what follows is its way out, no step
+            return self._line
+        to, step = self._to, self._to._steps
+        if to._cancelled or step >= MOST_STEPS:
+            raise CancelledError
+        line = self._shown[frame.f_lineno - to.source.first_line]
+        values = frame.f_locals
+        self._log_values(values, step)
+        self._log_writes(values, step)
+        if self._after_test:
+            number, t = self._result(values)
+            to.test_t.append(t)
+            to.tests.append((values["i"], values["j"], number))
+            to.test_steps.append(step)
+        self._after_test = line == to.source.test
+        if line == to.source.pixels.first:
+            to.pixel_steps.append(step)
+        if line == to.source.objects.first:
+            to.object_steps.append(step)
+        to.lines.append(line)
+        to._steps = step + 1
+        if step % _BREAK_EVERY == 0:
+            self._take_a_break()
+        return self._line
+
+    def _result(self, values: dict[str, Any]) -> tuple[int, float]:
+        """Which object has just been tested, and the t at which it affects the pixel, if it does
+        at all."""
+        if "hit" in values:
+            return values["object"].number, values["hit"].t
+        edges = values["ea"], values["eb"], values["ec"]
+        inside = min(edges) >= 0
+        z = sum(e * values[corner].z for e, corner in zip(edges, "abc", strict=True))
+        return values["triangle"].object.number, t_of(z, self._to.camera) if inside else math.inf
+
+    def _log_values(self, values: dict[str, Any], step: int) -> None:
+        last = self._last
+        for name, value in values.items():
+            if value is not last[name]:
+                last[name] = value
+                log = self._to.values.get(name)
+                if log is None:
+                    # A new dictionary: somebody may be looking through the old one.
+                    log = (Column("i4"), [])
+                    self._to.values = {**self._to.values, name: log}
+                log[1].append(value)
+                log[0].append(step)
+
+    def _log_writes(self, values: dict[str, Any], step: int) -> None:
+        to = self._to
+        canvas, depth = values.get("canvas"), values.get("depth")
+        if canvas is not None:
+            while len(to.write_steps) < len(canvas.log):
+                i, j, color = canvas.log[len(to.write_steps)]
+                again = (i, j) in self._written
+                before = to.overwrites[len(to.write_steps) - 1] if len(to.write_steps) else 0
+                self._written.add((i, j))
+                to.overwrites.append(before + again)
+                to.write_pixels.append((i, j))
+                to.write_colors.append(color)
+                to.write_steps.append(step)
+        if depth is not None:
+            while len(to.depth_steps) < len(depth.log):
+                i, j, t = depth.log[len(to.depth_steps)]
+                to.depth_pixels.append((i, j))
+                to.depth_t.append(t)
+                to.depth_steps.append(step)
+
+    def _take_a_break(self) -> None:
+        if time.perf_counter() - self._break_s > _BREAK_AFTER_S:
+            time.sleep(_BREAK_S)
+            self._break_s = time.perf_counter()

@@ -1,0 +1,127 @@
+"""The recordings that the stepper shows: of the present scene, camera and canvas, made in the
+background.
+
+Owns the thread and which recordings are shown while others are being made. Knows nothing of
+windows.
+"""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable
+from dataclasses import dataclass
+
+from app.stepper.loop_parts import Model
+from app.stepper.recording import Order, Recording
+from app.widgets.background import Background
+from renderer.camera import Camera, Size
+from renderer.scene.model import Scene
+
+SOON_S = 0.4  # a run that takes longer is shown while it goes on
+
+
+# What is recorded unless other algorithms are asked for.
+BY_RAYS = (Order.OBJECT, Order.IMAGE)
+
+
+@dataclass(frozen=True, eq=False)
+class Pair:
+    """The recordings of one canvas, in object order and in image order. begun_s: on
+    time.monotonic()'s clock."""
+
+    scene: Scene
+    camera: Camera
+    size: Size
+    runs: dict[Order, Recording]
+    begun_s: float
+
+    @property
+    def complete(self) -> bool:
+        return all(run.complete or run.truncated for run in self.runs.values())
+
+    @property
+    def orders(self) -> tuple[Order, ...]:
+        return tuple(self.runs)
+
+    def is_of(
+        self, scene: Scene, camera: Camera, size: Size, orders: tuple[Order, ...] = BY_RAYS
+    ) -> bool:
+        same = self.scene is scene and self.size == size and self.orders == orders
+        return same and self.camera == camera
+
+
+class Runs:
+    """wake: called from the thread when something is finished. error: of the last that ended."""
+
+    def __init__(self, wake: Callable[[], None]) -> None:
+        self._background: Background[Pair] = Background("lucida-stepper", wake)
+        self._model: Model | None = None  # of the thread
+        self._wanted: tuple[Scene, Camera, Size, tuple[Order, ...]] | None = None
+        self._under_way: Pair | None = None
+        self._shown: Pair | None = None
+        self.error: Exception | None = None
+
+    @property
+    def busy(self) -> bool:
+        return self._background.busy
+
+    def of(
+        self, scene: Scene, camera: Camera, size: Size, orders: tuple[Order, ...] = BY_RAYS
+    ) -> Pair | None:
+        """The recordings to show; None before the first steps of a scene.
+
+        Those of the last camera, until the ones that are wanted are complete, or take long. error:
+        why there are none, such as a canvas that cannot be.
+        """
+        self._take_finished()
+        wanted = (scene, camera, size, orders)
+        if self._wanted is None or self._wanted[0] is not scene or self._wanted[1:] != wanted[1:]:
+            self._wanted = wanted
+            self._cancel_what_takes_long()
+            self._background.submit(lambda: self._record(scene, camera, size, orders))
+        going, shown = self._under_way, self._shown
+        # Only the camera may be another one.
+        alike = shown is not None and shown.is_of(scene, shown.camera, size, orders)
+        if going is not None and going.is_of(scene, camera, size, orders):
+            late = time.monotonic() - going.begun_s > SOON_S
+            if (late or not alike) and all(len(run) for run in going.runs.values()):
+                self._shown = going
+                return going
+        return shown if alike else None
+
+    def close(self) -> None:
+        if self._under_way is not None:
+            self._cancel(self._under_way)
+        self._background.close()
+
+    def _take_finished(self) -> None:
+        outcome = self._background.poll()
+        if outcome is None:
+            return
+        self.error = outcome.error
+        if outcome.value is not None and outcome.value.complete:
+            self._shown = outcome.value
+            for run in outcome.value.runs.values():
+                self.error = self.error or run.error
+
+    def _cancel_what_takes_long(self) -> None:
+        going = self._under_way
+        if going is not None and time.monotonic() - going.begun_s > SOON_S:
+            self._cancel(going)
+
+    def _cancel(self, pair: Pair) -> None:
+        for run in pair.runs.values():
+            run.cancel()
+
+    def _record(self, scene: Scene, camera: Camera, size: Size, orders: tuple[Order, ...]) -> Pair:
+        """In the thread."""
+        if self._model is None or self._model.scene is not scene:
+            self._model = None  # the memory of the last one
+            self._model = Model(scene)
+        runs = {order: Recording(self._model, camera, size, order) for order in orders}
+        pair = Pair(scene, camera, size, runs, time.monotonic())
+        self._under_way = pair
+        # Triangle by triangle may take long, and nothing is shown before each has a step.
+        for order in sorted(runs, key=lambda one: one is Order.RASTER):
+            runs[order].run()
+        return pair

@@ -1,0 +1,343 @@
+"""The loop stepper: both algorithms, line by line, over the window's scene and camera.
+
+Owns the recordings, the playing, the canvases' textures, and what the outside view shows of the
+present step. How a run is laid out is stepper/panel.py's; what a step is, stepper/model.py's.
+"""
+
+from __future__ import annotations
+
+import math
+import time
+from dataclasses import replace
+from typing import Any
+
+import moderngl
+import numpy as np
+from imgui_bundle import ImVec2, imgui
+
+from app.host.view import Host, View
+from app.outside.diagram import Dot, Item, Lines
+from app.outside.extent import end_parameter
+from app.outside.frustum import plane_parameter, point_at
+from app.outside.view import OutsideView
+from app.state.options import Pixel, StepperOptions
+from app.stepper import model as stepper
+from app.stepper import panel
+from app.stepper.model import Moment, moment_at
+from app.stepper.recording import Order, Recording
+from app.stepper.runs import Pair, Runs
+from app.widgets import theme
+from app.widgets.canvas import color_picture, depth_picture
+from app.widgets.lettering import at_most
+from app.widgets.uploads import Uploads
+from renderer.camera import Camera, Size
+from renderer.errors import describe
+from renderer.scene.model import Sphere
+
+STEPPER = "Stepper"
+LEAST_PX = 13.0  # of type, at 100 %
+LINES = 40  # of the type round the code that the view has room for, at least
+LONGEST_FRAME_S = 0.25  # what a frame that took longer is taken for
+_EDGES = ((0, 1), (0, 2), (0, 4), (1, 3), (1, 5), (2, 3), (2, 6), (3, 7), (4, 5), (4, 6), (5, 7),
+          (6, 7))  # fmt: skip  # of a box's corners, numbered by their bits
+
+
+class StepperView(View):
+    name = STEPPER
+    title = "Loop stepper"
+
+    def __init__(self, outside: OutsideView) -> None:
+        self._outside = outside
+        self._runs: Runs | None = None
+        self._uploads: Uploads | None = None
+        self.playing = self._seen = False
+        self._em_px = self._set_px = 0.0  # the size of type that was asked for, of the window's own
+        self._before_s = 0.0  # when the last frame of playing was
+        self._owed = 0.0  # parts of a step that have not been taken
+        self._drawn: dict[Order, Any] = {}  # what the textures were made from
+        self._shown: Any = None  # what the outside view's lines were made from
+        self.moments: dict[Order, Moment] = {}
+        self._asked: panel.Wish = ""
+
+    def ask(self, wish: panel.Wish) -> None:
+        """What a button or a key would ask for; for the next frame that it is drawn in."""
+        self._asked = wish
+
+    @property
+    def settled(self) -> bool:
+        waits = self._seen and self._runs is not None and self._runs.busy
+        return not self.playing and not waits
+
+    def begin(self, host: Host, context: moderngl.Context) -> None:
+        self._runs = Runs(host.animate)
+        self._uploads = Uploads(context)
+
+    def end(self) -> None:
+        if self._runs is not None:
+            self._runs.close()
+        if self._uploads is not None:
+            self._uploads.release()
+
+    def unseen(self, host: Host) -> None:
+        self.playing = self._seen = False
+        self._asked = ""
+        self._outside.show(STEPPER, ())
+        self._shown = None
+
+    def begin_anew(self) -> None:
+        self.playing = False
+        self._asked = ""
+
+    def draw(self, host: Host) -> None:
+        """What stands round the code gives way to it where type is large."""
+        asked_px = theme.PRESENTED * imgui.get_io().display_size.y
+        self._set_px = imgui.get_font_size()
+        self._em_px = max(self._set_px, host.state.preferences.font_scale * asked_px)
+        least = LEAST_PX * imgui.get_style().font_scale_dpi
+        with at_most(max(least, imgui.get_content_region_avail().y / LINES)):
+            self._draw(host)
+
+    def _draw(self, host: Host) -> None:
+        assert self._runs is not None and self._uploads is not None
+        self._uploads.begin_frame()
+        self._seen = True
+        options = host.state.options.stepper
+        scene = host.state.scene
+        has_triangles = any(not isinstance(one.shape, Sphere) for one in scene.objects)
+        changed, wish = panel.controls(options, self.playing, has_triangles)
+        language = panel.language(host.state.options.language)
+        host.apply(host.state.with_options(language=language))
+        wish = self._asked or panel.keys() or wish
+        self._asked = ""
+        if changed != options:
+            host.apply(host.state.with_options(stepper=_fields(changed)))
+            options = changed
+        state = host.state
+        camera = state.view.for_size(options.canvas)
+        by_triangles = has_triangles and options.form == "triangles"
+        both = (Order.RASTER if by_triangles else Order.OBJECT, Order.IMAGE)
+        pair = self._runs.of(state.scene, camera, options.canvas, both)
+        if self._runs.error is not None:
+            imgui.text_colored(theme.ERROR, describe(self._runs.error))
+            return
+        if pair is None:
+            imgui.text_colored(theme.DIM, "preparing the scene for the stepper ...")
+            host.animate()
+            return
+        if not pair.complete:
+            host.animate()
+        orders = [one for one in both if options.order in ("both", _key(one))]
+        steps = self._moved(host, pair, orders, options, wish)
+        self._panels(host, pair, orders, steps)
+        self._show_outside(host, pair, orders)
+
+    # Where the runs stand.
+
+    def _moved(
+        self, host: Host, pair: Pair, orders: list[Order], options: StepperOptions, wish: panel.Wish
+    ) -> tuple[int, int]:
+        """The steps after this frame's wishes."""
+        if wish == "play":
+            self.playing = not self.playing
+            self._before_s, self._owed = time.monotonic(), 0.0
+            at_end = all(options.steps[_at(one)] >= len(pair.runs[one]) - 1 for one in orders)
+            if self.playing and at_end:
+                options = replace(options, steps=(0, 0))
+        elif wish:
+            self.playing = False
+        taken = self._taken(options.speed) if self.playing else 0
+        if self.playing:
+            host.animate()
+        steps = list(options.steps)
+        for order in orders:
+            run, at = pair.runs[order], _at(order)
+            # A place that the run has not come to yet is kept for when it has.
+            if len(run) and ((wish and wish != "play") or taken):
+                steps[at] = _after(run, min(steps[at], len(run) - 1), wish, taken)
+        if self.playing and all(
+            pair.complete and steps[_at(one)] >= len(pair.runs[one]) - 1 for one in orders
+        ):
+            self.playing = False
+        if not (pair.complete or wish or taken):  # where it is to stand may be recorded yet
+            return steps[0], steps[1]
+        return self._keep(host, (steps[0], steps[1]), step_of_undo=False)
+
+    def _taken(self, speed: float) -> int:
+        """How many steps the time since the last frame is worth."""
+        now_s = time.monotonic()
+        self._owed += min(now_s - self._before_s, LONGEST_FRAME_S) * speed
+        self._before_s = now_s
+        whole = int(self._owed)
+        self._owed -= whole
+        return whole
+
+    def _keep(self, host: Host, steps: tuple[int, int], step_of_undo: bool) -> tuple[int, int]:
+        """The steps go into the state, for a lecture or a session to come back to; undo is for
+        scenes and cameras, and does not walk them."""
+        if steps != host.state.options.stepper.steps:
+            changed = host.state.with_options(stepper={"steps": steps})
+            if step_of_undo:
+                host.apply(changed)
+            else:
+                host.amend(changed)
+        return steps
+
+    # The panels.
+
+    def _panels(self, host: Host, pair: Pair, orders: list[Order], steps: tuple[int, int]) -> None:
+        room = imgui.get_content_region_avail()
+        spacing = imgui.get_style().item_spacing
+        count = len(orders)
+        beside = room.x > 1.1 * room.y
+        size = ImVec2(
+            (room.x - spacing.x * (count - 1)) / count if beside else room.x,
+            room.y if beside else (room.y - spacing.y * (count - 1)) / count,
+        )
+        state = host.state
+        shown = panel.Shown(
+            tuple(orders), state.options.stepper.canvas, self._em_px, self._set_px,
+            state.options.indexing, state.options.language == "julia",
+        )  # fmt: skip
+        self.moments = {}
+        wanted = list(steps)
+        for number, order in enumerate(orders):
+            if number and beside:
+                imgui.same_line()
+            run, at = pair.runs[order], _at(order)
+            imgui.begin_child(order.value, size, imgui.ChildFlags_.borders)
+            moment = moment_at(run, steps[at]) if len(run) else None
+            if moment is not None:
+                self.moments[order] = moment
+                self._upload(run, moment, host.state.images.exposure_ev)
+            answer = panel.run_panel(
+                run, moment, self._picture(order), imgui.get_content_region_avail(), host.fonts,
+                shown,
+            )  # fmt: skip
+            imgui.end_child()
+            if answer.step is not None:
+                wanted[at] = answer.step
+            elif answer.pixel is not None:
+                wanted[at] = _turn(run, answer.pixel, steps[at])
+            if answer != panel.Answer():
+                self.playing = False
+        if wanted != list(steps):
+            self._keep(host, (wanted[0], wanted[1]), step_of_undo=False)
+
+    def _upload(self, run: Recording, moment: Moment, exposure_ev: float) -> None:
+        """The canvas and the depth buffer as textures, where they have changed."""
+        assert self._uploads is not None
+        key = (run, moment.counters.writes, moment.step < 4, exposure_ev, theme.BACKGROUND)
+        if self._drawn.get(run.order) == key:
+            return
+        self._drawn[run.order] = key
+        self._uploads.put(f"color {run.order.name}", color_picture(moment.canvas, exposure_ev))
+        if moment.depth is not None:
+            farthest = run.depth_t.upto(len(run.depth_t)).max(initial=0.0)
+            picture = depth_picture(moment.depth, float(farthest))
+            self._uploads.put(f"depth {run.order.name}", picture)
+
+    def _picture(self, order: Order) -> panel.Picture:
+        assert self._uploads is not None
+        color, depth = (self._uploads.get(f"{kind} {order.name}") for kind in ("color", "depth"))
+        return panel.Picture(color.glo if color else None, depth.glo if depth else None)
+
+    # What the outside view shows.
+
+    def _show_outside(self, host: Host, pair: Pair, orders: list[Order]) -> None:
+        key = (pair, tuple(self.moments[one].step for one in orders if one in self.moments))
+        if key == self._shown:
+            return
+        self._shown = key
+        end = end_parameter(pair.camera, host.focus.framed)
+        items: list[Item] = []
+        for order in orders:
+            if order in self.moments:
+                items += _items(pair, pair.runs[order], self.moments[order], end)
+        self._outside.show(STEPPER, items)
+
+
+def _after(run: Recording, step: int, wish: panel.Wish, taken: int) -> int:
+    """A run's step after a wish, or after so many steps of playing."""
+    last = len(run) - 1
+    if wish == "first":
+        return 0
+    if wish == "last":
+        return last
+    if wish == "pixel":
+        return stepper.next_pixel(run, step)
+    if wish == "object":
+        return stepper.next_object(run, step)
+    moved = {"back": -1, "step": 1}.get(wish, taken)
+    return min(max(step + moved, 0), last)
+
+
+def _turn(run: Recording, pixel: Pixel, step: int) -> int:
+    """Where a pixel's turn begins; the step as it is where it has none."""
+    found = stepper.step_of_pixel(run, pixel, step)
+    return step if found is None else found
+
+
+def _items(pair: Pair, run: Recording, moment: Moment, end: float) -> list[Item]:
+    """The current ray, with the hits that it is known to have; the current object's box, and its
+    bounding box on the image plane."""
+    items: list[Item] = []
+    name = run.order.name.lower()
+    if moment.triangle is not None:
+        points = np.array(moment.triangle.points)
+        sides = np.stack([points, np.roll(points, -1, axis=0)], axis=1)
+        items.append(Lines(f"{name} triangle", "ray", sides, 2.5, layer=3))
+    elif moment.object is not None:
+        thing = run.model.objects[moment.object]
+        items.append(Lines(f"{name} object", "extra", _box(thing.low, thing.high), 1.8, layer=2))
+    if moment.box is not None and moment.box[0] and moment.box[1]:
+        items.append(_plane_box(pair.camera, pair.size, moment.box))
+    if moment.ray is not None and moment.pixel is not None:
+        hits = [test.t for test in moment.tests if test.pixel == moment.pixel]
+        hits = [t for t in hits if t < math.inf]
+        reach = min(hits, default=end)
+        origin, direction = np.array(moment.ray.origin), np.array(moment.ray.direction)
+        segment = np.stack([origin, origin + reach * direction])[None]
+        items.append(Lines(f"{name} ray", "ray", segment, 2.5, layer=3))
+        items += [
+            Dot(f"{name} hit", "mark", origin + t * direction, 5.0 if t == reach else 3.0)
+            for t in hits
+        ]
+    return items
+
+
+def _box(low: Any, high: Any) -> np.ndarray:
+    """The edges of a box, (12, 2, 3)."""
+    sides = np.array([low, high], float)
+    corners = np.array(
+        [[sides[n & 1, 0], sides[n >> 1 & 1, 1], sides[n >> 2, 2]] for n in range(8)]
+    )
+    return corners[np.array(_EDGES)]
+
+
+def _plane_box(camera: Camera, size: Size, box: tuple[range, range]) -> Lines:
+    """A bounding box in pixels, on the image plane."""
+    rows, columns = box
+    i = np.array([rows.start, rows.start, rows.stop, rows.stop]) - 0.5
+    j = np.array([columns.start, columns.stop, columns.stop, columns.start]) - 0.5
+    points = point_at(camera, *camera.image_point(i, j, size), plane_parameter(camera))
+    segments = np.stack([points, np.roll(points, -1, axis=0)], axis=1)
+    return Lines("bounding box", "extra", segments, 2.0, on_plane=True, layer=2)
+
+
+def _key(order: Order) -> str:
+    return "image" if order is Order.IMAGE else "object"
+
+
+def _at(order: Order) -> int:
+    """Which of StepperOptions.steps is an algorithm's."""
+    return 1 if order is Order.IMAGE else 0
+
+
+def _fields(options: StepperOptions) -> dict[str, Any]:
+    return {
+        "canvas": options.canvas,
+        "order": options.order,
+        "form": options.form,
+        "steps": options.steps,
+        "speed": options.speed,
+    }

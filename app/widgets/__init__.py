@@ -1,0 +1,1 @@
+"""What panels are made of: the look, fields, rows, boxes, formulas, code. Knows no instrument."""

@@ -1,0 +1,94 @@
+"""A few lines of Python on the screen, one of them lit.
+
+Owns their look: what has a colour in the formulas has it here, and a called function shows its own
+source under the mouse. Knows nothing of what they do.
+"""
+
+from __future__ import annotations
+
+import functools
+import io
+import tokenize
+from collections.abc import Mapping, Sequence
+
+from imgui_bundle import ImVec2, ImVec4, imgui
+
+from app.widgets import theme
+
+LINE = 1.18  # a line's height, in parts of the type's
+_ROLES = {"u": "u", "v": "v", "ray": "ray", "hit": "hit", "closest": "hit"}
+
+
+def code(
+    lines: Sequence[str], lit: int, size_px: float, width_px: float, called: Mapping[str, str]
+) -> None:
+    """Draws the lines in the current font, of size_px, whose letters have one width. lit: the
+    number of the line about to run. width_px: of the light. called: sources of functions, by
+    name."""
+    draw, corner = imgui.get_window_draw_list(), imgui.get_cursor_screen_pos()
+    letter = imgui.calc_text_size("0").x
+    line_px = LINE * size_px
+    widest = letter * max(map(len, lines))
+    bar = 0.35 * size_px
+    for number, text in enumerate(lines):
+        y = corner.y + number * line_px
+        if number == lit:
+            low, high = ImVec2(corner.x, y), ImVec2(corner.x + width_px, y + line_px)
+            draw.add_rect_filled(low, high, theme.u32(theme.FRAME_ACTIVE), 2.0)
+            draw.add_rect_filled(low, ImVec2(corner.x + bar, high.y), theme.u32(theme.RAY))
+        top = y + 0.5 * (line_px - imgui.get_text_line_height())
+        for column, word in _words(text, tuple(called)):
+            at = ImVec2(corner.x + 2 * bar + column * letter, top)
+            draw.add_text(at, theme.u32(_color(word)), word)
+            if word in called:
+                _call(draw, at, word, called[word])
+    imgui.dummy(ImVec2(widest + 2 * bar, len(lines) * line_px))
+
+
+def _call(draw: imgui.ImDrawList, at: ImVec2, name: str, source: str) -> None:
+    """A function's name is underlined; under the mouse, its source is shown."""
+    size = imgui.calc_text_size(name)
+    far = ImVec2(at.x + size.x, at.y + size.y)
+    y = far.y - theme.px(1)
+    draw.add_line(ImVec2(at.x, y), ImVec2(far.x, y), theme.u32(theme.PLAIN, 0.8), theme.line_px())
+    if imgui.is_window_hovered() and imgui.is_mouse_hovering_rect(at, far):
+        imgui.set_tooltip(source)
+
+
+def code_size_px(longest: str, width_px: float, most_px: float) -> float:
+    """The size at which a line has room, at most most_px. The font's letters are half as wide as
+    they are high."""
+    return min(most_px, width_px / (0.5 * len(longest) + 1.2))
+
+
+@functools.cache
+def narrowed(lines: tuple[str, ...]) -> tuple[str, ...]:
+    """The lines, indented half as far: a deep loop has room in larger type."""
+    indents = [len(line) - len(line.lstrip()) for line in lines]
+    return tuple(line[indent // 2 :] for line, indent in zip(lines, indents, strict=True))
+
+
+def _color(word: str) -> ImVec4:
+    role = _ROLES.get(word.strip())
+    if role is None:
+        return theme.TEXT
+    color = {"ray": theme.RAY, "hit": theme.MARK}.get(role)
+    return theme.legible(theme.BASIS[role] if color is None else color)
+
+
+@functools.lru_cache(maxsize=256)
+def _words(text: str, called: tuple[str, ...]) -> tuple[tuple[int, str], ...]:
+    """The line in parts, with the column of each: names that have a colour, and what is between."""
+    try:
+        tokens = list(tokenize.generate_tokens(io.StringIO(text.strip()).readline))
+    except tokenize.TokenError:  # a line that goes on in the next one
+        return ((0, text),)
+    indent = len(text) - len(text.lstrip())
+    words, after = [], 0
+    for token in tokens:
+        if token.type == tokenize.NAME and (token.string in _ROLES or token.string in called):
+            start = indent + token.start[1]
+            words += [(after, text[after:start]), (start, token.string)]
+            after = start + len(token.string)
+    words.append((after, text[after:]))
+    return tuple((column, word) for column, word in words if word)

@@ -1,0 +1,218 @@
+"""The window's own file dialog, for systems without one: to open files, or to name one to save.
+
+Owns its look and keys; made so that it can be used without a mouse: type a name or a path, or
+choose with the arrows; Enter opens, Backspace goes up, Escape leaves. What is in the folders is
+app/widgets/folders.py's. The bundle's own dialog is not used: it ends the process where there is
+no icon theme.
+"""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Callable
+from dataclasses import dataclass
+from pathlib import Path
+
+from imgui_bundle import ImVec2, imgui
+
+from app.widgets import theme
+from app.widgets.checks import checkbox
+from app.widgets.folders import FolderReader, Listing, starting_points
+from renderer.errors import one_line
+
+Chosen = Callable[[list[str]], None]
+TITLE = "###file dialog"
+
+
+@dataclass(frozen=True)
+class Question:
+    """title: on top. saves: a name is asked for, which need not be there. endings: of the files
+    that are listed. name: to begin with. chosen: called with the paths."""
+
+    title: str
+    saves: bool
+    endings: tuple[str, ...]
+    name: str
+    chosen: Chosen
+
+
+class FileDialog:
+    """wake: called from a thread when a folder has been read."""
+
+    def __init__(self, wake: Callable[[], None]) -> None:
+        self._reader = FolderReader(wake)
+        self._question: Question | None = None
+        self._listing = Listing(Path.cwd())
+        self._places: list[tuple[str, Path]] = []
+        self._name = ""
+        self._marked: set[str] = set()
+        self._all_files = False
+        self._replace = ""  # a file that is there, of which we asked whether to replace it
+        self._appearing = False
+        self._typing = False  # whether the name is to have the keyboard
+
+    @property
+    def is_open(self) -> bool:
+        return self._question is not None
+
+    @property
+    def folder(self) -> Path:
+        return self._listing.folder
+
+    def ask(self, question: Question) -> None:
+        self._question, self._name, self._replace = question, question.name, ""
+        self._appearing, self._places = True, starting_points()
+        self._go(self._listing.folder)
+
+    def cancel(self) -> None:
+        self._question = None
+
+    def close(self) -> None:
+        self._reader.close()
+
+    def draw(self) -> None:
+        """Draws the dialog where it is open."""
+        question = self._question
+        if question is None:
+            return
+        listing = self._reader.poll()
+        if listing is not None:
+            self._listing, self._marked = listing, set()
+        viewport = imgui.get_main_viewport()
+        em = imgui.get_font_size()
+        size = ImVec2(
+            min(46 * em, 0.92 * viewport.work_size.x), min(30 * em, 0.86 * viewport.work_size.y)
+        )
+        imgui.set_next_window_pos(viewport.get_center(), imgui.Cond_.appearing, ImVec2(0.5, 0.5))
+        imgui.set_next_window_size(size, imgui.Cond_.appearing)
+        flags = imgui.WindowFlags_
+        if self._appearing:
+            imgui.set_next_window_focus()
+        _, still_open = imgui.begin(
+            f"{question.title}{TITLE}",
+            True,
+            flags.no_docking | flags.no_collapse | flags.no_saved_settings,
+        )
+        self._path_line()
+        footer = 2 * imgui.get_frame_height_with_spacing() + imgui.get_style().item_spacing.y
+        imgui.begin_child("##places", ImVec2(8 * em, -footer))
+        for name, folder in self._places:
+            if imgui.selectable(name, folder == self._listing.folder)[0]:
+                self._go(folder)
+        imgui.end_child()
+        imgui.same_line()
+        imgui.begin_child("##entries", ImVec2(0, -footer), imgui.ChildFlags_.borders)
+        self._entries(question)
+        imgui.end_child()
+        self._name_line(question)
+        imgui.end()
+        self._appearing = False
+        # A text that is being typed would keep Escape for itself.
+        if not still_open or (self.is_open and imgui.is_key_pressed(imgui.Key.escape, False)):
+            self.cancel()
+
+    def _path_line(self) -> None:
+        """The folders above, each a button."""
+        parts = [*reversed(self._listing.folder.parents), self._listing.folder]
+        for index, folder in enumerate(parts[-6:]):
+            if index:
+                imgui.same_line(0, 2)
+            if imgui.small_button(f"{one_line(folder.name or str(folder))}##up{index}"):
+                self._go(folder)
+
+    def _entries(self, question: Question) -> None:
+        listing = self._listing
+        if listing.error:
+            error = one_line(listing.error)
+            imgui.text_colored(theme.ERROR, f"this folder cannot be read: {error}")
+        at_home = imgui.is_window_focused() and not imgui.is_any_item_active()
+        if at_home and imgui.is_key_pressed(imgui.Key.backspace):
+            self._go(listing.folder.parent)
+        for name in listing.folders:
+            if imgui.selectable(f"{one_line(name)}/", False)[0]:
+                self._go(listing.folder / name)
+        double = imgui.SelectableFlags_.allow_double_click
+        for name in listing.files:
+            if not imgui.selectable(one_line(name), name in self._marked, double)[0]:
+                continue
+            if imgui.get_io().key_ctrl and not question.saves:
+                self._marked ^= {name}
+            else:
+                self._marked = {name}
+            self._name = one_line(name)
+            by_key = imgui.is_key_pressed(imgui.Key.enter)
+            if imgui.is_mouse_double_clicked(imgui.MouseButton_.left) or by_key:
+                self._finish(question)
+        if not (listing.folders or listing.files or listing.error):
+            imgui.text_colored(theme.DIM, "nothing here that could be opened")
+        if listing.cut:
+            imgui.text_colored(theme.DIM, "... and more: type the name")
+
+    def _name_line(self, question: Question) -> None:
+        if self._appearing or self._typing:
+            imgui.set_keyboard_focus_here()
+            self._typing = False
+        imgui.set_next_item_width(-1)
+        entered, self._name = imgui.input_text_with_hint(
+            "##name",
+            "a name or a path",
+            self._name,
+            imgui.InputTextFlags_.enter_returns_true | imgui.InputTextFlags_.auto_select_all,
+        )
+        if imgui.is_item_edited():
+            self._marked, self._replace = set(), ""
+        word = "Save" if question.saves else "Open"
+        if self._replace:
+            imgui.text_colored(
+                theme.ERROR, f"{one_line(Path(self._replace).name)} is there already."
+            )
+            imgui.same_line()
+            word = "Replace"
+        if imgui.button(f"{word}###answer", ImVec2(7 * imgui.get_font_size(), 0)) or entered:
+            self._finish(question)
+        imgui.same_line()
+        if imgui.button("Cancel", ImVec2(7 * imgui.get_font_size(), 0)):
+            self.cancel()
+        if not question.saves:
+            imgui.same_line()
+            changed, self._all_files = checkbox("all files", self._all_files)
+            if changed:
+                self._go(self._listing.folder)
+
+    def _go(self, folder: Path) -> None:
+        endings = self._question.endings if self._question is not None else ()
+        self._reader.ask(folder, () if self._all_files else endings)
+
+    def _meant(self) -> str:
+        """The file whose name stands there: some names are not shown as they are."""
+        typed = self._name.strip()
+        listed = (*self._marked, *self._listing.files)
+        return next((name for name in listed if one_line(name) == typed), typed)
+
+    def _finish(self, question: Question) -> None:
+        """What was typed or chosen: a folder is gone into, a file is the answer."""
+        names = sorted(self._marked) if len(self._marked) > 1 else [self._meant()]
+        if names == [""]:
+            return
+        paths = [self._listing.folder / os.path.expanduser(name) for name in names]
+        if _is_folder(paths[0]):
+            self._name, self._typing = question.name, True
+            self._go(paths[0])
+            return
+        path = paths[0]
+        if question.saves:
+            if question.endings and not str(path).lower().endswith(question.endings):
+                path = Path(f"{path}{question.endings[0]}")
+            paths = [path]
+            if path.exists() and self._replace != str(path):
+                self._replace = str(path)
+                return
+        self._question = None
+        question.chosen([str(path) for path in paths])
+
+
+def _is_folder(path: Path) -> bool:
+    try:
+        return path.is_dir()
+    except (OSError, ValueError):
+        return False

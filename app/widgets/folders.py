@@ -1,0 +1,101 @@
+"""What is in a folder: for the window's own file dialog.
+
+Owns the reading of folders, in a thread, within bounds. Knows nothing of widgets.
+"""
+
+from __future__ import annotations
+
+import os
+import string
+import sys
+from collections.abc import Callable
+from dataclasses import dataclass
+from pathlib import Path
+
+from app.widgets.background import Background
+
+MOST_ENTRIES = 5000
+
+
+@dataclass(frozen=True)
+class Listing:
+    """A folder's content: folders first, then files, by name. error: why it cannot be read."""
+
+    folder: Path
+    folders: tuple[str, ...] = ()
+    files: tuple[str, ...] = ()
+    error: str = ""
+    cut: bool = False  # there was more than MOST_ENTRIES
+
+
+def read_folder(folder: Path, endings: tuple[str, ...] = ()) -> Listing:
+    """Reads a folder, without what is hidden. endings: of the files to list; none: all."""
+    folders, files, cut = [], [], False
+    try:
+        with os.scandir(folder) as entries:
+            for count, entry in enumerate(entries):
+                if count >= MOST_ENTRIES:
+                    cut = True
+                    break
+                if entry.name.startswith("."):
+                    continue
+                if _is_folder(entry):
+                    folders.append(entry.name)
+                elif not endings or entry.name.lower().endswith(endings):
+                    files.append(entry.name)
+    except (OSError, ValueError) as error:
+        reason = error.strerror if isinstance(error, OSError) and error.strerror else str(error)
+        return Listing(folder, error=reason[:1].lower() + reason[1:])
+    folders.sort(key=str.lower)
+    files.sort(key=str.lower)
+    return Listing(folder, tuple(folders), tuple(files), cut=cut)
+
+
+def starting_points() -> list[tuple[str, Path]]:
+    """Names and folders to begin from: home, its usual folders, and the disks."""
+    points = []
+    try:
+        home = Path.home()
+        points = [("Home", home)]
+        points += [
+            (name, home / name)
+            for name in ("Desktop", "Documents", "Downloads", "Pictures")
+            if (home / name).is_dir()
+        ]
+    except (OSError, RuntimeError):
+        pass
+    points.append(("Here", Path.cwd()))
+    if sys.platform == "win32":
+        disks = [Path(f"{letter}:\\") for letter in string.ascii_uppercase]
+        points += [(str(disk), disk) for disk in disks if disk.exists()]
+    else:
+        points.append(("Computer", Path("/")))
+    return points
+
+
+class FolderReader:
+    """Reads the newest folder that was asked for in a thread. wake: called from it."""
+
+    def __init__(self, wake: Callable[[], None]) -> None:
+        self._wake = wake
+        self._work: Background[Listing] | None = None  # the thread is there once it is needed
+
+    def ask(self, folder: Path, endings: tuple[str, ...]) -> None:
+        if self._work is None:
+            self._work = Background("lucida-folder", self._wake)
+        self._work.submit(lambda: read_folder(folder, endings))
+
+    def poll(self) -> Listing | None:
+        outcome = self._work.poll() if self._work is not None else None
+        return outcome.value if outcome is not None else None
+
+    def close(self) -> None:
+        if self._work is not None:
+            self._work.close(0.2)
+
+
+def _is_folder(entry: os.DirEntry[str]) -> bool:
+    try:
+        return entry.is_dir()
+    except OSError:
+        return False

@@ -1,0 +1,46 @@
+"""What a lecture points out: a frame round a control, or round a view.
+
+Owns the frame's looks. What is pointed out is in the state (options.highlight).
+"""
+
+from __future__ import annotations
+
+import contextlib
+from collections.abc import Iterator, Mapping
+
+from imgui_bundle import ImVec2, imgui
+
+from app.state.app_state import AppState
+from app.widgets import theme
+
+Rect = tuple[float, float, float, float]  # left, top, right, bottom
+
+
+@contextlib.contextmanager
+def pointed(name: str, state: AppState) -> Iterator[None]:
+    """What is drawn inside, over the whole width, gets the frame where it is pointed out."""
+    start, width = imgui.get_cursor_screen_pos(), imgui.get_content_region_avail().x
+    yield
+    if name in state.options.highlight:
+        style = imgui.get_style()
+        beside, above = 0.7 * style.window_padding.x, 0.5 * style.item_spacing.y
+        low = ImVec2(start.x - beside, start.y - above)
+        end = imgui.get_cursor_screen_pos().y - style.item_spacing.y
+        draw = imgui.get_window_draw_list()
+        draw.push_clip_rect_full_screen()  # the window's own leaves no room beside the letters
+        frame(draw, low, ImVec2(start.x + width + beside, end + above))
+        draw.pop_clip_rect()
+
+
+def frame_views(state: AppState, rects: Mapping[str, Rect]) -> None:
+    """Frames the views that are pointed out. rects: where each one's content stands."""
+    for name, (left, top, right, bottom) in rects.items():
+        if name.lower() in state.options.highlight:
+            draw = imgui.get_foreground_draw_list()
+            frame(draw, ImVec2(left + 1, top + 1), ImVec2(right - 1, bottom - 1))
+
+
+def frame(draw: imgui.ImDrawList, low: ImVec2, high: ImVec2) -> None:
+    """The frame: the marked pixel's yellow, with a dark edge, so that it shows on everything."""
+    draw.add_rect(low, high, theme.u32(theme.rgb("#000000", 0.6)), theme.px(4), theme.line_px(2))
+    draw.add_rect(low, high, theme.u32(theme.MARK), theme.px(4), theme.line_px(1.2))

@@ -1,0 +1,60 @@
+"""Formulas within lines of text: set by MicroTeX, plain text where that does not work.
+
+Owns their extent on the line. Knows nothing of what they say. Colours and availability are
+formula.py's, plain text is explaining/plain.py's.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from imgui_bundle import ImVec2, ImVec4, imgui, imgui_microtex
+
+from app.explaining.plain import plain_math
+from app.widgets import formula, theme
+from app.widgets.theme import framebuffer_scale
+
+
+@dataclass(frozen=True, eq=False)
+class Setting:
+    """A formula, set. width, ascent, descent: in ImGui's pixels. text: in place of a picture."""
+
+    width: float
+    ascent: float
+    descent: float
+    picture: imgui_microtex.FormulaTexture | None = None
+    text: str = ""
+
+    def draw(self, x: float, baseline: float, color: ImVec4) -> None:
+        """color: of plain text; a picture has its own."""
+        draw = imgui.get_window_draw_list()
+        if self.picture is None:
+            draw.add_text(ImVec2(x, baseline - self.ascent), theme.u32(color), self.text)
+            return
+        scale = framebuffer_scale()
+        corner = ImVec2(round(x * scale) / scale, round((baseline - self.ascent) * scale) / scale)
+        far = ImVec2(corner.x + self.width, corner.y + self.ascent + self.descent)
+        draw.add_image(imgui.ImTextureRef(self.picture.texture_id()), corner, far)
+
+
+def inline_math(
+    latex: str, size_px: float, color: ImVec4, display: bool = False, most_px: float = 1e9
+) -> Setting:
+    """The formula in text of size_px; display: as between $$. Wider than most_px, it is made
+    smaller. Where MicroTeX refuses it, plain text in the present font. Call it every frame."""
+    scale = framebuffer_scale()
+    if formula.available():
+        style = imgui_microtex.TexStyle.display if display else imgui_microtex.TexStyle.text
+        try:
+            made = imgui_microtex.render_to_texture(
+                formula.tinted(latex), size_px * scale, color, style
+            )
+        except RuntimeError:
+            made = None
+        if made is not None and made.width > 0:
+            shrunk = min(1.0, most_px * scale / made.width) / scale
+            ascent = made.baseline_y * shrunk
+            return Setting(made.width * shrunk, ascent, made.height * shrunk - ascent, made)
+    text = plain_math(latex)
+    extent = imgui.calc_text_size(text)
+    return Setting(extent.x, 0.8 * extent.y, 0.2 * extent.y, None, text)

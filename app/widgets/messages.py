@@ -1,0 +1,68 @@
+"""Messages: over the window, one thing that went wrong, until it is answered; or in a view.
+
+Owns their place and look.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from imgui_bundle import ImVec2, imgui
+
+from app.widgets import theme
+from renderer.errors import describe
+
+WIDTH_EM = 40.0
+
+
+@dataclass(frozen=True)
+class Message:
+    """answers: the words on the buttons."""
+
+    text: str
+    answers: tuple[str, ...] = ("Close",)
+
+
+def message_box(message: Message) -> str:
+    """Draws the message; gives the answer that was chosen, or ""."""
+    viewport = imgui.get_main_viewport()
+    em = imgui.get_font_size()
+    width = min(WIDTH_EM * em, viewport.work_size.x * 0.8)
+    top = ImVec2(viewport.get_center().x, viewport.work_pos.y + 3 * em)
+    imgui.set_next_window_pos(top, imgui.Cond_.always, ImVec2(0.5, 0.0))
+    imgui.set_next_window_size(ImVec2(width, 0))
+    flags = imgui.WindowFlags_
+    imgui.push_style_color(imgui.Col_.window_bg, theme.POPUP)
+    imgui.push_style_color(imgui.Col_.border, theme.ERROR)
+    imgui.begin(
+        "##message",
+        None,
+        flags.no_decoration | flags.no_docking | flags.no_saved_settings | flags.no_move,
+    )
+    imgui.pop_style_color(2)
+    imgui.push_text_wrap_pos(0.0)
+    imgui.text(message.text)
+    imgui.pop_text_wrap_pos()
+    chosen = ""
+    for index, answer in enumerate(message.answers):
+        if index:
+            imgui.same_line()
+        if imgui.button(answer):
+            chosen = answer
+    imgui.end()
+    return chosen
+
+
+def failure_note(title: str, error: Exception) -> bool:
+    """What stands in a view that could not be drawn; gives whether to try again."""
+    place, room = imgui.get_cursor_pos(), imgui.get_content_region_avail()
+    margin = 0.5 * imgui.get_font_size()  # images have none
+    imgui.set_cursor_pos(ImVec2(place.x + margin, place.y + margin))
+    imgui.begin_group()
+    imgui.push_text_wrap_pos(place.x + room.x - margin)
+    imgui.text_colored(theme.ERROR, f"{' '.join(title.split())} could not be drawn.")
+    imgui.text(describe(error))
+    imgui.pop_text_wrap_pos()
+    again = bool(imgui.button("Try again"))
+    imgui.end_group()
+    return again

@@ -1,0 +1,122 @@
+"""How a panel of numbers is laid out: labels, columns, lines; all in parts of the type's size.
+
+Owns the places. Knows nothing of what the numbers mean.
+"""
+
+from __future__ import annotations
+
+from imgui_bundle import ImVec4, imgui
+
+from app.widgets import theme
+
+LABEL_EM, WIDE_LABEL_EM = 4.4, 5.6  # beside three fields, beside one
+HALF_LABEL_EM = 4.0  # in a line of two fields
+NARROW_EM, NARROW_LABEL_EM = 16.5, 2.1  # a panel narrower than that has shorter labels
+
+
+def is_narrow() -> bool:
+    """Whether the line that begins here is too short for full labels: very large type."""
+    return imgui.get_content_region_avail().x < NARROW_EM * imgui.get_font_size()
+
+
+class Thirds:
+    """Lines of a label and three fields. Make one at the beginning of the first of them.
+
+    field_px: the width of one field. narrow: labels must be short.
+    """
+
+    def __init__(self) -> None:
+        self.narrow = is_narrow()
+        label = (NARROW_LABEL_EM if self.narrow else LABEL_EM) * imgui.get_font_size()
+        self._spacing = imgui.get_style().item_inner_spacing.x
+        self._left = imgui.get_style().window_padding.x + label
+        self.field_px = (imgui.get_content_region_avail().x - label - 2 * self._spacing) / 3
+
+    def go(self, column: int) -> None:
+        """Goes to one of the fields, 0 to 2, in the line of the label."""
+        imgui.same_line(self._left + column * (self.field_px + self._spacing))
+
+
+def label(text: str, role: str, color: ImVec4, fonts: theme.Fonts, tooltip: str) -> None:
+    """A name in bold, and in plain type what it stands for, where there is room."""
+    narrow = is_narrow()
+    imgui.begin_group()
+    imgui.align_text_to_frame_padding()
+    imgui.push_font(fonts.bold, 0.0)
+    imgui.text_colored(color, text)
+    imgui.pop_font()
+    if role and not narrow:
+        imgui.same_line(0, 0.4 * imgui.get_font_size())
+        imgui.align_text_to_frame_padding()
+        imgui.text_colored(theme.DIM, role)
+    imgui.end_group()
+    imgui.set_item_tooltip(tooltip)
+
+
+def row(text: str, role: str, tooltip: str, fonts: theme.Fonts, derived: bool = False) -> float:
+    """The label of a line with one field; gives the field's width. derived: not one of the
+    camera's own numbers."""
+    if derived:
+        imgui.align_text_to_frame_padding()
+        imgui.text_colored(theme.DIM, text)
+        imgui.set_item_tooltip(tooltip)
+    else:
+        label(text, role, theme.TEXT, fonts, tooltip)
+    imgui.same_line(imgui.get_style().window_padding.x + WIDE_LABEL_EM * imgui.get_font_size())
+    return imgui.get_content_region_avail().x
+
+
+def instead(text: str) -> None:
+    """In the place of a field: why there is none; in several lines where it must."""
+    imgui.align_text_to_frame_padding()
+    imgui.push_text_wrap_pos(0.0)
+    imgui.text_colored(theme.DIM, text)
+    imgui.pop_text_wrap_pos()
+
+
+class Halves:
+    """Lines of two fields, or of one in a narrow panel. Make one at the beginning of the first."""
+
+    def __init__(self) -> None:
+        self._one = is_narrow()
+        self._left = imgui.get_style().window_padding.x
+        self._half = imgui.get_content_region_avail().x / 2
+
+    def begin(self, column: int) -> None:
+        """Goes to where the label stands, in the first (0) or second (1) half of a line."""
+        if column and not self._one:
+            imgui.same_line(self._left + self._half)
+
+    def field(self, column: int) -> float:
+        """Goes from the label to the field; gives the field's width."""
+        if self._one:
+            imgui.same_line(self._left + WIDE_LABEL_EM * imgui.get_font_size())
+            return imgui.get_content_region_avail().x
+        label = HALF_LABEL_EM * imgui.get_font_size()
+        imgui.same_line(self._left + column * self._half + label)
+        spacing = imgui.get_style().item_inner_spacing.x
+        return self._half - label - (0.0 if column else spacing)
+
+    def label(self, column: int, text: str, tooltip: str) -> float:
+        """A label in plain type and the way to its field; gives the field's width."""
+        self.begin(column)
+        imgui.align_text_to_frame_padding()
+        imgui.text(text)
+        imgui.set_item_tooltip(tooltip)
+        return self.field(column)
+
+
+def line() -> None:
+    """A separator."""
+    imgui.dummy((0, 0))
+    imgui.separator()
+    imgui.dummy((0, 0))
+
+
+def follow(width: float) -> None:
+    """The next item, so wide, in this row, where it has room; else in the next one."""
+    spacing = imgui.get_style().item_spacing.x
+    end = imgui.get_item_rect_max().x + spacing + width
+    edge = imgui.get_cursor_screen_pos().x + imgui.get_content_region_avail().x
+    if end <= edge:
+        imgui.same_line()

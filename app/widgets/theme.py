@@ -1,0 +1,367 @@
+"""How the window looks: colours, fonts, spacing, type size.
+
+Owns the colour language, the same in every place: u, v, w after Okabe and Ito, rays in orange,
+hits and the marked pixel in yellow; and its palettes, dark and light, each also for presenting.
+Colours are read as theme.RAY, theme.TEXT, ...: those of the palette in use, so read them when you
+draw, never at import. Knows nothing of what is shown.
+"""
+
+from __future__ import annotations
+
+import functools
+import math
+from dataclasses import dataclass, fields, replace
+from typing import Any
+
+from imgui_bundle import ImVec2, ImVec4, hello_imgui, imgui
+
+from app.state.options import Preferences
+
+TEXT_PX = 16.0
+PRESENTED = 0.024  # the least size of text in presentation mode, in parts of the window's height
+SURROUND = 0.034  # and its largest: what is read grows on, not the menus and tabs round it
+LARGEST = 0.0445  # and otherwise: 200 % of a window 720 high, 300 % of one 1080 high
+LEGIBLE = 4.5  # the least contrast of text with what is behind it (WCAG 2.1, 1.4.3)
+SEEN = 3.0  # and of what is drawn (1.4.11)
+
+
+Rgb = tuple[float, float, float]  # sRGB, 0..1
+
+
+def rgb(text: str, alpha: float = 1.0) -> ImVec4:
+    """`#d55e00` as a colour."""
+    red, green, blue = (int(text[k : k + 2], 16) / 255 for k in (1, 3, 5))
+    return ImVec4(red, green, blue, alpha)
+
+
+@dataclass(frozen=True, eq=False)
+class Palette:
+    """The colours of a look. LINE_WIDTH: what lines that teach are multiplied with."""
+
+    BASIS: dict[str, ImVec4]
+    RAY: ImVec4
+    MARK: ImVec4
+    PLAIN: ImVec4
+    TEXT: ImVec4
+    DIM: ImVec4
+    ERROR: ImVec4
+    GOOD: ImVec4
+    BACKGROUND: ImVec4
+    PANEL: ImVec4
+    POPUP: ImVec4
+    FRAME: ImVec4
+    FRAME_HOVERED: ImVec4
+    FRAME_ACTIVE: ImVec4
+    LINE: ImVec4
+    ACCENT: ImVec4
+    LINE_WIDTH: float = 1.0
+
+
+# Of a colour's channels, red, green and blue; legible() makes text of them.
+CHANNELS = (rgb("#e5484d"), rgb("#46a758"), rgb("#4f8ff7"))
+
+# Okabe and Ito's colours; blue is lightened, or it drowns in the dark background.
+DARK = Palette(
+    BASIS={"u": rgb("#d55e00"), "v": rgb("#009e73"), "w": rgb("#3f9be0")},
+    RAY=rgb("#e69f00"),
+    MARK=rgb("#f0e442"),
+    PLAIN=rgb("#9aa3ad"),
+    TEXT=rgb("#e8eaed"),
+    DIM=rgb("#a3abb5"),
+    ERROR=rgb("#ff8a65"),
+    GOOD=rgb("#35c497"),
+    BACKGROUND=rgb("#16181b"),
+    PANEL=rgb("#1e2125"),
+    POPUP=rgb("#24282d"),
+    FRAME=rgb("#2b3036"),
+    FRAME_HOVERED=rgb("#373d45"),
+    FRAME_ACTIVE=rgb("#434b55"),
+    LINE=rgb("#3a4048"),
+    ACCENT=rgb("#4d6a86"),
+)
+LIGHT = Palette(
+    BASIS={"u": rgb("#d55e00"), "v": rgb("#008a64"), "w": rgb("#0072b2")},
+    RAY=rgb("#e69f00"),
+    MARK=rgb("#f0e442"),
+    PLAIN=rgb("#717a84"),
+    TEXT=rgb("#16191c"),
+    DIM=rgb("#545c65"),
+    ERROR=rgb("#b3261e"),
+    GOOD=rgb("#00704f"),
+    BACKGROUND=rgb("#d9dde1"),
+    PANEL=rgb("#f6f7f8"),
+    POPUP=rgb("#ffffff"),
+    FRAME=rgb("#e2e6ea"),
+    FRAME_HOVERED=rgb("#d2d8de"),
+    FRAME_ACTIVE=rgb("#bfc8d1"),
+    LINE=rgb("#b9c0c8"),
+    ACCENT=rgb("#3d78ad"),
+)
+# A projector takes contrast away: the ends of the scale, and brighter colours.
+PRESENTED_DARK = replace(
+    DARK,
+    BASIS={"u": rgb("#ff7a1a"), "v": rgb("#1fc795"), "w": rgb("#56b4e9")},
+    RAY=rgb("#ffb000"),
+    TEXT=rgb("#ffffff"),
+    DIM=rgb("#d0d5db"),
+    BACKGROUND=rgb("#000000"),
+    PANEL=rgb("#0e1012"),
+    LINE=rgb("#68717c"),
+    LINE_WIDTH=2.0,
+)
+PRESENTED_LIGHT = replace(
+    LIGHT,
+    BASIS={"u": rgb("#c24e00"), "v": rgb("#00704f"), "w": rgb("#005c94")},
+    TEXT=rgb("#000000"),
+    DIM=rgb("#33393f"),
+    BACKGROUND=rgb("#e8ebee"),
+    PANEL=rgb("#ffffff"),
+    LINE=rgb("#8b949e"),
+    LINE_WIDTH=2.0,
+)
+
+
+@dataclass(frozen=True)
+class Look:
+    """What the style is made of. scale: of type and spacing, beside the display's own (DPI)."""
+
+    theme: str = "dark"
+    presentation: bool = False
+    scale: float = 1.0
+
+    @property
+    def palette(self) -> Palette:
+        if self.theme == "light":
+            return PRESENTED_LIGHT if self.presentation else LIGHT
+        return PRESENTED_DARK if self.presentation else DARK
+
+
+_NAMES = {field.name for field in fields(Palette)}
+_used: list[Look] = [Look()]  # one entry: the look in use, of the one window of a process
+
+
+def __getattr__(name: str) -> Any:
+    """The colours of the palette in use, as attributes of the module."""
+    if name in _NAMES:
+        return getattr(_used[0].palette, name)
+    raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+
+
+def look_of(preferences: Preferences, height_px: float, dpi_scale: float = 1.0) -> Look:
+    """The look that the preferences ask for in a window of this height, in ImGui's pixels."""
+    scale = preferences.font_scale
+    least, most, largest = (
+        part * height_px / (TEXT_PX * dpi_scale) for part in (PRESENTED, SURROUND, LARGEST)
+    )
+    if preferences.presentation:
+        scale = round(max(least, min(scale, most)), 2)
+    elif scale > 1.0:
+        scale = round(max(1.0, min(scale, largest)), 2)
+    return Look(preferences.theme, preferences.presentation, scale)
+
+
+def used() -> Look:
+    """The look in use, what colours are read from now: in a key of what is kept from frame to
+    frame. Not the preferences: they change first, the look follows when a frame is drawn."""
+    return _used[0]
+
+
+def follow(preferences: Preferences) -> None:
+    """Takes up a change of the preferences, or of the window's height; call before a frame."""
+    style = imgui.get_style()
+    height_px = imgui.get_io().display_size.y
+    look = look_of(preferences, height_px, style.font_scale_dpi)
+    scale = style.font_scale_dpi * look.scale
+    # HelloImGui scales the sizes to the display in its second frame, whatever was done before.
+    if height_px <= 0 or (
+        look == _used[0] and math.isclose(style._main_scale, scale, abs_tol=1e-3)
+    ):
+        return
+    _used[0] = look
+    kept = style.font_scale_dpi, style.font_size_base
+    _set_style()
+    style.font_scale_dpi, style.font_size_base = kept
+    style.scale_all_sizes(scale)
+    style.font_scale_main = look.scale
+
+
+def begin(preferences: Preferences) -> None:
+    """The first style; HelloImGui scales it to the display's DPI, follow() to the preferences."""
+    _used[0] = Look(preferences.theme)
+    _set_style()
+
+
+@dataclass
+class Fonts:
+    """The window's fonts, once loaded: text, bold for headings, fixed width for numbers."""
+
+    text: imgui.ImFont | None = None
+    bold: imgui.ImFont | None = None
+    mono: imgui.ImFont | None = None
+
+    def load(self) -> None:
+        """Called by HelloImGui when it loads fonts."""
+        self.text = hello_imgui.load_font("fonts/Roboto/Roboto-Regular.ttf", TEXT_PX)
+        self.bold = hello_imgui.load_font("fonts/Roboto/Roboto-Bold.ttf", TEXT_PX)
+        raised = hello_imgui.FontLoadingParams()
+        raised.font_config.glyph_offset = ImVec2(0, -1)  # its digits sit low beside Roboto's
+        self.mono = hello_imgui.load_font("fonts/Inconsolata-Medium.ttf", TEXT_PX, raised)
+
+
+def _reset_sizes(style: imgui.Style) -> None:
+    """ImGui's own sizes, at 100 %. A theme leaves some as they are; scaled again at each change,
+    they would grow without end: the smallest window soon larger than the screen, the lines of a
+    tab's x as thick as the window is wide."""
+    fresh = imgui.Style()
+    for name in _scaled_sizes():
+        setattr(style, name, getattr(fresh, name))
+
+
+@functools.cache
+def _scaled_sizes() -> tuple[str, ...]:
+    """The names of what scale_all_sizes() scales, found by trying: also _main_scale, the product
+    of all scales so far, which the lines of a tab's x are as thick as."""
+    style, before = imgui.Style(), {}
+    for name in dir(style):
+        value = None if name.startswith("__") else getattr(style, name)
+        if isinstance(value, ImVec2):
+            setattr(style, name, ImVec2(8, 8))
+        elif isinstance(value, float):
+            setattr(style, name, 8.0)
+        else:
+            continue
+        before[name] = str(getattr(style, name))
+    style.scale_all_sizes(2.0)
+    return tuple(name for name, old in before.items() if str(getattr(style, name)) != old)
+
+
+def _set_style() -> None:
+    """ImGui's style for the palette in use: flat, aligned; at 100 %."""
+    look = _used[0]
+    colors = look.palette
+    _reset_sizes(imgui.get_style())
+    base = hello_imgui.ImGuiTheme_
+    hello_imgui.apply_theme(
+        base.imgui_colors_light if look.theme == "light" else base.darcula_darker
+    )
+    style = imgui.get_style()
+    style.window_padding = ImVec2(10, 8)
+    style.frame_padding = ImVec2(6, 4)
+    style.item_spacing = ImVec2(6, 5)
+    style.item_inner_spacing = ImVec2(6, 4)
+    style.cell_padding = ImVec2(4, 2)
+    style.window_menu_button_position = imgui.Dir.none
+    style.frame_rounding = 3
+    style.window_rounding = 4
+    style.popup_rounding = 4
+    style.tab_rounding = 3
+    style.grab_rounding = 2
+    style.window_border_size = 1
+    style.popup_border_size = 1
+    style.frame_border_size = 0
+    style.tab_bar_border_size = 1
+    style.docking_separator_size = 2
+    style.hover_stationary_delay = 0.3
+    col = imgui.Col_
+    for slot, color in {
+        col.text: colors.TEXT,
+        col.text_disabled: colors.DIM,
+        col.window_bg: colors.PANEL,
+        col.child_bg: colors.PANEL,
+        col.popup_bg: colors.POPUP,
+        col.menu_bar_bg: colors.BACKGROUND,
+        col.docking_empty_bg: colors.BACKGROUND,
+        col.border: colors.LINE,
+        col.separator: colors.LINE,
+        col.frame_bg: colors.FRAME,
+        col.frame_bg_hovered: colors.FRAME_HOVERED,
+        col.frame_bg_active: colors.FRAME_ACTIVE,
+        col.title_bg: colors.BACKGROUND,
+        col.title_bg_active: colors.BACKGROUND,
+        col.title_bg_collapsed: colors.BACKGROUND,
+        col.tab: colors.BACKGROUND,
+        col.tab_hovered: colors.FRAME_HOVERED,
+        col.tab_selected: colors.PANEL,
+        col.tab_dimmed: colors.BACKGROUND,
+        col.tab_dimmed_selected: colors.PANEL,
+        col.tab_selected_overline: colors.ACCENT,
+        col.tab_dimmed_selected_overline: colors.LINE,
+        col.button: colors.FRAME,
+        col.button_hovered: colors.FRAME_HOVERED,
+        col.button_active: colors.FRAME_ACTIVE,
+        col.header: colors.FRAME,
+        col.header_hovered: colors.FRAME_HOVERED,
+        col.header_active: colors.FRAME_ACTIVE,
+        col.check_mark: colors.TEXT,
+        col.slider_grab: colors.ACCENT,
+        col.table_header_bg: colors.FRAME,
+        col.table_border_light: colors.LINE,
+        col.table_border_strong: colors.LINE,
+        col.scrollbar_bg: colors.PANEL,
+        col.scrollbar_grab: colors.FRAME_ACTIVE,
+        col.scrollbar_grab_hovered: colors.PLAIN,
+        col.scrollbar_grab_active: colors.PLAIN,
+        col.nav_cursor: colors.RAY,
+        col.text_selected_bg: ImVec4(colors.ACCENT.x, colors.ACCENT.y, colors.ACCENT.z, 0.5),
+    }.items():
+        style.set_color_(slot, color)
+
+
+def u32(color: ImVec4, alpha: float = 1.0) -> int:
+    """A colour as draw lists take it."""
+    return imgui.get_color_u32(ImVec4(color.x, color.y, color.z, color.w * alpha))
+
+
+def px(at_100_percent: float) -> float:
+    """A length in ImGui's pixels that grows with the type: 16 is the height of a line's text."""
+    return at_100_percent * imgui.get_font_size() / TEXT_PX
+
+
+def line_px(at_100_percent: float = 1.0) -> float:
+    """The width of a line that teaches: scaled, and thicker in presentation mode."""
+    style = imgui.get_style()
+    width: float = at_100_percent * _used[0].palette.LINE_WIDTH
+    return width * style.font_scale_main * style.font_scale_dpi
+
+
+def legible(color: ImVec4) -> ImVec4:
+    """The colour as text on a panel: yellow and orange are darkened where panels are light."""
+    behind = _used[0].palette.PANEL
+    return ImVec4(*_legible((color.x, color.y, color.z), (behind.x, behind.y, behind.z)), color.w)
+
+
+def seen_on(color: ImVec4, ground: Rgb) -> ImVec4:
+    """The colour as it is drawn on a ground that is not the theme's: lighter or darker, where it
+    would not stand out."""
+    return ImVec4(*_legible((color.x, color.y, color.z), ground, SEEN), color.w)
+
+
+@functools.lru_cache(maxsize=256)
+def _legible(color: Rgb, behind: Rgb, least: float = LEGIBLE) -> Rgb:
+    end = 0.0 if _luminance(behind) > 0.18 else 1.0
+    for step in range(21):
+        part = step / 20
+        mixed = (
+            color[0] + part * (end - color[0]),
+            color[1] + part * (end - color[1]),
+            color[2] + part * (end - color[2]),
+        )
+        if contrast(mixed, behind) >= least:
+            return mixed
+    return (end, end, end)
+
+
+def contrast(one: Rgb, other: Rgb) -> float:
+    """The contrast ratio of two sRGB colours, 1 to 21 (WCAG 2.1)."""
+    dark, bright = sorted((_luminance(one), _luminance(other)))
+    return (bright + 0.05) / (dark + 0.05)
+
+
+def _luminance(color: Rgb) -> float:
+    linear = (c / 12.92 if c <= 0.04045 else ((c + 0.055) / 1.055) ** 2.4 for c in color)
+    return sum(w * c for w, c in zip((0.2126, 0.7152, 0.0722), linear, strict=True))
+
+
+def framebuffer_scale() -> float:
+    """Framebuffer pixels in one unit of ImGui's coordinates."""
+    return imgui.get_io().display_framebuffer_scale.x or 1.0

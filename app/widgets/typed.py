@@ -1,0 +1,96 @@
+"""A number field while it is typed into: fractions, roots and sums, and what is wrong with others.
+
+Owns the text that stands in the field. ImGui begins the typing (double click, Ctrl+click, Enter,
+Tab) with a text that takes only digits; from the next frame on, this one stands in its place.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+from imgui_bundle import imgui
+
+from app.explaining.arithmetic import number
+from app.widgets import theme
+from renderer.errors import LucidaError
+
+
+@dataclass
+class _Typing:
+    """before: the value to which Esc goes back. text: what stands there. wrong: what is wrong with
+    it. is_new: not drawn yet, and the widget's own text is to give way."""
+
+    before: float
+    text: str
+    wrong: str = ""
+    is_new: bool = True
+
+
+# By the fields' ids. There is one keyboard, but where Tab leads from one field to the next, both
+# are open for a frame.
+_open: dict[int, _Typing] = {}
+
+
+def is_open(label: str) -> bool:
+    """Whether the field of that label is being typed into, or was in the frame before."""
+    return bool(_open) and imgui.get_id(f"##{label}") in _open
+
+
+def take_over(label: str, value: float, changed: bool) -> bool:
+    """Call after the number's own widget: whether it has begun to take text; field() goes on.
+
+    changed: letters came already, and stay; what the widget read in them does not count.
+    """
+    item = imgui.get_id(f"##{label}")
+    has_begun = bool(imgui.internal.temp_input_is_active(item))
+    if has_begun:
+        _open[item] = _Typing(value, _digits(value), is_new=not changed)
+    return has_begun
+
+
+def field(label: str, value: float) -> tuple[bool, float]:
+    """The field as text, all of the value's digits: (whether it changed, its value).
+
+    The value follows while what is typed is a number; what is none leaves it, and is told.
+    """
+    item = imgui.get_id(f"##{label}")
+    typing = _open[item]
+    if typing.is_new:
+        # The text is the widget's, rounded, and was there for a frame under the same id.
+        state = imgui.internal.get_input_text_state(item)
+        if state is not None:
+            state.reload_user_buf_and_select_all()
+        typing.is_new = False
+    if typing.wrong:
+        imgui.push_style_color(imgui.Col_.text, theme.legible(theme.ERROR))
+    edited, text = imgui.input_text(f"##{label}", typing.text)
+    if typing.wrong:
+        imgui.pop_style_color()
+    is_active = imgui.is_item_active()
+    if not is_active:
+        del _open[item]
+        if imgui.is_key_pressed(imgui.Key.escape, False):
+            return typing.before != value, typing.before
+    if edited:
+        typing.text = text
+        try:
+            new = number(text)
+            typing.wrong = ""
+        except LucidaError as error:
+            new, typing.wrong = value, str(error)
+        if new != value:
+            return True, new
+    if is_active and typing.wrong:
+        low = imgui.get_item_rect_min()
+        imgui.set_next_window_pos((low.x, imgui.get_item_rect_max().y))
+        imgui.set_tooltip(typing.wrong)
+    return False, value
+
+
+def _digits(value: float) -> str:
+    """All digits that a number has, without those that only its neighbour in float32 has."""
+    if not math.isfinite(value):
+        return ""
+    short = f"{value:.7g}"
+    return short if math.isclose(float(short), value, rel_tol=1e-15) else repr(value)

@@ -1,0 +1,228 @@
+"""The actions of what stands around the views: files, looks, layouts, bookmarks, pictures, help.
+
+Owns their names and keys. What they do is shell.py's, files.py's and bookmarks.py's.
+"""
+
+from __future__ import annotations
+
+from typing import Literal
+
+from app.host import layout
+from app.host.action import CTRL, SHIFT, Action, Key, changing
+from app.state.app_state import AppState
+from app.state.bounds import range_of
+from app.state.options import Preferences
+from app.window import bookmarks
+
+SMALLEST_SCALE, LARGEST_SCALE = range_of(Preferences, "font_scale")
+FONT_SCALES = (SMALLEST_SCALE, 0.9, 1.0, 1.25, 1.5, 1.75, 2.0, 2.5, LARGEST_SCALE)
+
+
+def _theme(name: Literal["dark", "light"]) -> Action:
+    return Action(
+        "View/Look",
+        f"{name.capitalize()} theme",
+        changing(lambda state: state.with_options(preferences={"theme": name})),
+        is_on=lambda state: state.preferences.theme == name,
+    )
+
+
+def _presentation(state: AppState) -> AppState:
+    on = not state.preferences.presentation
+    return state.with_options(preferences={"presentation": on})
+
+
+def scaled(state: AppState, step: int) -> AppState:
+    """The type one step larger or smaller; step 0: at 100 %."""
+    scale = state.preferences.font_scale
+    if step > 0:
+        scale = min((s for s in FONT_SCALES if s > scale + 1e-6), default=LARGEST_SCALE)
+    elif step < 0:
+        scale = max((s for s in FONT_SCALES if s < scale - 1e-6), default=SMALLEST_SCALE)
+    else:
+        scale = 1.0
+    return state.with_options(preferences={"font_scale": scale})
+
+
+def _layout(number: int, name: str) -> Action:
+    return Action(
+        "View/Layout",
+        name,
+        lambda window: layout.switch(name),
+        f"Ctrl+F{number + 1}",
+        (CTRL | (int(Key.f1) + number),),
+    )
+
+
+def _recall(number: int) -> Action:
+    return Action(
+        "Camera/Bookmarks",
+        f"Go to bookmark {number}",
+        lambda window: bookmarks.recall(window, number),
+        str(number),
+        (int(Key._0) + number,),
+    )
+
+
+def _store(number: int) -> Action:
+    return Action(
+        "Camera/Bookmarks",
+        f"Keep this view as bookmark {number}",
+        lambda window: bookmarks.store(window, number),
+        f"Ctrl+{number}",
+        (CTRL | (int(Key._0) + number),),
+        separated=number == 1,
+    )
+
+
+FILE = (
+    Action("File", "Open...", lambda w: w.files.open_dialog(), "Ctrl+O", (CTRL | int(Key.o),)),
+    Action(
+        "File",
+        "Save view...",
+        lambda w: w.files.save_view_dialog(w.state.view),
+        "Ctrl+S",
+        (CTRL | int(Key.s),),
+        separated=True,
+    ),
+    Action(
+        "File",
+        "Save scene...",
+        lambda w: w.files.save_scene_dialog(w.state.scene, w.state.view),
+        "Ctrl+Shift+S",
+        (CTRL | SHIFT | int(Key.s),),
+    ),
+    Action(
+        "File/Picture",
+        "Save a picture of the window",
+        lambda w: w.shell.picture(),
+        "F12",
+        (int(Key.f12),),
+    ),
+    Action(
+        "File/Picture",
+        "Save a picture of the view in use",
+        lambda w: w.shell.picture(view=True),
+        "Shift+F12",
+        (SHIFT | int(Key.f12),),
+    ),
+    Action("File/Picture", "Save a picture of the window as...", lambda w: w.shell.picture_as()),
+    Action(
+        "File/Picture",
+        "Save a picture of the view in use as...",
+        lambda w: w.shell.picture_as(view=True),
+    ),
+    Action(
+        "File/Picture",
+        "Copy a picture of the window",
+        lambda w: w.shell.picture(copy=True),
+        "Ctrl+F12",
+        (CTRL | int(Key.f12),),
+        separated=True,
+    ),
+    Action(
+        "File/Picture",
+        "Copy a picture of the view in use",
+        lambda w: w.shell.picture(view=True, copy=True),
+        "Ctrl+Shift+F12",
+        (CTRL | SHIFT | int(Key.f12),),
+    ),
+    Action("File", "Quit", lambda w: w.quit(), "Ctrl+Q", (CTRL | int(Key.q),), separated=True),
+)
+
+BOOKMARKS = (
+    *(_recall(number) for number in range(1, 10)),
+    *(_store(number) for number in range(1, 10)),
+    Action(
+        "Camera/Bookmarks",
+        "Forget all bookmarks",
+        changing(lambda state: state.with_options(bookmarks=())),
+        can=lambda w: bool(w.state.options.bookmarks),
+        separated=True,
+    ),
+)
+
+LOOK = (
+    Action(
+        "View",
+        "Maximise the view",
+        lambda w: w.shell.stage.maximise(),
+        "Ctrl+M",
+        (CTRL | int(Key.m),),
+    ),
+    Action("View", "Full screen", lambda w: w.shell.toggle_full_screen(), "F11", (int(Key.f11),)),
+    Action(
+        "View",
+        "Presentation",
+        changing(_presentation),
+        "F9",
+        (int(Key.f9),),
+        is_on=lambda state: state.preferences.presentation,
+    ),
+    _theme("dark"),
+    _theme("light"),
+    Action(
+        "View/Look",
+        "Larger type",
+        changing(lambda state: scaled(state, 1)),
+        "Ctrl++",
+        (CTRL | int(Key.equal), CTRL | SHIFT | int(Key.equal), CTRL | int(Key.keypad_add)),
+        separated=True,
+    ),
+    Action(
+        "View/Look",
+        "Smaller type",
+        changing(lambda state: scaled(state, -1)),
+        "Ctrl+-",
+        (CTRL | int(Key.minus), CTRL | int(Key.keypad_subtract)),
+    ),
+    Action(
+        "View/Look",
+        "Type at 100 %",
+        changing(lambda state: scaled(state, 0)),
+        "Ctrl+0",
+        (CTRL | int(Key._0), CTRL | int(Key.keypad0)),
+    ),
+    *(_layout(number, one.name) for number, one in enumerate(layout.LAYOUTS)),
+    Action("View/Layout", "Reset the layout", lambda w: layout.reset(), separated=True),
+    Action(
+        "View",
+        "Next view",
+        lambda w: w.shell.stage.focus_next(1),
+        "F3",
+        (int(Key.f3),),
+        separated=True,
+    ),
+    Action(
+        "View",
+        "Previous view",
+        lambda w: w.shell.stage.focus_next(-1),
+        "Shift+F3",
+        (SHIFT | int(Key.f3),),
+    ),
+)
+
+HELP = (
+    Action(
+        "Help",
+        "Find a command",
+        lambda w: w.shell.toggle_palette(),
+        "Ctrl+Shift+P",
+        (CTRL | SHIFT | int(Key.p),),
+    ),
+    Action(
+        "Help",
+        "Mouse and keys",
+        lambda w: w.shell.toggle_help(),
+        "F1",
+        (int(Key.f1), SHIFT | int(Key.slash)),
+    ),
+    Action(
+        "Help",
+        "Try again what failed",
+        lambda w: w.retry(),
+        "F4",
+        (int(Key.f4),),
+        can=lambda w: w.renderers.failure is not None or bool(w.shell.stage.failures),
+    ),
+)

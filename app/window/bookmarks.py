@@ -1,0 +1,61 @@
+"""Views to come back to, by the keys 1 to 9.
+
+Owns their storing, recall and names. They are options (options.py), so undo and sessions have them.
+"""
+
+from __future__ import annotations
+
+from app.host.action import Window
+from app.state.app_state import AppState
+from app.state.options import Bookmark
+from renderer.scene import View
+
+
+def of(state: AppState, number: int) -> Bookmark | None:
+    """The bookmark of a number; None where there is none."""
+    return next((mark for mark in state.options.bookmarks if mark.number == number), None)
+
+
+def with_bookmark(state: AppState, number: int, name: str = "") -> AppState:
+    """The state in which the present view is kept under a number, 1 to 9."""
+    mark = Bookmark(number, name or describe(state.view), state.view)
+    others = [other for other in state.options.bookmarks if other.number != number]
+    return state.with_options(
+        bookmarks=tuple(sorted([*others, mark], key=lambda entry: entry.number))
+    )
+
+
+def without(state: AppState, number: int) -> AppState:
+    """The state without a bookmark."""
+    kept = tuple(mark for mark in state.options.bookmarks if mark.number != number)
+    return state.with_options(bookmarks=kept)
+
+
+def renamed(state: AppState, number: int, name: str) -> AppState:
+    """The state in which a bookmark has another name."""
+    marks = (
+        Bookmark(mark.number, name, mark.view) if mark.number == number else mark
+        for mark in state.options.bookmarks
+    )
+    return state.with_options(bookmarks=tuple(marks))
+
+
+def store(window: Window, number: int) -> None:
+    """Keeps the view of now, and says so."""
+    window.change(with_bookmark(window.state, number))
+    window.shell.toasts.add(f"This view is bookmark {number}: key {number} comes back to it.")
+
+
+def recall(window: Window, number: int) -> None:
+    """Goes to a bookmark's view; says how to make one where there is none."""
+    mark = of(window.state, number)
+    if mark is None:
+        window.shell.toasts.add(f"Bookmark {number} is free: Ctrl+{number} keeps a view.")
+        return
+    window.travel(window.state.with_view(mark.view))
+
+
+def describe(view: View) -> str:
+    """A view in a few words: perspective from (3.4, 3.1, 8.6)."""
+    x, y, z = view.camera.eye
+    return f"{view.camera.projection} from ({x:.3g}, {y:.3g}, {z:.3g})"

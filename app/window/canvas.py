@@ -1,0 +1,75 @@
+"""What the window is drawn into, beside the window: frames of which it shows the finished ones.
+
+While ImGui's windows are on their way to other places it hides them for some frames. Those frames
+are drawn beside the picture that is shown, and the picture stays. On the null platform the
+window's own framebuffer would have the size that it was made with, at most that of an imaginary
+monitor of 1920 x 1080; a canvas has any.
+"""
+
+from __future__ import annotations
+
+import moderngl
+
+from app.widgets.surface import Target, copy_pixels
+
+MOST_KEPT = 30  # frames in a row that are not shown: whatever goes wrong, the window goes on
+Size = tuple[int, int]
+
+
+class Canvas:
+    """Of one window, in its context."""
+
+    def __init__(self, context: moderngl.Context) -> None:
+        self._context = context
+        self._shown: moderngl.Framebuffer | None = None
+        self._beside: moderngl.Framebuffer | None = None  # for frames that are not shown
+        self._kept = 0
+        self.keeps = False
+
+    def bind(self, size: Size, unfinished: bool) -> Target:
+        """Call before ImGui draws. size: (width, height) of the frame, in pixels. unfinished: it is
+        not to be shown: the picture stays that was drawn before, where that is of the same size."""
+        fits = self._shown is None or self._shown.size == size
+        self.keeps = unfinished and fits and self._kept < MOST_KEPT
+        self._kept = self._kept + 1 if unfinished else 0
+        if self.keeps:
+            self._beside = self._sized(self._beside, size)
+            drawn = self._beside
+        else:
+            self._shown = self._sized(self._shown, size)
+            drawn = self._shown
+            if self._beside is not None:
+                _release(self._beside)
+                self._beside = None
+        drawn.use()
+        return Target(drawn, size)
+
+    @property
+    def shown(self) -> Target | None:
+        """The picture that the window shows; None before there is one."""
+        return Target(self._shown, self._shown.size) if self._shown is not None else None
+
+    def show(self, in_window: bool) -> None:
+        """Puts the picture into the window, for the swap, and leaves it bound to be read."""
+        if self._shown is None:
+            return
+        if in_window:
+            box = (0, 0, *self._shown.size)
+            copy_pixels(self._shown.glo, box, 0, box)
+        else:
+            self._shown.use()
+
+    def _sized(self, old: moderngl.Framebuffer | None, size: Size) -> moderngl.Framebuffer:
+        if old is not None and old.size == size:
+            return old
+        new = self._context.framebuffer([self._context.renderbuffer(size, 4)])
+        new.use()
+        # Not before: while it makes a framebuffer, moderngl binds the last one again.
+        if old is not None:
+            _release(old)
+        return new
+
+
+def _release(target: moderngl.Framebuffer) -> None:
+    for part in (*target.color_attachments, target):
+        part.release()

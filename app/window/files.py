@@ -1,0 +1,417 @@
+"""Opening and saving from the window: dialogs, dropped files, loading in the background.
+
+Owns the dialogs (the system's, or the window's own where there is none), and the threads that load
+and save. Knows nothing of what is done with a scene.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import shutil
+import sys
+import time
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+from imgui_bundle import portable_file_dialogs as dialogs
+
+from app.lecture.model import Lecture
+from app.lecture.reading import is_lecture, load_lecture
+from app.storage.recent import RecentFiles
+from app.storage.scene_watch import SceneWatch
+from app.widgets.background import Background
+from app.widgets.dialog import FileDialog, Question
+from renderer.errors import LucidaError, describe, one_line
+from renderer.raster import Prepared, prepare
+from renderer.scene import (
+    BUILTIN_SCENES,
+    SCENE_ENDINGS,
+    Scene,
+    View,
+    load_scene,
+    load_view,
+    save_scene,
+    save_view,
+)
+from renderer.scene.cancelling import cancelled_by, check_cancelled
+from renderer.scene.models import read_by
+from renderer.scene.outside import OutsideError, kept_inside
+from renderer.scene.subprocess_reader import CancelledError, ModelReader
+
+LECTURE_ENDING = ".toml"
+SNIFFED_BYTES = 1 << 20
+LINUX_DIALOGS = ("zenity", "kdialog", "matedialog", "qarma")  # what the dialogs are drawn by
+
+Paths = Callable[[list[str]], None]
+Load = Callable[[frozenset[Path]], "Opened"]  # given what the user has agreed to
+
+
+@dataclass(frozen=True)
+class Opened:
+    """What sources held: a scene, a view, or both. sources: of those that could be read.
+
+    problems: one line for each of the others. lecture: and its file. prepared: the scene for the
+    rasterizer, so that no frame has to do it; None where that cannot be, which drawing tells.
+    is_first: it takes the place of what the window has begun with, without a step of undo.
+    replaces: the scene of which this is a newer version; None for another one. agreed: the files
+    outside of its folder that a scene which came by itself may read; None where the user named it.
+    """
+
+    sources: tuple[str, ...] = ()
+    scene: Scene | None = None
+    view: View | None = None
+    problems: tuple[str, ...] = ()
+    lecture: tuple[Lecture, Path] | None = None
+    prepared: Prepared | None = None
+    is_first: bool = False
+    replaces: Scene | None = None
+    agreed: frozenset[Path] | None = None
+
+
+@dataclass(frozen=True)
+class Outside:
+    """A question to the user: whether what names files outside of its folder is to be opened.
+
+    name: of what does. files: those. again: opens it, with the user's consent.
+    """
+
+    name: str
+    files: tuple[Path, ...]
+    again: Callable[[], None]
+
+
+class Files:
+    """wake: called from another thread when something has been loaded.
+
+    message: what went wrong; said: what was done, for poll_said(). outside: what the user is to
+    agree to. folder: where the list of
+    recent files is kept; None: nowhere. native: whether the system's dialogs may be used.
+    """
+
+    def __init__(
+        self, wake: Callable[[], None], folder: Path | None = None, native: bool = True
+    ) -> None:
+        self._wake = wake
+        self._loading: Background[Opened] = Background("lucida-load", wake)
+        self._models = ModelReader()
+        self._rereading: Background[Opened] = Background("lucida-reread", wake)
+        self._watch = SceneWatch()
+        self._guarded: dict[str, frozenset[Path]] = {}  # by the file's name: Opened.agreed
+        self._mistake = ""  # in a scene's file that was saved
+        self._saving: Background[str] = Background("lucida-save", wake)
+        self._asking: tuple[dialogs.open_file | dialogs.save_file, Paths] | None = None
+        self._native = native
+        self._source = ""
+        self._again: Callable[[frozenset[Path]], None] = lambda more: None  # loads with consent
+        self._began_s = 0.0
+        self.dialog = FileDialog(wake)
+        self.recent = RecentFiles(folder, wake)
+        self.message = ""
+        self.outside: Outside | None = None
+        self._said: list[str] = []
+
+    @property
+    def busy(self) -> bool:
+        """Whether something is being loaded or saved, or a dialog of the system's is open."""
+        working = self._loading.busy or self._saving.busy or self._rereading.busy
+        return working or self._asking is not None
+
+    @property
+    def loading(self) -> str:
+        """The name of what is being loaded; empty while nothing is."""
+        return self._source if self._loading.busy else ""
+
+    @property
+    def loading_s(self) -> float:
+        """For how long."""
+        return time.monotonic() - self._began_s if self._loading.busy else 0.0
+
+    def open(self, source: str) -> None:
+        """Loads a built-in scene, a scene file, a model, a view or a lecture in the background."""
+        self.open_all([source])
+
+    def open_all(self, sources: Sequence[str], dropped: bool = False) -> None:
+        """Loads the first scene and the first view among several, or the first lecture. dropped:
+        the user has not named them, and may not know what they name."""
+        if sources:
+            self._load(sources[0], lambda agreed: open_sources(sources, dropped, agreed))
+
+    def open_later(self, source: str, load: Callable[[], Opened]) -> None:
+        """Loads what the window was to begin with. load: does it, in the background."""
+        self._load(source, lambda _: load())
+
+    def follow(self, scene: Scene) -> bool:
+        """Once a frame: reads the shown scene again when its files were saved; poll() has it then.
+        Gives whether a change is being awaited, which is to be asked for soon again."""
+        if not self._loading.busy and self._watch.changed(scene, time.monotonic()):
+            assert scene.origin is not None
+            source = scene.origin.source
+            agreed = self._guarded.get(source)
+            self._rereading.submit(lambda: reread(source, scene, agreed))
+        return self._watch.waiting
+
+    def cancel(self) -> None:
+        """Ends the loading. A large model is in a process of its own, which is killed; what is not
+        is left between two of its parts."""
+        if self._loading.busy:
+            self._models.cancel()
+            self._loading.close(0.0)
+            self._models = ModelReader()
+            self._loading = Background("lucida-load", self._wake)
+            self._said.append(f"Loading {self._source} was cancelled.")
+
+    def open_dialog(self) -> None:
+        endings = " ".join(f"*{ending}" for ending in SCENE_ENDINGS)
+        self._ask(
+            Question("Open a scene, a view or a model", False, SCENE_ENDINGS, "", self.open_all),
+            ["Scenes, views and models", endings, "All files", "*"],
+        )
+
+    def open_lecture(self, source: str) -> None:
+        """Loads a file as a lecture; asks before that reads files outside of its folder."""
+        self._load(source, lambda agreed: open_lecture(source, agreed))
+
+    def open_lecture_dialog(self) -> None:
+        self._ask(
+            Question(
+                "Open a lecture", False, (LECTURE_ENDING,), "", lambda p: self.open_lecture(p[0])
+            ),
+            ["Lectures", f"*{LECTURE_ENDING}", "All files", "*"],
+        )
+
+    def save_view_dialog(self, view: View) -> None:
+        def store(path: str) -> str:
+            save_view(path, view)
+            return one_line(f"Saved the view as {path}.")
+
+        self.save_as_dialog("Save the view", "view.toml", ("View files", ".toml"), store)
+
+    def save_scene_dialog(self, scene: Scene, view: View) -> None:
+        """view: what becomes the scene's own."""
+
+        def store(path: str) -> str:
+            save_scene(path, scene, view)
+            self._watch.take_present()
+            self.recent.add(str(Path(path).absolute()))
+            return one_line(f"Saved the scene as {path}.")
+
+        name = "".join(c if c.isalnum() or c in " -_" else "-" for c in scene.name) or "scene"
+        self.save_as_dialog("Save the scene", f"{name}.toml", ("Scene files", ".toml"), store)
+
+    def save_picture_dialog(self, name: str, chosen: Callable[[Path], None]) -> None:
+        """Asks where a picture is to go."""
+        self._ask(
+            Question("Save the picture", True, (".png",), name, lambda p: chosen(Path(p[0]))),
+            ["Pictures", "*.png"],
+        )
+
+    def poll(self) -> Opened | None:
+        """What has been loaded since the last call; errors become the message."""
+        if self._asking is not None and self._asking[0].ready(0):
+            (asked, chosen), self._asking = self._asking, None
+            try:
+                result = asked.result()
+            except UnicodeDecodeError:  # the binding's: it knows no other names
+                self.message = (
+                    "The system's dialog cannot name this file: its name is not UTF-8; "
+                    "drop it on the window, or give it on the command line."
+                )
+                result = ""
+            paths = [result] if isinstance(result, str) else list(result)
+            if any(paths):
+                chosen(paths)
+        saved = self._saving.poll()
+        if saved is not None:
+            if saved.error is not None:
+                self.message = describe(saved.error)
+            else:
+                self._said.append(saved.value or "")
+        return self._poll_loading() or self._poll_reread()
+
+    def _poll_loading(self) -> Opened | None:
+        outcome = self._loading.poll()
+        if outcome is None or isinstance(outcome.error, CancelledError):
+            return None
+        if isinstance(outcome.error, OutsideError):
+            self._ask_outside(outcome.error, self._again)
+        elif outcome.error is not None:
+            self.message = describe(outcome.error)
+        elif outcome.value is not None:
+            self._note(outcome.value)
+        return outcome.value
+
+    def _poll_reread(self) -> Opened | None:
+        """A newer version of the shown scene; the last good one stays where there is a mistake."""
+        outcome = self._rereading.poll()
+        if outcome is None:
+            return None
+        if self.message == self._mistake:  # the one before is mended, or another one now
+            self.message = ""
+        self._mistake = ""
+        if isinstance(outcome.error, OutsideError):
+            source = outcome.error.source
+            agreed = self._guarded.get(source, frozenset())
+            self._ask_outside(
+                outcome.error,
+                lambda more: self._load(
+                    source, lambda all_: open_sources([source], True, all_), agreed | more
+                ),
+            )
+        elif outcome.error is not None:
+            self.message = self._mistake = describe(outcome.error)
+        return outcome.value
+
+    def poll_said(self) -> list[str]:
+        """What was done since the last call, in words."""
+        said, self._said = self._said, []
+        return said
+
+    def say(self, text: str) -> None:
+        """Something else was done, which poll_said() tells."""
+        self._said.append(text)
+        self._wake()
+
+    def close(self) -> None:
+        self._models.cancel()
+        self._loading.close()
+        self._rereading.close()
+        self._saving.close(5.0)
+        self.dialog.close()
+        self.recent.close()
+
+    def _load(self, source: str, load: Load, agreed: frozenset[Path] = frozenset()) -> None:
+        self.cancel()  # the newest wins, and does not wait for what takes long
+        self.message, self.outside = "", None
+        self._again = lambda more: self._load(source, load, agreed | more)
+        self._source = one_line(Path(source).name)
+        self._began_s = time.monotonic()
+        models = self._models
+
+        def loaded() -> Opened:
+            with read_by(models.read), cancelled_by(models.check):
+                return load(agreed)
+
+        self._loading.submit(loaded)
+
+    def _ask_outside(self, error: OutsideError, again: Callable[[frozenset[Path]], None]) -> None:
+        files = error.files
+        name = one_line(Path(error.source).name)
+        self.outside = Outside(name, files, lambda: again(frozenset(files)))
+
+    def _note(self, opened: Opened) -> None:
+        if opened.scene is not None and opened.scene.origin is not None:
+            source = opened.scene.origin.source
+            self._guarded.pop(source, None)
+            if opened.agreed is not None:
+                self._guarded[source] = opened.agreed
+        for source in reversed(opened.sources):
+            if source not in BUILTIN_SCENES:
+                self.recent.add(str(Path(source).absolute()))
+        self.message = "\n".join(opened.problems)
+
+    def save_as_dialog(
+        self, title: str, name: str, kind: tuple[str, str], store: Callable[[str], str]
+    ) -> None:
+        """Asks where something is to go, and stores it there in the background.
+
+        kind: in words, and the ending. store: does it, and says what it did.
+        """
+        words, ending = kind
+
+        def chosen(paths: list[str]) -> None:
+            path = paths[0] if paths[0].lower().endswith(ending) else paths[0] + ending
+            self.message = ""
+            self._saving.submit(lambda: store(path))
+
+        self._ask(Question(title, True, (ending,), name, chosen), [words, f"*{ending}"])
+
+    def _ask(self, question: Question, filters: list[str]) -> None:
+        if self._asking is not None or self.dialog.is_open:
+            return
+        if not (self._native and has_dialogs()):
+            self.dialog.ask(question)
+        elif question.saves:
+            chooser = dialogs.save_file(question.title, question.name, filters)
+            self._asking = chooser, question.chosen
+        else:
+            several = dialogs.opt.multiselect
+            self._asking = dialogs.open_file(question.title, "", filters, several), question.chosen
+
+
+def has_dialogs() -> bool:
+    """Whether the system has file dialogs."""
+    return not sys.platform.startswith("linux") or any(map(shutil.which, LINUX_DIALOGS))
+
+
+def open_sources(
+    sources: Sequence[str], dropped: bool = False, agreed: frozenset[Path] = frozenset()
+) -> Opened:
+    """Loads the first scene and the first view among sources; and the first lecture.
+
+    dropped: scenes must not name files outside of their folder but those that are agreed to;
+    lectures never. Raises LucidaError where there is but one and it cannot be read, OutsideError
+    in any case.
+    """
+    scene, view, lecture = None, None, None
+    good, problems = [], []
+    for source in sources:
+        try:
+            if source not in BUILTIN_SCENES and _is_view(Path(source)):
+                view = view or load_view(source)
+            elif source not in BUILTIN_SCENES and is_lecture(source):
+                lecture = lecture or (load_lecture(source, agreed), Path(source).absolute())
+            elif scene is None:
+                scene = _load_scene(source, agreed if dropped else None)
+            else:
+                continue  # one scene at a time
+            good.append(source)
+        except LucidaError as error:
+            if len(sources) == 1 or isinstance(error, OutsideError):
+                raise
+            problems.append(describe(error))
+    given = agreed if dropped else None
+    prepared = _prepared(scene)
+    return Opened(tuple(good), scene, view, tuple(problems), lecture, prepared, agreed=given)
+
+
+def _load_scene(source: str, agreed: frozenset[Path] | None) -> Scene:
+    with kept_inside(Path(source), agreed):
+        return load_scene(source)
+
+
+def reread(source: str, scene: Scene, agreed: frozenset[Path] | None) -> Opened:
+    """A newer version of a scene, whose files have changed. agreed: as in Opened."""
+    with read_by(ModelReader().read):
+        newer = _load_scene(source, agreed)
+    return Opened(scene=newer, prepared=_prepared(newer), replaces=scene, agreed=agreed)
+
+
+def opened_scene(source: str, scene: Scene, view: View) -> Opened:
+    """What a source held, seen by a view."""
+    return Opened((source,), scene, view, prepared=_prepared(scene))
+
+
+def _prepared(scene: Scene | None) -> Prepared | None:
+    if scene is not None:
+        check_cancelled()
+        with contextlib.suppress(LucidaError):
+            return prepare(scene)
+    return None
+
+
+def open_lecture(source: str, agreed: frozenset[Path] = frozenset()) -> Opened:
+    """Loads a file as a lecture, whatever it looks like. agreed: files outside of its folder that
+    it may read. Raises LucidaError."""
+    return Opened((source,), lecture=(load_lecture(source, agreed), Path(source).absolute()))
+
+
+def _is_view(path: Path) -> bool:
+    if path.suffix.lower() != ".toml":
+        return False
+    try:
+        with path.open("rb") as file:
+            text = file.read(SNIFFED_BYTES)
+    except OSError:
+        return False
+    return b"[camera]" in text and b"objects" not in text and not is_lecture(path)

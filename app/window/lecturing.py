@@ -1,0 +1,145 @@
+"""`lucida lecture`: the window with a lecture in it, and pictures of all of its steps.
+
+Owns both ways of giving a lecture. Knows nothing of how steps are drawn (lecture/view.py).
+"""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable
+from pathlib import Path
+
+from app.lecture.model import Lecture
+from app.storage.capture import free_path
+from app.widgets.surface import Target
+from app.window.platform import start_platform
+from app.window.start import Start, begin_lecture, begin_scene, first_state
+from app.window.viewer import (
+    DEFAULT_PICTURE,
+    DEFAULT_SIZE,
+    SCREENSHOT_LIMIT_S,
+    Run,
+    save_png,
+)
+from renderer.atomic import check_writable
+from renderer.errors import LucidaError
+from renderer.scene.outside import OutsideError
+
+QUIET_FRAMES = 4  # the layout needs two frames; afterwards nothing may change
+
+
+def run_lecture(
+    path: Path,
+    lecture: Lecture,
+    size: tuple[int, int] | None = None,
+    number: int = 0,
+    screenshot: Path | None = None,
+) -> int:
+    """Opens the window with the lecture and returns when it is closed; gives the exit status.
+
+    path: the lecture's file, which is read again when it is saved. number: the first step, from
+    0. screenshot: draw the step once, save it there, leave; with no display that is done in any
+    case, into lucida.png, or lucida-2.png where there is one, and one line says so. Raises
+    LucidaError.
+    """
+    if screenshot is not None:
+        check_writable(screenshot)
+    platform = start_platform(want_display=screenshot is None)
+    picture = screenshot
+    if not platform.has_display and picture is None:
+        picture = free_path(DEFAULT_PICTURE)
+        check_writable(picture)
+        print(f"lucida: no display ({platform.reason}): drawing the step once, into {picture}")
+    shown = picture is not None
+    start = Start(first_state(lecture, number)) if shown else begin_lecture(lecture, number)
+    run = Run(platform, start.state, size or DEFAULT_SIZE, picture is not None, start=start)
+    run.window.lecture.give(lecture, path, number)
+    pixels = run.run()
+    if picture is not None:
+        save_png(picture, pixels)
+        if screenshot is None:
+            print(f"lucida: saved {picture}")
+    return 0
+
+
+def ask_lecture(path: Path, error: OutsideError, size: tuple[int, int] | None = None) -> int:
+    """Opens the window and asks there whether the lecture may read what it names outside of its
+    folder. error: says that it does. Raises it where there is no display to ask on."""
+    platform = start_platform()
+    if not platform.has_display:
+        raise LucidaError("", error.problem, "add --outside to agree", error.source)
+    start = begin_scene()
+    run = Run(platform, start.state, size or DEFAULT_SIZE, start=start)
+    run.window.files.open_lecture(str(path))
+    run.run()
+    return 0
+
+
+def export_lecture(
+    lecture: Lecture,
+    path: Path,
+    folder: Path,
+    size: tuple[int, int],
+    progress: Callable[[float], None] = lambda fraction: None,
+) -> list[Path]:
+    """Writes a PNG of the window for each step into a folder, which is made; gives the files.
+
+    path: the lecture's file. size: the window's (width, height). Needs no display. Raises
+    LucidaError.
+    """
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+    except FileExistsError:
+        raise LucidaError("", "is a file", "give a folder to export into", str(folder)) from None
+    except OSError as error:
+        reason = (error.strerror or str(error)).lower()
+        raise LucidaError(
+            "", f"cannot be made: {reason}", "export elsewhere", str(folder)
+        ) from None
+    digits = max(2, len(str(len(lecture.steps))))
+    files = [folder / f"{n + 1:0{digits}}.png" for n in range(len(lecture.steps))]
+    for file in files:
+        check_writable(file)
+    platform = start_platform(want_display=False)
+    run = Run(platform, first_state(lecture), size, take_picture=True)
+    run.take_picture = False  # not one picture at the end: one a step
+    run.window.lecture.give(lecture, path)
+    run.on_drawn = _Export(run, files, progress).drawn
+    run.run()
+    return files
+
+
+class _Export:
+    """Saves each step once nothing changes any more, and goes on to the next."""
+
+    def __init__(self, run: Run, files: list[Path], progress: Callable[[float], None]) -> None:
+        self._run, self._files, self._progress = run, files, progress
+        self._number = 0
+        self._quiet = 0
+        self._began_s = time.monotonic()
+
+    def drawn(self, target: Target) -> None:
+        """Called when a frame has been drawn."""
+        window = self._run.window
+        if self._number == len(self._files):
+            return
+        for failure in (window.renderers.failure, *window.shell.stage.failures.values()):
+            if failure is not None:
+                raise failure
+        self._quiet = self._quiet + 1 if window.settled else 0
+        if self._quiet <= QUIET_FRAMES:
+            if time.monotonic() - self._began_s > SCREENSHOT_LIMIT_S:
+                raise LucidaError(
+                    f"step {self._number + 1}",
+                    f"was not complete after {SCREENSHOT_LIMIT_S:g} s",
+                    "try a smaller model or --size",
+                )
+            return
+        save_png(self._files[self._number], target.read())
+        self._number += 1
+        self._quiet, self._began_s = 0, time.monotonic()
+        self._progress(self._number / len(self._files))
+        if self._number == len(self._files):
+            self._run.params.app_shall_exit = True
+        else:
+            window.lecture.advance(window, 1)

@@ -1,0 +1,414 @@
+"""The window while it is open: one frame after another.
+
+Owns the present state and everything that lives as long as the window: the views, the renderers,
+the threads, the history. Views are given the state through host/view.py's Host and ask for a new
+one; here it is kept, and the renderers are told. Knows nothing of how the window was made
+(viewer.py), nor of what a view shows.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Hashable
+from dataclasses import replace
+from pathlib import Path
+
+import moderngl
+from imgui_bundle import hello_imgui, imgui
+
+from app.camera_panel.view import CameraView
+from app.cameras.focus import Focus, object_corners, scene_focus
+from app.cameras.presets import framed
+from app.cameras.travel import Traveller
+from app.compare.view import CompareView
+from app.costs.view import CostsView
+from app.host import layout
+from app.host.action import AView
+from app.host.fly import Fly
+from app.host.view import View
+from app.images.agreement import Verdict
+from app.images.placement import shown_pixel
+from app.images.renderers import Renderers
+from app.laboratory.view import LaboratoryView
+from app.lecture.view import LECTURE, LectureView
+from app.outside.view import OUTSIDE, OutsideView
+from app.pair.go_to_pixel import Going, going, pixel_box
+from app.pair.resolution import Asked, asked, resolution_box
+from app.pair.view import RASTER, Linked, RasterView, RayView
+from app.probe.view import ProbeView
+from app.state.app_state import AppState, History
+from app.state.options import Pixel
+from app.stepper.view import STEPPER, StepperView
+from app.storage.session_store import Keeper
+from app.widgets import theme
+from app.widgets.highlight import frame_views
+from app.window.action_table import run_shortcuts
+from app.window.files import Files, Opened
+from app.window.menus import menu_bar
+from app.window.platform import on_drop, set_title
+from app.window.shell import Shell
+from app.window.status import Status, status_line
+from renderer.errors import LucidaError, describe
+from renderer.scene import Scene
+from renderer.scene.outside import outside_files
+
+
+def make_views() -> list[View]:
+    """All views, in the order in which they are drawn: the camera's panel first, so that the
+    images show what it changed in the same frame."""
+    linked = Linked()
+    outside = OutsideView()
+    views = [
+        CameraView(),
+        RasterView(linked),
+        RayView(linked),
+        CompareView(linked),
+        outside,
+        ProbeView(outside),
+        StepperView(outside),
+        CostsView(),
+        LaboratoryView(outside),
+    ]
+    return [*views, LectureView(views)]
+
+
+class MainWindow:
+    """Everything behind the window; the Host of its views. Methods are called in its thread, in
+    its context.
+
+    smooth: keep the display's rate while tracing; not needed for a picture. keeper: what saves the
+    session. folder: where the list of recent files is kept. None: they are not kept.
+    """
+
+    def __init__(
+        self,
+        state: AppState,
+        smooth: bool = True,
+        keeper: Keeper | None = None,
+        folder: Path | None = None,
+    ) -> None:
+        self.history = History(state)
+        self.fonts = theme.Fonts()
+        self.files = Files(hello_imgui.request_refresh, folder)
+        self.renderers = Renderers(hello_imgui.request_refresh, smooth)
+        self.views = {view.name: view for view in make_views()}
+        wake = hello_imgui.request_refresh
+        self.shell = Shell(list(self.views.values()), self.files, self.fonts, wake, keeper)
+        self._proportion = layout.Proportion()
+        self._hovered: tuple[str, Pixel] | None = None
+        self._next_hovered: tuple[str, Pixel] | None = None
+        self._titled = state.scene
+        self._gesture = 0
+        self._was_active = False
+        self._asked: Asked | None = None
+        self._going: Going | None = None
+        self._focused: tuple[Scene, Focus] | None = None
+        self.traveller = Traveller()
+        self.traveller.instant = not smooth
+        self.moves = smooth
+        self._fly = Fly()
+        self._over: View | None = None
+
+    # What actions and views ask for.
+
+    def view(self, kind: type[AView]) -> AView:
+        return next(view for view in self.views.values() if isinstance(view, kind))
+
+    @property
+    def state(self) -> AppState:
+        return self.history.present
+
+    @property
+    def focus(self) -> Focus:
+        if self._focused is None or self._focused[0] is not self.state.scene:
+            self._focused = (self.state.scene, scene_focus(self.state.scene))
+        return self._focused[1]
+
+    @property
+    def hovered(self) -> tuple[str, Pixel] | None:
+        return self._hovered
+
+    @property
+    def settled(self) -> bool:
+        """Whether nothing will change by itself: both images are complete and compared."""
+        views = self.shell.stage.settled
+        moving = self.files.busy or self.traveller.under_way
+        return views and self.renderers.settled(self.state) and not moving
+
+    def is_rearranging(self) -> bool:
+        """Whether the frame that has been laid out is no picture yet; call once a frame."""
+        return self.shell.stage.place() or self.lecture.is_entering
+
+    @property
+    def lecture(self) -> LectureView:
+        view = self.views[LECTURE]
+        assert isinstance(view, LectureView)
+        return view
+
+    @property
+    def stepper(self) -> StepperView:
+        view = self.views[STEPPER]
+        assert isinstance(view, StepperView)
+        return view
+
+    def hover(self, view: str, pixel: Pixel) -> None:
+        self._next_hovered = (view, pixel)
+
+    def apply(self, state: AppState, gesture: Hashable = None) -> None:
+        if state == self.state:
+            return
+        if gesture is None and (self._was_active or imgui.is_any_item_active()):
+            gesture = ("drag", self._gesture if self._was_active else self._gesture + 1)
+        self.history = self.history.change(state, gesture)
+
+    def change(self, state: AppState) -> None:
+        self.history = self.history.change(state)
+
+    def amend(self, state: AppState) -> None:
+        self.history = self.history.amended(state)
+
+    def ask_resolution(self) -> None:
+        """Opens the box to type the images' resolution into."""
+        self._asked = asked(self.state, self.renderers.size)
+
+    def ask_pixel(self) -> None:
+        """Opens the box to type a pixel's row and column into."""
+        if min(self.renderers.size):
+            self._going = going(self.state, self.renderers.size)
+
+    def travel(self, state: AppState) -> None:
+        outside = self.views[OUTSIDE]
+        assert isinstance(outside, OutsideView)
+        ends = outside.ends(self, state)
+        shown = self.traveller.begin(self.state, state, self.focus, self.renderers.size, ends)
+        if shown is state:
+            self.change(state)
+        self.animate()
+
+    def focus_object(self) -> None:
+        """Frames the object under the mouse, in the view that the mouse is over; all of the
+        scene where there is none."""
+        view = self._over or self.views[RASTER]
+        camera, number = view.flown(self), view.object_under(self)
+        if camera is None:
+            return
+        points = self.focus.framed
+        if number is not None:
+            points = object_corners(self.state.scene.objects[number])
+        try:
+            camera = framed(camera, points, self.focus.bounds)
+        except LucidaError:  # too large for numbers
+            return
+        self.travel(view.with_flown(self.state, camera))
+
+    def animate(self) -> None:
+        hello_imgui.request_refresh()
+
+    def undo(self) -> None:
+        """One step back; what was entered last and is not legal is the last step."""
+        pending = [view for view in self.views.values() if view.has_pending]
+        if pending:
+            for view in pending:
+                view.drop_pending()
+            self.animate()
+            return
+        self._cancel_drags()
+        self.traveller.stop()
+        self.history = self.history.undo()
+
+    def redo(self) -> None:
+        self._cancel_drags()
+        self.traveller.stop()
+        self.history = self.history.redo()
+
+    def can_undo(self) -> bool:
+        return bool(self.history.past) or any(view.has_pending for view in self.views.values())
+
+    def can_redo(self) -> bool:
+        return bool(self.history.future)
+
+    def open(self, source: str) -> None:
+        self.files.open(source)
+
+    def retry(self) -> None:
+        """Tries again what a renderer or a view has failed at."""
+        self.renderers.retry()
+        self.shell.stage.retry()
+        self.animate()
+
+    def quit(self) -> None:
+        hello_imgui.get_runner_params().app_shall_exit = True
+
+    # HelloImGui's callbacks.
+
+    def begin(self, context: moderngl.Context) -> None:
+        """Once, when the window's context is there, and current."""
+        self.renderers.begin(context)
+        for view in self.views.values():
+            self.shell.stage.begin(view, self, context)
+        on_drop(self._dropped)
+
+    def menus(self) -> None:
+        menu_bar(self, self.history)
+
+    def frame(self) -> None:
+        """The beginning of each frame: what has come from the threads, and the keys."""
+        active = imgui.is_any_item_active()
+        if active and not self._was_active:
+            self._gesture += 1
+        self._was_active = active
+        self._hovered, self._next_hovered = self._next_hovered, None
+        if self.state.scene is not self._titled:  # also by undo
+            self._titled = self.state.scene
+            set_title(title(self._titled))
+        self._over = self.shell.stage.take_hovered()
+        self._move_by_itself(active)
+        if self.state.step is None and self.files.follow(self.state.scene):
+            hello_imgui.request_refresh()
+        opened = self.files.poll()
+        if opened is not None:
+            self._take_opened(opened)
+        moving = active or self.traveller.under_way or self._fly.under_way
+        self.renderers.update(self.state, moving)
+        self._proportion.keep(self.lecture.arrangements)
+        self.shell.frame(self, self)
+        if not self.lecture.is_given:
+            self.shell.stage.begin_afresh()
+        arrangements = self.lecture.arrangements
+        self.lecture.follow(self)
+        if self.lecture.arrangements != arrangements:
+            begun, stage = self.lecture.take_begun(), self.shell.stage
+            stage.give_keyboard(LECTURE if begun else stage.keyboard)
+        if not self._is_typing:
+            run_shortcuts(self)
+        boxed = self._asked is not None or self._going is not None
+        if self._asked is not None:
+            self._asked, state = resolution_box(self._asked, self.state)
+            self.change(state)
+        if self._going is not None:
+            self._going, pixel = pixel_box(self._going, self.state)
+            if pixel is not None:
+                self._go_to(pixel)
+        self.shell.draw(self, boxed)
+        frame_views(self.state, self.shell.stage.rects)
+        if self.files.busy or self.renderers.unfinished(self.state):
+            hello_imgui.request_refresh()
+
+    def draw_view(self, view: View) -> None:
+        """A view's ImGui window, where it is shown."""
+        self.shell.stage.draw(view, self)
+
+    def status(self) -> None:
+        both, state = self.renderers, self.state
+        image, verdict, failure = both.ray_image, both.verdict(state), both.agreement.error
+        if image is not None and image.request.scene is not state.scene:
+            image = None  # of another scene, until the first one of this scene comes
+        pixel = self._hovered[1] if self._hovered else state.marked
+        status_line(
+            Status(
+                raster_s=both.pictures.raster_s if both.pictures else 0.0,
+                raster_factor=both.pictures.raster_factor if both.pictures else 1,
+                ray_s=image.frame.time_s if image else 0.0,
+                size=both.size,
+                factor=image.factor if image else 0,
+                agreement=_agreement(verdict, failure) or both.preparing(),
+                agrees=_agrees(verdict, failure, state.has_effects),
+                scene=state.scene.name,
+                pixel=pixel,
+                indexing=state.options.indexing,
+                seen=both.seen_at(state, pixel) if pixel else "",
+                loading=self.files.loading,
+                brief=state.preferences.presentation,
+                awaited=both.is_tracing,
+            ),
+            self.fonts,
+        )
+
+    def end(self) -> None:
+        """Once, before the context goes."""
+        self.shell.end(self)
+        for view in self.views.values():
+            view.end()
+        self.renderers.end()
+        self.files.close()
+
+    def _move_by_itself(self, active: bool) -> None:
+        """The camera under way, and keys that are held. A press of the mouse on anything ends the
+        passage where it is."""
+        if active and any(imgui.is_mouse_clicked(button) for button in range(3)):
+            self.traveller.stop()
+        state = self.traveller.step(self.state)
+        if state is not self.state:
+            self.history = self.history.change(state, self.traveller.gesture)
+        self._fly.frame(self, self._over)
+        if self.traveller.under_way:
+            self.animate()
+
+    @property
+    def _is_typing(self) -> bool:
+        """Whether a box has the keyboard: its digits are no bookmarks, also before the field that
+        Tab has gone to takes them."""
+        boxes = (self._asked, self._going)
+        return any(box is not None and box.focused for box in boxes)
+
+    def _go_to(self, pixel: Pixel) -> None:
+        """Marks a pixel, and brings it into sight where the images are magnified."""
+        placement = self.renderers.placement(self.state)
+        moved = shown_pixel(placement, pixel) if placement is not None else {}
+        self.change(self.state.with_options(marked=pixel, images=moved))
+
+    def _cancel_drags(self) -> None:
+        for view in self.views.values():
+            view.cancel()
+
+    def _take_opened(self, opened: Opened) -> None:
+        if opened.lecture is not None:  # whose steps have scenes of their own
+            self.lecture.give(*opened.lecture)
+            self.animate()
+        elif opened.scene is not None:
+            if opened.replaces not in (None, self.state.scene):
+                return  # another one is shown meanwhile
+            if opened.prepared is not None and self.renderers.pictures is not None:
+                self.renderers.pictures.prepare(opened.scene, opened.prepared)
+            if opened.replaces is not None:
+                self._take_newer(opened.replaces, opened.scene)
+                return
+            state = self.state.with_scene(opened.scene, opened.view)
+            if opened.is_first:
+                kept = self.state.keep_orthonormal and state.keep_orthonormal
+                self.amend(replace(state, keep_orthonormal=kept))
+            else:
+                self.change(state)
+        elif opened.view is not None:
+            self.change(self.state.with_view(opened.view))
+
+    def _take_newer(self, old: Scene, new: Scene) -> None:
+        """A newer version of the shown scene, as a step of its own: with its own camera, unless
+        the user has moved it."""
+        untouched = self.state.view == old.view
+        state = replace(self.state, scene=new)
+        self.change(state.with_view(new.view) if untouched else state)
+        self.files.say(f"{new.name} was read again: its file was saved.")
+
+    def _dropped(self, paths: list[str]) -> None:
+        self.files.open_all(paths, dropped=True)
+        hello_imgui.request_refresh()
+
+
+def _agreement(verdict: Verdict | None, failure: Exception | None) -> str:
+    """What the status line says of both images; empty while nothing is known."""
+    return verdict.text if verdict else describe(failure) if failure else ""
+
+
+def _agrees(verdict: Verdict | None, failure: Exception | None, effects: bool) -> bool | None:
+    """Whether that is good news; None where it is none: nothing was compared."""
+    if failure is not None and verdict is None:
+        return False
+    if effects or verdict is None or verdict.comparison.nothing_hit:
+        return None
+    return verdict.unexplained == 0
+
+
+def title(scene: Scene) -> str:
+    """The window's title. It tells, once, where the scene's models are, if not beside it."""
+    elsewhere = " (with models from outside its folder)" if outside_files(scene) else ""
+    return f"Lucida: {scene.name}{elsewhere}" if scene.name else f"Lucida{elsewhere}"

@@ -1,0 +1,211 @@
+"""The menu bar. Made from the table of actions, and from what no table holds: scenes, recent
+files, bookmarks, views, the last steps.
+
+Owns its look. Knows nothing of what actions do.
+"""
+
+from __future__ import annotations
+
+from imgui_bundle import ImVec2, imgui
+
+from app.host import layout
+from app.host.action import Action, Window
+from app.state.app_state import History
+from app.state.changes import change
+from app.widgets import theme
+from app.widgets.lettering import at_most
+from app.window import bookmarks
+from app.window.action_table import ACTIONS, MENUS
+from renderer.scene import BUILTIN_SCENES
+
+HISTORY_STEPS = 15
+LARGEST = theme.SURROUND  # of the menus' type, in parts of the window's height
+
+
+def menu_bar(window: Window, history: History) -> None:
+    """All menus; call in HelloImGui's show_menus. A bar that is too narrow for them has one. Their
+    type grows with the window's up to a size at which the longest one has room."""
+    with at_most(LARGEST * imgui.get_io().display_size.y):
+        _bar(window, history)
+
+
+def _bar(window: Window, history: History) -> None:
+    gap = 2 * imgui.get_style().item_spacing.x
+    needed = sum(imgui.calc_text_size(menu).x + gap for menu in MENUS)
+    if needed <= imgui.get_window_width():
+        _menus(window, history)
+    elif imgui.begin_menu("Menu"):
+        _menus(window, history)
+        imgui.end_menu()
+    _layouts(window)
+
+
+def _menus(window: Window, history: History) -> None:
+    for menu in MENUS:
+        if imgui.begin_menu(menu):
+            if menu == "View":
+                _views(window)
+            _actions(menu, window, history)
+            imgui.end_menu()
+
+
+def _actions(menu: str, window: Window, history: History) -> None:
+    """The actions of a menu; those of a submenu where the first of them stands."""
+    drawn: set[str] = set()
+    for action in ACTIONS:
+        if action.menu == menu:
+            _item(action, window)
+            if action.name == "Open...":
+                _scenes(window)
+                _recent(window)
+            elif action.name == "Redo":
+                _history(window, history)
+            continue
+        parent, _, rest = action.menu.partition("/")
+        if parent != menu or rest in drawn:
+            continue
+        drawn.add(rest)
+        if action.separated:
+            imgui.separator()
+        if imgui.begin_menu(rest):
+            if rest == "Bookmarks":
+                _bookmarks(window)
+            else:
+                for entry in ACTIONS:
+                    if entry.menu == action.menu:
+                        _item(entry, window, first=entry is action)
+            imgui.end_menu()
+
+
+def _item(action: Action, window: Window, first: bool = False) -> None:
+    if action.separated and not first:
+        imgui.separator()
+    on = action.is_on(window.state) if action.is_on else False
+    if action.menu == "View/Layout":
+        on = action.name == layout.current().name
+    can = action.can(window) if action.can else True
+    if imgui.menu_item(action.name, action.keys, on, can)[0]:
+        action.run(window)
+
+
+def _scenes(window: Window) -> None:
+    if imgui.begin_menu("Built-in scenes"):
+        for name in BUILTIN_SCENES:
+            if imgui.menu_item(name, "", False)[0]:
+                window.files.open(name)
+        imgui.end_menu()
+
+
+def _recent(window: Window) -> None:
+    recent = window.files.recent
+    entries = recent.entries
+    if not imgui.begin_menu("Recent files", bool(entries)):
+        return
+    if imgui.is_window_appearing():
+        recent.look()
+    for number, entry in enumerate(entries):
+        note = "missing" if entry.missing else entry.folder
+        label = f"{entry.name}###recent{number}"
+        if imgui.menu_item(label, _short(note), False, not entry.missing)[0]:
+            window.files.open(entry.path)
+    imgui.separator()
+    if imgui.menu_item("Clear the list", "", False)[0]:
+        recent.clear()
+    imgui.end_menu()
+
+
+def _short(text: str, most: int = 40) -> str:
+    return text if len(text) <= most else "..." + text[3 - most :]
+
+
+def _history(window: Window, history: History) -> None:
+    """The last steps, the newest on top; a click goes back, or forward, to after a step."""
+    if not imgui.begin_menu("History", bool(history.past or history.future)):
+        return
+    states = [*history.past, history.present, *history.future]
+    here = len(history.past)
+    first = max(0, here - HISTORY_STEPS)
+    last = min(len(states) - 1, here + HISTORY_STEPS)
+    for index in range(last, first - 1, -1):
+        text = change(states[index - 1], states[index]) if index else "the beginning"
+        if imgui.menu_item(f"{text}###step{index}", "", index == here)[0]:
+            for _ in range(abs(index - here)):
+                window.undo() if index < here else window.redo()
+    imgui.end_menu()
+
+
+def _bookmarks(window: Window) -> None:
+    marks = window.state.options.bookmarks
+    if not marks:
+        imgui.text_colored(theme.DIM, "Ctrl+1 to Ctrl+9 keep the view; 1 to 9 come back to it")
+    for mark in marks:
+        if imgui.menu_item(f"{mark.name}###go{mark.number}", str(mark.number), False)[0]:
+            bookmarks.recall(window, mark.number)
+    imgui.separator()
+    if imgui.begin_menu("Keep this view"):
+        for number in range(1, 10):
+            old = bookmarks.of(window.state, number)
+            text = f"{number}  in place of {old.name}" if old else f"{number}"
+            if imgui.menu_item(f"{text}###keep{number}", f"Ctrl+{number}", False)[0]:
+                bookmarks.store(window, number)
+        imgui.end_menu()
+    if imgui.begin_menu("Rename", bool(marks)):
+        for mark in marks:
+            imgui.set_next_item_width(20 * imgui.get_font_size())
+            done, name = imgui.input_text(
+                f"{mark.number}##name{mark.number}",
+                mark.name,
+                imgui.InputTextFlags_.enter_returns_true,
+            )
+            if (done or imgui.is_item_deactivated_after_edit()) and name.strip():
+                window.change(bookmarks.renamed(window.state, mark.number, name.strip()[:80]))
+        imgui.end_menu()
+    if imgui.begin_menu("Forget", bool(marks)):
+        for mark in marks:
+            if imgui.menu_item(f"{mark.name}###drop{mark.number}", str(mark.number), False)[0]:
+                window.change(bookmarks.without(window.state, mark.number))
+        imgui.separator()
+        if imgui.menu_item("All", "", False)[0]:
+            window.change(window.state.with_options(bookmarks=()))
+        imgui.end_menu()
+
+
+def _views(window: Window) -> None:
+    stage = window.shell.stage
+    if imgui.begin_menu("Views"):
+        for name, view in stage.views.items():
+            shown = stage.is_shown(name)
+            label = " ".join(view.title.split())
+            if imgui.menu_item(f"{label}###{name}", "", shown)[0]:
+                stage.show(name, not shown)
+        imgui.end_menu()
+    imgui.separator()
+
+
+def _layouts(window: Window) -> None:
+    """The layout's name at the right end of the bar; a menu to choose another."""
+    name = layout.current().name
+    arrow = 0.5 * imgui.get_font_size()
+    style = imgui.get_style()
+    width = imgui.calc_text_size(name).x + 2 * arrow
+    left = imgui.get_window_width() - width - 2 * style.item_spacing.x
+    if left < imgui.get_cursor_pos_x():
+        return  # too narrow: the menu View has them too
+    imgui.set_cursor_pos_x(left)
+    corner = imgui.get_cursor_screen_pos()
+    opened = imgui.begin_menu(f"{name}    ###layouts")
+    middle = ImVec2(
+        corner.x + imgui.calc_text_size(name).x + style.item_spacing.x + arrow,
+        corner.y + 0.5 * imgui.get_frame_height(),
+    )
+    imgui.get_foreground_draw_list().add_triangle_filled(
+        ImVec2(middle.x - 0.5 * arrow, middle.y - 0.25 * arrow),
+        ImVec2(middle.x + 0.5 * arrow, middle.y - 0.25 * arrow),
+        ImVec2(middle.x, middle.y + 0.4 * arrow),
+        theme.u32(theme.DIM),
+    )
+    if opened:
+        for action in ACTIONS:
+            if action.menu == "View/Layout":
+                _item(action, window)
+        imgui.end_menu()

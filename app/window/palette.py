@@ -1,0 +1,159 @@
+"""The command palette: type a few letters, choose with the arrows, Enter does it.
+
+Owns its look, its keys and what was chosen last. What there is to choose: palette_search.py.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+from imgui_bundle import ImVec2, ImVec4, imgui
+
+from app.widgets import theme
+from app.window.palette_search import Entry, Match, found
+
+SHOWN_ROWS = 12
+REMEMBERED = 50
+WIDTH_EM = 40.0
+NAME = "##palette"
+
+
+class Palette:
+    """open: whether it is to be seen."""
+
+    def __init__(self) -> None:
+        self.open = False
+        self.recent: list[str] = []
+        self._query = ""
+        self._chosen = 0
+        self._appearing = False
+
+    def toggle(self) -> None:
+        self.open = not self.open
+        self._query, self._chosen, self._appearing = "", 0, True
+
+    def draw(self, entries: Callable[[], list[Entry]], fonts: theme.Fonts) -> None:
+        """Draws it where it is open, and does what is chosen."""
+        if not self.open:
+            return
+        viewport = imgui.get_main_viewport()
+        width = min(WIDTH_EM * imgui.get_font_size(), 0.9 * viewport.work_size.x)
+        top = ImVec2(viewport.get_center().x, viewport.work_pos.y + 2 * imgui.get_font_size())
+        imgui.set_next_window_pos(top, imgui.Cond_.always, ImVec2(0.5, 0.0))
+        imgui.set_next_window_size(ImVec2(width, 0))
+        imgui.push_style_color(imgui.Col_.window_bg, theme.POPUP)
+        imgui.push_style_color(imgui.Col_.border, theme.ACCENT)
+        flags = imgui.WindowFlags_
+        imgui.begin(
+            NAME,
+            None,
+            flags.no_decoration | flags.no_docking | flags.no_saved_settings | flags.no_move,
+        )
+        imgui.pop_style_color(2)
+        if self._appearing:
+            imgui.set_window_focus()
+            imgui.set_keyboard_focus_here()
+        elif imgui.is_key_pressed(imgui.Key.escape, False) or not imgui.is_window_focused(
+            imgui.FocusedFlags_.root_and_child_windows
+        ):
+            self.open = False
+        matches = self._search(entries())
+        chosen = self._keys(matches)
+        clicked = self._list(matches, fonts)
+        imgui.end()
+        self._appearing = False
+        match = clicked or chosen
+        if match is not None:
+            self.open = False
+            self.recent = [match.entry.key, *(k for k in self.recent if k != match.entry.key)]
+            del self.recent[REMEMBERED:]
+            match.entry.run()
+
+    def _search(self, entries: list[Entry]) -> list[Match]:
+        imgui.set_next_item_width(-1)
+        hint = "what to do: a few letters of it; arrows choose, Enter does it"
+        changed, self._query = imgui.input_text_with_hint("##query", hint, self._query)
+        if changed:
+            self._chosen = 0
+        return found(self._query, entries, self.recent)
+
+    def _keys(self, matches: list[Match]) -> Match | None:
+        """Moves the choice; gives what Enter was pressed on."""
+        step = {
+            imgui.Key.down_arrow: 1,
+            imgui.Key.up_arrow: -1,
+            imgui.Key.page_down: SHOWN_ROWS,
+            imgui.Key.page_up: -SHOWN_ROWS,
+        }
+        for key, rows in step.items():
+            if imgui.is_key_pressed(key):
+                self._chosen += rows
+        self._chosen = max(0, min(self._chosen, len(matches) - 1))
+        entered = any(
+            imgui.is_key_pressed(key, False) for key in (imgui.Key.enter, imgui.Key.keypad_enter)
+        )
+        if entered and matches and matches[self._chosen].entry.enabled:
+            return matches[self._chosen]
+        return None
+
+    def _list(self, matches: list[Match], fonts: theme.Fonts) -> Match | None:
+        row = imgui.get_text_line_height_with_spacing()
+        room = imgui.get_main_viewport().work_size.y - 7 * imgui.get_font_size()
+        rows = max(1, min(SHOWN_ROWS, len(matches), int(room / row)))
+        imgui.begin_child("##matches", ImVec2(0, rows * row), 0, imgui.WindowFlags_.no_nav)
+        clicked = None
+        if not matches:
+            imgui.text_colored(theme.DIM, "nothing of that name")
+        clipper = imgui.ListClipper()
+        clipper.begin(len(matches), row)
+        clipper.include_item_by_index(self._chosen)
+        while clipper.step():
+            for index in range(clipper.display_start, clipper.display_end):
+                if self._row(matches[index], index, fonts):
+                    clicked = matches[index]
+        imgui.end_child()
+        return clicked
+
+    def _row(self, match: Match, index: int, fonts: theme.Fonts) -> bool:
+        entry, chosen = match.entry, index == self._chosen
+        start = imgui.get_cursor_pos()
+        flags = 0 if entry.enabled else imgui.SelectableFlags_.disabled
+        clicked, _ = imgui.selectable(f"##{index}", chosen, flags)
+        if chosen and not imgui.is_item_visible():
+            imgui.set_scroll_here_y(0.5)
+        imgui.set_cursor_pos(start)
+        color = theme.TEXT if entry.enabled else theme.DIM
+        _marked(entry.name, match.letters, color, fonts)
+        if entry.on:
+            imgui.same_line()
+            imgui.text_colored(theme.GOOD, "on")
+        keys = imgui.calc_text_size(entry.keys).x
+        right = imgui.get_window_width() - imgui.get_style().scrollbar_size - 4
+        place = f"{entry.where}    " if entry.keys else entry.where
+        left = right - keys - imgui.calc_text_size(place).x
+        imgui.same_line()
+        if left > imgui.get_cursor_pos_x():
+            imgui.same_line(left)
+            imgui.text_colored(theme.DIM, place)
+            imgui.same_line(right - keys)
+        else:
+            imgui.same_line(max(right - keys, imgui.get_cursor_pos_x()))
+        imgui.text_colored(color, entry.keys)
+        return bool(clicked)
+
+
+def _marked(text: str, letters: tuple[int, ...], color: ImVec4, fonts: theme.Fonts) -> None:
+    """A text with some of its letters bold, in the colour of what is chosen."""
+    runs: list[tuple[bool, str]] = []
+    for index, letter in enumerate(text):
+        bold = index in letters
+        if runs and runs[-1][0] == bold:
+            runs[-1] = bold, runs[-1][1] + letter
+        else:
+            runs.append((bold, letter))
+    for index, (bold, part) in enumerate(runs):
+        if index:
+            imgui.same_line(0, 0)
+        imgui.push_font(fonts.bold if bold else fonts.text, 0.0)
+        imgui.text_colored(theme.legible(theme.RAY) if bold else color, part)
+        imgui.pop_font()

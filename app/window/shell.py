@@ -1,0 +1,260 @@
+"""What stands around the views: palette, sheet, dialogs, notifications, pictures, the session.
+
+Owns these, and what Escape means. Knows nothing of what views show, nor of how anything is drawn.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import Path
+
+from imgui_bundle import hello_imgui, imgui
+
+from app import __version__
+from app.host.action import Window
+from app.host.stage import Stage
+from app.host.view import Host, View
+from app.images.renderers import Renderers
+from app.lecture.view import LectureView
+from app.state.app_state import AppState
+from app.storage.capture import Captures, Rect
+from app.storage.session import Session, session_of
+from app.storage.session_store import Keeper
+from app.widgets.messages import Message, message_box
+from app.widgets.surface import Target
+from app.widgets.theme import Fonts
+from app.widgets.toasts import Toasts
+from app.window.files import Files, Outside
+from app.window.loading import loading_box
+from app.window.palette import Palette
+from app.window.palette_entries import entries
+from app.window.platform import toggle_full_screen
+from app.window.shortcut_sheet import help_sheet
+from renderer.errors import LucidaError, describe, one_line
+from renderer.scene.outside import LISTED
+
+OPEN = "Open anyway"
+
+
+class Shell:
+    """One for a window. keeper: what saves the session; None where none is kept.
+
+    wake: may be called from any thread: asks for a frame.
+    """
+
+    def __init__(
+        self,
+        views: list[View],
+        files: Files,
+        fonts: Fonts,
+        wake: Callable[[], None],
+        keeper: Keeper | None = None,
+    ) -> None:
+        self.stage: Stage = Stage(views)
+        self.palette: Palette = Palette()
+        self.toasts = Toasts()
+        self.captures = Captures(wake)
+        self.files = files
+        self.help = False
+        self._fonts = fonts
+        self._keeper = keeper
+        self._kept: AppState | None = None
+        self._popup = False  # whether a popup was open at the end of the last frame
+        self._failure: Exception | None = None  # the one whose message was closed
+
+    @property
+    def busy(self) -> bool:
+        """Whether something is under way that will be told."""
+        return self.captures.busy
+
+    # What actions ask for.
+
+    def toggle_palette(self) -> None:
+        self.palette.toggle()
+
+    def toggle_help(self) -> None:
+        self.help = not self.help
+
+    def toggle_full_screen(self) -> None:
+        toggle_full_screen()
+
+    def picture(self, view: bool = False, copy: bool = False) -> None:
+        """A picture of the window, or of the view in use, into the folder of pictures, or the
+        clipboard."""
+        try:
+            what = self._view_in_use() if view else ""
+            path = None if copy else self.captures.default_path(what.lower())
+            self.captures.ask(self._rect(what), path)
+        except LucidaError as error:
+            self.toasts.add(describe(error), good=False)
+
+    def picture_as(self, view: bool = False) -> None:
+        """The same into a file that the user names."""
+        what = self._view_in_use() if view else ""
+        name = f"lucida {what.lower()}".strip().replace(" ", "-") + ".png"
+        self.files.save_picture_dialog(name, lambda path: self._picture_to(what, path))
+
+    def escape(self, window: Window) -> None:
+        """Ends the nearest thing: what lies on top, what takes long, the mark, what is large."""
+        if self.palette.open:
+            self.palette.open = False
+        elif self.files.dialog.is_open:
+            self.files.dialog.cancel()
+        elif self.files.outside is not None:
+            self.files.outside = None
+        elif self.files.message:
+            self.files.message = ""
+        elif self._told(window.renderers):
+            self._failure = window.renderers.failure
+        elif self.help:
+            self.help = False
+        elif self.files.loading:
+            self.files.cancel()
+        elif window.state.marked is not None:
+            window.change(window.state.with_options(marked=None))
+        elif self.stage.maximised:
+            self.stage.maximise()
+        elif window.state.preferences.presentation:
+            window.change(window.state.with_options(preferences={"presentation": False}))
+        else:
+            self.toasts.clear()
+
+    # The frame.
+
+    def frame(self, window: Window, host: Host) -> None:
+        """Once a frame, before the views. Both are the window."""
+        self.stage.follow(window.state.preferences)
+        self.stage.leave_out_hidden(host)
+        self._keep(window)
+        for said in self.files.poll_said():
+            self.toasts.add(said)
+        done = self.captures.poll()
+        if done is not None:
+            self.toasts.add(*done)
+
+    def draw(self, window: Window, boxed: bool = False) -> None:
+        """Once a frame: what lies over the views. boxed: a box was open that Escape closes."""
+        # A popup or a menu is ImGui's to close, as long as nobody else asks for the key.
+        if not (self._popup or boxed) and imgui.shortcut(
+            int(imgui.Key.escape), imgui.InputFlags_.route_global
+        ):
+            self.escape(window)
+        if self.help:
+            self.help = help_sheet(self._fonts, __version__)
+        self.files.dialog.draw()
+        if self.files.loading and loading_box(self.files.loading, self.files.loading_s):
+            self.files.cancel()
+        self._messages(window)
+        self.palette.draw(lambda: entries(window), self._fonts)
+        self.toasts.draw()
+
+    def note_popups(self) -> None:
+        """Once a frame, at its end: ImGui closes a popup by Escape before the next one begins."""
+        any_popup = imgui.PopupFlags_.any_popup_id | imgui.PopupFlags_.any_popup_level
+        self._popup = bool(imgui.is_popup_open("", int(any_popup)))
+
+    def after_drawing(self, target: Target) -> None:
+        """Once a frame, when all is drawn, before it is shown."""
+        self.captures.after_drawing(target)
+
+    def end(self, window: Window) -> None:
+        """Once, at the end."""
+        self.captures.close()
+        if self._keeper is not None:
+            self._keeper.close(self._session(window))
+
+    def _session(self, window: Window) -> Session:
+        state = window.state
+        return session_of(state, self.stage.arrangement(), window.view(LectureView).kept(state))
+
+    def _messages(self, window: Window) -> None:
+        """One message at a time: what was asked for first, then what failed by itself."""
+        if self._keeper is not None and self._keeper.message:
+            self.toasts.add(self._keeper.message, good=False)
+            self._keeper.message = ""
+        if self.files.outside is not None:
+            answer = message_box(Message(outside_question(self.files.outside), (OPEN, "Cancel")))
+            if answer == OPEN:
+                self.files.outside.again()
+            elif answer:
+                self.files.outside = None
+            return
+        if self.files.message:
+            if message_box(Message(self.files.message)) == "Close":
+                self.files.message = ""
+            return
+        failure = self._told(window.renderers)
+        if failure is None:
+            return
+        text = f"{_who(window.renderers, failure)} {describe(failure)}"
+        undo = ("Undo",) if window.can_undo() else ()
+        answer = message_box(Message(text, ("Try again", *undo, "Close")))
+        if answer == "Try again":
+            window.retry()
+        elif answer == "Undo":
+            window.undo()
+        elif answer == "Close":
+            self._failure = failure
+
+    def _told(self, renderers: Renderers) -> Exception | None:
+        """A failure that the user has not answered yet."""
+        failure = renderers.failure
+        if failure is None:
+            self._failure = None  # the next one is told, even if it is the same again
+            return None
+        return failure if not _same(failure, self._failure) else None
+
+    def _keep(self, window: Window) -> None:
+        keeper = self._keeper
+        if keeper is None:
+            return
+        io, state, answered = imgui.get_io(), window.state, window.view(LectureView).take_answered()
+        if state is not self._kept or io.want_save_ini_settings or answered:
+            self._kept, io.want_save_ini_settings = state, False
+            keeper.mark()
+        if keeper.due():
+            keeper.save(self._session(window))
+
+    def _view_in_use(self) -> str:
+        stage = self.stage
+        if stage.maximised:
+            return stage.maximised
+        if stage.focused in stage.rects:
+            return stage.focused
+        if not stage.rects:
+            raise LucidaError("picture", "no view is shown", "show one in the menu View")
+        return next(iter(stage.rects))
+
+    def _rect(self, view: str) -> Rect | None:
+        """Where a view's content is, in framebuffer pixels; None for the whole window."""
+        if not view:
+            return None
+        scale = imgui.get_io().display_framebuffer_scale.x
+        left, top, right, bottom = (edge * scale for edge in self.stage.rects[view])
+        return left, top, right, bottom
+
+    def _picture_to(self, view: str, path: Path) -> None:
+        ending = path if path.suffix.lower() == ".png" else Path(f"{path}.png")
+        self.captures.ask(self._rect(view) if view in self.stage.rects else None, ending)
+        hello_imgui.request_refresh()
+
+
+def outside_question(outside: Outside) -> str:
+    """What the user is asked about files outside of a folder."""
+    named = [f"    {one_line(str(file))}" for file in outside.files]
+    more = [f"    and {len(named) - LISTED} more"] if len(named) > LISTED else []
+    return "\n".join([f"{outside.name} names files outside of its folder:", *named[:LISTED], *more])
+
+
+def _same(failure: Exception, other: Exception | None) -> bool:
+    """Whether both say the same: what fails in each frame fails by a new exception."""
+    return other is not None and describe(failure) == describe(other)
+
+
+def _who(renderers: Renderers, failure: Exception) -> str:
+    """Who failed, as the beginning of a sentence."""
+    if failure is renderers.raster_error:
+        return "The rasterizer failed."
+    if failure is renderers.ray_error:
+        return "The ray tracer failed."
+    return "The comparison failed."

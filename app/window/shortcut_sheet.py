@@ -1,0 +1,209 @@
+"""The sheet of mouse and keys: every key that does something, by menu, in columns.
+
+Made from the table of app/window/action_table.py. Owns its look.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+from imgui_bundle import ImVec2, imgui
+
+from app.widgets import theme
+from app.widgets.lettering import lettering
+from app.window.action_table import ACTIONS, MENUS, MOUSE
+
+COLUMN_EM = 20.5
+MOST_COLUMNS = 4
+SMALLER = (1.0, 0.95, 0.9, 0.85, 0.82)  # type, in parts of the window's, until all is seen at once
+ROW_PAD = 0.06  # above and below a row, in parts of its type
+OWN_PART = 8  # a submenu of so many keys has a heading of its own
+NARROW_EM = 18.0  # a column of less has what a key does below the key
+KEYS = 0.36  # the keys' part of a column
+NAME = "Mouse and keys"
+
+STEPPING = "Lecture/Loop stepper"  # the submenu whose keys hold only where the keyboard is
+
+Row = tuple[str, str]  # keys, what they do
+ESCAPE: Row = ("Esc", "close what lies on top; leave presentation")
+MOVING: tuple[Row, ...] = (
+    ("Ctrl+Tab", "from view to view"),
+    ("Tab, arrows", "from widget to widget; Space uses it"),
+    ("arrows in the probe", "another pixel; Shift: by ten"),
+    ("Alt", "into the menus"),
+    ESCAPE,
+)
+
+
+def sections() -> list[tuple[str, list[Row]]]:
+    """The sheet's parts in their order: a heading, and rows of keys and words."""
+    parts: list[tuple[str, list[Row]]] = [("Mouse", list(MOUSE))]
+    for menu in MENUS:
+        by_submenu: dict[str, list[Row]] = {}
+        for action in ACTIONS:
+            if action.keys and action.menu.split("/")[0] == menu and action.menu != STEPPING:
+                by_submenu.setdefault(action.menu, []).append((action.keys, action.name))
+        folded = {name: _folded(rows) for name, rows in by_submenu.items()}
+        large = [name for name, rows in folded.items() if "/" in name and len(rows) >= OWN_PART]
+        rest = [row for name, rows in folded.items() if name not in large for row in rows]
+        if rest:
+            parts.append((menu, rest))
+        parts += [(name.split("/")[1], folded[name]) for name in large]
+        if STEPPING.split("/")[0] == menu:
+            keys = [
+                (a.keys, a.name.removeprefix("Stepper: ")) for a in ACTIONS if a.menu == STEPPING
+            ]
+            parts.append(("Loop stepper, once it is clicked", keys))
+    parts.append(("Everywhere", list(MOVING)))
+    return parts
+
+
+def _folded(rows: list[Row]) -> list[Row]:
+    """Runs of rows that differ in a digit alone (bookmarks 1 to 9) become one."""
+    folded: list[tuple[str, Row, Row]] = []  # pattern, first, last
+    for row in rows:
+        pattern = "".join("#" if c.isdigit() else c for c in f"{row[0]}|{row[1]}")
+        if folded and folded[-1][0] == pattern and "#" in pattern.partition("|")[2]:
+            folded[-1] = (pattern, folded[-1][1], row)
+        else:
+            folded.append((pattern, row, row))
+    return [
+        first
+        if first == last
+        else (f"{first[0]} to {last[0]}", f"{first[1]} to {_digits(last[1])}")
+        for _, first, last in folded
+    ]
+
+
+def _digits(text: str) -> str:
+    return "".join(c for c in text if c.isdigit())
+
+
+@dataclass(frozen=True)
+class Plan:
+    """How the sheet has room: the size of its type, its columns, the height of the tallest."""
+
+    size_px: float
+    columns: list[list[tuple[str, list[Row]]]]
+    high_px: float
+
+
+def planned(parts: Sequence[tuple[str, list[Row]]], room: ImVec2, em: float) -> Plan:
+    """In the largest type in which all is seen at once; else in the smallest, to be scrolled.
+    em: the window's type, in which its font is now."""
+    widths = [
+        [(imgui.calc_text_size(keys).x / em, imgui.calc_text_size(what).x / em) for keys, what in r]
+        for _, r in parts
+    ]
+    for smaller in SMALLER:
+        size_px = smaller * em
+        count = max(1, min(MOST_COLUMNS, int(room.x / (COLUMN_EM * size_px))))
+        lines = [_lines(rows, room.x / size_px / count - 1.5) for rows in widths]
+        columns = in_columns(parts, count, lines)
+        of_part = {heading: count for (heading, _), count in zip(parts, lines, strict=True)}
+        tallest = max(sum(of_part[heading] + 2 for heading, _ in column) for column in columns)
+        high_px = tallest * (1 + 2 * ROW_PAD) * size_px
+        if high_px <= room.y:
+            break
+    return Plan(size_px, columns, high_px)
+
+
+def help_sheet(fonts: theme.Fonts, version: str) -> bool:
+    """Draws the sheet; gives whether it stays open."""
+    viewport, style = imgui.get_main_viewport(), imgui.get_style()
+    em = imgui.get_font_size()
+    most = ImVec2(0.97 * viewport.work_size.x, 0.97 * viewport.work_size.y)
+    around = imgui.get_frame_height() + 2 * style.window_padding.y + 2.4 * em
+    room = ImVec2(most.x - 2 * style.window_padding.x - style.scrollbar_size, most.y - around)
+    plan = planned(sections(), room, em)
+    size = ImVec2(
+        min(most.x, len(plan.columns) * 1.2 * COLUMN_EM * em), min(most.y, plan.high_px + around)
+    )
+    imgui.set_next_window_pos(viewport.get_center(), imgui.Cond_.always, ImVec2(0.5, 0.5))
+    imgui.set_next_window_size(size, imgui.Cond_.always)
+    flags = imgui.WindowFlags_
+    imgui.push_style_color(imgui.Col_.window_bg, theme.POPUP)
+    opened, still_open = imgui.begin(
+        NAME,
+        True,
+        flags.no_docking | flags.no_collapse | flags.no_saved_settings | flags.no_resize,
+    )
+    imgui.pop_style_color()
+    if opened:
+        pad = ImVec2(style.cell_padding.x, ROW_PAD * plan.size_px)
+        imgui.push_style_var(imgui.StyleVar_.cell_padding, pad)
+        with lettering(None, plan.size_px):
+            imgui.push_text_wrap_pos(0.0)
+            imgui.text_colored(theme.DIM, f"lucida {version}: one camera, two renderers")
+            imgui.pop_text_wrap_pos()
+            stretched = imgui.TableFlags_.sizing_stretch_same
+            if imgui.begin_table("columns", len(plan.columns), stretched):
+                imgui.table_next_row()
+                for column in plan.columns:
+                    imgui.table_next_column()
+                    for heading, rows in column:
+                        _section(heading, rows, fonts)
+                imgui.end_table()
+        imgui.pop_style_var()
+    imgui.end()
+    return bool(still_open)
+
+
+def in_columns(
+    parts: Sequence[tuple[str, list[Row]]], columns: int, lines: Sequence[int]
+) -> list[list[tuple[str, list[Row]]]]:
+    """The parts in columns of about one height: each, the longest first, goes into the shortest
+    column; there, and from column to column, they have their order. lines: that the rows of each
+    take."""
+    found: list[list[int]] = [[] for _ in range(columns)]
+    heights = [0] * columns
+    for number in sorted(range(len(parts)), key=lambda k: -lines[k]):
+        shortest = heights.index(min(heights))
+        found[shortest].append(number)
+        heights[shortest] += lines[number] + 2
+    return [[parts[k] for k in sorted(column)] for column in sorted(map(sorted, found)) if column]
+
+
+def _lines(rows: Sequence[tuple[float, float]], width: float) -> int:
+    """How many lines rows take in a column, of the widths of keys and words; all in parts of the
+    type. They are broken in their own parts of it, or stand below one another."""
+    if width < NARROW_EM:
+        return sum(max(1, math.ceil(k / width)) + max(1, math.ceil(w / width)) for k, w in rows)
+    keys, words = KEYS * width, (1 - KEYS) * width
+    return sum(max(1, math.ceil(1.1 * max(k / keys, w / words))) for k, w in rows)
+
+
+def _section(heading: str, rows: list[Row], fonts: theme.Fonts) -> None:
+    narrow = imgui.get_content_region_avail().x < NARROW_EM * imgui.get_font_size()
+    imgui.push_text_wrap_pos(0.0)
+    imgui.push_font(fonts.bold, 0.0)
+    imgui.text_colored(theme.legible(theme.RAY), heading)
+    imgui.pop_font()
+    if narrow:
+        for keys, what in rows:
+            imgui.push_font(fonts.bold, 0.0)
+            imgui.text(keys)
+            imgui.pop_font()
+            imgui.indent()
+            imgui.text(what)
+            imgui.unindent()
+    imgui.pop_text_wrap_pos()
+    if not narrow and imgui.begin_table(heading, 2, imgui.TableFlags_.sizing_stretch_prop):
+        # The same in every part: words stand below one another.
+        stretch = imgui.TableColumnFlags_.width_stretch
+        imgui.table_setup_column("keys", stretch, KEYS)
+        imgui.table_setup_column("what", stretch, 1 - KEYS)
+        for keys, what in rows:
+            imgui.table_next_row()
+            imgui.table_next_column()
+            imgui.push_font(fonts.bold, 0.0)
+            imgui.push_text_wrap_pos(0.0)
+            imgui.text(keys)
+            imgui.pop_font()
+            imgui.table_next_column()
+            imgui.text(what)
+            imgui.pop_text_wrap_pos()
+        imgui.end_table()
+    imgui.dummy(ImVec2(0, 0.3 * imgui.get_font_size()))

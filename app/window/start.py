@@ -1,0 +1,184 @@
+"""What the window begins with: a scene of the command line's, a lecture, the last session, or the
+default scene.
+
+Owns the choice. Knows nothing of how the window is made. No window waits for a large model: it
+begins without, and reads that while its first frames are drawn.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from pathlib import Path
+
+from imgui_bundle import hello_imgui
+
+from app.lecture.model import Lecture
+from app.lecture.session import Session as LectureSession
+from app.lecture.states import state_of
+from app.state.app_state import AppState
+from app.state.options import Options
+from app.storage.kept_lecture import KeptLecture
+from app.storage.session import Session
+from app.storage.session_store import Found, Keeper, take_place
+from app.window.files import Opened, opened_scene
+from renderer.errors import LucidaError, describe
+from renderer.scene import BUILTIN_SCENES, Scene, View, load_scene, load_view
+from renderer.scene.model import SceneObject
+from renderer.scene.models import read_by, read_model
+from renderer.scene.subprocess_reader import is_large
+
+ChangeView = Callable[[View], View]
+
+
+@dataclass(frozen=True)
+class Later:
+    """A scene that takes long to read. view: gives the one that it is seen by."""
+
+    source: str
+    view: ChangeView
+
+    def open(self) -> Opened:
+        """Reads it. What goes wrong is told, and the scene that the window has begun with stays."""
+        try:
+            scene = load_scene(self.source)
+            return replace(opened_scene(self.source, scene, self.view(scene.view)), is_first=True)
+        except LucidaError as error:
+            return Opened(problems=(describe(error),))
+
+
+@dataclass(frozen=True)
+class Start:
+    """What a window begins with. session: what it goes on with, None for nothing. keeper: what
+    saves it. message: what the user is told about it. opened: a scene for the recent files. later:
+    what takes the place of the state's scene as soon as it is read. lecture: the one that is gone
+    on with. fresh: begin as on the first day, with no layout of a window before."""
+
+    state: AppState
+    session: Session | None = None
+    keeper: Keeper | None = None
+    message: str = ""
+    opened: str = ""
+    later: Later | None = None
+    lecture: LectureSession | None = None
+    fresh: bool = False
+
+
+def begin_scene(
+    source: str | None = None,
+    view: str | Path | None = None,
+    change: ChangeView | None = None,
+    wait: bool = False,
+) -> Start:
+    """A scene, the default one if none is given, seen by its own view, or that of a view file; and
+    what else is changed about that. wait: for a large model too. Raises LucidaError."""
+    given = None if view is None else load_view(view)
+
+    def seen_by(own: View) -> View:
+        own = given or own
+        return own if change is None else change(own)
+
+    scene = load_scene(source or BUILTIN_SCENES[0]) if wait else _soon(source or BUILTIN_SCENES[0])
+    if scene is None:
+        assert source is not None  # what is built in has no large models
+        return Start(
+            AppState.for_scene(load_scene(BUILTIN_SCENES[0])), later=Later(source, seen_by)
+        )
+    return Start(AppState.for_scene(scene, seen_by(scene.view)), opened=source or "")
+
+
+def begin_session(fresh: bool = False, folder: Path | None = None) -> Start:
+    """The last session, or an empty one. fresh: the last one is put aside unread.
+
+    folder: where sessions are; None for the user's settings folder. A scene that is not there any
+    more, or that cannot be read, is told; the rest of the session stays.
+    """
+    place = take_place(folder)
+    if place is None:
+        return replace(begin_scene(), fresh=fresh)
+    keeper = Keeper(place, hello_imgui.request_refresh)
+    found = Found() if fresh else place.load()
+    session = found.session
+    if session is None:
+        return replace(begin_scene(), keeper=keeper, message=found.message, fresh=fresh)
+    lecture, message = _lecture(session.lecture)
+    start = _gone_on(session, lecture)
+    both = "\n".join(said for said in (message, start.message) if said)
+    return replace(start, keeper=keeper, lecture=lecture, message=both)
+
+
+def begin_lecture(lecture: Lecture, number: int = 0, folder: Path | None = None) -> Start:
+    """A lecture at a step, which is kept as the session. What is the user's own in the last session
+    stays; the rest ends, as the last session does when another scene is opened."""
+    place = take_place(folder)
+    if place is None:
+        return Start(first_state(lecture, number))
+    found = place.load()
+    own = found.session.options if found.session is not None else Options()
+    keeper = Keeper(place, hello_imgui.request_refresh)
+    return Start(first_state(lecture, number, own), keeper=keeper, message=found.message)
+
+
+def first_state(lecture: Lecture, number: int = 0, options: Options | None = None) -> AppState:
+    """What a lecture begins with: the step's state, to be seen from the last row. options: the
+    user's."""
+    step = lecture.steps[number]
+    seen = replace(
+        AppState.for_scene(step.scene, step.view),
+        options=options or Options(),
+        step=(lecture.source, number),
+    )
+    seen = seen.with_options(preferences={"presentation": True, "reduced_motion": False})
+    return state_of(step, seen)
+
+
+def _lecture(kept: KeptLecture | None) -> tuple[LectureSession | None, str]:
+    """The lecture of a session, and what the user is told about it."""
+    if kept is None:
+        return None, ""
+    try:
+        lecture = LectureSession.resumed(kept)
+    except LucidaError as error:
+        again = "Its step and the answers are kept: they come back with the file."
+        return None, f"The last session's lecture could not be opened. {error}. {again}"
+    if not lecture.differs_from(kept) or not kept.file:
+        return lecture, ""
+    restore = "Backspace shows its step as it is now." if kept.in_step else ""
+    return lecture, f"{lecture.lecture.source} has changed since the last session. {restore}"
+
+
+def _gone_on(session: Session, lecture: LectureSession | None) -> Start:
+    """The session's scene, or what is shown instead."""
+    if lecture is not None and session.lecture is not None and session.lecture.in_step:
+        state = replace(session.state(lecture.step.scene), step=lecture.place)
+        return Start(state, session)
+    message = ""
+    try:
+        scene = _soon(session.source)
+    except LucidaError as error:
+        scene, message = None, f"The last session's scene could not be opened. {error}"
+    if scene is not None:
+        return Start(session.state(scene), session)
+    view = session.view
+    later = None if message else Later(session.source, lambda _: view)
+    default = load_scene(BUILTIN_SCENES[0])
+    return Start(session.state(default), session, message=message, later=later)
+
+
+class _LargeModelError(Exception):
+    pass
+
+
+def _soon(source: str) -> Scene | None:
+    """A scene; None where it has a large model, which takes long. Raises LucidaError."""
+
+    def read(path: Path) -> tuple[SceneObject, ...]:
+        if is_large(path):
+            raise _LargeModelError
+        return read_model(path)
+
+    try:
+        with read_by(read):
+            return load_scene(source)
+    except _LargeModelError:
+        return None

@@ -1,0 +1,158 @@
+"""The status line: both renderers' times, the agreement, the scene, the pixel under the mouse.
+
+Owns its words. Numbers are set in a fixed width, so that nothing moves while they change.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from imgui_bundle import ImVec2, imgui
+
+from app.widgets import theme
+from app.widgets.lettering import fitting_words
+from renderer.pixels import Indexing, Pixel
+
+DIVIDER_PX = 25.0  # at 100 %: a line between two texts, with what is free beside it
+
+
+@dataclass(frozen=True)
+class Status:
+    """What the line tells. size: of the full image. factor: how coarse the ray image is, 1 for
+    full, 0 for none; raster_factor: likewise. agreement: a text, empty while unknown; agrees:
+    whether it is good news, None where it is none. pixel: under the mouse, or marked; indexing: how
+    it is counted. loading: what is being opened, empty for nothing. brief: without times and sizes,
+    for an audience. awaited: whether an agreement that is unknown will be known; nothing is said of
+    it otherwise.
+    """
+
+    raster_s: float
+    raster_factor: int
+    ray_s: float
+    size: tuple[int, int]
+    factor: int
+    agreement: str
+    agrees: bool | None
+    scene: str
+    pixel: Pixel | None = None
+    indexing: Indexing = Indexing.LECTURE
+    seen: str = ""
+    loading: str = ""
+    brief: bool = False
+    awaited: bool = True
+
+
+def status_line(status: Status, fonts: theme.Fonts) -> None:
+    """Draws the line; call in HelloImGui's show_status."""
+    imgui.push_font(fonts.mono, 0.0)
+    parts = [] if status.brief else [(text, theme.TEXT) for text in time_texts(status)]
+    good = theme.GOOD if status.agrees else theme.ERROR
+    if status.agrees is None:
+        good = theme.DIM
+    agreement = agreement_text(status)
+    if agreement:
+        parts.append((agreement, good if status.agreement else theme.DIM))
+    parts.append((f"scene: {status.scene}", theme.TEXT))
+    room = imgui.get_window_width() - 2 * imgui.get_style().window_padding.x
+    divider = theme.px(DIVIDER_PX)
+    while (
+        len(parts) > 1 + bool(agreement)
+        and _together([_width(t) for t, _ in parts[:-1]], divider) > room
+    ):
+        del parts[0]  # the times give way to whether the images agree
+    rights = right_texts(status)
+    widths = [_width(text) for text, _ in parts]
+    count, right = fitting(widths, list(map(_width, rights)), room, divider)
+    for index, (text, color) in enumerate(parts[:count]):
+        if index:
+            _divider()
+        imgui.align_text_to_frame_padding()
+        shown = fitting_words(text, room)  # of a single one that is wider than the window
+        imgui.text_colored(color, shown)
+        if shown != text:
+            imgui.set_item_tooltip(text)
+    if rights[right]:
+        left = imgui.get_style().window_padding.x + room - _width(rights[right])
+        imgui.same_line(left)
+        color = theme.TEXT if status.loading else theme.legible(theme.MARK)
+        imgui.text_colored(color, rights[right])
+    imgui.pop_font()
+
+
+def time_texts(status: Status) -> list[str]:
+    """What each image took; nothing of one that no view has wanted."""
+    coarseness = f" 1/{status.raster_factor}" if status.raster_factor > 1 else "    "
+    texts = []
+    if status.raster_s > 0:
+        texts.append(f"raster {milliseconds(status.raster_s)}{coarseness}")
+    if status.factor or status.awaited:
+        texts.append(ray_text(status))
+    return texts
+
+
+def agreement_text(status: Status) -> str:
+    """Whether the images agree; empty where nobody looks at both."""
+    return status.agreement or ("agree: ..." if status.awaited else "")
+
+
+def right_texts(status: Status) -> list[str]:
+    """What stands at the right end, from the longest to nothing."""
+    if status.loading:
+        return [f"loading {status.loading} ...", "loading ...", ""]
+    if status.pixel is None:
+        return [""]
+    pixel = f"pixel {status.indexing.text(status.pixel, digits=4)}"
+    told = f"{pixel} {status.indexing.told}"
+    return [f"{status.seen}  {told}".strip(), told, pixel, ""]
+
+
+def _together(widths: list[float], divider: float) -> float:
+    return sum(widths) + (len(widths) - 1) * divider
+
+
+def fitting(
+    lefts: list[float], rights: list[float], room: float, divider: float = DIVIDER_PX
+) -> tuple[int, int]:
+    """How many of the left texts, and which of the right ones, have room beside each other.
+
+    lefts, rights, divider: widths, the right ones from the widest to 0. The last of the left texts
+    gives way first, then the right one becomes shorter; the others stay.
+    """
+    all_but_last = len(lefts) - 1
+    for count, right in [
+        (len(lefts), 0),
+        *((all_but_last, index) for index in range(len(rights))),
+    ]:
+        taken = _together(lefts[:count], divider)
+        if taken + (rights[right] + divider if rights[right] else 0) <= room:
+            return count, right
+    return all_but_last, len(rights) - 1
+
+
+def milliseconds(time_s: float) -> str:
+    """Eight characters: ` 12.3 ms`."""
+    ms = time_s * 1e3
+    return f"{ms:5.1f} ms" if ms < 1000 else f"{time_s:5.1f} s "
+
+
+def ray_text(status: Status) -> str:
+    """The ray image's time, size and how far it is refined, of constant width."""
+    width, height = status.size
+    detail = {0: "none", 1: "full"}.get(status.factor, f"1/{status.factor}")
+    return f"ray {milliseconds(status.ray_s)}, {width}x{height} {detail:4}"
+
+
+def _width(text: str) -> float:
+    return imgui.calc_text_size(text).x
+
+
+def _divider() -> None:
+    imgui.same_line(0, theme.px(12))
+    at = imgui.get_cursor_screen_pos()
+    height = imgui.get_frame_height()
+    draw = imgui.get_window_draw_list()
+    draw.add_line(
+        ImVec2(at.x, at.y + 3), ImVec2(at.x, at.y + height - 3), theme.u32(theme.LINE), 1.0
+    )
+    imgui.dummy((1, height))
+    imgui.same_line(0, theme.px(12))

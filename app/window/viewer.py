@@ -1,0 +1,341 @@
+"""`lucida [SCENE]`: makes the window, runs it, and takes its picture.
+
+Owns the start and the end of the window: platform, HelloImGui's parameters, settings, screenshot.
+Knows nothing of what happens in a frame (main_window.py).
+"""
+
+from __future__ import annotations
+
+import sys
+import time
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from imgui_bundle import hello_imgui, imgui, immapp
+
+from app.host import layout
+from app.host.view import View
+from app.state.app_state import AppState
+from app.storage.capture import free_path
+from app.storage.paths import is_unicode
+from app.storage.session import source_of
+from app.storage.session_store import settings_folder
+from app.storage.settings import settings_file
+from app.widgets import theme
+from app.widgets.focusing import Focusing
+from app.widgets.surface import Target
+from app.window.canvas import Canvas
+from app.window.main_window import MainWindow, title
+from app.window.platform import (
+    Keys,
+    Platform,
+    create_context,
+    flush_opengl,
+    set_size,
+    show_window,
+    start_platform,
+)
+from app.window.signals import ended_by_signals
+from app.window.start import Start, begin_scene, begin_session
+from renderer import compile_note
+from renderer.atomic import atomic_write, check_writable
+from renderer.errors import LucidaError
+from renderer.scene import BUILTIN_SCENES
+from renderer.scene import View as SceneView
+
+DEFAULT_SIZE = (1280, 720)
+DEFAULT_PICTURE = Path("lucida.png")
+SCREENSHOT_LIMIT_S = 300.0  # the first image of an installation compiles the tracer
+NULL_FPS = 60.0
+IDLE_FPS = 0.5  # ends notifications, saves the session; anything else that changes asks for frames
+SWITCH_INTERVAL_S = 0.001  # a busy Python thread (a compilation) delays a frame by this, not 5 ms
+
+
+def run_viewer(
+    scene_source: str | None = None,
+    screenshot: Path | None = None,
+    *,
+    size: tuple[int, int] | None = None,
+    view: str | Path | None = None,
+    change: Callable[[SceneView], SceneView] | None = None,
+    fresh: bool = False,
+) -> int:
+    """Opens the window on a scene and returns when it is closed; gives the exit status.
+
+    Without a scene, a view, a screenshot and `fresh`, the last session is gone on with.
+    screenshot: draw the whole window once, with both images complete, save it there as PNG, and
+    return. With no display that is done in any case, into lucida.png, or lucida-2.png where there
+    is one, and one line says so. size: the window's (width, height). view: a view file. change:
+    what else the command line says about the view. Raises LucidaError.
+    """
+    if screenshot is not None:
+        check_writable(screenshot)
+    goes_on = scene_source is None and view is None and change is None and screenshot is None
+    start = None if goes_on else begin_scene(scene_source, view, change, screenshot is not None)
+    platform = start_platform(want_display=screenshot is None)
+    picture = screenshot
+    if not platform.has_display and picture is None:
+        picture = free_path(DEFAULT_PICTURE)
+        check_writable(picture)
+        print(f"lucida: no display ({platform.reason}): drawing the window once, into {picture}")
+    if start is None:
+        start = begin_session(fresh) if picture is None else begin_scene()
+    elif start.later is not None and picture is not None:
+        start = begin_scene(scene_source, view, change, wait=True)
+    run = Run(platform, start.state, size or DEFAULT_SIZE, picture is not None, start=start)
+    pixels = run.run()
+    if picture is not None:
+        save_png(picture, pixels)
+        if screenshot is None:
+            print(f"lucida: saved {picture}")
+    return 0
+
+
+class Run:
+    """One run of the window. params may be changed before run(), as tests do.
+
+    take_picture: leave once both images are complete, and use no settings of the user's.
+    remember: keep the layout, in the user's settings. start: the session; None for none.
+    """
+
+    def __init__(
+        self,
+        platform: Platform,
+        state: AppState,
+        size: tuple[int, int],
+        take_picture: bool = False,
+        remember: bool = True,
+        start: Start | None = None,
+    ) -> None:
+        keeper = start.keeper if start is not None else None
+        keeps = start is not None and remember and not take_picture
+        folder = _folder() if keeps else None
+        self.window = MainWindow(state, not take_picture, keeper, folder)
+        if start is not None:
+            self._take(start)
+        self._platform = platform
+        self._size = size
+        self._canvas: Canvas | None = None
+        self._keys: Keys | None = None
+        self._focusing = Focusing()
+        self.on_drawn: Callable[[Target], None] | None = None  # each frame that is shown, drawn
+        self.take_picture = take_picture
+        self._error: BaseException | None = None
+        self._quiet_frames = 0
+        self._told = compile_note.note()
+        self._ended = False
+        self._start_s = 0.0
+        fresh = start is not None and start.fresh
+        self.params = self._parameters(state, size, remember and not take_picture, fresh)
+
+    def run(self) -> np.ndarray:
+        """Shows the window until it is closed; gives its last picture, uint8 (height, width, 3).
+
+        Raises what went wrong in a frame.
+        """
+        interval = sys.getswitchinterval()
+        sys.setswitchinterval(SWITCH_INTERVAL_S)
+        self._start_s = time.monotonic()
+        try:
+            with ended_by_signals(self._end):
+                immapp.run(self.params)
+        except Exception as error:  # often ImGui's complaint about the window that was left
+            self._error = self._error or error
+        finally:
+            sys.setswitchinterval(interval)
+        if self._error is not None:
+            raise self._error
+        return np.ascontiguousarray(hello_imgui.final_app_window_screenshot()[..., :3])
+
+    def _take(self, start: Start) -> None:
+        if start.session is not None:
+            presenting = start.state.preferences.presentation
+            self.window.shell.stage.restore(start.session.arrangement, presenting)
+        if start.lecture is not None:
+            self.window.lecture.resume(start.lecture)
+        elif start.session is not None and start.session.lecture is not None:
+            self.window.lecture.put_off(start.session.lecture, source_of(start.state.scene))
+        self.window.files.message = start.message
+        if start.opened and start.opened not in BUILTIN_SCENES:
+            self.window.files.recent.add(str(Path(start.opened).absolute()))
+        if start.later is not None:
+            self.window.files.open_later(start.later.source, start.later.open)
+
+    def _end(self) -> None:
+        self._ended = self.params.app_shall_exit = True
+
+    def _parameters(
+        self, state: AppState, size: tuple[int, int], remember: bool, fresh: bool
+    ) -> hello_imgui.RunnerParams:
+        params = hello_imgui.RunnerParams()
+        params.app_window_params.window_title = title(state.scene)
+        params.app_window_params.window_geometry.size = size
+        params.app_window_params.hidden = self._platform.has_display  # until there is a picture
+        _settings(params, remember, fresh)
+        params.app_window_params.restore_previous_geometry = not params.ini_disable
+        docking = hello_imgui.DefaultImGuiWindowType.provide_full_screen_dock_space
+        params.imgui_window_params.default_imgui_window_type = docking
+        params.imgui_window_params.show_menu_bar = True
+        params.imgui_window_params.show_menu_app = False
+        params.imgui_window_params.show_menu_view = False
+        params.imgui_window_params.remember_theme = False
+        params.imgui_window_params.show_status_bar = True
+        params.imgui_window_params.show_status_fps = False
+        params.imgui_window_params.remember_status_bar_settings = False
+        # Text and images only: multisampling would cost more than everything else together.
+        params.renderer_backend_options.open_gl_options.anti_aliasing_samples = 0
+        params.fps_idling.fps_idle = 0.0 if self.take_picture else IDLE_FPS
+        params.fps_idling.enable_idling = not self.take_picture
+        if not self._platform.has_display:  # nothing else paces the frames
+            params.fps_idling.fps_max = NULL_FPS
+        params.fps_idling.time_active_after_last_event = 1.0
+        params.docking_params, *params.alternative_docking_layouts = layout.docking(
+            list(self.window.views.values()), self._draw, size[0], theme.TEXT_PX
+        )
+        callbacks = params.callbacks
+        callbacks.setup_imgui_config = _configure
+        callbacks.load_additional_fonts = self._guarded(self.window.fonts.load)
+        callbacks.setup_imgui_style = self._guarded(lambda: theme.begin(state.preferences))
+        callbacks.post_init = self._guarded(self._begin)
+        callbacks.pre_new_frame = self._guarded(self._before_frame)
+        # Before the views are drawn: too early for their images. See _before_render().
+        callbacks.custom_background = self._guarded(self._focusing.begin_frame)
+        callbacks.before_swap = self._guarded(self._before_swap)
+        callbacks.before_imgui_render = self._guarded(self._before_render)
+        callbacks.show_menus = self._guarded(self.window.menus)
+        callbacks.show_status = self._guarded(self.window.status)
+        callbacks.show_gui = self._guarded(self.window.frame)
+        callbacks.after_swap = self._guarded(self._after_frame)
+        callbacks.before_exit = self._guarded(self.window.end)
+        return params
+
+    def _draw(self, view: View) -> Callable[[], None]:
+        return self._guarded(lambda: self.window.draw_view(view))
+
+    def _guarded(self, function: Callable[[], Any]) -> Callable[[], None]:
+        """Exceptions must not go through C++: they end the run, which raises them."""
+
+        def call() -> None:
+            if self._error is not None and function != self.window.end:
+                return
+            try:
+                function()
+            except BaseException as error:
+                self._error = self._error or error
+                self.params.app_shall_exit = True
+
+        return call
+
+    def _begin(self) -> None:
+        context = create_context()
+        if self._platform.has_display:
+            self._keys = Keys()
+        else:
+            set_size(self._size)
+        self._canvas = Canvas(context)
+        self.window.begin(context)
+
+    def _before_frame(self) -> None:
+        self.window.shell.stage.before_frame()
+        self._focusing.before_frame()
+
+    def _before_render(self) -> None:
+        self.window.shell.note_popups()
+        theme.follow(self.window.state.preferences)
+        if self._keys is not None:
+            self._keys.begin_frame()
+        if self._canvas is not None:
+            io = imgui.get_io()  # not the window: that may be of another size by now
+            size, scale = io.display_size, io.display_framebuffer_scale
+            pixels = max(1, round(size.x * scale.x)), max(1, round(size.y * scale.y))
+            drawn = self._canvas.bind(pixels, self.window.is_rearranging())
+            drawn.framebuffer.clear(*self.params.imgui_window_params.background_color)
+            self.window.renderers.underlay.paint(drawn)
+
+    def _before_swap(self) -> None:
+        canvas = self._canvas
+        if canvas is None:
+            return
+        shown = canvas.shown
+        if canvas.keeps or shown is None:
+            hello_imgui.request_refresh()
+        else:
+            self.window.shell.after_drawing(shown)
+            if self.on_drawn is not None:
+                self.on_drawn(shown)
+        canvas.show(self._platform.has_display)
+
+    def _show_window(self) -> None:
+        """Once there is a picture: a window that is shown before is black until then."""
+        window = self.params.app_window_params
+        if window.hidden and self._canvas is not None and self._canvas.shown is not None:
+            window.hidden = False
+            canvas = self._canvas
+            show_window(lambda: canvas.show(in_window=True))
+
+    def _tell_compiling(self) -> None:
+        """Says once, where nobody looks at the window, what it waits for."""
+        if compile_note.note() != self._told:
+            self._told = compile_note.note()
+            print(f"lucida: {self._told}", file=sys.stderr)
+
+    def _after_frame(self) -> None:
+        if self._ended:  # before the first frame: HelloImGui has forgotten it since
+            self.params.app_shall_exit = True
+        self._show_window()
+        if not self._platform.has_display:
+            flush_opengl()
+        if not self.take_picture:
+            return
+        self._tell_compiling()
+        failures = [self.window.renderers.failure, *self.window.shell.stage.failures.values()]
+        for failure in failures:
+            if failure is not None:
+                raise failure
+        # The layout needs two frames; afterwards nothing may change.
+        self._quiet_frames = self._quiet_frames + 1 if self.window.settled else 0
+        if self._quiet_frames > 3:
+            self.params.app_shall_exit = True
+        elif time.monotonic() - self._start_s > SCREENSHOT_LIMIT_S:
+            raise LucidaError(
+                "screenshot",
+                f"the images were not complete after {SCREENSHOT_LIMIT_S:g} s",
+                "try a smaller model or --size",
+            )
+
+
+def _configure() -> None:
+    """HelloImGui's configuration; and everything can be reached with the keyboard."""
+    hello_imgui.imgui_default_settings.setup_default_imgui_config()
+    imgui.get_io().config_flags |= int(imgui.ConfigFlags_.nav_enable_keyboard)
+
+
+def save_png(path: Path, pixels: np.ndarray) -> None:
+    """Writes uint8 (height, width, 3), row 0 at the top; whole or not at all."""
+    from PIL import Image
+
+    with atomic_write(path) as file:
+        Image.fromarray(pixels).save(file, format="PNG")
+
+
+def _folder() -> Path | None:
+    """The user's settings folder; None where there is no home."""
+    try:
+        return settings_folder()
+    except RuntimeError:
+        return None
+
+
+def _settings(params: hello_imgui.RunnerParams, remember: bool, fresh: bool) -> None:
+    """The layout is kept in the user's settings folder, never in the working directory. fresh: the
+    one that is there is put aside."""
+    path = settings_file(fresh) if remember else None
+    if path is not None and not is_unicode(str(path)):
+        path = None  # ImGui takes UTF-8 only
+    params.ini_disable = path is None
+    if path is not None:
+        params.ini_folder_type = hello_imgui.IniFolderType.absolute_path
+        params.ini_filename = str(path)
+        params.ini_filename_use_app_window_title = False

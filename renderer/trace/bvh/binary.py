@@ -1,0 +1,290 @@
+"""The builder of the bounding volume hierarchy: a binary tree over all triangles and spheres.
+
+Owns the tree's construction by a team of threads. Knows nothing of rays; sah_split.py chooses the
+splits, traverse.py owns the layout that is walked.
+"""
+
+from __future__ import annotations
+
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from renderer.scene.flat import FlatScene
+from renderer.scene.positions import world_vertices
+from renderer.trace.bvh.sah_split import (
+    BINS,
+    HIGH,
+    NUMBER,
+    RECORD,
+    best_split,
+    bounds_of_bins,
+    bounds_of_records,
+    partition,
+)
+from renderer.trace.compile.compiled import inlined, kernel
+from renderer.trace.scalar.traverse import Tree
+from renderer.trace.scalar.vectors import row
+from renderer.trace.simd.lanes import LANES
+from renderer.trace.simd.memory import load, pointer, shifted, store
+from renderer.trace.threads.atomic import take_next
+from renderer.trace.threads.control import new_control
+from renderer.trace.threads.thread_pool import Team
+
+F32 = NDArray[np.float32]
+I32 = NDArray[np.int32]
+
+LEAF_SIZE = 4  # primitives
+MAX_DEPTH = 48  # deeper nodes are halved by count, whatever their shape: depth stays bounded
+PIECE = 4096  # primitives, at least, of the subtrees that threads take
+CHUNK = 4096  # primitives that a thread takes at a time
+
+
+class Bvh(NamedTuple):
+    """A binary tree over numbered primitives.
+
+    bounds: float32 (nodes, 6), low x, y, z, high x, y, z. Node 0 is the root; a child's box lies
+        inside its parent's.
+    links: int32 (nodes, 2): (first child, 0), the second child being the next node; or, for a
+        leaf, (start, count): its primitives are order[start : start + count], count > 0.
+    order: int32 (n,), each primitive's number once.
+    depth: nodes on the longest way from the root to a leaf, both counted.
+    """
+
+    bounds: np.ndarray
+    links: np.ndarray
+    order: np.ndarray
+    depth: int
+
+
+def build(vertices: F32, faces: I32, spheres: F32, team: Team, leaf_size: int = LEAF_SIZE) -> Bvh:
+    """The tree over primitives, leaves of at most leaf_size; no nodes for no primitives.
+
+    vertices (n, 3), faces (m, 3), spheres (k, 4; centre, radius): read-only, in one space.
+
+    The threads split the top of the tree, each time to pieces of half the size, until the pieces
+    are small enough to go round; then they take the pieces.
+    """
+    count = len(faces) + len(spheres)
+    # A tree of n leaves has 2 n - 1 nodes; the pages of those that stay unused cost nothing.
+    bounds, links = np.empty((2 * count, 6), np.float32), np.empty((2 * count, 2), np.int32)
+    levels = np.empty(2 * count, np.uint8)
+    if not count:
+        return _read_only(Bvh(bounds, links, np.empty(0, np.int32), 0))
+    records = np.empty((count + 1, RECORD), np.float32)  # the last is only read, and not used
+    records[-1] = 0
+    numbers = records.view(np.int32)[:count]
+    _share(team, count, _fill_records, vertices, faces, spheres, records[:count], numbers)
+
+    levels[0], links[0] = 1, (0, count)
+    used, piece = 1, max(PIECE, count // (16 * team.size))
+    for largest in (*_halves(count, piece), leaf_size):
+        jobs = _jobs(links, levels, used, largest)
+        team.run(
+            _grow_pieces, records, bounds, links, levels, jobs, largest, leaf_size, new_control(),
+            size=len(jobs),
+        )  # fmt: skip
+        used = _close_gaps(bounds, links, levels, jobs, used)
+    depth = int(levels[:used].max())
+    bvh = Bvh(bounds[:used].copy(), links[:used].copy(), numbers[:, NUMBER].copy(), depth)
+    return _read_only(bvh)
+
+
+def tree_of_scene(flat: FlatScene, team: Team, leaf_size: int = LEAF_SIZE) -> Tree:
+    """The tree of a scene with its shapes, in the order of the leaves, as closest_hit walks it.
+
+    All in float64, relative to the middle of the scene, but for the boxes.
+    """
+    middle = flat.bounds.mean(axis=0)
+    vertices, spheres = world_vertices(flat, middle), flat.spheres.copy()
+    spheres[:, :3] -= middle
+    points, balls = vertices.astype(np.float32), spheres.astype(np.float32)
+    for array in (points, balls):
+        array.setflags(write=False)
+    bvh = build(points, flat.faces, balls, team, leaf_size)
+    shapes = np.zeros((len(bvh.order), 9))
+    _share(team, len(shapes), _fill_shapes, vertices, flat.faces, spheres, bvh.order, shapes)
+    shapes[_without_area(flat)[bvh.order]] = np.nan
+    # One node waits at each level, and a last one is pushed before it is taken.
+    extent = float(np.abs(bvh.bounds[:1]).max(initial=0.0))
+    triangles, room = len(flat.faces), bvh.depth + 1
+    return _read_only(
+        Tree(middle, bvh.bounds, bvh.links, bvh.order, shapes, triangles, room, extent)
+    )
+
+
+def _without_area(flat: FlatScene) -> NDArray[np.bool_]:
+    """Primitives without a normal, which must not be hit. In their own space: where a triangle's
+    corners are in one line there, rounding might give it an area in the world."""
+    a, b, c = (flat.vertices[flat.faces[:, k]].astype(np.float64) for k in range(3))
+    is_flat = ~np.cross(b - a, c - a).any(axis=1)
+    return np.append(is_flat, np.zeros(len(flat.spheres), np.bool_))
+
+
+def _read_only(tree: Any) -> Any:
+    """The tree with its arrays write-protected, as the scene's are: one type for the compiler."""
+    for item in tree:
+        if isinstance(item, np.ndarray):
+            item.setflags(write=False)
+    return tree
+
+
+def _share(team: Team, count: int, fill: Any, *arrays: np.ndarray) -> None:
+    """Runs a kernel that takes chunks of `count` primitives."""
+    team.run(fill, *arrays, new_control(), size=-(-count // CHUNK))
+
+
+# Columns of a job: the records and the node to build from, at which level, the first node number
+# that it may use; and, once done, the one after the last that it used.
+_NODE, _START, _END, _LEVEL, _FREE, _USED = range(6)
+
+
+def _halves(count: int, piece: int) -> list[int]:
+    """count / 2, count / 4, ..., as long as they are at least `piece`."""
+    return [count >> k for k in range(1, count.bit_length()) if count >> k >= piece]
+
+
+def _jobs(links: np.ndarray, levels: np.ndarray, used: int, leaf_size: int) -> np.ndarray:
+    """A job for each leaf that is too large, with room for the nodes it may need; the root is one
+    in any case, whose bounds are not known yet."""
+    node = np.flatnonzero(links[:used, 1] > (leaf_size if used > 1 else 0))
+    start, size = links[node].astype(np.int64).T
+    free = used + np.cumsum(2 * size - 2) - (2 * size - 2)
+    return np.stack([node, start, start + size, levels[node], free, free], axis=1)
+
+
+def _close_gaps(
+    bounds: np.ndarray, links: np.ndarray, levels: np.ndarray, jobs: np.ndarray, used: int
+) -> int:
+    """Moves the subtrees' nodes together; gives the number of nodes."""
+    for job in jobs:
+        first, last = int(job[_FREE]), int(job[_USED])
+        shift = first - used
+        nodes = slice(used, used + last - first)
+        for array in (bounds, links, levels):
+            array[nodes] = array[first:last]
+        for part in (links[nodes], links[job[_NODE] : job[_NODE] + 1]):
+            part[part[:, 1] == 0, 0] -= shift
+        used = nodes.stop
+    return used
+
+
+@kernel
+def _fill_records(vertices, faces, spheres, records, numbers, control):
+    """The boxes that sah_split.py sorts."""
+    triangles, count = len(faces), len(records)
+    while True:
+        start = take_next(control) * CHUNK
+        if start >= count:
+            return
+        for i in range(start, min(start + CHUNK, count)):
+            numbers[i, NUMBER] = i
+            records[i, HIGH + 3] = 0
+            for axis in range(3):
+                if i < triangles:
+                    a = vertices[faces[i, 0], axis]
+                    b = vertices[faces[i, 1], axis]
+                    c = vertices[faces[i, 2], axis]
+                    records[i, axis] = -min(min(a, b), c)
+                    records[i, HIGH + axis] = max(max(a, b), c)
+                else:
+                    s = i - triangles
+                    low = spheres[s, axis] - spheres[s, 3]
+                    high = spheres[s, axis] + spheres[s, 3]
+                    # Outwards, by more than the rounding of the line above.
+                    records[i, axis] = abs(low) * np.float32(1.2e-7) - low
+                    records[i, HIGH + axis] = high + abs(high) * np.float32(1.2e-7)
+
+
+@kernel
+def _fill_shapes(vertices, faces, spheres, order, shapes, control):
+    """The corners of triangles, the centres and radii of spheres, in the order of the leaves."""
+    triangles, count = len(faces), len(order)
+    while True:
+        start = take_next(control) * CHUNK
+        if start >= count:
+            return
+        for i in range(start, min(start + CHUNK, count)):
+            number = order[i]
+            if number >= triangles:
+                for k in range(4):
+                    shapes[i, k] = spheres[number - triangles, k]
+                continue
+            a, b, c = (
+                row(vertices, np.int64(faces[number, 0])),
+                row(vertices, np.int64(faces[number, 1])),
+                row(vertices, np.int64(faces[number, 2])),
+            )
+            for k in range(3):
+                shapes[i, k], shapes[i, 3 + k], shapes[i, 6 + k] = a[k], b[k], c[k]
+
+
+@kernel
+def _grow_pieces(records, bounds, links, levels, jobs, largest, leaf_size, control):
+    """Takes jobs and builds each one's subtree, down to nodes of `largest` primitives."""
+    # The smaller half is built first, so each node that waits is less than half of the one before.
+    waiting, waiting_bounds = np.empty((72, 4), np.int64), np.empty(72 * LANES, np.float32)
+    bins, counts = np.empty((3 * BINS + 2) * LANES, np.float32), np.empty(3 * BINS, np.int64)
+    # Vectors within cache lines: what is stored there can be loaded again at once.
+    aligned = -(bins.ctypes.data // 4) % LANES
+    while True:
+        j = take_next(control)
+        if j >= len(jobs):
+            return
+        scratch = shifted(pointer(bins), aligned), pointer(counts)
+        _grow(
+            pointer(records), bounds, links, levels, jobs[j], largest, leaf_size,
+            waiting, pointer(waiting_bounds), scratch,
+        )  # fmt: skip
+
+
+@inlined
+def _grow(
+    records, bounds, links, levels, job, largest, leaf_size, waiting, waiting_bounds, scratch
+):
+    """Builds a job's subtree, nodes of at most `largest`, and notes the node after its last."""
+    free = job[_FREE]
+    for k in range(4):
+        waiting[0, k] = job[k]
+    store(waiting_bounds, 0, bounds_of_records(records, job[_START], job[_END]))
+    top = 1
+    while top > 0:
+        top -= 1
+        node, start, end = waiting[top, _NODE], waiting[top, _START], waiting[top, _END]
+        level = waiting[top, _LEVEL]
+        own = load(waiting_bounds, LANES * top)
+        for axis in range(3):
+            bounds[node, axis] = -waiting_bounds[LANES * top + axis]
+            bounds[node, 3 + axis] = waiting_bounds[LANES * top + HIGH + axis]
+        levels[node] = level
+        if end - start <= largest:
+            links[node, 0], links[node, 1] = start, end - start
+            continue
+        links[node, 0], links[node, 1] = free, 0
+
+        # Split by the least cost; by count where no cost says how.
+        axis = -1
+        if level < MAX_DEPTH:
+            axis, last_bin, middle = best_split(records, start, end, own, leaf_size, scratch)
+        if axis >= 0:
+            partition(records, start, end, own, axis, last_bin)
+            left = bounds_of_bins(scratch[0], axis, 0, last_bin + 1)
+            right = bounds_of_bins(scratch[0], axis, last_bin + 1, BINS)
+        else:
+            middle = (start + end) // 2
+            left = bounds_of_records(records, start, middle)
+            right = bounds_of_records(records, middle, end)
+
+        # The larger half waits below the smaller.
+        left_is_larger = middle - start > end - middle
+        for turn in range(2):
+            is_left = left_is_larger == (turn == 0)
+            waiting[top, _NODE] = free if is_left else free + 1
+            waiting[top, _START] = start if is_left else middle
+            waiting[top, _END] = middle if is_left else end
+            waiting[top, _LEVEL] = level + 1
+            store(waiting_bounds, LANES * top, left if is_left else right)
+            top += 1
+        free += 2
+    job[_USED] = free

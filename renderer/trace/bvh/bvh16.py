@@ -1,0 +1,216 @@
+"""The wide tree: a binary BVH collapsed to 16 children a node and up to 16 triangles a leaf.
+
+Owns the layout that the SIMD kernels walk, and how it is made of a binary tree (binary.py). One
+vector then holds one coordinate of all the boxes of a node, or of all the triangles of a leaf.
+Knows nothing of cameras or rays. Source: Wald, Benthin and Boulos, "Getting Rid of Packets:
+Efficient SIMD Single-Ray Traversal using Multi-branching BVHs", 2008.
+"""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from renderer.trace.bvh.binary import MAX_DEPTH, Bvh, build
+from renderer.trace.compile.compiled import kernel
+from renderer.trace.simd.lanes import LANES
+from renderer.trace.threads.atomic import take_next
+from renderer.trace.threads.control import new_control
+from renderer.trace.threads.thread_pool import Team
+
+WIDTH = 16  # children of a node, triangles of a leaf: the lanes of a vector
+NO_CHILD = -1
+FIRST_LEAF = -2  # leaf k is the child FIRST_LEAF - k
+BOX = 6 * WIDTH  # floats of a node's boxes
+CORNERS = 9 * WIDTH  # floats of a leaf's corners
+_FAR = np.float32(3.4e38)
+# Where a leaf has no triangle: every comparison is false. Corners that coincide would look like a
+# triangle that needs float64 (packet_leaf.py), and more than half of all leaves are not full.
+_NO_CORNER = np.float32(np.nan)
+_NO_SPHERES = np.zeros((0, 4), np.float32)
+_NO_SPHERES.setflags(write=False)
+_CHUNK = 256  # leaves that a thread takes at a time
+_LEVELS = 2 * MAX_DEPTH + 64  # more than any binary tree has
+
+
+class WideTree(NamedTuple):
+    """A tree of WIDTH children a node; node 0 is the root. All arrays are flat, C order.
+
+    box: float32, for each node low x, y, z, high x, y, z, each of 16 children; absent children are
+        inside out.
+    child: int32, 16 a node: >= 0 a node, NO_CHILD, or FIRST_LEAF - k: leaf k.
+    corner: float32, for each leaf x, y, z of the corners a, b, c, each of 16 triangles.
+    face: int32, 16 a leaf: the number of each triangle, -1 where the leaf is not full (its corners
+        are NaN there). A triangle's place in this array is called its slot.
+    normal: float32, for each leaf x, y, z of 16 unit normals by the winding; 0 for no area.
+    bounds: float64 (2, 3), lowest and highest corner.
+    levels: nodes on the longest way from the root, with which a traversal's stack grows.
+    """
+
+    box: NDArray[np.float32]
+    child: NDArray[np.int32]
+    corner: NDArray[np.float32]
+    face: NDArray[np.int32]
+    normal: NDArray[np.float32]
+    bounds: NDArray[np.float64]
+    levels: int
+
+    @property
+    def size_bytes(self) -> int:
+        return sum(array.nbytes for array in self if isinstance(array, np.ndarray))
+
+
+def aligned(count: int, dtype: type) -> NDArray:
+    """An empty array of 4-byte numbers whose vectors of 16 lie within cache lines, of 64 bytes.
+
+    NumPy's own arrays begin in the middle of a line: each vector would touch two.
+    """
+    room: NDArray = np.empty(count + LANES - 1, dtype)
+    first = -room.ctypes.data // 4 % LANES
+    return room[first : first + count]
+
+
+def tree_of_mesh(vertices: NDArray[np.float32], faces: NDArray[np.int32], team: Team) -> WideTree:
+    """The tree over the triangles faces (m, 3), m > 0, of vertices (n, 3)."""
+    binary = build(vertices, faces, _NO_SPHERES, team, leaf_size=WIDTH)
+    box, child, leaves, levels = collapse(binary)
+    corner = aligned(len(leaves) * CORNERS, np.float32)
+    face = np.empty(len(leaves) * WIDTH, np.int32)
+    normal = aligned(len(leaves) * 3 * WIDTH, np.float32)
+    chunks = -(-len(leaves) // _CHUNK)
+    team.run(
+        _fill_leaves, vertices, faces, binary.order, leaves, corner, face, normal, new_control(),
+        size=chunks,
+    )  # fmt: skip
+    bounds = binary.bounds[0].astype(np.float64).reshape(2, 3)
+    return WideTree(box, child, corner, face, normal, bounds, levels)
+
+
+def tree_of_boxes(
+    low: NDArray[np.float32], high: NDArray[np.float32], team: Team
+) -> tuple[NDArray[np.float32], NDArray[np.int32], int]:
+    """(box, child, levels) of a tree whose leaf k is box k, low[k] to high[k]; (n, 3), n > 0."""
+    count = len(low)
+    # A triangle with two opposite corners of a box is bounded by that box.
+    vertices = np.concatenate([low, high])
+    first = np.arange(count, dtype=np.int32)
+    faces = np.stack([first, first + np.int32(count), first], axis=1)
+    for array in (vertices, faces):
+        array.setflags(write=False)
+    binary = build(vertices, faces, _NO_SPHERES, team, leaf_size=1)
+    box, child, leaves, levels = collapse(binary)
+    is_leaf = child <= FIRST_LEAF
+    child[is_leaf] = FIRST_LEAF - binary.order[leaves[FIRST_LEAF - child[is_leaf], 0]]
+    return box, child, levels
+
+
+def collapse(binary: Bvh) -> tuple[NDArray, NDArray, NDArray, int]:
+    """(box, child, leaves, levels): leaves int32 (n, 2) are (start, count) in the binary order."""
+    nodes = len(binary.links)
+    room = nodes // 2 + 1  # each wide node takes at least one inner node, or the only leaf
+    box, child = np.empty((room, 6, WIDTH), np.float32), np.empty((room, WIDTH), np.int32)
+    leaves = np.empty((nodes // 2 + 1, 2), np.int32)
+    used, used_leaves, levels = _collapse(binary.bounds, binary.links, box, child, leaves)
+    flat_box = aligned(used * BOX, np.float32)
+    flat_box[:] = box[:used].reshape(-1)
+    return (
+        flat_box,
+        child[:used].copy().reshape(-1),
+        leaves[:used_leaves],
+        int(levels),
+    )
+
+
+@kernel
+def _collapse(bounds, links, box, child, leaves):
+    """Gathers the binary tree's nodes into wide ones; gives how many nodes, leaves and levels.
+
+    A subtree of up to 16 leaves becomes one node. It is not opened by the node above, which would
+    leave behind many nodes of few leaves: each takes as long to test as a full one.
+    """
+    below = np.empty(len(links), np.int32)  # leaves below each binary node
+    for m in range(len(links) - 1, -1, -1):  # children come after their parents
+        below[m] = 1 if links[m, 1] != 0 else below[links[m, 0]] + below[links[m, 0] + 1]
+    waiting = np.empty((WIDTH * _LEVELS, 3), np.int64)  # binary node, wide node, level
+    member = np.empty(WIDTH, np.int64)
+    waiting[0, 0], waiting[0, 1], waiting[0, 2] = 0, 0, 1
+    top, nodes, used_leaves, levels = 1, 1, 0, 1
+    while top > 0:
+        top -= 1
+        node, level = waiting[top, 1], waiting[top, 2]
+        levels = max(levels, level)
+        # Replace the member of the largest surface by its two children, until there are 16.
+        member[0] = waiting[top, 0]
+        count = 1
+        opened = 1 if below[member[0]] <= WIDTH else WIDTH  # up to how many leaves stay closed
+        while count < WIDTH:
+            widest, area = -1, np.float32(-1)
+            for i in range(count):
+                m = member[i]
+                if below[m] > opened:
+                    dx = bounds[m, 3] - bounds[m, 0]
+                    dy = bounds[m, 4] - bounds[m, 1]
+                    dz = bounds[m, 5] - bounds[m, 2]
+                    if dx * dy + dy * dz + dz * dx > area:
+                        widest, area = i, dx * dy + dy * dz + dz * dx
+            if widest < 0:
+                break
+            first = links[member[widest], 0]
+            member[widest], member[count] = first, first + 1
+            count += 1
+        # Write the node; the members that are not leaves become nodes of their own.
+        for i in range(WIDTH):
+            if i >= count:
+                child[node, i] = NO_CHILD
+                for axis in range(3):
+                    box[node, axis, i], box[node, 3 + axis, i] = _FAR, -_FAR
+                continue
+            m = member[i]
+            for k in range(6):
+                box[node, k, i] = bounds[m, k]
+            if links[m, 1] == 0:
+                child[node, i] = nodes
+                waiting[top, 0], waiting[top, 1], waiting[top, 2] = m, nodes, level + 1
+                top += 1
+                nodes += 1
+            else:
+                child[node, i] = FIRST_LEAF - used_leaves
+                leaves[used_leaves, 0], leaves[used_leaves, 1] = links[m, 0], links[m, 1]
+                used_leaves += 1
+    return nodes, used_leaves, levels
+
+
+@kernel
+def _fill_leaves(vertices, faces, order, leaves, corner, face, normal, control):
+    """Corners, numbers and normals of the leaves' triangles; threads share the leaves."""
+    while True:
+        first = take_next(control) * _CHUNK
+        if first >= len(leaves):
+            return
+        for k in range(first, min(first + _CHUNK, len(leaves))):
+            start, count = leaves[k, 0], leaves[k, 1]
+            for i in range(WIDTH):
+                f = order[start + min(i, count - 1)]
+                face[k * WIDTH + i] = f if i < count else -1
+                a, b, c = np.int64(faces[f, 0]), np.int64(faces[f, 1]), np.int64(faces[f, 2])
+                at = k * CORNERS + i
+                for axis in range(3):
+                    corner[at + axis * WIDTH] = vertices[a, axis] if i < count else _NO_CORNER
+                    corner[at + (3 + axis) * WIDTH] = vertices[b, axis] if i < count else _NO_CORNER
+                    corner[at + (6 + axis) * WIDTH] = vertices[c, axis] if i < count else _NO_CORNER
+                # The normal, in float64: small triangles far from the origin keep theirs.
+                ux = np.float64(vertices[b, 0]) - np.float64(vertices[a, 0])
+                uy = np.float64(vertices[b, 1]) - np.float64(vertices[a, 1])
+                uz = np.float64(vertices[b, 2]) - np.float64(vertices[a, 2])
+                vx = np.float64(vertices[c, 0]) - np.float64(vertices[a, 0])
+                vy = np.float64(vertices[c, 1]) - np.float64(vertices[a, 1])
+                vz = np.float64(vertices[c, 2]) - np.float64(vertices[a, 2])
+                nx, ny, nz = uy * vz - uz * vy, uz * vx - ux * vz, ux * vy - uy * vx
+                length = np.sqrt(nx * nx + ny * ny + nz * nz)
+                scale = 1.0 / length if length > 0.0 else 0.0
+                at = k * 3 * WIDTH + i
+                normal[at] = nx * scale
+                normal[at + WIDTH] = ny * scale
+                normal[at + 2 * WIDTH] = nz * scale

@@ -1,0 +1,270 @@
+"""The scene in two levels: a wide tree for each mesh, and a tree of what stands where.
+
+Owns the trees of a scene, and how they follow a scene of which objects were moved. Knows nothing of
+cameras; rays and packets alike walk what is made here.
+
+A mesh's tree is in the mesh's own space. An object is an instance of its mesh: a transform and the
+root of a tree. So a moved object costs a new box in the upper tree, and objects that share a mesh
+share its tree. Spheres stand in the upper tree beside the instances. The upper tree's space is the
+world, seen from the middle of the scene: its boxes are float32 wherever the scene is.
+"""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from renderer.scene.boxes import world_boxes
+from renderer.scene.flat import DIFFUSE_SHININESS, FlatScene
+from renderer.scene.model import Mesh, Scene
+from renderer.trace.bvh.bvh16 import (
+    FIRST_LEAF,
+    WIDTH,
+    WideTree,
+    aligned,
+    tree_of_boxes,
+    tree_of_mesh,
+)
+from renderer.trace.compile.compiled import inlined
+from renderer.trace.simd.memory import pointer
+from renderer.trace.threads.thread_pool import Team
+
+# Bits of an instance: its vertices have normals, have colours; its transform changes angles; it is
+# the identity.
+HAS_NORMALS, HAS_COLORS, IS_STRETCHED, IS_UNMOVED = 1, 2, 4, 8
+_SQUASHED = 1e-6  # a transform that changes angles by less counts as a similarity
+_NO_HIGHLIGHT = 2.0**-24  # of its light: a smaller highlight is lost in float32 beside the light
+_OUTWARDS = 4e-7  # of the coordinates: more than the rounding of bounds to float32
+
+
+class World(NamedTuple):
+    """What kernels walk. Arrays flat, C order, laid out as in WideTree unless said otherwise.
+
+    box, child, corner, face, normal: the nodes and leaves of all meshes, one after another.
+    top_box, top_child: the upper tree; its leaf k is item k: instance k, or sphere k - instances.
+    top: where its traversal begins: node 0, or the leaf if there is one item only.
+    root: int32, the node at which an instance's tree begins. root_object: int32, its object.
+    first_primitive: int32, what added to a triangle's face number gives its primitive number.
+    object_from_world: float64, 12 an instance: the upper three rows of the matrix.
+    normal_matrix: float32, 9 an instance, row by row: takes a normal to world space and keeps it on
+        the winding's side; its length changes only where the transform changes angles.
+    attributes: int32, HAS_NORMALS, HAS_COLORS, IS_STRETCHED, IS_UNMOVED.
+    dark_cosine: float32, for each object the cosine below which its highlights are nothing.
+    spheres: float64, 4 a sphere: centre, radius, in the world. sphere_object: int32.
+    middle: float64, 3: the world's point from which the upper tree's space is seen.
+    instances, triangles: how many; sphere k has the primitive number triangles + k.
+    is_empty: there is nothing to see.
+    """
+
+    box: NDArray[np.float32]
+    child: NDArray[np.int32]
+    corner: NDArray[np.float32]
+    face: NDArray[np.int32]
+    normal: NDArray[np.float32]
+    top_box: NDArray[np.float32]
+    top_child: NDArray[np.int32]
+    root: NDArray[np.int32]
+    root_object: NDArray[np.int32]
+    first_primitive: NDArray[np.int32]
+    object_from_world: NDArray[np.float64]
+    normal_matrix: NDArray[np.float32]
+    attributes: NDArray[np.int32]
+    dark_cosine: NDArray[np.float32]
+    spheres: NDArray[np.float64]
+    sphere_object: NDArray[np.int32]
+    middle: NDArray[np.float64]
+    top: int
+    instances: int
+    triangles: int
+    is_empty: bool
+
+
+@inlined
+def world_pointers(world):
+    """The World with pointers for arrays, as stages take it."""
+    return World(
+        pointer(world.box),
+        pointer(world.child),
+        pointer(world.corner),
+        pointer(world.face),
+        pointer(world.normal),
+        pointer(world.top_box),
+        pointer(world.top_child),
+        pointer(world.root),
+        pointer(world.root_object),
+        pointer(world.first_primitive),
+        pointer(world.object_from_world),
+        pointer(world.normal_matrix),
+        pointer(world.attributes),
+        pointer(world.dark_cosine),
+        pointer(world.spheres),
+        pointer(world.sphere_object),
+        pointer(world.middle),
+        world.top,
+        world.instances,
+        world.triangles,
+        world.is_empty,
+    )
+
+
+class Instances:
+    """The two levels of one scene.
+
+    world: what kernels walk. world_from_space: float64 (instances + 1, 4, 4), the transform of each
+    instance, and of the upper tree's space. bounds: float64 (instances + 1, 2, 3), lowest and
+    highest corner in each of these spaces.
+    """
+
+    def __init__(self, scene: Scene, flat: FlatScene, team: Team) -> None:
+        self._team = team
+        self._trees: dict[tuple[int, int], WideTree] = {}
+        self._meshes: list[Mesh] = []
+        self._numbers: dict[tuple[int, int], int] = {}
+        self._build_trees(scene)
+        self._place(scene, flat)
+
+    def update(self, scene: Scene, flat: FlatScene) -> None:
+        """Follows a changed scene; meshes whose arrays are the same objects keep their trees."""
+        if not {_key(mesh) for mesh in _meshes(scene)} <= set(self._trees):
+            self._build_trees(scene)
+        self._place(scene, flat)
+
+    @property
+    def stack_size(self) -> int:
+        """Nodes that can wait in a traversal, of the upper tree and then of a mesh's."""
+        levels = self._top_levels + max((tree.levels for tree in self._trees.values()), default=0)
+        return (WIDTH - 1) * levels + 2 * WIDTH
+
+    def _build_trees(self, scene: Scene) -> None:
+        """A tree for each mesh that has none; meshes no longer used lose theirs."""
+        trees: dict[tuple[int, int], WideTree] = {}
+        meshes: list[Mesh] = []
+        for mesh in _meshes(scene):
+            key = _key(mesh)
+            if key not in trees:
+                meshes.append(mesh)
+                trees[key] = self._trees.get(key) or tree_of_mesh(
+                    mesh.vertices, mesh.faces, self._team
+                )
+        # Only now, as building may be given up. Meshes are kept alive: their arrays' identities
+        # are the keys.
+        self._trees, self._meshes = trees, meshes
+        self._join()
+
+    def _join(self) -> None:
+        """One array of each kind for all trees; children and leaves are renumbered."""
+        nodes = leaves = 0
+        parts: list[tuple[np.ndarray, ...]] = []
+        self._roots: dict[tuple[int, int], int] = {}
+        for key, tree in self._trees.items():
+            child = tree.child
+            if nodes:
+                child = np.where(child >= 0, child + np.int32(nodes), child)
+                child[tree.child <= FIRST_LEAF] -= np.int32(leaves)
+            parts.append((tree.box, child, tree.corner, tree.face, tree.normal))
+            self._roots[key] = nodes
+            nodes += len(tree.child) // WIDTH
+            leaves += len(tree.face) // WIDTH
+        dtypes = (np.float32, np.int32, np.float32, np.int32, np.float32)
+        if len(parts) == 1:
+            self._joined = parts[0]
+        else:
+            self._joined = tuple(
+                _concatenated([part[k] for part in parts], dtype) for k, dtype in enumerate(dtypes)
+            )
+
+    def _place(self, scene: Scene, flat: FlatScene) -> None:
+        """The instances, the spheres and the tree over them."""
+        objects = [
+            (number, entry.shape)
+            for number, entry in enumerate(scene.objects)
+            if isinstance(entry.shape, Mesh)
+        ]
+        meshes = [mesh for _, mesh in objects]
+        object_number = np.array([number for number, _ in objects], np.int32)
+        matrix = np.array([mesh.transform for mesh in meshes]).reshape(-1, 4, 4)
+        bounds = np.array([self._trees[_key(mesh)].bounds for mesh in meshes]).reshape(-1, 2, 3)
+        middle, spheres = flat.bounds.mean(axis=0), flat.spheres
+        low, high = world_boxes(matrix, bounds)
+        low = np.concatenate([low, spheres[:, :3] - spheres[:, 3:]]) - middle
+        high = np.concatenate([high, spheres[:, :3] + spheres[:, 3:]]) - middle
+        margin = _OUTWARDS * np.maximum(np.abs(low), np.abs(high))
+        low, high = low - margin, high + margin
+        whole = np.stack([low.min(0), high.max(0)]) if len(low) else np.zeros((2, 3))
+        of_top = np.eye(4)
+        of_top[:3, 3] = middle
+        self.world_from_space = np.concatenate([matrix, of_top[None]])
+        self.bounds = np.concatenate([bounds, whole[None]])
+        top_box, top_child, self._top_levels = np.empty(0, np.float32), np.empty(0, np.int32), 1
+        if len(low):
+            top_box, top_child, self._top_levels = tree_of_boxes(
+                low.astype(np.float32), high.astype(np.float32), self._team
+            )
+        normal_matrix, is_stretched = _normal_matrices(matrix)
+        shininess = flat.materials[:, DIFFUSE_SHININESS, 3]
+        self.world = World(
+            box=self._joined[0],
+            child=self._joined[1],
+            corner=self._joined[2],
+            face=self._joined[3],
+            normal=self._joined[4],
+            top_box=top_box,
+            top_child=top_child,
+            root=np.array([self._roots[_key(mesh)] for mesh in meshes], np.int32),
+            root_object=object_number,
+            first_primitive=flat.object_faces[object_number, 0],
+            object_from_world=np.linalg.inv(matrix)[:, :3].reshape(-1),
+            normal_matrix=normal_matrix.astype(np.float32).reshape(-1),
+            attributes=_attributes(meshes, is_stretched),
+            dark_cosine=(_NO_HIGHLIGHT ** (1 / shininess)).astype(np.float32),
+            spheres=spheres.reshape(-1).copy(),
+            sphere_object=flat.sphere_object.copy(),
+            middle=middle,
+            top=FIRST_LEAF if len(low) == 1 else 0,
+            instances=len(meshes),
+            triangles=len(flat.faces),
+            is_empty=not len(low),
+        )
+
+
+def _concatenated(parts: list[np.ndarray], dtype: type) -> np.ndarray:
+    whole = aligned(sum(len(part) for part in parts), dtype)
+    return np.concatenate(parts, out=whole) if parts else whole
+
+
+def _meshes(scene: Scene) -> list[Mesh]:
+    return [entry.shape for entry in scene.objects if isinstance(entry.shape, Mesh)]
+
+
+def _key(mesh: Mesh) -> tuple[int, int]:
+    return id(mesh.vertices), id(mesh.faces)
+
+
+def _attributes(meshes: list[Mesh], is_stretched: NDArray[np.bool_]) -> NDArray[np.int32]:
+    bits = [
+        HAS_NORMALS * (mesh.normals is not None)
+        + HAS_COLORS * (mesh.colors is not None)
+        + IS_STRETCHED * bool(stretched)
+        + IS_UNMOVED * np.array_equal(mesh.transform, np.eye(4))
+        for mesh, stretched in zip(meshes, is_stretched, strict=True)
+    ]
+    return np.array(bits, np.int32)
+
+
+def _normal_matrices(
+    world_from_object: NDArray[np.float64],
+) -> tuple[NDArray[np.float64], NDArray[np.bool_]]:
+    """The cofactor matrices (n, 3, 3), and which of the transforms change angles (n,).
+
+    cross(M a, M b) = cofactor(M) cross(a, b). Scaled so that a similarity gives a rotation.
+    """
+    if not len(world_from_object):
+        return np.empty((0, 3, 3)), np.empty(0, bool)
+    a, b, c = np.moveaxis(world_from_object[:, :3, :3], 1, 0)
+    cofactor = np.stack([np.cross(b, c), np.cross(c, a), np.cross(a, b)], axis=1)
+    volume = np.abs(np.einsum("nk,nk->n", a, cofactor[:, 0]))
+    cofactor /= np.cbrt(volume)[:, None, None] ** 2
+    gram = np.swapaxes(cofactor, 1, 2) @ cofactor
+    return cofactor, np.abs(gram - np.eye(3)).max(axis=(1, 2)) > _SQUASHED

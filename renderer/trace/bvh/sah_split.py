@@ -1,0 +1,163 @@
+"""How a BVH's node is split in two: binned surface area heuristic, partition in place.
+
+Owns the records that the builder sorts: RECORD float32 for each primitive, in one flat array:
+-low x, y, z of its box, the bits of its number, high x, y, z, nothing. Sorted in place, they are
+read in order by every pass over a node. Knows nothing of nodes.
+
+With the low sides negated, the box around two boxes is one maximum of vectors. Bounds are a vector:
+a record's first half, and in its second half the same of the primitive's centre, -x, y, z and then
+x, y, z. So the bins know the bounds of both halves of a node, and no other pass needs to find them.
+Centres are doubled throughout (low + high): no halving.
+
+Source: Wald, "On fast Construction of SAH-based Bounding Volume Hierarchies", 2007.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from renderer.trace.compile.compiled import inlined
+from renderer.trace.simd.lanes import (
+    LANES,
+    i32_of,
+    lane_of,
+    lower_half_twice,
+    mask_of,
+    next_of_three,
+    quarters_swapped,
+    select,
+    splat,
+    vmax,
+    vmin,
+)
+from renderer.trace.simd.memory import load, store
+
+BINS = 16
+RECORD = 8
+NUMBER = 3  # the column of a record, seen as int32, with the primitive's number
+HIGH = 4  # its column with the high x
+FAR = np.float32(3.4e38)
+_NODE_LEAVES = 14  # of 16 in a wide node (bvh16.py): few are quite full
+_LOW_CENTRE, _HIGH_CENTRE = 8, 12  # lanes of bounds
+_CENTRES = 0xFF00  # the lanes of both
+
+
+@inlined
+def _bounds(records, i):
+    """The bounds of record i."""
+    box = lower_half_twice(load(records, RECORD * i))
+    # (-low) - high and high - (-low): the two signs of the centre.
+    return box - select(mask_of(_CENTRES), quarters_swapped(box), np.float32(0))
+
+
+@inlined
+def bounds_of_records(records, start, end):
+    """The bounds of records[start:end]; of none: -FAR."""
+    bounds = splat(-FAR)
+    for i in range(start, end):
+        bounds = vmax(bounds, _bounds(records, i))
+    return bounds
+
+
+@inlined
+def bounds_of_bins(bins, axis, first, end):
+    """The bounds of the records in bins[first:end] of an axis, after best_split()."""
+    bounds = splat(-FAR)
+    for b in range(first, end):
+        bounds = vmax(bounds, load(bins, LANES * (axis * BINS + b)))
+    return bounds
+
+
+@inlined
+def _bin_scale(bounds):
+    """Bins per unit of (doubled) centre, in the lanes of high centres."""
+    extent = bounds + quarters_swapped(bounds)
+    is_wide = extent > np.float32(1e-30)
+    return select(is_wide, np.float32(BINS * 0.9999) / extent, np.float32(0))
+
+
+@inlined
+def _half_area(bounds):
+    """Half of the surface of bounds' box."""
+    extent = bounds + quarters_swapped(bounds)
+    side = extent * next_of_three(extent)
+    return lane_of(side, 0) + lane_of(side, 1) + lane_of(side, 2)
+
+
+@inlined
+def _units(n, unit):
+    """How many units n primitives take, one of which may not be full."""
+    return np.float32((n + unit - 1) // unit)
+
+
+@inlined
+def best_split(records, start, end, bounds, leaf_size, scratch):
+    """(axis, bin, middle) after which to split records[start:end] at the least cost.
+
+    middle: where the second half will start. axis -1: nowhere. leaf_size: how many primitives a
+    leaf holds. scratch: a thread's bins, float32, 3 BINS + 1 vectors, and counts, int64, 3 BINS.
+    """
+    bins, counts = scratch
+    for b in range(3 * BINS):
+        counts[b] = 0
+        store(bins, LANES * b, splat(-FAR))
+
+    # Sort the centres into bins along each axis.
+    scale, origin = _bin_scale(bounds), quarters_swapped(bounds)
+    for i in range(start, end):
+        own = _bounds(records, i)
+        number = i32_of(vmin(vmax((own + origin) * scale, np.float32(0)), np.float32(BINS - 1)))
+        for axis in range(3):
+            into = axis * BINS + np.int64(lane_of(number, _HIGH_CENTRE + axis))
+            counts[into] += 1
+            store(bins, LANES * into, vmax(load(bins, LANES * into), own))
+
+    # The cost of a split: for each side, its area times its primitives, in whole leaves or, of
+    # many, in whole wide nodes: those that are half empty take as long as full ones.
+    unit = leaf_size if end - start <= _NODE_LEAVES * leaf_size else _NODE_LEAVES * leaf_size
+    best, best_axis, best_bin, middle = FAR, -1, -1, start
+    right = 3 * BINS * LANES
+    for axis in range(3):
+        # Sweep from the right for each right side, then from the left for the sum.
+        first = axis * BINS
+        side, n = splat(-FAR), 0
+        for b in range(BINS - 1, 0, -1):
+            n += counts[first + b]
+            side = vmax(side, load(bins, LANES * (first + b)))
+            bins[right + b] = _half_area(side) * _units(n, unit)
+        side, n = splat(-FAR), 0
+        for b in range(BINS - 1):
+            n += counts[first + b]
+            side = vmax(side, load(bins, LANES * (first + b)))
+            if 0 < n < end - start:
+                cost = _half_area(side) * _units(n, unit) + bins[right + b + 1]
+                if cost < best:
+                    best, best_axis, best_bin, middle = cost, axis, b, start + n
+    return best_axis, best_bin, middle
+
+
+@inlined
+def partition(records, start, end, bounds, axis, last_bin):
+    """Moves the records in bins up to last_bin to the front."""
+    scale = lane_of(_bin_scale(bounds), _HIGH_CENTRE + axis)
+    origin = lane_of(bounds, _LOW_CENTRE + axis)
+    i, j = start, end - 1
+    while True:
+        while i <= j and _bin_of(records, i, axis, origin, scale) <= last_bin:
+            i += 1
+        while i <= j and _bin_of(records, j, axis, origin, scale) > last_bin:
+            j -= 1
+        if i >= j:
+            return
+        for k in range(RECORD):
+            a, b = RECORD * i + k, RECORD * j + k
+            records[a], records[b] = records[b], records[a]
+        i += 1
+        j -= 1
+
+
+@inlined
+def _bin_of(records, i, axis, origin, scale):
+    """The bin of record i, as best_split() finds it."""
+    centre = records[RECORD * i + HIGH + axis] - records[RECORD * i + axis]
+    return min(max(int((centre + origin) * scale), 0), BINS - 1)

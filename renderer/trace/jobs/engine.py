@@ -1,0 +1,50 @@
+"""A scene prepared for tracing: flat arrays and BVH, and the kernel run on them.
+
+The one door between the tracer's threads and the compiled code: importing this module imports
+numba, so only a Tracer's own thread does. Owns the plain way, one ray after another in float64, and
+the choice between it and packets (packets/engine.py).
+"""
+
+from __future__ import annotations
+
+from renderer.camera import Camera
+from renderer.scene.flat import flatten
+from renderer.scene.model import Scene
+from renderer.trace.arguments.image import Image, new_image
+from renderer.trace.arguments.view import View
+from renderer.trace.bvh.binary import tree_of_scene
+from renderer.trace.packets.engine import PacketEngine
+from renderer.trace.scalar.kernel import trace_image
+from renderer.trace.threads.control import Control, cancel, new_control
+from renderer.trace.threads.thread_pool import Team
+
+
+def new_engine(
+    scene: Scene, team: Team, method: str, shadows: bool, mirror_depth: int
+) -> Engine | PacketEngine:
+    """The scene prepared for one of tracer.METHODS; only packets have shadows and mirrors."""
+    if method == "reference":
+        return Engine(scene, team)
+    return PacketEngine(scene, team, shadows, mirror_depth)
+
+
+class Engine:
+    """Traces images of one scene by a team of threads. Raises LucidaError (see flatten)."""
+
+    def __init__(self, scene: Scene, team: Team) -> None:
+        self._team = team
+        self.set_scene(scene)
+        # Compile, by an image that is over before it begins.
+        over = new_control()
+        cancel(over)
+        self.trace(View.of(Camera.canonical()), new_image((1, 1), ()), over)
+
+    def set_scene(self, scene: Scene) -> None:
+        """Prepares another scene."""
+        self._flat = flatten(scene)
+        self._tree = tree_of_scene(self._flat, self._team)
+
+    def trace(self, view: View, image: Image, control: Control) -> None:
+        """Fills the image; returns early if cancelled. Blocks without a finished mark are open."""
+        blocks = image.finished.size
+        self._team.run(trace_image, view, self._flat, self._tree, image, control, size=blocks)

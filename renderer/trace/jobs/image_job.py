@@ -1,0 +1,146 @@
+"""One image on its way: asked for, traced, finished or cancelled.
+
+Owns a job's states, and who may change them. Knows nothing of threads and kernels, only of the
+control array by which a running kernel is watched and stopped.
+"""
+
+from __future__ import annotations
+
+import os
+import threading
+import time
+from collections.abc import Callable
+from typing import Any
+
+from renderer.camera import Camera
+from renderer.forked import check_not_forked
+from renderer.frame import Frame
+from renderer.trace.arguments.buffers import Buffers
+from renderer.trace.arguments.image import Image, new_image, to_frame
+from renderer.trace.arguments.view import View
+from renderer.trace.threads.control import DONE, Control, cancel, new_control
+
+TraceCall = Callable[[View, Image, Control], None]
+
+
+class Task:
+    """What a Tracer's thread works on: waiting, then tracing, then finished. Thread-safe."""
+
+    def __init__(
+        self,
+        camera: Camera,
+        size: tuple[int, int],
+        channels: tuple[str, ...],
+        background: tuple[float, float, float],
+        buffers: Buffers,
+    ) -> None:
+        self.camera, self.size, self.channels = camera, size, channels
+        self.finished = threading.Event()
+        self._background, self._buffers = background, buffers
+        self._control = new_control()
+        self._pid = os.getpid()
+        self._lock = threading.Lock()  # held for moments only, never while tracing
+        self._tracing = False
+        self._blocks = 1
+        self._image: Image | None = None
+        self._time_s = 0.0
+        self._error: BaseException | None = None
+        self._frame: Frame | None = None
+
+    def run(self, engine: Any) -> None:
+        """Traces the image by an engine (engine.py)."""
+        self.trace(engine.trace)
+
+    def trace(self, trace: TraceCall) -> None:
+        """Traces the image, unless cancelled before. Called once, by the Tracer's thread."""
+        if self.finished.is_set():
+            return
+        image = new_image(self.size, self.channels, self._buffers)
+        with self._lock:
+            if self.finished.is_set():
+                return
+            self._image, self._blocks = image, image.finished.size
+            self._tracing = True
+        start_s = time.perf_counter()
+        trace(View.of(self.camera), image, self._control)
+        self._time_s = time.perf_counter() - start_s
+        self.finished.set()
+
+    def fail(self, error: BaseException) -> None:
+        """Ends the task with an error, which frame() raises."""
+        with self._lock:
+            self._error = error
+            self.finished.set()
+
+    def stop(self) -> None:
+        """Makes a kernel at work, or about to be, leave after the pixel in hand. Takes no lock."""
+        cancel(self._control)
+
+    def cancel(self) -> None:
+        """Ends a waiting task at once, and stops one at work."""
+        self.stop()
+        if self.finished.is_set():  # frame(), which takes a while for a large image, has the lock
+            return
+        with self._lock:
+            if not self._tracing:
+                self.finished.set()
+
+    @property
+    def progress(self) -> float:
+        if self.finished.is_set():
+            return 1.0
+        return min(int(self._control[DONE]) / self._blocks, 1.0)
+
+    def wait(self, timeout_s: float | None = None) -> bool:
+        """Waits until finished, or for timeout_s seconds; gives whether it is. Raises LucidaError
+        in a forked process, where nobody would finish it."""
+        if not self.finished.is_set():
+            check_not_forked(self._pid, "tracer", "this image was begun")
+        return self.finished.wait(timeout_s)
+
+    def frame(self) -> Frame:
+        """The image of a finished task."""
+        with self._lock:
+            if self._error is not None:
+                raise self._error
+            if self._frame is None:
+                image = self._image or new_image(self.size, self.channels, self._buffers)
+                self._frame = to_frame(image, self._background, self._time_s)
+            return self._frame
+
+
+class TraceJob:
+    """An image that a Tracer was asked for. Any thread may use it.
+
+    It keeps its Tracer alive; Tracer.close() cancels it.
+    """
+
+    def __init__(self, task: Task, tracer: object) -> None:
+        self._task = task
+        self._tracer = tracer
+
+    @property
+    def progress(self) -> float:
+        """The finished part of the image, 0 to 1; never falls. 1 also once cancelled or failed."""
+        return self._task.progress
+
+    @property
+    def done(self) -> bool:
+        """Whether result() has something to give, or to raise, at once."""
+        return self._task.finished.is_set()
+
+    def cancel(self) -> None:
+        """Asks the job to end, and returns at once; done follows within milliseconds."""
+        self._task.cancel()
+
+    def wait(self, timeout_s: float | None = None) -> bool:
+        """Waits until done, or for timeout_s seconds; gives done."""
+        return self._task.wait(timeout_s)
+
+    def result(self) -> Frame:
+        """The image, once done. If the job was cancelled before its end, complete is False.
+
+        Raises what went wrong: LucidaError where the scene or the image is too large.
+        """
+        self._task.wait()
+        return self._task.frame()

@@ -1,0 +1,87 @@
+"""Compiling kernels in processes of their own, into the cache that this process then loads from.
+
+Owns these processes: what they compile, and their end. numba compiles one function at a time, and
+holds Python's lock meanwhile; processes compile at once, and a window's loop goes on.
+
+Nothing depends on it: what is not in the cache afterwards is compiled here, at its first call.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import hashlib
+import subprocess
+import time
+from collections.abc import Callable
+from pathlib import Path
+
+import llvmlite.binding as llvm
+from numba.core import config
+
+from renderer import compile_note
+from renderer.child import end_child, interpreter, start_child
+from renderer.trace.compile.compiled import cache_folder
+from renderer.trace.threads.thread_pool import default_threads
+
+LIMIT_S = 120.0  # a process that takes longer is given up
+_POLL_S = 0.01
+_CHILD = "renderer.trace.jobs.compile_child"
+
+
+def parts_of(method: str, shadows: bool, mirror_depth: int) -> tuple[str, ...]:
+    """What a Tracer's engine needs that is worth a process (compile_child.py has them); what takes
+    longest comes first."""
+    if method != "packets":
+        return ()
+    return "write-effects" if shadows or mirror_depth else "write", "walk", "trees"
+
+
+class Precompilation:
+    """Processes that compile parts, as many as are not known to be in the cache.
+
+    There are none where they would be of no use, or cannot be: no place for a cache, a single
+    processor, a program that is not Python's interpreter.
+    """
+
+    def __init__(self, parts: tuple[str, ...]) -> None:
+        folder, python = cache_folder(), interpreter()
+        self._processes: dict[Path, subprocess.Popen[bytes]] = {}
+        if folder is None or python is None or default_threads() == 1:
+            return
+        for part in parts:
+            mark = folder / f"{part}-{_processor()}.done"
+            if not mark.exists():
+                with contextlib.suppress(OSError):
+                    self._processes[mark] = start_child(python, _CHILD, part)
+                    compile_note.begin(kept=True)
+
+    def wait(self, is_closed: Callable[[], bool]) -> None:
+        """Returns when all are done, or is_closed() says that nobody waits: that kills them."""
+        end_s = time.monotonic() + LIMIT_S
+        try:
+            for mark, process in self._processes.items():
+                while process.poll() is None:
+                    if is_closed() or time.monotonic() > end_s:
+                        return
+                    time.sleep(_POLL_S)
+                if process.returncode == 0:
+                    with contextlib.suppress(OSError):
+                        mark.touch()
+        finally:
+            self.end()
+
+    def end(self) -> None:
+        """Kills those that are still at work."""
+        for process in self._processes.values():
+            end_child(process)
+        self._processes.clear()
+
+
+def _processor() -> str:
+    """Names the processor that is compiled for: a folder may be shared by several."""
+    try:
+        features = llvm.get_host_cpu_features().flatten()
+    except RuntimeError:
+        features = ""
+    text = repr((llvm.get_host_cpu_name(), features, config.CPU_NAME, config.CPU_FEATURES))
+    return hashlib.sha256(text.encode()).hexdigest()[:12]

@@ -1,0 +1,194 @@
+"""The ray tracer: draws scenes in image order, on all processors.
+
+Owns what its user sees: images made at once, or in the background. The work is worker.py's.
+"""
+
+from __future__ import annotations
+
+import math
+import weakref
+from collections.abc import Callable, Iterable
+from types import TracebackType
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from renderer.camera import Camera, check_camera
+from renderer.errors import LucidaError
+from renderer.frame import Frame, check_channels, check_size
+from renderer.samples import check_samples, supersampled
+from renderer.scene.model import Scene, check_scene
+from renderer.trace.arguments.buffers import Buffers
+from renderer.trace.jobs.image_job import Task, TraceJob
+from renderer.trace.jobs.ray_batch import RayBatch
+from renderer.trace.jobs.worker import Worker
+from renderer.trace.threads.thread_pool import check_threads
+
+DEFAULT_CHANNELS = ("color", "depth", "normal", "id")
+METHODS = ("packets", "reference")
+MOST_BOUNCES = 16
+POLL_S = 0.03  # between two reports of progress
+
+
+class Tracer:
+    """Draws images of one scene by tracing each pixel's viewing ray.
+
+    threads: how many trace an image together; None: as many as this process has processors.
+    method: "packets" traces squares of pixels together, in float32 and by SIMD; "reference" one ray
+    after another, in float64, tens of times slower, by the code that reads like the lecture.
+    shadows: whether objects keep light from one another. mirror_depth: how often a viewing ray is
+    reflected, by the materials' specular colours. Off in both renderers, which then agree: only ray
+    tracing has them; for method "packets".
+    The first image takes longer: the scene is prepared then and, once for each installation, the
+    kernels are compiled, some seconds. Several Tracers may work at once; the jobs of one are done
+    one after another, in the order of their start. All methods may be called from any thread.
+    Raises LucidaError for what is no Scene, a bad number of threads or bounces, and an unknown
+    method.
+    """
+
+    def __init__(
+        self,
+        scene: Scene,
+        threads: int | None = None,
+        method: str = METHODS[0],
+        shadows: bool = False,
+        mirror_depth: int = 0,
+    ) -> None:
+        _check_method(method, shadows, mirror_depth)
+        self._scene = check_scene(scene)
+        self.threads = check_threads(threads)
+        self.method = method
+        self.shadows, self.mirror_depth = bool(shadows), mirror_depth
+        self._worker = Worker(self.threads, method, self.shadows, mirror_depth)
+        self._buffers = Buffers()
+        weakref.finalize(self, self._worker.abandon)
+
+    @property
+    def scene(self) -> Scene:
+        """What the next image shows."""
+        return self._scene
+
+    def set_scene(self, scene: Scene) -> None:
+        """Changes what the images started from now on show.
+
+        Of a scene that differs from the last one by moved objects, or other materials and lights,
+        only that is prepared anew: milliseconds. Meshes are the same if their arrays are, as after
+        dataclasses.replace(mesh, transform=...).
+        """
+        self._scene = check_scene(scene)
+
+    def render(
+        self,
+        camera: Camera,
+        size: Iterable[int],
+        channels: Iterable[str] = DEFAULT_CHANNELS,
+        samples: int = 1,
+        progress: Callable[[float], None] | None = None,
+    ) -> Frame:
+        """An image of (width, height) pixels; returns when it is complete.
+
+        channels: see Frame. samples: rays a pixel for the colour, 1, 4, 9 ... 64 (samples.py).
+        progress: called from this thread with the finished part, rising from 0 to 1. An exception
+        in the meantime, from progress or a KeyboardInterrupt, cancels the work and comes through.
+        Raises LucidaError for cameras, channels, sizes and samples that cannot be.
+        """
+        check_camera(camera)
+        size, channels = check_size(size), check_channels(channels)
+        return supersampled(self._render, camera, size, channels, check_samples(samples), progress)
+
+    def start(
+        self,
+        camera: Camera,
+        size: Iterable[int],
+        channels: Iterable[str] = DEFAULT_CHANNELS,
+    ) -> TraceJob:
+        """Begins an image in the background and returns at once; arguments as for render.
+
+        Jobs begun before come first: cancel those that are no longer wanted.
+        """
+        scene = self._scene
+        check_camera(camera)
+        size, channels = check_size(size), check_channels(channels)
+        task = Task(camera, size, channels, scene.background, self._buffers)
+        self._worker.submit(scene, task)
+        return TraceJob(task, self)
+
+    def closest_hits(
+        self, origins: ArrayLike, directions: ArrayLike, t_min: float = 0.0, t_max: float = math.inf
+    ) -> tuple[NDArray[np.float32], NDArray[np.int32]]:
+        """(t, primitive) of the closest hit along each of n rays; inf and -1 where there is none.
+
+        origins, directions: (n, 3), world space; directions of any length. t: float32 (n,), in
+        units of the direction, t_min < t < t_max. primitive: int32 (n,), as in Frame. Arithmetic is
+        float32. Raises LucidaError for other shapes, and where the method is not "packets".
+        """
+        return self._batch("closest_hits", origins, directions, t_min, t_max)
+
+    def any_hits(
+        self, origins: ArrayLike, directions: ArrayLike, t_min: float = 0.0, t_max: float = math.inf
+    ) -> NDArray[np.bool_]:
+        """bool (n,): whether each ray hits anything with t_min < t < t_max; see closest_hits."""
+        return self._batch("any_hits", origins, directions, t_min, t_max)
+
+    def _batch(self, name: str, *rays: Any) -> Any:
+        if self.method != "packets":
+            raise LucidaError(
+                "method", f"{self.method!r} takes no batches of rays", "use 'packets', the default"
+            )
+        batch = RayBatch(name, *rays)
+        self._worker.submit(self._scene, batch)
+        return batch.result()
+
+    def close(self) -> None:
+        """Cancels all jobs and waits for the threads to end. A closed Tracer starts no more.
+
+        Milliseconds, unless kernels are being compiled: then until the compiler is done.
+        """
+        self._worker.close()
+        self._worker.join()
+
+    def __enter__(self) -> Tracer:
+        return self
+
+    def __exit__(
+        self,
+        kind: type[BaseException] | None,
+        error: BaseException | None,
+        trace: TracebackType | None,
+    ) -> None:
+        self.close()
+
+    def _render(
+        self,
+        camera: Camera,
+        size: tuple[int, int],
+        channels: tuple[str, ...],
+        progress: Callable[[float], None] | None,
+    ) -> Frame:
+        job = self.start(camera, size, channels)
+        try:
+            # By timeouts: some platforms deliver no KeyboardInterrupt while a thread waits.
+            while not job.wait(POLL_S):
+                if progress is not None:
+                    progress(job.progress)
+            if progress is not None:
+                progress(1.0)
+        except BaseException:
+            job.cancel()
+            raise
+        return job.result()
+
+
+def _check_method(method: str, shadows: bool, mirror_depth: int) -> None:
+    """Raises LucidaError for what cannot be."""
+    if method not in METHODS:
+        names = " or ".join(repr(name) for name in METHODS)
+        raise LucidaError("method", f"{method!r} is unknown", f"give {names}")
+    is_whole = isinstance(mirror_depth, int) and not isinstance(mirror_depth, bool)
+    if not is_whole or not 0 <= mirror_depth <= MOST_BOUNCES:
+        problem = f"{mirror_depth!r} is not in 0 to {MOST_BOUNCES}"
+        raise LucidaError("mirror_depth", problem, "give e.g. 3")
+    if method != METHODS[0] and (shadows or mirror_depth):
+        problem = f"{method!r} has neither shadows nor mirrors"
+        raise LucidaError("method", problem, f"use {METHODS[0]!r}, the default")

@@ -1,0 +1,162 @@
+"""A Tracer's own thread: it prepares the scene, then traces one task after the other.
+
+Owns that thread, its team, and their end: when the Tracer is closed or dropped, or the interpreter
+exits. Everything slow happens here: importing numba, compiling, building the BVH.
+"""
+
+from __future__ import annotations
+
+import atexit
+import contextlib
+import os
+import queue
+import threading
+import weakref
+from functools import partial
+from typing import Any
+
+from renderer.errors import LucidaError
+from renderer.forked import check_not_forked
+from renderer.scene.model import Scene
+from renderer.trace.compile.gc_pause import no_full_collections
+from renderer.trace.jobs.image_job import Task
+from renderer.trace.jobs.ray_batch import RayBatch
+from renderer.trace.threads.thread_pool import AbandonedError, Team
+
+Work = Task | RayBatch
+
+_imported_pid = os.getpid()
+
+
+class Worker:
+    """Runs tasks in the order of their submission, in a thread that starts with the first."""
+
+    def __init__(self, threads: int, method: str, shadows: bool, mirror_depth: int) -> None:
+        self._threads, self._method = threads, method
+        self._effects = shadows, mirror_depth
+        self._queue: queue.SimpleQueue[tuple[Scene, Work] | None] = queue.SimpleQueue()
+        self._lock = threading.Lock()
+        self._tasks: weakref.WeakSet[Work] = weakref.WeakSet()
+        self._current: Work | None = None
+        self._newest: Scene | None = None  # of the last task
+        self._thread: threading.Thread | None = None
+        self._pid = os.getpid()  # the thread's
+        self._closed = False
+
+    def submit(self, scene: Scene, task: Work) -> None:
+        """Queues a task on a scene. Raises LucidaError once closed, and where the thread is another
+        process'; or where another Tracer's thread may have left numba locked there."""
+        self._check_process()
+        with self._lock:
+            if self._closed:
+                raise LucidaError("tracer", "is closed", "make a new Tracer")
+            self._tasks.add(task)
+            self._newest = scene
+            if self._thread is None:
+                # A daemon, so that the interpreter's exit reaches _end_all instead of waiting.
+                self._thread = threading.Thread(
+                    target=self._serve, name="lucida-trace-0", daemon=True
+                )
+                self._pid = os.getpid()
+                self._thread.start()
+                _workers.add(self)
+            self._queue.put((scene, task))
+
+    def close(self) -> None:
+        """Cancels all tasks and lets the thread end, without waiting for it; see join()."""
+        with self._lock:
+            self.abandon()
+            for task in list(self._tasks):
+                task.cancel()
+
+    def abandon(self) -> None:
+        """Lets the thread end, and cancel all tasks, once nobody can submit any more.
+
+        Takes no locks: as a finalizer, it may interrupt a thread that holds them.
+        """
+        self._closed = True
+        self._queue.put(None)
+        current = self._current
+        if current is not None:
+            current.stop()
+
+    def join(self) -> None:
+        """Waits for the thread to end."""
+        if self._thread is not None and self._thread is not threading.current_thread():
+            self._thread.join()
+
+    def _check_process(self) -> None:
+        if self._thread is not None:
+            check_not_forked(self._pid, "tracer", "has begun its work")
+        elif os.getpid() != _imported_pid:
+            for worker in list(_workers):
+                if worker._current is not None:
+                    check_not_forked(worker._pid, "tracer", "another one was at work")
+
+    def _serve(self) -> None:
+        team = Team(self._threads)
+        engine = prepared = None
+        while (item := self._queue.get()) is not None:
+            scene, task = item
+            self._current = task
+            team.is_over = partial(self._is_unwanted, scene, task)
+            if self._closed:
+                task.cancel()
+            try:
+                if scene is not prepared and not task.finished.is_set():
+                    prepared = None  # until it is, if it can be
+                    if engine is None:
+                        with no_full_collections():
+                            engine = self._new_engine(scene, team)
+                    else:
+                        engine.set_scene(scene)
+                    prepared = scene
+                team.is_over = None  # an image at work is told by its own control
+                if engine is not None:
+                    task.run(engine)
+                elif self._closed:
+                    task.cancel()
+            except AbandonedError:
+                task.cancel()
+            except MemoryError:
+                task.fail(LucidaError("scene", "exceeds the memory", "use a smaller model"))
+            except BaseException as error:
+                task.fail(error)
+            team.is_over = None
+            del item, task  # their buffers, while waiting for the next
+            self._current = None
+        team.close()
+
+    def _is_unwanted(self, scene: Scene, task: Work) -> bool:
+        """Whether preparing a scene for a task is in vain: another scene is asked for since."""
+        return self._closed or (task.finished.is_set() and self._newest is not scene)
+
+    def _new_engine(self, scene: Scene, team: Team) -> Any:
+        """The engine (engine.py) for a scene; None if this is closed while kernels are compiled."""
+        # These import numba.
+        from renderer.trace.jobs.precompile import Precompilation, parts_of
+
+        compilation = Precompilation(parts_of(self._method, *self._effects))
+        try:
+            from renderer.trace.jobs.engine import new_engine
+
+            compilation.wait(lambda: self._closed)
+        finally:
+            compilation.end()
+        if self._closed:
+            return None
+        return new_engine(scene, team, self._method, *self._effects)
+
+
+# Threads must have left their kernels before the interpreter takes the memory away.
+_workers: weakref.WeakSet[Worker] = weakref.WeakSet()
+
+
+@atexit.register
+def _end_all() -> None:
+    workers = [worker for worker in _workers if worker._pid == os.getpid()]
+    for worker in workers:
+        worker.close()
+    for worker in workers:
+        with contextlib.suppress(KeyboardInterrupt):
+            worker.join()

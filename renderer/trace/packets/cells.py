@@ -1,0 +1,61 @@
+"""Whether float32 tells the borders of checker cells from where packets find a hit.
+
+Owns that one question: view.py asks it, and refine.py is the remedy. Knows nothing of
+pixels.
+
+A pattern is flattened with its object: on a plate of a thousandth of its width, cells are as thin.
+A hit that is off by a few of float32's last places is then in another cell, though by no part of a
+pixel in the image.
+"""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from renderer.scene.boxes import world_boxes
+from renderer.scene.flat import CELL_NUDGE, SPECULAR_CHECKERED, FlatScene
+
+# A face in a cell's border is looked up CELL_NUDGE beside it: hits must be known better than that.
+_KNOWN = CELL_NUDGE / 2
+
+
+class Cells(NamedTuple):
+    """The checkered objects: middle and half extent of their boxes in the world, (n, 3) each, and
+    the most cells in a unit of length, (n,). float64."""
+
+    middle: NDArray[np.float64]
+    half: NDArray[np.float64]
+    steepest: NDArray[np.float64]
+
+
+def cells_of(flat: FlatScene) -> Cells:
+    """What of a scene is checkered."""
+    which = flat.materials[:, SPECULAR_CHECKERED, 3] != 0
+    low, high = world_boxes(flat.world_from_object[which], flat.object_bounds[which])
+    steepest = np.linalg.norm(flat.cells[which, :, :3], axis=2).max(axis=1, initial=0)
+    return Cells((low + high) / 2, (high - low) / 2, steepest)
+
+
+def are_blurred(
+    cells: Cells,
+    eye: NDArray[np.float64],
+    to_t: NDArray[np.float64],
+    back: NDArray[np.float64] | None,
+    rounding: float,
+) -> bool:
+    """Whether any object's cells are too thin for hits whose t is wrong by `rounding` of the
+    object's largest.
+
+    to_t: t of a point relative to the eye. back: what one t is in parallel projection; None in
+    perspective, where that is the ray's own direction.
+    """
+    from_eye = cells.middle - eye
+    if back is None:
+        reach = np.linalg.norm(from_eye, axis=1) + np.linalg.norm(cells.half, axis=1)
+    else:
+        reach = np.abs(from_eye @ to_t) + cells.half @ np.abs(to_t)
+        reach *= np.linalg.norm(back)
+    return bool((rounding * reach * cells.steepest > _KNOWN).any())

@@ -1,0 +1,175 @@
+"""Shadows and mirrors: what image order buys, since any ray can be asked about.
+
+Owns the secondary rays of a square: one after another, on the trees that packets walk. Off by
+default: a rasterizer has no such rays, so pictures with them cannot agree with its.
+
+Source: Whitted, "An Improved Illumination Model for Shaded Display", 1980.
+"""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+
+from renderer.scene.flat import SPECULAR_CHECKERED
+from renderer.trace.compile.compiled import inlined
+from renderer.trace.packets.surface import Pixels, store3
+from renderer.trace.packets.tile import OWNER, SECONDARY, SEEN, WAITING_DEPTHS, WAITING_NODES
+from renderer.trace.rays.traverse import any_hit, closest_hit
+from renderer.trace.scalar.vectors import plus
+from renderer.trace.simd.lanes import LANES, bits, fma, lane_of, lowest_bit, mask_of, splat, vmax
+from renderer.trace.simd.math import dot_lanes, minus_lanes, scaled_lanes, select_lanes
+from renderer.trace.simd.memory import load, shifted, store
+
+# Vectors in the scratch: where rays start, where they go, how far.
+ORIGIN, DIRECTION, REACH = SECONDARY, SECONDARY + 3 * LANES, SECONDARY + 6 * LANES
+# Rays start a little off a surface, or rounding puts it in their way: of the scene's size, and of
+# the eye's distance, from which the point was computed.
+_AWAY, _AWAY_OF_EYE = 2e-5, 2e-6
+
+
+class Effects(NamedTuple):
+    """shadows: whether there are any. mirror_depth: how often light is reflected; the reflectance
+    is the material's specular colour. away: how far from a surface rays start, world units."""
+
+    shadows: bool
+    mirror_depth: int
+    away: np.float32
+
+
+def effects_of(
+    shadows: bool, mirror_depth: int, bounds: np.ndarray, eye: tuple[float, float, float]
+) -> Effects | None:
+    """The effects for a view of a scene within bounds (2, 3); None: there are none.
+
+    None is a type of its own: the kernel is compiled for it without any of this.
+    """
+    if not shadows and not mirror_depth:
+        return None
+    middle = bounds.mean(axis=0)
+    away = _AWAY * np.abs(bounds - middle).max() + _AWAY_OF_EYE * np.abs(eye - middle).max()
+    return Effects(shadows, mirror_depth, np.float32(away))
+
+
+@inlined
+def lit_pixels(view, world, effects, point, geometric, to_light, light, mask, floats, ints):
+    """Which pixels of the mask see a light.
+
+    point: relative to the view's near_point. to_light: unit vectors. light: its position, relative
+    to the same, where it is a point (light[3] not 0).
+    """
+    faces_light = mask & (dot_lanes(geometric, to_light) > np.float32(0))
+    if not effects.shadows:
+        return mask
+    origin = (
+        fma(geometric[0], effects.away, point[0]),
+        fma(geometric[1], effects.away, point[1]),
+        fma(geometric[2], effects.away, point[2]),
+    )
+    reach = splat(np.float32(np.inf))
+    if light[3] != np.float32(0):
+        reach = (
+            (light[0] - origin[0]) * to_light[0]
+            + (light[1] - origin[1]) * to_light[1]
+            + (light[2] - origin[2]) * to_light[2]
+        )
+    store3(floats, ORIGIN, origin)
+    store3(floats, DIRECTION, to_light)
+    store(floats, REACH, reach)
+    left = bits(faces_light)
+    lit = left
+    while left != 0:
+        lane = lowest_bit(left)
+        left &= left - 1
+        start, way = _start(view, floats, lane), _lane3(floats, DIRECTION + lane)
+        limit = floats[REACH + lane]
+        if any_hit(world, start, way, np.float32(0), limit, shifted(ints, WAITING_NODES)):
+            lit &= ~(np.int64(1) << lane)
+    return mask_of(lit)
+
+
+@inlined
+def _lane3(floats, at):
+    """Three numbers of one lane, float64."""
+    return (
+        np.float64(floats[at]),
+        np.float64(floats[at + LANES]),
+        np.float64(floats[at + 2 * LANES]),
+    )
+
+
+@inlined
+def _start(view, floats, lane):
+    """Where a lane's ray starts, in the world."""
+    near = view.near_point
+    return plus(_lane3(floats, ORIGIN + lane), (near[0], near[1], near[2]))
+
+
+@inlined
+def reflected_rays(effects, pixels, point, surface):
+    """The rays that leave a square's surfaces as its rays arrive: the law of reflection.
+
+    point: where they arrive.
+    """
+    d = pixels.direction
+    geometric, shading = surface.geometric, surface.shading
+    two = np.float32(2)
+    way = minus_lanes(d, scaled_lanes(two * dot_lanes(d, shading), shading))
+    # A smooth normal may send a ray into the surface.
+    flat = minus_lanes(d, scaled_lanes(two * dot_lanes(d, geometric), geometric))
+    way = select_lanes(dot_lanes(way, geometric) > np.float32(0), way, flat)
+    away = effects.away
+    origin = (
+        fma(geometric[0], away, point[0]),
+        fma(geometric[1], away, point[1]),
+        fma(geometric[2], away, point[2]),
+    )
+    return Pixels(origin, way)
+
+
+@inlined
+def reflectance(scene, objects):
+    """The specular colours of 16 objects; 0 for none."""
+    zero = splat(np.float32(0))
+    color = (zero, zero, zero)
+    left = bits(objects >= np.int32(0))
+    while left != 0:
+        number = lane_of(objects, lowest_bit(left))
+        mask = objects == number
+        left &= ~bits(mask)
+        at = np.int64(number) * 12 + 4 * SPECULAR_CHECKERED
+        r, g, b = scene.materials[at], scene.materials[at + 1], scene.materials[at + 2]
+        color = select_lanes(mask, (splat(r), splat(g), splat(b)), color)
+    return color
+
+
+@inlined
+def trace_square(view, world, pixels, mask, square, floats, ints):
+    """Finds what 16 rays hit, one after another, in the lanes of the mask; gives their t.
+
+    What is seen is written where a packet would write it, so that find_surfaces() takes it.
+    """
+    store3(floats, ORIGIN, pixels.origin)
+    store3(floats, DIRECTION, pixels.direction)
+    store(floats, REACH, splat(np.float32(np.inf)))
+    store(ints, SEEN + LANES * square, splat(np.int32(-1)))
+    left = bits(mask)
+    while left != 0:
+        lane = lowest_bit(left)
+        left &= left - 1
+        start, way = _start(view, floats, lane), _lane3(floats, DIRECTION + lane)
+        t, slot, space = closest_hit(
+            world, start, way, np.float32(0), np.float32(np.inf),
+            shifted(floats, WAITING_DEPTHS), shifted(ints, WAITING_NODES),
+        )  # fmt: skip
+        floats[REACH + lane] = t
+        ints[SEEN + LANES * square + lane] = slot
+        ints[OWNER + LANES * square + lane] = space
+    return load(floats, REACH)
+
+
+@inlined
+def brightest(a):
+    """The largest of three colours' parts, a lane."""
+    return vmax(vmax(a[0], a[1]), a[2])

@@ -1,0 +1,156 @@
+"""Where a square's 16 pixels hit what they see, once more in float64.
+
+Owns the parameter t and the hit's point in views for which t's last place in float32 is too
+coarse: very far away, or so narrow that it moves the point by a part of a pixel (view.py
+says which). What is seen is known by then: it costs a plane or sphere for each that a square sees.
+
+Few views are coarse, and a square takes some nanoseconds: so this is called, not inlined, where it
+would take registers from what all views do, and its results go through the scratch.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from renderer.trace.bvh.bvh16 import CORNERS, WIDTH
+from renderer.trace.compile.compiled import inlined
+from renderer.trace.compile.stage import call_apart
+from renderer.trace.packets.smooth import camera_point
+from renderer.trace.packets.sphere import is_near_hit, moment, sphere_ray
+from renderer.trace.packets.tile import (
+    BEST,
+    EXACT_POINT,
+    EXACT_T,
+    FIRST_SPHERE,
+    NOTHING,
+    OWNER,
+    REST_OF_T,
+    SEEN,
+    first_point,
+)
+from renderer.trace.packets.view import ACROSS, DOWN, ROWS, SHARED, VARYING
+from renderer.trace.scalar.vectors import cross, dot, minus
+from renderer.trace.simd.lanes import (
+    LANES,
+    bits,
+    fma,
+    lane_column,
+    lane_row,
+    lowest_bit,
+    select,
+    splat,
+    to_f32,
+    to_f64,
+    vsqrt,
+)
+from renderer.trace.simd.memory import load, store
+
+
+@inlined
+def refine_square(view, world, tile, square, floats, ints):
+    """Writes EXACT_T, inf where nothing is hit, REST_OF_T and EXACT_POINT of a square's pixels.
+
+    The points are relative to the view's near_point.
+    """
+    call_apart(_refine, (view, world, tile, square, floats, ints))
+
+
+@inlined
+def packet_depths(view, square, floats):
+    """Z of what a square's pixels see, as the packet found it."""
+    best = load(floats, BEST + LANES * square)
+    return -best if view.parallel else splat(np.float32(1)) / best
+
+
+@inlined
+def _refine(view, world, tile, square, floats, ints):
+    first = first_point(tile, square)
+    exact = _exact_parameters(view, world, first, packet_depths(view, square, floats), square, ints)
+    is_hit = load(ints, SEEN + LANES * square) != NOTHING
+    t = select(is_hit, to_f32(exact), np.float32(np.inf))
+    store(floats, EXACT_T, t)
+    store(floats, REST_OF_T, to_f32(exact - to_f64(t)))
+    for axis in range(3):
+        store(floats, EXACT_POINT + LANES * axis, _coordinate(view, axis, first, exact))
+
+
+@inlined
+def _exact_parameters(view, world, first, z, square, ints):
+    """t of a square's pixels, F64. z: what the packet found, F32."""
+    seen = load(ints, SEEN + LANES * square)
+    owner = load(ints, OWNER + LANES * square)
+    exact = to_f64(z)
+    left = bits(seen != NOTHING)
+    while left != 0:
+        lane = lowest_bit(left)
+        number = ints[SEEN + LANES * square + lane]
+        mask = seen == number
+        if number <= FIRST_SPHERE:
+            own = _sphere_depths(view, world.spheres, np.int64(FIRST_SPHERE) - number, first, z)
+        else:
+            space = np.int64(ints[OWNER + LANES * square + lane])
+            mask = mask & (owner == np.int32(space))
+            own = _plane_depths(view, world.corner, np.int64(number), space, first)
+        exact = select(mask, own, exact)
+        left &= ~bits(mask)
+    return exact * view.scale
+
+
+@inlined
+def _plane_depths(view, corner, slot, space, first):
+    """Z where the rays meet a triangle's plane, F64: N . (p - a) = 0 in camera coordinates."""
+    at, r = slot // WIDTH * CORNERS + slot % WIDTH, space * ROWS
+    a = camera_point(view, r, corner, at)
+    n = cross(
+        minus(camera_point(view, r, corner, at + 3 * WIDTH), a),
+        minus(camera_point(view, r, corner, at + 6 * WIDTH), a),
+    )
+    x, y = np.float64(first[0]), np.float64(first[1])
+    column, row = to_f64(lane_column()), to_f64(lane_row())
+    if view.parallel:
+        start = n[0] * (x - a[0]) + n[1] * (y - a[1])
+        return a[2] - fma(column, n[0], fma(row, n[1], splat(start))) / n[2]
+    return dot(n, a) / fma(column, n[0], fma(row, n[1], splat(dot(n, (x, y, 1.0)))))
+
+
+@inlined
+def _sphere_depths(view, spheres, sphere, first, z):
+    """Z where the rays meet a sphere, F64; of the two, the one that was seen at z."""
+    f, d = sphere_ray(view, spheres, sphere, np.float64(first[0]), np.float64(first[1]))
+    m = moment(f, d)
+    column, row = to_f64(lane_column()), to_f64(lane_row())
+    fx, fy, fz = _lanes(f, column, row)
+    dx, dy, dz = _lanes(d, column, row)
+    mx, my, mz = _lanes(m, column, row)
+    a = fma(dx, dx, fma(dy, dy, dz * dz))
+    b = -fma(fx, dx, fma(fy, dy, fz * dz))
+    c = fma(fx, fx, fma(fy, fy, fz * fz)) - 1.0
+    discriminant = a - fma(mx, mx, fma(my, my, mz * mz))
+    root = vsqrt(select(discriminant > 0.0, discriminant, 0.0))
+    # The root that cancels is a quotient, as in sphere.py.
+    ahead = b >= 0.0
+    q = b + select(ahead, root, -root)
+    near, far = select(ahead, c / q, q / a), select(ahead, q / a, c / q)
+    return select(is_near_hit(z, to_f32(b / a)), near, far)
+
+
+@inlined
+def _lanes(p, column, row):
+    """An affine vector at a square's pixels: three F64."""
+    return (
+        fma(column, p[1][0], fma(row, p[2][0], splat(p[0][0]))),
+        fma(column, p[1][1], fma(row, p[2][1], splat(p[0][1]))),
+        fma(column, p[1][2], fma(row, p[2][2], splat(p[0][2]))),
+    )
+
+
+@inlined
+def _coordinate(view, axis, first, t):
+    """One coordinate of the rays' points at t, F64, rounded only at the end."""
+    ray, near = view.ray, view.near_point[axis]
+    across, down, shared = ray[ACROSS + axis], ray[DOWN + axis], ray[SHARED + axis]
+    start = ray[VARYING + axis] + np.float64(first[0]) * across + np.float64(first[1]) * down
+    varying = fma(to_f64(lane_column()), across, fma(to_f64(lane_row()), down, splat(start)))
+    if view.parallel:
+        return to_f32(fma(t, shared, varying - near))
+    return to_f32(fma(t, varying, splat(shared - near)))

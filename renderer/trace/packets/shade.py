@@ -1,0 +1,260 @@
+"""The colour of a square's 16 pixels: checker, diffuse light and highlights, in float32 lanes.
+
+Owns the shading model as lanes compute it: shade.py's, formula by formula. Knows nothing of how
+surfaces were found.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from renderer.scene.flat import (
+    CHECKER_DIFFUSE,
+    DIFFUSE_SHININESS,
+    SPECULAR_CHECKERED,
+)
+from renderer.trace.compile.compiled import inlined
+from renderer.trace.packets.effects import (
+    brightest,
+    lit_pixels,
+    reflectance,
+    reflected_rays,
+    trace_square,
+)
+from renderer.trace.packets.surface import find_surfaces, points_on
+from renderer.trace.packets.tile import REST_OF_T
+from renderer.trace.packets.view import ACROSS, DOWN, SHARED, VARYING
+from renderer.trace.scalar.shade import CELL_NUDGE
+from renderer.trace.simd.lanes import (
+    bits,
+    fma,
+    inverse_root,
+    lane_column,
+    lane_of,
+    lane_row,
+    lowest_bit,
+    select,
+    splat,
+    to_f64,
+    vfloor,
+    vmax,
+)
+from renderer.trace.simd.math import (
+    dot_lanes,
+    inverse_length,
+    minus_lanes,
+    normalized_lanes,
+    power_lanes,
+    scaled_lanes,
+    select_lanes,
+)
+from renderer.trace.simd.memory import load
+
+_SMALLEST_LIGHT = np.float32(1e-12)  # a point light nearer than this gives no light
+_SMALLEST_HALF = np.float32(1e-12)  # with a half vector of a smaller square, there is no highlight
+
+
+@inlined
+def shade_square(
+    view, world, scene, effects, pixels, first, t, point, surface, objects, floats, ints
+):
+    """The colours of a square: three F32; the background's where there is no object.
+
+    scene: SceneArrays. effects: Effects, or None. first: as for find_surfaces. t: ray parameters;
+    None where `first` is. point: where they are hit. surface, objects: what the pixels see.
+    """
+    background = scene.background
+    color = (splat(background[0]), splat(background[1]), splat(background[2]))
+    left = bits(objects >= np.int32(0))
+    if left == 0:
+        return color
+    geometric, shading, tint = surface.geometric, surface.shading, surface.tint
+    while left != 0:
+        # The pixels of one object, which share its material.
+        object_number = lane_of(objects, lowest_bit(left))
+        mask = objects == object_number
+        left &= ~bits(mask)
+        m = np.int64(object_number) * 12
+        albedo = _albedo(view, scene, m, first, t, point, geometric, tint, floats)
+        lit = shade_material(
+            view, world, scene, effects, object_number, mask, pixels.direction, point, geometric,
+            shading, albedo, floats, ints,
+        )  # fmt: skip
+        color = select_lanes(mask, lit, color)
+    return color
+
+
+@inlined
+def add_reflections(
+    view, world, scene, effects, pixels, square, point, surface, objects, color, floats, ints
+):
+    """The colours of a square and what its surfaces mirror, by as many bounces as there may be."""
+    weight = reflectance(scene, objects)
+    for _ in range(effects.mirror_depth):
+        mask = brightest(weight) > np.float32(0)
+        if bits(mask) == 0:
+            break
+        pixels = reflected_rays(effects, pixels, point, surface)
+        t = trace_square(view, world, pixels, mask, square, floats, ints)
+        surface, objects, _primitives = find_surfaces(
+            view, world, scene, None, pixels, square, t, True, False, ints
+        )
+        point = points_on(pixels, t)
+        seen = shade_square(
+            view, world, scene, effects, pixels, None, None, point, surface, objects, floats, ints
+        )
+        color = (
+            fma(weight[0], seen[0], color[0]),
+            fma(weight[1], seen[1], color[1]),
+            fma(weight[2], seen[2], color[2]),
+        )
+        # Of what has left the scene, the next reflectance is 0.
+        more = reflectance(scene, objects)
+        weight = weight[0] * more[0], weight[1] * more[1], weight[2] * more[2]
+    return color
+
+
+@inlined
+def _row(materials, at):
+    return materials[at], materials[at + 1], materials[at + 2]
+
+
+@inlined
+def _albedo(view, scene, m, first, t, point, geometric, tint, floats):
+    """The diffuse reflectance of the material at m, or its checker's, times the vertex colours."""
+    materials = scene.materials
+    r, g, b = _row(materials, m + 4 * DIFFUSE_SHININESS)
+    albedo = (splat(r), splat(g), splat(b))
+    if materials[m + 4 * SPECULAR_CHECKERED + 3] != np.float32(0):
+        r, g, b = _row(materials, m + 4 * CHECKER_DIFFUSE)
+        is_other = is_other_cell(view, scene.cells, m, first, t, point, geometric, floats)
+        albedo = select_lanes(is_other, (splat(r), splat(g), splat(b)), albedo)
+    return albedo[0] * tint[0], albedo[1] * tint[1], albedo[2] * tint[2]
+
+
+@inlined
+def is_other_cell(view, cells, m, first, t, point, geometric, floats):
+    """Mask of pixels that see a cell of odd number, just below the surface.
+
+    In float64, along the ray: what a pixel covers may be small against the cell's coordinates.
+    """
+    across = normalized_lanes(
+        (
+            _direction(cells, m, geometric),
+            _direction(cells, m + 4, geometric),
+            _direction(cells, m + 8, geometric),
+        )
+    )
+    is_odd = lane_row() < np.float32(0)
+    for axis in range(3):
+        nudge = across[0] if axis == 0 else (across[1] if axis == 1 else across[2])
+        row = m + 4 * axis
+        if first is None:
+            half = _half_cell_at(view, cells, row, point)
+        else:
+            half = _half_cell(view, cells, row, first, t, floats)
+        half = fma(to_f64(nudge), -0.5 * CELL_NUDGE, half)
+        is_odd = is_odd ^ (half - vfloor(half) >= 0.5)
+    return is_odd
+
+
+@inlined
+def _direction(cells, row, a):
+    x, y, z = np.float32(cells[row]), np.float32(cells[row + 1]), np.float32(cells[row + 2])
+    return fma(a[0], x, fma(a[1], y, a[2] * z))
+
+
+@inlined
+def _half_cell(view, cells, row, first, t, floats):
+    """Half of one coordinate of the pixels' cells, F64."""
+    t = to_f64(t)
+    if view.coarse:
+        t = t + to_f64(load(floats, REST_OF_T))
+    ray = view.ray
+    right, down = _half_along(cells, row, ray, ACROSS), _half_along(cells, row, ray, DOWN)
+    shared = _half_along(cells, row, ray, SHARED)
+    varying = _half_along(cells, row, ray, VARYING)
+    varying += np.float64(first[0]) * right + np.float64(first[1]) * down
+    constant = 0.5 * cells[row + 3]
+    if view.parallel:
+        varying += constant
+    else:
+        shared += constant
+    pixel = fma(to_f64(lane_column()), right, fma(to_f64(lane_row()), down, splat(varying)))
+    if view.parallel:
+        return fma(t, shared, pixel)
+    return fma(t, pixel, splat(shared))
+
+
+@inlined
+def _half_cell_at(view, cells, row, point):
+    """The same for points relative to the view's near_point."""
+    a, b, c = 0.5 * cells[row], 0.5 * cells[row + 1], 0.5 * cells[row + 2]
+    d = 0.5 * cells[row + 3] + _half_along(cells, row, view.near_point, 0)
+    x, y, z = to_f64(point[0]), to_f64(point[1]), to_f64(point[2])
+    return fma(x, a, fma(y, b, fma(z, c, splat(d))))
+
+
+@inlined
+def _half_along(cells, row, ray, at):
+    return 0.5 * (
+        cells[row] * ray[at] + cells[row + 1] * ray[at + 1] + cells[row + 2] * ray[at + 2]
+    )
+
+
+@inlined
+def shade_material(
+    view, world, scene, effects, object_number, mask, direction, point, geometric, shading, albedo,
+    floats, ints,
+):  # fmt: skip
+    """The light that the pixels of one object, in the lanes of the mask, send to the viewer.
+
+    Source: Marschner and Shirley, Fundamentals of Computer Graphics, ch. 4 (Blinn and Phong).
+    """
+    materials, lights = scene.materials, scene.lights
+    m, dark_cosine = np.int64(object_number) * 12, world.dark_cosine[object_number]
+    specular = _row(materials, m + 4 * SPECULAR_CHECKERED)
+    shininess = materials[m + 4 * DIFFUSE_SHININESS + 3]
+    is_shiny = specular[0] + specular[1] + specular[2] > np.float32(0)
+    along = normalized_lanes(direction) if is_shiny else direction
+    ambient = scene.ambient
+    r, g, b = albedo[0] * ambient[0], albedo[1] * ambient[1], albedo[2] * ambient[2]
+    for lamp in range(0, 8 * scene.light_count, 8):
+        lx, ly, lz = lights[lamp], lights[lamp + 1], lights[lamp + 2]
+        to_light = (splat(lx), splat(ly), splat(lz))
+        if lights[lamp + 3] != np.float32(0):
+            to_light = minus_lanes(to_light, point)
+            per_length = inverse_length(to_light)
+            # At the light itself there is no direction to it, and no light.
+            is_apart = per_length < np.float32(1) / _SMALLEST_LIGHT
+            to_light = scaled_lanes(select(is_apart, per_length, np.float32(0)), to_light)
+        cosine = vmax(dot_lanes(shading, to_light), np.float32(0))
+        in_light = mask
+        if effects is not None:
+            light = lx, ly, lz, lights[lamp + 3]
+            in_light = lit_pixels(
+                view, world, effects, point, geometric, to_light, light, mask, floats, ints
+            )
+            cosine = select(in_light, cosine, np.float32(0))
+        rgb = lights[lamp + 4], lights[lamp + 5], lights[lamp + 6]
+        r = fma(cosine * rgb[0], albedo[0], r)
+        g = fma(cosine * rgb[1], albedo[1], g)
+        b = fma(cosine * rgb[2], albedo[2], b)
+        if not is_shiny:
+            continue
+        half = minus_lanes(to_light, along)
+        square = dot_lanes(half, half)
+        cosine = dot_lanes(shading, half)
+        # Highlights are small: most squares have none of most lights.
+        is_bright = cosine * cosine > square * (dark_cosine * dark_cosine)
+        is_lit = in_light & is_bright & (cosine > np.float32(0)) & (square >= _SMALLEST_HALF)
+        if lights[lamp + 3] != np.float32(0):
+            is_lit = is_lit & (dot_lanes(to_light, to_light) > np.float32(0.5))
+        if bits(is_lit) == 0:
+            continue
+        highlight = power_lanes(cosine * inverse_root(square), shininess)
+        highlight = select(is_lit, highlight, np.float32(0))
+        r = fma(highlight, splat(rgb[0] * specular[0]), r)
+        g = fma(highlight, splat(rgb[1] * specular[1]), g)
+        b = fma(highlight, splat(rgb[2] * specular[2]), b)
+    return r, g, b

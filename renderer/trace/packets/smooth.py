@@ -1,0 +1,176 @@
+"""What a triangle's vertices give its pixels: smooth normals and colours.
+
+Owns barycentric coordinates and interpolation, for one triangle and the pixels of a square that
+see it. Knows nothing of trees and lights.
+"""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+
+from renderer.scene import flat
+from renderer.trace.bvh.bvh16 import CORNERS, WIDTH
+from renderer.trace.compile.compiled import inlined
+from renderer.trace.packets.view import ORIGIN, ROW_X, ROW_Y, ROW_Z, ROWS
+from renderer.trace.scalar.vectors import cross, dot, minus, times
+from renderer.trace.simd.lanes import fma, lane_column, lane_row, splat
+
+OTHER_SIDE = np.float32(flat.OTHER_SIDE)
+
+
+class Vertices(NamedTuple):
+    """Where the vertices of a triangle are in the scene's flat arrays of three numbers each."""
+
+    a: np.int64
+    b: np.int64
+    c: np.int64
+
+
+@inlined
+def vertices_of(faces, primitive):
+    """The vertices of a triangle of the flat scene."""
+    return Vertices(
+        3 * np.int64(faces[3 * primitive]),
+        3 * np.int64(faces[3 * primitive + 1]),
+        3 * np.int64(faces[3 * primitive + 2]),
+    )
+
+
+@inlined
+def barycentrics(view, corner, slot, space, first):
+    """(b0, b1, b2) of a slot's triangle at a square's pixels, F32; first: its first image point.
+
+    Each is an edge function over the sum of the three. They are set up in float64 and around the
+    square, so that small triangles and narrow views keep their digits.
+    """
+    at = slot // WIDTH * CORNERS + slot % WIDTH
+    r = space * ROWS
+    a = _homogeneous_corner(view, r, corner, at)
+    b = _homogeneous_corner(view, r, corner, at + 3 * WIDTH)
+    c = _homogeneous_corner(view, r, corner, at + 6 * WIDTH)
+    w0, w1, w2 = _edge(b, c, first), _edge(c, a, first), _edge(a, b, first)
+    scale = splat(np.float32(1)) / (w0 + w1 + w2)
+    return w0 * scale, w1 * scale, w2 * scale
+
+
+@inlined
+def barycentrics_at(view, world, slot, space, point):
+    """(b0, b1, b2) of a slot's triangle at 16 points of it, F32, relative to near_point."""
+    at = slot // WIDTH * CORNERS + slot % WIDTH
+    a = _corner(world.corner, at)
+    u, v = (
+        minus(_corner(world.corner, at + 3 * WIDTH), a),
+        minus(_corner(world.corner, at + 6 * WIDTH), a),
+    )
+    n = cross(u, v)
+    # Vectors whose product with a point of the triangle is b1, or b2, up to a constant.
+    scale = 1.0 / dot(n, n)
+    b1 = _weight(view, world, space, times(scale, cross(v, n)), a, point)
+    b2 = _weight(view, world, space, times(scale, cross(n, u)), a, point)
+    return np.float32(1) - b1 - b2, b1, b2
+
+
+@inlined
+def _corner(corner, at):
+    return (
+        np.float64(corner[at]),
+        np.float64(corner[at + WIDTH]),
+        np.float64(corner[at + 2 * WIDTH]),
+    )
+
+
+@inlined
+def _weight(view, world, space, g, a, point):
+    """g . (q - a), q the object's point that is seen at a point of the world."""
+    near, m, r = view.near_point, world.object_from_world, 12 * space
+    x = g[0] * m[r] + g[1] * m[r + 4] + g[2] * m[r + 8]
+    y = g[0] * m[r + 1] + g[1] * m[r + 5] + g[2] * m[r + 9]
+    z = g[0] * m[r + 2] + g[1] * m[r + 6] + g[2] * m[r + 10]
+    at_near = dot((x, y, z), (near[0], near[1], near[2]))
+    constant = at_near + dot(g, (m[r + 3], m[r + 7], m[r + 11])) - dot(g, a)
+    value = fma(point[2], np.float32(z), splat(np.float32(constant)))
+    return fma(point[0], np.float32(x), fma(point[1], np.float32(y), value))
+
+
+@inlined
+def _homogeneous_corner(view, r, corner, at):
+    """(X, Y, H) of a corner, float64."""
+    rows = view.rows_exact
+    p = _from_origin(rows, r, corner, at)
+    h = 1.0 if view.parallel else _coordinate(rows, r + ROW_Z, p)
+    return _coordinate(rows, r + ROW_X, p), _coordinate(rows, r + ROW_Y, p), h
+
+
+@inlined
+def camera_point(view, r, corner, at):
+    """(X, Y, Z) of a corner, float64."""
+    rows = view.rows_exact
+    p = _from_origin(rows, r, corner, at)
+    x, y = _coordinate(rows, r + ROW_X, p), _coordinate(rows, r + ROW_Y, p)
+    return x, y, _coordinate(rows, r + ROW_Z, p)
+
+
+@inlined
+def _from_origin(rows, r, corner, at):
+    return (
+        corner[at] - rows[r + ORIGIN],
+        corner[at + WIDTH] - rows[r + ORIGIN + 1],
+        corner[at + 2 * WIDTH] - rows[r + ORIGIN + 2],
+    )
+
+
+@inlined
+def _coordinate(rows, row, p):
+    return rows[row] * p[0] + rows[row + 1] * p[1] + rows[row + 2] * p[2] + rows[row + 3]
+
+
+@inlined
+def _edge(p, q, first):
+    """The edge function of p and q at a square's pixels."""
+    e = cross(p, q)
+    start = np.float32(dot(e, (np.float64(first[0]), np.float64(first[1]), 1.0)))
+    across, down = np.float32(e[0]), np.float32(e[1])
+    return fma(lane_column(), across, fma(lane_row(), down, splat(start)))
+
+
+@inlined
+def blended(array, vertices, weights):
+    """Three numbers of each vertex, weighted."""
+    return (
+        _blended(array, 0, vertices, weights),
+        _blended(array, 1, vertices, weights),
+        _blended(array, 2, vertices, weights),
+    )
+
+
+@inlined
+def _blended(array, axis, vertices, weights):
+    a, b, c = array[vertices.a + axis], array[vertices.b + axis], array[vertices.c + axis]
+    return fma(weights[0], a, fma(weights[1], b, weights[2] * c))
+
+
+@inlined
+def have_normals(normals, vertices):
+    """Whether none of a triangle's three vertex normals is 0."""
+    return (
+        _is_set(normals, vertices.a)
+        and _is_set(normals, vertices.b)
+        and _is_set(normals, vertices.c)
+    )
+
+
+@inlined
+def _is_set(normals, at):
+    return normals[at] != 0 or normals[at + 1] != 0 or normals[at + 2] != 0
+
+
+@inlined
+def agrees(normals, vertices, x, y, z):
+    """Whether a triangle's vertex normals are, by their sum, not on the other side of (x, y, z)."""
+    a, b, c = vertices.a, vertices.b, vertices.c
+    along_x = (normals[a] + normals[b] + normals[c]) * x
+    along_y = (normals[a + 1] + normals[b + 1] + normals[c + 1]) * y
+    along_z = (normals[a + 2] + normals[b + 2] + normals[c + 2]) * z
+    return along_x + along_y + along_z >= OTHER_SIDE

@@ -1,0 +1,395 @@
+"""Single rays on the wide trees: the closest hit along a ray, and whether there is any.
+
+Owns the traversal for rays that have nothing in common: shadows, reflections, rays given by a
+user. In lanes are the 16 children of a node, then the 16 triangles of a leaf. Knows nothing of
+cameras and colours; a shading kernel may call closest_hit and any_hit.
+
+Rays and arithmetic are float32, relative to the ray's origin; spheres, float64.
+
+Sources: slabs, Kay and Kajiya 1986; Wald, Benthin and Boulos, "Getting Rid of Packets", 2008;
+triangles, Woop, Benthin and Wald, "Watertight Ray/Triangle Intersection", 2013.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import NamedTuple
+
+import numpy as np
+
+from renderer.trace.bvh.bvh16 import BOX, CORNERS, FIRST_LEAF, WIDTH
+from renderer.trace.bvh.instances import IS_UNMOVED
+from renderer.trace.compile.compiled import inlined
+from renderer.trace.scalar.vectors import minus
+from renderer.trace.simd.lanes import (
+    LANES,
+    bits,
+    fma,
+    lowest_bit,
+    select,
+    smallest,
+    splat,
+    vmax,
+    vmin,
+)
+from renderer.trace.simd.memory import load, store
+
+_ROUNDING = np.float32(5e-7)  # relative: more than the roundings of a box test add up to
+_STEEP = np.float32(1e-9)  # a direction's component counts as at least this part of the largest
+_DEPTHS, _WAITING_DEPTHS = 0, LANES  # float32 scratch: children's depths, depths of waiting nodes
+
+
+class SpaceRay(NamedTuple):
+    """A ray in an instance's space (or the world's), prepared for boxes and for triangles.
+
+    near, far: columns of a node's boxes with the planes that the ray meets first and last.
+    enter, leave: 1 / direction, a little smaller and larger; enter_add, leave_add: with them,
+    -origin / direction, with slack outwards.
+    axes: columns of a leaf's coordinates x, y, z, where z is the one in which the ray goes
+    farthest. origin: in these axes. shear: takes the direction to (0, 0, 1).
+    """
+
+    near: tuple[int, int, int]
+    far: tuple[int, int, int]
+    enter: tuple[np.float32, np.float32, np.float32]
+    leave: tuple[np.float32, np.float32, np.float32]
+    enter_add: tuple[np.float32, np.float32, np.float32]
+    leave_add: tuple[np.float32, np.float32, np.float32]
+    axes: tuple[np.int64, np.int64, np.int64]
+    origin: tuple[np.float32, np.float32, np.float32]
+    shear: tuple[np.float32, np.float32, np.float32]
+
+
+@inlined
+def _steep(x, least):
+    return x if abs(x) > least else math.copysign(least, x)
+
+
+@inlined
+def space_ray(origin, direction):
+    """Prepares a ray; origin, direction: (3,) float64 in that space, direction not 0."""
+    ox, oy, oz = np.float32(origin[0]), np.float32(origin[1]), np.float32(origin[2])
+    dx, dy, dz = np.float32(direction[0]), np.float32(direction[1]), np.float32(direction[2])
+    ax, ay, az = abs(dx), abs(dy), abs(dz)
+    # Boxes: no division by 0, and no infinity times 0.
+    least = max(ax, ay, az) * _STEEP
+    one = np.float32(1)
+    ix, iy, iz = one / _steep(dx, least), one / _steep(dy, least), one / _steep(dz, least)
+    smaller, larger = one - _ROUNDING, one + _ROUNDING
+    enter, leave = (
+        (ix * smaller, iy * smaller, iz * smaller),
+        (ix * larger, iy * larger, iz * larger),
+    )
+    sx, sy, sz = abs(ox * ix) * _ROUNDING, abs(oy * iy) * _ROUNDING, abs(oz * iz) * _ROUNDING
+    near = (
+        (0 if ix >= 0 else 3) * WIDTH,
+        (1 if iy >= 0 else 4) * WIDTH,
+        (2 if iz >= 0 else 5) * WIDTH,
+    )
+    far = 3 * WIDTH - near[0], 5 * WIDTH - near[1], 7 * WIDTH - near[2]
+    # Triangles: the axis of the largest component is z. Chosen without branches, which no
+    # processor could foresee.
+    is_x, is_y = (ax >= ay) & (ax >= az), ay >= az
+    z = np.int64(0) if is_x else (np.int64(1) if is_y else np.int64(2))
+    x = np.int64(0) if z == 2 else z + 1
+    slope = _turned(is_x, is_y, dx, dy, dz)
+    inverse = _turned(is_x, is_y, ix, iy, iz)[2]
+    return SpaceRay(
+        near,
+        far,
+        enter,
+        leave,
+        (-ox * enter[0] - sx, -oy * enter[1] - sy, -oz * enter[2] - sz),
+        (-ox * leave[0] + sx, -oy * leave[1] + sy, -oz * leave[2] + sz),
+        (x * WIDTH, (3 - x - z) * WIDTH, z * WIDTH),
+        _turned(is_x, is_y, ox, oy, oz),
+        (slope[0] * inverse, slope[1] * inverse, inverse),
+    )
+
+
+@inlined
+def _turned(is_x, is_y, x, y, z):
+    """(x, y, z) turned so that x is last if is_x, else y if is_y."""
+    return (
+        y if is_x else (z if is_y else x),
+        z if is_x else (x if is_y else y),
+        x if is_x else (y if is_y else z),
+    )
+
+
+@inlined
+def children_on_ray(box, node, ray, t_min, t_max):
+    """(mask, depths): children of a node that the ray enters within [t_min, t_max]."""
+    at = node * BOX
+    near, far, enter, leave = ray.near, ray.far, ray.enter, ray.leave
+    t0 = vmax(
+        fma(load(box, at + near[0]), enter[0], splat(ray.enter_add[0])),
+        fma(load(box, at + near[1]), enter[1], splat(ray.enter_add[1])),
+    )
+    tz = fma(load(box, at + near[2]), enter[2], splat(ray.enter_add[2]))
+    t0 = vmax(t0, vmax(tz, t_min))
+    t1 = vmin(
+        fma(load(box, at + far[0]), leave[0], splat(ray.leave_add[0])),
+        fma(load(box, at + far[1]), leave[1], splat(ray.leave_add[1])),
+    )
+    tz = fma(load(box, at + far[2]), leave[2], splat(ray.leave_add[2]))
+    t1 = vmin(t1, vmin(tz, t_max))
+    return t0 <= t1, t0
+
+
+@inlined
+def triangles_on_ray(corner, leaf, ray, t_min, t_max):
+    """(bits, t): which of a leaf's triangles the ray meets within (t_min, t_max), and where.
+
+    Two triangles at a common edge compute exactly opposite numbers for it: products commute. So
+    there is no fma() in the edge functions.
+    """
+    at = leaf * CORNERS
+    ax, ay, az = _sheared(corner, at, ray)
+    bx, by, bz = _sheared(corner, at + 3 * WIDTH, ray)
+    cx, cy, cz = _sheared(corner, at + 6 * WIDTH, ray)
+    e0, e1, e2 = cx * by - cy * bx, ax * cy - ay * cx, bx * ay - by * ax
+    zero = np.float32(0)
+    inside = (vmin(vmin(e0, e1), e2) >= zero) | (vmax(vmax(e0, e1), e2) <= zero)
+    # t is a mean of the corners', weighted by the edge functions: never outside them. Computed also
+    # where no triangle is met: whether one is cannot be foreseen, and a wrong guess costs more.
+    area = e0 + e1 + e2
+    t = (e0 * az + e1 * bz + e2 * cz) * ray.shear[2] / area
+    inside = inside & (area != zero) & (t > t_min) & (t < t_max)
+    return bits(inside), select(inside, t, np.float32(np.inf))
+
+
+@inlined
+def _sheared(corner, at, ray):
+    """A corner of 16 triangles relative to the origin, sheared so that the ray is the z axis."""
+    z = load(corner, at + ray.axes[2]) - ray.origin[2]
+    x = fma(z, -ray.shear[0], load(corner, at + ray.axes[0]) - ray.origin[0])
+    y = fma(z, -ray.shear[1], load(corner, at + ray.axes[1]) - ray.origin[1])
+    return x, y, z
+
+
+@inlined
+def instance_ray(world, space, origin, direction):
+    """The ray in an instance's space; t stays what it is."""
+    if world.attributes[space] & IS_UNMOVED:
+        return space_ray(origin, direction)
+    m, at = world.object_from_world, 12 * space
+    ox, oy, oz = origin
+    dx, dy, dz = direction
+    return space_ray(
+        (
+            m[at] * ox + m[at + 1] * oy + m[at + 2] * oz + m[at + 3],
+            m[at + 4] * ox + m[at + 5] * oy + m[at + 6] * oz + m[at + 7],
+            m[at + 8] * ox + m[at + 9] * oy + m[at + 10] * oz + m[at + 11],
+        ),
+        (
+            m[at] * dx + m[at + 1] * dy + m[at + 2] * dz,
+            m[at + 4] * dx + m[at + 5] * dy + m[at + 6] * dz,
+            m[at + 8] * dx + m[at + 9] * dy + m[at + 10] * dz,
+        ),
+    )
+
+
+@inlined
+def top_ray(world, origin, direction):
+    """The ray in the space of the upper tree."""
+    middle = world.middle
+    return space_ray(minus(origin, (middle[0], middle[1], middle[2])), direction)
+
+
+@inlined
+def sphere_on_ray(world, sphere, origin, direction, t_min, t_max):
+    """The least t within (t_min, t_max) where the ray meets a sphere; inf: none.
+
+    Source: Haines et al., "Precision Improvements for Ray/Sphere Intersection", 2019.
+    """
+    at, spheres = 4 * sphere, world.spheres
+    dx, dy, dz = direction
+    fx, fy, fz = origin[0] - spheres[at], origin[1] - spheres[at + 1], origin[2] - spheres[at + 2]
+    radius = spheres[at + 3]
+    a = dx * dx + dy * dy + dz * dz
+    b = -(fx * dx + fy * dy + fz * dz)
+    nx, ny, nz = fx + b / a * dx, fy + b / a * dy, fz + b / a * dz
+    left_over = radius * radius - (nx * nx + ny * ny + nz * nz)
+    if left_over < 0.0:
+        return np.inf
+    q = b + math.copysign(math.sqrt(a * left_over), b)
+    first, second = (fx * fx + fy * fy + fz * fz - radius * radius) / q, q / a
+    near, far = min(first, second), max(first, second)
+    if t_min < near < t_max:
+        return near
+    return far if t_min < far < t_max else np.inf
+
+
+@inlined
+def _nearest_child(found, depth, child, node, top, floats, ints):
+    """(the nearest of the children in `found`, the stack's height with the others on it).
+
+    On the stack, nearer ones are above farther ones.
+    """
+    lane = lowest_bit(found)
+    found &= found - 1
+    nearest = child[node * WIDTH + lane]
+    if found == 0:
+        return np.int64(nearest), top
+    store(floats, _DEPTHS, depth)
+    least, base = floats[_DEPTHS + lane], top
+    while found != 0:
+        lane = lowest_bit(found)
+        found &= found - 1
+        t, other = floats[_DEPTHS + lane], child[node * WIDTH + lane]
+        if t < least:
+            t, least = least, t
+            other, nearest = nearest, other
+        # By insertion: there are few.
+        i = top
+        while i > base and floats[_WAITING_DEPTHS + i - 1] < t:
+            floats[_WAITING_DEPTHS + i] = floats[_WAITING_DEPTHS + i - 1]
+            ints[i] = ints[i - 1]
+            i -= 1
+        floats[_WAITING_DEPTHS + i], ints[i] = t, other
+        top += 1
+    return np.int64(nearest), top
+
+
+@inlined
+def _without_farther(top, base, closest, floats):
+    """The stack's height without the nodes on top that begin behind `closest`."""
+    while top > base and floats[_WAITING_DEPTHS + top - 1] >= closest:
+        top -= 1
+    return top
+
+
+@inlined
+def closest_in_instance(world, ray, root, base, t_min, t_max, floats, ints):
+    """(t, slot) of the closest triangle of an instance; (t_max, -1): none."""
+    closest, slot = t_max, np.int64(-1)
+    node, top = np.int64(root), base
+    while True:
+        if node >= 0:
+            inside, depth = children_on_ray(world.box, node, ray, t_min, closest)
+            found = bits(inside)
+            if found != 0:
+                node, top = _nearest_child(found, depth, world.child, node, top, floats, ints)
+                continue
+        else:
+            leaf = FIRST_LEAF - node
+            found, t = triangles_on_ray(world.corner, leaf, ray, t_min, closest)
+            if found != 0:
+                closest = smallest(t)
+                slot = leaf * WIDTH + lowest_bit(bits(t == closest))
+        top = _without_farther(top, base, closest, floats)
+        if top == base:
+            return closest, slot
+        top -= 1
+        node = np.int64(ints[top])
+
+
+@inlined
+def closest_hit(world, origin, direction, t_min, t_max, floats, ints):
+    """(t, slot, space) of the closest hit along a ray: world space, t_min < t < t_max.
+
+    slot: of a triangle of instance `space`; or FIRST_LEAF - k for sphere k; -1: no hit, t is inf.
+    floats, ints: scratch of one thread, the stack's size and 16 more elements.
+    """
+    closest, slot, in_space = t_max, np.int64(-1), np.int64(-1)
+    if world.is_empty:
+        return np.float32(np.inf), slot, in_space
+    ray = top_ray(world, origin, direction)
+    floats[_WAITING_DEPTHS], ints[0] = np.float32(-np.inf), world.top
+    top = 1
+    while top > 0:
+        top -= 1
+        if floats[_WAITING_DEPTHS + top] >= closest:
+            continue
+        node = np.int64(ints[top])
+        if node >= 0:
+            inside, depth = children_on_ray(world.top_box, node, ray, t_min, closest)
+            found = bits(inside)
+            if found != 0:
+                node, top = _nearest_child(found, depth, world.top_child, node, top, floats, ints)
+                floats[_WAITING_DEPTHS + top], ints[top] = np.float32(-np.inf), node
+                top += 1
+            continue
+        item = FIRST_LEAF - node
+        if item >= world.instances:
+            sphere = item - world.instances
+            t = np.float32(sphere_on_ray(world, sphere, origin, direction, t_min, closest))
+            if t < closest:
+                closest, slot, in_space = t, FIRST_LEAF - sphere, np.int64(-1)
+            continue
+        inner = instance_ray(world, item, origin, direction)
+        t, found_slot = closest_in_instance(
+            world, inner, world.root[item], top, t_min, closest, floats, ints
+        )
+        if found_slot >= 0:
+            closest, slot, in_space = t, found_slot, item
+    return (closest if slot != -1 else np.float32(np.inf)), slot, in_space
+
+
+@inlined
+def closest_hit_of_one(world, origin, direction, t_min, t_max, floats, ints):
+    """closest_hit() for a world of one instance and nothing else: there is no upper tree."""
+    ray = instance_ray(world, 0, origin, direction)
+    t, slot = closest_in_instance(world, ray, world.root[0], 0, t_min, t_max, floats, ints)
+    found = slot >= 0
+    return (t if found else np.float32(np.inf)), slot, np.int64(found) - 1
+
+
+@inlined
+def any_in_instance(world, ray, root, base, t_min, t_max, ints):
+    """Whether the ray meets any triangle of an instance."""
+    ints[base] = root
+    top = base + 1
+    while top > base:
+        top -= 1
+        node = np.int64(ints[top])
+        if node >= 0:
+            inside, _ = children_on_ray(world.box, node, ray, t_min, t_max)
+            top = _push_any(bits(inside), world.child, node, top, ints)
+        elif triangles_on_ray(world.corner, FIRST_LEAF - node, ray, t_min, t_max)[0] != 0:
+            return True
+    return False
+
+
+@inlined
+def _push_any(found, child, node, top, ints):
+    while found != 0:
+        ints[top] = child[node * WIDTH + lowest_bit(found)]
+        found &= found - 1
+        top += 1
+    return top
+
+
+@inlined
+def any_hit(world, origin, direction, t_min, t_max, ints):
+    """Whether anything is hit with t_min < t < t_max; stops at the first, in no order."""
+    if world.is_empty:
+        return False
+    ray = top_ray(world, origin, direction)
+    ints[0] = world.top
+    top = 1
+    while top > 0:
+        top -= 1
+        node = np.int64(ints[top])
+        if node >= 0:
+            inside, _ = children_on_ray(world.top_box, node, ray, t_min, t_max)
+            top = _push_any(bits(inside), world.top_child, node, top, ints)
+            continue
+        item = FIRST_LEAF - node
+        if item >= world.instances:
+            sphere = item - world.instances
+            if sphere_on_ray(world, sphere, origin, direction, t_min, t_max) < np.inf:
+                return True
+            continue
+        inner = instance_ray(world, item, origin, direction)
+        if any_in_instance(world, inner, world.root[item], top, t_min, t_max, ints):
+            return True
+    return False
+
+
+@inlined
+def any_hit_of_one(world, origin, direction, t_min, t_max, ints):
+    """any_hit() for a world of one instance and nothing else."""
+    ray = instance_ray(world, 0, origin, direction)
+    return any_in_instance(world, ray, world.root[0], 0, t_min, t_max, ints)

@@ -1,0 +1,182 @@
+"""The colour at a hit: the surface's normal, its albedo, and Blinn and Phong's shading.
+
+Owns the shading model, which shaders/ computes alike. Linear light; arithmetic in float64.
+Knows nothing of how hits are found.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from renderer.scene import flat
+from renderer.trace.compile.compiled import inlined
+from renderer.trace.scalar.vectors import (
+    blend,
+    cross,
+    dot,
+    each_times,
+    length,
+    minus,
+    normalized,
+    plus,
+    row,
+    times,
+)
+
+# Rows of a material, of a type that row() is compiled for.
+DIFFUSE_SHININESS, SPECULAR_CHECKERED, CHECKER_DIFFUSE = (
+    np.int64(number)
+    for number in (flat.DIFFUSE_SHININESS, flat.SPECULAR_CHECKERED, flat.CHECKER_DIFFUSE)
+)
+FIRST, SECOND, THIRD = np.int64(0), np.int64(1), np.int64(2)
+CELL_NUDGE = flat.CELL_NUDGE
+OTHER_SIDE = flat.OTHER_SIDE
+GRAZING = 1e-3  # the cosine that shading normals keep, at least, towards the viewer
+
+
+@inlined
+def rgb(color):
+    """A colour (3,) as float64."""
+    return np.float64(color[0]), np.float64(color[1]), np.float64(color[2])
+
+
+@inlined
+def object_of(face_object, sphere_object, primitive):
+    """The object that a primitive belongs to."""
+    triangles = len(face_object)
+    if primitive < triangles:
+        return face_object[primitive]
+    return sphere_object[primitive - triangles]
+
+
+@inlined
+def corners_of(faces, triangle):
+    """The numbers of a triangle's vertices."""
+    return np.int64(faces[triangle, 0]), np.int64(faces[triangle, 1]), np.int64(faces[triangle, 2])
+
+
+@inlined
+def turned(matrix, a):
+    """A direction in an object's space, in the world."""
+    x, y, z = row(matrix, FIRST), row(matrix, SECOND), row(matrix, THIRD)
+    return dot(x, a), dot(y, a), dot(z, a)
+
+
+@inlined
+def normals_at(scene, direction, point, primitive, b1, b2):
+    """(geometric, shading) unit normals at a hit, both on the viewer's side."""
+    triangles = len(scene.faces)
+    if primitive >= triangles:
+        out = minus(point, row(scene.spheres, primitive - triangles))
+        # A tiny sphere far away may round to its centre.
+        facing = _facing(normalized(out if _is_set(out) else direction), direction)
+        return facing, _not_grazing(facing, direction)
+    i, j, k = corners_of(scene.faces, primitive)
+    a, b, c = row(scene.vertices, i), row(scene.vertices, j), row(scene.vertices, k)
+    # A mesh's vertices are in its own space; so are two edges, until they are turned.
+    matrix = scene.world_from_object[object_of(scene.face_object, scene.sphere_object, primitive)]
+    geometric = normalized(cross(turned(matrix, minus(b, a)), turned(matrix, minus(c, a))))
+    facing = _facing(geometric, direction)
+    shading = facing
+    n0, n1, n2 = row(scene.normals, i), row(scene.normals, j), row(scene.normals, k)
+    if _is_set(n0) and _is_set(n1) and _is_set(n2):
+        smooth = blend(1.0 - b1 - b2, n0, b1, n1, b2, n2)
+        size = length(smooth)
+        if size >= 1e-6:
+            # Normals that disagree with the winding are turned, for the whole triangle alike.
+            turn = 1.0 if dot(plus(n0, plus(n1, n2)), geometric) >= OTHER_SIDE else -1.0
+            if dot(geometric, direction) >= 0.0:
+                turn = -turn
+            shading = times(turn / size, smooth)
+    return facing, _not_grazing(shading, direction)
+
+
+@inlined
+def _facing(normal, direction):
+    return normal if dot(normal, direction) < 0.0 else times(-1.0, normal)
+
+
+@inlined
+def _is_set(normal):
+    return normal[0] != 0.0 or normal[1] != 0.0 or normal[2] != 0.0
+
+
+@inlined
+def _not_grazing(normal, direction):
+    """The normal, bent just enough to face the viewer."""
+    along = normalized(direction)
+    cosine = dot(normal, along)
+    if cosine > -GRAZING:
+        return normalized(minus(normal, times(cosine + GRAZING, along)))
+    return normal
+
+
+@inlined
+def albedo_at(scene, number, point, geometric, primitive, b1, b2):
+    """The diffuse reflectance of object `number`: the material's, or its checker's, times the
+    vertices' colours."""
+    material = scene.materials[number]
+    albedo = row(material, DIFFUSE_SHININESS)
+    if material[SPECULAR_CHECKERED, 3] != 0.0 and _is_other_cell(
+        scene.cells[number], point, geometric
+    ):
+        albedo = row(material, CHECKER_DIFFUSE)
+    if primitive < len(scene.faces):
+        i, j, k = corners_of(scene.faces, primitive)
+        colors = scene.colors
+        tint = blend(1.0 - b1 - b2, row(colors, i), b1, row(colors, j), b2, row(colors, k))
+        albedo = each_times(albedo, tint)
+    return albedo
+
+
+@inlined
+def _is_other_cell(cells, point, geometric):
+    """Whether the point lies in a cell of odd number, just below the surface."""
+    x, y, z = row(cells, FIRST), row(cells, SECOND), row(cells, THIRD)
+    across = normalized((dot(x, geometric), dot(y, geometric), dot(z, geometric)))
+    u = dot(x, point) + cells[FIRST, 3] - CELL_NUDGE * across[0]
+    v = dot(y, point) + cells[SECOND, 3] - CELL_NUDGE * across[1]
+    w = dot(z, point) + cells[THIRD, 3] - CELL_NUDGE * across[2]
+    return (u % 2.0 >= 1.0) ^ (v % 2.0 >= 1.0) ^ (w % 2.0 >= 1.0)
+
+
+@inlined
+def color_at(scene, direction, point, geometric, shading, primitive, b1, b2):
+    """The light that a hit sends to the viewer.
+
+    Highlights are not cut off where the surface turns away from the light.
+    Source: Marschner and Shirley, Fundamentals of Computer Graphics, ch. 4 (Blinn and Phong).
+    """
+    number = object_of(scene.face_object, scene.sphere_object, primitive)
+    material = scene.materials[number]
+    albedo = albedo_at(scene, number, point, geometric, primitive, b1, b2)
+    specular = row(material, SPECULAR_CHECKERED)
+    shininess = np.float64(material[DIFFUSE_SHININESS, 3])
+    along = normalized(direction)
+    color = each_times(rgb(scene.ambient), albedo)
+    for light in range(len(scene.lights)):
+        lamp = scene.lights[light]
+        to_light = row(lamp, FIRST)
+        if lamp[0, 3] != 0.0:
+            to_light = minus(to_light, point)
+            far = length(to_light)
+            if far < 1e-12:
+                continue
+            to_light = times(1.0 / far, to_light)
+        reflected = times(max(0.0, dot(shading, to_light)), albedo)
+        half = minus(to_light, along)
+        size = length(half)
+        if size >= 1e-6:
+            highlight = max(0.0, dot(shading, half) / size) ** shininess
+            reflected = plus(reflected, times(highlight, specular))
+        color = plus(color, each_times(row(lamp, SECOND), reflected))
+    return color
+
+
+@inlined
+def point_on(origin, direction, t):
+    return (
+        origin[0] + t * direction[0],
+        origin[1] + t * direction[1],
+        origin[2] + t * direction[2],
+    )

@@ -1,0 +1,70 @@
+"""Vectors of three float64 as tuples: they live in registers, not in memory.
+
+Knows nothing of what they mean.
+"""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+
+from renderer.trace.compile.compiled import inlined
+
+
+@inlined
+def row(array, i):
+    """array[i, :3], exactly, as float64. i: int64 (a literal would compile another version)."""
+    return np.float64(array[i, 0]), np.float64(array[i, 1]), np.float64(array[i, 2])
+
+
+@inlined
+def plus(a, b):
+    return a[0] + b[0], a[1] + b[1], a[2] + b[2]
+
+
+@inlined
+def minus(a, b):
+    return a[0] - b[0], a[1] - b[1], a[2] - b[2]
+
+
+@inlined
+def times(s, a):
+    return s * a[0], s * a[1], s * a[2]
+
+
+@inlined
+def each_times(a, b):
+    """The component-wise product, of colours."""
+    return a[0] * b[0], a[1] * b[1], a[2] * b[2]
+
+
+@inlined
+def dot(a, b):
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
+
+
+@inlined
+def cross(a, b):
+    return a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]
+
+
+@inlined
+def length(a):
+    return math.sqrt(dot(a, a))
+
+
+@inlined
+def normalized(a):
+    """a / |a|; a must not be 0."""
+    return times(1.0 / length(a), a)
+
+
+@inlined
+def blend(b0, p, b1, q, b2, r):
+    """b0 p + b1 q + b2 r: interpolation by barycentrics."""
+    return (
+        b0 * p[0] + b1 * q[0] + b2 * r[0],
+        b0 * p[1] + b1 * q[1] + b2 * r[1],
+        b0 * p[2] + b1 * q[2] + b2 * r[2],
+    )

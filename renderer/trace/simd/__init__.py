@@ -1,0 +1,1 @@
+"""Explicit SIMD inside kernels: vectors of 16 lanes."""

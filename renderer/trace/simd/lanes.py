@@ -1,0 +1,276 @@
+"""Explicit SIMD inside kernels: vectors of 16 lanes, one for each pixel, triangle or box.
+
+numba has no vector types; LLVM, below it, has. This module teaches numba four types (F32, F64, I32
+and MASK, 16 lanes each), their operators, and the functions below, so that a kernel can write
+`fma(ex, x, fma(ey, y, e1)) >= 0` for 16 pixels at once. LLVM maps a vector to one AVX-512
+register, to two of AVX or to four of SSE or NEON: only its generic operations are used, no
+instruction of any one processor.
+
+No fast-math flags: nothing is reassociated, which watertight intersection relies on. Only fma()
+is fused, and only on processors that can: see there.
+
+Knows nothing of rays. Kernels name these functions at module level, so that they can be cached.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+from llvmlite import ir
+from numba.core import types
+from numba.core.errors import TypingError
+from numba.extending import intrinsic
+
+from renderer.trace.simd.types import (
+    F32,
+    F64,
+    I1,
+    I32,
+    INT32,
+    INT64,
+    KIND_OF,
+    LANES,
+    MASK,
+    SCALAR,
+    VECTOR,
+    VectorType,
+    call_llvm,
+    common_kind,
+    llvm_vector,
+    repeated,
+    shuffled,
+    undefined,
+    widened,
+)
+
+# Vectors from numbers.
+
+
+@intrinsic
+def splat(typing, x):
+    """A vector with the float32, float64 or int32 number x in each lane."""
+    if x not in KIND_OF:
+        raise TypingError(f"no vectors of {x}")
+
+    def codegen(context, builder, sig, args):
+        return repeated(builder, args[0])
+
+    return VECTOR[KIND_OF[x]](x), codegen
+
+
+def _constant(values: list[float]) -> Any:
+    def codegen(context, builder, sig, args):
+        return ir.Constant(llvm_vector("f32"), values)
+
+    return F32(), codegen
+
+
+@intrinsic
+def lane_column(typing):
+    """0 1 2 3 0 1 2 3 ...: the column of each lane in a square of 4 x 4."""
+    return _constant([lane % 4 for lane in range(LANES)])
+
+
+@intrinsic
+def lane_row(typing):
+    """0 0 0 0 1 1 1 1 ...: the row of each lane in a square of 4 x 4."""
+    return _constant([lane // 4 for lane in range(LANES)])
+
+
+# Functions of vectors, lane by lane. Numbers may stand for vectors, but not for all of them.
+
+
+def _function(name: str, count: int) -> Callable:
+    """The typing function of an intrinsic that is LLVM's own function `name`."""
+
+    def build(*fe_types: Any) -> Any:
+        kind = common_kind(*fe_types)
+        vector = VECTOR[kind]
+
+        def codegen(context, builder, sig, args):
+            values = [
+                widened(context, builder, a, t, kind) for a, t in zip(args, sig.args, strict=True)
+            ]
+            return call_llvm(builder, f"llvm.{name}.v{LANES}{kind}", llvm_vector(kind), values)
+
+        return vector(*fe_types), codegen
+
+    if count == 1:
+        return lambda typing, x: build(x)
+    return lambda typing, x, y, z: build(x, y, z)
+
+
+# x * y + z, in one rounding where the processor can and in two where it cannot, alike wherever it
+# is written: fma(-x, y, -z) is exactly -fma(x, y, z) in either case.
+fma = intrinsic(_function("fmuladd", 3))
+vabs = intrinsic(_function("fabs", 1))
+vsqrt = intrinsic(_function("sqrt", 1))
+vfloor = intrinsic(_function("floor", 1))
+
+
+@intrinsic
+def inverse_root(typing, x):
+    """1 / sqrt(x) for x > 0, normal; relative error below 4e-7. NaN or inf for 0.
+
+    By the processor's estimate and one step of Newton's method, where it has one: a root and a
+    division take several times as long.
+    """
+    if x != F32:
+        raise TypingError(f"{F32} is needed, not {x}")
+
+    def codegen(context, builder, sig, args):
+        flags = ("afn", "arcp", "contract", "reassoc")
+        name = f"llvm.sqrt.v{LANES}f32"
+        root = call_llvm(builder, name, args[0].type, [args[0]])
+        root.fastmath.update(flags)
+        one = ir.Constant(args[0].type, [1.0] * LANES)
+        return builder.fdiv(one, root, flags=flags)
+
+    return F32(x), codegen
+
+
+def _extreme(sign: str) -> Callable:
+    """The smaller or larger of two; y where either is NaN. One instruction where there is one."""
+
+    def build(typing, x, y):
+        kind = common_kind(x, y)
+
+        def codegen(context, builder, sig, args):
+            x_, y_ = (
+                widened(context, builder, a, t, kind) for a, t in zip(args, sig.args, strict=True)
+            )
+            return builder.select(builder.fcmp_ordered(sign, x_, y_), x_, y_)
+
+        return VECTOR[kind](x, y), codegen
+
+    return build
+
+
+vmin = intrinsic(_extreme("<"))
+vmax = intrinsic(_extreme(">"))
+
+
+@intrinsic
+def select(typing, mask, x, y):
+    """x in the lanes of the mask, y in the others."""
+    kind = common_kind(x, y)
+
+    def codegen(context, builder, sig, args):
+        x_, y_ = (
+            widened(context, builder, a, t, kind)
+            for a, t in zip(args[1:], sig.args[1:], strict=True)
+        )
+        return builder.select(args[0], x_, y_)
+
+    return VECTOR[kind](mask, x, y), codegen
+
+
+def _conversion(source: VectorType, target: VectorType, instruction: str) -> Callable:
+    def build(typing, x):
+        if x != source:
+            raise TypingError(f"{source} is needed, not {x}")
+
+        def codegen(context, builder, sig, args):
+            return getattr(builder, instruction)(args[0], llvm_vector(target.kind))
+
+        return target(x), codegen
+
+    return build
+
+
+to_f64 = intrinsic(_conversion(F32, F64, "fpext"))
+to_f32 = intrinsic(_conversion(F64, F32, "fptrunc"))
+i32_of = intrinsic(_conversion(F32, I32, "fptosi"))  # towards 0; the value must fit
+f32_of = intrinsic(_conversion(I32, F32, "sitofp"))
+bits_of_f32 = intrinsic(_conversion(F32, I32, "bitcast"))
+f32_of_bits = intrinsic(_conversion(I32, F32, "bitcast"))
+
+
+# From vectors to numbers.
+
+
+@intrinsic
+def bits(typing, mask):
+    """A mask as an int64: bit i is lane i."""
+    if mask != MASK:
+        raise TypingError(f"a mask is needed, not {mask}")
+
+    def codegen(context, builder, sig, args):
+        return builder.zext(builder.bitcast(args[0], ir.IntType(LANES)), INT64)
+
+    return types.int64(mask), codegen
+
+
+@intrinsic
+def mask_of(typing, number):
+    """The mask whose lane i is bit i of an integer."""
+
+    def codegen(context, builder, sig, args):
+        value = context.cast(builder, args[0], sig.args[0], types.int32)
+        return builder.bitcast(builder.trunc(value, ir.IntType(LANES)), llvm_vector("mask"))
+
+    return MASK(number), codegen
+
+
+def _permutation(lanes: list[int]) -> Callable:
+    def build(typing, x):
+        def codegen(context, builder, sig, args):
+            return shuffled(builder, args[0], undefined(args[0].type), lanes)
+
+        return x(x), codegen
+
+    return build
+
+
+# Lanes in another order: 0 to 7, twice; each quarter of a half in the other's place; 1 2 0 3 within
+# each quarter.
+lower_half_twice = intrinsic(_permutation([lane % 8 for lane in range(LANES)]))
+quarters_swapped = intrinsic(_permutation([lane ^ 4 for lane in range(LANES)]))
+next_of_three = intrinsic(_permutation([[1, 2, 0, 3][lane % 4] for lane in range(LANES)]))
+
+
+def _reduction(sign: str) -> Callable:
+    def build(typing, x):
+        def codegen(context, builder, sig, args):
+            # Fold the vector in halves until one lane is left.
+            (value,), lanes = args, LANES
+            while lanes > 1:
+                lanes //= 2
+                nothing = undefined(value.type)
+                low = shuffled(builder, value, nothing, list(range(lanes)))
+                high = shuffled(builder, value, nothing, list(range(lanes, 2 * lanes)))
+                value = builder.select(builder.fcmp_ordered(sign, low, high), low, high)
+            return builder.extract_element(value, ir.Constant(INT32, 0))
+
+        return SCALAR[common_kind(x)](x), codegen
+
+    return build
+
+
+smallest = intrinsic(_reduction("<"))
+largest = intrinsic(_reduction(">"))
+
+
+@intrinsic
+def lowest_bit(typing, number):
+    """The index, int64, of the lowest bit set in an integer whose low 32 bits are not 0."""
+
+    def codegen(context, builder, sig, args):
+        value = context.cast(builder, args[0], sig.args[0], types.int32)
+        index = call_llvm(builder, "llvm.cttz.i32", INT32, [value, ir.Constant(I1, 1)])
+        return builder.zext(index, INT64)
+
+    return types.int64(number), codegen
+
+
+@intrinsic
+def lane_of(typing, vector, lane):
+    """One lane of a vector, by its index."""
+    scalar = SCALAR[vector.kind]
+
+    def codegen(context, builder, sig, args):
+        index = context.cast(builder, args[1], sig.args[1], types.int32)
+        return builder.extract_element(args[0], index)
+
+    return scalar(vector, lane), codegen

@@ -1,0 +1,238 @@
+"""Vectors of 16 lanes from memory and to memory, for kernels in explicit SIMD (lanes.py).
+
+Owns addresses, whole vectors, lanes at indices of their own, and squares of an image. Only LLVM's
+generic operations are used. Indices are not checked.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+from llvmlite import ir
+from numba.core import types
+from numba.core.errors import TypingError
+from numba.core.types.misc import CPointer
+from numba.extending import intrinsic
+
+from renderer.trace.simd.types import (
+    ELEMENT,
+    I32,
+    INT32,
+    INT64,
+    LANES,
+    MASK,
+    VECTOR,
+    address_of,
+    array_kind,
+    call_llvm,
+    common_kind,
+    element_address,
+    llvm_vector,
+    repeated,
+    shuffled,
+    undefined,
+)
+
+
+@intrinsic
+def pointer(typing, array):
+    """The address of a contiguous array, which is indexed like the flat array.
+
+    Inside kernels, arrays are handed on as pointers: an array is seven numbers and a count of
+    references, which a function per stage makes slow to compile and to run. An array that the
+    kernel made is freed after the last use of its name: take its pointer in the loop that uses it.
+    """
+    if not isinstance(array, types.Array) or array.layout != "C":
+        raise TypingError(f"a contiguous array is needed, not {array}")
+
+    def codegen(context, builder, sig, args):
+        return address_of(context, builder, sig.args[0], args[0])
+
+    return CPointer(array.dtype)(array), codegen
+
+
+@intrinsic
+def shifted(typing, array, index):
+    """The pointer to array[index], for a pointer."""
+    array_kind(array)
+
+    def codegen(context, builder, sig, args):
+        return element_address(context, builder, sig, args)
+
+    return array(array, index), codegen
+
+
+@intrinsic
+def load(typing, array, index):
+    """array[index : index + 16]."""
+    kind = array_kind(array)
+
+    def codegen(context, builder, sig, args):
+        at = element_address(context, builder, sig, args)
+        at = builder.bitcast(at, llvm_vector(kind).as_pointer())
+        value = builder.load(at, typ=llvm_vector(kind))
+        value.align = 4
+        return value
+
+    return VECTOR[kind](array, index), codegen
+
+
+@intrinsic
+def store(typing, array, index, vector):
+    """array[index : index + 16] = vector."""
+    if array_kind(array) != vector.kind:
+        raise TypingError(f"{vector} does not fit into {array}")
+
+    def codegen(context, builder, sig, args):
+        at = element_address(context, builder, sig, args)
+        builder.store(args[2], builder.bitcast(at, args[2].type.as_pointer()), align=4)
+        return context.get_dummy_value()
+
+    return types.void(array, index, vector), codegen
+
+
+@intrinsic
+def stream(typing, array, index, vector):
+    """store(), past the caches: for lines of 64 bytes, written whole, that are not read soon.
+
+    Spares reading the line before, and keeps what else is in the caches. The address must be a
+    multiple of 64 bytes; is_line() tells.
+    """
+    if array_kind(array) != vector.kind:
+        raise TypingError(f"{vector} does not fit into {array}")
+
+    def codegen(context, builder, sig, args):
+        at = element_address(context, builder, sig, args)
+        stored = builder.store(args[2], builder.bitcast(at, args[2].type.as_pointer()), align=64)
+        one = builder.module.add_metadata([ir.Constant(INT32, 1)])
+        stored.set_metadata("nontemporal", one)
+        return context.get_dummy_value()
+
+    return types.void(array, index, vector), codegen
+
+
+@intrinsic
+def is_line(typing, array, index):
+    """Whether array[index] begins a cache line of 64 bytes."""
+
+    def codegen(context, builder, sig, args):
+        at = builder.ptrtoint(element_address(context, builder, sig, args), INT64)
+        return builder.icmp_unsigned("==", builder.and_(at, INT64(63)), INT64(0))
+
+    return types.boolean(array, index), codegen
+
+
+@intrinsic
+def gather(typing, array, index, mask):
+    """array[index[lane]] in the lanes of the mask; 0 in the others, whose index may be any."""
+    return _gather(array_kind(array), array, index, mask)
+
+
+def _gather(kind: str, array: Any, index: Any, mask: Any) -> Any:
+    if kind == "f64" or index != I32 or mask != MASK:
+        raise TypingError("gather takes 32-bit elements, an I32 and a MASK")
+
+    def codegen(context, builder, sig, args):
+        wide, pointers = ir.VectorType(INT64, LANES), ir.VectorType(ir.PointerType(), LANES)
+        data = address_of(context, builder, sig.args[0], args[0])
+        first = repeated(builder, builder.ptrtoint(data, INT64))
+        offset = builder.shl(builder.sext(args[1], wide), ir.Constant(wide, [2] * LANES))
+        address = builder.inttoptr(builder.add(first, offset), pointers)
+        zero = ir.Constant(llvm_vector(kind), [0] * LANES)
+        name = f"llvm.masked.gather.v{LANES}{kind}.v{LANES}p0"
+        return call_llvm(builder, name, zero.type, [address, ir.Constant(INT32, 4), args[2], zero])
+
+    return VECTOR[kind](array, index, mask), codegen
+
+
+@intrinsic
+def fetch(typing, array, index, mask):
+    """A vector of array[index]: gathered for an I32 of indices, repeated for a number."""
+    kind = array_kind(array)
+    if index == I32:
+        return _gather(kind, array, index, mask)
+
+    def codegen(context, builder, sig, args):
+        at = element_address(context, builder, sig, args)
+        return repeated(builder, builder.load(at, typ=ELEMENT[kind]))
+
+    return VECTOR[kind](array, index, mask), codegen
+
+
+@intrinsic
+def fetch_index(typing, array, index, mask):
+    """array[index]: gathered for an I32 of indices, one int32 for a number."""
+    if index == I32:
+        return _gather(array_kind(array), array, index, mask)
+
+    def codegen(context, builder, sig, args):
+        at = element_address(context, builder, sig, args)
+        return builder.load(at, typ=INT32)
+
+    return types.int32(array, index, mask), codegen
+
+
+@intrinsic
+def prefetch(typing, array, index):
+    """Asks for the cache line of array[index], which will be read soon; any index is allowed."""
+
+    def codegen(context, builder, sig, args):
+        at = element_address(context, builder, sig, args)
+        read, keep, data = (ir.Constant(INT32, value) for value in (0, 3, 1))
+        call_llvm(builder, "llvm.prefetch.p0", ir.VoidType(), [at, read, keep, data])
+        return context.get_dummy_value()
+
+    return types.void(array, index), codegen
+
+
+# Squares of 4 x 4 pixels to images: row r of the square goes to array[index + r * stride].
+
+
+def _store_rows(context: Any, builder: Any, sig: Any, args: Any, rows: list) -> Any:
+    index, stride = (
+        context.cast(builder, value, fe_type, types.intp)
+        for value, fe_type in zip(args[1:3], sig.args[1:3], strict=True)
+    )
+    kind = array_kind(sig.args[0])
+    first = address_of(context, builder, sig.args[0], args[0])
+    for row in rows:
+        at = builder.gep(first, [index], source_etype=ELEMENT[kind])
+        builder.store(row, builder.bitcast(at, row.type.as_pointer()), align=4)
+        index = builder.add(index, stride)
+    return context.get_dummy_value()
+
+
+@intrinsic
+def store_square(typing, array, index, stride, vector):
+    """Stores a number a pixel."""
+    if array_kind(array) != vector.kind:
+        raise TypingError(f"{vector} does not fit into {array}")
+
+    def codegen(context, builder, sig, args):
+        nothing = undefined(args[3].type)
+        rows = [
+            shuffled(builder, args[3], nothing, [4 * row + column for column in range(4)])
+            for row in range(4)
+        ]
+        return _store_rows(context, builder, sig, args, rows)
+
+    return types.void(array, index, stride, vector), codegen
+
+
+@intrinsic
+def store_square3(typing, array, index, stride, x, y, z):
+    """Stores three numbers a pixel, interleaved."""
+    if array_kind(array) != common_kind(x, y, z):
+        raise TypingError(f"{x} does not fit into {array}")
+
+    def codegen(context, builder, sig, args):
+        both = list(range(2 * LANES))
+        xy = shuffled(builder, args[3], args[4], both)
+        zz = shuffled(builder, args[5], args[5], both)
+        rows = [
+            shuffled(builder, xy, zz, [4 * row + c + LANES * k for c in range(4) for k in range(3)])
+            for row in range(4)
+        ]
+        return _store_rows(context, builder, sig, args, rows)
+
+    return types.void(array, index, stride, x, y, z), codegen

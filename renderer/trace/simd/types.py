@@ -1,0 +1,200 @@
+"""Vectors of 16 lanes as types of numba's, with their operators.
+
+Owns the types F32, F64, I32 and MASK, and what it takes to make LLVM's code of them. lanes.py has
+the functions, and says what all this is for. Knows nothing of rays.
+"""
+
+from __future__ import annotations
+
+import operator
+from collections.abc import Callable
+from typing import Any
+
+from llvmlite import ir
+from numba.core import cgutils, types
+from numba.core.errors import TypingError
+from numba.core.types.misc import CPointer
+from numba.extending import lower_builtin, models, register_model, type_callable
+
+LANES = 16
+
+I1, INT32, INT64 = ir.IntType(1), ir.IntType(32), ir.IntType(64)
+ELEMENT = {"f32": ir.FloatType(), "f64": ir.DoubleType(), "i32": INT32, "mask": I1}
+SCALAR: dict[str, Any] = {"f32": types.float32, "f64": types.float64, "i32": types.int32}
+KIND_OF = {types.float32: "f32", types.float64: "f64", types.int32: "i32"}
+
+
+class VectorType(types.Type):
+    """numba's type of a vector of 16 lanes. kind: 'f32', 'f64', 'i32' or 'mask' (truth values)."""
+
+    def __init__(self, kind: str) -> None:
+        self.kind = kind
+        super().__init__(name=f"{kind}x{LANES}")
+
+    @property
+    def is_float(self) -> bool:
+        return self.kind in ("f32", "f64")
+
+
+F32, F64, I32, MASK = (VectorType(kind) for kind in ("f32", "f64", "i32", "mask"))
+VECTOR: dict[str, Any] = {vector.kind: vector for vector in (F32, F64, I32, MASK)}
+
+
+@register_model(VectorType)
+class _VectorModel(models.PrimitiveModel):
+    def __init__(self, manager: Any, fe_type: VectorType) -> None:
+        super().__init__(manager, fe_type, llvm_vector(fe_type.kind))
+
+
+# How LLVM is spoken to.
+
+
+def llvm_vector(kind: str, lanes: int = LANES) -> ir.VectorType:
+    return ir.VectorType(ELEMENT[kind], lanes)
+
+
+def undefined(type_: ir.Type) -> ir.Constant:
+    return ir.Constant(type_, ir.Undefined)
+
+
+def shuffled(builder: Any, x: Any, y: Any, lanes: list[int]) -> Any:
+    """The given lanes of x followed by y."""
+    mask = ir.Constant(ir.VectorType(INT32, len(lanes)), lanes)
+    return builder.shuffle_vector(x, y, mask)
+
+
+def repeated(builder: Any, scalar: Any) -> Any:
+    """A vector with `scalar` in each lane."""
+    nothing = undefined(ir.VectorType(scalar.type, LANES))
+    first = builder.insert_element(nothing, scalar, ir.Constant(INT32, 0))
+    return shuffled(builder, first, nothing, [0] * LANES)
+
+
+def call_llvm(builder: Any, name: str, result: Any, arguments: list) -> Any:
+    """Calls one of LLVM's own functions."""
+    signature = ir.FunctionType(result, [argument.type for argument in arguments])
+    function = cgutils.get_or_insert_function(builder.module, signature, name)
+    return builder.call(function, arguments)
+
+
+def widened(context: Any, builder: Any, value: Any, fe_type: Any, kind: str) -> Any:
+    """A vector as it is; a number cast to the lanes' type and repeated in each."""
+    if isinstance(fe_type, VectorType):
+        return value
+    return repeated(builder, context.cast(builder, value, fe_type, SCALAR[kind]))
+
+
+def address_of(context: Any, builder: Any, array_type: Any, array: Any) -> Any:
+    """The address of an array's first element."""
+    if isinstance(array_type, CPointer):
+        return array
+    from numba.np.arrayobj import make_array  # here: machine code from the cache needs none of it
+
+    return make_array(array_type)(context, builder, array).data
+
+
+def element_address(context: Any, builder: Any, sig: Any, args: Any) -> Any:
+    """The address of array[index], the first two arguments."""
+    index = context.cast(builder, args[1], sig.args[1], types.intp)
+    kind = array_kind(sig.args[0])
+    address = address_of(context, builder, sig.args[0], args[0])
+    return builder.gep(address, [index], source_etype=ELEMENT[kind])
+
+
+def common_kind(*fe_types: Any) -> str:
+    """The kind of the vectors among the arguments, which must be one; numbers go with any."""
+    kinds = {t.kind for t in fe_types if isinstance(t, VectorType)}
+    numbers = all(isinstance(t, VectorType | types.Number) for t in fe_types)
+    if len(kinds) != 1 or not numbers:
+        raise TypingError(f"vectors of one kind are needed, not {fe_types}")
+    return kinds.pop()
+
+
+def array_kind(array: Any) -> str:
+    """The kind of vector that the elements of an array, or of a pointer's array, make."""
+    if not isinstance(array, CPointer) and not (
+        isinstance(array, types.Array) and array.ndim == 1 and array.layout == "C"
+    ):
+        raise TypingError(f"a pointer or a contiguous one-dimensional array is needed, not {array}")
+    if array.dtype not in KIND_OF:
+        raise TypingError(f"no vectors of {array.dtype}")
+    return KIND_OF[array.dtype]
+
+
+# Operators, of two vectors or of a vector and a number.
+
+
+def _operator(function: Callable, emit: Callable, compares: bool = False) -> None:
+    """Defines a binary operator; emit(builder, is_float, x, y) makes LLVM's instruction."""
+
+    @type_callable(function)
+    def _typing(context):
+        def typer(x, y):
+            vector = x if isinstance(x, VectorType) else y
+            if isinstance(vector, VectorType) and all(
+                t == vector or isinstance(t, types.Number) for t in (x, y)
+            ):
+                return MASK if compares else vector
+            return None
+
+        return typer
+
+    def lower(context, builder, sig, args):
+        kind = common_kind(*sig.args)
+        x, y = (widened(context, builder, a, t, kind) for a, t in zip(args, sig.args, strict=True))
+        return emit(builder, kind in ("f32", "f64"), x, y)
+
+    for pair in (
+        (VectorType, VectorType),
+        (VectorType, types.Number),
+        (types.Number, VectorType),
+    ):
+        lower_builtin(function, *pair)(lower)
+
+
+_operator(operator.add, lambda b, is_float, x, y: (b.fadd if is_float else b.add)(x, y))
+_operator(operator.sub, lambda b, is_float, x, y: (b.fsub if is_float else b.sub)(x, y))
+_operator(operator.mul, lambda b, is_float, x, y: (b.fmul if is_float else b.mul)(x, y))
+_operator(operator.truediv, lambda b, is_float, x, y: b.fdiv(x, y))
+_operator(operator.and_, lambda b, is_float, x, y: b.and_(x, y))
+_operator(operator.or_, lambda b, is_float, x, y: b.or_(x, y))
+_operator(operator.xor, lambda b, is_float, x, y: b.xor(x, y))
+_operator(operator.lshift, lambda b, is_float, x, y: b.shl(x, y))
+_operator(operator.rshift, lambda b, is_float, x, y: b.ashr(x, y))
+
+
+def _comparison(function: Callable, sign: str) -> None:
+    """Ordered: false in a lane where an operand is NaN."""
+
+    def emit(builder, is_float, x, y):
+        return (builder.fcmp_ordered if is_float else builder.icmp_signed)(sign, x, y)
+
+    _operator(function, emit, compares=True)
+
+
+_comparison(operator.lt, "<")
+_comparison(operator.le, "<=")
+_comparison(operator.gt, ">")
+_comparison(operator.ge, ">=")
+_comparison(operator.eq, "==")
+_comparison(operator.ne, "!=")
+
+
+@type_callable(operator.neg)
+def _type_neg(context):
+    return lambda x: x if isinstance(x, VectorType) and x.is_float else None
+
+
+@lower_builtin(operator.neg, VectorType)
+def _lower_neg(context, builder, sig, args):
+    return builder.fneg(args[0])
+
+
+@type_callable(operator.invert)
+def _type_invert(context):
+    return lambda x: x if isinstance(x, VectorType) and not x.is_float else None
+
+
+@lower_builtin(operator.invert, VectorType)
+def _lower_invert(context, builder, sig, args):
+    return builder.not_(args[0])

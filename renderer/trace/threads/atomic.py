@@ -1,0 +1,63 @@
+"""Counters that threads share: how a kernel's threads divide the work, and how they are stopped.
+
+Owns the control array's layout and the atomic operations on it. Knows nothing of the work, which
+is numbered from 0: each thread takes the next number until there are no more.
+
+An ordinary array element would not do: the compiler may read it once, before the loop.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+from llvmlite import ir
+from numba.core import types
+from numba.extending import intrinsic
+
+from renderer.trace.compile.compiled import inlined
+from renderer.trace.simd.types import address_of
+from renderer.trace.threads.control import CANCELLED, DONE, NEXT
+
+
+def _element(context, builder, signature, args):
+    """The address of array[index], the first two arguments."""
+    data = address_of(context, builder, signature.args[0], args[0])
+    return builder.gep(data, [args[1]])
+
+
+@intrinsic
+def fetch_add(typing, array, index, value):
+    """Adds value to array[index] (int64) at once; gives what was there before."""
+
+    def codegen(context, builder, signature, args):
+        at = _element(context, builder, signature, args)
+        return builder.atomic_rmw("add", at, args[2], "seq_cst")
+
+    return types.int64(array, types.int64, types.int64), codegen
+
+
+@intrinsic
+def read(typing, array, index):
+    """array[index] (int64) as it is in memory now."""
+
+    def codegen(context, builder, signature, args):
+        at = _element(context, builder, signature, args)
+        return builder.load_atomic(at, "monotonic", 8, typ=ir.IntType(64))
+
+    return types.int64(array, types.int64), codegen
+
+
+@inlined
+def take_next(control):
+    """The number of the next piece of work, which is now the caller's."""
+    return fetch_add(control, np.int64(NEXT), np.int64(1))
+
+
+@inlined
+def count_done(control):
+    """Counts a finished piece of work."""
+    fetch_add(control, np.int64(DONE), np.int64(1))
+
+
+@inlined
+def is_cancelled(control):
+    return read(control, np.int64(NEXT)) >= CANCELLED
