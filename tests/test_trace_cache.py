@@ -72,7 +72,7 @@ def test_a_read_only_installation_caches_for_the_user(installation: Path, tmp_pa
     assert finish(start(installation, cache)) == f"{folder} 0"
 
     # An edit of any file that kernels consist of leads to another folder.
-    shown = "from renderer.trace import compiled; print(compiled.cache_folder())"
+    shown = "from renderer.trace.compile import compiled; print(compiled.cache_folder())"
     folders = {folder, finish(start(installation, cache, shown))}
     assert len(folders) == 1
     for edited in ("trace/scalar/intersect.py", "trace/scalar/vectors.py", "scene/flat.py"):
