@@ -195,7 +195,7 @@ def test_settings_of_numba_in_the_current_folder_are_passed_over(
     (mine / "library").mkdir()
     reader = "def safe_load(file):\n    return {'disable_jit': 1}\n"
     (mine / "library" / "yaml.py").write_text(reader if is_readable else "raise ImportError\n")
-    script = "from renderer.trace import compiled; print(compiled.config.DISABLE_JIT)"
+    script = "from renderer.trace.compile import compiled; print(compiled.config.DISABLE_JIT)"
     path = os.pathsep.join([str(mine / "library"), str(ROOT)])
     done = subprocess.run(
         [sys.executable, "-P", "-c", script], cwd=mine, env={**os.environ, "PYTHONPATH": path},

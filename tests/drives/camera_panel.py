@@ -76,7 +76,7 @@ def drive_the_field_of_view_is_typed(d: Driver) -> None:
     d.type("field of view", "200")
     assert "between 0 and 180" in str(d.window.views["Camera"]._draft.error)
     assert d.window.state.camera == camera
-    d.ctx.item_click("//Camera/Back to the camera shown")
+    d.ctx.item_click("//###pending camera/Back to the camera shown")
 
 
 def drive_fractions_and_roots_are_typed(d: Driver) -> None:
@@ -151,7 +151,7 @@ def drive_near_and_far_are_switched_on_and_cut(d: Driver) -> None:
     d.type("far plane", "8")
     assert "not above near" in str(d.window.views["Camera"]._draft.error)
     assert d.window.state.camera.far == 11
-    d.ctx.item_click("//Camera/Back to the camera shown")
+    d.ctx.item_click("//###pending camera/Back to the camera shown")
     d.ctx.item_click("//Camera/near")
     d.ctx.item_click("//Camera/far")
     assert d.window.state.camera == d.start.camera
