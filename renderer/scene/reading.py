@@ -13,11 +13,13 @@ from collections.abc import Iterable
 from pathlib import Path
 
 from renderer.errors import LucidaError
+from renderer.scene.noting import note
 
 
 def read_file(path: Path, most_bytes: int) -> bytes:
     """The bytes of an ordinary file of at most `most_bytes`; otherwise LucidaError naming it."""
     source = str(path)
+    note(path)
     try:
         status = path.stat()
         if stat.S_ISDIR(status.st_mode):
