@@ -359,6 +359,12 @@ class TestText:
         assert error.value.line == line
 
 
+def test_what_is_pointed_out_is_looked_for_once():
+    highlight = "highlight = ['eye'" + ", 'u', 'eye'" * 1000 + "]\n"
+    lecture = read("title = 'L'\n[[steps]]\ntitle = 'A'\n" + highlight)
+    assert lecture.steps[0].highlight == ("eye", "u")
+
+
 class TestWatching:
     def test_a_change_is_told_once_it_rests(self, tmp_path):
         path = tmp_path / "x"

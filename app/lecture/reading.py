@@ -212,7 +212,7 @@ class _Reader:
             _views(table.views),
             options,
             None if table.pixel is None else _pixel(table.pixel, resolution, self._indexing),
-            tuple(_known(f"highlight[{k}]", n, HIGHLIGHTS) for k, n in enumerate(table.highlight)),
+            _highlight(table.highlight),
             exercise,
             line,
         )
@@ -271,6 +271,12 @@ def _check_title(field: str, title: str, what: str) -> None:
 def _check_answers(field: str, count: int, most: int = ANSWERS) -> None:
     if count > most:
         raise LucidaError(field, f"holds {count}", f"give at most {most}")
+
+
+def _highlight(names: list[str]) -> tuple[str, ...]:
+    """Each once: it is looked through in each frame."""
+    known = (_known(f"highlight[{k}]", name, HIGHLIGHTS) for k, name in enumerate(names))
+    return tuple(dict.fromkeys(known))
 
 
 def _views(names: list[str]) -> tuple[str, ...]:

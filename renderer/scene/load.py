@@ -14,7 +14,7 @@ from renderer.scene.files import read_scene_file
 from renderer.scene.model import Origin, Scene
 from renderer.scene.models import MODEL_ENDINGS, model_scene
 from renderer.scene.noting import Noted, noting
-from renderer.scene.reading import absence, suggestion
+from renderer.scene.reading import absence, path_of, suggestion
 
 BUILTIN_SCENES = (
     "still-life",
@@ -35,11 +35,11 @@ def load_scene(source: str | Path) -> Scene:
     the default lights and a view that has all of it in the picture. Raises LucidaError naming the
     file, the field and the remedy.
     """
+    path = path_of(source, "scene")
     if source in BUILTIN_SCENES:
         return _from(str(source), read_scene_file(_BUILTIN_FOLDER / f"{source}.toml"), {})
     if not str(source):
         raise LucidaError("scene", "'' is empty", suggestion("", BUILTIN_SCENES))
-    path = Path(source)
     ending = path.suffix.lower()
     if ending in SCENE_ENDINGS:
         with noting() as noted:
