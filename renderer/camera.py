@@ -263,10 +263,17 @@ class Camera:
 
     def fitted(self, size: Size) -> Camera:
         """This camera with its viewport widened or heightened about its centre to the image's
-        aspect ratio, so that nothing inside the old viewport is lost. size: (width, height)."""
+        aspect ratio, so that nothing inside the old viewport is lost. size: (width, height).
+        Raises LucidaError for what is none."""
         left, right, bottom, top = self.viewport
         half_width, half_height = (right - left) / 2, (top - bottom) / 2
-        aspect = size[0] / size[1]
+        try:
+            aspect = size[0] / size[1]
+        except (TypeError, LookupError, ZeroDivisionError):
+            aspect = 0.0
+        if not 0 < aspect < math.inf:
+            problem = f"{size!r} is not a width and a height"
+            raise LucidaError("size", problem, "give e.g. (1280, 720)")
         half_width, half_height = (
             max(half_width, half_height * aspect),
             max(half_height, half_width / aspect),

@@ -73,7 +73,7 @@ def check_size(size: Iterable[int]) -> tuple[int, int]:
     """(width, height) as ints; raises LucidaError where an image cannot be that size."""
     try:
         width, height = (int(side) for side in size)
-    except (TypeError, ValueError):
+    except (TypeError, ValueError, OverflowError):
         raise LucidaError("size", f"{size!r} is not two numbers", "give e.g. (1280, 720)") from None
     if min(width, height) < 1:
         raise LucidaError("size", f"{width}x{height} has no pixels", "give at least 1x1")

@@ -136,7 +136,7 @@ def test_a_notebook_has_the_current_folder_in_its_path_and_its_processes_have_no
         "import sys\n"
         "from pathlib import Path\n"
         "from renderer import doctor\n"
-        "from renderer.scene import apart\n"
+        "from renderer.scene import subprocess_reader as apart\n"
         "apart.read_model = None\n"  # not in this process
         "sys.path.insert(0, '')\n"
         "print(len(apart.ModelReader().read(Path('models/large.obj'))))\n"

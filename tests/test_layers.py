@@ -204,6 +204,15 @@ def test_the_files_that_draw_are_there(room):
         assert (ROOT / "app" / room / f"{name}.py").is_file()
 
 
+@pytest.mark.parametrize(
+    "path", [path for path in SOURCES if "glfw" in set(imports(path))], ids=lambda path: path.name
+)
+def test_the_window_s_library_is_loaded_first(path):
+    """Otherwise glfw brings its own, which is older and has no platform without a display."""
+    names = [name.partition(".")[0] for name in imports(path)]
+    assert "imgui_bundle" in names[: names.index("glfw")]
+
+
 def test_the_check_sees_every_form_of_import():
     source = "import a.b\nfrom c import d\ndef f():\n    from . import e\n    from ..g import h"
     found = set(imports(ROOT / "renderer" / "scene" / "x.py", source))

@@ -9,6 +9,7 @@ from pathlib import Path
 
 import pytest
 
+from app.lecture import reading
 from app.lecture import text as texts
 from app.lecture.places import Places
 from app.lecture.reading import PIECES, lecture_from_toml
@@ -161,11 +162,33 @@ def test_signs_that_are_never_closed_stand_as_they_are() -> None:
             "answers: holds 9; give at most 8",
         ),
         ("a = " + "[" * 100_000, "is nested too deeply"),
+        (
+            "".join(f"[scenes.s{number}]\n" for number in range(1001)) + STEP,
+            "scenes: holds 1001; give at most 1000",
+        ),
     ],
-    ids=range(6),
+    ids=range(7),
 )
 def test_what_is_too_much_is_refused(text: str, message: str) -> None:
     with pytest.raises(LucidaError) as caught:
         lecture('title = "L"\n' + text)
     assert message in str(caught.value)
     assert "\n" not in str(caught.value)
+
+
+@pytest.mark.parametrize("own", [True, False])
+def test_all_scenes_together_have_a_bound(tmp_path: Path, monkeypatch, own: bool) -> None:
+    """Each by itself would do; a few lines can name many."""
+    monkeypatch.setattr(reading, "TRIANGLES", 30)
+    text, fields = 'title = "L"\n', []
+    for number in range(3):
+        box = "objects = [{ type = 'box' }]\n"
+        (tmp_path / f"s{number}.toml").write_text(box)
+        text += f"[scenes.s{number}]\n{box}" if own else ""
+        fields.append(f"scenes.s{number}" if own else f"steps[{number}].scene")
+    for number in range(3):
+        text += f"[[steps]]\ntitle = 'T'\nscene = 's{number}{'' if own else '.toml'}'\n"
+    with pytest.raises(LucidaError) as caught:
+        lecture_from_toml(text, tmp_path, "x.toml")
+    assert fields[2] in str(caught.value)
+    assert "brings the lecture's scenes to more than 30 triangles; divide it" in str(caught.value)

@@ -184,7 +184,7 @@ def test_a_model_that_memory_is_too_small_for_is_one_line(tmp_path: Path, child)
 
 def test_a_bug_in_the_process_is_told_as_one(tmp_path: Path, child):
     child(
-        "from renderer.scene import apart\n"
+        "from renderer.scene import subprocess_reader as apart\n"
         "def broken(path):\n    raise ZeroDivisionError('by 0')\n"
         "apart.read_model = broken\nmain = apart.main\n"
     )
@@ -343,7 +343,7 @@ def test_a_killed_parent_takes_the_process_with_it(tmp_path: Path):
         [
             sys.executable, "-c",
             "from pathlib import Path\n"
-            "from renderer.scene import apart\n"
+            "from renderer.scene import subprocess_reader as apart\n"
             "start = apart.start_child\n"
             "apart.is_large = lambda path: True\n"
             "apart.start_child = lambda python, module, *a, output: "

@@ -17,7 +17,7 @@ from app.window.main_window import title
 from app.window.shell import outside_question
 from renderer.errors import LucidaError
 from renderer.scene import load_scene
-from renderer.scene.outside import OutsideError, kept_inside, outside, outside_files, scene_files
+from renderer.scene.outside import OutsideError, kept_inside, outside, outside_files
 
 TRIANGLE = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"
 INSIDE = ("m.obj", "models/m.obj", "models/../m.obj", "./m.obj")
@@ -217,8 +217,14 @@ def test_scenes_says_what_is_in_a_scene_and_where_its_files_are(folder: Path, ca
     assert "reads" not in capsys.readouterr().out
 
 
+def files_of(source: str | Path) -> list[Path]:
+    origin = load_scene(source).origin
+    assert origin is not None
+    return list(origin.files)
+
+
 def test_a_scene_s_files_are_its_own_and_its_models(folder: Path) -> None:
     path = scene_file(folder, "m.obj", "m.obj", "models/m.obj")
-    assert scene_files(load_scene(path)) == (path, folder / "m.obj", folder / "models/m.obj")
-    assert scene_files(load_scene(folder / "m.obj")) == (folder / "m.obj",)
-    assert scene_files(load_scene("spheres")) == ()
+    assert files_of(path) == [path, folder / "m.obj", folder / "models/m.obj"]
+    assert files_of(folder / "m.obj") == [folder / "m.obj"]
+    assert files_of("spheres") == []

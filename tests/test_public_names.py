@@ -1,9 +1,12 @@
 """What Python users import: `renderer`'s names, and what a wrong argument is told."""
 
+import math
+
 import pytest
 
 import renderer
-from renderer import Camera, LucidaError, Rasterizer, Tracer, View
+from renderer import Camera, LucidaError, Rasterizer, Tracer, View, load_scene, load_view
+from renderer.frame import check_size
 from renderer.scene.model import Scene
 
 SIZE = (8, 6)
@@ -42,3 +45,19 @@ class TestWrongArguments:
     def test_a_name_for_a_scene_names_the_remedy(self, make):
         with pytest.raises(LucidaError, match=r"scene: is a str.*give load_scene\(\.\.\.\) of it"):
             make("spheres")
+
+    @pytest.mark.parametrize("size", [3, (0, 0), (8, 0), (8,), ("8", "6"), None, (math.nan, 6)])
+    def test_what_is_no_size(self, size):
+        for draw in (View(Camera(), fit=True).for_size, Camera().fitted):
+            with pytest.raises(LucidaError, match=r"size: .* is not a width and a height"):
+                draw(size)
+
+    def test_a_size_without_end(self):
+        with pytest.raises(LucidaError, match=r"size: .* is not two numbers"):
+            check_size((math.inf, 6))
+
+    @pytest.mark.parametrize("load", [load_scene, load_view])
+    def test_what_is_no_path(self, load):
+        for source in (None, 3, ["spheres"]):
+            with pytest.raises(LucidaError, match=r"is a .*, not a path; give text"):
+                load(source)

@@ -32,6 +32,10 @@ def commands() -> list[str]:
     return [re.split(r"\s{2,}", line)[0] for line in found]
 
 
+def test_every_block_is_indented_from_its_first_line():
+    assert re.findall(r"^lucida .*", TEXT, re.MULTILINE) == []
+
+
 def test_every_command_is_shown():
     shown = {line.split()[1] for line in commands() if " " in line}
     assert {command.NAME for command in COMMANDS} - {"scenes"} <= shown

@@ -7,17 +7,19 @@ import threading
 from dataclasses import replace
 from pathlib import Path
 
+import numpy as np
 import pytest
 from test_files import wait_for
 
 from app.state.app_state import AppState, History
-from app.storage import scene_watch
-from app.storage.scene_watch import LOOK_S, SceneWatch
-from app.storage.watching import REST_S
+from app.storage import watching
+from app.storage.scene_watch import SceneWatch
+from app.storage.watching import LOOK_S, REST_S
 from app.window import files as storage_files
 from app.window.files import Files, Opened
 from app.window.main_window import MainWindow
-from renderer.scene import Scene, load_scene
+from renderer.scene import Scene, load_scene, subprocess_reader
+from renderer.scene.models import read_by
 
 BALL = "[[objects]]\ntype = 'sphere'\n"
 MODEL = "[[objects]]\ntype = 'model'\nfile = 'm.obj'\n"
@@ -66,15 +68,16 @@ def loaded(files: Files) -> Opened:
 
 def test_it_is_looked_at_now_and_then_not_in_every_frame(path: Path, monkeypatch) -> None:
     looks = []
-    sign = scene_watch.signature
-    monkeypatch.setattr(scene_watch, "signature", lambda *p: looks.append(p) or sign(*p))
-    watch, scene = SceneWatch(), load_scene(path)
-    assert not any(watch.changed(scene, 5.0 + frame / 60) for frame in range(60))
-    assert len(looks) <= 1 + 1 / LOOK_S
-    assert all(paths == (path, path.parent / "m.obj") for paths in looks)
+    look = watching.stamp
+    monkeypatch.setattr(watching, "stamp", lambda p: looks.append(p) or look(p))
+    watch = SceneWatch()
+    watch.shown(load_scene(path))
+    assert not any(watch.changed(5.0 + frame / 60) for frame in range(60))
+    assert 2 < len(looks) <= 2 * (1 + 1 / LOOK_S)
+    assert set(looks) == {path, path.parent / "m.obj"}
     looks.clear()
-    spheres = load_scene("spheres")
-    assert not any(watch.changed(spheres, 9.0 + number) for number in range(9))
+    watch.shown(load_scene("spheres"))
+    assert not any(watch.changed(9.0 + number) for number in range(9))
     assert not looks  # nothing in a disk's way for what is built in
 
 
@@ -103,6 +106,76 @@ def test_what_is_saved_while_it_is_read_is_read_too(path: Path, files: Files) ->
     assert opened is not None
     assert opened.scene is not None
     assert len(opened.scene.objects) == 4
+
+
+def test_what_is_saved_during_the_first_reading_is_read_too(path: Path, files: Files) -> None:
+    scene = load_scene(path)
+    path.write_text(BALL * 3 + MODEL)  # before the window shows it
+    opened = follow(files, scene)
+    assert opened is not None
+    assert opened.scene is not None
+    assert len(opened.scene.objects) == 4
+
+
+def test_a_model_that_is_missing_is_awaited(path: Path, files: Files) -> None:
+    scene = load_scene(path)
+    follow(files, scene)
+    path.write_text(BALL + MODEL.replace("m.obj", "later.obj"))
+    assert follow(files, scene) is None
+    assert "later.obj: does not exist" in files.message
+    assert follow(files, scene) is None
+    path.with_name("later.obj").write_text(TRIANGLE)
+    opened = follow(files, scene)
+    assert opened is not None
+    assert opened.scene is not None
+    assert opened.scene.objects[1].name == "later"
+    assert files.message == ""
+    assert follow(files, opened.scene) is None
+
+
+def test_a_model_that_is_not_named_any_more_may_go(path: Path, files: Files) -> None:
+    scene = load_scene(path)
+    follow(files, scene)
+    path.with_name("m.obj").unlink()
+    path.write_text(BALL)
+    assert follow(files, scene) is not None
+
+
+GLTF = """{"asset": {"version": "2.0"}, "scenes": [{"nodes": [0]}], "nodes": [{"mesh": 0}],
+"meshes": [{"primitives": [{"attributes": {"POSITION": 0}}]}],
+"accessors": [{"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3"}],
+"bufferViews": [{"buffer": 0, "byteLength": 36}],
+"buffers": [{"uri": "m.bin", "byteLength": 36}]}"""
+
+
+@pytest.mark.parametrize("apart", [False, True])
+@pytest.mark.parametrize("there", [False, True])
+def test_so_is_what_a_model_names(
+    path: Path, files: Files, monkeypatch: pytest.MonkeyPatch, apart: bool, there: bool
+) -> None:
+    """Its numbers and its materials: saved anew, or missing at first."""
+    monkeypatch.setattr(subprocess_reader, "is_large", lambda _: apart)
+    folder = path.parent
+    (folder / "m.gltf").write_text(GLTF)
+    corners = np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0]], "<f4")
+    (folder / "m.bin").write_bytes(corners.tobytes())
+    (folder / "m.obj").write_text("mtllib m.mtl\n" + TRIANGLE.replace("\nf", "\nusemtl red\nf"))
+    if there:
+        (folder / "m.mtl").write_text("newmtl red\nKd 0 1 0\n")
+    path.write_text(BALL + MODEL + MODEL.replace(".obj", ".gltf"))
+    with read_by(subprocess_reader.ModelReader().read):
+        scene = load_scene(path)
+    assert follow(files, scene) is None
+    (folder / "m.mtl").write_text("newmtl red\nKd 1.0 0 0\n")
+    opened = follow(files, scene)
+    assert opened is not None
+    assert opened.scene is not None
+    assert opened.scene.objects[1].material.diffuse == (1.0, 0.0, 0.0)
+    (folder / "m.bin").write_bytes((2 * corners).tobytes())
+    opened = follow(files, opened.scene)
+    assert opened is not None
+    assert opened.scene is not None
+    assert opened.scene.objects[2].shape.vertices.max() == 2.0
 
 
 def test_undo_to_an_older_version_of_a_file_reads_nothing(path: Path, files: Files) -> None:

@@ -14,20 +14,23 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from app.explaining.languages import LANGUAGES
+from app.lecture import reading
 from app.lecture import text as texts
 from app.lecture.exercises import ChoiceExercise, RayExercise, VectorExercise
 from app.lecture.model import Lecture
 from app.lecture.options import ELSEWHERE
 from app.lecture.places import Places, parsed_path
 from app.lecture.reading import BUILTIN, lecture_from_toml, load_lecture
+from app.lecture.session import Session
 from app.lecture.states import state_of
 from app.probe.model import Probe
 from app.state.app_state import AppState
 from app.state.options import Options
-from app.storage.watching import Watch, signature
+from app.storage.watching import FilesWatch
 from renderer.camera import Camera
 from renderer.errors import LucidaError
 from renderer.scene import load_scene
+from renderer.scene.noting import stamp
 
 FILE = '''\
 lucida = 1
@@ -356,35 +359,75 @@ class TestText:
         assert error.value.line == line
 
 
+def test_what_is_pointed_out_is_looked_for_once():
+    highlight = "highlight = ['eye'" + ", 'u', 'eye'" * 1000 + "]\n"
+    lecture = read("title = 'L'\n[[steps]]\ntitle = 'A'\n" + highlight)
+    assert lecture.steps[0].highlight == ("eye", "u")
+
+
 class TestWatching:
-    def test_a_change_is_told_once_it_rests(self):
-        watch = Watch((1, 1, 1), rest_s=0.15)
-        assert not watch.changed((1, 1, 1), 0.0)
-        assert not watch.changed((2, 1, 1), 1.0) and watch.waiting
-        assert not watch.changed((3, 2, 1), 1.1)  # still being written
-        assert not watch.changed((3, 2, 1), 1.2)
-        assert watch.changed((3, 2, 1), 1.26)
-        assert not watch.changed((3, 2, 1), 2.0) and not watch.waiting
-
-    def test_a_file_that_is_replaced(self):
-        watch = Watch((1, 1, 1), rest_s=0.15)
-        assert not watch.changed(None, 1.0)
-        assert not watch.changed((5, 1, 2), 1.1)
-        assert watch.changed((5, 1, 2), 1.3)
-        # Changed and changed back before it rested: nothing to do.
-        assert not watch.changed((6, 1, 2), 2.0)
-        assert not watch.changed((5, 1, 2), 2.1)
-        assert not watch.changed((6, 1, 2), 2.2)
-        assert not watch.changed((6, 1, 2), 2.3)
-
-    def test_signatures(self, tmp_path):
+    def test_a_change_is_told_once_it_rests(self, tmp_path):
         path = tmp_path / "x"
-        assert signature(path) is None
         path.write_text("a")
-        first = signature(path)
-        assert first is not None and signature(path) == first
+        watch = FilesWatch({path: stamp(path)})
+        assert not watch.changed(0.0)
         path.write_text("ab")
-        assert signature(path) != first
+        assert not watch.changed(1.0) and watch.waiting
+        path.write_text("abc")
+        assert not watch.changed(1.3)  # still being written
+        assert watch.changed(1.6)
+        assert not watch.changed(2.0) and not watch.waiting
+
+    def test_a_file_that_is_replaced(self, tmp_path):
+        path, other = tmp_path / "x", tmp_path / "y"
+        path.write_text("a")
+        other.write_text("other")
+        old, watch = tmp_path / "old", FilesWatch({path: stamp(path)})
+        path.rename(old)
+        assert not watch.changed(1.0) and not watch.waiting
+        other.rename(path)
+        assert not watch.changed(1.3)
+        assert watch.changed(1.6)
+        # Changed and changed back before it rested: nothing to do.
+        path.rename(other)
+        old.rename(path)
+        assert not watch.changed(2.0) and watch.waiting
+        path.rename(old)
+        other.rename(path)
+        assert not watch.changed(2.3) and not watch.waiting
+        assert not watch.changed(2.6)
+
+    def test_one_of_several_files_and_one_that_comes(self, tmp_path):
+        there, missing = tmp_path / "there", tmp_path / "missing"
+        there.write_text("a")
+        watch = FilesWatch({there: stamp(there), missing: None})
+        assert not watch.changed(1.0) and not watch.waiting
+        there.write_text("ab")
+        assert not watch.changed(2.0)
+        assert watch.changed(2.3)
+        missing.write_text("now it is there")
+        assert not watch.changed(3.0)
+        assert watch.changed(3.3)
+        missing.unlink()
+        there.write_text("abc")  # whatever else is away
+        assert not watch.changed(4.0)
+        assert watch.changed(4.3)
+
+    def test_a_lecture_s_scene_that_is_saved_while_it_is_read(self, tmp_path, monkeypatch):
+        path, scene = tmp_path / "l.toml", tmp_path / "s.toml"
+        path.write_text('title = "L"\n[[steps]]\ntitle = "A"\nscene = "s.toml"\n')
+        scene.write_text("[[objects]]\ntype = 'sphere'\n")
+        load = reading.load_scene
+
+        def slow(source):
+            found = load(source)
+            scene.write_text("[[objects]]\ntype = 'sphere'\nradius = 2\n")
+            return found
+
+        monkeypatch.setattr(reading, "load_scene", slow)
+        session = Session(load_lecture(path), path)
+        assert not session.watch.changed(1.0)
+        assert session.watch.changed(2.0)
 
     def test_going_on_in_a_newer_version(self):
         old = read()

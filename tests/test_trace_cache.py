@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import errno
 import os
 import shutil
 import subprocess
@@ -10,8 +11,10 @@ import time
 from pathlib import Path
 
 import pytest
+from numba.core import caching
 
 import renderer
+from renderer import compile_note
 from renderer.trace.compile import compiled
 
 HANG_S = 280
@@ -70,6 +73,7 @@ def test_a_read_only_installation_caches_for_the_user(installation: Path, tmp_pa
     for file in Path(folder).rglob("*.nb?"):
         file.write_bytes(file.read_bytes()[: file.stat().st_size // 2])
     assert finish(start(installation, cache)) == f"{folder} 0"
+    assert finish(start(installation, cache)) == f"{folder} 1"
 
     # An edit of any file that kernels consist of leads to another folder.
     shown = "from renderer.trace.compile import compiled; print(compiled.cache_folder())"
@@ -88,6 +92,48 @@ def test_with_nowhere_to_write_kernels_are_compiled_each_time(
     cache = tmp_path / "file"
     cache.write_text("no folder can be made in here")
     assert finish(start(installation, cache / "below")) == "None 0"
+
+
+FULL = """
+import errno, sys
+from numba.core import caching
+mended = sys.argv[1:] == ["mended"]
+def full(self, name, data):
+    raise OSError(errno.ENOSPC, "No space left on device")
+if not mended:
+    caching.IndexDataCacheFile._save_data = full
+from renderer.trace.jobs import compile_child
+compile_child.end_with_parent = lambda: None  # whose input would be at its end
+compile_child.main("trees")
+"""
+
+
+def test_what_a_full_disk_cannot_keep_is_not_said_to_be_kept(
+    installation: Path, tmp_path: Path
+) -> None:
+    process = start(installation, tmp_path, FULL)
+    assert process.communicate(timeout=HANG_S) == ("", "")
+    assert process.returncode == 1
+    room = "import sys; sys.argv.append('mended')" + FULL
+    assert finish(start(installation, tmp_path, room)) == ""
+
+
+def test_what_cannot_be_kept_is_told(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(compile_note, "_note", "")
+    monkeypatch.setattr(compiled, "cache_folder", lambda: tmp_path)
+    monkeypatch.setattr(caching.IndexDataCacheFile, "_save_data", full)
+    assert compiled.kernel(tripled)(4) == 12
+    assert compile_note.note() == compile_note.EACH_TIME
+    compile_note.begin(kept=True)  # another kernel's
+    assert compile_note.note() == compile_note.EACH_TIME
+
+
+def full(self: object, name: str, data: object) -> None:
+    raise OSError(errno.ENOSPC, "No space left on device")
+
+
+def tripled(x):
+    return 3 * x
 
 
 def test_old_folders_are_pruned(tmp_path: Path) -> None:

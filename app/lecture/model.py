@@ -5,13 +5,14 @@ Owns the structures that reading.py makes of a file. Knows nothing of files or w
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
 from app.lecture.exercises import Exercise
 from app.lecture.text import Block
 from renderer.scene.model import Scene, View
+from renderer.scene.noting import Noted
 
 
 @dataclass(frozen=True, eq=False)
@@ -48,7 +49,8 @@ class Written:
 @dataclass(frozen=True, eq=False)
 class Lecture:
     """source: the file it comes from. formulas: all of them, in the file's order. outside: files
-    outside of its folder that it names, which the user has agreed to."""
+    outside of its folder that it names, which the user has agreed to. files: all that it was read
+    from, as they were then."""
 
     title: str
     author: str
@@ -56,6 +58,7 @@ class Lecture:
     source: str
     formulas: tuple[Written, ...] = ()
     outside: tuple[Path, ...] = ()
+    files: Noted = field(default_factory=dict)
 
     def outline(self) -> list[tuple[str, list[int]]]:
         """The parts in their order, each with the numbers of its steps, from 0."""

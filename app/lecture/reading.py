@@ -41,9 +41,10 @@ from renderer.errors import LucidaError
 from renderer.frame import check_size
 from renderer.pixels import Indexing
 from renderer.scene.files import scene_from_tables
-from renderer.scene.limits import TOML_BYTES
+from renderer.scene.limits import TOML_BYTES, TRIANGLES
 from renderer.scene.load import BUILTIN_SCENES, load_scene
-from renderer.scene.model import Scene, View
+from renderer.scene.model import Mesh, Scene, View
+from renderer.scene.noting import noting
 from renderer.scene.outside import check_inside, kept_inside
 from renderer.scene.reading import decode_text, read_file, suggestion
 from renderer.scene.tables import parse_toml, to_struct
@@ -81,9 +82,9 @@ def load_lecture(path: str | Path, agreed: frozenset[Path] | None = frozenset())
 
     agreed: files outside of its folder that it may read; None: any. OutsideError names others.
     """
-    with kept_inside(Path(path), agreed) as fence:
+    with kept_inside(Path(path), agreed) as fence, noting() as noted:
         lecture = _load(path)
-    return replace(lecture, outside=tuple(fence.outside))
+    return replace(lecture, outside=tuple(fence.outside), files=noted)
 
 
 def _load(path: str | Path) -> Lecture:
@@ -125,6 +126,7 @@ class _Reader:
     def __init__(self, folder: Path, source: str, places: Places) -> None:
         self._folder, self._source, self._places = folder, source, places
         self._scenes: dict[str, Scene] = {}
+        self._triangles = 0  # of all of them
         self._indexing = Indexing.LECTURE
 
     def lecture(self, tables: dict[str, Any]) -> Lecture:
@@ -132,11 +134,13 @@ class _Reader:
         _check_title("title", file.title, "the lecture's title")
         if not 1 <= len(file.steps) <= STEPS:
             raise LucidaError("steps", f"holds {len(file.steps)} steps", f"give 1 to {STEPS}")
+        if len(file.scenes) > STEPS:
+            raise LucidaError("scenes", f"holds {len(file.scenes)}", f"give at most {STEPS}")
         self._indexing = Indexing(file.pixels_from)
         check_inside(self._named(file))
         for name, scene in file.scenes.items():
             with under(f"scenes.{name}"):
-                self._scenes[name] = self._own_scene(scene, name)
+                self._keep(name, self._own_scene(scene, name))
         steps: list[Step] = []
         written: list[Written] = []
         part, pieces = "", 0
@@ -166,6 +170,15 @@ class _Reader:
                 inside = scene in file.scenes or scene in BUILTIN_SCENES
                 names += [None if inside else scene, step.get("camera")]
         return (self._folder / name for name in names if isinstance(name, str))
+
+    def _keep(self, name: str, scene: Scene) -> None:
+        """Each may be as large as memory allows, all of them together too."""
+        meshes = (entry.shape for entry in scene.objects if isinstance(entry.shape, Mesh))
+        self._triangles += sum(len(mesh.faces) for mesh in meshes)
+        if self._triangles > TRIANGLES:
+            problem = f"brings the lecture's scenes to more than {TRIANGLES} triangles"
+            raise LucidaError("", problem, "divide it into several lectures")
+        self._scenes[name] = scene
 
     def _own_scene(self, table: Any, name: str) -> Scene:
         if name in BUILTIN_SCENES:
@@ -199,7 +212,7 @@ class _Reader:
             _views(table.views),
             options,
             None if table.pixel is None else _pixel(table.pixel, resolution, self._indexing),
-            tuple(_known(f"highlight[{k}]", n, HIGHLIGHTS) for k, n in enumerate(table.highlight)),
+            _highlight(table.highlight),
             exercise,
             line,
         )
@@ -226,9 +239,11 @@ class _Reader:
                 names = tuple(dict.fromkeys(names))
                 raise LucidaError("scene", f"{name!r} is unknown", suggestion(name, names))
             try:
-                self._scenes[name] = load_scene(name if known else self._folder / name)
+                scene = load_scene(name if known else self._folder / name)
             except LucidaError as error:
                 raise _of_file(error, "scene") from None
+            with under("scene"):
+                self._keep(name, scene)
         return self._scenes[name]
 
     def _view(self, camera: dict[str, Any] | str) -> View:
@@ -256,6 +271,12 @@ def _check_title(field: str, title: str, what: str) -> None:
 def _check_answers(field: str, count: int, most: int = ANSWERS) -> None:
     if count > most:
         raise LucidaError(field, f"holds {count}", f"give at most {most}")
+
+
+def _highlight(names: list[str]) -> tuple[str, ...]:
+    """Each once: it is looked through in each frame."""
+    known = (_known(f"highlight[{k}]", name, HIGHLIGHTS) for k, name in enumerate(names))
+    return tuple(dict.fromkeys(known))
 
 
 def _views(names: list[str]) -> tuple[str, ...]:

@@ -15,7 +15,8 @@ from app.lecture.reading import BUILTIN, load_lecture
 from app.state.app_state import AppState
 from app.storage.kept_lecture import KeptAnswers, KeptLecture
 from app.storage.paths import restored, stored
-from app.storage.watching import Watch, fingerprint, signature
+from app.storage.watching import FilesWatch, fingerprint
+from renderer.scene.noting import stamp
 
 
 @dataclass
@@ -32,13 +33,13 @@ class Answers:
 
 
 class Session:
-    """path: the lecture's file, watched for changes."""
+    """path: the lecture's file. watch: of that and the files that it names."""
 
     def __init__(self, lecture: Lecture, path: Path, number: int = 0) -> None:
         self.lecture, self.path, self.number = lecture, path, number
         self.error = ""
         self._answers: dict[str, Answers] = {}
-        self._watch = Watch(signature(path))
+        self.watch = FilesWatch({path.absolute(): stamp(path), **lecture.files})
         self._fingerprint = fingerprint(path)
 
     @classmethod
@@ -105,17 +106,9 @@ class Session:
         moved, self.number = number != self.number, number
         return moved
 
-    def has_changed(self, time_s: float) -> bool:
-        """Whether the file has been saved anew and is to be read again; once for each time."""
-        return self._watch.changed(signature(self.path), time_s)
-
-    @property
-    def expects(self) -> bool:
-        """Whether the file is being written: ask soon again."""
-        return self._watch.waiting
-
     def take(self, lecture: Lecture) -> None:
         """Goes on in a newer version, at the same step."""
         self.number = self.lecture.followed(self.number, lecture)
         self.lecture, self.error = lecture, ""
+        self.watch.follow(lecture.files)
         self._fingerprint = fingerprint(self.path)

@@ -197,10 +197,9 @@ class LectureView(View):
 
     def _follow_file(self, host: Host, session: Session) -> None:
         assert self._reading is not None
-        if session.has_changed(time.monotonic()):
-            agreed = frozenset(session.lecture.outside)
-            self._reading.submit(lambda: _read(session.path, agreed))
-        if session.expects:
+        if session.watch.changed(time.monotonic()):
+            self._reading.submit(lambda: _read(session))
+        if session.watch.waiting:
             host.animate()
         outcome = self._reading.poll()
         if outcome is None:
@@ -403,9 +402,10 @@ def _fits_a_row(width: float) -> bool:
     return bool(_walking_px() + imgui.get_font_size() + text <= width)
 
 
-def _read(path: Path, agreed: frozenset[Path]) -> tuple[Lecture, LucidaError | None]:
-    """A lecture's file read again, and the first of its formulas that cannot be set. agreed: files
-    outside of its folder that it may read."""
-    with read_by(ModelReader().read):  # a large model of its scenes' in a process of its own
-        lecture = load_lecture(path, agreed)
+def _read(session: Session) -> tuple[Lecture, LucidaError | None]:
+    """A lecture's file read again, and the first of its formulas that cannot be set."""
+    agreed = frozenset(session.lecture.outside)
+    # A large model of its scenes' is read in a process of its own.
+    with session.watch.reading(), read_by(ModelReader().read):
+        lecture = load_lecture(session.path, agreed)
     return lecture, first_mistake(lecture.formulas)

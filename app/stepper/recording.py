@@ -1,7 +1,7 @@
 """A run of a teaching renderer, recorded line by line: any step of it can be looked at again.
 
 Owns the tracing of lines and the log. What is logged is what changes: lines, variables, writes; a
-moment is put together from the log when it is asked for (moments.py). Knows nothing of windows.
+moment is put together from the log when it is asked for (model.py). Knows nothing of windows.
 
 One thread runs, any other looks at what is there so far.
 """

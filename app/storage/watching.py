@@ -1,59 +1,85 @@
-"""Whether a file has changed, while somebody edits it.
+"""Whether files have changed, while somebody edits them.
 
-Pure but for one stat(): it is asked now and then, and says yes once a change has come to rest.
-Knows nothing of what is done about it.
+Asked in each frame, it looks now and then, and says yes once a change has come to rest. Knows
+nothing of what is done about it.
 """
 
 from __future__ import annotations
 
+import contextlib
 import hashlib
-from dataclasses import dataclass, field
+from collections.abc import Iterator
 from pathlib import Path
 
-REST_S = 0.15  # an editor may write a file in several goes
+from renderer.scene.noting import Noted, Stamp, noting, stamp
 
-Signature = tuple[int, ...]
+LOOK_S = 0.25  # from look to look, however many frames there are
+REST_S = 0.15  # an editor may write a file in several goes: for how long a change must have rested
+MOST = 64  # files that are looked at
 
 
-@dataclass
-class Watch:
-    """known: the file as it was last read. rest_s: for how long a change must have rested."""
+class FilesWatch:
+    """files: as they were when they were last read; None for one that was looked for in vain.
 
-    known: Signature | None
-    rest_s: float = REST_S
-    _seen: Signature | None = field(default=None, init=False)
-    _since_s: float = field(default=0.0, init=False)
+    A file that is away is no change, as when an editor replaces it; one that comes is.
+    """
 
-    def changed(self, now: Signature | None, time_s: float) -> bool:
-        """Whether the file has become another one and stays so; True once for each change.
-
-        now: its signature; None while it is not there, as when an editor replaces it.
-        """
-        if now is None or now == self.known:
-            self._seen = None
-            return False
-        if now != self._seen:
-            self._seen, self._since_s = now, time_s
-            return False
-        if time_s - self._since_s < self.rest_s:
-            return False
-        self.known, self._seen = now, None
-        return True
+    def __init__(self, files: Noted) -> None:
+        self._known: Noted = {}
+        self._files: tuple[Path, ...] = ()
+        self._seen: tuple[Stamp | None, ...] | None = None
+        self._since_s = 0.0
+        self._looked_s = float("-inf")
+        self.follow(files)
 
     @property
     def waiting(self) -> bool:
         """Whether a change has been seen that has not rested yet: ask again soon."""
         return self._seen is not None
 
+    def follow(self, files: Noted) -> None:
+        """Looks at these from now on. What is known of a file stays: it may be newer."""
+        self._files = tuple(files)[:MOST]
+        self._known = {**files, **self._known}
+        self._seen = None
 
-def signature(*paths: Path) -> Signature | None:
-    """What tells a version of files from another: their times, sizes and numbers; None where one
-    is not there."""
-    try:
-        found = [path.stat() for path in paths]
-    except (OSError, ValueError):
-        return None
-    return tuple(n for s in found for n in (s.st_mtime_ns, s.st_size, s.st_ino))
+    def changed(self, time_s: float) -> bool:
+        """Whether a file has become another one and stays so; True once for each change."""
+        if time_s - self._looked_s < LOOK_S:
+            return False
+        self._looked_s = time_s
+        files, known = self._files, self._known
+        now = tuple(stamp(file) or known[file] for file in files)
+        if now == tuple(known[file] for file in files):
+            self._seen = None
+            return False
+        if now != self._seen:
+            self._seen, self._since_s = now, time_s
+            return False
+        if time_s - self._since_s < REST_S:
+            return False
+        self._seen = None
+        self.know(dict(zip(files, now, strict=True)))
+        return True
+
+    @contextlib.contextmanager
+    def reading(self) -> Iterator[None]:
+        """Inside it, in any thread: what is read is known as it was then, and looked at from now
+        on, what is missing too; whether or not all of it can be read."""
+        with noting() as noted:
+            try:
+                yield
+            finally:
+                self.know(noted)
+                self._files = tuple(dict.fromkeys((*noted, *self._files)))[:MOST]
+
+    def take_present(self) -> None:
+        """Whatever the files are now is known: this program has written them."""
+        self.know({file: stamp(file) for file in self._files})
+
+    def know(self, files: Noted) -> None:
+        """What the files were when they were read, or written, just now."""
+        self._known = {**self._known, **files}  # not in place: another thread may be looking
 
 
 def fingerprint(path: Path) -> str:

@@ -5,6 +5,9 @@ from __future__ import annotations
 import ctypes
 from dataclasses import dataclass
 
+import imgui_bundle  # noqa: F401  # before glfw, so that both use the same GLFW library
+
+# isort: split
 import glfw
 import moderngl
 import numpy as np

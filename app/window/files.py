@@ -144,11 +144,17 @@ class Files:
     def follow(self, scene: Scene) -> bool:
         """Once a frame: reads the shown scene again when its files were saved; poll() has it then.
         Gives whether a change is being awaited, which is to be asked for soon again."""
-        if not self._loading.busy and self._watch.changed(scene, time.monotonic()):
+        self._watch.shown(scene)
+        if not self._loading.busy and self._watch.changed(time.monotonic()):
             assert scene.origin is not None
             source = scene.origin.source
             agreed = self._guarded.get(source)
-            self._rereading.submit(lambda: reread(source, scene, agreed))
+
+            def read() -> Opened:
+                with self._watch.reading():
+                    return reread(source, scene, agreed)
+
+            self._rereading.submit(read)
         return self._watch.waiting
 
     def cancel(self) -> None:
@@ -302,6 +308,7 @@ class Files:
     def _note(self, opened: Opened) -> None:
         if opened.scene is not None and opened.scene.origin is not None:
             source = opened.scene.origin.source
+            self._watch.know(opened.scene.origin.files)
             self._guarded.pop(source, None)
             if opened.agreed is not None:
                 self._guarded[source] = opened.agreed

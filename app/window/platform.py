@@ -1,7 +1,7 @@
 """Where the window lives: on a display, or on none; and OpenGL inside it.
 
 Owns the choice of GLFW's platform, the check that OpenGL works there, and moderngl's context in
-the window; only this module imports glfw. Knows nothing of what is drawn. The one place where
+the window. Knows nothing of what is drawn. The one place where
 systems differ: X11 (also XWayland: the bundle's GLFW has no Wayland of its own), the null
 platform, macOS and Windows.
 """

@@ -13,7 +13,8 @@ from renderer.errors import LucidaError
 from renderer.scene.files import read_scene_file
 from renderer.scene.model import Origin, Scene
 from renderer.scene.models import MODEL_ENDINGS, model_scene
-from renderer.scene.reading import absence, suggestion
+from renderer.scene.noting import Noted, noting
+from renderer.scene.reading import absence, path_of, suggestion
 
 BUILTIN_SCENES = (
     "still-life",
@@ -34,16 +35,16 @@ def load_scene(source: str | Path) -> Scene:
     the default lights and a view that has all of it in the picture. Raises LucidaError naming the
     file, the field and the remedy.
     """
+    path = path_of(source, "scene")
     if source in BUILTIN_SCENES:
-        return _from(str(source), read_scene_file(_BUILTIN_FOLDER / f"{source}.toml"))
+        return _from(str(source), read_scene_file(_BUILTIN_FOLDER / f"{source}.toml"), {})
     if not str(source):
         raise LucidaError("scene", "'' is empty", suggestion("", BUILTIN_SCENES))
-    path = Path(source)
     ending = path.suffix.lower()
-    if ending == ".toml":
-        return _from(str(path.absolute()), read_scene_file(path))
-    if ending in MODEL_ENDINGS:
-        return _from(str(path.absolute()), model_scene(path))
+    if ending in SCENE_ENDINGS:
+        with noting() as noted:
+            scene = read_scene_file(path) if ending == ".toml" else model_scene(path)
+        return _from(str(path.absolute()), scene, noted)
     endings = f"files ending in {' '.join(SCENE_ENDINGS)}"
     if _exists(path):
         raise LucidaError(
@@ -62,8 +63,9 @@ def load_scene(source: str | Path) -> Scene:
     )
 
 
-def _from(source: str, scene: Scene) -> Scene:
-    return replace(scene, origin=replace(scene.origin or Origin(""), source=source))
+def _from(source: str, scene: Scene, files: Noted) -> Scene:
+    origin = replace(scene.origin or Origin(""), source=source, files=files)
+    return replace(scene, origin=origin)
 
 
 def _exists(path: Path) -> bool:

@@ -17,6 +17,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from renderer.camera import LARGEST, Camera, volume
 from renderer.errors import LucidaError, one_line, shortened
+from renderer.scene.noting import Noted
 
 Color = tuple[float, float, float]
 Floats32 = NDArray[np.float32]
@@ -224,11 +225,13 @@ class Origin:
 
     source: what load_scene takes, a built-in scene's name or an absolute path; "" for neither.
     tables: of its scene file, as read; None for a model alone. folder: where its paths begin.
+    files: all that it was read from, as they were then; none of what is built in.
     """
 
     source: str
     tables: dict[str, Any] | None = None
     folder: Path = Path()
+    files: Noted = field(default_factory=dict)
 
 
 @dataclass(frozen=True, eq=False)

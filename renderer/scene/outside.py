@@ -103,12 +103,6 @@ def model_files(scene: Scene) -> tuple[Path, ...]:
     return tuple(dict.fromkeys(origin.folder / name for name in names))
 
 
-def scene_files(scene: Scene) -> tuple[Path, ...]:
-    """The files that a scene was read from: its own, and its models. None for what is built in."""
-    source = Path(scene.origin.source if scene.origin is not None else "")
-    return (source, *model_files(scene)) if source.is_absolute() else ()
-
-
 def outside_files(scene: Scene) -> tuple[Path, ...]:
     """The scene's models that lie outside of its file's folder."""
     return outside(model_files(scene), scene.origin.folder) if scene.origin is not None else ()

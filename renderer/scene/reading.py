@@ -13,11 +13,22 @@ from collections.abc import Iterable
 from pathlib import Path
 
 from renderer.errors import LucidaError
+from renderer.scene.noting import note
+
+
+def path_of(source: str | Path, field: str) -> Path:
+    """The path that a Python user gave; raises LucidaError for what is none, such as None."""
+    try:
+        return Path(source)
+    except TypeError:
+        problem = f"is a {type(source).__name__}, not a path"
+        raise LucidaError(field, problem, "give text, or a pathlib.Path") from None
 
 
 def read_file(path: Path, most_bytes: int) -> bytes:
     """The bytes of an ordinary file of at most `most_bytes`; otherwise LucidaError naming it."""
     source = str(path)
+    note(path)
     try:
         status = path.stat()
         if stat.S_ISDIR(status.st_mode):

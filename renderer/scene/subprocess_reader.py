@@ -20,6 +20,7 @@ from renderer.child import end_child, end_with_parent, interpreter, start_child
 from renderer.errors import LucidaError
 from renderer.scene.model import SceneObject
 from renderer.scene.models import read_model
+from renderer.scene.noting import note, note_all, noting
 from renderer.scene.packing import read_value, write_value
 
 # From here on a process, which takes some 0.3 s to start, costs less than it brings. Text holds the
@@ -50,6 +51,7 @@ class ModelReader:
 
     def read(self, path: Path) -> tuple[SceneObject, ...]:
         """As read_model(). Raises CancelledError once cancel() was called, else LucidaError."""
+        note(path)
         python = interpreter() if is_large(path) else None
         process = self._start(python, path) if python is not None else None
         objects = self._receive(process, path) if process is not None else None
@@ -87,7 +89,8 @@ class ModelReader:
         try:
             begun = process.stdout.read(1) == _HELLO
             if begun:
-                answer = read_value(process.stdout)
+                answer, noted = read_value(process.stdout)
+                note_all(noted)
         except EOFError:
             pass
         except MemoryError:
@@ -131,7 +134,8 @@ def is_large(path: Path) -> bool:
 
 
 def main(path: str) -> None:
-    """What the process does: it answers with the objects, or with the exception."""
+    """What the process does: it answers with the objects, or with the exception; and with the files
+    that it has looked for."""
     answers = os.fdopen(os.dup(1), "wb")
     os.dup2(2, 1)  # whatever a library prints is no part of the answer
     import trimesh  # noqa: F401  # Windows: loading libraries waits for a thread that reads input
@@ -141,13 +145,14 @@ def main(path: str) -> None:
     answers.write(_HELLO)
     answers.flush()
     answer: tuple[SceneObject, ...] | Exception
-    try:
-        answer = read_model(Path(path))
-    except LucidaError as error:
-        answer = error
-    except Exception as error:  # a bug; told as one by whoever waits
-        answer = RuntimeError(f"{type(error).__name__}: {error}")
-    write_value(answers, answer)
+    with noting() as noted:
+        try:
+            answer = read_model(Path(path))
+        except LucidaError as error:
+            answer = error
+        except Exception as error:  # a bug; told as one by whoever waits
+            answer = RuntimeError(f"{type(error).__name__}: {error}")
+    write_value(answers, (answer, noted))
     os._exit(0)  # its memory goes back at once
 
 

@@ -15,7 +15,7 @@ from renderer.camera import Camera
 from renderer.errors import LucidaError
 from renderer.scene.limits import TOML_BYTES
 from renderer.scene.model import View
-from renderer.scene.reading import decode_text, read_file
+from renderer.scene.reading import decode_text, path_of, read_file
 from renderer.scene.schema import CameraFields, LookAtFields, ViewFile
 from renderer.scene.tables import VERSION, parse_toml, to_struct
 
@@ -25,7 +25,7 @@ LOOK_AT = {"target", "up", "fov_y_deg", "aspect"}  # fields that give LookAtFiel
 
 def load_view(path: str | Path) -> View:
     """The view in a file. Raises LucidaError naming the file, the field and the remedy."""
-    data = read_file(Path(path), TOML_BYTES)
+    data = read_file(path_of(path, "view"), TOML_BYTES)
     return view_from_toml(decode_text(data, str(path)), str(path))
 
 

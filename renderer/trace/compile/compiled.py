@@ -61,7 +61,6 @@ config._config_fname = os.devnull
 config.reload_config()
 
 _TRACE = Path(__file__).parents[1]  # the tracer's folder
-_TRACE = Path(__file__).parents[1]  # the tracer's folder
 _LOCATOR = "UserProvidedCacheLocator"  # numba's name for: CACHE_DIR, and nowhere else
 _cache_dir_lock = threading.Lock()
 
@@ -153,7 +152,7 @@ def _bases() -> Iterator[Path]:
 def _writable(folder: Path) -> bool:
     try:
         folder.chmod(0o700)  # numba's folders inside it have the rights that the umask leaves
-        with tempfile.TemporaryFile(dir=folder):
+        with tempfile.TemporaryFile(dir=folder):  # with nothing in it: a full disk may be read
             pass
         os.utime(folder)  # the last use, for pruning
     except OSError:
@@ -202,6 +201,12 @@ class _Cache(FunctionCache):
 
     def save_overload(self, sig: Any, data: Any) -> None:
         try:
-            super().save_overload(sig, data)
-        except Exception:  # the disk is full, or the index that is to be extended is damaged
-            return
+            try:
+                super().save_overload(sig, data)
+            except OSError:
+                raise
+            except Exception:  # the index that is to be extended is damaged: it begins anew
+                self.flush()
+                super().save_overload(sig, data)
+        except OSError:  # the disk is full
+            compile_note.begin(kept=False)

@@ -9,19 +9,20 @@ from __future__ import annotations
 import gc
 import os
 
+from renderer import compile_note
 from renderer.child import end_with_parent
 
 
 def main(part: str) -> None:
     """Compiles a part, and ends at once: to take a compiler's million objects down would take a
-    sixth of its time."""
+    sixth of its time. The status is 1 where the cache could not take it."""
     gc.disable()
     from renderer.trace.compile.numba_shortcuts import take_shortcuts
 
     end_with_parent()
     take_shortcuts()
     compile_part(part)
-    os._exit(0)
+    os._exit(0 if compile_note.is_kept() else 1)
 
 
 def compile_part(part: str) -> None:
