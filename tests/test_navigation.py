@@ -360,3 +360,22 @@ def test_orbit_from_straight_above_leaves_the_horizon_level() -> None:
     sine, cosine = math.sin(0.3), math.cos(0.3)
     assert after.eye == pytest.approx((4 * sine, 5 * cosine, 3 * sine))
     assert after.u == pytest.approx(u)
+
+
+def test_orbit_turns_by_the_same_angles_whatever_the_axes_lengths() -> None:
+    camera = Camera.look_at((3, 4, 5), (0, 0, 0))
+    u, v, w = (
+        tuple(length * np.asarray(axis))
+        for length, axis in zip((0.5, 0.25, 3), (camera.u, camera.v, camera.w), strict=True)
+    )
+    one = navigation.orbited(camera, (1, 0, 0), 0.3, 0.2)
+    other = navigation.orbited(replace(camera, u=u, v=v, w=w), (1, 0, 0), 0.3, 0.2)
+    assert other.eye == pytest.approx(one.eye)
+    np.testing.assert_allclose(other.basis, one.basis * (0.5, 0.25, 3), atol=1e-12)
+
+
+def test_a_turn_is_right_handed_about_an_axis_of_any_length() -> None:
+    for axis in ((0, 1, 0), (0, 20, 0)):
+        after = navigation.turned(Camera(eye=(1, 2, 3)), (0, 0, 3), axis, math.pi / 2)
+        assert after.eye == pytest.approx((0, 2, 2))
+        assert after.u == pytest.approx((0, 0, -1))

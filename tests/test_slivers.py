@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import replace
 
 import numpy as np
@@ -108,3 +109,34 @@ def test_thin_cells_do(camera):
     assert not is_coarse_for_cells(plain, camera)
     thin = Scene((SceneObject(mesh, Material(checker=Checker(size=0.1))),))
     assert is_coarse_for_cells(thin, camera)
+
+
+@pytest.mark.parametrize("is_parallel", [False, True])
+def test_the_bound_is_eight_roundings_of_what_is_summed(is_parallel):
+    """Of each product in (p + q) x (q - p) . (x, y, 1), over the edge's slope; and of both ends."""
+    products = np.abs(np.cross(np.eye(3)[:, None], np.eye(3)))
+    for heights in ((2.0, 5.0), (3.0, -0.5), (-2.0, 0.25), (-1.0, -3.0)):
+        p, q = np.array([(30.0, -50.0, 1.0), (-70.0, -20.0, 1.0)]) * np.reshape(heights, (2, 1))
+        given = p, q
+        if is_parallel:  # t says nothing of where a corner is seen
+            p, q = np.array([(30.0, -50.0, 1.0), (-70.0, -20.0, 1.0)])
+            given = tuple((x, y, t) for (x, y, _), t in zip((p, q), heights, strict=True))
+        at = np.array([11.5, -33.5, 1.0])
+        terms = np.einsum("i,j,k,jki", np.abs(at), np.abs(p + q), np.abs(q - p), products)
+        slope = np.hypot(*np.cross(p + q, q - p)[:2])
+        first, second = p[:2] / p[2], q[:2] / q[2]
+        beyond = 1.0
+        if not is_parallel and min(heights) < 0:
+            beyond = math.dist(at[:2], first) + math.dist(at[:2], second)
+            beyond /= math.dist(first, second)
+        wanted = terms / slope + (np.hypot(*first) + np.hypot(*second)) * beyond
+        pixel = np.array([99.5 - 33.5]), np.array([149.5 + 11.5])
+        bound = unknown_edge_px(SIZE, *np.array([given])[0][:, None], is_parallel, *pixel)
+        np.testing.assert_allclose(bound, 2.0**-21 * wanted, rtol=1e-12)
+
+
+def test_of_an_edge_that_is_no_line_nothing_is_told():
+    end = np.array([(30.0, -50.0, 1.0)])
+    at = np.array([10]), np.array([20])
+    assert unknown_edge_px(SIZE, end, end, False, *at) == 0.0
+    assert unknown_edge_px(SIZE, end, end * (1, 1, 0), False, *at) == 0.0
