@@ -58,6 +58,7 @@ def test_what_latex_writes_in_its_own_way():
 
 def test_results_have_as_many_decimals_as_one_of_them_needs():
     assert results([0.25]) == results([0.25 + 1e-11]) == ("0.25", "0.25")
+    assert results([0.123]) == ("0.123", "0.123")
     assert results([0.25 + 1e-8]) == ("0.2500", "0.2500")
     assert results([1 / 32 + 1e-12]) == ("0.03125", "0.03125")
     assert results([1e5 / 3]) == ("33333.3333", "33333.3333")

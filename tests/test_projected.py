@@ -48,9 +48,10 @@ def test_a_spheres_extent_is_that_of_the_points_on_it(camera):
 
 def test_a_sphere_by_hand():
     assert sphere_extent(np.array([1, 2, -5.0]), 0.5, PARALLEL) == (0.5, 1.5, 1.5, 2.5)
-    half = 2 / math.sqrt(8)
-    found = sphere_extent(np.array([0, 0, -3.0]), 1.0, replace(CAMERA, distance=2.0))
-    assert found == pytest.approx((-half, half, -half, half), rel=1e-12)
+    for radius in (1.0, 0.01):
+        half = 2 * radius / math.sqrt(9 - radius**2)
+        found = sphere_extent(np.array([0, 0, -3.0]), radius, replace(CAMERA, distance=2.0))
+        assert found == pytest.approx((-half, half, -half, half), rel=1e-9)
 
 
 @pytest.mark.parametrize("camera", [CAMERA, PARALLEL])
@@ -85,11 +86,14 @@ def test_a_triangle_is_cut_where_rays_begin():
     corners = np.array([(0, 0, -1), (2, 1, -1), (0, 0, 1.0)])
     near = replace(CAMERA, near=0.5)
     assert mesh_extent(corners, ONE, near) == pytest.approx((0, 3, 0, 1.5))
+    for order in ([1, 2, 0], [2, 0, 1], [2, 1, 0]):
+        assert mesh_extent(corners[order], ONE, near) == pytest.approx((0, 3, 0, 1.5))
     longer = replace(near, distance=2.0)
     assert mesh_extent(corners, ONE, longer) == pytest.approx((0, 6, 0, 3))
-    beyond = mesh_extent(corners, ONE, CAMERA)
-    assert beyond.left == pytest.approx(0, abs=1e-6)
-    assert beyond.right == pytest.approx(1e9, rel=1e-6), "as far as the part that is cut off"
+    for scale in (1, 10):
+        beyond = mesh_extent(scale * corners, ONE, CAMERA)
+        assert beyond.left == pytest.approx(0, abs=1e-6)
+        assert beyond.right == pytest.approx(1e9, rel=1e-6), "as far as the part that is cut off"
     assert mesh_extent(corners, ONE, replace(near, projection="parallel")) == (0, 2, 0, 1)
 
 
@@ -104,7 +108,10 @@ def test_of_several_triangles_the_sides_that_cross_are_cut():
 
 
 def test_meshes_behind_the_eye_and_beyond_the_clip_planes():
+    assert NOTHING == (math.inf, -math.inf, math.inf, -math.inf)
     corners = np.array([(0, 0, -2), (1, 0, -3), (0, 1, -4.0)])
+    touching = np.array([(0, 0, -1e-12), (1, 0, 1), (0, 1, 1.0)])
+    assert mesh_extent(touching, ONE, CAMERA) == NOTHING
     for camera in (CAMERA, PARALLEL):
         assert mesh_extent(corners * (1, 1, -1), ONE, camera) == NOTHING
         assert mesh_extent(corners + (0, 0, 2), ONE, camera) != NOTHING

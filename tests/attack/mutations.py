@@ -85,7 +85,7 @@ MODULES: dict[str, tuple[str, ...]] = {
     "app/lecture/model.py": ("teach_lecture",),
     "app/lecture/options.py": ("teach_lecture", "bounds"),
     "app/lecture/places.py": ("teach_lecture",),
-    "app/explaining/plain.py": ("teach_lecture", "teach_flow"),
+    "app/explaining/plain.py": ("plain",),
     "app/lecture/reading.py": ("teach_lecture",),
     "app/lecture/text.py": ("teach_lecture",),
     "app/stepper/loop_parts.py": ("teach_stepper",),
