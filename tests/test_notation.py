@@ -49,7 +49,14 @@ def test_a_number_has_four_decimals_or_six_of_a_pixels_fraction(value, shown, fi
 
 def test_what_latex_writes_in_its_own_way():
     values = (0.5, -1.5e-7, 2e9, math.inf, -math.inf, math.nan)
-    wanted = "0.5", r"-1.5 \cdot 10^{-7}", r"2 \cdot 10^{9}", r"\infty", r"-\infty", r"\mathrm{none}"
+    wanted = (
+        "0.5",
+        r"-1.5 \cdot 10^{-7}",
+        r"2 \cdot 10^{9}",
+        r"\infty",
+        r"-\infty",
+        r"\mathrm{none}",
+    )
     assert tuple(map(latex_number, values)) == wanted
     assert latex_number(0.5, fixed=True) == "0.5000"
     assert bold("d") == r"\mathbf{d}"
@@ -81,9 +88,7 @@ def test_factors_stand_in_brackets_where_a_sign_or_a_power_would_be_misread():
     )
     assert scalar_slot("a", 0.0, factor=True) == Slot("a", "a", "0", "0")
     assert scalar_slot("a", 2.0, factor=True) == Slot("a", "a", "2", "2")
-    assert scalar_slot("a", 1e-5, factor=True) == Slot(
-        "a", "a", r"(1 \cdot 10^{-5})", "(1e-05)"
-    )
+    assert scalar_slot("a", 1e-5, factor=True) == Slot("a", "a", r"(1 \cdot 10^{-5})", "(1e-05)")
     assert vector_slot("d", iter((1, 0.5))) == Slot(
         r"\mathbf{d}", "vec(d)", r"(1,\ 0.5)", "(1, 0.5)"
     )

@@ -108,13 +108,13 @@ def test_of_several_triangles_the_sides_that_cross_are_cut():
 
 
 def test_meshes_behind_the_eye_and_beyond_the_clip_planes():
-    assert NOTHING == (math.inf, -math.inf, math.inf, -math.inf)
+    assert tuple(NOTHING) == (math.inf, -math.inf, math.inf, -math.inf)
     corners = np.array([(0, 0, -2), (1, 0, -3), (0, 1, -4.0)])
     touching = np.array([(0, 0, -1e-12), (1, 0, 1), (0, 1, 1.0)])
     assert mesh_extent(touching, ONE, CAMERA) == NOTHING
     for camera in (CAMERA, PARALLEL):
         assert mesh_extent(corners * (1, 1, -1), ONE, camera) == NOTHING
-        assert mesh_extent(corners + (0, 0, 2), ONE, camera) != NOTHING
+        assert mesh_extent(corners + np.array((0, 0, 2)), ONE, camera) != NOTHING
         assert mesh_extent(corners, ONE, replace(camera, near=4.0)) == NOTHING
         assert mesh_extent(corners, ONE, replace(camera, near=3.9)) != NOTHING
         assert mesh_extent(corners, ONE, replace(camera, far=2.0)) == NOTHING

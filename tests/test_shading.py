@@ -1,4 +1,4 @@
-"""A hit's colour, taken apart, where it is at its ends: lights in, behind and beside the surface."""
+"""A hit's colour, taken apart, at its ends: lights in, behind and beside the surface."""
 
 from __future__ import annotations
 
@@ -57,7 +57,12 @@ def test_each_light_gives_its_terms() -> None:
     assert (found.albedo, found.specular, found.shininess) == ((0.5, 0.25, 1.0), (0.5,) * 3, 2.0)
     assert found.ambient == (0.125, 0.125, 0.5)
     assert (above.number, above.is_point, above.place) == (0, True, (0, 4, 0))
-    assert (above.to_light, above.half, above.n_dot_l, above.n_dot_h) == ((0, 1, 0), (0, 1, 0), 1, 1)
+    assert (above.to_light, above.half, above.n_dot_l, above.n_dot_h) == (
+        (0, 1, 0),
+        (0, 1, 0),
+        1,
+        1,
+    )
     assert (above.diffuse, above.specular) == ((0.5, 0.125, 0.25), (0.5, 0.25, 0.125))
     assert (sun.number, sun.is_point) == (1, False)
     assert sun.to_light == sun.place == pytest.approx(aside)

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from renderer import Camera
-from renderer.edges import MARGIN, Lines
+from renderer.edges import CLIPPED_FROM, MARGIN, Lines
 from renderer.raster import scene_data
 from renderer.scene import BUILTIN_SCENES, load_scene
 from renderer.scene.flat import flatten
@@ -51,6 +51,21 @@ def test_clipping_loses_vast_triangles_only_right_before_the_eye():
     assert lines.clip_px(primitive, i, j, t)[0] == 0
     usual = Lines(flat, replace(camera, viewport=(-0.5, 0.5, -0.5, 0.5)), (40, 8))
     assert usual._drawn_from(primitive)[0] < 30
+    # By what was drawn, clipping has lost nothing; only depth says what is too near to the eye.
+    corners = [(x, 0.0, z) for x in (-4e6, 4e6) for z in (-5e6, 4e6)]
+    farthest = lines.camera.project(corners, (40, 8)).parameter.max()
+    for either in (lines, usual):
+        drawn_from = either._drawn_from(primitive, drawn=True)
+        assert drawn_from == pytest.approx([CLIPPED_FROM * farthest])
+        assert either.clip_px(primitive, i, j, drawn_from * 0.99, drawn=True)[0] == 0
+        assert either.clip_px(primitive, i, j, drawn_from * 1.01, drawn=True)[0] > 0
+    largest = np.abs(seen_corners(lines.camera, (40, 8), floor[None])[..., :2]).max()
+    assert from_t == pytest.approx(2.0**-21 / 1024 * largest)
+    between = np.array([100.0])  # beyond the depth that is too near, within what clipping loses
+    assert lines.clip_px(primitive, i, j, between)[0] == 0
+    assert lines.clip_px(primitive, i, j, between, drawn=True)[0] > 0
+    parallel = Lines(flat, replace(camera, projection="parallel"), (40, 8))
+    assert parallel._drawn_from(primitive) == [0]
 
 
 @named

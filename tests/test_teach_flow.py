@@ -1,8 +1,6 @@
-"""Texts broken into lines and put into their places, and formulas as plain text."""
+"""Texts broken into lines and put into their places."""
 
 from __future__ import annotations
-
-import pytest
 
 from app.lecture.flow import Extent, Laid, Piece, fitted, lay
 from app.lecture.text import parse

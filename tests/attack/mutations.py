@@ -38,7 +38,7 @@ SAMPLE = 12  # of each module, where nothing else is asked for
 MODULES: dict[str, tuple[str, ...]] = {
     "renderer/camera.py": ("camera", "edges"),
     "renderer/compare.py": ("compare", "comparing", "nothing_hit"),
-    "renderer/edges.py": ("edges", "edges_rounding", "compare"),
+    "renderer/edges.py": ("edges", "edges_rounding", "slivers", "compare"),
     "renderer/difference.py": ("difference", "comparing", "compare", "bounds"),
     "renderer/pixels.py": ("pixels", "go_to_pixel"),
     "renderer/slivers.py": ("slivers",),
@@ -50,7 +50,7 @@ MODULES: dict[str, tuple[str, ...]] = {
     "app/host/fly.py": ("fly", "navigation"),
     "app/cameras/focus.py": ("focus", "presets"),
     "app/cameras/navigation.py": ("navigation",),
-    "app/cameras/presets.py": ("presets", "animation"),
+    "app/cameras/presets.py": ("presets",),
     "app/cameras/reader.py": ("clipboard_camera",),
     "app/cameras/text.py": ("clipboard_camera",),
     "app/cameras/travel.py": ("animation",),
@@ -117,7 +117,7 @@ def main(argv: Sequence[str]) -> int:
     parser.add_argument("--sample", type=int, default=SAMPLE, help="of each module; 0: all")
     parser.add_argument("--seed", type=int, default=0)
     parser.add_argument("--minutes", type=float, help="no further module after that long")
-    parser.add_argument("--line", type=int, help="only the mutants of this line")
+    parser.add_argument("--line", type=int, action="append", help="only its mutants; repeatable")
     parser.add_argument("--once", action="store_true", help="survivors are not tried again afresh")
     arguments = parser.parse_args(argv)
     if not hasattr(os, "fork"):
@@ -136,7 +136,7 @@ def main(argv: Sequence[str]) -> int:
             break
         chosen = mutants(ROOT, module)
         if arguments.line:
-            chosen = [mutant for mutant in chosen if mutant.line == arguments.line]
+            chosen = [mutant for mutant in chosen if mutant.line in arguments.line]
         if 0 < arguments.sample < len(chosen):
             rng = random.Random(f"{arguments.seed} {module}")
             chosen = [chosen[k] for k in sorted(rng.sample(range(len(chosen)), arguments.sample))]
