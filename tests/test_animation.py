@@ -217,6 +217,13 @@ def test_without_a_common_focus_the_eye_goes_straight() -> None:
     assert is_orthonormal(middle)
 
 
+def test_between_a_view_that_is_fitted_and_one_that_is_not_nothing_is_fitted() -> None:
+    one, two = Camera(eye=(0, 0, 5)), Camera(eye=(0, 0, 4))
+    for fits in ((True, True), (True, False), (False, True), (False, False)):
+        ends = (View(camera, fit) for camera, fit in zip((one, two), fits, strict=True))
+        assert Passage(*ends, (0, 0, 0), BOUNDS, SIZE).at(0.5).fit is all(fits)
+
+
 def test_the_passage_sets_out_and_arrives_slowly() -> None:
     """3 s^2 - 2 s^3 of the way, on a straight one; nothing of it outside 0 to 1."""
     start = View(Camera(eye=(0, 0, -5)))

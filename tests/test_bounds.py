@@ -187,3 +187,16 @@ def test_what_is_no_number_becomes_the_default_or_else_the_least():
     assert Range(1, 4).clamped(math.nan, None) == 1
     assert Range(1, 4).clamped(math.nan, 3.0) == 3.0
     assert Accepted(Camera).clamped("no eye", (1, 2)) == (1, 2)
+
+
+def test_a_camera_among_a_lectures_options_is_a_table() -> None:
+    table = {"outside": {"camera": {"eye": [0, 0, 9]}, "grid": False}}
+    assert options_from_table(table)["outside"] == {"camera": Camera((0, 0, 9)), "grid": False}
+    for options, told in (
+        ({"camera": 3}, "outside.camera: is not a table; give e.g. camera.eye"),
+        ({"camera": {"eye": [0, 0]}}, "outside.camera.eye: has 2 entries; give 3"),
+        ({"grid": {"eye": [0, 0, 9]}}, "outside.grid: is a table; give true or false"),
+    ):
+        with pytest.raises(LucidaError) as error:
+            options_from_table({"outside": options})
+        assert str(error.value) == told

@@ -85,14 +85,89 @@ def test_nothing_measured_is_as_coarse_as_it_is_told() -> None:
     assert forgetful.changed(PIXELS, 0.0) == 1
 
 
+class Motion:
+    """One whose images of 64 x 64 pixels begin at a factor, with a budget of half a second."""
+
+    def __init__(self, full_s: float) -> None:
+        self.coarseness = Coarseness(0.5, 0.5)
+        self.coarseness.measured(1, 4096, full_s)
+        self.now_s = 0.0
+        self.factors = [self.coarseness.changed(4096, 0.0)]
+        self.change()
+
+    def change(self) -> None:
+        self.now_s += 0.125
+        self.factors.append(self.coarseness.changed(4096, self.now_s))
+
+    def images(self, *times_s: float) -> int:
+        """The factor after images that took so long."""
+        for time_s in times_s:
+            factor = self.factors[-1]
+            self.coarseness.measured(factor, 4096 // factor**2, time_s)
+            self.change()
+        return self.factors[-1]
+
+
+def test_five_images_in_a_row_that_take_twice_the_budget_make_the_next_coarser() -> None:
+    motion = Motion(full_s=2.0)
+    assert motion.factors == [2, 2], "exactly within the budget"
+    assert motion.images(*[1.0] * 9) == 2, "twice the budget is not too slow yet"
+    assert motion.images(*[1.1] * 4, 1.0, *[1.1] * 4) == 2
+    assert motion.images(1.1) == 3
+    assert motion.images(*[1.1] * 4) == 3
+    assert motion.images(1.1) == 4
+
+
+def test_eight_images_in_a_row_that_finer_would_be_within_the_budget_make_the_next_finer() -> None:
+    motion = Motion(full_s=4.4)
+    assert motion.factors == [3, 3]
+    assert motion.images(*[0.23] * 9) == 3
+    assert motion.images(*[0.22] * 8) == 2
+    assert motion.images(*[0.125] * 7, 0.126, *[0.125] * 7) == 2
+    assert motion.images(0.125) == 1
+    assert motion.images(*[0.1] * 9) == 1
+    motion = Motion(full_s=2.0)
+    assert motion.images(*[0.125] * 7) == 2
+    assert motion.images(0.125) == 1
+
+
+def test_from_the_third_change_on_the_factor_stays_whatever_is_expected() -> None:
+    assert Motion(full_s=2.0).images(0.9) == 2
+    motion = Motion(full_s=2.0)
+    motion.coarseness.measured(2, 1024, 0.9)
+    motion.now_s += STILL_S
+    motion.change()
+    assert motion.factors[-1] == 3
+
+
+def test_what_is_expected_follows_the_nearest_factor_that_was_measured() -> None:
+    coarseness = Coarseness(0.625, 0.625)
+    coarseness.measured(1, 4096, 10.0)
+    coarseness.measured(8, 64, 0.5)
+    assert coarseness.changed(4096, 0.0) == 8
+
+
+def test_a_slower_image_counts_half_and_a_quicker_one_wholly() -> None:
+    coarseness = Coarseness(0.5, 0.5)
+    for time_s, expected_s in ((1.0, 1.0), (3.0, 2.0), (0.5, 0.5), (0.5, 0.5)):
+        coarseness.measured(1, 1, time_s)
+        assert coarseness.full_s(1) == expected_s
+    coarseness.measured(1, 0, 0.5)  # an image without pixels
+
+
 def test_a_full_image_waits_for_the_end_of_a_motion_but_not_after_one_change() -> None:
     coarseness = measured(4e-8)
+    assert coarseness.rest_s == 0.0
     coarseness.changed(PIXELS, 10.0)
     assert coarseness.rest_s == 0.0
     coarseness.changed(PIXELS, 10.0 + FRAME_S)
     assert FRAME_S < coarseness.rest_s < STILL_S
     coarseness.changed(PIXELS, 10.2)  # slow frames: still the same motion
     assert coarseness.rest_s == STILL_S
+    coarseness = measured(4e-8)
+    coarseness.changed(PIXELS, 10.0)
+    coarseness.changed(PIXELS, 10.0 + STILL_S)  # another one
+    assert coarseness.rest_s == 0.0
 
 
 def test_the_time_of_a_full_image_is_told_from_any_other() -> None:

@@ -39,6 +39,16 @@ def test_of_a_large_image_every_nth_row_and_column_is_counted(monkeypatch):
     found = histogram(np.zeros((30, 30, 3), np.float32), ImageOptions())
     assert found.every == 3
     assert found.counts.sum() == 3 * 100
+    for shape in ((90, 10, 3), (10, 90, 3)):
+        assert histogram(np.zeros(shape, np.float32), ImageOptions()).every == 3
+
+
+def test_where_there_are_few_bars_the_highest_has_the_height():
+    one = np.zeros((1, 1, 3), np.float32)
+    assert histogram(one, ImageOptions()).top == pytest.approx(1.3)
+    four = np.zeros((2, 2, 3), np.float32)
+    four[0, 0, 1:] = four[0, 1, 1] = 1.0  # bars of 4; 2 and 2; 3 and 1
+    assert histogram(four, ImageOptions()).top == pytest.approx(4 * 1.3)
 
 
 def test_what_no_number_is_counts_as_black():

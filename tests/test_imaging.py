@@ -42,9 +42,24 @@ def test_a_resolution_is_seen_whole():
     state = AppState.for_scene(Scene(()))
     state = state.with_options(images={"magnification": 8.0, "center": (0.1, 0.1)})
     state = imaging.with_resolution(state, (64, 36))
-    assert state.images.magnification is None
+    assert (state.images.magnification, state.images.center) == (None, (0.5, 0.5))
     assert imaging.with_pixel_size(state, 4).images.resolution is None
     assert imaging.resolution_text(state.images) == "64 x 36"
+    for size, told in ((1, "Window"), (2, "Window / 2"), (8, "Window / 8")):
+        assert imaging.resolution_text(imaging.with_pixel_size(state, size).images) == told
+
+
+def test_magnifying_keeps_the_middle_and_all_of_the_image_has_its_own():
+    state = AppState.for_scene(Scene(())).with_options(images={"center": (0.1, 0.2)})
+    closer = imaging.with_magnification(state, 8)
+    assert closer == state.with_options(images={"magnification": 8.0})
+    whole = imaging.with_magnification(closer, None)
+    assert whole == state.with_options(images={"center": (0.5, 0.5)})
+
+
+def test_a_channel_is_chosen():
+    state = AppState.for_scene(Scene(()))
+    assert imaging.with_channel(state, "depth") == state.with_options(images={"channel": "depth"})
 
 
 def test_one_component_and_back():

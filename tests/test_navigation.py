@@ -269,9 +269,9 @@ def test_the_distance_for_a_field_of_view_has_it(camera: Camera, fov_y_deg: floa
     assert replace(camera, distance=distance).fov_y_deg == pytest.approx(fov_y_deg, abs=1e-4)
 
 
-@pytest.mark.parametrize("fov_y_deg", [0.0, -3.0, 180.0, math.nan, math.inf])
+@pytest.mark.parametrize("fov_y_deg", [0.0, -3.0, 180.0, 180.5, math.nan, math.inf])
 def test_no_distance_has_an_impossible_field_of_view(fov_y_deg: float) -> None:
-    with pytest.raises(LucidaError, match="field of view"):
+    with pytest.raises(LucidaError, match="is not between 0 and 180"):
         navigation.distance_for(Camera(), fov_y_deg)
 
 
@@ -304,6 +304,7 @@ def test_where_the_wheel_stops_in_perspective() -> None:
         (2.0, 1.0005, False),
         (2.0, 1.002, True),
         (1.0001, 1.0005, True),
+        (1.0005, 1.0005, True),
         (5.0, 1001.0, False),
         (5.0, 999.0, True),
         (3000.0, 2000.0, True),
@@ -319,6 +320,7 @@ def test_where_the_wheel_stops_with_parallel_rays() -> None:
         (1.0, 0.2e-3, False),
         (1.0, 0.3e-3, True),
         (0.1e-3, 0.15e-3, True),
+        (0.1e-3, 0.1e-3, True),
         (1.0, 510.0, False),
         (1.0, 490.0, True),
         (1000.0, 900.0, True),
@@ -360,3 +362,21 @@ def test_orbit_from_straight_above_leaves_the_horizon_level() -> None:
     sine, cosine = math.sin(0.3), math.cos(0.3)
     assert after.eye == pytest.approx((4 * sine, 5 * cosine, 3 * sine))
     assert after.u == pytest.approx(u)
+
+
+def test_orbit_turns_by_the_same_angles_whatever_the_axes_lengths() -> None:
+    camera = Camera.look_at((3, 4, 4), (0, 0, 0))
+    elevation, lengths = math.atan2(4, 5), (0.5, 0.25, 1e-4)
+    u, v, w = (tuple(axis) for axis in (camera.basis * lengths).T)
+    for up_rad, wanted in ((0.2, elevation - 0.2), (-3.0, math.radians(navigation.STEEPEST_DEG))):
+        after = navigation.orbited(replace(camera, u=u, v=v, w=w), (0, 0, 0), 0.3, up_rad)
+        assert np.linalg.norm(after.basis, axis=0) == pytest.approx(lengths)
+        assert math.asin(after.w[1] / 1e-4) == pytest.approx(wanted)
+        assert math.atan2(after.w[0], after.w[2]) == pytest.approx(math.atan2(3, 4) - 0.3)
+
+
+def test_a_turn_is_right_handed_about_an_axis_of_any_length() -> None:
+    for axis in ((0, 1, 0), (0, 20, 0)):
+        after = navigation.turned(Camera(eye=(1, 2, 3)), (0, 0, 3), axis, math.pi / 2)
+        assert after.eye == pytest.approx((0, 2, 2))
+        assert after.u == pytest.approx((0, 0, -1))

@@ -74,7 +74,8 @@ def test_rulers_stand_where_pixels_have_lines_between_them():
     assert at.magnification == 28, "450 / 16"
     assert at.margin == (30, 20)
     assert at.origin == (30 + (450 - 448) // 2, 20 + (380 - 252) // 2)
-    assert placed((16, 9), (480, 400), (30, 20), grid=False).extent == (480, 270)
+    without = placed((16, 9), (480, 400), (30, 20), grid=False)
+    assert (without.extent, without.rulers) == ((480, 270), (0, 0))
     assert placed((64, 36), (520, 400), (30, 20)).magnification == 7, "8 leave no room for them"
     assert placed((64, 36), (520, 400), (30, 20)).margin == (0, 0)
 
@@ -217,6 +218,8 @@ def test_the_images_follow_the_largest_window_and_those_that_are_nearly_as_large
     assert placement.common_pane([(320, 300), (640, 500), (320, 300)]) == (640, 500)
     assert placement.common_pane([(501, 400), (500, 402)]) == (500, 400)
     assert placement.common_pane([(480, 170), (480, 310)]) == (480, 310)
+    assert placement.common_pane([(200, 400), (640, 300)]) == (640, 300)
+    assert placement.common_pane([(400, 200), (300, 640)]) == (300, 640)
 
 
 def test_an_image_that_follows_a_larger_window_is_reduced_in_a_smaller_one():
@@ -225,6 +228,7 @@ def test_an_image_that_follows_a_larger_window_is_reduced_in_a_smaller_one():
     assert here.magnification == 0.5
     assert place(ImageOptions(), (300, 300), (320, 310)).magnification == 1
     assert place(ImageOptions(pixel_size=4), (80, 75), (320, 300)).magnification == 4
+    assert place(ImageOptions(pixel_size=4), (160, 125), (320, 300)).magnification == 2
 
 
 def test_what_is_seen_of_an_image_by_hand():
@@ -238,14 +242,26 @@ def test_what_is_seen_of_an_image_by_hand():
     assert at.pixel_at(-500, -500) == (0, 0)
     assert at.pixel_at(500, 500) == (19, 9)
     assert at.part_at(28, 34) == (0.5, 0.15)
+    assert at.margin == (0, 0)
     assert not at.sees_all
     assert not replace(at, extent=(81, 160)).whole
+
+
+def test_what_is_seen_of_pixels_that_are_not_square_by_hand():
+    at = placement.Placement((10, 20), (52, 42), 8.0, (-12, -6), (80, 60))
+    assert at.unit == (8, 3)
+    assert at.visible_pixels == (2, 1, 16, 8), "not the next, which begins at the window's border"
+    assert at.corner_of(4, 5) == (28, 6)
+    assert at.image_position(28, 6) == (3.5, 4.5)
+    assert at.pixel_at(28, 6) == (4, 5)
+    assert at.pixel_at(27.9, 5.9) == (3, 4)
 
 
 def test_the_smallest_of_images_and_windows_show_something():
     assert placed((10, 10), (100, 100), magnification=1 / 64).extent == (1, 1)
     assert placed((10, 10), (0, 0)).visible == (0, 0, 1, 1)
     assert placed((4096, 4096), (1, 1)).magnification == placement.LEAST
+    assert placement.own_size(ImageOptions(pixel_size=8), (5, 3), (0, 0)) == (1, 1)
 
 
 def test_every_pixel_can_be_brought_into_sight():
@@ -283,7 +299,9 @@ def test_every_step_of_the_wheel():
     assert stepped(placement.LEAST, -1, fit) == placement.LEAST
     assert stepped(7.5, 1, 1) == 8
     assert stepped(7.5, -1, 1) == 6
-    assert stepped(2, 1, 7) == 3, "onwards from below the fit"
+    assert stepped(2, 1, 7) == stepped(2, 0.3, 7) == 3, "onwards from below the fit"
+    assert stepped(7, -1, 7) is None
+    assert stepped(4, -1, 2.5) == 3
     assert stepped(3, -1, 2) is None, "which is the fit"
 
 
@@ -296,3 +314,20 @@ def test_the_middle_stays_half_a_window_away_from_the_images_border(center, want
     drawn = placement.Placement((100, 100), (100, 50), 2.0, (0, 0), (200, 200))
     assert placement.clamped(center, drawn, 2.0) == wanted
     assert placement.clamped(center, drawn, 0.25) == (0.5, 0.5)
+
+
+def test_an_image_narrower_than_its_window_is_in_the_middle_of_it():
+    drawn = placement.Placement((100, 100), (100, 50), 2.0, (0, 0), (200, 200))
+    assert placement.clamped((0.0, 0.0), drawn, 1 / 1.2) == pytest.approx((0.5, 0.3))
+
+
+def test_back_at_the_fit_the_middle_is_in_the_middle():
+    at = placed((640, 360), (400, 300), magnification=8.0)
+    fit = {"magnification": None, "center": (0.5, 0.5)}
+    assert zoomed_at(at, (0.1, 0.9), 30.0, 40.0, None) == fit
+
+
+def test_windows_from_four_rulers_on_have_room_for_them():
+    assert placement.rulers_in((120, 80), (30, 20)) == (30, 20)
+    assert placement.rulers_in((119, 80), (30, 20)) == (0, 0)
+    assert placement.rulers_in((120, 79), (30, 20)) == (0, 0)

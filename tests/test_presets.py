@@ -166,6 +166,46 @@ def test_what_is_framed_is_in_the_picture(camera: Camera, points: list) -> None:
         assert filled == pytest.approx(1 / MARGIN, rel=1e-3) or np.ptp(points, axis=0).max() < 0.01
 
 
+def test_things_are_framed_for_parallel_rays_by_hand() -> None:
+    """A tenth wider than the cube, which is high for 2 : 1; the eye a quarter of all before it."""
+    camera = Camera(viewport=(-1, 1, -0.5, 0.5), projection="parallel")
+    after = framed(camera, CUBE)
+    assert after.viewport == pytest.approx((-1.1, 1.1, -0.55, 0.55))
+    assert after.eye == pytest.approx((0.5, 0.5, 1.25))
+    after = framed(camera, CUBE, [(9, 9, 3), (0, 0, -1)])
+    assert after.viewport == pytest.approx((-1.1, 1.1, -0.55, 0.55))
+    assert after.eye == pytest.approx((0.5, 0.5, 4))
+    aside = replace(camera, viewport=(0, 2, -0.25, 1.75))
+    after = framed(aside, CUBE)
+    assert after.viewport == pytest.approx((0, 1.1, -0.1375, 0.9625))
+    assert after.eye == pytest.approx((0.5 - 0.55, 0.5 - 0.4125, 1.25))
+
+
+def test_things_are_framed_in_perspective_by_hand() -> None:
+    """What is 1 aside is seen at 1 / 2.2 of the distance, a tenth within the border at 1 / 2."""
+    sides = [(-1, 0, 0), (1, 0, 0)]
+    for distance in (1.0, 3.0):
+        after = framed(Camera(distance=distance), sides)
+        assert after.eye == pytest.approx((0, 0, 2.2 * distance))
+        after = framed(Camera(distance=distance), [*sides, (0, 0, -3)])
+        assert after.eye == pytest.approx((0, 0, 2.2 * distance))
+        aside = Camera(distance=distance, viewport=(0, 1, -0.25, 0.75))
+        after = framed(aside, sides)
+        assert after.eye == pytest.approx((-1.1, -0.55, 2.2 * distance))
+    deeper = framed(aside, [*sides, (0, 0, -3)])  # cx = 1/2, its middle is z = -1.5
+    assert deeper.eye[2] == pytest.approx((3 * 1 + 0.5 * 1.5) * 2.2)
+    assert deeper.eye[0] == pytest.approx(-0.5 / 3 * (deeper.eye[2] + 1.5))
+    line = framed(Camera(), [(0, 0, 0), (0, 0, -4)])
+    assert line.eye == pytest.approx((0, 0, 0.2))
+    point = framed(Camera(), [(0, 0, 3)])
+    assert 3 < point.eye[2] < 3 + 1e-6
+
+
+def test_the_presets_lens() -> None:
+    assert preset_view("Front", perspective=True).camera.fov_y_deg == pytest.approx(35)
+    assert preset_view("Front").camera.distance == 1
+
+
 def test_nothing_to_frame_leaves_the_camera() -> None:
     assert framed(Camera(eye=(1, 2, 3)), np.zeros((0, 3))) == Camera(eye=(1, 2, 3))
 
@@ -221,6 +261,18 @@ class TestClipAround:
         near, far = clip_around(camera, CUBE)
         assert 2.9 < near < 3
         assert 4 < far < 4.1
+
+    def test_a_hundredth_of_room_and_three_digits(self) -> None:
+        """1.01 x 4.567 = 4.61267 and 0.99 x 3.567 = 3.53133; outwards."""
+        assert clip_around(Camera(eye=(0.5, 0.5, 4.567)), CUBE) == (3.53, 4.62)
+        doubled = Camera(eye=(0.5, 0.5, 4.567), w=(0, 0, 2))
+        assert clip_around(doubled, CUBE) == (1.76, 2.31)
+        assert clip_around(Camera(eye=(0, 0, 456.7)), [(0, 0, 0)]) == (452, 462)
+
+    def test_near_is_a_thousandth_of_far_where_things_begin_before_it(self) -> None:
+        camera = Camera()
+        assert clip_around(camera, [(0, 0, -1), (0, 0, -0.0009)]) == (1.01 / 1000, 1.01)
+        assert clip_around(camera, [(0, 0, -1), (0, 0, -0.0011)]) == (0.00108, 1.01)
 
     def test_an_eye_among_things_and_behind_them(self) -> None:
         near, far = clip_around(Camera(eye=(0.5, 0.5, 0.5)), CUBE)

@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import replace
 
 import numpy as np
 import pytest
 
 from renderer import Camera
-from renderer.edges import MARGIN, Lines
+from renderer.edges import CLIPPED_FROM, MARGIN, Lines
 from renderer.raster import scene_data
 from renderer.scene import BUILTIN_SCENES, load_scene
 from renderer.scene.flat import flatten
@@ -50,6 +51,21 @@ def test_clipping_loses_vast_triangles_only_right_before_the_eye():
     assert lines.clip_px(primitive, i, j, t)[0] == 0
     usual = Lines(flat, replace(camera, viewport=(-0.5, 0.5, -0.5, 0.5)), (40, 8))
     assert usual._drawn_from(primitive)[0] < 30
+    # By what was drawn, clipping has lost nothing; only depth says what is too near to the eye.
+    corners = [(x, 0.0, z) for x in (-4e6, 4e6) for z in (-5e6, 4e6)]
+    farthest = lines.camera.project(corners, (40, 8)).parameter.max()
+    for either in (lines, usual):
+        drawn_from = either._drawn_from(primitive, drawn=True)
+        assert drawn_from == pytest.approx([CLIPPED_FROM * farthest])
+        assert either.clip_px(primitive, i, j, drawn_from * 0.99, drawn=True)[0] == 0
+        assert either.clip_px(primitive, i, j, drawn_from * 1.01, drawn=True)[0] > 0
+    largest = np.abs(seen_corners(lines.camera, (40, 8), floor[None])[..., :2]).max()
+    assert from_t == pytest.approx(2.0**-21 / 1024 * largest)
+    between = np.array([100.0])  # beyond the depth that is too near, within what clipping loses
+    assert lines.clip_px(primitive, i, j, between)[0] == 0
+    assert lines.clip_px(primitive, i, j, between, drawn=True)[0] > 0
+    parallel = Lines(flat, replace(camera, projection="parallel"), (40, 8))
+    assert parallel._drawn_from(primitive) == [0]
 
 
 @named
@@ -108,3 +124,34 @@ def test_thin_cells_do(camera):
     assert not is_coarse_for_cells(plain, camera)
     thin = Scene((SceneObject(mesh, Material(checker=Checker(size=0.1))),))
     assert is_coarse_for_cells(thin, camera)
+
+
+@pytest.mark.parametrize("is_parallel", [False, True])
+def test_the_bound_is_eight_roundings_of_what_is_summed(is_parallel):
+    """Of each product in (p + q) x (q - p) . (x, y, 1), over the edge's slope; and of both ends."""
+    products = np.abs(np.cross(np.eye(3)[:, None], np.eye(3)))
+    for heights in ((2.0, 5.0), (3.0, -0.5), (-2.0, 0.25), (-1.0, -3.0)):
+        p, q = np.array([(30.0, -50.0, 1.0), (-70.0, -20.0, 1.0)]) * np.reshape(heights, (2, 1))
+        given = p, q
+        if is_parallel:  # t says nothing of where a corner is seen
+            p, q = np.array([(30.0, -50.0, 1.0), (-70.0, -20.0, 1.0)])
+            given = tuple((x, y, t) for (x, y, _), t in zip((p, q), heights, strict=True))
+        at = np.array([11.5, -33.5, 1.0])
+        terms = np.einsum("i,j,k,jki", np.abs(at), np.abs(p + q), np.abs(q - p), products)
+        slope = np.hypot(*np.cross(p + q, q - p)[:2])
+        first, second = p[:2] / p[2], q[:2] / q[2]
+        beyond = 1.0
+        if not is_parallel and min(heights) < 0:
+            beyond = math.dist(at[:2], first) + math.dist(at[:2], second)
+            beyond /= math.dist(first, second)
+        wanted = terms / slope + (np.hypot(*first) + np.hypot(*second)) * beyond
+        pixel = np.array([99.5 - 33.5]), np.array([149.5 + 11.5])
+        bound = unknown_edge_px(SIZE, *np.array([given])[0][:, None], is_parallel, *pixel)
+        np.testing.assert_allclose(bound, 2.0**-21 * wanted, rtol=1e-12)
+
+
+def test_of_an_edge_that_is_no_line_nothing_is_told():
+    end = np.array([(30.0, -50.0, 1.0)])
+    at = np.array([10]), np.array([20])
+    assert unknown_edge_px(SIZE, end, end, False, *at) == 0.0
+    assert unknown_edge_px(SIZE, end, end * (1, 1, 0), False, *at) == 0.0

@@ -1,10 +1,7 @@
-"""Texts broken into lines and put into their places, and formulas as plain text."""
+"""Texts broken into lines and put into their places."""
 
 from __future__ import annotations
 
-import pytest
-
-from app.explaining.plain import plain_math
 from app.lecture.flow import Extent, Laid, Piece, fitted, lay
 from app.lecture.text import parse
 
@@ -98,23 +95,3 @@ def test_texts_are_as_large_as_they_fit():
 
 def test_an_empty_text_takes_no_room():
     assert laid("").height == 0
-
-
-@pytest.mark.parametrize(
-    ("latex", "text"),
-    [
-        (r"u = \frac{j - 0.5}{W} - 0.5", "u = (j - 0.5) / W - 0.5"),
-        (r"v = -\left(\frac{i}{H}\right)", "v = -(i / H)"),
-        (r"\mathbf{d} = u\,\mathbf{u} - d\,\mathbf{w}", "vec(d) = u vec(u) - d vec(w)"),
-        (r"\frac{\mathbf{e} - \mathbf{a}}{|\mathbf{e}|}", "(vec(e) - vec(a)) / |vec(e)|"),
-        (r"I : \mathbb{R}^2 \to x_{12}", "I : R² → x_12"),
-        (r"2 \times 3 \cdot 4, \quad \sqrt{2}", "2 \u00d7 3 · 4,  sqrt(2)"),
-        (r"\textcolor{#ff0000}{x}^3", "x³"),
-        (r"\unknown{a}", "unknowna"),
-        ("", ""),
-        ("{", ""),
-        ("x^", "x^"),
-    ],
-)
-def test_formulas_as_plain_text(latex, text):
-    assert plain_math(latex) == text

@@ -283,6 +283,7 @@ class TestMemory:
         assert beside.offset_bytes - here.offset_bytes == right
         assert table.rows[1][0].offset_bytes - here.offset_bytes == below
         assert here.offset_bytes == (18 * 23 + 10) * 12
+        assert (here.label, table.one_based) == ("canvas[11, 19]", True)
 
     def test_pixels_one_after_another_in_memory(self, color):
         row = memory.run(color, 11, 36, 5)
@@ -293,6 +294,7 @@ class TestMemory:
             (12, 0),
             (12, 1),
         ]
+        assert row[0].label == "canvas[12, 35]"
         column = memory.run(color, 22, 20, 5, order="column")
         assert [(cell.i, cell.j) for cell in column] == [
             (20, 20), (21, 20), (22, 20), (0, 21), (1, 21)
@@ -308,6 +310,7 @@ class TestMemory:
         table = memory.table(gray, 0, 0, 9, 9, one_based=False)
         assert table.rows[1][2].values == (5.0,)
         assert table.rows[1][2].offset_bytes == 5
+        assert table.stride_bytes == (1, 3)
 
     @pytest.mark.parametrize("order", ["row", "column"])
     @pytest.mark.parametrize("one_based", [True, False])

@@ -2,14 +2,12 @@
 
 from __future__ import annotations
 
-import math
-import random
 from dataclasses import replace
 
 import numpy as np
 import pytest
 
-from app.costs.growth import count_growth, is_proportional, per_doubling
+from app.costs.growth import count_growth, per_doubling
 from app.costs.model import Case, count, steps, torus_of
 from app.costs.work import Counter, Work, pixels_tested
 from app.explaining.projected import mesh_extent, pixels_of
@@ -129,41 +127,3 @@ def test_what_both_loops_grow_with() -> None:
     assert growth(by_pixels, "pixels", "set_up") == "the same"
     for of in ("tested", "rays", "nodes"):
         assert growth(by_pixels, "pixels", of) == "~ pixels"
-
-
-def test_nothing_is_said_of_too_few_counts() -> None:
-    points = [(100.0, 1.0), (1000.0, 10.0), (10_000.0, 100.0)]
-    assert count_growth([], "n") == count_growth(points, "n") == ""
-    assert count_growth([(n, n) for n in (100, 110, 120, 130, 140)], "n") == ""
-    assert count_growth([(100.0, 1.0)] * 9, "n") == ""
-    assert count_growth([*points, (1e5, 1000.0)], "n") == "~ n"
-    assert count_growth([(n, n * n) for n in (1, 10, 100, 1000)], "n") == "~ n^2.0"
-    assert math.isnan(per_doubling(points[:1]))
-
-
-COUNTS = tuple(float(n) for n in steps(100, 1_000_000, 6))
-
-
-def test_times_that_are_flat_and_then_climb() -> None:
-    assert is_proportional([(n, 1e-6 * n) for n in COUNTS])
-    assert is_proportional([(n, 3e-3 + 1e-6 * n) for n in COUNTS])
-    assert not is_proportional([(n, 0.1 + 1e-6 * n) for n in COUNTS])  # steep only at the end
-    assert not is_proportional([(n, 1e-3) for n in COUNTS])
-    assert not is_proportional([(n, 1e-3 * math.log(n)) for n in COUNTS])
-    assert not is_proportional([(n, 1e-6 * n) for n in COUNTS[:2]])
-    assert not is_proportional([])
-
-
-def test_a_busy_machine_is_not_believed() -> None:
-    """Whatever is added to times that do not climb, nothing is said of them."""
-    rng = random.Random(7)
-    for _ in range(300):
-        noisy = [(n, 1e-3 * (1 + rng.random() * rng.choice((0, 1, 20)))) for n in COUNTS]
-        assert not is_proportional(noisy)
-    # The lines of the plot that said n^0.4 on a busy machine.
-    assert not is_proportional(zip(COUNTS, (13, 16, 8, 16, 75, 230), strict=True))
-    assert not is_proportional(zip(COUNTS, (1.2, 1, 1.5, 2.3, 22, 26), strict=True))
-
-
-def test_times_that_a_clock_could_not_tell() -> None:
-    assert not is_proportional([(n, bad) for n in COUNTS for bad in (0.0, math.nan, math.inf)])

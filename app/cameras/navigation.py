@@ -209,7 +209,8 @@ def switched_projection(camera: Camera, focus: ArrayLike) -> Camera:
     that width (and back). Where the focus is not in front of the eye, the viewport is kept.
     """
     z = float((camera.camera_from_world @ [*np.asarray(focus, float), 1.0])[2])
-    scale = -z / camera.distance if -z / camera.distance > 1e-6 else 1.0
+    parameter = -z / camera.distance
+    scale = parameter if parameter > 1e-6 else 1.0
     if camera.is_parallel:
         scale = 1 / scale
     projection = "perspective" if camera.is_parallel else "parallel"
@@ -225,13 +226,13 @@ def parameter_of(camera: Camera, point: ArrayLike, behind: float = 1.0) -> float
 
 
 def _horizontal_right(camera: Camera) -> Floats:
-    """Unit vector to the right of the view direction, level, as a right-handed basis has it."""
+    """To the right of the view direction, level, as a right-handed basis has it; of any length."""
     back = np.asarray(camera.w) / np.linalg.norm(camera.w)
     right = np.cross(WORLD_UP, back)
     if np.linalg.norm(right) < 1e-6:  # straight up or down: v says where the top is
         right = np.cross(camera.v, back)
         right[1] = 0.0
-    return right / np.linalg.norm(right)
+    return right
 
 
 def _vector(values: Floats) -> Vector:

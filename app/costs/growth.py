@@ -87,4 +87,4 @@ def _rising(points: Iterable[Point]) -> Sequence[Point]:
 def _slope(x: np.ndarray, y: np.ndarray) -> float:
     """Of the straight line that fits best."""
     dx = x - x.mean()
-    return float((dx * (y - y.mean())).sum() / (dx * dx).sum())
+    return float((dx * y).sum() / (dx * dx).sum())

@@ -153,9 +153,8 @@ def _lamp(
     diffuse = specularly = (0.0, 0.0, 0.0)
     if lit:
         diffuse = _three(scalar.times(max(0.0, n_dot_l), scalar.each_times(albedo, color)))
-        if size >= SHORTEST_HALF:
-            highlight = max(0.0, n_dot_h) ** shininess
-            specularly = _three(scalar.times(highlight, scalar.each_times(specular, color)))
+        highlight = max(0.0, n_dot_h) ** shininess
+        specularly = _three(scalar.times(highlight, scalar.each_times(specular, color)))
     return Lamp(
         number,
         is_point,

@@ -165,7 +165,7 @@ def own_size(options: ImageOptions, pane: Size, rulers: Size) -> Size:
     return max(1, room[0] // options.pixel_size), max(1, room[1] // options.pixel_size)
 
 
-def magnification_of(options: ImageOptions, size: Size, pane: Size, rulers: Size = (0, 0)) -> float:
+def magnification_of(options: ImageOptions, size: Size, pane: Size, rulers: Size) -> float:
     """What the options come to for an image in a window. An image that would be ruled in all of
     the window leaves room for its rulers, and has none where it is too small then."""
     if options.magnification is not None:

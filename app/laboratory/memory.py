@@ -83,7 +83,7 @@ def label(i: int, j: int, one_based: bool, name: str = "canvas") -> str:
     return f"{name}[{row}, {column}]"
 
 
-def cell(canvas: NDArray, i: int, j: int, order: Order = "row", one_based: bool = True) -> Cell:
+def cell(canvas: NDArray, i: int, j: int, order: Order, one_based: bool) -> Cell:
     """A pixel of an array (H, W, 3), or (H, W) for one number per pixel."""
     size = canvas.shape[1], canvas.shape[0]
     channels = canvas.shape[2] if canvas.ndim == 3 else 1

@@ -53,7 +53,9 @@ def _part(kind: Any, table: dict[str, Any]) -> dict[str, Any]:
     types = _types(kind)
     changes: dict[str, Any] = {}
     for name, value in table.items():
-        if Camera in get_args(types.get(name)) and isinstance(value, dict):
+        if Camera in get_args(types.get(name)):
+            if not isinstance(value, dict):
+                raise LucidaError(name, "is not a table", f"give e.g. {name}.eye")
             with under(name):
                 changes[name] = _camera(value)
     others = {name: value for name, value in table.items() if name not in changes}

@@ -125,6 +125,8 @@ class _Plugin(_Examples):
         if failed:
             self.found = {"error": failed}
             return True
+        loaded = _loaded(self._root / self._module)
+        gc.freeze()  # what is not looked through in a fork is not copied for it
         killers: dict[str, int] = {}
         outcomes = {}
         for number, mutant in enumerate(self._chosen, start=1):
@@ -135,7 +137,7 @@ class _Plugin(_Examples):
                 self._tell(number, mutant, "no test runs it")
                 continue
             limit_s = LEAST_S + 4 * sum(lengths[item.nodeid] for item in wanted)
-            killer = forked(lambda m=mutant, w=wanted: self._try(m, w), limit_s)  # type: ignore[misc]
+            killer = forked(lambda m=mutant, w=wanted: self._try(m, w, loaded), limit_s)  # type: ignore[misc]
             outcomes[mutant.key] = "survived" if killer == "" else "killed"
             if killer == "":
                 self._tell(number, mutant, f"{len(wanted)} tests pass")
@@ -183,9 +185,9 @@ class _Plugin(_Examples):
         answer = forked(work, 3600.0)
         return tuple(answer) if answer else ({}, {}, "the tests end without a result")
 
-    def _try(self, mutant: Mutant, items: list[pytest.Item]) -> str:
+    def _try(self, mutant: Mutant, items: list[pytest.Item], loaded: list[FunctionType]) -> str:
         """The first test that notices; empty: none."""
-        if not _replace(self._root, mutant):
+        if not _replace(self._root, mutant, loaded):
             return ""
         for item, after in _in_order(items):
             _run(item, after)
@@ -203,19 +205,25 @@ def _run(item: pytest.Item, after: pytest.Item | None) -> None:
     item.config.hook.pytest_runtest_protocol(item=item, nextitem=after)
 
 
-def _replace(root: Path, mutant: Mutant) -> bool:
+def _loaded(path: Path) -> list[FunctionType]:
+    """The functions of a module."""
+    return [
+        function
+        for function in gc.get_objects()
+        if isinstance(function, FunctionType) and function.__code__.co_filename == str(path)
+    ]
+
+
+def _replace(root: Path, mutant: Mutant, loaded: list[FunctionType]) -> bool:
     """Puts the mutant's code into the loaded function; whether it was found."""
-    path = str(root / mutant.module)
     code = compiled(root, mutant)
     for name in mutant.function.split("."):
         parts = (part for part in code.co_consts if isinstance(part, CodeType))
         code = next(part for part in parts if part.co_name == name)
     found = False
-    for function in gc.get_objects():
+    for function in loaded:
         if (
-            isinstance(function, FunctionType)
-            and function.__code__.co_filename == path
-            and function.__code__.co_qualname == mutant.function
+            function.__code__.co_qualname == mutant.function
             and function.__code__.co_firstlineno == code.co_firstlineno
         ):
             function.__code__ = code

@@ -38,9 +38,10 @@ SAMPLE = 12  # of each module, where nothing else is asked for
 MODULES: dict[str, tuple[str, ...]] = {
     "renderer/camera.py": ("camera", "edges"),
     "renderer/compare.py": ("compare", "comparing", "nothing_hit"),
-    "renderer/edges.py": ("edges", "edges_rounding", "compare"),
+    "renderer/edges.py": ("edges", "edges_rounding", "slivers", "compare"),
     "renderer/difference.py": ("difference", "comparing", "compare", "bounds"),
     "renderer/pixels.py": ("pixels", "go_to_pixel"),
+    "renderer/slivers.py": ("slivers",),
     "app/state/bounds.py": ("bounds", "state"),
     "app/state/app_state.py": ("state", "bounds"),
     "app/cameras/animation.py": ("animation",),
@@ -49,26 +50,30 @@ MODULES: dict[str, tuple[str, ...]] = {
     "app/host/fly.py": ("fly", "navigation"),
     "app/cameras/focus.py": ("focus", "presets"),
     "app/cameras/navigation.py": ("navigation",),
-    "app/cameras/presets.py": ("presets", "animation"),
+    "app/cameras/presets.py": ("presets",),
     "app/cameras/reader.py": ("clipboard_camera",),
     "app/cameras/text.py": ("clipboard_camera",),
     "app/cameras/travel.py": ("animation",),
     "app/images/agreement.py": ("comparing", "live", "pictures", "status"),
     "app/images/coarseness.py": ("coarseness",),
+    "app/images/histogram.py": ("histogram",),
     "app/images/imaging.py": ("imaging",),
     "app/images/marking.py": ("imaging", "comparing"),
     "app/images/pixelvalues.py": ("imaging",),
     "app/images/placement.py": ("placement",),
     "app/storage/recent.py": ("files",),
     "app/storage/session.py": ("session", "bounds"),
-    "app/probe/bundles.py": ("teach_probe",),
+    "app/probe/bundles.py": ("bundles",),
     "app/probe/color_formulas.py": ("teach_probe",),
     "app/explaining/columns.py": ("teach_stepper", "teach_runs"),
+    "app/costs/growth.py": ("growth",),
     "app/costs/model.py": ("teach_costs",),
+    "app/costs/work.py": ("teach_work",),
     "app/probe/crossings.py": ("teach_probe",),
     "app/probe/formulas.py": ("teach_probe", "typesetting"),
     "app/laboratory/bitmaps.py": ("teach_imagelab",),
     "app/laboratory/disk.py": ("teach_imagelab", "teach_pages"),
+    "app/laboratory/kinds.py": ("teach_imagelab", "teach_pages"),
     "app/laboratory/light.py": ("teach_imagelab",),
     "app/laboratory/memory.py": ("teach_imagelab", "teach_pages"),
     "app/laboratory/pages.py": ("teach_pages",),
@@ -80,17 +85,17 @@ MODULES: dict[str, tuple[str, ...]] = {
     "app/lecture/model.py": ("teach_lecture",),
     "app/lecture/options.py": ("teach_lecture", "bounds"),
     "app/lecture/places.py": ("teach_lecture",),
-    "app/explaining/plain.py": ("teach_lecture", "teach_flow"),
+    "app/explaining/plain.py": ("plain",),
     "app/lecture/reading.py": ("teach_lecture",),
     "app/lecture/text.py": ("teach_lecture",),
     "app/stepper/loop_parts.py": ("teach_stepper",),
     "app/stepper/loops.py": ("teach_stepper", "teach_rasterization"),
     "app/stepper/raster_parts.py": ("teach_rasterization",),
-    "app/explaining/notation.py": ("teach_probe",),
+    "app/explaining/notation.py": ("notation",),
     "app/probe/model.py": ("teach_probe",),
-    "app/explaining/projected.py": ("teach_probe",),
+    "app/explaining/projected.py": ("projected",),
     "app/stepper/recording.py": ("teach_stepper", "teach_runs"),
-    "app/explaining/shading.py": ("teach_probe",),
+    "app/explaining/shading.py": ("shading",),
     "app/stepper/model.py": ("teach_stepper",),
 }
 
@@ -112,7 +117,7 @@ def main(argv: Sequence[str]) -> int:
     parser.add_argument("--sample", type=int, default=SAMPLE, help="of each module; 0: all")
     parser.add_argument("--seed", type=int, default=0)
     parser.add_argument("--minutes", type=float, help="no further module after that long")
-    parser.add_argument("--line", type=int, help="only the mutants of this line")
+    parser.add_argument("--line", type=int, action="append", help="only its mutants; repeatable")
     parser.add_argument("--once", action="store_true", help="survivors are not tried again afresh")
     arguments = parser.parse_args(argv)
     if not hasattr(os, "fork"):
@@ -131,7 +136,7 @@ def main(argv: Sequence[str]) -> int:
             break
         chosen = mutants(ROOT, module)
         if arguments.line:
-            chosen = [mutant for mutant in chosen if mutant.line == arguments.line]
+            chosen = [mutant for mutant in chosen if mutant.line in arguments.line]
         if 0 < arguments.sample < len(chosen):
             rng = random.Random(f"{arguments.seed} {module}")
             chosen = [chosen[k] for k in sorted(rng.sample(range(len(chosen)), arguments.sample))]
