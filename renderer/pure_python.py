@@ -33,7 +33,7 @@ _HOME = {
 def __getattr__(name: str) -> Callable[..., Any]:
     if name not in _HOME:
         raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
-    module = import_module(f"renderer.trace.{_HOME[name]}")
+    module = import_module(f"renderer.trace.scalar.{_HOME[name]}")
     function = _plain(getattr(module, name))
     globals()[name] = function  # found without this from now on
     return function
