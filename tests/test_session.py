@@ -58,7 +58,11 @@ def state(scene):
 
 
 ARRANGEMENT = Arrangement(
-    "Compare", ("Camera", "Raster"), "[Window][Camera]\nPos=0,24\n", {"Camera": ("Look at",)}
+    "Compare",
+    ("Camera", "Raster"),
+    "[Window][Camera]\nPos=0,24\n",
+    {"Camera": ("Look at",)},
+    parts={"Lecture/RightSpace": 0.36},
 )
 
 

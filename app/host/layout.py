@@ -26,6 +26,7 @@ CAMERA_WIDTH_EM = 19.5
 PRESENTATION = "Presentation"  # what presentation mode shows
 LECTURE = "Lecture"  # what a lecture shows, each step in its own way
 ARRANGING_FRAMES = 3  # until the dock spaces of a layout are there again
+RESTORING_FRAMES = 5  # at a start, until the layout of the session is there
 ROUNDED_PX = 1.5  # that ImGui gives a dock space more or less than was asked for
 LEAST_ROOM_PX = 200.0  # for both images; in less, ImGui's smallest sizes decide
 
@@ -236,9 +237,10 @@ class _Share:
     """A space's part of what it was split off from. room: of that, when the part was last kept;
     size: that it was given then, which ImGui rounds: a part that was taken from rounded sizes
     would creep with each change; settling: frames until the new sizes are there; again: frames in
-    which they are made anew."""
+    which they are made anew. known: whether the part is a session's, not the layout's."""
 
     part: float = 0.5
+    known: bool = False
     room: float = 0.0
     size: float = 0.0
     settling: int = 0
@@ -247,11 +249,11 @@ class _Share:
     def keep(self, node: imgui.internal.DockNode, parent: imgui.internal.DockNode, x: bool) -> None:
         size, room = (node.size.x, parent.size.x) if x else (node.size.y, parent.size.y)
         kept = (node.size_ref.x, parent.size_ref.x) if x else (node.size_ref.y, parent.size_ref.y)
-        if not self.room and 0 < kept[0] < kept[1]:
-            self.part = kept[0] / kept[1]  # as saved, or the layout's
+        if not self.room and not self.known and 0 < kept[0] < kept[1]:
+            self.part = kept[0] / kept[1]  # the layout's, or about what ImGui has saved
         if room != self.room or self.again:
             self.again = max(0, self.again - 1)
-            size = max(1.0, self.part * room)
+            size = max(1.0, float(round(self.part * room)))  # ImGui saves whole numbers
             new = (size, node.size.y) if x else (node.size.x, size)
             imgui.internal.dock_builder_set_node_size(node.id_, new)
             self.room, self.size, self.settling = room, size, 2
@@ -275,12 +277,28 @@ class Proportion:
         self._em_px = 0.0
         self._camera = (0.0, 0.0)  # its width when it was last seen; that in em, not rounded
         self._arranged = 0
+        self._restoring = 0  # frames in which sizes that ImGui has saved are overruled
+
+    def parts(self) -> dict[str, float]:
+        """The spaces' shares, for a session. ImGui keeps sizes in whole pixels, of a room that may
+        be another one at the next start."""
+        return {"/".join(key): share.part for key, share in self._shares.items() if share.room}
+
+    def restore(self, parts: dict[str, float]) -> None:
+        """Takes a session's shares, before the first frame; what is no share is left out."""
+        for layout in LAYOUTS:
+            for _, space, _, _ in layout.splits:
+                part = parts.get(f"{layout.name}/{space}", 0.0)
+                if 0.0 < part < 1.0:
+                    self._shares[layout.name, space] = _Share(part, known=True)
+        self._restoring = RESTORING_FRAMES
 
     def keep(self, arranged: int = 0) -> None:
         """Call once a frame. arranged: another number when arrange() has been called since."""
         layout = current()
-        anew = arranged != self._arranged or layout.name != self._layout
+        anew = arranged != self._arranged or layout.name != self._layout or self._restoring > 0
         self._arranged, self._layout = arranged, layout.name
+        self._restoring = max(0, self._restoring - 1)
         if not imgui.is_mouse_down(imgui.MouseButton_.left):
             self._widen_camera()
         for whole, space, direction, _ in layout.splits:

@@ -9,13 +9,54 @@ from imgui_bundle import ImVec2, imgui
 
 from app.lecture.exercises import ChoiceExercise, Exercise, RayExercise, VectorExercise
 from app.lecture.session import Answers
-from app.lecture.slide import Slides
-from app.lecture.text import parse
+from app.lecture.slide import Sizes, Slides
+from app.lecture.text import Block, parse
 from app.widgets import theme
 from app.widgets.lettering import lettering
 from app.widgets.theme import Fonts
 
 LETTERS = "ABCDEFGH"
+SMALLER = 0.95  # each size of type that is tried is that part of the one before
+
+
+def fitting_px(
+    task: Exercise,
+    blocks: tuple[Block, ...],
+    slides: Slides,
+    room: tuple[float, float],
+    sizes: Sizes,
+) -> float:
+    """The size of type at which an exercise, the text above it and whatever is said to an answer
+    have room, (width, height): nothing moves once the class has read. Larger where that was asked
+    for. The solution may need more, and is scrolled to."""
+    size = max(sizes.exercise, sizes.text[1])
+    while size > sizes.exercise and _height(task, blocks, slides, room[0], size) > room[1]:
+        size = max(sizes.exercise, SMALLER * size)
+    return min(size * sizes.enlarged, sizes.most)
+
+
+def _height(
+    task: Exercise, blocks: tuple[Block, ...], slides: Slides, width: float, size: float
+) -> float:
+    """Of all that is drawn before the solution, with the longest reply."""
+    style = imgui.get_style()
+    gap, frame = style.item_spacing.y, size + 2 * style.frame_padding.y
+    height = slides.height(blocks, width, size) + 0.5 * size + 2 * gap if blocks else 0.0
+    height += slides.height(parse(task.question), width, size) + 0.4 * size + 2 * gap
+    if isinstance(task, ChoiceExercise):
+        pad, letter = _option_px(size)
+        for option in task.options:
+            inner = width - letter - pad
+            height += slides.height(parse(option.text), inner, size) + 2 * pad + gap
+    else:
+        height += len(task.fields) * (frame + gap)
+    replies = [slides.height(parse(text), width, size) for text in task.replies]
+    return height + 0.2 * size + frame + 0.3 * size + 4 * gap + max(replies, default=0.0)
+
+
+def _option_px(size: float) -> tuple[float, float]:
+    """An option's margin, and the width of its letter with the margin before it."""
+    return 0.45 * size, 1.9 * size
 
 
 def exercise(
@@ -75,7 +116,7 @@ def _choice(task: ChoiceExercise, answers: Answers, slides: Slides, size: float)
     for number, option in enumerate(task.options):
         chosen = answers.chosen == number
         width = imgui.get_content_region_avail().x
-        pad, letter = 0.45 * size, 1.9 * size
+        pad, letter = _option_px(size)
         blocks = parse(option.text)
         height = slides.height(blocks, width - letter - pad, size) + 2 * pad
         corner = imgui.get_cursor_screen_pos()

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
@@ -22,6 +23,7 @@ from renderer.pixels import Indexing
 Floats = NDArray[np.float64]
 
 TOLERANCE = 2e-3  # an answer may be rounded to three digits
+NOT_NORMALISED = "The direction is right, its length is not: do not normalise it."
 
 
 @dataclass(frozen=True)
@@ -91,6 +93,12 @@ class RayExercise:
             f"origin `{vector_text(ray.origin)}`, direction `{vector_text(ray.direction)}`"
         )
 
+    @cached_property
+    def replies(self) -> tuple[str, ...]:
+        """What may be said to an answer, but for one that is no vector."""
+        said = mistakes(self.camera, *self.pixel, self.size, self.indexing)
+        return NOT_NORMALISED, *(mistake.hint for mistake in said)
+
     def _one_part(self, given: dict[str, Floats], wrong_origin: bool) -> Verdict:
         """No classic mistake as a whole: the first wrong part, and its own mistake if it is one."""
         for mistake in mistakes(self.camera, *self.pixel, self.size, self.indexing):
@@ -103,8 +111,7 @@ class RayExercise:
             return Verdict(False, f"Not yet: the ray begins {where}.", "origin")
         ray = self.camera.ray(*self.pixel, self.size)
         if _is_multiple(given["direction"], ray.direction, self.tolerance):
-            text = "The direction is right, its length is not: do not normalise it."
-            return Verdict(False, text, "direction")
+            return Verdict(False, NOT_NORMALISED, "direction")
         if _is_multiple(-given["direction"], ray.direction, self.tolerance):
             return Verdict(
                 False, "That points backwards: t > 0 must lead into the scene.", "direction"
@@ -128,6 +135,10 @@ class Wanted:
     value: tuple[float, float, float]
     scaled: bool = False
     wrong: tuple[tuple[tuple[float, float, float], str], ...] = ()
+
+
+def _wrong_length(wanted: Wanted) -> str:
+    return f"The direction of {escaped(wanted.name)} is right, its length is not."
 
 
 @dataclass(frozen=True)
@@ -157,13 +168,19 @@ class VectorExercise:
                     return Verdict(False, text, wanted.name)
             name = escaped(wanted.name)
             if _is_multiple(value, exact, self.tolerance):
-                text = f"The direction of {name} is right, its length is not."
+                text = _wrong_length(wanted)
             elif _is_multiple(-value, exact, self.tolerance):
                 text = f"{name} points the other way."
             else:
                 text = f"Not yet: {name} is not right."
             return Verdict(False, text, wanted.name)
         return Verdict(True, "Right.")
+
+    @cached_property
+    def replies(self) -> tuple[str, ...]:
+        """What may be said to an answer, but for one that is no vector."""
+        said = tuple(text for wanted in self.wanted for _, text in wanted.wrong)
+        return said + tuple(_wrong_length(wanted) for wanted in self.wanted)
 
     def solution(self) -> str:
         return "\n\n".join(
@@ -192,6 +209,11 @@ class ChoiceExercise:
         """The verdict on an option, by its number from 0."""
         option = self.options[chosen]
         return Verdict(option.right, option.feedback)
+
+    @cached_property
+    def replies(self) -> tuple[str, ...]:
+        """What may be said to an answer."""
+        return tuple(option.feedback for option in self.options)
 
     def solution(self) -> str:
         right = next(option for option in self.options if option.right)

@@ -22,7 +22,7 @@ ASCENT = 0.78  # of the line's height, in all our fonts
 LABEL = 0.028
 TITLE = 0.07
 LARGEST, SMALLEST = 0.052, 0.024  # of the text: as large as it has room
-EXERCISE = 0.031  # of an exercise's: what is said to an answer must have room, and nothing jumps
+EXERCISE = 0.031  # of an exercise's, at least: larger where what is said to an answer has room
 LEAST_PX = 13.0
 SCROLLED_PX = 1_000_000  # as high as a text may be that is scrolled
 SHORTEST_LINE, SHORTEST_ENLARGED = 20, 13  # letters a line: more are never too few to read
@@ -54,7 +54,7 @@ def sizes_of(width: float, height: float, scale: float, dpi: float) -> Sizes:
         label=part(LABEL),
         title=part(TITLE),
         text=(part(SMALLEST), max(part(SMALLEST), min(part(LARGEST), widest))),
-        exercise=min(part(EXERCISE) * scale, most),
+        exercise=min(part(EXERCISE), most),
         enlarged=scale,
         most=most,
     )
@@ -66,6 +66,7 @@ class Slides:
     def __init__(self, fonts: Fonts) -> None:
         self._fonts = fonts
         self._lay = functools.lru_cache(64)(self._laid)
+        self._height = functools.lru_cache(1024)(self._height_of)
 
     def text(
         self,
@@ -101,7 +102,13 @@ class Slides:
 
     def height(self, blocks: tuple[Block, ...], width: float, size_px: float) -> float:
         """What a text of that size would take."""
-        return lay(blocks, max(width, 40.0), size_px, self._measure).height
+        look = (framebuffer_scale(), theme.TEXT.x)
+        return self._height(blocks, max(width, 40.0), size_px, look)
+
+    def _height_of(
+        self, blocks: tuple[Block, ...], width: float, size_px: float, look: tuple[float, ...]
+    ) -> float:
+        return lay(blocks, width, size_px, self._measure).height
 
     def _laid(
         self,

@@ -19,7 +19,7 @@ from imgui_bundle import ImVec2, imgui
 from app.explaining.languages import LANGUAGES
 from app.host import layout
 from app.host.view import Host, View
-from app.lecture.exercise import exercise
+from app.lecture.exercise import exercise, fitting_px
 from app.lecture.model import Lecture, Step
 from app.lecture.options import OWN
 from app.lecture.reading import BUILTIN, load_lecture
@@ -298,7 +298,7 @@ class LectureView(View):
             size = slides.fitting_px(blocks, (room.x, height), sizes)
             slides.text(blocks, (width, height), (size, size))
             return
-        size = sizes.exercise
+        size = fitting_px(step.exercise, blocks, slides, (width, height), sizes)
         least = min(sizes.text[0], size)
         if blocks:
             slides.text(blocks, (width, 0.4 * height), (least, size))

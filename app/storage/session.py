@@ -32,7 +32,8 @@ class Arrangement:
     """Where the windows inside the window are. layout: its name. visible: the names of the views
     that are shown. windows: places and docks, as ImGui writes them. sections: which parts of a view
     are folded open, by the view's name, where the user has chosen. maximised: the name of the view
-    that covers all others, focused: of the one that has the keyboard, or ""."""
+    that covers all others, focused: of the one that has the keyboard, or "". parts: what docks take
+    of the room that they share, by layout and space."""
 
     layout: str = ""
     visible: tuple[str, ...] = ()
@@ -40,6 +41,7 @@ class Arrangement:
     sections: dict[str, tuple[str, ...]] = field(default_factory=dict)
     maximised: str = ""
     focused: str = ""
+    parts: dict[str, float] = field(default_factory=dict)
 
 
 @dataclass(frozen=True)

@@ -21,7 +21,6 @@ from app.cameras.presets import framed
 from app.cameras.travel import Traveller
 from app.compare.view import CompareView
 from app.costs.view import CostsView
-from app.host import layout
 from app.host.action import AView
 from app.host.fly import Fly
 from app.host.view import View
@@ -93,7 +92,6 @@ class MainWindow:
         self.views = {view.name: view for view in make_views()}
         wake = hello_imgui.request_refresh
         self.shell = Shell(list(self.views.values()), self.files, self.fonts, wake, keeper)
-        self._proportion = layout.Proportion()
         self._hovered: tuple[str, Pixel] | None = None
         self._next_hovered: tuple[str, Pixel] | None = None
         self._titled = state.scene
@@ -269,7 +267,7 @@ class MainWindow:
             self._take_opened(opened)
         moving = active or self.traveller.under_way or self._fly.under_way
         self.renderers.update(self.state, moving)
-        self._proportion.keep(self.lecture.arrangements)
+        self.shell.proportion.keep(self.lecture.arrangements)
         self.shell.frame(self, self)
         if not self.lecture.is_given:
             self.shell.stage.begin_afresh()

@@ -6,11 +6,13 @@ Owns these, and what Escape means. Knows nothing of what views show, nor of how 
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import replace
 from pathlib import Path
 
 from imgui_bundle import hello_imgui, imgui
 
 from app import __version__
+from app.host import layout
 from app.host.action import Window
 from app.host.stage import Stage
 from app.host.view import Host, View
@@ -51,6 +53,7 @@ class Shell:
         keeper: Keeper | None = None,
     ) -> None:
         self.stage: Stage = Stage(views)
+        self.proportion = layout.Proportion()
         self.palette: Palette = Palette()
         self.toasts = Toasts()
         self.captures = Captures(wake)
@@ -165,7 +168,8 @@ class Shell:
 
     def _session(self, window: Window) -> Session:
         state = window.state
-        return session_of(state, self.stage.arrangement(), window.view(LectureView).kept(state))
+        arrangement = replace(self.stage.arrangement(), parts=self.proportion.parts())
+        return session_of(state, arrangement, window.view(LectureView).kept(state))
 
     def _messages(self, window: Window) -> None:
         """One message at a time: what was asked for first, then what failed by itself."""

@@ -153,6 +153,7 @@ class Run:
         if start.session is not None:
             presenting = start.state.preferences.presentation
             self.window.shell.stage.restore(start.session.arrangement, presenting)
+            self.window.shell.proportion.restore(start.session.arrangement.parts)
         if start.lecture is not None:
             self.window.lecture.resume(start.lecture)
         elif start.session is not None and start.session.lecture is not None:

@@ -6,9 +6,11 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from typing import Any
 
+from imgui_bundle import imgui
 from window_driver import Driver
 
 from app.lecture import slide
+from app.lecture.exercises import Verdict
 from app.lecture.reading import BUILTIN, load_lecture
 from app.lecture.view import LECTURE
 from app.stepper import panel
@@ -80,6 +82,44 @@ def drive_code_and_text_grow_with_the_type(d: Driver) -> None:
                 text_px.append(sizes[-1])
             assert text_px == sorted(text_px) and text_px[-1] > 1.2 * text_px[0], text_px
             enlarge(d, 1.0)
+    d.window.lecture.leave(d.window)
+    d.settle()
+
+
+def drive_exercises_fill_their_column(d: Driver) -> None:
+    """As large as the longest reply leaves room for: nothing moves when it is said."""
+    d.window.lecture.give(load_lecture(BUILTIN), BUILTIN)
+    d.settle()
+    session = d.window.lecture.session
+    assert session is not None
+    sizes: list[float] = []
+    least, larger = slide.EXERCISE * imgui.get_io().display_size.y, 0
+    text = slide.Slides.text
+
+    def told(self: slide.Slides, blocks: Any, *arguments: Any) -> float:
+        sizes.append(text(self, blocks, *arguments))
+        return sizes[-1]
+
+    slide.Slides.text = told  # type: ignore[method-assign]
+    try:
+        for number, step in enumerate(session.lecture.steps):
+            task = step.exercise
+            if task is None:
+                continue
+            d.window.lecture.go(d.window, number)
+            d.settle()
+            column = d.ctx.window_info(f"//{LECTURE}/step").window
+            assert column is not None
+            asked = sizes[-1]
+            session.answers.verdict = Verdict(False, max(task.replies, key=len))
+            d.settle()
+            assert sizes[-1] == asked, step.title  # nothing moves
+            assert column.scroll_max.y == 0 or asked == least, step.title
+            larger += asked > 1.05 * least
+            session.answers.verdict = None
+    finally:
+        slide.Slides.text = text  # type: ignore[method-assign]
+    assert larger >= 3
     d.window.lecture.leave(d.window)
     d.settle()
 
