@@ -163,7 +163,7 @@ def test_the_folder_beside_the_package_is_judged_too(
     (mine / "trace").mkdir()
     (mine / "trace").chmod(0o777)
     monkeypatch.delenv("NUMBA_CACHE_DIR", raising=False)
-    monkeypatch.setattr(compiled, "__file__", str(mine / "trace" / "compiled.py"))
+    monkeypatch.setattr(compiled, "_TRACE", mine / "trace")
     (mine / "file").write_text("")
     monkeypatch.setattr(
         compiled.platformdirs, "user_cache_dir", lambda *_, **__: str(mine / "file" / "below")
