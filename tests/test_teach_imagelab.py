@@ -115,10 +115,35 @@ class TestStorage:
         bits = 1 if stored.array.dtype == bool else 8 * stored.array.dtype.itemsize
         assert bits * stored.array.size == kind.bits * 37 * 23
         assert stored.size == (37, 23)
+        assert stored.storage_bytes == kind.storage_bytes((37, 23)) > 0
 
     def test_half_saturates_instead_of_overflowing(self):
-        wild = np.array([[[1e9, np.inf, np.nan]]], np.float32)
-        assert store(wild, kinds.HALF).array.tolist() == [[[65504.0, 65504.0, 0.0]]]
+        wild = np.array([[[1e9, np.inf, np.nan], [-1e9, -np.inf, 0.5]]], np.float32)
+        assert store(wild, kinds.HALF).array.tolist() == [
+            [[65504.0, 65504.0, 0.0], [-65504.0, -65504.0, 0.5]]
+        ]
+
+    @pytest.mark.parametrize("method", bitmaps.METHODS)
+    def test_bits_of_light_that_no_display_shows(self, method):
+        """White beyond 1, black below 0 and where there is no number; and nothing is spread."""
+        wild = np.repeat(np.array([[np.inf, np.nan, -np.inf, 0.0, 1e30, -5.0]])[..., None], 3, 2)
+        stored = store(wild, kinds.BITMAP, 9.0, method)
+        assert stored.array.tolist() == [[True, False, False, False, True, False]]
+
+    def test_bits_of_a_picture_that_was_exposed(self):
+        """At two stops, what has a quarter of the threshold's light is white."""
+        light = bitmaps.THRESHOLD * np.array([[[0.26] * 3, [0.24] * 3]])
+        assert store(light, kinds.BITMAP, 2.0).array.tolist() == [[True, False]]
+        assert store(4 * light, kinds.BITMAP).array.tolist() == [[True, False]]
+        half = to_srgb8(0.5)
+        assert shown(store(4 * light, kinds.BITMAP), -1.0).tolist() == [[[half] * 3, [0] * 3]]
+        assert shown(store(4 * light, kinds.BITMAP)).tolist() == [[[255] * 3, [0] * 3]]
+
+    def test_what_is_lost_where_a_channel_is_above_1(self):
+        color = [[[1.0, 1.0, 1.0], [0.0, 0.4, 1.01]], [[0.6, 0.0, 0.0], [0.5, 0.5, 0.5]]]
+        assert clipped(color).tolist() == [[False, True], [False, False]]
+        assert clipped(color, 1.0).tolist() == [[True, True], [True, False]]
+        assert clipped([[[0.4, 0.0, 0.0]]], 1.0).tolist() == [[False]]
 
 
 class TestExposureAfterStorage:
