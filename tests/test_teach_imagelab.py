@@ -70,7 +70,24 @@ class TestBitmaps:
         bits = bitmaps.METHODS[method](np.full((64, 64), value))
         assert bits.mean() == pytest.approx(value, abs=0.01)
 
+    def test_where_a_value_is_exactly_a_threshold(self):
+        assert bitmaps.threshold([[0.5, 0.49]], 0.5).tolist() == [[True, False]]
+        assert not bitmaps.ordered(np.full((8, 8), 0.5 / 64)).any()
+        assert bitmaps.ordered(np.full((8, 8), 0.51 / 64)).sum() == 1
+        assert bitmaps.floyd_steinberg([[0.5]]).tolist() == [[True]]
+
+    def test_what_is_brighter_than_white_spreads_no_light(self):
+        assert bitmaps.floyd_steinberg([[9.0, 0.4]]).tolist() == [[True, False]]
+        assert bitmaps.floyd_steinberg([[-9.0, 0.6]]).tolist() == [[False, True]]
+
+    @pytest.mark.parametrize("shape", [(0, 5), (5, 0), (0, 0)])
+    @pytest.mark.parametrize("method", bitmaps.METHODS)
+    def test_an_image_without_pixels_has_no_bits(self, method, shape):
+        bits = bitmaps.METHODS[method](np.zeros(shape))
+        assert (bits.shape, bits.dtype) == (shape, np.bool_)
+
     def test_bayers_matrix(self):
+        assert not bitmaps.BAYER_8.flags.writeable
         np.testing.assert_array_equal(bitmaps.bayer(1), [[0, 2], [3, 1]])
         np.testing.assert_array_equal(
             bitmaps.bayer(2), [[0, 8, 2, 10], [12, 4, 14, 6], [3, 11, 1, 9], [15, 7, 13, 5]]
