@@ -16,7 +16,7 @@ from app.laboratory.stored import clipped, levels, shown, store
 from renderer.errors import LucidaError
 from renderer.frame import Frame
 from renderer.images import gray_picture, to_srgb8
-from renderer.images.display import luminance
+from renderer.images.display import from_srgb, luminance
 from renderer.scene.reading import size_text
 
 
@@ -71,6 +71,8 @@ class TestBitmaps:
         assert bits.mean() == pytest.approx(value, abs=0.01)
 
     def test_where_a_value_is_exactly_a_threshold(self):
+        darkest, dark = from_srgb(np.array([128, 127], np.uint8))
+        assert bitmaps.threshold([[darkest, dark]]).tolist() == [[True, False]]
         assert bitmaps.threshold([[0.5, 0.49]], 0.5).tolist() == [[True, False]]
         assert not bitmaps.ordered(np.full((8, 8), 0.5 / 64)).any()
         assert bitmaps.ordered(np.full((8, 8), 0.51 / 64)).sum() == 1
