@@ -62,7 +62,7 @@ def _from_toml(text: str) -> View:
     """A view file, or a scene file's camera."""
     tables = parse_toml(text)
     camera = tables.get("camera")
-    if isinstance(camera, dict) and not tables.keys() <= {"lucida", "camera"}:
+    if isinstance(camera, dict) and len(tables) > 1:  # there is more of a scene
         return view_from_table(camera)
     return view_from_toml(text)
 
