@@ -195,9 +195,48 @@ def test_near_relatives_are_read(text: str, camera: Camera) -> None:
 
 
 @pytest.mark.parametrize(
+    ("camera", "view"),
+    [
+        ("eye = [0, 0, 5]", View(Camera((0, 0, 5)), fit=True)),
+        (
+            "eye = [0, 0, 5]\nviewport = [-1, 1, -1, 1]",
+            View(Camera((0, 0, 5), viewport=(-1, 1, -1, 1))),
+        ),
+        (
+            "eye = [0, 0, 5]\ntarget = [0, 0, 0]",
+            View(Camera.look_at((0, 0, 5), (0, 0, 0)), fit=True),
+        ),
+    ],
+)
+def test_of_a_whole_scene_file_the_camera_is_read(camera: str, view: View) -> None:
+    """As the scene has it; a view file's viewport stands as it is."""
+    ball = '[[objects]]\nshape = "sphere"\ncenter = [0, 0, 0]\nradius = 1\n'
+    assert read_view(f"lucida = 1\n[camera]\n{camera}\n{ball}", NOW) == view
+    alone = read_view(f"lucida = 1\n[camera]\n{camera}\n", NOW)
+    assert alone == replace(view, fit="target" in camera)
+
+
+@pytest.mark.parametrize(
+    ("text", "fit"),
+    [
+        ("View(Camera(), fit=True)", True),
+        ("View(Camera(), fit=False)", False),
+        ("View(Camera(), wide=True)", False),
+        ("View(Camera(), fit=wide)", False),
+        ("renderer.View(Camera(), fit=1)", True),
+        ("Picture(Camera(), fit=True)", False),
+    ],
+)
+def test_a_view_in_python_is_fitted_where_it_says_so(text: str, fit: bool) -> None:
+    assert read_view(text, NOW) == View(Camera(), fit)
+
+
+@pytest.mark.parametrize(
     ("text", "told"),
     [
         ("", "holds no camera"),
+        ("clip_from_camera = " + "1 " * 16, "camera_from_world: is missing"),
+        ("# [camera]\neye = 3", "eye: is unknown"),
         ("dear all,", "holds no camera"),
         ("x" * (MOST_CHARACTERS + 1), "long text"),
         ("[camera]\neye = [0, 0]", "camera.eye"),

@@ -39,7 +39,7 @@ def test_points_are_seen_where_the_camera_projects_them(camera):
 
 
 def test_clipping_loses_vast_triangles_only_right_before_the_eye():
-    floor = np.array([(-4e6, 0, 4e6), (4e6, 0, 4e6), (0, 0, -5e6)])
+    floor = np.array([(0, 0, -5e6), (-4e6, 0, 4e6), (4e6, 0, 4e6)])
     flat = flatten(Scene((SceneObject(Mesh(floor, [[0, 1, 2]])),)))
     half = 1e-5
     camera = Camera.look_at((1, 1.5, 2), (1, 0, 1), (0, 1, 0))

@@ -16,7 +16,7 @@ from app.laboratory.stored import clipped, levels, shown, store
 from renderer.errors import LucidaError
 from renderer.frame import Frame
 from renderer.images import gray_picture, to_srgb8
-from renderer.images.display import luminance
+from renderer.images.display import from_srgb, luminance
 from renderer.scene.reading import size_text
 
 
@@ -70,7 +70,26 @@ class TestBitmaps:
         bits = bitmaps.METHODS[method](np.full((64, 64), value))
         assert bits.mean() == pytest.approx(value, abs=0.01)
 
+    def test_where_a_value_is_exactly_a_threshold(self):
+        darkest, dark = from_srgb(np.array([128, 127], np.uint8))
+        assert bitmaps.threshold([[darkest, dark]]).tolist() == [[True, False]]
+        assert bitmaps.threshold([[0.5, 0.49]], 0.5).tolist() == [[True, False]]
+        assert not bitmaps.ordered(np.full((8, 8), 0.5 / 64)).any()
+        assert bitmaps.ordered(np.full((8, 8), 0.51 / 64)).sum() == 1
+        assert bitmaps.floyd_steinberg([[0.5]]).tolist() == [[True]]
+
+    def test_what_is_brighter_than_white_spreads_no_light(self):
+        assert bitmaps.floyd_steinberg([[9.0, 0.4]]).tolist() == [[True, False]]
+        assert bitmaps.floyd_steinberg([[-9.0, 0.6]]).tolist() == [[False, True]]
+
+    @pytest.mark.parametrize("shape", [(0, 5), (5, 0), (0, 0)])
+    @pytest.mark.parametrize("method", bitmaps.METHODS)
+    def test_an_image_without_pixels_has_no_bits(self, method, shape):
+        bits = bitmaps.METHODS[method](np.zeros(shape))
+        assert (bits.shape, bits.dtype) == (shape, np.bool_)
+
     def test_bayers_matrix(self):
+        assert not bitmaps.BAYER_8.flags.writeable
         np.testing.assert_array_equal(bitmaps.bayer(1), [[0, 2], [3, 1]])
         np.testing.assert_array_equal(
             bitmaps.bayer(2), [[0, 8, 2, 10], [12, 4, 14, 6], [3, 11, 1, 9], [15, 7, 13, 5]]
@@ -115,10 +134,35 @@ class TestStorage:
         bits = 1 if stored.array.dtype == bool else 8 * stored.array.dtype.itemsize
         assert bits * stored.array.size == kind.bits * 37 * 23
         assert stored.size == (37, 23)
+        assert stored.storage_bytes == kind.storage_bytes((37, 23)) > 0
 
     def test_half_saturates_instead_of_overflowing(self):
-        wild = np.array([[[1e9, np.inf, np.nan]]], np.float32)
-        assert store(wild, kinds.HALF).array.tolist() == [[[65504.0, 65504.0, 0.0]]]
+        wild = np.array([[[1e9, np.inf, np.nan], [-1e9, -np.inf, 0.5]]], np.float32)
+        assert store(wild, kinds.HALF).array.tolist() == [
+            [[65504.0, 65504.0, 0.0], [-65504.0, -65504.0, 0.5]]
+        ]
+
+    @pytest.mark.parametrize("method", bitmaps.METHODS)
+    def test_bits_of_light_that_no_display_shows(self, method):
+        """White beyond 1, black below 0 and where there is no number; and nothing is spread."""
+        wild = np.repeat(np.array([[np.inf, np.nan, -np.inf, 0.0, 1e30, -5.0]])[..., None], 3, 2)
+        stored = store(wild, kinds.BITMAP, 9.0, method)
+        assert stored.array.tolist() == [[True, False, False, False, True, False]]
+
+    def test_bits_of_a_picture_that_was_exposed(self):
+        """At two stops, what has a quarter of the threshold's light is white."""
+        light = bitmaps.THRESHOLD * np.array([[[0.26] * 3, [0.24] * 3]])
+        assert store(light, kinds.BITMAP, 2.0).array.tolist() == [[True, False]]
+        assert store(4 * light, kinds.BITMAP).array.tolist() == [[True, False]]
+        half = to_srgb8(0.5)
+        assert shown(store(4 * light, kinds.BITMAP), -1.0).tolist() == [[[half] * 3, [0] * 3]]
+        assert shown(store(4 * light, kinds.BITMAP)).tolist() == [[[255] * 3, [0] * 3]]
+
+    def test_what_is_lost_where_a_channel_is_above_1(self):
+        color = [[[1.0, 1.0, 1.0], [0.0, 0.4, 1.01]], [[0.6, 0.0, 0.0], [0.5, 0.5, 0.5]]]
+        assert clipped(color).tolist() == [[False, True], [False, False]]
+        assert clipped(color, 1.0).tolist() == [[True, True], [True, False]]
+        assert clipped([[[0.4, 0.0, 0.0]]], 1.0).tolist() == [[False]]
 
 
 class TestExposureAfterStorage:

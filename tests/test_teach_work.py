@@ -16,6 +16,7 @@ from renderer.errors import LucidaError
 from renderer.scene.flat import flatten
 from renderer.scene.model import Mesh, Scene, SceneObject
 from renderer.scene.positions import world_vertices
+from renderer.trace.jobs import counting
 from renderer.trace.jobs.counting import counting_tree, trace_counts
 
 
@@ -54,6 +55,31 @@ def test_what_lies_beside_the_image_is_set_up_but_not_tested() -> None:
     scene = triangles(beside, half_out, between_centers)
     work = work_of(scene, (8, 8))
     assert (work.set_up, work.tested) == (3, 2 * 8)
+
+
+def test_centres_on_the_box_count() -> None:
+    """From the second column's centre to the fourth's, from the fifth row's to the eighth's."""
+    left, right, top, bottom = -0.3125, -0.0625, -0.0625, -0.4375
+    scene = triangles(((left, bottom, -1), (right, bottom, -1), (left, top, -1)))
+    assert pixels_tested(scene, Camera.canonical(), (8, 8)) == 3 * 4
+
+
+def test_boxes_are_those_of_the_cameras_viewport_and_distance() -> None:
+    """At distance 2 the triangle is seen twice as large, from (1, 1) to (2, 3). The viewport
+    of 6 x 3 pixels goes from 0 to 3 and from -2 to 4: a pixel is 1/2 x 2."""
+    scene = triangles(((0.5, 0.5, -1), (1, 0.5, -1), (0.5, 1.5, -1)))
+    camera = Camera(distance=2.0, viewport=(0.0, 3.0, -2.0, 4.0))
+    assert pixels_tested(scene, camera, (6, 3)) == 2 * 2
+
+
+def test_the_tree_of_a_scene_is_made_once(monkeypatch) -> None:
+    made = []
+    monkeypatch.setattr(counting, "counting_tree", lambda scene: made.append(scene))
+    monkeypatch.setattr(counting, "trace_counts", lambda *_: counting.TraceCounts(1, 2, 3))
+    counter, one, other = Counter(), triangles(LEFT_HALF), triangles(QUARTER)
+    for scene in (one, one, other, other, one):
+        counter.work(scene, Camera.canonical(), (8, 8))
+    assert list(map(id, made)) == [id(one), id(other), id(one)]
 
 
 def test_no_step_without_objects_but_the_rays() -> None:
@@ -95,6 +121,8 @@ def test_a_parallel_camera_counts_as_well() -> None:
 def test_behind_the_eye_is_said() -> None:
     with pytest.raises(LucidaError, match="behind the eye"):
         work_of(triangles(((0, 0, -1), (1, 0, -1), (0, 0, 1))), (8, 8))
+    with pytest.raises(LucidaError, match="behind the eye"):
+        pixels_tested(triangles(((0, 0, -1), (1, 0, -1), (0, 0, 0))), Camera.canonical(), (8, 8))
 
 
 def test_the_same_numbers_everywhere() -> None:

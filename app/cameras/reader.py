@@ -21,7 +21,7 @@ from renderer.errors import LucidaError
 from renderer.scene import view_from_toml
 from renderer.scene.model import View
 from renderer.scene.tables import parse_toml
-from renderer.scene.views import looks_at, view_from_table
+from renderer.scene.views import view_from_table
 
 SOURCE = "clipboard"
 MOST_CHARACTERS = 100_000
@@ -60,9 +60,10 @@ def read_view(text: str, now: View) -> View:
 
 def _from_toml(text: str) -> View:
     """A view file, or a scene file's camera."""
-    table = parse_toml(text).get("camera")
-    if isinstance(table, dict) and looks_at(table):
-        return view_from_table(table)
+    tables = parse_toml(text)
+    camera = tables.get("camera")
+    if isinstance(camera, dict) and len(tables) > 1:  # there is more of a scene
+        return view_from_table(camera)
     return view_from_toml(text)
 
 

@@ -48,7 +48,7 @@ def pixels_tested(scene: Scene, camera: Camera, size: Size) -> int:
         t = -points[:, 2] / camera.distance
         if (t <= 0).any():
             raise LucidaError("scene", "reaches behind the eye", "move the camera back")
-        points = points[:, :2] / t[:, None]
+        points = points / t[:, None]
     left, right, bottom, top = camera.viewport
     total = np.ones(len(flat.faces), np.int64)
     columns = (points[:, 0] - left) / (right - left) * width - 0.5

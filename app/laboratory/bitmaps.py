@@ -46,8 +46,8 @@ def ordered(gray: ArrayLike) -> Bits:
     values = np.asarray(gray)
     height, width = values.shape
     limits = (BAYER_8 + 0.5) / BAYER_8.size
-    tiles = np.tile(limits, (-(-height // 8), -(-width // 8)))
-    return values > tiles[:height, :width]
+    i, j = np.ogrid[:height, :width]
+    return values > limits[i % 8, j % 8]
 
 
 def floyd_steinberg(gray: ArrayLike) -> Bits:
@@ -73,9 +73,7 @@ def floyd_steinberg(gray: ArrayLike) -> Bits:
     for k in range(width + 2 * (height - 1)):
         first = max(0, (k - width + 2) // 2)
         last = min(height - 1, k // 2)
-        if first > last:  # a single column has every second wavefront empty
-            errors[k % 4][:] = 0.0
-            continue
+        # A single column has every second wavefront empty: then first is last + 1.
         here, above = slice(first + 1, last + 2), slice(first, last + 1)
         one, two, three = (errors[(k - back) % 4] for back in (1, 2, 3))
         places = slice(k + first * step, k + last * step + 1, step)

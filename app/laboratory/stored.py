@@ -26,7 +26,7 @@ class Stored:
 
     kind: Kind
     array: NDArray
-    taken_ev: float = 0.0
+    taken_ev: float
 
     @property
     def size(self) -> tuple[int, int]:
@@ -48,16 +48,14 @@ def store(color: ArrayLike, kind: Kind, taken_ev: float = 0.0, method: str = "th
     if kind is BITMAP:
         with np.errstate(over="ignore", invalid="ignore"):
             exposed = luminance(linear) * np.float32(2.0**taken_ev)
-        return Stored(kind, METHODS[method](np.clip(np.nan_to_num(exposed), 0, 1)), taken_ev)
+        return Stored(kind, METHODS[method](exposed), taken_ev)
     if kind is GRAY:
         return Stored(kind, to_srgb8(luminance(linear), taken_ev), taken_ev)
     if not kind.is_float:
         return Stored(kind, to_srgb8(linear, taken_ev), taken_ev)
     if kind.name == "half":
-        finite = np.nan_to_num(linear, nan=0.0, posinf=HALF_LARGEST, neginf=-HALF_LARGEST)
-        return Stored(
-            kind, np.clip(finite, -HALF_LARGEST, HALF_LARGEST).astype(np.float16), taken_ev
-        )
+        finite = np.clip(np.nan_to_num(linear), -HALF_LARGEST, HALF_LARGEST)
+        return Stored(kind, finite.astype(np.float16), taken_ev)
     return Stored(kind, linear.copy(), taken_ev)
 
 
@@ -89,4 +87,4 @@ def clipped(color: ArrayLike, taken_ev: float = 0.0) -> NDArray[np.bool_]:
 def levels(picture: Bytes) -> int:
     """How many different values the fullest channel of a picture (H, W, 3) has, at most 256."""
     planes = (picture[..., channel].reshape(-1) for channel in range(picture.shape[2]))
-    return max(int(np.count_nonzero(np.bincount(plane, minlength=256))) for plane in planes)
+    return max(int(np.count_nonzero(np.bincount(plane))) for plane in planes)
