@@ -150,3 +150,10 @@ def test_no_name_is_not_this_folder(tmp_path, capsys, monkeypatch):
     assert main(["lecture", "--export", ""]) == 2
     assert capsys.readouterr().err.startswith("lucida: --export: names no folder; give one")
     assert not list(tmp_path.iterdir())
+
+
+def test_one_of_a_thing_is_told_as_one(tmp_path, capsys):
+    path = tmp_path / "x.toml"
+    path.write_text('title = "L"\n[[steps]]\ntitle = "A"\n')
+    assert main(["lecture", str(path), "--check"]) == 0
+    assert capsys.readouterr().out.startswith(f"{path}: 1 step, 0 exercises")

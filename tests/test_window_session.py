@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import os
 import signal
 import subprocess
@@ -101,3 +102,17 @@ def test_a_broken_session_is_told_in_the_window_and_kept(tmp_path: Path) -> None
     assert done.stdout.startswith("Side by side|")
     assert (tmp_path / "session-1.broken-1.json").read_bytes() == b"\x00 nothing of use"
     assert from_bytes((tmp_path / "session-1.json").read_bytes()).scene == "still-life"
+
+
+def test_places_that_mean_nothing_leave_the_layout_s_own(tmp_path: Path) -> None:
+    assert window(tmp_path, "close").returncode == 0
+    path = tmp_path / "session-1.json"
+    kept = json.loads(path.read_bytes())
+    kept["arrangement"]["windows"] = "x"
+    path.write_text(json.dumps(kept))
+    done = window(tmp_path, "go on")
+    assert done.returncode == 0, done.stderr
+    windows = from_bytes(path.read_bytes()).arrangement.windows
+    for name in from_bytes(path.read_bytes()).arrangement.visible:
+        section = windows.partition(f"[Window][{name}]")[2].partition("\n\n")[0]
+        assert "DockId=" in section, name

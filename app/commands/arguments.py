@@ -178,5 +178,10 @@ def progress_bar(label: str) -> Iterator[Callable[[float], None]]:
         yield report
 
 
+def counted(*counts: tuple[int, str]) -> str:
+    """`2 objects, 1 light`."""
+    return ", ".join(f"{count} {what}{'s' * (count != 1)}" for count, what in counts)
+
+
 def _is_whole(text: str) -> bool:
     return text.isascii() and text.isdigit() and len(text) < 10

@@ -108,7 +108,8 @@ def _check(lecture: Lecture, name: str) -> int:
         raise mistake
     exercises = sum(step.exercise is not None for step in lecture.steps)
     unseen = "" if formula.available() else "; formulas not checked: no locale en_US.UTF-8 here"
-    print(f"{name}: {len(lecture.steps)} steps, {exercises} exercises{unseen}")
+    told = common.counted((len(lecture.steps), "step"), (exercises, "exercise"))
+    print(f"{name}: {told}{unseen}")
     for file in lecture.outside:
         print(f"  reads {one_line(str(file))}, outside of its folder: the window asks first")
     return 0

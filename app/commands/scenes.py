@@ -43,13 +43,15 @@ def run(arguments: argparse.Namespace) -> int:
 
 def described(scene: Scene) -> list[str]:
     """What is in a scene, and the model files that it names, as lines."""
+    from app.commands.arguments import counted
     from renderer.errors import one_line
     from renderer.scene import Mesh
     from renderer.scene.outside import model_files, outside
 
     triangles = sum(len(e.shape.faces) for e in scene.objects if isinstance(e.shape, Mesh))
-    counts = ((len(scene.objects), "object"), (triangles, "triangle"), (len(scene.lights), "light"))
-    told = ", ".join(f"{count} {what}{'s' * (count != 1)}" for count, what in counts)
+    told = counted(
+        (len(scene.objects), "object"), (triangles, "triangle"), (len(scene.lights), "light")
+    )
     lines = [f"{scene.name}: {told}"]
     for file in model_files(scene):
         assert scene.origin is not None

@@ -22,6 +22,7 @@ from app.widgets.messages import failure_note
 
 Rect = tuple[float, float, float, float]  # left, top, right, bottom, ImGui's pixels
 LAID_OUT = 3  # frames that it takes until every window has its place
+DOCKS = "[Docking]"  # what ImGui's text of places has in it, unless it was damaged
 
 
 class Stage:
@@ -211,7 +212,7 @@ class Stage:
     def before_frame(self) -> None:
         """Between two frames, when ImGui takes settings."""
         waiting = self._restoring
-        if waiting is not None and self._frames == 2 and waiting.windows:
+        if waiting is not None and self._frames == 2 and DOCKS in waiting.windows:
             imgui.load_ini_settings_from_memory(waiting.windows)
 
     # Drawing.

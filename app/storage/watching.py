@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import contextlib
 import hashlib
+import threading
 from collections.abc import Iterator
 from pathlib import Path
 
@@ -25,6 +26,7 @@ class FilesWatch:
     """
 
     def __init__(self, files: Noted) -> None:
+        self._lock = threading.Lock()  # one thread looks, another reads
         self._known: Noted = {}
         self._files: tuple[Path, ...] = ()
         self._seen: tuple[Stamp | None, ...] | None = None
@@ -39,8 +41,9 @@ class FilesWatch:
 
     def follow(self, files: Noted) -> None:
         """Looks at these from now on. What is known of a file stays: it may be newer."""
-        self._files = tuple(files)[:MOST]
-        self._known = {**files, **self._known}
+        with self._lock:
+            self._known = {**files, **self._known}
+            self._files = tuple(files)[:MOST]
         self._seen = None
 
     def changed(self, time_s: float) -> bool:
@@ -48,7 +51,8 @@ class FilesWatch:
         if time_s - self._looked_s < LOOK_S:
             return False
         self._looked_s = time_s
-        files, known = self._files, self._known
+        with self._lock:
+            files, known = self._files, self._known
         now = tuple(stamp(file) or known[file] for file in files)
         if now == tuple(known[file] for file in files):
             self._seen = None
@@ -71,7 +75,8 @@ class FilesWatch:
                 yield
             finally:
                 self.know(noted)
-                self._files = tuple(dict.fromkeys((*noted, *self._files)))[:MOST]
+                with self._lock:
+                    self._files = tuple(dict.fromkeys((*noted, *self._files)))[:MOST]
 
     def take_present(self) -> None:
         """Whatever the files are now is known: this program has written them."""
@@ -79,7 +84,8 @@ class FilesWatch:
 
     def know(self, files: Noted) -> None:
         """What the files were when they were read, or written, just now."""
-        self._known = {**self._known, **files}  # not in place: another thread may be looking
+        with self._lock:
+            self._known = {**self._known, **files}  # not in place: it may be looked through
 
 
 def fingerprint(path: Path) -> str:
