@@ -87,7 +87,8 @@ def test_a_lectures_type_is_that_of_a_slide(window):
     assert usual.exercise * points >= 14
     assert 2 * column / usual.text[1] >= 18  # letters a line
     larger = sizes_of(column, height, 1.5, 1.0)
-    assert larger.exercise > usual.exercise and larger.enlarged == 1.5
+    assert larger.as_asked(larger.exercise) > usual.as_asked(usual.exercise) == usual.exercise
+    assert larger.enlarged == 1.5
     assert (larger.label, larger.title) == (usual.label, usual.title)  # what is read grows
 
 

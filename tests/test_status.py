@@ -69,3 +69,11 @@ def test_nothing_overlaps() -> None:
     assert fitting(lefts, rights, 400) == (3, 2)
     assert fitting(lefts, rights, 10) == (3, 2)
     assert fitting(lefts, [0.0], 460) == (4, 0)
+
+
+def test_a_step_without_the_ray_image_says_nothing_of_the_one_before() -> None:
+    shown = replace(STATUS, brief=True, pixel=(1, 2), seen="sphere, t = 2")
+    hidden = replace(shown, awaited=False)
+    assert agreement_text(shown) != "" and "sphere" in right_texts(shown)[0]
+    assert agreement_text(hidden) == "" and "sphere" not in right_texts(hidden)[0]
+    assert right_texts(hidden)[0] == right_texts(replace(hidden, seen=""))[0]

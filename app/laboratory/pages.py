@@ -96,7 +96,7 @@ def _kinds(
     for kind in KINDS:
         kept = store(color, kind, taken_ev, options.method)
         bits = "1 bit" if kind.bits == 1 else f"{kind.bits} bits"
-        caption = f"{bits} a pixel, {size_text(kept.storage_bytes)}"
+        caption = f"{bits} per pixel, {size_text(kept.storage_bytes)}"
         picture = shown(kept, options.after_ev)
         found.append(_whole(kind.title, caption, picture, plan))
     return tuple(found)

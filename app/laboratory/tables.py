@@ -10,7 +10,7 @@ from imgui_bundle import ImVec2, imgui
 from app.laboratory import disk
 from app.laboratory.kinds import KINDS, LECTURE_SIZE
 from app.widgets import theme
-from app.widgets.lettering import lettering
+from app.widgets.lettering import fitted_text, lettering
 from app.widgets.theme import Fonts
 from renderer.images.display import LUMINANCE
 from renderer.scene.reading import size_text
@@ -72,7 +72,8 @@ def luminance_weights(at: ImVec2, width: float, fonts: Fonts) -> None:
     with lettering(fonts.bold, em):
         draw.add_text(at, theme.u32(theme.TEXT), "From colour to gray")
     y = at.y + 1.15 * em
-    draw.add_text(ImVec2(at.x, y), theme.u32(theme.DIM), "luminance of linear light (Rec. 709)")
+    caption = "luminance of linear light (Rec. 709)"
+    fitted_text(draw, ImVec2(at.x, y), theme.u32(theme.DIM), caption, width)
     y += 2.0 * em
     longest = width - 6.5 * em
     for name, weight, color in zip("RGB", LUMINANCE, BARS, strict=True):

@@ -118,7 +118,7 @@ def _exposure(options: LaboratoryOptions) -> LaboratoryOptions:
 
 
 def _bitmap(options: LaboratoryOptions) -> LaboratoryOptions:
-    imgui.same_line(0, imgui.get_font_size())
+    follow((14 + 4) * imgui.get_font_size())
     methods = list(TITLES)
     moved, number = imgui.combo(
         "bitmap##method", methods.index(options.method), list(TITLES.values())

@@ -32,7 +32,7 @@ def fitting_px(
     size = max(sizes.exercise, sizes.text[1])
     while size > sizes.exercise and _height(task, blocks, slides, room[0], size) > room[1]:
         size = max(sizes.exercise, SMALLER * size)
-    return min(size * sizes.enlarged, sizes.most)
+    return sizes.as_asked(size)
 
 
 def _height(

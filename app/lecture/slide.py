@@ -40,6 +40,10 @@ class Sizes:
     enlarged: float
     most: float
 
+    def as_asked(self, size: float) -> float:
+        """A size that fits, as large as the reader has asked for."""
+        return min(size * self.enlarged, self.most)
+
 
 def sizes_of(width: float, height: float, scale: float, dpi: float) -> Sizes:
     """For a column of that width in a window of that height. scale: of the type, which all that is

@@ -176,22 +176,27 @@ def _axis_color(name: str, light: float) -> ImVec4:
     return ImVec4(base, base, base, 1.0)
 
 
+PRESENTED = 1.3  # of the type, a plain label's in a hall
+
+
 def labels(
     primitives: Iterable[Primitive],
     origin: ImVec2,
     scale: float,
     fonts: theme.Fonts,
     ground: theme.Rgb,
+    presented: bool = False,
 ) -> None:
     """Draws the texts of a diagram. scale: framebuffer pixels in one of ImGui's units. ground: what
-    they stand on."""
+    they stand on. presented: to be read from the last row."""
     draw = imgui.get_window_draw_list()
     shadow = theme.u32(theme.rgb("#07080a", 0.62))
     for part in primitives:
         if not isinstance(part, Text):
             continue
         font = fonts.bold if part.strong else fonts.text
-        size = imgui.get_font_size() * (1.5 if part.strong else 1.0)
+        plain = PRESENTED if presented else 1.0
+        size = imgui.get_font_size() * (1.5 if part.strong else plain)
         imgui.push_font(font, 0.0)
         box = imgui.calc_text_size(part.text)
         ratio = size / imgui.get_font_size()

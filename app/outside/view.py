@@ -194,7 +194,8 @@ class OutsideView(View):
             draw.add_image(imgui.ImTextureRef(texture.glo), origin, far)
         draw.push_clip_rect(origin, far, True)
         assert self._made is not None
-        labels(self._made.primitives, origin, scale, host.fonts, _ground(host.state))
+        presented, ground = host.state.preferences.presentation, _ground(host.state)
+        labels(self._made.primitives, origin, scale, host.fonts, ground, presented)
         self._handles(host, scope)
         self._tools(host, scope)
         draw.pop_clip_rect()

@@ -142,7 +142,7 @@ class ProbeView(View):
             self.histogram = outcome.value
         if not both.is_tracing:
             self.histogram = self._counted = None
-            return "a ray image in sight has one"
+            return "histogram: only while the ray image is shown"
         image = both.ray_image
         key = (image, images.exposure_ev, images.transfer)
         if image is not None and image.factor == 1 and key != self._counted:

@@ -13,6 +13,7 @@ from app.stepper.model import Moment
 from app.stepper.plan import Plan
 from app.widgets import theme
 from app.widgets.lettering import at_most, lettering
+from app.widgets.rows import follow
 from app.widgets.theme import Fonts
 from renderer.pixels import Indexing
 
@@ -83,7 +84,7 @@ def _table(name: str, rows: list[_Row], fonts: Fonts) -> None:
         imgui.text_colored(color, row.text)
         imgui.pop_font()
         if row.note:
-            imgui.same_line()
+            follow(imgui.calc_text_size(row.note).x)
             imgui.text_colored(theme.DIM, row.note)
         imgui.pop_text_wrap_pos()
     imgui.end_table()

@@ -124,6 +124,29 @@ def drive_exercises_fill_their_column(d: Driver) -> None:
     d.settle()
 
 
+def drive_no_word_beside_a_number_is_broken(d: Driver) -> None:
+    d.window.lecture.give(load_lecture(BUILTIN), BUILTIN)
+    d.settle()
+    d.window.lecture.go(d.window, STEPPER_STEPS[0])
+    lines: list[float] = []
+    text_colored = imgui.text_colored
+
+    def told(color: Any, text: str) -> None:
+        text_colored(color, text)
+        if text in ("inside", "outside", "from 0"):
+            lines.append(imgui.get_item_rect_size().y / imgui.get_text_line_height())
+
+    imgui.text_colored = told
+    try:
+        enlarge(d, 2.0)
+        assert lines and max(lines) < 1.5, max(lines)
+    finally:
+        imgui.text_colored = text_colored
+    enlarge(d, 1.0)
+    d.window.lecture.leave(d.window)
+    d.settle()
+
+
 def drive_the_lecture_ends(d: Driver) -> None:
     d.window.lecture.give(load_lecture(BUILTIN), BUILTIN)
     d.settle()

@@ -13,6 +13,7 @@ from app.laboratory import disk, kinds
 from app.laboratory.pages import PAGE_TITLES
 from app.laboratory.stored import shown, store
 from app.laboratory.view import LABORATORY, LaboratoryView
+from app.lecture.reading import BUILTIN, load_lecture
 from renderer.images import to_srgb8
 
 
@@ -266,3 +267,19 @@ def _collected(seen: list[np.ndarray], picture: np.ndarray) -> int:
     if not seen or (picture != seen[-1]).any():
         seen.append(picture)
     return len(seen)
+
+
+def drive_switches_have_room_in_a_narrow_window(d: Driver) -> None:
+    """Beside a lecture's text, in large type: what has no room in the row stands in the next."""
+    d.window.lecture.give(load_lecture(BUILTIN), BUILTIN)
+    d.settle()
+    d.window.lecture.go(d.window, 8)
+    for scale in (1.0, 1.5, 2.0):
+        d.window.change(d.window.state.with_options(preferences={"font_scale": scale}))
+        d.settle()
+        box = d.ctx.item_info(f"//{LABORATORY}/bitmap##method").rect_full
+        window = d.ctx.get_window_by_ref(f"//{LABORATORY}")
+        assert box.max.x <= window.pos.x + window.size.x, scale
+    d.window.change(d.window.state.with_options(preferences={"font_scale": 1.0}))
+    d.window.lecture.leave(d.window)
+    d.settle()
