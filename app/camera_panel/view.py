@@ -6,6 +6,8 @@ to a preset, copying, pasting. The panel itself is camera_panel/panel.py.
 
 from __future__ import annotations
 
+import math
+
 from imgui_bundle import imgui
 
 from app.camera_panel import actions as camera_actions
@@ -14,14 +16,17 @@ from app.camera_panel.projection import Surroundings
 from app.camera_panel.sections import Asked, Sections
 from app.cameras.editing import Draft
 from app.host.view import Host, View
+from app.images.picking import nearest_hit
 from app.state.app_state import AppState
 from app.widgets.lettering import at_most
 from app.widgets.rows import NARROW_EM
 from renderer.camera import Vector
+from renderer.scene.model import Mesh, Scene, SceneObject
 
 CAMERA = "Camera"
 FITTING_EM = NARROW_EM + 0.5  # the width that full labels and numbers need
 LEAST_PX = 13.0  # of type, at 100 %
+MOST_PICKED = 20_000  # triangles; in larger scenes only the ray image says where a ray ends
 
 
 class CameraView(View):
@@ -32,6 +37,7 @@ class CameraView(View):
         self._draft: Draft | None = None
         self._sections = Sections()
         self._dolly: Vector | None = None
+        self._picked: tuple[Scene, object, float] | None = None  # t of what was asked
 
     @property
     def sections(self) -> tuple[str, ...] | None:
@@ -56,7 +62,7 @@ class CameraView(View):
     def _draw(self, host: Host) -> None:
         state = host.state
         if self._dolly is None or not imgui.is_any_item_active():  # while it is dragged, it stays
-            self._dolly = _focus_point(host, state)
+            self._dolly = self._focus_point(host, state)
         shown = host.renderers.camera(state)
         around = Surroundings(host.fonts, shown, host.focus, self._dolly)
         panel = Panel(self._draft or Draft.of(state.camera), self._sections)
@@ -78,13 +84,26 @@ class CameraView(View):
         elif asked.paste:
             camera_actions.paste(host)
 
+    def _focus_point(self, host: Host, state: AppState) -> Vector:
+        """What the dolly zoom keeps: what the marked pixel shows, or the scene's middle."""
+        if state.marked is None:
+            return host.focus.center
+        camera, size = host.renderers.camera(state), host.renderers.size
+        ray = camera.ray(*state.marked, size)
+        if sum(map(_faces, state.scene.objects)) > MOST_PICKED:
+            t = host.renderers.depth_at(state, state.marked) or math.inf
+        else:
+            asked = camera, state.marked, size
+            known = self._picked
+            if known is None or known[0] is not state.scene or known[1] != asked:
+                found, _ = nearest_hit(state.scene, ray.origin, ray.direction)
+                self._picked = known = state.scene, asked, found
+            t = known[2]
+        if math.isinf(t):
+            return host.focus.center
+        x, y, z = (ray.origin + t * ray.direction).tolist()
+        return x, y, z
 
-def _focus_point(host: Host, state: AppState) -> Vector:
-    """What the dolly zoom keeps: the point that the marked pixel shows, or the scene's middle."""
-    if state.marked is not None:
-        parameter = host.renderers.depth_at(state, state.marked)
-        if parameter is not None:
-            ray = host.renderers.camera(state).ray(*state.marked, host.renderers.size)
-            x, y, z = (ray.origin + parameter * ray.direction).tolist()
-            return x, y, z
-    return host.focus.center
+
+def _faces(entry: SceneObject) -> int:
+    return len(entry.shape.faces) if isinstance(entry.shape, Mesh) else 0

@@ -1,4 +1,4 @@
-"""Which object a ray meets first, for one ray at a time.
+"""What a ray meets first, for one ray at a time.
 
 Pure; knows nothing of renderers, whose images answer the same where there is one.
 """
@@ -16,10 +16,13 @@ Floats = NDArray[np.float64]
 
 
 def object_on_ray(scene: Scene, origin: Floats, direction: Floats) -> int | None:
-    """The index of the nearest object on r(t) = origin + t direction, t > 0; None for nothing.
+    """The index of the nearest object on r(t) = origin + t direction, t > 0; None for nothing."""
+    return nearest_hit(scene, origin, direction)[1]
 
-    Both sides of triangles count.
-    """
+
+def nearest_hit(scene: Scene, origin: Floats, direction: Floats) -> tuple[float, int | None]:
+    """The smallest t > 0 at which r(t) = origin + t direction meets an object, and its index;
+    infinity and None for nothing. Both sides of triangles count."""
     nearest, number = math.inf, None
     for k, entry in enumerate(scene.objects):
         shape = entry.shape
@@ -27,7 +30,7 @@ def object_on_ray(scene: Scene, origin: Floats, direction: Floats) -> int | None
         t = meet(shape, origin, direction)  # type: ignore[arg-type]
         if t < nearest:
             nearest, number = t, k
-    return number
+    return nearest, number
 
 
 def _sphere(sphere: Sphere, origin: Floats, direction: Floats) -> float:

@@ -123,6 +123,22 @@ def drive_the_dolly_zoom_keeps_the_size_at_the_focus(d: Driver) -> None:
     assert changed(before[1], d.agreeing_images()[1]) > 0.01
 
 
+def drive_the_focus_is_the_marked_pixel_s_also_without_a_ray_image(d: Driver) -> None:
+    """Or it would depend on what was seen before."""
+    height, width = d.window.renderers.size[::-1]
+    mark = height // 2, width // 2
+    d.window.shell.stage.show("Ray", False)
+    d.settle()
+    d.window.change(d.window.state.with_options(marked=mark))
+    d.type("eye.x", "3.5")
+    d.settle()
+    ray = d.window.renderers.camera(d.window.state).ray(*mark, d.window.renderers.size)
+    away = np.cross(np.subtract(d.window.views["Camera"]._dolly, ray.origin), ray.direction)
+    assert np.linalg.norm(away) < 1e-9
+    d.window.shell.stage.show("Ray")
+    d.settle()
+
+
 def drive_the_viewport_is_shifted(d: Driver) -> None:
     was = d.window.state.camera.viewport
     d.type("shift x", "0.25")
