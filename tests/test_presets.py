@@ -210,6 +210,13 @@ def test_nothing_to_frame_leaves_the_camera() -> None:
     assert framed(Camera(eye=(1, 2, 3)), np.zeros((0, 3))) == Camera(eye=(1, 2, 3))
 
 
+def test_a_point_has_the_least_extent_of_its_distance_from_the_origin() -> None:
+    """1e-9 of 1 + 1e3, within the margin: half the picture's height, a parallel viewport's."""
+    camera = replace(Camera(), projection="parallel", viewport=(-0.5, 0.5, -0.25, 0.25))
+    bottom, top = framed(camera, [(0.0, 1e3, 0.0)]).viewport[2:]
+    assert (top - bottom) / 2 == pytest.approx(1e-9 * 1001 * MARGIN, rel=1e-6)
+
+
 def test_a_floor_is_not_framed_but_a_lone_one_is() -> None:
     ball = SceneObject(Sphere((1, 0, 0), 0.5))
     floor = SceneObject(shapes.rectangle(40.0, 40.0))
@@ -273,6 +280,7 @@ class TestClipAround:
         camera = Camera()
         assert clip_around(camera, [(0, 0, -1), (0, 0, -0.0009)]) == (1.01 / 1000, 1.01)
         assert clip_around(camera, [(0, 0, -1), (0, 0, -0.0011)]) == (0.00108, 1.01)
+        assert clip_around(camera, [(0, 0, -1), (0, 0, -0.0010197)]) == (1.01 / 1000, 1.01)
 
     def test_an_eye_among_things_and_behind_them(self) -> None:
         near, far = clip_around(Camera(eye=(0.5, 0.5, 0.5)), CUBE)

@@ -16,7 +16,6 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from renderer.camera import Camera, Floats, Vector
-from renderer.errors import LucidaError
 from renderer.scene.model import View
 
 MARGIN = 1.1  # of the picture round what it frames
@@ -187,6 +186,4 @@ def _outwards(value: float, rounding: object) -> float:
 
 def _world(camera: Camera, local: Floats) -> Vector:
     x, y, z = (camera.basis @ local).tolist()
-    if not all(map(math.isfinite, (x, y, z))):
-        raise LucidaError("eye", "would be infinitely far", "scale the scene")
     return x, y, z
