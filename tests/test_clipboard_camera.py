@@ -386,3 +386,33 @@ def test_the_copied_python_runs_in_a_program_of_its_own() -> None:
     )
     assert done.returncode == 0, done.stderr
     assert math.isclose(float(done.stdout), scene.view.for_size((32, 18)).fov_y_deg)
+
+
+@pytest.mark.parametrize(
+    ("scale", "off", "is_read"),
+    [(1, 1e-6, True), (1, 1.2e-6, False), (100, 9e-5, True), (100, 2e-4, False)],
+)
+def test_a_matrix_is_affine_to_a_millionth_of_its_largest_number(
+    scale: float, off: float, is_read: bool
+) -> None:
+    text = (
+        f"camera_from_world = {scale} 0 0 {off}  0 {scale} 0 0  0 0 {scale} 0  0 0 0 1\n"
+        "clip_from_camera = 1 0 0 0  0 1 0 0  0 0 -1 0  0 0 0 1"
+    )
+    if is_read:
+        assert read_view(text, NOW).camera.is_parallel
+    else:
+        with pytest.raises(LucidaError, match="not affine"):
+            read_view(text, NOW)
+
+
+def test_of_a_command_line_only_whole_options_of_the_camera_count() -> None:
+    camera = read_view("lucida scene#1.toml --eye 1,2,3 --dist 7", NOW).camera
+    assert camera == replace(NOW.camera, eye=(1.0, 2.0, 3.0))
+
+
+def test_a_text_has_up_to_a_hundred_thousand_characters() -> None:
+    text = "--eye 1,2,3".ljust(MOST_CHARACTERS)
+    assert read_view(text, NOW).camera.eye == (1.0, 2.0, 3.0)
+    with pytest.raises(LucidaError, match="a long text"):
+        read_view(text + " ", NOW)
