@@ -36,7 +36,7 @@ from app.pair.view import RASTER, Linked, RasterView, RayView
 from app.probe.view import ProbeView
 from app.state.app_state import AppState, History
 from app.state.options import Pixel
-from app.stepper.view import STEPPER, StepperView
+from app.stepper.view import StepperView
 from app.storage.session_store import Keeper
 from app.widgets import theme
 from app.widgets.highlight import frame_views
@@ -138,15 +138,7 @@ class MainWindow:
 
     @property
     def lecture(self) -> LectureView:
-        view = self.views[LECTURE]
-        assert isinstance(view, LectureView)
-        return view
-
-    @property
-    def stepper(self) -> StepperView:
-        view = self.views[STEPPER]
-        assert isinstance(view, StepperView)
-        return view
+        return self.view(LectureView)
 
     def hover(self, view: str, pixel: Pixel) -> None:
         self._next_hovered = (view, pixel)
