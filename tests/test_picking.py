@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from app.images.picking import object_on_ray
+from app.images.picking import MOST_OBJECTS, is_quick, object_on_ray
 from renderer import Tracer
 from renderer.scene import BUILTIN_SCENES, Scene, SceneObject, Sphere, load_scene, shapes
 
@@ -38,3 +38,12 @@ def test_what_is_behind_is_not_met_and_inside_counts() -> None:
     assert object_on_ray(scene, np.array([0.0, 0, -2]), toward) == 0
     assert object_on_ray(scene, np.array([0.0, 3, 5]), toward) is None
     assert object_on_ray(Scene(()), away, toward) is None
+
+
+def test_many_objects_or_triangles_are_not_quick() -> None:
+    """Or each frame of a drag would wait for them."""
+    assert all(is_quick(load_scene(name)) for name in BUILTIN_SCENES)
+    ball = SceneObject(Sphere((0, 0, 0), 1.0))
+    assert is_quick(Scene((ball,) * MOST_OBJECTS))
+    assert not is_quick(Scene((ball,) * (MOST_OBJECTS + 1)))
+    assert not is_quick(Scene((SceneObject(shapes.torus(1.0, 0.3, 150, 150)),)))

@@ -16,17 +16,16 @@ from app.camera_panel.projection import Surroundings
 from app.camera_panel.sections import Asked, Sections
 from app.cameras.editing import Draft
 from app.host.view import Host, View
-from app.images.picking import nearest_hit
+from app.images.picking import is_quick, nearest_hit
 from app.state.app_state import AppState
 from app.widgets.lettering import at_most
 from app.widgets.rows import NARROW_EM
 from renderer.camera import Vector
-from renderer.scene.model import Mesh, Scene, SceneObject
+from renderer.scene.model import Scene
 
 CAMERA = "Camera"
 FITTING_EM = NARROW_EM + 0.5  # the width that full labels and numbers need
 LEAST_PX = 13.0  # of type, at 100 %
-MOST_PICKED = 20_000  # triangles; in larger scenes only the ray image says where a ray ends
 
 
 class CameraView(View):
@@ -90,7 +89,7 @@ class CameraView(View):
             return host.focus.center
         camera, size = host.renderers.camera(state), host.renderers.size
         ray = camera.ray(*state.marked, size)
-        if sum(map(_faces, state.scene.objects)) > MOST_PICKED:
+        if not is_quick(state.scene):  # the ray image says where a ray ends, once it is there
             t = host.renderers.depth_at(state, state.marked) or math.inf
         else:
             asked = camera, state.marked, size
@@ -103,7 +102,3 @@ class CameraView(View):
             return host.focus.center
         x, y, z = (ray.origin + t * ray.direction).tolist()
         return x, y, z
-
-
-def _faces(entry: SceneObject) -> int:
-    return len(entry.shape.faces) if isinstance(entry.shape, Mesh) else 0

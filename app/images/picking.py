@@ -14,6 +14,8 @@ from renderer.scene.model import Mesh, Scene, Sphere
 
 Floats = NDArray[np.float64]
 
+MOST_OBJECTS, MOST_TRIANGLES = 100, 20_000  # one to two milliseconds
+
 
 def object_on_ray(scene: Scene, origin: Floats, direction: Floats) -> int | None:
     """The index of the nearest object on r(t) = origin + t direction, t > 0; None for nothing."""
@@ -31,6 +33,14 @@ def nearest_hit(scene: Scene, origin: Floats, direction: Floats) -> tuple[float,
         if t < nearest:
             nearest, number = t, k
     return nearest, number
+
+
+def is_quick(scene: Scene) -> bool:
+    """Whether nearest_hit() takes no more than a small part of a frame."""
+    if len(scene.objects) > MOST_OBJECTS:
+        return False
+    meshes = (entry.shape for entry in scene.objects if isinstance(entry.shape, Mesh))
+    return sum(len(mesh.faces) for mesh in meshes) <= MOST_TRIANGLES
 
 
 def _sphere(sphere: Sphere, origin: Floats, direction: Floats) -> float:
