@@ -14,7 +14,8 @@ from app.images import agreement as agreement_module
 from app.images import progressive_ray as live
 from app.images.agreement import Agreement, Verdict
 from app.images.coarseness import FACTORS
-from app.images.progressive_ray import LiveTrace, RayImage, Request
+from app.images.progressive_ray import LiveTrace, RayImage
+from app.images.request import ImageRequest
 from app.widgets.background import Background
 from renderer.camera import Camera
 from renderer.errors import LucidaError
@@ -90,7 +91,7 @@ class Rig:
         self.woken = threading.Semaphore(0)
         self.live = LiveTrace(self.woken.release, self._make)
 
-    def _make(self, request: Request) -> Tracer:
+    def _make(self, request: ImageRequest) -> Tracer:
         self.tracers.append(Tracer(request.scene, **self.settings))
         return self.tracers[-1]
 
@@ -130,8 +131,8 @@ def rig() -> Iterator[Rig]:
     assert not rig.live._thread.is_alive()
 
 
-def request(x: float = 0.0, scene: Scene = SCENE) -> Request:
-    return Request(scene, replace(Camera(), eye=(x, 0, 3)), SIZE)
+def request(x: float = 0.0, scene: Scene = SCENE) -> ImageRequest:
+    return ImageRequest(scene, replace(Camera(), eye=(x, 0, 3)), SIZE)
 
 
 def test_coarse_then_full(rig: Rig) -> None:
@@ -342,9 +343,9 @@ def test_agreement_counts_the_pixels_that_differ(monkeypatch) -> None:
     )
     woken = threading.Semaphore(0)
     agreement = Agreement(woken.release)
-    asked = Request(SCENE, Camera(eye=(0, 0, 3)), (4, 2))
+    asked = ImageRequest(SCENE, Camera(eye=(0, 0, 3)), (4, 2))
 
-    def verdict_of(request: Request, raster: Frame) -> Verdict:
+    def verdict_of(request: ImageRequest, raster: Frame) -> Verdict:
         agreement.submit(RayImage(request, agreeing(), 1), raster)
         assert agreement.busy
         assert woken.acquire(timeout=PATIENT_S)

@@ -24,7 +24,6 @@ from app.images.readback import Region
 from app.images.renderers import Renderers, look_of
 from app.images.screen import Screen
 from app.images.shown import Picture, ShownImage, whole
-from app.images.textures import Wanted
 from app.pair.view import ImageView, Linked
 from app.state.app_state import AppState
 from app.widgets import theme
@@ -128,19 +127,19 @@ class CompareView(ImageView):
         self, both: Renderers, state: AppState, placement: Placement, under: bool, name: str
     ) -> Picture | None:
         """What is seen of the picture; None where there is none."""
-        pictures, composed, shown = both.pictures, self._composed, self._shown
-        assert pictures is not None and composed is not None and shown is not None
-        options, look = state.compare, look_of(state.images)
-        wanted = Wanted(state.scene, both.camera(state), both.size)
-        raster = pictures.raster_in(whole(both.size), wanted, look, COMPARED, own_size=True)
+        textures, composed, shown = both.textures, self._composed, self._shown
+        assert textures is not None and composed is not None and shown is not None
+        options, look, request = state.compare, look_of(state.images), both.request(state)
+        assert request is not None
+        raster = textures.raster_in(whole(both.size), request, look, COMPARED, own_size=True)
         if raster is None:
             return None
         image = both.ray_image
-        key: Hashable = (pictures.raster_number, both.size, look, image)
+        key: Hashable = (textures.raster.image, both.size, look, image)
         left, right, divider, muted = raster.texture, None, 0, False
         try:
             if options.mode in ("absolute", "signed"):
-                drawn = pictures.textures(wanted)
+                drawn = textures.raster.full(request)
                 muted = drawn is None or image is None or waiting(both, state) != ""
                 if drawn is not None and image is not None and not muted:
                     mapping = Mapping(
@@ -149,10 +148,10 @@ class CompareView(ImageView):
                         options.gain,
                         options.mode == "signed",
                     )
-                    left = composed.difference(*drawn, image.frame, mapping)
-                    key = (drawn[1], image, mapping)
+                    left = composed.difference(drawn.textures, drawn.number, image.frame, mapping)
+                    key = (drawn, image, mapping)
             else:
-                ray = pictures.ray_in(None, look, COMPARED, own_size=True)
+                ray = textures.ray_in(None, look, COMPARED, own_size=True)
                 right = ray.texture if ray is not None else None
                 if options.mode == "wipe":
                     divider = _column(options.divider, both.size)
@@ -282,14 +281,13 @@ class CompareView(ImageView):
 
 def waiting(both: Renderers, state: AppState) -> str:
     """Why the images cannot be compared yet; empty where they can."""
-    image, pictures = both.ray_image, both.pictures
-    request = both.request(state)
-    if image is None or pictures is None or image.request != request:
+    image = both.ray_image
+    if image is None or image.request != both.request(state):
         return both.preparing() or "The ray image is being traced: no difference yet"
     if image.factor > 1:
         return f"The ray image is still coarse (1/{image.factor}): no difference yet"
-    if pictures.raster_factor > 1:
-        return f"The raster image is still coarse (1/{pictures.raster_factor}): no difference yet"
+    if both.raster_factor > 1:
+        return f"The raster image is still coarse (1/{both.raster_factor}): no difference yet"
     return ""
 
 

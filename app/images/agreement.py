@@ -9,7 +9,8 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from app.images.progressive_ray import RayImage, Request
+from app.images.progressive_ray import RayImage
+from app.images.request import ImageRequest
 from app.widgets.background import Background
 from renderer.frame import Frame
 from renderer.scene.flat import FlatScene, flatten
@@ -27,7 +28,7 @@ class Verdict:
     find, make the images differ.
     """
 
-    request: Request
+    request: ImageRequest
     text: str
     unexplained: int
     comparison: Comparison
@@ -39,7 +40,7 @@ class Agreement:
     def __init__(self, wake: Callable[[], None]) -> None:
         self._comparing: Background[Verdict] = Background("lucida-compare", wake)
         self._flat: tuple[Scene, FlatScene] | None = None  # used in the thread only
-        self.pair: tuple[Request, Frame, Frame] | None = None
+        self.pair: tuple[ImageRequest, Frame, Frame] | None = None
         self.verdict: Verdict | None = None
         self.error: Exception | None = None
 
@@ -59,12 +60,12 @@ class Agreement:
         if outcome is not None:
             self.verdict, self.error = outcome.value, outcome.error
 
-    def verdict_on(self, request: Request | None) -> Verdict | None:
+    def verdict_on(self, request: ImageRequest | None) -> Verdict | None:
         """The verdict, if it is about this request."""
         verdict = self.verdict
         return verdict if verdict is not None and verdict.request == request else None
 
-    def frame_of(self, request: Request | None) -> Frame | None:
+    def frame_of(self, request: ImageRequest | None) -> Frame | None:
         """The traced image of a request, if it is the last pair's."""
         if self.pair is None or self.pair[0] != request:
             return None
@@ -73,7 +74,7 @@ class Agreement:
     def close(self) -> None:
         self._comparing.close()
 
-    def _compare(self, request: Request, raster: Frame, ray: Frame) -> Verdict:
+    def _compare(self, request: ImageRequest, raster: Frame, ray: Frame) -> Verdict:
         from renderer.compare import compare_frames
 
         if self._flat is None or self._flat[0] is not request.scene:

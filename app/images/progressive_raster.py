@@ -10,7 +10,7 @@ from __future__ import annotations
 
 import time
 
-from app.images.progressive_ray import reduced
+from app.images.request import reduced
 from renderer.camera import Camera
 from renderer.raster import Rasterizer
 from renderer.raster.targets import Textures
@@ -45,7 +45,7 @@ class Pace:
         return min(max(int(PART_S / self._triangle_s), FEWEST), triangles)
 
 
-class Drawing:
+class ProgressiveRaster:
     """An image of a rasterizer's scene, reduced by `factor`.
 
     places: two of the rasterizer's (see Rasterizer.draw). shown: the one that is seen meanwhile,

@@ -12,10 +12,11 @@ from __future__ import annotations
 import threading
 import time
 from collections.abc import Callable
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, replace
 from typing import Protocol
 
 from app.images.coarseness import Coarseness
+from app.images.request import ImageRequest, reduced
 from renderer.camera import Camera
 from renderer.frame import CHANNELS, Frame
 from renderer.scene.model import Scene
@@ -29,36 +30,11 @@ LAUNCH_S = 4e-4  # of an image's time, what does not grow with its pixels
 PATIENCE_S = 0.1  # for a coarse image, before a change cancels it too
 
 
-@dataclass(frozen=True)
-class Request:
-    """An image to trace. size: (width, height) of the full one.
-
-    shadows, mirrors: with these the ray image shows what the raster image cannot. channel: what is
-    looked at: coarse images have no other, so that they are quick; a full one has all, and serves
-    requests for any.
-    """
-
-    scene: Scene
-    camera: Camera
-    size: tuple[int, int]
-    shadows: bool = False
-    mirrors: bool = False
-    channel: str = field(default="color", compare=False)
-
-    @property
-    def has_effects(self) -> bool:
-        return self.shadows or self.mirrors
-
-    def is_served_by(self, other: Request | None) -> bool:
-        """Whether the Tracer that was made for another request can serve this one."""
-        return other is not None and (self.shadows, self.mirrors) == (other.shadows, other.mirrors)
-
-
 @dataclass(frozen=True, eq=False)
 class RayImage:
     """A traced image. factor: 1 for the full one, else how much coarser a side."""
 
-    request: Request
+    request: ImageRequest
     frame: Frame
     factor: int
 
@@ -95,16 +71,16 @@ class LiveTrace:
     def __init__(
         self,
         wake: Callable[[], None],
-        make_tracer: Callable[[Request], Tracer],
+        make_tracer: Callable[[ImageRequest], Tracer],
         begin: Callable[[], None] | None = None,
     ) -> None:
         self._wake = wake
         self._make_tracer = make_tracer
         self._begin = begin
         self._changed = threading.Condition()
-        self._newest: Request | None = None
-        self._served: Request | None = None  # the last one begun
-        self._finished: Request | None = None  # the last one whose full image came, or failed
+        self._newest: ImageRequest | None = None
+        self._served: ImageRequest | None = None  # the last one begun
+        self._finished: ImageRequest | None = None  # the last one whose full image came, or failed
         self._arrived: RayImage | None = None
         self._job: Job | None = None
         self._refining = False
@@ -118,7 +94,7 @@ class LiveTrace:
 
     # The window's side.
 
-    def request(self, request: Request) -> None:
+    def request(self, request: ImageRequest) -> None:
         """Asks for an image; nothing happens if it is the one asked for last."""
         with self._changed:
             if self._closed or (request == self._newest and self._has_channel(request)):
@@ -195,7 +171,7 @@ class LiveTrace:
         if self._begin is not None:
             self._begin()
         tracer: Tracer | None = None
-        made_for: Request | None = None
+        made_for: ImageRequest | None = None
         coarseness = Coarseness(COARSE_S, ONCE_S, COARSEST, COARSEST)
         while (request := self._next()) is not None:
             try:
@@ -226,7 +202,7 @@ class LiveTrace:
         with self._changed:
             self._began_s = time.monotonic()
 
-    def _next(self) -> Request | None:
+    def _next(self) -> ImageRequest | None:
         """Waits for a request that has not been served; None: closed."""
         with self._changed:
             self._changed.wait_for(lambda: self._closed or self._newest is not self._served)
@@ -235,7 +211,7 @@ class LiveTrace:
             self._served, self._error = self._newest, None
             return self._newest
 
-    def _trace(self, tracer: Tracer, request: Request, coarseness: Coarseness) -> None:
+    def _trace(self, tracer: Tracer, request: ImageRequest, coarseness: Coarseness) -> None:
         """Images of one request, from coarse to full, until a newer one comes."""
         pixels = request.size[0] * request.size[1]
         factor = coarseness.changed(pixels, time.monotonic())
@@ -267,7 +243,7 @@ class LiveTrace:
             factor = next_factor(factor, full_s)
             refining = True
 
-    def _finish(self, job: Job, request: Request, refining: bool) -> Frame:
+    def _finish(self, job: Job, request: ImageRequest, refining: bool) -> Frame:
         """Waits for a job's end; a newer request cancels it, a coarse one only after a while."""
         with self._changed:
             self._job, self._refining = job, refining
@@ -280,12 +256,12 @@ class LiveTrace:
             job.cancel()
         return job.result()
 
-    def _has_channel(self, request: Request) -> bool:
+    def _has_channel(self, request: ImageRequest) -> bool:
         """Whether the newest request, or the full image that it got, has the channel of this."""
         newest = self._newest
         return newest is None or newest is self._finished or newest.channel == request.channel
 
-    def _is_stale(self, request: Request) -> bool:
+    def _is_stale(self, request: ImageRequest) -> bool:
         return self._closed or self._newest is not request
 
 
@@ -305,8 +281,3 @@ def next_factor(factor: int, full_s: float) -> int:
     if full_s <= REFINE_S:
         return 1
     return max(factor // 4, 1)
-
-
-def reduced(size: tuple[int, int], factor: int) -> tuple[int, int]:
-    """The size of an image `factor` times as coarse, at least 1 x 1."""
-    return max(1, -(-size[0] // factor)), max(1, -(-size[1] // factor))

@@ -15,11 +15,13 @@ from numpy.typing import NDArray
 
 from app.images.agreement import Agreement, Verdict
 from app.images.placement import Placement, common_pane, own_size, place
-from app.images.progressive_ray import LiveTrace, RayImage, Request, Tracer
+from app.images.progressive_ray import LiveTrace, RayImage, Tracer
 from app.images.readback import Region
+from app.images.request import ImageRequest
 from app.images.shown import Picture
-from app.images.textures import FAILURES, Pictures, Wanted
+from app.images.textures import ImageTextures
 from app.images.underlay import Underlay
+from app.images.window_rasterizer import FAILURES
 from app.state.app_state import AppState
 from app.state.options import ImageOptions
 from app.widgets.background import lower_priority
@@ -47,14 +49,14 @@ class Renderers:
         begin = lower_priority if smooth else None
         self.live = LiveTrace(wake, _make_tracer, begin)
         self.underlay = Underlay()
-        self.pictures: Pictures | None = None
+        self.textures: ImageTextures | None = None
         self.ray_image: RayImage | None = None
         self.size = (0, 0)  # (width, height) of both images; (0, 0) before the first layout
         self._panes_px: dict[str, tuple[int, int]] = {}
         self._rulers_px = (0, 0)
         self._chosen: tuple[int, int] | None = None  # the resolution, in the last frame
         self._arrived_s = 0.0
-        self._compared: Request | None = None
+        self._compared: ImageRequest | None = None
         self._raster_failed = False
         self._fitted: tuple[View, tuple[int, int], Camera] | None = None
         self._tracing = self._to_trace = (
@@ -63,14 +65,14 @@ class Renderers:
 
     def begin(self, context: moderngl.Context) -> None:
         """Once, when there is a context."""
-        self.pictures = Pictures(context)
+        self.textures = ImageTextures(context)
 
     def end(self) -> None:
         """Once, before the context goes."""
         self.live.close()
         self.agreement.close()
-        if self.pictures is not None:
-            self.pictures.release()
+        if self.textures is not None:
+            self.textures.release()
 
     # What is to be drawn.
 
@@ -126,11 +128,11 @@ class Renderers:
             self._fitted = (state.view, size, state.view.for_size(size))
         return self._fitted[2]
 
-    def request(self, state: AppState) -> Request | None:
+    def request(self, state: AppState) -> ImageRequest | None:
         """The image that both renderers are to draw; None before the first layout."""
         if not min(self.size):
             return None
-        return Request(
+        return ImageRequest(
             state.scene,
             self.camera(state),
             self.size,
@@ -147,8 +149,8 @@ class Renderers:
 
     def update(self, state: AppState, moving: bool) -> None:
         """Once a frame: takes what has come from the threads. moving: something is dragged."""
-        assert self.pictures is not None
-        self.pictures.begin_frame()
+        assert self.textures is not None
+        self.textures.begin_frame()
         self.underlay.begin_frame()
         self._follow_resolution(state)
         self._tracing, self._to_trace = self._to_trace, False
@@ -158,7 +160,7 @@ class Renderers:
         self._raster_failed = failed
         image = self.live.poll()
         if image is not None:
-            self.pictures.take_ray(image)
+            self.textures.take_ray(image)
             self.ray_image, self._arrived_s = image, time.monotonic()
         elif self._to_compare(state) and not (moving and time.monotonic() < self._still_s):
             self._compare(state)  # not in the frame of its arrival, which shows it first
@@ -187,28 +189,30 @@ class Renderers:
     ) -> Picture | None:
         """What is seen of the raster image in a window, drawn anew if it must be; None where that
         failed. under: it is for the underlay. name: of the picture, see ShownImage.picture."""
-        assert self.pictures is not None
-        wanted = Wanted(state.scene, self.camera(state), self.size)
-        return self.pictures.raster_in(placement, wanted, look_of(state.images), name, under)
+        assert self.textures is not None
+        request = self.request(state)
+        assert request is not None
+        return self.textures.raster_in(placement, request, look_of(state.images), name, under)
 
     def ray_picture(
         self, state: AppState, placement: Placement, under: bool, name: str
     ) -> Picture | None:
         """Likewise of the newest ray image that has arrived; None before the first."""
-        assert self.pictures is not None
-        return self.pictures.ray_in(placement, look_of(state.images), name, under)
+        assert self.textures is not None
+        return self.textures.ray_in(placement, look_of(state.images), name, under)
 
     def depths(self) -> tuple[float, float] | None:
         """The ray parameters that are shown white and darkest; None where nothing is hit."""
-        return self.pictures.depths() if self.pictures is not None else None
+        return self.textures.depths() if self.textures is not None else None
 
     def raster_values(self, state: AppState, channel: str, region: Region) -> NDArray | None:
         """A channel's values in some pixels of the raster image as it is shown; None while that
         is coarse. region: first row and column, one past the last of each."""
-        assert self.pictures is not None
-        wanted = Wanted(state.scene, self.camera(state), self.size)
+        request = self.request(state)
+        assert self.textures is not None
+        assert request is not None
         try:
-            return self.pictures.raster_values(wanted, channel, region)
+            return self.textures.raster.values(request, channel, region)
         except FAILURES:  # whatever it is, drawing tells it too
             return None
 
@@ -223,7 +227,7 @@ class Renderers:
 
     def unfinished(self, state: AppState) -> bool:
         """Whether coming frames have something to do that no thread will call for."""
-        return self._to_compare(state) or (self.pictures is not None and self.pictures.unfinished)
+        return self._to_compare(state) or (self.textures is not None and self.textures.unfinished)
 
     def settled(self, state: AppState) -> bool:
         """Whether the images that are to be seen are complete, and compared if both are: nothing
@@ -247,12 +251,18 @@ class Renderers:
         return verdict.comparison.nothing_hit if verdict is not None else ""
 
     @property
+    def raster_factor(self) -> int:
+        """How coarse the raster image is that is shown; 1: it is full, or there is none."""
+        image = self.textures.raster.image if self.textures is not None else None
+        return image.factor if image is not None else 1
+
+    @property
     def raster_error(self) -> Exception | None:
-        return self.pictures.raster_error if self.pictures else None
+        return self.textures.raster_error if self.textures else None
 
     @property
     def ray_error(self) -> Exception | None:
-        return self.live.error or (self.pictures.ray_error if self.pictures else None)
+        return self.live.error or (self.textures.ray_error if self.textures else None)
 
     @property
     def failure(self) -> Exception | None:
@@ -261,8 +271,8 @@ class Renderers:
 
     def retry(self) -> None:
         """Tries again what has failed."""
-        if self.pictures is not None:
-            self.pictures.retry()
+        if self.textures is not None:
+            self.textures.retry()
         self.live.retry()
         self.agreement.error = None
         self._compared = None
@@ -307,10 +317,9 @@ class Renderers:
         request, image = self.request(state), self.ray_image
         assert request is not None
         assert image is not None
-        assert self.pictures is not None
-        wanted = Wanted(request.scene, request.camera, request.size)
+        assert self.textures is not None
         try:
-            raster = self.pictures.read_back(wanted)
+            raster = self.textures.raster.read_back(request)
             if raster is None:  # goes on in the next frame
                 return
             self.agreement.submit(image, raster)
@@ -333,7 +342,7 @@ def look_of(options: ImageOptions) -> Look:
     )
 
 
-def _make_tracer(request: Request) -> Tracer:
+def _make_tracer(request: ImageRequest) -> Tracer:
     from renderer.trace import Tracer  # here, in the live thread: it loads the compiler
 
     depth = MIRROR_DEPTH if request.mirrors else 0

@@ -17,8 +17,8 @@ import numpy as np
 from imgui_bundle import ImVec2, imgui
 
 from app.host.view import Host, View
+from app.images.request import ImageRequest
 from app.images.screen import available_px
-from app.images.textures import Wanted
 from app.laboratory import disk
 from app.laboratory.array_view import ArrayPage
 from app.laboratory.displays_view import LANES_EM, DisplaysPage
@@ -50,7 +50,7 @@ ABOUT_A_PIXEL = ("subpixels", "displays", "array")  # a click on these pages cho
 class _Source:
     """The linear image that the pages are made of, and what it was drawn from."""
 
-    wanted: Wanted
+    request: ImageRequest
     color: Image
     number: int  # of the image; its address may be a later one's, too
 
@@ -254,10 +254,11 @@ class LaboratoryView(View):
         assert self._uploads is not None
         assert self._work is not None
         state = host.state
-        wanted = Wanted(state.scene, state.view.for_size(divided.image), divided.image)
+        camera = state.view.for_size(divided.image)
+        request = ImageRequest(state.scene, camera, divided.image)
         try:
-            if self._source is None or self._source.wanted != wanted:
-                self._source = _Source(wanted, _drawn(host, wanted), next(self._numbers))
+            if self._source is None or self._source.request != request:
+                self._source = _Source(request, _drawn(host, request), next(self._numbers))
             outcome = self._work.poll()
             if outcome is not None and outcome.error is not None:
                 raise outcome.error
@@ -352,11 +353,11 @@ class LaboratoryView(View):
         )
 
 
-def _drawn(host: Host, wanted: Wanted) -> Image:
+def _drawn(host: Host, request: ImageRequest) -> Image:
     """The rasterizer's image in linear light: float32 (H, W, 3)."""
-    pictures = host.renderers.pictures
-    assert pictures is not None
-    texture = pictures.beside(wanted, LABORATORY).color
-    width, height = wanted.size
+    textures = host.renderers.textures
+    assert textures is not None
+    texture = textures.rasterizer.draw(request, LABORATORY).color
+    width, height = request.size
     values = np.frombuffer(texture.read(), np.float32).reshape(height, width, 4)
     return np.ascontiguousarray(values[..., :3])

@@ -14,8 +14,8 @@ from dataclasses import dataclass, replace
 import moderngl
 
 from app.images.coarseness import Coarseness
-from app.images.progressive_ray import reduced
-from app.images.textures import Pictures, Wanted
+from app.images.request import ImageRequest, reduced
+from app.images.window_rasterizer import WindowRasterizer
 from renderer.raster.overlay import Overlay
 from renderer.raster.targets import Textures
 
@@ -30,12 +30,12 @@ SHIFTS = ((-0.125, -0.375), (0.375, -0.125), (0.125, 0.375), (-0.375, 0.125), (0
 
 
 @dataclass(frozen=True, eq=False)
-class Picture:
-    """The scene from outside. changed_s: since when it is wanted. number: of its drawing. parts:
-    how many of the SHIFTS are in its mean; all of them also where there will be none. factor: it
-    is so many times as coarse."""
+class GroundPicture:
+    """The scene from outside. changed_s: since when it is asked for. number: of its drawing.
+    parts: how many of the SHIFTS are in its mean; all of them also where there will be none.
+    factor: it is so many times as coarse."""
 
-    wanted: Wanted
+    request: ImageRequest
     textures: Textures
     changed_s: float
     number: int
@@ -52,7 +52,7 @@ class Ground:
     """One for the view, in its context. It stays while only the other camera moves."""
 
     def __init__(self, context: moderngl.Context) -> None:
-        self._picture: Picture | None = None
+        self._picture: GroundPicture | None = None
         self._drawn = 0
         self._read: tuple[object, float] | None = None
         self._timer = context.query(time=True)
@@ -85,38 +85,42 @@ class Ground:
             self._read = key, overlay.t_at(picture.textures, part)
         return self._read[1]
 
-    def picture(self, wanted: Wanted, pictures: Pictures, overlay: Overlay) -> Picture:
+    def picture(
+        self, request: ImageRequest, rasterizer: WindowRasterizer, overlay: Overlay
+    ) -> GroundPicture:
         """Drawn at once; when it has been still, in full, and again with smooth edges, a part of
         that in each call. Raises LucidaError."""
         now_s, picture = time.monotonic(), self._picture
         self._read_time()
-        if picture is None or picture.wanted != wanted:
-            if picture is None or picture.wanted.scene is not wanted.scene:
+        if picture is None or picture.request != request:
+            if picture is None or picture.request.scene is not request.scene:
                 self._coarseness.forget()
-            factor = self._coarseness.changed(wanted.size[0] * wanted.size[1], now_s)
+            factor = self._coarseness.changed(request.size[0] * request.size[1], now_s)
             self._picture = None
-            self._picture = picture = self._draw(wanted, pictures, now_s, factor)
+            self._picture = picture = self._draw(request, rasterizer, now_s, factor)
         elif now_s - picture.changed_s <= max(STILL_S, self._coarseness.rest_s):
             pass
         elif picture.factor > 1:
-            self._picture = picture = self._draw(wanted, pictures, picture.changed_s, 1)
+            self._picture = picture = self._draw(request, rasterizer, picture.changed_s, 1)
         elif picture.parts < len(SHIFTS):
-            shift = wanted.camera.shifted(*SHIFTS[picture.parts], wanted.size)
-            textures = self._beside(replace(wanted, camera=shift), pictures)
+            shift = request.camera.shifted(*SHIFTS[picture.parts], request.size)
+            textures = self._beside(replace(request, camera=shift), rasterizer)
             mean = overlay.gather(textures, picture.parts == 0, 1 / len(SHIFTS))
             self._picture = picture = replace(
                 picture, textures=textures, parts=picture.parts + 1, mean=mean
             )
         return picture
 
-    def _draw(self, wanted: Wanted, pictures: Pictures, changed_s: float, factor: int) -> Picture:
+    def _draw(
+        self, request: ImageRequest, rasterizer: WindowRasterizer, changed_s: float, factor: int
+    ) -> GroundPicture:
         # Its own time: how a still picture looks does not depend on what else the machine does.
         start_s = time.thread_time()
-        textures = self._beside(wanted, pictures, factor)
+        textures = self._beside(request, rasterizer, factor)
         self._drawn += 1
         slow = time.thread_time() - start_s > SLOW_S
-        return Picture(
-            wanted,
+        return GroundPicture(
+            request,
             textures,
             changed_s,
             self._drawn,
@@ -124,10 +128,12 @@ class Ground:
             factor=factor,
         )
 
-    def _beside(self, wanted: Wanted, pictures: Pictures, factor: int = 1) -> Textures:
-        size = reduced(wanted.size, factor)
+    def _beside(
+        self, request: ImageRequest, rasterizer: WindowRasterizer, factor: int = 1
+    ) -> Textures:
+        size = reduced(request.size, factor)
         with self._timer:
-            textures = pictures.beside(replace(wanted, size=size), COARSE if factor > 1 else PLACE)
+            textures = rasterizer.draw(replace(request, size=size), COARSE if factor > 1 else PLACE)
         self._timed = factor, size[0] * size[1]
         return textures
 

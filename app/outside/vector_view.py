@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 
 from app.host.view import Host
 from app.images.renderers import look_of
-from app.images.textures import Wanted
+from app.images.request import ImageRequest
 from app.outside import svg
 from app.outside.extent import end_parameter
 from app.outside.looking import nearest, scope_of, units_px
@@ -68,9 +68,10 @@ class Sketcher:
         )  # fmt: skip
         if self._sketch is not None and key == self._key and not live:
             return self._sketch
-        assert both.pictures is not None
+        assert both.textures is not None
         picture = self._picture(host) if live and options.image else None
-        surface = both.pictures.beside(Wanted(state.scene, looking, size), PLACE).surface
+        seen = ImageRequest(state.scene, looking, size)
+        surface = both.textures.rasterizer.draw(seen, PLACE).surface
         values = np.frombuffer(surface.read(), np.float32).reshape(size[1], size[0], 4)
         self._key = key
         self._sketch = Sketch(
@@ -83,9 +84,10 @@ class Sketcher:
     def _picture(self, host: Host) -> NDArray[np.uint8] | None:
         """The raster image as it stands on the image plane; waits for the GPU."""
         both, state = host.renderers, host.state
-        assert both.pictures is not None
-        wanted = Wanted(state.scene, both.camera(state), both.size)
-        texture = both.pictures.raster(wanted, look_of(state.images))
+        request = both.request(state)
+        assert both.textures is not None
+        assert request is not None
+        texture = both.textures.whole_raster(request, look_of(state.images))
         if texture is None:
             return None
         width, height = texture.size

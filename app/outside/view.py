@@ -21,9 +21,9 @@ from app.cameras.travel import Ends
 from app.host.view import Host, View
 from app.images.picking import object_on_ray
 from app.images.renderers import look_of
+from app.images.request import ImageRequest
 from app.images.screen import available_px, is_at_the_bottom
 from app.images.shown import Picture
-from app.images.textures import Wanted
 from app.outside.diagram import Hit, Item, diagram
 from app.outside.extent import end_parameter
 from app.outside.frustum import bundle_pixels, pixel_seen, plane_corners
@@ -288,18 +288,19 @@ class OutsideView(View):
         both, state = host.renderers, host.state
         assert self._overlay is not None
         assert self._ground is not None
-        assert both.pictures is not None
+        assert both.textures is not None
         inner, image_size = both.camera(state), both.size
         options = state.outside
         marked, hits = self.rays(host, inner, image_size)
         try:
             picture, drawn = None, 0
             if options.image:
-                wanted = Wanted(state.scene, inner, image_size)
-                _, drawn = both.pictures.linear(wanted)
-                picture = both.pictures.raster(wanted, look_of(state.images))
-            wanted = Wanted(state.scene, camera, size)
-            ground = self._ground.picture(wanted, both.pictures, self._overlay)
+                request = both.request(state)
+                assert request is not None
+                drawn = both.textures.raster.follow(request).number
+                picture = both.textures.whole_raster(request, look_of(state.images))
+            seen = ImageRequest(state.scene, camera, size)
+            ground = self._ground.picture(seen, both.textures.rasterizer, self._overlay)
             if not self._ground.settled:
                 host.animate()
             unit_px, symbol_px = units_px(scope.extent)

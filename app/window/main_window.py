@@ -295,8 +295,8 @@ class MainWindow:
         pixel = self._hovered[1] if self._hovered else state.marked
         status_line(
             Status(
-                raster_s=both.pictures.raster_s if both.pictures else 0.0,
-                raster_factor=both.pictures.raster_factor if both.pictures else 1,
+                raster_s=both.textures.raster.time_s if both.textures else 0.0,
+                raster_factor=both.raster_factor,
                 ray_s=image.frame.time_s if image else 0.0,
                 size=both.size,
                 factor=image.factor if image else 0,
@@ -357,8 +357,8 @@ class MainWindow:
         elif opened.scene is not None:
             if opened.replaces not in (None, self.state.scene):
                 return  # another one is shown meanwhile
-            if opened.prepared is not None and self.renderers.pictures is not None:
-                self.renderers.pictures.prepare(opened.scene, opened.prepared)
+            if opened.prepared is not None and self.renderers.textures is not None:
+                self.renderers.textures.rasterizer.prepare(opened.scene, opened.prepared)
             if opened.replaces is not None:
                 self._take_newer(opened.replaces, opened.scene)
                 return

@@ -86,7 +86,7 @@ def drive_no_frame_waits_for_the_tracer(d: Driver) -> None:
     d.until(lambda: "preparing" in d.window.renderers.preparing())
     before = d.images()[0]
     d.drag_field("eye.x", 30)
-    d.until(lambda: not d.window.renderers.pictures.unfinished)
+    d.until(lambda: not d.window.renderers.textures.unfinished)
     assert changed(before, d.images()[0]) > 0.05
     assert d.window.renderers.live.busy
     live._make_tracer = good

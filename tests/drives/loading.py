@@ -92,7 +92,7 @@ def drive_frames_go_on_while_a_large_model_is_read(d: Driver) -> None:
         before = d.images()[0]
         d.ctx.yield_(FRAMES)
         d.drag_field("eye.x", 30)
-        d.until(lambda: not window.renderers.pictures.unfinished)
+        d.until(lambda: not window.renderers.textures.unfinished)
         assert changed(before, d.images()[0]) > 0.05
         assert window.files.loading == "wavy.obj"
         assert process.poll() is None
@@ -150,9 +150,9 @@ def drive_a_scene_taken_back_is_drawn_without_being_prepared_again(d: Driver) ->
     opened = window.state.scene
     window.undo()
     d.settle()
-    pictures = window.renderers.pictures
-    assert pictures is not None
-    rasterizer = pictures._rasterizer
+    textures = window.renderers.textures
+    assert textures is not None
+    rasterizer = textures.rasterizer.of(window.state.scene)
     taken: list[bool] = []
     good = rasterizer.set_scene
 

@@ -43,9 +43,9 @@ def drive_failures_of_the_tracer_are_told_and_tried_again(d: Driver) -> None:
 
 
 def drive_failures_of_the_rasterizer_are_told_and_survived(d: Driver) -> None:
-    pictures = d.window.renderers.pictures
-    assert pictures is not None
-    rasterizer = pictures._rasterizer
+    textures = d.window.renderers.textures
+    assert textures is not None
+    rasterizer = textures.rasterizer.of(d.window.state.scene)
     for error in (
         moderngl.Error("GLSL: 0:1: syntax error"),
         LucidaError("OpenGL", "GL_OUT_OF_MEMORY at a texture of 1x1", "close other programs"),

@@ -12,24 +12,34 @@ from window_driver import Driver
 
 from app.cameras.navigation import moved
 from app.compare.view import CompareView
-from app.images import textures as module
+from app.images import live_raster as module
 from app.images.coarseness import Coarseness
-from app.images.textures import Pictures
+from app.images.live_raster import LiveRaster
 from app.pair.view import RASTER, RAY
 from app.widgets.surface import Target
 from renderer.frame import CHANNELS
 
 
-def pictures(d: Driver) -> Pictures:
-    found = d.window.renderers.pictures
-    assert found is not None
-    return found
+def live_raster(d: Driver) -> LiveRaster:
+    textures = d.window.renderers.textures
+    assert textures is not None
+    return textures.raster
+
+
+def number(found: LiveRaster) -> int:
+    assert found.image is not None
+    return found.image.number
+
+
+def factor(found: LiveRaster) -> int:
+    assert found.image is not None
+    return found.image.factor
 
 
 @contextmanager
 def slow(d: Driver) -> Iterator[None]:
     """OpenGL seems to run on a slow CPU; and nothing is refined."""
-    found = pictures(d)
+    found = live_raster(d)
     before = found._coarseness, module.MOVING_S
     found._coarseness = Coarseness(1e-9, 1e-9, module.COARSEST)
     found._coarseness.measured(1, 1, 1e-3)
@@ -41,7 +51,7 @@ def slow(d: Driver) -> Iterator[None]:
 
 
 def drive_a_drag_is_coarse_then_full_then_compared(d: Driver) -> None:
-    found, both = pictures(d), d.window.renderers
+    found, both = live_raster(d), d.window.renderers
     x, y = d.point(RAY, 0.5, 0.5)
     d.ctx.mouse_teleport_to_pos((x, y))
     d.ctx.yield_()
@@ -49,10 +59,10 @@ def drive_a_drag_is_coarse_then_full_then_compared(d: Driver) -> None:
         d.ctx.mouse_down(0)
         factors, before = set(), d.window.state.camera
         for step in range(1, 9):
-            drawn = found._drawn
+            drawn = number(found)
             d.ctx.mouse_teleport_to_pos((x + 9 * step, y + 3 * step))
-            d.until(lambda drawn=drawn: found._drawn > drawn)
-            factors.add(found.raster_factor)
+            d.until(lambda drawn=drawn: number(found) > drawn)
+            factors.add(factor(found))
             assert both.verdict(d.window.state) is None
         d.stay = True
         coarse = d.picture()
@@ -61,20 +71,20 @@ def drive_a_drag_is_coarse_then_full_then_compared(d: Driver) -> None:
         assert d.window.state.camera != before
         assert found.unfinished
     raster, _ = d.agreeing_images()
-    assert found.raster_factor == 1
+    assert factor(found) == 1
     assert both.ray_image is not None
     assert both.ray_image.factor == 1
     left, top, right, bottom = (round(edge) for edge in d.rect(RASTER))
     assert (coarse[top:bottom, left:right] != raster).any()
-    number = found._drawn
+    last = number(found)
     d.ctx.yield_(20)
-    assert found._drawn == number  # at rest
+    assert number(found) == last  # at rest
     assert d.window.settled
 
 
 def drive_an_image_drawn_in_parts_is_the_same(d: Driver) -> None:
     """Where one frame has no time for all triangles."""
-    found, both = pictures(d), d.window.renderers
+    found, both = live_raster(d), d.window.renderers
     parts = []
 
     def part_of(triangles: int) -> int:
@@ -86,9 +96,9 @@ def drive_an_image_drawn_in_parts_is_the_same(d: Driver) -> None:
         x, y = d.point(RASTER, 0.5, 0.5)
         d.drag((x, y), (x + 60, y + 20))
         for _ in range(3):  # a motion that goes on shows something new
-            drawn = found._drawn
+            drawn = number(found)
             d.drag((x, y), (x + 20, y - 10))
-            d.until(lambda drawn=drawn: found._drawn > drawn)
+            d.until(lambda drawn=drawn: number(found) > drawn)
         d.agreeing_images()
     finally:
         del found._pace.part_of
@@ -106,7 +116,8 @@ def drive_an_image_drawn_in_parts_is_the_same(d: Driver) -> None:
 
 
 def drive_images_are_on_the_screen_in_the_frame_of_their_change(d: Driver) -> None:
-    found, seen, asked = pictures(d), [], ["color"]
+    found, seen, asked = d.window.renderers.textures, [], ["color"]
+    assert found is not None
     left, top, right, bottom = (round(edge) for edge in d.rect(RASTER))
     raster_in = found.raster_in
 
@@ -140,7 +151,7 @@ def shown(d: Driver) -> tuple[np.ndarray, np.ndarray]:
     left, top, right, bottom = (round(edge) for edge in d.rect(RASTER))
 
     def look(target: Target) -> None:  # in the window's thread, unlike drives
-        picture = pictures(d)._raster._pictures[module.PANE].texture
+        picture = live_raster(d)._raster._pictures[module.PANE].texture
         rows = np.frombuffer(picture.read(), np.uint8).reshape(picture.height, picture.width, 4)
         seen = target.read()[top:bottom, left:right]
         found.append((seen.astype(int), rows[..., :3].astype(int)))
@@ -171,7 +182,7 @@ def drive_a_floating_image_is_drawn_over_what_is_under_it(d: Driver) -> None:
 
 
 def drive_the_compare_view_shows_coarse_images_as_they_are(d: Driver) -> None:
-    found = pictures(d)
+    found = live_raster(d)
     hello_imgui.switch_layout("Compare")
     d.ctx.yield_(5)
     d.window.shell.stage.show("Compare")
@@ -183,7 +194,7 @@ def drive_the_compare_view_shows_coarse_images_as_they_are(d: Driver) -> None:
     def look(target: Target) -> None:
         left, top, right, bottom = box
         pixels = target.read()[top:bottom, left:right].astype(int)
-        seen.append((found.raster_factor, pixels))
+        seen.append((factor(found), pixels))
 
     view = d.window.views["Compare"]
     assert isinstance(view, CompareView)
@@ -195,9 +206,9 @@ def drive_the_compare_view_shows_coarse_images_as_they_are(d: Driver) -> None:
     try:
         d.until(lambda: bool(seen))
         with slow(d):
-            drawn = found._drawn
+            drawn = number(found)
             d.window.change(d.window.state.with_camera(moved(d.start.camera, (0.0, 0.001, 0.0))))
-            d.until(lambda: found._drawn > drawn)
+            d.until(lambda: number(found) > drawn)
             count = len(seen)
             d.until(lambda: len(seen) > count + 1)
     finally:

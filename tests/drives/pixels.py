@@ -292,8 +292,8 @@ def drive_channels_follow_a_drag(d: Driver) -> None:
     both = d.window.renderers
     d.ctx.key_press(ALT | int(Key._2))
     d.settle()
-    assert both.pictures is not None
-    reads = counting(both.pictures, "read_back")
+    assert both.textures is not None
+    reads = counting(both.textures.raster, "read_back")
     center = d.ctx.item_info(d.field("w.x")).rect_full.get_center()
     d.ctx.mouse_teleport_to_pos((center.x, center.y))
     d.ctx.mouse_down(0)
@@ -303,7 +303,7 @@ def drive_channels_follow_a_drag(d: Driver) -> None:
         image = both.ray_image
         assert image is not None
         assert image.frame.depth is not None
-        assert both.pictures.shows_ray  # never nothing
+        assert both.textures.shows_ray  # never nothing
         assert both.raster_error is None
     while_moving = reads()
     d.ctx.mouse_up(0)
@@ -456,7 +456,7 @@ def drive_nothing_is_drawn_twice(d: Driver) -> None:
     choose(d, "Resolution/640 x 360")
     choose(d, "Magnification/32x")
     choose(d, "Channel/Depth")
-    pictures = both.pictures
+    pictures = both.textures
     assert pictures is not None
     shown = [counting(image._display, "show") for image in (pictures._raster, pictures._ray)]
     drawn = counting(pictures._rasterizer, "draw")

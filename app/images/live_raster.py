@@ -1,0 +1,204 @@
+"""The raster image of a camera that keeps changing: drawn at once, coarse where one frame has no
+time for all of it, and full when the camera rests.
+
+Owns the newest complete image, the one under way, and what drawing has taken. All in the window's
+thread: OpenGL has one.
+"""
+
+from __future__ import annotations
+
+import functools
+import time
+from dataclasses import dataclass
+
+import moderngl
+from numpy.typing import NDArray
+
+from app.images.coarseness import Coarseness
+from app.images.progressive_raster import Pace, ProgressiveRaster
+from app.images.readback import Reading, Region
+from app.images.request import ImageRequest
+from app.images.window_rasterizer import FAILURES, WindowRasterizer
+from renderer.frame import Frame
+from renderer.raster.targets import Textures
+
+MOVING_S = 0.1  # after a change, at least, before a full raster image: the ray image comes first
+FRAME_S = 0.0035  # what a raster image may take of a frame while the camera moves
+COARSEST = 4
+PLACES = {False: ("", "full too"), True: ("coarse", "coarse too")}  # by whether it is coarse
+
+
+@dataclass(frozen=True, eq=False)
+class RasterImage:
+    """A complete image. number: another image, another number. factor: it is so many times as
+    coarse. textures: drawn over by the next image. place: where they are, see Rasterizer.draw."""
+
+    request: ImageRequest
+    textures: Textures
+    number: int
+    factor: int
+    place: str
+
+
+@dataclass(eq=False)
+class _UnderWay:
+    """sharpening: for that only, over as many frames as it takes. frame: the one in which it was
+    gone on with. time_s: of the GPU, as measured so far."""
+
+    request: ImageRequest
+    drawing: ProgressiveRaster
+    sharpening: bool
+    frame: int = -1
+    time_s: float = 0.0
+
+
+class LiveRaster:
+    """In a context that must be current in every call.
+
+    image: the newest complete one; None before the first, and after a failure. time_s: what the
+    GPU took for it.
+    """
+
+    def __init__(self, context: moderngl.Context, rasterizer: WindowRasterizer) -> None:
+        self._rasterizer = rasterizer
+        self._coarseness, self._pace = Coarseness(FRAME_S, FRAME_S, COARSEST), Pace()
+        self._timer = context.query(time=True)
+        self._timed: tuple[_UnderWay, bool] | None = None  # a part, and whether it was the last
+        self._asked: ImageRequest | None = None  # the newest, whether or not it is drawn already
+        self._changed_s = 0.0
+        self._factor = 1  # of what is asked for
+        self._under_way: _UnderWay | None = None
+        self._frame = self._number = 0
+        self._reading: Reading | None = None
+        self._values: tuple[object, NDArray] | None = None
+        self.image: RasterImage | None = None
+        self.time_s = 0.0
+
+    def begin_frame(self) -> None:
+        """Once a frame, before anything else."""
+        self._frame += 1
+        self._read_time()
+
+    @property
+    def unfinished(self) -> bool:
+        """Whether coming frames have something to draw, if the image is still asked for."""
+        return self._under_way is not None or (self.image is not None and self.image.factor > 1)
+
+    @property
+    def is_timed(self) -> bool:
+        """Whether the next frame has a time to read."""
+        return self._timed is not None
+
+    def follow(self, request: ImageRequest) -> RasterImage:
+        """The newest complete image: of an older camera where an image takes several frames. Drawn
+        anew if it must be. Raises one of FAILURES."""
+        if request != self._asked:
+            self._asked, self._changed_s = request, time.monotonic()
+            width, height = request.size
+            self._factor = self._coarseness.changed(width * height, self._changed_s)
+        if self._under_way is not None and _is_in_vain(self._under_way, request):
+            self._under_way = None
+        if self._under_way is None:
+            still_s = time.monotonic() - self._changed_s
+            if self.image is None or self.image.request != request:
+                self._begin(request)
+            elif self.image.factor > 1 and still_s > max(MOVING_S, self._coarseness.rest_s):
+                self._begin(request, sharpening=True)
+        self._go_on()
+        assert self.image is not None
+        return self.image
+
+    def full(self, request: ImageRequest) -> RasterImage | None:
+        """The image of a request, if that is drawn, and not coarse."""
+        image = self.image
+        is_it = image is not None and image.request == request and image.factor == 1
+        return image if is_it else None
+
+    def read_back(self, request: ImageRequest) -> Frame | None:
+        """All channels of the full image as arrays, a part a call: None until the last. Raises one
+        of FAILURES."""
+        image = self.full(request)
+        if image is None:  # to be drawn, and read from the next frame on
+            if self._under_way is None or self._under_way.request != request:
+                self._begin(request, sharpening=True)
+            self._go_on()
+            return None
+        if self._reading is None or self._reading.of is not image:
+            rasterizer = self._rasterizer.of(request.scene)
+            read = functools.partial(rasterizer.read, place=image.place)
+            self._reading = Reading(image, request.size, read)
+        frame = self._reading.go_on()
+        if frame is not None:
+            self._reading = None
+        return frame
+
+    def values(self, request: ImageRequest, channel: str, region: Region) -> NDArray | None:
+        """A channel's values in some pixels of the image, if that is drawn, and full; else None.
+        region: first row and column, one past the last of each. Waits for the GPU."""
+        image = self.full(request)
+        if image is None:
+            return None
+        key = (image, channel, region)
+        if self._values is None or self._values[0] != key:
+            rasterizer = self._rasterizer.of(request.scene)
+            self._values = key, rasterizer.read((channel,), region, image.place)[channel]
+        return self._values[1]
+
+    def forget(self) -> None:
+        """A failure: the image may be drawn over."""
+        self.image, self._under_way, self._reading = None, None, None
+
+    def _begin(self, request: ImageRequest, sharpening: bool = False) -> None:
+        rasterizer, image = self._rasterizer.of(request.scene), self.image
+        factor = 1 if sharpening else self._factor
+        width, height = request.size
+        drawing = ProgressiveRaster(
+            rasterizer,
+            request.camera,
+            request.size,
+            factor,
+            PLACES[factor > 1],
+            image.place if image is not None else None,
+            self._pace,
+            expected_s=self._coarseness.full_s(width * height) if sharpening else 0.0,
+            at_once=image is None or image.request.scene is not request.scene,
+        )
+        self._under_way = _UnderWay(request, drawing, sharpening)
+
+    def _go_on(self) -> None:
+        """Once a frame, however many ask."""
+        under_way = self._under_way
+        if under_way is None or under_way.frame == self._frame:
+            return
+        try:
+            with self._timer:
+                drawn = under_way.drawing.go_on()
+        except FAILURES:
+            self.forget()
+            raise
+        under_way.frame = self._frame
+        self._timed = under_way, drawn is not None
+        if drawn is not None:
+            drawing, self._under_way, self._reading = under_way.drawing, None, None
+            self._number += 1
+            self.image = RasterImage(
+                under_way.request, drawn, self._number, drawing.factor, drawing.place
+            )
+
+    def _read_time(self) -> None:
+        """A frame later: at once, it would wait for the GPU."""
+        if self._timed is None:
+            return
+        (part_of, is_last), self._timed = self._timed, None
+        part_of.time_s += self._timer.elapsed * 1e-9
+        if is_last:
+            drawing, self.time_s = part_of.drawing, part_of.time_s
+            width, height = drawing.size
+            self._coarseness.measured(drawing.factor, width * height, self.time_s)
+
+
+def _is_in_vain(under_way: _UnderWay, request: ImageRequest) -> bool:
+    """Whether it would show too old a thing: an image of a motion is finished, so that the motion
+    always shows something new."""
+    of = under_way.request
+    return of.scene is not request.scene or (under_way.sharpening and of != request)

@@ -1,0 +1,38 @@
+"""What an image depends on, whichever renderer makes it."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+from renderer.camera import Camera
+from renderer.scene.model import Scene
+
+
+@dataclass(frozen=True)
+class ImageRequest:
+    """size: (width, height) of the full image.
+
+    shadows, mirrors: with these the ray image shows what the raster image cannot. channel: what is
+    looked at: coarse ray images have no other, so that they are quick; a full image has all, and
+    serves requests for any.
+    """
+
+    scene: Scene
+    camera: Camera
+    size: tuple[int, int]
+    shadows: bool = False
+    mirrors: bool = False
+    channel: str = field(default="color", compare=False)
+
+    @property
+    def has_effects(self) -> bool:
+        return self.shadows or self.mirrors
+
+    def is_served_by(self, other: ImageRequest | None) -> bool:
+        """Whether the Tracer that was made for another request can serve this one."""
+        return other is not None and (self.shadows, self.mirrors) == (other.shadows, other.mirrors)
+
+
+def reduced(size: tuple[int, int], factor: int) -> tuple[int, int]:
+    """The size of an image `factor` times as coarse, at least 1 x 1."""
+    return max(1, -(-size[0] // factor)), max(1, -(-size[1] // factor))

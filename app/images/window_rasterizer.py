@@ -1,0 +1,63 @@
+"""The rasterizer in the window's context, and the scene that it has.
+
+It is made when it first draws: where a driver does not take its shaders, that is an error of
+drawing, and the window has the ray image.
+"""
+
+from __future__ import annotations
+
+import moderngl
+
+from app.images.request import ImageRequest
+from renderer.errors import LucidaError
+from renderer.raster import Prepared, Rasterizer
+from renderer.raster.targets import Textures
+from renderer.scene.model import Scene
+
+FAILURES = (LucidaError, moderngl.Error, MemoryError)  # of drawing: told, and survived
+
+
+class WindowRasterizer:
+    """In a context that must be current in every call."""
+
+    def __init__(self, context: moderngl.Context) -> None:
+        self._gl = context
+        self._made: Rasterizer | None = None
+        self._not_made: Exception | None = None
+        self._scene: Scene | None = None
+        self._prepared: list[tuple[Scene, Prepared]] = []
+
+    def of(self, scene: Scene) -> Rasterizer:
+        """The rasterizer, with this scene. Raises again what making it has raised, until retry():
+        compiling takes many frames."""
+        if self._not_made is not None:
+            raise self._not_made
+        if self._made is None:
+            try:
+                self._made = Rasterizer(Scene(()), context=self._gl)
+            except FAILURES as error:
+                self._not_made = error
+                raise
+        if scene is not self._scene:
+            known = next((known for of, known in self._prepared if of is scene), None)
+            self._made.set_scene(scene, known)
+            self._scene = scene
+        return self._made
+
+    def draw(self, request: ImageRequest, place: str) -> Textures:
+        """An image beside the one of both renderers. place: see Rasterizer.draw. Raises
+        LucidaError."""
+        return self.of(request.scene).draw(request.camera, request.size, place)
+
+    def prepare(self, scene: Scene, prepared: Prepared) -> None:
+        """Keeps what a scene was prepared as, which takes long, for when it is shown: of the last
+        one, and of the one before it, for undo."""
+        self._prepared = [*self._prepared, (scene, prepared)][-2:]
+
+    def retry(self) -> None:
+        """Makes the rasterizer again, if that has failed."""
+        self._not_made = None
+
+    def release(self) -> None:
+        if self._made is not None:
+            self._made.release()
