@@ -10,17 +10,10 @@ from collections.abc import Callable
 from pathlib import Path
 
 from app.lecture.model import Lecture
-from app.storage.capture import free_path
 from app.widgets.surface import Target
 from app.window.platform import start_platform
 from app.window.start import Start, begin_lecture, begin_scene, first_state
-from app.window.viewer import (
-    DEFAULT_PICTURE,
-    DEFAULT_SIZE,
-    SCREENSHOT_LIMIT_S,
-    Run,
-    save_png,
-)
+from app.window.viewer import DEFAULT_SIZE, SCREENSHOT_LIMIT_S, Run, save_png, start_drawing
 from renderer.atomic import check_writable
 from renderer.errors import LucidaError
 from renderer.scene.outside import OutsideError
@@ -44,22 +37,12 @@ def run_lecture(
     """
     if screenshot is not None:
         check_writable(screenshot)
-    platform = start_platform(want_display=screenshot is None)
-    picture = screenshot
-    if not platform.has_display and picture is None:
-        picture = free_path(DEFAULT_PICTURE)
-        check_writable(picture)
-        print(f"lucida: no display ({platform.reason}): drawing the step once, into {picture}")
-    shown = picture is not None
-    start = Start(first_state(lecture, number)) if shown else begin_lecture(lecture, number)
-    run = Run(platform, start.state, size or DEFAULT_SIZE, picture is not None, start=start)
+    platform, picture = start_drawing(screenshot, "the step")
+    pictured = picture is not None
+    start = Start(first_state(lecture, number)) if pictured else begin_lecture(lecture, number)
+    run = Run(platform, start.state, size or DEFAULT_SIZE, pictured, start=start)
     run.window.lecture.give(lecture, path, number)
-    pixels = run.run()
-    if picture is not None:
-        save_png(picture, pixels)
-        if screenshot is None:
-            print(f"lucida: saved {picture}")
-    return 0
+    return run.to_the_end(picture, tell=screenshot is None)
 
 
 def ask_lecture(path: Path, error: OutsideError, size: tuple[int, int] | None = None) -> int:
@@ -71,8 +54,7 @@ def ask_lecture(path: Path, error: OutsideError, size: tuple[int, int] | None = 
     start = begin_scene()
     run = Run(platform, start.state, size or DEFAULT_SIZE, start=start)
     run.window.files.open_lecture(str(path))
-    run.run()
-    return 0
+    return run.to_the_end(None)
 
 
 def export_lecture(
@@ -123,9 +105,7 @@ class _Export:
         window = self._run.window
         if self._number == len(self._files):
             return
-        for failure in (window.renderers.failure, *window.shell.stage.failures.values()):
-            if failure is not None:
-                raise failure
+        window.check()
         self._quiet = self._quiet + 1 if window.settled else 0
         if self._quiet <= QUIET_FRAMES:
             if time.monotonic() - self._began_s > SCREENSHOT_LIMIT_S:

@@ -132,6 +132,12 @@ class MainWindow:
         moving = self.files.busy or self.traveller.under_way
         return views and self.renderers.settled(self.state) and not moving
 
+    def check(self) -> None:
+        """Raises what keeps the images or a view from being complete."""
+        for failure in (self.renderers.failure, *self.shell.stage.failures.values()):
+            if failure is not None:
+                raise failure
+
     def is_rearranging(self) -> bool:
         """Whether the frame that has been laid out is no picture yet; call once a frame."""
         return self.shell.stage.place() or self.lecture.is_entering

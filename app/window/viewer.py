@@ -70,27 +70,30 @@ def run_viewer(
     is one, and one line says so. size: the window's (width, height). view: a view file. change:
     what else the command line says about the view. Raises LucidaError.
     """
+    goes_on = scene_source is None and view is None and change is None and screenshot is None
     if screenshot is not None:
         check_writable(screenshot)
-    goes_on = scene_source is None and view is None and change is None and screenshot is None
     start = None if goes_on else begin_scene(scene_source, view, change, screenshot is not None)
-    platform = start_platform(want_display=screenshot is None)
-    picture = screenshot
-    if not platform.has_display and picture is None:
-        picture = free_path(DEFAULT_PICTURE)
-        check_writable(picture)
-        print(f"lucida: no display ({platform.reason}): drawing the window once, into {picture}")
+    platform, picture = start_drawing(screenshot, "the window")
     if start is None:
         start = begin_session(fresh) if picture is None else begin_scene()
     elif start.later is not None and picture is not None:
         start = begin_scene(scene_source, view, change, wait=True)
     run = Run(platform, start.state, size or DEFAULT_SIZE, picture is not None, start=start)
-    pixels = run.run()
-    if picture is not None:
-        save_png(picture, pixels)
-        if screenshot is None:
-            print(f"lucida: saved {picture}")
-    return 0
+    return run.to_the_end(picture, tell=screenshot is None)
+
+
+def start_drawing(screenshot: Path | None, what: str) -> tuple[Platform, Path | None]:
+    """The platform, and where a picture is drawn to instead of opening a window: the screenshot's
+    file, or, with no display, lucida.png, or lucida-2.png where there is one. what: is drawn, in
+    words. Raises LucidaError."""
+    platform = start_platform(want_display=screenshot is None)
+    if platform.has_display or screenshot is not None:
+        return platform, screenshot
+    picture = free_path(DEFAULT_PICTURE)
+    check_writable(picture)
+    print(f"lucida: no display ({platform.reason}): drawing {what} once, into {picture}")
+    return platform, picture
 
 
 class Run:
@@ -148,6 +151,16 @@ class Run:
         if self._error is not None:
             raise self._error
         return np.ascontiguousarray(hello_imgui.final_app_window_screenshot()[..., :3])
+
+    def to_the_end(self, picture: Path | None, tell: bool = False) -> int:
+        """Runs, saves what was drawn instead of opening a window, and gives the exit status. tell:
+        say where."""
+        pixels = self.run()
+        if picture is not None:
+            save_png(picture, pixels)
+            if tell:
+                print(f"lucida: saved {picture}")
+        return 0
 
     def _take(self, start: Start) -> None:
         if start.session is not None:
@@ -291,10 +304,7 @@ class Run:
         if not self.take_picture:
             return
         self._tell_compiling()
-        failures = [self.window.renderers.failure, *self.window.shell.stage.failures.values()]
-        for failure in failures:
-            if failure is not None:
-                raise failure
+        self.window.check()
         # The layout needs two frames; afterwards nothing may change.
         self._quiet_frames = self._quiet_frames + 1 if self.window.settled else 0
         if self._quiet_frames > 3:
