@@ -15,6 +15,7 @@ from app.compare.view import CompareView
 from app.images import live_raster as module
 from app.images.coarseness import Coarseness
 from app.images.live_raster import LiveRaster
+from app.images.textures import PANE
 from app.pair.view import RASTER, RAY
 from app.widgets.surface import Target
 from renderer.frame import CHANNELS
@@ -148,10 +149,12 @@ def shown(d: Driver) -> tuple[np.ndarray, np.ndarray]:
     at the top, and as it was made."""
     d.settle()
     found: list[tuple[np.ndarray, np.ndarray]] = []
+    textures = d.window.renderers.textures
+    assert textures is not None
     left, top, right, bottom = (round(edge) for edge in d.rect(RASTER))
 
     def look(target: Target) -> None:  # in the window's thread, unlike drives
-        picture = live_raster(d)._raster._pictures[module.PANE].texture
+        picture = textures._shown_raster._pictures[PANE].texture
         rows = np.frombuffer(picture.read(), np.uint8).reshape(picture.height, picture.width, 4)
         seen = target.read()[top:bottom, left:right]
         found.append((seen.astype(int), rows[..., :3].astype(int)))
