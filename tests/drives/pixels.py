@@ -456,10 +456,12 @@ def drive_nothing_is_drawn_twice(d: Driver) -> None:
     choose(d, "Resolution/640 x 360")
     choose(d, "Magnification/32x")
     choose(d, "Channel/Depth")
-    pictures = both.textures
-    assert pictures is not None
-    shown = [counting(image._display, "show") for image in (pictures._raster, pictures._ray)]
-    drawn = counting(pictures._rasterizer, "draw")
-    read = counting(pictures._rasterizer, "read")
+    textures = both.textures
+    assert textures is not None
+    images = textures._shown_raster, textures._shown_ray
+    shown = [counting(image._display, "show") for image in images]
+    rasterizer = textures.rasterizer.of(d.window.state.scene)
+    drawn = counting(rasterizer, "draw")
+    read = counting(rasterizer, "read")
     d.ctx.yield_(10)
     assert [count() for count in (*shown, drawn, read)] == [0, 0, 0, 0]

@@ -20,7 +20,6 @@ import os
 import shutil
 import sys
 import tempfile
-import threading
 import time
 from collections.abc import Callable, Iterator
 from functools import cache
@@ -31,38 +30,35 @@ import llvmlite
 import numba
 import numpy
 import platformdirs
-from numba.core import config
-from numba.core.caching import FunctionCache, NullCache
-from numba.core.runtime import rtsys
+from numba import config
 
 import renderer.scene.flat
 from renderer import compile_note
 from renderer.errors import LucidaError
 from renderer.private import private_folder
-from renderer.trace.compile.numba_compiler import KernelCompiler, PartCompiler
+from renderer.trace.compile.numba_inside import missing, part
 
 KEPT = 4  # folders of other sources or versions that stay
 KEPT_FOR_S = 3600.0  # younger ones stay too: another process may be filling them
 
-# No entry points for Python, and no machine code of their own (numba_compiler.py). No reference
-# counts: arrays belong to the kernel's caller meanwhile, and counting their uses would take longer
-# than most rays.
-_INSIDE = {
-    "forceinline": True,
-    "no_cpython_wrapper": True,
-    "no_cfunc_wrapper": True,
-    "_nrt": False,
-    "pipeline_class": PartCompiler,
-}
+_compiler, _cache = part("numba_compiler"), part("numba_cache")
+
+# No entry points for Python.
+_INSIDE = {"forceinline": True, "no_cpython_wrapper": True, "no_cfunc_wrapper": True}
+_KERNEL: dict[str, Any] = {"no_cfunc_wrapper": True}
+if _compiler is not None:
+    # No machine code of their own. No reference counts: arrays belong to the kernel's caller
+    # meanwhile, and counting their uses would take longer than most rays.
+    _INSIDE |= {"_nrt": False, "pipeline_class": _compiler.PartCompiler}
+    _KERNEL["pipeline_class"] = _compiler.KernelCompiler
 
 # numba takes settings from a file in the current folder, at its import and for each compilation. It
 # may have come with anything: what counts is the environment.
-config._config_fname = os.devnull
-config.reload_config()
+if hasattr(config, "_config_fname") and hasattr(config, "reload_config"):
+    config._config_fname = os.devnull
+    config.reload_config()
 
 _TRACE = Path(__file__).parents[1]  # the tracer's folder
-_LOCATOR = "UserProvidedCacheLocator"  # numba's name for: CACHE_DIR, and nowhere else
-_cache_dir_lock = threading.Lock()
 
 
 def inlined(function: Callable[..., Any]) -> Any:
@@ -79,23 +75,15 @@ def kernel(function: Callable[..., Any]) -> Any:
 
     Must be used at module level, or the cache cannot find the function again.
     """
-    compiled = numba.njit(
-        nogil=True, error_model="numpy", no_cfunc_wrapper=True, pipeline_class=KernelCompiler
-    )(function)
+    compiled = numba.njit(nogil=True, error_model="numpy", **_KERNEL)(function)
     folder = cache_folder()
-    if folder is not None:
-        # numba takes a cache's folder from its configuration, at the cache's creation.
-        with _cache_dir_lock:
-            users = config.CACHE_DIR, config.CACHE_LOCATOR_CLASSES
-            config.CACHE_DIR, config.CACHE_LOCATOR_CLASSES = str(folder), _LOCATOR
-            try:
-                compiled._cache = _Cache(function)
-            except RuntimeError:  # the folder can no longer be written
-                compiled._cache = _NoCache()
-            finally:
-                config.CACHE_DIR, config.CACHE_LOCATOR_CLASSES = users
+    if _cache is not None:
+        _cache.keep(compiled, function, folder)
+    elif folder is not None:
+        config.CACHE_DIR = str(folder)
+        compiled.enable_caching()
     else:
-        compiled._cache = _NoCache()
+        compile_note.begin(kept=False)
     return compiled
 
 
@@ -137,6 +125,7 @@ def source_hash() -> str:
         digest.update(path.name.encode() + b"\0" + path.read_bytes() + b"\0")
     for version in (sys.version, numba.__version__, llvmlite.__version__, numpy.__version__):
         digest.update(version.encode() + b"\0")
+    digest.update(repr(missing()).encode())
     return digest.hexdigest()[:20]
 
 
@@ -170,43 +159,3 @@ def _prune(base: Path, used: Path) -> None:
                 shutil.rmtree(path, ignore_errors=True)
     except OSError:  # another process prunes too
         return
-
-
-class _NoCache(NullCache):
-    """What a function has that is compiled anew in each process."""
-
-    def load_overload(self, sig: Any, target_context: Any) -> Any:
-        compile_note.begin(kept=False)
-        return None
-
-
-class _Cache(FunctionCache):
-    """numba's cache of one function; a damaged or full disk costs compiling again, not an error.
-
-    numba makes its whole compiler ready before it looks for machine code: half of a start's time.
-    All that such code needs of it are the functions by which kernels allocate arrays.
-    """
-
-    def load_overload(self, sig: Any, target_context: Any) -> Any:
-        loaded = None
-        try:
-            rtsys.initialize(target_context)
-            with self._guard_against_spurious_io_errors():
-                loaded = self._load_overload(sig, target_context)
-        except Exception:  # whatever unpickling a damaged file may raise
-            pass
-        if loaded is None:
-            compile_note.begin(kept=True)
-        return loaded
-
-    def save_overload(self, sig: Any, data: Any) -> None:
-        try:
-            try:
-                super().save_overload(sig, data)
-            except OSError:
-                raise
-            except Exception:  # the index that is to be extended is damaged: it begins anew
-                self.flush()
-                super().save_overload(sig, data)
-        except OSError:  # the disk is full
-            compile_note.begin(kept=False)

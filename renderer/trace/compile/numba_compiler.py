@@ -1,7 +1,6 @@
 """How numba compiles a function that is only ever a part of kernels: no further than it must.
 
-Owns the changes to numba's compiler for such functions, and for kernels. Knows nothing of what they
-do.
+A part of numba_inside.py.
 
 numba takes each function for one that might be called on its own: it optimises it together with
 all that it calls, makes machine code of it, and its callers begin anew with the result. With stages
@@ -17,6 +16,7 @@ from typing import Any
 import llvmlite.binding as llvm
 from numba.core.codegen import JITCodeLibrary
 from numba.core.compiler import Compiler, PassManager
+from numba.core.options import DefaultOptions
 from numba.core.typed_passes import InlineOverloads, IRLegalization, NopythonRewrites
 from numba.core.untyped_passes import (
     InlineClosureLikes,
@@ -25,6 +25,16 @@ from numba.core.untyped_passes import (
     LiteralUnroll,
     MakeFunctionToJitFunction,
     WithLifting,
+)
+
+NEEDS = (
+    (JITCodeLibrary, ("_finalize_dynamic_globals", "_finalized", "_get_module_for_linking")),
+    (JITCodeLibrary, ("_linking_libraries", "_optimize_functions", "_raise_if_finalized")),
+    (JITCodeLibrary, ("_final_module", "_reload_init", "enable_object_caching", "finalize")),
+    (JITCodeLibrary, ("get_pointer_to_function", "serialize_using_object_code")),
+    (Compiler, ("define_pipelines", "state")),
+    (PassManager, ("finalize", "passes", "pipeline_name")),
+    (DefaultOptions, ("_nrt",)),
 )
 
 # Passes for what kernels' parts do not have: `with`, closures, literal_unroll, array expressions,

@@ -1,6 +1,6 @@
 """Shortcuts through numba's compiler, for a process that does nothing but compile.
 
-Owns these changes to numba, which apply to a whole process. Knows nothing of kernels.
+A part of numba_inside.py.
 
 numba keeps the time that its parts take, by events at each call of LLVM's; tries all that an
 operator can mean again for each use of it; looks at a function's parameters each time that it is
@@ -19,6 +19,13 @@ import numba.core.base
 from numba.core import ir
 from numba.core.types.functions import BaseFunction
 from numba.core.typing.templates import _OverloadFunctionTemplate
+
+NEEDS = (
+    (llvm.ffi.lib._lock, ("_cblist",)),
+    (numba.core.base, ("_has_loc",)),
+    (ir.Inst, ("_rec_list_vars", "list_vars")),
+    (BaseFunction, ("_impl_keys", "get_call_type", "templates", "typing_key")),
+)
 
 
 def take_shortcuts() -> None:

@@ -17,11 +17,15 @@ import numpy as np
 from llvmlite import ir
 from numba.core import types
 from numba.core.errors import TypingError
-from numba.core.types.misc import CPointer
 from numba.extending import intrinsic
 from numpy.typing import NDArray
 
+from renderer.trace.compile.numba_inside import part
+
 ROOM_BYTES = 4096  # for what a stage always needs
+
+_calls = part("numba_calls")
+CPointer = types.CPointer  # type: ignore[attr-defined]
 
 # Arguments of each call: row and column of the image, and a thread's scratch memory.
 _EACH = (types.int64, types.int64, CPointer(types.float32), CPointer(types.int32))
@@ -84,15 +88,15 @@ def _code(context, module, function, signature, always_type):
 
 def _calling(context, module, function, signature, code_type, arguments):
     """A function of LLVM's, which calls numba's with arguments(builder, its own)."""
-    compiled = function.dispatcher.get_compile_result(signature)
-    context.active_code_library.add_linking_library(compiled.library)
-    callee = context.declare_function(module, compiled.fndesc)
     code = ir.Function(module, code_type, module.get_unique_name("lucida_stage"))
     code.linkage = "internal"
     builder = ir.IRBuilder(code.append_basic_block())
-    context.call_conv.call_function(
-        builder, callee, signature.return_type, signature.args, arguments(builder, code.args)
-    )
+    values = arguments(builder, code.args)
+    if _calls is not None:
+        _calls.call(context, builder, function, signature, values)
+    else:  # compiled anew, for this call
+        compiled = context.compile_subroutine(builder, function.dispatcher.py_func, signature)
+        context.call_internal_no_propagate(builder, compiled.fndesc, signature, values)
     builder.ret_void()
     return code
 

@@ -17,10 +17,11 @@ def main(part: str) -> None:
     """Compiles a part, and ends at once: to take a compiler's million objects down would take a
     sixth of its time. The status is 1 where the cache could not take it."""
     gc.disable()
-    from renderer.trace.compile.numba_shortcuts import take_shortcuts
+    from renderer.trace.compile.numba_inside import part as part_of_numba
 
     end_with_parent()
-    take_shortcuts()
+    if (shortcuts := part_of_numba("numba_shortcuts")) is not None:
+        shortcuts.take_shortcuts()
     compile_part(part)
     os._exit(0 if compile_note.is_kept() else 1)
 

@@ -16,7 +16,7 @@ from collections.abc import Callable
 from pathlib import Path
 
 import llvmlite.binding as llvm
-from numba.core import config
+from numba import config
 
 from renderer import compile_note
 from renderer.child import end_child, interpreter, start_child

@@ -11,7 +11,6 @@ from typing import Any
 from llvmlite import ir
 from numba.core import types
 from numba.core.errors import TypingError
-from numba.core.types.misc import CPointer
 from numba.extending import intrinsic
 
 from renderer.trace.simd.types import (
@@ -22,6 +21,7 @@ from renderer.trace.simd.types import (
     LANES,
     MASK,
     VECTOR,
+    CPointer,
     address_of,
     array_kind,
     call_llvm,

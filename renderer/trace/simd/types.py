@@ -13,10 +13,10 @@ from typing import Any
 from llvmlite import ir
 from numba.core import cgutils, types
 from numba.core.errors import TypingError
-from numba.core.types.misc import CPointer
 from numba.extending import lower_builtin, models, register_model, type_callable
 
 LANES = 16
+CPointer = types.CPointer  # type: ignore[attr-defined]
 
 I1, INT32, INT64 = ir.IntType(1), ir.IntType(32), ir.IntType(64)
 ELEMENT = {"f32": ir.FloatType(), "f64": ir.DoubleType(), "i32": INT32, "mask": I1}
@@ -88,9 +88,7 @@ def address_of(context: Any, builder: Any, array_type: Any, array: Any) -> Any:
     """The address of an array's first element."""
     if isinstance(array_type, CPointer):
         return array
-    from numba.np.arrayobj import make_array  # here: machine code from the cache needs none of it
-
-    return make_array(array_type)(context, builder, array).data
+    return cgutils.create_struct_proxy(array_type)(context, builder, value=array).data
 
 
 def element_address(context: Any, builder: Any, sig: Any, args: Any) -> Any:
