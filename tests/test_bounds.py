@@ -9,19 +9,16 @@ from typing import Annotated, Any, get_args, get_origin, get_type_hints
 
 import pytest
 
-from app.lecture.options import options_from_table
+from app.compare.options import CompareOptions
+from app.laboratory.options import LaboratoryOptions
+from app.lecture.step_options import options_from_table
+from app.outside.options import OutsideOptions
+from app.probe.options import ProbeOptions
+from app.state.all_options import Options
 from app.state.app_state import AppState
 from app.state.bounds import Accepted, AtMost, Range, check, clamped, range_of, whole_range_of
-from app.state.options import (
-    Bookmark,
-    CompareOptions,
-    ImageOptions,
-    LaboratoryOptions,
-    Options,
-    OutsideOptions,
-    ProbeOptions,
-    StepperOptions,
-)
+from app.state.options import Bookmark, ImageOptions
+from app.stepper.options import StepperOptions
 from app.storage.session import Arrangement, from_bytes, session_of, to_bytes
 from renderer.camera import Camera
 from renderer.errors import LucidaError
@@ -144,7 +141,7 @@ def test_clamping_takes_the_nearest_and_leaves_the_rest(state):
     assert changed.images == replace(
         ImageOptions(), exposure_ev=8.0, pixel_size=8, center=(0.0, 0.25), grid=False
     )
-    assert changed.compare == CompareOptions(gain=1.0)
+    assert changed.options.compare == CompareOptions(gain=1.0)
     assert changed.options.laboratory == LaboratoryOptions(zoom_center=(0.5, 0.75))
     assert changed.options.stepper == StepperOptions(canvas=(16, 48))
     assert changed.marked == (0, 3)

@@ -1,0 +1,9 @@
+"""The guided lecture, as the window takes it."""
+
+from __future__ import annotations
+
+from app.host.instrument import Instrument
+from app.lecture.actions import LECTURE
+from app.lecture.view import LectureView
+
+INSTRUMENT = Instrument(lambda views: [LectureView(views)], LECTURE)
