@@ -23,6 +23,7 @@ RESOLUTIONS = (
     *((16, 9), (64, 36), (160, 90), (320, 180), (640, 360), (1280, 720), (1920, 1080)),
     *((3840, 2160), (4096, 2160), (4, 3), (16, 16), (64, 64), (256, 256), (512, 512)),
 )
+MOST_BOOKMARKS = 9  # a key for each
 MAGNIFICATIONS = (1, 2, 4, 8, 16, 32, 64)
 
 Channel = Literal["color", "depth", "normal", "id"]
@@ -72,7 +73,7 @@ class Preferences:
 class Bookmark:
     """A view to come back to. number: its key."""
 
-    number: Annotated[int, Range(1, 9)]
+    number: Annotated[int, Range(1, MOST_BOOKMARKS)]
     name: str
     view: View
 
@@ -98,7 +99,7 @@ class SharedOptions:
     one_based: bool = True
     language: Language = "python"
     presets_in_perspective: bool = False
-    bookmarks: Annotated[tuple[Bookmark, ...], AtMost(9)] = ()
+    bookmarks: Annotated[tuple[Bookmark, ...], AtMost(MOST_BOOKMARKS)] = ()
 
     @property
     def indexing(self) -> Indexing:
