@@ -8,7 +8,11 @@ from app.host.instrument import Instrument
 from app.host.view import view_of
 from app.pair.view import RasterView
 
+SYNONYMS = {
+    "Worst pixel": "error difference",
+    "Compare raster and ray": "difference diff error flip",
+}
+
 INSTRUMENT = Instrument(
-    lambda views: [CompareView(view_of(views, RasterView).linked)],
-    COMPARING,
+    lambda views: [CompareView(view_of(views, RasterView).linked)], COMPARING, synonyms=SYNONYMS
 )

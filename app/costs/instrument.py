@@ -5,4 +5,8 @@ from __future__ import annotations
 from app.costs.view import CostsView
 from app.host.instrument import Instrument
 
-INSTRUMENT = Instrument(lambda views: [CostsView()])
+SYNONYMS = {
+    "Costs": "performance complexity time plot",
+}
+
+INSTRUMENT = Instrument(lambda views: [CostsView()], synonyms=SYNONYMS)

@@ -7,4 +7,10 @@ from app.host.view import view_of
 from app.laboratory.view import LaboratoryView
 from app.outside.view import OutsideView
 
-INSTRUMENT = Instrument(lambda views: [LaboratoryView(view_of(views, OutsideView))])
+SYNONYMS = {
+    "Image laboratory": "dither threshold bitmap bytes vector projector subpixel array histogram",
+}
+
+INSTRUMENT = Instrument(
+    lambda views: [LaboratoryView(view_of(views, OutsideView))], synonyms=SYNONYMS
+)

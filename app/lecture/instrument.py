@@ -6,4 +6,10 @@ from app.host.instrument import Instrument
 from app.lecture.actions import LECTURE
 from app.lecture.view import LectureView
 
-INSTRUMENT = Instrument(lambda views: [LectureView(views)], LECTURE)
+SYNONYMS = {
+    "Next step": "slide",
+    "Step before": "slide previous",
+    "Lecture": "slides lesson tutorial course",
+}
+
+INSTRUMENT = Instrument(lambda views: [LectureView(views)], LECTURE, synonyms=SYNONYMS)

@@ -9,7 +9,12 @@ from app.pair.view import RasterView
 from app.probe.actions import PINNING
 from app.probe.view import ProbeView
 
+SYNONYMS = {
+    "Probe": "ray formula intersection pixel",
+}
+
 INSTRUMENT = Instrument(
     lambda views: [ProbeView(view_of(views, OutsideView), view_of(views, RasterView).linked)],
     PINNING,
+    synonyms=SYNONYMS,
 )

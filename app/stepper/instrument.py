@@ -8,4 +8,10 @@ from app.outside.view import OutsideView
 from app.stepper.actions import STEPPING
 from app.stepper.view import StepperView
 
-INSTRUMENT = Instrument(lambda views: [StepperView(view_of(views, OutsideView))], STEPPING)
+SYNONYMS = {
+    "Loop stepper": "algorithm code debug",
+}
+
+INSTRUMENT = Instrument(
+    lambda views: [StepperView(view_of(views, OutsideView))], STEPPING, synonyms=SYNONYMS
+)

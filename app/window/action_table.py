@@ -64,6 +64,7 @@ def _take(menu: str, room: str = "") -> list[Action]:
     return [action for _, action in found]
 
 
+# In the order of the menus, and within them; what an instrument adds to a menu comes last in it.
 ACTIONS = (
     *FILE,
     *_take("File"),

@@ -22,4 +22,8 @@ def make_views() -> list[View]:
     views: list[View] = []
     for instrument in INSTRUMENTS.values():
         views += instrument.make(views)
+    missing = {name for room in ROOMS for name in room.views} - {
+        view.name.lower() for view in views
+    }
+    assert not missing, f"app/instruments.py: there is no view {missing}"
     return views

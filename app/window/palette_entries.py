@@ -10,12 +10,9 @@ from collections.abc import Callable
 
 from app.host.action import Action, Window
 from app.window.action_table import ACTIONS
-from app.window.instruments import INSTRUMENTS
 from app.window.palette_search import Entry
-from app.window.synonyms import SYNONYMS as OWN
+from app.window.synonyms import SYNONYMS
 from renderer.scene import BUILTIN_SCENES
-
-SYNONYMS = OWN | {k: v for one in INSTRUMENTS.values() for k, v in one.synonyms.items()}
 
 
 def entries(window: Window) -> list[Entry]:
