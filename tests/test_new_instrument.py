@@ -68,8 +68,9 @@ run.run()
 def _page() -> tuple[str, dict[str, str]]:
     """The registry's line, and the files, by their paths."""
     text = PAGE.read_text("utf-8").partition("## Adding an instrument")[2]
+    (line,) = re.findall(r"```text\n(.*?)```\n", text, re.DOTALL)
     block = re.compile(r"```python\n(.*?)```\n", re.DOTALL)
-    line, *files = block.findall(text)
+    files = block.findall(text)
     names = re.findall(r"`(app/depths/\w+\.py)`", block.sub("", text))
     return line, dict(zip(names, files, strict=True))
 
