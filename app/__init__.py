@@ -4,7 +4,7 @@ those below it here (docs/architecture.md).
 commands/     the command line
 window/       the window while it is open, and what stands around its views
 camera_panel/ pair/ compare/ outside/ probe/
-stepper/ costs/ laboratory/ lecture/   an instrument each
+stepper/ costs/ laboratory/ lecture/   an instrument each; instruments.py lists them
 host/         what a view is, what an action is, and what both may ask of the window
 images/       both images, made, compared and shown
 cameras/      the camera in the user's hands; storage/ what outlives the window

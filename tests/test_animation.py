@@ -348,7 +348,13 @@ class TestTraveller:
         for there in (end, None):  # None: the view finds it
             traveller = Traveller(clock)
             target = state.with_options(outside={"camera": there}, shadows=True)
-            ends = Ends(start, end, SIZE)
+            ends = Ends(
+                start,
+                end,
+                SIZE,
+                of=lambda state: state.options.outside.camera,
+                put=lambda state, camera: state.with_options(outside={"camera": camera}),
+            )
             assert traveller.begin(state, target, scene_focus(scene), SIZE, ends) is state
             history = History(state)
             for part in (0.0, 0.5, 1.0):
@@ -356,10 +362,10 @@ class TestTraveller:
                 found = traveller.step(history.present)
                 history = history.change(found, traveller.gesture)
                 if part == 0.5:
-                    middle = found.outside.camera
+                    middle = found.options.outside.camera
             assert middle not in (None, start, end)
             assert history.present == state.with_options(outside={"camera": there})
-            assert [step.outside.camera for step in history.past] == [None]
+            assert [step.options.outside.camera for step in history.past] == [None]
             assert not traveller.under_way
             # Another camera for it ends the passage; another view does not.
             traveller.begin(state, target, scene_focus(scene), SIZE, ends)

@@ -9,20 +9,20 @@ from typing import Annotated, Any, get_args, get_origin, get_type_hints
 
 import pytest
 
-from app.lecture.options import options_from_table
+from app.compare.options import CompareOptions
+from app.images.placement import STEPS
+from app.laboratory.options import LaboratoryOptions
+from app.lecture.step_options import options_from_table
+from app.outside.options import OutsideOptions
+from app.probe.options import ProbeOptions
+from app.state.all_options import Options
 from app.state.app_state import AppState
 from app.state.bounds import Accepted, AtMost, Range, check, clamped, range_of, whole_range_of
-from app.state.options import (
-    Bookmark,
-    CompareOptions,
-    ImageOptions,
-    LaboratoryOptions,
-    Options,
-    OutsideOptions,
-    ProbeOptions,
-    StepperOptions,
-)
+from app.state.options import Bookmark, ImageOptions, Preferences
+from app.stepper.options import StepperOptions
 from app.storage.session import Arrangement, from_bytes, session_of, to_bytes
+from app.window.actions import FONT_SCALES
+from app.window.bookmarks import NUMBERS
 from renderer.camera import Camera
 from renderer.errors import LucidaError
 from renderer.scene import View, load_scene
@@ -144,7 +144,7 @@ def test_clamping_takes_the_nearest_and_leaves_the_rest(state):
     assert changed.images == replace(
         ImageOptions(), exposure_ev=8.0, pixel_size=8, center=(0.0, 0.25), grid=False
     )
-    assert changed.compare == CompareOptions(gain=1.0)
+    assert changed.options.compare == CompareOptions(gain=1.0)
     assert changed.options.laboratory == LaboratoryOptions(zoom_center=(0.5, 0.75))
     assert changed.options.stepper == StepperOptions(canvas=(16, 48))
     assert changed.marked == (0, 3)
@@ -171,6 +171,12 @@ def test_sliders_take_their_limits_from_the_fields():
     assert range_of(ImageOptions, "magnification") == (1 / 64, 128.0)  # of `float | None`
     assert whole_range_of(OutsideOptions, "bundle") == (0, 64)  # of a list's entries
     assert all(isinstance(limit, int) for limit in whole_range_of(LaboratoryOptions, "side_px"))
+
+
+def test_what_steps_through_a_range_ends_at_its_bounds():
+    assert (STEPS[0], STEPS[-1]) == range_of(ImageOptions, "magnification")
+    assert (FONT_SCALES[0], FONT_SCALES[-1]) == range_of(Preferences, "font_scale")
+    assert (NUMBERS[0], NUMBERS[-1]) == whole_range_of(Bookmark, "number")
 
 
 @pytest.mark.parametrize("value", [1, 4])

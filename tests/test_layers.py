@@ -9,6 +9,8 @@ from pathlib import Path
 
 import pytest
 
+from app.instruments import ROOMS
+
 ROOT = Path(__file__).parent.parent
 SOURCES = sorted([*ROOT.glob("app/**/*.py"), *ROOT.glob("renderer/**/*.py")])
 
@@ -49,6 +51,7 @@ FLOORS = (
     "renderer",
     "app",
     "app.lectures",
+    "app.instruments",
     "app.state",
     "app.explaining",
     "app.widgets",
@@ -56,15 +59,7 @@ FLOORS = (
     "app.storage",
     "app.images",
     "app.host",
-    "app.camera_panel",
-    "app.pair",
-    "app.compare",
-    "app.outside",
-    "app.probe",
-    "app.stepper",
-    "app.costs",
-    "app.laboratory",
-    "app.lecture",
+    *(room.package for room in ROOMS),
     "app.window",
     "app.commands",
     "app.cli",
@@ -83,10 +78,13 @@ FORBIDDEN = {
 }
 
 # Rooms that compute and say: what they import, and what that imports, draws nothing. Of the rooms
-# of instruments all files but those that draw: of those, what each shows is in its name.
+# of instruments all files but those that draw: the ROLES, and what is named here beside them.
+INSTRUMENTS = {room.package for room in ROOMS}
 GRAPHICS = ("glfw", "imgui_bundle", "moderngl")
 PURE = ("app/state", "app/explaining", "app/cameras")
 DRAW = {
+    "camera_panel": "basis_numbers projection sections",
+    "pair": "go_to_pixel image_mouse marks overlay pane pixelgrid resolution rulers toolbar",
     "compare": "composed differences",
     "outside": "gizmo ground looking mouse paint tint tools vector_painting vector_view",
     "probe": "histogram",
@@ -95,7 +93,7 @@ DRAW = {
     "laboratory": "array_view displays_view pictures schemes tables tools vector_view",
     "lecture": "exercise slide typesetting",
 }
-ROLES = ("actions", "panel", "view")
+ROLES = ("actions", "instrument", "panel", "view")
 
 
 def imports(path: Path, source: str | None = None) -> Iterator[str]:
@@ -177,8 +175,8 @@ def _pure_files() -> Iterator[Path]:
         room = path.parent.name
         if any(path.is_relative_to(ROOT / place) for place in PURE) or (
             path.is_relative_to(ROOT / "app")
-            and room in DRAW
-            and path.stem not in (*ROLES, *DRAW[room].split())
+            and f"app.{room}" in INSTRUMENTS
+            and path.stem not in (*ROLES, *DRAW.get(room, "").split())
         ):
             yield path
 
@@ -196,6 +194,24 @@ def test_cores_draw_nothing(path):
         todo.extend(imported(module))
         drawn = [n for n in imports(MODULES[module]) if n.split(".")[0] in GRAPHICS]
         assert not drawn, f"{name_of(path)} reaches {module}, which imports {drawn}"
+
+
+def _rooms(file: str) -> list[str]:
+    return [f"{package}.{file}" for package in INSTRUMENTS if f"{package}.{file}" in MODULES]
+
+
+@pytest.mark.parametrize("module", _rooms("options"))
+def test_options_know_the_state_alone(module):
+    """The state asks the registry for them when it is imported itself: they cannot ask back."""
+    for name in imported(module):
+        assert name in ("app.state.options", "app.state.bounds") or is_within(name, "renderer")
+
+
+def test_every_instrument_is_registered():
+    """Those alone have an instrument.py, which nothing but the registry's name of it imports."""
+    found = {name for name in MODULES if name.startswith("app.") and name.endswith(".instrument")}
+    assert found - {"app.host.instrument"} == set(_rooms("instrument"))
+    assert len(found) == len(ROOMS) + 1
 
 
 @pytest.mark.parametrize("room", DRAW)

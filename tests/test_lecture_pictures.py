@@ -13,7 +13,7 @@ from app.lecture import text as texts
 from app.lecture.reading import BUILTIN, load_lecture
 from app.outside.diagram import Dot, Eye, Hit, Item, Label, diagram
 from app.outside.frustum import plane_corners
-from app.state.options import OutsideOptions
+from app.outside.options import OutsideOptions
 from renderer.camera import Camera
 
 STEPS = {step.title: step for step in load_lecture(BUILTIN).steps}

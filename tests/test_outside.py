@@ -35,9 +35,9 @@ from app.outside.gizmo import (
     rotation_of,
 )
 from app.outside.hits import Question, RayHits
+from app.outside.options import OutsideOptions
 from app.outside.projected import Shape, Strokes, Text, project
 from app.outside.screen import Screen
-from app.state.options import OutsideOptions
 from renderer.camera import Camera
 from renderer.errors import LucidaError
 from renderer.raster.overlay import plane_on_screen, screen_from_world

@@ -16,12 +16,12 @@ from app.outside.bitmap import bitmap, dashes, magnified
 from app.outside.diagram import Arrow, Hit, Label, Lines, diagram
 from app.outside.frustum import plane_corners
 from app.outside.occlusion import Hidden, clipped, divided
+from app.outside.options import OutsideOptions
 from app.outside.outlines import MOST_TRIANGLES, Edges, Ellipse, outlines
 from app.outside.projected import project
 from app.outside.screen import Screen
 from app.outside.svg import svg, write
 from app.outside.vector import Arc, Area, Drawing, Line, Paint, Spot, chains, drawing
-from app.state.options import OutsideOptions
 from renderer.camera import Camera
 from renderer.errors import LucidaError
 from renderer.scene import shapes

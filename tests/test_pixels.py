@@ -9,7 +9,7 @@ import pytest
 
 from app.cli import main
 from app.pair.actions import COUNTING
-from app.state.options import Options
+from app.state.all_options import Options
 from app.window.action_table import ACTIONS
 from renderer.pixels import Indexing
 

@@ -69,9 +69,9 @@ def test_turning_the_switch_on_makes_the_basis_orthonormal() -> None:
 
 def test_each_part_of_the_options_is_changed_by_its_name() -> None:
     state = STATE.with_options(outside={"bundle": (3, 4)}, preferences={"theme": "light"})
-    assert state.outside.bundle == (3, 4)
+    assert state.options.outside.bundle == (3, 4)
     assert state.preferences.theme == "light"
-    assert (state.images, state.compare) == (STATE.images, STATE.compare)
+    assert (state.images, state.options.compare) == (STATE.images, STATE.options.compare)
 
 
 def test_a_skewed_view_turns_the_switch_off() -> None:

@@ -20,10 +20,10 @@ from app.costs.model import (
     steps,
     torus_of,
 )
+from app.costs.options import CostOptions
 from app.costs.panel import Told, said
 from app.costs.work import Work
 from app.state.bounds import whole_range_of
-from app.state.options import CostOptions
 from renderer.camera import Camera
 from renderer.errors import LucidaError
 from renderer.frame import Frame

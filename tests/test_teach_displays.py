@@ -10,7 +10,7 @@ import pytest
 from app.laboratory import displays
 from app.laboratory import displays_view as laboratory_displays
 from app.laboratory.displays import DISPLAYS
-from app.state.options import LaboratoryOptions
+from app.laboratory.options import LaboratoryOptions
 from renderer.images import to_srgb8
 
 MOMENTS = 3000

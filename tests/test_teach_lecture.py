@@ -18,14 +18,14 @@ from app.lecture import reading
 from app.lecture import text as texts
 from app.lecture.exercises import ChoiceExercise, RayExercise, VectorExercise
 from app.lecture.model import Lecture
-from app.lecture.options import ELSEWHERE
 from app.lecture.places import Places, parsed_path
 from app.lecture.reading import BUILTIN, lecture_from_toml, load_lecture
 from app.lecture.session import Session
 from app.lecture.states import state_of
+from app.lecture.step_options import ELSEWHERE
 from app.probe.model import Probe
+from app.state.all_options import Options
 from app.state.app_state import AppState
-from app.state.options import Options
 from app.storage.watching import FilesWatch
 from renderer.camera import Camera
 from renderer.errors import LucidaError

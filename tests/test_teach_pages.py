@@ -7,6 +7,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from app.laboratory.options import LaboratoryOptions
 from app.laboratory.pages import (
     LARGEST_APART,
     PAGES,
@@ -15,7 +16,6 @@ from app.laboratory.pages import (
     panels,
     plan,
 )
-from app.state.options import LaboratoryOptions
 from renderer.images import to_srgb8
 
 ROOMS = [(1200, 900), (600, 900), (400, 300), (1900, 500)]

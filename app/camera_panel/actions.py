@@ -213,9 +213,3 @@ EDIT = (
     *(Action("Edit/Copy camera as", form[0].upper() + form[1:], _copying(form)) for form in FORMS),
     Action("Edit", "Paste camera", paste, "Ctrl+V", (CTRL | int(Key.v),)),
 )
-
-MOUSE = (
-    ("W, A, S, D, Q, E over a 3D view", "fly: forward, left, back, right, down, up; Shift: faster"),
-    ("Alt+drag, or drag while flying", "look around: the eye stays"),
-    ("right-click a number", "reset it, copy it, paste one"),
-)

@@ -22,11 +22,14 @@ DURATION_S = 0.5
 @dataclass(frozen=True)
 class Ends:
     """The outside view's camera before and after, as it looks there: a state may leave it to the
-    view. size: of that view, (width, height)."""
+    view. size: of that view, (width, height). of: the one in a state; put: the state with another
+    one."""
 
     start: Camera
     end: Camera
     size: tuple[int, int]
+    of: Callable[[AppState], Camera | None]
+    put: Callable[[AppState, Camera | None], AppState]
 
 
 class Traveller:
@@ -42,7 +45,7 @@ class Traveller:
         self._passage: Passage | None = None
         self._target: AppState | None = None
         self._latest: AppState | None = None
-        self._is_outside = False
+        self._outside: Ends | None = None
         self._began_s = 0.0
 
     @property
@@ -85,7 +88,7 @@ class Traveller:
             return target
         self._number += 1
         self._passage, self._target, self._began_s = passage, target, self.now_s()
-        self._latest, self._is_outside = state, outside is not None
+        self._latest, self._outside = state, outside
         return state
 
     def step(self, state: AppState) -> AppState:
@@ -99,9 +102,9 @@ class Traveller:
             return state
         part = (self.now_s() - self._began_s) / DURATION_S
         view, there = passage.at(part), part >= 1
-        if self._is_outside:
-            camera = target.outside.camera if there else view.camera
-            self._latest = state.with_options(outside={"camera": camera})
+        outside = self._outside
+        if outside is not None:
+            self._latest = outside.put(state, outside.of(target) if there else view.camera)
         else:
             keep = state.keep_orthonormal and is_orthonormal(view.camera)
             keep = target.keep_orthonormal if there else keep
@@ -113,7 +116,7 @@ class Traveller:
 
     def _seen(self, state: AppState) -> View | Camera | None:
         """What nobody else may change on the way."""
-        return state.outside.camera if self._is_outside else state.view
+        return state.view if self._outside is None else self._outside.of(state)
 
     def stop(self) -> None:
         """Ends the passage where it is."""

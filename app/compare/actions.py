@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections.abc import Callable
 
 from app.compare import comparing
+from app.compare.options import CompareMode, CompareOptions
 from app.host.action import SHIFT, Action, Key, Window, changing
 from app.state.app_state import AppState
-from app.state.options import CompareMode
 from renderer.compare import Comparison
 
 FLIP_KEY = Key.x  # held, it shows the other image; read by the compare view
@@ -41,16 +41,16 @@ def _comparing(number: int, mode: CompareMode, name: str) -> Action:
         lambda window: _compare(window, mode),
         f"F{5 + number}",
         (int(Key.f5) + number,),
-        is_on=lambda state: state.compare.mode == mode,
+        is_on=lambda state: state.of(CompareOptions).mode == mode,
     )
 
 
 def _gain(factor: float) -> Callable[[AppState], AppState]:
-    return lambda state: comparing.with_gain(state, state.compare.gain * factor)
+    return lambda state: comparing.with_gain(state, state.of(CompareOptions).gain * factor)
 
 
 def _divider(step: float) -> Callable[[AppState], AppState]:
-    return lambda state: comparing.with_divider(state, state.compare.divider + step)
+    return lambda state: comparing.with_divider(state, state.of(CompareOptions).divider + step)
 
 
 COMPARING = (
@@ -58,17 +58,25 @@ COMPARING = (
     Action(
         "View/Compare",
         "The other image (hold the key)",
-        changing(lambda state: state.with_options(compare={"flipped": not state.compare.flipped})),
+        changing(
+            lambda state: state.with_options(
+                compare={"flipped": not state.of(CompareOptions).flipped}
+            )
+        ),
         "X",
-        is_on=lambda state: state.compare.flipped,
+        is_on=lambda state: state.of(CompareOptions).flipped,
     ),
     Action(
         "View/Compare",
         "Mark the causes",
-        changing(lambda state: state.with_options(compare={"causes": not state.compare.causes})),
+        changing(
+            lambda state: state.with_options(
+                compare={"causes": not state.of(CompareOptions).causes}
+            )
+        ),
         "K",
         (int(Key.k),),
-        is_on=lambda state: state.compare.causes,
+        is_on=lambda state: state.of(CompareOptions).causes,
     ),
     Action("View/Compare", "More gain", changing(_gain(2.0)), "]", (int(Key.right_bracket),)),
     Action("View/Compare", "Less gain", changing(_gain(0.5)), "[", (int(Key.left_bracket),)),

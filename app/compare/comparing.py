@@ -10,8 +10,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from app.compare.options import CompareMode
 from app.state.app_state import AppState
-from app.state.options import Channel, CompareMode, ImageOptions, Pixel
+from app.state.options import Channel, ImageOptions, Pixel
 from renderer.compare import AGREE, CAUSES, SHADING, UNEXPLAINED, Comparison
 from renderer.difference import FULL_SCALE, signed_difference
 

@@ -8,6 +8,7 @@ from __future__ import annotations
 import numpy as np
 from imgui_bundle import ImVec2, imgui
 
+from app.compare.options import CompareOptions
 from app.images.screen import Screen
 from app.state.app_state import AppState
 from app.widgets import theme
@@ -34,7 +35,7 @@ def draw_differences(
     rows, columns = np.nonzero(comparison.labels[seen] != AGREE)
     if not 0 < len(rows) <= MOST:
         return
-    channel, options = state.images.channel, state.compare
+    channel, options = state.images.channel, state.of(CompareOptions)
     difference = signed_difference(
         comparison.raster.part(seen), comparison.ray.part(seen), channel
     )[rows, columns]

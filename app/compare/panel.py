@@ -13,9 +13,10 @@ from imgui_bundle import ImVec2, ImVec4, imgui
 
 from app.compare import comparing
 from app.compare.comparing import LABELS, MODES, Scale
+from app.compare.options import CompareOptions
 from app.state.app_state import AppState
 from app.state.bounds import range_of
-from app.state.options import CompareOptions, Pixel
+from app.state.options import Pixel
 from app.widgets import theme
 from app.widgets.checks import checkbox
 from app.widgets.lettering import fitting_words
@@ -60,7 +61,7 @@ class Wish:
 
 def toolbar(state: AppState) -> AppState:
     """Modes, gain and the switch of the causes, in as many lines as they need."""
-    options = state.compare
+    options = state.of(CompareOptions)
     flow = Flow()
     for mode, name, told in MODES:
         flow.next(_button_width(name))
@@ -174,7 +175,7 @@ def lines(widths: list[float]) -> int:
 def _scale_row(state: AppState, draw_map: DrawMap) -> AppState:
     """The colour bar; in the other modes what takes its place, of the same height."""
     top = imgui.get_cursor_pos_y()
-    options = state.compare
+    options = state.of(CompareOptions)
     if options.mode in ("absolute", "signed"):
         signed = options.mode == "signed"
         scale = comparing.scale(state.images.channel, options.gain, signed)

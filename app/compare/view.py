@@ -18,6 +18,7 @@ from app.compare import comparing, panel
 from app.compare.actions import FLIP_KEY
 from app.compare.composed import Composed, Mapping
 from app.compare.differences import draw_differences
+from app.compare.options import CompareOptions
 from app.host.view import Host
 from app.images.placement import Placement
 from app.images.readback import Region
@@ -85,7 +86,7 @@ class CompareView(ImageView):
     # The image.
 
     def _image(self, host: Host) -> None:
-        both, mode = host.renderers, host.state.compare.mode
+        both, mode = host.renderers, host.state.of(CompareOptions).mode
         assert self._shown is not None
         self._shown.begin_frame()
         is_picture = mode in ("wipe", "flip")
@@ -103,14 +104,14 @@ class CompareView(ImageView):
         """It stands above the view's own controls: see draw()."""
 
     def _before_image(self, host: Host, screen: Screen) -> None:
-        if host.state.compare.mode == "wipe" and min(host.renderers.size):
+        if host.state.of(CompareOptions).mode == "wipe" and min(host.renderers.size):
             self._drag_divider(host, screen)
         else:
             self._held = None
 
     def _over_image(self, host: Host, screen: Screen) -> None:
         self.screen = screen
-        mode = host.state.compare.mode
+        mode = host.state.of(CompareOptions).mode
         if mode == "wipe":
             self._draw_divider(host, screen)
         elif mode == "flip":
@@ -118,7 +119,7 @@ class CompareView(ImageView):
 
     def _on_pixels(self, host: Host, screen: Screen) -> None:
         verdict = host.renderers.verdict(host.state)
-        if host.state.compare.mode not in ("absolute", "signed") or verdict is None:
+        if host.state.of(CompareOptions).mode not in ("absolute", "signed") or verdict is None:
             return
         if host.state.images.grid and not waiting(host.renderers, host.state):
             draw_differences(screen, host.state, verdict.comparison, host.fonts)
@@ -129,7 +130,11 @@ class CompareView(ImageView):
         """What is seen of the picture; None where there is none."""
         textures, composed, shown = both.textures, self._composed, self._shown
         assert textures is not None and composed is not None and shown is not None
-        options, look, request = state.compare, look_of(state.images), both.request(state)
+        options, look, request = (
+            state.of(CompareOptions),
+            look_of(state.images),
+            both.request(state),
+        )
         assert request is not None
         raster = textures.raster_in(whole(both.size), request, look, COMPARED, own_size=True)
         if raster is None:
@@ -178,7 +183,7 @@ class CompareView(ImageView):
         """Whether flip shows the ray image now."""
         io = imgui.get_io()
         held = imgui.is_key_down(FLIP_KEY) and not (io.want_text_input or io.key_ctrl or io.key_alt)
-        return state.compare.flipped != held
+        return state.of(CompareOptions).flipped != held
 
     def _values(
         self, both: Renderers, state: AppState, channel: str, region: Region
@@ -186,12 +191,12 @@ class CompareView(ImageView):
         """What the pixels that are seen hold: of the image that each of them is taken from."""
         raster = both.raster_values(state, channel, region)
         ray = both.ray_values(state, channel, region)
-        if state.compare.mode == "flip":
+        if state.of(CompareOptions).mode == "flip":
             return ray if self._flipped(state) else raster
         if raster is None or ray is None:
             return None
         _, left, _, right = region
-        divider = _column(state.compare.divider, both.size)
+        divider = _column(state.of(CompareOptions).divider, both.size)
         columns = np.arange(left, right) < divider
         return np.where(columns.reshape((1, -1) + (1,) * (raster.ndim - 2)), raster, ray)
 
@@ -218,7 +223,7 @@ class CompareView(ImageView):
             host.apply(comparing.with_divider(state, part))
 
     def _divider_x(self, state: AppState, screen: Screen, size: tuple[int, int]) -> float:
-        return screen.point(0, _column(state.compare.divider, size)).x
+        return screen.point(0, _column(state.of(CompareOptions).divider, size)).x
 
     def _draw_divider(self, host: Host, screen: Screen) -> None:
         """A line between the images, with a handle in its middle, and a label on each side."""

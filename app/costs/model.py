@@ -15,9 +15,9 @@ from dataclasses import dataclass
 from functools import cached_property, lru_cache, partial
 from typing import Literal, Protocol
 
+from app.costs.options import CostOptions
 from app.costs.work import Counter, Work
 from app.state.bounds import check
-from app.state.options import CostOptions
 from renderer.camera import Camera, Size
 from renderer.frame import Frame
 from renderer.scene import shapes

@@ -17,9 +17,9 @@ from numpy.typing import NDArray
 
 from app.costs.growth import Point, count_growth, is_proportional, per_doubling
 from app.costs.model import RENDERERS, WATCHED, Renderer, Sample
+from app.costs.options import CostOptions
 from app.costs.work import Work
 from app.state.bounds import whole_range_of
-from app.state.options import CostOptions
 from app.widgets import theme
 from app.widgets.checks import radio_button
 from app.widgets.sliders import slider_int

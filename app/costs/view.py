@@ -12,8 +12,8 @@ from imgui_bundle import ImVec2, imgui, implot
 
 from app.costs import panel
 from app.costs.model import Case, Meter, cases, steps
+from app.costs.options import CostOptions
 from app.host.view import Host, View
-from app.state.options import CostOptions
 from app.widgets import theme
 
 COSTS = "Costs"
@@ -55,7 +55,7 @@ class CostsView(View):
 
     def draw(self, host: Host) -> None:
         assert self._meter is not None
-        options = host.state.options.costs
+        options = host.state.of(CostOptions)
         wanted = _cases(options)
         kept = [one for one in self._meter.samples if one.case in wanted]
         counted, images = self._meter.work, dict.fromkeys(case.image for case in wanted)

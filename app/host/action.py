@@ -6,20 +6,19 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Protocol, TypeVar
+from typing import Protocol
 
 from imgui_bundle import imgui
 
 from app.cameras.focus import Focus
 from app.host.stage import Stage
-from app.host.view import Filing, View
+from app.host.view import AView, Filing
 from app.images.renderers import Renderers
 from app.state.app_state import AppState
 from app.widgets.toasts import Toasts
 
 Key = imgui.Key
 CTRL, SHIFT, ALT = int(Key.mod_ctrl), int(Key.mod_shift), int(Key.mod_alt)
-AView = TypeVar("AView", bound=View)
 
 
 class Around(Protocol):

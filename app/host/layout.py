@@ -1,9 +1,9 @@
 """Where the windows are docked: the layouts to choose from.
 
 Owns the dock spaces and which view stands where in each layout. Knows nothing of what the views
-show. A layout is one table: its splits, and the space of each view; a view that a layout does not
-name is docked beside the last one of its INSTRUMENTS space, hidden. HelloImGui keeps the user's
-changes of each layout, also between runs.
+show. A layout is one table: its splits, and the space of each view; a view may in turn name layouts
+that it is in (View.places). Else it is docked beside the last one of the layout's INSTRUMENTS
+space, hidden. HelloImGui keeps the user's changes of each layout, also between runs.
 """
 
 from __future__ import annotations
@@ -362,9 +362,10 @@ def _docking(
     ]
     windows = []
     for view in views:
-        space = _own(layout, layout.places.get(view.name, INSTRUMENTS))
+        own = layout.places.get(view.name) or view.places.get(layout.name)
+        space = _own(layout, own or INSTRUMENTS)
         window = hello_imgui.DockableWindow(view.label, space, draw(view))
-        window.is_visible = view.name in layout.places
+        window.is_visible = own is not None
         window.call_begin_end = False
         windows.append(window)
     params.dockable_windows = windows

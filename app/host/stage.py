@@ -200,13 +200,14 @@ class Stage:
             layout.switch(self._restoring.layout)
             return
         if layout.current().name == self._restoring.layout:
+            # A session may name views that this version does not have.
+            visible = self.views.keys() & set(self._restoring.visible)
             for view in self.views.values():
-                visible = view.name in self._restoring.visible
-                layout.window_of(view).is_visible = visible
-            if self._restoring.maximised in self._restoring.visible:
+                layout.window_of(view).is_visible = view.name in visible
+            if self._restoring.maximised in visible:
                 self.maximised = self._restoring.maximised
             focused = self._restoring.focused
-            self.give_keyboard(focused if focused in self._restoring.visible else "")
+            self.give_keyboard(focused if focused in visible else "")
         self._restoring = None
 
     def before_frame(self) -> None:

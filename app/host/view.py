@@ -5,8 +5,8 @@ Owns the two interfaces. Knows nothing of any one view.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Hashable
-from typing import ClassVar, Protocol
+from collections.abc import Callable, Hashable, Iterable, Mapping
+from typing import ClassVar, Protocol, TypeVar
 
 import moderngl
 from imgui_bundle import ImVec2
@@ -92,9 +92,13 @@ class Host(Protocol):
         """Asks for a next frame at full rate: something is moving by itself."""
 
 
+AView = TypeVar("AView", bound="View")
+
+
 class View:
     """A view. name: unique, ImGui's id of the window. title: on its tab. padding, flags: of the
-    ImGui window; None and 0: as the style has them.
+    ImGui window; None and 0: as the style has them. places: layouts that show it, beside those that
+    name it themselves (layout.py), and the dock space that it has there.
 
     Methods are called in the window's thread, with its OpenGL context current.
     """
@@ -103,6 +107,7 @@ class View:
     title: ClassVar[str]
     padding: ClassVar[ImVec2 | None] = None
     flags: ClassVar[int] = 0
+    places: ClassVar[Mapping[str, str]] = {}
 
     @property
     def label(self) -> str:
@@ -163,3 +168,8 @@ class View:
 
     def end(self) -> None:
         """Once, before the context goes."""
+
+
+def view_of(views: Iterable[View], kind: type[AView]) -> AView:
+    """The view of a class among all views."""
+    return next(view for view in views if isinstance(view, kind))

@@ -20,8 +20,8 @@ Size = tuple[int, int]  # (width, height)
 LEAST, MOST = range_of(ImageOptions, "magnification")
 # Where the wheel stops: whole numbers, so that all pixels are squares of one size.
 STEPS = (
-    *(1 / 64, 1 / 48, 1 / 32, 1 / 24, 1 / 16, 1 / 12, 1 / 8, 1 / 6, 1 / 4, 1 / 3, 1 / 2),
-    *(1.0, 2.0, 3.0, 4.0, 6.0, 8.0, 12.0, 16.0, 24.0, 32.0, 48.0, 64.0, 96.0, 128.0),
+    *(LEAST, 1 / 48, 1 / 32, 1 / 24, 1 / 16, 1 / 12, 1 / 8, 1 / 6, 1 / 4, 1 / 3, 1 / 2),
+    *(1.0, 2.0, 3.0, 4.0, 6.0, 8.0, 12.0, 16.0, 24.0, 32.0, 48.0, 64.0, 96.0, MOST),
 )
 NEARLY = 0.85  # as large: of the width, and of the height
 WHOLE_FROM = 4.0  # a fitted image gives up a fifth of its size at most for pixels of one size

@@ -12,6 +12,7 @@ from imgui_bundle import ImVec2, ImVec4, imgui
 
 from app.explaining.languages import COMMENTS, LANGUAGES
 from app.laboratory import array_code, memory
+from app.laboratory.options import LaboratoryOptions
 from app.laboratory.pages import Image
 from app.laboratory.pictures import HEADING_EM
 from app.state.app_state import AppState
@@ -49,13 +50,13 @@ class ArrayPage:
         columns = max(1, min(MOST_CELLS[0], int(self.extent.x / (CELL_EM[0] * em))))
         height = self.extent.y - HEADING_EM * em
         rows = max(1, min(MOST_CELLS[1], int(height / (CELL_EM[1] * em))))
-        order = options.laboratory.order
+        order = options.of(LaboratoryOptions).order
         return memory.table(self.color, *self.pixel, rows, columns, options.one_based, order)
 
     def cells(self, table: memory.Table, at: ImVec2) -> Pixel | None:
         """The cells: index, values, place in memory. Gives the pixel that was clicked."""
         em, options = imgui.get_font_size(), self.state.options
-        order = options.laboratory.order
+        order = options.of(LaboratoryOptions).order
         self._heading(at, "canvas[row, column]", memory.formula(self.size, order, table.one_based))
         width = min(self.extent.x / len(table.rows[0]), 1.5 * CELL_EM[0] * em)
         height = CELL_EM[1] * em
@@ -72,7 +73,7 @@ class ArrayPage:
     def in_memory(self, at: ImVec2) -> Pixel | None:
         """The pixels one after another in memory. Gives the one that was clicked."""
         em, options = imgui.get_font_size(), self.state.options
-        order = options.laboratory.order
+        order = options.of(LaboratoryOptions).order
         self._heading(at, "In memory", f"{array_code.ONE_AFTER_ANOTHER[order]}, 12 bytes per pixel")
         row_px = ROW_EM * em
         room = self.extent.y - HEADING_EM * em
@@ -114,7 +115,12 @@ class ArrayPage:
                 language = one
         values = tuple(float(value) for value in self.color[self.pixel])
         listed = array_code.lines(
-            language, options.laboratory.order, options.one_based, self.size, self.pixel, values
+            language,
+            options.of(LaboratoryOptions).order,
+            options.one_based,
+            self.size,
+            self.pixel,
+            values,
         )
         imgui.same_line(0, 0.7 * em)
         if imgui.button("Copy"):

@@ -18,11 +18,12 @@ from app.host.view import Host
 from app.laboratory import displays
 from app.laboratory.displays import DISPLAYS
 from app.laboratory.light import CHANNELS
+from app.laboratory.options import LaboratoryOptions
 from app.laboratory.pages import Image, Plan, display_part
 from app.laboratory.schemes import NAMES, Scheme
 from app.laboratory.tables import BARS
 from app.state.bounds import range_of
-from app.state.options import LaboratoryOptions, Pixel
+from app.state.options import Pixel
 from app.widgets import theme
 from app.widgets.lettering import fitting_words, lettering
 from app.widgets.rows import follow
@@ -69,7 +70,7 @@ class DisplaysPage:
 
     def controls(self, host: Host) -> LaboratoryOptions:
         """The switches; gives the options as they are now, with the present phase."""
-        options = self.now(host, host.state.options.laboratory)
+        options = self.now(host, host.state.of(LaboratoryOptions))
         asked = self._transport(options)
         if asked is not None:  # no step of undo, as with the stepper's steps
             playing, phase = asked

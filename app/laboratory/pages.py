@@ -15,9 +15,10 @@ from numpy.typing import NDArray
 from app.laboratory import displays, light
 from app.laboratory.bitmaps import TITLES
 from app.laboratory.kinds import BITMAP, COLOR, FLOAT, GRAY, KINDS
+from app.laboratory.options import LaboratoryOptions
 from app.laboratory.stored import clipped, levels, shown, store
 from app.state.bounds import range_of
-from app.state.options import LaboratoryOptions, Pixel
+from app.state.options import Pixel
 from renderer.images.display import Bytes, to_srgb8
 from renderer.scene.reading import size_text
 

@@ -14,9 +14,9 @@ from app.host.view import Host
 from app.laboratory.bitmaps import TITLES
 from app.laboratory.displays import DISPLAYS
 from app.laboratory.memory import ORDERS
+from app.laboratory.options import LaboratoryOptions
 from app.laboratory.pages import PAGE_TITLES
 from app.state.bounds import range_of, whole_range_of
-from app.state.options import LaboratoryOptions
 from app.widgets.checks import checkbox, radio_button
 from app.widgets.rows import follow
 from app.widgets.sliders import slider_float, slider_int
@@ -26,7 +26,7 @@ FIRST = ["rows and columns from 1 (lecture)", "from 0 (array)"]
 
 def toolbar(host: Host) -> LaboratoryOptions:
     """Draws the switches and gives the options as they are now."""
-    options = host.state.options.laboratory
+    options = host.state.of(LaboratoryOptions)
     changed = _pages(options)
     imgui.push_item_width(14 * imgui.get_font_size())
     match changed.page:

@@ -15,6 +15,7 @@ from imgui_bundle import ImVec2, imgui
 from numpy.typing import NDArray
 
 from app.host.view import Host
+from app.laboratory.options import LaboratoryOptions
 from app.outside.bitmap import bitmap, magnified
 from app.outside.sketch import Sketch
 from app.outside.svg import svg
@@ -23,7 +24,6 @@ from app.outside.vector_painting import Magnified, Mark, paint, prepared
 from app.outside.vector_view import Sketcher, export_svg
 from app.outside.view import OutsideView
 from app.state.bounds import range_of
-from app.state.options import LaboratoryOptions
 from app.widgets import theme
 from app.widgets.background import Background
 from app.widgets.lettering import fitted_text, lettering

@@ -22,6 +22,7 @@ from app.images.screen import available_px
 from app.laboratory import disk
 from app.laboratory.array_view import ArrayPage
 from app.laboratory.displays_view import LANES_EM, DisplaysPage
+from app.laboratory.options import LaboratoryOptions
 from app.laboratory.pages import Image, Panel, Plan, panels, plan
 from app.laboratory.pictures import HEADING_EM, draw_panel
 from app.laboratory.tables import luminance_weights, sizes_table
@@ -29,7 +30,7 @@ from app.laboratory.tools import toolbar
 from app.laboratory.vector_view import VectorPage
 from app.outside.view import OutsideView
 from app.state.app_state import AppState
-from app.state.options import LaboratoryOptions, Pixel
+from app.state.options import Pixel
 from app.widgets import theme
 from app.widgets.background import Background
 from app.widgets.lettering import hall_px, lettering
@@ -243,7 +244,7 @@ class LaboratoryView(View):
         assert self._uploads is not None
         name, width = f"panel {number}", made.cell[0] / framebuffer_scale()
         held = draw_panel(name, panel, self._uploads.get(name), at, width, host.fonts)
-        if held is not None and host.state.options.laboratory.page in ABOUT_A_PIXEL:
+        if held is not None and host.state.of(LaboratoryOptions).page in ABOUT_A_PIXEL:
             row, column = held
             inside = min(max(row, 0), made.image[1] - 1), min(max(column, 0), made.image[0] - 1)
             self._choose(host, inside, made)
@@ -338,7 +339,7 @@ class LaboratoryView(View):
     def _export(self, host: Host, format: disk.Format) -> None:
         """Asks where, and writes the image that is shown there, as it is stored."""
         assert self._source is not None
-        color, options = self._source.color, host.state.options.laboratory
+        color, options = self._source.color, host.state.of(LaboratoryOptions)
         taken_ev = host.state.images.exposure_ev
 
         def store(path: str) -> str:

@@ -21,7 +21,6 @@ from app.lecture.exercises import (
     Wanted,
 )
 from app.lecture.model import Lecture, Step, Written
-from app.lecture.options import options_from_table
 from app.lecture.places import Places, located
 from app.lecture.schema import (
     HIGHLIGHTS,
@@ -34,9 +33,10 @@ from app.lecture.schema import (
     StepTable,
     VectorTable,
 )
+from app.lecture.step_options import options_from_table
 from app.lecture.under import under
 from app.lecture.written import formulas_written, pieces_written
-from app.state.options import Options
+from app.state.all_options import Options
 from renderer.errors import LucidaError
 from renderer.frame import check_size
 from renderer.pixels import Indexing

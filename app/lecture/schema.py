@@ -10,10 +10,11 @@ from typing import Any, Literal
 
 from msgspec import field
 
+from app.instruments import ROOMS
 from renderer.scene.schema import Numbers3, Table
 
 # What a step can show. A view of the window has the name with a capital.
-VIEWS = ("raster", "ray", "outside", "compare", "probe", "stepper", "costs", "laboratory")
+VIEWS = tuple(name for room in ROOMS for name in room.views)
 PANEL = "camera"  # may stand beside them
 
 # What a step can point out: fields of the camera's panel, and views.

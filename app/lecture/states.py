@@ -8,9 +8,9 @@ from __future__ import annotations
 from dataclasses import replace
 
 from app.lecture.model import Step
-from app.lecture.options import OWN
+from app.lecture.step_options import OWN
+from app.state.all_options import Options
 from app.state.app_state import AppState, is_orthonormal
-from app.state.options import Options
 
 
 def state_of(step: Step, base: AppState) -> AppState:

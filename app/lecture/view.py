@@ -21,15 +21,15 @@ from app.host import layout
 from app.host.view import Host, View
 from app.lecture.exercise import exercise, fitting_px
 from app.lecture.model import Lecture, Step
-from app.lecture.options import OWN
 from app.lecture.reading import BUILTIN, load_lecture
 from app.lecture.session import Session
 from app.lecture.slide import Sizes, Slides, sizes_of
 from app.lecture.states import state_of
+from app.lecture.step_options import OWN
 from app.lecture.text import Block, in_language, languages
 from app.lecture.typesetting import first_mistake
+from app.state.all_options import Options
 from app.state.app_state import AppState
-from app.state.options import Options
 from app.storage.kept_lecture import KeptLecture
 from app.storage.session import source_of
 from app.widgets import theme
@@ -55,14 +55,15 @@ class Changeable(Protocol):
 
 
 class LectureView(View):
-    """others: the views that steps show, by their names in a lecture with a capital."""
+    """views: all views; a step shows others than this one, which have their names in a lecture with
+    a capital."""
 
     name = LECTURE
     title = "Lecture"
     padding = ImVec2(18, 14)
 
-    def __init__(self, others: Sequence[View]) -> None:
-        self._others = {view.name: view for view in others}
+    def __init__(self, views: Sequence[View]) -> None:
+        self._views = views
         self.session: Session | None = None
         self._reading: Background[tuple[Lecture, LucidaError | None]] | None = None
         self._slides: Slides | None = None
@@ -74,6 +75,10 @@ class LectureView(View):
         self._docks: dict[str, int] = {}  # where they stood then
         self._to_top = False  # a step's text is read from its beginning
         self.arrangements = 0  # how often the views have been put into their places
+
+    @property
+    def _others(self) -> list[View]:
+        return [view for view in self._views if view is not self]
 
     # What actions and buttons ask for.
 
@@ -149,7 +154,7 @@ class LectureView(View):
         window.change(state_of(self.session.step, state))
         self._entered, self._arranged = True, False
         self._to_top = True
-        for view in self._others.values():
+        for view in self._others:
             view.begin_anew()
         layout.switch(layout.LECTURE)
 
@@ -213,20 +218,20 @@ class LectureView(View):
             self.restore(host)
 
     def _arrange(self, step: Step) -> None:
-        layout.arrange(self._others.values(), _places(step))
+        layout.arrange(self._others, _places(step))
         self._frames = 0
         self.arrangements += 1
 
     def _is_as_given(self, host: Host, step: Step) -> bool:
         """Whether state and views are the step's own."""
         state = host.state
-        for view in self._others.values():
+        for view in self._others:
             state = view.as_set(state)
         if state_of(step, state) != state:
             return False
         if not self._arranged:
             return True
-        docks = layout.docks(self._others.values())
+        docks = layout.docks(self._others)
         self._frames += 1
         if self._frames <= LAID_OUT:
             self._docks = docks

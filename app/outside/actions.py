@@ -8,6 +8,7 @@ from __future__ import annotations
 from app.cameras.navigation import switched_projection
 from app.host.action import CTRL, SHIFT, Action, Key, Window, changing
 from app.outside.extent import around, framed, outside_camera, way_of
+from app.outside.options import OutsideOptions
 from app.outside.switches import (
     AXIS_NAMES,
     HANDLES,
@@ -19,7 +20,6 @@ from app.outside.switches import (
 )
 from app.outside.vector_view import export_diagram
 from app.state.app_state import AppState
-from app.state.options import OutsideOptions
 from renderer.camera import Camera
 from renderer.errors import LucidaError
 
@@ -42,7 +42,9 @@ def _looking(window: Window) -> Camera:
     state = window.state
     home = state.scene.view.for_size(window.renderers.size)
     points = around(window.focus.framed, home, window.renderers.camera(state))
-    return state.outside.camera or outside_camera([points], state.scene.view.camera, ASPECT)
+    return state.of(OutsideOptions).camera or outside_camera(
+        [points], state.scene.view.camera, ASPECT
+    )
 
 
 def _look(window: Window, camera: Camera | None) -> None:
@@ -62,13 +64,18 @@ def _switch_projection(window: Window) -> None:
         return
 
 
+def _is_parallel(state: AppState) -> bool:
+    camera = state.of(OutsideOptions).camera
+    return camera is not None and camera.is_parallel
+
+
 def _shown(switch: Switch) -> Action:
     return Action(
         MENU,
         f"Show {switch.name}",
-        changing(lambda state: _with(state, toggled(state.outside, switch.field))),
+        changing(lambda state: _with(state, toggled(state.of(OutsideOptions), switch.field))),
         *_keys(switch.field),
-        is_on=lambda state: is_on(state.outside, switch.field),
+        is_on=lambda state: is_on(state.of(OutsideOptions), switch.field),
     )
 
 
@@ -76,9 +83,9 @@ def _handles(kind: str, name: str) -> Action:
     return Action(
         MENU,
         f"Handles: {name}",
-        changing(lambda state: _with(state, with_gizmo(state.outside, kind))),
+        changing(lambda state: _with(state, with_gizmo(state.of(OutsideOptions), kind))),
         *_keys(kind),
-        is_on=lambda state: state.outside.gizmo == kind,
+        is_on=lambda state: state.of(OutsideOptions).gizmo == kind,
         separated=kind == "move",
     )
 
@@ -96,7 +103,7 @@ OUTSIDE = (
         lambda window: _look(window, None),
         "Shift+H",
         (SHIFT | int(Key.h),),
-        is_on=lambda state: state.outside.camera is None,
+        is_on=lambda state: state.of(OutsideOptions).camera is None,
         separated=True,
     ),
     Action(
@@ -110,7 +117,7 @@ OUTSIDE = (
         MENU,
         "Parallel outside camera",
         _switch_projection,
-        is_on=lambda state: state.outside.camera is not None and state.outside.camera.is_parallel,
+        is_on=_is_parallel,
     ),
     *(_axis(axis, name) for axis, name in AXIS_NAMES.items()),
 )

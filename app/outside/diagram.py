@@ -25,7 +25,8 @@ from app.outside.frustum import (
     point_at,
     rectangle,
 )
-from app.state.options import OutsideOptions, Pixel
+from app.outside.options import OutsideOptions
+from app.state.options import Pixel
 from renderer.camera import Camera
 
 Floats = NDArray[np.float64]

@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 from app.host.view import Host
 from app.outside.extent import around, framed, outside_camera, way_of
 from app.outside.mouse import Scope
+from app.outside.options import OutsideOptions
 from app.outside.screen import NEAREST, Screen
 from app.widgets import theme
 from app.widgets.theme import framebuffer_scale
@@ -31,7 +32,7 @@ def scope_of(host: Host, size: Size, origin: ImVec2, extent: ImVec2) -> Scope:
     points = _points(host)
     center = (points.min(axis=0) + points.max(axis=0)) / 2
     reach = float(np.linalg.norm(points.max(axis=0) - points.min(axis=0))) / 2
-    camera = host.state.outside.camera or camera_for_all(host, size, extent)
+    camera = host.state.of(OutsideOptions).camera or camera_for_all(host, size, extent)
     x, y, z = center.tolist()
     middle, reach = (x, y, z), max(reach, 1e-9)
     return Scope(camera, camera.fitted(size), origin, extent, middle, reach)

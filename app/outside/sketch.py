@@ -14,11 +14,11 @@ from numpy.typing import NDArray
 from app.outside.diagram import Hit, Item, diagram
 from app.outside.frustum import plane_corners
 from app.outside.hits import Question, traced
+from app.outside.options import OutsideOptions
 from app.outside.outlines import outlines
 from app.outside.projected import project
 from app.outside.screen import Screen
 from app.outside.vector import Drawing, Image, Paint, Size, drawing
-from app.state.options import OutsideOptions
 from renderer.camera import Camera
 from renderer.raster.overlay import plane_on_screen
 from renderer.scene.model import Scene

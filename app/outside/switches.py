@@ -9,7 +9,7 @@ from dataclasses import dataclass, replace
 from typing import Any
 
 from app.outside.diagram import Role
-from app.state.options import OutsideOptions
+from app.outside.options import OutsideOptions
 
 BUNDLE = (4, 5)  # rows and columns of the bundle when it is switched on
 AXIS_NAMES = {

@@ -14,11 +14,11 @@ import numpy as np
 from imgui_bundle import ImVec2, ImVec4, imgui
 
 from app.outside.extent import way_of
+from app.outside.options import OutsideOptions
 from app.outside.paint import role_color
 from app.outside.projected import Primitive, Text
 from app.outside.switches import AXIS_NAMES, HANDLES, SWITCHES, VIEWS, is_on, toggled, with_gizmo
 from app.state.bounds import whole_range_of
-from app.state.options import OutsideOptions
 from app.widgets import theme
 from renderer.camera import Camera
 

@@ -20,6 +20,7 @@ from app.images.request import ImageRequest
 from app.outside import svg
 from app.outside.extent import end_parameter
 from app.outside.looking import nearest, scope_of, units_px
+from app.outside.options import OutsideOptions
 from app.outside.paint import vector_paint
 from app.outside.sketch import Sketch
 from app.outside.view import OutsideView
@@ -59,7 +60,7 @@ class Sketcher:
         extent = ImVec2(size[0] / scale, size[1] / scale)
         scope = scope_of(host, size, ImVec2(0, 0), extent)
         looking, camera, image_size = scope.shown, both.camera(state), both.size
-        options = replace(state.outside, camera=None)
+        options = replace(state.of(OutsideOptions), camera=None)
         marked, hits = view.rays(host, camera, image_size)
         unit, symbol = units or units_px(extent)
         key = (

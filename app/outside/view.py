@@ -39,13 +39,14 @@ from app.outside.looking import (
     widest_px,
 )
 from app.outside.mouse import Mouse, Scope
+from app.outside.options import OutsideOptions
 from app.outside.paint import CASING, ground_of, layers
 from app.outside.projected import Primitive, project
 from app.outside.screen import Screen
 from app.outside.sketch import OPACITY
 from app.outside.tools import labels, legend, triad
 from app.state.app_state import AppState
-from app.state.options import OutsideOptions, Pixel
+from app.state.options import Pixel
 from app.widgets import theme
 from app.widgets.theme import framebuffer_scale
 from renderer.camera import Camera
@@ -147,18 +148,18 @@ class OutsideView(View):
     def flown(self, host: Host) -> Camera | None:
         return self.scope.camera if self.scope is not None else None
 
-    def with_flown(self, state: AppState, camera: Camera) -> AppState:
+    def with_flown(self, state: AppState, camera: Camera | None) -> AppState:
         return state.with_options(outside={"camera": camera})
 
     def ends(self, host: Host, target: AppState) -> Ends | None:
         """Where the camera that looks passes from and to, if nothing but that leads to a target;
         None where it is not to be seen."""
         state, scope, size = host.state, self.scope, self.size_px
-        changed = state.outside.camera != target.outside.camera
+        changed = state.of(OutsideOptions).camera != target.of(OutsideOptions).camera
         if scope is None or size is None or not changed or state.view != target.view:
             return None
-        end = target.outside.camera or camera_for_all(host, size, scope.extent)
-        return Ends(scope.camera, end, size)
+        end = target.of(OutsideOptions).camera or camera_for_all(host, size, scope.extent)
+        return Ends(scope.camera, end, size, lambda s: s.of(OutsideOptions).camera, self.with_flown)
 
     def object_under(self, host: Host) -> int | None:
         if self.scope is None:
@@ -205,7 +206,7 @@ class OutsideView(View):
     def _follow_mouse(self, host: Host, size: Size, origin: ImVec2, extent: ImVec2) -> Scope:
         scope = self._scope(host, size, origin, extent)
         imgui.set_cursor_screen_pos(origin)
-        if self._gizmo.over and host.state.outside.gizmo != "none":
+        if self._gizmo.over and host.state.of(OutsideOptions).gizmo != "none":
             imgui.dummy(extent)  # ImGuizmo takes no click where an item is under the mouse
             return scope
         buttons = imgui.ButtonFlags_
@@ -238,7 +239,7 @@ class OutsideView(View):
 
     def _pixel_under(self, host: Host, scope: Scope) -> Pixel | None:
         """The pixel of the image plane that is to be seen under the mouse."""
-        outside = host.state.outside
+        outside = host.state.of(OutsideOptions)
         if not (outside.image or outside.grid):
             return None
         camera, mouse = host.renderers.camera(host.state), imgui.get_io().mouse_pos
@@ -249,7 +250,7 @@ class OutsideView(View):
         return pixel_seen(camera, host.renderers.size, *scope.ray(mouse), hidden_at)
 
     def _handles(self, host: Host, scope: Scope) -> None:
-        kind = host.state.outside.gizmo
+        kind = host.state.of(OutsideOptions).gizmo
         if kind == "none":
             self._gizmo.over = False
             self._gizmo.cancel()
@@ -265,7 +266,7 @@ class OutsideView(View):
 
     def _tools(self, host: Host, scope: Scope) -> None:
         state = host.state
-        options, clicked = legend(state.outside, scope.origin, scope.extent)
+        options, clicked = legend(state.of(OutsideOptions), scope.origin, scope.extent)
         axis = triad(scope.shown, scope.origin, scope.extent)
         if clicked == "fit":
             options = replace(options, camera=None)
@@ -273,9 +274,9 @@ class OutsideView(View):
             options = replace(options, camera=host.renderers.camera(state))
         elif axis is not None:
             options = replace(options, camera=camera_along(host, scope, axis))
-        if options.camera != state.outside.camera:
+        if options.camera != state.of(OutsideOptions).camera:
             host.travel(with_outside(state, options))
-        elif options != state.outside:
+        elif options != state.of(OutsideOptions):
             host.apply(with_outside(state, options))
 
     # The picture.
@@ -290,7 +291,7 @@ class OutsideView(View):
         assert self._ground is not None
         assert both.textures is not None
         inner, image_size = both.camera(state), both.size
-        options = state.outside
+        options = state.of(OutsideOptions)
         marked, hits = self.rays(host, inner, image_size)
         try:
             picture, drawn = None, 0
@@ -348,7 +349,7 @@ class OutsideView(View):
         """The marked pixel's ray and the bundle's, as far as their ends are known."""
         both, state = host.renderers, host.state
         assert self._hits is not None
-        options = state.outside
+        options = state.of(OutsideOptions)
         pixel = ray_pixel(host) if options.ray else None
         pixels = [(int(i), int(j)) for i, j in bundle_pixels(size, options.bundle)]
         asked = pixels + ([pixel] if pixel is not None else [])

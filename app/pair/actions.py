@@ -227,6 +227,9 @@ IMAGE = (
     ),
 )
 MOUSE = (
+    ("drag an image", "turn the camera about the point under the pointer"),
+    ("Shift+drag, right or middle drag", "move the camera; the point follows the pointer"),
+    ("wheel", "closer and farther (parallel: a smaller or larger viewport)"),
     ("click an image", "mark the pixel; again, or Esc: take the mark away"),
     ("arrow keys, mouse over an image", "move the mark; Shift: by ten"),
     ("Ctrl+wheel over an image", "magnify its pixels at the pointer"),

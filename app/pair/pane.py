@@ -6,7 +6,7 @@ marks, the pixel grid and the legends have modules of their own.
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 from imgui_bundle import ImVec2, imgui
@@ -39,8 +39,9 @@ class Pane:
 
     note: text over the image, which is darkened: it is not of now. hint: text over an image as it
     is. progress: of the image under way, 1 for none. hovered: the pixel
-    under the mouse, to be marked here. depths: that are shown white and darkest. legend: whether
-    the channel's colours are explained. on_pixels: draws on the image, below everything else.
+    under the mouse, to be marked here. pins: pixels to be marked with their numbers. depths: that
+    are shown white and darkest. legend: whether the channel's colours are explained. on_pixels:
+    draws on the image, below everything else.
     """
 
     seen: Seen
@@ -54,6 +55,7 @@ class Pane:
     progress: float = 1.0
     legend: bool = True
     hovered: Pixel | None = None
+    pins: Sequence[Pixel] = ()
     depths: tuple[float, float] | None = None
     on_pixels: Callable[[Screen], None] | None = None
 
@@ -126,7 +128,7 @@ def _draw(pane: Pane, state: AppState, screen: Screen, room: Box, grab: Grab | N
         if pane.on_pixels is not None:
             pane.on_pixels(screen)
     width, height = pane.seen.size
-    for number, pin in enumerate(state.options.probe.pins, 1):
+    for number, pin in enumerate(pane.pins, 1):
         if pin[0] < height and pin[1] < width:
             draw_pin(draw, screen, pin, number)
     if state.marked is not None:

@@ -7,6 +7,7 @@ of the images changes, and the size of their windows.
 from __future__ import annotations
 
 import time
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 from imgui_bundle import ImVec2, imgui
@@ -22,6 +23,7 @@ from app.pair.pixelgrid import Values
 from app.pair.rulers import ruler_sizes
 from app.pair.toolbar import Strip, image_strip
 from app.state.app_state import AppState
+from app.state.options import Pixel
 from renderer.camera import Camera
 from renderer.errors import describe
 
@@ -34,7 +36,8 @@ NARROW_CELL = 4.0  # a hovered pixel that large gets a frame in the image under 
 @dataclass
 class Linked:
     """What the two images share. walked_frame: the last one in which a key has moved the mark.
-    size, steady_frames: of the images, and how often they were drawn at that size."""
+    size, steady_frames: of the images, and how often they were drawn at that size. pins: gives the
+    pixels that are marked with numbers, in a state; set by whoever keeps them."""
 
     grab: Grab | None = None
     zoom: Zoom | None = None
@@ -45,6 +48,7 @@ class Linked:
     walked_frame: int = -1
     size: tuple[int, int] = (0, 0)
     steady_frames: int = 0
+    pins: Callable[[AppState], Sequence[Pixel]] = lambda state: ()
 
 
 class ImageView(View):
@@ -58,23 +62,23 @@ class ImageView(View):
     )
 
     def __init__(self, linked: Linked) -> None:
-        self._linked = linked
+        self.linked = linked
 
     def unseen(self, host: Host) -> None:
         host.renderers.forget_pane(self.name)
 
     def cancel(self) -> None:
-        self._linked.grab = None
+        self.linked.grab = None
 
     def as_set(self, state: AppState) -> AppState:
-        anchor = self._linked.anchor
+        anchor = self.linked.anchor
         if anchor is None or anchor.now != state.marked or anchor.pixel == state.marked:
             return state
         return state.with_options(marked=anchor.pixel)
 
     def begin_anew(self) -> None:
         """The mark is the step's, of the size that comes when its views are laid out."""
-        shared = self._linked
+        shared = self.linked
         shared.grab = shared.zoom = shared.lens = shared.anchor = None
         shared.steady_frames = 0
 
@@ -106,7 +110,7 @@ class ImageView(View):
     ) -> None:
         """Draws an image into what is left of the window. values: of its channel's pixels; None
         where what is seen is no channel, which then has no legend either."""
-        both, shared = host.renderers, self._linked
+        both, shared = host.renderers, self.linked
         self._strip(host)
         room_px, options = available_px(), host.state.images
         both.fit_pane(self.name, room_px, options, ruler_sizes(options))
@@ -140,6 +144,7 @@ class ImageView(View):
             progress=progress,
             legend=legend,
             hovered=self._hovered(host, placed(state)),
+            pins=shared.pins(state),
             depths=both.depths() if state.images.channel == "depth" else None,
             on_pixels=lambda screen: self._on_pixels(host, screen),
         )
@@ -181,7 +186,7 @@ class ImageView(View):
 
     def _keep_mark(self, host: Host) -> None:
         """Where the images have another size, the mark is where the same ray is."""
-        shared, state, size = self._linked, host.state, host.renderers.size
+        shared, state, size = self.linked, host.state, host.renderers.size
         shared.steady_frames = shared.steady_frames + 1 if size == shared.size else 0
         shared.size = size
         if shared.anchor is None and shared.steady_frames < STEADY:
@@ -192,7 +197,7 @@ class ImageView(View):
 
     def _walk(self, host: Host, placement: Placement) -> None:
         """The arrow keys move the mark, which stays in sight."""
-        shared, frame = self._linked, imgui.get_frame_count()
+        shared, frame = self.linked, imgui.get_frame_count()
         if shared.walked_frame == frame:  # one image has the mouse, the other the keyboard
             return
         state, size = host.state, host.renderers.size
@@ -207,7 +212,7 @@ class ImageView(View):
 
     def _gesture(self, kind: str) -> tuple[str, int]:
         """The gesture that a turn of the wheel, or a key, belongs to."""
-        shared, now_s = self._linked, time.monotonic()
+        shared, now_s = self.linked, time.monotonic()
         shared.gesture_number += now_s - shared.gesture_s > PAUSE_S
         shared.gesture_s = now_s
         return (kind, shared.gesture_number)

@@ -17,6 +17,7 @@ from app.explaining.notation import Line, number
 from app.probe.color_formulas import color_lines
 from app.probe.copying import as_c, as_julia, as_latex, as_python, as_text
 from app.probe.formulas import hit_lines, ray_lines
+from app.probe.options import ProbeOptions
 from app.probe.reading import SEEN, Crossing, Meeting, Reading
 from app.state.app_state import AppState
 from app.state.options import Pixel
@@ -67,7 +68,7 @@ def toolbar(state: AppState, pixel: Pixel | None, size: Size, reading: Reading |
     if changed:
         state = state.with_options(one_based=one_based)
     state = _rays_field(state)
-    pins = state.options.probe.pins
+    pins = state.of(ProbeOptions).pins
     follow(_button_width("Pin"))
     imgui.begin_disabled(pixel is None or pixel in pins)
     if imgui.button("Pin") and pixel is not None:
@@ -105,7 +106,7 @@ def pin_row(state: AppState, pins: Iterable[Pin], pixel: Pixel | None) -> AppSta
         if pin.pixel == pixel:
             imgui.pop_style_color()
         if imgui.is_item_clicked(imgui.MouseButton_.right):
-            kept = tuple(one for one in state.options.probe.pins if one != pin.pixel)
+            kept = tuple(one for one in state.of(ProbeOptions).pins if one != pin.pixel)
             state = state.with_options(probe={"pins": kept})
         imgui.set_item_tooltip("click: go to this pixel; right-click: let it go")
     return state
@@ -145,7 +146,7 @@ def _pixel_fields(state: AppState, pixel: Pixel | None, size: Size, indexing: In
 
 
 def _rays_field(state: AppState) -> AppState:
-    name = f"Rays: {RAYS[state.options.probe.rays]}"
+    name = f"Rays: {RAYS[state.of(ProbeOptions).rays]}"
     widest = max(_button_width(f"Rays: {text}") for text in RAYS.values())
     follow(widest)
     if imgui.button(f"{name}###rays", ImVec2(widest, 0)):
@@ -153,7 +154,7 @@ def _rays_field(state: AppState) -> AppState:
     imgui.set_item_tooltip("which viewing rays the outside view shows")
     if imgui.begin_popup("rays"):
         for key, text in RAYS.items():
-            if imgui.menu_item(f"of {text}", "", key == state.options.probe.rays)[0]:
+            if imgui.menu_item(f"of {text}", "", key == state.of(ProbeOptions).rays)[0]:
                 state = state.with_options(probe={"rays": key})
         imgui.end_popup()
     return state

@@ -21,10 +21,12 @@ from app.outside.diagram import Arrow, Dot, Item, Lines
 from app.outside.extent import end_parameter
 from app.outside.view import OutsideView
 from app.pair.marks import walked
+from app.pair.view import Linked
 from app.probe import panel
 from app.probe.bundles import Bundle, bundle, column_of, row_of
 from app.probe.histogram import values_and_histogram
 from app.probe.model import Probe
+from app.probe.options import ProbeOptions
 from app.probe.reading import Reading
 from app.state.app_state import AppState
 from app.state.options import Pixel
@@ -49,8 +51,9 @@ class ProbeView(View):
     name = PROBE
     title = "Probe"
 
-    def __init__(self, outside: OutsideView) -> None:
+    def __init__(self, outside: OutsideView, images: Linked) -> None:
         self._outside = outside
+        images.pins = lambda state: state.of(ProbeOptions).pins
         self._making: Background[Probe] | None = None
         self._bundles: Background[tuple[Any, Bundle]] | None = None
         self._counting: Background[Histogram] | None = None
@@ -176,14 +179,14 @@ class ProbeView(View):
                 pixel, camera, size, images.exposure_ev, images.transfer, options.shadows, depth
             )
         self._readings[key] = reading
-        while len(self._readings) > 1 + len(options.probe.pins):  # the oldest goes first
+        while len(self._readings) > 1 + len(options.of(ProbeOptions).pins):  # the oldest goes first
             self._readings.pop(next(iter(self._readings)))
         return reading
 
     def _pins(self, host: Host, size: Size) -> list[panel.Pin]:
         state, camera = host.state, host.renderers.camera(host.state)
         pins = []
-        for pixel in state.options.probe.pins:
+        for pixel in state.of(ProbeOptions).pins:
             inside = pixel[0] < size[1] and pixel[1] < size[0]
             reading = self._reading(state, pixel if inside else None, camera, size)
             pins.append(panel.Pin(pixel, reading.bytes if reading is not None else None))
@@ -209,7 +212,7 @@ class ProbeView(View):
     def _show_outside(self, host: Host, reading: Reading | None, size: Size) -> None:
         state, camera = host.state, host.renderers.camera(host.state)
         rays = self._row_or_column(state, reading, camera, size)
-        pins = state.options.probe.pins
+        pins = state.of(ProbeOptions).pins
         key = (state.scene, camera, size, reading, pins, rays)
         if self._shown is not None and all(
             one is other or one == other for one, other in zip(self._shown, key, strict=True)
@@ -240,7 +243,7 @@ class ProbeView(View):
         outcome = self._bundles.poll()
         if outcome is not None and outcome.value is not None:
             self._bundle = outcome.value
-        which, probe = state.options.probe.rays, self._probe
+        which, probe = state.of(ProbeOptions).rays, self._probe
         if which == "pixel" or reading is None or probe is None:
             self._bundle_key = self._bundle = None
             return None

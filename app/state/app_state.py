@@ -8,20 +8,15 @@ from __future__ import annotations
 
 from collections.abc import Hashable
 from dataclasses import dataclass, field, replace
-from typing import Any
+from typing import Any, TypeVar
 
+from app.state.all_options import Options
 from app.state.bounds import clamped
-from app.state.options import (
-    CompareOptions,
-    ImageOptions,
-    Options,
-    OutsideOptions,
-    Pixel,
-    Preferences,
-)
+from app.state.options import ImageOptions, Pixel, Preferences
 from renderer.camera import Camera
 from renderer.scene.model import Scene, View
 
+T = TypeVar("T")
 MOST_UNDO_STEPS = 500
 ORTHONORMAL = 1e-6  # the largest deviation of a dot product or length
 
@@ -30,7 +25,7 @@ ORTHONORMAL = 1e-6  # the largest deviation of a dot product or length
 class AppState:
     """Everything that undo brings back. Scenes are compared by identity.
 
-    keep_orthonormal: edits of u, v or w keep the basis orthonormal. options: see options.py;
+    keep_orthonormal: edits of u, v or w keep the basis orthonormal. options: see all_options.py;
     the properties below name its parts. step: that of the lecture that the state was shown in, as
     the lecture's source and the step's number from 0; None outside of lectures.
     """
@@ -57,14 +52,6 @@ class AppState:
         return self.options.images
 
     @property
-    def compare(self) -> CompareOptions:
-        return self.options.compare
-
-    @property
-    def outside(self) -> OutsideOptions:
-        return self.options.outside
-
-    @property
     def preferences(self) -> Preferences:
         return self.options.preferences
 
@@ -76,6 +63,10 @@ class AppState:
     def has_effects(self) -> bool:
         """Whether the ray image shows what only rays find."""
         return self.options.shadows or self.options.mirrors
+
+    def of(self, kind: type[T]) -> T:
+        """One instrument's own options, by their class: state.of(StepperOptions)."""
+        return self.options.of(kind)
 
     def with_options(self, **changes: Any) -> AppState:
         """The state with other options: fields of Options, or of one of its parts by its name,

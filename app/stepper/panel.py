@@ -13,7 +13,7 @@ from typing import Literal
 from imgui_bundle import ImVec2, imgui
 
 from app.state.bounds import range_of
-from app.state.options import Language, Pixel, StepperOptions
+from app.state.options import Language, Pixel
 from app.stepper.listing import Listing, listing
 from app.stepper.loop_parts import (
     Canvas,
@@ -25,6 +25,7 @@ from app.stepper.loop_parts import (
 )
 from app.stepper.model import SHOWN, Moment
 from app.stepper.numbers import TEXTS, numbers
+from app.stepper.options import StepperOptions
 from app.stepper.plan import (
     LONG,
     SHORT,

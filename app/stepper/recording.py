@@ -19,9 +19,9 @@ from typing import Any
 
 from app.explaining.columns import Column
 from app.state.bounds import check, whole_range_of
-from app.state.options import StepperOptions
 from app.stepper.loop_parts import Model
 from app.stepper.loops import image_order, object_order, rasterization
+from app.stepper.options import StepperOptions
 from app.stepper.raster_parts import t_of
 from app.stepper.source import Source, source_of
 from renderer.camera import Camera, Size

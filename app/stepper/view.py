@@ -20,10 +20,11 @@ from app.outside.diagram import Dot, Item, Lines
 from app.outside.extent import end_parameter
 from app.outside.frustum import plane_parameter, point_at
 from app.outside.view import OutsideView
-from app.state.options import Pixel, StepperOptions
+from app.state.options import Pixel
 from app.stepper import model as stepper
 from app.stepper import panel
 from app.stepper.model import Moment, moment_at
+from app.stepper.options import StepperOptions
 from app.stepper.recording import Order, Recording
 from app.stepper.runs import Pair, Runs
 from app.widgets import theme
@@ -101,7 +102,7 @@ class StepperView(View):
         assert self._runs is not None and self._uploads is not None
         self._uploads.begin_frame()
         self._seen = True
-        options = host.state.options.stepper
+        options = host.state.of(StepperOptions)
         scene = host.state.scene
         has_triangles = any(not isinstance(one.shape, Sphere) for one in scene.objects)
         changed, wish = panel.controls(options, self.playing, has_triangles)
@@ -174,7 +175,7 @@ class StepperView(View):
     def _keep(self, host: Host, steps: tuple[int, int], step_of_undo: bool) -> tuple[int, int]:
         """The steps go into the state, for a lecture or a session to come back to; undo is for
         scenes and cameras, and does not walk them."""
-        if steps != host.state.options.stepper.steps:
+        if steps != host.state.of(StepperOptions).steps:
             changed = host.state.with_options(stepper={"steps": steps})
             if step_of_undo:
                 host.apply(changed)
@@ -195,7 +196,7 @@ class StepperView(View):
         )
         state = host.state
         shown = panel.Shown(
-            tuple(orders), state.options.stepper.canvas, self._em_px, self._set_px,
+            tuple(orders), state.of(StepperOptions).canvas, self._em_px, self._set_px,
             state.options.indexing, state.options.language == "julia",
         )  # fmt: skip
         self.moments = {}

@@ -11,9 +11,9 @@ from dataclasses import dataclass, field
 
 import msgspec
 
+from app.state.all_options import Options
 from app.state.app_state import AppState
 from app.state.bounds import check
-from app.state.options import Options
 from app.storage.kept_lecture import KeptLecture
 from app.storage.paths import restored, stored
 from renderer.errors import LucidaError

@@ -1,28 +1,20 @@
 """Everything that a menu or a key does, in one table.
 
 Menus, shortcuts and the shortcut sheet are made from ACTIONS; nothing else binds a key. Gathered
-from the instruments; knows nothing of how menus are drawn.
+from the window's own and the instruments'; knows nothing of how menus are drawn.
 """
 
 from __future__ import annotations
 
 from imgui_bundle import imgui
 
-from app.camera_panel.actions import CAMERA, EDIT
-from app.camera_panel.actions import MOUSE as CAMERA_MOUSE
-from app.compare.actions import COMPARING
 from app.host.action import CTRL, SHIFT, Action, Key, Window, changing
-from app.lecture.actions import LECTURE
-from app.outside.actions import DIAGRAM, OUTSIDE
-from app.pair.actions import IMAGE
-from app.pair.actions import MOUSE as IMAGE_MOUSE
 from app.window.actions import BOOKMARKS, FILE, HELP, LOOK
+from app.window.instruments import INSTRUMENTS
 
 MENUS = ("File", "Edit", "Camera", "Image", "View", "Lecture", "Help")
 
-ACTIONS = (
-    *FILE,
-    *DIAGRAM,
+UNDO = (
     Action(
         "Edit",
         "Undo",
@@ -39,12 +31,9 @@ ACTIONS = (
         (CTRL | SHIFT | int(Key.z), CTRL | int(Key.y)),
         can=lambda w: w.can_redo(),
     ),
-    *EDIT,
-    *CAMERA,
-    *BOOKMARKS,
-    *LOOK,
-    *IMAGE,
-    *OUTSIDE,
+)
+
+EFFECTS = (
     Action(
         "View",
         "Shadows (ray image only)",
@@ -58,17 +47,49 @@ ACTIONS = (
         changing(lambda state: state.with_options(mirrors=not state.options.mirrors)),
         is_on=lambda state: state.options.mirrors,
     ),
-    *COMPARING,
-    *LECTURE,
-    *HELP,
 )
 
+_left = [(name, action) for name, one in INSTRUMENTS.items() for action in one.actions]
+
+
+def _take(menu: str, room: str = "") -> list[Action]:
+    """The instruments' actions in a menu and its submenus, or those of one room alone, in the order
+    of the rooms; each is given once."""
+    found = [
+        (name, action)
+        for name, action in _left
+        if f"{action.menu}/".startswith(f"{menu}/") and room in ("", name)
+    ]
+    _left[:] = [entry for entry in _left if entry not in found]
+    return [action for _, action in found]
+
+
+# In the order of the menus, and within them; what an instrument adds to a menu comes last in it.
+ACTIONS = (
+    *FILE,
+    *_take("File"),
+    *UNDO,
+    *_take("Edit"),
+    *_take("Camera"),
+    *BOOKMARKS,
+    *LOOK,
+    *_take("Image"),
+    *_take("View/Outside view"),
+    *EFFECTS,
+    *_take("View"),
+    *_take("Lecture", "lecture"),
+    *_take("Lecture/Loop stepper"),
+    *_take("Lecture"),
+    *HELP,
+    *_take("Help"),
+)
+assert not _left, f"there is no menu {_left[0][1].menu!r}; the menus: {', '.join(MENUS)}"
+
 MOUSE = (
-    ("drag an image", "turn the camera about the point under the pointer"),
-    ("Shift+drag, right or middle drag", "move the camera; the point follows the pointer"),
-    ("wheel", "closer and farther (parallel: a smaller or larger viewport)"),
-    *IMAGE_MOUSE,
-    *CAMERA_MOUSE,
+    *(row for instrument in INSTRUMENTS.values() for row in instrument.mouse),
+    ("W, A, S, D, Q, E over a 3D view", "fly: forward, left, back, right, down, up; Shift: faster"),
+    ("Alt+drag, or drag while flying", "look around: the eye stays"),
+    ("right-click a number", "reset it, copy it, paste one"),
     ("drag a number", "change it; Shift: faster, Alt: slower"),
     ("double-click a number", "type it"),
 )

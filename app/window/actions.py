@@ -131,8 +131,8 @@ FILE = (
 )
 
 BOOKMARKS = (
-    *(_recall(number) for number in range(1, 10)),
-    *(_store(number) for number in range(1, 10)),
+    *(_recall(number) for number in bookmarks.NUMBERS),
+    *(_store(number) for number in bookmarks.NUMBERS),
     Action(
         "Camera/Bookmarks",
         "Forget all bookmarks",

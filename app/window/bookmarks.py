@@ -7,8 +7,10 @@ from __future__ import annotations
 
 from app.host.action import Window
 from app.state.app_state import AppState
-from app.state.options import Bookmark
+from app.state.options import MOST_BOOKMARKS, Bookmark
 from renderer.scene import View
+
+NUMBERS = range(1, MOST_BOOKMARKS + 1)
 
 
 def of(state: AppState, number: int) -> Bookmark | None:

@@ -15,33 +15,27 @@ from pathlib import Path
 import moderngl
 from imgui_bundle import hello_imgui, imgui
 
-from app.camera_panel.view import CameraView
 from app.cameras.focus import Focus, object_corners, scene_focus
 from app.cameras.presets import framed
 from app.cameras.travel import Traveller
-from app.compare.view import CompareView
-from app.costs.view import CostsView
-from app.host.action import AView
 from app.host.fly import Fly
-from app.host.view import View
+from app.host.view import AView, View, view_of
 from app.images.agreement import Verdict
 from app.images.placement import shown_pixel
 from app.images.renderers import Renderers
-from app.laboratory.view import LaboratoryView
 from app.lecture.view import LECTURE, LectureView
 from app.outside.view import OUTSIDE, OutsideView
 from app.pair.go_to_pixel import Going, going, pixel_box
 from app.pair.resolution import Asked, asked, resolution_box
-from app.pair.view import RASTER, Linked, RasterView, RayView
-from app.probe.view import ProbeView
+from app.pair.view import RASTER
 from app.state.app_state import AppState, History
 from app.state.options import Pixel
-from app.stepper.view import StepperView
 from app.storage.session_store import Keeper
 from app.widgets import theme
 from app.widgets.highlight import frame_views
 from app.window.action_table import run_shortcuts
 from app.window.files import Files, Opened
+from app.window.instruments import make_views
 from app.window.menus import menu_bar
 from app.window.platform import on_drop, set_title
 from app.window.shell import Shell
@@ -49,25 +43,6 @@ from app.window.status import Status, status_line
 from renderer.errors import LucidaError, describe
 from renderer.scene import Scene
 from renderer.scene.outside import outside_files
-
-
-def make_views() -> list[View]:
-    """All views, in the order in which they are drawn: the camera's panel first, so that the
-    images show what it changed in the same frame."""
-    linked = Linked()
-    outside = OutsideView()
-    views = [
-        CameraView(),
-        RasterView(linked),
-        RayView(linked),
-        CompareView(linked),
-        outside,
-        ProbeView(outside),
-        StepperView(outside),
-        CostsView(),
-        LaboratoryView(outside),
-    ]
-    return [*views, LectureView(views)]
 
 
 class MainWindow:
@@ -109,7 +84,7 @@ class MainWindow:
     # What actions and views ask for.
 
     def view(self, kind: type[AView]) -> AView:
-        return next(view for view in self.views.values() if isinstance(view, kind))
+        return view_of(self.views.values(), kind)
 
     @property
     def state(self) -> AppState:

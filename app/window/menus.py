@@ -143,7 +143,7 @@ def _bookmarks(window: Window) -> None:
             bookmarks.recall(window, mark.number)
     imgui.separator()
     if imgui.begin_menu("Keep this view"):
-        for number in range(1, 10):
+        for number in bookmarks.NUMBERS:
             old = bookmarks.of(window.state, number)
             text = f"{number}  in place of {old.name}" if old else f"{number}"
             if imgui.menu_item(f"{text}###keep{number}", f"Ctrl+{number}", False)[0]:

@@ -16,8 +16,8 @@ from imgui_bundle import hello_imgui
 from app.lecture.model import Lecture
 from app.lecture.session import Session as LectureSession
 from app.lecture.states import state_of
+from app.state.all_options import Options
 from app.state.app_state import AppState
-from app.state.options import Options
 from app.storage.kept_lecture import KeptLecture
 from app.storage.session import Session
 from app.storage.session_store import Found, Keeper, take_place

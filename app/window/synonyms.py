@@ -1,12 +1,14 @@
 """What people also call what the window can do: the words of other programs and of other books.
 
 The command palette finds an entry by these as by its name. Keys: names of actions, titles of views.
+What stands here is the window's own; each instrument has those of its own.
 """
 
 from __future__ import annotations
 
-SYNONYMS = {
-    # actions
+from app.window.instruments import INSTRUMENTS
+
+OWN = {
     "Open...": "load import model mesh",
     "Save view...": "export camera",
     "Save scene...": "export",
@@ -17,16 +19,6 @@ SYNONYMS = {
     "Quit": "exit close end",
     "Undo": "revert",
     "Redo": "repeat",
-    "Copy camera": "matrix clipboard",
-    "Paste camera": "matrix clipboard",
-    "Parallel projection": "ortho orthographic orthogonal perspective",
-    "Keep orthonormal": "orthogonal basis skew free",
-    "Fit to the image's aspect ratio": "stretch distort viewport",
-    "Scene's view": "home reset camera default",
-    "Canonical camera": "reset default identity",
-    "Aim at the object under the mouse": "focus center centre target look",
-    "Frame the scene": "all extents fit view",
-    "Jump, without a passage": "animation reduced motion transition",
     "Maximise the view": "maximize",
     "Full screen": "fullscreen",
     "Presentation": "projector hall slides lecture big",
@@ -37,38 +29,8 @@ SYNONYMS = {
     "Light theme": "mode colors colours bright day",
     "Find a command": "palette search",
     "Mouse and keys": "help shortcuts keyboard hotkeys bindings about version",
-    "Magnify": "zoom in enlarge",
-    "Reduce": "zoom out",
-    "Fit": "zoom",
-    "Pixel grid and values": "raster lines numbers",
-    "Brighter": "exposure ev",
-    "Darker": "exposure ev",
-    "Exposure 0": "reset ev brightness",
-    "Linear light without sRGB's curve": "gamma transfer",
-    "Take the mark away": "deselect unmark clear pixel",
-    "Another size...": "resolution width height",
     "Shadows (ray image only)": "shadow",
     "Mirrors (ray image only)": "reflection reflections",
-    "Worst pixel": "error difference",
-    "Show basis": "axes u v w",
-    "Show volume": "frustum",
-    "Show ray": "viewing",
-    "Show bundle": "rays",
-    "Handles: move eye": "gizmo translate",
-    "Handles: turn basis": "gizmo rotate",
-    "Fit all": "zoom extents",
-    "Export diagram as SVG...": "vector drawing wireframe outline outlines",
-    "Next step": "slide",
-    "Step before": "slide previous",
-    # views
-    "Raster object order": "opengl rasterizer rasterization gpu",
-    "Ray image order": "tracer tracing raytracer cpu",
-    "Camera": "fov field of view eye basis viewport distance near far clip dolly zoom",
-    "Outside view": "3d world frustum wireframe scene",
-    "Compare raster and ray": "difference diff error flip",
-    "Image laboratory": "dither threshold bitmap bytes vector projector subpixel array histogram",
-    "Probe": "ray formula intersection pixel",
-    "Loop stepper": "algorithm code debug",
-    "Costs": "performance complexity time plot",
-    "Lecture": "slides lesson tutorial course",
 }
+
+SYNONYMS = OWN | {name: also for one in INSTRUMENTS.values() for name, also in one.synonyms.items()}

@@ -20,8 +20,8 @@ from window_driver import SIZE, Driver, Key
 
 from app.host import layout
 from app.pair.view import RASTER, RAY
+from app.state.all_options import Options
 from app.state.bounds import check
-from app.state.options import Options
 from app.storage.session import from_bytes, session_of, to_bytes
 from app.window.action_table import ACTIONS
 from app.window.platform import set_size

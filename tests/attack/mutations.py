@@ -83,7 +83,7 @@ MODULES: dict[str, tuple[str, ...]] = {
     "app/lecture/flow.py": ("teach_flow",),
     "app/lecture/mistakes.py": ("teach_exercises",),
     "app/lecture/model.py": ("teach_lecture",),
-    "app/lecture/options.py": ("teach_lecture", "bounds"),
+    "app/lecture/step_options.py": ("teach_lecture", "bounds"),
     "app/lecture/places.py": ("teach_lecture",),
     "app/explaining/plain.py": ("plain",),
     "app/lecture/reading.py": ("teach_lecture",),

@@ -155,13 +155,16 @@ def drive_a_wipe_has_the_raster_image_left_and_the_ray_image_right(d: Driver) ->
         d.drag(start, (start[0] - 0.3 * (high.x - low.x), start[1]))
         d.settle()
         assert d.window.state.camera == d.window.history.past[-1].camera, "the divider was dragged"
-        assert abs(d.window.state.compare.divider - 0.2) < 0.01
+        assert abs(d.window.state.options.compare.divider - 0.2) < 0.01
         assert len(d.window.history.past) == count + 1, "a drag is one step"
-        seen, divider = below_labels(shown(d)), round(d.window.state.compare.divider * width)
+        seen, divider = (
+            below_labels(shown(d)),
+            round(d.window.state.options.compare.divider * width),
+        )
         assert close(seen[:, : divider - handle], raster[:, : divider - handle])
         assert close(seen[:, divider + handle :], ray[:, divider + handle :])
         d.window.undo()
-        assert d.window.state.compare.divider == 0.5
+        assert d.window.state.options.compare.divider == 0.5
         for divider, expected in ((0.0, ray), (1.0, raster)):
             show(d, mode="wipe", divider=divider)
             seen = below_labels(shown(d))
@@ -181,7 +184,7 @@ def drive_flip_shows_the_other_image_while_a_key_is_held(d: Driver) -> None:
         assert close(below_labels(shown(d)), raster)
         d.ctx.item_click("//###Compare/show ray")
         d.ctx.yield_(2)
-        assert d.window.state.compare.flipped
+        assert d.window.state.options.compare.flipped
         assert close(below_labels(shown(d)), ray)
         d.ctx.key_down(int(Key.x))
         d.ctx.yield_(2)
@@ -240,26 +243,26 @@ def drive_modes_and_gain_have_keys_and_can_be_undone(d: Driver) -> None:
     for key, mode in ((Key.f6, "signed"), (Key.f7, "wipe"), (Key.f8, "flip"), (Key.f5, "absolute")):
         d.ctx.key_press(int(key))
         d.ctx.yield_(2)
-        assert d.window.state.compare.mode == mode
+        assert d.window.state.options.compare.mode == mode
         d.window.undo()
         d.window.redo()
     d.ctx.item_click("//###Compare/Signed")
-    assert d.window.state.compare.mode == "signed"
+    assert d.window.state.options.compare.mode == "signed"
     for _ in range(3):
         d.ctx.key_press(int(Key.right_bracket))
     d.ctx.key_press(int(Key.left_bracket))
     d.ctx.yield_(2)
-    assert d.window.state.compare.gain == 4
+    assert d.window.state.options.compare.gain == 4
     d.window.undo()
-    assert d.window.state.compare.gain == 8
+    assert d.window.state.options.compare.gain == 8
     d.ctx.key_press(SHIFT | int(Key.right_bracket))
     d.ctx.yield_(2)
-    assert d.window.state.compare.divider == 0.5 + comparing.DIVIDER_STEP
+    assert d.window.state.options.compare.divider == 0.5 + comparing.DIVIDER_STEP
     count = len(d.window.history.past)
     slider = d.ctx.item_info("//###Compare/##gain").rect_full
     at = slider.get_center()
     d.drag((at.x, at.y), (slider.max.x - 10, at.y))
-    assert d.window.state.compare.gain > 200
+    assert d.window.state.options.compare.gain > 200
     assert len(d.window.history.past) == count + 1
 
 
@@ -268,12 +271,12 @@ def drive_causes_are_marked(d: Driver) -> None:
     with tampered(d, brightened):
         d.ctx.key_press(int(Key.k))
         d.settle()
-        assert d.window.state.compare.causes
+        assert d.window.state.options.compare.causes
         seen = shown(d)
         assert (seen[25:55, 35:55] == LABEL_COLORS[SHADING]).all()
         d.ctx.item_click("//###Compare/causes")
         d.ctx.yield_(2)
-        assert not d.window.state.compare.causes
+        assert not d.window.state.options.compare.causes
         assert (shown(d)[25:55, 35:55] != LABEL_COLORS[SHADING]).any(axis=2).all()
 
 

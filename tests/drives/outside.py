@@ -71,54 +71,54 @@ def strokes(d: Driver, name: str) -> list[Strokes]:
 def drive_the_mouse_moves_the_camera_that_looks(d: Driver) -> None:
     enter(d)
     window, inner = d.window, d.window.state.camera
-    assert window.state.outside.camera is None
+    assert window.state.options.outside.camera is None
     x, y = empty_place(d)
     before = scope(d).camera
     steps = len(window.history.past)
     d.drag((x, y), (x + 80, y + 30))
-    turned = window.state.outside.camera
+    turned = window.state.options.outside.camera
     assert turned is not None
     assert turned.w != before.w
     assert abs(turned.u[1]) < 1e-9  # no roll
     assert len(window.history.past) == steps + 1
     for button, key in ((1, 0), (2, 0), (0, int(Key.mod_shift))):
-        was = window.state.outside.camera
+        was = window.state.options.outside.camera
         if key:
             d.ctx.key_down(key)
         d.drag((x, y), (x - 40, y - 20), button)
         if key:
             d.ctx.key_up(key)
-        moved = window.state.outside.camera
+        moved = window.state.options.outside.camera
         assert (moved.u, moved.v, moved.w) == (was.u, was.v, was.w)
         assert moved.eye != was.eye
-    was = window.state.outside.camera
+    was = window.state.options.outside.camera
     d.ctx.mouse_teleport_to_pos((x, y))
     d.ctx.yield_()
     d.ctx.mouse_wheel_y(2)
     d.ctx.yield_(2)
-    closer = window.state.outside.camera
+    closer = window.state.options.outside.camera
     middle = np.asarray(scope(d).center)
     assert np.linalg.norm(closer.eye - middle) < np.linalg.norm(was.eye - middle)
     assert window.state.camera == inner  # the other camera stays
     press(d, "fit all")
-    assert window.state.outside.camera is None
+    assert window.state.options.outside.camera is None
     d.window.undo()
-    assert window.state.outside.camera == closer
+    assert window.state.options.outside.camera == closer
 
 
 def drive_the_axes_turn_the_view(d: Driver) -> None:
     enter(d)
     for name, back in (("x", (1, 0, 0)), ("y", (0, 1, 0)), ("z", (0, 0, 1))):
         press(d, f"axis {name}")
-        assert np.allclose(d.window.state.outside.camera.w, back)
+        assert np.allclose(d.window.state.options.outside.camera.w, back)
         d.settle()
         d.reset()
         enter(d)
     press(d, "axis -x")
-    assert np.allclose(d.window.state.outside.camera.w, (-1, 0, 0))
+    assert np.allclose(d.window.state.options.outside.camera.w, (-1, 0, 0))
     press(d, "from camera")
     shown = d.window.renderers.camera(d.window.state)
-    assert d.window.state.outside.camera == shown
+    assert d.window.state.options.outside.camera == shown
     d.settle()
 
 
@@ -181,19 +181,19 @@ def drive_the_legend_switches(d: Driver) -> None:
     window = d.window
     for name in ("basis", "image", "grid", "volume", "ray"):
         press(d, name)
-        assert not getattr(window.state.outside, name)
+        assert not getattr(window.state.options.outside, name)
         d.ctx.yield_(2)
         assert not strokes(d, {"basis": "u", "image": "none", "volume": "edges"}.get(name, name))
         press(d, name)
-        assert getattr(window.state.outside, name)
+        assert getattr(window.state.options.outside, name)
     press(d, "bundle")
-    rows, columns = window.state.outside.bundle
+    rows, columns = window.state.options.outside.bundle
     d.settle()
     rays = {" ".join(p.name.split()[:3]) for p in view(d).primitives if "bundle" in p.name}
     assert len(rays) == rows * columns
     assert view(d).settled
     d.window.undo()
-    assert window.state.outside.bundle == (0, 0)
+    assert window.state.options.outside.bundle == (0, 0)
 
 
 def drive_nothing_is_drawn_anew_while_nothing_changes(d: Driver) -> None:
@@ -243,22 +243,22 @@ def drive_keys_fly_it_and_switch_it(d: Driver) -> None:
     d.ctx.mouse_teleport_to_pos(empty_place(d))
     d.ctx.yield_(2)
     d.ctx.key_down(int(Key.w))
-    d.until(lambda: window.state.outside.camera is not None)
-    before = window.state.outside.camera
-    d.until(lambda: window.state.outside.camera != before)
+    d.until(lambda: window.state.options.outside.camera is not None)
+    before = window.state.options.outside.camera
+    d.until(lambda: window.state.options.outside.camera != before)
     d.ctx.key_up(int(Key.w))
     d.ctx.yield_(2)
     assert window.state.camera == inner
     d.ctx.key_press(int(Key.mod_shift) | int(Key.h))
-    assert window.state.outside.camera is None
+    assert window.state.options.outside.camera is None
     d.ctx.key_press(int(Key.b))
-    assert min(window.state.outside.bundle) > 0
+    assert min(window.state.options.outside.bundle) > 0
     d.ctx.key_press(int(Key.g))
-    assert window.state.outside.gizmo == "move"
+    assert window.state.options.outside.gizmo == "move"
     d.ctx.key_press(int(Key.t))
-    assert window.state.outside.gizmo == "turn"
+    assert window.state.options.outside.gizmo == "turn"
     d.ctx.key_press(int(Key.t))
-    assert window.state.outside.gizmo == "none"
+    assert window.state.options.outside.gizmo == "none"
 
 
 def drive_handles_move_the_eye_and_turn_the_basis(d: Driver) -> None:
@@ -266,7 +266,7 @@ def drive_handles_move_the_eye_and_turn_the_basis(d: Driver) -> None:
     window = d.window
     start = window.state.camera
     press(d, "move eye")
-    assert window.state.outside.gizmo == "move"
+    assert window.state.options.outside.gizmo == "move"
     d.ctx.yield_(2)
     at = scope(d)
     x, y = place(d, np.asarray(start.eye))
@@ -283,7 +283,7 @@ def drive_handles_move_the_eye_and_turn_the_basis(d: Driver) -> None:
     assert way_moved @ start.v > 0.1
     assert np.allclose(way_moved, (way_moved @ start.v) * np.asarray(start.v), atol=1e-3)
     assert (moved.u, moved.v, moved.w) == (start.u, start.v, start.w)
-    assert window.state.outside.camera is None  # the view was not turned by it
+    assert window.state.options.outside.camera is None  # the view was not turned by it
     assert len(window.history.past) == steps + 1
     d.settle()
     window.undo()
@@ -318,7 +318,7 @@ def drive_handles_have_the_colours_of_the_basis(d: Driver) -> None:
             for look in ("dark", "light"):
                 d.window.change(d.window.state.with_options(preferences={"theme": look}))
                 d.ctx.yield_(3)
-                if d.window.state.outside.gizmo == "none":
+                if d.window.state.options.outside.gizmo == "none":
                     press(d, name)
                 seen.clear()
                 d.ctx.yield_(3)

@@ -136,7 +136,7 @@ def drive_a_click_on_an_axis_turns_the_view_smoothly_as_one_step(d: Driver) -> N
     enter(d)
     window, clock = d.window, Clock(d)
     start = looks_from(d)
-    assert window.state.outside.camera is None
+    assert window.state.options.outside.camera is None
     d.ctx.item_click(f"//###{OUTSIDE}/axis x##outside")
     d.until(lambda: window.traveller.under_way)
     inner, turned = window.state.view, []
@@ -161,16 +161,16 @@ def drive_a_click_on_an_axis_turns_the_view_smoothly_as_one_step(d: Driver) -> N
     # Back to the view of all, which the state leaves to the view: at the end, without a step.
     d.ctx.item_click(f"//###{OUTSIDE}/fit all##outside")
     clock.s += 0.999 * DURATION_S
-    d.until(lambda: window.state.outside.camera is not None and window.traveller.under_way)
+    d.until(lambda: window.state.options.outside.camera is not None and window.traveller.under_way)
     d.ctx.yield_(2)
     near_end = looks_from(d)
     clock.s += DURATION_S
-    d.until(lambda: window.state.outside.camera is None)
+    d.until(lambda: window.state.options.outside.camera is None)
     d.ctx.yield_(2)
     assert np.allclose(looks_from(d), start, atol=1e-9)
     assert np.allclose(near_end, start, atol=1e-3)
     window.undo()
-    assert np.allclose(window.state.outside.camera.w, (1, 0, 0))
+    assert np.allclose(window.state.options.outside.camera.w, (1, 0, 0))
     window.undo()
     assert window.state == d.start
     d.settle()
@@ -187,11 +187,11 @@ def drive_an_object_is_aimed_at_smoothly(d: Driver) -> None:
     d.ctx.key_press(int(Key.f))
     d.until(lambda: window.traveller.under_way)
     clock.s += 0.5 * DURATION_S
-    d.until(lambda: window.state.outside.camera not in (None, at.camera))
-    half = window.state.outside.camera
+    d.until(lambda: window.state.options.outside.camera not in (None, at.camera))
+    half = window.state.options.outside.camera
     clock.s += DURATION_S
     d.until(lambda: not window.traveller.under_way)
-    end = window.state.outside.camera
+    end = window.state.options.outside.camera
     way = np.subtract(end.eye, at.camera.eye)
     assert 0 < np.subtract(half.eye, at.camera.eye) @ way < way @ way
     assert len(window.history.past) == 1
@@ -205,16 +205,16 @@ def drive_a_drag_ends_the_passage_where_it_is(d: Driver) -> None:
     before = view(d).scope
     assert before is not None
     clock.s += 0.5 * DURATION_S
-    d.until(lambda: window.state.outside.camera not in (None, before.camera))
+    d.until(lambda: window.state.options.outside.camera not in (None, before.camera))
     drag(d)
     assert not window.traveller.under_way
-    turned = window.state.outside.camera
+    turned = window.state.options.outside.camera
     clock.s += DURATION_S
     d.ctx.yield_(3)
-    assert window.state.outside.camera == turned
+    assert window.state.options.outside.camera == turned
     assert turned.w != (0, 1, 0)
     window.change(d.start.with_options(preferences={"reduced_motion": True}))
     d.ctx.item_click(f"//###{OUTSIDE}/axis z##outside")
-    d.until(lambda: window.state.outside.camera is not None)
-    assert np.allclose(window.state.outside.camera.w, (0, 0, 1))
+    d.until(lambda: window.state.options.outside.camera is not None)
+    assert np.allclose(window.state.options.outside.camera.w, (0, 0, 1))
     d.settle()

@@ -8,12 +8,12 @@ from pathlib import Path
 import numpy as np
 from window_driver import Driver, Key
 
+from app.laboratory.options import LaboratoryOptions
 from app.laboratory.vector_view import PIXELS, Both
 from app.laboratory.view import LABORATORY, LaboratoryView
 from app.outside.bitmap import magnified
 from app.outside.svg import svg
 from app.state.bounds import range_of
-from app.state.options import LaboratoryOptions
 
 LARGEST_ZOOM = range_of(LaboratoryOptions, "zoom")[1]
 SPACE = "{http://www.w3.org/2000/svg}"

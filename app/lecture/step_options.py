@@ -1,4 +1,4 @@
-"""The `options` of a step: changes of the window's options (app/state/options.py), by name.
+"""The `options` of a step: changes of the window's options (app/state/all_options.py), by name.
 
 Knows nothing of steps, and no option by its name: whatever is added to the options can be set in a
 lecture at once, within the bounds that stand on its field.
@@ -13,8 +13,8 @@ from typing import Any, get_args, get_type_hints
 import msgspec
 
 from app.lecture.under import under
+from app.state.all_options import Options
 from app.state.bounds import check
-from app.state.options import Options
 from renderer.camera import Camera
 from renderer.errors import LucidaError
 from renderer.scene.reading import suggestion

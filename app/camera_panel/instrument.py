@@ -1,0 +1,23 @@
+"""The camera's panel, as the window takes it."""
+
+from __future__ import annotations
+
+from app.camera_panel.actions import CAMERA, EDIT
+from app.camera_panel.view import CameraView
+from app.host.instrument import Instrument
+
+SYNONYMS = {
+    "Copy camera": "matrix clipboard",
+    "Paste camera": "matrix clipboard",
+    "Parallel projection": "ortho orthographic orthogonal perspective",
+    "Keep orthonormal": "orthogonal basis skew free",
+    "Fit to the image's aspect ratio": "stretch distort viewport",
+    "Scene's view": "home reset camera default",
+    "Canonical camera": "reset default identity",
+    "Aim at the object under the mouse": "focus center centre target look",
+    "Frame the scene": "all extents fit view",
+    "Jump, without a passage": "animation reduced motion transition",
+    "Camera": "fov field of view eye basis viewport distance near far clip dolly zoom",
+}
+
+INSTRUMENT = Instrument(lambda views: [CameraView()], (*EDIT, *CAMERA), synonyms=SYNONYMS)

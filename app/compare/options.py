@@ -1,0 +1,30 @@
+"""How the compare view shows both images."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Annotated, Literal
+
+from app.state.bounds import Range
+from app.state.options import Part
+from renderer.difference import LARGEST_GAIN
+
+CompareMode = Literal["absolute", "signed", "wipe", "flip"]
+
+
+@dataclass(frozen=True)
+class CompareOptions:
+    """The compare view. gain: what the difference is multiplied with before it gets a colour.
+
+    divider: the wipe's, in parts of the image's width: the raster image left of it. flipped: flip
+    shows the ray image. causes: differing pixels are marked in the colours of their causes.
+    """
+
+    mode: CompareMode = "wipe"
+    gain: Annotated[float, Range(1, LARGEST_GAIN)] = 1.0
+    divider: Part = 0.5
+    flipped: bool = False
+    causes: bool = False
+
+
+OPTIONS = CompareOptions

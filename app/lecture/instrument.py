@@ -1,0 +1,15 @@
+"""The guided lecture, as the window takes it."""
+
+from __future__ import annotations
+
+from app.host.instrument import Instrument
+from app.lecture.actions import LECTURE
+from app.lecture.view import LectureView
+
+SYNONYMS = {
+    "Next step": "slide",
+    "Step before": "slide previous",
+    "Lecture": "slides lesson tutorial course",
+}
+
+INSTRUMENT = Instrument(lambda views: [LectureView(views)], LECTURE, synonyms=SYNONYMS)

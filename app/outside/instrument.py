@@ -1,0 +1,21 @@
+"""The outside view, as the window takes it."""
+
+from __future__ import annotations
+
+from app.host.instrument import Instrument
+from app.outside.actions import DIAGRAM, OUTSIDE
+from app.outside.view import OutsideView
+
+SYNONYMS = {
+    "Show basis": "axes u v w",
+    "Show volume": "frustum",
+    "Show ray": "viewing",
+    "Show bundle": "rays",
+    "Handles: move eye": "gizmo translate",
+    "Handles: turn basis": "gizmo rotate",
+    "Fit all": "zoom extents",
+    "Export diagram as SVG...": "vector drawing wireframe outline outlines",
+    "Outside view": "3d world frustum wireframe scene",
+}
+
+INSTRUMENT = Instrument(lambda views: [OutsideView()], (*DIAGRAM, *OUTSIDE), synonyms=SYNONYMS)

@@ -1,0 +1,37 @@
+"""What the outside view shows, and from where."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Annotated, Literal
+
+from app.state.bounds import Range
+from renderer.camera import Camera
+
+Coordinate = Annotated[float, Range(-1e6, 1e6)]
+Rays = Annotated[int, Range(0, 64)]  # rows, or columns, of viewing rays
+
+
+@dataclass(frozen=True)
+class OutsideOptions:
+    """The outside view. camera: the free camera that looks at the scene and the other camera;
+    None: one that sees both. bundle: rows and columns of the bundle of viewing rays; (0, 0): none.
+    gizmo: what the handles in the view do to the camera. target: a point to draw as **a**, and up
+    as an arrow at the eye: what a lecture makes a basis from; None: neither. parameters: the points
+    of the marked pixel's ray at t = 0 and 1.
+    """
+
+    camera: Camera | None = None
+    volume: bool = True
+    image: bool = True
+    basis: bool = True
+    grid: bool = True
+    ray: bool = True
+    bundle: tuple[Rays, Rays] = (0, 0)
+    gizmo: Literal["none", "move", "turn"] = "none"
+    target: tuple[Coordinate, Coordinate, Coordinate] | None = None
+    up: tuple[Coordinate, Coordinate, Coordinate] = (0.0, 1.0, 0.0)
+    parameters: bool = False
+
+
+OPTIONS = OutsideOptions

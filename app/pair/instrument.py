@@ -1,0 +1,33 @@
+"""Both images, as the window takes them."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from app.host.instrument import Instrument
+from app.host.view import View
+from app.pair.actions import IMAGE, MOUSE
+from app.pair.view import Linked, RasterView, RayView
+
+SYNONYMS = {
+    "Magnify": "zoom in enlarge",
+    "Reduce": "zoom out",
+    "Fit": "zoom",
+    "Pixel grid and values": "raster lines numbers",
+    "Brighter": "exposure ev",
+    "Darker": "exposure ev",
+    "Exposure 0": "reset ev brightness",
+    "Linear light without sRGB's curve": "gamma transfer",
+    "Take the mark away": "deselect unmark clear pixel",
+    "Another size...": "resolution width height",
+    "Raster object order": "opengl rasterizer rasterization gpu",
+    "Ray image order": "tracer tracing raytracer cpu",
+}
+
+
+def _make(views: Sequence[View]) -> list[View]:
+    linked = Linked()
+    return [RasterView(linked), RayView(linked)]
+
+
+INSTRUMENT = Instrument(_make, IMAGE, MOUSE, synonyms=SYNONYMS)
