@@ -18,12 +18,15 @@ from app.images.progressive_ray import reduced
 from app.images.textures import Pictures, Wanted
 from renderer.raster.overlay import Overlay
 from renderer.raster.targets import Textures
+from renderer.scene.model import Scene
 
 PLACE, COARSE = "Outside", "Outside, coarse"  # see Rasterizer.draw
 STILL_S = 0.15  # without a change of the view, before it is drawn in full, its edges made smooth
 FRAME_S = 0.008  # what a picture may take of a frame while the view moves
 COARSEST = 4
-SLOW_S = 0.06  # a scene that takes longer to prepare for a camera keeps its edges as they are
+# A scene that keeps this thread busy for longer with one more picture keeps its edges as they are.
+# Counted in the thread's own time: what else the machine does must not decide how a picture looks.
+SLOW_S = 0.06
 # Parts of a pixel by which the pictures of a mean are shifted: no two in a row or column. The last
 # is not, so that what lies behind is decided at the pixels' centres.
 SHIFTS = ((-0.125, -0.375), (0.375, -0.125), (0.125, 0.375), (-0.375, 0.125), (0.0, 0.0))
@@ -59,6 +62,7 @@ class Ground:
         # Factor and pixels of the one whose time is still to be read.
         self._timed: tuple[int, int] | None = None
         self._coarseness = Coarseness(FRAME_S, FRAME_S, COARSEST)
+        self._slow: Scene | None = None  # it has proved to be too slow for smooth edges
 
     @property
     def settled(self) -> bool:
@@ -101,27 +105,26 @@ class Ground:
         elif picture.factor > 1:
             self._picture = picture = self._draw(wanted, pictures, picture.changed_s, 1)
         elif picture.parts < len(SHIFTS):
-            shift = wanted.camera.shifted(*SHIFTS[picture.parts], wanted.size)
-            textures = self._beside(replace(wanted, camera=shift), pictures)
-            mean = overlay.gather(textures, picture.parts == 0, 1 / len(SHIFTS))
-            self._picture = picture = replace(
-                picture, textures=textures, parts=picture.parts + 1, mean=mean
-            )
+            self._picture = picture = self._smoother(picture, pictures, overlay)
         return picture
 
     def _draw(self, wanted: Wanted, pictures: Pictures, changed_s: float, factor: int) -> Picture:
-        start_s = time.monotonic()
         textures = self._beside(wanted, pictures, factor)
         self._drawn += 1
-        slow = time.monotonic() - start_s > SLOW_S
-        return Picture(
-            wanted,
-            textures,
-            changed_s,
-            self._drawn,
-            len(SHIFTS) if slow and factor == 1 else 0,
-            factor=factor,
-        )
+        parts = len(SHIFTS) if wanted.scene is self._slow and factor == 1 else 0
+        return Picture(wanted, textures, changed_s, self._drawn, parts, factor=factor)
+
+    def _smoother(self, picture: Picture, pictures: Pictures, overlay: Overlay) -> Picture:
+        """With one more part in its mean; as it was where the first one took too long. That one
+        tells: before it, the scene itself may have been brought to the GPU."""
+        wanted, start_s = picture.wanted, time.thread_time()
+        shift = wanted.camera.shifted(*SHIFTS[picture.parts], wanted.size)
+        textures = self._beside(replace(wanted, camera=shift), pictures)
+        if picture.parts == 0 and time.thread_time() - start_s > SLOW_S:
+            self._slow = wanted.scene
+            return self._draw(wanted, pictures, picture.changed_s, 1)
+        mean = overlay.gather(textures, picture.parts == 0, 1 / len(SHIFTS))
+        return replace(picture, textures=textures, parts=picture.parts + 1, mean=mean)
 
     def _beside(self, wanted: Wanted, pictures: Pictures, factor: int = 1) -> Textures:
         size = reduced(wanted.size, factor)
