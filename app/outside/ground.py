@@ -18,12 +18,15 @@ from app.images.request import ImageRequest, reduced
 from app.images.window_rasterizer import WindowRasterizer
 from renderer.raster.overlay import Overlay
 from renderer.raster.targets import Textures
+from renderer.scene.model import Scene
 
 PLACE, COARSE = "Outside", "Outside, coarse"  # see Rasterizer.draw
 STILL_S = 0.15  # without a change of the view, before it is drawn in full, its edges made smooth
 FRAME_S = 0.008  # what a picture may take of a frame while the view moves
 COARSEST = 4
-SLOW_S = 0.06  # of this thread: a scene that takes more for a camera keeps its edges as they are
+# A scene that keeps this thread busy for longer with one more picture keeps its edges as they are.
+# Counted in the thread's own time: what else the machine does must not decide how a picture looks.
+SLOW_S = 0.06
 # Parts of a pixel by which the pictures of a mean are shifted: no two in a row or column. The last
 # is not, so that what lies behind is decided at the pixels' centres.
 SHIFTS = ((-0.125, -0.375), (0.375, -0.125), (0.125, 0.375), (-0.375, 0.125), (0.0, 0.0))
@@ -59,6 +62,7 @@ class Ground:
         # Factor and pixels of the one whose time is still to be read.
         self._timed: tuple[int, int] | None = None
         self._coarseness = Coarseness(FRAME_S, FRAME_S, COARSEST)
+        self._slow: Scene | None = None  # it has proved to be too slow for smooth edges
 
     @property
     def settled(self) -> bool:
@@ -103,30 +107,30 @@ class Ground:
         elif picture.factor > 1:
             self._picture = picture = self._draw(request, rasterizer, picture.changed_s, 1)
         elif picture.parts < len(SHIFTS):
-            shift = request.camera.shifted(*SHIFTS[picture.parts], request.size)
-            textures = self._beside(replace(request, camera=shift), rasterizer)
-            mean = overlay.gather(textures, picture.parts == 0, 1 / len(SHIFTS))
-            self._picture = picture = replace(
-                picture, textures=textures, parts=picture.parts + 1, mean=mean
-            )
+            self._picture = picture = self._smoother(picture, rasterizer, overlay)
         return picture
 
     def _draw(
         self, request: ImageRequest, rasterizer: WindowRasterizer, changed_s: float, factor: int
     ) -> GroundPicture:
-        # Its own time: how a still picture looks does not depend on what else the machine does.
-        start_s = time.thread_time()
         textures = self._beside(request, rasterizer, factor)
         self._drawn += 1
-        slow = time.thread_time() - start_s > SLOW_S
-        return GroundPicture(
-            request,
-            textures,
-            changed_s,
-            self._drawn,
-            len(SHIFTS) if slow and factor == 1 else 0,
-            factor=factor,
-        )
+        parts = len(SHIFTS) if request.scene is self._slow and factor == 1 else 0
+        return GroundPicture(request, textures, changed_s, self._drawn, parts, factor=factor)
+
+    def _smoother(
+        self, picture: GroundPicture, rasterizer: WindowRasterizer, overlay: Overlay
+    ) -> GroundPicture:
+        """With one more part in its mean; as it was where the first one took too long. That one
+        tells: before it, the scene itself may have been brought to the GPU."""
+        request, start_s = picture.request, time.thread_time()
+        shift = request.camera.shifted(*SHIFTS[picture.parts], request.size)
+        textures = self._beside(replace(request, camera=shift), rasterizer)
+        if picture.parts == 0 and time.thread_time() - start_s > SLOW_S:
+            self._slow = request.scene
+            return self._draw(request, rasterizer, picture.changed_s, 1)
+        mean = overlay.gather(textures, picture.parts == 0, 1 / len(SHIFTS))
+        return replace(picture, textures=textures, parts=picture.parts + 1, mean=mean)
 
     def _beside(
         self, request: ImageRequest, rasterizer: WindowRasterizer, factor: int = 1

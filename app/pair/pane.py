@@ -118,7 +118,10 @@ def _draw(pane: Pane, state: AppState, screen: Screen, room: Box, grab: Grab | N
     draw = imgui.get_window_draw_list()
     low, high = screen.visible
     picture = pane.picture(state, screen.placement, pane.underlay is not None, PANE)
-    _surround(draw, room, low, low if picture is None else high)
+    if picture is None:  # yet: no part of it may be taken for a black image
+        draw.add_rect_filled(*room, theme.u32(theme.PANEL))
+    else:
+        _surround(draw, room, low, high)
     draw.push_clip_rect(*screen.pane, intersect_with_current_clip_rect=True)
     if picture is not None:
         if pane.underlay is not None:

@@ -10,7 +10,7 @@ from dataclasses import dataclass
 from imgui_bundle import ImVec2, imgui
 
 from app.stepper.model import Moment
-from app.stepper.plan import Plan
+from app.stepper.plan import NEXT_EM, NUMBERS_EM, Plan
 from app.widgets import theme
 from app.widgets.lettering import at_most, lettering
 from app.widgets.rows import follow
@@ -25,12 +25,15 @@ def numbers(moment: Moment, room: ImVec2, made: Plan, fonts: Fonts) -> None:
     """The counters and the variables, in columns beside one another where there is more width than
     height."""
     imgui.begin_child("numbers", room)
-    flags = imgui.TableFlags_.sizing_stretch_same | imgui.TableFlags_.no_saved_settings
+    flags = imgui.TableFlags_.sizing_stretch_prop | imgui.TableFlags_.no_saved_settings
     with at_most(made.numbers_px), lettering(None, made.numbers_px):
         rows = _rows(moment)
         short = [row for row in rows if row.name not in TEXTS]
         each = -(-len(short) // made.columns)
         if imgui.begin_table("columns", made.columns, flags):
+            for number in range(made.columns):
+                part = NEXT_EM if number else NUMBERS_EM
+                imgui.table_setup_column("", imgui.TableColumnFlags_.width_stretch, part)
             imgui.table_next_row()
             for number in range(made.columns):
                 imgui.table_next_column()
@@ -68,7 +71,7 @@ def _rows(moment: Moment) -> list[_Row]:
 def _table(name: str, rows: list[_Row], fonts: Fonts) -> None:
     if not rows or not imgui.begin_table(name, 2, imgui.TableFlags_.no_saved_settings):
         return
-    widest = imgui.calc_text_size("overwrites").x
+    widest = max(imgui.calc_text_size(row.name).x for row in rows)
     imgui.table_setup_column("", imgui.TableColumnFlags_.width_fixed, widest)
     imgui.table_setup_column("", imgui.TableColumnFlags_.width_stretch)
     for row in rows:

@@ -65,6 +65,8 @@ TITLES = {
 }
 WANTED_EM = 1.25  # of the code
 LEAST_PX = 11.0  # of the code, at 100 %, unless the width forbids it
+LEGIBLE = 1 / 44  # of code and numbers, in parts of the window's height: 12 of a slide's 540 points
+SLIDER_EM = 14.0  # the least width of the slider beside a title
 RUNNING = f"Python, counts {Indexing.ARRAY.told}"
 
 Wish = Literal["", "first", "back", "play", "step", "pixel", "object", "last"]
@@ -237,6 +239,7 @@ def run_panel(
     title = TITLES[recording.order]
     if imgui.calc_text_size(title).x > room.x:
         title = title.partition(":")[0]
+    imgui.align_text_to_frame_padding()
     imgui.text(title)
     imgui.pop_font()
     notes = [] if shown.in_julia else [RUNNING]  # the listings say it
@@ -245,10 +248,12 @@ def run_panel(
     if notes:
         note = "; ".join(notes)
         follow(imgui.calc_text_size(note).x)
+        imgui.align_text_to_frame_padding()
         imgui.text_colored(theme.DIM, note)
     if moment is None:
         imgui.text_colored(theme.DIM, "running ...")
         return Answer()
+    follow(SLIDER_EM * imgui.get_font_size())
     answer = _slider(recording, moment)
     corner, room = imgui.get_cursor_screen_pos(), imgui.get_content_region_avail()
     need, extent = _need(shown), (round(room.x), round(room.y))
@@ -262,8 +267,11 @@ def run_panel(
     listing(lines, moment.line, made.code_px, to(made.code), fonts)
     place = to(made.canvases)
     imgui.begin_group()
-    answer = _canvases(recording, moment, picture, place, answer, shown.indexing)
+    together = recording.order.has_depth and made.depth is None
+    answer = _canvases(recording, moment, picture, place, answer, shown.indexing, together)
     imgui.end_group()
+    if recording.order.has_depth and made.depth is not None:
+        answer = _depth(recording, moment, picture, to(made.depth), answer)
     numbers(moment, to(made.numbers), made, fonts)
     return answer
 
@@ -279,6 +287,7 @@ def _need(shown: Shown) -> Need:
         has_depth=any(order.has_depth for order in shown.orders),
         em_px=imgui.get_font_size(),
         wanted_px=WANTED_EM * shown.em_px,
+        legible_px=LEGIBLE * imgui.get_io().display_size.y,
         least_px=LEAST_PX * imgui.get_style().font_scale_dpi,
         short=max(SHORT, *(3 + sum(name not in TEXTS for name in one) for one in names)),
         long=max(LONG, *(1 + sum(name in TEXTS for name in one) for one in names)),  # one wraps
@@ -324,32 +333,44 @@ def _canvases(
     room: ImVec2,
     answer: Answer,
     indexing: Indexing,
+    together: bool,
 ) -> Answer:
-    """The canvas, and in object order the depth buffer beside or below it: where it has room."""
+    """The canvas, and the depth buffer beside or below it, where they stand together."""
     name, size = recording.order.name, recording.size
     label = imgui.get_text_line_height_with_spacing()
     spacing = imgui.get_style().item_spacing
-    has_depth = recording.order.has_depth
     gap = spacing.x, spacing.y
-    upper, lower, beside = canvases_in((room.x, room.y), size, has_depth, label, gap)
-    first, rest = ImVec2(*upper), ImVec2(*lower)
+    upper, lower, beside = canvases_in((room.x, room.y), size, together, label, gap)
+    first = ImVec2(*upper)
     dots = tuple((test.pixel, test.t < float("inf")) for test in moment.tests)
     corners = tuple((corner.x, corner.y) for corner in moment.corners or ())
-    marks = Marks(moment.pixel, moment.box, dots if has_depth else (), corners)
+    marks = Marks(moment.pixel, moment.box, dots if recording.order.has_depth else (), corners)
     imgui.begin_group()
     imgui.text_colored(theme.DIM, _caption(moment, indexing, first.x))
     clicked = canvas(picture.color, size, first, marks, f"canvas##{name}")
     imgui.set_item_tooltip("a click goes to a pixel's turn")
     imgui.end_group()
-    if has_depth:
-        if beside:
-            imgui.same_line()
-        imgui.begin_group()
-        imgui.text_colored(theme.DIM, "depth")
-        again = canvas(picture.depth, size, rest, Marks(moment.pixel, moment.box), f"depth##{name}")
-        imgui.set_item_tooltip("for each pixel the nearest t so far, near ones bright")
-        imgui.end_group()
-        clicked = clicked if clicked is not None else again
+    if clicked is not None:
+        answer = replace(answer, pixel=clicked)
+    if not together:
+        return answer
+    if beside:
+        imgui.same_line()
+    room = ImVec2(lower[0], lower[1] + label)
+    return _depth(recording, moment, picture, room, answer)
+
+
+def _depth(
+    recording: Recording, moment: Moment, picture: Picture, room: ImVec2, answer: Answer
+) -> Answer:
+    """The depth buffer, with a line above it."""
+    name, size = recording.order.name, recording.size
+    rest = ImVec2(room.x, max(20.0, room.y - imgui.get_text_line_height_with_spacing()))
+    imgui.begin_group()
+    imgui.text_colored(theme.DIM, "depth")
+    clicked = canvas(picture.depth, size, rest, Marks(moment.pixel, moment.box), f"depth##{name}")
+    imgui.set_item_tooltip("for each pixel the nearest t so far, near ones bright")
+    imgui.end_group()
     return replace(answer, pixel=clicked) if clicked is not None else answer
 
 

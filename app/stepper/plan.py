@@ -16,13 +16,19 @@ from app.widgets.code import LINE, code_size_px
 Size = tuple[float, float]  # (width, height)
 
 USUAL_EM = 1.25  # of the code: where more is wanted, the rest gives way
-NUMBERS_EM = 11.6  # the width of a column of numbers
-SHORT, LONG, ROW_EM = 9, 4, 1.25  # how many numbers, and texts, at least; the height of one
+NUMBERS_EM = 11.6  # the width of the first column of numbers, in which the counters stand
+NEXT_EM = 9.0  # and of the columns beside it, whose names are of a letter or two
+TEXTS_EM = 17.0  # of a line of text below the columns
+SHORT, LONG, ROW_EM = 9, 4, 1.18  # how many numbers, and texts, at least; the height of one
+BETWEEN_EM = 0.7  # numbers and texts
 WANTED_CANVAS = 0.44  # of the room's height
-WEIGHTS = (3.0, 2.4, 3.0)  # code, canvas, numbers
-UNREAD = 8.0  # the weight of what code and numbers lack to be read at all
-READ = 1.0  # the least of the numbers' type, in parts of the least of the code's
-ENOUGH_EM, ENOUGH = 0.95, 0.0275  # of the numbers' type; in parts of the room's height
+LEAST_CANVAS = 0.22  # below that it shows too little
+WEIGHTS = (3.5, 2.4, 2.4)  # code, canvas, numbers
+UNREAD = 12.0  # the weight of what each of them lacks to be read at all
+ENOUGH = 1.3  # of the numbers' type, in parts of what is legible
+GROWS = 0.1  # of legible code: the power of the type, the rest of which has less room
+WANTED = 1.35  # of the code, in parts of what is legible, at the usual size of type
+SMALLER = 1.6  # how much smaller than the canvas the depth buffer may be
 GAP_EM = 0.6
 # With the same code in Julia: rooms so much wider than high have all beside one another; the least
 # and the largest of the code's type, where the width allows.
@@ -45,7 +51,8 @@ class Place:
 
 @dataclass(frozen=True)
 class Plan:
-    """code_px, numbers_px: the sizes of their type. columns: of the numbers."""
+    """code_px, numbers_px: the sizes of their type. columns: of the numbers. depth: of the depth
+    buffer, where it stands apart from the canvas."""
 
     code: Place
     canvases: Place
@@ -53,13 +60,15 @@ class Plan:
     code_px: float
     numbers_px: float
     columns: int
+    depth: Place | None = None
 
 
 @dataclass(frozen=True)
 class Need:
     """What is to be shown. longest: letters of the code's longest line; lines: of the code.
     canvas: its pixels, (width, height). em_px: the size of the type round it; wanted_px: of the
-    code, and least_px: its least. short, long: how many numbers there are, and texts."""
+    code; legible_px: of code and numbers, at which they are read from afar; least_px: of the code,
+    at which rather a part of it is shown. short, long: how many numbers there are, and texts."""
 
     longest: int
     lines: int
@@ -67,6 +76,7 @@ class Need:
     has_depth: bool
     em_px: float
     wanted_px: float
+    legible_px: float
     least_px: float
     short: int = SHORT
     long: int = LONG
@@ -95,7 +105,7 @@ def plan_of_two(room: Size, need: Need, set_px: float) -> Plan:
     all_px = code.height / (LINE * need.lines)
     most = min(LARGEST_EM * set_px, max(least, all_px))
     made = _with(code, code_size_px(" " * need.longest, code.width, most), canvases, numbers, need)
-    return replace(made, numbers_px=max(made.numbers_px, READ * need.least_px))  # then scrolled
+    return replace(made, numbers_px=max(made.numbers_px, need.least_px))  # then scrolled
 
 
 def canvases_in(
@@ -129,6 +139,8 @@ def _plans(room: Size, need: Need) -> Iterator[Plan]:
                 upper = Place(left + gap, 0, right, split)
                 lower = Place(left + gap, split + gap, right, height - split - gap)
                 yield _with(Place(0, 0, left, tall), code_px, upper, lower, need)
+                if need.has_depth:  # which is below the code then
+                    yield replace(_with(code, code_px, lower, upper, need), depth=below)
                 middle = Place(left + gap, 0, part * right, height)
                 last = Place(left + 2 * gap + part * right, 0, (1 - part) * right - gap, height)
                 yield _with(code, code_px, middle, last, need)
@@ -157,26 +169,43 @@ def _with(code: Place, code_px: float, canvases: Place, numbers: Place, need: Ne
 
 
 def _lettered(room: Size, columns: int, need: Need) -> tuple[float, int]:
-    """The size at which the numbers have room in so many columns."""
+    """The size at which the numbers have room in so many columns; the texts below them in a line
+    each, or in two."""
     rows = -(-need.short // columns) + need.long
-    return min(room[0] / (columns * NUMBERS_EM), room[1] / (rows * ROW_EM), 2 * need.em_px), columns
+    wide = NUMBERS_EM + (columns - 1) * NEXT_EM
+    sizes = (
+        min(room[0] / max(wide, TEXTS_EM), room[1] / (rows * ROW_EM + BETWEEN_EM)),
+        min(room[0] / wide, room[1] / ((rows + need.long) * ROW_EM + BETWEEN_EM)),
+    )
+    return min(max(sizes), 2 * need.em_px), columns
 
 
 def _worth(made: Plan, room: Size, need: Need) -> float:
-    em = need.em_px
-    first, _, _ = canvases_in(
-        made.canvases.size, need.canvas, need.has_depth, 1.3 * em, (0.4 * em, 0.3 * em)
-    )
-    high = min(first[1], first[0] * need.canvas[1] / need.canvas[0])
+    high = _canvas_px(made, need) / room[1]
     shown = min(1.0, made.code.height / (LINE * made.code_px * need.lines))
+    more = max(1.0, need.wanted_px / (USUAL_EM * need.em_px))
+    grown = need.wanted_px / (WANTED * need.legible_px)
+    enough_px = min(0.75 * need.wanted_px, ENOUGH * need.legible_px)
     parts = (
         min(made.code_px / need.wanted_px, 1.0) * shown**2,
-        min(high / (WANTED_CANVAS * room[1]), 1.0),
-        min(made.numbers_px / min(ENOUGH_EM * em, ENOUGH * room[1]), 1.0),
-        min(made.code_px / need.least_px, 1.0),
-        min(made.numbers_px / (READ * need.least_px), 1.0),
+        min(high / WANTED_CANVAS, 1.0),
+        min(made.numbers_px / enough_px, 1.0),
+        min(made.code_px / (max(1.0, grown) ** GROWS * need.legible_px), 1.0),
+        min(high / LEAST_CANVAS, 1.0),
+        min(made.numbers_px / need.legible_px, 1.0),
     )
     # Logarithms: what is small costs more than what is large gains.
-    more = max(1.0, need.wanted_px / (USUAL_EM * em)) ** 2
-    weights = (WEIGHTS[0] * more, *WEIGHTS[1:], UNREAD, UNREAD)
+    weights = (WEIGHTS[0] * more**2, *WEIGHTS[1:], *[UNREAD * more, 0.5 * UNREAD, UNREAD * more])
     return sum(w * math.log(max(part, 1e-3)) for w, part in zip(weights, parts, strict=True))
+
+
+def _canvas_px(made: Plan, need: Need) -> float:
+    """How high the canvas is; of a depth buffer that is much smaller, as if it were less so."""
+    em, shape = need.em_px, need.canvas[1] / need.canvas[0]
+    label, gap = 1.3 * em, (0.4 * em, 0.3 * em)
+    together = need.has_depth and made.depth is None
+    first, _, _ = canvases_in(made.canvases.size, need.canvas, together, label, gap)
+    high = min(first[1], shape * first[0])
+    if made.depth is None:
+        return high
+    return min(high, SMALLER * min(made.depth.height - label, shape * made.depth.width))

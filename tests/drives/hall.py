@@ -72,7 +72,10 @@ def drive_code_and_text_grow_with_the_type(d: Driver) -> None:
                 assert now.code.height >= need.lines * LINE * now.code_px  # no line is cut off
                 assert need.longest * 0.5 * now.code_px <= now.code.width
                 code_px.append(now.code_px)
-            assert code_px == sorted(code_px) and code_px[-1] > code_px[0], code_px
+                legible_px = imgui.get_io().display_size.y / 45  # 12 of a slide's 540 points
+                assert min(now.code_px, now.numbers_px) > 0.93 * legible_px, (scale, now)
+            # But for the padding round the view, which grows, too, and where nothing is left.
+            assert min(code_px) > 0.98 * code_px[0], code_px
             enlarge(d, 1.0)
         for number in TEXT_STEPS:
             d.window.lecture.go(d.window, number)

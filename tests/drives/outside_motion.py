@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+import itertools
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
+from types import SimpleNamespace
 
 import numpy as np
 from imgui_bundle import hello_imgui
@@ -113,6 +115,40 @@ def drive_a_scene_that_is_fast_enough_stays_full(d: Driver) -> None:
     with pace(d, 1e9):
         assert drag(d) == [(1, full[0])] * 5
     d.settle()
+
+
+@contextmanager
+def clocks(**others: Callable[[], float]) -> Iterator[None]:
+    """The scene's picture is drawn by other clocks."""
+    kept = outside_ground.time
+    now = {name: getattr(kept, name) for name in ("monotonic", "thread_time")}
+    outside_ground.time = SimpleNamespace(**(now | others))  # type: ignore[assignment]
+    try:
+        yield
+    finally:
+        outside_ground.time = kept
+
+
+def drive_edges_are_smooth_however_busy_the_machine_is(d: Driver) -> None:
+    enter(d)
+    found, seconds, own = ground(d), itertools.count(), itertools.count()
+
+    def drawn_anew() -> outside_ground.Picture:
+        found.forget()
+        d.ctx.yield_(3)
+        d.settle()
+        assert found._picture is not None and found.settled
+        return found._picture
+
+    with clocks(monotonic=lambda: 100.0 * next(seconds)):  # other programs have the processor
+        assert drawn_anew().smooth
+    with clocks(thread_time=lambda: float(next(own))):  # this one has as much work
+        rough = drawn_anew()
+        assert not rough.smooth
+        assert rough.wanted.scene is found._slow
+    assert not drawn_anew().smooth  # which need not be found out again
+    found._slow = None
+    assert drawn_anew().smooth
 
 
 def drive_the_other_cameras_motion_leaves_the_scene_as_it_is(d: Driver) -> None:
