@@ -27,6 +27,7 @@ Image = NDArray[np.float32]
 _, LARGEST_APART = range_of(LaboratoryOptions, "apart")
 DOT_PX = 2  # a side of a bitmap's pixel, so that a class sees it
 SMALLEST_CELL = 8
+LEAST_SIDE_OF_GAPS = 6  # of a pixel in stripes: in a smaller one a gap would be all of a stripe
 
 
 @dataclass(frozen=True, eq=False)
@@ -144,11 +145,12 @@ def _subpixels(
 ) -> tuple[Panel, ...]:
     part, (first, left), side = _magnified_part(color, plan, options, pixel, 3)
     ev = 0.0 if options.content == "test" else taken_ev
-    stripes = light.subpixels(to_srgb8(part, ev), side, gap=max(1, side // 12))
-    caption = f"{part.shape[1]} x {part.shape[0]} pixels, each of three stripes"
-    subpixels = Panel("Its subpixels", caption, stripes)
+    gap = max(1, side // 12) if side >= LEAST_SIDE_OF_GAPS else 0
+    stripes = light.subpixels(to_srgb8(part, ev), side, gap)
+    many = f"{part.shape[1]} x {part.shape[0]} pixels"
+    subpixels = Panel("Its subpixels", f"{many}, each of three stripes", stripes)
     if options.content == "test":
-        return (Panel("Test picture", caption, light.magnified(to_srgb8(part), side)), subpixels)
+        return (Panel("Test picture", many, light.magnified(to_srgb8(part), side)), subpixels)
     region = (first, left, *part.shape[:2])
     picture = to_srgb8(color, taken_ev)
     return (_whole("The image", "the frame is what is magnified", picture, plan, region), subpixels)
