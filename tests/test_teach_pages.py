@@ -232,6 +232,8 @@ def test_a_test_picture_has_every_mixture_of_light():
     assert shown[4] == (255, 0, 255) and shown[0] == (255, 255, 255)
     yellow = stripes.picture[0, side : 2 * side]
     assert yellow.max(axis=0).tolist() == [255, 255, 0]
+    brightest = stripes.picture.reshape(-1, side, 8, side, 3).max(axis=(1, 3))
+    np.testing.assert_array_equal(brightest, bars.picture[::side, ::side])  # whatever the exposure
     divided = plan("projectors", (900, 700), 40, 10, None)
     options = LaboratoryOptions(page="projectors", content="test", apart=0.22)
     (wall,) = panels("projectors", image(divided), divided, options, 3.0, (0, 0))
