@@ -7,6 +7,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from app.laboratory import light
 from app.laboratory.pages import (
     LARGEST_APART,
     PAGES,
@@ -97,6 +98,7 @@ def test_pages_say_what_they_show():
     first, left, rows, columns = whole.region
     assert (first + rows, left + columns) == (30, 40)  # about the corner, moved inside
     assert stripes.picture.shape == (rows * 60, columns * 60, 3)
+    assert (stripes.magnification, stripes.first) == (0, (0, 0))
     divided = plan("bitmaps", (900, 900), 40, 10, None)
     assert divided.magnification == 2
     made = panels("bitmaps", image(divided), divided, LaboratoryOptions(), 0.0, (0, 0))
@@ -190,19 +192,27 @@ def test_the_place_of_a_pixel_that_a_test_picture_does_not_have():
     assert (first, side, part.shape) == ((0, 0), 74, (7, 8, 3))  # a column for each bar
     assert place == (6, 7) and part.max() == 1
     assert display_part(color, divided, options, 3.0, (2, 3))[3] == (2, 3)
-    # A cycle begins anew at 1.
-    now, _ = panels("displays", color, divided, options, 3.0, (2, 3))
-    again, _ = panels("displays", color, divided, replace(options, phase=0.25), 3.0, (2, 3))
-    np.testing.assert_array_equal(now.picture, again.picture)
-    assert (now.title, now.at_work) == (again.title, again.at_work)
+    np.testing.assert_array_equal(part, light.bars(7, 8))  # whatever the exposure is
 
 
-def test_beams_are_at_work_in_the_part_that_is_seen():
+def test_a_cycle_begins_anew_at_1():
     divided = plan("displays", (1200, 600), 40, 10, (40, 30))
-    options = LaboratoryOptions(page="displays", display="tube", side_px=60, phase=0.0)
+    for phase in (0.0, 1.0):
+        options = LaboratoryOptions(page="displays", display="dlp", phase=phase)
+        now, _ = panels("displays", image(divided), divided, options, 0.0, (2, 3))
+        assert now.title.endswith("red's third of the cycle")
+
+
+@pytest.mark.parametrize("display", ["tube", "lcd"])
+def test_what_is_at_work_is_framed_in_the_part_that_is_seen(display):
+    """The pixel (20, 25) in the middle of 9 x 9; half of the cycle is over."""
+    divided = plan("displays", (1200, 600), 40, 10, (40, 30))
+    options = LaboratoryOptions(page="displays", display=display, side_px=60, phase=0.5)
     now, mean = panels("displays", image(divided), divided, options, 0.0, (20, 25))
-    assert now.first == mean.first and min(now.first) > 0
-    assert now.at_work[:2] == now.first and mean.at_work is None  # the upper left one begins
+    assert now.first == mean.first == (16, 21) and now.picture.shape[:2] == (540, 540)
+    assert now.region == mean.region == (20, 25, 1, 1)
+    assert now.at_work == {"tube": (20, 25, 1, 1), "lcd": (20, 21, 1, 9)}[display]
+    assert mean.at_work is None
 
 
 def test_a_display_is_seen_at_a_moment_beside_its_mean():

@@ -80,7 +80,7 @@ def plan(page: str, room: Size, heading_px: int, gap_px: int, resolution: Size |
         fitting = max(1, min(free[0] // resolution[0], free[1] // resolution[1]))
         return Plan(columns, rows, cell, resolution, fitting)
     dot = DOT_PX if page == "bitmaps" and min(cell) > 200 else 1
-    return Plan(columns, rows, cell, (max(1, free[0] // dot), max(1, free[1] // dot)), dot)
+    return Plan(columns, rows, cell, (free[0] // dot, free[1] // dot), dot)
 
 
 def panels(
@@ -195,8 +195,8 @@ def display_part(
     part, (first, left), side = _magnified_part(color, plan, options, pixel, least)
     part = displays.shown(part, 0.0 if options.content == "test" else taken_ev)
     rows, columns = part.shape[:2]
-    i, j = min(max(pixel[0] - first, 0), rows - 1), min(max(pixel[1] - left, 0), columns - 1)
-    return part, (first, left), side, (i, j)
+    place = min(pixel[0] - first, rows - 1), min(pixel[1] - left, columns - 1)
+    return part, (first, left), side, place
 
 
 def _magnified_part(
@@ -229,7 +229,7 @@ def _whole(
     region: displays.Region | None = None,
 ) -> Panel:
     """A picture magnified for its cell; of one that is too large, the middle."""
-    most = max(1, plan.cell[1] // plan.magnification), max(1, plan.cell[0] // plan.magnification)
+    most = plan.cell[1] // plan.magnification, plan.cell[0] // plan.magnification
     height, width = picture.shape[:2]
     first, left, part = light.window(picture, height // 2, width // 2, *most)
     large = light.magnified(part, plan.magnification)
