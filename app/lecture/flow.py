@@ -164,7 +164,7 @@ class _Column:
         size = self._size
         marks = [
             Piece(f"{number}." if numbered else "•", "text", size)
-            for number in range(1, len(items) + 1)
+            for number, _ in enumerate(items, start=1)
         ]
         widths = [self._measure(mark).width + 0.4 * size for mark in marks]
         indent = max(INDENT * size, *widths)

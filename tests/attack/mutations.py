@@ -69,7 +69,7 @@ MODULES: dict[str, tuple[str, ...]] = {
     "app/costs/growth.py": ("growth",),
     "app/costs/model.py": ("teach_costs",),
     "app/costs/work.py": ("teach_work",),
-    "app/probe/crossings.py": ("teach_probe",),
+    "app/probe/crossings.py": ("probe_crossings", "teach_probe"),
     "app/probe/formulas.py": ("probe_lines", "teach_probe"),
     "app/laboratory/bitmaps.py": ("teach_imagelab",),
     "app/laboratory/disk.py": ("teach_imagelab", "teach_pages"),
