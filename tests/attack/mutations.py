@@ -92,7 +92,7 @@ MODULES: dict[str, tuple[str, ...]] = {
     "app/stepper/loops.py": ("teach_stepper", "teach_rasterization"),
     "app/stepper/raster_parts.py": ("teach_rasterization",),
     "app/explaining/notation.py": ("notation",),
-    "app/probe/model.py": ("probe_lines", "teach_probe"),
+    "app/probe/model.py": ("probe_model", "probe_lines", "teach_probe"),
     "app/explaining/projected.py": ("projected",),
     "app/stepper/recording.py": ("teach_stepper", "teach_runs"),
     "app/explaining/shading.py": ("shading",),
