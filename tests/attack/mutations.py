@@ -86,7 +86,7 @@ MODULES: dict[str, tuple[str, ...]] = {
     "app/lecture/options.py": ("teach_lecture", "bounds"),
     "app/lecture/places.py": ("teach_lecture",),
     "app/explaining/plain.py": ("plain",),
-    "app/lecture/reading.py": ("teach_lecture",),
+    "app/lecture/reading.py": ("lecture_reading", "teach_lecture", "outside_files"),
     "app/lecture/text.py": ("teach_lecture",),
     "app/stepper/loop_parts.py": ("teach_stepper",),
     "app/stepper/loops.py": ("teach_stepper", "teach_rasterization"),
