@@ -183,7 +183,10 @@ def by_key(reading: Reading, indexing: Indexing = Indexing.LECTURE) -> dict[str,
 
 
 def test_a_mirror_that_sees_a_mirror_word_for_word() -> None:
-    assert as_text(on_the_floor(), Indexing.ARRAY) == ON_THE_FLOOR
+    reading = on_the_floor()
+    assert as_text(reading, Indexing.ARRAY) == ON_THE_FLOOR
+    (shadowed,) = (one for one in color_lines(reading) if one.key == "shadow 2")
+    assert shadowed.value == (0, 0, 0)
 
 
 @pytest.mark.parametrize("name", ALL)
@@ -260,6 +263,9 @@ def test_a_light_behind_the_surface_and_one_that_is_too_bright() -> None:
         "= min(1, (1.9990, 0.2686, 0.1343)) = (1.0000, 0.2686, 0.1343)",
     ]
     assert by_key(leaf(False))["display"][0] == "C = 1.055 min(1, L')^(1/2.4) - 0.055"
+    floor = Scene((SceneObject(FLOOR),), (DirectionalLight((1, 0, 0)),))  # along it
+    diffuse = color_lines(Probe(floor).at((2, 0), DOWN, (1, 4)))[3]
+    assert diffuse.name == "light 1, diffuse: it is behind the surface"
     white = Scene((), background=(1, 0.5, 0))
     (_, display, _) = color_lines(Probe(white).at((0, 0), Camera(), (1, 1)))
     assert display.name == "sRGB's curve (up to 0.0031308: 12.92 L)"
