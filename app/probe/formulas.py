@@ -9,8 +9,6 @@ d the distance of the viewport, bold d the direction, bold p the origin.
 
 from __future__ import annotations
 
-import math
-
 import numpy as np
 
 from app.explaining.notation import (
@@ -315,12 +313,10 @@ def _geometric_normal(reading: Reading) -> Line:
     assert hit is not None
     symbol = _geometric_symbol(hit)
     if reading.sphere is not None:
-        center, radius = reading.sphere
+        center, _ = reading.sphere
         slots = {"x": vector_slot("x", hit.point), "c": vector_slot("c", center)}
-        outside = (
-            math.dist(reading.origin, center) >= radius
-            or np.dot(hit.geometric, np.subtract(hit.point, center)) > 0
-        )
+        # 0 where a tiny sphere far away is rounded to its centre.
+        outside = np.dot(hit.geometric, np.subtract(hit.point, center)) >= 0
         first, second = ("<x>", "<c>") if outside else ("<c>", "<x>")
         return formula(
             "geometric",
