@@ -58,6 +58,21 @@ def test_a_line_along_the_side_of_a_box_meets_what_ends_there() -> None:
             assert t.tolist() == [3]
 
 
+@pytest.mark.parametrize("face", [[0, 1, 2], [0, 2, 1]])
+@pytest.mark.parametrize("axis", range(3))
+def test_edges_and_corners_are_met_from_either_side(axis, face) -> None:
+    """Exactly: those of a triangle of legs of 1, along each axis."""
+    corners = np.array([[0.0, 0, 0], [1, 0, 0], [0, 1, 0]])
+    found = index(Mesh(np.roll(corners, axis, axis=1), [face]))
+    for place in ((0.5, 0), (0.5, 0.5), (0, 0.5), (0, 0), (1, 0), (0, 1), (0.25, 0.25)):
+        for side in (-1, 1):
+            origin, direction = np.roll((*place, 2.0), axis), np.roll((0.0, 0, side), axis)
+            assert found.crossings(origin, direction).t.tolist() == [-2 * side]
+    for place in ((0.5, -0.01), (0.51, 0.5), (-0.01, 0.5)):
+        origin = np.roll((*place, 2.0), axis)
+        assert not len(found.crossings(origin, np.roll((0.0, 0, 1), axis)).t)
+
+
 def test_a_triangle_seen_edge_on_and_one_without_area_are_not_met() -> None:
     edge_on = index(SQUARE)
     assert not len(edge_on.crossings((0, 0, 0), (1, 0, 0)).t)
