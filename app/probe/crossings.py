@@ -95,7 +95,8 @@ class Index:
     def _boxes(self) -> tuple[Floats, Floats]:
         """The lowest and highest corner of each run, (runs, 3), with slack for rounding."""
         if not len(self._starts):
-            return np.zeros((0, 3)), np.zeros((0, 3))
+            none = np.zeros((0, 3))
+            return none, none
         corners = self.vertices[self.flat.faces[self._order]]
         low = np.minimum.reduceat(corners.min(axis=1), self._starts, axis=0)
         high = np.maximum.reduceat(corners.max(axis=1), self._starts, axis=0)
@@ -125,12 +126,9 @@ class Index:
 
     def _candidates(self, p: Floats, d: Floats, runs: slice) -> NDArray[np.int64]:
         """The triangles of the runs whose boxes the line meets."""
-        reach = ROUNDING * np.abs(p).max()
-        low, high = self._low[runs], self._high[runs]
-        to_low, to_high = (low - reach - p) / d, (high + reach - p) / d
-        # 0 / 0: the line runs in a box's face, which excludes nothing.
-        enter = np.where(np.isnan(to_low) | np.isnan(to_high), -np.inf, np.fmin(to_low, to_high))
-        leave = np.where(np.isnan(to_low) | np.isnan(to_high), np.inf, np.fmax(to_low, to_high))
+        # 0 / 0, in the face of a box, is left out: what the box is of lies within its slack.
+        to_low, to_high = (self._low[runs] - p) / d, (self._high[runs] - p) / d
+        enter, leave = np.fmin(to_low, to_high), np.fmax(to_low, to_high)
         first, last = enter.max(axis=1, initial=-np.inf), leave.min(axis=1, initial=np.inf)
         met = first <= last + 1e-9 * np.abs(last)
         starts = self._starts[runs][met]
