@@ -7,7 +7,8 @@ import math
 import numpy as np
 import pytest
 
-from app.probe.crossings import RUN, Index
+from app.probe.crossings import CELLS, RUN, Index, _spread
+from renderer.scene import shapes
 from renderer.scene.flat import flatten
 from renderer.scene.model import Mesh, Scene, SceneObject, Sphere
 
@@ -23,6 +24,44 @@ def moved(mesh: Mesh, x: float, y: float, z: float) -> Mesh:
     transform = np.eye(4)
     transform[:3, 3] = x, y, z
     return Mesh(mesh.vertices, mesh.faces, transform=transform)
+
+
+def test_every_crossing_of_a_torus_is_found() -> None:
+    """A million triangles' index on a small one: all crossings, against trying each triangle."""
+    mesh = shapes.torus(segments=40, sides=20)
+    scene = Scene((SceneObject(mesh), SceneObject(Sphere((0.5, 0, 0), 0.05))))
+    flat = flatten(scene)
+    assert len(flat.faces) > 10 * RUN
+    torus, rng = Index(flat), np.random.default_rng(2)
+    corners = torus.vertices[flat.faces]
+    for _ in range(200):
+        origin, toward = rng.normal(size=3) * 2, rng.normal(size=3) * 0.3
+        direction = toward - origin
+        # Möller and Trumbore, over all triangles.
+        e1, e2 = corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]
+        p = np.cross(direction, e2)
+        det = (p * e1).sum(axis=1)
+        s = origin - corners[:, 0]
+        b1 = (s * p).sum(axis=1) / det
+        q = np.cross(s, e1)
+        b2 = q @ direction / det
+        t = (q * e2).sum(axis=1) / det
+        inside = (b1 >= 0) & (b2 >= 0) & (b1 + b2 <= 1)
+        found = torus.crossings(origin, direction)
+        on_mesh = found.object == 0
+        np.testing.assert_allclose(found.t[on_mesh], np.sort(t[inside]), rtol=1e-9)
+        assert (np.diff(found.t) >= 0).all()
+
+
+def test_rays_along_the_axes_meet_boxes_in_their_faces() -> None:
+    """Zeros in the direction, and an origin in the plane of a side: 0 / 0."""
+    box = index(shapes.box(2.0))
+    for axis in range(3):
+        for sign in (-1, 1):
+            direction, origin = np.zeros(3), np.full(3, 0.25)
+            direction[axis], origin[(axis + 1) % 3] = sign, 1.0
+            t = box.crossings(origin, direction).t
+            np.testing.assert_allclose(t, sorted([(1 - 0.25) * sign, (-1 - 0.25) * sign]))
 
 
 def test_a_common_edge_is_met_once() -> None:
@@ -150,3 +189,9 @@ def test_triangles_of_a_run_are_neighbours() -> None:
     numbers = {tuple(cell): number for number, cell in enumerate(cells.tolist())}
     one = [numbers[cell] for cell in curve(np.zeros(3, int), steps)]
     assert both._order.tolist() == [*one, *(number + len(cells) for number in one)]
+
+
+def test_bits_are_spread() -> None:
+    cells = np.arange(CELLS + 1)
+    expected = sum((cells >> bit & 1) << 3 * bit for bit in range(10))
+    np.testing.assert_array_equal(_spread(cells), expected)
