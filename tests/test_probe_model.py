@@ -12,6 +12,7 @@ from app.explaining.shading import Hit
 from app.probe.model import Probe, winner_of
 from app.probe.reading import BEHIND, FAR, HIDDEN, NEAR, SEEN, Reading
 from renderer.camera import Camera
+from renderer.errors import LucidaError
 from renderer.scene.flat import flatten
 from renderer.scene.model import (
     DirectionalLight,
@@ -63,6 +64,14 @@ def test_what_is_not_asked_for_is_not_looked_up() -> None:
     assert Probe(scene, flat).flat is flat
 
 
+def test_an_empty_scene_and_a_pixel_that_is_not_there() -> None:
+    probe = Probe(Scene(()))
+    assert probe.at((3, 2), Camera.canonical(), (64, 48)).meetings == ()
+    for pixel in ((-1, 0), (0, -1), (48, 0), (0, 64)):
+        with pytest.raises(LucidaError, match="outside 64x48"):
+            probe.at(pixel, Camera.canonical(), (64, 48))
+
+
 def test_crossings_on_the_clip_planes_are_cut_off() -> None:
     assert standings((1, 1)) == [[BEHIND, SEEN]]  # the eye is on it
     assert standings((3, 1), near=2, far=4) == [[NEAR, FAR]]
@@ -79,6 +88,11 @@ def test_what_is_cut_off_stands_before_what_is_missed() -> None:
     scene = Scene(tuple(SceneObject(Sphere(at, 1)) for at in places))
     reading = Probe(scene).at((0, 0), Camera(far=6), (1, 1))
     assert [meeting.object for meeting in reading.meetings] == [4, 2, 1, 0, 3]
+
+
+def test_bytes_are_rounded_to_the_nearest() -> None:
+    dim = Scene((), background=(0.0055, 0.0061, 1))  # 1.40, 1.56
+    assert read(dim, transfer="linear").bytes == (1, 2, 255)
 
 
 # Shadows.
@@ -148,6 +162,9 @@ def test_mirrored_rays_follow_the_smooth_normal_unless_that_is_into_the_surface(
     assert bounce_of(smooth((0.28, 0.96, 0))).direction == pytest.approx((0.5376, 0.8432, 0))
     # With a normal of (0.8, 0.6, 0) it were (0.96, -0.28, 0): the plane's is taken.
     assert bounce_of(smooth((0.8, 0.6, 0))).direction == pytest.approx((0, 1, 0))
+    lean = Scene((SceneObject(smooth((0.8, 0.6, 0)), MIRROR),))
+    (slanting,) = read(lean, way=(1, -2, 0), mirror_depth=1).bounces
+    assert slanting.direction == pytest.approx((1, 2, 0))
     bounce = bounce_of(FLOOR)
     scene = Scene((SceneObject(FLOOR, MIRROR),))
     away = float(effects_of(True, 3, flatten(scene).bounds, (0, 2, 0)).away)

@@ -185,14 +185,6 @@ def test_the_background() -> None:
     run(reading)
 
 
-def test_an_empty_scene_and_a_pixel_that_is_not_there() -> None:
-    probe = Probe(Scene(()))
-    assert probe.at((3, 2), Camera.canonical(), SIZE).meetings == ()
-    for pixel in ((-1, 0), (0, -1), (48, 0), (0, 64)):
-        with pytest.raises(LucidaError, match="outside 64x48"):
-            probe.at(pixel, Camera.canonical(), SIZE)
-
-
 # Against the tracer's images.
 
 

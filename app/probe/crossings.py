@@ -148,8 +148,9 @@ class Index:
         both = np.stack([((f * f).sum(axis=1) - radius * radius) / q, q / a])
         hit = (left_over >= 0) & (q != 0)
         numbers = len(self.flat.faces) + np.flatnonzero(hit)
-        zero = np.zeros(2 * len(numbers))
-        return both[:, hit].ravel(), np.tile(numbers, 2), zero, zero
+        t = both[:, hit].ravel()
+        zero = np.zeros(len(t))
+        return t, np.tile(numbers, 2), zero, zero
 
 
 def _neighbours_in_order(flat: FlatScene, vertices: Floats) -> NDArray[np.int64]:
@@ -157,8 +158,6 @@ def _neighbours_in_order(flat: FlatScene, vertices: Floats) -> NDArray[np.int64]
 
     Source: Morton, "A Computer Oriented Geodetic Data Base", 1966.
     """
-    if not len(flat.faces):
-        return np.zeros(0, np.int64)
     middle = vertices[flat.faces].sum(axis=1) / 3
     low, high = flat.bounds
     cell = ((middle - low) / np.maximum(high - low, 1e-30) * CELLS).clip(0, CELLS).astype(np.int64)
