@@ -166,7 +166,8 @@ SLOPE = Mesh([[-1, 0.001, -1], [1, 0.001, -1], [0, 0, 1]], [[0, 1, 2]])  # rises
 BALL = Scene((SceneObject(Sphere((0, 0, 0), 1)),))
 ALL = {
     "the floor": on_the_floor,
-    "the background": lambda: Probe(ROOM).at((0, 0), DOWN, (1, 4), mirror_depth=2),
+    "the ball": lambda: Probe(ROOM).at((0, 0), DOWN, (1, 4), mirror_depth=2),
+    "the background": lambda: Probe(Scene(())).at((0, 0), DOWN, (1, 4), mirror_depth=2),
     "near and far": lambda: in_the_shell(near=0.5, far=6),
     "parallel, far": lambda: in_the_shell("parallel", far=6),
     "parallel, near": lambda: in_the_shell("parallel", near=0.5),
@@ -200,6 +201,16 @@ def test_both_forms_hold_the_same_numbers(name) -> None:
         assert one == other, line.key
         for form in filter(None, (line.latex, line.latex_numbers)):
             assert not formula.available() or mistake(form) is None
+
+
+def test_rows_and_columns_are_counted_as_asked() -> None:
+    """Row 1, column 2, from 0, of 4 columns and 5 rows, in the lecture's viewport."""
+    reading = Probe(ROOM).at((1, 2), Camera(), (4, 5))
+    one, other = by_key(reading), by_key(reading, Indexing.ARRAY)
+    assert one["u"] == ["u = (j - 0.5) / W - 0.5", "= (3 - 0.5) / 4 - 0.5 = 0.125"]
+    assert one["v"] == ["v = -((i - 0.5) / H - 0.5)", "= -((2 - 0.5) / 5 - 0.5) = 0.2"]
+    assert other["u"] == ["u = (j + 0.5) / W - 0.5", "= (2 + 0.5) / 4 - 0.5 = 0.125"]
+    assert other["v"] == ["v = -((i + 0.5) / H - 0.5)", "= -((1 + 0.5) / 5 - 0.5) = 0.2"]
 
 
 def test_which_t_count() -> None:
@@ -330,7 +341,9 @@ def test_a_light_behind_the_surface_and_one_that_is_too_bright() -> None:
     diffuse = color_lines(Probe(floor).at((2, 0), DOWN, (1, 4)))[3]
     assert diffuse.name == "light 1, diffuse: it is behind the surface"
     white = Scene((), background=(1, 0.5, 0))
-    (_, display, _) = color_lines(Probe(white).at((0, 0), Camera(), (1, 1)))
+    nothing = Probe(white).at((0, 0), Camera(), (1, 1))
+    assert hit_lines(nothing) == []
+    (_, display, _) = color_lines(nothing)
     assert display.name == "sRGB's curve (up to 0.0031308: 12.92 L)"
 
 
