@@ -12,7 +12,6 @@ import pytest
 from PIL import Image
 
 from app.cli import main
-from app.lecture.reading import is_lecture
 from app.widgets import formula
 
 ROOT = Path(__file__).parent.parent
@@ -92,25 +91,6 @@ def test_a_lecture_in_the_place_of_a_scene(text, tmp_path, capsys):
         assert main([*command, str(path)]) == 2
         said = capsys.readouterr().err
         assert said == f"lucida: {path}: is a lecture, not a scene; lucida lecture {path}\n"
-
-
-@pytest.mark.parametrize(
-    ("text", "meant"),
-    [
-        (LECTURE, True),
-        ('title = "none yet"\n[scenes.a]\n', True),
-        ("[[steps]\n[[steps]]", True),
-        ('name = "x"\n[[objects]]\ntype = "sphere"', False),
-        ("[camera]\neye = [0, 0, 1]", False),
-        ("[[objects]\n", False),
-        ("", False),
-    ],
-)
-def test_a_lecture_is_known_by_its_keys(text, meant, tmp_path):
-    path = tmp_path / "x.toml"
-    path.write_text(text)
-    assert is_lecture(path) == meant
-    assert not is_lecture(tmp_path / "nowhere.toml") and not is_lecture(tmp_path)
 
 
 def test_a_file_that_is_not_there(capsys):

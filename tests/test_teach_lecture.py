@@ -83,6 +83,22 @@ exercise.options = [
 '''
 
 
+def plain(blocks) -> str:
+    """The words of a text without their marks; formulas as their LaTeX."""
+    parts = []
+    for block in blocks:
+        match block:
+            case texts.Listing():
+                parts += [texts.words(item) for item in block.items]
+            case texts.Code():
+                parts.append(block.text)
+            case texts.Formula():
+                parts.append(block.latex)
+            case _:
+                parts.append(texts.words(block.line))
+    return "\n".join(parts)
+
+
 def read(text: str = FILE, folder: Path = Path()):
     return lecture_from_toml(text, folder, "x.toml")
 
@@ -287,11 +303,42 @@ class TestPlaces:
         assert places.line("t.many[1].in.missing") == 20
         assert places.line("nothing") == 1
 
+    def test_nothing_between_signs(self):
+        """Or all that may be: spaces about names, commas after the last, comments."""
+        text = (
+            "[t]#k = 9\n"  # 1
+            "t=1\n"
+            "k=[[1]]\n"  # 3
+            "m=[1,2,\n3]\n"  # 4, 5
+            "n={}\n"
+            'o="""\n\nx"""\n'  # 7 to 9
+            "p={a={},b={c=1}}\n"
+            "r=[{a=1},\n{b=[\n1]},\n{}]\n"  # 11 to 14
+            "[[u.v]]#k = 9\n"
+            "k=1\n"  # 16
+            "[ v . w ] #\n"
+            " x . y\t= [ # ]\n 1 , # ,\n 2 , ]\n"  # 18 to 20
+            "z = 1\n"
+        )
+        places = Places(text)
+        lines = {
+            "t": 1, "t.t": 2, "t.k": 3, "t.k[0][0]": 3, "t.m[1]": 4, "t.m[2]": 5, "t.n": 6,
+            "t.o": 8, "t.p.b.c": 10, "t.r[0].a": 11, "t.r[1]": 12, "t.r[1].b": 12,
+            "t.r[1].b[0]": 13, "t.r[2]": 14, "u.v[0]": 15, "u.v[0].k": 16,
+            "v.w": 17, "v.w.x": 18, "v.w.x.y": 18, "v.w.x.y[0]": 19, "v.w.x.y[1]": 20, "v.w.z": 21,
+        }  # fmt: skip
+        assert {field: places.line(field) for field in lines} == lines
+        # A table and an array of tables begin where the first of them does.
+        assert places.line("u") == places.line("u.v") == 15
+
     def test_paths(self):
         assert parsed_path("steps[3].camera.w") == ("steps", 3, "camera", "w")
         assert parsed_path("") == ()
 
-    @pytest.mark.parametrize("text", ["a = [1", "[[", '"', "{", "a = {", "= = =", "'''", "a.b.c"])
+    @pytest.mark.parametrize(
+        "text",
+        ["a = [1", "[[", '"', "{", "a = {", "= = =", "'''", "a.b.c", "a = [}", "a = {]", "a = [{"],
+    )
     def test_what_is_no_toml_ends_too(self, text):
         assert Places(text).line("a") >= 1
 
@@ -325,7 +372,64 @@ class TestText:
             texts.Code("  x = $1", "python"),
         )
         assert texts.formulas(blocks) == ("x", "a\nb", "c")
-        assert "slanted" in texts.plain(blocks) and "*" not in texts.plain(blocks)
+        assert "slanted" in plain(blocks) and "*" not in plain(blocks)
+
+    @pytest.mark.parametrize(
+        ("text", "line"),
+        [
+            ("*a* b", (texts.Words("a", italic=True), texts.Words(" b"))),
+            ("-5 is", (texts.Words("-5 is"),)),
+            ("2. ", (texts.Words("2."),)),
+            (r"a\$", (texts.Words("a$"),)),
+            (r"a\*b", (texts.Words("a*b"),)),
+            (r"$x$$y$ a\#", (texts.Math("x"), texts.Math("y"), texts.Words(" a#"))),
+            (r"**a\*** b", (texts.Words("a*", bold=True), texts.Words(" b"))),
+            (r"${\{}{a}$", (texts.Math(r"{\{}{a}"),)),
+        ],
+    )
+    def test_neighbours_of_one_style_are_one(self, text, line):
+        assert texts.parse(text) == (texts.Paragraph(line),)
+
+    def test_blocks_that_follow_each_other_at_once(self):
+        words = texts.Words
+        assert texts.parse("```\na\n```\nb\n$$x$$\n$$\ny$$\nc") == (
+            texts.Code("a"),
+            texts.Paragraph((words("b"),)),
+            texts.Formula("x"),
+            texts.Formula("y"),
+            texts.Paragraph((words("c"),)),
+        )
+        assert texts.parse("- a\n  b\n  c\n- d\n  e") == (
+            texts.Listing(((words("a b c"),), (words("d e"),))),
+        )
+
+    def test_of_what_a_text_consists(self):
+        text = "# $x$ head\n\n- one *two*\n- three\n\n```\na\nb\n```\n$$y$$\n> who $z$?\n\nso"
+        blocks = texts.parse(text)
+        assert texts.pieces(blocks) == 2 + 3 + 1 + 1 + 3 + 1
+        assert texts.formulas(blocks) == ("x", "y", "z")
+        assert texts.pieces(()) == 0
+
+    def test_a_program_in_one_of_its_languages(self):
+        def fenced(*names):
+            return "".join(f"```{name}\n{name} {k}\n```\n" for k, name in enumerate(names))
+
+        def shown(text, language):
+            return [block.text for block in texts.in_language(texts.parse(text), language)]
+
+        text = fenced("python", "c", "julia", "toml", "c", "julia")
+        assert shown(text, "c") == ["c 1", "toml 3", "c 4"]
+        assert shown(text, "julia") == ["julia 2", "toml 3", "julia 5"]
+        assert shown(text, "python") == ["python 0", "toml 3", "c 4"]  # or else the first
+        assert shown(fenced("toml", "toml"), "c") == ["toml 0", "toml 1"]
+        assert texts.languages(texts.parse(text)) == ("python", "c", "julia")
+        assert texts.languages(texts.parse(fenced("c", "toml", "c"))) == ()
+        assert texts.languages(texts.parse(fenced("c", "toml", "julia"))) == ("c", "julia")
+
+    def test_how_long_a_text_may_be(self):
+        assert texts.parse("a" * texts.LETTERS)
+        with pytest.raises(texts.TextError, match="is a text of 50001 characters"):
+            texts.parse("a" * (texts.LETTERS + 1))
 
     def test_signs_that_mean_themselves(self):
         (paragraph,) = texts.parse(r"\$5 and 3 * 4 * 5 and \*, `a*b*c`")
@@ -350,6 +454,10 @@ class TestText:
             ("a\n\n- so **$$x$$**", 2, "$$ stands within a line"),
             ("a\n$$x$$ is", 1, "text follows a displayed formula's $$; begin a new line after it"),
             ("$$\nx\n$$ is", 2, "text follows a displayed formula's $$"),
+            ("$$$$ is", 0, "text follows a displayed formula's $$"),
+            ("$$", 0, "the formula does not end; close it by $$"),
+            ("a\n$}{$", 0, "the braces of '}{' do not match"),
+            ("${a{b}$", 0, "the braces of '{a{b}' do not match"),
         ],
     )
     def test_a_displayed_formula_within_a_line_is_told_the_remedy(self, text, line, told):
@@ -467,7 +575,7 @@ class TestTheBuiltInLecture:
     def test_it_fits_a_slide(self):
         for step, language in itertools.product(self.lecture.steps, LANGUAGES):
             shown = texts.in_language(step.blocks, language)
-            words = len(re.findall(r"\w+", texts.plain(shown)))
+            words = len(re.findall(r"\w+", plain(shown)))
             assert 5 <= words <= 85, (step.title, language, words)
 
     def test_every_kind_of_exercise_is_in_it(self):

@@ -7,6 +7,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from app.laboratory import light
 from app.laboratory.options import LaboratoryOptions
 from app.laboratory.pages import (
     LARGEST_APART,
@@ -48,6 +49,48 @@ def test_every_picture_fits_its_cell(page, room, resolution):
         assert 0 < width <= divided.cell[0] and 0 < height <= divided.cell[1], (page, panel.title)
 
 
+@pytest.mark.parametrize(
+    ("page", "room", "columns", "rows", "cell"),
+    [
+        # 10 between cells, a heading of 40 in each; a room is wide above 1.15 times its height.
+        ("kinds", (1151, 1000), 3, 2, (377, 455)),
+        ("kinds", (1150, 1000), 2, 3, (570, 286)),
+        ("bitmaps", (1151, 1000), 2, 2, (570, 455)),
+        ("projectors", (1150, 1000), 1, 1, (1150, 960)),
+        ("array", (1151, 1000), 2, 2, (570, 455)),
+        ("array", (1150, 1000), 1, 4, (1150, 202)),
+        ("exposure", (1151, 1000), 2, 1, (570, 960)),
+        ("exposure", (1150, 1000), 1, 2, (1150, 455)),
+        ("exposure", (9, 9), 1, 2, (9, 8)),  # there is no room at all
+        ("exposure", (20, 9), 2, 1, (8, 8)),
+    ],
+)
+def test_how_a_page_is_divided(page, room, columns, rows, cell):
+    divided = plan(page, room, 40, 10, None)
+    assert (divided.columns, divided.rows, divided.cell) == (columns, rows, cell)
+
+
+def test_the_size_that_an_image_should_have():
+    def size(page, room, resolution=None):
+        divided = plan(page, room, 40, 10, resolution)
+        return divided.image, divided.magnification
+
+    assert size("kinds", (1151, 1000)) == ((377, 455), 1)
+    # A bitmap's pixels are made larger, where there is room: for cells of more than 200.
+    assert size("bitmaps", (412, 1000)) == ((100, 227), 2)
+    assert size("bitmaps", (410, 1000)) == ((200, 455), 1)
+    assert size("bitmaps", (1000, 412)) == ((495, 161), 1)
+    # Projectors 0.4 of the height apart: 0.4 more above, 0.2 below, 0.4 sqrt(3) / 2 on each side.
+    assert size("projectors", (1150, 1000)) == ((1150 - 417, 600), 1)
+    assert size("projectors", (300, 1000)) == ((8, 600), 1)
+    # As large as both of its sides have room for.
+    assert size("kinds", (1151, 1000), (64, 48)) == ((64, 48), 5)
+    assert size("kinds", (1151, 1000), (48, 64)) == ((48, 64), 7)
+    assert size("kinds", (1151, 1000), (10, 91)) == ((10, 91), 5)
+    assert size("kinds", (1151, 1000), (1000, 700)) == ((1000, 700), 1)
+    assert size("projectors", (1150, 1000), (64, 48)) == ((64, 48), 11)
+
+
 def test_pages_say_what_they_show():
     divided = plan("subpixels", (1200, 600), 40, 10, (40, 30))
     options = LaboratoryOptions(page="subpixels", side_px=60)
@@ -55,6 +98,7 @@ def test_pages_say_what_they_show():
     first, left, rows, columns = whole.region
     assert (first + rows, left + columns) == (30, 40)  # about the corner, moved inside
     assert stripes.picture.shape == (rows * 60, columns * 60, 3)
+    assert (stripes.magnification, stripes.first) == (0, (0, 0))
     divided = plan("bitmaps", (900, 900), 40, 10, None)
     assert divided.magnification == 2
     made = panels("bitmaps", image(divided), divided, LaboratoryOptions(), 0.0, (0, 0))
@@ -62,6 +106,113 @@ def test_pages_say_what_they_show():
     assert set(np.unique(made[1].picture)) == {0, 255}
     share = float((made[3].picture[..., 0] == 255).mean())
     assert made[3].caption == f"{100 * share:.1f} % white"
+
+
+def test_pages_say_it_in_numbers():
+    color = np.zeros((3, 5, 3), np.float32)
+    color[:, 0], color[0, 1], color[2, 4] = 2.0, 0.5, 0.25  # the first column is above white
+    divided = Plan(2, 2, (48, 30), (5, 3), 7)
+
+    def told(page, **options):
+        made = panels(page, color, divided, LaboratoryOptions(page=page, **options), 0.0, (2, 4))
+        return [(panel.title, panel.caption) for panel in made]
+
+    assert told("kinds") == [
+        ("Bitmap", "1 bit per pixel, 3 bytes"),
+        ("Grayscale", "8 bits per pixel, 15 bytes"),
+        ("Colour", "24 bits per pixel, 45 bytes"),
+        ("Half float", "48 bits per pixel, 90 bytes"),
+        ("Single float", "96 bits per pixel, 180 bytes"),
+    ]
+    assert told("bitmaps")[:2] == [
+        ("Grayscale", "8 bits per pixel"),
+        ("Threshold", "33.3 % white"),
+    ]
+    assert told("exposure") == [
+        ("Colour, 24 bits", "4 levels; clipped: 20.0 % of the pixels"),
+        ("Single float, 96 bits", "4 levels; clipped: nothing"),
+    ]
+    assert told("exposure", after_ev=1.0)[1][1].startswith("3 levels")  # 0.5 is white too
+    (aligned,), (moved,) = told("projectors"), told("projectors", apart=0.4)
+    assert aligned[1].startswith("aligned; ") and moved[1].startswith("apart; ")
+    assert told("subpixels")[1][1] == "1 x 1 pixels, each of three stripes"
+    assert told("subpixels", content="test") == [
+        ("Test picture", "8 x 5 pixels"),
+        ("Its subpixels", "8 x 5 pixels, each of three stripes"),
+    ]
+    assert told("array") == [("canvas", "3 rows of 5 pixels, 180 bytes")]
+    assert told("displays")[0] == (
+        "Tube: this moment",
+        "three beams, line by line; dots fade; framed: the beams",
+    )
+
+
+def test_a_picture_is_made_as_large_as_its_cell_and_shows_the_middle():
+    color = np.arange(35, dtype=np.float32).reshape(5, 7, 1).repeat(3, axis=2) / 64
+    options = LaboratoryOptions()
+    (whole,) = panels("array", color, Plan(1, 1, (9, 6), (7, 5), 2), options, 1.0, (0, 0))
+    assert (whole.first, whole.magnification) == ((1, 1), 2)  # 3 of 5 rows, 4 of 7 columns
+    seen = to_srgb8(color[1:4, 1:5], 1.0)
+    np.testing.assert_array_equal(whole.picture, seen.repeat(2, axis=0).repeat(2, axis=1))
+
+
+def test_projectors_stand_as_far_apart_as_is_said_in_parts_of_the_height():
+    color = np.ones((20, 30, 3), np.float32)
+    divided = plan("projectors", (900, 700), 40, 10, (30, 20))
+    options = LaboratoryOptions(page="projectors", apart=0.25)  # 5 pixels
+    (wall,) = panels("projectors", color, divided, options, 0.0, (0, 0))
+    side = divided.magnification
+    # Green and blue go down by half of it and apart by cos 30 degrees of it, to each side.
+    assert wall.picture.shape == ((20 + 5 + 2) * side, (30 + 4 + 4) * side, 3)
+    (test,) = panels("projectors", color, divided, replace(options, content="test"), -3.0, (0, 0))
+    assert test.picture.max() == 255  # which is as bright, whatever the exposure is
+
+
+@pytest.mark.parametrize(("side", "gap"), [(60, 5), (11, 1), (6, 1), (5, 0), (4, 0), (3, 0)])
+def test_stripes_are_parted_by_a_twelfth_of_a_pixel(side, gap):
+    """In a small pixel by one, or by none: each of its colours is to be seen."""
+    color = np.full((30, 40, 3), 0.5, np.float32)
+    divided = plan("subpixels", (1200, 600), 40, 10, (40, 30))
+    options = LaboratoryOptions(page="subpixels", side_px=side)
+    whole, stripes = panels("subpixels", color, divided, options, 1.0, (3, 5))
+    lit = stripes.picture[:side, :side] == 255  # at the exposure that the image has
+    assert lit.any(axis=(1, 2)).sum() == side - gap
+    assert lit.any(axis=(0, 1)).all()
+    assert lit[0, :, 0].sum() == -(-side // 3) - gap
+    rows, columns = whole.region[2:]
+    assert stripes.picture.shape == (rows * side, columns * side, 3)
+    assert (rows, columns) == (min(30, 560 // side), min(40, 595 // side))
+
+
+def test_the_place_of_a_pixel_that_a_test_picture_does_not_have():
+    divided = plan("displays", (1200, 600), 40, 10, (40, 30))
+    options = LaboratoryOptions(page="displays", content="test", phase=1.25)
+    color = image(divided)
+    part, first, side, place = display_part(color, divided, options, 3.0, (900, 900))
+    assert (first, side, part.shape) == ((0, 0), 74, (7, 8, 3))  # a column for each bar
+    assert place == (6, 7) and part.max() == 1
+    assert display_part(color, divided, options, 3.0, (2, 3))[3] == (2, 3)
+    np.testing.assert_array_equal(part, light.bars(7, 8))  # whatever the exposure is
+
+
+def test_a_cycle_begins_anew_at_1():
+    divided = plan("displays", (1200, 600), 40, 10, (40, 30))
+    for phase in (0.0, 1.0):
+        options = LaboratoryOptions(page="displays", display="dlp", phase=phase)
+        now, _ = panels("displays", image(divided), divided, options, 0.0, (2, 3))
+        assert now.title.endswith("red's third of the cycle")
+
+
+@pytest.mark.parametrize("display", ["tube", "lcd"])
+def test_what_is_at_work_is_framed_in_the_part_that_is_seen(display):
+    """The pixel (20, 25) in the middle of 9 x 9; half of the cycle is over."""
+    divided = plan("displays", (1200, 600), 40, 10, (40, 30))
+    options = LaboratoryOptions(page="displays", display=display, side_px=60, phase=0.5)
+    now, mean = panels("displays", image(divided), divided, options, 0.0, (20, 25))
+    assert now.first == mean.first == (16, 21) and now.picture.shape[:2] == (540, 540)
+    assert now.region == mean.region == (20, 25, 1, 1)
+    assert now.at_work == {"tube": (20, 25, 1, 1), "lcd": (20, 21, 1, 9)}[display]
+    assert mean.at_work is None
 
 
 def test_a_display_is_seen_at_a_moment_beside_its_mean():
@@ -91,6 +242,8 @@ def test_a_test_picture_has_every_mixture_of_light():
     assert shown[4] == (255, 0, 255) and shown[0] == (255, 255, 255)
     yellow = stripes.picture[0, side : 2 * side]
     assert yellow.max(axis=0).tolist() == [255, 255, 0]
+    brightest = stripes.picture.reshape(-1, side, 8, side, 3).max(axis=(1, 3))
+    np.testing.assert_array_equal(brightest, bars.picture[::side, ::side])  # whatever the exposure
     divided = plan("projectors", (900, 700), 40, 10, None)
     options = LaboratoryOptions(page="projectors", content="test", apart=0.22)
     (wall,) = panels("projectors", image(divided), divided, options, 3.0, (0, 0))

@@ -14,7 +14,6 @@ from app.explaining.notation import latex_number, number
 from app.probe.bundles import MOST_RAYS, bundle, column_of, row_of
 from app.probe.color_formulas import color_lines
 from app.probe.copying import all_lines, as_latex, as_python, as_text
-from app.probe.crossings import RUN, Index
 from app.probe.formulas import hit_lines, ray_lines
 from app.probe.model import Probe
 from app.probe.reading import BEHIND, FAR, HIDDEN, NEAR, SEEN, Reading
@@ -184,52 +183,6 @@ def test_the_background() -> None:
     assert [one.key for one in color_lines(reading)] == ["background", "display", "bytes"]
     assert reading.bytes == tuple(to_srgb8(reading.color).tolist())
     run(reading)
-
-
-def test_an_empty_scene_and_a_pixel_that_is_not_there() -> None:
-    probe = Probe(Scene(()))
-    assert probe.at((3, 2), Camera.canonical(), SIZE).meetings == ()
-    for pixel in ((-1, 0), (0, -1), (48, 0), (0, 64)):
-        with pytest.raises(LucidaError, match="outside 64x48"):
-            probe.at(pixel, Camera.canonical(), SIZE)
-
-
-def test_every_crossing_of_a_torus_is_found() -> None:
-    """A million triangles' index on a small one: all crossings, against trying each triangle."""
-    mesh = shapes.torus(segments=40, sides=20)
-    scene = Scene((SceneObject(mesh), SceneObject(Sphere((0.5, 0, 0), 0.05))))
-    flat = flatten(scene)
-    assert len(flat.faces) > 10 * RUN
-    index, rng = Index(flat), np.random.default_rng(2)
-    corners = index.vertices[flat.faces]
-    for _ in range(200):
-        origin, toward = rng.normal(size=3) * 2, rng.normal(size=3) * 0.3
-        direction = toward - origin
-        # Möller and Trumbore, over all triangles.
-        e1, e2 = corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]
-        p = np.cross(direction, e2)
-        det = (p * e1).sum(axis=1)
-        s = origin - corners[:, 0]
-        b1 = (s * p).sum(axis=1) / det
-        q = np.cross(s, e1)
-        b2 = q @ direction / det
-        t = (q * e2).sum(axis=1) / det
-        inside = (b1 >= 0) & (b2 >= 0) & (b1 + b2 <= 1)
-        found = index.crossings(origin, direction)
-        on_mesh = found.object == 0
-        np.testing.assert_allclose(found.t[on_mesh], np.sort(t[inside]), rtol=1e-9)
-        assert (np.diff(found.t) >= 0).all()
-
-
-def test_rays_along_the_axes_meet_boxes_in_their_faces() -> None:
-    """Zeros in the direction, and an origin in the plane of a side: 0 / 0."""
-    index = Index(flatten(Scene((SceneObject(shapes.box(2.0)),))))
-    for axis in range(3):
-        for sign in (-1, 1):
-            direction, origin = np.zeros(3), np.full(3, 0.25)
-            direction[axis], origin[(axis + 1) % 3] = sign, 1.0
-            t = index.crossings(origin, direction).t
-            np.testing.assert_allclose(t, sorted([(1 - 0.25) * sign, (-1 - 0.25) * sign]))
 
 
 # Against the tracer's images.

@@ -29,8 +29,9 @@ class Hit:
 
     t: in units of `direction`, the ray's. primitive: its number in the flat scene. b1, b2:
     barycentrics of a triangle's second and third corner. geometric: the surface's unit normal;
-    normal: the one that light is computed with, interpolated where the mesh is smooth. Both on the
-    viewer's side.
+    normal: the one that light is computed with, interpolated where the mesh is smooth, and bent
+    where it would hardly face the viewer. Both on the viewer's side. corner_normals: those that
+    are interpolated, as the mesh has them; () where none are.
     """
 
     object: int
@@ -42,10 +43,11 @@ class Hit:
     point: Vector
     geometric: Vector
     normal: Vector
+    corner_normals: tuple[Vector, ...]
 
     @property
-    def is_smooth(self) -> bool:
-        """Whether the two normals differ."""
+    def has_own_normal(self) -> bool:
+        """Whether the two normals differ: the light has one of its own."""
         return max(abs(a - b) for a, b in zip(self.geometric, self.normal, strict=True)) > 1e-9
 
 
@@ -104,7 +106,15 @@ def hit_at(flat: FlatScene, origin: Any, direction: Any, crossing: Any) -> Hit:
         _three(point),
         _three(geometric),
         _three(normal),
+        _corner_normals(flat, primitive),
     )
+
+
+def _corner_normals(flat: FlatScene, primitive: int) -> tuple[Vector, ...]:
+    """Of a triangle that is smooth; otherwise ()."""
+    corners = flat.faces[primitive] if primitive < len(flat.faces) else ()
+    normals = tuple(_three(flat.normals[k]) for k in corners)
+    return normals if all(map(any, normals)) else ()
 
 
 def shade(flat: FlatScene, hit: Hit, is_lit: LitTest | None = None) -> Shading:

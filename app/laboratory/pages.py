@@ -28,6 +28,7 @@ Image = NDArray[np.float32]
 _, LARGEST_APART = range_of(LaboratoryOptions, "apart")
 DOT_PX = 2  # a side of a bitmap's pixel, so that a class sees it
 SMALLEST_CELL = 8
+LEAST_SIDE_OF_GAPS = 6  # of a pixel in stripes: in a smaller one a gap would be all of a stripe
 
 
 @dataclass(frozen=True, eq=False)
@@ -80,7 +81,7 @@ def plan(page: str, room: Size, heading_px: int, gap_px: int, resolution: Size |
         fitting = max(1, min(free[0] // resolution[0], free[1] // resolution[1]))
         return Plan(columns, rows, cell, resolution, fitting)
     dot = DOT_PX if page == "bitmaps" and min(cell) > 200 else 1
-    return Plan(columns, rows, cell, (max(1, free[0] // dot), max(1, free[1] // dot)), dot)
+    return Plan(columns, rows, cell, (free[0] // dot, free[1] // dot), dot)
 
 
 def panels(
@@ -145,11 +146,12 @@ def _subpixels(
 ) -> tuple[Panel, ...]:
     part, (first, left), side = _magnified_part(color, plan, options, pixel, 3)
     ev = 0.0 if options.content == "test" else taken_ev
-    stripes = light.subpixels(to_srgb8(part, ev), side, gap=max(1, side // 12))
-    caption = f"{part.shape[1]} x {part.shape[0]} pixels, each of three stripes"
-    subpixels = Panel("Its subpixels", caption, stripes)
+    gap = max(1, side // 12) if side >= LEAST_SIDE_OF_GAPS else 0
+    stripes = light.subpixels(to_srgb8(part, ev), side, gap)
+    many = f"{part.shape[1]} x {part.shape[0]} pixels"
+    subpixels = Panel("Its subpixels", f"{many}, each of three stripes", stripes)
     if options.content == "test":
-        return (Panel("Test picture", caption, light.magnified(to_srgb8(part), side)), subpixels)
+        return (Panel("Test picture", many, light.magnified(to_srgb8(part), side)), subpixels)
     region = (first, left, *part.shape[:2])
     picture = to_srgb8(color, taken_ev)
     return (_whole("The image", "the frame is what is magnified", picture, plan, region), subpixels)
@@ -194,8 +196,8 @@ def display_part(
     part, (first, left), side = _magnified_part(color, plan, options, pixel, least)
     part = displays.shown(part, 0.0 if options.content == "test" else taken_ev)
     rows, columns = part.shape[:2]
-    i, j = min(max(pixel[0] - first, 0), rows - 1), min(max(pixel[1] - left, 0), columns - 1)
-    return part, (first, left), side, (i, j)
+    place = min(pixel[0] - first, rows - 1), min(pixel[1] - left, columns - 1)
+    return part, (first, left), side, place
 
 
 def _magnified_part(
@@ -228,7 +230,7 @@ def _whole(
     region: displays.Region | None = None,
 ) -> Panel:
     """A picture magnified for its cell; of one that is too large, the middle."""
-    most = max(1, plan.cell[1] // plan.magnification), max(1, plan.cell[0] // plan.magnification)
+    most = plan.cell[1] // plan.magnification, plan.cell[0] // plan.magnification
     height, width = picture.shape[:2]
     first, left, part = light.window(picture, height // 2, width // 2, *most)
     large = light.magnified(part, plan.magnification)

@@ -28,7 +28,7 @@ from app.lecture.text import (
 LEADING = 1.32  # from line to line
 PARAGRAPH = 0.62  # between blocks
 ITEM = 0.3  # between a list's items
-INDENT = 1.25  # of a list
+INDENT = 1.25  # of a list, at least
 CODE_SIZE = 0.92
 SMALLEST_FORMULA = 0.6  # of a displayed formula that is wide, in parts of its usual size
 HEADING_SIZE = 1.25
@@ -162,15 +162,19 @@ class _Column:
 
     def _listing(self, items: tuple[Line, ...], numbered: bool) -> None:
         size = self._size
+        marks = [
+            Piece(f"{number}." if numbered else "•", "text", size)
+            for number, _ in enumerate(items, start=1)
+        ]
+        widths = [self._measure(mark).width + 0.4 * size for mark in marks]
+        indent = max(INDENT * size, *widths)
         for number, item in enumerate(items):
             if number:
                 self.y += ITEM * size
             first = len(self.pieces)
-            self._lines(item, INDENT * size, size, "item")
-            mark = Piece(f"{number + 1}." if numbered else "•", "text", size)
+            self._lines(item, indent, size, "item")
             baseline = self.pieces[first].baseline if len(self.pieces) > first else self.y
-            x = INDENT * size - self._measure(mark).width - 0.4 * size
-            self._put(mark, max(0.0, x), baseline, "mark")
+            self._put(marks[number], indent - widths[number], baseline, "mark")
 
     def _code(self, text: str) -> None:
         """Lines as they are; the size gives way where one is too long."""

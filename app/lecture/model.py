@@ -30,10 +30,10 @@ class Step:
     view: View
     views: tuple[str, ...]
     options: dict[str, Any]
-    pixel: tuple[int, int] | None = None
-    highlight: tuple[str, ...] = ()
-    exercise: Exercise | None = None
-    line: int = 0
+    pixel: tuple[int, int] | None
+    highlight: tuple[str, ...]
+    exercise: Exercise | None
+    line: int
 
 
 @dataclass(frozen=True, eq=False)

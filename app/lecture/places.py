@@ -5,6 +5,7 @@ Knows TOML's outer form only: it is given texts that tomllib has read without co
 
 from __future__ import annotations
 
+import itertools
 import re
 from bisect import bisect_left
 
@@ -13,6 +14,7 @@ from renderer.errors import LucidaError
 Path = tuple[str | int, ...]
 
 _BLANK = re.compile(r"(?:[ \t\r\n]+|#[^\n]*)*")
+_BETWEEN = re.compile(r"(?:[ \t\r\n,]+|#[^\n]*)*")  # what is in brackets
 _SPACE = re.compile(r"[ \t]*")
 _KEY = re.compile(r"""[\w-]+|"(?:[^"\\\n]++|\\.)*+"|'[^'\n]*'""")
 _BARE = re.compile(r"[^,\]}\n#]*")
@@ -69,9 +71,6 @@ class Places:
     def _pair(self, table: Path) -> None:
         start = self._at
         path = (*table, *self._keys())
-        for length in range(len(table) + 1, len(path)):
-            self._place(path[:length], start)
-        self._skip(_SPACE)
         self._at += 1  # the equals sign
         self._skip(_SPACE)
         self._value(path, start)
@@ -96,29 +95,22 @@ class Places:
 
     def _array(self, path: Path) -> None:
         self._at += 1
-        number = 0
-        while True:
-            self._skip(_BLANK)
-            if self._at >= len(self._text) or self._text[self._at] == "]":
-                self._at += 1
+        for number in itertools.count():
+            if self._is_closed():
                 return
-            if self._text[self._at] == ",":
-                self._at += 1
-                continue
             self._value((*path, number), self._at)
-            number += 1
 
     def _inline_table(self, path: Path) -> None:
         self._at += 1
-        while True:
-            self._skip(_BLANK)
-            if self._at >= len(self._text) or self._text[self._at] == "}":
-                self._at += 1
-                return
-            if self._text[self._at] == ",":
-                self._at += 1
-                continue
+        while not self._is_closed():
             self._pair(path)
+
+    def _is_closed(self) -> bool:
+        """Whether nothing else follows in these brackets, which are left behind then."""
+        self._skip(_BETWEEN)
+        closed = self._text[self._at : self._at + 1] in ("]", "}", "")
+        self._at += closed
+        return closed
 
     def _keys(self) -> tuple[str, ...]:
         keys = []
@@ -147,12 +139,15 @@ class Places:
         return path
 
     def _place(self, path: Path, at: int) -> None:
-        self._lines.setdefault(path, bisect_left(self._breaks, at) + 1)
+        """Notes where a path begins, and what it is in, unless they have begun before."""
+        line = bisect_left(self._breaks, at) + 1
+        while path not in self._lines:
+            self._lines[path] = line
+            path = path[:-1]
 
     def _skip(self, pattern: re.Pattern[str]) -> None:
         match = pattern.match(self._text, self._at)
-        # A text that is not TOML must not hang the scanner.
-        self._at = match.end() if match else self._at + 1
+        self._at = match.end() if match else len(self._text)  # that is not TOML
 
 
 def located(error: LucidaError, places: Places, source: str) -> LucidaError:

@@ -121,22 +121,6 @@ def parse(text: str) -> tuple[Block, ...]:
     return tuple(_blocks(text.splitlines()))
 
 
-def plain(blocks: tuple[Block, ...]) -> str:
-    """The words of a text without their marks; formulas as their LaTeX."""
-    parts = []
-    for block in blocks:
-        match block:
-            case Listing():
-                parts += [words(item) for item in block.items]
-            case Code():
-                parts.append(block.text)
-            case Formula():
-                parts.append(block.latex)
-            case _:
-                parts.append(words(block.line))
-    return "\n".join(parts)
-
-
 def in_language(blocks: tuple[Block, ...], language: str) -> tuple[Block, ...]:
     """The text with one of each program that is there in several languages, one fence after
     another: in that language, or else the first."""
@@ -268,9 +252,8 @@ def _unasked(line: str) -> str:
 
 
 def _text_of(lines: list[str], start: int, end: int) -> str:
-    """What is between the $$ of a displayed formula; empty where it is not closed yet."""
-    whole = "\n".join(lines[start:end]).strip()
-    return whole[2:-2].strip() if len(whole) > 4 and whole.endswith("$$") else ""
+    """What is between the $$ that a displayed formula begins and ends with."""
+    return "\n".join(lines[start:end]).strip()[2:-2].strip()
 
 
 def _line(text: str, number: int) -> Line:

@@ -243,11 +243,13 @@ def _display_lines(reading: Reading) -> list[Line]:
     light = _color("L", reading.exposed)
     if reading.exposure_ev:
         light = Slot(r"\mathbf{L}'", "L'", light.latex_value, light.text_value)
-    cut = "; what is above 1 is cut off" if max(reading.exposed) > 1 else ""
-    right = (r"1.055\,<L>^{1/2.4} - 0.055", "1.055 <L>^(1/2.4) - 0.055")
+    cut, latex, text = "", "<L>", "<L>"
+    if max(reading.exposed) > 1:
+        cut, latex, text = "; what is above 1 is cut off", r"\min(1,\ <L>)", "min(1, <L>)"
+    right = (rf"1.055\,{latex}^{{1/2.4}} - 0.055", f"1.055 {text}^(1/2.4) - 0.055")
     name = "sRGB's curve (up to 0.0031308: 12.92 L)"
     if reading.transfer == "linear":
-        right, name = ("<L>", "<L>"), "display value, linear"
+        right, name = (latex, text), "display value, linear"
     lines.append(
         _color_formula(
             "display", name + cut, (r"\mathbf{C}", "C"), right, {"L": light}, reading.display

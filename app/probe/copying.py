@@ -118,8 +118,9 @@ def _hit_program(reading: Reading) -> list[str]:
             "point = origin + t * direction",
         ]
     lines.append("normal *= -np.sign(normal @ direction)  # towards the viewer")
-    if reading.hit.is_smooth:
-        lines.append(f"normal = {_array(reading.hit.normal)}  # interpolated between the corners'")
+    if reading.hit.has_own_normal:
+        why = "interpolated between the corners'" if reading.hit.corner_normals else "bent, to it"
+        lines.append(f"normal = {_array(reading.hit.normal)}  # {why}")
     return [*lines, "", *_light_program(reading)]
 
 

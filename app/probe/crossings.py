@@ -95,7 +95,8 @@ class Index:
     def _boxes(self) -> tuple[Floats, Floats]:
         """The lowest and highest corner of each run, (runs, 3), with slack for rounding."""
         if not len(self._starts):
-            return np.zeros((0, 3)), np.zeros((0, 3))
+            none = np.zeros((0, 3))
+            return none, none
         corners = self.vertices[self.flat.faces[self._order]]
         low = np.minimum.reduceat(corners.min(axis=1), self._starts, axis=0)
         high = np.maximum.reduceat(corners.max(axis=1), self._starts, axis=0)
@@ -125,12 +126,9 @@ class Index:
 
     def _candidates(self, p: Floats, d: Floats, runs: slice) -> NDArray[np.int64]:
         """The triangles of the runs whose boxes the line meets."""
-        reach = ROUNDING * np.abs(p).max()
-        low, high = self._low[runs], self._high[runs]
-        to_low, to_high = (low - reach - p) / d, (high + reach - p) / d
-        # 0 / 0: the line runs in a box's face, which excludes nothing.
-        enter = np.where(np.isnan(to_low) | np.isnan(to_high), -np.inf, np.fmin(to_low, to_high))
-        leave = np.where(np.isnan(to_low) | np.isnan(to_high), np.inf, np.fmax(to_low, to_high))
+        # 0 / 0, in the face of a box, is left out: what the box is of lies within its slack.
+        to_low, to_high = (self._low[runs] - p) / d, (self._high[runs] - p) / d
+        enter, leave = np.fmin(to_low, to_high), np.fmax(to_low, to_high)
         first, last = enter.max(axis=1, initial=-np.inf), leave.min(axis=1, initial=np.inf)
         met = first <= last + 1e-9 * np.abs(last)
         starts = self._starts[runs][met]
@@ -150,8 +148,9 @@ class Index:
         both = np.stack([((f * f).sum(axis=1) - radius * radius) / q, q / a])
         hit = (left_over >= 0) & (q != 0)
         numbers = len(self.flat.faces) + np.flatnonzero(hit)
-        zero = np.zeros(2 * len(numbers))
-        return both[:, hit].ravel(), np.tile(numbers, 2), zero, zero
+        t = both[:, hit].ravel()
+        zero = np.zeros(len(t))
+        return t, np.tile(numbers, 2), zero, zero
 
 
 def _neighbours_in_order(flat: FlatScene, vertices: Floats) -> NDArray[np.int64]:
@@ -159,8 +158,6 @@ def _neighbours_in_order(flat: FlatScene, vertices: Floats) -> NDArray[np.int64]
 
     Source: Morton, "A Computer Oriented Geodetic Data Base", 1966.
     """
-    if not len(flat.faces):
-        return np.zeros(0, np.int64)
     middle = vertices[flat.faces].sum(axis=1) / 3
     low, high = flat.bounds
     cell = ((middle - low) / np.maximum(high - low, 1e-30) * CELLS).clip(0, CELLS).astype(np.int64)

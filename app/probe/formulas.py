@@ -9,8 +9,6 @@ d the distance of the viewport, bold d the direction, bold p the origin.
 
 from __future__ import annotations
 
-import math
-
 import numpy as np
 
 from app.explaining.notation import (
@@ -22,11 +20,15 @@ from app.explaining.notation import (
     scalar_slot,
     vector_slot,
 )
+from app.explaining.shading import Hit
 from app.probe.reading import Reading
 from renderer.camera import Camera
 from renderer.pixels import Indexing
 
 LECTURE_VIEWPORT = (-0.5, 0.5, -0.5, 0.5)
+LEAST_COSINE = (
+    1e-3  # to the viewer, of the light's normal, as renderer/trace/scalar/shade.py has it
+)
 
 
 def ray_lines(reading: Reading, indexing: Indexing = Indexing.LECTURE) -> list[Line]:
@@ -65,19 +67,8 @@ def hit_lines(reading: Reading) -> list[Line]:
         hit.point,
     )
     lines = [*found, point, _geometric_normal(reading)]
-    if hit.is_smooth:
-        lines.append(
-            _stated(
-                "normal",
-                "normal for the light, between the corners'",
-                "n",
-                (
-                    r"\frac{b_0 \mathbf{n}_a + b_1 \mathbf{n}_b + b_2 \mathbf{n}_c}{|\dots|}",
-                    "(b0 vec(n_a) + b1 vec(n_b) + b2 vec(n_c)) / |...|",
-                ),
-                hit.normal,
-            )
-        )
+    if hit.has_own_normal:
+        lines.append(_normal_for_light(hit))
     return lines
 
 
@@ -280,7 +271,7 @@ def _triangle_t(reading: Reading) -> list[Line]:
     hit = reading.hit
     assert hit is not None
     slots = {
-        "n": vector_slot("g", hit.geometric),
+        "n": vector_slot(_geometric_symbol(hit), hit.geometric),
         "a": vector_slot("a", reading.corners[0]),
         "p": vector_slot("p", reading.origin),
         "d": vector_slot("d", reading.direction),
@@ -320,24 +311,22 @@ def _triangle_t(reading: Reading) -> list[Line]:
 def _geometric_normal(reading: Reading) -> Line:
     hit = reading.hit
     assert hit is not None
+    symbol = _geometric_symbol(hit)
     if reading.sphere is not None:
-        center, radius = reading.sphere
+        center, _ = reading.sphere
         slots = {"x": vector_slot("x", hit.point), "c": vector_slot("c", center)}
-        outside = (
-            math.dist(reading.origin, center) >= radius
-            or np.dot(hit.geometric, np.subtract(hit.point, center)) > 0
-        )
+        # 0 where a tiny sphere far away is rounded to its centre.
+        outside = np.dot(hit.geometric, np.subtract(hit.point, center)) >= 0
         first, second = ("<x>", "<c>") if outside else ("<c>", "<x>")
         return formula(
             "geometric",
             "normal" if outside else "normal, towards the viewer",
-            (r"\mathbf{n}", "vec(n)"),
+            (rf"\mathbf{{{symbol}}}", f"vec({symbol})"),
             (rf"\frac{{{first} - {second}}}{{|{first} - {second}|}}",
              f"({first} - {second}) / |{first} - {second}|"),
             slots,
             hit.geometric,
         )  # fmt: skip
-    symbol = "g" if hit.is_smooth else "n"
     a, b, c = (np.array(corner) for corner in reading.corners)
     is_front = np.cross(b - a, c - a) @ np.array(hit.geometric) >= 0
     sign = "" if is_front else "-"
@@ -347,6 +336,29 @@ def _geometric_normal(reading: Reading) -> Line:
     )
     name = "normal of the triangle, towards the viewer"
     return _stated("geometric", name, symbol, (sign + product[0], sign + product[1]), hit.geometric)
+
+
+def _normal_for_light(hit: Hit) -> Line:
+    """Where it is not the surface's own."""
+    if not hit.corner_normals:
+        g, d = r"\mathbf{g}", r"\hat{\mathbf{d}}"
+        right = (
+            rf"\frac{{{g} - ({g} \cdot {d} + {LEAST_COSINE:g})\,{d}}}{{|\dots|}}",
+            f"(vec(g) - (vec(g) . vec(d)/|vec(d)| + {LEAST_COSINE:g}) vec(d)/|vec(d)|) / |...|",
+        )
+        return _stated("normal", "normal for the light, bent to the viewer", "n", right, hit.normal)
+    weights = (1 - hit.b1 - hit.b2, hit.b1, hit.b2)
+    # Towards the viewer too, whichever side the corners' point to.
+    sign = "-" if np.dot(weights, hit.corner_normals) @ np.array(hit.normal) < 0 else ""
+    right = (
+        rf"{sign}\frac{{b_0 \mathbf{{n}}_a + b_1 \mathbf{{n}}_b + b_2 \mathbf{{n}}_c}}{{|\dots|}}",
+        f"{sign}(b_0 vec(n_a) + b_1 vec(n_b) + b_2 vec(n_c)) / |...|",
+    )
+    return _stated("normal", "normal for the light, between the corners'", "n", right, hit.normal)
+
+
+def _geometric_symbol(hit: Hit) -> str:
+    return "g" if hit.has_own_normal else "n"
 
 
 def _stated(
