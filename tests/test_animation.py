@@ -7,7 +7,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from hypothesis import assume, example, given, settings
+from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
 from app.cameras.animation import INVISIBLE_PX, Passage
@@ -41,7 +41,7 @@ def cameras(draw: st.DrawFn, projection: str | None = None) -> Camera:
     assume((lengths > 0.1).all())
     assume(abs(volume(*(basis / lengths[:, None]))) > 0.02)
     left, bottom = draw(numbers), draw(numbers)
-    near = draw(st.none() | st.floats(0.01, 3))
+    near = draw(st.none() | st.floats(0.05, 3))  # over 1e-6 of any depth
     far = draw(st.none() | st.floats(3.5, 50))
     return Camera(
         draw(vectors),
@@ -80,57 +80,29 @@ def test_every_camera_on_the_way_is_legal_and_the_ends_are_exact(
         assert passage.at(0.01) == end
 
 
-def even(camera: Camera, focus: np.ndarray | None, projection: str) -> tuple:
-    """What of a camera passes evenly, towards an end of that projection: of the focus, where in the
-    picture it is and its depth; the picture's middle and size there; the image plane's size or
-    distance. Without a focus, the eye, the viewport and the distance.
-
-    Gives that, how exactly it is known, and the depth.
-    """
-    if focus is None:
-        numbers = np.array([*camera.eye, *camera.viewport, math.log(camera.distance)])
-        return numbers, 1e-12 * (1 + abs(numbers)), 0.0
-    x, y, z = camera.camera_from_world[:3] @ [*focus, 1.0]
-    left, right, bottom, top = camera.viewport
-    size = np.array([right - left, top - bottom]) / 2
-    there = size if camera.is_parallel else size * -z / camera.distance
-    if projection == "parallel":
-        depth, plane = -z, camera.distance
-    else:
-        depth, plane = 0.0 if camera.is_parallel else -1 / z, size[1]
-    middle = np.array([left + right, bottom + top]) / 2 / size
-    numbers = np.array([*(x, y) / there, *middle, *np.log(there), depth, math.log(plane)])
-    # The focus less the eye, which was found by the basis, divided by the basis.
-    lengths = np.linalg.norm(focus) + np.linalg.norm(camera.eye)
-    inverse = np.linalg.norm(np.linalg.inv(camera.basis), 2)
-    error = 1e-15 * np.linalg.cond(camera.basis) * inverse * lengths
-    error /= min(1.0, *there, 1.0 if camera.is_parallel else -z)
-    return numbers, error * (1 + abs(numbers)), -z
-
-
 @given(cameras(), cameras(), st.booleans())
-@example(Camera(eye=(3.0, 0.5, -0.4999)), Camera(eye=(0.0, 0.5, 3.0)), True)
 def test_it_leaves_and_arrives_without_a_jump(one: Camera, two: Camera, fit: bool) -> None:
-    """Near an end, s = 3 part^2 of what passes evenly has passed. That bounds the eye's way, but by
-    no number: it is long where the focus is close to the other eye, or far beside its picture."""
+    """Of the way, s = 3 part^2 = 3e-14 is gone; of what passes by factors up to F, 1 + ln F times
+    that. F is at most 1e13: half sizes of 0.025 to 2 at 1e-6 to 1e5 distances. Between the focus
+    and the eye there are less than 36, along u, v and w thus 50 * 36 lengths of each at either end,
+    and these lengths differ by up to 52: the eye moves by less than 2 * 3 * 50 * 36 * 52 * 31 * s =
+    5e-7."""
     passage = Passage(View(one, fit), View(two, fit), FOCUS, BOUNDS, SIZE)
     assume(passage.possible)
-    s = 3.0001e-10
-    for part, end, other in ((1e-5, one, two), (1 - 1e-5, two, one)):
+    for part, end, other in ((1e-7, one, two), (1 - 1e-7, two, one)):
         camera = passage.at(part).camera
-        np.testing.assert_allclose(camera.basis, end.basis, atol=1e-6)
-        assert (camera.far is None) == (one.far is None or two.far is None)
+        np.testing.assert_allclose(camera.basis, end.basis, atol=1e-9)
         if camera.projection != end.projection:
             continue  # parallel rays, as they look from far off
-        found = [even(c, passage._focus, end.projection) for c in (camera, end, other)]
-        (now, error, depth), (start, rough, start_depth), (goal, _, goal_depth) = found
-        assert (abs(now - start) <= s * abs(goal - start) + error + rough).all()
-        for name in ("near", "far"):
-            if getattr(end, name) is not None and getattr(other, name) is not None:
-                plane = start_depth - getattr(end, name)  # from the focus, as it passes
-                way = s * abs(goal_depth - getattr(other, name) - plane)
-                passed = depth - (getattr(camera, name) or 0.0)  # none: it met the eye
-                assert abs(passed - min(plane, depth)) <= way + 1e-6 * (1 + abs(depth))
+        assert camera.eye == pytest.approx(end.eye, rel=0, abs=1e-6)
+        assert camera.viewport == pytest.approx(end.viewport, rel=1e-5, abs=1e-5)
+        assert camera.distance == pytest.approx(end.distance, rel=1e-5)
+        if end.near is not None and other.near is not None:
+            assert camera.near == pytest.approx(end.near, abs=1e-5)
+        if end.far is not None and other.far is not None:
+            assert camera.far == pytest.approx(end.far, abs=1e-5)
+        else:
+            assert camera.far is None
 
 
 @given(lookers(), lookers(), parts)
@@ -237,6 +209,41 @@ def test_half_a_turn_goes_about_the_upright_axis() -> None:
     for part in (0.2, 0.5, 0.9):
         camera = Passage(front, back, focus.center, focus.bounds, SIZE).at(part).camera
         assert camera.v == pytest.approx((0, 1, 0))
+
+
+@pytest.mark.parametrize("eye", [(3.0, 0.5, -0.4999), (0.0, 0.5, -0.25), (-40.0, 3.0, 60.0)])
+@pytest.mark.parametrize("half", [0.5, 0.1])
+def test_with_the_same_angle_of_view_the_eye_goes_straight(eye: tuple, half: float) -> None:
+    """Wherever the focus is: far beside the picture, close to the eye. What is seen of its plane
+    becomes smaller by even factors."""
+    viewport = (-half, 2 * half, -half, half)
+    two = Camera((0.0, 0.5, 3.0), viewport=viewport, near=0.5, far=90.0)
+    one = replace(two, eye=eye, near=0.25, far=30.0)
+    passage = Passage(View(one), View(two), FOCUS, BOUNDS, SIZE)
+    for part, s in ((0.1, 0.028), (0.5, 0.5), (0.9, 0.972)):
+        camera = passage.at(part).camera
+        assert camera.viewport == pytest.approx(viewport)
+        assert camera.distance == pytest.approx(1.0)
+        depth = (one.eye[2] + 0.5) ** (1 - s) * 3.5**s
+        way = (depth - one.eye[2] - 0.5) / (3.0 - one.eye[2])
+        assert camera.eye == pytest.approx(np.array(one.eye) * (1 - way) + np.array(two.eye) * way)
+        assert (camera.near, camera.far) == pytest.approx((0.25 + 0.25 * way, 30 + 60 * way))
+
+
+def test_parallel_rays_pass_to_a_part_of_the_picture_without_leaving_it() -> None:
+    """From the whole to a small part at its border: what is seen lies within what was."""
+    whole = Camera((0, 0, 9), viewport=(-10, 10, -8, 8), projection="parallel")
+    part_of_it = replace(whole, eye=(8, -5, 9), viewport=(-0.1, 0.1, -0.08, 0.08))
+    passage = Passage(View(whole), View(part_of_it), (0, 0, 0), BOUNDS, SIZE)
+    last = whole
+    for part in np.linspace(0, 1, 21)[1:]:
+        camera = passage.at(float(part)).camera
+        for k in (0, 1):
+            (low, high), (least, most) = (
+                np.array(c.viewport[2 * k : 2 * k + 2]) + c.eye[k] for c in (camera, last)
+            )
+            assert least - 1e-12 <= low < high <= most + 1e-12
+        last = camera
 
 
 def test_without_a_common_focus_the_eye_goes_straight() -> None:
