@@ -230,6 +230,18 @@ def test_with_the_same_angle_of_view_the_eye_goes_straight(eye: tuple, half: flo
         assert (camera.near, camera.far) == pytest.approx((0.25 + 0.25 * way, 30 + 60 * way))
 
 
+@pytest.mark.parametrize("factor", [0.01, 1.0, 100.0])
+def test_to_parallel_rays_the_angle_of_view_narrows_evenly(factor: float) -> None:
+    """However much more, or less, is seen in the end."""
+    one = Camera((0, 0, 2))
+    two = replace(one, viewport=(-factor, factor, -factor, factor), projection="parallel")
+    passage = Passage(View(one), View(two), (0, 0, 0), BOUNDS, SIZE)
+    for part, s in ((0.1, 0.028), (0.5, 0.5), (0.9, 0.972)):
+        _, right, _, top = passage.at(part).camera.viewport
+        assert right / passage.at(part).camera.distance == pytest.approx(0.5 * (1 - s))
+        assert right == top
+
+
 def test_parallel_rays_pass_to_a_part_of_the_picture_without_leaving_it() -> None:
     """From the whole to a small part at its border: what is seen lies within what was."""
     whole = Camera((0, 0, 9), viewport=(-10, 10, -8, 8), projection="parallel")

@@ -7,9 +7,9 @@ it (the focus plane, parallel to u and v) is seen, which part of that, and from 
 it is a camera again: a true one of each kind, whatever the basis. What is seen of the focus plane
 becomes larger or smaller by even factors, about the one point of it that stands still in the
 picture. So does the eye's depth, between two perspectives: with the same angle of view and the same
-basis, the eye goes straight. From perspective to parallel k = 1 / depth passes evenly, to 0: the
-eye draws back and the distance grows (a dolly zoom), until parallel rays make no visible
-difference.
+basis, the eye goes straight. From perspective to parallel, the tangent of half that angle passes
+evenly, to 0: the eye draws back and the distance grows (a dolly zoom), until parallel rays make no
+visible difference.
 
 The basis B = R S (polar decomposition): R turns evenly about one axis (slerp; Shoemake 1985), the
 stretch S = V exp(L) V^T passes in its logarithm, so that no basis on the way is singular. Mirrored
@@ -110,7 +110,7 @@ class Passage:
             parallel, along = False, _way(one.depth, two.depth, s)
             depth = math.exp(_lerp(math.log(one.depth), math.log(two.depth), s))
         else:
-            k = _lerp(one.k, two.k, s)
+            k = _lerp(one.k * one.half[1], two.k * two.half[1], s) / half[1]
             parallel, along = k <= self._least_k, s
             depth = _lerp(one.depth, two.depth, s) if parallel else 1.0 / k
         start = _lerp(one.start, two.start, along)
