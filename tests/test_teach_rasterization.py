@@ -25,6 +25,17 @@ from renderer.trace import Tracer
 
 SIZE = (20, 15)
 LIGHT = (PointLight((2, 3, 1)),)
+# Its diagonal runs through the middles of pixels of a square image.
+SQUARE = Scene(
+    (
+        SceneObject(
+            shapes.translate(shapes.rotate(shapes.rectangle(1.0, 1.0), (90, 0, 0)), (0, 0, -1))
+        ),
+    ),
+    LIGHT,
+    background=(1.0, 0.0, 1.0),
+)
+SQUARE_SEEN = Camera(viewport=(-0.4, 0.4, -0.4, 0.4))
 WITH_TRIANGLES = [name for name in BUILTIN_SCENES if len(Model(load_scene(name)).flat.faces)]
 
 
@@ -164,10 +175,9 @@ def test_edge_functions_say_where_a_pixel_is() -> None:
 
 def test_no_pixel_is_lost_between_two_triangles() -> None:
     """The diagonal of a square runs through the middles of pixels: one of the two takes each."""
-    square = shapes.translate(shapes.rotate(shapes.rectangle(1.0, 1.0), (90, 0, 0)), (0, 0, -1))
-    model = Model(Scene((SceneObject(square),), LIGHT, background=(1.0, 0.0, 1.0)))
+    model = Model(SQUARE)
     for tilt in (0.0, 0.1, 1 / 3):
-        camera = Camera(v=(tilt, 1, 0), viewport=(-0.4, 0.4, -0.4, 0.4))
+        camera = replace(SQUARE_SEEN, v=(tilt, 1, 0))
         for size in ((9, 9), (16, 16), (13, 7)):
             canvas = rasterization(model, camera, size).array
             assert not (canvas == (1.0, 0.0, 1.0)).all(axis=2).any()
@@ -205,6 +215,15 @@ def test_a_moment_knows_its_triangle_and_whether_the_pixel_is_inside() -> None:
         seen.add(inside)
     assert seen == {True, False}
     assert moment_at(run, int(run.object_steps[0])).corners is None
+
+
+def test_a_pixel_on_an_edge_is_inside_and_its_test_gives_the_t_that_is_written() -> None:
+    run = recorded(SQUARE, Order.RASTER, SQUARE_SEEN, (9, 9))
+    t = run.test_t.upto(len(run.test_t))
+    inside = run.source.lines.index(next(one for one in run.source.lines if " z = " in one))
+    assert np.isfinite(t).sum() == (run.lines.upto(len(run)) == inside).sum() > 81
+    written = run.depth_t.upto(len(run.depth_t))
+    assert len(written) == 81 and np.isin(written, t).all()
 
 
 def test_the_tests_are_those_of_the_boxes() -> None:

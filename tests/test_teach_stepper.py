@@ -6,6 +6,8 @@ import inspect
 import math
 import sys
 from dataclasses import replace
+from itertools import count
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -52,7 +54,7 @@ SCENES = {Order.RASTER: TWO_BOXES, Order.OBJECT: TWO_BALLS, Order.IMAGE: TWO_BAL
 def recorded(scene: Scene, order: Order, camera: Camera | None = None, size=SIZE) -> Recording:
     run = Recording(Model(scene), camera or Camera.canonical(), size, order)
     run.run()
-    assert run.complete
+    assert run.complete and not run.truncated
     return run
 
 
@@ -369,6 +371,7 @@ def test_a_run_in_the_background_can_be_watched_and_cancelled() -> None:
     scene = load_scene("columns")
     run = Recording(Model(scene), scene.view.for_size((64, 48)), (64, 48), Order.IMAGE)
     thread = run.start()
+    assert thread.daemon  # no exit waits for it
     while len(run) < 2000:
         assert thread.is_alive()
     for step in range(0, len(run), 97):
@@ -387,6 +390,20 @@ def test_a_run_ends_at_the_most_steps(monkeypatch) -> None:
     done: list[int] = []
     run.start(lambda: done.append(len(run))).join()
     assert run.truncated and not run.complete and done == [100] and len(run) == 100
+
+
+def test_a_run_leaves_the_interpreter_to_others_now_and_then(monkeypatch) -> None:
+    """After half a second here, of a clock that is looked at every eighth step."""
+    run = Recording(Model(TWO_BALLS), Camera.canonical(), (4, 3), Order.IMAGE)
+    breaks: list[int] = []
+    clock = SimpleNamespace(
+        perf_counter=lambda seconds=count(100.0, 0.25): next(seconds),
+        sleep=lambda _: breaks.append(len(run)),
+    )
+    monkeypatch.setattr(recording, "time", clock)
+    monkeypatch.setattr(recording, "_BREAK_AFTER_S", 0.5)
+    run.run()
+    assert breaks == list(range(17, len(run) + 1, 24))
 
 
 def test_a_failing_run_says_why(monkeypatch) -> None:
