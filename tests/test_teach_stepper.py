@@ -397,8 +397,7 @@ def test_a_run_leaves_the_interpreter_to_others_now_and_then(monkeypatch) -> Non
     run = Recording(Model(TWO_BALLS), Camera.canonical(), (4, 3), Order.IMAGE)
     breaks: list[int] = []
     clock = SimpleNamespace(
-        perf_counter=lambda seconds=count(100.0, 0.25): next(seconds),
-        sleep=lambda _: breaks.append(len(run)),
+        perf_counter=count(100.0, 0.25).__next__, sleep=lambda _: breaks.append(len(run))
     )
     monkeypatch.setattr(recording, "time", clock)
     monkeypatch.setattr(recording, "_BREAK_AFTER_S", 0.5)
