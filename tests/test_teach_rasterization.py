@@ -191,6 +191,11 @@ def test_the_box_of_a_triangle_is_its_corners() -> None:
     assert box_around(*beside, size) == (range(0), range(0))
     from_its_edge = Corner(0, 0, 1), Corner(4, 4, 1), Corner(8, 8, 1)
     assert box_around(*from_its_edge, size) == (range(0), range(0))
+    point = Corner(2.5, 2.5, 1)
+    assert box_around(point, point, point, size) == (range(0), range(0))
+    for width, columns in ((1e-12, range(0)), (1e-9, range(9))):  # to its length
+        sliver = Corner(0, 0, 1), Corner(9, 8, 1), Corner(9, 8 + width, 1)
+        assert box_around(*sliver, size)[1] == columns
 
 
 # Steps.
