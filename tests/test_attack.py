@@ -104,6 +104,37 @@ def test_a_mutants_code_has_its_change_and_no_other(tmp_path):
     assert results["filter 0 negated", "several"] == (-4.5, [1, 3])
 
 
+@pytest.mark.skipif(not hasattr(__import__("os"), "fork"), reason="needs fork")
+def test_what_only_a_trace_function_calls_is_tried_with_all_tests(tmp_path):
+    """No profile function sees it there."""
+    (tmp_path / "traced.py").write_text("def doubled(x):\n    return 2 * x\n")
+    (tmp_path / "test_traced.py").write_text(
+        "import sys\nimport traced\n"
+        "def test_it():\n"
+        "    seen = []\n"
+        "    before = sys.gettrace()\n"
+        "    sys.settrace(lambda *_: seen.append(traced.doubled(0.0)))\n"
+        "    (lambda: None)()\n"
+        "    sys.settrace(before)\n"
+        "    assert seen[0] == 0.0\n"
+    )
+    chosen = mutants(tmp_path, "traced.py")
+    program = (
+        "import sys; from pathlib import Path; from tests.attack.mutants import mutants\n"
+        "from tests.attack.mutated_run import collected_run\n"
+        f"root = Path({str(tmp_path)!r}); tests = [str(root / 'test_traced.py')]\n"
+        "found = collected_run(root, 'traced.py', mutants(root, 'traced.py'), tests)\n"
+        f"Path({str(tmp_path / 'found')!r}).write_text(repr(found['outcomes']))\n"
+    )
+    subprocess.run([sys.executable, "-c", program], cwd=ROOT, timeout=120, check=True)
+    outcomes = ast.literal_eval((tmp_path / "found").read_text())
+    assert {mutant.key.rpartition("| ")[2]: outcomes[mutant.key] for mutant in chosen} == {
+        "Mult -> Div": "killed",
+        "2 -> 3": "unreached",
+        "returns None": "killed",
+    }
+
+
 def test_the_modules_and_their_tests_are_there():
     for module, tests in mutations.MODULES.items():
         assert (ROOT / module).is_file(), module

@@ -5,11 +5,14 @@ from __future__ import annotations
 
 import math
 import threading
+import time
 
 import pytest
 
+from app.costs import model
 from app.costs.model import (
     COUNTING,
+    RENDERERS,
     ROUNDS,
     Case,
     Meter,
@@ -74,9 +77,10 @@ def test_a_torus_of_so_many_triangles(triangles: int) -> None:
 
 
 def test_the_torus_fills_the_image() -> None:
+    """Three fifths of it: how many pixels are shaded is a part of the costs."""
     with Tracer(torus_of(5000)) as tracer:
         frame = tracer.render(Camera.canonical(), (40, 40), ("id",))
-    assert 0.3 < (frame.id >= 0).mean() < 0.9
+    assert (frame.id >= 0).mean() == pytest.approx(0.6, abs=0.02)
 
 
 def test_sizes_have_about_so_many_pixels() -> None:
@@ -97,6 +101,7 @@ def test_cases_that_cannot_be(triangles: int, pixels: int) -> None:
 def test_steps_grow_by_a_factor() -> None:
     assert steps(10, 10_000, 4) == [10, 100, 1000, 10_000]
     assert steps(7, 7, 5) == [7]
+    assert steps(10, 10_000, 2) == steps(10, 10_000, 1) == [10, 10_000]
 
 
 def test_a_measure_is_the_least_time_after_warming_up() -> None:
@@ -105,6 +110,16 @@ def test_a_measure_is_the_least_time_after_warming_up() -> None:
     assert fake.drawn == 1 + ROUNDS
     assert sample.time_s == pytest.approx(1e-6 * sample.triangles)
     assert sample.pixels == 80 * 60
+
+
+@pytest.mark.parametrize("fastest", range(1, 1 + ROUNDS))
+def test_a_measure_takes_the_fastest_wherever_it_is(fastest: int) -> None:
+    class Uneven(Fake):
+        def render(self, camera: Camera, size, channels) -> Frame:
+            self.drawn += 1
+            return Frame(size=size, time_s=1.0 if self.drawn == 1 + fastest else 2.0)
+
+    assert measure(Case("ray", 100, 1200), Uneven(0, 0)).time_s == 1.0
 
 
 def gathered(meter: Meter, done: threading.Event) -> tuple[Sample, ...]:
@@ -130,6 +145,8 @@ def test_a_meter_measures_what_is_asked_and_once() -> None:
     assert [renderer for renderer, _ in made] == ["raster", "ray"]
     assert all(fake.released for _, fake in made)
     assert all(fake.drawn == 4 * (1 + ROUNDS) for _, fake in made)
+    meter.ask(cases((500,), (1200,)))
+    assert not meter.busy  # it is closed
 
 
 def test_a_meter_goes_on_with_the_renderer_that_works() -> None:
@@ -152,9 +169,11 @@ def test_a_meter_goes_on_with_the_renderer_that_works() -> None:
 
 def test_other_cases_take_the_place_of_waiting_ones() -> None:
     go, begun, done = threading.Event(), threading.Event(), threading.Event()
+    threads = set()
 
     class Slow(Fake):
         def render(self, camera, size, channels):
+            threads.add(threading.current_thread())
             begun.set()
             assert go.wait(60)
             return super().render(camera, size, channels)
@@ -167,16 +186,19 @@ def test_other_cases_take_the_place_of_waiting_ones() -> None:
     samples = gathered(meter, done)
     # The case under way was taken back too: its sample is not kept.
     assert [sample.case.triangles for sample in samples] == [500]
+    assert [thread.daemon for thread in threads] == [True]  # one, which no exit waits for
     meter.close()
 
 
 def test_watching_draws_again_and_again() -> None:
     made = {"raster": Fake(1e-6, 0), "ray": Fake(0, 1e-9)}
-    enough, more = threading.Event(), threading.Event()
+    enough, again, more = threading.Event(), threading.Event(), threading.Event()
 
     def changed() -> None:
         if len(meter.history) >= 3:
             enough.set()
+        if made["raster"].scene is torus_of(100) and len(meter.samples) == 2:
+            again.set()
         if made["raster"].scene is torus_of(1000) and len(meter.history) >= 5:
             more.set()
 
@@ -187,6 +209,8 @@ def test_watching_draws_again_and_again() -> None:
     raster, ray = meter.history[0]  # what prepares a scene is drawn, and not told
     assert raster == pytest.approx(1e-6 * count(torus_of(100)))
     assert ray == pytest.approx(1e-9 * 1200, rel=0.1)
+    meter.ask(cases((500,), (1200,)))  # between two frames, with another scene
+    assert again.wait(60)
     meter.watch(1000, 1200)
     assert more.wait(60)
     meter.close()
@@ -195,9 +219,10 @@ def test_watching_draws_again_and_again() -> None:
 
 
 def test_watching_goes_on_without_a_renderer() -> None:
-    enough = threading.Event()
+    enough, tried = threading.Event(), []
 
     def make(renderer):
+        tried.append(renderer)
         if renderer == "raster":
             raise LucidaError("OpenGL", "is missing", "install it")
         return Fake(0, 1e-9)
@@ -209,6 +234,51 @@ def test_watching_goes_on_without_a_renderer() -> None:
     meter.close()
     assert all(math.isnan(raster) and ray > 0 for raster, ray in meter.history)
     assert list(meter.problems) == ["raster"]
+    assert tried == ["raster", "ray"]
+    meter.clear()
+    assert meter.history == []
+
+
+def test_closing_ends_the_pause_between_two_frames(monkeypatch) -> None:
+    monkeypatch.setattr(model, "WATCH_S", 1000.0)
+    meter = Meter(lambda: None, lambda _: Fake(0, 1e-9), FakeCounter)
+    meter.watch(100, 1200)
+    while not meter.history:
+        time.sleep(0.001)
+    meter.close(60)
+    assert not meter.busy
+    assert len(meter.history) == 1
+
+
+@pytest.mark.filterwarnings("ignore::pytest.PytestUnhandledThreadExceptionWarning")
+def test_a_thread_that_ends_early_is_followed_by_another() -> None:
+    done, threads = threading.Event(), []
+
+    class Leaves(Fake):
+        def render(self, camera, size, channels):
+            threads.append(threading.current_thread())
+            if len(threads) == 1:
+                raise SystemExit
+            return super().render(camera, size, channels)
+
+    meter = Meter(
+        lambda: len(meter.samples) == 1 and done.set(), lambda _: Leaves(0, 1e-9), FakeCounter
+    )
+    meter.ask(cases((100,), (1200,), ("ray",)))
+    while meter.busy:
+        time.sleep(0.001)
+    threads[0].join()
+    meter.ask(cases((100,), (1200,), ("ray",)))
+    assert done.wait(60)
+    assert threads[1] is not threads[0]
+    meter.close()
+
+
+def test_what_the_meter_draws_with(monkeypatch) -> None:
+    """Made where they are wanted: what they load takes long."""
+    monkeypatch.setattr("renderer.raster.Rasterizer", lambda scene: ("raster", scene.objects))
+    monkeypatch.setattr("renderer.trace.Tracer", lambda scene: ("ray", scene.objects))
+    assert [model._make(name) for name in RENDERERS] == [(name, ()) for name in RENDERERS]
 
 
 def test_what_cannot_be_watched_is_told_and_the_meter_goes_on() -> None:
@@ -230,7 +300,7 @@ def test_the_steps_are_counted_before_anything_is_timed_and_once() -> None:
     done, seen, counters = threading.Event(), [], []
 
     def changed() -> None:
-        seen.append((len(meter.work), len(meter.samples)))
+        seen.append((len(meter.work), len(meter.samples), meter.waiting))
         if meter.waiting == 0:
             done.set()
 
@@ -241,7 +311,8 @@ def test_the_steps_are_counted_before_anything_is_timed_and_once() -> None:
     meter = Meter(changed, lambda _: Fake(1e-6, 1e-9), counter)
     meter.ask(cases((100, 1000), (1200, 4800)))
     assert done.wait(60)
-    assert seen[3] == (4, 0) and seen[-1] == (4, 8)
+    assert seen[0] == (1, 0, 3 + 8)
+    assert seen[3] == (4, 0, 8) and seen[-1] == (4, 8, 0)
     assert set(meter.work) == {(100, 1200), (100, 4800), (1000, 1200), (1000, 4800)}
     done.clear()
     meter.clear()
@@ -249,7 +320,10 @@ def test_the_steps_are_counted_before_anything_is_timed_and_once() -> None:
     meter.ask(cases((100,), (1200, 4800)))
     assert done.wait(60)
     meter.close()
-    assert sum(len(one.asked) for one in counters) == 4
+    sizes = [Case("ray", 100, pixels).size for pixels in (1200, 4800)]
+    assert [asked for one in counters for asked in one.asked] == [
+        (count(torus_of(triangles)), size) for triangles in (100, 1000) for size in sizes
+    ]
 
 
 def test_times_are_measured_where_counting_fails() -> None:
@@ -267,7 +341,7 @@ def test_times_are_measured_where_counting_fails() -> None:
     meter.close()
 
 
-def test_the_meter_survives_whoever_listens_and_whatever_is_released() -> None:
+def test_the_meter_survives_whoever_listens_and_whatever_is_released(caplog) -> None:
     done, threads = threading.Event(), set()
 
     class Stuck(Fake):
@@ -290,6 +364,8 @@ def test_the_meter_survives_whoever_listens_and_whatever_is_released() -> None:
     assert len(meter.samples) == 6
     meter.close()
     assert not meter.busy
+    assert "was not told of a sample" in caplog.text
+    assert "was not released" in caplog.text
 
 
 def test_nothing_is_said_of_times_while_they_are_measured_nor_of_flat_ones() -> None:

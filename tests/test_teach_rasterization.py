@@ -16,15 +16,26 @@ from app.stepper.loops import image_order, object_order, rasterization
 from app.stepper.model import moment_at
 from app.stepper.raster_parts import WHOLE, Corner, box_around, edge, project, t_of, triangles
 from app.stepper.recording import Order
-from renderer.camera import Camera, Size
+from renderer.camera import NEAREST, Camera, Size
 from renderer.compare import compare_frames
 from renderer.frame import CHANNELS
 from renderer.scene import BUILTIN_SCENES, load_scene, shapes
-from renderer.scene.model import Material, PointLight, Scene, SceneObject, Sphere
+from renderer.scene.model import Material, Mesh, PointLight, Scene, SceneObject, Sphere
 from renderer.trace import Tracer
 
 SIZE = (20, 15)
 LIGHT = (PointLight((2, 3, 1)),)
+# Its diagonal runs through the middles of pixels of a square image.
+SQUARE = Scene(
+    (
+        SceneObject(
+            shapes.translate(shapes.rotate(shapes.rectangle(1.0, 1.0), (90, 0, 0)), (0, 0, -1))
+        ),
+    ),
+    LIGHT,
+    background=(1.0, 0.0, 1.0),
+)
+SQUARE_SEEN = Camera(viewport=(-0.4, 0.4, -0.4, 0.4))
 WITH_TRIANGLES = [name for name in BUILTIN_SCENES if len(Model(load_scene(name)).flat.faces)]
 
 
@@ -109,7 +120,7 @@ def test_triangles_that_reach_behind_the_eye_or_the_clip_planes(clip, projection
     side = 3.0 if projection == "parallel" else 0.5
     camera = Camera(
         (0.013, 0.21, 0.37), (1, 0.02, 0.01), (-0.03, 1.01, 0.2), (0.02, -0.1, 1),
-        viewport=(-side, side, -side, side), projection=projection, near=clip[0], far=clip[1],
+        1.25, (-side, side, -side, side), projection, near=clip[0], far=clip[1],
     )  # fmt: skip
     pieces = list(triangles(model, camera))
     cut = [piece for piece in pieces if piece.shares != WHOLE]
@@ -125,6 +136,33 @@ def test_triangles_that_reach_behind_the_eye_or_the_clip_planes(clip, projection
     ours, by_rays = (order(model, camera, SIZE).array for order in (rasterization, image_order))
     np.testing.assert_allclose(ours, by_rays, atol=1e-8)
     assert (ours != np.array(model.background)).any(axis=2).sum() > 20
+
+
+@pytest.mark.parametrize(
+    ("t", "camera", "pieces", "least", "most"),
+    [
+        ((2, 4, 6), Camera(), 1, 2, 6),
+        ((2, 4, 6), Camera(near=1, far=8), 1, 2, 6),
+        ((2, 4, 6), Camera(near=3), 2, 3, 6),
+        ((2, 4, 6), Camera(far=5), 2, 2, 5),
+        ((2, 4, 6), Camera(near=3, far=5), 3, 3, 5),
+        ((2, 2.25, 6), Camera(near=2.125), 2, 2.125, 6),
+        ((2, 2.25, 6), Camera(near=2.5), 1, 2.5, 6),
+        # Behind the eye, or in its plane, 1/t is no number: a part of the farthest t is kept away.
+        ((-1, 4, 10), Camera(), 2, 10 * NEAREST, 10),
+        ((0, 4, 10), Camera(), 2, 10 * NEAREST, 10),
+        ((1e-7, 4, 10), Camera(), 1, 1e-7, 10),
+        ((-1, 4, 10), Camera(projection="parallel"), 2, 0, 10),
+    ],
+)
+def test_a_triangle_is_cut_where_rays_begin_and_end(t, camera, pieces, least, most) -> None:
+    corners = np.array([(0, 0, -t[0]), (1, 0, -t[1]), (0, 1, -t[2])], np.float32)
+    scene = Scene((SceneObject(Mesh(corners, np.array([[0, 1, 2]], np.int32))),))
+    found = list(triangles(Model(scene), camera))
+    assert len(found) == pieces
+    heights = [-point[2] for piece in found for point in piece.points]
+    assert (min(heights), max(heights)) == pytest.approx((least, most), abs=1e-12)
+    assert all((piece.shares is WHOLE) == (least == t[0] and most == t[2]) for piece in found)
 
 
 def test_two_triangles_are_cut_at_the_same_point_of_their_edge() -> None:
@@ -164,10 +202,9 @@ def test_edge_functions_say_where_a_pixel_is() -> None:
 
 def test_no_pixel_is_lost_between_two_triangles() -> None:
     """The diagonal of a square runs through the middles of pixels: one of the two takes each."""
-    square = shapes.translate(shapes.rotate(shapes.rectangle(1.0, 1.0), (90, 0, 0)), (0, 0, -1))
-    model = Model(Scene((SceneObject(square),), LIGHT, background=(1.0, 0.0, 1.0)))
+    model = Model(SQUARE)
     for tilt in (0.0, 0.1, 1 / 3):
-        camera = Camera(v=(tilt, 1, 0), viewport=(-0.4, 0.4, -0.4, 0.4))
+        camera = replace(SQUARE_SEEN, v=(tilt, 1, 0))
         for size in ((9, 9), (16, 16), (13, 7)):
             canvas = rasterization(model, camera, size).array
             assert not (canvas == (1.0, 0.0, 1.0)).all(axis=2).any()
@@ -175,12 +212,20 @@ def test_no_pixel_is_lost_between_two_triangles() -> None:
 
 def test_the_box_of_a_triangle_is_its_corners() -> None:
     size = (10, 8)
-    corners = Corner(1.6, 2.4, 1), Corner(4.4, 2.6, 1), Corner(2.5, 5.5, 1)
-    assert box_around(*corners, size) == (range(2, 6), range(2, 4))
+    corners = Corner(1.6, 2.6, 1), Corner(4.4, 2.7, 1), Corner(2.5, 5.5, 1)
+    assert box_around(*corners, size) == (range(3, 6), range(2, 4))
     beside = [corner._replace(x=corner.x + 20) for corner in corners]
     assert box_around(*beside, size) == (range(0), range(0))
     from_its_edge = Corner(0, 0, 1), Corner(4, 4, 1), Corner(8, 8, 1)
     assert box_around(*from_its_edge, size) == (range(0), range(0))
+    point = Corner(2.5, 2.5, 1)
+    assert box_around(point, point, point, size) == (range(0), range(0))
+    for width, columns in ((1e-12, range(0)), (1e-9, range(9))):  # to its length
+        sliver = Corner(0, 0, 1), Corner(9, 8, 1), Corner(9, 8 + width, 1)
+        assert box_around(*sliver, size)[1] == columns
+    for x, y in ((3000, 0), (0, 3000)):  # to that, not to its place
+        sliver = Corner(x, y, 1), Corner(x + 9, y + 8, 1), Corner(x + 9, y + 8 + 1e-9, 1)
+        assert box_around(*sliver, (4000, 4000))[1] == range(x, x + 9)
 
 
 # Steps.
@@ -205,6 +250,15 @@ def test_a_moment_knows_its_triangle_and_whether_the_pixel_is_inside() -> None:
         seen.add(inside)
     assert seen == {True, False}
     assert moment_at(run, int(run.object_steps[0])).corners is None
+
+
+def test_a_pixel_on_an_edge_is_inside_and_its_test_gives_the_t_that_is_written() -> None:
+    run = recorded(SQUARE, Order.RASTER, SQUARE_SEEN, (9, 9))
+    t = run.test_t.upto(len(run.test_t))
+    inside = run.source.lines.index(next(one for one in run.source.lines if " z = " in one))
+    assert np.isfinite(t).sum() == (run.lines.upto(len(run)) == inside).sum() > 81
+    written = run.depth_t.upto(len(run.depth_t))
+    assert len(written) == 81 and np.isin(written, t).all()
 
 
 def test_the_tests_are_those_of_the_boxes() -> None:

@@ -6,6 +6,8 @@ import inspect
 import math
 import sys
 from dataclasses import replace
+from itertools import count
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -13,9 +15,10 @@ import pytest
 from app.explaining.projected import EVERYTHING, NOTHING, mesh_extent, sphere_extent
 from app.stepper import loops, recording
 from app.stepper import model as stepper
-from app.stepper.loop_parts import MISS, Model, bounding_box
+from app.stepper.loop_parts import MISS, Hit, Model, ViewingRay, _meets_box, bounding_box
 from app.stepper.loops import image_order, object_order
 from app.stepper.model import Moment, moment_at
+from app.stepper.raster_parts import Corner, triangles
 from app.stepper.recording import Order, Recording
 from renderer.camera import Camera
 from renderer.compare import compare_frames
@@ -51,7 +54,7 @@ SCENES = {Order.RASTER: TWO_BOXES, Order.OBJECT: TWO_BALLS, Order.IMAGE: TWO_BAL
 def recorded(scene: Scene, order: Order, camera: Camera | None = None, size=SIZE) -> Recording:
     run = Recording(Model(scene), camera or Camera.canonical(), size, order)
     run.run()
-    assert run.complete
+    assert run.complete and not run.truncated
     return run
 
 
@@ -171,6 +174,16 @@ def test_object_order_tests_the_boxes_and_overwrites_what_was_in_front() -> None
 
 
 @pytest.mark.parametrize("order", Order)
+def test_of_two_things_in_one_place_the_first_is_seen(order: Order) -> None:
+    for place in (TWO_BALLS.objects[0].shape, TWO_BOXES.objects[0].shape):
+        colors = [(1.0, 0.0, 0.0), (0.0, 1.0, 0.0)]
+        objects = tuple(SceneObject(place, Material(color)) for color in colors)
+        run = recorded(Scene(objects, TWO_BALLS.lights), order, size=(6, 5))
+        red, green, _ = last(run).canvas.reshape(-1, 3).T
+        assert red.any() and not green.any()
+
+
+@pytest.mark.parametrize("order", Order)
 def test_every_moment_follows_from_the_one_before(order: Order) -> None:
     """The canvas, the depth buffer and the counters change by what the line before says."""
     run = recorded(SCENES[order], order, size=(6, 5))
@@ -275,6 +288,7 @@ def test_the_tests_of_a_pixel_and_of_an_object() -> None:
     rows, columns = bounding_box(by_object.model.objects[1], by_object.camera, SIZE)
     assert moment.box == (rows, columns)
     assert moment_at(by_object, second).box is None
+    assert moment_at(by_object, 1).tests == moment_at(by_image, 1).tests == ()
     assert [test.pixel for test in moment.tests] == [(i, j) for i in rows for j in columns]
     with Tracer(TWO_BALLS) as tracer:
         seen = tracer.render(Camera.canonical(), SIZE).id
@@ -308,6 +322,42 @@ def test_going_to_the_next_pixel_and_object() -> None:
     ).pixel == (0, 0)
 
 
+def test_a_pixel_s_next_turn_is_after_the_step_or_else_its_first() -> None:
+    """In object order a pixel has one in each object's box."""
+    run = recorded(TWO_BALLS, Order.OBJECT)
+    first = stepper.step_of_pixel(run, (7, 10), 0)
+    assert first is not None and moment_at(run, first).object == 0
+    second = stepper.step_of_pixel(run, (7, 10), first)
+    assert second is not None and moment_at(run, second).object == 1
+    assert moment_at(run, first).pixel == moment_at(run, second).pixel == (7, 10)
+    assert stepper.step_of_pixel(run, (7, 10), first - 1) == first
+    assert stepper.step_of_pixel(run, (7, 10), second) == first
+    assert stepper.step_of_pixel(run, (0, 0), 0) is None  # in no box
+    begun = Recording(run.model, run.camera, SIZE, Order.OBJECT)
+    assert stepper.step_of_pixel(begun, (7, 10), 0) is None
+
+
+def test_values_are_told_in_a_few_characters() -> None:
+    model = Model(TWO_BOXES)
+    (_, near), piece = model.objects, next(triangles(model, Camera.canonical()))
+    ray = ViewingRay((0.0, 0.0, 0.0), (0.125, 0.5, -1.0), 0.0, math.inf)
+    for value, text in (
+        (range(3, 7), "3 to 6"),
+        (range(0), "none"),
+        (near, "near"),
+        (piece, f"far, number {piece.primitive}"),
+        (replace(piece, shares=piece.shares[::-1]), f"far, number {piece.primitive}, clipped"),
+        (Corner(3.14159, 12.5, 0.25), "(3.14, 12.50), z = 0.2500"),
+        ((2.5, 13.5), "(2.5, 13.5)"),
+        (ray, "(0.0000, 0.0000, 0.0000) + t (0.1250, 0.5000, -1.0000)"),
+        (MISS, "miss, t = inf"),
+        (Hit(2.5, near, 12), "t = 2.5000, near"),
+        (0.5, "0.5000"),
+        (3, "3"),
+    ):
+        assert stepper.describe(value) == text
+
+
 def test_a_moment_before_the_first_or_after_the_last_is_the_first_or_the_last() -> None:
     run = recorded(TWO_BALLS, Order.OBJECT, size=(4, 3))
     assert moment_at(run, -5).step == 0
@@ -321,6 +371,7 @@ def test_a_run_in_the_background_can_be_watched_and_cancelled() -> None:
     scene = load_scene("columns")
     run = Recording(Model(scene), scene.view.for_size((64, 48)), (64, 48), Order.IMAGE)
     thread = run.start()
+    assert thread.daemon  # no exit waits for it
     while len(run) < 2000:
         assert thread.is_alive()
     for step in range(0, len(run), 97):
@@ -339,6 +390,19 @@ def test_a_run_ends_at_the_most_steps(monkeypatch) -> None:
     done: list[int] = []
     run.start(lambda: done.append(len(run))).join()
     assert run.truncated and not run.complete and done == [100] and len(run) == 100
+
+
+def test_a_run_leaves_the_interpreter_to_others_now_and_then(monkeypatch) -> None:
+    """After half a second here, of a clock that is looked at every eighth step."""
+    run = Recording(Model(TWO_BALLS), Camera.canonical(), (4, 3), Order.IMAGE)
+    breaks: list[int] = []
+    clock = SimpleNamespace(
+        perf_counter=count(100.0, 0.25).__next__, sleep=lambda _: breaks.append(len(run))
+    )
+    monkeypatch.setattr(recording, "time", clock)
+    monkeypatch.setattr(recording, "_BREAK_AFTER_S", 0.5)
+    run.run()
+    assert breaks == list(range(17, len(run) + 1, 24))
 
 
 def test_a_failing_run_says_why(monkeypatch) -> None:
@@ -431,4 +495,42 @@ def test_boxes_of_what_reaches_behind_the_eye() -> None:
 
 
 def test_a_miss_is_infinitely_far() -> None:
-    assert MISS.t == math.inf and MISS.object is None
+    assert tuple(MISS) == (math.inf, None, -1, 0.0, 0.0)
+
+
+def test_an_object_has_a_name_a_box_and_its_own_triangles() -> None:
+    box = shapes.translate(shapes.box((1, 2, 3)), (5, 0, 0))
+    scene = Scene((*TWO_BALLS.objects, SceneObject(box), SceneObject(box, name="its twin")))
+    far, _, one, twin = Model(scene).objects
+    assert (far.name, one.name, twin.name) == ("far", "object 2", "its twin")
+    assert (far.low, far.high) == ((-2, -2, -7), (2, 2, -3))
+    assert (twin.low, twin.high) == ((4.5, -1, -1.5), (5.5, 1, 1.5))
+    assert far.vertices.shape == far.faces.shape == (0, 3)
+    for thing in (one, twin):
+        assert thing.faces.shape == (12, 3) and len(thing.vertices) == thing.faces.max() + 1
+        assert (np.abs(thing.vertices - (5, 0, 0)) == (0.5, 1, 1.5)).all()
+
+
+def test_a_line_meets_a_box_where_no_axis_parts_them() -> None:
+    """Touching it, too; flat boxes, and lines along an axis. No plane of two axes parts them: the
+    separating axis theorem."""
+    rng = np.random.default_rng(5)
+    met = 0
+    for _ in range(3000):
+        corners, origin, direction = rng.integers(-2, 3, (3, 2, 3))
+        low, high = corners.min(axis=0), corners.max(axis=0)
+        origin, direction = origin[0], direction[0]
+        if not direction.any():
+            continue
+        # Of twice the box, so that its middle is a whole number.
+        parted = np.abs(np.cross(2 * origin - low - high, direction))
+        half = high - low
+        reach = np.abs(direction) @ np.array(
+            [[0, *half[[2, 1]]], [half[2], 0, half[0]], [half[1], half[0], 0]]
+        )
+        expected = bool((parted <= reach).all())
+        box = tuple(map(float, low)), tuple(map(float, high))
+        found = _meets_box(*box, tuple(map(float, origin)), tuple(map(float, direction)))
+        assert found is expected
+        met += expected
+    assert 500 < met < 2500

@@ -2,12 +2,14 @@
 
 Owns the path. Knows nothing of clocks, frames or widgets (travel.py has those).
 
-Both cameras are described by what they do to the focus, a world point: where it is in the picture,
-how large the plane through it (the focus plane, parallel to u and v) is seen, and how strongly
-things before and behind that plane differ in size: k = 1 / (the eye's distance from the plane), 0
-for parallel rays. All of that passes evenly, and in between it is a camera again: a true one of
-each kind, whatever the basis. From perspective to parallel, k goes to 0: the eye draws back and the
-distance grows (a dolly zoom), until parallel rays make no visible difference.
+Both cameras are described by what they do to the focus, a world point: how large the plane through
+it (the focus plane, parallel to u and v) is seen, which part of that, and from how far. In between
+it is a camera again: a true one of each kind, whatever the basis. What is seen of the focus plane
+becomes larger or smaller by even factors, about the one point of it that stands still in the
+picture. So does the eye's depth, between two perspectives: with the same angle of view and the same
+basis, the eye goes straight. From perspective to parallel, the tangent of half that angle passes
+evenly, to 0: the eye draws back and the distance grows (a dolly zoom), until parallel rays make no
+visible difference.
 
 The basis B = R S (polar decomposition): R turns evenly about one axis (slerp; Shoemake 1985), the
 stretch S = V exp(L) V^T passes in its logarithm, so that no basis on the way is singular. Mirrored
@@ -39,10 +41,10 @@ LEAST_DEPTH = 1e-6  # of a focus in front of the eye, in distances to the image 
 class Pose:
     """A camera as seen from the focus. Lengths in units of u, v and w.
 
-    turn, stretch: B = turn @ expm(stretch), (3, 3). at: the focus, from the foot of the eye, in
-    half widths and heights of `half`, the focus plane's visible half size; center: of that, in
-    the same units. k: 1 / depth of the focus; 0: parallel. start: how far in front of the focus
-    rays begin; end: the same for far, or None. height: the viewport's own half height (as numbers).
+    turn, stretch: B = turn @ expm(stretch), (3, 3). In the focus plane, from the foot of the eye:
+    at, the focus; center, half: of what is seen. k: 1 / depth of the focus; 0: parallel. start: how
+    far in front of the focus rays begin; end: the same for far, or None. height: the viewport's own
+    half height (as numbers).
     """
 
     turn: Floats
@@ -102,11 +104,16 @@ class Passage:
         turn = _slerp(one.turn, two.turn, s)
         basis = turn @ _expm(_lerp(one.stretch, two.stretch, s))
         half = np.exp(_lerp(np.log(one.half), np.log(two.half), s))
-        at, center = _lerp(one.at, two.at, s) * half, _lerp(one.center, two.center, s) * half
-        k = _lerp(one.k, two.k, s)
-        start = _lerp(one.start, two.start, s)
-        parallel = k <= self._least_k
-        depth = _lerp(one.depth, two.depth, s) if parallel else 1.0 / k
+        way = np.array([_way(*ends, s) for ends in zip(one.half, two.half, strict=True)])
+        at, center = one.at + way * (two.at - one.at), one.center + way * (two.center - one.center)
+        if one.k and two.k:
+            parallel, along = False, _way(one.depth, two.depth, s)
+            depth = math.exp(_lerp(math.log(one.depth), math.log(two.depth), s))
+        else:
+            k = _lerp(one.k * one.half[1], two.k * two.half[1], s) / half[1]
+            parallel, along = k <= self._least_k, s
+            depth = _lerp(one.depth, two.depth, s) if parallel else 1.0 / k
+        start = _lerp(one.start, two.start, along)
         near = depth - start
         if parallel and one.near is None and two.near is None:
             near = 0.0
@@ -114,7 +121,7 @@ class Passage:
             near = 0.0  # a plane that cuts nothing off
         far = None
         if one.end is not None and two.end is not None:
-            far = depth - _lerp(one.end, two.end, s)
+            far = depth - _lerp(one.end, two.end, along)
         scale, distance = 1.0, math.exp(_lerp(math.log(one.distance), math.log(two.distance), s))
         if not parallel:
             scale = math.exp(_lerp(math.log(one.height), math.log(two.height), s)) / half[1]
@@ -174,7 +181,7 @@ class Passage:
         """
         least = math.inf
         for pose, camera in zip(self._poses, self._cameras, strict=True):
-            corners = np.abs(pose.center) + 1.0
+            corners = np.abs(pose.center) / pose.half + 1.0
             if self._fit:
                 left, right, bottom, top = camera.viewport
                 fitted = camera.fitted(size).viewport
@@ -215,9 +222,9 @@ def _pose(camera: Camera, focus: Floats) -> Pose:
     return Pose(
         turn,
         stretch,
-        np.array([x, y]) / half,
+        np.array([x, y]),
         half,
-        center / half,
+        center,
         0.0 if camera.is_parallel else -1.0 / z,
         -z - (near or 0.0),
         None if far is None else -z - far,
@@ -257,6 +264,12 @@ def _slerp(start: Floats, end: Floats, s: float) -> Floats:
     cross = np.array([[0, -z, y], [z, 0, -x], [-y, x, 0]])
     rotation = np.eye(3) + math.sin(angle) * cross + (1 - math.cos(angle)) * cross @ cross
     return rotation @ start
+
+
+def _way(start: float, end: float, s: float) -> float:
+    """How much of its way a length has gone that passes by even factors."""
+    logarithm = math.log(end / start)
+    return math.expm1(s * logarithm) / math.expm1(logarithm) if logarithm else s
 
 
 def _lerp(start: Number, end: Number, s: float) -> Number:

@@ -54,8 +54,8 @@ class Case:
     @property
     def size(self) -> Size:
         """(width, height)"""
-        width = max(1, round(math.sqrt(self.pixels * 4 / 3)))
-        return width, max(1, round(self.pixels / width))
+        width = round(math.sqrt(self.pixels * 4 / 3))
+        return width, round(self.pixels / width)
 
 
 @dataclass(frozen=True)

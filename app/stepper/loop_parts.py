@@ -7,7 +7,7 @@ watches. Pixels are (i, j) = (row, column), 0-based; vectors are tuples of three
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from typing import NamedTuple
 
 import numpy as np
@@ -36,11 +36,11 @@ class Object:
     number: int
     name: str
     sphere: int  # its number in the flat scene, or -1
-    vertices: Floats = field(repr=False)
-    faces: np.ndarray = field(repr=False)
+    vertices: Floats
+    faces: np.ndarray
     low: Vector
     high: Vector
-    index: Index = field(repr=False)
+    index: Index
 
 
 class Hit(NamedTuple):
@@ -69,15 +69,13 @@ class Model:
 
     def _object(self, number: int) -> Object:
         flat, sphere = self.flat, int(self.flat.object_sphere[number])
+        first, count = flat.object_faces[number]
+        used, faces = np.unique(flat.faces[first : first + count], return_inverse=True)
+        vertices, faces = self.index.vertices[used], faces.reshape(-1, 3).astype(np.int64)
         if sphere >= 0:
             center, radius = flat.spheres[sphere, :3], float(flat.spheres[sphere, 3])
-            vertices, faces = np.zeros((0, 3)), np.zeros((0, 3), np.int64)
             low, high = center - radius, center + radius
         else:
-            first, count = flat.object_faces[number]
-            used, faces = np.unique(flat.faces[first : first + count], return_inverse=True)
-            vertices = self.index.vertices[used]
-            faces = faces.reshape(-1, 3).astype(np.int64)
             low, high = vertices.min(axis=0), vertices.max(axis=0)
         name = self.scene.objects[number].name or f"object {number}"
         return Object(number, name, sphere, vertices, faces, _three(low), _three(high), self.index)

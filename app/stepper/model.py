@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 
 from app.explaining.columns import Column
 from app.explaining.notation import number, text_tuple
-from app.stepper.loop_parts import MISS, Hit, Object, ViewingRay
+from app.stepper.loop_parts import Hit, Object, ViewingRay
 from app.stepper.raster_parts import WHOLE, Corner, Triangle
 from app.stepper.recording import Recording
 from renderer.camera import Floats
@@ -148,8 +148,9 @@ def next_object(recording: Recording, step: int) -> int:
 def step_of_pixel(recording: Recording, pixel: tuple[int, int], step: int) -> int | None:
     """Where a pixel's turn begins: its first after `step`, else its first at all; None: never."""
     steps = recording.pixel_steps.upto(len(recording.pixel_steps))
-    pairs = _pixels_at(recording, steps)
-    mine = steps[(pairs == pixel).all(axis=1)] if len(steps) else steps
+    if not len(steps):
+        return None
+    mine = steps[(_pixels_at(recording, steps) == pixel).all(axis=1)]
     if not len(mine):
         return None
     later = mine[mine > step]
@@ -157,11 +158,9 @@ def step_of_pixel(recording: Recording, pixel: tuple[int, int], step: int) -> in
 
 
 def _pixels_at(recording: Recording, steps: NDArray[np.int32]) -> NDArray[np.int64]:
-    """Rows and columns at these steps, (n, 2)."""
+    """Rows and columns at these steps of pixels' turns, (n, 2)."""
     found = np.zeros((len(steps), 2), np.int64)
     for k, name in enumerate("ij"):
-        if name not in recording.values:
-            return np.full((len(steps), 2), -1)
         changes, values = recording.values[name]
         count = len(changes)
         at = np.searchsorted(changes.upto(count), steps, side="right") - 1
@@ -222,7 +221,7 @@ def describe(value: Any) -> str:
         origin, direction = text_tuple(value.origin, True), text_tuple(value.direction, True)
         return f"{origin} + t {direction}"
     if isinstance(value, Hit):
-        if value is MISS or value.object is None:
+        if value.object is None:
             return "miss, t = inf"
         return f"t = {number(value.t, fixed=True)}, {value.object.name}"
     return number(value, fixed=True) if isinstance(value, float) else str(value)

@@ -130,17 +130,16 @@ class _Plugin(_Examples):
         killers: dict[str, int] = {}
         outcomes = {}
         for number, mutant in enumerate(self._chosen, start=1):
-            wanted = [item for item in items if mutant.function in reached[item.nodeid]]
+            seen = [item for item in items if mutant.function in reached[item.nodeid]]
+            wanted = seen or items[:]  # calls from a trace function are not seen
             wanted.sort(key=lambda item: (-killers.get(item.nodeid, 0), lengths[item.nodeid]))
-            if not wanted:
-                outcomes[mutant.key] = "unreached"
-                self._tell(number, mutant, "no test runs it")
-                continue
             limit_s = LEAST_S + 4 * sum(lengths[item.nodeid] for item in wanted)
             killer = forked(lambda m=mutant, w=wanted: self._try(m, w, loaded), limit_s)  # type: ignore[misc]
-            outcomes[mutant.key] = "survived" if killer == "" else "killed"
+            outcomes[mutant.key] = "killed"
             if killer == "":
-                self._tell(number, mutant, f"{len(wanted)} tests pass")
+                outcomes[mutant.key] = "survived" if seen else "unreached"
+                told = f"{len(seen)} tests pass" if seen else "no test is seen to run it"
+                self._tell(number, mutant, told)
             if killer:
                 killers[killer] = killers.get(killer, 0) + 1
         self.found = {"outcomes": outcomes, "reached": reached, "lengths": lengths}

@@ -90,15 +90,15 @@ MODULES: dict[str, tuple[str, ...]] = {
     "app/explaining/plain.py": ("plain",),
     "app/lecture/reading.py": ("lecture_reading", "teach_lecture", "outside_files"),
     "app/lecture/text.py": ("teach_lecture",),
-    "app/stepper/loop_parts.py": ("teach_stepper",),
+    "app/stepper/loop_parts.py": ("teach_stepper", "teach_rasterization"),
     "app/stepper/loops.py": ("teach_stepper", "teach_rasterization"),
     "app/stepper/raster_parts.py": ("teach_rasterization",),
     "app/explaining/notation.py": ("notation",),
     "app/probe/model.py": ("probe_model", "probe_lines"),
     "app/explaining/projected.py": ("projected",),
-    "app/stepper/recording.py": ("teach_stepper", "teach_runs"),
+    "app/stepper/recording.py": ("teach_stepper", "teach_rasterization"),
     "app/explaining/shading.py": ("shading",),
-    "app/stepper/model.py": ("teach_stepper",),
+    "app/stepper/model.py": ("teach_stepper", "teach_rasterization"),
 }
 
 
