@@ -54,7 +54,7 @@ MODULES: dict[str, tuple[str, ...]] = {
     "app/cameras/reader.py": ("clipboard_camera",),
     "app/cameras/text.py": ("clipboard_camera",),
     "app/cameras/travel.py": ("animation",),
-    "app/images/agreement.py": ("comparing", "live", "pictures", "status"),
+    "app/images/agreement.py": ("comparing", "live", "live_raster", "status"),
     "app/images/coarseness.py": ("coarseness",),
     "app/images/histogram.py": ("histogram",),
     "app/images/imaging.py": ("imaging",),
