@@ -7,7 +7,7 @@ from typing import Any
 import pytest
 
 from app.images.coarseness import FACTORS, MOST_MISSES, STILL_S, Coarseness
-from app.images.progressive_raster import STRIP_PIXELS, STRIP_S, Drawing, Pace
+from app.images.progressive_raster import STRIP_PIXELS, STRIP_S, ProgressiveRaster, Pace
 from renderer.camera import Camera
 
 PIXELS = 1280 * 720
@@ -215,13 +215,15 @@ def drawn(
 
 def begun(
     canvas: Canvas, triangle_s: float, shown: str, at_once: bool = False, expected_s: float = 0.0
-) -> Drawing:
+) -> ProgressiveRaster:
     pace = Pace()
     pace.measured(canvas.triangles, triangle_s * canvas.triangles)
     pace.measured = lambda *_: None  # type: ignore[method-assign]
     size, places = (2560, 1440), ("one", "two")
     rasterizer: Any = canvas
-    return Drawing(rasterizer, Camera(), size, 2, places, shown, pace, expected_s, at_once)
+    return ProgressiveRaster(
+        rasterizer, Camera(), size, 2, places, shown, pace, expected_s, at_once
+    )
 
 
 def test_a_device_that_is_quick_draws_all_triangles_at_once() -> None:

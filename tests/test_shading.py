@@ -20,7 +20,9 @@ from renderer.scene.model import (
 )
 
 # Seen from above: the ray goes down, the normal is up.
-HIT = Hit(0, 0, 1.0, 0.0, 0.0, (0.0, -2.0, 0.0), (0.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 1.0, 0.0))
+HIT = Hit(
+    0, 0, 1.0, 0.0, 0.0, (0.0, -2.0, 0.0), (0.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 1.0, 0.0), ()
+)
 WHITE = (1.0, 1.0, 1.0)
 
 
@@ -40,7 +42,7 @@ def test_normals_that_differ_by_more_than_rounding_are_smooth() -> None:
 def test_a_hit_is_where_the_ray_is_at_t() -> None:
     ball = Scene((SceneObject(Sphere((9, 9, 9), 1)), SceneObject(Sphere((0, 0, -5), 1))))
     found = hit_at(flatten(ball), (0, 0, 1), (0, 0, -2), (2.5, 1, 0.0, 0.0))
-    assert found == Hit(1, 1, 2.5, 0, 0, (0, 0, -2), (0, 0, -4), (0, 0, 1), (0, 0, 1))
+    assert found == Hit(1, 1, 2.5, 0, 0, (0, 0, -2), (0, 0, -4), (0, 0, 1), (0, 0, 1), ())
     assert not found.is_smooth
 
 
