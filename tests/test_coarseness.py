@@ -7,7 +7,7 @@ from typing import Any
 import pytest
 
 from app.images.coarseness import FACTORS, MOST_MISSES, STILL_S, Coarseness
-from app.images.progressive_raster import STRIP_PIXELS, STRIP_S, ProgressiveRaster, Pace
+from app.images.progressive_raster import STRIP_PIXELS, STRIP_S, Pace, ProgressiveRaster
 from renderer.camera import Camera
 
 PIXELS = 1280 * 720

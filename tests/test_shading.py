@@ -33,17 +33,17 @@ def lit(*lights, shininess: float = 2.0, ambient=(0.0, 0.0, 0.0)):
 
 
 def test_normals_that_differ_by_more_than_rounding_are_smooth() -> None:
-    assert not HIT.is_smooth
-    assert not replace(HIT, normal=(5e-10, 1.0, 0.0)).is_smooth
-    assert replace(HIT, normal=(0.0, 1.0, 2e-9)).is_smooth
-    assert replace(HIT, normal=(-1.0, 0.0, 0.0)).is_smooth
+    assert not HIT.has_own_normal
+    assert not replace(HIT, normal=(5e-10, 1.0, 0.0)).has_own_normal
+    assert replace(HIT, normal=(0.0, 1.0, 2e-9)).has_own_normal
+    assert replace(HIT, normal=(-1.0, 0.0, 0.0)).has_own_normal
 
 
 def test_a_hit_is_where_the_ray_is_at_t() -> None:
     ball = Scene((SceneObject(Sphere((9, 9, 9), 1)), SceneObject(Sphere((0, 0, -5), 1))))
     found = hit_at(flatten(ball), (0, 0, 1), (0, 0, -2), (2.5, 1, 0.0, 0.0))
     assert found == Hit(1, 1, 2.5, 0, 0, (0, 0, -2), (0, 0, -4), (0, 0, 1), (0, 0, 1), ())
-    assert not found.is_smooth
+    assert not found.has_own_normal
 
 
 def test_each_light_gives_its_terms() -> None:
