@@ -19,7 +19,8 @@ from app.storage.capture import Captures, cut, free_path
 from app.storage.recent import LONGEST, MOST, Recent, RecentFiles
 from app.widgets.folders import read_folder, starting_points
 from app.widgets.surface import Target
-from app.window.files import Files, open_sources
+from app.window.files import Files
+from app.window.opening import open_sources
 from renderer.errors import LucidaError
 from renderer.scene import load_scene, save_view, shapes
 

@@ -14,7 +14,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from app.window.files import Files, Opened
+from app.window.files import Files
+from app.window.opening import Opened
 from renderer.errors import LucidaError
 from renderer.scene import load_scene
 from renderer.scene import subprocess_reader as apart

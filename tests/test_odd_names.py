@@ -22,7 +22,8 @@ from app.widgets.dialog import FileDialog, Question
 from app.widgets.folders import read_folder
 from app.widgets.toasts import Toasts
 from app.window import process
-from app.window.files import Files, open_sources
+from app.window.files import Files
+from app.window.opening import open_sources
 from renderer.errors import LucidaError, describe, one_line
 from renderer.scene import load_scene, save_scene
 

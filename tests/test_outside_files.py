@@ -12,8 +12,9 @@ from test_files import wait_for
 
 from app.cli import main
 from app.lecture.reading import load_lecture
-from app.window.files import Files, Outside, open_sources
+from app.window.files import Files, Outside
 from app.window.main_window import title
+from app.window.opening import open_sources
 from app.window.shell import outside_question
 from renderer.errors import LucidaError
 from renderer.scene import load_scene

@@ -15,9 +15,10 @@ from app.state.app_state import AppState, History
 from app.storage import watching
 from app.storage.scene_watch import SceneWatch
 from app.storage.watching import LOOK_S, REST_S
-from app.window import files as storage_files
-from app.window.files import Files, Opened
+from app.window import opening
+from app.window.files import Files
 from app.window.main_window import MainWindow
+from app.window.opening import Opened
 from renderer.scene import Scene, load_scene, subprocess_reader
 from renderer.scene.models import read_by
 
@@ -260,14 +261,14 @@ def test_each_question_about_files_elsewhere_opens_what_it_asked_about(
     shown = loaded(files).scene
     assert shown is not None
     files.follow(shown)
-    gate, load = threading.Event(), storage_files.load_scene
+    gate, load = threading.Event(), opening.load_scene
 
     def slow(source: str) -> Scene:
         if Path(source) == other:
             gate.wait(60)
         return load(source)
 
-    monkeypatch.setattr(storage_files, "load_scene", slow)
+    monkeypatch.setattr(opening, "load_scene", slow)
     path.write_text(BALL + MODEL.replace("m.obj", "../out.obj"))
     for _ in range(4):
         files.follow(shown)

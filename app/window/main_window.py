@@ -34,9 +34,10 @@ from app.storage.session_store import Keeper
 from app.widgets import theme
 from app.widgets.highlight import frame_views
 from app.window.action_table import run_shortcuts
-from app.window.files import Files, Opened
+from app.window.files import Files
 from app.window.instruments import make_views
 from app.window.menus import menu_bar
+from app.window.opening import Opened
 from app.window.platform import on_drop, set_title
 from app.window.shell import Shell
 from app.window.status import Status, status_line

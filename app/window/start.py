@@ -21,7 +21,7 @@ from app.state.app_state import AppState
 from app.storage.kept_lecture import KeptLecture
 from app.storage.session import Session
 from app.storage.session_store import Found, Keeper, take_place
-from app.window.files import Opened, opened_scene
+from app.window.opening import Opened, opened_scene
 from renderer.errors import LucidaError, describe
 from renderer.scene import BUILTIN_SCENES, Scene, View, load_scene, load_view
 from renderer.scene.model import SceneObject
