@@ -6,6 +6,7 @@ import os
 import threading
 from dataclasses import replace
 from pathlib import Path
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -46,7 +47,8 @@ def path(tmp_path: Path) -> Path:
 
 @pytest.fixture
 def files(monkeypatch):
-    monkeypatch.setattr("app.window.files.time.monotonic", Clock())
+    # There only: who waits for a process has the real clock.
+    monkeypatch.setattr("app.window.files.time", SimpleNamespace(monotonic=Clock()))
     files = Files(lambda: None)
     yield files
     files.close()
