@@ -1,4 +1,4 @@
-"""A drive of tests/window_driver.py: events that nobody would think of, in any order.
+"""A drive of tests/support/window_driver.py: events that nobody would think of, in any order.
 
 What random_events.py runs, in a process of its own; see there for what is looked at.
 """

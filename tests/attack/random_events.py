@@ -55,7 +55,7 @@ def _drive(folder: Path, seed: int, minutes: float) -> tuple[str, list[str]]:
         "PYTHONPATH": str(TESTS.parent),
         **dict(zip(VARIABLES, (str(seed), str(minutes)), strict=True)),
     }
-    script = [sys.executable, str(TESTS / "window_driver.py"), str(report), str(folder)]
+    script = [sys.executable, str(TESTS / "support" / "window_driver.py"), str(report), str(folder)]
     try:
         done = subprocess.run(
             [*script, "../attack/event_drive"],

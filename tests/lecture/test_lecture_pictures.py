@@ -1,0 +1,143 @@
+"""Text and picture of the built-in lecture agree: what a step names is drawn, and large enough."""
+
+from __future__ import annotations
+
+import re
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+from app.lecture import text as texts
+from app.lecture.reading import BUILTIN, load_lecture
+from app.outside.diagram import Dot, Eye, Hit, Item, Label, diagram
+from app.outside.frustum import plane_corners
+from app.outside.options import OutsideOptions
+from renderer.camera import Camera
+
+STEPS = {step.title: step for step in load_lecture(BUILTIN).steps}
+VIEW = (818, 634)  # the outside view's pixels beside the text, in a window of 1280 x 720
+NARROW = (474, 634)  # with the camera's panel beside it
+
+
+def text_of(title: str) -> str:
+    return str(texts.plain(STEPS[title].blocks))
+
+
+def options_of(title: str) -> OutsideOptions:
+    given: dict[str, Any] = dict(STEPS[title].options.get("outside", {}))
+    return OutsideOptions(**given)
+
+
+def items_of(title: str) -> list[Item]:
+    step = STEPS[title]
+    size = step.options.get("images", {}).get("resolution", VIEW)
+    return diagram(step.view.for_size(size), size, options_of(title), 9.0)
+
+
+def labels_of(title: str) -> set[str]:
+    return {item.text for item in items_of(title) if isinstance(item, Label)}
+
+
+def on_screen(points: Any, camera: Camera, size: tuple[int, int]) -> np.ndarray:
+    """In parts of the view's width and height, (n, 2)."""
+    looking = camera.fitted(size)
+    matrix = looking.camera_from_world
+    local = np.asarray(points, float) @ matrix[:3, :3].T + matrix[:3, 3]
+    plane = local[:, :2] / (-local[:, 2:] / looking.distance)
+    left, right, bottom, top = looking.viewport
+    return np.stack(
+        [(plane[:, 0] - left) / (right - left), (top - plane[:, 1]) / (top - bottom)], 1
+    )
+
+
+@pytest.mark.parametrize("size", [VIEW, NARROW, (1227, 951)])
+@pytest.mark.parametrize(
+    "title", ["A simple camera", "From pixel to ray", "Exercise: a pixel's ray"]
+)
+def test_the_image_plane_fills_a_third_where_the_pixel_grid_is_the_subject(
+    title: str, size: tuple[int, int]
+) -> None:
+    step, looking = STEPS[title], options_of(title).camera
+    assert looking is not None
+    camera = step.view.for_size(step.options["images"]["resolution"])
+    x, y = on_screen(plane_corners(camera), looking, size).T
+    assert 0.5 * abs(x @ np.roll(y, -1) - y @ np.roll(x, -1)) >= 1 / 3
+    seen = on_screen([*plane_corners(camera), camera.eye], looking, size)
+    assert ((seen > 0) & (seen < 1)).all()  # all of it, and the eye
+
+
+def test_where_there_is_no_eye_none_is_drawn() -> None:
+    assert "No eye" in text_of("Parallel projection")
+    for title, step in STEPS.items():
+        if "outside" in step.views:
+            parallel = step.view.camera.is_parallel
+            kinds = {type(item) for item in items_of(title)}
+            assert (Eye in kinds) != parallel, title
+            assert ("eye" in labels_of(title)) != parallel, title
+    assert not {"e", "eye"} & labels_of("Parallel projection")
+    assert "e" in labels_of("Parallel: the pixel moves the origin")  # its formula has it
+
+
+@pytest.mark.parametrize("title", ["The basis from a target", "Exercise: find the basis"])
+def test_target_and_up_are_drawn_where_they_are_named(title: str) -> None:
+    step = STEPS[title]
+    assert {"a", "up"} <= labels_of(title)
+    camera, (dot,) = (
+        step.view.camera,
+        [item for item in items_of(title) if isinstance(item, Dot) and item.name == "target"],
+    )
+    back = np.asarray(camera.eye) - dot.point  # w is from target to eye, here as well
+    assert np.allclose(np.cross(back, camera.w), 0) and back @ np.asarray(camera.w) > 0
+    if looking := options_of(title).camera:
+        tips = [np.asarray(camera.eye) + v for v in (camera.u, camera.v, camera.w, (0, 1, 0))]
+        seen = on_screen([dot.point, camera.eye, *tips], looking, VIEW)
+        assert ((seen > 0) & (seen < 1)).all()
+
+
+def test_the_points_of_the_ray_are_drawn_where_their_parameters_are_named() -> None:
+    title = "A ray is half a line"
+    step = STEPS[title]
+    assert step.pixel is not None
+    size = step.options["images"]["resolution"]
+    marked = Hit(step.pixel, 2.5)
+    camera = step.view.for_size(size)
+    items = diagram(camera, size, options_of(title), 9.0, marked=marked)
+    at = {item.name: item.point for item in items if isinstance(item, Dot)}
+    ray = camera.ray(*step.pixel, size)
+    assert np.allclose(at["t = 0"], ray.origin)
+    assert np.allclose(at["t = 1"], ray.origin + ray.direction)
+
+
+def test_pictures_are_by_the_algorithm_that_the_text_is_about() -> None:
+    for title in ("Ray tracing", "Where do viewing rays come from?"):
+        assert "ray" in STEPS[title].views and "raster" not in STEPS[title].views
+
+
+def test_the_summary_says_what_was_said() -> None:
+    summary = text_of("Summary")
+    first = text_of("Images, rays and cameras")
+    for part in ("two things", "create a model of a scene", "make an image of it"):
+        assert part in first and part in summary
+    # From (i, j) to a ray in as many lines as the program has between its loops and `hit`.
+    lines = [line.strip() for line in text_of("The program").splitlines()]
+    names = [line.split(" = ")[0] for line in lines if " = " in line]
+    before = names[: names.index("hit")]
+    words = dict(zip(range(1, 7), ("one", "two", "three", "four", "five", "six"), strict=True))
+    found = re.search(r"to a ray in (\w+) lines", summary)
+    assert found and found[1] == words[len(before)]
+
+
+def test_words_are_of_one_kind() -> None:
+    everything = BUILTIN.read_text(encoding="utf-8")
+    assert not re.search(r"\bgrey", everything, re.IGNORECASE)
+    assert not re.search(r"\b(bits?|bytes|floats) a pixel", everything)
+
+
+def test_the_windows_words_are_of_one_kind() -> None:
+    """And those of its code, which nobody tells apart."""
+    for path in (Path(__file__).parents[2] / "app").glob("**/*.py"):
+        text = path.read_text(encoding="utf-8")
+        assert not re.search(r"\bgrey", text, re.IGNORECASE), path
+        assert not re.search(r"\b(bits?|bytes|floats|numbers?|samples) a pixel", text), path

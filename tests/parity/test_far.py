@@ -1,0 +1,273 @@
+"""Scenes far from the world's origin look as they do at the origin, in all renderers.
+
+Between 1e3 and 1e6 units off they are as exact as there; up to 1e9 the renderers agree.
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from agreeing import agree
+from raster_reference import reference
+from scenes import ODD, moved, placed
+from trace_reference import ball
+
+from app.cameras.focus import scene_focus
+from app.images.picking import object_on_ray
+from app.outside.outlines import Ellipse, outlines
+from app.outside.screen import Screen
+from app.probe.model import Probe
+from app.stepper import loop_parts
+from renderer import Camera, Rasterizer, Tracer
+from renderer.compare import CHANNELS, compare_frames
+from renderer.scene import shapes
+from renderer.scene.flat import flatten
+from renderer.scene.model import (
+    Checker,
+    DirectionalLight,
+    Material,
+    Mesh,
+    PointLight,
+    Scene,
+    SceneObject,
+    Sphere,
+    View,
+)
+
+SIZE = (96, 64)
+FARS = [1e3, 1e4, 1e5, 1e6]
+VIEWS = ["perspective", "parallel", "inside", "clipped"]
+# Of hits, normals and colours: the translation itself, rounded in float64, moves things by 1e-10.
+SAME = {"depth": 2e-5, "normal": 2e-4, "color": 2e-3}
+
+
+def crowd() -> Scene:
+    """Every shape; checkers, smooth normals, vertex colours, stretched; lights near by."""
+    checkered = Material((0.7, 0.6, 0.5), (0.3, 0.3, 0.3), 30, Checker((0.1, 0.2, 0.6), 0.3))
+    shiny = Material((0.5, 0.6, 0.4), (0.5, 0.5, 0.5), 80)
+    torus = shapes.torus(0.5, 0.2, segments=24, sides=12)
+    round_ball = ball(12, 16)
+    tinted = replace(round_ball, colors=np.abs(round_ball.vertices))
+    stretched = placed(tinted, 1.6, 0.2, -0.4, 40)
+    transform = stretched.transform.copy()
+    transform[:3, :3] = transform[:3, :3] @ np.diag([0.5, 0.2, 0.4])
+    plane = shapes.box((8.0, 0.1, 8.0))
+    return Scene(
+        (
+            SceneObject(placed(torus, -0.4, 0.3, 0.2, 70), checkered),
+            SceneObject(placed(shapes.box(0.7), 0.6, -0.1, 0.5, 25), shiny),
+            SceneObject(replace(stretched, transform=transform), shiny),
+            SceneObject(Sphere((0.2, 0.6, -0.6), 0.4), checkered),
+            SceneObject(Sphere((0.5, 0.3, 1.0), 0.05), Material((1, 0, 0))),
+            SceneObject(placed(plane, 0, -0.6, 0), checkered),
+        ),
+        (
+            PointLight((0.3, 0.5, 1.3), (0.6, 0.6, 0.5)),
+            PointLight((-2, 3, 1), (0.4, 0.3, 0.4)),
+            DirectionalLight((-1, -2, -1), (0.2, 0.2, 0.3)),
+        ),
+        background=(0.1, 0.2, 0.3),
+    )
+
+
+def camera_of(view: str, by: np.ndarray | float = 0.0) -> Camera:
+    eye, target = np.array([1.5, 1.4, 3.1]) + by, np.array([0.2, 0.1, 0.0]) + by
+    if view == "inside":
+        eye = np.array([0.21, 0.61, -0.58]) + by  # in a sphere
+    camera = Camera.look_at(eye, target, fov_y_deg=50, aspect=1.5)
+    if view == "parallel":
+        return replace(camera, projection="parallel", viewport=(-1.8, 1.8, -1.2, 1.2))
+    return replace(camera, near=2.9, far=4.1) if view == "clipped" else camera
+
+
+@pytest.mark.parametrize("view", VIEWS)
+@pytest.mark.parametrize("far", FARS)
+def test_a_translated_scene_looks_as_before(view: str, far: float) -> None:
+    scene, by = crowd(), far * ODD
+    here = agree(scene, camera_of(view))
+    there = agree(moved(scene, by), camera_of(view, by))
+    for first, second in zip(here, there, strict=True):
+        same = first.id == second.id
+        assert same.mean() > 0.997
+        hit = same & (first.id >= 0)
+        assert hit.any()
+        for name, tolerance in SAME.items():
+            wrong = np.abs(first.channel(name)[hit] - second.channel(name)[hit]) > tolerance
+            # Borders of checkers and outlines: a pixel's centre may lie within 1e-9 of one.
+            assert wrong.mean() < 2e-3, (name, np.argwhere(wrong)[:5])
+
+
+@pytest.mark.parametrize("view", ["perspective", "parallel"])
+def test_the_tests_own_reference_agrees_a_million_units_away(view: str) -> None:
+    by = 1e6 * ODD
+    scene, camera = moved(crowd(), by), camera_of(view, by)
+    frame = reference(scene, camera, (48, 32))
+    for image in agree(scene, camera, (48, 32)):
+        result = compare_frames(flatten(scene), camera, (48, 32), image, frame)
+        assert result.unexplained == 0, result.summary()
+
+
+@pytest.mark.parametrize("far", [1e4, 1e6])
+def test_shadows_and_mirrors_of_a_translated_scene_look_as_before(far: float) -> None:
+    scene, by = crowd(), far * ODD
+    frames = []
+    for shown, shift in ((scene, 0.0 * by), (moved(scene, by), by)):
+        with Tracer(shown, shadows=True, mirror_depth=2) as tracer:
+            frames.append(tracer.render(camera_of("perspective", shift), SIZE))
+    wrong = np.abs(frames[0].color - frames[1].color).max(axis=2) > 2e-3
+    assert wrong.mean() < 3e-3, np.argwhere(wrong)[:5]
+    with Tracer(scene) as tracer:  # they are to be seen at all
+        plain = tracer.render(camera_of("perspective"), SIZE)
+    assert (np.abs(plain.color - frames[0].color).max(axis=2) > 0.02).mean() > 0.1
+
+
+def test_objects_at_opposite_ends_of_a_scene_are_both_exact() -> None:
+    parts = [moved(crowd(), sign * 1e6 * ODD) for sign in (-1, 1)]
+    scene = replace(
+        parts[0],
+        objects=parts[0].objects + parts[1].objects,
+        lights=parts[0].lights[:2] + parts[1].lights,
+    )
+    for sign in (-1, 1):
+        for view in ("perspective", "parallel"):
+            agree(scene, camera_of(view, sign * 1e6 * ODD))
+
+
+@pytest.mark.parametrize("turn_deg", [0.0, 37.0])
+@pytest.mark.parametrize("view", ["perspective", "parallel"])
+def test_a_small_thing_beside_a_large_one(view: str, turn_deg: float) -> None:
+    """A kilometre of ground, turned with all that stands on it, seen from a hand above it."""
+    matrix = placed(ball(), 1e5, 2e5, -3e5, turn_deg).transform
+    ground = shapes.box((1e3, 0.5, 1e3))
+    thing = ball(16, 24)
+    stand, small = np.eye(4), np.eye(4)
+    stand[:3, 3] = 0, -0.25, 0
+    small[:3, :3] *= 0.02
+    small[:3, 3] = 333.0, 0.02, -271.0
+    white = Material(checker=Checker(size=0.01))
+    scene = Scene(
+        (
+            SceneObject(replace(ground, transform=matrix @ stand), white),
+            SceneObject(replace(thing, transform=matrix @ small), Material((0.7, 0.3, 0.2))),
+        ),
+        (PointLight(tuple(matrix[:3] @ [333.1, 0.1, -270.9, 1])),),
+    )
+    eye, target, up = (
+        matrix[:3] @ np.array(p)
+        for p in ([333.1, 0.08, -270.8, 1], [333, 0.01, -271, 1], [0, 1, 0, 0])
+    )
+    camera = Camera.look_at(eye, target, up, fov_y_deg=40, aspect=1.5)
+    if view == "parallel":
+        camera = replace(camera, projection="parallel", viewport=(-0.09, 0.09, -0.06, 0.06))
+    agree(scene, camera)
+
+
+def test_a_close_look_at_a_large_turned_mesh() -> None:
+    """The rasterizer, too, sees the mesh's own vertices: none that were rounded in the world."""
+    steps = np.linspace(-1e3, 1e3, 41)
+    x, z = (axis.ravel() for axis in np.meshgrid(steps, steps))
+    vertices = np.stack([x, 20 * np.sin(x / 90) * np.cos(z / 70), z], axis=1)
+    k = (np.arange(40)[:, None] * 41 + np.arange(40)).ravel()
+    faces = np.concatenate([np.stack(c, 1) for c in ((k, k + 41, k + 1), (k + 1, k + 41, k + 42))])
+    mesh = placed(Mesh(vertices, faces), 3e4, 1e4, -2e4, 61)
+    scene = Scene((SceneObject(mesh),), (DirectionalLight((-1, -2, -1)),))
+    for corner in (820, 1000, 300):
+        point = mesh.transform[:3] @ [*mesh.vertices[corner].astype(float), 1]
+        eye = mesh.transform[:3] @ [*(mesh.vertices[corner] + np.float32([0.02, 0.05, 0.03])), 1]
+        agree(scene, Camera.look_at(eye, point, fov_y_deg=60, aspect=1.5))
+
+
+@pytest.mark.parametrize("view", ["perspective", "parallel", "inside"])
+def test_the_limit(view: str) -> None:
+    """At 1e9 float64 has steps of 1e-7: the renderers still agree. Beyond, images become coarse,
+    but hold numbers."""
+    by = 1e9 * ODD
+    agree(moved(crowd(), by), camera_of(view, by))
+    for far in (1e10, 1e11, 1e12):
+        by = far * ODD
+        scene, camera = moved(crowd(), by), camera_of(view, by)
+        with Rasterizer(scene) as rasterizer, Tracer(scene, shadows=True, mirror_depth=1) as tracer:
+            for renderer in (rasterizer, tracer):
+                frame = renderer.render(camera, SIZE, channels=CHANNELS)
+                assert np.isfinite(frame.color).all()
+                assert np.isfinite(frame.normal).all()
+                assert not np.isnan(frame.depth).any()
+        if far < 1e11:
+            assert (frame.id >= 0).mean() > 0.3
+
+
+def test_single_rays_start_anywhere() -> None:
+    by = 1e6 * ODD
+    scene, camera = moved(crowd(), by), camera_of("perspective", by)
+    origins, directions = (part.reshape(-1, 3) for part in camera.rays(SIZE))
+    with Tracer(scene) as tracer:
+        t, primitive = tracer.closest_hits(origins, directions)
+        frame = tracer.render(camera, SIZE, channels=CHANNELS)
+        hit = tracer.any_hits(origins, directions)
+    same = primitive == frame.primitive.ravel()
+    assert same.mean() > 0.99
+    np.testing.assert_array_equal(hit, primitive >= 0)
+    seen = same & hit
+    np.testing.assert_allclose(t[seen], frame.depth.ravel()[seen], rtol=1e-4)
+
+
+@pytest.mark.parametrize("view", ["perspective", "parallel"])
+def test_probe_loops_and_picking_see_what_the_images_show(view: str) -> None:
+    by = 1e6 * ODD
+    scene, camera = moved(crowd(), by), camera_of(view, by)
+    with Tracer(scene) as tracer:
+        frame = tracer.render(camera, SIZE, channels=CHANNELS)
+    probe = Probe(scene)
+    model = loop_parts.Model(scene, probe.index)
+    off = 0
+    for i, j in np.random.default_rng(6).integers(0, SIZE[::-1], (60, 2)).tolist():
+        reading = probe.at((i, j), camera, SIZE)
+        seen = frame.id[i, j]
+        own = -1 if reading.hit is None else reading.hit.object
+        x, y = camera.image_point(i, j, SIZE)
+        ray = loop_parts.viewing_ray(camera, float(x), float(y))
+        hits = [loop_parts.intersect(entry, ray) for entry in model.objects]
+        nearest = min(hits, key=lambda hit: hit.t)
+        loops = -1 if nearest.object is None else nearest.object.number
+        picked = object_on_ray(scene, *camera.ray(i, j, SIZE))
+        assert own == loops == (-1 if picked is None else picked)
+        if own != seen:  # at an outline
+            off += 1
+            continue
+        np.testing.assert_allclose(loop_parts.color_at(model, ray, nearest), reading.color)
+        off += bool(np.abs(np.array(reading.color) - frame.color[i, j]).max() > 2e-3)
+        for entry, hit in zip(model.objects, hits, strict=True):
+            rows, columns = loop_parts.bounding_box(entry, camera, SIZE)
+            assert hit is loop_parts.MISS or (i in rows and j in columns)
+    assert off <= 2
+
+
+def test_outlines_of_a_translated_scene_are_those_at_the_origin() -> None:
+    by = 1e6 * ODD
+    drawn = [
+        outlines(shown, Screen(camera_of("perspective", shift), SIZE))[0]
+        for shown, shift in ((crowd(), 0.0 * by), (moved(crowd(), by), by))
+    ]
+    for here, there in zip(*drawn, strict=True):
+        assert type(here.form) is type(there.form)
+        if isinstance(here.form, Ellipse):
+            np.testing.assert_allclose(there.form.center, here.form.center, atol=1e-3)
+            np.testing.assert_allclose(there.form.radii, here.form.radii, rtol=1e-4)
+        elif here.name == "object 1":  # a box: no edge lies where rounding decides
+            np.testing.assert_allclose(
+                np.sort(there.form.points, axis=0), np.sort(here.form.points, axis=0), atol=1e-3
+            )
+
+
+def test_what_a_scene_is_about_reaches_no_farther_where_it_is_far() -> None:
+    """Flying, zooming and the fields of the eye go by it."""
+    by = 1e6 * ODD
+    scene, there = crowd(), moved(crowd(), by)
+    here, far = (
+        scene_focus(replace(s, view=View(camera_of("perspective", shift))))
+        for s, shift in ((scene, 0.0 * by), (there, by))
+    )
+    assert far.reach == pytest.approx(here.reach, rel=0.02)
+    np.testing.assert_allclose(np.array(far.center) - by, here.center, atol=1e-6)

@@ -1,0 +1,194 @@
+"""Nothing that lies beside the user, or beside the user's files, is ever run."""
+
+from __future__ import annotations
+
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+from renderer import child, compile_note
+
+ROOT = Path(__file__).parents[2]
+LIMIT_S = 280  # the first rendering compiles the tracer
+# What Python, the packages and Lucida import early, late, and by chance; and the packages' names.
+NAMES = """\
+json numpy struct app renderer/__init__ renderer/child renderer/doctor shaders/__init__ os re
+io subprocess threading signal ctypes enum types random logging locale numba llvmlite trimesh
+PIL yaml glfw imgui_bundle moderngl msgspec platformdirs sitecustomize usercustomize cuda
+scipy networkx lxml site encodings/__init__ encodings/utf_8"""
+TRIANGLE = b"v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"
+SCENE = '[[objects]]\ntype = "model"\nfile = "models/large.obj"\n'
+
+
+class Here:
+    """A folder to stand in, full of traps. Each that is imported leaves its name in `ran`."""
+
+    def __init__(self, folder: Path) -> None:
+        self.folder = folder / "here"
+        self.ran = folder / "ran"
+        for place in (self.folder, self.folder / "models"):
+            for name in NAMES.split():
+                trap = place / f"{name}.py"
+                trap.parent.mkdir(parents=True, exist_ok=True)
+                trap.write_text(f"open({str(self.ran)!r}, 'a').write({name!r} + '\\n')\n")
+        (self.folder / "models" / "large.obj").write_bytes(TRIANGLE + b"#" * (1 << 20))
+        (self.folder / "scene.toml").write_text(SCENE)
+        for name in ("home", "cache", "config"):
+            (folder / name).mkdir()
+        strange = ("PYTHON", "NUMBA_", "DISPLAY", "WAYLAND_DISPLAY")
+        kept = {name: text for name, text in os.environ.items() if not name.startswith(strange)}
+        self.environment = kept | {
+            "HOME": str(folder / "home"),
+            "XDG_CACHE_HOME": str(folder / "cache"),
+            "XDG_CONFIG_HOME": str(folder / "config"),
+            "LOCALAPPDATA": str(folder / "cache"),
+            "PYTHONPATH": str(ROOT),
+        }
+
+    def run(self, *command: str, safe: bool = True) -> str:
+        """Runs Python in the folder; gives its standard output. safe: as the installed `lucida`,
+        in whose path the current folder is not."""
+        self.ran.unlink(missing_ok=True)
+        done = subprocess.run(
+            [sys.executable, *(["-P"] if safe else []), *command],
+            cwd=self.folder, env=self.environment, capture_output=True, text=True,
+            timeout=LIMIT_S,
+        )  # fmt: skip
+        ran = self.ran.read_text().split() if self.ran.exists() else []
+        assert ran == [], f"{command} imported {ran}"
+        assert done.returncode == 0, done.stdout + done.stderr
+        assert done.stderr in ("", f"lucida: {compile_note.ONCE}\n")
+        return done.stdout
+
+
+@pytest.fixture(scope="module")
+def here(tmp_path_factory: pytest.TempPathFactory) -> Here:
+    return Here(tmp_path_factory.mktemp("traps"))
+
+
+def test_the_traps_work(tmp_path: Path) -> None:
+    trapped = Here(tmp_path)
+    with pytest.raises(AssertionError, match=r"imported.*'json'"):
+        trapped.run("-c", "import json", safe=False)
+
+
+# The first traces with an empty cache, so that processes compile for it.
+@pytest.mark.parametrize(
+    "line",
+    [
+        "render scene.toml -o ray.png --renderer ray --size 32x32",
+        "render models/large.obj -o raster.png --size 32x32",
+        "compare spheres --size 32x32",
+        "scenes",
+        "lecture --check",
+        "models/large.obj --screenshot window.png --size 640x480",
+    ],
+)
+def test_commands_import_nothing_from_the_current_folder(here: Here, line: str) -> None:
+    here.run("-m", "app", *line.split())
+
+
+def test_the_first_trace_was_compiled_by_other_processes(here: Here) -> None:
+    if not list((here.folder.parent / "cache").rglob("*.nbc")):
+        here.run("-m", "app", "render", "spheres", "-o", "a.png", "--renderer", "ray")
+    assert len(list((here.folder.parent / "cache").rglob("*.done"))) == 3
+
+
+def test_the_doctor_tells_the_truth_there(here: Here, tmp_path: Path) -> None:
+    told = here.run("-m", "app", "doctor", "--json")
+    elsewhere = subprocess.run(
+        [sys.executable, "-P", "-m", "app", "doctor", "--json"],
+        cwd=tmp_path, env=here.environment, capture_output=True, text=True, timeout=LIMIT_S,
+    )  # fmt: skip
+    assert told == elsewhere.stdout
+    assert '"tracer"' in told
+
+
+def test_python_m_app_leaves_the_current_folder_at_once(here: Here, tmp_path: Path) -> None:
+    (tmp_path / "struct.py").write_text(f"open({str(here.ran)!r}, 'a').write('struct ')\n")
+    (tmp_path / "argparse.py").write_text(f"open({str(here.ran)!r}, 'a').write('argparse ')\n")
+    folder, here.folder = here.folder, tmp_path
+    try:
+        assert "spheres" in here.run("-m", "app", "scenes", safe=False)
+    finally:
+        here.folder = folder
+
+
+def test_a_python_that_a_library_starts_does_not_search_there_either(here: Here) -> None:
+    script = (
+        "import subprocess, sys\n"
+        "from app.__main__ import main\n"
+        "sys.argv[1:] = ['scenes']\n"
+        "main()\n"
+        "print(subprocess.run([sys.executable, '-c', 'import ctypes, json']).returncode)\n"
+    )
+    assert here.run("-c", script).splitlines()[-1] == "0"
+
+
+def test_a_notebook_has_the_current_folder_in_its_path_and_its_processes_have_not(
+    here: Here,
+) -> None:
+    told = here.run(
+        "-c",
+        "import sys\n"
+        "from pathlib import Path\n"
+        "from renderer import doctor\n"
+        "from renderer.scene import subprocess_reader as apart\n"
+        "apart.read_model = None\n"  # not in this process
+        "sys.path.insert(0, '')\n"
+        "print(len(apart.ModelReader().read(Path('models/large.obj'))))\n"
+        "print(doctor.check('tracer').works)\n",
+    )
+    assert told == "1\nTrue\n"
+
+
+# The path that is handed over.
+
+
+def test_the_path_has_no_current_folder(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "link").symlink_to(tmp_path)
+    monkeypatch.setattr(
+        sys, "path", ["", "lib", str(tmp_path), str(tmp_path / "link"), str(ROOT), "."]
+    )
+    assert child.import_path() == [str(tmp_path / "lib"), str(ROOT)]
+
+
+def test_the_path_has_the_current_folder_if_our_packages_are_there(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    monkeypatch.chdir(ROOT)
+    monkeypatch.setattr(sys, "path", ["", str(ROOT / "lib")])
+    assert [os.path.normpath(folder) for folder in child.import_path()] == [
+        str(ROOT), str(ROOT / "lib")
+    ]  # fmt: skip
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="Windows removes no folder that is in use")
+def test_the_current_folder_may_have_been_removed(
+    monkeypatch: pytest.MonkeyPatch, tmp_path: Path
+) -> None:
+    gone = tmp_path / "gone"
+    gone.mkdir()
+    monkeypatch.chdir(gone)
+    gone.rmdir()
+    monkeypatch.setattr(sys, "path", ["", "lib", str(ROOT)])
+    assert child.import_path() == [str(ROOT)]
+
+
+def test_a_child_reads_names_and_writes_byte_code_as_its_parent(
+    monkeypatch: pytest.MonkeyPatch, tmp_path: Path
+) -> None:
+    program = "import sys\ndef main(name):\n    print(ascii(name), sys.flags.utf8_mode,"
+    program += " sys.dont_write_bytecode, sys.pycache_prefix, sys.flags.isolated)\n"
+    (tmp_path / "told.py").write_text(program)
+    monkeypatch.syspath_prepend(tmp_path)
+    monkeypatch.setattr(sys, "dont_write_bytecode", True)
+    monkeypatch.setattr(sys, "pycache_prefix", str(tmp_path / "prefix"))
+    command = child.child_command(sys.executable, "told", "ä.obj")
+    done = subprocess.run(command, capture_output=True, text=True, check=True)
+    expected = f"{'ä.obj'!a} {sys.flags.utf8_mode} True {tmp_path / 'prefix'} 1\n"
+    assert done.stdout == expected

@@ -1,0 +1,241 @@
+"""Who may import whom: the floors and the pure cores, held by the source itself."""
+
+from __future__ import annotations
+
+import ast
+import functools
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+
+from app.instruments import ROOMS
+
+ROOT = Path(__file__).parents[2]
+SOURCES = sorted([*ROOT.glob("app/**/*.py"), *ROOT.glob("renderer/**/*.py")])
+
+# From the ground up, as docs/architecture.md says. A module belongs to the longest name here that
+# it is within, and imports from its own floor and from those before it; local imports count, and
+# those that are only for types.
+FLOORS = (
+    "renderer.errors",
+    "renderer.compile_note",
+    "renderer.private",
+    "renderer.atomic",
+    "renderer.child",
+    "renderer.forked",
+    "renderer.pixels",
+    "renderer.camera",
+    "renderer.frame",
+    "renderer.samples",
+    "renderer.images",
+    "renderer.scene",
+    "renderer.raster",
+    "renderer.trace.compile",
+    "renderer.trace.simd",
+    "renderer.trace.threads",
+    "renderer.trace.arguments",
+    "renderer.trace.scalar",
+    "renderer.trace.bvh",
+    "renderer.trace.rays",
+    "renderer.trace.packets",
+    "renderer.trace.jobs",
+    "renderer.trace",
+    "renderer.pure_python",
+    "renderer.nothing_hit",
+    "renderer.difference",
+    "renderer.slivers",
+    "renderer.edges",
+    "renderer.compare",
+    "renderer.doctor",
+    "renderer",
+    "app",
+    "app.lectures",
+    "app.instruments",
+    "app.state",
+    "app.explaining",
+    "app.widgets",
+    "app.cameras",
+    "app.storage",
+    "app.images",
+    "app.host",
+    *(room.package for room in ROOMS),
+    "app.window",
+    "app.commands",
+    "app.cli",
+    "app.__main__",
+)
+
+# What a place may not import, beside what stands above it.
+FORBIDDEN = {
+    "renderer": ["glfw", "imgui_bundle"],
+    "renderer/scene": ["moderngl", "numba"],
+    "renderer/images": ["moderngl", "numba"],
+    # Parity means something only between renderers that share no code below the flat scene.
+    "renderer/raster": ["numba"],
+    "renderer/trace": ["renderer.raster", "moderngl"],
+    "app/commands": ["glfw", "imgui_bundle", "moderngl", "numba"],
+}
+
+# Rooms that compute and say: what they import, and what that imports, draws nothing. Of the rooms
+# of instruments all files but those that draw: the ROLES, and what is named here beside them.
+INSTRUMENTS = {room.package for room in ROOMS}
+GRAPHICS = ("glfw", "imgui_bundle", "moderngl")
+PURE = ("app/state", "app/explaining", "app/cameras")
+DRAW = {
+    "camera_panel": "basis_numbers projection sections",
+    "pair": "go_to_pixel image_mouse marks overlay pane pixelgrid resolution rulers toolbar",
+    "compare": "composed differences",
+    "outside": "gizmo ground looking mouse paint tint tools vector_painting vector_view",
+    "probe": "histogram",
+    "stepper": "listing numbers plan",
+    "costs": "",
+    "laboratory": "array_view displays_view pictures schemes tables tools vector_view",
+    "lecture": "exercise slide typesetting",
+}
+ROLES = ("actions", "instrument", "panel", "view")
+
+
+def imports(path: Path, source: str | None = None) -> Iterator[str]:
+    """The full names of everything that the file imports, wherever it does."""
+    package = path.relative_to(ROOT).parent.parts
+    for node in ast.walk(ast.parse(path.read_text("utf-8") if source is None else source)):
+        if isinstance(node, ast.Import):
+            yield from (alias.name for alias in node.names)
+        elif isinstance(node, ast.ImportFrom):
+            above = package[: len(package) - node.level + 1] if node.level else ()
+            base = ".".join([*above, *([node.module] if node.module else [])])
+            yield from (f"{base}.{alias.name}" for alias in node.names)
+
+
+def is_within(name: str, package: str) -> bool:
+    return name == package or name.startswith(package + ".")
+
+
+def name_of(path: Path) -> str:
+    parts = path.relative_to(ROOT).with_suffix("").parts
+    return ".".join(parts[:-1] if parts[-1] == "__init__" else parts)
+
+
+MODULES = {name_of(path): path for path in SOURCES}
+
+
+@functools.cache
+def imported(module: str) -> frozenset[str]:
+    """The project's own modules that a module imports."""
+    names = imports(MODULES[module])
+    found = {name if name in MODULES else name.rpartition(".")[0] for name in names}
+    return frozenset((found & MODULES.keys()) - {module})
+
+
+def floor(module: str) -> int:
+    names = [name for name in FLOORS if is_within(module, name)]
+    # A package's own __init__ is what the floor is named by; other files need a room.
+    assert names and (module in FLOORS or max(names, key=len) not in ("app", "renderer")), (
+        f"{module} belongs to no floor: put it into a room, or name it in FLOORS"
+    )
+    return FLOORS.index(max(names, key=len))
+
+
+@pytest.mark.parametrize("module", MODULES)
+def test_imports_point_down(module):
+    up = [name for name in imported(module) if floor(name) > floor(module)]
+    assert not up, f"{module} (floor {FLOORS[floor(module)]}) imports {up} from above"
+
+
+def test_no_files_import_each_other_in_a_circle():
+    done: set[str] = set()
+
+    def walk(module: str, way: tuple[str, ...]) -> None:
+        assert module not in way, " -> ".join((*way[way.index(module) :], module))
+        if module not in done:
+            for name in sorted(imported(module)):
+                walk(name, (*way, module))
+            done.add(module)
+
+    for module in MODULES:
+        walk(module, ())
+
+
+@pytest.mark.parametrize("place", FORBIDDEN)
+def test_what_a_place_must_not_know(place):
+    files = [path for path in SOURCES if path.is_relative_to(ROOT / place)]
+    assert files
+    wrong = [
+        f"{path.relative_to(ROOT)} imports {name}"
+        for path in files
+        for name in imports(path)
+        if any(is_within(name, package) for package in FORBIDDEN[place])
+    ]
+    assert not wrong
+
+
+def _pure_files() -> Iterator[Path]:
+    for path in SOURCES:
+        room = path.parent.name
+        if any(path.is_relative_to(ROOT / place) for place in PURE) or (
+            path.is_relative_to(ROOT / "app")
+            and f"app.{room}" in INSTRUMENTS
+            and path.stem not in (*ROLES, *DRAW.get(room, "").split())
+        ):
+            yield path
+
+
+@pytest.mark.parametrize("path", [*_pure_files()], ids=lambda path: str(path.relative_to(ROOT)))
+def test_cores_draw_nothing(path):
+    """Their own files, and those of the window that they import. The rasterizer's own OpenGL, in
+    renderer/, is no window's."""
+    seen, todo = set(), [name_of(path)]
+    while todo:
+        module = todo.pop()
+        if module in seen or not is_within(module, "app"):
+            continue
+        seen.add(module)
+        todo.extend(imported(module))
+        drawn = [n for n in imports(MODULES[module]) if n.split(".")[0] in GRAPHICS]
+        assert not drawn, f"{name_of(path)} reaches {module}, which imports {drawn}"
+
+
+def _rooms(file: str) -> list[str]:
+    return [f"{package}.{file}" for package in INSTRUMENTS if f"{package}.{file}" in MODULES]
+
+
+@pytest.mark.parametrize("module", _rooms("options"))
+def test_options_know_the_state_alone(module):
+    """The state asks the registry for them when it is imported itself: they cannot ask back."""
+    for name in imported(module):
+        assert name in ("app.state.options", "app.state.bounds") or is_within(name, "renderer")
+
+
+def test_every_instrument_is_registered():
+    """Those alone have an instrument.py, which nothing but the registry's name of it imports."""
+    found = {name for name in MODULES if name.startswith("app.") and name.endswith(".instrument")}
+    assert found - {"app.host.instrument"} == set(_rooms("instrument"))
+    assert len(found) == len(ROOMS) + 1
+
+
+@pytest.mark.parametrize("room", DRAW)
+def test_the_files_that_draw_are_there(room):
+    for name in DRAW[room].split():
+        assert (ROOT / "app" / room / f"{name}.py").is_file()
+
+
+@pytest.mark.parametrize(
+    "path", [path for path in SOURCES if "glfw" in set(imports(path))], ids=lambda path: path.name
+)
+def test_the_window_s_library_is_loaded_first(path):
+    """Otherwise glfw brings its own, which is older and has no platform without a display."""
+    names = [name.partition(".")[0] for name in imports(path)]
+    assert "imgui_bundle" in names[: names.index("glfw")]
+
+
+def test_the_check_sees_every_form_of_import():
+    source = "import a.b\nfrom c import d\ndef f():\n    from . import e\n    from ..g import h"
+    found = set(imports(ROOT / "renderer" / "scene" / "x.py", source))
+    assert found == {"a.b", "c.d", "renderer.scene.e", "renderer.g.h"}
+
+
+@pytest.mark.parametrize("path", SOURCES, ids=lambda path: str(path.relative_to(ROOT)))
+def test_every_file_says_what_it_owns(path):
+    source = path.read_text("utf-8")
+    assert not source.strip() or ast.get_docstring(ast.parse(source))

@@ -1,0 +1,218 @@
+"""Folders that only this user can write into; and that compiled kernels are kept in no others."""
+
+from __future__ import annotations
+
+import logging
+import os
+import stat
+import subprocess
+import sys
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+from numba.core import config
+
+from renderer.errors import LucidaError
+from renderer.private import private_folder
+from renderer.trace.compile import compiled
+
+ROOT = Path(__file__).parents[2]
+pytestmark = pytest.mark.skipif(not hasattr(os, "geteuid"), reason="POSIX's owners and rights")
+
+
+@pytest.fixture
+def mine(tmp_path: Path) -> Path:
+    """A folder as a user has it."""
+    folder = tmp_path / "mine"
+    folder.mkdir()
+    folder.chmod(0o755)
+    return folder
+
+
+def rights(folder: Path) -> int:
+    return stat.S_IMODE(folder.stat().st_mode)
+
+
+def test_new_folders_are_the_users_alone_whatever_the_umask(mine: Path) -> None:
+    before = os.umask(0)
+    try:
+        folder = private_folder(mine / "a" / "b")
+    finally:
+        os.umask(before)
+    assert folder == (mine / "a" / "b").resolve()
+    assert rights(mine / "a") == rights(mine / "a" / "b") == 0o700
+    assert private_folder(mine / "a" / "b") == folder
+    assert rights(mine) == 0o755
+
+
+@pytest.mark.parametrize("mode", [0o777, 0o775, 0o770, 0o757, 0o702])
+def test_what_others_can_write_into_is_refused(mine: Path, mode: int) -> None:
+    (mine / "a").mkdir()
+    (mine / "a").chmod(mode)
+    for folder in (mine / "a", mine / "a" / "new" / "below"):
+        with pytest.raises(LucidaError, match=r"others can write into .*/a; chmod go-w") as caught:
+            private_folder(folder)
+        assert str(mine / "a") in caught.value.problem
+    assert list((mine / "a").iterdir()) == []  # nothing was left there
+
+
+def test_a_sticky_folder_is_no_danger_above_but_not_good_enough_itself(mine: Path) -> None:
+    (mine / "tmp").mkdir()
+    (mine / "tmp").chmod(0o1777)
+    assert rights(private_folder(mine / "tmp" / "a")) == 0o700
+    with pytest.raises(LucidaError, match="others can write"):
+        private_folder(mine / "tmp")
+    (mine / "tmp" / "a").chmod(0o777)  # as if somebody had made it first
+    with pytest.raises(LucidaError, match="others can write"):
+        private_folder(mine / "tmp" / "a" / "b")
+
+
+def test_a_link_is_judged_by_where_it_leads(mine: Path) -> None:
+    (mine / "open").mkdir()
+    (mine / "open").chmod(0o777)
+    (mine / "link").symlink_to("open")
+    with pytest.raises(LucidaError, match=r"others can write into .*open"):
+        private_folder(mine / "link" / "a")
+
+
+def test_somebody_elses_folder_is_refused(mine: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    (mine / "a").mkdir()
+    owner = os.stat(mine).st_uid
+    monkeypatch.setattr(os, "geteuid", lambda: owner + 1)
+    with pytest.raises(LucidaError, match="belongs to somebody else"):
+        private_folder(mine / "a")
+
+
+@pytest.mark.skipif(not hasattr(os, "geteuid") or os.geteuid() != 0, reason="gives files away")
+@pytest.mark.parametrize("place", ["a", "a/b"])
+def test_a_folder_of_another_user_is_refused_wherever_it_stands(mine: Path, place: str) -> None:
+    (mine / "a" / "b").mkdir(parents=True)
+    private_folder(mine / "a" / "b")
+    os.chown(mine / place, 12345, -1)
+    with pytest.raises(LucidaError, match=f"{place} belongs to somebody else"):
+        private_folder(mine / "a" / "b")
+
+
+def test_where_users_have_no_numbers_it_is_only_made(
+    mine: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    mine.chmod(0o777)
+    monkeypatch.delattr(os, "geteuid")  # Windows
+    assert private_folder(mine / "a").is_dir()
+
+
+# The cache of compiled kernels.
+
+
+@pytest.fixture
+def fresh() -> Iterator[None]:
+    """The place of the cache is looked for again."""
+    compiled._find_folder.cache_clear()
+    yield
+    compiled._find_folder.cache_clear()
+
+
+def test_a_cache_that_others_can_write_into_is_passed_over_and_told_once(
+    mine: Path, fresh: None, monkeypatch: pytest.MonkeyPatch, caplog: pytest.LogCaptureFixture
+) -> None:
+    (mine / "shared").mkdir()
+    (mine / "shared").chmod(0o777)
+    monkeypatch.setenv("NUMBA_CACHE_DIR", str(mine / "shared"))
+    monkeypatch.setattr(compiled.platformdirs, "user_cache_dir", lambda *_, **__: str(mine / "own"))
+    for _ in range(2):
+        folder = compiled.cache_folder()
+        assert folder is not None
+        assert folder.is_relative_to(mine / "own")
+        assert rights(folder) == 0o700
+    assert [record.levelno for record in caplog.records] == [logging.WARNING]
+    told = caplog.records[0].getMessage()
+    assert "\n" not in told
+    assert told.startswith(f"lucida: compiled kernels are not kept in {mine / 'shared'}")
+    assert f"chmod go-w '{mine / 'shared'}'" in told
+    assert compiled.cache_problem() in told
+    assert list((mine / "shared").iterdir()) == []
+
+
+def test_a_good_cache_is_used_and_nothing_is_said(
+    mine: Path, fresh: None, monkeypatch: pytest.MonkeyPatch, caplog: pytest.LogCaptureFixture
+) -> None:
+    monkeypatch.setenv("NUMBA_CACHE_DIR", str(mine / "new"))
+    folder = compiled.cache_folder()
+    assert folder is not None
+    assert folder.is_relative_to(mine / "new")
+    assert rights(mine / "new") == rights(folder) == 0o700
+    assert compiled.cache_problem() == ""
+    assert not caplog.records
+
+
+def test_a_relative_folder_which_may_have_come_with_the_users_files_is_passed_over(
+    mine: Path, fresh: None, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(mine)
+    monkeypatch.setenv("NUMBA_CACHE_DIR", "theirs")
+    monkeypatch.setattr(compiled.platformdirs, "user_cache_dir", lambda *_, **__: "also-theirs")
+    folder = compiled.cache_folder()
+    assert folder is None or not folder.is_relative_to(mine)
+    assert list(mine.iterdir()) == []
+
+
+def test_the_folder_beside_the_package_is_judged_too(
+    mine: Path, fresh: None, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    (mine / "trace").mkdir()
+    (mine / "trace").chmod(0o777)
+    monkeypatch.delenv("NUMBA_CACHE_DIR", raising=False)
+    monkeypatch.setattr(compiled, "_TRACE", mine / "trace")
+    (mine / "file").write_text("")
+    monkeypatch.setattr(
+        compiled.platformdirs, "user_cache_dir", lambda *_, **__: str(mine / "file" / "below")
+    )
+    assert compiled.cache_folder() is None
+    assert "trace" in compiled.cache_problem()
+
+
+def test_a_file_in_the_current_folder_does_not_choose_the_cache(
+    mine: Path, fresh: None, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """numba reads its configuration from there; what counts is the user's environment."""
+    monkeypatch.delenv("NUMBA_CACHE_DIR", raising=False)
+    monkeypatch.setattr(config, "CACHE_DIR", str(mine / "theirs"))
+    monkeypatch.setattr(config, "CACHE_LOCATOR_CLASSES", "InTreeCacheLocator")
+    monkeypatch.setattr(compiled.platformdirs, "user_cache_dir", lambda *_, **__: str(mine / "own"))
+    kernel = compiled.kernel(rights)  # any function in a file: nothing is compiled
+    assert Path(kernel._cache.cache_path).is_relative_to(mine / "own")
+    assert str(mine / "theirs") == config.CACHE_DIR
+    assert config.CACHE_LOCATOR_CLASSES == "InTreeCacheLocator"
+    assert not (mine / "theirs").exists()
+
+
+@pytest.mark.parametrize("is_readable", [False, True])
+def test_settings_of_numba_in_the_current_folder_are_passed_over(
+    mine: Path, is_readable: bool
+) -> None:
+    (mine / ".numba_config.yaml").write_text("disable_jit: 1\n")
+    (mine / "library").mkdir()
+    reader = "def safe_load(file):\n    return {'disable_jit': 1}\n"
+    (mine / "library" / "yaml.py").write_text(reader if is_readable else "raise ImportError\n")
+    script = "from renderer.trace.compile import compiled; print(compiled.config.DISABLE_JIT)"
+    path = os.pathsep.join([str(mine / "library"), str(ROOT)])
+    done = subprocess.run(
+        [sys.executable, "-P", "-c", script], cwd=mine, env={**os.environ, "PYTHONPATH": path},
+        capture_output=True, text=True, timeout=100,
+    )  # fmt: skip
+    assert (done.stdout, done.stderr) == ("0\n", "")
+
+
+def test_the_command_line_says_it_in_one_line(mine: Path) -> None:
+    (mine / "shared").mkdir()
+    (mine / "shared").chmod(0o777)
+    line = "render canonical -o a.png --renderer ray --size 8x8"
+    environment = {**os.environ, "PYTHONPATH": str(ROOT), "NUMBA_CACHE_DIR": str(mine / "shared")}
+    done = subprocess.run(
+        [sys.executable, "-P", "-m", "app", *line.split()],
+        cwd=mine, env=environment, capture_output=True, text=True, timeout=250,
+    )  # fmt: skip
+    assert done.returncode == 0, done.stderr
+    assert done.stderr.count("\n") == 1
+    assert "compiled kernels are not kept in" in done.stderr

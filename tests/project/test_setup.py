@@ -1,0 +1,225 @@
+"""The set-up: pins with hashes, and scripts/setup.sh with stand-ins for Python and apt."""
+
+from __future__ import annotations
+
+import os
+import re
+import shutil
+import subprocess
+import sys
+import tomllib
+from pathlib import Path
+
+import pytest
+from packaging.requirements import Requirement
+
+ROOT = Path(__file__).parents[2]
+PROJECT = tomllib.loads((ROOT / "pyproject.toml").read_text("utf-8"))
+FILES = ("requirements.txt", "requirements-dev.txt")
+
+
+def pins(name: str) -> dict[str, tuple[Requirement, list[str]]]:
+    """Normalised name: the pinned requirement and its hashes."""
+    text = re.sub(r"^\s*#.*\n", "", (ROOT / name).read_text("utf-8"), flags=re.MULTILINE)
+    found = {}
+    for line in text.replace("\\\n", " ").splitlines():
+        requirement, *hashes = re.split(r"\s+--hash=", line.strip())
+        parsed = Requirement(requirement)
+        found[normal(parsed.name)] = (parsed, hashes)
+    return found
+
+
+def normal(name: str) -> str:
+    return re.sub(r"[-_.]+", "-", name).lower()
+
+
+class TestPins:
+    @pytest.mark.parametrize("name", FILES)
+    def test_every_package_has_one_version_and_its_hashes(self, name):
+        for requirement, hashes in pins(name).values():
+            assert re.fullmatch(r"==[0-9.]+(post\d+)?", str(requirement.specifier)), requirement
+            assert hashes, requirement
+            assert all(re.fullmatch("sha256:[0-9a-f]{64}", digest) for digest in hashes)
+
+    @pytest.mark.parametrize("name", FILES)
+    def test_no_address_of_an_index(self, name):
+        text = (ROOT / name).read_text("utf-8")
+        assert not re.search(r"://|--index|--extra-index|--find-links|--trusted-host|^-", text)
+
+    @pytest.mark.parametrize("name", FILES)
+    def test_ranges_of_pyproject_admit_the_pins(self, name):
+        dev = name != "requirements.txt"
+        ranges = PROJECT["dependency-groups"]["dev"] if dev else PROJECT["project"]["dependencies"]
+        pinned = pins(name)
+        for text in ranges:
+            wanted = Requirement(text)
+            requirement, _ = pinned[normal(wanted.name)]
+            version = str(requirement.specifier).removeprefix("==")
+            assert wanted.specifier.contains(version), text
+            assert requirement.marker is None
+
+    def test_the_two_files_agree(self):
+        runtime, dev = map(pins, FILES)
+        for name in runtime.keys() & dev.keys():
+            assert runtime[name][0].specifier == dev[name][0].specifier
+
+
+# A stand-in for Python: it notes its arguments, and fails where a test says so.
+PYTHON = """#!/bin/sh
+echo "python $*" >>"$LOG"
+case "$*" in
+    *" pip "*) exit "${PIP_STATUS:-0}" ;;
+    -) cat >/dev/null; exit "${GL_STATUS:-0}" ;;
+    *sys.version_info\\[*) echo 3.11 ;;
+    *"import pip"*) [ -d .venv/made ] ;;
+    *"import ensurepip"*) exit "${ENSUREPIP_STATUS:-0}" ;;
+    *"-m venv"*) mkdir -p .venv/bin .venv/made && cp "$0" .venv/bin/python ;;
+esac
+"""
+APT_GET = '#!/bin/sh\necho "apt-get $*" >>"$LOG"\n'
+DPKG_QUERY = "#!/bin/sh\nexit 1\n"
+APT_CACHE = """#!/bin/sh
+case "$*" in
+    *osmesa*) echo "  Candidate: (none)" ;;
+    *) echo "  Candidate: 1.2" ;;
+esac
+"""
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="a POSIX shell script")
+class TestScript:
+    @pytest.fixture
+    def checkout(self, tmp_path):
+        """A checkout with nothing but the set-up, and a PATH of stand-ins; a function runs it."""
+        (tmp_path / "scripts").mkdir()
+        shutil.copy(ROOT / "scripts" / "setup.sh", tmp_path / "scripts")
+        for name in (*FILES, "pyproject.toml"):
+            (tmp_path / name).write_text(f"content of {name}\n")
+        (tmp_path / "bin").mkdir()
+        for tool in ("cat", "dirname", "env", "grep", "mkdir", "rm", "cp", "sed", "tee"):
+            (tmp_path / "bin" / tool).symlink_to(shutil.which(tool))
+        self.tools = tmp_path / "bin"
+        self.stand_in(
+            "uname", "#!/bin/sh\n[ $# = 0 ] || [ $1 != -m ] && echo Linux || echo x86_64\n"
+        )
+        self.stand_in("id", "#!/bin/sh\necho 1000\n")
+        self.stand_in("locale", "#!/bin/sh\necho en_US.utf8\n")
+        self.stand_in("python3.11", PYTHON)
+        return tmp_path
+
+    def stand_in(self, name: str, content: str) -> None:
+        (self.tools / name).write_text(content)
+        (self.tools / name).chmod(0o755)
+
+    def setup(
+        self, checkout: Path, *arguments: str, **environment: str
+    ) -> tuple[int, str, list[str]]:
+        """Exit status, standard error, and the calls of Python and apt that changed something."""
+        log = checkout / "log"
+        log.write_text("")
+        end = subprocess.run(
+            ["/bin/sh", "scripts/setup.sh", *arguments],
+            cwd=checkout,
+            env={"PATH": str(self.tools), "LOG": str(log), **environment},
+            capture_output=True,
+            text=True,
+            timeout=60,
+            check=False,
+        )
+        calls = [line for line in log.read_text().splitlines() if " -c " not in line]
+        assert not end.stdout
+        return end.returncode, end.stderr, [line for line in calls if line != "python -"]
+
+    def test_a_second_run_does_nothing(self, checkout):
+        status, _, calls = self.setup(checkout)
+        assert status == 0
+        assert [call.split()[:5] for call in calls] == [
+            ["python", "-m", "venv", "--clear", ".venv"],
+            ["python", "-m", "pip", "--quiet", "install"],
+            ["python", "-m", "pip", "--quiet", "install"],
+        ]
+        assert "--require-hashes" in calls[1]
+        assert "--no-index" in calls[2]
+        assert self.setup(checkout) == (0, "", [])
+
+    def test_new_pins_are_installed_and_nothing_else(self, checkout):
+        self.setup(checkout)
+        (checkout / "requirements.txt").write_text("another content\n")
+        status, _, calls = self.setup(checkout)
+        assert status == 0
+        assert len(calls) == 1
+        assert "--require-hashes" in calls[0]
+
+    def test_what_failed_is_tried_again(self, checkout):
+        assert self.setup(checkout, PIP_STATUS="1")[0] != 0
+        status, _, calls = self.setup(checkout)
+        assert status == 0
+        assert sum("--require-hashes" in call for call in calls) == 1
+
+    def test_without_python(self, checkout):
+        (self.tools / "python3.11").unlink()
+        status, told, _ = self.setup(checkout)
+        assert status != 0
+        assert "no Python 3.11 or newer was found" in told
+
+    def test_python_chosen_wrongly(self, checkout):
+        status, told, _ = self.setup(checkout, PYTHON="/bin/false")
+        assert status != 0
+        assert "PYTHON=/bin/false is not Python 3.11 or newer" in told
+
+    def test_without_the_right_to_install_the_command_is_told(self, checkout):
+        self.with_apt()
+        status, told, calls = self.setup(checkout, GL_STATUS="1")
+        assert status != 0
+        assert "sudo apt-get install --no-install-recommends libegl1 libgl1" in told
+        assert not [call for call in calls if call.startswith("apt-get")]
+
+    def test_without_the_right_to_install_but_with_gl_it_goes_on(self, checkout):
+        self.with_apt()
+        status, told, _ = self.setup(checkout)
+        assert status == 0
+        assert "libgl1-mesa-dri" in told
+        assert "osmesa" not in told  # this distribution has none
+        assert self.setup(checkout) == (0, "", [])
+
+    def test_without_the_right_to_install_venv(self, checkout):
+        self.with_apt()
+        status, told, _ = self.setup(checkout, ENSUREPIP_STATUS="1")
+        assert status != 0
+        assert "--no-install-recommends python3.11-venv" in told
+
+    def test_root_installs_what_the_distribution_has(self, checkout):
+        self.with_apt()
+        self.stand_in("id", "#!/bin/sh\necho 0\n")
+        status, _, calls = self.setup(checkout)
+        assert status == 0
+        (installed,) = [call for call in calls if " install --yes " in call]
+        assert installed.endswith("libegl1 libgl1 libgl1-mesa-dri")
+        assert self.setup(checkout) == (0, "", [])
+
+    def test_tests_get_a_display_which_nothing_else_needs(self, checkout):
+        self.with_apt()
+        self.stand_in("id", "#!/bin/sh\necho 0\n")
+        _, _, calls = self.setup(checkout)
+        assert not [call for call in calls if "xvfb" in call]
+        status, _, calls = self.setup(checkout, "tests")
+        assert status == 0
+        (installed,) = [call for call in calls if " install --yes " in call]
+        assert installed.endswith("xvfb openbox xdotool")
+        assert self.setup(checkout, "tests") == (0, "", [])
+
+    def test_without_the_right_to_install_a_display_it_goes_on(self, checkout):
+        self.with_apt()
+        status, told, _ = self.setup(checkout, "tests")
+        assert status == 0
+        assert "sudo apt-get install --no-install-recommends xvfb openbox xdotool" in told
+
+    def with_apt(self) -> None:
+        self.stand_in("apt-get", APT_GET)
+        self.stand_in("dpkg-query", DPKG_QUERY)
+        self.stand_in("apt-cache", APT_CACHE)
+
+
+def test_the_scripts_are_executable():
+    for name in (".ci/run", "scripts/setup.sh", "scripts/lint.sh", "scripts/requirements.sh"):
+        assert os.access(ROOT / name, os.X_OK) or sys.platform == "win32"

@@ -1,0 +1,129 @@
+"""`pip install .`: the wheel holds everything, and its `lucida` works far from the checkout."""
+
+from __future__ import annotations
+
+import os
+import subprocess
+import sys
+import sysconfig
+import tomllib
+import venv
+import zipfile
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from app import __version__
+
+ROOT = Path(__file__).parents[2]
+
+
+def run(*command: object, **options) -> subprocess.CompletedProcess:
+    return subprocess.run(
+        [str(part) for part in command],
+        capture_output=True,
+        text=True,
+        timeout=280,
+        check=False,
+        **options,
+    )
+
+
+@pytest.fixture(scope="module")
+def wheel(tmp_path_factory) -> Path:
+    """Built without the network: hatchling is among the development packages."""
+    folder = tmp_path_factory.mktemp("wheel")
+    end = run(sys.executable, "-m", "build", "--wheel", "--no-isolation", "-o", folder, ROOT)
+    assert end.returncode == 0, end.stdout + end.stderr
+    (path,) = folder.glob("*.whl")
+    return path
+
+
+@pytest.fixture(scope="module")
+def installed(wheel, tmp_path_factory) -> Path:
+    """The scripts' folder of an environment that has the wheel, and sees the dependencies here.
+
+    They come in by a .pth file, whose folder is searched without reading the .pth files in it: so
+    an editable installation's way to the checkout is not followed.
+    """
+    home = tmp_path_factory.mktemp("environment")
+    venv.create(home, with_pip=False, symlinks=os.name != "nt")
+    paths = sysconfig.get_paths("venv", {"base": str(home), "platbase": str(home)})
+    python = Path(paths["scripts"]) / Path(sys.executable).name
+    pip = (sys.executable, "-m", "pip", "--python", python, "--isolated", "install")
+    end = run(*pip, "--no-deps", "--no-index", "--disable-pip-version-check", wheel)
+    assert end.returncode == 0, end.stdout + end.stderr
+    here = {sysconfig.get_path("purelib"), sysconfig.get_path("platlib")}
+    (Path(paths["purelib"]) / "dependencies.pth").write_text("\n".join(here) + "\n")
+    return Path(paths["scripts"])
+
+
+@pytest.fixture
+def environment() -> dict[str, str]:
+    return {name: value for name, value in os.environ.items() if not name.startswith("PYTHON")}
+
+
+def test_everything_travels_and_nothing_else(wheel):
+    with zipfile.ZipFile(wheel) as archive:
+        packed = set(archive.namelist())
+    wanted = {
+        path.relative_to(ROOT).as_posix()
+        for package in ("app", "renderer", "shaders")
+        for path in (ROOT / package).rglob("*")
+        if path.is_file() and "__pycache__" not in path.parts and path.suffix != ".pyc"
+    }
+    described = {name for name in packed if ".dist-info/" in name}
+    assert packed - described == wanted
+    assert any(name.endswith("licenses/LICENSE") for name in described)
+    assert any(name.endswith(".toml") for name in packed)
+    assert any(name.endswith(".frag") for name in packed)
+
+
+def test_one_version(wheel):
+    project = tomllib.loads((ROOT / "pyproject.toml").read_text("utf-8"))
+    assert "version" not in project["project"]
+    assert wheel.name.startswith(f"lucida-{__version__}-")
+    newest = next(
+        line
+        for line in (ROOT / "CHANGELOG.md").read_text("utf-8").splitlines()
+        if line[:3] == "## "
+    )
+    assert newest.split()[1] == __version__
+
+
+def test_the_packages_come_from_the_installation(installed, environment, tmp_path):
+    program = (
+        "import app, renderer, shaders, sys; print(app.__file__, renderer.__file__, *sys.path)"
+    )
+    end = run(installed / "python", "-c", program, cwd=tmp_path, env=environment)
+    assert end.returncode == 0, end.stderr
+    assert str(installed.parent) in end.stdout
+    assert f"{ROOT}{os.sep}app" not in end.stdout
+    assert str(ROOT) not in end.stdout.split()
+
+
+def test_it_rasterizes(installed, environment, tmp_path, gl_backend):
+    options = ("--renderer", "raster", "--backend", gl_backend)
+    check_rendering(installed, environment, tmp_path, *options)
+
+
+def test_it_traces(installed, environment, tmp_path):
+    check_rendering(installed, environment, tmp_path, "--renderer", "ray")
+
+
+def check_rendering(scripts: Path, environment: dict[str, str], folder: Path, *options: str):
+    command = ("render", "still-life", "-o", "a.npy", "--size", "64x36", *options)
+    end = run(scripts / "lucida", *command, cwd=folder, env=environment)
+    assert end.returncode == 0, end.stderr
+    image = np.load(folder / "a.npy")
+    assert image.shape == (36, 64, 3)
+    assert np.isfinite(image).all()
+    assert len(np.unique(image.reshape(-1, 3), axis=0)) > 100
+
+
+def test_it_knows_its_scenes_and_version(installed, environment, tmp_path):
+    for argument, expected in (("scenes", "still-life"), ("--version", __version__)):
+        end = run(installed / "lucida", argument, cwd=tmp_path, env=environment)
+        assert end.returncode == 0, end.stderr
+        assert expected in end.stdout

@@ -1,0 +1,320 @@
+"""A scene's file that is saved while the window shows it: read again, the user's view kept."""
+
+from __future__ import annotations
+
+import os
+import threading
+from dataclasses import replace
+from pathlib import Path
+from types import SimpleNamespace
+
+import numpy as np
+import pytest
+from waiting import wait_for
+
+from app.state.app_state import AppState, History
+from app.storage import watching
+from app.storage.scene_watch import SceneWatch
+from app.storage.watching import LOOK_S, REST_S
+from app.window import opening
+from app.window.files import Files
+from app.window.main_window import MainWindow
+from app.window.opening import Opened
+from renderer.scene import Scene, load_scene, subprocess_reader
+from renderer.scene.models import read_by
+
+BALL = "[[objects]]\ntype = 'sphere'\n"
+MODEL = "[[objects]]\ntype = 'model'\nfile = 'm.obj'\n"
+TRIANGLE = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"
+
+
+class Clock:
+    def __init__(self) -> None:
+        self.now_s = 100.0
+
+    def __call__(self) -> float:
+        self.now_s += max(LOOK_S, REST_S)
+        return self.now_s
+
+
+@pytest.fixture
+def path(tmp_path: Path) -> Path:
+    (tmp_path / "m.obj").write_text(TRIANGLE)
+    path = tmp_path / "scene.toml"
+    path.write_text(BALL + MODEL)
+    return path
+
+
+@pytest.fixture
+def files(monkeypatch):
+    # There only: who waits for a process has the real clock.
+    monkeypatch.setattr("app.window.files.time", SimpleNamespace(monotonic=Clock()))
+    files = Files(lambda: None)
+    yield files
+    files.close()
+
+
+def follow(files: Files, scene: Scene, looks: int = 4) -> Opened | None:
+    """What comes of some frames in which the scene is shown."""
+    for _ in range(looks):
+        files.follow(scene)
+    wait_for(lambda: not files._rereading._working and files._rereading._waiting is None)
+    return files.poll()
+
+
+def loaded(files: Files) -> Opened:
+    """What the loading under way brings."""
+    while (opened := files.poll()) is None:
+        pass
+    return opened
+
+
+def test_it_is_looked_at_now_and_then_not_in_every_frame(path: Path, monkeypatch) -> None:
+    looks = []
+    look = watching.stamp
+    monkeypatch.setattr(watching, "stamp", lambda p: looks.append(p) or look(p))
+    watch = SceneWatch()
+    watch.shown(load_scene(path))
+    assert not any(watch.changed(5.0 + frame / 60) for frame in range(60))
+    assert 2 < len(looks) <= 2 * (1 + 1 / LOOK_S)
+    assert set(looks) == {path, path.parent / "m.obj"}
+    looks.clear()
+    watch.shown(load_scene("spheres"))
+    assert not any(watch.changed(9.0 + number) for number in range(9))
+    assert not looks  # nothing in a disk's way for what is built in
+
+
+def test_a_saved_scene_is_read_again_once(path: Path, files: Files) -> None:
+    scene = load_scene(path)
+    assert follow(files, scene) is None
+    path.write_text(BALL * 3 + MODEL)
+    opened = follow(files, scene)
+    assert opened is not None
+    assert opened.scene is not None
+    assert len(opened.scene.objects) == 4
+    assert opened.replaces is scene
+    assert opened.prepared is not None
+    assert follow(files, scene) is None
+
+
+def test_what_is_saved_while_it_is_read_is_read_too(path: Path, files: Files) -> None:
+    scene = load_scene(path)
+    follow(files, scene)
+    path.write_text(BALL * 2 + MODEL)
+    opened = follow(files, scene)
+    assert opened is not None
+    assert opened.scene is not None
+    path.write_text(BALL * 3 + MODEL)  # before the window shows what was read
+    opened = follow(files, opened.scene)
+    assert opened is not None
+    assert opened.scene is not None
+    assert len(opened.scene.objects) == 4
+
+
+def test_what_is_saved_during_the_first_reading_is_read_too(path: Path, files: Files) -> None:
+    scene = load_scene(path)
+    path.write_text(BALL * 3 + MODEL)  # before the window shows it
+    opened = follow(files, scene)
+    assert opened is not None
+    assert opened.scene is not None
+    assert len(opened.scene.objects) == 4
+
+
+def test_a_model_that_is_missing_is_awaited(path: Path, files: Files) -> None:
+    scene = load_scene(path)
+    follow(files, scene)
+    path.write_text(BALL + MODEL.replace("m.obj", "later.obj"))
+    assert follow(files, scene) is None
+    assert "later.obj: does not exist" in files.message
+    assert follow(files, scene) is None
+    path.with_name("later.obj").write_text(TRIANGLE)
+    opened = follow(files, scene)
+    assert opened is not None
+    assert opened.scene is not None
+    assert opened.scene.objects[1].name == "later"
+    assert files.message == ""
+    assert follow(files, opened.scene) is None
+
+
+def test_a_model_that_is_not_named_any_more_may_go(path: Path, files: Files) -> None:
+    scene = load_scene(path)
+    follow(files, scene)
+    path.with_name("m.obj").unlink()
+    path.write_text(BALL)
+    assert follow(files, scene) is not None
+
+
+GLTF = """{"asset": {"version": "2.0"}, "scenes": [{"nodes": [0]}], "nodes": [{"mesh": 0}],
+"meshes": [{"primitives": [{"attributes": {"POSITION": 0}}]}],
+"accessors": [{"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3"}],
+"bufferViews": [{"buffer": 0, "byteLength": 36}],
+"buffers": [{"uri": "m.bin", "byteLength": 36}]}"""
+
+
+@pytest.mark.parametrize("apart", [False, True])
+@pytest.mark.parametrize("there", [False, True])
+def test_so_is_what_a_model_names(
+    path: Path, files: Files, monkeypatch: pytest.MonkeyPatch, apart: bool, there: bool
+) -> None:
+    """Its numbers and its materials: saved anew, or missing at first."""
+    monkeypatch.setattr(subprocess_reader, "is_large", lambda _: apart)
+    folder = path.parent
+    (folder / "m.gltf").write_text(GLTF)
+    corners = np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0]], "<f4")
+    (folder / "m.bin").write_bytes(corners.tobytes())
+    (folder / "m.obj").write_text("mtllib m.mtl\n" + TRIANGLE.replace("\nf", "\nusemtl red\nf"))
+    if there:
+        (folder / "m.mtl").write_text("newmtl red\nKd 0 1 0\n")
+    path.write_text(BALL + MODEL + MODEL.replace(".obj", ".gltf"))
+    with read_by(subprocess_reader.ModelReader().read):
+        scene = load_scene(path)
+    assert follow(files, scene) is None
+    (folder / "m.mtl").write_text("newmtl red\nKd 1.0 0 0\n")
+    opened = follow(files, scene)
+    assert opened is not None
+    assert opened.scene is not None
+    assert opened.scene.objects[1].material.diffuse == (1.0, 0.0, 0.0)
+    (folder / "m.bin").write_bytes((2 * corners).tobytes())
+    opened = follow(files, opened.scene)
+    assert opened is not None
+    assert opened.scene is not None
+    assert opened.scene.objects[2].shape.vertices.max() == 2.0
+
+
+def test_undo_to_an_older_version_of_a_file_reads_nothing(path: Path, files: Files) -> None:
+    old = load_scene(path)
+    follow(files, old)
+    path.write_text(BALL * 2 + MODEL)
+    opened = follow(files, old)
+    assert opened is not None
+    assert opened.scene is not None
+    assert follow(files, opened.scene) is None
+    assert follow(files, old) is None
+
+
+def test_so_is_one_whose_model_is_saved(path: Path, files: Files) -> None:
+    scene = load_scene(path)
+    follow(files, scene)
+    (path.parent / "m.obj").write_text(TRIANGLE + "v 1 1 0\nf 2 4 3\n")
+    opened = follow(files, scene)
+    assert opened is not None
+    assert opened.scene is not None
+    assert len(opened.scene.objects[1].shape.faces) == 2
+
+
+def test_a_mistake_is_one_line_until_it_is_mended(path: Path, files: Files) -> None:
+    scene = load_scene(path)
+    follow(files, scene)
+    path.write_text(BALL + "radius = 'x'\n" + MODEL)
+    assert follow(files, scene) is None
+    assert files.message == f"{path}: objects[0].radius: is text in quotes; give a number"
+    path.write_text(BALL + "radius = 2\n" + MODEL)
+    opened = follow(files, scene)
+    assert opened is not None
+    assert files.message == ""
+
+
+def test_a_file_that_is_away_for_a_moment_is_no_change(path: Path, files: Files) -> None:
+    scene, text = load_scene(path), path.read_text()
+    follow(files, scene)
+    path.unlink()
+    assert follow(files, scene) is None
+    assert files.message == ""
+    path.write_text(text + BALL)
+    assert follow(files, scene) is not None
+
+
+def test_what_the_window_saves_itself_is_not_read_again(path: Path, files: Files, monkeypatch):
+    scene = load_scene(path)
+    follow(files, scene)
+    monkeypatch.setattr(files, "_ask", lambda question, filters: question.chosen([str(path)]))
+    os.utime(path, (1, 1))
+    files.save_scene_dialog(scene, scene.view)
+    wait_for(lambda: bool(files.poll_said() or files.poll()))
+    assert follow(files, scene) is None
+
+
+def test_a_dropped_scene_that_now_names_a_file_elsewhere_is_asked_about(
+    path: Path, files: Files
+) -> None:
+    (path.parent.parent / "out.obj").write_text(TRIANGLE)
+    files.open_all([str(path)], dropped=True)
+    scene = loaded(files).scene
+    assert scene is not None
+    follow(files, scene)
+    path.write_text(BALL + MODEL.replace("m.obj", "../out.obj"))
+    assert follow(files, scene) is None
+    assert files.outside is not None
+    assert files.outside.files == (path.parent.parent / "out.obj",)
+    files.outside.again()
+    opened = loaded(files)
+    assert opened.scene is not None
+    assert opened.agreed == frozenset([path.parent.parent / "out.obj"])
+
+
+def test_each_question_about_files_elsewhere_opens_what_it_asked_about(
+    path: Path, files: Files, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """The shown scene is read again, and asks, while another one is still being loaded."""
+    (path.parent.parent / "out.obj").write_text(TRIANGLE)
+    other = path.with_name("other.toml")
+    other.write_text(MODEL.replace("m.obj", "../out.obj"))
+    files.open_all([str(path)], dropped=True)
+    shown = loaded(files).scene
+    assert shown is not None
+    files.follow(shown)
+    gate, load = threading.Event(), opening.load_scene
+
+    def slow(source: str) -> Scene:
+        if Path(source) == other:
+            gate.wait(60)
+        return load(source)
+
+    monkeypatch.setattr(opening, "load_scene", slow)
+    path.write_text(BALL + MODEL.replace("m.obj", "../out.obj"))
+    for _ in range(4):
+        files.follow(shown)
+    files.open_all([str(other)], dropped=True)
+    for name in (path.name, other.name):
+        while files.outside is None or files.outside.name != name:
+            files.poll()
+        gate.set()
+    files.outside.again()
+    assert loaded(files).sources == (str(other),)
+
+
+class Window:
+    """As much of the window as takes newer scenes."""
+
+    def __init__(self, state: AppState) -> None:
+        self.history = History(state)
+        self.files = self
+        self.said: list[str] = []
+
+    @property
+    def state(self) -> AppState:
+        return self.history.present
+
+    def change(self, state: AppState) -> None:
+        self.history = self.history.change(state)
+
+    def say(self, text: str) -> None:
+        self.said.append(text)
+
+
+@pytest.mark.parametrize("moved", [False, True])
+def test_the_users_camera_stays_and_undo_goes_back(path: Path, moved: bool) -> None:
+    old = load_scene(path)
+    window = Window(AppState.for_scene(old))
+    if moved:
+        camera = replace(old.view.camera, eye=(0.0, 1.0, 9.0))
+        window.change(window.state.with_camera(camera))
+    path.write_text(BALL + "center = [9, 0, 0]\n" + MODEL)
+    new = load_scene(path)
+    before = window.state
+    MainWindow._take_newer(window, old, new)
+    assert window.state.scene is new
+    assert window.state.view == (before.view if moved else new.view)
+    assert window.state.view != (new.view if moved else before.view)
+    assert window.said == ["scene was read again: its file was saved."]
+    assert window.history.undo().present == before

@@ -1,0 +1,24 @@
+"""The promise: what the rasterizer, the packets and the reference draw is the same."""
+
+from __future__ import annotations
+
+from renderer import Camera, Rasterizer, Tracer
+from renderer.compare import CHANNELS, compare_frames
+from renderer.scene.flat import flatten
+from renderer.scene.model import Scene
+
+
+def agree(scene: Scene, camera: Camera, size=(96, 64)):
+    """The frames of all three renderers, of which each two agree."""
+    with Rasterizer(scene) as rasterizer:
+        raster = rasterizer.render(camera, size, channels=CHANNELS)
+    with Tracer(scene) as tracer:
+        packets = tracer.render(camera, size, channels=CHANNELS)
+    with Tracer(scene, method="reference") as tracer:
+        single = tracer.render(camera, size, channels=CHANNELS)
+    flat = flatten(scene)
+    for first, second in ((raster, packets), (raster, single), (single, packets)):
+        result = compare_frames(flat, camera, size, first, second)
+        assert result.unexplained == 0, result.summary()
+        assert result.agree > 0.97 * result.pixels, result.summary()
+    return raster, packets, single

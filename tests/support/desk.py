@@ -1,0 +1,191 @@
+"""A desk to try the window on: a display that nobody looks at, with a window manager, driven from
+outside by keys and mouse, as a person does.
+
+Desk is the display, Program a run of Lucida on it. Nothing here knows what is in the window, and
+no time is measured: conditions are waited for.
+"""
+
+from __future__ import annotations
+
+import os
+import shutil
+import subprocess
+import sys
+import threading
+import time
+from collections.abc import Callable
+from pathlib import Path
+
+import numpy as np
+from PIL import Image, ImageGrab
+
+ROOT = Path(__file__).parents[2]
+PATIENT_S = 120.0  # the first picture of an installation waits for compiled kernels
+NEEDED = ("Xvfb", "openbox", "xdotool")
+INSTALL = "sudo apt-get install --no-install-recommends xvfb openbox xdotool"
+STATUS_PX = 50
+REST_S = 2.5  # longer than the window ever waits between two frames
+PAUSE_S = 0.3  # between two keys
+QUIET = {"stdout": subprocess.DEVNULL, "stderr": subprocess.DEVNULL}
+
+
+def missing() -> str:
+    """Why there can be no desk here; empty where there can."""
+    absent = [name for name in NEEDED if shutil.which(name) is None]
+    return f"no {', '.join(absent)} here; run: {INSTALL}" if absent else ""
+
+
+def until(condition: Callable[[], object], what: str) -> None:
+    end_s = time.monotonic() + PATIENT_S
+    while not condition():
+        assert time.monotonic() < end_s, f"waited in vain: {what}"
+        time.sleep(0.05)
+
+
+class Desk:
+    """Use it as a context manager. size: (width, height) of the screen."""
+
+    def __init__(self, size: tuple[int, int] = (1280, 720)) -> None:
+        self.size = size
+
+    def __enter__(self) -> Desk:
+        read, write = os.pipe()
+        screen = f"{self.size[0]}x{self.size[1]}x24"
+        self._server = subprocess.Popen(
+            ["Xvfb", "-displayfd", str(write), "-screen", "0", screen], pass_fds=(write,), **QUIET
+        )
+        os.close(write)
+        with os.fdopen(read) as pipe:
+            self.display = f":{pipe.readline().strip()}"
+        assert self.display != ":", "Xvfb did not start"
+        self._manager = subprocess.Popen(["openbox"], env=self.environment, **QUIET)
+        self.key("shift")  # answers once the display takes input
+        return self
+
+    def __exit__(self, *exception: object) -> None:
+        for process in (self._manager, self._server):
+            process.kill()
+            process.wait()
+
+    @property
+    def environment(self) -> dict[str, str]:
+        kept = {k: v for k, v in os.environ.items() if k != "WAYLAND_DISPLAY"}
+        return kept | {"DISPLAY": self.display}
+
+    def xdotool(self, *words: object) -> list[str]:
+        done = subprocess.run(
+            ["xdotool", *map(str, words)], env=self.environment, capture_output=True, text=True
+        )
+        return done.stdout.split()
+
+    def key(self, *chords: str) -> None:
+        """Presses chords, such as ctrl+plus, each at once, as a remote desktop does."""
+        for chord in chords:
+            self.xdotool("key", chord, "sleep", PAUSE_S)
+
+    def chord(self, modifier: str, key: str) -> None:
+        """Holds a modifier, presses a key, as a finger does."""
+        self.xdotool("keydown", modifier, "sleep", 0.1, "key", key, "sleep", 0.1, "keyup", modifier)
+
+    def click(self, x: int, y: int) -> None:
+        press = "sleep", 0.1, "mousedown", 1, "sleep", 0.1, "mouseup", 1, "sleep", 0.1
+        self.xdotool("mousemove", x, y, *press)
+
+    def rest(self) -> None:
+        """Puts the mouse where it points at nothing: the middle of the status line."""
+        self.xdotool("mousemove", self.size[0] // 2, self.size[1] - 30)
+
+    def type(self, text: str) -> None:
+        self.xdotool("type", "--delay", 60, text)
+
+    def picture(self) -> np.ndarray:
+        """The screen, uint8 (height, width, 3)."""
+        return np.asarray(ImageGrab.grab(xdisplay=self.display).convert("RGB"))
+
+    def still(self) -> np.ndarray:
+        """The screen once it rests."""
+        last, since_s = self.picture(), time.monotonic()
+        end_s = since_s + PATIENT_S
+        while time.monotonic() < since_s + REST_S:
+            time.sleep(0.1)
+            now = self.picture()
+            if (now != last).any():
+                last, since_s = now, time.monotonic()
+            assert since_s < end_s, "the window never rests"
+        return last
+
+    def burst(self, do: Callable[[], None]) -> list[float]:
+        """The black parts of all different pictures from before something is done, which changes
+        the screen, until that rests. Menu bar and status line are black in some looks: without."""
+        doing = threading.Thread(target=do)
+        last = self.picture()
+        parts, since_s = [_black(last)], time.monotonic()
+        end_s = since_s + PATIENT_S
+        doing.start()
+        while doing.is_alive() or len(parts) == 1 or time.monotonic() < since_s + REST_S:
+            assert time.monotonic() < end_s, f"{len(parts)} different pictures, and no rest"
+            now = self.picture()
+            if (now != last).any():
+                last, since_s = now, time.monotonic()
+                parts.append(_black(now))
+        return parts
+
+
+def check_same(one: np.ndarray, other: np.ndarray, folder: Path) -> None:
+    """Both screens show the same above the status line, which tells times; otherwise they are left
+    in the folder."""
+    differ = (one != other)[:-STATUS_PX].any(axis=2)
+    if differ.any():
+        for name, picture in (("one", one), ("other", other)):
+            Image.fromarray(picture).save(folder / f"{name}.png")
+        rows, columns = np.nonzero(differ)
+        box = columns.min(), rows.min(), columns.max(), rows.max()
+        raise AssertionError(f"{len(rows)} pixels differ, within {box}: see {folder}")
+
+
+def _black(picture: np.ndarray) -> float:
+    return float((picture[60:-60].max(axis=2) < 6).mean())
+
+
+class Program:
+    """A run of Lucida on a desk; arguments: of the command. home: the user's, kept between runs.
+    The window takes the whole screen, and rests, when this returns."""
+
+    def __init__(self, desk: Desk, home: Path, *arguments: str) -> None:
+        self._desk = desk
+        folders = {f"XDG_{name}_HOME": str(home / name) for name in ("CONFIG", "DATA", "STATE")}
+        environment = desk.environment | folders | {"PYTHONPATH": str(ROOT)}
+        self._log = home / "program.log"
+        with self._log.open("w") as log:
+            self._process = subprocess.Popen(
+                [sys.executable, "-m", "app", *arguments],
+                cwd=home,
+                env=environment,
+                stdout=log,
+                stderr=log,
+            )
+        until(self._is_shown, "the window")
+        width, height = desk.size
+        window = desk.xdotool("search", "--onlyvisible", "--name", "^Lucida")[-1]
+        size = "windowsize", "--sync", window, width, height - 20
+        desk.xdotool(*size, "windowmove", window, 0, 0, "windowactivate", "--sync", window)
+        desk.rest()
+        desk.still()
+
+    def _is_shown(self) -> bool:
+        assert self._process.poll() is None, f"it ended: {self._log.read_text()}"
+        return bool(self._desk.xdotool("search", "--onlyvisible", "--name", "^Lucida"))
+
+    def __enter__(self) -> Program:
+        return self
+
+    def __exit__(self, *exception: object) -> None:
+        if self._process.poll() is None:
+            self._process.kill()
+        self._process.wait()
+
+    def quit(self) -> None:
+        """Ctrl+Q; it must end well, and have nothing to say."""
+        self._desk.chord("ctrl", "q")
+        assert self._process.wait(PATIENT_S) == 0, self._log.read_text()
+        assert self._log.read_text() == ""

@@ -1,0 +1,265 @@
+"""Drives the real window with ImGui's test engine, on GLFW's null platform; a process of its own.
+
+    python window_driver.py REPORT.json FOLDER TOPIC [PART OF A NAME ...]
+
+runs every function of drives/TOPIC.py whose name begins with `drive_` (or those named), in order,
+in one window, and writes a JSON object from their names to "" or the traceback of their failure.
+Pictures of the window are left in FOLDER. test_window.py runs it and tells the results.
+"""
+
+from __future__ import annotations
+
+import json
+import os
+import runpy
+import sys
+import threading
+import time
+import traceback
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+os.environ.pop("DISPLAY", None)
+os.environ.pop("WAYLAND_DISPLAY", None)
+
+from imgui_bundle import hello_imgui, imgui
+from PIL import Image
+
+from app.outside import mouse as outside_mouse
+from app.pair import view as pair
+from app.pair.view import RASTER, RAY
+from app.state.app_state import AppState, History
+from app.widgets.surface import Target
+from app.widgets.theme import framebuffer_scale
+from app.window import viewer
+from app.window.canvas import Canvas
+from app.window.platform import start_platform
+from app.window.viewer import Run
+from renderer.scene import load_scene
+
+SIZE = (1100, 720)
+pair.PAUSE_S = outside_mouse.WHEEL_PAUSE_S = (
+    10.0  # on a slow machine a turn of the wheel takes long
+)
+ATTEMPTS = 3  # a picture can be taken of a frame in which a window is still being laid out
+PATIENT_S = 120.0  # the first tracing compiles
+IMAGES = {name: f"//###{name}/image##{name}" for name in (RASTER, RAY)}
+Key = imgui.Key
+
+
+class Glimpses(Canvas):
+    """Frames that nobody looks at are drawn into one pixel: it is a processor that draws them."""
+
+    is_seen: Callable[[], bool]
+
+    def bind(self, size: tuple[int, int], unfinished: bool) -> Target:
+        return super().bind(size if self.is_seen() else (1, 1), unfinished)
+
+    @property
+    def shown(self) -> Target | None:
+        shown = super().shown
+        return shown if shown is not None and shown.size != (1, 1) else None
+
+
+class Driver:
+    """The window under test, and what tests do with it. ctx: the test engine's context."""
+
+    def __init__(self, folder: Path) -> None:
+        self.folder = folder
+        state = AppState.for_scene(load_scene("still-life"))
+        self.start = state
+        self.run = Run(start_platform(want_display=False), state, SIZE, remember=False)
+        self.window = self.run.window
+        self.ctx: Any = None
+        self.stay = False  # the mouse, while a picture is taken
+        self._pictures = 0
+        Glimpses.is_seen = lambda _: bool(self.run.on_drawn or self.window.shell.captures.busy)
+        viewer.Canvas = Glimpses  # type: ignore[misc]
+
+    def reset(self) -> None:
+        """Every test begins with the same state, at rest."""
+        self.window.history = History(self.start)
+        self.window.files.message = ""
+        self.window.shell.toasts.clear()
+        self.window.shell.stage.failures.clear()
+        self.window.traveller.stop()
+        self.window.traveller.instant = True  # no passage unless a test wants one
+        self.stay = False
+        self.ctx.mouse_up(0)  # a test that failed may hold it
+        self.ctx.mouse_teleport_to_pos((3, SIZE[1] - 3))
+        self.settle()
+
+    def until(self, condition: Callable[[], bool]) -> None:
+        end_s = time.monotonic() + PATIENT_S
+        while not condition():
+            assert time.monotonic() < end_s, "nothing happened"
+            self.ctx.yield_()
+
+    def settle(self) -> None:
+        """Until both images are complete and compared."""
+        self.ctx.yield_(3)
+        failures = self.window.shell.stage.failures
+        self.until(lambda: self.window.settled or bool(failures))
+        assert not failures, failures
+        self.ctx.yield_(2)
+
+    def picture(self) -> np.ndarray:
+        """What the window shows, uint8 (height, width, 3)."""
+        seen: list[np.ndarray] = []
+
+        def look(target: Target) -> None:
+            if not self.window.is_rearranging():
+                seen.append(target.read())
+
+        self.run.on_drawn = look
+        self.until(lambda: bool(seen))
+        self.run.on_drawn = None
+        self._pictures += 1
+        path = self.folder / f"{self._pictures:02d}.png"
+        Image.fromarray(seen[-1]).save(path, compress_level=1)
+        return seen[-1]
+
+    def rect(self, name: str) -> tuple[float, float, float, float]:
+        """Left, top, right, bottom of an image in the window."""
+        box = self.ctx.item_info(IMAGES[name]).rect_full
+        return box.min.x, box.min.y, box.max.x, box.max.y
+
+    def images(self) -> tuple[np.ndarray, np.ndarray]:
+        """The pixels of both images as shown, int16. Tooltips are not in the way."""
+        if not self.stay:
+            self.ctx.mouse_teleport_to_pos((3, SIZE[1] - 3))
+            self.ctx.yield_(3)
+        window, scale = self.picture(), framebuffer_scale()
+        cut = []
+        for name in (RASTER, RAY):
+            left, top, right, bottom = (round(edge * scale) for edge in self.rect(name))
+            cut.append(window[top:bottom, left:right].astype(np.int16))
+        return cut[0], cut[1]
+
+    def agreeing_images(self) -> tuple[np.ndarray, np.ndarray]:
+        """Both images at rest; they must agree, and show something."""
+        self.settle()
+        verdict = self.window.renderers.agreement.verdict_on(
+            self.window.renderers.request(self.window.state)
+        )
+        assert verdict is not None
+        assert verdict.unexplained == 0, verdict.text
+        for attempt in range(ATTEMPTS):
+            raster, ray = self.images()
+            assert raster.shape == ray.shape
+            size = self.window.renderers.size
+            assert raster.shape[:2] == (size[1], size[0])
+            different = (np.abs(raster - ray).max(axis=2) > 3).mean()
+            if different < 0.002 and raster.std() > 5:
+                return raster, ray
+            print(f"attempt {attempt}: {different:.2%} differ in {self._pictures:02d}.png")
+            self.settle()
+        deviations = f"standard deviations {raster.std():.1f} and {ray.std():.1f}"
+        raise AssertionError(f"{different:.2%} of the pixels differ on the screen; {deviations}")
+
+    def point(self, name: str, x: float, y: float) -> tuple[float, float]:
+        """A place in an image, as parts of its width and height."""
+        left, top, right, bottom = self.rect(name)
+        return left + x * (right - left), top + y * (bottom - top)
+
+    def drag(self, start: tuple[float, float], end: tuple[float, float], button: int = 0) -> None:
+        self.ctx.mouse_teleport_to_pos(start)
+        self.ctx.yield_()
+        self.ctx.mouse_down(button)
+        for part in (0.25, 0.5, 0.75, 1.0):
+            x, y = (a + part * (b - a) for a, b in zip(start, end, strict=True))
+            self.ctx.mouse_teleport_to_pos((x, y))
+            self.ctx.yield_()
+        self.ctx.mouse_up(button)
+        self.ctx.yield_()
+
+    def field(self, name: str) -> str:
+        return f"//Camera/##{name}"
+
+    def drag_field(self, name: str, pixels: float) -> None:
+        center = self.ctx.item_info(self.field(name)).rect_full.get_center()
+        self.drag((center.x, center.y), (center.x + pixels, center.y))
+
+    def type(self, name: str, text: str) -> None:
+        """Double-clicks a field and types."""
+        self.ctx.item_double_click(self.field(name))
+        self.ctx.key_chars_replace_enter(text)
+        self.ctx.yield_(2)
+
+
+def changed(before: np.ndarray, after: np.ndarray) -> float:
+    """The part of the pixels that differ visibly."""
+    return float((np.abs(before - after).max(axis=2) > 8).mean())
+
+
+def close_at_work(report: Path, folder: Path) -> None:
+    """Closes the window while a tracer prepares, which nothing can cancel."""
+    driver = Driver(folder)
+    driver.window.renderers.live._make_tracer = lambda scene: threading.Event().wait()
+    frames = iter(range(20))
+
+    def count() -> None:
+        driver.run.params.app_shall_exit = next(frames, None) is None
+
+    driver.run.params.callbacks.post_new_frame = count
+    driver.run.run()
+    busy = driver.window.renderers.live.busy
+    report.write_text(json.dumps({"close_at_work": "" if busy else "the tracer was not at work"}))
+
+
+def drives(topic: str) -> dict[str, Callable[[Driver], None]]:
+    """The functions of drives/TOPIC.py, which import this module."""
+    sys.modules["window_driver"] = sys.modules[__name__]
+    found = runpy.run_path(str(Path(__file__).parents[1] / "scenarios" / f"{topic}.py"))
+    return {name: test for name, test in found.items() if name.startswith("drive_")}
+
+
+def main(report: Path, folder: Path, topic: str, only: list[str]) -> None:
+    tests = drives(topic)
+    tests = {n: t for n, t in tests.items() if not only or any(part in n for part in only)}
+    results = dict.fromkeys(tests, "was not run")
+    driver = Driver(folder)
+    params = driver.run.params
+
+    def wrapped(name: str, test: Callable[[Driver], None]) -> Callable[[Any], None]:
+        def call(ctx: Any) -> None:
+            driver.ctx = ctx
+            try:
+                driver.reset()
+                test(driver)
+                results[name] = "the test engine found an error" if ctx.is_error() else ""
+            except BaseException:
+                results[name] = traceback.format_exc()
+            if name == list(tests)[-1]:
+                params.app_shall_exit = True
+
+        return call
+
+    def register() -> None:
+        engine = hello_imgui.get_imgui_test_engine()
+        io = imgui.test_engine.get_io(engine)
+        io.config_run_speed = imgui.test_engine.TestRunSpeed.fast
+        io.config_log_to_tty = True
+        io.config_watchdog_warning = io.config_watchdog_kill_test = 2 * PATIENT_S
+        for name, test in tests.items():
+            entry = imgui.test_engine.register_test(engine, "window", name)
+            entry.test_func = wrapped(name, test)
+            imgui.test_engine.queue_test(engine, entry)
+
+    params.use_imgui_test_engine = True
+    params.callbacks.register_tests = register
+    params.fps_idling.enable_idling = False
+    try:
+        driver.run.run()
+    finally:
+        report.write_text(json.dumps(results, indent=1))
+
+
+if __name__ == "__main__":
+    if sys.argv[3:] == ["close_at_work"]:
+        close_at_work(Path(sys.argv[1]), Path(sys.argv[2]))
+    else:
+        main(Path(sys.argv[1]), Path(sys.argv[2]), sys.argv[3], sys.argv[4:])

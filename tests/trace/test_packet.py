@@ -1,0 +1,290 @@
+"""Packets against the scalar reference: the same picture, but for pixels on its lines.
+
+The reference is float64. Packets are float32: a pixel's centre nearer to an outline than that can
+tell may see either side, a depth is rounded at most a few times (DEPTH), and what the product
+promises of its two renderers (renderer/compare.py) holds between these two as well.
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from scenes import crowd
+from trace_reference import ball
+
+from renderer.camera import Camera
+from renderer.compare import CHANNELS, TOLERANCE_PX, compare_frames
+from renderer.edges import Lines
+from renderer.frame import Frame
+from renderer.scene import BUILTIN_SCENES, load_scene
+from renderer.scene.flat import flatten
+from renderer.scene.model import Material, Mesh, PointLight, Scene, SceneObject, Sphere
+from renderer.trace.arguments.image import Image, new_image, to_frame
+from renderer.trace.arguments.view import View
+from renderer.trace.jobs.engine import Engine
+from renderer.trace.packets.cells import cells_of
+from renderer.trace.packets.engine import PacketEngine
+from renderer.trace.packets.view import packet_view
+from renderer.trace.threads.control import DONE, cancel, new_control
+from renderer.trace.threads.thread_pool import Team
+from tests.attack.random_scenes import random_camera
+
+# The corners' coordinates, the plane through them, the key and its inverse are rounded about a
+# dozen times; each rounding is half of this. The comparison of random cameras also allows what
+# TOLERANCE_PX changes on an oblique surface.
+DEPTH = 16 * 2.0**-23
+
+
+class Both:
+    """A scene in both engines."""
+
+    def __init__(self, scene: Scene) -> None:
+        self.team = Team(2)
+        self.scene, self.flat = scene, flatten(scene)
+        self.packets, self.reference = PacketEngine(scene, self.team), Engine(scene, self.team)
+
+    def frames(
+        self, camera: Camera, size: tuple[int, int], channels: tuple[str, ...] = CHANNELS
+    ) -> tuple[Frame, Frame]:
+        """(reference, packets)."""
+        return tuple(
+            self._frame(engine, camera, size, channels) for engine in (self.reference, self.packets)
+        )
+
+    def _frame(self, engine, camera, size, channels):
+        image = new_image(size, channels)
+        for buffer in (image.color, image.depth, image.normal, image.id, image.primitive):
+            buffer.fill(-77)  # every pixel is written
+        engine.trace(View.of(camera), image, new_control())
+        return to_frame(image, self.scene.background, 0.0)
+
+    def unexplained(self, camera: Camera, size: tuple[int, int]) -> str:
+        reference, packets = self.frames(camera, size)
+        comparison = compare_frames(self.flat, camera, size, reference, packets)
+        return comparison.summary() if comparison.unexplained else ""
+
+    def close(self) -> None:
+        self.team.close()
+
+
+@pytest.fixture
+def both():
+    """Makes a Both of a scene."""
+    made = []
+
+    def make(scene: Scene) -> Both:
+        made.append(Both(scene))
+        return made[-1]
+
+    yield make
+    for one in made:
+        one.close()
+
+
+SCENES = {"crowd": crowd, **{name: lambda name=name: load_scene(name) for name in BUILTIN_SCENES}}
+
+
+@pytest.mark.parametrize("name", SCENES)
+def test_random_cameras_see_the_same(name: str, both) -> None:
+    pair = both(SCENES[name]())
+    random = np.random.default_rng(11)
+    for number in range(25):
+        camera = random_camera(random, pair.flat.bounds)
+        size = tuple(int(side) for side in random.integers(20, 150, 2))
+        assert not (wrong := pair.unexplained(camera, size)), f"{number}: {camera}\n{wrong}"
+
+
+@pytest.mark.parametrize("projection", ["perspective", "parallel"])
+def test_depth_is_exact_to_a_few_roundings(projection: str, both) -> None:
+    pair = both(Scene((SceneObject(ball(60, 90)), SceneObject(Sphere((1.2, 0.4, 0.5), 0.7)))))
+    camera = replace(Camera.look_at((3, 2, 4), (0, 0, 0)), projection=projection)
+    camera = camera if projection == "perspective" else replace(camera, viewport=(-2, 2, -2, 2))
+    size = (300, 300)
+    reference, packets = pair.frames(camera, size)
+    same = (reference.primitive == packets.primitive) & (reference.primitive >= 0)
+    i, j = np.nonzero(same)
+    exact = reference.depth[i, j].astype(float)
+    # A ray that is off by a 1,000th of a pixel sees another depth on an oblique surface.
+    slope = Lines(pair.flat, camera, size).slope(reference.primitive[i, j], i, j, exact)
+    error = np.abs(packets.depth[i, j] - exact)
+    inside = np.isfinite(slope)  # it has none within a 256th of a pixel of a silhouette
+    assert np.all(error[inside] <= (DEPTH * exact + 1e-3 * slope)[inside])
+    assert np.count_nonzero(inside) > 10_000
+
+
+def test_pixels_that_differ_touch_an_outline(both) -> None:
+    """Not only explained: what float32 decides is a 1,000th of a pixel, not 1/128."""
+    pair = both(Scene((SceneObject(ball(60, 90)),)))
+    random = np.random.default_rng(12)
+    differ = 0
+    for _ in range(20):
+        camera = random_camera(random, pair.flat.bounds)
+        reference, packets = pair.frames(camera, (160, 120), ("id", "primitive"))
+        i, j = np.nonzero(reference.id != packets.id)
+        seen = np.maximum(reference.primitive[i, j], packets.primitive[i, j])
+        distance = Lines(pair.flat, camera, (160, 120)).outline_px(seen, i, j)
+        assert (distance < TOLERANCE_PX / 4).all()
+        differ += len(i)
+    assert differ < 20
+
+
+@pytest.mark.parametrize("distance", [3.0, 360.0, 1e4])
+@pytest.mark.parametrize("projection", ["perspective", "parallel"])
+def test_telephoto(distance: float, projection: str, both) -> None:
+    """Views that see a thousandth of the scene, from near and from far."""
+    pair = both(Scene((SceneObject(ball(200, 300)), SceneObject(Sphere((0.9, 0.1, 0.4), 0.05)))))
+    eye = np.array([0.6, 0.5, 0.7]) * distance
+    for part in (0.3, 0.001):
+        half = part * (1 if projection == "parallel" else 1 / np.linalg.norm(eye))
+        camera = Camera.look_at(eye, (0.85, 0.1, 0.4))
+        camera = replace(camera, viewport=(-half, half, -half, half), projection=projection)
+        assert not (wrong := pair.unexplained(camera, (128, 128))), wrong
+    view = packet_view(
+        View.of(camera), (128, 128), pair.packets.instances, np.zeros(3), cells_of(pair.flat)
+    )
+    assert view.exact[0] == 1
+
+
+def test_no_leak_in_a_closed_mesh() -> None:
+    mesh = ball(90, 120)
+    random = np.random.default_rng(13)
+    team = Team(2)
+    engine = PacketEngine(Scene((SceneObject(mesh),)), team)
+    for _ in range(25):
+        basis = random.normal(size=(3, 3))
+        while abs(np.linalg.det(basis)) < 0.2:
+            basis = random.normal(size=(3, 3))
+        eye = random.uniform(-0.4, 0.4, 3)
+        camera = Camera(tuple(eye), *(tuple(vector) for vector in basis), 0.4)
+        image = new_image((400, 300), ("id",))
+        engine.trace(View.of(camera), image, new_control())
+        assert not image.id.any()
+    team.close()
+
+
+def test_pixel_centres_on_vertices_and_edges_are_covered(both) -> None:
+    n = 9
+    j, i = np.meshgrid(np.arange(n), np.arange(n))
+    vertices = np.stack([j.ravel() - 4, 4 - i.ravel(), np.zeros(n * n)], axis=1)
+    corner = (i[:-1, :-1] * n + j[:-1, :-1]).ravel()
+    upper = np.stack([corner, corner + n, corner + 1], axis=1)
+    lower = np.stack([corner + 1, corner + n, corner + n + 1], axis=1)
+    pair = both(Scene((SceneObject(Mesh(vertices, np.concatenate([upper, lower]))),)))
+    for projection in ("perspective", "parallel"):
+        camera = Camera((0, 0, 8), distance=1.0, projection=projection)
+        half = 0.5 if projection == "perspective" else 4.0
+        camera = replace(camera, viewport=(-half, half, -half, half))
+        _, packets = pair.frames(camera, (16, 16))
+        assert (packets.id == 0).all()
+
+
+@pytest.mark.parametrize("size", [(1, 1), (3, 2), (16, 16), (17, 33), (70, 5)])
+def test_every_size(size: tuple[int, int], both) -> None:
+    pair = both(crowd())
+    camera = Camera.look_at((3, 2, 4), (0, 0, 0)).fitted(size)
+    assert not (wrong := pair.unexplained(camera, size)), wrong
+
+
+@pytest.mark.parametrize("channel", CHANNELS)
+def test_a_channel_alone_is_the_same(channel: str, both) -> None:
+    pair = both(crowd())
+    camera = Camera.look_at((3, 2, 4), (0, 0, 0))
+    _, whole = pair.frames(camera, (50, 40))
+    _, alone = pair.frames(camera, (50, 40), (channel,))
+    assert np.array_equal(alone.channel(channel), whole.channel(channel))
+    assert sum(getattr(alone, name) is not None for name in CHANNELS) == 1
+
+
+def test_near_and_far(both) -> None:
+    pair = both(crowd())
+    for projection in ("perspective", "parallel"):
+        camera = replace(
+            Camera.look_at((3, 2, 4), (0, 0, 0)), projection=projection, near=4.3, far=5.6
+        )
+        if projection == "parallel":
+            camera = replace(camera, viewport=(-1.5, 1.5, -1.5, 1.5))
+        reference, packets = pair.frames(camera, (120, 120))
+        hits = packets.depth[packets.id >= 0]
+        assert hits.min() > 4.3
+        assert hits.max() < 5.6
+        comparison = compare_frames(pair.flat, camera, (120, 120), reference, packets)
+        assert not comparison.unexplained, comparison.summary()
+
+
+def test_transformed_objects_share_a_mesh(both) -> None:
+    """Mirrored, stretched, sheared, far from the origin: instances of one ball."""
+    random = np.random.default_rng(14)
+    base = ball(12, 18)
+    normals = base.vertices / np.linalg.norm(base.vertices, axis=1, keepdims=True)
+    objects = []
+    for number in range(12):
+        transform = np.eye(4)
+        transform[:3, :3] = random.normal(size=(3, 3)) * 0.4
+        transform[:3, 3] = random.uniform((98, -2, -2), (102, 2, 2))
+        mesh = Mesh(base.vertices, base.faces, normals if number % 2 else None, None, transform)
+        objects.append(SceneObject(mesh, Material(specular=(0.4, 0.4, 0.4))))
+    pair = both(Scene(tuple(objects), (PointLight((105, 4, 3)),)))
+    for projection in ("perspective", "parallel"):
+        camera = replace(Camera.look_at((104, 3, 5), (100, 0, 0)), projection=projection)
+        half = 0.5 if projection == "perspective" else 3.0
+        camera = replace(camera, viewport=(-half, half, -half, half))
+        assert not (wrong := pair.unexplained(camera, (200, 160))), wrong
+
+
+def test_thousands_of_spheres_and_objects(both) -> None:
+    random = np.random.default_rng(15)
+    mesh = ball(4, 6)
+    objects = []
+    for number, center in enumerate(random.uniform(-5, 5, (3000, 3))):
+        if number % 3:
+            objects.append(SceneObject(Sphere(tuple(center), 0.1)))
+        else:
+            transform = np.diag([0.1, 0.1, 0.1, 1.0])
+            transform[:3, 3] = center
+            objects.append(SceneObject(Mesh(mesh.vertices, mesh.faces, transform=transform)))
+    pair = both(Scene(tuple(objects)))
+    camera = Camera.look_at((9, 7, 8), (0, 0, 0), fov_y_deg=50)
+    reference, packets = pair.frames(camera, (300, 200))
+    assert len(np.unique(packets.id)) > 700
+    comparison = compare_frames(pair.flat, camera, (300, 200), reference, packets)
+    assert not comparison.unexplained, comparison.summary()
+
+
+def test_inside_and_behind_a_sphere(both) -> None:
+    pair = both(Scene((SceneObject(Sphere((0, 0, 0), 2)), SceneObject(Sphere((0, 0, 5), 1)))))
+    for eye in ((0, 0, 0), (0.5, 1.2, -1), (0, 0, 1.999), (0, 0, 2.001)):
+        for projection in ("perspective", "parallel"):
+            camera = Camera(eye, distance=0.7, projection=projection)
+            assert not (wrong := pair.unexplained(camera, (60, 60))), wrong
+
+
+def test_nothing_to_see(both) -> None:
+    pair = both(Scene((), background=(0.1, 0.2, 0.3)))
+    _, frame = pair.frames(Camera(), (20, 10))
+    assert (frame.id == -1).all()
+    assert np.isposinf(frame.depth).all()
+    assert np.allclose(frame.color, (0.1, 0.2, 0.3))
+    assert not frame.normal.any()
+
+
+def test_degenerate_triangles_are_not_seen(both) -> None:
+    vertices = np.array([[0, 0, 0], [1, 0, 0], [2, 0, 0], [0, 1, 0]])
+    pair = both(Scene((SceneObject(Mesh(vertices, [[0, 1, 2], [0, 0, 3], [0, 1, 3]])),)))
+    camera = Camera.look_at((0.3, 0.3, 3), (0.3, 0.3, 0))
+    reference, packets = pair.frames(camera, (64, 64))
+    assert set(np.unique(packets.primitive)) == {-1, 2}
+    assert np.array_equal(reference.primitive, packets.primitive)
+
+
+def test_a_cancelled_image_stops() -> None:
+    team = Team(2)
+    engine = PacketEngine(crowd(), team)
+    control = new_control()
+    cancel(control)
+    image: Image = new_image((640, 480), ("id",))
+    engine.trace(View.of(Camera.look_at((3, 2, 4), (0, 0, 0))), image, control)
+    assert not image.finished.any()
+    assert control[DONE] == 0
+    team.close()

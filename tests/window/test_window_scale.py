@@ -1,0 +1,64 @@
+"""The window on a display of 200 %: type and spacing double, the images are sharp and agree."""
+
+from __future__ import annotations
+
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+import numpy as np
+import pytest
+from PIL import Image
+
+TESTS = Path(__file__).parents[1]
+
+SCRIPT = """
+import sys
+from pathlib import Path
+from imgui_bundle import imgui
+from app.widgets import theme
+from app.window.platform import start_platform
+from app.state.app_state import AppState
+from app.window.viewer import Run, save_png
+from renderer.scene import load_scene
+
+state = AppState.for_scene(load_scene("spheres"))
+state = state.with_options(preferences={"font_scale": float(sys.argv[1])})
+run = Run(start_platform(want_display=False), state, (1600, 1000), take_picture=True)
+run.params.dpi_aware_params.dpi_window_size_factor = 2.0
+told = []
+
+def look():
+    style = imgui.get_style()
+    told[:] = [imgui.get_font_size(), style.frame_padding.x, theme.line_px(), style._main_scale]
+
+run.params.callbacks.post_new_frame = look
+save_png(Path("out.png"), run.run())
+verdict = run.window.renderers.verdict(run.window.state)
+print(*told, verdict.unexplained, *run.window.renderers.size)
+"""
+
+
+@pytest.mark.parametrize("type_size", [1.0, 1.25])
+def test_everything_is_twice_as_large(tmp_path: Path, type_size: float) -> None:
+    names = ("DISPLAY", "WAYLAND_DISPLAY")
+    variables = {name: value for name, value in os.environ.items() if name not in names}
+    done = subprocess.run(
+        [sys.executable, "-c", SCRIPT, str(type_size)],
+        env=variables | {"PYTHONPATH": str(TESTS.parent)},
+        cwd=tmp_path,
+        capture_output=True,
+        text=True,
+        timeout=240,
+    )
+    assert done.returncode == 0, done.stderr
+    font, padding, line, main, unexplained, width, height = map(float, done.stdout.split())
+    scale = 2 * type_size
+    assert (font, padding, line, main) == (16 * scale, 6 * scale, scale, scale)
+    assert unexplained == 0
+    picture = np.asarray(Image.open(tmp_path / "out.png").convert("RGB"))
+    # As many pixels as the screen has for them: half the window, less the camera's panel.
+    assert width > 0.2 * picture.shape[1]
+    assert height > 0.5 * picture.shape[0]
+    assert picture.std() > 20

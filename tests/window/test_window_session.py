@@ -1,0 +1,118 @@
+"""Sessions of the real window: killed or closed, the next one goes on where it was."""
+
+from __future__ import annotations
+
+import json
+import os
+import signal
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+from app.storage.session import from_bytes
+
+TESTS = Path(__file__).parents[1]
+LIMIT_S = 500
+pytestmark = pytest.mark.timeout(LIMIT_S + 60)
+
+WINDOW = """
+import os, signal, sys
+from pathlib import Path
+from app.host import layout
+from app.window import viewer
+from app.window.platform import start_platform
+
+folder, mode = Path(sys.argv[1]), sys.argv[2]
+viewer.settings_file = lambda fresh=False: folder / "window.ini"
+viewer._folder = lambda: folder
+start = viewer.begin_session(folder=folder)
+run = viewer.Run(start_platform(want_display=False), start.state, (900, 600), start=start)
+window, file = run.window, folder / "session-1.json"
+frames = iter(range(10**9))
+
+def saved():
+    data = file.read_bytes() if file.exists() else b""
+    return b"spheres" in data and b'"Compare"' in data and b'"light"' in data
+
+def step():
+    frame = next(frames)
+    if mode == "go on":
+        if frame == 30:
+            views = sorted(view.name for view in window.shell.stage.shown)
+            theme = window.state.preferences.theme
+            opened = window.views["Camera"].sections
+            print(layout.current().name, views, theme, window.state.scene.name, opened, sep="|")
+            run.params.app_shall_exit = True
+        return
+    if frame == 5:
+        layout.switch("Compare")
+        window.views["Camera"].open_sections(("Look at",))
+    elif frame == 10:
+        window.shell.stage.show("Raster", False)
+        window.change(window.state.with_options(preferences={"theme": "light"}))
+        window.open("spheres")
+    elif frame > 20 and mode == "kill" and saved():
+        os.kill(os.getpid(), signal.SIGKILL)
+    elif frame > 20 and mode == "close" and window.state.scene.name == "spheres":
+        run.params.app_shall_exit = True
+
+run.params.callbacks.post_new_frame = step
+run.params.fps_idling.enable_idling = False
+run.run()
+"""
+
+
+def window(folder: Path, mode: str) -> subprocess.CompletedProcess[str]:
+    names = ("DISPLAY", "WAYLAND_DISPLAY")
+    variables = {name: value for name, value in os.environ.items() if name not in names}
+    variables |= {"XDG_CONFIG_HOME": str(folder / "config"), "PYTHONPATH": str(TESTS.parent)}
+    return subprocess.run(
+        [sys.executable, "-c", WINDOW, str(folder), mode],
+        env=variables,
+        cwd=folder,
+        capture_output=True,
+        text=True,
+        timeout=LIMIT_S,
+    )
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="POSIX's signals")
+@pytest.mark.parametrize("mode", ["kill", "close"])
+def test_the_window_comes_back_as_it_was(tmp_path: Path, mode: str) -> None:
+    """Layout, hidden views, theme and scene: after a crash, and after an ordinary end."""
+    done = window(tmp_path, mode)
+    assert done.returncode == (-signal.SIGKILL if mode == "kill" else 0), done.stderr
+    left = from_bytes((tmp_path / "session-1.json").read_bytes()).arrangement
+    assert left.layout == "Compare"
+    assert "Raster" not in left.visible
+    done = window(tmp_path, "go on")
+    assert done.returncode == 0, done.stderr
+    layout, views, theme, scene, sections = done.stdout.strip().split("|")
+    assert (layout, theme, scene) == ("Compare", "light", "spheres")
+    assert sections == "('Look at',)"
+    assert views == str(sorted(left.visible))
+
+
+def test_a_broken_session_is_told_in_the_window_and_kept(tmp_path: Path) -> None:
+    (tmp_path / "session-1.json").write_bytes(b"\x00 nothing of use")
+    done = window(tmp_path, "go on")
+    assert done.returncode == 0, done.stderr
+    assert done.stdout.startswith("Side by side|")
+    assert (tmp_path / "session-1.broken-1.json").read_bytes() == b"\x00 nothing of use"
+    assert from_bytes((tmp_path / "session-1.json").read_bytes()).scene == "still-life"
+
+
+def test_places_that_mean_nothing_leave_the_layout_s_own(tmp_path: Path) -> None:
+    assert window(tmp_path, "close").returncode == 0
+    path = tmp_path / "session-1.json"
+    kept = json.loads(path.read_bytes())
+    kept["arrangement"]["windows"] = "x"
+    path.write_text(json.dumps(kept))
+    done = window(tmp_path, "go on")
+    assert done.returncode == 0, done.stderr
+    windows = from_bytes(path.read_bytes()).arrangement.windows
+    for name in from_bytes(path.read_bytes()).arrangement.visible:
+        section = windows.partition(f"[Window][{name}]")[2].partition("\n\n")[0]
+        assert "DockId=" in section, name
