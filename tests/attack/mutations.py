@@ -44,6 +44,7 @@ MODULES: dict[str, tuple[str, ...]] = {
     "renderer/slivers.py": ("slivers",),
     "app/state/bounds.py": ("bounds", "state"),
     "app/state/app_state.py": ("state", "bounds"),
+    "app/state/all_options.py": ("state", "bounds"),
     "app/cameras/animation.py": ("animation",),
     "app/cameras/basis.py": ("basis", "state"),
     "app/cameras/editing.py": ("basis", "camera_actions", "state", "fields", "clipboard_camera"),

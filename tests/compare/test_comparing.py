@@ -121,11 +121,11 @@ def test_the_worst_pixel_is_the_channels(state):
 
 
 def test_gain_and_divider_stay_within_their_limits(state):
-    assert comparing.with_gain(state, 0.1).compare.gain == 1
-    assert comparing.with_gain(state, 1e9).compare.gain == LARGEST_GAIN
-    assert comparing.with_gain(state, 16).compare.gain == 16
-    assert comparing.with_divider(state, -1).compare.divider == 0
-    assert comparing.with_divider(state, 2).compare.divider == 1
+    assert comparing.with_gain(state, 0.1).options.compare.gain == 1
+    assert comparing.with_gain(state, 1e9).options.compare.gain == LARGEST_GAIN
+    assert comparing.with_gain(state, 16).options.compare.gain == 16
+    assert comparing.with_divider(state, -1).options.compare.divider == 0
+    assert comparing.with_divider(state, 2).options.compare.divider == 1
 
 
 @pytest.mark.parametrize(

@@ -12,6 +12,8 @@ from hypothesis import strategies as st
 from app.cameras.basis import with_component, with_vector
 from app.cameras.editing import Draft, edit_component, edit_field
 from app.cameras.focus import scene_focus
+from app.outside.options import OutsideOptions
+from app.state.all_options import KINDS
 from app.state.app_state import MOST_UNDO_STEPS, AppState, History, is_orthonormal
 from renderer.camera import Camera
 from renderer.scene import View, load_scene
@@ -242,3 +244,13 @@ def test_undo_goes_through_all_steps_and_back() -> None:
         history = history.change(moved(10.0 + x))
     assert len(history.past) == MOST_UNDO_STEPS
     assert history.past[-1] == moved(10.0 + MOST_UNDO_STEPS + 3)
+
+
+def test_an_instrument_s_options_are_asked_for_by_their_class() -> None:
+    state = STATE.with_options(outside={"bundle": (3, 4)})
+    assert state.of(OutsideOptions) is state.options.outside
+    assert state.of(OutsideOptions).bundle == (3, 4)
+    for name, kind in KINDS.items():
+        assert STATE.of(kind) == kind() == getattr(STATE.options, name)
+    with pytest.raises(KeyError):
+        STATE.of(Camera)
