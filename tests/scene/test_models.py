@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import contextlib
-import json
 import math
 import warnings
 from pathlib import Path
@@ -13,10 +12,10 @@ import pytest
 import trimesh
 
 from renderer.errors import LucidaError
-from renderer.scene import Mesh, Scene, SceneObject, flatten, framing, load_scene, shapes
+from renderer.scene import Mesh, SceneObject, framing, load_scene, shapes
 from renderer.scene.guard import tidy_text
 from renderer.scene.models import load_model
-from renderer.scene.normals import face_normals, merge_positions, smooth_normals
+from renderer.scene.normals import merge_positions
 from renderer.scene.parts import Part, build_mesh, linear_colors
 
 TRIANGLE = "v 0 0 0\nv 1 0 0\nv 0 1 0\n"
@@ -89,88 +88,6 @@ def test_files_without_normals_get_the_surface_s(ending: str, tmp_path: Path) ->
     assert mesh.normals is not None
     cosine = np.einsum("ij,ij->i", mesh.normals, expected)
     assert np.degrees(np.arccos(cosine.clip(-1, 1))).max() < 1.0
-
-
-# Normals and repair.
-
-
-def part(mesh: Mesh, **fields) -> Part:
-    return Part("p", mesh.vertices, mesh.faces, **fields)
-
-
-def test_edges_stay_sharp_and_round_sides_smooth() -> None:
-    box = build_mesh(part(shapes.box()))
-    assert box is not None
-    assert len(box.vertices) == 24
-    g = face_normals(box.vertices, box.faces.astype(np.int64))
-    assert box.normals is not None
-    np.testing.assert_allclose(box.normals[box.faces], np.repeat(g[:, None], 3, 1), atol=1e-6)
-
-    drum = build_mesh(part(shapes.cylinder(1.0, 1.0, 32)))
-    assert drum is not None
-    assert drum.normals is not None
-    heights = np.abs(drum.normals[:, 1])
-    assert ((heights < 1e-6) | (heights > 1 - 1e-6)).all()
-    side = heights < 0.5
-    radial = drum.vertices[side] * (1, 0, 1)
-    np.testing.assert_allclose(drum.normals[side], radial, atol=1e-5)
-
-
-@pytest.mark.parametrize(("turn_deg", "vertices"), [(35, 4), (45, 6)])
-def test_the_crease_angle_decides(turn_deg: float, vertices: int) -> None:
-    a = math.radians(turn_deg)
-    points = [[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, -math.cos(a), -math.sin(a)]]
-    mesh = build_mesh(Part("p", points, [[0, 1, 2], [1, 0, 3]]))
-    assert mesh is not None
-    assert len(mesh.vertices) == vertices
-
-
-def test_normals_are_weighted_by_the_corners_angles() -> None:
-    # A cube's corner, one of its three sides cut in two: its normal is the diagonal all the same.
-    points = [[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1], [0.5, 0.5, 0]]
-    faces = np.array([[0, 4, 1], [0, 2, 4], [0, 3, 2], [0, 1, 3]])
-    _, new_faces, normals = smooth_normals(np.array(points, np.float32), faces, crease_deg=95)
-    tip = new_faces[0, 0]
-    np.testing.assert_allclose(normals[tip], -np.ones(3) / math.sqrt(3), atol=1e-6)
-
-
-def test_faces_without_area_and_repeated_faces_go() -> None:
-    points = [[0, 0, 0], [1, 0, 0], [0, 1, 0], [2, 0, 0], [0, 0, 0], [9, 9, 9], [1, 1e-12, 0]]
-    faces = [[0, 1, 2], [0, 1, 3], [1, 1, 2], [2, 1, 4], [1, 2, 4], [0, 1, 6]]
-    mesh = build_mesh(Part("p", points, faces))
-    assert mesh is not None
-    assert len(mesh.faces) == 1
-    assert len(mesh.vertices) == 3
-    assert build_mesh(Part("p", points, [[0, 1, 3]])) is None
-    assert build_mesh(Part("p", np.zeros((0, 3)), None)) is None
-
-
-def test_polygons_become_fans() -> None:
-    angles = np.arange(7) * 2 * np.pi / 7
-    points = np.stack([np.cos(angles), np.sin(angles), 0 * angles], axis=1)
-    mesh = build_mesh(Part("p", points, np.arange(7)[None]))
-    assert mesh is not None
-    area = (
-        np.linalg.norm(face_normals(mesh.vertices, mesh.faces.astype(np.int64)), axis=1).sum() / 2
-    )
-    assert area == pytest.approx(7 / 2 * math.sin(2 * math.pi / 7), rel=1e-6)
-
-
-def test_normals_of_the_file_are_kept_and_made_unit(tmp_path: Path) -> None:
-    text = TRIANGLE + "vn 0 3 4\nvn 0 0 0\nvn nan 0 1\nf 1//1 2//2 3//3\n"
-    mesh = load_one(write(tmp_path / "t.obj", text))
-    assert mesh.normals is not None
-    by_position = {tuple(v): n for v, n in zip(mesh.vertices.tolist(), mesh.normals, strict=True)}
-    np.testing.assert_allclose(by_position[0, 0, 0], [0, 0.6, 0.8], atol=1e-7)
-    np.testing.assert_array_equal(by_position[1, 0, 0], 0)  # flat there
-    np.testing.assert_array_equal(by_position[0, 1, 0], 0)
-
-
-def test_merging_is_exact_and_knows_no_negative_zero() -> None:
-    points = np.array(
-        [[0, 0, 0], [1, 2, 3], [-0.0, 0, -0.0], [1, 2, 3 + 1e-6], [1, 2, 3]], np.float32
-    )
-    np.testing.assert_array_equal(merge_positions(points), [0, 1, 0, 3, 1])
 
 
 # OBJ.
@@ -394,133 +311,3 @@ def test_faces_that_are_not_whole_numbers_are_refused_without_a_warning() -> Non
         warnings.simplefilter("error")
         with pytest.raises(LucidaError, match="are not rows of whole numbers"):
             build_mesh(Part("", np.eye(3), [[0.0, np.nan, 1e300]]))
-
-
-# glTF.
-
-
-def gltf(**changes) -> dict:
-    """A tree of one triangle in a buffer file b.bin (see `buffer`), with `changes`."""
-    return {
-        "asset": {"version": "2.0"},
-        "scene": 0,
-        "scenes": [{"nodes": [0]}],
-        "nodes": [{"mesh": 0, "name": "node"}],
-        "meshes": [{"primitives": [{"attributes": {"POSITION": 0}, "indices": 1}]}],
-        "accessors": [
-            {"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3"},
-            {"bufferView": 1, "componentType": 5123, "count": 3, "type": "SCALAR"},
-            {
-                "bufferView": 2,
-                "componentType": 5121,
-                "count": 3,
-                "type": "VEC4",
-                "normalized": True,
-            },
-            {
-                "bufferView": 3,
-                "componentType": 5120,
-                "count": 3,
-                "type": "VEC3",
-                "normalized": True,
-            },
-        ],
-        "bufferViews": [
-            {"buffer": 0, "byteLength": 36},
-            {"buffer": 0, "byteOffset": 36, "byteLength": 6},
-            {"buffer": 0, "byteOffset": 44, "byteLength": 12},
-            {"buffer": 0, "byteOffset": 56, "byteLength": 12, "byteStride": 4},
-        ],
-        "buffers": [{"byteLength": 68, "uri": "my%20buffer.bin"}],
-    } | changes
-
-
-def buffer() -> bytes:
-    points = np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0]], "<f4").tobytes()
-    colors = np.array([[255, 51, 0, 255]] * 3, np.uint8).tobytes()
-    normals = np.array([[0, 0, 127, 0]] * 3, np.int8).tobytes()
-    return points + np.arange(3, dtype="<u2").tobytes() + b"\0\0" + colors + normals
-
-
-def load_gltf(tree: dict, folder: Path) -> Scene:
-    write(folder / "my buffer.bin", buffer())
-    return load_scene(write(folder / "t.gltf", json.dumps(tree)))
-
-
-def test_gltf_instances_stand_where_their_nodes_put_them(tmp_path: Path) -> None:
-    half = math.sqrt(0.5)
-    nodes = [
-        {"children": [1, 2], "translation": [10, 0, 0], "rotation": [0, half, 0, half]},
-        {"mesh": 0, "name": "scaled", "scale": [2, 3, 4]},
-        {"mesh": 0, "matrix": [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 1, 2, 3, 1]},
-        {"mesh": 0, "name": "not in the scene"},
-    ]
-    first, second = load_gltf(gltf(nodes=nodes), tmp_path).objects
-    assert (first.name, second.name) == ("scaled", "t")
-    # The quarter turn about y takes x to -z and z to x.
-    expected = [[0, 0, 4, 10], [0, 3, 0, 0], [-2, 0, 0, 0], [0, 0, 0, 1]]
-    np.testing.assert_allclose(mesh_of(first).transform, expected, atol=1e-12)
-    np.testing.assert_allclose(mesh_of(second).transform[:3, 3], [13, 2, -1], atol=1e-12)
-
-
-def test_gltf_without_scenes_shows_its_roots(tmp_path: Path) -> None:
-    nodes = [{"children": [1]}, {"mesh": 0}, {"mesh": 0}]
-    assert len(load_gltf(gltf(scenes=[], nodes=nodes), tmp_path).objects) == 2
-
-
-def test_gltf_hidden_nodes_are_left_out(tmp_path: Path) -> None:
-    nodes = [{"mesh": 0, "scale": [0, 1, 1]}, {"mesh": 0}]
-    assert len(load_gltf(gltf(scenes=[], nodes=nodes), tmp_path).objects) == 1
-
-
-def test_gltf_colours_are_linear_and_normals_kept(tmp_path: Path) -> None:
-    attributes = {"POSITION": 0, "COLOR_0": 2, "NORMAL": 3}
-    meshes = [{"primitives": [{"attributes": attributes, "indices": 1}]}]
-    mesh = mesh_of(load_gltf(gltf(meshes=meshes), tmp_path).objects[0])
-    np.testing.assert_allclose(mesh.colors, [[1, 0.2, 0]] * 3, atol=1e-6)
-    np.testing.assert_array_equal(mesh.normals, [[0, 0, 1]] * 3)
-
-
-def test_gltf_materials(tmp_path: Path) -> None:
-    primitive = {"attributes": {"POSITION": 0}, "indices": 1}
-    pbr = {"baseColorFactor": [0.5, 0.01, 0.0, 1.0], "metallicFactor": 0, "roughnessFactor": 0.5}
-    materials = [{"pbrMetallicRoughness": pbr}, {}]
-    meshes = [{"primitives": [primitive | {"material": 0}, primitive | {"material": 1}, primitive]}]
-    objects = load_gltf(gltf(materials=materials, meshes=meshes), tmp_path).objects
-    plastic, metal, plain = (entry.material for entry in objects)
-    assert plastic.diffuse == (0.5, 0.01, 0.0)  # exactly: not by way of 8 bits
-    assert plastic.specular == pytest.approx((0.04, 0.04, 0.04))
-    assert plastic.shininess == pytest.approx(2 / 0.5**4 - 2)
-    assert (metal.diffuse, metal.specular, metal.shininess) == ((1, 1, 1), (1, 1, 1), 1)
-    assert plain == framing.MATERIAL
-
-
-def test_gltf_quantised_positions(tmp_path: Path) -> None:
-    accessors = gltf()["accessors"]
-    accessors[3] |= {"type": "VEC3"}
-    meshes = [{"primitives": [{"attributes": {"POSITION": 3}}]}]
-    points = np.array([[0, 0, 0, 0], [127, 0, 0, 0], [0, 127, 0, 0]], np.int8).tobytes()
-    write(tmp_path / "my buffer.bin", buffer()[:56] + points)
-    write(tmp_path / "t.gltf", json.dumps(gltf(meshes=meshes, accessors=accessors)))
-    mesh = load_one(tmp_path / "t.gltf")
-    np.testing.assert_array_equal(corners(mesh), [[[0, 0, 0], [1, 0, 0], [0, 1, 0]]])
-
-
-@pytest.mark.parametrize(("mode", "faces"), [(4, 1), (5, 1)])
-def test_gltf_modes(mode: int, faces: int, tmp_path: Path) -> None:
-    meshes = [
-        {
-            "primitives": [
-                {"attributes": {"POSITION": 0}, "mode": mode},
-                {"attributes": {"POSITION": 0}, "mode": 0},
-                {"attributes": {"POSITION": 0}, "mode": 1},
-            ]
-        }
-    ]
-    (entry,) = load_gltf(gltf(meshes=meshes), tmp_path).objects
-    assert len(mesh_of(entry).faces) == faces
-
-
-def test_a_model_s_scene_flattens(tmp_path: Path) -> None:
-    flat = flatten(load_gltf(gltf(), tmp_path))
-    np.testing.assert_array_equal(flat.bounds, [[0, 0, 0], [1, 1, 0]])

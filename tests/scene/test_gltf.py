@@ -1,0 +1,140 @@
+"""glTF files: scenes, nodes, materials, and how their numbers are stored."""
+
+from __future__ import annotations
+
+import json
+import math
+from pathlib import Path
+
+import numpy as np
+import pytest
+from test_models import corners, load_one, mesh_of, write
+
+from renderer.scene import Scene, flatten, framing, load_scene
+
+
+def gltf(**changes) -> dict:
+    """A tree of one triangle in a buffer file b.bin (see `buffer`), with `changes`."""
+    return {
+        "asset": {"version": "2.0"},
+        "scene": 0,
+        "scenes": [{"nodes": [0]}],
+        "nodes": [{"mesh": 0, "name": "node"}],
+        "meshes": [{"primitives": [{"attributes": {"POSITION": 0}, "indices": 1}]}],
+        "accessors": [
+            {"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3"},
+            {"bufferView": 1, "componentType": 5123, "count": 3, "type": "SCALAR"},
+            {
+                "bufferView": 2,
+                "componentType": 5121,
+                "count": 3,
+                "type": "VEC4",
+                "normalized": True,
+            },
+            {
+                "bufferView": 3,
+                "componentType": 5120,
+                "count": 3,
+                "type": "VEC3",
+                "normalized": True,
+            },
+        ],
+        "bufferViews": [
+            {"buffer": 0, "byteLength": 36},
+            {"buffer": 0, "byteOffset": 36, "byteLength": 6},
+            {"buffer": 0, "byteOffset": 44, "byteLength": 12},
+            {"buffer": 0, "byteOffset": 56, "byteLength": 12, "byteStride": 4},
+        ],
+        "buffers": [{"byteLength": 68, "uri": "my%20buffer.bin"}],
+    } | changes
+
+
+def buffer() -> bytes:
+    points = np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0]], "<f4").tobytes()
+    colors = np.array([[255, 51, 0, 255]] * 3, np.uint8).tobytes()
+    normals = np.array([[0, 0, 127, 0]] * 3, np.int8).tobytes()
+    return points + np.arange(3, dtype="<u2").tobytes() + b"\0\0" + colors + normals
+
+
+def load_gltf(tree: dict, folder: Path) -> Scene:
+    write(folder / "my buffer.bin", buffer())
+    return load_scene(write(folder / "t.gltf", json.dumps(tree)))
+
+
+def test_gltf_instances_stand_where_their_nodes_put_them(tmp_path: Path) -> None:
+    half = math.sqrt(0.5)
+    nodes = [
+        {"children": [1, 2], "translation": [10, 0, 0], "rotation": [0, half, 0, half]},
+        {"mesh": 0, "name": "scaled", "scale": [2, 3, 4]},
+        {"mesh": 0, "matrix": [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 1, 2, 3, 1]},
+        {"mesh": 0, "name": "not in the scene"},
+    ]
+    first, second = load_gltf(gltf(nodes=nodes), tmp_path).objects
+    assert (first.name, second.name) == ("scaled", "t")
+    # The quarter turn about y takes x to -z and z to x.
+    expected = [[0, 0, 4, 10], [0, 3, 0, 0], [-2, 0, 0, 0], [0, 0, 0, 1]]
+    np.testing.assert_allclose(mesh_of(first).transform, expected, atol=1e-12)
+    np.testing.assert_allclose(mesh_of(second).transform[:3, 3], [13, 2, -1], atol=1e-12)
+
+
+def test_gltf_without_scenes_shows_its_roots(tmp_path: Path) -> None:
+    nodes = [{"children": [1]}, {"mesh": 0}, {"mesh": 0}]
+    assert len(load_gltf(gltf(scenes=[], nodes=nodes), tmp_path).objects) == 2
+
+
+def test_gltf_hidden_nodes_are_left_out(tmp_path: Path) -> None:
+    nodes = [{"mesh": 0, "scale": [0, 1, 1]}, {"mesh": 0}]
+    assert len(load_gltf(gltf(scenes=[], nodes=nodes), tmp_path).objects) == 1
+
+
+def test_gltf_colours_are_linear_and_normals_kept(tmp_path: Path) -> None:
+    attributes = {"POSITION": 0, "COLOR_0": 2, "NORMAL": 3}
+    meshes = [{"primitives": [{"attributes": attributes, "indices": 1}]}]
+    mesh = mesh_of(load_gltf(gltf(meshes=meshes), tmp_path).objects[0])
+    np.testing.assert_allclose(mesh.colors, [[1, 0.2, 0]] * 3, atol=1e-6)
+    np.testing.assert_array_equal(mesh.normals, [[0, 0, 1]] * 3)
+
+
+def test_gltf_materials(tmp_path: Path) -> None:
+    primitive = {"attributes": {"POSITION": 0}, "indices": 1}
+    pbr = {"baseColorFactor": [0.5, 0.01, 0.0, 1.0], "metallicFactor": 0, "roughnessFactor": 0.5}
+    materials = [{"pbrMetallicRoughness": pbr}, {}]
+    meshes = [{"primitives": [primitive | {"material": 0}, primitive | {"material": 1}, primitive]}]
+    objects = load_gltf(gltf(materials=materials, meshes=meshes), tmp_path).objects
+    plastic, metal, plain = (entry.material for entry in objects)
+    assert plastic.diffuse == (0.5, 0.01, 0.0)  # exactly: not by way of 8 bits
+    assert plastic.specular == pytest.approx((0.04, 0.04, 0.04))
+    assert plastic.shininess == pytest.approx(2 / 0.5**4 - 2)
+    assert (metal.diffuse, metal.specular, metal.shininess) == ((1, 1, 1), (1, 1, 1), 1)
+    assert plain == framing.MATERIAL
+
+
+def test_gltf_quantised_positions(tmp_path: Path) -> None:
+    accessors = gltf()["accessors"]
+    accessors[3] |= {"type": "VEC3"}
+    meshes = [{"primitives": [{"attributes": {"POSITION": 3}}]}]
+    points = np.array([[0, 0, 0, 0], [127, 0, 0, 0], [0, 127, 0, 0]], np.int8).tobytes()
+    write(tmp_path / "my buffer.bin", buffer()[:56] + points)
+    write(tmp_path / "t.gltf", json.dumps(gltf(meshes=meshes, accessors=accessors)))
+    mesh = load_one(tmp_path / "t.gltf")
+    np.testing.assert_array_equal(corners(mesh), [[[0, 0, 0], [1, 0, 0], [0, 1, 0]]])
+
+
+@pytest.mark.parametrize(("mode", "faces"), [(4, 1), (5, 1)])
+def test_gltf_modes(mode: int, faces: int, tmp_path: Path) -> None:
+    meshes = [
+        {
+            "primitives": [
+                {"attributes": {"POSITION": 0}, "mode": mode},
+                {"attributes": {"POSITION": 0}, "mode": 0},
+                {"attributes": {"POSITION": 0}, "mode": 1},
+            ]
+        }
+    ]
+    (entry,) = load_gltf(gltf(meshes=meshes), tmp_path).objects
+    assert len(mesh_of(entry).faces) == faces
+
+
+def test_a_model_s_scene_flattens(tmp_path: Path) -> None:
+    flat = flatten(load_gltf(gltf(), tmp_path))
+    np.testing.assert_array_equal(flat.bounds, [[0, 0, 0], [1, 1, 0]])

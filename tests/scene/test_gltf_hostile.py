@@ -1,0 +1,181 @@
+"""glTF files that are wrong, or mean harm: refused in one line."""
+
+from __future__ import annotations
+
+import base64
+import copy
+import json
+import struct
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from test_scene_hostile import BINARY_POINTS, refusal, write
+
+BUFFER = BINARY_POINTS + np.arange(3, dtype="<u2").tobytes() + b"\0\0"
+TREE: dict[str, Any] = {
+    "asset": {"version": "2.0"},
+    "scene": 0,
+    "scenes": [{"nodes": [0]}],
+    "nodes": [{"mesh": 0}],
+    "meshes": [{"primitives": [{"attributes": {"POSITION": 0}, "indices": 1}]}],
+    "accessors": [
+        {"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3"},
+        {"bufferView": 1, "componentType": 5123, "count": 3, "type": "SCALAR"},
+    ],
+    "bufferViews": [
+        {"buffer": 0, "byteLength": 36},
+        {"buffer": 0, "byteOffset": 36, "byteLength": 6},
+    ],
+    "buffers": [
+        {
+            "byteLength": 44,
+            "uri": "data:application/octet-stream;base64," + base64.b64encode(BUFFER).decode(),
+        }
+    ],
+}
+PRIMITIVE = ("meshes", 0, "primitives", 0)
+
+
+def changed(*steps: tuple[tuple[Any, ...], Any]) -> dict[str, Any]:
+    """TREE with the entries at some paths replaced, or removed where the value is None."""
+    tree = copy.deepcopy(TREE)
+    for path, value in steps:
+        entry = tree
+        for key in path[:-1]:
+            entry = entry[key]
+        if value is None:
+            del entry[path[-1]]
+        else:
+            entry[path[-1]] = value
+    return tree
+
+
+def nodes(*entries: dict[str, Any]) -> dict[str, Any]:
+    return changed((("nodes",), list(entries)))
+
+
+OUTSIDE = "is not in the model's folder"
+GLTF_MISTAKES: list[tuple[dict[str, Any], str]] = [
+    (nodes({"mesh": 0, "children": [1]}, {"children": [0]}), "nodes[0]: has two parents, or is"),
+    (nodes({"mesh": 0, "children": [0]}), "nodes[0]: has two parents, or is its own ancestor"),
+    (nodes({"children": [1, 1]}, {"mesh": 0}), "nodes[1]: has two parents"),
+    (nodes(*[{"children": [k + 1]} for k in range(5000)], {"mesh": 0}), "nodes[1001]: is deeper"),
+    (nodes({"children": [7]}), "nodes: names entry 7, counted from 0, of 1"),
+    (nodes({"mesh": 7}), "nodes[0].mesh: names entry 7"),
+    (nodes({}), "holds no triangle"),
+    (nodes({"mesh": 0, "scale": [0, 1, 1]}), "holds no triangle"),
+    (nodes({"mesh": 0, "scale": [1e300, 1e300, 1]}), "node 'x'.transform: is too large"),
+    (nodes({"mesh": 0, "matrix": [1] * 16}), "node 'x'.transform: is not invertible"),
+    (nodes({"mesh": 0, "matrix": [1] * 15}), "nodes[0].matrix: is not 16 numbers"),
+    (nodes({"mesh": 0, "translation": ["a", 0, 0]}), "nodes[0].translation[0]: expected float"),
+    (changed((("scene",), 9)), "scene: names entry 9"),
+    (changed((("scenes", 0, "nodes"), list(range(20_000)))), "nodes: names entry 1"),
+    (
+        changed(
+            (("scenes", 0, "nodes"), list(range(10_001))), (("nodes",), [{"mesh": 0}] * 10_001)
+        ),
+        "nodes: make more than 10000 objects",
+    ),
+    (changed((("asset", "version"), "1.0")), "asset.version: '1.0' is not 2.0"),
+    (changed((("asset",), None)), "object missing required field asset"),
+    (changed((("extensionsRequired",), ["KHR_draco_mesh_compression"])), "is compressed with KHR"),
+    (changed(((*PRIMITIVE, "indices"), 9)), "accessors: names entry 9"),
+    (changed(((*PRIMITIVE, "material"), 9)), "meshes[0].primitives[0].material: names entry 9"),
+    (
+        changed(((*PRIMITIVE, "attributes", "POSITION"), None)),
+        "meshes[0].primitives[0]: has no POS",
+    ),
+    (changed(((*PRIMITIVE, "mode"), 0)), "holds no triangle"),
+    (changed(((*PRIMITIVE, "mode"), 6)), "meshes[0].primitives[0].mode: is a triangle fan"),
+    (changed((("accessors", 0, "count"), 10**11)), "accessors[0]: declares 100000000000 elements"),
+    (changed((("accessors", 1, "count"), 10**11)), "has 33333333333 triangles"),
+    (changed((("accessors", 1, "count"), 10**7)), "accessors[1]: declares 10000000 elements"),
+    (changed((("accessors", 0, "count"), 10**30)), "accessors[0].count: expected int <="),
+    (changed((("accessors", 0, "count"), -1)), "accessors[0].count: expected int >= 0"),
+    (changed((("accessors", 0, "bufferView"), None)), "accessors[0]: has no bufferView"),
+    (changed((("accessors", 0, "sparse"), {"count": 1})), "accessors[0]: is sparse"),
+    (changed((("accessors", 0, "type"), "VEC9")), "accessors[0]: is VEC9 of type 5126"),
+    (changed((("accessors", 0, "componentType"), 1)), "accessors[0]: is VEC3 of type 1"),
+    (changed((("accessors", 1, "componentType"), 5126)), "accessors[1]: declares 3 elements, 12"),
+    (changed((("accessors", 0, "byteOffset"), 4)), "accessors[0]: declares 3 elements, 40 bytes"),
+    (changed((("bufferViews", 0, "buffer"), 3)), "bufferViews[0].buffer: names entry 3"),
+    (changed((("bufferViews", 0, "byteLength"), 10**6)), "cannot be read as glTF: a buffer view"),
+    (changed((("bufferViews", 0, "byteLength"), 10**9)), "bufferViews: name 954 MiB of buffers"),
+    (
+        changed((("bufferViews", 0, "byteStride"), 1)),
+        "bufferViews[0].byteStride: 1 is below the 12",
+    ),
+    (
+        changed((("bufferViews", 0, "byteStride"), 10**11)),
+        "accessors[0]: declares 3 elements, 2000",
+    ),
+    (changed((("bufferViews", 0, "byteLength"), 10**11)), "bufferViews: hold 93.1 GiB"),
+    (changed((("buffers", 0, "byteLength"), 10**9)), "buffers[0]: declares 954 MiB and has 44"),
+    (changed((("buffers", 0, "uri"), None)), "buffers[0]: has no uri and no binary chunk"),
+    (changed((("buffers", 0, "uri"), "data:x;base64,@@@")), "buffers[0].uri: is not base64"),
+    (changed((("buffers", 0, "uri"), "none.bin")), "buffers[0].uri: 'none.bin' does not exist"),
+    (changed((("buffers", 0, "uri"), "http://example.com/a.bin")), "buffers[0].uri: 'http://exam"),
+    (
+        changed((("buffers", 0, "uri"), "../secret.bin")),
+        f"buffers[0].uri: '../secret.bin' {OUTSIDE}",
+    ),
+    (
+        changed((("buffers", 0, "uri"), "%2e%2e/secret.bin")),
+        "buffers[0].uri: '%2e%2e/secret.bin' is",
+    ),
+    (changed((("buffers", 0, "uri"), "/etc/passwd")), f"buffers[0].uri: '/etc/passwd' {OUTSIDE}"),
+    (
+        changed((("buffers", 0, "uri"), "file:///etc/passwd")),
+        "buffers[0].uri: 'file:///etc/passwd'",
+    ),
+    (changed((("buffers", 0, "uri"), "link.bin")), f"buffers[0].uri: 'link.bin' {OUTSIDE}"),
+    (changed((("buffers", 0, "uri"), "a\0b")), "buffers[0].uri: "),
+    (changed((("buffers", 0, "uri"), ".")), "buffers[0].uri: '.' is a folder"),
+]
+
+
+@pytest.mark.parametrize(("tree", "message"), GLTF_MISTAKES, ids=range(len(GLTF_MISTAKES)))
+def test_gltf(tree: dict[str, Any], message: str, tmp_path: Path) -> None:
+    folder = tmp_path / "model"
+    folder.mkdir()
+    write(tmp_path / "secret.bin", BUFFER)
+    (folder / "link.bin").symlink_to(tmp_path / "secret.bin")
+    assert refusal(write(folder / "x.gltf", json.dumps(tree))).startswith(message)
+
+
+@pytest.mark.parametrize(
+    "text", ["[" * 1_000_000, '{"asset":{"version":"2.0"},"extras":' + "[" * 1_000_000, '{"x":NaN}']
+)
+def test_gltf_json(text: str, tmp_path: Path) -> None:
+    refusal(write(tmp_path / "x.gltf", text))
+
+
+def glb(tree: dict[str, Any], declared: int | None = None, chunk: int | None = None) -> bytes:
+    text = json.dumps(tree).encode()
+    text += b" " * (-len(text) % 4)
+    body = struct.pack("<I4s", len(text) if chunk is None else chunk, b"JSON") + text
+    body += struct.pack("<I4s", len(BUFFER), b"BIN\0") + BUFFER
+    return struct.pack("<4sII", b"glTF", 2, declared or 12 + len(body)) + body
+
+
+IN_CHUNK = changed((("buffers", 0, "uri"), None))
+
+
+@pytest.mark.parametrize(
+    ("content", "message"),
+    [
+        (glb(IN_CHUNK, declared=10**9), "declares 1000000000 bytes and has"),
+        (glb(IN_CHUNK, declared=30), "declares a chunk of"),
+        (glb(IN_CHUNK, chunk=4_000_000_000), "declares a chunk of 4000000000 bytes"),
+        (glb(IN_CHUNK)[:-20], "declares"),
+        (glb(IN_CHUNK).replace(b"BIN\0", b"NIX\0"), "buffers[0]: declares 44 bytes and has 0 byt"),
+        (glb(IN_CHUNK).replace(b"JSON", b"NOSJ"), "has no JSON chunk"),
+        (struct.pack("<4sII", b"glTF", 1, 20) + bytes(20), "is of glTF version 1"),
+        (b"glTF", "declares 0 bytes and has 4"),
+    ],
+    ids=range(8),
+)
+def test_glb(content: bytes, message: str, tmp_path: Path) -> None:
+    assert refusal(write(tmp_path / "x.glb", content)).startswith(message)
