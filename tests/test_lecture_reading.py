@@ -109,8 +109,14 @@ def test_titles():
         text += f"part = '{longest}a'\n" if field == "part" else ""
         assert told(text) == f"steps[0].{field}: is 301 characters long; stay within 300"
     assert told(STEP + "part = ' '") == "steps[0].part: is empty; give the part's title"
-    nested = "a = " + "[" * 100_000
-    assert told(nested) == "is nested too deeply; write it with fewer brackets"
+
+
+def test_nested_arrays_of_any_depth():
+    """One of these depths is just read as TOML, and its lines are just not found any more."""
+    told_of = [told("a = " + "[" * depth + "]" * depth) for depth in (1, *range(250, 550), 100_000)]
+    assert told_of[0] == "a: is unknown; give one of title, author, pixels_from, scenes, steps"
+    assert set(told_of) == {told_of[0], "is nested too deeply; write it with fewer brackets"}
+    assert told_of[1] == told_of[0] and told_of[-2] == told_of[-1] != told_of[0]
 
 
 def test_choices():
@@ -192,6 +198,10 @@ def test_mistakes_of_the_text_itself_name_their_place(tmp_path):
     with pytest.raises(LucidaError) as caught:
         load_lecture(path)
     assert str(caught.value).startswith(f"{path}:2: column 5: ")
+    path.write_text("a = " + 5000 * "9")
+    with pytest.raises(LucidaError) as caught:
+        load_lecture(path)
+    assert str(caught.value) == f"{path}: holds a number of too many digits; shorten it"
     path.write_bytes(b"a = 1\x00")
     with pytest.raises(LucidaError) as caught:
         load_lecture(path)
