@@ -74,7 +74,6 @@ MODULES: dict[str, tuple[str, ...]] = {
     "app/laboratory/array_code.py": ("teach_languages",),
     "app/laboratory/bitmaps.py": ("teach_imagelab",),
     "app/laboratory/disk.py": ("teach_imagelab", "teach_pages"),
-    "app/laboratory/displays.py": ("teach_displays", "teach_pages"),
     "app/laboratory/kinds.py": ("teach_imagelab", "teach_pages"),
     "app/laboratory/light.py": ("teach_imagelab",),
     "app/laboratory/memory.py": ("teach_imagelab", "teach_pages"),
