@@ -43,7 +43,7 @@ class Hit:
     point: Vector
     geometric: Vector
     normal: Vector
-    corner_normals: tuple[Vector, ...]
+    corner_normals: tuple[Vector, ...] = ()
 
     @property
     def has_own_normal(self) -> bool:

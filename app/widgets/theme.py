@@ -20,6 +20,7 @@ from app.state.options import Preferences
 TEXT_PX = 16.0
 PRESENTED = 0.024  # the least size of text in presentation mode, in parts of the window's height
 SURROUND = 0.034  # and its largest: what is read grows on, not the menus and tabs round it
+SMALLEST = 0.25  # of 100 %, in a window of no height: sizes of 0 are none to ImGui, which ends then
 LARGEST = 0.0445  # and otherwise: 200 % of a window 720 high, 300 % of one 1080 high
 LEGIBLE = 4.5  # the least contrast of text with what is behind it (WCAG 2.1, 1.4.3)
 SEEN = 3.0  # and of what is drawn (1.4.11)
@@ -154,7 +155,7 @@ def look_of(preferences: Preferences, height_px: float, dpi_scale: float = 1.0) 
         part * height_px / (TEXT_PX * dpi_scale) for part in (PRESENTED, SURROUND, LARGEST)
     )
     if preferences.presentation:
-        scale = round(max(least, min(scale, most)), 2)
+        scale = round(max(SMALLEST, least, min(scale, most)), 2)
     elif scale > 1.0:
         scale = round(max(1.0, min(scale, largest)), 2)
     return Look(preferences.theme, preferences.presentation, scale)

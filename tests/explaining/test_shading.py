@@ -13,6 +13,7 @@ from renderer.scene.flat import flatten
 from renderer.scene.model import (
     DirectionalLight,
     Material,
+    Mesh,
     PointLight,
     Scene,
     SceneObject,
@@ -32,7 +33,7 @@ def lit(*lights, shininess: float = 2.0, ambient=(0.0, 0.0, 0.0)):
     return flatten(Scene((ball,), lights, ambient=ambient))
 
 
-def test_normals_that_differ_by_more_than_rounding_are_smooth() -> None:
+def test_normals_that_differ_by_more_than_rounding_are_two() -> None:
     assert not HIT.has_own_normal
     assert not replace(HIT, normal=(5e-10, 1.0, 0.0)).has_own_normal
     assert replace(HIT, normal=(0.0, 1.0, 2e-9)).has_own_normal
@@ -42,8 +43,23 @@ def test_normals_that_differ_by_more_than_rounding_are_smooth() -> None:
 def test_a_hit_is_where_the_ray_is_at_t() -> None:
     ball = Scene((SceneObject(Sphere((9, 9, 9), 1)), SceneObject(Sphere((0, 0, -5), 1))))
     found = hit_at(flatten(ball), (0, 0, 1), (0, 0, -2), (2.5, 1, 0.0, 0.0))
-    assert found == Hit(1, 1, 2.5, 0, 0, (0, 0, -2), (0, 0, -4), (0, 0, 1), (0, 0, 1), ())
+    assert found == Hit(1, 1, 2.5, 0, 0, (0, 0, -2), (0, 0, -4), (0, 0, 1), (0, 0, 1))
     assert not found.has_own_normal
+
+
+def test_the_normals_of_a_smooth_triangles_corners() -> None:
+    """All of them or none: a row of 0 makes the triangle flat."""
+    corners, up = [[0, 0, 0], [4, 0, 0], [0, 4, 0], [4, 4, 0]], [0, 0, 1]
+    normals = [up, [0.6, 0, 0.8], up, [0, 0, 0]]
+    mesh = Mesh(corners, [[0, 1, 2], [1, 3, 2]], normals=normals)
+    flat = flatten(Scene((SceneObject(Sphere((9, 9, 9), 1)), SceneObject(mesh))))
+
+    def corner_normals(primitive: int):
+        ray = (1, 1, 5), (0, 0, -1)
+        return hit_at(flat, *ray, (5.0, primitive, 0.25, 0.25)).corner_normals
+
+    np.testing.assert_allclose(corner_normals(0), normals[:3], rtol=1e-7)
+    assert corner_normals(1) == corner_normals(2) == ()
 
 
 def test_each_light_gives_its_terms() -> None:

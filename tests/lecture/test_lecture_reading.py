@@ -109,8 +109,21 @@ def test_titles():
         text += f"part = '{longest}a'\n" if field == "part" else ""
         assert told(text) == f"steps[0].{field}: is 301 characters long; stay within 300"
     assert told(STEP + "part = ' '") == "steps[0].part: is empty; give the part's title"
-    nested = "a = " + "[" * 100_000
-    assert told(nested) == "is nested too deeply; write it with fewer brackets"
+
+
+@pytest.mark.parametrize("frames", range(2))
+def test_nested_arrays_of_any_depth(frames):
+    """One of them may just be read as TOML, and its lines just not be found any more: that
+    depends on how deep the calls are already."""
+
+    def answer(text: str, deeper: int) -> str:
+        return answer(text, deeper - 1) if deeper else told(text)
+
+    depths = (1, *range(400, 500), 100_000)
+    answers = [answer("a = " + "[" * depth + "]" * depth, frames) for depth in depths]
+    few = "a: is unknown; give one of title, author, pixels_from, scenes, steps"
+    many = "is nested too deeply; write it with fewer brackets"
+    assert sorted(answers) == answers and set(answers) == {few, many}
 
 
 def test_choices():
@@ -192,6 +205,10 @@ def test_mistakes_of_the_text_itself_name_their_place(tmp_path):
     with pytest.raises(LucidaError) as caught:
         load_lecture(path)
     assert str(caught.value).startswith(f"{path}:2: column 5: ")
+    path.write_text("a = " + 5000 * "9")
+    with pytest.raises(LucidaError) as caught:
+        load_lecture(path)
+    assert str(caught.value) == f"{path}: holds a number of too many digits; shorten it"
     path.write_bytes(b"a = 1\x00")
     with pytest.raises(LucidaError) as caught:
         load_lecture(path)

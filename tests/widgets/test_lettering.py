@@ -5,10 +5,12 @@ from __future__ import annotations
 import itertools
 
 import pytest
+from imgui_bundle import imgui
 
 from app.lecture.slide import sizes_of
 from app.pair.pixelgrid import ADVANCE, DIGITS_HIGH, LEADING, VALUES_FROM, text_size
 from app.probe.panel import HIGH_EM, WIDE_EM, type_px
+from app.state.options import Preferences
 from app.stepper.numbers import TEXTS
 from app.stepper.panel import LEAST_PX, LEGIBLE, WANTED_EM, _names
 from app.stepper.plan import SHORT, Need, Plan, canvases_in, plan, plan_of_two
@@ -16,7 +18,7 @@ from app.stepper.recording import Order
 from app.stepper.source import source_of
 from app.widgets.code import LINE, narrowed
 from app.widgets.sliders import part_of
-from app.widgets.theme import PRESENTED
+from app.widgets.theme import PRESENTED, look_of
 
 HALL_PX = 1080.0  # the height of a projector's picture
 HALL_ROOM = (1160.0, 740.0)  # of the main view beside a lecture's column there
@@ -178,3 +180,14 @@ def test_lines_are_narrowed_by_half_of_their_indents():
         "  for i in x:",
         "    y",
     )
+
+
+@pytest.mark.parametrize("presentation", [False, True])
+@pytest.mark.parametrize("height_px", [1.0, 14.0, 16.0, 100.0, 1080.0])
+def test_a_window_of_any_height_has_sizes_that_imgui_takes(height_px, presentation):
+    """In presentation mode text is so many parts of the height; below 1 pixel ImGui gives up."""
+    for font_scale, dpi_scale in itertools.product((0.75, 1.0, 3.0), (1.0, 2.0)):
+        preferences = Preferences(presentation=presentation, font_scale=font_scale)
+        look, style = look_of(preferences, height_px, dpi_scale), imgui.Style()
+        style.scale_all_sizes(dpi_scale * look.scale)
+        assert min(style.window_min_size) >= 1
