@@ -115,9 +115,7 @@ class Passage:
             depth = _lerp(one.depth, two.depth, s) if parallel else 1.0 / k
         start = _lerp(one.start, two.start, along)
         near = depth - start
-        if parallel and one.near is None and two.near is None:
-            near = 0.0
-        elif not (parallel or (one.near and two.near)) and self._all_behind(basis, start):
+        if not (parallel or (one.near and two.near)) and self._all_behind(basis, start):
             near = 0.0  # a plane that cuts nothing off
         far = None
         if one.end is not None and two.end is not None:
@@ -169,10 +167,8 @@ class Passage:
     def _all_behind(self, basis: Floats, start: float) -> bool:
         """Whether nothing of the scene lies before the plane in which rays begin: no clip plane
         is needed then."""
-        if not len(self._bounds):
-            return True
         heights = (self._bounds - self._focus) @ np.linalg.inv(basis).T[:, 2]
-        return float(heights.max()) < start
+        return float(heights.max(initial=-math.inf)) < start
 
     def _invisible_k(self, size: tuple[int, int]) -> float:
         """Below this k, parallel rays look the same.
@@ -181,17 +177,12 @@ class Passage:
         """
         least = math.inf
         for pose, camera in zip(self._poses, self._cameras, strict=True):
-            corners = np.abs(pose.center) / pose.half + 1.0
-            if self._fit:
-                left, right, bottom, top = camera.viewport
-                fitted = camera.fitted(size).viewport
-                corners = corners * [
-                    (fitted[1] - fitted[0]) / (right - left),
-                    (fitted[3] - fitted[2]) / (top - bottom),
-                ]
-            radius_px = float(np.linalg.norm(corners * size / 2))
+            shown = camera.fitted(size) if self._fit else camera
+            left, right, bottom, top = shown.viewport
+            middle = (left + right) / (right - left), (bottom + top) / (top - bottom)
+            radius_px = float(np.linalg.norm((np.abs(middle) + 1.0) * size / 2))
             heights = (self._bounds - self._focus) @ np.linalg.inv(camera.basis).T[:, 2]
-            height = max(float(np.abs(heights).max(initial=0.0)), abs(pose.start))
+            height = float(np.abs(heights).max(initial=abs(pose.start)))
             least = min(least, INVISIBLE_PX / (radius_px * height))
         return least
 
@@ -255,10 +246,12 @@ def _slerp(start: Floats, end: Floats, s: float) -> Floats:
         axis = sines / np.linalg.norm(sines)
     elif cosine > 0:
         return start + s * (end - start)
-    else:  # half a turn: (R + 1) / 2 is axis axis^T; of the two ways, the one about the upper half
-        outer = (turn + np.eye(3)) / 2
+    else:  # half a turn: R + 1 is 2 axis axis^T; of the two ways, the one about the upper half
+        outer = turn + np.eye(3)
         axis = outer[:, int(np.argmax(np.diag(outer)))]
-        axis = axis / np.linalg.norm(axis) * (-1.0 if axis[1] < 0 else 1.0)
+        axis = axis / np.linalg.norm(axis)
+        if axis[1] < 0:
+            axis = -axis
     angle = s * math.atan2(sine, cosine)
     x, y, z = axis
     cross = np.array([[0, -z, y], [z, 0, -x], [-y, x, 0]])

@@ -57,6 +57,7 @@ class _Examples:
             derandomize=True,
             database=None,
             print_blob=False,
+            phases=(hypothesis.Phase.explicit, hypothesis.Phase.generate),  # noticed is enough
         )
         hypothesis.settings.load_profile("mutants")
 

@@ -199,6 +199,65 @@ def test_what_lies_behind_the_first_eye_is_not_seen_while_the_eye_draws_back() -
     assert passage.at(0.5).camera.near is None
 
 
+@pytest.mark.parametrize("projection", ["perspective", "parallel"])
+def test_a_plane_before_which_nothing_is_seen_comes_and_goes(projection: str) -> None:
+    """Evenly where it cuts something off; where it does not, no perspective needs it on its way."""
+    one = Camera(eye=(0, 0, 5), projection=projection)
+    two = replace(one, near=2.0)
+    middle = [
+        Passage(View(one), View(two), (0, 0, 0), b, SIZE).at(0.5) for b in (BOUNDS, 2 * BOUNDS)
+    ]
+    parallel = projection == "parallel"
+    expected = pytest.approx([1.0 if parallel else None, 1.0])
+    assert [view.camera.near for view in middle] == expected
+    for ends in ((one, two), (two, two), (one, one)):
+        empty = Passage(*map(View, ends), (0, 0, 0), np.zeros((0, 3)), SIZE).at(0.5).camera.near
+        needed = 2.0 if ends[0] is two else 1.0 if parallel and two in ends else None
+        assert empty == pytest.approx(needed)
+
+
+def test_of_a_near_plane_a_millionth_of_the_depth_is_none() -> None:
+    for near, between in ((9.0, None), (11.0, 11.0)):
+        one = Camera(eye=(0, 0, 1e7), near=near)
+        two = replace(one, viewport=(-1, 1, -1, 1))
+        found = Passage(View(one), View(two), (0, 0, 0), BOUNDS, SIZE).at(0.5).camera.near
+        assert found == pytest.approx(between)
+
+
+def test_beyond_what_a_camera_can_be_the_nearer_end_is_seen() -> None:
+    start = View(Camera(eye=(0, 0, 8e11)))
+    end = View(switched_projection(start.camera, (0, 0, 0)))
+    passage = Passage(start, end, (0, 0, 0), BOUNDS, SIZE)
+    assert passage.at(0.1).camera.eye[2] == pytest.approx(8e11 / 0.972)
+    assert passage.at(0.45) is start
+    assert passage.at(0.55) is end
+
+
+@pytest.mark.parametrize(
+    ("fit", "near", "right", "across", "down", "height"),
+    [
+        (False, None, 1.5, 2, 1 + 2 / 3, 4.5),
+        (False, 3.5, 1.5, 2, 1 + 2 / 3, 2.5),
+        (True, None, 1.5, 1 + 9 / 16, 1 + 2 / 3, 4.5),  # half the width is 16 / 9 * 0.75
+        (True, None, 3.0, 2, 1 + 16 / 27, 4.5),  # the height is 27 / 16
+    ],
+)
+def test_the_farthest_corner_says_when_rays_may_be_parallel(
+    fit, near, right, across, down, height
+) -> None:
+    """From the foot of the eye to it r pixels; so many times as far as the scene, or the first eye,
+    is from the focus's plane: then the corner moves by a fifth of a pixel."""
+    one = Camera((0.0, 0.5, 4.0), viewport=(0.0, right, -0.25, 1.25), near=near)
+    two = switched_projection(one, FOCUS)
+    passage = Passage(View(one, fit), View(two, fit), FOCUS, BOUNDS, SIZE)
+    low, high = 0.0, 1.0
+    for _ in range(60):
+        middle = (low + high) / 2
+        low, high = (low, middle) if passage.at(middle).camera.is_parallel else (middle, high)
+    farthest = passage.at(low).camera.eye[2] + 0.5
+    assert farthest == pytest.approx(math.hypot(across * 480, down * 270) * height / 0.2, rel=1e-3)
+
+
 def test_half_a_turn_goes_about_the_upright_axis() -> None:
     scene = load_scene("spheres")
     focus = scene_focus(scene)
@@ -211,19 +270,20 @@ def test_half_a_turn_goes_about_the_upright_axis() -> None:
         assert camera.v == pytest.approx((0, 1, 0))
 
 
-@pytest.mark.parametrize("eye", [(3.0, 0.5, -0.4999), (0.0, 0.5, -0.25), (-40.0, 3.0, 60.0)])
+@pytest.mark.parametrize("eye", [(3.0, 0.5, -0.49999), (0.0, 0.5, -0.25), (-40.0, 3.0, 60.0)])
 @pytest.mark.parametrize("half", [0.5, 0.1])
 def test_with_the_same_angle_of_view_the_eye_goes_straight(eye: tuple, half: float) -> None:
     """Wherever the focus is: far beside the picture, close to the eye. What is seen of its plane
     becomes smaller by even factors."""
-    viewport = (-half, 2 * half, -half, half)
-    two = Camera((0.0, 0.5, 3.0), viewport=viewport, near=0.5, far=90.0)
+    distance = 0.01 / half
+    viewport = (-0.01, 0.02, -0.01, 0.01)
+    two = Camera((0.0, 0.5, 3.0), distance=distance, viewport=viewport, near=0.5, far=90.0)
     one = replace(two, eye=eye, near=0.25, far=30.0)
     passage = Passage(View(one), View(two), FOCUS, BOUNDS, SIZE)
     for part, s in ((0.1, 0.028), (0.5, 0.5), (0.9, 0.972)):
         camera = passage.at(part).camera
         assert camera.viewport == pytest.approx(viewport)
-        assert camera.distance == pytest.approx(1.0)
+        assert camera.distance == pytest.approx(distance)
         depth = (one.eye[2] + 0.5) ** (1 - s) * 3.5**s
         way = (depth - one.eye[2] - 0.5) / (3.0 - one.eye[2])
         assert camera.eye == pytest.approx(np.array(one.eye) * (1 - way) + np.array(two.eye) * way)
@@ -240,6 +300,15 @@ def test_to_parallel_rays_the_angle_of_view_narrows_evenly(factor: float) -> Non
         _, right, _, top = passage.at(part).camera.viewport
         assert right / passage.at(part).camera.distance == pytest.approx(0.5 * (1 - s))
         assert right == top
+
+
+def test_where_the_focus_is_behind_an_eye_another_point_in_front_of_both_takes_its_place() -> None:
+    """The middle of one's image plane."""
+    one = Camera(eye=(0, 0, 0))
+    two = replace(one, eye=(0, 0, 4))
+    for ends in ((one, two), (two, one)):
+        camera = Passage(*map(View, ends), (0, 0, 2), BOUNDS, SIZE).at(0.5).camera
+        assert camera.eye == pytest.approx((0, 0, math.sqrt(5) - 1))  # 1 and 5 from z = -1
 
 
 def test_parallel_rays_pass_to_a_part_of_the_picture_without_leaving_it() -> None:
@@ -455,24 +524,27 @@ def test_half_way_is_half_of_the_turn_and_the_mean_of_the_stretch(scale: float) 
     def turn(angle: float) -> np.ndarray:
         return np.eye(3) + np.sin(angle) * cross + (1 - np.cos(angle)) * cross @ cross
 
-    for angle in (0.0, 1e-9, 0.4, 1.8, 3.1):
+    for angle in (0.0, 1e-9, 5e-8, 0.4, 1.8, 3.1):
         u, v, w = (scale * turn(angle)).T
         end = Camera(tuple(5 * w / scale), tuple(u), tuple(v), tuple(w))
         passage = Passage(View(Camera(eye=(0, 0, 5))), View(end), (0, 0, 0), BOUNDS, SIZE)
         for part, way in ((0.25, 0.15625), (0.5, 0.5)):
             basis = passage.at(part).camera.basis
-            np.testing.assert_allclose(basis, scale**way * turn(way * angle), atol=1e-7)
+            np.testing.assert_allclose(basis, scale**way * turn(way * angle), atol=1e-9)
 
 
-@pytest.mark.parametrize("name", ["v", "w", "u"])
-def test_half_a_turn_about_any_axis_ends_where_it_should(name: str) -> None:
-    """About its own axis, by a quarter at half the time, and upright where that is possible."""
-    axis = np.array(getattr(Camera(), name))
+@pytest.mark.parametrize(
+    "direction", [(0, 1, 0), (0, 0, 1), (1, 0, 0), (2, -1, 1), (-1, 2, 0.5), (1, 0.5, -3)]
+)
+def test_half_a_turn_about_any_axis_ends_where_it_should(direction: tuple) -> None:
+    """About its own axis, by a quarter at half the time: counterclockwise about its upper half."""
+    axis = np.array(direction) / np.linalg.norm(direction)
     turned = 2 * np.outer(axis, axis) - np.eye(3)
     u, v, w = (turned @ np.array(vector) for vector in ((1, 0, 0), (0, 1, 0), (0, 0, 1)))
     end = Camera(tuple(5 * w), tuple(u), tuple(v), tuple(w))
     passage = Passage(View(Camera(eye=(0, 0, 5))), View(end), (0, 0, 0), BOUNDS, SIZE)
     basis = passage.at(0.5).camera.basis
-    np.testing.assert_allclose(basis @ axis, axis, atol=1e-9)
-    np.testing.assert_allclose(basis @ basis, turned, atol=1e-9)
+    up = -axis if axis[1] < 0 else axis
+    quarter = np.outer(up, up) + np.cross(np.eye(3), up)
+    np.testing.assert_allclose(basis, quarter, atol=1e-9)
     np.testing.assert_allclose(passage.at(1 - 1e-5).camera.basis, turned, atol=1e-6)

@@ -406,6 +406,28 @@ def test_a_matrix_is_affine_to_a_millionth_of_its_largest_number(
             read_view(text, NOW)
 
 
+@pytest.mark.parametrize(
+    ("depth", "near", "far"),
+    [
+        ("-8 -3", 0.25, 0.5),
+        ("-0.2 -1", None, 10.0),  # near is in the eye's plane: nothing before it is drawn anyway
+        ("-0.2 1", None, None),
+        ("0.0 0", None, None),
+        ("-0.0 0", None, None),
+    ],
+)
+def test_of_parallel_matrices_clip_planes_in_front_of_the_eye_count(
+    depth: str, near: float | None, far: float | None
+) -> None:
+    scale, shift = depth.split()
+    text = (
+        "camera_from_world = 1 0 0 0  0 1 0 0  0 0 1 0  0 0 0 1\n"
+        f"clip_from_camera = 1 0 0 0  0 1 0 0  0 0 {scale} 0  0 0 {shift} 1"
+    )
+    camera = read_view(text, NOW).camera
+    assert (camera.near, camera.far) == (near, far)
+
+
 def test_of_a_command_line_only_whole_options_of_the_camera_count() -> None:
     camera = read_view("lucida scene#1.toml --eye 1,2,3 --dist 7", NOW).camera
     assert camera == replace(NOW.camera, eye=(1.0, 2.0, 3.0))

@@ -253,7 +253,8 @@ def test_a_moment_knows_its_triangle_and_whether_the_pixel_is_inside() -> None:
 
 
 def test_a_pixel_on_an_edge_is_inside_and_its_test_gives_the_t_that_is_written() -> None:
-    run = recorded(SQUARE, Order.RASTER, SQUARE_SEEN, (9, 9))
+    twice_as_far = replace(SQUARE_SEEN, eye=(0, 0, 1), viewport=(-0.2, 0.2, -0.2, 0.2))
+    run = recorded(SQUARE, Order.RASTER, twice_as_far, (9, 9))
     t = run.test_t.upto(len(run.test_t))
     inside = run.source.lines.index(next(one for one in run.source.lines if " z = " in one))
     assert np.isfinite(t).sum() == (run.lines.upto(len(run)) == inside).sum() > 81

@@ -348,7 +348,7 @@ def test_values_are_told_in_a_few_characters() -> None:
         (piece, f"far, number {piece.primitive}"),
         (replace(piece, shares=piece.shares[::-1]), f"far, number {piece.primitive}, clipped"),
         (Corner(3.14159, 12.5, 0.25), "(3.14, 12.50), z = 0.2500"),
-        ((2.5, 13.5), "(2.5, 13.5)"),
+        ((2.0, 13.5), "(2, 13.5)"),
         (ray, "(0.0000, 0.0000, 0.0000) + t (0.1250, 0.5000, -1.0000)"),
         (MISS, "miss, t = inf"),
         (Hit(2.5, near, 12), "t = 2.5000, near"),
