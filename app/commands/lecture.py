@@ -1,6 +1,6 @@
 """`lucida lecture [FILE]`: a guided lecture, or a picture of each of its steps.
 
-Knows nothing of what a lecture is made of (app/teach/lecture/) or how it is shown.
+Knows nothing of what a lecture is made of (app/lecture/) or how it is shown.
 """
 
 from __future__ import annotations

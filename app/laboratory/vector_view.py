@@ -32,11 +32,15 @@ from app.widgets.uploads import Uploads
 from renderer.errors import describe
 from renderer.scene.reading import size_text
 
-PAGE_SIZE = (640, 480)  # of the drawing
-PIXELS = (160, 120)  # of its raster image
+PAGE_PX = 640  # the width of the drawing
+PIXEL_PX = 4  # of the drawing, a side of its raster image's pixel
+LOWEST, HIGHEST = 0.75, 1.2  # the drawing's height, in parts of its width: as high as has room
+SHAPE = (4, 3)  # the lowest one's: what is seen then is seen in all
 UNITS = (1.6, 1.5)  # of lines and of symbols, in the drawing's pixels
 WHEEL_STEP = 1.25
 NAME = "vector"  # of the raster image's texture
+
+Size = tuple[int, int]
 
 
 @dataclass(frozen=True, eq=False)
@@ -84,13 +88,14 @@ class VectorPage:
 
     def draw(self, host: Host, options: LaboratoryOptions, uploads: Uploads) -> None:
         """Into the rest of the window. Raises LucidaError, moderngl.Error."""
-        self._follow(host)
+        room = imgui.get_cursor_screen_pos(), imgui.get_content_region_avail()
+        panes, page = panes_in(*room, imgui.get_font_size())
+        self._follow(host, page)
         if self.error is not None:
             imgui.text_colored(theme.ERROR, describe(self.error))
             return
         if self.made is None:
             return
-        panes = _panes()
         changed = options
         for number, pane in enumerate(panes):
             changed = self._mouse(f"pane {number}", pane, changed)
@@ -100,11 +105,9 @@ class VectorPage:
         if texture is not None:
             draw.add_image(imgui.ImTextureRef(texture.glo), panes[0].low, panes[0].high)
         low, high = panes[1].low, panes[1].high
-        scale = (high.x - low.x) * zoom / PAGE_SIZE[0]
-        origin = (
-            low.x - corner[0] * PAGE_SIZE[0] * scale,
-            low.y - corner[1] * PAGE_SIZE[1] * scale,
-        )
+        width, height = self.made.drawing.size
+        scale = (high.x - low.x) * zoom / width
+        origin = low.x - corner[0] * width * scale, low.y - corner[1] * height * scale
         view = Magnified(origin, scale)
         paint(draw, self.made.drawing, self.made.marks, view, low, high, host.fonts)
         for pane in panes:
@@ -113,9 +116,9 @@ class VectorPage:
         if changed != options:
             host.apply(host.state.with_options(laboratory=changed), "vector pane")
 
-    def _follow(self, host: Host) -> None:
+    def _follow(self, host: Host, page: Size) -> None:
         assert self._work is not None
-        sketch = self._sketcher.follow(self._outside, host, PAGE_SIZE, UNITS)
+        sketch = self._sketcher.follow(self._outside, host, page, UNITS, shape=SHAPE)
         if sketch is not self._asked:
             self._asked = sketch
             self._work.submit(lambda: _both(sketch))
@@ -171,7 +174,7 @@ class VectorPage:
         texts = (
             (
                 "Raster image",
-                f"{PIXELS[0]} x {PIXELS[1]} pixels, {size_text(picture.nbytes)}",
+                f"{picture.shape[1]} x {picture.shape[0]} pixels, {size_text(picture.nbytes)}",
             ),
             (
                 "Vector drawing",
@@ -196,28 +199,35 @@ class VectorPage:
 
 def _both(sketch: Sketch) -> Both:
     drawing = sketch.draw()
-    picture = bitmap(drawing, PIXELS)
+    width, height = drawing.size
+    picture = bitmap(drawing, (width // PIXEL_PX, height // PIXEL_PX))
     return Both(sketch, drawing, prepared(drawing), picture, len(svg(drawing).encode()))
 
 
-def _panes() -> tuple[Pane, Pane]:
-    """Two of the page's proportions, side by side or one below the other, under their headings."""
-    corner, avail = imgui.get_cursor_screen_pos(), imgui.get_content_region_avail()
-    em = imgui.get_font_size()
+def panes_in(corner: ImVec2, avail: ImVec2, em: float) -> tuple[tuple[Pane, Pane], Size]:
+    """Two side by side or one below the other, under their headings, and the size of the drawing
+    in them: as much of the room as two of its proportions take. em: the size of type."""
     gap, heading = 0.6 * em, 2.5 * em
-    beside = (avail.x - gap) / 2, avail.y - heading
-    below = avail.x, (avail.y - gap) / 2 - heading
-    fits = [min(room[0] / PAGE_SIZE[0], room[1] / PAGE_SIZE[1]) for room in (beside, below)]
-    scale = max(max(fits), 0.02)
-    width, height = np.floor(PAGE_SIZE[0] * scale), np.floor(PAGE_SIZE[1] * scale)
-    step = (beside[0] + gap, 0.0) if fits[0] >= fits[1] else (0.0, height + heading + gap)
+    beside = max(1.0, (avail.x - gap) / 2), avail.y - heading
+    below = max(1.0, avail.x), (avail.y - gap) / 2 - heading
+    parts = [min(max(height / width, LOWEST), HIGHEST) for width, height in (beside, below)]
+    widths = [
+        min(width, height / part)
+        for (width, height), part in zip((beside, below), parts, strict=True)
+    ]
+    best = max((0, 1), key=lambda way: widths[way] ** 2 * parts[way])
+    rows = round(PAGE_PX * parts[best] / PIXEL_PX)
+    page = PAGE_PX, rows * PIXEL_PX
+    width = np.floor(max(widths[best], 0.02 * PAGE_PX))
+    height = np.floor(width * page[1] / page[0])
+    step = (beside[0] + gap, 0.0) if best == 0 else (0.0, height + heading + gap)
 
     def pane(number: int) -> Pane:
         x = float(np.floor(corner.x + number * step[0]))
         y = float(np.floor(corner.y + heading + number * step[1]))
         return Pane(ImVec2(x, y), ImVec2(x + width, y + height))
 
-    return pane(0), pane(1)
+    return (pane(0), pane(1)), page
 
 
 def _held(center: tuple[float, float], zoom: float) -> tuple[float, float]:

@@ -56,7 +56,7 @@ def _height(
 
 def _option_px(size: float) -> tuple[float, float]:
     """An option's margin, and the width of its letter with the margin before it."""
-    return 0.45 * size, 1.9 * size
+    return 0.34 * size, 1.9 * size
 
 
 def exercise(

@@ -42,6 +42,7 @@ from renderer.scene.subprocess_reader import ModelReader
 
 LECTURE = "Lecture"
 RESTORE = "back to the step"
+STEP_EM, PLACE_EM = 2.0, 4.4  # the widths of the buttons that walk, and of the place between them
 LAID_OUT = 8  # frames until every view has its place
 END = "End the lecture"
 
@@ -337,17 +338,17 @@ class LectureView(View):
         size = imgui.get_font_size()
         fits = _fits_a_row(imgui.get_content_region_avail().x)
         imgui.begin_disabled(number == 0)
-        if imgui.button("<##back", ImVec2(2.4 * size, 0)):
+        if imgui.button("<##back", ImVec2(STEP_EM * size, 0)):
             self.advance(host, -1)
         imgui.end_disabled()
         imgui.set_item_tooltip("the step before (Page Up)")
         imgui.same_line()
-        if imgui.button(f"{number + 1} / {count}##outline", ImVec2(5.0 * size, 0)):
+        if imgui.button(f"{number + 1} / {count}##outline", ImVec2(PLACE_EM * size, 0)):
             imgui.open_popup("outline")
         imgui.set_item_tooltip("all steps")
         imgui.same_line()
         imgui.begin_disabled(number == count - 1)
-        if imgui.button(">##next", ImVec2(2.4 * size, 0)):
+        if imgui.button(">##next", ImVec2(STEP_EM * size, 0)):
             self.advance(host, 1)
         imgui.end_disabled()
         imgui.set_item_tooltip("the next step (Page Down)")
@@ -398,7 +399,7 @@ def _places(step: Step) -> dict[str, str]:
 
 def _walking_px() -> float:
     """The width of the buttons that walk the steps."""
-    return 9.8 * imgui.get_font_size() + 2 * imgui.get_style().item_spacing.x
+    return (2 * STEP_EM + PLACE_EM) * imgui.get_font_size() + 2 * imgui.get_style().item_spacing.x
 
 
 def _fits_a_row(width: float) -> bool:

@@ -50,16 +50,19 @@ class Sketcher:
         size: Size,
         units: tuple[float, float] | None = None,
         live: bool = False,
+        shape: Size | None = None,
     ) -> Sketch:
         """A drawing's inputs as they are now. units: the width of a line that teaches and the size
         of symbols, as the view's own if not given. live: with the live image, if that is shown.
+        shape: of a page; what has room on such a one is not lost on this.
         Raises LucidaError, moderngl.Error."""
         both, state = host.renderers, host.state
         both.need_size(state.images)
         scale = framebuffer_scale()
         extent = ImVec2(size[0] / scale, size[1] / scale)
         scope = scope_of(host, size, ImVec2(0, 0), extent)
-        looking, camera, image_size = scope.shown, both.camera(state), both.size
+        looking = scope.camera.fitted(shape).fitted(size) if shape else scope.shown
+        camera, image_size = both.camera(state), both.size
         options = replace(state.of(OutsideOptions), camera=None)
         marked, hits = view.rays(host, camera, image_size)
         unit, symbol = units or units_px(extent)

@@ -6,6 +6,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from imgui_bundle import ImVec2
 
 from app.laboratory import light
 from app.laboratory.options import LaboratoryOptions
@@ -17,6 +18,7 @@ from app.laboratory.pages import (
     panels,
     plan,
 )
+from app.laboratory.vector_view import PAGE_PX, PIXEL_PX, panes_in
 from renderer.images import to_srgb8
 
 ROOMS = [(1200, 900), (600, 900), (400, 300), (1900, 500)]
@@ -251,3 +253,18 @@ def test_a_test_picture_has_every_mixture_of_light():
     mixtures = {tuple(color) for color in seen.tolist()}
     assert mixtures == {(r, g, b) for r in (0, 255) for g in (0, 255) for b in (0, 255)}
     assert count.min() > 0.01 * count.sum()  # each is to be seen
+
+
+@pytest.mark.parametrize("room", [(780, 470), (1180, 740), (760, 330), (400, 800), (1900, 900)])
+def test_the_vector_page_fills_its_room(room: tuple[int, int]) -> None:
+    """Both panes are in it, apart, in the drawing's proportions, and leave no third empty."""
+    (one, other), page = panes_in(ImVec2(7.0, 9.0), ImVec2(*room), 15.0)
+    for pane in (one, other):
+        assert pane.low.x >= 7 and pane.high.x <= 7 + room[0] + 1
+        assert pane.low.y >= 9 and pane.high.y <= 9 + room[1] + 1
+        width, height = pane.high.x - pane.low.x, pane.high.y - pane.low.y
+        assert abs(height / width - page[1] / page[0]) < 0.01
+    assert other.low.x >= one.high.x or other.low.y >= one.high.y
+    used = 2 * (one.high.x - one.low.x) * (one.high.y - one.low.y)
+    assert used >= 0.66 * room[0] * room[1]
+    assert page[1] % PIXEL_PX == 0 and page[0] == PAGE_PX

@@ -9,7 +9,7 @@ import numpy as np
 from window_driver import Driver, Key
 
 from app.laboratory.options import LaboratoryOptions
-from app.laboratory.vector_view import PIXELS, Both
+from app.laboratory.vector_view import PIXEL_PX, Both
 from app.laboratory.view import LABORATORY, LaboratoryView
 from app.outside.bitmap import magnified
 from app.outside.svg import svg
@@ -70,7 +70,8 @@ def _middle(d: Driver, number: int) -> tuple[float, float]:
 def drive_one_stays_sharp_and_the_other_does_not(d: Driver) -> None:
     view = _page(d)
     made = _made(view)
-    assert made.picture.shape == (PIXELS[1], PIXELS[0], 3)
+    width, height = made.drawing.size
+    assert made.picture.shape == (height // PIXEL_PX, width // PIXEL_PX, 3)
     assert made.svg_bytes == len(svg(made.drawing).encode())
     shades = []
     for zoom in (1.0, 8.0, LARGEST_ZOOM):
@@ -78,10 +79,10 @@ def drive_one_stays_sharp_and_the_other_does_not(d: Driver) -> None:
         d.settle()
         options = d.window.state.options.laboratory
         assert options.zoom == zoom
-        # A place with something in it: the eye.
+        # A place with an edge in it: the eye's.
         spot = next(p for p in made.drawing.parts if p.group == "eye")
         x, y = spot.center  # type: ignore[union-attr]
-        at = x / made.drawing.size[0] + 0.4 / zoom * 0.2, y / made.drawing.size[1]
+        at = (x + spot.radius) / width, y / height  # type: ignore[union-attr]
         d.window.change(d.window.state.with_options(laboratory={"zoom_center": at}))
         d.settle()
         raster, vector = _panes(d)
@@ -102,7 +103,7 @@ def drive_one_stays_sharp_and_the_other_does_not(d: Driver) -> None:
         np.abs(np.diff(pane.astype(int), axis=1)).max(axis=2) > 24 for pane in (raster, vector)
     ]
     columns = [int(part.any(axis=0).sum()) for part in across]
-    assert columns[0] <= PIXELS[0] / LARGEST_ZOOM + 2, columns
+    assert columns[0] <= width / PIXEL_PX / LARGEST_ZOOM + 2, columns
     assert columns[1] > 20, columns
     _close(d)
 
