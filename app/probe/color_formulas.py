@@ -24,6 +24,7 @@ from app.explaining.notation import (
 from app.explaining.shading import Lamp, Shading
 from app.probe.reading import Bounce, Reading
 from renderer.scene.model import Color
+from renderer.shared_numbers import SRGB_GAMMA, SRGB_LINEAR, SRGB_SCALE, SRGB_SHIFT, SRGB_SLOPE
 
 LIGHT = r"\mathbf{L}"
 
@@ -244,8 +245,11 @@ def _display_lines(reading: Reading) -> list[Line]:
     if reading.exposure_ev:
         light = Slot(r"\mathbf{L}'", "L'", light.latex_value, light.text_value)
     cut = "; what is above 1 is cut off" if max(reading.exposed) > 1 else ""
-    right = (r"1.055\,<L>^{1/2.4} - 0.055", "1.055 <L>^(1/2.4) - 0.055")
-    name = "sRGB's curve (up to 0.0031308: 12.92 L)"
+    right = (
+        rf"{SRGB_SCALE}\,<L>^{{1/{SRGB_GAMMA}}} - {SRGB_SHIFT}",
+        f"{SRGB_SCALE} <L>^(1/{SRGB_GAMMA}) - {SRGB_SHIFT}",
+    )
+    name = f"sRGB's curve (up to {SRGB_LINEAR}: {SRGB_SLOPE} L)"
     if reading.transfer == "linear":
         right, name = ("<L>", "<L>"), "display value, linear"
     lines.append(
