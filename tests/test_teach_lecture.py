@@ -12,6 +12,7 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+from plain_text import plain_text
 
 from app.explaining.languages import LANGUAGES
 from app.lecture import reading
@@ -325,7 +326,7 @@ class TestText:
             texts.Code("  x = $1", "python"),
         )
         assert texts.formulas(blocks) == ("x", "a\nb", "c")
-        assert "slanted" in texts.plain(blocks) and "*" not in texts.plain(blocks)
+        assert "slanted" in plain_text(blocks) and "*" not in plain_text(blocks)
 
     def test_signs_that_mean_themselves(self):
         (paragraph,) = texts.parse(r"\$5 and 3 * 4 * 5 and \*, `a*b*c`")
@@ -467,7 +468,7 @@ class TestTheBuiltInLecture:
     def test_it_fits_a_slide(self):
         for step, language in itertools.product(self.lecture.steps, LANGUAGES):
             shown = texts.in_language(step.blocks, language)
-            words = len(re.findall(r"\w+", texts.plain(shown)))
+            words = len(re.findall(r"\w+", plain_text(shown)))
             assert 5 <= words <= 85, (step.title, language, words)
 
     def test_every_kind_of_exercise_is_in_it(self):

@@ -43,7 +43,6 @@ NAME = "vector"  # of the raster image's texture
 class Both:
     """The diagram in both ways. svg_bytes: of the file."""
 
-    sketch: Sketch
     drawing: Drawing
     marks: tuple[Mark, ...]
     picture: NDArray[np.uint8]
@@ -197,7 +196,7 @@ class VectorPage:
 def _both(sketch: Sketch) -> Both:
     drawing = sketch.draw()
     picture = bitmap(drawing, PIXELS)
-    return Both(sketch, drawing, prepared(drawing), picture, len(svg(drawing).encode()))
+    return Both(drawing, prepared(drawing), picture, len(svg(drawing).encode()))
 
 
 def _panes() -> tuple[Pane, Pane]:

@@ -121,22 +121,6 @@ def parse(text: str) -> tuple[Block, ...]:
     return tuple(_blocks(text.splitlines()))
 
 
-def plain(blocks: tuple[Block, ...]) -> str:
-    """The words of a text without their marks; formulas as their LaTeX."""
-    parts = []
-    for block in blocks:
-        match block:
-            case Listing():
-                parts += [words(item) for item in block.items]
-            case Code():
-                parts.append(block.text)
-            case Formula():
-                parts.append(block.latex)
-            case _:
-                parts.append(words(block.line))
-    return "\n".join(parts)
-
-
 def in_language(blocks: tuple[Block, ...], language: str) -> tuple[Block, ...]:
     """The text with one of each program that is there in several languages, one fence after
     another: in that language, or else the first."""
@@ -157,11 +141,6 @@ def languages(blocks: tuple[Block, ...]) -> tuple[str, ...]:
 
 def _language(block: Block) -> str:
     return block.language if isinstance(block, Code) and block.language in LANGUAGES else ""
-
-
-def words(line: Line) -> str:
-    """A line's words without their marks."""
-    return "".join(span.text if isinstance(span, Words) else span.latex for span in line)
 
 
 def escaped(text: str) -> str:
