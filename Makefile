@@ -13,7 +13,7 @@ help:
 	@echo 'make attack         half an hour of attacks; make attack ARGS="random_events --minutes 10"'
 	@echo 'make bench          measure the tracer beside others; make bench ARGS="--quick"'
 	@echo 'make pictures       draw the pictures of the window in docs/ anew'
-	@echo 'make lint           ruff and mypy'
+	@echo 'make lint           ruff, mypy and vulture'
 	@echo 'make requirements   pin the packages anew     make requirements ARGS="--upgrade"'
 	@echo 'make clean          remove .venv and everything else that was made'
 

@@ -222,13 +222,6 @@ class Camera:
     # Matrices for the rasterizer.
 
     @property
-    def world_from_camera(self) -> Floats:
-        """The affine matrix with columns u, v, w, eye."""
-        matrix = np.eye(4)
-        matrix[:3] = np.column_stack([self.u, self.v, self.w, self.eye])
-        return matrix
-
-    @property
     def camera_from_world(self) -> Floats:
         """Its inverse (not the transpose: the basis may be skewed)."""
         linear = np.linalg.inv(self.basis)

@@ -36,6 +36,7 @@ from renderer.nothing_hit import hits_nothing, why_nothing_is_hit
 from renderer.pixels import Indexing, Pixel
 from renderer.scene.flat import FlatScene, flatten
 from renderer.scene.model import Scene
+from renderer.shared_numbers import MUTED, SRGB_SLOPE
 
 TOLERANCE_PX = 1 / 128
 DEPTH_RELATIVE = 1e-4
@@ -48,7 +49,6 @@ CAUSES = ("outline", "meeting", "clip", "checker", "grazing")
 AGREE, SHADING, UNEXPLAINED = 0, 254, 255
 MOST_EXAMINED = 1 << 20  # disagreeing pixels; more than that is not a matter of edges
 
-_SLOPE_OF_SRGB = 12.92  # the steepest
 _NEGLIGIBLE = 1e-5  # a display value; smaller differences are not worth a closer look
 
 
@@ -166,7 +166,7 @@ class Comparison:
     def difference_image(self) -> NDArray[np.uint8]:
         """uint8 (height, width, 3): the raster image darkened, differing pixels in their cause's
         colour (difference.py), unexplained ones in vermilion."""
-        gray = 0.35 * encode_srgb(self.raster.channel("color")).mean(axis=2, keepdims=True)
+        gray = MUTED * encode_srgb(self.raster.channel("color")).mean(axis=2, keepdims=True)
         image = np.repeat((255 * gray).astype(np.uint8), 3, axis=2)
         marked = self.labels != AGREE
         image[marked] = LABEL_COLORS[self.labels[marked]]
@@ -265,7 +265,7 @@ def _differences(
     normal = np.abs(signed_difference(raster, ray, "normal"))
     color_a, color_b = raster.channel("color"), ray.channel("color")
     with np.errstate(invalid="ignore"):
-        color = np.abs(most(color_b - color_a)) * np.float32(_SLOPE_OF_SRGB)
+        color = np.abs(most(color_b - color_a)) * np.float32(SRGB_SLOPE)
     # The display transform is costly and shrinks most differences: only where it may matter.
     near = color > _NEGLIGIBLE
     color[near] = np.abs(most(encode_srgb(color_b[near]) - encode_srgb(color_a[near])))

@@ -22,8 +22,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from renderer.camera import NEAREST, Camera, Floats
-from renderer.scene.flat import CELL_NUDGE, SPECULAR_CHECKERED, FlatScene
+from renderer.scene.flat import SPECULAR_CHECKERED, FlatScene
 from renderer.scene.positions import world_corners
+from renderer.shared_numbers import CELL_NUDGE
 from renderer.slivers import seen_corners, unknown_edge_px
 
 Ints = NDArray[np.integer]

@@ -18,6 +18,8 @@ _HOME = {
     "normals_at": "shade",
     "albedo_at": "shade",
     "color_at": "shade",
+    "light_at": "shade",
+    "reflected_at": "shade",
     "object_of": "shade",
     "point_on": "shade",
     "plus": "vectors",

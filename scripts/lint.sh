@@ -6,4 +6,5 @@ status=0
 .venv/bin/python -m ruff check . || status=1
 .venv/bin/python -m ruff format --check . || status=1
 .venv/bin/python -m mypy || status=1
+.venv/bin/python -m vulture || status=1
 exit $status

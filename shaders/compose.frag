@@ -12,8 +12,6 @@ uniform bool has_marks;
 
 out vec4 color;
 
-const vec3 LUMINANCE = vec3(0.2126, 0.7152, 0.0722);
-
 vec3 fetch(sampler2D picture) {
     ivec2 full = textureSize(picture, 0);
     ivec2 at = min(ivec2(gl_FragCoord.xy * vec2(full) / extent), full - 1);
@@ -22,7 +20,7 @@ vec3 fetch(sampler2D picture) {
 
 void main() {
     vec3 rgb = gl_FragCoord.x < divider ? fetch(left) : fetch(right);
-    rgb = mix(rgb, vec3(0.35 * dot(rgb, LUMINANCE)), muted);
+    rgb = mix(rgb, vec3(MUTED * dot(rgb, LUMINANCE)), muted);
     if (has_marks) {
         int label = int(255.0 * texelFetch(marks, ivec2(gl_FragCoord.xy), 0).r + 0.5);
         if (label > 0) rgb = texelFetch(colors, ivec2(label, 0), 0).rgb;

@@ -1,14 +1,12 @@
 #version 330 core
 // The least and greatest finite values of a block of SIDE x SIDE pixels: repeated until one pixel
 // is left, the range of an image. In a block without any, the least exceeds the greatest.
+// SIDE: a constant that is put in above (renderer/raster/depth_range.py).
 
 uniform sampler2D source;
 uniform bool is_range;  // the source is such an image of ranges already; else values, in w
 
 out vec2 ends;
-
-const int SIDE = 16;
-const float FARTHEST = 3.0e38;
 
 void main() {
     ivec2 first = SIDE * ivec2(gl_FragCoord.xy);

@@ -32,7 +32,7 @@ void main() {
         hit.t = triangle_t(texelFetch(triangle_rows, texel(primitive), 0).xyz, xy);
         vec3 anchor = object_anchor(hit.object);
         mat3 world_from_object = HAS_TURNED ? object_matrix(hit.object) : mat3(1.0);
-        vec3 anchor_inside = object_texel(hit.object, 0).xyz;
+        vec3 anchor_inside = object_texel(hit.object, ROW_INSIDE).xyz;
         mat3 corners = mat3(
             texelFetch(vertices, texel(3 * face.x), 0).xyz,
             texelFetch(vertices, texel(3 * face.y), 0).xyz,

@@ -22,6 +22,6 @@ void main() {
     number = gl_InstanceID;
     Sphere sphere = sphere_at(number);
     vec3 corner = AROUND * sphere.radius * CORNERS[SIDES[gl_VertexID]];
-    float near = texelFetch(objects, texel(15 * sphere.object), 0).w;
+    float near = texelFetch(objects, texel(OBJECT_TEXELS * sphere.object + ROW_INSIDE), 0).w;
     gl_Position = clip_from_image(sphere.center + image_from_world * corner, near);
 }

@@ -11,14 +11,14 @@ in vec3 vertex;  // in its object's space
 in int object;
 
 void main() {
-    vec4 inside = texelFetch(objects, texel(15 * object), 0);
-    vec3 anchor = texelFetch(objects, texel(15 * object + 1), 0).xyz;
+    vec4 inside = texelFetch(objects, texel(OBJECT_TEXELS * object + ROW_INSIDE), 0);
+    vec3 anchor = texelFetch(objects, texel(OBJECT_TEXELS * object + ROW_ANCHOR), 0).xyz;
     mat3 image_from_object = image_from_world;
     if (HAS_TURNED) {
         image_from_object = transpose(mat3(
-            texelFetch(objects, texel(15 * object + 3), 0).xyz,
-            texelFetch(objects, texel(15 * object + 4), 0).xyz,
-            texelFetch(objects, texel(15 * object + 5), 0).xyz));
+            texelFetch(objects, texel(OBJECT_TEXELS * object + ROW_IMAGE), 0).xyz,
+            texelFetch(objects, texel(OBJECT_TEXELS * object + ROW_IMAGE + 1), 0).xyz,
+            texelFetch(objects, texel(OBJECT_TEXELS * object + ROW_IMAGE + 2), 0).xyz));
     }
     vec3 point = anchor + image_from_object * (vertex - inside.xyz);
     gl_Position = clip_from_image(point, inside.w);

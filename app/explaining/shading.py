@@ -1,7 +1,8 @@
 """How a hit's colour comes about, term by term: ambient, then each light's diffuse and specular.
 
-Owns the terms and their names. The shading model is the tracer's own (renderer/pure_python.py):
-here it is only taken apart; a test holds that the terms add up to what the renderers draw.
+Owns the terms and their names. The shading model, each light's terms too, is the tracer's own
+(renderer/pure_python.py): here it is only taken apart, and shadows are added; a test holds that the
+terms add up to what the renderers draw.
 """
 
 from __future__ import annotations
@@ -10,15 +11,13 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
 
-import numpy as np
-
 from renderer import pure_python as scalar
 from renderer.camera import Vector
 from renderer.scene.flat import DIFFUSE_SHININESS, SPECULAR_CHECKERED, FlatScene
 from renderer.scene.model import Color
+from renderer.shared_numbers import NEAREST_LIGHT
 
-NEAREST_LIGHT = 1e-12  # a point light nearer than this gives no light
-SHORTEST_HALF = 1e-6  # with a half vector shorter than this there is no highlight
+_NONE = (0.0, 0.0, 0.0)
 
 LitTest = Callable[["Hit", Vector, float], bool]  # of a hit, the unit vector to a light, its reach
 
@@ -147,35 +146,26 @@ def _lamp(
     is_lit: LitTest | None,
 ) -> Lamp | None:
     """One light's terms; None for a point light that lies in the hit itself."""
-    place, color = _three(flat.lights[number, 0]), _three(flat.lights[number, 1])
-    is_point, to_light, reach = bool(flat.lights[number, 0, 3]), place, np.inf
-    if is_point:
-        to_light = scalar.minus(place, hit.point)
-        reach = scalar.length(to_light)
-        if reach < NEAREST_LIGHT:
-            return None
-        to_light = scalar.times(1.0 / reach, to_light)
-    half: Vector = scalar.minus(to_light, scalar.normalized(hit.direction))
-    size = scalar.length(half)
-    half = scalar.times(1.0 / size, half) if size >= SHORTEST_HALF else (0.0, 0.0, 0.0)
-    n_dot_l, n_dot_h = scalar.dot(hit.normal, to_light), scalar.dot(hit.normal, half)
-    lit = is_lit is None or is_lit(hit, _three(to_light), float(reach))
-    diffuse = specularly = (0.0, 0.0, 0.0)
-    if lit:
-        diffuse = _three(scalar.times(max(0.0, n_dot_l), scalar.each_times(albedo, color)))
-        highlight = max(0.0, n_dot_h) ** shininess
-        specularly = _three(scalar.times(highlight, scalar.each_times(specular, color)))
+    light = flat.lights[number]
+    at = scalar.light_at(light, hit.point, scalar.normalized(hit.direction), hit.normal)
+    if at.distance < NEAREST_LIGHT:
+        return None
+    to_light, lit = _three(at.to_light), True
+    if is_lit is not None:
+        lit = is_lit(hit, to_light, float(at.distance))
+    terms = scalar.reflected_at(light, at, albedo, specular, shininess)
+    diffuse, highlight = terms if lit else (_NONE, _NONE)
     return Lamp(
         number,
-        is_point,
-        place,
-        color,
-        _three(to_light),
-        _three(half),
-        float(n_dot_l),
-        float(n_dot_h),
-        diffuse,
-        specularly,
+        bool(light[0, 3]),
+        _three(light[0]),
+        _three(light[1]),
+        to_light,
+        _three(at.half),
+        float(at.n_dot_l),
+        float(at.n_dot_h),
+        _three(diffuse),
+        _three(highlight),
         lit,
     )
 

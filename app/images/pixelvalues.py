@@ -12,7 +12,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from app.state.options import ImageOptions
-from renderer.images.display import FARTHEST_GRAY, ID_PALETTE, LUMINANCE, from_srgb, to_srgb8
+from renderer.images.display import ID_PALETTE, LUMINANCE, from_srgb, to_srgb8
+from renderer.shared_numbers import FARTHEST_GRAY
 
 Bytes = NDArray[np.uint8]
 Depths = tuple[float, float] | None  # that are shown white and darkest

@@ -133,11 +133,6 @@ class ImageTextures:
         return self._range.numbers()
 
     @property
-    def shows_ray(self) -> bool:
-        """Whether there is a ray image on the screen."""
-        return not self._shown_ray.is_empty
-
-    @property
     def unfinished(self) -> bool:
         """Whether the next frames have something to do: refine, try again, or read what the last
         one has measured."""

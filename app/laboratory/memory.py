@@ -39,15 +39,13 @@ class Cell:
 @dataclass(frozen=True)
 class Table:
     """A window of the array. i, j: of its first cell, 0-based. rows: its cells. one_based: the
-    notation of the labels. itemsize: bytes a number. stride_bytes: from a pixel to the one on its
-    right, and to the one below."""
+    notation of the labels. itemsize: bytes a number."""
 
     i: int
     j: int
     rows: tuple[tuple[Cell, ...], ...]
     one_based: bool
     itemsize: int
-    stride_bytes: tuple[int, int]
 
 
 def pixel_number(i: int, j: int, size: Size, order: Order = "row") -> int:
@@ -107,7 +105,6 @@ def table(
     order: Order = "row",
 ) -> Table:
     """The window of at most rows x columns pixels about (i, j) of an array as in cell()."""
-    height, width = canvas.shape[:2]
     first, left, part = window(canvas, i, j, rows, columns)
     cells = tuple(
         tuple(
@@ -116,9 +113,7 @@ def table(
         )
         for row in range(first, first + part.shape[0])
     )
-    pixel = canvas.dtype.itemsize * (canvas.shape[2] if canvas.ndim == 3 else 1)
-    strides = (pixel, pixel * width) if order == "row" else (pixel * height, pixel)
-    return Table(first, left, cells, one_based, canvas.dtype.itemsize, strides)
+    return Table(first, left, cells, one_based, canvas.dtype.itemsize)
 
 
 def run(

@@ -47,7 +47,6 @@ Size = tuple[int, int]
 class Both:
     """The diagram in both ways. svg_bytes: of the file."""
 
-    sketch: Sketch
     drawing: Drawing
     marks: tuple[Mark, ...]
     picture: NDArray[np.uint8]
@@ -201,7 +200,7 @@ def _both(sketch: Sketch) -> Both:
     drawing = sketch.draw()
     width, height = drawing.size
     picture = bitmap(drawing, (width // PIXEL_PX, height // PIXEL_PX))
-    return Both(sketch, drawing, prepared(drawing), picture, len(svg(drawing).encode()))
+    return Both(drawing, prepared(drawing), picture, len(svg(drawing).encode()))
 
 
 def panes_in(corner: ImVec2, avail: ImVec2, em: float) -> tuple[tuple[Pane, Pane], Size]:

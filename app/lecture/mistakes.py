@@ -13,12 +13,9 @@ from collections.abc import Iterator
 from dataclasses import dataclass, replace
 
 import numpy as np
-from numpy.typing import NDArray
 
 from renderer.camera import Camera, Ray
 from renderer.pixels import Indexing
-
-Floats = NDArray[np.float64]
 
 
 @dataclass(frozen=True, eq=False)

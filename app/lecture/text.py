@@ -143,11 +143,6 @@ def _language(block: Block) -> str:
     return block.language if isinstance(block, Code) and block.language in LANGUAGES else ""
 
 
-def words(line: Line) -> str:
-    """A line's words without their marks."""
-    return "".join(span.text if isinstance(span, Words) else span.latex for span in line)
-
-
 def escaped(text: str) -> str:
     """A text that is shown as it stands, whatever signs are in it: what somebody has typed."""
     return re.sub(r"([\\$*`])", r"\\\1", text)

@@ -17,7 +17,6 @@ from app.outside.diagram import Arrow, Dot, Eye, Face, Item, Label, Lines, Role
 from app.outside.screen import Screen
 
 Floats = NDArray[np.float64]
-Size = tuple[int, int]
 
 CIRCLE = 28  # corners of what is round
 _ANGLES = np.arange(CIRCLE)[:, None] * (2 * math.pi / CIRCLE)

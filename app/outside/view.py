@@ -15,7 +15,6 @@ from typing import Any
 import moderngl
 import numpy as np
 from imgui_bundle import ImVec2, imgui
-from numpy.typing import NDArray
 
 from app.cameras.travel import Ends
 from app.host.view import Host, View
@@ -54,7 +53,6 @@ from renderer.errors import LucidaError, describe
 from renderer.frame import LARGEST_PIXELS, LARGEST_SIDE
 from renderer.raster.overlay import Overlay, plane_on_screen
 
-Floats = NDArray[np.float64]
 Size = tuple[int, int]
 
 OUTSIDE = "Outside"
@@ -97,11 +95,6 @@ class OutsideView(View):
     def settled(self) -> bool:
         still = self._ground is None or self._ground.settled
         return still and (self._hits is None or not self._hits.busy)
-
-    @property
-    def over_handle(self) -> bool:
-        """Whether the mouse is over one of the handles, or drags it."""
-        return self._gizmo.over
 
     @property
     def primitives(self) -> Sequence[Primitive]:

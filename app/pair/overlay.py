@@ -13,7 +13,8 @@ from app.images.placement import magnification_text
 from app.images.screen import Screen
 from app.state.app_state import AppState
 from app.widgets import theme
-from renderer.images.display import FARTHEST_GRAY, ID_PALETTE
+from renderer.images.display import ID_PALETTE
+from renderer.shared_numbers import FARTHEST_GRAY
 
 BOX = theme.rgb("#0c0d0f", 0.9)
 TEXT = theme.rgb("#e8eaed")

@@ -24,6 +24,7 @@ from app.explaining.notation import (
 from app.explaining.shading import Lamp, Shading
 from app.probe.reading import Bounce, Reading
 from renderer.scene.model import Color
+from renderer.shared_numbers import SRGB_GAMMA, SRGB_LINEAR, SRGB_SCALE, SRGB_SHIFT, SRGB_SLOPE
 
 LIGHT = r"\mathbf{L}"
 
@@ -246,8 +247,11 @@ def _display_lines(reading: Reading) -> list[Line]:
     cut, latex, text = "", "<L>", "<L>"
     if max(reading.exposed) > 1:
         cut, latex, text = "; what is above 1 is cut off", r"\min(1,\ <L>)", "min(1, <L>)"
-    right = (rf"1.055\,{latex}^{{1/2.4}} - 0.055", f"1.055 {text}^(1/2.4) - 0.055")
-    name = "sRGB's curve (up to 0.0031308: 12.92 L)"
+    right = (
+        rf"{SRGB_SCALE}\,{latex}^{{1/{SRGB_GAMMA}}} - {SRGB_SHIFT}",
+        f"{SRGB_SCALE} {text}^(1/{SRGB_GAMMA}) - {SRGB_SHIFT}",
+    )
+    name = f"sRGB's curve (up to {SRGB_LINEAR}: {SRGB_SLOPE} L)"
     if reading.transfer == "linear":
         right, name = (latex, text), "display value, linear"
     lines.append(

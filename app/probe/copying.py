@@ -13,6 +13,7 @@ from app.probe.color_formulas import color_lines
 from app.probe.formulas import hit_lines, pixel_text, ray_lines
 from app.probe.reading import SEEN, Meeting, Reading
 from renderer.pixels import Indexing
+from renderer.shared_numbers import SRGB_GAMMA, SRGB_LINEAR, SRGB_SCALE, SRGB_SHIFT, SRGB_SLOPE
 
 
 def all_lines(reading: Reading, indexing: Indexing = Indexing.LECTURE) -> list[Line]:
@@ -132,6 +133,8 @@ def _root_sign(reading: Reading) -> str:
 
 
 def _light_program(reading: Reading) -> list[str]:
+    """The light's terms once more, as text: whoever is given the program runs it without Lucida.
+    Tests run it and compare its colour."""
     shading = reading.shading
     assert shading is not None
     lines = [
@@ -170,8 +173,8 @@ def _display_program(reading: Reading) -> list[str]:
         lines.append("shown = exposed")
     else:
         lines.append(
-            "shown = np.where(exposed <= 0.0031308, 12.92 * exposed,"
-            " 1.055 * exposed ** (1 / 2.4) - 0.055)"
+            f"shown = np.where(exposed <= {SRGB_LINEAR}, {SRGB_SLOPE} * exposed,"
+            f" {SRGB_SCALE} * exposed ** (1 / {SRGB_GAMMA}) - {SRGB_SHIFT})"
         )
     return [*lines, "rgb = np.floor(255 * shown + 0.5).astype(int)"]
 

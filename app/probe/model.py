@@ -104,7 +104,6 @@ class Probe:
             transfer=transfer,
             display=display,
             bytes=_bytes(display),
-            has_shadows=shadows,
             corners=self._corners(hit),
             sphere=self._sphere(hit),
         )

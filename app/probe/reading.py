@@ -77,8 +77,8 @@ class Reading:
     x, y: the lecture's u and v, in units of the basis vectors. origin, direction: the viewing ray,
     world space. t_range: which t count. meetings: sorted, see Probe.at. hit, shading: None for the
     background. color: linear light; exposed, display: after the exposure and after the curve,
-    0..1; bytes: 0..255. has_shadows: whether shadows were looked for. corners: the seen
-    triangle's, else (). sphere: the seen sphere's centre and radius.
+    0..1; bytes: 0..255. corners: the seen triangle's, else (). sphere: the seen sphere's centre
+    and radius.
     """
 
     pixel: tuple[int, int]
@@ -100,11 +100,5 @@ class Reading:
     transfer: str
     display: Color
     bytes: tuple[int, int, int]
-    has_shadows: bool
     corners: tuple[Vector, ...]
     sphere: tuple[Vector, float] | None
-
-    @property
-    def winner(self) -> Meeting | None:
-        """The object that is seen."""
-        return self.meetings[0] if self.hit is not None else None

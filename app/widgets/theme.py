@@ -16,6 +16,14 @@ from typing import Any
 from imgui_bundle import ImVec2, ImVec4, hello_imgui, imgui
 
 from app.state.options import Preferences
+from renderer.shared_numbers import (
+    LUMINANCE,
+    SRGB_GAMMA,
+    SRGB_LINEAR_SHOWN,
+    SRGB_SCALE,
+    SRGB_SHIFT,
+    SRGB_SLOPE,
+)
 
 TEXT_PX = 16.0
 PRESENTED = 0.024  # the least size of text in presentation mode, in parts of the window's height
@@ -359,8 +367,14 @@ def contrast(one: Rgb, other: Rgb) -> float:
 
 
 def _luminance(color: Rgb) -> float:
-    linear = (c / 12.92 if c <= 0.04045 else ((c + 0.055) / 1.055) ** 2.4 for c in color)
-    return sum(w * c for w, c in zip((0.2126, 0.7152, 0.0722), linear, strict=True))
+    return sum(w * _linear(c) for w, c in zip(LUMINANCE, color, strict=True))
+
+
+def _linear(value: float) -> float:
+    """Linear light of an sRGB value: display.from_srgb() without arrays, many times a frame."""
+    if value <= SRGB_LINEAR_SHOWN:
+        return value / SRGB_SLOPE
+    return math.pow((value + SRGB_SHIFT) / SRGB_SCALE, SRGB_GAMMA)
 
 
 def framebuffer_scale() -> float:

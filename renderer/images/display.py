@@ -1,7 +1,7 @@
 """From a frame's channels to pictures: the display transform, and how data are shown as colours.
 
 Owns sRGB, exposure and the false colours. Knows nothing of files or of GL; the window's shader
-(shaders/) computes the same display transform.
+(shaders/) computes the same display transform, with the same numbers (renderer/shared_numbers.py).
 """
 
 from __future__ import annotations
@@ -11,38 +11,25 @@ import math
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from renderer import shared_numbers
 from renderer.errors import LucidaError
 from renderer.frame import Frame
+from renderer.shared_numbers import (
+    FARTHEST_GRAY,
+    SRGB_GAMMA,
+    SRGB_LINEAR,
+    SRGB_LINEAR_SHOWN,
+    SRGB_SCALE,
+    SRGB_SHIFT,
+    SRGB_SLOPE,
+)
 
 Bytes = NDArray[np.uint8]
 Floats32 = NDArray[np.float32]
 
 EXPOSURE_LIMIT_EV = 32.0
-LUMINANCE = np.array([0.2126, 0.7152, 0.0722], np.float32)  # Rec. 709, of linear red, green, blue
-FARTHEST_GRAY = 0.2  # the farthest hit stays apart from the misses' black
-
-# Object i has colour i modulo 14. All of them are lighter than middle gray, so that a bitmap of
-# the ids is the mask of what was hit. Source: Paul Tol, Colour Schemes (2021), "light", "pale".
-ID_PALETTE = np.array(
-    [
-        (119, 170, 221),
-        (238, 136, 102),
-        (68, 187, 153),
-        (238, 221, 136),
-        (255, 170, 187),
-        (153, 221, 255),
-        (170, 170, 0),
-        (221, 221, 221),
-        (187, 204, 51),
-        (187, 204, 238),
-        (255, 204, 204),
-        (204, 221, 170),
-        (204, 238, 255),
-        (238, 238, 187),
-    ],
-    np.uint8,
-)
-
+LUMINANCE = np.array(shared_numbers.LUMINANCE, np.float32)
+ID_PALETTE = np.array(shared_numbers.ID_PALETTE, np.uint8)
 _BLOCK = 1 << 20  # numbers converted at a time, which bounds the memory beyond the result
 
 
@@ -71,8 +58,9 @@ def encode_srgb(linear: ArrayLike) -> Floats32:
     """
     values = np.asarray(linear, np.float32)
     values = np.clip(np.where(np.isnan(values), np.float32(0), values), 0, 1)
-    curve = np.float32(1.055) * values ** np.float32(1 / 2.4) - np.float32(0.055)
-    return np.where(values <= np.float32(0.0031308), np.float32(12.92) * values, curve)
+    power = values ** np.float32(1 / SRGB_GAMMA)
+    curve = np.float32(SRGB_SCALE) * power - np.float32(SRGB_SHIFT)
+    return np.where(values <= np.float32(SRGB_LINEAR), np.float32(SRGB_SLOPE) * values, curve)
 
 
 def from_srgb(values: ArrayLike) -> Floats32:
@@ -85,8 +73,8 @@ def from_srgb(values: ArrayLike) -> Floats32:
     if array.dtype == np.uint8:
         shown /= np.float32(255)
     shown = np.clip(np.where(np.isnan(shown), np.float32(0), shown), 0, 1)
-    curve = ((shown + np.float32(0.055)) / np.float32(1.055)) ** np.float32(2.4)
-    return np.where(shown <= np.float32(0.04045), shown / np.float32(12.92), curve)
+    curve = ((shown + np.float32(SRGB_SHIFT)) / np.float32(SRGB_SCALE)) ** np.float32(SRGB_GAMMA)
+    return np.where(shown <= np.float32(SRGB_LINEAR_SHOWN), shown / np.float32(SRGB_SLOPE), curve)
 
 
 def luminance(color: ArrayLike) -> Floats32:

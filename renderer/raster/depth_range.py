@@ -13,9 +13,9 @@ import numpy as np
 from renderer.raster.programs import set_uniform
 from renderer.raster.resources import new_texture
 from renderer.raster.sources import link
+from renderer.shared_numbers import FARTHEST
 
 SIDE = 16  # of the blocks in range.frag
-FARTHEST = 3e38
 
 
 class DepthRange:
@@ -78,7 +78,7 @@ class DepthRange:
 
     def _pass(self) -> tuple[moderngl.Program, moderngl.VertexArray]:
         if self._program is None or self._screen is None:
-            self._program = link(self._gl, "screen.vert", "range.frag")
+            self._program = link(self._gl, "screen.vert", "range.frag", {"SIDE": SIDE})
             self._screen = self._gl.vertex_array(self._program, [])
         return self._program, self._screen
 

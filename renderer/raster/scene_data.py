@@ -15,8 +15,6 @@ from renderer.raster.programs import Programs, set_uniform
 from renderer.raster.resources import Owner, check
 from renderer.raster.setup import (
     CAMERA_BLOCK,
-    OBJECT_TEXELS,
-    SPHERE_TEXELS,
     camera_block,
     image_space,
     light_rows,
@@ -25,6 +23,7 @@ from renderer.raster.setup import (
     triangle_rows,
 )
 from renderer.raster.tables import Table
+from renderer.shared_numbers import OBJECT_TEXELS, SPHERE_TEXELS
 
 BOX_VERTICES = 36
 MARGIN = 1024  # pixels around the image, or half of it; by 4096, Mesa 22.3 lost large triangles

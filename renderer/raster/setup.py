@@ -23,16 +23,20 @@ import numpy as np
 from numpy.typing import NDArray
 
 from renderer.camera import NEAREST, Camera, Floats
-from renderer.scene.flat import CHECKER_DIFFUSE, FlatScene
+from renderer.scene.flat import FlatScene
 from renderer.scene.positions import lights_from, near_point, world_vertices
-
-# Anchor in the object's space, near | anchor in image coordinates | anchor from the scene's near
-# point | three rows: vectors of the object's space to image coordinates | three: to the world's
-# directions | three of the material, the last one's w the cells in a unit of the object's space |
-# three of the checker's cells
-OBJECT_TEXELS = 15
-IMAGE, WORLD, MATERIAL, CELLS = 3, 6, 9, 12
-SPHERE_TEXELS = 3
+from renderer.shared_numbers import (
+    OBJECT_TEXELS,
+    ROW_ANCHOR,
+    ROW_CELLS,
+    ROW_CHECKER,
+    ROW_DIFFUSE,
+    ROW_FROM_NEAR,
+    ROW_IMAGE,
+    ROW_INSIDE,
+    ROW_WORLD,
+    SPHERE_TEXELS,
+)
 
 FLOAT32_MAX = float(np.finfo(np.float32).max)
 TINY = 1e-30
@@ -212,21 +216,19 @@ def object_rows(flat: FlatScene, setup: SceneSetup, space: ImageSpace) -> NDArra
     linear, place = flat.world_from_object[:, :3, :3], flat.world_from_object[:, :3, 3]
     eye = np.einsum("nij,nj->ni", setup.object_from_world, space.eye - place)
     # Rounded: the difference from a vertex has no other rounding.
-    rows[:, 0, :3] = np.clip(eye, flat.object_bounds[:, 0], flat.object_bounds[:, 1])
-    rows[:, 0, 3] = space.near
-    turned = np.einsum("nij,nj->ni", linear, rows[:, 0, :3].astype(np.float64))
-    rows[:, 1, :3] = space.at(turned + (place - space.eye))
-    rows[:, 2, :3] = turned + (place - near_point(flat, space.eye))
-    rows[:, IMAGE:WORLD, :3] = space.image_from_world[:, :3] @ linear
-    rows[:, WORLD:MATERIAL, :3] = linear
-    rows[:, MATERIAL:CELLS] = flat.materials
-    rows[:, MATERIAL + CHECKER_DIFFUSE, 3] = np.einsum(
-        "ni,ni->n", flat.cells[:, 0, :3], linear[:, :, 0]
-    )
+    rows[:, ROW_INSIDE, :3] = np.clip(eye, flat.object_bounds[:, 0], flat.object_bounds[:, 1])
+    rows[:, ROW_INSIDE, 3] = space.near
+    turned = np.einsum("nij,nj->ni", linear, rows[:, ROW_INSIDE, :3].astype(np.float64))
+    rows[:, ROW_ANCHOR, :3] = space.at(turned + (place - space.eye))
+    rows[:, ROW_FROM_NEAR, :3] = turned + (place - near_point(flat, space.eye))
+    rows[:, ROW_IMAGE : ROW_IMAGE + 3, :3] = space.image_from_world[:, :3] @ linear
+    rows[:, ROW_WORLD : ROW_WORLD + 3, :3] = linear
+    rows[:, ROW_DIFFUSE : ROW_DIFFUSE + 3] = flat.materials
+    rows[:, ROW_CHECKER, 3] = np.einsum("ni,ni->n", flat.cells[:, 0, :3], linear[:, :, 0])
     cell = np.einsum("nij,nj->ni", flat.cells[:, :, :3], turned + place) + flat.cells[:, :, 3]
-    rows[:, CELLS:, :3] = flat.cells[:, :, :3]
+    rows[:, ROW_CELLS:, :3] = flat.cells[:, :, :3]
     # Cells repeat by twos: what is whole and even may go, so that the rest keeps its digits.
-    rows[:, CELLS:, 3] = cell - 2 * np.floor(cell / 2)
+    rows[:, ROW_CELLS:, 3] = cell - 2 * np.floor(cell / 2)
     return rows
 
 
@@ -247,7 +249,7 @@ def sphere_rows(flat: FlatScene, space: ImageSpace, objects: NDArray) -> NDArray
     rows[:, 1, :3] = from_center
     distance = np.linalg.norm(from_center, axis=1)
     rows[:, 1, 3] = (distance - radius) * (distance + radius)
-    rows[:, 2, :3] = -objects[flat.sphere_object, 0, :3]
+    rows[:, 2, :3] = -objects[flat.sphere_object, ROW_INSIDE, :3]
     rows[:, 2, 3] = flat.sphere_object
     return rows
 

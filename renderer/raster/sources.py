@@ -1,7 +1,7 @@
-"""Shader sources: included chunks, programs, and a driver's complaints in terms of our files.
+"""Shader sources: included chunks, constants, and a driver's complaints in terms of our files.
 
-Owns the `#include "chunks/name.glsl"` of shaders/ and the way back from a driver's message to
-file and line. Knows nothing of what the shaders compute.
+Owns the `#include "chunks/name.glsl"` of shaders/, the constants that are put in, and the way back
+from a driver's message to file and line. Knows nothing of what the shaders compute.
 """
 
 from __future__ import annotations
@@ -9,14 +9,20 @@ from __future__ import annotations
 import re
 from collections.abc import Callable, Mapping
 from importlib.resources import files
+from typing import Any
 
 import moderngl
 
+from renderer import shared_numbers
 from renderer.errors import LucidaError
 
 _INCLUDE = re.compile(r'\s*#\s*include\s+"([^"]+)"\s*$')
+_NAME = re.compile(r"\b[A-Z][A-Z0-9_]*\b")
 # Mesa: 0:14(5): error; NVIDIA: 0(14) : error; macOS, AMD, Intel: ERROR: 0:14: 'x'
 _PLACE = re.compile(r"\b0(?::(\d+)(?:\(\d+\))?|\((\d+)\))")
+
+Vec3 = tuple[float, float, float]
+Constant = bool | int | float | Vec3 | tuple[Vec3, ...]
 
 
 def read_shader(name: str) -> str:
@@ -31,8 +37,9 @@ class Source:
     """One stage's text with its chunks put in, each once, and where each of its lines comes from.
 
     name: a file under shaders/. read: gives a file's text by name. constants: declared after the
-    first line, which is #version. places: (file, line) of each line
-    of the text: drivers count lines of the text, and some lose the string number of a #line.
+    first line, which is #version, as are those of shared_numbers that the text names. places:
+    (file, line) of each line of the text: drivers count lines of the text, and some lose the
+    string number of a #line.
     Raises LucidaError for a chunk that is missing or that includes itself.
     """
 
@@ -40,7 +47,7 @@ class Source:
         self,
         name: str,
         read: Callable[[str], str] = read_shader,
-        constants: Mapping[str, bool] | None = None,
+        constants: Mapping[str, Constant] | None = None,
     ) -> None:
         self.name = name
         self.places: list[tuple[str, int]] = []
@@ -48,8 +55,10 @@ class Source:
         self._taken: set[str] = set()
         self._lines: list[str] = []
         self._expand(name, read(name), ())
-        for constant, value in (constants or {}).items():
-            self._lines.insert(1, f"const bool {constant} = {str(value).lower()};")
+        named = set(_NAME.findall("\n".join(self._lines)))
+        shared = {key: value for key, value in vars(shared_numbers).items() if key in named}
+        for constant, value in (shared | dict(constants or {})).items():
+            self._lines.insert(1, _declaration(constant, value))
             self.places.insert(1, (name, 1))
         self.text = "\n".join(self._lines) + "\n"
 
@@ -90,7 +99,7 @@ def link(
     context: moderngl.Context,
     vertex: str,
     fragment: str,
-    constants: Mapping[str, bool] | None = None,
+    constants: Mapping[str, Constant] | None = None,
     read: Callable[[str], str] = read_shader,
 ) -> moderngl.Program:
     """The program of two stages under shaders/; both get the constants.
@@ -118,6 +127,22 @@ def link(
 
 
 _REMEDY = "update the graphics driver; without it, use lucida render --backend osmesa"
+
+
+def _declaration(name: str, value: Constant) -> str:
+    """A constant of GLSL: bool, int, float, vec3, or an array of vec3."""
+    if isinstance(value, bool):
+        return f"const bool {name} = {str(value).lower()};"
+    if isinstance(value, int | float):
+        return f"const {type(value).__name__} {name} = {value!r};"
+    if isinstance(value[0], tuple):
+        vectors = ", ".join(_vec3(vector) for vector in value)
+        return f"const vec3 {name}[{len(value)}] = vec3[]({vectors});"
+    return f"const vec3 {name} = {_vec3(value)};"
+
+
+def _vec3(vector: Any) -> str:
+    return f"vec3({', '.join(repr(float(part)) for part in vector)})"
 
 
 def _ends_in_comment(line: str, in_comment: bool) -> bool:

@@ -14,8 +14,9 @@ from numpy.typing import NDArray
 
 from renderer.errors import LucidaError
 from renderer.raster.resources import new_texture
+from renderer.shared_numbers import TABLE_SHIFT
 
-TABLE_WIDTH = 4096  # a power of two: texel() in tables.glsl shifts by its logarithm
+TABLE_WIDTH = 1 << TABLE_SHIFT
 
 
 class Table:

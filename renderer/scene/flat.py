@@ -39,15 +39,6 @@ I32 = NDArray[np.int32]
 # Rows of a material, each four numbers.
 DIFFUSE_SHININESS, SPECULAR_CHECKERED, CHECKER_DIFFUSE = range(3)
 
-# Cells: how far below the surface a checker is looked up, so that a face that lies in a cell's
-# border stays inside one cell. shaders/chunks/shading.glsl has the same number.
-CELL_NUDGE = 1e-3
-
-# A triangle's vertex normals are turned where their sum points to the other side of it than its
-# winding says, by more than this: a sum that lies in the triangle's plane, up to rounding, is not.
-# shaders/chunks/shading.glsl has the same number.
-OTHER_SIDE = -1e-5
-
 
 class FlatScene(NamedTuple):
     """Arrays in C order, read-only; any of them may have length 0.

@@ -1,12 +1,9 @@
 // What one pixel of an image looks like: the display transform of its colour, or false colours of
-// its other channels. The same numbers as in renderer/images/display.py.
+// its other channels, as in renderer/images/display.py; numbers: renderer/shared_numbers.py.
 // SHOWS_COLOR, SHOWS_DEPTH, SHOWS_NORMAL (none: object numbers), IS_LINEAR, IS_WHOLE: constants that
 // are put in above (renderer/raster/display.py): software OpenGL works out every branch of the rest.
 
 #include "chunks/color.glsl"
-
-const float FARTHEST_GRAY = 0.2;  // the farthest hit stays apart from the misses' black
-const float FARTHEST = 3.0e38;    // what is farther is infinite: nothing is hit
 
 uniform sampler2D values;       // colour: linear light; depth: in w; normal
 uniform isampler2D numbers;     // objects, -1: none
@@ -14,15 +11,6 @@ uniform sampler2D depth_range;  // one pixel: the nearest and the farthest hit
 uniform float exposure;         // a factor
 uniform int component;          // the only one that is shown
 uniform bool tinted;            // one component is shown in its own colour, not as gray
-
-// Object i has colour i modulo 14. Source: Paul Tol, Colour Schemes (2021), "light", "pale".
-const int ID_COLORS = 14;
-const vec3 ID_PALETTE[ID_COLORS] = vec3[](
-    vec3(119.0, 170.0, 221.0), vec3(238.0, 136.0, 102.0), vec3(68.0, 187.0, 153.0),
-    vec3(238.0, 221.0, 136.0), vec3(255.0, 170.0, 187.0), vec3(153.0, 221.0, 255.0),
-    vec3(170.0, 170.0, 0.0), vec3(221.0, 221.0, 221.0), vec3(187.0, 204.0, 51.0),
-    vec3(187.0, 204.0, 238.0), vec3(255.0, 204.0, 204.0), vec3(204.0, 221.0, 170.0),
-    vec3(204.0, 238.0, 255.0), vec3(238.0, 238.0, 187.0));
 
 vec3 exposed(vec3 light) {
     vec3 result = clamp(exposure * light, 0.0, 1.0);
@@ -46,7 +34,7 @@ vec3 seen(ivec2 texel) {
         return n == vec3(0.0) ? vec3(0.0) : clamp(0.5 * n + 0.5, 0.0, 1.0);
     }
     int number = texelFetch(numbers, texel, 0).x;
-    return number < 0 ? vec3(0.0) : ID_PALETTE[number % ID_COLORS] / 255.0;
+    return number < 0 ? vec3(0.0) : ID_PALETTE[number % ID_PALETTE.length()] / 255.0;
 }
 
 vec3 encoded(vec3 value) {

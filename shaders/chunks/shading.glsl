@@ -1,5 +1,6 @@
 // The one shading model, in linear light: ambient, Lambert's diffuse and Blinn's specular term.
 // Source: Marschner and Shirley, Fundamentals of Computer Graphics, chapter 4 (5 from the 5th edition).
+// Its numbers, and the rows of the table of objects: renderer/shared_numbers.py.
 
 #include "chunks/camera.glsl"
 #include "chunks/tables.glsl"
@@ -19,18 +20,20 @@ struct Hit {
 };
 
 vec4 object_texel(int object, int row) {
-    return texelFetch(objects, texel(15 * object + row), 0);
+    return texelFetch(objects, texel(OBJECT_TEXELS * object + row), 0);
 }
 
 // In image coordinates.
 vec3 object_anchor(int object) {
-    return object_texel(object, 1).xyz;
+    return object_texel(object, ROW_ANCHOR).xyz;
 }
 
 // Directions of the object's space to the world's.
 mat3 object_matrix(int object) {
     return transpose(mat3(
-        object_texel(object, 6).xyz, object_texel(object, 7).xyz, object_texel(object, 8).xyz));
+        object_texel(object, ROW_WORLD).xyz,
+        object_texel(object, ROW_WORLD + 1).xyz,
+        object_texel(object, ROW_WORLD + 2).xyz));
 }
 
 // Interpolated vertex normal on the winding's side of the triangle, 0 where a vertex has none. Normals
@@ -41,8 +44,8 @@ vec3 smooth_normal(mat3 normals, vec3 weights, vec3 normal) {
     }
     vec3 mean = normals * weights;
     float size = length(mean);
-    float side = dot(normals[0] + normals[1] + normals[2], normal) >= -1e-5 ? 1.0 : -1.0;
-    return size < 1e-6 ? vec3(0.0) : side * mean / size;
+    float side = dot(normals[0] + normals[1] + normals[2], normal) >= OTHER_SIDE ? 1.0 : -1.0;
+    return size < SHORTEST_MEAN ? vec3(0.0) : side * mean / size;
 }
 
 // Turns both normals to the side that is seen; the smooth one never looks away from the viewer.
@@ -50,7 +53,7 @@ void face_viewer(inout Hit hit) {
     float side = dot(hit.normal, hit.to_viewer) > 0.0 ? 1.0 : -1.0;
     hit.normal *= side;
     vec3 n = hit.smooth_normal == vec3(0.0) ? hit.normal : side * hit.smooth_normal;
-    float away = -dot(n, hit.to_viewer) + 1e-3;
+    float away = -dot(n, hit.to_viewer) + GRAZING;
     if (away > 0.0) {
         n = normalize(n + away * hit.to_viewer);
     }
@@ -58,12 +61,14 @@ void face_viewer(inout Hit hit) {
 }
 
 bool is_checkered(int object) {
-    return HAS_CHECKERS && object_texel(object, 10).w != 0.0;
+    return HAS_CHECKERS && object_texel(object, ROW_SPECULAR).w != 0.0;
 }
 
 mat3 cell_from_world(int object) {
     return transpose(mat3(
-        object_texel(object, 12).xyz, object_texel(object, 13).xyz, object_texel(object, 14).xyz));
+        object_texel(object, ROW_CELLS).xyz,
+        object_texel(object, ROW_CELLS + 1).xyz,
+        object_texel(object, ROW_CELLS + 2).xyz));
 }
 
 // The checker's coordinates of a point, from the anchor's; of a triangle's point with these weights,
@@ -72,7 +77,7 @@ mat3 cell_from_world(int object) {
 // weights, is less than what the point's would be magnified to, as it is where an object is flattened.
 vec3 cell_of(int object, vec3 point, mat3 corners, vec3 weights, float doubt) {
     mat3 to_cell = cell_from_world(object);
-    float per_length = object_texel(object, 11).w;
+    float per_length = object_texel(object, ROW_CHECKER).w;
     mat3 rows = transpose(to_cell);
     vec3 magnified = length(point) * vec3(length(rows[0]), length(rows[1]), length(rows[2]));
     vec3 apart = doubt * per_length * max(max(abs(corners[0]), abs(corners[1])), abs(corners[2]));
@@ -81,24 +86,26 @@ vec3 cell_of(int object, vec3 point, mat3 corners, vec3 weights, float doubt) {
 
 // Diffuse reflectance: a checker is a solid pattern of cells, and a face on a border takes the cell inside.
 vec3 albedo(Hit hit) {
-    vec4 diffuse = object_texel(hit.object, 9);
+    vec4 diffuse = object_texel(hit.object, ROW_DIFFUSE);
     if (!is_checkered(hit.object)) {
         return diffuse.rgb * hit.vertex_color;
     }
     vec3 anchor = vec3(
-        object_texel(hit.object, 12).w, object_texel(hit.object, 13).w, object_texel(hit.object, 14).w);
+        object_texel(hit.object, ROW_CELLS).w,
+        object_texel(hit.object, ROW_CELLS + 1).w,
+        object_texel(hit.object, ROW_CELLS + 2).w);
     vec3 inward = normalize(cell_from_world(hit.object) * hit.normal);
-    vec3 cell = floor(hit.cell + anchor - 1e-3 * inward);
+    vec3 cell = floor(hit.cell + anchor - CELL_NUDGE * inward);
     bool other = mod(cell.x + cell.y + cell.z, 2.0) > 0.5;
-    return (other ? object_texel(hit.object, 11).rgb : diffuse.rgb) * hit.vertex_color;
+    return (other ? object_texel(hit.object, ROW_CHECKER).rgb : diffuse.rgb) * hit.vertex_color;
 }
 
 vec3 shaded(Hit hit) {
     vec3 n = hit.smooth_normal;
     vec3 diffuse = albedo(hit);
-    vec3 specular = object_texel(hit.object, 10).rgb;
-    float shininess = object_texel(hit.object, 9).w;
-    vec3 anchor = object_texel(hit.object, 2).xyz;
+    vec3 specular = object_texel(hit.object, ROW_SPECULAR).rgb;
+    float shininess = object_texel(hit.object, ROW_DIFFUSE).w;
+    vec3 anchor = object_texel(hit.object, ROW_FROM_NEAR).xyz;
     vec3 sum = ambient * diffuse;
     for (int number = 0; number < light_count; ++number) {
         vec4 light = texelFetch(lights, texel(2 * number), 0);
@@ -107,7 +114,7 @@ vec3 shaded(Hit hit) {
         if (light.w > 0.5) {
             l = (l - anchor) - hit.point;
             float away = length(l);
-            if (away < 1e-12) {
+            if (away < NEAREST_LIGHT) {
                 continue;
             }
             l /= away;
@@ -115,7 +122,7 @@ vec3 shaded(Hit hit) {
         sum += rgb * diffuse * max(dot(n, l), 0.0);
         vec3 h = l + hit.to_viewer;
         float size = length(h);
-        if (size >= 1e-6) {
+        if (size >= SHORTEST_HALF) {
             sum += rgb * specular * pow(max(dot(n, h) / size, 0.0), shininess);
         }
     }

@@ -16,9 +16,9 @@ struct Sphere {
 };
 
 Sphere sphere_at(int number) {
-    vec4 center = texelFetch(spheres, texel(3 * number), 0);
-    vec4 origin = texelFetch(spheres, texel(3 * number + 1), 0);
-    vec4 anchor = texelFetch(spheres, texel(3 * number + 2), 0);
+    vec4 center = texelFetch(spheres, texel(SPHERE_TEXELS * number), 0);
+    vec4 origin = texelFetch(spheres, texel(SPHERE_TEXELS * number + 1), 0);
+    vec4 anchor = texelFetch(spheres, texel(SPHERE_TEXELS * number + 2), 0);
     return Sphere(center.xyz, center.w, origin.xyz, origin.w, anchor.xyz, int(anchor.w));
 }
 

@@ -1,6 +1,6 @@
-// Tables: arrays longer than a texture is wide, wrapped after TABLE_WIDTH texels
+// Tables: arrays longer than a texture is wide, wrapped after 2^TABLE_SHIFT texels
 // (renderer/raster/tables.py).
 
 ivec2 texel(int index) {
-    return ivec2(index & 4095, index >> 12);
+    return ivec2(index & ((1 << TABLE_SHIFT) - 1), index >> TABLE_SHIFT);
 }

@@ -54,13 +54,15 @@ def test_points_on_every_viewing_ray_project_back_to_its_pixel(camera, size, t):
 def test_near_maps_to_minus_one_and_far_to_plus_one(camera, near, ratio):
     far = near * ratio
     matrix = camera.clip_from_camera(near, far) @ camera.camera_from_world
+    world_from_camera = np.eye(4)
+    world_from_camera[:3] = np.column_stack([camera.u, camera.v, camera.w, camera.eye])
     left, right, bottom, top = camera.viewport
     for depth, expected in ((near, -1.0), (far, 1.0)):
         spread = 1.0 if camera.is_parallel else depth / camera.distance
         for x, x_clip in ((left, -1.0), (right, 1.0)):
             for y, y_clip in ((bottom, -1.0), (top, 1.0)):
                 local = np.array([x * spread, y * spread, -depth, 1.0])
-                clip = matrix @ camera.world_from_camera @ local
+                clip = matrix @ world_from_camera @ local
                 np.testing.assert_allclose(
                     clip[:3] / clip[3], [x_clip, y_clip, expected], atol=1e-6
                 )

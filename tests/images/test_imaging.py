@@ -17,8 +17,9 @@ from renderer.camera import Camera
 from renderer.errors import LucidaError
 from renderer.frame import Frame
 from renderer.images import to_srgb8
-from renderer.images.display import FARTHEST_GRAY, ID_PALETTE, picture
+from renderer.images.display import ID_PALETTE, picture
 from renderer.scene.model import Scene, View
+from renderer.shared_numbers import FARTHEST_GRAY
 
 COLOR = ImageOptions()
 

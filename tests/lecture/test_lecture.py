@@ -12,6 +12,7 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+from plain_text import plain_text
 
 from app.explaining.languages import LANGUAGES
 from app.lecture import reading
@@ -81,22 +82,6 @@ exercise.options = [
     { text = "that", feedback = "Yes.", right = true },
 ]
 '''
-
-
-def plain(blocks) -> str:
-    """The words of a text without their marks; formulas as their LaTeX."""
-    parts = []
-    for block in blocks:
-        match block:
-            case texts.Listing():
-                parts += [texts.words(item) for item in block.items]
-            case texts.Code():
-                parts.append(block.text)
-            case texts.Formula():
-                parts.append(block.latex)
-            case _:
-                parts.append(texts.words(block.line))
-    return "\n".join(parts)
 
 
 def read(text: str = FILE, folder: Path = Path()):
@@ -372,7 +357,7 @@ class TestText:
             texts.Code("  x = $1", "python"),
         )
         assert texts.formulas(blocks) == ("x", "a\nb", "c")
-        assert "slanted" in plain(blocks) and "*" not in plain(blocks)
+        assert "slanted" in plain_text(blocks) and "*" not in plain_text(blocks)
 
     @pytest.mark.parametrize(
         ("text", "line"),

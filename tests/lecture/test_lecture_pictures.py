@@ -8,8 +8,8 @@ from typing import Any
 
 import numpy as np
 import pytest
+from plain_text import plain_text
 
-from app.lecture import text as texts
 from app.lecture.reading import BUILTIN, load_lecture
 from app.outside.diagram import Dot, Eye, Hit, Item, Label, diagram
 from app.outside.frustum import plane_corners
@@ -22,7 +22,7 @@ NARROW = (474, 634)  # with the camera's panel beside it
 
 
 def text_of(title: str) -> str:
-    return str(texts.plain(STEPS[title].blocks))
+    return str(plain_text(STEPS[title].blocks))
 
 
 def options_of(title: str) -> OutsideOptions:

@@ -133,7 +133,7 @@ def test_a_sphere_in_front_one_behind_one_hidden_one_missed() -> None:
         "behind": [(-5, BEHIND), (-3, BEHIND)],
         "beside": [],
     }
-    assert reading.winner is not None and reading.winner.name == "near"
+    assert reading.hit is not None and reading.meetings[0].name == "near"
     behind = reading.meetings[2].nearest
     assert behind is not None and behind.t == -3
     assert not reading.meetings[2].is_on_ray
@@ -177,7 +177,7 @@ def test_the_eye_inside_a_sphere_and_a_box() -> None:
 
 def test_the_background() -> None:
     reading = Probe(BALL).at((0, 0), Camera.canonical(), SIZE)
-    assert reading.hit is None and reading.shading is None and reading.winner is None
+    assert reading.hit is None and reading.shading is None
     assert reading.color == (0.25, 0.5, 0.75)
     assert hit_lines(reading) == []
     assert [one.key for one in color_lines(reading)] == ["background", "display", "bytes"]
@@ -342,7 +342,6 @@ def test_shadows_and_mirrors_are_the_tracers() -> None:
         if reading.bounces and reading.bounces[0].hit is not None:
             mirrored += 1
             assert "sees ball" in line(lines, "mirror 1").name
-        assert reading.has_shadows
     # At a shadow's outline, a ray in float32 may pass on the other side.
     assert wrong <= 5
     assert dark > 100 and mirrored > 50

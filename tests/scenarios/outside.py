@@ -6,6 +6,7 @@ from typing import Any
 
 import numpy as np
 from imgui_bundle import hello_imgui
+from imgui_bundle.imguizmo import im_guizmo
 from window_driver import SIZE, Driver, Key
 
 from app.outside import gizmo as outside_gizmo
@@ -400,7 +401,7 @@ def _turn_by(d: Driver, middle: np.ndarray, angle: float) -> bool:
         grip = middle + part * radius * np.array([np.cos(angle), np.sin(angle)])
         d.ctx.mouse_teleport_to_pos(tuple(grip))
         d.ctx.yield_(2)
-        if not view(d).over_handle:
+        if not im_guizmo.is_over():
             continue
         d.drag(tuple(grip), tuple(grip + 30 * np.array([-np.sin(angle), np.cos(angle)])))
         if np.abs(np.subtract(d.window.state.camera.w, before.w)).max() > 1e-3:

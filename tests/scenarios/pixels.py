@@ -303,8 +303,7 @@ def drive_channels_follow_a_drag(d: Driver) -> None:
         image = both.ray_image
         assert image is not None
         assert image.frame.depth is not None
-        assert both.textures.shows_ray  # never nothing
-        assert both.raster_error is None
+        assert both.raster_error is None and both.ray_error is None  # never nothing
     while_moving = reads()
     d.ctx.mouse_up(0)
     d.settle()

@@ -226,7 +226,8 @@ def drive_shadows_mirrors_and_an_empty_scene(d: Driver) -> None:
     state = d.window.state.with_options(marked=(150, 190), shadows=True, mirrors=True)
     d.window.change(state)
     found = reading(d)
-    assert found.has_shadows
+    assert found.shading is not None
+    assert not all(lamp.is_lit for lamp in found.shading.lamps)
     check(d, found)
     d.window.change(d.window.state.with_scene(Scene(())))
     d.settle()

@@ -27,7 +27,7 @@ from renderer.scene.model import (
 from renderer.scene.positions import world_vertices
 from renderer.trace.bvh.binary import tree_of_scene
 from renderer.trace.scalar.kernel import viewing_ray
-from renderer.trace.scalar.traverse import Tree, any_hit, closest_hit
+from renderer.trace.scalar.traverse import Tree, closest_hit
 from renderer.trace.threads.thread_pool import Team
 
 LIGHTS = (PointLight((4, 5, 3), (0.8, 0.7, 0.6)), DirectionalLight((-1, -2, -1), (0.3, 0.3, 0.5)))
@@ -168,17 +168,16 @@ def tree_of(flat: FlatScene, leaf_size: int = 4) -> Tree:
 
 @numba.njit(error_model="numpy")
 def cast(tree, origins, directions, t_min, t_max):
-    """(t, primitive, b1, b2, any_hit) of rays (n, 3)."""
+    """(t, primitive, b1, b2) of rays (n, 3)."""
     n = len(origins)
     t, b1, b2 = np.empty(n), np.empty(n), np.empty(n)
-    primitive, hit = np.empty(n, np.int64), np.empty(n, np.bool_)
+    primitive = np.empty(n, np.int64)
     stack = np.empty(tree.stack_size, np.int32), np.empty(tree.stack_size)
     for i in range(n):
         o = origins[i, 0], origins[i, 1], origins[i, 2]
         d = directions[i, 0], directions[i, 1], directions[i, 2]
         t[i], primitive[i], b1[i], b2[i] = closest_hit(tree, stack, o, d, t_min, t_max)
-        hit[i] = any_hit(tree, stack, o, d, t_min, t_max)
-    return t, primitive, b1, b2, hit
+    return t, primitive, b1, b2
 
 
 @numba.njit(error_model="numpy")

@@ -82,13 +82,13 @@ def functions(x, y, z, out, numbers):
     store(out, 128, simd.f32_of(simd.i32_of(a * np.float32(9))))
     store(out, 144, simd.lane_column() + simd.lane_row() * np.float32(10))
     store(out, 160, simd.inverse_root(simd.vabs(a)))
-    numbers[0], numbers[1] = simd.smallest(a), simd.largest(a)
-    numbers[2], numbers[3] = simd.lane_of(a, 11), np.float32(simd.lowest_bit(0x0A0))
+    numbers[0] = simd.smallest(a)
+    numbers[1], numbers[2] = simd.lane_of(a, 11), np.float32(simd.lowest_bit(0x0A0))
 
 
 def test_functions() -> None:
     x, y, z = random.normal(size=(3, 16)).astype(np.float32)
-    out, numbers = np.empty(176, np.float32), np.empty(4, np.float32)
+    out, numbers = np.empty(176, np.float32), np.empty(3, np.float32)
     functions(x, y, z, out, numbers)
     rows = out.reshape(11, 16)
     fused = (x.astype(float) * y + z).astype(np.float32)
@@ -103,7 +103,7 @@ def test_functions() -> None:
     assert np.array_equal(rows[8], np.trunc(x * np.float32(9)))
     assert rows[9].tolist() == [lane % 4 + lane // 4 * 10 for lane in range(16)]
     assert np.allclose(rows[10], 1 / np.sqrt(np.abs(x.astype(float))), rtol=4e-7, atol=0)
-    assert numbers.tolist() == [x.min(), x.max(), x[11], 5]
+    assert numbers.tolist() == [x.min(), x[11], 5]
 
 
 @kernel
@@ -111,7 +111,6 @@ def memory(table, indices, square, square3, out):
     k = load(indices, 0)
     mask = simd.mask_of(0x5555)
     store(out, 0, simd_memory.gather(table, k, mask))
-    store(out, 16, simd_memory.fetch(pointer(table), 7, mask))
     simd_memory.prefetch(table, 0)
     x = load(table, 3)
     simd_memory.store_square(pointer(square), 2 * 9 + 1, 9, x)
@@ -123,11 +122,11 @@ def test_memory() -> None:
     indices = random.integers(0, 40, 16, dtype=np.int32)
     indices[1::2] = 1 << 30  # of lanes that are masked: not looked at
     square, square3 = np.zeros((7, 9), np.float32), np.zeros((5, 5, 3), np.float32)
-    out = np.empty(32, np.float32)
+    out = np.empty(16, np.float32)
     memory(table, indices, square, square3, out)
     wanted = np.zeros(16, np.float32)
     wanted[::2] = table[indices[::2]]
-    assert np.array_equal(out, np.concatenate([wanted, np.full(16, table[7])]))
+    assert np.array_equal(out, wanted)
     four = table[3:19].reshape(4, 4)
     assert np.array_equal(square[2:6, 1:5], four)
     square[2:6, 1:5] = 0

@@ -98,7 +98,7 @@ def test_triangles_that_cannot_be_told_apart_are_halved(count: int) -> None:
     bvh = binary(flat, Team(1))
     check(flat, bvh, 4)
     assert bvh.depth <= np.ceil(np.log2(count)) + 1
-    t, primitive, _, _, _ = cast(
+    t, primitive, _, _ = cast(
         tree_of(flat), np.array([[0.2, 0.2, 1.0]]), np.array([[0.0, 0.0, -1.0]]), 0.0, np.inf
     )
     assert (t[0], primitive[0]) == (1.0, 0)
@@ -127,7 +127,7 @@ def test_large_trees_find_what_all_primitives_tried_in_turn_give() -> None:
         flat = flatten(scene)
         origins, directions = np.random.default_rng(2).normal(size=(2, 300, 3))
         want = closest(flat, origins, directions)
-        t, primitive, b1, b2, _ = cast(tree_of(flat), origins, directions, 0.0, np.inf)
+        t, primitive, b1, b2 = cast(tree_of(flat), origins, directions, 0.0, np.inf)
         sure = ~want.doubtful
         assert np.array_equal(primitive[sure], want.primitive[sure])
         hit = sure & (primitive >= 0)

@@ -48,13 +48,13 @@ def test_rays_are_the_cameras_to_the_last_bit() -> None:
         assert np.array_equal(direction, want.direction)
 
 
-def test_any_hit_says_whether_closest_hit_finds_one() -> None:
+def test_hits_lie_within_the_range_that_counts() -> None:
     random = np.random.default_rng(6)
     flat = flatten(random_scene(random))
     origins, directions = random.normal(size=(2, 4000, 3)) * 3
     for t_range in ((0.0, np.inf), (0.2, 1.5)):
-        t, primitive, _, _, hit = cast(tree_of(flat), origins, directions, *t_range)
+        t, primitive, _, _ = cast(tree_of(flat), origins, directions, *t_range)
+        hit = primitive >= 0
         assert 0.1 < hit.mean() < 0.9
-        assert np.array_equal(hit, primitive >= 0)
         assert ((t > t_range[0]) & (t < t_range[1]))[hit].all()
         assert np.isinf(t[~hit]).all()

@@ -16,8 +16,7 @@ from renderer.trace import Tracer
 def leaks(flat: FlatScene, eye: np.ndarray, targets: np.ndarray, scale: float = 1.0) -> int:
     directions = (targets - eye) * scale
     origins = np.ascontiguousarray(np.broadcast_to(eye, directions.shape))
-    _, primitive, _, _, hit = cast(tree_of(flat), origins, directions, 0.0, np.inf)
-    assert np.array_equal(hit, primitive >= 0)
+    _, primitive, _, _ = cast(tree_of(flat), origins, directions, 0.0, np.inf)
     return int((primitive < 0).sum())
 
 

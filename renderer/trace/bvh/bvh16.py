@@ -57,10 +57,6 @@ class WideTree(NamedTuple):
     bounds: NDArray[np.float64]
     levels: int
 
-    @property
-    def size_bytes(self) -> int:
-        return sum(array.nbytes for array in self if isinstance(array, np.ndarray))
-
 
 def aligned(count: int, dtype: type) -> NDArray:
     """An empty array of 4-byte numbers whose vectors of 16 lie within cache lines, of 64 bytes.

@@ -33,7 +33,7 @@ import platformdirs
 from numba import config
 
 import renderer.scene.flat
-from renderer import compile_note
+from renderer import compile_note, shared_numbers
 from renderer.errors import LucidaError
 from renderer.private import private_folder
 from renderer.trace.compile.numba_inside import missing, part
@@ -118,10 +118,11 @@ def _find_folder() -> tuple[Path | None, str]:
 
 
 def source_hash() -> str:
-    """Names the code that is compiled: the tracer's sources, the scene's layout, the versions."""
+    """Names the code that is compiled: the tracer's sources and what they take from elsewhere,
+    the scene's layout and the shared numbers; the versions."""
     sources = sorted(_TRACE.rglob("*.py"))
     digest = hashlib.sha256()
-    for path in (*sources, Path(renderer.scene.flat.__file__)):
+    for path in (*sources, Path(renderer.scene.flat.__file__), Path(shared_numbers.__file__)):
         digest.update(path.name.encode() + b"\0" + path.read_bytes() + b"\0")
     for version in (sys.version, numba.__version__, llvmlite.__version__, numpy.__version__):
         digest.update(version.encode() + b"\0")

@@ -16,7 +16,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from renderer.scene.boxes import world_boxes
-from renderer.scene.flat import CELL_NUDGE, SPECULAR_CHECKERED, FlatScene
+from renderer.scene.flat import SPECULAR_CHECKERED, FlatScene
+from renderer.shared_numbers import CELL_NUDGE
 
 # A face in a cell's border is looked up CELL_NUDGE beside it: hits must be known better than that.
 _KNOWN = CELL_NUDGE / 2

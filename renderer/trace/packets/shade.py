@@ -13,6 +13,7 @@ from renderer.scene.flat import (
     DIFFUSE_SHININESS,
     SPECULAR_CHECKERED,
 )
+from renderer.shared_numbers import CELL_NUDGE, NEAREST_LIGHT, SHORTEST_HALF
 from renderer.trace.compile.compiled import inlined
 from renderer.trace.packets.effects import (
     brightest,
@@ -24,7 +25,6 @@ from renderer.trace.packets.effects import (
 from renderer.trace.packets.surface import find_surfaces, points_on
 from renderer.trace.packets.tile import REST_OF_T
 from renderer.trace.packets.view import ACROSS, DOWN, SHARED, VARYING
-from renderer.trace.scalar.shade import CELL_NUDGE
 from renderer.trace.simd.lanes import (
     bits,
     fma,
@@ -50,8 +50,8 @@ from renderer.trace.simd.math import (
 )
 from renderer.trace.simd.memory import load
 
-_SMALLEST_LIGHT = np.float32(1e-12)  # a point light nearer than this gives no light
-_SMALLEST_HALF = np.float32(1e-12)  # with a half vector of a smaller square, there is no highlight
+_PER_NEAREST_LIGHT = np.float32(1) / np.float32(NEAREST_LIGHT)
+_SHORTEST_HALF_SQUARE = np.float32(SHORTEST_HALF**2)
 
 
 @inlined
@@ -226,7 +226,7 @@ def shade_material(
             to_light = minus_lanes(to_light, point)
             per_length = inverse_length(to_light)
             # At the light itself there is no direction to it, and no light.
-            is_apart = per_length < np.float32(1) / _SMALLEST_LIGHT
+            is_apart = per_length < _PER_NEAREST_LIGHT
             to_light = scaled_lanes(select(is_apart, per_length, np.float32(0)), to_light)
         cosine = vmax(dot_lanes(shading, to_light), np.float32(0))
         in_light = mask
@@ -247,7 +247,7 @@ def shade_material(
         cosine = dot_lanes(shading, half)
         # Highlights are small: most squares have none of most lights.
         is_bright = cosine * cosine > square * (dark_cosine * dark_cosine)
-        is_lit = in_light & is_bright & (cosine > np.float32(0)) & (square >= _SMALLEST_HALF)
+        is_lit = in_light & is_bright & (cosine > np.float32(0)) & (square >= _SHORTEST_HALF_SQUARE)
         if lights[lamp + 3] != np.float32(0):
             is_lit = is_lit & (dot_lanes(to_light, to_light) > np.float32(0.5))
         if bits(is_lit) == 0:

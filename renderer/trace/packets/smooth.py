@@ -10,14 +10,14 @@ from typing import NamedTuple
 
 import numpy as np
 
-from renderer.scene import flat
+from renderer import shared_numbers
 from renderer.trace.bvh.bvh16 import CORNERS, WIDTH
 from renderer.trace.compile.compiled import inlined
 from renderer.trace.packets.view import ORIGIN, ROW_X, ROW_Y, ROW_Z, ROWS
 from renderer.trace.scalar.vectors import cross, dot, minus, times
 from renderer.trace.simd.lanes import fma, lane_column, lane_row, splat
 
-OTHER_SIDE = np.float32(flat.OTHER_SIDE)
+OTHER_SIDE = np.float32(shared_numbers.OTHER_SIDE)
 
 
 class Vertices(NamedTuple):

@@ -13,6 +13,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from renderer import shared_numbers
 from renderer.trace.bvh.bvh16 import WIDTH
 from renderer.trace.bvh.instances import HAS_COLORS, HAS_NORMALS, IS_STRETCHED
 from renderer.trace.compile.compiled import inlined
@@ -27,7 +28,6 @@ from renderer.trace.packets.smooth import (
 from renderer.trace.packets.sphere import sphere_normal, sphere_normal_at
 from renderer.trace.packets.tile import FIRST_SPHERE, NOTHING, OWNER, SEEN
 from renderer.trace.packets.view import ACROSS, DOWN, SHARED, VARYING
-from renderer.trace.scalar import shade
 from renderer.trace.scalar.vectors import minus
 from renderer.trace.simd.lanes import (
     LANES,
@@ -51,7 +51,8 @@ from renderer.trace.simd.math import (
 )
 from renderer.trace.simd.memory import gather, load, pointer, store
 
-GRAZING = np.float32(shade.GRAZING)
+GRAZING = np.float32(shared_numbers.GRAZING)
+SHORTEST_MEAN_SQUARE = np.float32(shared_numbers.SHORTEST_MEAN**2)
 _X, _Y, _Z = np.arange(3)
 SINGLES = 3  # triangles that are taken one by one before the rest gather
 
@@ -267,7 +268,7 @@ def instance_surface(
                 )
                 turn = side if agrees(scene.normals, vertices, x, y, z) else -side
                 smooth = blended(scene.normals, vertices, weights)
-                usable = same & (dot_lanes(smooth, smooth) >= np.float32(1e-12))
+                usable = same & (dot_lanes(smooth, smooth) >= SHORTEST_MEAN_SQUARE)
                 smooth = scaled_lanes(turn * inverse_length(smooth), smooth)
                 shading = select_lanes(usable, smooth, shading)
     return Surface(facing, bend_grazing(pixels.direction, mask, shading), tint)

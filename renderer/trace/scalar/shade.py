@@ -6,9 +6,19 @@ Knows nothing of how hits are found.
 
 from __future__ import annotations
 
+from typing import NamedTuple
+
 import numpy as np
 
 from renderer.scene import flat
+from renderer.shared_numbers import (
+    CELL_NUDGE,
+    GRAZING,
+    NEAREST_LIGHT,
+    OTHER_SIDE,
+    SHORTEST_HALF,
+    SHORTEST_MEAN,
+)
 from renderer.trace.compile.compiled import inlined
 from renderer.trace.scalar.vectors import (
     blend,
@@ -29,9 +39,7 @@ DIFFUSE_SHININESS, SPECULAR_CHECKERED, CHECKER_DIFFUSE = (
     for number in (flat.DIFFUSE_SHININESS, flat.SPECULAR_CHECKERED, flat.CHECKER_DIFFUSE)
 )
 FIRST, SECOND, THIRD = np.int64(0), np.int64(1), np.int64(2)
-CELL_NUDGE = flat.CELL_NUDGE
-OTHER_SIDE = flat.OTHER_SIDE
-GRAZING = 1e-3  # the cosine that shading normals keep, at least, towards the viewer
+NOWHERE = (0.0, 0.0, 0.0)
 
 
 @inlined
@@ -82,7 +90,7 @@ def normals_at(scene, direction, point, primitive, b1, b2):
     if _is_set(n0) and _is_set(n1) and _is_set(n2):
         smooth = blend(1.0 - b1 - b2, n0, b1, n1, b2, n2)
         size = length(smooth)
-        if size >= 1e-6:
+        if size >= SHORTEST_MEAN:
             # Normals that disagree with the winding are turned, for the whole triangle alike.
             turn = 1.0 if dot(plus(n0, plus(n1, n2)), geometric) >= OTHER_SIDE else -1.0
             if dot(geometric, direction) >= 0.0:
@@ -156,21 +164,47 @@ def color_at(scene, direction, point, geometric, shading, primitive, b1, b2):
     color = each_times(rgb(scene.ambient), albedo)
     for light in range(len(scene.lights)):
         lamp = scene.lights[light]
-        to_light = row(lamp, FIRST)
-        if lamp[0, 3] != 0.0:
-            to_light = minus(to_light, point)
-            far = length(to_light)
-            if far < 1e-12:
-                continue
-            to_light = times(1.0 / far, to_light)
-        reflected = times(max(0.0, dot(shading, to_light)), albedo)
-        half = minus(to_light, along)
-        size = length(half)
-        if size >= 1e-6:
-            highlight = max(0.0, dot(shading, half) / size) ** shininess
-            reflected = plus(reflected, times(highlight, specular))
-        color = plus(color, each_times(row(lamp, SECOND), reflected))
+        at = light_at(lamp, point, along, shading)
+        diffuse, highlight = reflected_at(lamp, at, albedo, specular, shininess)
+        color = plus(color, plus(diffuse, highlight))
     return color
+
+
+class LightAt(NamedTuple):
+    """A light as a point sees it. to_light, half: the unit vectors l and h, 0 where there is none;
+    distance: to it, infinite where it is directional; n_dot_l, n_dot_h: cosines with the normal."""
+
+    to_light: tuple[float, float, float]
+    distance: float
+    half: tuple[float, float, float]
+    n_dot_l: float
+    n_dot_h: float
+
+
+@inlined
+def light_at(lamp, point, along, normal):
+    """The light `lamp`, of the scene's, at a point with a unit normal; along: how it is looked at,
+    a unit vector. The probe's terms are these (app/explaining/shading.py)."""
+    to_light, distance = row(lamp, FIRST), np.inf
+    if lamp[0, 3] != 0.0:
+        to_light = minus(to_light, point)
+        distance = length(to_light)
+        to_light = times(1.0 / distance, to_light) if distance >= NEAREST_LIGHT else NOWHERE
+    half = minus(to_light, along)
+    size = length(half)
+    half = times(1.0 / size, half) if size >= SHORTEST_HALF else NOWHERE
+    return LightAt(to_light, distance, half, dot(normal, to_light), dot(normal, half))
+
+
+@inlined
+def reflected_at(lamp, at, albedo, specular, shininess):
+    """(diffuse, highlight): the two colours of a LightAt's light that go to the viewer."""
+    if at.distance < NEAREST_LIGHT:
+        return NOWHERE, NOWHERE
+    color = row(lamp, SECOND)
+    diffuse = times(max(0.0, at.n_dot_l), each_times(color, albedo))
+    highlight = times(max(0.0, at.n_dot_h) ** shininess, each_times(color, specular))
+    return diffuse, highlight
 
 
 @inlined

@@ -230,26 +230,22 @@ quarters_swapped = intrinsic(_permutation([lane ^ 4 for lane in range(LANES)]))
 next_of_three = intrinsic(_permutation([[1, 2, 0, 3][lane % 4] for lane in range(LANES)]))
 
 
-def _reduction(sign: str) -> Callable:
-    def build(typing, x):
-        def codegen(context, builder, sig, args):
-            # Fold the vector in halves until one lane is left.
-            (value,), lanes = args, LANES
-            while lanes > 1:
-                lanes //= 2
-                nothing = undefined(value.type)
-                low = shuffled(builder, value, nothing, list(range(lanes)))
-                high = shuffled(builder, value, nothing, list(range(lanes, 2 * lanes)))
-                value = builder.select(builder.fcmp_ordered(sign, low, high), low, high)
-            return builder.extract_element(value, ir.Constant(INT32, 0))
+@intrinsic
+def smallest(typing, x):
+    """The least of a vector's lanes."""
 
-        return SCALAR[common_kind(x)](x), codegen
+    def codegen(context, builder, sig, args):
+        # Fold the vector in halves until one lane is left.
+        (value,), lanes = args, LANES
+        while lanes > 1:
+            lanes //= 2
+            nothing = undefined(value.type)
+            low = shuffled(builder, value, nothing, list(range(lanes)))
+            high = shuffled(builder, value, nothing, list(range(lanes, 2 * lanes)))
+            value = builder.select(builder.fcmp_ordered("<", low, high), low, high)
+        return builder.extract_element(value, ir.Constant(INT32, 0))
 
-    return build
-
-
-smallest = intrinsic(_reduction("<"))
-largest = intrinsic(_reduction(">"))
+    return SCALAR[common_kind(x)](x), codegen
 
 
 @intrinsic

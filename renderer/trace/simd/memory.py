@@ -125,10 +125,7 @@ def is_line(typing, array, index):
 @intrinsic
 def gather(typing, array, index, mask):
     """array[index[lane]] in the lanes of the mask; 0 in the others, whose index may be any."""
-    return _gather(array_kind(array), array, index, mask)
-
-
-def _gather(kind: str, array: Any, index: Any, mask: Any) -> Any:
+    kind = array_kind(array)
     if kind == "f64" or index != I32 or mask != MASK:
         raise TypingError("gather takes 32-bit elements, an I32 and a MASK")
 
@@ -143,33 +140,6 @@ def _gather(kind: str, array: Any, index: Any, mask: Any) -> Any:
         return call_llvm(builder, name, zero.type, [address, ir.Constant(INT32, 4), args[2], zero])
 
     return VECTOR[kind](array, index, mask), codegen
-
-
-@intrinsic
-def fetch(typing, array, index, mask):
-    """A vector of array[index]: gathered for an I32 of indices, repeated for a number."""
-    kind = array_kind(array)
-    if index == I32:
-        return _gather(kind, array, index, mask)
-
-    def codegen(context, builder, sig, args):
-        at = element_address(context, builder, sig, args)
-        return repeated(builder, builder.load(at, typ=ELEMENT[kind]))
-
-    return VECTOR[kind](array, index, mask), codegen
-
-
-@intrinsic
-def fetch_index(typing, array, index, mask):
-    """array[index]: gathered for an I32 of indices, one int32 for a number."""
-    if index == I32:
-        return _gather(array_kind(array), array, index, mask)
-
-    def codegen(context, builder, sig, args):
-        at = element_address(context, builder, sig, args)
-        return builder.load(at, typ=INT32)
-
-    return types.int32(array, index, mask), codegen
 
 
 @intrinsic

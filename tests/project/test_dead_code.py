@@ -1,0 +1,98 @@
+"""Nothing stands in the product that only tests call: what a module defines, another part uses.
+
+Vulture, one of the linters, goes by names alone: two functions of one name hide each other. Here
+a name counts only for its own module and for those that import it from there.
+"""
+
+from __future__ import annotations
+
+import ast
+import functools
+import re
+import tomllib
+from collections.abc import Iterator
+
+import pytest
+from test_layers import MODULES, ROOT
+
+# What is found by its name, and by whom.
+FOUND = {
+    "NAME": "app/cli.py looks for it in each of app/commands",
+    "configure": "the same",
+    "run": "the same",
+    "main": "run by `python -m`, or in a child process",
+    "__all__": "read by `import *` and by tools",
+    "__getattr__": "called by Python for what a module lacks",
+    "__dir__": "called by dir()",
+    "_": "a loop's variable",
+}
+# A decorator that hands the function on to whoever calls it.
+REGISTERED = {"atexit.register", "lower_builtin", "register_model", "type_callable"}
+
+
+def definitions(tree: ast.Module) -> Iterator[tuple[str, ast.stmt]]:
+    """Names that a module binds at its top level, but for imports."""
+    for node in tree.body:
+        if isinstance(node, ast.FunctionDef | ast.ClassDef):
+            calls = (d.func if isinstance(d, ast.Call) else d for d in node.decorator_list)
+            if not REGISTERED & {ast.unparse(call) for call in calls}:
+                yield node.name, node
+        elif isinstance(node, ast.Assign | ast.AnnAssign):
+            targets = node.targets if isinstance(node, ast.Assign) else [node.target]
+            for part in (part for target in targets for part in ast.walk(target)):
+                if isinstance(part, ast.Name) and isinstance(part.ctx, ast.Store):
+                    yield part.id, node
+
+
+def uses(module: str, tree: ast.Module) -> Iterator[tuple[str, str]]:
+    """(module, name) of what a module reads: its own names, imported ones, and attributes of
+    imported modules."""
+    package = MODULES[module].name == "__init__.py"
+    above = module.split(".") if package else module.split(".")[:-1]
+    named: dict[str, str] = {}
+    for node in ast.walk(tree):
+        if isinstance(node, ast.ImportFrom):
+            start = above[: len(above) - node.level + 1] if node.level else []
+            home = ".".join([*start, *([node.module] if node.module else [])])
+            for alias in node.names:
+                yield home, alias.name
+                named[alias.asname or alias.name] = f"{home}.{alias.name}"
+        elif isinstance(node, ast.Import):
+            for alias in node.names:
+                first = alias.name.split(".")[0]
+                named[alias.asname or first] = alias.name if alias.asname else first
+    for node in ast.walk(tree):
+        if isinstance(node, ast.Name) and isinstance(node.ctx, ast.Load):
+            yield module, node.id
+        elif isinstance(node, ast.Attribute):
+            first, *rest = ast.unparse(node).split(".")
+            parts = [*named.get(first, first).split("."), *rest]
+            for end in range(1, len(parts)):
+                yield ".".join(parts[:end]), parts[end]
+
+
+@functools.cache
+def trees() -> dict[str, ast.Module]:
+    return {module: ast.parse(path.read_text("utf-8")) for module, path in MODULES.items()}
+
+
+@functools.cache
+def used() -> frozenset[tuple[str, str]]:
+    by_python = {use for module, tree in trees().items() for use in uses(module, tree)}
+    shaders = (path for path in ROOT.glob("shaders/**/*.*") if path.suffix != ".py")
+    words = {word for path in shaders for word in re.findall(r"\w+", path.read_text("latin-1"))}
+    return frozenset(by_python | {("renderer.shared_numbers", word) for word in words})
+
+
+@pytest.mark.parametrize("module", MODULES)
+def test_what_a_module_defines_is_used(module: str) -> None:
+    names = {name for name, _ in definitions(trees()[module])}
+    unused = {name for name in names if (module, name) not in used()} - FOUND.keys()
+    assert not unused, f"only tests use {sorted(unused)} of {module}, or nobody"
+
+
+def test_vultures_exceptions_are_needed() -> None:
+    settings = tomllib.loads((ROOT / "pyproject.toml").read_text("utf-8"))["tool"]["vulture"]
+    text = "\n".join(path.read_text("utf-8") for path in MODULES.values())
+    for name in settings["ignore_names"]:
+        assert re.search(rf"\b{name.replace('*', '')}", text), f"{name}: nothing has that name"

@@ -1,0 +1,26 @@
+"""The words of a lecture's text, for tests that look for them."""
+
+from __future__ import annotations
+
+from app.lecture.text import Block, Code, Formula, Line, Listing, Words
+
+
+def plain_text(blocks: tuple[Block, ...]) -> str:
+    """The words of a text without their marks; formulas as their LaTeX."""
+    parts = []
+    for block in blocks:
+        match block:
+            case Listing():
+                parts += [words(item) for item in block.items]
+            case Code():
+                parts.append(block.text)
+            case Formula():
+                parts.append(block.latex)
+            case _:
+                parts.append(words(block.line))
+    return "\n".join(parts)
+
+
+def words(line: Line) -> str:
+    """A line's words without their marks."""
+    return "".join(span.text if isinstance(span, Words) else span.latex for span in line)
