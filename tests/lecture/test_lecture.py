@@ -12,7 +12,7 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
-from plain_text import plain_text
+from plain_text import plain_text, words_of
 
 from app.explaining.languages import LANGUAGES
 from app.lecture import reading
@@ -418,7 +418,7 @@ class TestText:
 
     def test_signs_that_mean_themselves(self):
         (paragraph,) = texts.parse(r"\$5 and 3 * 4 * 5 and \*, `a*b*c`")
-        assert texts.words(paragraph.line) == "$5 and 3 * 4 * 5 and *, a*b*c"
+        assert words_of(paragraph.line) == "$5 and 3 * 4 * 5 and *, a*b*c"
 
     @pytest.mark.parametrize(
         ("text", "line"), [("a\n\n$x", 2), ("a\n$$\nb", 1), ("x\n\n```\ny", 2), ("- a\n- $", 1)]
@@ -560,7 +560,7 @@ class TestTheBuiltInLecture:
     def test_it_fits_a_slide(self):
         for step, language in itertools.product(self.lecture.steps, LANGUAGES):
             shown = texts.in_language(step.blocks, language)
-            words = len(re.findall(r"\w+", plain(shown)))
+            words = len(re.findall(r"\w+", plain_text(shown)))
             assert 5 <= words <= 85, (step.title, language, words)
 
     def test_every_kind_of_exercise_is_in_it(self):
@@ -624,7 +624,7 @@ answers = [
 @given(st.text(alphabet="$*`\\\\a1.,()[]{}_^#>-", min_size=1, max_size=12))
 def test_an_escaped_text_is_shown_as_it_stands(typed):
     (block,) = texts.parse("typed: " + texts.escaped(typed))
-    assert texts.words(block.line) == ("typed: " + typed)
+    assert words_of(block.line) == ("typed: " + typed)
 
 
 def test_in_a_newer_lecture_the_nearest_step_of_that_title_is_shown():

@@ -52,7 +52,7 @@ def test_what_is_not_asked_for_is_not_looked_up() -> None:
         (SceneObject(FLOOR, MIRROR), SceneObject(Sphere((0, 5, 0), 1))), (PointLight((0, 9, 9)),)
     )
     reading = read(scene)
-    assert not reading.has_shadows and reading.bounces == () and reading.exposure_ev == 0
+    assert reading.bounces == () and reading.exposure_ev == 0
     assert [(meeting.name, meeting.kind) for meeting in reading.meetings] == [
         ("object 0", "mesh"),
         ("object 1", "sphere"),
@@ -104,7 +104,7 @@ def lit(*lights: PointLight | DirectionalLight, blocker: Mesh | None = None) -> 
     scene = Scene(tuple(SceneObject(shape) for shape in shapes), lights)
     # From the side: what is above the point is not in the way of the view.
     reading = read(scene, (2, 2, 0), (-1, -1, 0), shadows=True)
-    assert reading.hit is not None and reading.hit.object == 0 and reading.has_shadows
+    assert reading.hit is not None and reading.hit.object == 0
     assert reading.hit.point == pytest.approx((0, 0, 0), abs=1e-12)
     assert reading.shading is not None
     return [lamp.is_lit for lamp in reading.shading.lamps]

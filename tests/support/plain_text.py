@@ -11,16 +11,16 @@ def plain_text(blocks: tuple[Block, ...]) -> str:
     for block in blocks:
         match block:
             case Listing():
-                parts += [words(item) for item in block.items]
+                parts += [words_of(item) for item in block.items]
             case Code():
                 parts.append(block.text)
             case Formula():
                 parts.append(block.latex)
             case _:
-                parts.append(words(block.line))
+                parts.append(words_of(block.line))
     return "\n".join(parts)
 
 
-def words(line: Line) -> str:
+def words_of(line: Line) -> str:
     """A line's words without their marks."""
     return "".join(span.text if isinstance(span, Words) else span.latex for span in line)
