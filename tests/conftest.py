@@ -21,8 +21,9 @@ settings.load_profile("lucida")
 
 
 def pytest_sessionstart(session):
-    """Into the cache, at once: or the first test that traces would wait for it, and hear of it."""
-    if not hasattr(session.config, "workerinput"):
+    """Into the cache, at once: or the first test that traces would wait for it, and hear of it. Not
+    where a few tests run on their own, for another processor."""
+    if not hasattr(session.config, "workerinput") and "NUMBA_CPU_NAME" not in os.environ:
         scene = load_scene(BUILTIN_SCENES[0])
         for shadows in (False, True):
             with Tracer(scene, shadows=shadows) as tracer:

@@ -22,10 +22,11 @@ SCRIPT = """
 from renderer.camera import Camera
 from renderer.scene.model import Scene, SceneObject, Sphere
 from renderer.trace import Tracer
-frame = Tracer(Scene((SceneObject(Sphere((0, 0, -3))),))).render(Camera(), (5, 5), ("depth",))
+tracer = Tracer(Scene((SceneObject(Sphere((0, 0, -3))),)), method="reference")  # the small kernel
+frame = tracer.render(Camera(), (5, 5), ("depth",))
 assert frame.depth[2, 2] == 2, frame.depth
 from renderer.trace.compile import compiled
-from renderer.trace.packets.kernel import trace_packets as kernel
+from renderer.trace.scalar.kernel import trace_image as kernel
 print(compiled.cache_folder(), sum(kernel.stats.cache_hits.values()))
 """
 
