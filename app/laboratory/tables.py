@@ -65,21 +65,23 @@ def sizes_table(
     return chosen
 
 
-def luminance_weights(at: ImVec2, width: float, fonts: Fonts) -> None:
-    """How colour becomes gray: Rec. 709's weights, as bars of their length."""
-    em = imgui.get_font_size()
+def luminance_weights(at: ImVec2, room: ImVec2, fonts: Fonts) -> None:
+    """How colour becomes gray: Rec. 709's weights, as bars of their length, in a room."""
+    em, width = imgui.get_font_size(), room.x
+    line = min(1.5 * em, (room.y - 2.8 * em) / len(BARS))
+    size = min(em, 0.9 * line)
     draw = imgui.get_window_draw_list()
     with lettering(fonts.bold, em):
         draw.add_text(at, theme.u32(theme.TEXT), "From colour to gray")
     y = at.y + 1.15 * em
     caption = "luminance of linear light (Rec. 709)"
     fitted_text(draw, ImVec2(at.x, y), theme.u32(theme.DIM), caption, width)
-    y += 2.0 * em
+    y += 1.65 * em
     longest = width - 6.5 * em
     for name, weight, color in zip("RGB", LUMINANCE, BARS, strict=True):
-        with lettering(fonts.mono, em):
+        with lettering(fonts.mono, size):
             draw.add_text(ImVec2(at.x, y), theme.u32(theme.TEXT), f"{weight:.4f} {name}")
-        low = ImVec2(at.x + 5.5 * em, y + 0.1 * em)
-        high = ImVec2(low.x + max(2.0, longest * float(weight)), y + 0.95 * em)
+        low = ImVec2(at.x + 5.5 * em, y + 0.1 * size)
+        high = ImVec2(low.x + max(2.0, longest * float(weight)), y + 0.95 * size)
         draw.add_rect_filled(low, high, theme.u32(theme.rgb(color)), 2.0)
-        y += 1.5 * em
+        y += line

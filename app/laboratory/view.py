@@ -44,7 +44,7 @@ LETTERS = 105.0  # a line over the whole view
 WIDEST_EM = 42.0  # of a line, as the table of kinds has it
 GAP_EM = 0.6
 ROWS_EM = 13.0  # of the pictures with their titles, two rows of them, at the least
-LEAST_EM = {"kinds": 16.5, "displays": 8.5, "array": 22.0}  # of pages that are otherwise
+LEAST_EM = {"displays": 8.5, "array": 22.0}  # of pages that are otherwise
 ABOUT_A_PIXEL = ("subpixels", "displays", "array")  # a click on these pages chooses it
 
 
@@ -217,7 +217,8 @@ class LaboratoryView(View):
             source = self._source
             self.displays.lanes(host, options, made, source.color, source.number, pixel)
         if options.page == "kinds":
-            luminance_weights(place(len(self._made.panels)), made.cell[0] / scale, host.fonts)
+            extent = ImVec2(made.cell[0] / scale, made.cell[1] / scale + HEADING_EM * em)
+            luminance_weights(place(len(self._made.panels)), extent, host.fonts)
             imgui.set_cursor_screen_pos(ImVec2(corner.x, corner.y + avail.y - below + 0.4 * em))
             picked = sizes_table(made.image, self._sizes, host.fonts)
             if picked is not None:
