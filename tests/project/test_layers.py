@@ -198,7 +198,7 @@ def test_cores_draw_nothing(path):
 
 
 def _rooms(file: str) -> list[str]:
-    return [f"{package}.{file}" for package in INSTRUMENTS if f"{package}.{file}" in MODULES]
+    return [f"{room.package}.{file}" for room in ROOMS if f"{room.package}.{file}" in MODULES]
 
 
 @pytest.mark.parametrize("module", _rooms("options"))
