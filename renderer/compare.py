@@ -29,7 +29,7 @@ from renderer.difference import (
     most,
     signed_difference,
 )
-from renderer.edges import Lines
+from renderer.edges import Discontinuities
 from renderer.frame import CHANNELS, Frame
 from renderer.images.display import encode_srgb
 from renderer.nothing_hit import hits_nothing, why_nothing_is_hit
@@ -299,7 +299,7 @@ def _explain(
     j: NDArray[np.intp],
 ) -> NDArray[np.uint8]:
     """The labels of the disagreeing pixels (i, j); AGREE for those without a cause."""
-    lines = Lines(flat, camera, size)
+    lines = Discontinuities(flat, camera, size)
     seen = [
         (frame.channel("primitive")[i, j], frame.channel("depth")[i, j].astype(float))
         for frame in (raster, ray)

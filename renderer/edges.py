@@ -43,7 +43,7 @@ CLIPPED_FROM = NEAREST + ROUNDING_32
 
 
 @dataclass(frozen=True)
-class Lines:
+class Discontinuities:
     """The lines of one scene as seen by one camera in an image of (width, height)."""
 
     flat: FlatScene

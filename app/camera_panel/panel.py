@@ -11,7 +11,7 @@ from dataclasses import dataclass, replace
 from imgui_bundle import imgui
 
 from app.camera_panel.basis_numbers import basis_readout
-from app.camera_panel.projection import Surroundings, component, lens
+from app.camera_panel.projection import PanelContext, component, lens
 from app.camera_panel.sections import (
     Asked,
     Sections,
@@ -55,7 +55,7 @@ NOTHING = Asked()
 
 
 @dataclass(frozen=True)
-class Panel:
+class PanelOutcome:
     """What the panel has entered or told, and what it asks for: a state to pass to (`target`),
     and what its sections ask for."""
 
@@ -65,7 +65,9 @@ class Panel:
     asked: Asked = NOTHING
 
 
-def camera_panel(state: AppState, panel: Panel, around: Surroundings) -> tuple[AppState, Panel]:
+def camera_panel(
+    state: AppState, panel: PanelOutcome, around: PanelContext
+) -> tuple[AppState, PanelOutcome]:
     """Draws the panel into the current window."""
     em, style = imgui.get_font_size(), imgui.get_style()
     imgui.push_style_var(imgui.StyleVar_.item_spacing, (style.item_spacing.x, 0.2 * em))
@@ -76,7 +78,9 @@ def camera_panel(state: AppState, panel: Panel, around: Surroundings) -> tuple[A
         imgui.pop_style_var(2)
 
 
-def _panel(state: AppState, panel: Panel, around: Surroundings) -> tuple[AppState, Panel]:
+def _panel(
+    state: AppState, panel: PanelOutcome, around: PanelContext
+) -> tuple[AppState, PanelOutcome]:
     draft = panel.draft.following(state.camera)
     with pointed("projection", state):
         target = _projection(state, around)
@@ -98,10 +102,10 @@ def _panel(state: AppState, panel: Panel, around: Surroundings) -> tuple[AppStat
         leaves = target is not None or asked.preset is not None or asked.view is not None
         if pending.note("camera", str(draft.error), "Back to the camera shown") or leaves:
             draft = Draft.of(draft.camera)
-    return state, Panel(draft, sections, target, asked)
+    return state, PanelOutcome(draft, sections, target, asked)
 
 
-def _projection(state: AppState, around: Surroundings) -> AppState | None:
+def _projection(state: AppState, around: PanelContext) -> AppState | None:
     """The two buttons; gives the state that they ask for."""
     parallel = state.camera.is_parallel
     half = imgui.get_content_region_avail().x / 2
@@ -119,7 +123,7 @@ def _projection(state: AppState, around: Surroundings) -> AppState | None:
     return state.with_camera(switched_projection(state.camera, around.focus.center))
 
 
-def _vectors(state: AppState, draft: Draft, around: Surroundings) -> tuple[AppState, Draft]:
+def _vectors(state: AppState, draft: Draft, around: PanelContext) -> tuple[AppState, Draft]:
     thirds = rows.Thirds()
     imgui.text_colored(theme.DIM, "")
     for axis, letter in enumerate("xyz"):
@@ -159,7 +163,7 @@ def _orthonormal(state: AppState) -> AppState:
     return state.with_keep_orthonormal(keep) if changed else state
 
 
-def _exposure(state: AppState, around: Surroundings) -> AppState:
+def _exposure(state: AppState, around: PanelContext) -> AppState:
     width = rows.row("exposure", "", EXPOSURE, around.fonts)
     changed, value = number_field(
         "exposure",
@@ -194,7 +198,7 @@ def _resets(state: AppState) -> AppState | None:
 
 
 def _sections(
-    state: AppState, sections: Sections, around: Surroundings
+    state: AppState, sections: Sections, around: PanelContext
 ) -> tuple[AppState, Sections, Asked]:
     asked = [NOTHING]
     opened: list[str] = []

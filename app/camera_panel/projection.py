@@ -53,7 +53,7 @@ LEAST_FOV_DEG, MOST_FOV_DEG = 0.5, 175.0  # where dragging ends
 
 
 @dataclass(frozen=True)
-class Surroundings:
+class PanelContext:
     """What the panel must know beside the state. shown: the camera that the images are drawn
     with. dolly: the world point that the dolly zoom keeps."""
 
@@ -63,7 +63,7 @@ class Surroundings:
     dolly: Vector
 
 
-def lens(state: AppState, draft: Draft, around: Surroundings) -> tuple[AppState, Draft]:
+def lens(state: AppState, draft: Draft, around: PanelContext) -> tuple[AppState, Draft]:
     """All of them, into the current window."""
     with pointed("distance", state):
         state, draft = _distance(state, draft.following(state.camera), around)
@@ -111,7 +111,7 @@ def component(
     return state, draft
 
 
-def _distance(state: AppState, draft: Draft, around: Surroundings) -> tuple[AppState, Draft]:
+def _distance(state: AppState, draft: Draft, around: PanelContext) -> tuple[AppState, Draft]:
     width = rows.row("d", "distance", DISTANCE, around.fonts)
     imgui.begin_disabled(state.camera.is_parallel)
     changed, value = number_field(
@@ -131,7 +131,7 @@ def _distance(state: AppState, draft: Draft, around: Surroundings) -> tuple[AppS
     return edit_field(state, draft, "distance", value) if changed else (state, draft)
 
 
-def _field_of_view(state: AppState, draft: Draft, around: Surroundings) -> tuple[AppState, Draft]:
+def _field_of_view(state: AppState, draft: Draft, around: PanelContext) -> tuple[AppState, Draft]:
     """The distance as an angle, of the viewport as drawn."""
     width = rows.row("field of view", "", FIELD_OF_VIEW, around.fonts, derived=True)
     if state.camera.is_parallel:
@@ -159,7 +159,7 @@ def _field_of_view(state: AppState, draft: Draft, around: Surroundings) -> tuple
     return edit_field(state, draft, "distance", distance)
 
 
-def _dolly(state: AppState, around: Surroundings) -> AppState:
+def _dolly(state: AppState, around: PanelContext) -> AppState:
     width = rows.row("dolly zoom", "", DOLLY, around.fonts, derived=True)
     camera, reach = state.camera, around.focus.reach
     depth = -float((camera.camera_from_world @ [*around.dolly, 1.0])[2])
@@ -184,7 +184,7 @@ def _dolly(state: AppState, around: Surroundings) -> AppState:
         return state
 
 
-def _viewport(state: AppState, draft: Draft, around: Surroundings) -> tuple[AppState, Draft]:
+def _viewport(state: AppState, draft: Draft, around: PanelContext) -> tuple[AppState, Draft]:
     rows.row("viewport", "", RECTANGLE, around.fonts)
     changed, fit = checkbox("fit to the aspect ratio", state.view.fit)
     imgui.set_item_tooltip(FIT)
@@ -201,7 +201,7 @@ def _viewport(state: AppState, draft: Draft, around: Surroundings) -> tuple[AppS
     return state, draft.following(state.camera)
 
 
-def _shift(state: AppState, draft: Draft, around: Surroundings) -> tuple[AppState, Draft]:
+def _shift(state: AppState, draft: Draft, around: PanelContext) -> tuple[AppState, Draft]:
     halves = rows.Halves()
     for axis, (name, vector, tooltip) in enumerate(SHIFTS):
         width = halves.label(axis, name, tooltip)
@@ -225,7 +225,7 @@ def _shift(state: AppState, draft: Draft, around: Surroundings) -> tuple[AppStat
     return state, draft
 
 
-def _as_drawn(around: Surroundings) -> None:
+def _as_drawn(around: PanelContext) -> None:
     imgui.push_font(around.fonts.mono, 0.0)
     edges = "".join(map(short_number, around.shown.viewport))
     imgui.push_text_wrap_pos(0.0)
@@ -235,7 +235,7 @@ def _as_drawn(around: Surroundings) -> None:
     imgui.pop_font()
 
 
-def _clip(state: AppState, draft: Draft, around: Surroundings) -> tuple[AppState, Draft]:
+def _clip(state: AppState, draft: Draft, around: PanelContext) -> tuple[AppState, Draft]:
     """Near and far: each a switch and a field, which shows the fitted plane while it is off."""
     fitted = clip_around(around.shown, around.focus.bounds)
     reach, halves = around.focus.reach, rows.Halves()
@@ -267,7 +267,7 @@ def _clip(state: AppState, draft: Draft, around: Surroundings) -> tuple[AppState
     return state, draft
 
 
-def _scale(state: AppState, around: Surroundings) -> Scale:
+def _scale(state: AppState, around: PanelContext) -> Scale:
     """Of the viewport's numbers: lengths for parallel rays, else slopes."""
     reach = around.focus.reach if state.camera.is_parallel else 1.0
     return Scale(-reach, reach)

@@ -11,11 +11,11 @@ import math
 from imgui_bundle import imgui
 
 from app.camera_panel import actions as camera_actions
-from app.camera_panel.panel import Panel, camera_panel
-from app.camera_panel.projection import Surroundings
+from app.camera_panel.panel import PanelOutcome, camera_panel
+from app.camera_panel.projection import PanelContext
 from app.camera_panel.sections import Asked, Sections
 from app.cameras.editing import Draft
-from app.host.view import Host, View
+from app.host.view import DockedView, Host
 from app.images.picking import is_quick, nearest_hit
 from app.state.app_state import AppState
 from app.widgets.lettering import at_most
@@ -28,7 +28,7 @@ FITTING_EM = NARROW_EM + 0.5  # the width that full labels and numbers need
 LEAST_PX = 13.0  # of type, at 100 %
 
 
-class CameraView(View):
+class CameraView(DockedView):
     name = CAMERA
     title = "Camera"
 
@@ -63,8 +63,8 @@ class CameraView(View):
         if self._dolly is None or not imgui.is_any_item_active():  # while it is dragged, it stays
             self._dolly = self._focus_point(host, state)
         shown = host.renderers.camera(state)
-        around = Surroundings(host.fonts, shown, host.focus, self._dolly)
-        panel = Panel(self._draft or Draft.of(state.camera), self._sections)
+        around = PanelContext(host.fonts, shown, host.focus, self._dolly)
+        panel = PanelOutcome(self._draft or Draft.of(state.camera), self._sections)
         state, panel = camera_panel(state, panel, around)
         self._draft, self._sections = panel.draft, panel.sections
         host.apply(state)

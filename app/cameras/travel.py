@@ -32,7 +32,7 @@ class Ends:
     put: Callable[[AppState, Camera | None], AppState]
 
 
-class Traveller:
+class CameraTransition:
     """now_s: the clock, in seconds. instant: passages end at once (pictures, tests).
 
     What else changes the view (a drag, a key, undo) ends the passage where it is.

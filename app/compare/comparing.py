@@ -82,7 +82,7 @@ def effects_of(state: AppState) -> str:
 
 
 @dataclass(frozen=True)
-class Scale:
+class ColorScale:
     """The texts at a colour bar. title: what is shown. low, middle, high: at its ends; absolute
     scales begin with middle. short: of low and high, for narrow bars."""
 
@@ -93,11 +93,11 @@ class Scale:
     short: tuple[str, str]
 
 
-def scale(channel: Channel, gain: float, signed: bool) -> Scale:
+def scale(channel: Channel, gain: float, signed: bool) -> ColorScale:
     """What the colours of a difference mean."""
     full = FULL_SCALE[channel] / gain
     if channel == "id":
-        return Scale("object", "", "the same", "another one", ("", "another"))
+        return ColorScale("object", "", "the same", "another one", ("", "another"))
     what, number, longer = {
         "color": ("colour", f"{255 * full:.3g}/255", "brighter"),
         "depth": ("ray parameter t", f"{100 * full:.3g} %", "farther"),
@@ -106,8 +106,8 @@ def scale(channel: Channel, gain: float, signed: bool) -> Scale:
     if signed:
         low, high = f"raster {longer} by {number}", f"ray {longer} by {number}"
         short = f"raster {number}", f"ray {number}"
-        return Scale(f"ray - raster: {what}", low, "0", high, short)
-    return Scale(f"difference of the {what}", "", "0", number, ("", number))
+        return ColorScale(f"ray - raster: {what}", low, "0", high, short)
+    return ColorScale(f"difference of the {what}", "", "0", number, ("", number))
 
 
 def error_text(comparison: Comparison, channel: Channel) -> str:

@@ -38,7 +38,7 @@ class Mapping:
     signed: bool = False
 
 
-class Target:
+class ByteTarget:
     """A texture of 8 bits to draw into, of the size that was asked for last."""
 
     def __init__(self, context: moderngl.Context) -> None:
@@ -71,7 +71,7 @@ class Pass:
         self._gl = context
         self._program = link(context, "screen.vert", fragment)
         self._screen = context.vertex_array(self._program, [])
-        self._target = Target(context)
+        self._target = ByteTarget(context)
         self._drawn: Hashable = None
         self.count = 0
 

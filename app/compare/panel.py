@@ -12,7 +12,7 @@ from dataclasses import dataclass, replace
 from imgui_bundle import ImVec2, ImVec4, imgui
 
 from app.compare import comparing
-from app.compare.comparing import LABELS, MODES, Scale
+from app.compare.comparing import LABELS, MODES, ColorScale
 from app.compare.options import CompareOptions
 from app.state.app_state import AppState
 from app.state.bounds import range_of
@@ -37,7 +37,7 @@ COLORS_COMPARED = (
 
 
 @dataclass(frozen=True)
-class Told:
+class CompareReport:
     """What there is to tell. comparison: None while it is not known. headline: one line; color:
     its colour. pixel: the one whose values are shown.
     """
@@ -120,7 +120,7 @@ def footer_plan(available: float, fonts: theme.Fonts) -> Footer:
 
 def footer(
     state: AppState,
-    told: Told,
+    told: CompareReport,
     plan: Footer,
     fonts: theme.Fonts,
     draw_map: DrawMap,
@@ -208,7 +208,7 @@ def _scale_height() -> float:
     return 2 * imgui.get_text_line_height_with_spacing() + imgui.get_style().item_spacing.y
 
 
-def _color_bar(scale: Scale, signed: bool, draw_map: DrawMap) -> None:
+def _color_bar(scale: ColorScale, signed: bool, draw_map: DrawMap) -> None:
     """The map from end to end, and below it what its ends and its middle mean."""
     at, width = imgui.get_cursor_screen_pos(), imgui.get_content_region_avail().x
     height = imgui.get_text_line_height()
@@ -329,7 +329,7 @@ def _mono_width(fonts: theme.Fonts, columns: int) -> float:
     return width
 
 
-def _values(state: AppState, told: Told, fonts: theme.Fonts) -> None:
+def _values(state: AppState, told: CompareReport, fonts: theme.Fonts) -> None:
     """What both images have at a pixel, one above the other; the lines are kept without one."""
     line = imgui.get_text_line_height_with_spacing()
     if told.comparison is None or told.pixel is None:

@@ -254,21 +254,21 @@ class CompareView(ImageView):
 
     # Below the image.
 
-    def _told(self, host: Host) -> panel.Told:
+    def _told(self, host: Host) -> panel.CompareReport:
         both, state = host.renderers, host.state
         verdict, waits = both.verdict(state), waiting(both, state)
         error = both.raster_error or both.ray_error or self._error or both.agreement.error
         pixel = host.hovered[1] if host.hovered else state.marked
         if error is not None:
-            return panel.Told(describe(error), theme.ERROR)
+            return panel.CompareReport(describe(error), theme.ERROR)
         if waits or verdict is None:
-            return panel.Told(waits or "Comparing ...", theme.DIM)
+            return panel.CompareReport(waits or "Comparing ...", theme.DIM)
         comparison = verdict.comparison
         text, good = comparing.headline(comparison, comparing.effects_of(state))
         width, height = comparison.size
         if pixel is not None and not (pixel[0] < height and pixel[1] < width):
             pixel = None
-        return panel.Told(text, theme.GOOD if good else theme.ERROR, comparison, pixel)
+        return panel.CompareReport(text, theme.GOOD if good else theme.ERROR, comparison, pixel)
 
     def _granted(self, wish: panel.Wish, comparison: Comparison | None) -> AppState:
         state = wish.state

@@ -68,7 +68,7 @@ class Sample:
     time_s: float
 
 
-class Drawing(Protocol):
+class MeasuredRenderer(Protocol):
     """What is measured: a Rasterizer or a Tracer."""
 
     def set_scene(self, scene: Scene) -> None: ...
@@ -116,7 +116,7 @@ def steps(least: int, most: int, how_many: int) -> list[int]:
     return sorted({round(least * ratio**k) for k in range(how_many)} | {least, most})
 
 
-def measure(case: Case, drawing: Drawing) -> Sample:
+def measure(case: Case, drawing: MeasuredRenderer) -> Sample:
     """Draws a case ROUNDS times, after once for warming up, and takes the least time."""
     scene = torus_of(case.triangles)
     drawing.set_scene(scene)
@@ -138,13 +138,13 @@ class _Bench:
     """What the meter's thread works with."""
 
     def __init__(
-        self, make: Callable[[Renderer], Drawing], counter: Callable[[], Counting]
+        self, make: Callable[[Renderer], MeasuredRenderer], counter: Callable[[], Counting]
     ) -> None:
         self._make, self._counter = make, counter
-        self._drawings: dict[Renderer, Drawing] = {}
+        self._drawings: dict[Renderer, MeasuredRenderer] = {}
         self.scenes: dict[Renderer, Scene] = {}  # that were watched last
 
-    def drawing(self, renderer: Renderer) -> Drawing:
+    def drawing(self, renderer: Renderer) -> MeasuredRenderer:
         if renderer not in self._drawings:
             self._drawings[renderer] = self._make(renderer)
         return self._drawings[renderer]
@@ -172,7 +172,7 @@ class Meter:
     def __init__(
         self,
         changed: Callable[[], None],
-        make: Callable[[Renderer], Drawing] | None = None,
+        make: Callable[[Renderer], MeasuredRenderer] | None = None,
         counter: Callable[[], Counting] = Counter,
     ) -> None:
         self._changed = changed
@@ -355,7 +355,7 @@ def _told(error: Exception) -> str:
     return str(error) or type(error).__name__
 
 
-def _make(renderer: Renderer) -> Drawing:
+def _make(renderer: Renderer) -> MeasuredRenderer:
     if renderer == "ray":
         from renderer.trace import Tracer  # here, in the thread: it loads the compiler
 
@@ -365,7 +365,7 @@ def _make(renderer: Renderer) -> Drawing:
     return Rasterizer(Scene(()))
 
 
-def _release(drawing: Drawing) -> None:
+def _release(drawing: MeasuredRenderer) -> None:
     for name in ("release", "close"):
         if (end := getattr(drawing, name, None)) is not None:
             end()

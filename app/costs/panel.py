@@ -36,7 +36,7 @@ AGAINST: tuple[Literal["frames", "triangles", "pixels"], ...] = ("frames", "tria
 
 
 @dataclass(frozen=True)
-class Told:
+class CostReport:
     """What the panel shows. work, samples: of a growing number. history: the last frames' times,
     (raster, ray) in seconds. waiting: how many images and cases are to be counted and measured yet.
     problems: why a renderer cannot be measured."""
@@ -67,7 +67,7 @@ STEPS = (
 )
 
 
-def controls(options: CostOptions, told: Told) -> tuple[CostOptions, bool]:
+def controls(options: CostOptions, told: CostReport) -> tuple[CostOptions, bool]:
     """(options, whether everything is to be measured again)."""
     imgui.align_text_to_frame_padding()
     imgui.text("against")
@@ -98,7 +98,7 @@ def _slider(name: Unit, value: int) -> int:
     return chosen if changed else value
 
 
-def frames_plot(told: Told, size: ImVec2) -> None:
+def frames_plot(told: CostReport, size: ImVec2) -> None:
     """The last frames' times, as they come, and pale; strong: the median of the last few."""
     if not implot.begin_plot(
         "##frames", size, implot.Flags_.no_mouse_text | implot.Flags_.no_menus
@@ -131,7 +131,7 @@ def frames_plot(told: Told, size: ImVec2) -> None:
     implot.end_plot()
 
 
-def plot(options: CostOptions, told: Told, size: ImVec2) -> None:
+def plot(options: CostOptions, told: CostReport, size: ImVec2) -> None:
     """Steps and times, all axes logarithmic: a loop over n is a straight line that climbs like n.
     Side by side where there is room, else one above the other; in a small view, steps only."""
     unit = options.against
@@ -152,7 +152,7 @@ def plot(options: CostOptions, told: Told, size: ImVec2) -> None:
     _times_plot(unit, told, each)
 
 
-def _steps_plot(unit: Unit, told: Told, size: ImVec2) -> None:
+def _steps_plot(unit: Unit, told: CostReport, size: ImVec2) -> None:
     """What is counted."""
     lines = [points_of(told.work, unit, steps.of) for steps in STEPS]
     if not _begin("steps, counted", unit, size, lines):
@@ -162,7 +162,7 @@ def _steps_plot(unit: Unit, told: Told, size: ImVec2) -> None:
     implot.end_plot()
 
 
-def _times_plot(unit: Unit, told: Told, size: ImVec2) -> None:
+def _times_plot(unit: Unit, told: CostReport, size: ImVec2) -> None:
     """What is measured."""
     lines = [[(n, 1e3 * t) for n, t in times_of(told, unit, renderer)] for renderer in RENDERERS]
     if not _begin("milliseconds, on this machine", unit, size, lines):
@@ -217,7 +217,7 @@ def points_of(work: Sequence[Work], unit: Unit, of: str) -> list[Point]:
     return [(float(getattr(one, unit)), float(getattr(one, of))) for one in work]
 
 
-def times_of(told: Told, unit: Unit, renderer: Renderer) -> list[Point]:
+def times_of(told: CostReport, unit: Unit, renderer: Renderer) -> list[Point]:
     """(n, seconds) of a renderer's samples."""
     return [
         (float(getattr(one, unit)), max(one.time_s, SHORTEST_S))
@@ -226,7 +226,7 @@ def times_of(told: Told, unit: Unit, renderer: Renderer) -> list[Point]:
     ]
 
 
-def said(options: CostOptions, told: Told) -> list[tuple[Renderer, str]]:
+def said(options: CostOptions, told: CostReport) -> list[tuple[Renderer, str]]:
     """What the plots show, in a line for each loop; only what is certain: counts, once there are
     enough, and of a time that it climbs in proportion, where its line is steep and straight."""
     unit = options.against

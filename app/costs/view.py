@@ -13,7 +13,7 @@ from imgui_bundle import ImVec2, imgui, implot
 from app.costs import panel
 from app.costs.model import Case, Meter, cases, steps
 from app.costs.options import CostOptions
-from app.host.view import Host, View
+from app.host.view import DockedView, Host
 from app.widgets import theme
 
 COSTS = "Costs"
@@ -24,7 +24,7 @@ EXPLAINED = (
 )
 
 
-class CostsView(View):
+class CostsView(DockedView):
     name = COSTS
     title = "Costs"
 
@@ -61,7 +61,7 @@ class CostsView(View):
         counted, images = self._meter.work, dict.fromkeys(case.image for case in wanted)
         work = [counted[image] for image in images if image in counted]
         meter = self._meter
-        told = panel.Told(work, kept, meter.history, meter.waiting, meter.problems)
+        told = panel.CostReport(work, kept, meter.history, meter.waiting, meter.problems)
         changed, again = panel.controls(options, told)
         if changed != options:
             host.apply(host.state.with_options(costs=asdict(changed)))

@@ -20,11 +20,11 @@ _STYLES = ("mathrm", "mathbb", "mathit", "text", "boldsymbol", "hat", "vec")
 
 def plain_math(latex: str) -> str:
     """The formula in one line of plain text."""
-    text = _Reader(latex).until_end()
+    text = _LatexReader(latex).until_end()
     return re.sub(r" {3,}", "  ", re.sub(r"\s*\n\s*", " ", text)).strip()
 
 
-class _Reader:
+class _LatexReader:
     """Reads tokens from the left; one method a construct."""
 
     def __init__(self, latex: str) -> None:

@@ -19,11 +19,13 @@ from renderer.shared_numbers import NEAREST_LIGHT
 
 _NONE = (0.0, 0.0, 0.0)
 
-LitTest = Callable[["Hit", Vector, float], bool]  # of a hit, the unit vector to a light, its reach
+LitTest = Callable[
+    ["SurfaceHit", Vector, float], bool
+]  # of a hit, the unit vector to a light, its reach
 
 
 @dataclass(frozen=True)
-class Hit:
+class SurfaceHit:
     """Where a ray meets the object it sees. World space.
 
     t: in units of `direction`, the ray's. primitive: its number in the flat scene. b1, b2:
@@ -88,14 +90,14 @@ class Shading:
     color: Color
 
 
-def hit_at(flat: FlatScene, origin: Any, direction: Any, crossing: Any) -> Hit:
+def hit_at(flat: FlatScene, origin: Any, direction: Any, crossing: Any) -> SurfaceHit:
     """The hit at a crossing (t, primitive, b1, b2) of a ray with the scene."""
     t, primitive, b1, b2 = crossing
     way = _three(direction)
     point = scalar.point_on(_three(origin), way, t)
     geometric, normal = scalar.normals_at(flat, way, point, primitive, b1, b2)
     number = int(scalar.object_of(flat.face_object, flat.sphere_object, primitive))
-    return Hit(
+    return SurfaceHit(
         number,
         int(primitive),
         float(t),
@@ -116,7 +118,7 @@ def _corner_normals(flat: FlatScene, primitive: int) -> tuple[Vector, ...]:
     return normals if all(map(any, normals)) else ()
 
 
-def shade(flat: FlatScene, hit: Hit, is_lit: LitTest | None = None) -> Shading:
+def shade(flat: FlatScene, hit: SurfaceHit, is_lit: LitTest | None = None) -> Shading:
     """The colour at a hit, taken apart. is_lit: tells shadows; None: there are none."""
     material = flat.materials[hit.object]
     albedo = _three(
@@ -139,7 +141,7 @@ def shade(flat: FlatScene, hit: Hit, is_lit: LitTest | None = None) -> Shading:
 def _lamp(
     flat: FlatScene,
     number: int,
-    hit: Hit,
+    hit: SurfaceHit,
     albedo: Color,
     specular: Color,
     shininess: float,

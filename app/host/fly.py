@@ -1,7 +1,7 @@
 """Flying through a 3D view with the keys W, A, S, D, Q and E, held with the mouse over it.
 
 Owns the keys, the speed, and what belongs to one flight. The motion is navigation.py's; which
-camera flies says the view (View.flown).
+camera flies says the view (DockedView.flown).
 """
 
 from __future__ import annotations
@@ -9,7 +9,7 @@ from __future__ import annotations
 from imgui_bundle import imgui
 
 from app.cameras.navigation import flown
-from app.host.view import Host, View
+from app.host.view import DockedView, Host
 from renderer.errors import LucidaError
 
 Key = imgui.Key
@@ -52,14 +52,14 @@ class Fly:
     began, and is one step of undo."""
 
     def __init__(self) -> None:
-        self._view: View | None = None
+        self._view: DockedView | None = None
         self._number = 0
 
     @property
     def under_way(self) -> bool:
         return self._view is not None
 
-    def frame(self, host: Host, over: View | None) -> None:
+    def frame(self, host: Host, over: DockedView | None) -> None:
         """Once a frame. over: the view that the mouse is over."""
         right, up, forward = held()
         if not (right or up or forward):

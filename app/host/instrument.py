@@ -10,7 +10,7 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 
 from app.host.action import Action
-from app.host.view import View
+from app.host.view import DockedView
 
 
 @dataclass(frozen=True)
@@ -22,7 +22,7 @@ class Instrument:
     of actions and titles of views.
     """
 
-    make: Callable[[Sequence[View]], Sequence[View]]
+    make: Callable[[Sequence[DockedView]], Sequence[DockedView]]
     actions: tuple[Action, ...] = ()
     mouse: tuple[tuple[str, str], ...] = ()
     synonyms: Mapping[str, str] = field(default_factory=dict)

@@ -14,7 +14,7 @@ from dataclasses import dataclass
 
 from imgui_bundle import hello_imgui, imgui
 
-from app.host.view import View
+from app.host.view import DockedView
 
 MAIN = "MainDockSpace"  # HelloImGui's own name for what is left over
 CAMERA_SPACE = "CameraSpace"
@@ -139,8 +139,8 @@ LAYOUTS = (
 
 
 def docking(
-    views: Sequence[View],
-    draw: Callable[[View], Callable[[], None]],
+    views: Sequence[DockedView],
+    draw: Callable[[DockedView], Callable[[], None]],
     window_width_px: float,
     em_px: float,
 ) -> list[hello_imgui.DockingParams]:
@@ -172,7 +172,7 @@ def reset() -> None:
     hello_imgui.get_runner_params().docking_params.layout_reset = True
 
 
-def window_of(view: View) -> hello_imgui.DockableWindow:
+def window_of(view: DockedView) -> hello_imgui.DockableWindow:
     """What HelloImGui knows of a view in the layout that is shown: whether it is to be seen."""
     params = hello_imgui.get_runner_params().docking_params
     window = params.dockable_window_of_name(view.label)
@@ -180,7 +180,7 @@ def window_of(view: View) -> hello_imgui.DockableWindow:
     return window
 
 
-def is_placed(view: View) -> bool:
+def is_placed(view: DockedView) -> bool:
     """Whether ImGui draws a view's window in this frame, or one that it is a tab behind. While a
     window is on its way to a dock, it does not."""
     window = imgui.internal.find_window_by_name(view.label)
@@ -194,7 +194,7 @@ def is_to_be_made() -> bool:
     return bool(hello_imgui.get_runner_params().docking_params.layout_reset)
 
 
-def arrange(views: Iterable[View], places: dict[str, str]) -> None:
+def arrange(views: Iterable[DockedView], places: dict[str, str]) -> None:
     """Shows some of these views in other spaces of the present layout, and hides the rest.
 
     places: view to space. Takes effect in the next frame; what the user has moved stands again
@@ -209,7 +209,7 @@ def arrange(views: Iterable[View], places: dict[str, str]) -> None:
     reset()
 
 
-def docks(views: Iterable[View]) -> dict[str, int]:
+def docks(views: Iterable[DockedView]) -> dict[str, int]:
     """ImGui's numbers of the docks that these views stand in, of those that are to be seen; 0 for
     one that floats."""
     found = {}
@@ -350,8 +350,8 @@ def _side(
 
 def _docking(
     layout: Layout,
-    views: Sequence[View],
-    draw: Callable[[View], Callable[[], None]],
+    views: Sequence[DockedView],
+    draw: Callable[[DockedView], Callable[[], None]],
     camera: float,
 ) -> hello_imgui.DockingParams:
     params = hello_imgui.DockingParams()

@@ -14,7 +14,7 @@ import moderngl
 from imgui_bundle import imgui
 
 from app.host import layout
-from app.host.view import Host, View
+from app.host.view import DockedView, Host
 from app.images.textures import FAILURES
 from app.state.options import Preferences
 from app.storage.session import Arrangement
@@ -33,7 +33,7 @@ class Stage:
     not be drawn, until somebody tries again.
     """
 
-    def __init__(self, views: list[View]) -> None:
+    def __init__(self, views: list[DockedView]) -> None:
         self.views = {view.name: view for view in views}
         self.maximised = ""
         self.focused = ""
@@ -42,7 +42,7 @@ class Stage:
         self._to_begin: dict[str, Callable[[], None]] = {}  # of those that could not
         self._next_focus = ""
         self._keyboard = self._next_keyboard = ""  # as focused, but "" while something else has it
-        self._hovered: View | None = None
+        self._hovered: DockedView | None = None
         self._restoring: Arrangement | None = None
         self._presenting = False
         self._before = layout.LAYOUTS[0].name, ""  # presentation mode: layout and focus
@@ -51,7 +51,7 @@ class Stage:
         self._layout = ""  # that of the frame before
         self._placing = LAID_OUT  # frames until the windows have their places
 
-    def begin(self, view: View, host: Host, context: moderngl.Context) -> None:
+    def begin(self, view: DockedView, host: Host, context: moderngl.Context) -> None:
         """Once for each view, when there is a context. One that fails (a shader that the driver
         does not take) says so in its place, where it is tried again; the others go on."""
         try:
@@ -90,7 +90,7 @@ class Stage:
     # What actions ask for.
 
     @property
-    def shown(self) -> list[View]:
+    def shown(self) -> list[DockedView]:
         """The views that are to be seen, or are tabs behind others."""
         return [view for view in self.views.values() if layout.window_of(view).is_visible]
 
@@ -161,7 +161,7 @@ class Stage:
         elif self.is_shown(name):
             self._next_focus = name
 
-    def take_hovered(self) -> View | None:
+    def take_hovered(self) -> DockedView | None:
         """The view that the mouse was over in the last frame; call once a frame."""
         hovered, self._hovered = self._hovered, None
         self._keyboard, self._next_keyboard = self._next_keyboard, ""
@@ -224,7 +224,7 @@ class Stage:
             if not layout.window_of(view).is_visible:
                 self._leave_out(view, host)
 
-    def draw(self, view: View, host: Host) -> None:
+    def draw(self, view: DockedView, host: Host) -> None:
         """A view's ImGui window, where it is shown."""
         window = layout.window_of(view)
         large = self.maximised == view.name
@@ -249,7 +249,7 @@ class Stage:
         if large:
             self._draw_large(view, host)
 
-    def _draw_large(self, view: View, host: Host) -> None:
+    def _draw_large(self, view: DockedView, host: Host) -> None:
         """The view over all the others; with another id, so that its dock stays as it is."""
         place = layout.whole()
         if place is None:
@@ -282,7 +282,7 @@ class Stage:
         if not still_open:
             self.maximise()
 
-    def _draw_content(self, view: View, host: Host) -> None:
+    def _draw_content(self, view: DockedView, host: Host) -> None:
         corner, room = imgui.get_cursor_screen_pos(), imgui.get_content_region_avail()
         if imgui.is_window_hovered(imgui.HoveredFlags_.root_and_child_windows):
             self._hovered = view
@@ -302,13 +302,13 @@ class Stage:
             self.failures[view.name] = error
             _unwind(stacks)
 
-    def _leave_out(self, view: View, host: Host) -> None:
+    def _leave_out(self, view: DockedView, host: Host) -> None:
         """A view that is not to be seen in this frame: no image is fitted to it any more."""
         self.rects.pop(view.name, None)
         host.renderers.forget_pane(view.name)
         view.unseen(host)
 
-    def _note_focus(self, view: View) -> None:
+    def _note_focus(self, view: DockedView) -> None:
         if imgui.is_window_focused(imgui.FocusedFlags_.root_and_child_windows):
             self.focused = self._next_keyboard = view.name
             if self.maximised and self.maximised != view.name:
@@ -338,5 +338,5 @@ def _unwind(stacks: imgui.internal.ErrorRecoveryState) -> None:
     ) = told
 
 
-def _large_label(view: View) -> str:
+def _large_label(view: DockedView) -> str:
     return f"{view.title}###{view.name} maximised"

@@ -92,10 +92,10 @@ class Host(Protocol):
         """Asks for a next frame at full rate: something is moving by itself."""
 
 
-AView = TypeVar("AView", bound="View")
+AView = TypeVar("AView", bound="DockedView")
 
 
-class View:
+class DockedView:
     """A view. name: unique, ImGui's id of the window. title: on its tab. padding, flags: of the
     ImGui window; None and 0: as the style has them. places: layouts that show it, beside those that
     name it themselves (layout.py), and the dock space that it has there.
@@ -170,6 +170,6 @@ class View:
         """Once, before the context goes."""
 
 
-def view_of(views: Iterable[View], kind: type[AView]) -> AView:
+def view_of(views: Iterable[DockedView], kind: type[AView]) -> AView:
     """The view of a class among all views."""
     return next(view for view in views if isinstance(view, kind))

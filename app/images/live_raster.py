@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 
 from app.images.coarseness import Coarseness
 from app.images.progressive_raster import Pace, ProgressiveRaster
-from app.images.readback import Reading, Region
+from app.images.readback import Readback, Region
 from app.images.request import ImageRequest
 from app.images.window_rasterizer import FAILURES, WindowRasterizer
 from renderer.frame import Frame
@@ -69,7 +69,7 @@ class LiveRaster:
         self._factor = 1  # of what is asked for
         self._under_way: _UnderWay | None = None
         self._frame = self._number = 0
-        self._reading: Reading | None = None
+        self._reading: Readback | None = None
         self._values: tuple[object, NDArray] | None = None
         self.image: RasterImage | None = None
         self.time_s = 0.0
@@ -126,7 +126,7 @@ class LiveRaster:
         if self._reading is None or self._reading.of is not image:
             rasterizer = self._rasterizer.of(request.scene)
             read = functools.partial(rasterizer.read, place=image.place)
-            self._reading = Reading(image, request.size, read)
+            self._reading = Readback(image, request.size, read)
         frame = self._reading.go_on()
         if frame is not None:
             self._reading = None

@@ -49,7 +49,7 @@ class Job(Protocol):
     def result(self) -> Frame: ...
 
 
-class Tracer(Protocol):
+class AnyTracer(Protocol):
     """renderer.trace.Tracer."""
 
     def start(
@@ -69,7 +69,7 @@ class LiveTrace:
     def __init__(
         self,
         wake: Callable[[], None],
-        make_tracer: Callable[[ImageRequest], Tracer],
+        make_tracer: Callable[[ImageRequest], AnyTracer],
         begin: Callable[[], None] | None = None,
     ) -> None:
         self._wake = wake
@@ -86,7 +86,7 @@ class LiveTrace:
         self._error: Exception | None = None
         self._began_s = 0.0
         self._first_ever = True
-        self._ready: tuple[Scene, Tracer] | None = None
+        self._ready: tuple[Scene, AnyTracer] | None = None
         self._thread = threading.Thread(target=self._run, name="lucida-live", daemon=True)
         self._thread.start()
 
@@ -145,7 +145,7 @@ class LiveTrace:
         """Whether no image at all has arrived: preparing then includes compiling."""
         return self._first_ever
 
-    def tracer_of(self, scene: Scene) -> Tracer | None:
+    def tracer_of(self, scene: Scene) -> AnyTracer | None:
         """The tracer that has prepared a scene, for rays of one's own; None until there is one.
 
         It goes on to the next scene when that changes, and is closed when the effects do: what it
@@ -168,7 +168,7 @@ class LiveTrace:
     def _run(self) -> None:
         if self._begin is not None:
             self._begin()
-        tracer: Tracer | None = None
+        tracer: AnyTracer | None = None
         made_for: ImageRequest | None = None
         coarseness = Coarseness(COARSE_S, ONCE_S, COARSEST, COARSEST)
         while (request := self._next()) is not None:
@@ -209,7 +209,7 @@ class LiveTrace:
             self._served, self._error = self._newest, None
             return self._newest
 
-    def _trace(self, tracer: Tracer, request: ImageRequest, coarseness: Coarseness) -> None:
+    def _trace(self, tracer: AnyTracer, request: ImageRequest, coarseness: Coarseness) -> None:
         """Images of one request, from coarse to full, until a newer one comes."""
         pixels = request.size[0] * request.size[1]
         factor = coarseness.changed(pixels, time.monotonic())

@@ -22,7 +22,7 @@ Region = tuple[int, int, int, int]  # first row and column, one past the last of
 Read = Callable[[tuple[str, ...], Region], Mapping[str, NDArray]]
 
 
-class Reading:
+class Readback:
     """The reading of one image. of: whatever names it. size: (width, height)."""
 
     def __init__(self, of: object, size: tuple[int, int], read: Read) -> None:

@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 
 from app.images.agreement import Agreement, Verdict
 from app.images.placement import Placement, common_pane, own_size, place
-from app.images.progressive_ray import LiveTrace, RayImage, Tracer
+from app.images.progressive_ray import AnyTracer, LiveTrace, RayImage
 from app.images.readback import Region
 from app.images.request import ImageRequest
 from app.images.shown import Picture
@@ -342,7 +342,7 @@ def look_of(options: ImageOptions) -> Look:
     )
 
 
-def _make_tracer(request: ImageRequest) -> Tracer:
+def _make_tracer(request: ImageRequest) -> AnyTracer:
     from renderer.trace import Tracer  # here, in the live thread: it loads the compiler
 
     depth = MIRROR_DEPTH if request.mirrors else 0

@@ -22,7 +22,7 @@ from renderer.raster.resources import new_texture
 
 
 @dataclass(frozen=True)
-class Range:
+class DepthBounds:
     """The depths from white to the darkest gray, on the GPU. number: of the measurement."""
 
     texture: moderngl.Texture
@@ -63,7 +63,7 @@ class ShownImage:
         name: str,
         look: Look,
         placement: Placement,
-        depths: Range | None = None,
+        depths: DepthBounds | None = None,
         under: bool = False,
         own_size: bool = False,
     ) -> Picture | None:

@@ -14,7 +14,7 @@ from app.images.placement import Placement
 from app.images.progressive_ray import RayImage
 from app.images.ray_texture import RayTexture
 from app.images.request import ImageRequest
-from app.images.shown import Picture, Range, ShownImage, whole
+from app.images.shown import DepthBounds, Picture, ShownImage, whole
 from app.images.window_rasterizer import FAILURES, WindowRasterizer
 from renderer.raster import DepthRange, Look
 
@@ -35,7 +35,7 @@ class ImageTextures:
         self._shown_raster, self._shown_ray = ShownImage(context), ShownImage(context)
         self._in_raster: RasterImage | None = None  # what that shows
         self._range = DepthRange(context)
-        self._depths: Range | None = None
+        self._depths: DepthBounds | None = None
         self._depths_of: object = None  # the image whose range that is
         self._frame = 0
         self._raster_frame = -1  # the last one that showed the raster image
@@ -165,5 +165,5 @@ class ImageTextures:
         if texture is None or self._depths_of == image:
             return
         number = self._depths.number + 1 if self._depths is not None else 0
-        self._depths = Range(self._range.measure(texture), number)
+        self._depths = DepthBounds(self._range.measure(texture), number)
         self._depths_of = image

@@ -44,7 +44,7 @@ class ArrayPage:
     def size(self) -> tuple[int, int]:
         return self.color.shape[1], self.color.shape[0]
 
-    def table(self) -> memory.Table:
+    def table(self) -> memory.ArrayWindow:
         """As much of the array as cells() has room for."""
         em, options = imgui.get_font_size(), self.state.options
         columns = max(1, min(MOST_CELLS[0], int(self.extent.x / (CELL_EM[0] * em))))
@@ -53,7 +53,7 @@ class ArrayPage:
         order = options.of(LaboratoryOptions).order
         return memory.table(self.color, *self.pixel, rows, columns, options.one_based, order)
 
-    def cells(self, table: memory.Table, at: ImVec2) -> Pixel | None:
+    def cells(self, table: memory.ArrayWindow, at: ImVec2) -> Pixel | None:
         """The cells: index, values, place in memory. Gives the pixel that was clicked."""
         em, options = imgui.get_font_size(), self.state.options
         order = options.of(LaboratoryOptions).order

@@ -45,7 +45,7 @@ FORMATS = (
 
 
 @dataclass(frozen=True)
-class Entry:
+class DiskRow:
     """A line of the table. storage_bytes: of the pixels in memory. file_bytes: of the file."""
 
     format: Format
@@ -63,20 +63,20 @@ def sizes(
     taken_ev: float = 0.0,
     method: str = "threshold",
     cancelled: Callable[[], bool] = lambda: False,
-) -> tuple[Entry, ...]:
+) -> tuple[DiskRow, ...]:
     """The size of every file of a linear image (H, W, 3): encodes each of them in memory.
 
     It takes a second or so for a large image: call it in a thread. cancelled: asked between the
     files; the entries so far are given where it says yes.
     """
-    entries: list[Entry] = []
+    entries: list[DiskRow] = []
     kept = None
     for format in FORMATS:
         if cancelled():
             break
         if kept is None or kept.kind is not format.kind:
             kept = store(color, format.kind, taken_ev, method)
-        entries.append(Entry(format, kept.storage_bytes, len(encoded(kept.array, format))))
+        entries.append(DiskRow(format, kept.storage_bytes, len(encoded(kept.array, format))))
     return tuple(entries)
 
 

@@ -28,7 +28,7 @@ LEAST_SIDE_PX = 6  # of a magnified pixel: below, its parts cannot be told apart
 
 
 @dataclass(frozen=True)
-class Display:
+class DisplayKind:
     """light: (colour, phase) to what each element sends, 0..1 of its full brightness. time_share:
     of a cycle's light that an element of colour 1 sends, where 1 is always fully on. places: of
     the elements of red, green, blue in a pixel of side 1. unlit: what is seen of an element that
@@ -98,8 +98,8 @@ def _stripes(width: float, height: float, rounding: float) -> tuple[Place, Place
 _DOT = 0.22, 0.22, 0.22
 _MIRROR = 0.5, 0.5, 0.46, 0.46, 0.03
 
-DISPLAYS: dict[str, Display] = {
-    "tube": Display(
+DISPLAYS: dict[str, DisplayKind] = {
+    "tube": DisplayKind(
         "Tube",
         "three beams, line by line; dots fade",
         "a weaker beam",
@@ -109,7 +109,7 @@ DISPLAYS: dict[str, Display] = {
         26,
         "the beams",
     ),
-    "dlp": Display(
+    "dlp": DisplayKind(
         "DLP",
         "one mirror a pixel, one colour after another",
         "the mirror turns away sooner",
@@ -118,7 +118,7 @@ DISPLAYS: dict[str, Display] = {
         (_MIRROR, _MIRROR, _MIRROR),
         34,
     ),
-    "lcd": Display(
+    "lcd": DisplayKind(
         "LCD",
         "light behind filter stripes",
         "the stripe lets less through",
@@ -128,7 +128,7 @@ DISPLAYS: dict[str, Display] = {
         22,
         "the row being set",
     ),
-    "led": Display(
+    "led": DisplayKind(
         "LED",
         "no light behind, stripes that shine",
         "the stripe goes out sooner",
@@ -147,7 +147,7 @@ def shown(color: ArrayLike, exposure_ev: float = 0.0) -> Floats:
     return np.asarray(np.clip(np.nan_to_num(exposed, nan=0.0), 0, 1), np.float32)
 
 
-def instant(display: Display, color: Floats, phase: float, side: int) -> Bytes:
+def instant(display: DisplayKind, color: Floats, phase: float, side: int) -> Bytes:
     """The magnified display at a moment: uint8 (H side, W side, 3), sRGB. color: as shown() gives
     it. Elements that send no light are just to be seen."""
     covered = display.elements(side)
@@ -159,7 +159,9 @@ def instant(display: Display, color: Floats, phase: float, side: int) -> Bytes:
     return (tiles + np.float32(0.5)).astype(np.uint8).reshape(rows * side, columns * side, 3)
 
 
-def course(display: Display, color: Floats, place: tuple[int, int], moments: int = 240) -> Floats:
+def course(
+    display: DisplayKind, color: Floats, place: tuple[int, int], moments: int = 240
+) -> Floats:
     """A pixel's light over a cycle, 0..1 of full brightness: (moments, 3). place: row, column."""
     phases = (np.arange(moments) + 0.5) / moments
     return np.array([display.light(color, float(phase))[place] for phase in phases], np.float32)

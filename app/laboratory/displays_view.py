@@ -19,7 +19,7 @@ from app.laboratory import displays
 from app.laboratory.displays import DISPLAYS
 from app.laboratory.light import CHANNELS
 from app.laboratory.options import LaboratoryOptions
-from app.laboratory.pages import Image, Plan, display_part
+from app.laboratory.pages import Image, PagePlan, display_part
 from app.laboratory.schemes import NAMES, Scheme
 from app.laboratory.tables import BARS
 from app.state.bounds import range_of
@@ -114,7 +114,7 @@ class DisplaysPage:
         self,
         host: Host,
         options: LaboratoryOptions,
-        plan: Plan,
+        plan: PagePlan,
         color: Image,
         number: int,
         pixel: Pixel,

@@ -37,7 +37,7 @@ class Cell:
 
 
 @dataclass(frozen=True)
-class Table:
+class ArrayWindow:
     """A window of the array. i, j: of its first cell, 0-based. rows: its cells. one_based: the
     notation of the labels. itemsize: bytes a number."""
 
@@ -103,7 +103,7 @@ def table(
     columns: int,
     one_based: bool = True,
     order: Order = "row",
-) -> Table:
+) -> ArrayWindow:
     """The window of at most rows x columns pixels about (i, j) of an array as in cell()."""
     first, left, part = window(canvas, i, j, rows, columns)
     cells = tuple(
@@ -113,7 +113,7 @@ def table(
         )
         for row in range(first, first + part.shape[0])
     )
-    return Table(first, left, cells, one_based, canvas.dtype.itemsize)
+    return ArrayWindow(first, left, cells, one_based, canvas.dtype.itemsize)
 
 
 def run(

@@ -48,7 +48,7 @@ class Panel:
 
 
 @dataclass(frozen=True)
-class Plan:
+class PagePlan:
     """How a page divides its room. columns, rows: of cells. cell: the size of one. image: the
     size that the image should have. magnification: screen pixels a side of an image's pixel."""
 
@@ -59,7 +59,7 @@ class Plan:
     magnification: int
 
 
-def plan(page: str, room: Size, heading_px: int, gap_px: int, resolution: Size | None) -> Plan:
+def plan(page: str, room: Size, heading_px: int, gap_px: int, resolution: Size | None) -> PagePlan:
     """The division of a page's room. heading_px: of the text over each picture. resolution: the
     image's, where it is fixed."""
     wide = room[0] > 1.15 * room[1]
@@ -79,20 +79,25 @@ def plan(page: str, room: Size, heading_px: int, gap_px: int, resolution: Size |
         free = max(SMALLEST_CELL, cell[0] - int(1.74 * LARGEST_APART * height)), height
     if resolution is not None:
         fitting = max(1, min(free[0] // resolution[0], free[1] // resolution[1]))
-        return Plan(columns, rows, cell, resolution, fitting)
+        return PagePlan(columns, rows, cell, resolution, fitting)
     dot = DOT_PX if page == "bitmaps" and min(cell) > 200 else 1
-    return Plan(columns, rows, cell, (free[0] // dot, free[1] // dot), dot)
+    return PagePlan(columns, rows, cell, (free[0] // dot, free[1] // dot), dot)
 
 
 def panels(
-    page: str, color: Image, plan: Plan, options: LaboratoryOptions, taken_ev: float, pixel: Pixel
+    page: str,
+    color: Image,
+    plan: PagePlan,
+    options: LaboratoryOptions,
+    taken_ev: float,
+    pixel: Pixel,
 ) -> tuple[Panel, ...]:
     """The pictures of a page. color: (H, W, 3), linear. pixel: what is looked at, 0-based."""
     return PAGES[page](color, plan, options, taken_ev, pixel)
 
 
 def _kinds(
-    color: Image, plan: Plan, options: LaboratoryOptions, taken_ev: float, pixel: Pixel
+    color: Image, plan: PagePlan, options: LaboratoryOptions, taken_ev: float, pixel: Pixel
 ) -> tuple[Panel, ...]:
     found = []
     for kind in KINDS:
@@ -105,7 +110,7 @@ def _kinds(
 
 
 def _bitmaps(
-    color: Image, plan: Plan, options: LaboratoryOptions, taken_ev: float, pixel: Pixel
+    color: Image, plan: PagePlan, options: LaboratoryOptions, taken_ev: float, pixel: Pixel
 ) -> tuple[Panel, ...]:
     gray = store(color, GRAY, taken_ev)
     found = [_whole("Grayscale", "8 bits per pixel", shown(gray), plan)]
@@ -117,7 +122,7 @@ def _bitmaps(
 
 
 def _exposure(
-    color: Image, plan: Plan, options: LaboratoryOptions, taken_ev: float, pixel: Pixel
+    color: Image, plan: PagePlan, options: LaboratoryOptions, taken_ev: float, pixel: Pixel
 ) -> tuple[Panel, ...]:
     lost = 100 * float(clipped(color, taken_ev).mean())
     found = []
@@ -130,7 +135,7 @@ def _exposure(
 
 
 def _projectors(
-    color: Image, plan: Plan, options: LaboratoryOptions, taken_ev: float, pixel: Pixel
+    color: Image, plan: PagePlan, options: LaboratoryOptions, taken_ev: float, pixel: Pixel
 ) -> tuple[Panel, ...]:
     distance = options.apart * color.shape[0]
     if options.content == "test":
@@ -142,7 +147,7 @@ def _projectors(
 
 
 def _subpixels(
-    color: Image, plan: Plan, options: LaboratoryOptions, taken_ev: float, pixel: Pixel
+    color: Image, plan: PagePlan, options: LaboratoryOptions, taken_ev: float, pixel: Pixel
 ) -> tuple[Panel, ...]:
     part, (first, left), side = _magnified_part(color, plan, options, pixel, 3)
     ev = 0.0 if options.content == "test" else taken_ev
@@ -158,7 +163,7 @@ def _subpixels(
 
 
 def _displays(
-    color: Image, plan: Plan, options: LaboratoryOptions, taken_ev: float, pixel: Pixel
+    color: Image, plan: PagePlan, options: LaboratoryOptions, taken_ev: float, pixel: Pixel
 ) -> tuple[Panel, ...]:
     display, phase = displays.DISPLAYS[options.display], options.phase % 1.0
     part, first, side, place = display_part(color, plan, options, taken_ev, pixel)
@@ -188,7 +193,7 @@ def _displays(
 
 
 def display_part(
-    color: Image, plan: Plan, options: LaboratoryOptions, taken_ev: float, pixel: Pixel
+    color: Image, plan: PagePlan, options: LaboratoryOptions, taken_ev: float, pixel: Pixel
 ) -> tuple[Image, Pixel, int, Pixel]:
     """What is seen of a display: the colours that it shows, (rows, columns, 3), linear, 0..1; the
     image's pixel at its corner; screen pixels a side of a pixel; the place of `pixel` in it."""
@@ -201,7 +206,7 @@ def display_part(
 
 
 def _magnified_part(
-    color: Image, plan: Plan, options: LaboratoryOptions, pixel: Pixel, least: int
+    color: Image, plan: PagePlan, options: LaboratoryOptions, pixel: Pixel, least: int
 ) -> tuple[Image, Pixel, int]:
     """The pixels about one that have room, or as many of a test picture; the first of them, row
     and column; screen pixels a side of a pixel, `least` or more."""
@@ -215,7 +220,7 @@ def _magnified_part(
 
 
 def _array(
-    color: Image, plan: Plan, options: LaboratoryOptions, taken_ev: float, pixel: Pixel
+    color: Image, plan: PagePlan, options: LaboratoryOptions, taken_ev: float, pixel: Pixel
 ) -> tuple[Panel, ...]:
     height, width = color.shape[:2]
     caption = f"{height} rows of {width} pixels, {size_text(color.nbytes)}"
@@ -226,7 +231,7 @@ def _whole(
     title: str,
     caption: str,
     picture: Bytes,
-    plan: Plan,
+    plan: PagePlan,
     region: displays.Region | None = None,
 ) -> Panel:
     """A picture magnified for its cell; of one that is too large, the middle."""
@@ -237,7 +242,7 @@ def _whole(
     return Panel(title, caption, large, plan.magnification, (first, left), region)
 
 
-Page = Callable[[Image, Plan, LaboratoryOptions, float, Pixel], tuple[Panel, ...]]
+Page = Callable[[Image, PagePlan, LaboratoryOptions, float, Pixel], tuple[Panel, ...]]
 PAGES: dict[str, Page] = {
     "kinds": _kinds,
     "bitmaps": _bitmaps,

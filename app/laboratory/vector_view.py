@@ -54,7 +54,7 @@ class Both:
 
 
 @dataclass(frozen=True)
-class Pane:
+class PageRect:
     """Where the page stands on the screen when all of it is seen."""
 
     low: ImVec2
@@ -128,7 +128,7 @@ class VectorPage:
             self.made = outcome.value
 
     def _pixels(
-        self, pane: Pane, zoom: float, corner: tuple[float, float], uploads: Uploads
+        self, pane: PageRect, zoom: float, corner: tuple[float, float], uploads: Uploads
     ) -> moderngl.Texture | None:
         """What is seen of the raster image, pixel by pixel of the screen: ImGui would smooth it."""
         assert self.made is not None
@@ -141,7 +141,7 @@ class VectorPage:
             self._shown = key
         return uploads.get(NAME)
 
-    def _mouse(self, name: str, pane: Pane, options: LaboratoryOptions) -> LaboratoryOptions:
+    def _mouse(self, name: str, pane: PageRect, options: LaboratoryOptions) -> LaboratoryOptions:
         """A drag moves, the wheel magnifies about the pointer."""
         extent = ImVec2(pane.high.x - pane.low.x, pane.high.y - pane.low.y)
         imgui.set_cursor_screen_pos(pane.low)
@@ -165,7 +165,7 @@ class VectorPage:
             options = replace(options, zoom=zoom, zoom_center=_held(moved, zoom))
         return options
 
-    def _captions(self, host: Host, panes: tuple[Pane, Pane]) -> None:
+    def _captions(self, host: Host, panes: tuple[PageRect, PageRect]) -> None:
         assert self.made is not None
         em = imgui.get_font_size()
         draw = imgui.get_window_draw_list()
@@ -203,7 +203,7 @@ def _both(sketch: Sketch) -> Both:
     return Both(drawing, prepared(drawing), picture, len(svg(drawing).encode()))
 
 
-def panes_in(corner: ImVec2, avail: ImVec2, em: float) -> tuple[tuple[Pane, Pane], Size]:
+def panes_in(corner: ImVec2, avail: ImVec2, em: float) -> tuple[tuple[PageRect, PageRect], Size]:
     """Two side by side or one below the other, under their headings, and the size of the drawing
     in them: as much of the room as two of its proportions take. em: the size of type."""
     gap, heading = 0.6 * em, 2.5 * em
@@ -221,10 +221,10 @@ def panes_in(corner: ImVec2, avail: ImVec2, em: float) -> tuple[tuple[Pane, Pane
     height = np.floor(width * page[1] / page[0])
     step = (beside[0] + gap, 0.0) if best == 0 else (0.0, height + heading + gap)
 
-    def pane(number: int) -> Pane:
+    def pane(number: int) -> PageRect:
         x = float(np.floor(corner.x + number * step[0]))
         y = float(np.floor(corner.y + heading + number * step[1]))
-        return Pane(ImVec2(x, y), ImVec2(x + width, y + height))
+        return PageRect(ImVec2(x, y), ImVec2(x + width, y + height))
 
     return (pane(0), pane(1)), page
 

@@ -16,14 +16,14 @@ import moderngl
 import numpy as np
 from imgui_bundle import ImVec2, imgui
 
-from app.host.view import Host, View
+from app.host.view import DockedView, Host
 from app.images.request import ImageRequest
 from app.images.screen import available_px
 from app.laboratory import disk
 from app.laboratory.array_view import ArrayPage
 from app.laboratory.displays_view import LANES_EM, DisplaysPage
 from app.laboratory.options import LaboratoryOptions
-from app.laboratory.pages import Image, Panel, Plan, panels, plan
+from app.laboratory.pages import Image, PagePlan, Panel, panels, plan
 from app.laboratory.pictures import HEADING_EM, draw_panel
 from app.laboratory.tables import luminance_weights, sizes_table
 from app.laboratory.tools import toolbar
@@ -58,15 +58,15 @@ class _Source:
 
 
 @dataclass(frozen=True, eq=False)
-class _Made:
+class _MadePage:
     """What the thread has made, and of what."""
 
     key: tuple[Any, ...]
-    plan: Plan
+    plan: PagePlan
     panels: tuple[Panel, ...]
 
 
-class LaboratoryView(View):
+class LaboratoryView(DockedView):
     name = LABORATORY
     title = "Image laboratory"
 
@@ -75,14 +75,14 @@ class LaboratoryView(View):
         self.displays = DisplaysPage()
         self._vector_seen = False
         self._uploads: Uploads | None = None
-        self._work: Background[_Made] | None = None
-        self._sizing: Background[tuple[tuple[Any, ...], tuple[disk.Entry, ...]]] | None = None
+        self._work: Background[_MadePage] | None = None
+        self._sizing: Background[tuple[tuple[Any, ...], tuple[disk.DiskRow, ...]]] | None = None
         self._source: _Source | None = None
         self._numbers = itertools.count()
         self._asked: tuple[Any, ...] = ()
-        self._made: _Made | None = None
+        self._made: _MadePage | None = None
         self._sizes_asked: tuple[Any, ...] = ()
-        self._sizes: tuple[disk.Entry, ...] = ()
+        self._sizes: tuple[disk.DiskRow, ...] = ()
         self._error = ""
         self._seen = False
         self._others = (0, 0)  # the size of the other views' images
@@ -104,7 +104,7 @@ class LaboratoryView(View):
         return self._made.panels if self._made is not None else ()
 
     @property
-    def sizes(self) -> tuple[disk.Entry, ...]:
+    def sizes(self) -> tuple[disk.DiskRow, ...]:
         """The files' sizes, as far as they are known."""
         return self._sizes
 
@@ -225,7 +225,7 @@ class LaboratoryView(View):
                 self._export(host, picked)
 
     def _array_page(
-        self, host: Host, made: _Made, color: Image, place: Callable[[int], ImVec2]
+        self, host: Host, made: _MadePage, color: Image, place: Callable[[int], ImVec2]
     ) -> None:
         """The image, framed where the cells are from; the cells, the program, the memory."""
         scale, em = framebuffer_scale(), imgui.get_font_size()
@@ -245,7 +245,7 @@ class LaboratoryView(View):
         if chosen is not None:
             self._choose(host, chosen, now)
 
-    def _panel(self, host: Host, number: int, panel: Panel, at: ImVec2, made: Plan) -> None:
+    def _panel(self, host: Host, number: int, panel: Panel, at: ImVec2, made: PagePlan) -> None:
         assert self._uploads is not None
         name, width = f"panel {number}", made.cell[0] / framebuffer_scale()
         held = draw_panel(name, panel, self._uploads.get(name), at, width, host.fonts)
@@ -256,7 +256,7 @@ class LaboratoryView(View):
 
     # From the state to the pictures.
 
-    def _follow(self, host: Host, divided: Plan, options: LaboratoryOptions) -> None:
+    def _follow(self, host: Host, divided: PagePlan, options: LaboratoryOptions) -> None:
         assert self._uploads is not None
         assert self._work is not None
         state = host.state
@@ -285,7 +285,9 @@ class LaboratoryView(View):
             self._asked = key
             page = options.page
             self._work.submit(
-                lambda: _Made(key, divided, panels(page, color, divided, options, taken_ev, pixel))
+                lambda: _MadePage(
+                    key, divided, panels(page, color, divided, options, taken_ev, pixel)
+                )
             )
         self._take_sizes()
         if options.page == "kinds":
@@ -315,7 +317,7 @@ class LaboratoryView(View):
                 )
             )
 
-    def _pixel(self, state: AppState, divided: Plan) -> Pixel:
+    def _pixel(self, state: AppState, divided: PagePlan) -> Pixel:
         """The marked pixel in this image, which may have another size than the other views'."""
         width, height = divided.image
         if state.marked is None:
@@ -326,7 +328,7 @@ class LaboratoryView(View):
             column = int((column + 0.5) / self._others[0] * width)
         return min(row, height - 1), min(column, width - 1)
 
-    def _choose(self, host: Host, pixel: Pixel, divided: Plan) -> None:
+    def _choose(self, host: Host, pixel: Pixel, divided: PagePlan) -> None:
         """Marks a pixel of this image in all views."""
         row, column = pixel
         if host.state.images.resolution is None and min(self._others):

@@ -27,7 +27,7 @@ NOT_NORMALISED = "The direction is right, its length is not: do not normalise it
 
 
 @dataclass(frozen=True)
-class Verdict:
+class Judgement:
     """Whether an answer is right, and what to tell. field: which part it is about, or empty."""
 
     right: bool
@@ -56,21 +56,21 @@ class RayExercise:
     def fields(self) -> tuple[str, ...]:
         return "origin", "direction"
 
-    def check(self, answers: Mapping[str, str]) -> Verdict:
+    def check(self, answers: Mapping[str, str]) -> Judgement:
         """The verdict on the texts in the two fields."""
         given = _vectors(answers, self.fields)
-        if isinstance(given, Verdict):
+        if isinstance(given, Judgement):
             return given
         ray = self.camera.ray(*self.pixel, self.size)
         wrong_origin = not self._is_origin(given["origin"], ray.origin)
         wrong_direction = not self._is_direction(given["direction"], ray.direction)
         if not wrong_origin and not wrong_direction:
-            return Verdict(True, "Right.")
+            return Judgement(True, "Right.")
         for mistake in mistakes(self.camera, *self.pixel, self.size, self.indexing):
             if self._is_origin(given["origin"], mistake.ray.origin) and self._is_direction(
                 given["direction"], mistake.ray.direction
             ):
-                return Verdict(False, mistake.hint, "origin" if wrong_origin else "direction")
+                return Judgement(False, mistake.hint, "origin" if wrong_origin else "direction")
         return self._one_part(given, wrong_origin)
 
     def solution(self) -> str:
@@ -99,24 +99,24 @@ class RayExercise:
         said = mistakes(self.camera, *self.pixel, self.size, self.indexing)
         return NOT_NORMALISED, *(mistake.hint for mistake in said)
 
-    def _one_part(self, given: dict[str, Floats], wrong_origin: bool) -> Verdict:
+    def _one_part(self, given: dict[str, Floats], wrong_origin: bool) -> Judgement:
         """No classic mistake as a whole: the first wrong part, and its own mistake if it is one."""
         for mistake in mistakes(self.camera, *self.pixel, self.size, self.indexing):
             if wrong_origin and self._is_origin(given["origin"], mistake.ray.origin):
-                return Verdict(False, mistake.hint, "origin")
+                return Judgement(False, mistake.hint, "origin")
             if not wrong_origin and self._is_direction(given["direction"], mistake.ray.direction):
-                return Verdict(False, mistake.hint, "direction")
+                return Judgement(False, mistake.hint, "direction")
         if wrong_origin:
             where = "on the image plane" if self.camera.is_parallel else "at the eye"
-            return Verdict(False, f"Not yet: the ray begins {where}.", "origin")
+            return Judgement(False, f"Not yet: the ray begins {where}.", "origin")
         ray = self.camera.ray(*self.pixel, self.size)
         if _is_multiple(given["direction"], ray.direction, self.tolerance):
-            return Verdict(False, NOT_NORMALISED, "direction")
+            return Judgement(False, NOT_NORMALISED, "direction")
         if _is_multiple(-given["direction"], ray.direction, self.tolerance):
-            return Verdict(
+            return Judgement(
                 False, "That points backwards: t > 0 must lead into the scene.", "direction"
             )
-        return Verdict(False, "Not yet: the origin is right, the direction is not.", "direction")
+        return Judgement(False, "Not yet: the origin is right, the direction is not.", "direction")
 
     def _is_origin(self, given: Floats, exact: Floats) -> bool:
         return _is_close(given, exact, self.tolerance)
@@ -153,10 +153,10 @@ class VectorExercise:
     def fields(self) -> tuple[str, ...]:
         return tuple(wanted.name for wanted in self.wanted)
 
-    def check(self, answers: Mapping[str, str]) -> Verdict:
+    def check(self, answers: Mapping[str, str]) -> Judgement:
         """The verdict on the texts in the fields: the first wrong one is told."""
         given = _vectors(answers, self.fields)
-        if isinstance(given, Verdict):
+        if isinstance(given, Judgement):
             return given
         for wanted in self.wanted:
             value, exact = given[wanted.name], np.asarray(wanted.value)
@@ -165,7 +165,7 @@ class VectorExercise:
                 continue
             for wrong, text in wanted.wrong:
                 if compare(value, np.asarray(wrong), self.tolerance):
-                    return Verdict(False, text, wanted.name)
+                    return Judgement(False, text, wanted.name)
             name = escaped(wanted.name)
             if _is_multiple(value, exact, self.tolerance):
                 text = _wrong_length(wanted)
@@ -173,8 +173,8 @@ class VectorExercise:
                 text = f"{name} points the other way."
             else:
                 text = f"Not yet: {name} is not right."
-            return Verdict(False, text, wanted.name)
-        return Verdict(True, "Right.")
+            return Judgement(False, text, wanted.name)
+        return Judgement(True, "Right.")
 
     @cached_property
     def replies(self) -> tuple[str, ...]:
@@ -205,10 +205,10 @@ class ChoiceExercise:
     question: str
     options: tuple[Option, ...]
 
-    def check(self, chosen: int) -> Verdict:
+    def check(self, chosen: int) -> Judgement:
         """The verdict on an option, by its number from 0."""
         option = self.options[chosen]
-        return Verdict(option.right, option.feedback)
+        return Judgement(option.right, option.feedback)
 
     @cached_property
     def replies(self) -> tuple[str, ...]:
@@ -223,14 +223,14 @@ class ChoiceExercise:
 Exercise = RayExercise | VectorExercise | ChoiceExercise
 
 
-def _vectors(answers: Mapping[str, str], names: tuple[str, ...]) -> dict[str, Floats] | Verdict:
+def _vectors(answers: Mapping[str, str], names: tuple[str, ...]) -> dict[str, Floats] | Judgement:
     """The answers as vectors, or what is wrong with the first that is none."""
     given = {}
     for name in names:
         try:
             given[name] = vector(answers.get(name, ""))
         except LucidaError as error:
-            return Verdict(False, escaped(f"{name}: {error}"), name)
+            return Judgement(False, escaped(f"{name}: {error}"), name)
     return given
 
 

@@ -14,10 +14,10 @@ from typing import Protocol
 from app.lecture.text import (
     Block,
     Code,
-    Formula,
+    DisplayedFormula,
     Heading,
+    ItemList,
     Line,
-    Listing,
     Math,
     Paragraph,
     Question,
@@ -36,7 +36,7 @@ ASIDE = 0.8  # beside a question's text
 
 
 @dataclass(frozen=True)
-class Extent:
+class PieceSize:
     """How large a piece is: ascent above the baseline, descent below it."""
 
     width: float
@@ -66,7 +66,7 @@ class Placed:
 
 
 @dataclass(frozen=True)
-class Box:
+class Backdrop:
     """What is behind a block, "code" or "question": left, top, right, bottom."""
 
     kind: str
@@ -81,7 +81,7 @@ class Laid:
     """A column of text. height: of all of it. width: of its widest line."""
 
     pieces: tuple[Placed, ...]
-    boxes: tuple[Box, ...]
+    boxes: tuple[Backdrop, ...]
     height: float
     width: float
 
@@ -89,7 +89,7 @@ class Laid:
 class Measure(Protocol):
     """How large pieces are."""
 
-    def __call__(self, piece: Piece) -> Extent: ...
+    def __call__(self, piece: Piece) -> PieceSize: ...
 
 
 def lay(blocks: tuple[Block, ...], width: float, size: float, measure: Measure) -> Laid:
@@ -128,7 +128,7 @@ class _Column:
     def __init__(self, width: float, size: float, measure: Measure) -> None:
         self.y = 0.0
         self.pieces: list[Placed] = []
-        self.boxes: list[Box] = []
+        self.boxes: list[Backdrop] = []
         self._width, self._size, self._measure = width, size, measure
 
     def block(self, block: Block) -> None:
@@ -143,12 +143,12 @@ class _Column:
                 self.y += 0.35 * size
                 self._lines(line, ASIDE * size, size, "question")
                 self.y += 0.35 * size
-                self.boxes.append(Box("question", 0.0, top, self._width, self.y))
-            case Listing(items=items, numbered=numbered):
+                self.boxes.append(Backdrop("question", 0.0, top, self._width, self.y))
+            case ItemList(items=items, numbered=numbered):
                 self._listing(items, numbered)
             case Code(text=text):
                 self._code(text)
-            case Formula(latex=latex):
+            case DisplayedFormula(latex=latex):
                 piece = Piece(latex, "math", 1.12 * size, display=True)
                 extent = self._measure(piece)
                 room = self._width - INDENT * size
@@ -193,13 +193,13 @@ class _Column:
                 self._put(piece, inset, self.y + ascent, "code")
             self.y += 1.25 * size
         self.y += inset - 0.1 * size
-        self.boxes.append(Box("code", 0.0, top, self._width, self.y))
+        self.boxes.append(Backdrop("code", 0.0, top, self._width, self.y))
 
     def _lines(self, line: Line, left: float, size: float, kind: str, bold: bool = False) -> None:
         """A paragraph, broken where it must be."""
         space = self._measure(Piece(" ", "text", size)).width
         x = left
-        row: list[tuple[Piece, Extent, float]] = []
+        row: list[tuple[Piece, PieceSize, float]] = []
         for atom in _atoms(line, size, bold):
             extents = [self._measure(piece) for piece in atom]
             wide = sum(extent.width for extent in extents)
@@ -212,7 +212,7 @@ class _Column:
             x += space
         self._end_row(row, size, kind)
 
-    def _end_row(self, row: list[tuple[Piece, Extent, float]], size: float, kind: str) -> None:
+    def _end_row(self, row: list[tuple[Piece, PieceSize, float]], size: float, kind: str) -> None:
         """High formulas push the line down, and the next one."""
         if not row:
             return

@@ -112,7 +112,7 @@ def lecture_from_toml(text: str, folder: Path, source: str) -> Lecture:
             "", "is nested too deeply", "write it with fewer brackets", source
         ) from None
     try:
-        return _Reader(folder, source, places).lecture(tables)
+        return _LectureReader(folder, source, places).lecture(tables)
     except texts.TextError as error:
         where = f"{source}:{places.line(error.field) + error.line}"
         raise LucidaError(error.field, error.problem, error.remedy, where) from None
@@ -120,7 +120,7 @@ def lecture_from_toml(text: str, folder: Path, source: str) -> Lecture:
         raise located(error, places, source) from None
 
 
-class _Reader:
+class _LectureReader:
     """Reads one file; keeps its scenes, each of which is read once."""
 
     def __init__(self, folder: Path, source: str, places: Places) -> None:

@@ -11,7 +11,7 @@ from typing import Any, Literal
 from msgspec import field
 
 from app.instruments import ROOMS
-from renderer.scene.schema import Numbers3, Table
+from renderer.scene.schema import Numbers3, StrictTable
 
 # What a step can show. A view of the window has the name with a capital.
 VIEWS = tuple(name for room in ROOMS for name in room.views)
@@ -32,7 +32,7 @@ HIGHLIGHTS = (
 )
 
 
-class StepTable(Table, kw_only=True):
+class StepTable(StrictTable, kw_only=True):
     """[[steps]]. pixel: the marked pixel, row and column, counted as the lecture does."""
 
     title: str
@@ -47,7 +47,7 @@ class StepTable(Table, kw_only=True):
     exercise: dict[str, Any] | None = None
 
 
-class RayTable(Table, kw_only=True, tag_field="kind", tag="ray"):
+class RayTable(StrictTable, kw_only=True, tag_field="kind", tag="ray"):
     """[steps.exercise] kind = "ray": the ray of a pixel of the step's camera, or of `camera`.
 
     pixel: row and column, counted as the lecture does. size: width and height of the image.
@@ -61,14 +61,14 @@ class RayTable(Table, kw_only=True, tag_field="kind", tag="ray"):
     tolerance: float = 2e-3
 
 
-class WrongTable(Table):
+class WrongTable(StrictTable):
     """An answer that is known to be wrong, and what to tell."""
 
     value: Numbers3
     feedback: str
 
 
-class WantedTable(Table):
+class WantedTable(StrictTable):
     """A vector that is asked for."""
 
     name: str
@@ -77,7 +77,7 @@ class WantedTable(Table):
     wrong: list[WrongTable] = field(default_factory=list)
 
 
-class VectorTable(Table, kw_only=True, tag_field="kind", tag="vector"):
+class VectorTable(StrictTable, kw_only=True, tag_field="kind", tag="vector"):
     """[steps.exercise] kind = "vector": one vector or several."""
 
     question: str
@@ -85,7 +85,7 @@ class VectorTable(Table, kw_only=True, tag_field="kind", tag="vector"):
     tolerance: float = 2e-3
 
 
-class OptionTable(Table):
+class OptionTable(StrictTable):
     """An answer to choose."""
 
     text: str
@@ -93,7 +93,7 @@ class OptionTable(Table):
     right: bool = False
 
 
-class ChoiceTable(Table, kw_only=True, tag_field="kind", tag="choice"):
+class ChoiceTable(StrictTable, kw_only=True, tag_field="kind", tag="choice"):
     """[steps.exercise] kind = "choice": one of several answers."""
 
     question: str
@@ -103,7 +103,7 @@ class ChoiceTable(Table, kw_only=True, tag_field="kind", tag="choice"):
 AnyExercise = RayTable | VectorTable | ChoiceTable
 
 
-class LectureFile(Table, kw_only=True):
+class LectureFile(StrictTable, kw_only=True):
     """A lecture file. pixels_from: what its first row and column are called, in the file and in the
     window. scenes: scenes as scene files hold them, by name, for the steps below."""
 

@@ -9,7 +9,7 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 from pathlib import Path
 
-from app.lecture.exercises import Verdict
+from app.lecture.exercises import Judgement
 from app.lecture.model import Lecture, Step
 from app.lecture.reading import BUILTIN, load_lecture
 from app.state.app_state import AppState
@@ -28,11 +28,11 @@ class Answers:
 
     texts: dict[str, str] = field(default_factory=dict)
     chosen: int | None = None
-    verdict: Verdict | None = None
+    verdict: Judgement | None = None
     solved: bool = False
 
 
-class Session:
+class LectureSession:
     """path: the lecture's file. watch: of that and the files that it names."""
 
     def __init__(self, lecture: Lecture, path: Path, number: int = 0) -> None:
@@ -43,7 +43,7 @@ class Session:
         self._fingerprint = fingerprint(path)
 
     @classmethod
-    def resumed(cls, kept: KeptLecture) -> Session:
+    def resumed(cls, kept: KeptLecture) -> LectureSession:
         """The lecture where it stood, read again. Raises LucidaError. In a file that has changed
         meanwhile it stands at the step of the same title; what was said to answers is left out."""
         path = Path(restored(kept.file)) if kept.file else BUILTIN
@@ -52,7 +52,7 @@ class Session:
         session.number = session.lecture.nearest(kept.title, kept.number)
         changed = session.differs_from(kept)
         for title, answers in kept.answers.items():
-            said = None if changed or answers.verdict is None else Verdict(*answers.verdict)
+            said = None if changed or answers.verdict is None else Judgement(*answers.verdict)
             session._answers[title] = Answers(
                 dict(answers.texts), answers.chosen, said, answers.solved
             )

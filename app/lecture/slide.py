@@ -10,7 +10,7 @@ from dataclasses import dataclass
 
 from imgui_bundle import ImVec2, ImVec4, imgui
 
-from app.lecture.flow import Extent, Laid, Piece, fitted, lay
+from app.lecture.flow import Laid, Piece, PieceSize, fitted, lay
 from app.lecture.text import Block
 from app.widgets import theme
 from app.widgets.inline_math import inline_math
@@ -123,13 +123,13 @@ class Slides:
     ) -> tuple[Laid, float]:
         return fitted(blocks, room, sizes_px, self._measure)
 
-    def _measure(self, piece: Piece) -> Extent:
+    def _measure(self, piece: Piece) -> PieceSize:
         with lettering(self._font(piece.style), piece.size):
             if piece.style == "math":
                 made = inline_math(piece.text, piece.size, theme.TEXT, piece.display)
-                return Extent(made.width, made.ascent, made.descent)
+                return PieceSize(made.width, made.ascent, made.descent)
             width = imgui.calc_text_size(piece.text).x
-            return Extent(width, ASCENT * piece.size, (1 - ASCENT) * piece.size)
+            return PieceSize(width, ASCENT * piece.size, (1 - ASCENT) * piece.size)
 
     def _draw(self, laid: Laid, corner: ImVec2, color: ImVec4) -> None:
         draw = imgui.get_window_draw_list()

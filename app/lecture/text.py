@@ -58,7 +58,7 @@ class Question:
 
 
 @dataclass(frozen=True)
-class Listing:
+class ItemList:
     """A list; numbered from 1, or with bullets."""
 
     items: tuple[Line, ...]
@@ -74,13 +74,13 @@ class Code:
 
 
 @dataclass(frozen=True)
-class Formula:
+class DisplayedFormula:
     """A displayed formula, as LaTeX."""
 
     latex: str
 
 
-Block = Heading | Paragraph | Question | Listing | Code | Formula
+Block = Heading | Paragraph | Question | ItemList | Code | DisplayedFormula
 
 
 class TextError(LucidaError):
@@ -152,10 +152,10 @@ def formulas(blocks: tuple[Block, ...]) -> tuple[str, ...]:
     """All formulas of a text, as LaTeX."""
     found = []
     for block in blocks:
-        if isinstance(block, Formula):
+        if isinstance(block, DisplayedFormula):
             found.append(block.latex)
         elif not isinstance(block, Code):
-            lines = block.items if isinstance(block, Listing) else (block.line,)
+            lines = block.items if isinstance(block, ItemList) else (block.line,)
             found += [span.latex for line in lines for span in line if isinstance(span, Math)]
     return tuple(found)
 
@@ -164,9 +164,9 @@ def pieces(blocks: tuple[Block, ...]) -> int:
     """How many pieces a text is laid out of: formulas, programs, runs of words in one style."""
     count = 0
     for block in blocks:
-        if isinstance(block, Code | Formula):
+        if isinstance(block, Code | DisplayedFormula):
             count += 1
-        elif isinstance(block, Listing):
+        elif isinstance(block, ItemList):
             count += sum(map(len, block.items))
         else:
             count += len(block.line)
@@ -196,14 +196,14 @@ def _blocks(lines: list[str]) -> Iterator[Block]:
                 if number == len(lines):
                     raise TextError(start, "the formula does not end", "close it by $$")
                 number += 1
-            yield Formula(_balanced(_text_of(lines, start, number), start))
+            yield DisplayedFormula(_balanced(_text_of(lines, start, number), start))
         elif line.startswith("#"):
             level = len(line) - len(line.lstrip("#"))
             yield Heading(level, _line(line[level:].strip(), start))
         elif line[0] in "-*0123456789" and _ITEM.fullmatch(line):
             items, number = _items(lines, start)
             numbered = line[0].isdigit()
-            yield Listing(tuple(_line(item, start + k) for k, item in items), numbered)
+            yield ItemList(tuple(_line(item, start + k) for k, item in items), numbered)
         else:
             asked = line.startswith(">")
             while number < len(lines) and _goes_on(lines[number], asked):

@@ -18,11 +18,11 @@ from imgui_bundle import ImVec2, imgui
 
 from app.explaining.languages import LANGUAGES
 from app.host import layout
-from app.host.view import Host, View
+from app.host.view import DockedView, Host
 from app.lecture.exercise import exercise, fitting_px
 from app.lecture.model import Lecture, Step
 from app.lecture.reading import BUILTIN, load_lecture
-from app.lecture.session import Session
+from app.lecture.session import LectureSession
 from app.lecture.slide import Sizes, Slides, sizes_of
 from app.lecture.states import state_of
 from app.lecture.step_options import OWN
@@ -55,7 +55,7 @@ class Changeable(Protocol):
     def change(self, state: AppState) -> None: ...
 
 
-class LectureView(View):
+class LectureView(DockedView):
     """views: all views; a step shows others than this one, which have their names in a lecture with
     a capital."""
 
@@ -63,9 +63,9 @@ class LectureView(View):
     title = "Lecture"
     padding = ImVec2(18, 14)
 
-    def __init__(self, views: Sequence[View]) -> None:
+    def __init__(self, views: Sequence[DockedView]) -> None:
         self._views = views
-        self.session: Session | None = None
+        self.session: LectureSession | None = None
         self._reading: Background[tuple[Lecture, LucidaError | None]] | None = None
         self._slides: Slides | None = None
         self._arranged = True
@@ -78,17 +78,17 @@ class LectureView(View):
         self.arrangements = 0  # how often the views have been put into their places
 
     @property
-    def _others(self) -> list[View]:
+    def _others(self) -> list[DockedView]:
         return [view for view in self._views if view is not self]
 
     # What actions and buttons ask for.
 
     def give(self, lecture: Lecture, path: Path, number: int = 0) -> None:
         """Begins a lecture at a step, in the next frame."""
-        self.session = Session(lecture, path, number)
+        self.session = LectureSession(lecture, path, number)
         self._entered, self._put_off = False, None
 
-    def resume(self, session: Session) -> None:
+    def resume(self, session: LectureSession) -> None:
         """Goes on with a lecture in the state and the views that the window has."""
         self.session = session
         self._entered = self._arranged = True
@@ -193,7 +193,7 @@ class LectureView(View):
             host.animate()
         self._follow_file(host, self.session)
 
-    def _follow_undo(self, place: tuple[str, int] | None, session: Session) -> None:
+    def _follow_undo(self, place: tuple[str, int] | None, session: LectureSession) -> None:
         """Undo and redo pass from a step's states into another's: then so do text and views."""
         if place is None or place[0] != session.lecture.source:
             return
@@ -201,7 +201,7 @@ class LectureView(View):
             self._arranged = False
             layout.switch(layout.LECTURE)
 
-    def _follow_file(self, host: Host, session: Session) -> None:
+    def _follow_file(self, host: Host, session: LectureSession) -> None:
         assert self._reading is not None
         if session.watch.changed(time.monotonic()):
             self._reading.submit(lambda: _read(session))
@@ -277,7 +277,7 @@ class LectureView(View):
             if imgui.shortcut(int(key)):
                 self.advance(host, steps)
 
-    def _head(self, host: Host, session: Session, sizes: Sizes) -> None:
+    def _head(self, host: Host, session: LectureSession, sizes: Sizes) -> None:
         step = session.step
         width = imgui.get_content_region_avail().x
         imgui.text_colored(theme.DIM, step.part or session.lecture.title)
@@ -291,7 +291,7 @@ class LectureView(View):
         imgui.dummy(ImVec2(0, 0.25 * sizes.label))
 
     def _body(
-        self, host: Host, session: Session, slides: Slides, sizes: Sizes, room: ImVec2
+        self, host: Host, session: LectureSession, slides: Slides, sizes: Sizes, room: ImVec2
     ) -> None:
         """The text, as large as it fits; larger, it is scrolled."""
         step = session.step
@@ -327,12 +327,12 @@ class LectureView(View):
                 host.apply(host.state.with_options(language=name))
         return in_language(step.blocks, host.state.options.language)
 
-    def _error_height(self, session: Session, width: float) -> float:
+    def _error_height(self, session: LectureSession, width: float) -> float:
         if not session.error:
             return 0.0
         return float(imgui.calc_text_size(session.error, wrap_width=width).y) + 8.0
 
-    def _foot(self, host: Host, session: Session) -> None:
+    def _foot(self, host: Host, session: LectureSession) -> None:
         """Back, the place in the lecture, next; the outline; the way back to the step."""
         number, count = session.number, len(session.lecture.steps)
         size = imgui.get_font_size()
@@ -361,7 +361,7 @@ class LectureView(View):
         imgui.set_item_tooltip("its own scene, camera and views (Backspace)")
         self._outline(host, session)
 
-    def _outline(self, host: Host, session: Session) -> None:
+    def _outline(self, host: Host, session: LectureSession) -> None:
         if not imgui.begin_popup("outline"):
             return
         for part, numbers in session.lecture.outline():
@@ -408,7 +408,7 @@ def _fits_a_row(width: float) -> bool:
     return bool(_walking_px() + imgui.get_font_size() + text <= width)
 
 
-def _read(session: Session) -> tuple[Lecture, LucidaError | None]:
+def _read(session: LectureSession) -> tuple[Lecture, LucidaError | None]:
     """A lecture's file read again, and the first of its formulas that cannot be set."""
     agreed = frozenset(session.lecture.outside)
     # A large model of its scenes' is read in a process of its own.

@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from PIL import Image, ImageDraw, ImageFont
 
 from app.outside.svg import DASHES
-from app.outside.vector import Arc, Area, Color, Drawing, Letters, Line, Spot
+from app.outside.vector import Arc, Area, Color, Drawing, Letters, Spot, VectorLine
 
 SAMPLES = 4
 
@@ -27,7 +27,7 @@ def bitmap(drawing: Drawing, size: tuple[int, int]) -> NDArray[np.uint8]:
     picture = Image.new("RGB", (SAMPLES * size[0], SAMPLES * size[1]), _ink(drawing.background)[:3])
     draw = ImageDraw.Draw(picture, "RGBA")
     for part in drawing.parts:
-        if isinstance(part, Line):
+        if isinstance(part, VectorLine):
             lines = [part.points]
             if part.dashed:
                 lines = dashes(part.points, [dash * drawing.unit for dash in DASHES])

@@ -36,7 +36,7 @@ PALE = 0.42  # of what is hidden: the opacity of its dashes
 
 
 @dataclass(frozen=True, eq=False)
-class Lines:
+class Segments:
     """Segments (n, 2, 3). layer: higher ones are drawn over lower ones. on_plane: part of the image
     plane, which then does not hide them. dashed: even where nothing hides them."""
 
@@ -115,11 +115,11 @@ class Label:
     least: float = 0.0
 
 
-Item = Lines | Face | Arrow | Dot | Eye | Label
+Item = Segments | Face | Arrow | Dot | Eye | Label
 
 
 @dataclass(frozen=True)
-class Hit:
+class RayEnd:
     """A viewing ray and where it ends. t: inf where nothing is hit, None where it is not known
     yet."""
 
@@ -138,8 +138,8 @@ def diagram(
     size: Size,
     options: OutsideOptions,
     end: float,
-    hits: Sequence[Hit] = (),
-    marked: Hit | None = None,
+    hits: Sequence[RayEnd] = (),
+    marked: RayEnd | None = None,
     grid_parts: int = MOST_GRID_LINES,
 ) -> list[Item]:
     """Everything that the options ask for. camera: fitted to its image of `size` pixels. end: the
@@ -150,11 +150,13 @@ def diagram(
         items += _volume(camera, end)
     if options.image or options.grid:
         items.append(
-            Lines("image plane", "plane", polyline(plane_corners(camera), True), 2.4, on_plane=True)
+            Segments(
+                "image plane", "plane", polyline(plane_corners(camera), True), 2.4, on_plane=True
+            )
         )
     if options.grid:
         items.append(
-            Lines(
+            Segments(
                 "grid",
                 "grid",
                 grid(camera, size, grid_parts),
@@ -192,23 +194,23 @@ def _volume(camera: Camera, end: float) -> list[Item]:
     ]
     if near > apex:  # what is before near is not seen: thin
         before = np.stack([rectangle(camera, apex), first], axis=1)
-        items.append(Lines("before near", "volume", before, 1.0, 0.55, 0.2, dashed=True))
+        items.append(Segments("before near", "volume", before, 1.0, 0.55, 0.2, dashed=True))
         items.append(Face("near", "volume", first, 0.08))
-        items.append(Lines("near", "volume", polyline(first, True), 1.75))
+        items.append(Segments("near", "volume", polyline(first, True), 1.75))
         items.append(Label("near", "text", "near", first[1], away=first[0]))
-    items.append(Lines("edges", "volume", edges, 1.8))
+    items.append(Segments("edges", "volume", edges, 1.8))
     if np.isfinite(far):
         items.append(Face("far", "volume", back, 0.08))
-        items.append(Lines("far", "volume", polyline(back, True), 1.75))
+        items.append(Segments("far", "volume", polyline(back, True), 1.75))
         items.append(Label("far", "text", "far", back[1], away=back[0]))
     else:
-        items.append(Lines("end", "volume", polyline(back, True), 1.0, 0.6, 0.25, dashed=True))
+        items.append(Segments("end", "volume", polyline(back, True), 1.0, 0.6, 0.25, dashed=True))
     if not camera.is_parallel:
         corners = plane_corners(camera)
         middle = corners.mean(axis=0)
         axis = np.stack([np.asarray(camera.eye), middle])[None]
         if near < plane:
-            items.append(Lines("distance", "plane", axis, 1.0, 0.55, 0.25, dashed=True))
+            items.append(Segments("distance", "plane", axis, 1.0, 0.55, 0.25, dashed=True))
     return items
 
 
@@ -226,7 +228,7 @@ def _target(camera: Camera, options: OutsideOptions) -> list[Item]:
     """What a basis is made from: the target a, the way to it, and up, at the eye."""
     eye, target, up = (np.asarray(v, float) for v in (camera.eye, options.target, options.up))
     return [
-        Lines("to target", "extra", np.array([[eye, target]]), 1.6, dashed=True, layer=2),
+        Segments("to target", "extra", np.array([[eye, target]]), 1.6, dashed=True, layer=2),
         Dot("target", "extra", target, 6.0),
         Label("target", "extra", "a", target, away=eye, strong=True),
         Arrow("up", "extra", eye, eye + up),
@@ -244,7 +246,9 @@ def _basis(camera: Camera) -> list[Item]:
     return items
 
 
-def _ray(camera: Camera, size: Size, hit: Hit, end: float, width: float, name: str) -> list[Item]:
+def _ray(
+    camera: Camera, size: Size, hit: RayEnd, end: float, width: float, name: str
+) -> list[Item]:
     """A ray of a bundle to its hit, or as far as the scene where it hits nothing."""
     x, y = (float(part) for part in camera.image_point(*hit.pixel, size))
     known = hit.t is not None and bool(np.isfinite(hit.t))
@@ -252,16 +256,18 @@ def _ray(camera: Camera, size: Size, hit: Hit, end: float, width: float, name: s
     plane = min(plane_parameter(camera), t)
     origin, through, reached = point_at(camera, [x] * 3, [y] * 3, [0.0, plane, t])
     pale = (0.95, 0.35) if known else (0.42, 0.2)
-    items: list[Item] = [Lines(name, "ray", np.array([[through, reached]]), width, *pale, layer=2)]
+    items: list[Item] = [
+        Segments(name, "ray", np.array([[through, reached]]), width, *pale, layer=2)
+    ]
     if plane > 0:  # thin before the image plane, whose picture is to be seen
         before = np.array([[origin, through]])
-        items.append(Lines(f"{name} before", "ray", before, 0.6 * width, 0.44, 0.2, layer=2))
+        items.append(Segments(f"{name} before", "ray", before, 0.6 * width, 0.44, 0.2, layer=2))
     if known:
         items.append(Dot(f"{name} hit", "mark", reached, 1.6 * width, layer=2))
     return items
 
 
-def _marked(camera: Camera, size: Size, hit: Hit, end: float) -> list[Item]:
+def _marked(camera: Camera, size: Size, hit: RayEnd, end: float) -> list[Item]:
     """The marked pixel, its ray through its centre, its hit, and the way beyond."""
     x, y = (float(part) for part in camera.image_point(*hit.pixel, size))
     corners = pixel_corners(camera, hit.pixel, size)
@@ -270,15 +276,15 @@ def _marked(camera: Camera, size: Size, hit: Hit, end: float) -> list[Item]:
     t = hit.t if hit.t is not None and known else end
     origin, reached = point_at(camera, [x, x], [y, y], [0.0, t])
     items: list[Item] = [
-        Lines("ray", "ray", np.array([[origin, reached]]), 2.6, hidden=0.6, layer=3),
+        Segments("ray", "ray", np.array([[origin, reached]]), 2.6, hidden=0.6, layer=3),
         Face("pixel", "mark", corners, 0.5, on_plane=True, layer=2),
-        Lines("pixel", "mark", polyline(corners, True), 1.6, on_plane=True, layer=3),
+        Segments("pixel", "mark", polyline(corners, True), 1.6, on_plane=True, layer=3),
         Dot("pixel", "mark", center, 3.0, on_plane=True, layer=4),
     ]
     if known:
         last = max(end, t + 0.35 * max(end, t))
         beyond = point_at(camera, [x, x], [y, y], [t, last])[None]
-        items.append(Lines("beyond", "ray", beyond, 1.4, 0.5, 0.3, dashed=True, layer=2))
+        items.append(Segments("beyond", "ray", beyond, 1.4, 0.5, 0.3, dashed=True, layer=2))
         items.append(Dot("hit", "mark", reached, 6.0))
         items.append(Label("hit", "mark", f"t = {t:.4g}", reached, away=origin))
     return items
@@ -289,7 +295,7 @@ def _parameters(camera: Camera, size: Size, pixel: Pixel) -> list[Item]:
     x, y = (float(part) for part in camera.image_point(*pixel, size))
     before, first, second = point_at(camera, [x] * 3, [y] * 3, [-0.6, 0.0, 1.0])
     return [
-        Lines("behind", "ray", np.array([[before, first]]), 1.4, 0.6, 0.3, dashed=True, layer=2),
+        Segments("behind", "ray", np.array([[before, first]]), 1.4, 0.6, 0.3, dashed=True, layer=2),
         Label("t < 0", "ray", "t < 0", before, away=first),
         Dot("t = 0", "ray", first, 5.0, layer=5),
         Label("t = 0", "ray", "p (t = 0)", first, away=first - camera.v),

@@ -21,7 +21,7 @@ Size = tuple[int, int]
 
 
 @dataclass(frozen=True)
-class Question:
+class RayQuery:
     """Which rays: of these pixels of an image of `size`."""
 
     scene: Scene
@@ -31,10 +31,10 @@ class Question:
 
 
 @dataclass(frozen=True, eq=False)
-class Answer:
+class RayDepths:
     """t of each pixel's ray: inf where it meets nothing."""
 
-    question: Question
+    question: RayQuery
     t: dict[Pixel, float] = field(default_factory=dict)
 
 
@@ -46,16 +46,16 @@ class RayHits:
     """
 
     def __init__(self, wake: Callable[[], None]) -> None:
-        self._background: Background[Answer] = Background("lucida-outside-rays", wake)
-        self._asked: Question | None = None
-        self._answer: Answer | None = None
+        self._background: Background[RayDepths] = Background("lucida-outside-rays", wake)
+        self._asked: RayQuery | None = None
+        self._answer: RayDepths | None = None
         self._own: tuple[Scene, Any] | None = None  # a tracer, of the thread; used in it only
 
     @property
     def busy(self) -> bool:
         return self._background.busy
 
-    def ask(self, question: Question, tracer: Any | None) -> dict[Pixel, float | None]:
+    def ask(self, question: RayQuery, tracer: Any | None) -> dict[Pixel, float | None]:
         """t of each pixel's ray as far as it is known; None where it is not yet. tracer: one that
         has prepared the scene, None for one of its own."""
         outcome = self._background.poll()
@@ -76,13 +76,13 @@ class RayHits:
         if self._own is not None:
             self._own[1].close()
 
-    def _trace(self, question: Question, tracer: Any | None) -> Answer:
+    def _trace(self, question: RayQuery, tracer: Any | None) -> RayDepths:
         if tracer is None:
             tracer = self._own_tracer(question.scene)
         elif self._own is not None:
             self._own[1].close()
             self._own = None
-        return Answer(question, traced(question, tracer))
+        return RayDepths(question, traced(question, tracer))
 
     def _own_tracer(self, scene: Scene) -> Any:
         if self._own is None or self._own[0] is not scene:
@@ -94,7 +94,7 @@ class RayHits:
         return self._own[1]
 
 
-def traced(question: Question, tracer: Any) -> dict[Pixel, float]:
+def traced(question: RayQuery, tracer: Any) -> dict[Pixel, float]:
     """t of each pixel's ray, inf where it meets nothing: at once, for a thread."""
     pixels = np.array(question.pixels)
     ray = question.camera.ray(pixels[:, 0], pixels[:, 1], question.size)

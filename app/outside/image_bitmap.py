@@ -26,7 +26,7 @@ FARTHEST = 8.0  # times the page: a cell that reaches farther is left out
 
 
 @dataclass(frozen=True, eq=False)
-class Cell:
+class Patch:
     """A part of the image. matrix: (a, b, c, d, e, f) as SVG has it, from the image's pixels to
     the page. corners (4, 2): on the page, with the overlap."""
 
@@ -40,7 +40,7 @@ class Standing:
     of all of it."""
 
     rgba: NDArray[np.uint8]
-    cells: tuple[Cell, ...]
+    cells: tuple[Patch, ...]
     opacity: float
 
 
@@ -92,9 +92,9 @@ class _Place:
         return np.where(spots[..., 2:] > 0, places, np.nan)
 
 
-def _cells(place: _Place, shape: tuple[int, ...], size: Size) -> tuple[Cell, ...]:
+def _cells(place: _Place, shape: tuple[int, ...], size: Size) -> tuple[Patch, ...]:
     """The fewest that are exact, as far as they are on the page."""
-    found: list[Cell] = []
+    found: list[Patch] = []
     for count in COUNTS:
         found, worst = [], 0.0
         edges = np.linspace(0.0, 1.0, count + 1)
@@ -115,7 +115,7 @@ def _cells(place: _Place, shape: tuple[int, ...], size: Size) -> tuple[Cell, ...
                 a, b = (right * count / shape[1]).tolist()
                 c, d = (down * count / shape[0]).tolist()
                 e, f = first.tolist()
-                found.append(Cell((a, b, c, d, e, f), _widened(ring)))
+                found.append(Patch((a, b, c, d, e, f), _widened(ring)))
         if worst < EXACT_PX:
             break
     return tuple(found)

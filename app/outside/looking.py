@@ -15,7 +15,7 @@ from app.host.view import Host
 from app.outside.extent import around, framed, outside_camera, way_of
 from app.outside.mouse import Scope
 from app.outside.options import OutsideOptions
-from app.outside.screen import NEAREST, Screen
+from app.outside.screen import NEAREST, OutsideScreen
 from app.widgets import theme
 from app.widgets.theme import framebuffer_scale
 from renderer.camera import Camera
@@ -66,7 +66,7 @@ def units_px(extent: ImVec2) -> tuple[float, float]:
     return (theme.line_px(framebuffer_scale()) + symbol_px) / 2, symbol_px
 
 
-def widest_px(screen: Screen, corners: Floats) -> float:
+def widest_px(screen: OutsideScreen, corners: Floats) -> float:
     """The longest side of a polygon (n, 3) on the screen, as far as it is to be seen."""
     points, _, _ = screen.segments(np.stack([corners, np.roll(corners, -1, axis=0)], axis=1))
     return float(np.linalg.norm(points[:, 1] - points[:, 0], axis=1).max(initial=0.0))

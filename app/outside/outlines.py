@@ -15,7 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from app.outside.diagram import polyline
-from app.outside.screen import Screen
+from app.outside.screen import OutsideScreen
 from renderer.scene.model import Mesh, Scene, Sphere
 
 Floats = NDArray[np.float64]
@@ -68,7 +68,7 @@ class Outline:
     form: Edges | Ellipse
 
 
-def outlines(scene: Scene, screen: Screen) -> tuple[list[Outline], list[str]]:
+def outlines(scene: Scene, screen: OutsideScreen) -> tuple[list[Outline], list[str]]:
     """The outlines of all objects, and the names of those that have too many triangles for one."""
     found: list[Outline] = []
     left_out: list[str] = []
@@ -88,7 +88,7 @@ def outlines(scene: Scene, screen: Screen) -> tuple[list[Outline], list[str]]:
     return found, left_out
 
 
-def mesh_outline(mesh: Mesh, screen: Screen) -> Edges | None:
+def mesh_outline(mesh: Mesh, screen: OutsideScreen) -> Edges | None:
     """None where nothing of it is to be seen."""
     with np.errstate(over="ignore", invalid="ignore"):
         linear, shift = mesh.transform[:3, :3], mesh.transform[:3, 3]
@@ -107,7 +107,7 @@ def mesh_outline(mesh: Mesh, screen: Screen) -> Edges | None:
 
 
 def _edges(
-    places: Floats, faces: NDArray[np.int64], screen: Screen
+    places: Floats, faces: NDArray[np.int64], screen: OutsideScreen
 ) -> tuple[NDArray[np.int64], Bools, Bools]:
     """All edges (n, 2); which are of the outline or sharp; which of those are merely sharp."""
     corners = np.concatenate([faces[:, [0, 1, 2]], faces[:, [1, 2, 0]], faces[:, [2, 0, 1]]])
@@ -152,7 +152,7 @@ def _length(vectors: Floats) -> Floats | float:
     return lengths
 
 
-def sphere_outline(sphere: Sphere, screen: Screen) -> Ellipse | Edges | None:
+def sphere_outline(sphere: Sphere, screen: OutsideScreen) -> Ellipse | Edges | None:
     """None from inside, and where nothing is to be seen. Where the plane through the eye cuts the
     sphere, its outline is no ellipse but a hyperbola: short lines.
 
@@ -190,7 +190,7 @@ def sphere_outline(sphere: Sphere, screen: Screen) -> Ellipse | Edges | None:
     return Ellipse((x, y), (math.sqrt(squares[1]), math.sqrt(squares[0])), tilt, plane)
 
 
-def _contour(sphere: Sphere, screen: Screen) -> Floats | None:
+def _contour(sphere: Sphere, screen: OutsideScreen) -> Floats | None:
     """The circle (CORNERS, 3) on a sphere where it is seen edge on; None from inside."""
     center, camera = np.asarray(sphere.center, float), screen.camera
     radius = sphere.radius

@@ -13,8 +13,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from app.outside.diagram import Arrow, Dot, Eye, Face, Item, Label, Lines, Role
-from app.outside.screen import Screen
+from app.outside.diagram import Arrow, Dot, Eye, Face, Item, Label, Role, Segments
+from app.outside.screen import OutsideScreen
 
 Floats = NDArray[np.float64]
 
@@ -72,14 +72,14 @@ class Text:
 Primitive = Strokes | Shape | Text
 
 
-def project(items: Iterable[Item], screen: Screen) -> list[Primitive]:
+def project(items: Iterable[Item], screen: OutsideScreen) -> list[Primitive]:
     """The items on the screen, in their order, but for arrows: where they meet, the one whose tip
     is nearer is over the others. What is not to be seen is left out."""
     out: list[Primitive] = []
     ordered = _farthest_arrow_first(list(items), screen)
-    lines = iter(_all_lines([item for item in ordered if isinstance(item, Lines)], screen))
+    lines = iter(_all_lines([item for item in ordered if isinstance(item, Segments)], screen))
     for item in ordered:
-        if isinstance(item, Lines):
+        if isinstance(item, Segments):
             out += next(lines)
         elif isinstance(item, Face):
             points, depth = screen.polygon(item.corners)
@@ -100,7 +100,7 @@ def project(items: Iterable[Item], screen: Screen) -> list[Primitive]:
     return out
 
 
-def _farthest_arrow_first(items: list[Item], screen: Screen) -> list[Item]:
+def _farthest_arrow_first(items: list[Item], screen: OutsideScreen) -> list[Item]:
     """The items with their arrows exchanged among their places (painter's order)."""
     arrows = [item for item in items if isinstance(item, Arrow)]
     arrows.sort(key=lambda arrow: -float(screen.homogeneous(arrow.end)[2]))
@@ -108,7 +108,7 @@ def _farthest_arrow_first(items: list[Item], screen: Screen) -> list[Item]:
     return [next(ordered) if isinstance(item, Arrow) else item for item in items]
 
 
-def _all_lines(items: Sequence[Lines], screen: Screen) -> list[list[Primitive]]:
+def _all_lines(items: Sequence[Segments], screen: OutsideScreen) -> list[list[Primitive]]:
     """Of each item; projected together, for there are many of one segment."""
     if not items:
         return []
@@ -123,9 +123,9 @@ def _all_lines(items: Sequence[Lines], screen: Screen) -> list[list[Primitive]]:
 
 
 def _lines(
-    item: Lines, points: Floats, depth: Floats, numbers: NDArray[np.int64], screen: Screen
+    item: Segments, points: Floats, depth: Floats, numbers: NDArray[np.int64], screen: OutsideScreen
 ) -> list[Primitive]:
-    """points, depth, numbers: as Screen.segments() has found them."""
+    """points, depth, numbers: as OutsideScreen.segments() has found them."""
     if not len(points):
         return []
     before = np.zeros(len(points))
@@ -147,7 +147,7 @@ def _disc(
     role: Role,
     point: Floats,
     width: float,
-    screen: Screen,
+    screen: OutsideScreen,
     layer: int,
     on_plane: bool = False,
     tint: float = 0.0,
@@ -164,7 +164,7 @@ def _disc(
     ]  # fmt: skip
 
 
-def _arrow(item: Arrow, screen: Screen) -> list[Primitive]:
+def _arrow(item: Arrow, screen: OutsideScreen) -> list[Primitive]:
     """A shaft and a cone, whose outline is the hull of its tip and its base. The cone is over the
     shaft where its tip points to the viewer, else under it."""
     start, end = np.asarray(item.start, float), np.asarray(item.end, float)
@@ -189,7 +189,7 @@ def _arrow(item: Arrow, screen: Screen) -> list[Primitive]:
                 inner = np.full(CIRCLE, found[1])
                 cone += _filled(f"{item.name} base", item.role, points[1:], inner, layer, -0.35)
         shaft_end = base
-    shaft = Lines(
+    shaft = Segments(
         item.name, item.role, np.array([[start, shaft_end]]), item.width, layer=item.layer
     )
     return [*_all_lines([shaft], screen)[0], *cone]
@@ -208,7 +208,7 @@ def _filled(
     ]  # fmt: skip
 
 
-def _eye(item: Eye, screen: Screen) -> list[Primitive]:
+def _eye(item: Eye, screen: OutsideScreen) -> list[Primitive]:
     """A white ball of one size on the screen, with iris and pupil where it looks."""
     found = screen.spot(item.point)
     if found is None:
@@ -239,7 +239,7 @@ def _eye(item: Eye, screen: Screen) -> list[Primitive]:
     return out
 
 
-def _label(item: Label, screen: Screen) -> list[Primitive]:
+def _label(item: Label, screen: OutsideScreen) -> list[Primitive]:
     found = screen.spot(item.point)
     if found is None:
         return []

@@ -20,7 +20,7 @@ GUARD = 4.0  # times the image, from its middle: what is farther out is cut off
 NEAREST = 1e-4  # of the distance to the scene: what is nearer to the looking camera is cut off
 
 
-class Screen:
+class OutsideScreen:
     """The camera that looks, its image of `size` pixels. near: the least t that is drawn, from
     the distance of what is looked at. unit_px: the width of a line that teaches; symbol_px: what
     the sizes of heads, dots and the eye are multiplied with, as a line's width if not given."""

@@ -11,14 +11,14 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from app.outside.diagram import Hit, Item, diagram
+from app.outside.diagram import Item, RayEnd, diagram
 from app.outside.frustum import plane_corners
-from app.outside.hits import Question, traced
+from app.outside.hits import RayQuery, traced
 from app.outside.options import OutsideOptions
 from app.outside.outlines import outlines
 from app.outside.projected import project
-from app.outside.screen import Screen
-from app.outside.vector import Drawing, Image, Paint, Size, drawing
+from app.outside.screen import OutsideScreen
+from app.outside.vector import Drawing, Paint, PlaneImage, Size, drawing
 from renderer.camera import Camera
 from renderer.raster.overlay import plane_on_screen
 from renderer.scene.model import Scene
@@ -29,7 +29,7 @@ GRID_PARTS = 16  # of a side of the image plane
 
 @dataclass(frozen=True, eq=False)
 class Sketch:
-    """looking: the camera that looks, fitted to `size` pixels. near: see Screen. unit, symbol: of
+    """looking: the camera that looks, fitted to `size`. near: see OutsideScreen. unit, symbol: of
     lines and symbols. camera: the one in the scene, fitted to its image of image_size. end: the
     parameter at which the scene ends. hits, marked: as diagram() takes them; those whose t is not
     known are traced. extra: of other instruments. t: (height, width), the scene's ray parameters
@@ -47,8 +47,8 @@ class Sketch:
     image_size: Size
     options: OutsideOptions
     end: float
-    hits: tuple[Hit, ...]
-    marked: Hit | None
+    hits: tuple[RayEnd, ...]
+    marked: RayEnd | None
     extra: tuple[Item, ...]
     t: NDArray[np.float32] | None
     paint: Paint
@@ -58,7 +58,7 @@ class Sketch:
     def draw(self) -> Drawing:
         """A part of a second, more where rays are to be traced that no tracer is ready for."""
         hits, marked = self._known()
-        screen = Screen(self.looking, self.size, self.near, self.unit, self.symbol)
+        screen = OutsideScreen(self.looking, self.size, self.near, self.unit, self.symbol)
         items = diagram(
             self.camera, self.image_size, self.options, self.end, hits, marked, GRID_PARTS
         )
@@ -76,21 +76,21 @@ class Sketch:
             self._image(),
         )
 
-    def _image(self) -> Image | None:
+    def _image(self) -> PlaneImage | None:
         if self.picture is None or not self.options.image:
             return None
         corners = plane_corners(self.camera)[[0, 1, 3]]
         behind = corners[0] + np.asarray(self.camera.w)  # the side from which it is upright
         plane = plane_on_screen(self.looking, self.size, corners, behind)
-        return Image(self.picture, plane, OPACITY) if plane is not None else None
+        return PlaneImage(self.picture, plane, OPACITY) if plane is not None else None
 
-    def _known(self) -> tuple[tuple[Hit, ...], Hit | None]:
+    def _known(self) -> tuple[tuple[RayEnd, ...], RayEnd | None]:
         """The hits with every t."""
         asked = [hit for hit in (*self.hits, self.marked) if hit is not None and hit.t is None]
         if not asked:
             return self.hits, self.marked
         pixels = tuple(dict.fromkeys(hit.pixel for hit in asked))
-        question = Question(self.scene, self.camera, self.image_size, pixels)
+        question = RayQuery(self.scene, self.camera, self.image_size, pixels)
         if self.tracer is not None:
             t = traced(question, self.tracer)
         else:
@@ -99,7 +99,7 @@ class Sketch:
             with Tracer(self.scene) as tracer:
                 t = traced(question, tracer)
 
-        def known(hit: Hit) -> Hit:
+        def known(hit: RayEnd) -> RayEnd:
             return replace(hit, t=t[hit.pixel]) if hit.t is None else hit
 
         return tuple(map(known, self.hits)), known(self.marked) if self.marked else None

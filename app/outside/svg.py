@@ -19,7 +19,7 @@ from numpy.typing import NDArray
 from PIL import Image
 
 from app.outside.image_bitmap import Standing
-from app.outside.vector import Arc, Area, Color, Drawing, Letters, Line, Part, Spot
+from app.outside.vector import Arc, Area, Color, Drawing, Letters, Part, Spot, VectorLine
 from renderer.atomic import atomic_write
 
 ENDING = ".svg"
@@ -95,7 +95,7 @@ def _live_image(standing: Standing) -> list[str]:
 def _element(part: Part, drawing: Drawing) -> str:
     """One element; "" for what has no finite place."""
     name = f" data-name={quoteattr(_legal(part.name))}"
-    if isinstance(part, Line):
+    if isinstance(part, VectorLine):
         return _line(part, name, drawing.unit)
     if isinstance(part, Area):
         if not np.isfinite(part.points).all():
@@ -113,7 +113,7 @@ def _element(part: Part, drawing: Drawing) -> str:
     return _text(part, name, drawing.background)
 
 
-def _line(part: Line, name: str, unit: float) -> str:
+def _line(part: VectorLine, name: str, unit: float) -> str:
     if not np.isfinite(part.points).all():
         return ""
     points = part.points

@@ -51,7 +51,7 @@ SHORTEST_PX = 2.0  # of an outline's pieces between hidden ones
 
 
 @dataclass(frozen=True, eq=False)
-class Line:
+class VectorLine:
     """Through points (n, 2)."""
 
     group: Group
@@ -112,7 +112,7 @@ class Letters:
     strong: bool
 
 
-Part = Line | Area | Spot | Arc | Letters
+Part = VectorLine | Area | Spot | Arc | Letters
 
 
 @dataclass(frozen=True, eq=False)
@@ -130,7 +130,7 @@ class Drawing:
 
 
 @dataclass(frozen=True, eq=False)
-class Image:
+class PlaneImage:
     """What stands on the image plane: its pixels (height, width, 3), as shown."""
 
     pixels: NDArray[np.uint8]
@@ -157,7 +157,7 @@ def drawing(
     unit: float = 1.0,
     symbol: float = 1.0,
     left_out: Sequence[str] = (),
-    image: Image | None = None,
+    image: PlaneImage | None = None,
 ) -> Drawing:
     """The drawing of a page of `size` = (width, height).
 
@@ -225,7 +225,7 @@ def _strokes(part: Strokes, hidden: Hidden, paint: Paint, size: Size) -> list[Pa
         opacity = part.opacity * (part.hidden if value else 1.0)
         for chain in chains(points[behind == value]):
             dashed = part.dashed or value
-            out.append(Line(group, part.name, chain, color, part.width_px, opacity, dashed))
+            out.append(VectorLine(group, part.name, chain, color, part.width_px, opacity, dashed))
     return out
 
 
@@ -263,7 +263,7 @@ def _outline(outline: Outline, hidden: Hidden, paint: Paint, size: Size, unit: f
     out: list[Part] = []
     for sharp, width in ((True, SHARP * unit), (False, OUTLINE * unit)):
         out += [
-            Line("outlines", outline.name, chain, paint.outline, width)
+            VectorLine("outlines", outline.name, chain, paint.outline, width)
             for chain in _seen_lines(form, form.sharp == sharp, hidden, size, width)
         ]
     return out

@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 
 from app.outside.bitmap import dashes
 from app.outside.svg import DASHES, RIM
-from app.outside.vector import Arc, Area, Color, Drawing, Letters, Line, Part, Spot
+from app.outside.vector import Arc, Area, Color, Drawing, Letters, Part, Spot, VectorLine
 from app.widgets.theme import Fonts
 
 Floats = NDArray[np.float64]
@@ -53,7 +53,7 @@ def prepared(drawing: Drawing) -> tuple[Mark, ...]:
     for part in drawing.parts:
         lines: tuple[Floats, ...] = ()
         color = packed(part.color, getattr(part, "opacity", 1.0))
-        if isinstance(part, Line):
+        if isinstance(part, VectorLine):
             lines = (part.points,)
             if part.dashed:
                 lines = tuple(dashes(part.points, [dash * drawing.unit for dash in DASHES]))
@@ -96,7 +96,7 @@ def paint(
 
 def _paint(draw: imgui.ImDrawList, mark: Mark, view: Magnified, ground: int, fonts: Fonts) -> None:
     part = mark.part
-    if isinstance(part, Line):
+    if isinstance(part, VectorLine):
         width = max(THINNEST_PX, part.width * view.scale)
         for line in mark.lines:
             closed = len(line) > 2 and bool(np.allclose(line[0], line[-1], atol=1e-3))

@@ -17,18 +17,18 @@ import numpy as np
 from imgui_bundle import ImVec2, imgui
 
 from app.cameras.travel import Ends
-from app.host.view import Host, View
+from app.host.view import DockedView, Host
 from app.images.picking import object_on_ray
 from app.images.renderers import look_of
 from app.images.request import ImageRequest
 from app.images.screen import available_px, is_at_the_bottom
 from app.images.shown import Picture
-from app.outside.diagram import Hit, Item, diagram
+from app.outside.diagram import Item, RayEnd, diagram
 from app.outside.extent import end_parameter
 from app.outside.frustum import bundle_pixels, pixel_seen, plane_corners
 from app.outside.gizmo import Gizmo
 from app.outside.ground import Ground
-from app.outside.hits import Question, RayHits
+from app.outside.hits import RayHits, RayQuery
 from app.outside.looking import (
     camera_along,
     camera_for_all,
@@ -41,7 +41,7 @@ from app.outside.mouse import Mouse, Scope
 from app.outside.options import OutsideOptions
 from app.outside.paint import CASING, ground_of, layers
 from app.outside.projected import Primitive, project
-from app.outside.screen import Screen
+from app.outside.screen import OutsideScreen
 from app.outside.sketch import OPACITY
 from app.outside.tools import labels, legend, triad
 from app.state.app_state import AppState
@@ -61,7 +61,7 @@ GRID_PX = 7.0  # the least distance of the grid's lines, in widths of a line
 
 
 @dataclass(frozen=True, eq=False)
-class _Made:
+class _MadePicture:
     """The last picture, and what it was made from."""
 
     key: tuple[Any, ...]
@@ -69,7 +69,7 @@ class _Made:
     primitives: list[Primitive]
 
 
-class OutsideView(View):
+class OutsideView(DockedView):
     """extra: lines of other instruments, by their names; set by show()."""
 
     name = OUTSIDE
@@ -87,7 +87,7 @@ class OutsideView(View):
         self._hits: RayHits | None = None
         self._ground: Ground | None = None
         self._error = ""
-        self._made: _Made | None = None
+        self._made: _MadePicture | None = None
         self._extra: dict[str, tuple[Item, ...]] = {}
         self.scope: Scope | None = None  # the view as it was last drawn
 
@@ -306,7 +306,7 @@ class OutsideView(View):
             if self._made is not None and self._made.key == key:
                 return self._made.texture
             end = end_parameter(inner, host.focus.framed)
-            screen = Screen(camera, size, nearest(camera, scope), unit_px, symbol_px)
+            screen = OutsideScreen(camera, size, nearest(camera, scope), unit_px, symbol_px)
             parts = int(widest_px(screen, plane_corners(inner)) / (GRID_PX * unit_px))
             items = diagram(inner, image_size, options, end, hits, marked, parts)
             for extra in self._extra.values():
@@ -335,10 +335,10 @@ class OutsideView(View):
             self._ground.forget()
             self._error = describe(error)
             return None
-        self._made = _Made(key, texture, primitives)
+        self._made = _MadePicture(key, texture, primitives)
         return texture
 
-    def rays(self, host: Host, camera: Camera, size: Size) -> tuple[Hit | None, list[Hit]]:
+    def rays(self, host: Host, camera: Camera, size: Size) -> tuple[RayEnd | None, list[RayEnd]]:
         """The marked pixel's ray and the bundle's, as far as their ends are known."""
         both, state = host.renderers, host.state
         assert self._hits is not None
@@ -346,14 +346,14 @@ class OutsideView(View):
         pixel = ray_pixel(host) if options.ray else None
         pixels = [(int(i), int(j)) for i, j in bundle_pixels(size, options.bundle)]
         asked = pixels + ([pixel] if pixel is not None else [])
-        question = Question(state.scene, camera, size, tuple(asked))
+        question = RayQuery(state.scene, camera, size, tuple(asked))
         tracer = both.live.tracer_of(state.scene) if asked else None
         known = self._hits.ask(question, tracer)
-        hits = [Hit(entry, known[entry]) for entry in pixels]
+        hits = [RayEnd(entry, known[entry]) for entry in pixels]
         if pixel is None:
             return None, hits
         seen = both.depth_at(state, pixel)
-        return Hit(pixel, known[pixel] if seen is None else seen), hits
+        return RayEnd(pixel, known[pixel] if seen is None else seen), hits
 
 
 def _ground(state: AppState) -> theme.Rgb:

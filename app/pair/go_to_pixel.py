@@ -40,7 +40,7 @@ def going(state: AppState, size: Size) -> Going:
 
 
 def pixel_box(box: Going, state: AppState) -> tuple[Going | None, Pixel | None]:
-    """Draws the box in the middle of the window, and gives it as it is now and the pixel that was
+    """Draws the box in the middle of the window, and gives it is now and the pixel that was
     chosen; no box once it is closed. Tab goes from field to field, Enter to the pixel."""
     window = begin_box(TITLE)
     done, indexing = False, state.options.indexing

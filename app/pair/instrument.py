@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from app.host.instrument import Instrument
-from app.host.view import View
+from app.host.view import DockedView
 from app.pair.actions import IMAGE, MOUSE
 from app.pair.view import Linked, RasterView, RayView
 
@@ -25,7 +25,7 @@ SYNONYMS = {
 }
 
 
-def _make(views: Sequence[View]) -> list[View]:
+def _make(views: Sequence[DockedView]) -> list[DockedView]:
     linked = Linked()
     return [RasterView(linked), RayView(linked)]
 

@@ -19,7 +19,7 @@ TITLE = "Resolution of both images"
 
 
 @dataclass(frozen=True)
-class Asked:
+class SizeEntry:
     """text: as typed so far. problem: why it was not taken. appearing: in its first frame.
     focused: it has the keyboard."""
 
@@ -29,12 +29,12 @@ class Asked:
     focused: bool = True
 
 
-def asked(state: AppState, size: tuple[int, int]) -> Asked:
+def asked(state: AppState, size: tuple[int, int]) -> SizeEntry:
     """The box as it opens. size: of the images now."""
-    return Asked(size_text(state.images.resolution or size))
+    return SizeEntry(size_text(state.images.resolution or size))
 
 
-def resolution_box(box: Asked, state: AppState) -> tuple[Asked | None, AppState]:
+def resolution_box(box: SizeEntry, state: AppState) -> tuple[SizeEntry | None, AppState]:
     """Draws the box in the middle of the window; None once it is closed."""
     window = begin_box(TITLE)
     done = False

@@ -12,7 +12,7 @@ from dataclasses import dataclass
 
 from imgui_bundle import ImVec2, imgui
 
-from app.host.view import Host, View
+from app.host.view import DockedView, Host
 from app.images.marking import Anchor, followed
 from app.images.placement import Placement, shown_pixel
 from app.images.screen import Screen, available_px, is_at_the_bottom
@@ -51,7 +51,7 @@ class Linked:
     pins: Callable[[AppState], Sequence[Pixel]] = lambda state: ()
 
 
-class ImageView(View):
+class ImageView(DockedView):
     """One of the two images."""
 
     padding = ImVec2(1, 1)

@@ -20,7 +20,7 @@ from app.explaining.notation import (
     scalar_slot,
     vector_slot,
 )
-from app.explaining.shading import Hit
+from app.explaining.shading import SurfaceHit
 from app.probe.reading import Reading
 from renderer.camera import Camera
 from renderer.pixels import Indexing
@@ -338,7 +338,7 @@ def _geometric_normal(reading: Reading) -> Line:
     return _stated("geometric", name, symbol, (sign + product[0], sign + product[1]), hit.geometric)
 
 
-def _normal_for_light(hit: Hit) -> Line:
+def _normal_for_light(hit: SurfaceHit) -> Line:
     """Where it is not the surface's own."""
     if not hit.corner_normals:
         g, d = r"\mathbf{g}", r"\hat{\mathbf{d}}"
@@ -357,7 +357,7 @@ def _normal_for_light(hit: Hit) -> Line:
     return _stated("normal", "normal for the light, between the corners'", "n", right, hit.normal)
 
 
-def _geometric_symbol(hit: Hit) -> str:
+def _geometric_symbol(hit: SurfaceHit) -> str:
     return "g" if hit.has_own_normal else "n"
 
 

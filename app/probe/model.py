@@ -11,7 +11,7 @@ import math
 
 import numpy as np
 
-from app.explaining.shading import Hit, LitTest, Shading, hit_at, shade
+from app.explaining.shading import LitTest, Shading, SurfaceHit, hit_at, shade
 from app.probe.crossings import Crossings, Index
 from app.probe.reading import (
     BEHIND,
@@ -128,12 +128,12 @@ class Probe:
         ]
         return tuple(sorted(meetings, key=_place))
 
-    def _corners(self, hit: Hit | None) -> tuple[Vector, ...]:
+    def _corners(self, hit: SurfaceHit | None) -> tuple[Vector, ...]:
         if hit is None or hit.primitive >= len(self.flat.faces):
             return ()
         return tuple(_three(self.index.vertices[k]) for k in self.flat.faces[hit.primitive])
 
-    def _sphere(self, hit: Hit | None) -> tuple[Vector, float] | None:
+    def _sphere(self, hit: SurfaceHit | None) -> tuple[Vector, float] | None:
         if hit is None or hit.primitive < len(self.flat.faces):
             return None
         row = self.flat.spheres[hit.primitive - len(self.flat.faces)]
@@ -152,7 +152,7 @@ class Probe:
     def _lit_test(self, camera: Camera) -> LitTest:
         away = self._away(camera)
 
-        def is_lit(hit: Hit, to_light: Vector, reach: float) -> bool:
+        def is_lit(hit: SurfaceHit, to_light: Vector, reach: float) -> bool:
             geometric, way = np.array(hit.geometric), np.array(to_light)
             if geometric @ way <= 0:
                 return False
@@ -163,7 +163,7 @@ class Probe:
         return is_lit
 
     def _bounces(
-        self, hit: Hit, shading: Shading, camera: Camera, depth: int, is_lit: LitTest | None
+        self, hit: SurfaceHit, shading: Shading, camera: Camera, depth: int, is_lit: LitTest | None
     ) -> tuple[Bounce, ...]:
         bounces: list[Bounce] = []
         away = self._away(camera)

@@ -8,7 +8,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import NamedTuple
 
-from app.explaining.shading import Hit, Shading
+from app.explaining.shading import Shading, SurfaceHit
 from renderer.camera import Camera, Size, Vector
 from renderer.scene.model import Color
 
@@ -65,7 +65,7 @@ class Bounce:
     weight: Color
     origin: Vector
     direction: Vector
-    hit: Hit | None
+    hit: SurfaceHit | None
     shading: Shading | None
     color: Color
 
@@ -90,7 +90,7 @@ class Reading:
     direction: Vector
     t_range: tuple[float, float]
     meetings: tuple[Meeting, ...]
-    hit: Hit | None
+    hit: SurfaceHit | None
     shading: Shading | None
     bounces: tuple[Bounce, ...]
     background: Color

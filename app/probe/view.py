@@ -14,10 +14,10 @@ import moderngl
 import numpy as np
 from imgui_bundle import imgui
 
-from app.host.view import Host, View
+from app.host.view import DockedView, Host
 from app.images.histogram import Histogram, histogram
 from app.images.renderers import MIRROR_DEPTH
-from app.outside.diagram import Arrow, Dot, Item, Lines
+from app.outside.diagram import Arrow, Dot, Item, Segments
 from app.outside.extent import end_parameter
 from app.outside.view import OutsideView
 from app.pair.marks import walked
@@ -47,7 +47,7 @@ NORMAL = 0.12  # the length of a normal's arrow, in parts of the scene's reach
 HINT = "Point at a pixel in an image or on the image plane. A click keeps it; the arrow keys walk."
 
 
-class ProbeView(View):
+class ProbeView(DockedView):
     name = PROBE
     title = "Probe"
 
@@ -265,13 +265,13 @@ def _ray_lines(
     end: float,
     opacity: float,
     dashed: bool = False,
-) -> Lines:
+) -> Segments:
     """Rays up to their hits, or to the scene's end."""
     origin, direction = np.asarray(origins, float), np.asarray(directions, float)
     reach = np.asarray(t, float)
     far = origin + np.where(np.isfinite(reach), reach, end)[:, None] * direction
     segments = np.stack([origin, far], axis=1)
-    return Lines(name, "ray", segments, 1.2, opacity, hidden=0.2, dashed=dashed, layer=2)
+    return Segments(name, "ray", segments, 1.2, opacity, hidden=0.2, dashed=dashed, layer=2)
 
 
 def _normal(reading: Reading, length: float) -> Sequence[Item]:

@@ -10,7 +10,7 @@ from dataclasses import dataclass
 from imgui_bundle import ImVec2, imgui
 
 from app.stepper.model import Moment
-from app.stepper.plan import NEXT_EM, NUMBERS_EM, Plan
+from app.stepper.plan import NEXT_EM, NUMBERS_EM, StepperPlan
 from app.widgets import theme
 from app.widgets.lettering import at_most, lettering
 from app.widgets.rows import follow
@@ -21,7 +21,7 @@ TEXTS = ("object", "triangle", "a", "b", "c", "ray", "hit", "closest")  # take a
 INDICES = ("i", "j", "rows", "columns")  # the variables that count pixels
 
 
-def numbers(moment: Moment, room: ImVec2, made: Plan, fonts: Fonts) -> None:
+def numbers(moment: Moment, room: ImVec2, made: StepperPlan, fonts: Fonts) -> None:
     """The counters and the variables, in columns beside one another where there is more width than
     height."""
     imgui.begin_child("numbers", room)

@@ -82,7 +82,7 @@ _BUTTONS: tuple[tuple[Wish, str, str], ...] = (
 
 
 @dataclass(frozen=True)
-class Picture:
+class RunTextures:
     """OpenGL's names of an algorithm's pictures. depth: None in image order."""
 
     color: int | None
@@ -229,7 +229,7 @@ def _form(form: Literal["triangles", "rays"]) -> Literal["triangles", "rays"]:
 def run_panel(
     recording: Recording,
     moment: Moment | None,
-    picture: Picture,
+    picture: RunTextures,
     room: ImVec2,
     fonts: Fonts,
     shown: Shown,
@@ -329,7 +329,7 @@ def _called() -> dict[str, str]:
 def _canvases(
     recording: Recording,
     moment: Moment,
-    picture: Picture,
+    picture: RunTextures,
     room: ImVec2,
     answer: Answer,
     indexing: Indexing,
@@ -361,7 +361,7 @@ def _canvases(
 
 
 def _depth(
-    recording: Recording, moment: Moment, picture: Picture, room: ImVec2, answer: Answer
+    recording: Recording, moment: Moment, picture: RunTextures, room: ImVec2, answer: Answer
 ) -> Answer:
     """The depth buffer, with a line above it."""
     name, size = recording.order.name, recording.size

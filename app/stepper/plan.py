@@ -50,7 +50,7 @@ class Place:
 
 
 @dataclass(frozen=True)
-class Plan:
+class StepperPlan:
     """code_px, numbers_px: the sizes of their type. columns: of the numbers. depth: of the depth
     buffer, where it stands apart from the canvas."""
 
@@ -83,12 +83,12 @@ class Need:
 
 
 @functools.lru_cache(256)
-def plan(room: Size, need: Need) -> Plan:
+def plan(room: Size, need: Need) -> StepperPlan:
     """The best arrangement."""
     return max(_plans(room, need), key=lambda one: _worth(one, room, need))
 
 
-def plan_of_two(room: Size, need: Need, set_px: float) -> Plan:
+def plan_of_two(room: Size, need: Need, set_px: float) -> StepperPlan:
     """Where the same code stands in Julia, too, which takes as much room again: the code has all of
     the width, unless that is much more than the height. set_px: the size of the window's type."""
     width, height = room
@@ -123,7 +123,7 @@ def canvases_in(
     return max(choices, key=lambda one: min(one[0][0] / canvas[0], one[0][1] / canvas[1]))
 
 
-def _plans(room: Size, need: Need) -> Iterator[Plan]:
+def _plans(room: Size, need: Need) -> Iterator[StepperPlan]:
     width, height = room
     gap = GAP_EM * need.em_px
     for percent in range(36, 85, 4):
@@ -163,9 +163,11 @@ def _sizes(room: Size, need: Need) -> Iterator[tuple[float, float]]:
             yield size, lines * LINE * size + 0.5
 
 
-def _with(code: Place, code_px: float, canvases: Place, numbers: Place, need: Need) -> Plan:
+def _with(code: Place, code_px: float, canvases: Place, numbers: Place, need: Need) -> StepperPlan:
     size, columns = max(_lettered(numbers.size, count, need) for count in (1, 2, 3))
-    return Plan(code, canvases, numbers, code_px, min(size, max(need.em_px, code_px)), columns)
+    return StepperPlan(
+        code, canvases, numbers, code_px, min(size, max(need.em_px, code_px)), columns
+    )
 
 
 def _lettered(room: Size, columns: int, need: Need) -> tuple[float, int]:
@@ -180,7 +182,7 @@ def _lettered(room: Size, columns: int, need: Need) -> tuple[float, int]:
     return min(max(sizes), 2 * need.em_px), columns
 
 
-def _worth(made: Plan, room: Size, need: Need) -> float:
+def _worth(made: StepperPlan, room: Size, need: Need) -> float:
     high = _canvas_px(made, need) / room[1]
     shown = min(1.0, made.code.height / (LINE * made.code_px * need.lines))
     more = max(1.0, need.wanted_px / (USUAL_EM * need.em_px))
@@ -199,7 +201,7 @@ def _worth(made: Plan, room: Size, need: Need) -> float:
     return sum(w * math.log(max(part, 1e-3)) for w, part in zip(weights, parts, strict=True))
 
 
-def _canvas_px(made: Plan, need: Need) -> float:
+def _canvas_px(made: StepperPlan, need: Need) -> float:
     """How high the canvas is; of a depth buffer that is much smaller, as if it were less so."""
     em, shape = need.em_px, need.canvas[1] / need.canvas[0]
     label, gap = 1.3 * em, (0.4 * em, 0.3 * em)

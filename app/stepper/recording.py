@@ -56,7 +56,7 @@ _RENDERERS = {
 }
 
 
-class CancelledError(Exception):
+class RunCancelledError(Exception):
     """Ends a run that is no longer wanted, or too long."""
 
 
@@ -113,7 +113,7 @@ class Recording:
         try:
             self.order.renderer(self.model, self.camera, self.size)
             self.complete = True
-        except CancelledError:
+        except RunCancelledError:
             self.truncated = not self._cancelled
         finally:
             sys.settrace(before)
@@ -150,7 +150,7 @@ class _Recorder:
             return self._line
         to, step = self._to, self._to._steps
         if to._cancelled or step >= MOST_STEPS:
-            raise CancelledError
+            raise RunCancelledError
         line = self._shown[frame.f_lineno - to.source.first_line]
         values = frame.f_locals
         self._log_values(values, step)

@@ -15,8 +15,8 @@ import moderngl
 import numpy as np
 from imgui_bundle import ImVec2, imgui
 
-from app.host.view import Host, View
-from app.outside.diagram import Dot, Item, Lines
+from app.host.view import DockedView, Host
+from app.outside.diagram import Dot, Item, Segments
 from app.outside.extent import end_parameter
 from app.outside.frustum import plane_parameter, point_at
 from app.outside.view import OutsideView
@@ -43,7 +43,7 @@ _EDGES = ((0, 1), (0, 2), (0, 4), (1, 3), (1, 5), (2, 3), (2, 6), (3, 7), (4, 5)
           (6, 7))  # fmt: skip  # of a box's corners, numbered by their bits
 
 
-class StepperView(View):
+class StepperView(DockedView):
     name = STEPPER
     title = "Loop stepper"
 
@@ -237,10 +237,10 @@ class StepperView(View):
             picture = depth_picture(moment.depth, float(farthest))
             self._uploads.put(f"depth {run.order.name}", picture)
 
-    def _picture(self, order: Order) -> panel.Picture:
+    def _picture(self, order: Order) -> panel.RunTextures:
         assert self._uploads is not None
         color, depth = (self._uploads.get(f"{kind} {order.name}") for kind in ("color", "depth"))
-        return panel.Picture(color.glo if color else None, depth.glo if depth else None)
+        return panel.RunTextures(color.glo if color else None, depth.glo if depth else None)
 
     # What the outside view shows.
 
@@ -286,10 +286,10 @@ def _items(pair: Pair, run: Recording, moment: Moment, end: float) -> list[Item]
     if moment.triangle is not None:
         points = np.array(moment.triangle.points)
         sides = np.stack([points, np.roll(points, -1, axis=0)], axis=1)
-        items.append(Lines(f"{name} triangle", "ray", sides, 2.5, layer=3))
+        items.append(Segments(f"{name} triangle", "ray", sides, 2.5, layer=3))
     elif moment.object is not None:
         thing = run.model.objects[moment.object]
-        items.append(Lines(f"{name} object", "extra", _box(thing.low, thing.high), 1.8, layer=2))
+        items.append(Segments(f"{name} object", "extra", _box(thing.low, thing.high), 1.8, layer=2))
     if moment.box is not None and moment.box[0] and moment.box[1]:
         items.append(_plane_box(pair.camera, pair.size, moment.box))
     if moment.ray is not None and moment.pixel is not None:
@@ -298,7 +298,7 @@ def _items(pair: Pair, run: Recording, moment: Moment, end: float) -> list[Item]
         reach = min(hits, default=end)
         origin, direction = np.array(moment.ray.origin), np.array(moment.ray.direction)
         segment = np.stack([origin, origin + reach * direction])[None]
-        items.append(Lines(f"{name} ray", "ray", segment, 2.5, layer=3))
+        items.append(Segments(f"{name} ray", "ray", segment, 2.5, layer=3))
         items += [
             Dot(f"{name} hit", "mark", origin + t * direction, 5.0 if t == reach else 3.0)
             for t in hits
@@ -315,14 +315,14 @@ def _box(low: Any, high: Any) -> np.ndarray:
     return corners[np.array(_EDGES)]
 
 
-def _plane_box(camera: Camera, size: Size, box: tuple[range, range]) -> Lines:
+def _plane_box(camera: Camera, size: Size, box: tuple[range, range]) -> Segments:
     """A bounding box in pixels, on the image plane."""
     rows, columns = box
     i = np.array([rows.start, rows.start, rows.stop, rows.stop]) - 0.5
     j = np.array([columns.start, columns.stop, columns.stop, columns.start]) - 0.5
     points = point_at(camera, *camera.image_point(i, j, size), plane_parameter(camera))
     segments = np.stack([points, np.roll(points, -1, axis=0)], axis=1)
-    return Lines("bounding box", "extra", segments, 2.0, on_plane=True, layer=2)
+    return Segments("bounding box", "extra", segments, 2.0, on_plane=True, layer=2)
 
 
 def _key(order: Order) -> str:

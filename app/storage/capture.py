@@ -25,7 +25,7 @@ Rect = tuple[float, float, float, float]  # left, top, right, bottom
 
 
 @dataclass(frozen=True)
-class Asked:
+class CaptureRequest:
     """rect: what to cut out, in framebuffer pixels; None for the whole window. path: the file;
     None for the clipboard."""
 
@@ -41,7 +41,7 @@ class Captures:
 
     def __init__(self, wake: Callable[[], None], folder: Path | None = None) -> None:
         self._work: Background[str] = Background("lucida-capture", wake)
-        self._asked: Asked | None = None
+        self._asked: CaptureRequest | None = None
         self.folder = folder
 
     @property
@@ -50,7 +50,7 @@ class Captures:
 
     def ask(self, rect: Rect | None, path: Path | None) -> None:
         """Asks for a picture of what is drawn next."""
-        self._asked = Asked(rect, path)
+        self._asked = CaptureRequest(rect, path)
 
     def default_path(self, what: str) -> Path:
         """A free name for a picture: lucida raster 2026-01-31 10.15.59.png. Raises LucidaError."""
@@ -113,7 +113,7 @@ def cut(pixels: np.ndarray, rect: Rect | None) -> np.ndarray:
     return pixels[top : max(bottom, top + 1), left : max(right, left + 1)]
 
 
-def _finish(pixels: np.ndarray, asked: Asked) -> str:
+def _finish(pixels: np.ndarray, asked: CaptureRequest) -> str:
     """Encodes the picture and puts it where it is to go; gives a line that says so."""
     from PIL import Image
 

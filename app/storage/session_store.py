@@ -36,7 +36,7 @@ class Found:
     message: str = ""
 
 
-class Place:
+class SessionFile:
     """A session file that this process has for itself."""
 
     def __init__(self, path: Path, lock: int) -> None:
@@ -77,7 +77,7 @@ class Place:
         return None
 
 
-def take_place(folder: Path | None = None) -> Place | None:
+def take_place(folder: Path | None = None) -> SessionFile | None:
     """The first place that no other window has; None where sessions cannot be kept.
 
     folder: where the files are; None for the user's settings folder, which is made if it must be.
@@ -89,7 +89,7 @@ def take_place(folder: Path | None = None) -> Place | None:
             lock = _locked(folder / f"session-{number}.lock")
             if lock is not None:
                 path = folder / f"session-{number}.json"
-                return Place(path, lock)
+                return SessionFile(path, lock)
     except (OSError, RuntimeError):  # RuntimeError: there is no home
         pass
     return None
@@ -126,7 +126,7 @@ class Keeper:
     wake: called from that thread when a save has failed. A failure is told once: message.
     """
 
-    def __init__(self, place: Place, wake: Callable[[], None]) -> None:
+    def __init__(self, place: SessionFile, wake: Callable[[], None]) -> None:
         self._place = place
         self._saving: Background[bytes] = Background("lucida-session", wake)
         self._saved: bytes | None = None

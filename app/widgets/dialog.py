@@ -17,7 +17,7 @@ from imgui_bundle import ImVec2, imgui
 
 from app.widgets import theme
 from app.widgets.checks import checkbox
-from app.widgets.folders import FolderReader, Listing, starting_points
+from app.widgets.folders import FolderContent, FolderReader, starting_points
 from renderer.errors import one_line
 
 Chosen = Callable[[list[str]], None]
@@ -25,7 +25,7 @@ TITLE = "###file dialog"
 
 
 @dataclass(frozen=True)
-class Question:
+class FileQuestion:
     """title: on top. saves: a name is asked for, which need not be there. endings: of the files
     that are listed. name: to begin with. chosen: called with the paths."""
 
@@ -41,8 +41,8 @@ class FileDialog:
 
     def __init__(self, wake: Callable[[], None]) -> None:
         self._reader = FolderReader(wake)
-        self._question: Question | None = None
-        self._listing = Listing(Path.cwd())
+        self._question: FileQuestion | None = None
+        self._listing = FolderContent(Path.cwd())
         self._places: list[tuple[str, Path]] = []
         self._name = ""
         self._marked: set[str] = set()
@@ -59,7 +59,7 @@ class FileDialog:
     def folder(self) -> Path:
         return self._listing.folder
 
-    def ask(self, question: Question) -> None:
+    def ask(self, question: FileQuestion) -> None:
         self._question, self._name, self._replace = question, question.name, ""
         self._appearing, self._places = True, starting_points()
         self._go(self._listing.folder)
@@ -120,7 +120,7 @@ class FileDialog:
             if imgui.small_button(f"{one_line(folder.name or str(folder))}##up{index}"):
                 self._go(folder)
 
-    def _entries(self, question: Question) -> None:
+    def _entries(self, question: FileQuestion) -> None:
         listing = self._listing
         if listing.error:
             error = one_line(listing.error)
@@ -148,7 +148,7 @@ class FileDialog:
         if listing.cut:
             imgui.text_colored(theme.DIM, "... and more: type the name")
 
-    def _name_line(self, question: Question) -> None:
+    def _name_line(self, question: FileQuestion) -> None:
         if self._appearing or self._typing:
             imgui.set_keyboard_focus_here()
             self._typing = False
@@ -189,7 +189,7 @@ class FileDialog:
         listed = (*self._marked, *self._listing.files)
         return next((name for name in listed if one_line(name) == typed), typed)
 
-    def _finish(self, question: Question) -> None:
+    def _finish(self, question: FileQuestion) -> None:
         """What was typed or chosen: a folder is gone into, a file is the answer."""
         names = sorted(self._marked) if len(self._marked) > 1 else [self._meant()]
         if names == [""]:

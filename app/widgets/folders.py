@@ -18,7 +18,7 @@ MOST_ENTRIES = 5000
 
 
 @dataclass(frozen=True)
-class Listing:
+class FolderContent:
     """A folder's content: folders first, then files, by name. error: why it cannot be read."""
 
     folder: Path
@@ -28,7 +28,7 @@ class Listing:
     cut: bool = False  # there was more than MOST_ENTRIES
 
 
-def read_folder(folder: Path, endings: tuple[str, ...] = ()) -> Listing:
+def read_folder(folder: Path, endings: tuple[str, ...] = ()) -> FolderContent:
     """Reads a folder, without what is hidden. endings: of the files to list; none: all."""
     folders, files, cut = [], [], False
     try:
@@ -45,10 +45,10 @@ def read_folder(folder: Path, endings: tuple[str, ...] = ()) -> Listing:
                     files.append(entry.name)
     except (OSError, ValueError) as error:
         reason = error.strerror if isinstance(error, OSError) and error.strerror else str(error)
-        return Listing(folder, error=reason[:1].lower() + reason[1:])
+        return FolderContent(folder, error=reason[:1].lower() + reason[1:])
     folders.sort(key=str.lower)
     files.sort(key=str.lower)
-    return Listing(folder, tuple(folders), tuple(files), cut=cut)
+    return FolderContent(folder, tuple(folders), tuple(files), cut=cut)
 
 
 def starting_points() -> list[tuple[str, Path]]:
@@ -78,14 +78,14 @@ class FolderReader:
 
     def __init__(self, wake: Callable[[], None]) -> None:
         self._wake = wake
-        self._work: Background[Listing] | None = None  # the thread is there once it is needed
+        self._work: Background[FolderContent] | None = None  # the thread is there once it is needed
 
     def ask(self, folder: Path, endings: tuple[str, ...]) -> None:
         if self._work is None:
             self._work = Background("lucida-folder", self._wake)
         self._work.submit(lambda: read_folder(folder, endings))
 
-    def poll(self) -> Listing | None:
+    def poll(self) -> FolderContent | None:
         outcome = self._work.poll() if self._work is not None else None
         return outcome.value if outcome is not None else None
 

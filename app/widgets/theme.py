@@ -131,7 +131,7 @@ PRESENTED_LIGHT = replace(
 
 
 @dataclass(frozen=True)
-class Look:
+class WindowLook:
     """What the style is made of. scale: of type and spacing, beside the display's own (DPI)."""
 
     theme: str = "dark"
@@ -146,7 +146,8 @@ class Look:
 
 
 _NAMES = {field.name for field in fields(Palette)}
-_used: list[Look] = [Look()]  # one entry: the look in use, of the one window of a process
+# One entry: the look in use, of the one window of a process.
+_used: list[WindowLook] = [WindowLook()]
 
 
 def __getattr__(name: str) -> Any:
@@ -156,7 +157,7 @@ def __getattr__(name: str) -> Any:
     raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
 
 
-def look_of(preferences: Preferences, height_px: float, dpi_scale: float = 1.0) -> Look:
+def look_of(preferences: Preferences, height_px: float, dpi_scale: float = 1.0) -> WindowLook:
     """The look that the preferences ask for in a window of this height, in ImGui's pixels."""
     scale = preferences.font_scale
     least, most, largest = (
@@ -166,10 +167,10 @@ def look_of(preferences: Preferences, height_px: float, dpi_scale: float = 1.0) 
         scale = round(max(SMALLEST, least, min(scale, most)), 2)
     elif scale > 1.0:
         scale = round(max(1.0, min(scale, largest)), 2)
-    return Look(preferences.theme, preferences.presentation, scale)
+    return WindowLook(preferences.theme, preferences.presentation, scale)
 
 
-def used() -> Look:
+def used() -> WindowLook:
     """The look in use, what colours are read from now: in a key of what is kept from frame to
     frame. Not the preferences: they change first, the look follows when a frame is drawn."""
     return _used[0]
@@ -196,7 +197,7 @@ def follow(preferences: Preferences) -> None:
 
 def begin(preferences: Preferences) -> None:
     """The first style; HelloImGui scales it to the display's DPI, follow() to the preferences."""
-    _used[0] = Look(preferences.theme)
+    _used[0] = WindowLook(preferences.theme)
     _set_style()
 
 

@@ -16,7 +16,7 @@ MOST_KEPT = 30  # frames in a row that are not shown: whatever goes wrong, the w
 Size = tuple[int, int]
 
 
-class Canvas:
+class WindowCanvas:
     """Of one window, in its context."""
 
     def __init__(self, context: moderngl.Context) -> None:

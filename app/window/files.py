@@ -18,7 +18,7 @@ from imgui_bundle import portable_file_dialogs as dialogs
 from app.storage.recent import RecentFiles
 from app.storage.scene_watch import SceneWatch
 from app.widgets.background import Background
-from app.widgets.dialog import FileDialog, Question
+from app.widgets.dialog import FileDialog, FileQuestion
 from app.window.opening import Opened, open_lecture, open_sources, reread
 from renderer.errors import describe, one_line
 from renderer.scene import (
@@ -142,7 +142,9 @@ class Files:
     def open_dialog(self) -> None:
         endings = " ".join(f"*{ending}" for ending in SCENE_ENDINGS)
         self._ask(
-            Question("Open a scene, a view or a model", False, SCENE_ENDINGS, "", self.open_all),
+            FileQuestion(
+                "Open a scene, a view or a model", False, SCENE_ENDINGS, "", self.open_all
+            ),
             ["Scenes, views and models", endings, "All files", "*"],
         )
 
@@ -152,7 +154,7 @@ class Files:
 
     def open_lecture_dialog(self) -> None:
         self._ask(
-            Question(
+            FileQuestion(
                 "Open a lecture", False, (LECTURE_ENDING,), "", lambda p: self.open_lecture(p[0])
             ),
             ["Lectures", f"*{LECTURE_ENDING}", "All files", "*"],
@@ -180,7 +182,7 @@ class Files:
     def save_picture_dialog(self, name: str, chosen: Callable[[Path], None]) -> None:
         """Asks where a picture is to go."""
         self._ask(
-            Question("Save the picture", True, (".png",), name, lambda p: chosen(Path(p[0]))),
+            FileQuestion("Save the picture", True, (".png",), name, lambda p: chosen(Path(p[0]))),
             ["Pictures", "*.png"],
         )
 
@@ -303,9 +305,9 @@ class Files:
             self.message = ""
             self._saving.submit(lambda: store(path))
 
-        self._ask(Question(title, True, (ending,), name, chosen), [words, f"*{ending}"])
+        self._ask(FileQuestion(title, True, (ending,), name, chosen), [words, f"*{ending}"])
 
-    def _ask(self, question: Question, filters: list[str]) -> None:
+    def _ask(self, question: FileQuestion, filters: list[str]) -> None:
         if self._asking is not None or self.dialog.is_open:
             return
         if not (self._native and has_dialogs()):

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from app.host.instrument import Instrument
-from app.host.view import View
+from app.host.view import DockedView
 from app.instruments import ROOMS, Room
 
 
@@ -17,9 +17,9 @@ def _of(room: Room) -> Instrument:
 INSTRUMENTS = {room.name: _of(room) for room in ROOMS}
 
 
-def make_views() -> list[View]:
+def make_views() -> list[DockedView]:
     """All views, in the order in which they are drawn."""
-    views: list[View] = []
+    views: list[DockedView] = []
     for instrument in INSTRUMENTS.values():
         views += instrument.make(views)
     missing = {name for room in ROOMS for name in room.views} - {

@@ -17,16 +17,16 @@ from imgui_bundle import hello_imgui, imgui
 
 from app.cameras.focus import Focus, object_corners, scene_focus
 from app.cameras.presets import framed
-from app.cameras.travel import Traveller
+from app.cameras.travel import CameraTransition
 from app.host.fly import Fly
-from app.host.view import AView, View, view_of
+from app.host.view import AView, DockedView, view_of
 from app.images.agreement import Verdict
 from app.images.placement import shown_pixel
 from app.images.renderers import Renderers
 from app.lecture.view import LECTURE, LectureView
 from app.outside.view import OUTSIDE, OutsideView
 from app.pair.go_to_pixel import Going, going, pixel_box
-from app.pair.resolution import Asked, asked, resolution_box
+from app.pair.resolution import SizeEntry, asked, resolution_box
 from app.pair.view import RASTER
 from app.state.app_state import AppState, History
 from app.state.options import Pixel
@@ -73,14 +73,14 @@ class MainWindow:
         self._titled = state.scene
         self._gesture = 0
         self._was_active = False
-        self._asked: Asked | None = None
+        self._asked: SizeEntry | None = None
         self._going: Going | None = None
         self._focused: tuple[Scene, Focus] | None = None
-        self.traveller = Traveller()
+        self.traveller = CameraTransition()
         self.traveller.instant = not smooth
         self.moves = smooth
         self._fly = Fly()
-        self._over: View | None = None
+        self._over: DockedView | None = None
 
     # What actions and views ask for.
 
@@ -265,7 +265,7 @@ class MainWindow:
         if self.files.busy or self.renderers.unfinished(self.state):
             hello_imgui.request_refresh()
 
-    def draw_view(self, view: View) -> None:
+    def draw_view(self, view: DockedView) -> None:
         """A view's ImGui window, where it is shown."""
         self.shell.stage.draw(view, self)
 

@@ -18,7 +18,7 @@ WIDTH_EM = 40.0
 NAME = "##palette"
 
 
-class Palette:
+class CommandPalette:
     """open: whether it is to be seen."""
 
     def __init__(self) -> None:

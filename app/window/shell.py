@@ -15,7 +15,7 @@ from app import __version__
 from app.host import layout
 from app.host.action import Window
 from app.host.stage import Stage
-from app.host.view import Host, View
+from app.host.view import DockedView, Host
 from app.images.renderers import Renderers
 from app.lecture.view import LectureView
 from app.state.app_state import AppState
@@ -28,7 +28,7 @@ from app.widgets.theme import Fonts
 from app.widgets.toasts import Toasts
 from app.window.files import Files, Outside
 from app.window.loading import loading_box
-from app.window.palette import Palette
+from app.window.palette import CommandPalette
 from app.window.palette_entries import entries
 from app.window.platform import toggle_full_screen
 from app.window.shortcut_sheet import help_sheet
@@ -46,7 +46,7 @@ class Shell:
 
     def __init__(
         self,
-        views: list[View],
+        views: list[DockedView],
         files: Files,
         fonts: Fonts,
         wake: Callable[[], None],
@@ -54,7 +54,7 @@ class Shell:
     ) -> None:
         self.stage: Stage = Stage(views)
         self.proportion = layout.Proportion()
-        self.palette: Palette = Palette()
+        self.palette: CommandPalette = CommandPalette()
         self.toasts = Toasts()
         self.captures = Captures(wake)
         self.files = files

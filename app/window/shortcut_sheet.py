@@ -82,7 +82,7 @@ def _digits(text: str) -> str:
 
 
 @dataclass(frozen=True)
-class Plan:
+class SheetPlan:
     """How the sheet has room: the size of its type, its columns, the height of the tallest."""
 
     size_px: float
@@ -90,7 +90,7 @@ class Plan:
     high_px: float
 
 
-def planned(parts: Sequence[tuple[str, list[Row]]], room: ImVec2, em: float) -> Plan:
+def planned(parts: Sequence[tuple[str, list[Row]]], room: ImVec2, em: float) -> SheetPlan:
     """In the largest type in which all is seen at once; else in the smallest, to be scrolled.
     em: the window's type, in which its font is now."""
     widths = [
@@ -107,7 +107,7 @@ def planned(parts: Sequence[tuple[str, list[Row]]], room: ImVec2, em: float) -> 
         high_px = tallest * (1 + 2 * ROW_PAD) * size_px
         if high_px <= room.y:
             break
-    return Plan(size_px, columns, high_px)
+    return SheetPlan(size_px, columns, high_px)
 
 
 def help_sheet(fonts: theme.Fonts, version: str) -> bool:

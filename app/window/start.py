@@ -14,7 +14,7 @@ from pathlib import Path
 from imgui_bundle import hello_imgui
 
 from app.lecture.model import Lecture
-from app.lecture.session import Session as LectureSession
+from app.lecture.session import LectureSession
 from app.lecture.states import state_of
 from app.state.all_options import Options
 from app.state.app_state import AppState

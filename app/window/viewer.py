@@ -16,7 +16,7 @@ import numpy as np
 from imgui_bundle import hello_imgui, imgui, immapp
 
 from app.host import layout
-from app.host.view import View
+from app.host.view import DockedView
 from app.state.app_state import AppState
 from app.storage.capture import free_path
 from app.storage.paths import is_unicode
@@ -26,7 +26,7 @@ from app.storage.settings import settings_file
 from app.widgets import theme
 from app.widgets.focusing import Focusing
 from app.widgets.surface import Target
-from app.window.canvas import Canvas
+from app.window.canvas import WindowCanvas
 from app.window.main_window import MainWindow, title
 from app.window.platform import (
     Keys,
@@ -120,7 +120,7 @@ class Run:
             self._take(start)
         self._platform = platform
         self._size = size
-        self._canvas: Canvas | None = None
+        self._canvas: WindowCanvas | None = None
         self._keys: Keys | None = None
         self._focusing = Focusing()
         self.on_drawn: Callable[[Target], None] | None = None  # each frame that is shown, drawn
@@ -225,7 +225,7 @@ class Run:
         callbacks.before_exit = self._guarded(self.window.end)
         return params
 
-    def _draw(self, view: View) -> Callable[[], None]:
+    def _draw(self, view: DockedView) -> Callable[[], None]:
         return self._guarded(lambda: self.window.draw_view(view))
 
     def _guarded(self, function: Callable[[], Any]) -> Callable[[], None]:
@@ -248,7 +248,7 @@ class Run:
             self._keys = Keys()
         else:
             set_size(self._size)
-        self._canvas = Canvas(context)
+        self._canvas = WindowCanvas(context)
         self.window.begin(context)
 
     def _before_frame(self) -> None:

@@ -34,7 +34,7 @@ _GL_UNSIGNED_BYTE = 0x1401
 _drivers_pid: int | None = None  # of the process that has loaded an OpenGL driver
 
 
-class Platform(Protocol):
+class ContextProvider(Protocol):
     """A way to an OpenGL context. name: for messages. context: moderngl's side of it."""
 
     name: str
@@ -118,7 +118,7 @@ class OSMesa:
             yield self.context
 
 
-class Window:
+class WindowContext:
     """The context of a window that is current already, and that stays its owner's."""
 
     name = "window"
@@ -134,7 +134,9 @@ class Window:
         pass
 
 
-def open_platform(backend: str = "auto", context: moderngl.Context | None = None) -> Platform:
+def open_platform(
+    backend: str = "auto", context: moderngl.Context | None = None
+) -> ContextProvider:
     """A context to draw in. backend: "egl", "osmesa", or "auto": the first that works.
 
     context: a window's, current in this thread; then backend is not looked at.
@@ -143,7 +145,7 @@ def open_platform(backend: str = "auto", context: moderngl.Context | None = None
     """
     check_process()
     if context is not None:
-        return Window(context)
+        return WindowContext(context)
     if backend not in BACKENDS:
         raise LucidaError("backend", f"{backend!r} is unknown", f"give {', '.join(BACKENDS)}")
     tried, remedies = [], []

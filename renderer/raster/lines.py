@@ -58,7 +58,7 @@ BLENDING = (moderngl.SRC_ALPHA, moderngl.ONE_MINUS_SRC_ALPHA)  # OpenGL's custom
 Layer = tuple[NDArray[Any], NDArray[Any]]  # of CORNER, of SEGMENT
 
 
-class Lines:
+class LineRenderer:
     """Draws layers into the bound framebuffer of a context, which must be current. The alpha
     channel is blended too: mask it where it shall stay.
 

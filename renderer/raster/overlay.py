@@ -15,7 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from renderer.camera import Camera
-from renderer.raster.lines import BLENDING, Layer, Lines
+from renderer.raster.lines import BLENDING, Layer, LineRenderer
 from renderer.raster.programs import set_uniform
 from renderer.raster.resources import Owner, check, new_texture
 from renderer.raster.sources import link
@@ -102,7 +102,7 @@ class Overlay:
         self._kept: Hashable = None  # what the scene as shown was made from
         self._gathering = self._owner.own(link(context, "screen.vert", "gather.frag"))
         self._gather = self._owner.own(context.vertex_array(self._gathering, []))
-        self._lines = self._owner.own(Lines(context))
+        self._lines = self._owner.own(LineRenderer(context))
         self._targets: dict[str, tuple[moderngl.Texture, moderngl.Framebuffer]] = {}
 
     @property

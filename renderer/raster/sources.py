@@ -33,7 +33,7 @@ def read_shader(name: str) -> str:
         raise LucidaError(f"shaders/{name}", "does not exist", "install lucida again") from None
 
 
-class Source:
+class ShaderSource:
     """One stage's text with its chunks put in, each once, and where each of its lines comes from.
 
     name: a file under shaders/. read: gives a file's text by name. constants: declared after the
@@ -107,8 +107,8 @@ def link(
     Raises LucidaError naming the file and line where the driver does not accept one.
     """
     stages = {
-        "vertex_shader": Source(vertex, read, constants),
-        "fragment_shader": Source(fragment, read, constants),
+        "vertex_shader": ShaderSource(vertex, read, constants),
+        "fragment_shader": ShaderSource(fragment, read, constants),
     }
     try:
         return context.program(

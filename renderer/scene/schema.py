@@ -17,11 +17,11 @@ Numbers3 = tuple[float, float, float]
 ColorValue = Numbers3 | str
 
 
-class Table(msgspec.Struct, kw_only=True, forbid_unknown_fields=True):
+class StrictTable(msgspec.Struct, kw_only=True, forbid_unknown_fields=True):
     """A table in which an unknown field is an error."""
 
 
-class CameraFields(Table):
+class CameraFields(StrictTable):
     """[camera] as the camera is, in view files and scene files.
 
     Every field is by default the canonical camera's.
@@ -41,7 +41,7 @@ class CameraFields(Table):
     fit: bool | None = None
 
 
-class LookAtFields(Table):
+class LookAtFields(StrictTable):
     """[camera] by what it looks at, in view files and scene files: given away by `target`.
 
     Give fov_y_deg, or the distance of a viewport 1 high. aspect: the viewport's width over its
@@ -60,20 +60,20 @@ class LookAtFields(Table):
     fit: bool | None = None
 
 
-class ViewFile(Table):
+class ViewFile(StrictTable):
     """A view file: `lucida = 1`, if given, and [camera]: CameraFields or LookAtFields."""
 
     camera: dict[str, Any]
 
 
-class CheckerTable(Table):
+class CheckerTable(StrictTable):
     """checker = { diffuse, size }: every other cell of a pattern of cubes takes this colour."""
 
     diffuse: ColorValue = (0.05, 0.05, 0.05)
     size: float = 1.0
 
 
-class MaterialTable(Table):
+class MaterialTable(StrictTable):
     """[materials.NAME], or a table in an object's `material`."""
 
     diffuse: ColorValue = (0.7, 0.7, 0.7)
@@ -82,7 +82,7 @@ class MaterialTable(Table):
     checker: CheckerTable | None = None
 
 
-class ObjectTable(Table, tag_field="type"):
+class ObjectTable(StrictTable, tag_field="type"):
     """What all [[objects]] have. material: a name from [materials], or a table."""
 
     name: str = ""
@@ -173,14 +173,14 @@ AnyObject = (
 )
 
 
-class PointLightTable(Table, tag_field="type", tag="point"):
+class PointLightTable(StrictTable, tag_field="type", tag="point"):
     """Shines from `position`, equally far and near."""
 
     position: Numbers3
     color: ColorValue = (1.0, 1.0, 1.0)
 
 
-class DirectionalLightTable(Table, tag_field="type", tag="directional"):
+class DirectionalLightTable(StrictTable, tag_field="type", tag="directional"):
     """Shines along `direction`, from infinitely far."""
 
     direction: Numbers3
@@ -190,7 +190,7 @@ class DirectionalLightTable(Table, tag_field="type", tag="directional"):
 AnyLight = PointLightTable | DirectionalLightTable
 
 
-class SceneFile(Table, kw_only=True):
+class SceneFile(StrictTable, kw_only=True):
     """A scene file. Without lights it gets the default ones, without camera one that sees it all.
 
     The tables inside are read one by one, each by its own structure above.

@@ -14,7 +14,7 @@ from app.cameras.animation import INVISIBLE_PX, Passage
 from app.cameras.focus import Focus, scene_focus
 from app.cameras.navigation import switched_projection
 from app.cameras.presets import PRESETS, preset_view
-from app.cameras.travel import DURATION_S, Ends, Traveller
+from app.cameras.travel import DURATION_S, CameraTransition, Ends
 from app.state.app_state import AppState, History, is_orthonormal
 from renderer.camera import Camera, volume
 from renderer.scene import load_scene
@@ -378,9 +378,9 @@ def target_of(state: AppState, name: str) -> AppState:
 
 
 class TestTraveller:
-    def begin(self, scene: Scene, name: str = "Front") -> tuple[Clock, Traveller, AppState]:
+    def begin(self, scene: Scene, name: str = "Front") -> tuple[Clock, CameraTransition, AppState]:
         clock, state = Clock(), AppState.for_scene(scene)
-        traveller = Traveller(clock)
+        traveller = CameraTransition(clock)
         target = target_of(state, name)
         shown = traveller.begin(state, target, scene_focus(scene), SIZE)
         assert shown is state
@@ -467,7 +467,7 @@ class TestTraveller:
         start = Camera.look_at((9.0, 3.0, 9.0), (0.0, 0.0, 0.0))
         end = Camera.look_at((0.0, 12.0, 1.0), (0.0, 0.0, 0.0))
         for there in (end, None):  # None: the view finds it
-            traveller = Traveller(clock)
+            traveller = CameraTransition(clock)
             target = state.with_options(outside={"camera": there}, shadows=True)
             ends = Ends(
                 start,
@@ -499,7 +499,7 @@ class TestTraveller:
 
     @pytest.mark.parametrize("how", ["instant", "reduced", "mirrored", "scene", "no window"])
     def test_where_nothing_is_to_be_seen_it_is_there_at_once(self, scene: Scene, how: str) -> None:
-        state, traveller, size = AppState.for_scene(scene), Traveller(Clock()), SIZE
+        state, traveller, size = AppState.for_scene(scene), CameraTransition(Clock()), SIZE
         target = target_of(state, "Left")
         if how == "instant":
             traveller.instant = True

@@ -24,7 +24,7 @@ from app.costs.model import (
     torus_of,
 )
 from app.costs.options import CostOptions
-from app.costs.panel import Told, said
+from app.costs.panel import CostReport, said
 from app.costs.work import Work
 from app.state.bounds import whole_range_of
 from renderer.camera import Camera
@@ -376,7 +376,7 @@ def test_nothing_is_said_of_times_while_they_are_measured_nor_of_flat_ones() -> 
     fakes = {"raster": raster, "ray": ray}
     samples = [measure(case, fakes[case.renderer]) for case in wanted]
     work = [FakeCounter().work(torus_of(n), Camera.canonical(), (80, 60)) for n in counts]
-    of_object, of_image = said(options, Told(work, samples, (), 0, {}))
+    of_object, of_image = said(options, CostReport(work, samples, (), 0, {}))
     assert of_object == (
         "raster",
         "Object order: triangles set up ~ triangles; pixels tested: the same;"
@@ -386,9 +386,9 @@ def test_nothing_is_said_of_times_while_they_are_measured_nor_of_flat_ones() -> 
         "Image order: rays: the same; nodes visited ~ log triangles (+1.0"
     )
     assert "time" not in of_image[1]
-    assert "time" not in said(options, Told(work, samples, (), 3, {}))[0][1]
+    assert "time" not in said(options, CostReport(work, samples, (), 3, {}))[0][1]
     for few in range(4):
-        assert said(options, Told(work[:few], samples[: 2 * few], (), 12, {})) == []
+        assert said(options, CostReport(work[:few], samples[: 2 * few], (), 12, {})) == []
 
 
 def test_both_renderers_are_measured(gl_backend) -> None:

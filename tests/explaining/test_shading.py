@@ -8,7 +8,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from app.explaining.shading import Hit, hit_at, shade
+from app.explaining.shading import SurfaceHit, hit_at, shade
 from renderer.scene.flat import flatten
 from renderer.scene.model import (
     DirectionalLight,
@@ -21,7 +21,7 @@ from renderer.scene.model import (
 )
 
 # Seen from above: the ray goes down, the normal is up.
-HIT = Hit(
+HIT = SurfaceHit(
     0, 0, 1.0, 0.0, 0.0, (0.0, -2.0, 0.0), (0.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 1.0, 0.0), ()
 )
 WHITE = (1.0, 1.0, 1.0)
@@ -43,7 +43,7 @@ def test_normals_that_differ_by_more_than_rounding_are_two() -> None:
 def test_a_hit_is_where_the_ray_is_at_t() -> None:
     ball = Scene((SceneObject(Sphere((9, 9, 9), 1)), SceneObject(Sphere((0, 0, -5), 1))))
     found = hit_at(flatten(ball), (0, 0, 1), (0, 0, -2), (2.5, 1, 0.0, 0.0))
-    assert found == Hit(1, 1, 2.5, 0, 0, (0, 0, -2), (0, 0, -4), (0, 0, 1), (0, 0, 1))
+    assert found == SurfaceHit(1, 1, 2.5, 0, 0, (0, 0, -2), (0, 0, -4), (0, 0, 1), (0, 0, 1))
     assert not found.has_own_normal
 
 

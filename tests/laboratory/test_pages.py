@@ -13,7 +13,7 @@ from app.laboratory.options import LaboratoryOptions
 from app.laboratory.pages import (
     LARGEST_APART,
     PAGES,
-    Plan,
+    PagePlan,
     display_part,
     panels,
     plan,
@@ -24,7 +24,7 @@ from renderer.images import to_srgb8
 ROOMS = [(1200, 900), (600, 900), (400, 300), (1900, 500)]
 
 
-def image(divided: Plan) -> np.ndarray:
+def image(divided: PagePlan) -> np.ndarray:
     width, height = divided.image
     i, j = np.mgrid[0:height, 0:width]
     return np.stack([i / height, j / width, (i + j) % 2], axis=2).astype(np.float32)
@@ -113,7 +113,7 @@ def test_pages_say_what_they_show():
 def test_pages_say_it_in_numbers():
     color = np.zeros((3, 5, 3), np.float32)
     color[:, 0], color[0, 1], color[2, 4] = 2.0, 0.5, 0.25  # the first column is above white
-    divided = Plan(2, 2, (48, 30), (5, 3), 7)
+    divided = PagePlan(2, 2, (48, 30), (5, 3), 7)
 
     def told(page, **options):
         made = panels(page, color, divided, LaboratoryOptions(page=page, **options), 0.0, (2, 4))
@@ -152,7 +152,7 @@ def test_pages_say_it_in_numbers():
 def test_a_picture_is_made_as_large_as_its_cell_and_shows_the_middle():
     color = np.arange(35, dtype=np.float32).reshape(5, 7, 1).repeat(3, axis=2) / 64
     options = LaboratoryOptions()
-    (whole,) = panels("array", color, Plan(1, 1, (9, 6), (7, 5), 2), options, 1.0, (0, 0))
+    (whole,) = panels("array", color, PagePlan(1, 1, (9, 6), (7, 5), 2), options, 1.0, (0, 0))
     assert (whole.first, whole.magnification) == ((1, 1), 2)  # 3 of 5 rows, 4 of 7 columns
     seen = to_srgb8(color[1:4, 1:5], 1.0)
     np.testing.assert_array_equal(whole.picture, seen.repeat(2, axis=0).repeat(2, axis=1))

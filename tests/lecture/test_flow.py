@@ -5,14 +5,14 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from app.lecture.flow import Extent, Laid, Piece, fitted, lay
+from app.lecture.flow import Laid, Piece, PieceSize, fitted, lay
 from app.lecture.text import parse
 
 
-def measure(piece: Piece) -> Extent:
+def measure(piece: Piece) -> PieceSize:
     """Letters half as wide as high; formulas twice as high as their text, as fractions are."""
     high = 2.0 if piece.style == "math" else 1.0
-    return Extent(
+    return PieceSize(
         0.5 * piece.size * len(piece.text), 0.8 * high * piece.size, 0.2 * high * piece.size
     )
 
@@ -150,7 +150,7 @@ def test_a_wide_formula_gives_way_down_to_a_size():
     assert of(16).size == pytest.approx(11.2 * 0.98 * 87.5 / (16 * 5.6)) and of(16).display
     assert of(40).size == pytest.approx(0.6 * 11.2)
     # As wide as the room, it is left alone.
-    (placed,) = lay(parse("$$x$$"), 62.5, 10, lambda _: Extent(50, 8, 2)).pieces
+    (placed,) = lay(parse("$$x$$"), 62.5, 10, lambda _: PieceSize(50, 8, 2)).pieces
     assert placed.piece.size == pytest.approx(11.2)
 
 

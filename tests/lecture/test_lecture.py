@@ -21,7 +21,7 @@ from app.lecture.exercises import ChoiceExercise, RayExercise, VectorExercise
 from app.lecture.model import Lecture
 from app.lecture.places import Places, parsed_path
 from app.lecture.reading import BUILTIN, lecture_from_toml, load_lecture
-from app.lecture.session import Session
+from app.lecture.session import LectureSession
 from app.lecture.states import state_of
 from app.lecture.step_options import ELSEWHERE
 from app.probe.model import Probe
@@ -350,10 +350,10 @@ class TestText:
                 )
             ),
             texts.Question((words("Why so?"),)),
-            texts.Listing(((words("a"),), (words("b c"),))),
-            texts.Listing(((words("x"),), (words("y"),)), numbered=True),
-            texts.Formula("a\nb"),
-            texts.Formula("c"),
+            texts.ItemList(((words("a"),), (words("b c"),))),
+            texts.ItemList(((words("x"),), (words("y"),)), numbered=True),
+            texts.DisplayedFormula("a\nb"),
+            texts.DisplayedFormula("c"),
             texts.Code("  x = $1", "python"),
         )
         assert texts.formulas(blocks) == ("x", "a\nb", "c")
@@ -380,12 +380,12 @@ class TestText:
         assert texts.parse("```\na\n```\nb\n$$x$$\n$$\ny$$\nc") == (
             texts.Code("a"),
             texts.Paragraph((words("b"),)),
-            texts.Formula("x"),
-            texts.Formula("y"),
+            texts.DisplayedFormula("x"),
+            texts.DisplayedFormula("y"),
             texts.Paragraph((words("c"),)),
         )
         assert texts.parse("- a\n  b\n  c\n- d\n  e") == (
-            texts.Listing(((words("a b c"),), (words("d e"),))),
+            texts.ItemList(((words("a b c"),), (words("d e"),))),
         )
 
     def test_of_what_a_text_consists(self):
@@ -518,7 +518,7 @@ class TestWatching:
             return found
 
         monkeypatch.setattr(reading, "load_scene", slow)
-        session = Session(load_lecture(path), path)
+        session = LectureSession(load_lecture(path), path)
         assert not session.watch.changed(1.0)
         assert session.watch.changed(2.0)
 

@@ -11,7 +11,7 @@ import pytest
 from plain_text import plain_text
 
 from app.lecture.reading import BUILTIN, load_lecture
-from app.outside.diagram import Dot, Eye, Hit, Item, Label, diagram
+from app.outside.diagram import Dot, Eye, Item, Label, RayEnd, diagram
 from app.outside.frustum import plane_corners
 from app.outside.options import OutsideOptions
 from renderer.camera import Camera
@@ -101,7 +101,7 @@ def test_the_points_of_the_ray_are_drawn_where_their_parameters_are_named() -> N
     step = STEPS[title]
     assert step.pixel is not None
     size = step.options["images"]["resolution"]
-    marked = Hit(step.pixel, 2.5)
+    marked = RayEnd(step.pixel, 2.5)
     camera = step.view.for_size(size)
     items = diagram(camera, size, options_of(title), 9.0, marked=marked)
     at = {item.name: item.point for item in items if isinstance(item, Dot)}

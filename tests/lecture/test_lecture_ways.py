@@ -7,7 +7,7 @@ from dataclasses import replace
 import pytest
 
 from app.images.marking import followed
-from app.lecture.flow import INDENT, Extent, Piece, lay
+from app.lecture.flow import INDENT, Piece, PieceSize, lay
 from app.lecture.reading import BUILTIN, load_lecture
 from app.lecture.states import state_of
 from app.lecture.step_options import OWN
@@ -55,8 +55,8 @@ def test_a_mark_outside_of_a_small_image_is_remembered_as_it_was_set():
 
 
 def test_a_wide_formula_gives_way_and_not_the_text():
-    def measure(piece: Piece) -> Extent:
-        return Extent(0.5 * piece.size * len(piece.text), 0.8 * piece.size, 0.2 * piece.size)
+    def measure(piece: Piece) -> PieceSize:
+        return PieceSize(0.5 * piece.size * len(piece.text), 0.8 * piece.size, 0.2 * piece.size)
 
     blocks = parse("Some text.\n\n$$\nabcdefghijklmnopqrstuvwxyz\n$$\n")
     laid = lay(blocks, 300.0, 24.0, measure)

@@ -13,7 +13,7 @@ import pytest
 from hypothesis import assume, given
 from hypothesis import strategies as st
 
-from app.outside.diagram import Arrow, Hit, Label, Lines, diagram, polyline
+from app.outside.diagram import Arrow, Label, RayEnd, Segments, diagram, polyline
 from app.outside.extent import end_parameter, framed, outside_camera
 from app.outside.frustum import (
     MOST_GRID_LINES,
@@ -34,10 +34,10 @@ from app.outside.gizmo import (
     rotation_between,
     rotation_of,
 )
-from app.outside.hits import Question, RayHits
+from app.outside.hits import RayHits, RayQuery
 from app.outside.options import OutsideOptions
 from app.outside.projected import Shape, Strokes, Text, project
-from app.outside.screen import Screen
+from app.outside.screen import OutsideScreen
 from renderer.camera import Camera
 from renderer.errors import LucidaError
 from renderer.raster.overlay import plane_on_screen, screen_from_world
@@ -187,7 +187,7 @@ class TestTheCameraThatLooks:
 class TestScreen:
     @pytest.mark.parametrize("camera", looking_cameras())
     def test_points_are_where_the_camera_has_them(self, camera: Camera) -> None:
-        screen = Screen(camera, SIZE)
+        screen = OutsideScreen(camera, SIZE)
         for point in np.random.default_rng(1).uniform(-1, 1, (20, 3)):
             row, column, parameter = camera.project(point, SIZE)
             found = screen.spot(point)
@@ -198,7 +198,7 @@ class TestScreen:
 
     @given(cameras(), st.lists(st.tuples(vectors, vectors), min_size=1, max_size=10))
     def test_segments_are_cut_to_the_guard(self, camera: Camera, ends: list[Any]) -> None:
-        screen = Screen(camera, SIZE, 1e-3)
+        screen = OutsideScreen(camera, SIZE, 1e-3)
         world = 3 * np.array(ends)
         points, depth, numbers = screen.segments(world)
         assert np.isfinite(points).all()
@@ -214,7 +214,7 @@ class TestScreen:
         assert seen <= set(numbers.tolist())
 
     def test_what_comes_from_behind_is_cut_where_it_appears(self) -> None:
-        screen = Screen(Camera.canonical(), (100, 100), 0.5)
+        screen = OutsideScreen(Camera.canonical(), (100, 100), 0.5)
         points, depth, _ = screen.segments(np.array([[[0, 0, 5.0], [0.5, 0, -5.0]]]))
         # At t = 0.5 the segment is at x = 0.275; seen from the eye, 0.55 to the right of it.
         assert np.allclose(points[0, 0], (50 + 55, 50))
@@ -222,7 +222,7 @@ class TestScreen:
 
     def test_a_polygon_round_the_viewer_is_cut(self) -> None:
         corners = np.array([[-9, -1, 9], [9, -1, 9], [9, -1, -9], [-9, -1, -9]], float)
-        points, depth = Screen(Camera.canonical(), (100, 100), 0.1).polygon(corners)
+        points, depth = OutsideScreen(Camera.canonical(), (100, 100), 0.1).polygon(corners)
         assert len(points) >= 3
         assert np.isfinite(points).all()
         assert (depth > 0).all()
@@ -230,14 +230,16 @@ class TestScreen:
 
     def test_dashes_go_on_from_segment_to_segment(self) -> None:
         path = polyline(np.array([[-0.2, 0, -1], [0, 0, -1], [0.2, 0.1, -1]], float))
-        (strokes,) = project([Lines("l", "extra", path)], Screen(Camera.canonical(), (100, 100)))
+        (strokes,) = project(
+            [Segments("l", "extra", path)], OutsideScreen(Camera.canonical(), (100, 100))
+        )
         assert isinstance(strokes, Strokes)
         assert np.allclose(strokes.before, [0, 20])
 
     @pytest.mark.parametrize("camera", looking_cameras())
     def test_arrows_end_at_their_vectors_tips(self, camera: Camera) -> None:
         start, end = np.array([0, 0, -1.0]), np.array([0.4, 0.9, -0.5])
-        screen = Screen(camera, (640, 480))
+        screen = OutsideScreen(camera, (640, 480))
         parts = project([Arrow("u", "u", start, end)], screen)
         tip = screen.spot(end)
         assert tip is not None
@@ -247,7 +249,7 @@ class TestScreen:
         assert np.linalg.norm(shaft.points[0, 1] - tip[0]) < 20
 
     def test_letters_stand_off_the_arrow_and_go_with_short_ones(self) -> None:
-        screen = Screen(Camera.canonical(), (100, 100))
+        screen = OutsideScreen(Camera.canonical(), (100, 100))
         origin = np.array([0.0, 0, -1])
         label = Label("v", "v", "v", np.array([0, 0.3, -1]), away=origin, strong=True, least=8.0)
         (text,) = project([label], screen)
@@ -266,7 +268,7 @@ class TestDiagram:
 
     def test_each_switch_has_its_lines(self) -> None:
         camera, none = Camera.canonical(), OutsideOptions(None, False, False, False, False, False)
-        hit = Hit((3, 4), 2.5)
+        hit = RayEnd((3, 4), 2.5)
         assert self.names(camera, none, marked=hit) == {"eye"}
         for field, names in {
             "volume": {"edges", "side 0", "end"},
@@ -280,7 +282,7 @@ class TestDiagram:
     def test_near_and_far_are_drawn_where_they_are_set(self) -> None:
         camera = replace(Camera.canonical(), near=2.0, far=4.0)
         items = diagram(camera, SIZE, OutsideOptions(), 9.0)
-        at = {item.name: item for item in items if isinstance(item, Lines)}
+        at = {item.name: item for item in items if isinstance(item, Segments)}
         assert np.allclose(at["near"].segments[..., 2], -2)
         assert np.allclose(at["far"].segments[..., 2], -4)
         assert {at["edges"].segments[..., 2].min(), at["edges"].segments[..., 2].max()} == {-4, -2}
@@ -288,21 +290,21 @@ class TestDiagram:
 
     def test_a_ray_ends_where_it_hits_and_goes_on_pale(self) -> None:
         camera = Camera.canonical()
-        items = diagram(camera, SIZE, OutsideOptions(), 9.0, marked=Hit((10, 20), 2.5))
-        at = {item.name: item for item in items if isinstance(item, Lines)}
+        items = diagram(camera, SIZE, OutsideOptions(), 9.0, marked=RayEnd((10, 20), 2.5))
+        at = {item.name: item for item in items if isinstance(item, Segments)}
         ray = camera.ray(10, 20, SIZE)
         reached = ray.origin + 2.5 * ray.direction
         assert np.allclose(at["ray"].segments, [[ray.origin, reached]])
         assert np.allclose(at["beyond"].segments[0, 0], reached)
         for t in (None, math.inf):
-            names = self.names(camera, OutsideOptions(), marked=Hit((10, 20), t))
+            names = self.names(camera, OutsideOptions(), marked=RayEnd((10, 20), t))
             assert "hit" not in names
             assert "ray" in names
 
     def test_a_parallel_camera_has_a_box_and_rays_from_its_plane(self) -> None:
         camera = replace(Camera.canonical(), projection="parallel")
-        items = diagram(camera, SIZE, OutsideOptions(), 9.0, marked=Hit((10, 20), 2.5))
-        at = {item.name: item for item in items if isinstance(item, Lines)}
+        items = diagram(camera, SIZE, OutsideOptions(), 9.0, marked=RayEnd((10, 20), 2.5))
+        at = {item.name: item for item in items if isinstance(item, Segments)}
         edges = at["edges"].segments
         assert np.allclose(edges[:, 1] - edges[:, 0], (0, 0, -9))
         assert np.allclose(at["ray"].segments[0, 0, 2], 0)
@@ -317,10 +319,10 @@ class TestDiagram:
         except LucidaError:
             assume(False)
         options = OutsideOptions(bundle=(2, 2))
-        hits = [Hit((1, 1), 2.0), Hit((5, 5), math.inf)]
-        items = diagram(camera, SIZE, options, 5.0, hits, Hit((2, 2), 0.5))
+        hits = [RayEnd((1, 1), 2.0), RayEnd((5, 5), math.inf)]
+        items = diagram(camera, SIZE, options, 5.0, hits, RayEnd((2, 2), 0.5))
         for at in (looking, camera):
-            for part in project(items, Screen(at, SIZE, 1e-4)):
+            for part in project(items, OutsideScreen(at, SIZE, 1e-4)):
                 if isinstance(part, Text):
                     assert np.isfinite((*part.at, *part.toward)).all()
                 else:
@@ -408,7 +410,7 @@ class FakeTracer:
 def test_rays_are_asked_for_without_waiting() -> None:
     came, tracer = threading.Event(), FakeTracer()
     hits = RayHits(came.set)
-    question = Question(Scene(()), Camera.canonical(), SIZE, ((1, 2), (3, 4)))
+    question = RayQuery(Scene(()), Camera.canonical(), SIZE, ((1, 2), (3, 4)))
     assert hits.ask(question, tracer) == {(1, 2): None, (3, 4): None}
     assert hits.busy
     tracer.go.set()

@@ -8,11 +8,11 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from app.outside.diagram import Dot, Face, Item, Lines
+from app.outside.diagram import Dot, Face, Item, Segments
 from app.outside.frustum import pixel_corners, plane_corners
 from app.outside.paint import ground_of, layers, role_color, vector_paint
 from app.outside.projected import project
-from app.outside.screen import Screen
+from app.outside.screen import OutsideScreen
 from app.widgets import theme
 from renderer.camera import Camera
 from renderer.errors import LucidaError
@@ -67,7 +67,7 @@ def drawn(
         if plane is not None:
             picture = gl.texture((2, 2), 4, PICTURE.tobytes())
         try:
-            primitives = project(items, Screen(camera, SIZE, 1e-3, unit_px))
+            primitives = project(items, OutsideScreen(camera, SIZE, 1e-3, unit_px))
             texture = overlay.draw(
                 rasterizer.draw(camera, (SIZE[0] // coarse, SIZE[1] // coarse), "outside"),
                 camera,
@@ -131,8 +131,8 @@ def test_the_scene_hides_the_picture_and_is_hidden_by_it(rasterizer: Rasterizer)
         assert np.allclose(seen, PICTURE[1, 1, :3], atol=2) == hidden
 
 
-def line(start: Any, end: Any, **more: Any) -> Lines:
-    return Lines("l", "extra", np.array([[start, end]], float), **more)
+def line(start: Any, end: Any, **more: Any) -> Segments:
+    return Segments("l", "extra", np.array([[start, end]], float), **more)
 
 
 @pytest.mark.parametrize("projection", ["perspective", "parallel"])
@@ -185,7 +185,7 @@ def test_the_picture_hides_lines_but_not_its_own(rasterizer: Rasterizer) -> None
     ink = role_color("extra")
     solid = 255 * np.array([ink.x, ink.y, ink.z])
 
-    def is_solid(item: Lines, point: Any) -> bool:
+    def is_solid(item: Segments, point: Any) -> bool:
         pixels = drawn(rasterizer, EMPTY, camera, [item], plane)
         return bool(np.abs(at(pixels, camera, point) - solid).max() < 4)
 
@@ -204,9 +204,9 @@ def test_lines_are_as_wide_as_they_say(rasterizer: Rasterizer, width: float) -> 
     ink = role_color("grid")
     assert (ink.x, ink.y, ink.z) == (1, 1, 1)
     for end in ((1.0, 0.0, 0.0), (0.7, 0.7, 0.0), (0.3, -0.9, 0.0)):
-        item = Lines("l", "grid", np.array([[(0, 0, 0), end]], float), width)
+        item = Segments("l", "grid", np.array([[(0, 0, 0), end]], float), width)
         pixels = drawn(rasterizer, EMPTY, camera, [item]) / 255.0
-        screen = Screen(camera, SIZE)
+        screen = OutsideScreen(camera, SIZE)
         points, _, _ = screen.segments(item.segments)
         length = float(np.linalg.norm(points[0, 1] - points[0, 0]))
         area = pixels[..., 0].sum()
@@ -316,7 +316,7 @@ def test_a_picture_to_be_copied_under_a_window_is_upside_down(rasterizer: Raster
 @pytest.mark.parametrize("background", [(0, 0, 0), (0.02, 0.03, 0.04), (0.2, 0.2, 0.2), (1, 1, 1)])
 def test_the_basis_stands_out_from_the_scenes_ground(monkeypatch, look, presented, background):
     """By the ground that it is drawn on, not by the theme: light themes show dark scenes too."""
-    monkeypatch.setattr(theme, "_used", [theme.Look(look, presented)])
+    monkeypatch.setattr(theme, "_used", [theme.WindowLook(look, presented)])
     ground = ground_of(background, 0.0)
     for name in "uvw":
         color = role_color(name, ground)

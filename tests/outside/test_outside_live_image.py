@@ -13,14 +13,14 @@ import pytest
 from numpy.typing import NDArray
 from PIL import Image as PngImage
 
-from app.outside.diagram import Lines
+from app.outside.diagram import Segments
 from app.outside.frustum import pixel_corners, plane_corners
 from app.outside.image_bitmap import MOST_PIXELS, standing
 from app.outside.occlusion import Hidden
 from app.outside.projected import project
-from app.outside.screen import Screen
+from app.outside.screen import OutsideScreen
 from app.outside.svg import svg
-from app.outside.vector import Drawing, Image, Line, Paint, drawing
+from app.outside.vector import Drawing, Paint, PlaneImage, VectorLine, drawing
 from renderer.camera import Camera
 from renderer.raster.overlay import plane_on_screen
 
@@ -47,18 +47,18 @@ class TestLiveImage:
 
     PIXELS = (12, 16)  # rows, columns
 
-    def image(self, looking: Camera, size: tuple[int, int] = SIZE) -> Image:
+    def image(self, looking: Camera, size: tuple[int, int] = SIZE) -> PlaneImage:
         rows, columns = np.mgrid[0 : self.PIXELS[0], 0 : self.PIXELS[1]]
         pixels = np.stack([10 * rows, 10 * columns, 0 * rows], axis=-1).astype(np.uint8)
         corners = plane_corners(CAMERA)[[0, 1, 3]]
         plane = plane_on_screen(looking, size, corners, np.asarray(CAMERA.eye))
         assert plane is not None
-        return Image(pixels, plane, 0.9)
+        return PlaneImage(pixels, plane, 0.9)
 
     def drawn(
         self, looking: Camera, t: NDArray[np.float32] | None = None, extra: Any = ()
     ) -> Drawing:
-        primitives = project(extra, Screen(looking, SIZE, 1e-3))
+        primitives = project(extra, OutsideScreen(looking, SIZE, 1e-3))
         return drawing(primitives, [], PAINT, looking, SIZE, t, image=self.image(looking))
 
     @pytest.mark.parametrize("looking", [LOOKING, PARALLEL, NEAR, BEHIND])
@@ -120,9 +120,9 @@ class TestLiveImage:
         for shift, on_plane, behind in ((-0.1, False, False), (0.1, False, True), (0, True, False)):
             center = middle + shift * away
             ends = np.array([[center - across, center + across]])
-            line = Lines("l", "extra", ends, hidden=0.3, on_plane=on_plane)
+            line = Segments("l", "extra", ends, hidden=0.3, on_plane=on_plane)
             parts = self.drawn(LOOKING, extra=[line]).parts
-            assert [(p.dashed, p.opacity) for p in parts if isinstance(p, Line)] == [
+            assert [(p.dashed, p.opacity) for p in parts if isinstance(p, VectorLine)] == [
                 (behind, 0.3 if behind else 1.0)
             ]
 
@@ -133,7 +133,12 @@ class TestLiveImage:
         if plane is None:  # edge on: there is nothing to stand
             return
         picture = drawing(
-            [], [], PAINT, looking, SIZE, image=Image(np.zeros((4, 4, 3), np.uint8), plane, 0.9)
+            [],
+            [],
+            PAINT,
+            looking,
+            SIZE,
+            image=PlaneImage(np.zeros((4, 4, 3), np.uint8), plane, 0.9),
         )
         text = svg(picture)
         ElementTree.fromstring(text)

@@ -13,15 +13,15 @@ import pytest
 from numpy.typing import NDArray
 
 from app.outside.bitmap import bitmap, dashes, magnified
-from app.outside.diagram import Arrow, Hit, Label, Lines, diagram
+from app.outside.diagram import Arrow, Label, RayEnd, Segments, diagram
 from app.outside.frustum import plane_corners
 from app.outside.occlusion import Hidden, clipped, divided
 from app.outside.options import OutsideOptions
 from app.outside.outlines import MOST_TRIANGLES, Edges, Ellipse, outlines
 from app.outside.projected import project
-from app.outside.screen import Screen
+from app.outside.screen import OutsideScreen
 from app.outside.svg import svg, write
-from app.outside.vector import Arc, Area, Drawing, Line, Paint, Spot, chains, drawing
+from app.outside.vector import Arc, Area, Drawing, Paint, Spot, VectorLine, chains, drawing
 from renderer.camera import Camera
 from renderer.errors import LucidaError
 from renderer.scene import shapes
@@ -50,8 +50,8 @@ def made(
     extra: Any = (),
     **more: Any,
 ) -> Drawing:
-    screen = Screen(looking, SIZE, 1e-3)
-    items = diagram(CAMERA, SIZE, OutsideOptions(**more), 4.0, [], Hit((100, 120), 2.0))
+    screen = OutsideScreen(looking, SIZE, 1e-3)
+    items = diagram(CAMERA, SIZE, OutsideOptions(**more), 4.0, [], RayEnd((100, 120), 2.0))
     found, left_out = outlines(scene, screen)
     primitives = project([*items, *extra], screen)
     return drawing(primitives, found, PAINT, looking, SIZE, t, left_out=left_out)
@@ -110,7 +110,7 @@ class TestFile:
 
     def test_nothing_is_far_beside_the_page(self, looking: Camera) -> None:
         for part in made(looking).parts:
-            if isinstance(part, (Line, Area)):
+            if isinstance(part, (VectorLine, Area)):
                 assert part.points.min() > -30 and (part.points < np.add(SIZE, 30)).all()
 
 
@@ -129,7 +129,7 @@ def ring_of(sphere: Sphere, looking: Camera) -> NDArray[np.bool_]:
 
 @pytest.mark.parametrize("looking", [LOOKING, PARALLEL, SKEWED])
 def test_a_spheres_outline_is_the_ellipse_that_its_rays_fill(looking: Camera) -> None:
-    found, _ = outlines(Scene((SceneObject(BALL),)), Screen(looking, SIZE, 1e-3))
+    found, _ = outlines(Scene((SceneObject(BALL),)), OutsideScreen(looking, SIZE, 1e-3))
     ellipse = found[0].form
     assert isinstance(ellipse, Ellipse)
     rows, columns = np.mgrid[0 : SIZE[1], 0 : SIZE[0]]
@@ -151,7 +151,7 @@ def test_a_spheres_outline_is_the_ellipse_that_its_rays_fill(looking: Camera) ->
 
 
 def test_a_sphere_that_reaches_behind_the_eye_has_short_lines_and_none_from_inside() -> None:
-    screen = Screen(LOOKING, SIZE, 1e-3)
+    screen = OutsideScreen(LOOKING, SIZE, 1e-3)
     eye, back = np.asarray(LOOKING.eye), np.asarray(LOOKING.w)
     beside = eye - 0.5 * back + 1.5 * np.asarray(LOOKING.u)
     for center, kind in ((beside, Edges), (eye + 0.1 * back, None), (eye + 9 * back, None)):
@@ -171,7 +171,7 @@ def test_a_boxs_outline_is_its_hexagon_whatever_its_windings(looking: Camera, tu
     if turned:
         faces[::3] = faces[::3, ::-1]
     mesh = Mesh(BOX.vertices, faces)
-    found, _ = outlines(Scene((SceneObject(mesh),)), Screen(looking, SIZE, 1e-3))
+    found, _ = outlines(Scene((SceneObject(mesh),)), OutsideScreen(looking, SIZE, 1e-3))
     form = found[0].form
     assert isinstance(form, Edges)
     # Six of the twelve edges are the outline of a box seen from a corner; the others are sharp.
@@ -194,7 +194,7 @@ def test_edges_of_one_triangle_and_split_vertices() -> None:
     """A square of two triangles that share no vertex has four edges, not five."""
     corners = np.array([[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 0, 0], [1, 1, 0], [0, 1, 0]], float)
     square = Mesh(corners, np.arange(6).reshape(2, 3))
-    found, _ = outlines(Scene((SceneObject(square),)), Screen(LOOKING, SIZE, 1e-3))
+    found, _ = outlines(Scene((SceneObject(square),)), OutsideScreen(LOOKING, SIZE, 1e-3))
     form = found[0].form
     assert isinstance(form, Edges)
     assert len(form.points) == 4 and not form.sharp.any()
@@ -217,11 +217,11 @@ def test_lines_are_dashed_behind_objects_and_solid_before_them() -> None:
     plane = 6.0 / looking.distance
     t = np.where(meets, plane, np.inf).astype(np.float32)
     for z, behind in ((-0.5, True), (0.5, False)):
-        across = Lines("across", "extra", np.array([[[-2.0, 0, z], [2.0, 0, z]]]), hidden=0.5)
+        across = Segments("across", "extra", np.array([[[-2.0, 0, z], [2.0, 0, z]]]), hidden=0.5)
         picture = drawing(
-            project([across], Screen(looking, SIZE, 1e-3)), [], PAINT, looking, SIZE, t
+            project([across], OutsideScreen(looking, SIZE, 1e-3)), [], PAINT, looking, SIZE, t
         )
-        lines = [part for part in picture.parts if isinstance(part, Line)]
+        lines = [part for part in picture.parts if isinstance(part, VectorLine)]
         assert [line.dashed for line in lines] == ([True, False, False] if behind else [False])
         if not behind:
             continue
@@ -231,7 +231,9 @@ def test_lines_are_dashed_behind_objects_and_solid_before_them() -> None:
         assert lines[0].opacity == 0.5
         text = svg(picture)
         assert text.count("stroke-dasharray") == 1
-    unknown = drawing(project([across], Screen(looking, SIZE, 1e-3)), [], PAINT, looking, SIZE)
+    unknown = drawing(
+        project([across], OutsideScreen(looking, SIZE, 1e-3)), [], PAINT, looking, SIZE
+    )
     assert unknown.notes == ("Nothing is hidden.",)
 
 
@@ -242,7 +244,7 @@ def test_an_objects_outline_ends_where_another_hides_it() -> None:
     t[ring_of(far, looking)] = 6.5 / looking.distance
     t[ring_of(near, looking)] = 4.7 / looking.distance
     scene = Scene((SceneObject(far, name="far"), SceneObject(near, name="near")))
-    found, _ = outlines(scene, Screen(looking, SIZE, 1e-3))
+    found, _ = outlines(scene, OutsideScreen(looking, SIZE, 1e-3))
     picture = drawing([], found, PAINT, looking, SIZE, t)
     arcs = {name: [a for a in picture.parts if isinstance(a, Arc) and a.name == name]
             for name in ("near", "far")}  # fmt: skip
@@ -354,6 +356,8 @@ def test_of_arrows_that_meet_the_nearer_one_is_over_the_other() -> None:
     near, far = 0.3 * eye, 0.3 * eye - 0.5 * np.asarray(LOOKING.w) + 0.1 * np.asarray(LOOKING.u)
     arrows = [Arrow("near", "u", start, near), Arrow("far", "v", start, far)]
     for items in (arrows, arrows[::-1]):
-        picture = drawing(project(items, Screen(LOOKING, SIZE, 1e-3)), [], PAINT, LOOKING, SIZE)
+        picture = drawing(
+            project(items, OutsideScreen(LOOKING, SIZE, 1e-3)), [], PAINT, LOOKING, SIZE
+        )
         heads = [part.name for part in picture.parts if isinstance(part, Area)]
         assert heads == ["far head", "near head"]

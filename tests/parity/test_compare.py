@@ -15,7 +15,7 @@ from renderer.compare import (
     compare_frames,
 )
 from renderer.difference import CAUSE_COLORS, false_color, signed_difference
-from renderer.edges import Lines
+from renderer.edges import Discontinuities
 from renderer.images import encode_srgb
 from renderer.scene.flat import flatten
 from renderer.scene.model import Checker, Material, Mesh, Scene, SceneObject, Sphere
@@ -124,7 +124,7 @@ def test_a_hidden_edge_explains_nothing():
 
 def test_a_spheres_silhouette():
     flat = flatten(Scene((SceneObject(Sphere((0, 0, -3), 1.0)),)))
-    lines = Lines(flat, CAMERA, (3200, 2400))
+    lines = Discontinuities(flat, CAMERA, (3200, 2400))
     # The silhouette's radius in the image plane is tan(asin(1 / 3)).
     column = (np.tan(np.arcsin(1 / 3)) + 0.5) * 3200 - 0.5
     i, primitive = np.full(3, 1199.5), np.zeros(3, int)
@@ -135,7 +135,7 @@ def test_a_spheres_silhouette():
 def test_surfaces_that_meet():
     """Two tilted walls cross at x = 0, half a pixel from the centres around it."""
     flat = flatten(Scene((wall(-2, tilt=1.0), wall(-2, tilt=-1.0))))
-    lines = Lines(flat, CAMERA, SIZE)
+    lines = Discontinuities(flat, CAMERA, SIZE)
     j = np.array([15, 16, 17])
     distance = lines.meeting_px(np.zeros(3, int), np.full(3, 2), np.full(3, 5), j, np.full(3, 2.0))
     np.testing.assert_allclose(distance, [0.5, 0.5, 1.5], rtol=0.05)
@@ -144,7 +144,7 @@ def test_surfaces_that_meet():
 def test_near_and_far_cut_along_clip_lines():
     camera = replace(CAMERA, near=2.0)
     flat = flatten(Scene((wall(-2, tilt=1.0),)))
-    lines = Lines(flat, camera, SIZE)
+    lines = Discontinuities(flat, camera, SIZE)
     distance = lines.clip_px(np.zeros(2, int), np.full(2, 5), np.array([15, 16]), np.full(2, 2.0))
     np.testing.assert_allclose(distance, [0.5, 0.5], rtol=0.05)
 
@@ -156,7 +156,7 @@ def test_of_two_clip_planes_the_nearer_line_counts():
     j = np.arange(12, 19)
     t = 2 / (1 + (j - 15.5) / 32)
     for near, far in ((2.0, 2.1), (None, 2.1), (2.0, None)):
-        lines = Lines(flat, replace(CAMERA, near=near, far=far), SIZE)
+        lines = Discontinuities(flat, replace(CAMERA, near=near, far=far), SIZE)
         distance = lines.clip_px(np.zeros(7, int), np.full(7, 5), j, t)
         wanted = [np.abs(j - column[limit]) for limit in (near, far) if limit is not None]
         np.testing.assert_allclose(distance, np.min(wanted, axis=0), rtol=0.15, atol=0.01)
@@ -176,7 +176,7 @@ def test_what_gl_clips_right_before_the_eye(height, cause):
     """A floor that reaches 400 units behind the eye and before it."""
     corners = [(-400, -height, 400), (400, -height, 400), (0, -height, -400)]
     flat = flatten(Scene((SceneObject(Mesh(corners, [[0, 1, 2]])), wall(-2))))
-    lines = Lines(flat, CAMERA, SIZE)
+    lines = Discontinuities(flat, CAMERA, SIZE)
     i, j = np.array([20]), np.array([9])
     t = lines.parameter(np.zeros(1, int), i, j, np.ones(1))
     floor = changed(image(2, 1, 2), (20, 9), depth=t[0], id=0, primitive=0, normal=(0, 1, 0))
@@ -190,7 +190,7 @@ def test_an_edge_right_before_the_eye_is_where_float32_puts_it(away, explained):
     """The edge is a thousand units long and `away` from the eye: 2^-21 of it is half of 1e-3."""
     corners = [(away, 500, -away), (away, -500, -away), (-900, 0, -away)]
     flat = flatten(Scene((SceneObject(Mesh(corners, [[0, 1, 2]])),)))
-    lines = Lines(flat, replace(CAMERA, viewport=(-4, 4, -3, 3)), SIZE)
+    lines = Discontinuities(flat, replace(CAMERA, viewport=(-4, 4, -3, 3)), SIZE)
     # Three pixels beyond the edge, which is at the image point 1.
     distance = lines.outline_px(np.zeros(1, int), np.array([12]), np.array([22]))
     assert (distance[0] == 0) == explained
@@ -201,7 +201,9 @@ def test_a_cells_border_is_where_float32_puts_it(per_px, explained):
     flat = flatten(Scene((wall(-2, checker=Checker(size=0.3)),)))
     half = 16 * per_px
     x = 0.15 / 2 + 0.1 * per_px  # a border, seen a tenth of a pixel beside the image's middle
-    lines = Lines(flat, replace(CAMERA, viewport=(x - half, x + half, -half, half)), (33, 33))
+    lines = Discontinuities(
+        flat, replace(CAMERA, viewport=(x - half, x + half, -half, half)), (33, 33)
+    )
     middle = np.array([16])
     distance = lines.checker_px(np.zeros(1, int), middle, middle, np.full(1, 2.0))
     assert (distance[0] < 1 / 128) == explained
@@ -393,7 +395,7 @@ def test_the_normal_of_a_sliver(turned, cause):
     flat = flatten(Scene((SceneObject(mesh),)))
     frame = image(2, 0, 0)
     row, column = np.array([11]), np.array([25])
-    assert Lines(flat, CAMERA, SIZE).outline_px(np.zeros(1, int), row, column)[0] > 0.02
+    assert Discontinuities(flat, CAMERA, SIZE).outline_px(np.zeros(1, int), row, column)[0] > 0.02
     other = changed(frame, (11, 25), normal=(0, turned, 1))
     assert counts(compare_frames(flat, CAMERA, SIZE, frame, other)) == {cause: 1}
 

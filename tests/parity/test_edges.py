@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from renderer import Camera
-from renderer.edges import Lines
+from renderer.edges import Discontinuities
 from renderer.scene.flat import flatten
 from renderer.scene.model import Checker, Material, Mesh, Scene, SceneObject, Sphere
 
@@ -56,7 +56,9 @@ def test_the_outline_of_triangles(camera: Camera, away_px: float) -> None:
     rng = np.random.default_rng(2)
     for _ in range(4):
         corners = rng.uniform((-2, -2, -6), (2, 2, -2), (3, 3))
-        lines = Lines(flatten(Scene((SceneObject(Mesh(corners, [[0, 1, 2]])),))), camera, SIZE)
+        lines = Discontinuities(
+            flatten(Scene((SceneObject(Mesh(corners, [[0, 1, 2]])),))), camera, SIZE
+        )
         points = edges(lines.flat.vertices[lines.flat.faces[0]].astype(float))
         i, j = pixels(camera, points, away_px)
         found = lines.outline_px(np.zeros(len(i), int), i, j)
@@ -69,7 +71,7 @@ def test_of_triangles_that_reach_behind_the_eye_the_edges_in_front_count(behind:
     corners[:behind, 2] *= -1
     for order in ((0, 1, 2), (1, 2, 0), (2, 1, 0)):
         flat = flatten(Scene((SceneObject(Mesh(corners[list(order)], [[0, 1, 2]])),)))
-        lines = Lines(flat, PERSPECTIVE, SIZE)
+        lines = Discontinuities(flat, PERSPECTIVE, SIZE)
         points = edges(flat.vertices[flat.faces[0]].astype(float))
         i, j = pixels(PERSPECTIVE, points[~np.isnan(PERSPECTIVE.project(points, SIZE).row)], 9.0)
         inside = (np.abs(i - 120) < 120) & (np.abs(j - 160) < 160)
@@ -83,7 +85,7 @@ def test_of_triangles_behind_the_eye_there_is_no_outline() -> None:
     corners = [(-1.0, 0.5, 4.0), (1.0, -0.5, 3.0), (0.4, 0.3, 5.0)]
     flat = flatten(Scene((SceneObject(Mesh(corners, [[0, 1, 2]])),)))
     i, j = np.meshgrid(np.arange(0, 240, 30), np.arange(0, 320, 40))
-    lines = Lines(flat, PERSPECTIVE, SIZE)
+    lines = Discontinuities(flat, PERSPECTIVE, SIZE)
     found = lines.outline_px(np.zeros(i.size, int), i.ravel(), j.ravel())
     assert np.isinf(found).all()
 
@@ -111,7 +113,7 @@ def test_the_outline_of_spheres(camera: Camera, center, radius: float) -> None:
     flat = flatten(Scene((SceneObject(Sphere(center, radius)),)))
     points = silhouette(camera, np.asarray(center, float), radius)
     i, j = pixels(camera, points, 0.4)
-    found = Lines(flat, camera, SIZE).outline_px(np.zeros(len(i), int), i, j)
+    found = Discontinuities(flat, camera, SIZE).outline_px(np.zeros(len(i), int), i, j)
     np.testing.assert_allclose(found, nearest_px(camera, points, i, j), atol=0.05)
 
 
@@ -127,13 +129,13 @@ def plane(normal, through) -> SceneObject:
 PLANES = ((0.2, 0.6, 1.0), (0, 0, -3)), ((-0.7, 0.1, 1.0), (0, 0, -3))
 
 
-def hits(lines: Lines, primitive: int, i: np.ndarray, j: np.ndarray) -> np.ndarray:
+def hits(lines: Discontinuities, primitive: int, i: np.ndarray, j: np.ndarray) -> np.ndarray:
     return lines.parameter(np.full(len(i), primitive), i, j, np.ones(len(i)))
 
 
 @named
 def test_where_planes_meet(camera: Camera) -> None:
-    lines = Lines(flatten(Scene(tuple(plane(*one) for one in PLANES))), camera, SIZE)
+    lines = Discontinuities(flatten(Scene(tuple(plane(*one) for one in PLANES))), camera, SIZE)
     along = np.cross(PLANES[0][0], PLANES[1][0])
     points = np.array(PLANES[0][1]) + np.linspace(-2, 2, 8_001)[:, None] * along
     i, j = pixels(camera, points, 0.4)
@@ -153,7 +155,7 @@ def test_where_a_clip_plane_cuts(camera: Camera) -> None:
     rng = np.random.default_rng(3)
     i, j = rng.uniform(0, 240, 400), rng.uniform(0, 320, 400)
     for cut in ({"near": 4.2}, {"far": 4.2}):
-        lines = Lines(flat, replace(camera, **cut), SIZE)
+        lines = Discontinuities(flat, replace(camera, **cut), SIZE)
         limit = 4.2 if camera.is_parallel else 4.2 / camera.distance
         t = hits(lines, 0, i, j)
         rows, columns = np.meshgrid(np.arange(0, 240, 0.5), np.arange(0, 320, 0.5))
@@ -170,11 +172,11 @@ def test_where_a_clip_plane_cuts(camera: Camera) -> None:
 
 
 def test_nothing_is_cut_where_nothing_is_hit_or_no_plane_set() -> None:
-    lines = Lines(flatten(Scene((plane(*PLANES[0]),))), PARALLEL, SIZE)
+    lines = Discontinuities(flatten(Scene((plane(*PLANES[0]),))), PARALLEL, SIZE)
     none = np.full(2, -1)
     i, j, t = np.array([3, 4]), np.array([5, 6]), np.full(2, 4.0)
     assert np.isinf(
-        Lines(lines.flat, replace(PARALLEL, near=4.2), SIZE).clip_px(none, i, j, t)
+        Discontinuities(lines.flat, replace(PARALLEL, near=4.2), SIZE).clip_px(none, i, j, t)
     ).all()
     assert np.isinf(lines.outline_px(none, i, j)).all()
     assert np.isnan(lines.parameter(none, i, j, t)).all()
@@ -186,7 +188,7 @@ def test_of_a_spheres_two_hits_the_nearer_to_t(camera: Camera) -> None:
     flat = flatten(
         Scene((plane((0, 0, 1), (0, 0, -9)), SceneObject(Sphere(tuple(center), radius))))
     )
-    lines = Lines(flat, camera, SIZE)
+    lines = Discontinuities(flat, camera, SIZE)
     seen = camera.project(center[None], SIZE)
     i, j = seen.row + np.array([0.0, 9.0, -5.0]), seen.column + np.array([0.0, 4.0, 8.0])
     origin, direction = camera.ray(i, j, SIZE)
@@ -209,7 +211,7 @@ def checkered_plane() -> SceneObject:
     return SceneObject(replace(shape, transform=FLATTENED), CHECKERED)
 
 
-def cells(lines: Lines, i: np.ndarray, j: np.ndarray) -> np.ndarray:
+def cells(lines: Discontinuities, i: np.ndarray, j: np.ndarray) -> np.ndarray:
     """The checker cell (n, 3) that the only primitive shows at places of the image."""
     origin, direction = lines.camera.ray(i, j, SIZE)
     t = lines.parameter(np.zeros(i.size, int), i, j, np.zeros(i.size))
@@ -237,7 +239,7 @@ def cells(lines: Lines, i: np.ndarray, j: np.ndarray) -> np.ndarray:
 )
 def test_a_checker_cell_ends_at_the_distance_of_its_border(camera: Camera, entry) -> None:
     """Up to there all round the place there is one cell, and a little further there is another."""
-    lines = Lines(flatten(Scene((entry,))), camera, SIZE)
+    lines = Discontinuities(flatten(Scene((entry,))), camera, SIZE)
     rng = np.random.default_rng(8)
     i, j = rng.uniform(85, 160, 1500), rng.uniform(130, 220, 1500)
     primitive = np.zeros(len(i), int)
@@ -257,9 +259,9 @@ def test_a_checker_cell_ends_at_the_distance_of_its_border(camera: Camera, entry
         # All but some at the cells' corners, and where a sphere leaves a layer of cells.
         assert np.mean(stays == same) > 0.94
     behind = plane((0, 0, 1), (0, 0, -50))
-    second = Lines(flatten(Scene((behind, entry))), camera, SIZE)
+    second = Discontinuities(flatten(Scene((behind, entry))), camera, SIZE)
     np.testing.assert_allclose(second.checker_px(primitive + 1, i, j, t), found)
-    plain = Lines(flatten(Scene((replace(entry, material=Material()),))), camera, SIZE)
+    plain = Discontinuities(flatten(Scene((replace(entry, material=Material()),))), camera, SIZE)
     assert np.isinf(plain.checker_px(primitive, i, j, t)).all()
     assert np.isinf(lines.checker_px(primitive - 1, i, j, t)).all()
     middle, one = (np.full(2, 119.5), np.full(2, 159.5)), np.array([0, -1])
@@ -274,7 +276,7 @@ def test_smooth_normals_and_colours_change_as_their_interpolation_does(camera: C
     colors = np.array([(0.9, 0.2, 0.4), (0.3, 0.8, 0.5), (0.2, 0.6, 0.9)])
     mesh = Mesh(corners, [[0, 1, 2]], normals, colors)
     sphere = SceneObject(Sphere((0, 0, -9), 1.0))
-    lines = Lines(flatten(Scene((SceneObject(mesh), sphere))), camera, SIZE)
+    lines = Discontinuities(flatten(Scene((SceneObject(mesh), sphere))), camera, SIZE)
     i, j = np.array([110.0, 125.0, 131.0]), np.array([150.0, 180.0, 190.0])
 
     def interpolated(i_: np.ndarray, j_: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
@@ -313,7 +315,7 @@ def test_less_is_known_of_a_slivers_normal(order) -> None:
     normals = np.array([(0.6, 0, 0.8), (-0.6, 0, 0.8), (0, 0.6, 0.8)])[list(order)]
     for given, varies in ((normals, 1.2), (None, 1.0)):
         flat = flatten(Scene((SceneObject(Mesh(corners, [[0, 1, 2]], given)),)))
-        unknown = Lines(flat, PERSPECTIVE, SIZE).normal_slope(*np.zeros((3, 1), int))[1]
+        unknown = Discontinuities(flat, PERSPECTIVE, SIZE).normal_slope(*np.zeros((3, 1), int))[1]
         assert unknown == pytest.approx(4 * 2.0**-21 * 100 * varies, rel=1e-3)
 
 
@@ -322,7 +324,7 @@ def test_less_is_known_of_a_slivers_normal(order) -> None:
 def test_an_edge_right_behind_the_eye_is_not_touched(side: int, touched: bool, order) -> None:
     corners = np.array([(2e-4, 500, side * 2e-4), (2e-4, -500, side * 2e-4), (-900, 0, side * 9)])
     flat = flatten(Scene((SceneObject(Mesh(corners[list(order)], [[0, 1, 2]])),)))
-    lines = Lines(flat, Camera(viewport=(-4, 4, -3, 3)), (32, 24))
+    lines = Discontinuities(flat, Camera(viewport=(-4, 4, -3, 3)), (32, 24))
     distance = lines.outline_px(np.zeros(1, int), np.array([12]), np.array([22]))
     assert (distance[0] == 0) == touched
 
@@ -332,7 +334,7 @@ def test_cells_of_little_more_than_a_pixel() -> None:
     camera, size = Camera(viewport=(-0.5, 0.5, -0.375, 0.375)), (32, 24)
     side = 1.5 / 16  # at t = 2, where a pixel is 1/16 of a unit
     wall = SceneObject(plane((0, 0, 1), (0, 0, -2)).shape, Material(checker=Checker(size=side)))
-    lines = Lines(flatten(Scene((wall,))), camera, size)
+    lines = Discontinuities(flatten(Scene((wall,))), camera, size)
     i, j = np.random.default_rng(4).uniform(9, 20, (2, 40))
     cells = np.stack(camera.image_point(i, j, size), axis=-1) * 2 / side + 0.5
     wanted = 1.5 * np.abs(cells - np.round(cells)).min(axis=1)
@@ -348,7 +350,7 @@ def test_from_where_on_a_long_triangle_is_rasterized() -> None:
     own = (corners - turned[:3, 3]) @ turned[:3, :3]
     pixel = np.zeros(1, int), np.array([20]), np.array([9])
     for mesh in (Mesh(corners, [[0, 1, 2]]), Mesh(own, [[0, 1, 2]], transform=turned)):
-        lines = Lines(flatten(Scene((SceneObject(mesh),))), Camera(), (32, 24))
+        lines = Discontinuities(flatten(Scene((SceneObject(mesh),))), Camera(), (32, 24))
         for part, cut in ((1.4e-6, True), (1.6e-6, False)):
             distance = lines.clip_px(*pixel, np.array([part * 400]))
             assert (distance[0] == 0) == cut

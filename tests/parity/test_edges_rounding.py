@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from renderer import Camera
-from renderer.edges import Lines
+from renderer.edges import Discontinuities
 from renderer.scene.flat import flatten
 from renderer.scene.model import Checker, Material, Mesh, Scene, SceneObject
 
@@ -28,7 +28,7 @@ def wall(depth: float, across: float = 0.0, up: float = 0.0) -> SceneObject:
 
 def test_surfaces_that_coincide_to_the_depth_buffers_last_place_meet_everywhere() -> None:
     """To 4e-6 of their depth. The second one's depth changes by 1e-5 of itself a pixel each way."""
-    lines = Lines(flatten(Scene((wall(50), wall(50, 3.2e-4, 3.2e-4)))), CAMERA, SIZE)
+    lines = Discontinuities(flatten(Scene((wall(50), wall(50, 3.2e-4, 3.2e-4)))), CAMERA, SIZE)
     j = 15.5 + np.array([0.0, 0.38, 0.42, -0.38, -0.42, 3.0])
     i = np.full(6, 11.5)
     found = lines.meeting_px(np.zeros(6, int), np.ones(6, int), i, j, np.full(6, 50.0))
@@ -45,7 +45,9 @@ def test_a_surface_in_a_clip_plane_is_cut_everywhere(camera: Camera, off: float,
     for side in (-1, 1):
         for name in ("near", "far"):
             limit = {name: 2 * (1 + side * off)}
-            distance = Lines(flat, replace(camera, **limit), SIZE).clip_px(*pixel, np.full(1, 2.0))
+            distance = Discontinuities(flat, replace(camera, **limit), SIZE).clip_px(
+                *pixel, np.full(1, 2.0)
+            )
             assert (distance[0] == 0) == cut
             assert cut or distance[0] > 1e3
 
@@ -59,7 +61,7 @@ def test_a_cell_reaches_a_thousandth_beyond_the_surface(order, side: int) -> Non
     checkered = triangle(corners, order, checker=Checker(size=1.0))
     eye = (0.0, 0.0, 2.5 * side + 0.5)
     camera = replace(CAMERA, eye=eye, w=(0, 0, side), u=(side, 0, 0))
-    lines = Lines(flatten(Scene((checkered,))), camera, SIZE)
+    lines = Discontinuities(flatten(Scene((checkered,))), camera, SIZE)
     i, j = np.full(3, 11.5), 15.5 + np.array([1.0, 1.28, 2.0])
     found = lines.checker_px(np.zeros(3, int), i, j, np.full(3, 2.5))
     np.testing.assert_allclose(found, [0.28, 0.0, 0.72], atol=0.01)
@@ -77,7 +79,7 @@ def test_an_edge_is_known_to_a_part_of_its_distance_or_of_its_size(
 ) -> None:
     """2^-21 of its farther end's distance from the eye (500), or of the diagonal of the object's
     box (3, 4, 12) where that is less. The ray passes the first edge by a part of that."""
-    lines = Lines(
+    lines = Discontinuities(
         flatten(Scene((triangle(corners, order),))),
         replace(CAMERA, eye=(eye[0] - part * of * 2**-21, *eye[1:]), viewport=(-1e-6, 1e-6) * 2),
         (33, 33),
@@ -92,7 +94,7 @@ def test_beyond_its_end_an_edge_is_not_touched() -> None:
     corners, (x, _, z), _ = LARGE
     for y in (443, -207):
         camera = replace(CAMERA, eye=(x, y, z), viewport=(-1e-6, 1e-6) * 2)
-        lines = Lines(flatten(Scene((triangle(corners),))), camera, (33, 33))
+        lines = Discontinuities(flatten(Scene((triangle(corners),))), camera, (33, 33))
         middle = np.array([16])
         assert lines.outline_px(np.zeros(1, int), middle, middle)[0] > 1e3
 
@@ -116,7 +118,7 @@ def test_a_cells_border_is_known_to_a_part_of_the_hits_distance(
     moved = np.array([(1, 0, 0, 27), (0, 1, 0, 27), (0, 0, 1, 0), (0, 0, 0, 1.0)])
     mesh = Mesh([(-9, -9, 28), (9, -9, 28), (0, 20, 28)], [[0, 1, 2]], transform=moved)
     checkered = SceneObject(mesh, Material(checker=Checker(size=0.3)))
-    lines = Lines(flatten(Scene((checkered,))), replace(camera, eye=tuple(eye)), (33, 33))
+    lines = Discontinuities(flatten(Scene((checkered,))), replace(camera, eye=tuple(eye)), (33, 33))
     middle = np.array([16])
     distance = lines.checker_px(np.zeros(1, int), middle, middle, np.full(1, 2.0))
     assert (distance[0] == 0) == on_it
@@ -132,7 +134,7 @@ def test_an_eye_on_a_surface_is_known_to_a_part_of_the_largest_coordinate(
     camera = replace(
         CAMERA, eye=(0, 0, 20 + part * 30e-12), w=(0, 0, 0.5), distance=4, projection=projection
     )
-    lines = Lines(flatten(Scene((triangle(corners),))), camera, SIZE)
+    lines = Discontinuities(flatten(Scene((triangle(corners),))), camera, SIZE)
     pixel = np.zeros(1, int), np.array([5]), np.array([20])
     distance = lines.clip_px(*pixel, np.full(1, 1.0))
     assert (distance[0] == 0) == cut
@@ -145,7 +147,7 @@ def test_an_eye_that_lies_on_an_edge_sees_it_everywhere(order) -> None:
     for back, touched in ((-0.9, True), (0.9, True), (1.1, False)):
         corners = [(-300, 0, 0), (300, 0, 0), (0, -400, 400)]
         camera = replace(CAMERA, eye=(0, 0, -back * known), viewport=(-1e-6, 1e-6) * 2)
-        lines = Lines(flatten(Scene((triangle(corners, order),))), camera, (33, 33))
+        lines = Discontinuities(flatten(Scene((triangle(corners, order),))), camera, (33, 33))
         middle = np.array([16])
         distance = lines.outline_px(np.zeros(1, int), middle, middle)
         assert (distance[0] == 0) == touched, back

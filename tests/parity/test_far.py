@@ -17,7 +17,7 @@ from trace_reference import ball
 from app.cameras.focus import scene_focus
 from app.images.picking import object_on_ray
 from app.outside.outlines import Ellipse, outlines
-from app.outside.screen import Screen
+from app.outside.screen import OutsideScreen
 from app.probe.model import Probe
 from app.stepper import loop_parts
 from renderer import Camera, Rasterizer, Tracer
@@ -247,7 +247,7 @@ def test_probe_loops_and_picking_see_what_the_images_show(view: str) -> None:
 def test_outlines_of_a_translated_scene_are_those_at_the_origin() -> None:
     by = 1e6 * ODD
     drawn = [
-        outlines(shown, Screen(camera_of("perspective", shift), SIZE))[0]
+        outlines(shown, OutsideScreen(camera_of("perspective", shift), SIZE))[0]
         for shown, shift in ((crowd(), 0.0 * by), (moved(crowd(), by), by))
     ]
     for here, there in zip(*drawn, strict=True):

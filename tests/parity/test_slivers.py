@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from renderer import Camera
-from renderer.edges import CLIPPED_FROM, MARGIN, Lines
+from renderer.edges import CLIPPED_FROM, MARGIN, Discontinuities
 from renderer.raster import scene_data
 from renderer.scene import BUILTIN_SCENES, load_scene
 from renderer.scene.flat import flatten
@@ -43,13 +43,13 @@ def test_clipping_loses_vast_triangles_only_right_before_the_eye():
     flat = flatten(Scene((SceneObject(Mesh(floor, [[0, 1, 2]])),)))
     half = 1e-5
     camera = Camera.look_at((1, 1.5, 2), (1, 0, 1), (0, 1, 0))
-    lines = Lines(flat, replace(camera, viewport=(-half, half, -half, half)), (40, 8))
+    lines = Discontinuities(flat, replace(camera, viewport=(-half, half, -half, half)), (40, 8))
     i, j, primitive = np.array([4]), np.array([20]), np.array([0])
     t = lines.parameter(primitive, i, j, np.ones(1))
     from_t = float(lines._drawn_from(primitive)[0])
     assert from_t > t[0]
     assert lines.clip_px(primitive, i, j, t)[0] == 0
-    usual = Lines(flat, replace(camera, viewport=(-0.5, 0.5, -0.5, 0.5)), (40, 8))
+    usual = Discontinuities(flat, replace(camera, viewport=(-0.5, 0.5, -0.5, 0.5)), (40, 8))
     assert usual._drawn_from(primitive)[0] < 30
     # By what was drawn, clipping has lost nothing; only depth says what is too near to the eye.
     corners = [(x, 0.0, z) for x in (-4e6, 4e6) for z in (-5e6, 4e6)]
@@ -64,7 +64,7 @@ def test_clipping_loses_vast_triangles_only_right_before_the_eye():
     between = np.array([100.0])  # beyond the depth that is too near, within what clipping loses
     assert lines.clip_px(primitive, i, j, between)[0] == 0
     assert lines.clip_px(primitive, i, j, between, drawn=True)[0] > 0
-    parallel = Lines(flat, replace(camera, projection="parallel"), (40, 8))
+    parallel = Discontinuities(flat, replace(camera, projection="parallel"), (40, 8))
     assert parallel._drawn_from(primitive) == [0]
 
 

@@ -8,7 +8,7 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from app.explaining.shading import Hit
+from app.explaining.shading import SurfaceHit
 from app.probe.model import Probe, winner_of
 from app.probe.reading import BEHIND, FAR, HIDDEN, NEAR, SEEN, Reading
 from renderer.camera import Camera
@@ -151,7 +151,7 @@ def smooth(normal: tuple[float, float, float]) -> Mesh:
 
 def bounce_of(mesh: Mesh):
     reading = read(Scene((SceneObject(mesh, MIRROR),)), mirror_depth=3)
-    assert isinstance(reading.hit, Hit)
+    assert isinstance(reading.hit, SurfaceHit)
     (bounce,) = reading.bounces  # it leaves the scene: none follows
     return bounce
 

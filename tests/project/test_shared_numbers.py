@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 from renderer import Camera, Rasterizer, shared_numbers
-from renderer.raster.sources import Source
+from renderer.raster.sources import ShaderSource
 from renderer.scene.model import DirectionalLight, Material, PointLight, Scene, SceneObject, Sphere
 
 ROOT = Path(__file__).parents[2]
@@ -88,12 +88,12 @@ def test_nobody_else_writes_srgb_and_luminance_out() -> None:
 def test_shaders_take_a_changed_number(name: str, monkeypatch: pytest.MonkeyPatch) -> None:
     was = NUMBERS[name]
     changed = was[1:] + was[:1] if isinstance(was, tuple) else 2 * was + 1
-    taking = [stage for stage in STAGES if re.search(rf"\b{name}\b", Source(stage).text)]
+    taking = [stage for stage in STAGES if re.search(rf"\b{name}\b", ShaderSource(stage).text)]
     assert taking, "no shader names it: it belongs to where it is used"
-    before = {stage: Source(stage).text for stage in taking}
+    before = {stage: ShaderSource(stage).text for stage in taking}
     monkeypatch.setattr(shared_numbers, name, changed)
     for stage in taking:
-        first, second = before[stage].splitlines(), Source(stage).text.splitlines()
+        first, second = before[stage].splitlines(), ShaderSource(stage).text.splitlines()
         different = [b for a, b in zip(first, second, strict=True) if a != b]
         assert len(different) == 1
         assert re.match(rf"const (int|float|vec3) {name}\b", different[0])

@@ -6,7 +6,7 @@ from importlib.resources import files
 import pytest
 
 from renderer.errors import LucidaError
-from renderer.raster.sources import Source, link, read_shader
+from renderer.raster.sources import ShaderSource, link, read_shader
 
 STAGES = sorted(
     entry.name
@@ -33,7 +33,7 @@ def test_chunks_are_put_in_where_they_are_named_each_once():
         a__glsl='#include "b.glsl"\na',
         b__glsl="b",
     )
-    source = Source("main.frag", read)
+    source = ShaderSource("main.frag", read)
     assert source.text == "#version 330 core\nb\na\nlast\n"
     assert source.places == [("main.frag", 1), ("b.glsl", 1), ("a.glsl", 2), ("main.frag", 4)]
 
@@ -43,18 +43,18 @@ def test_a_cycle_is_refused_and_the_chain_is_named():
     with pytest.raises(
         LucidaError, match=re.escape("shaders/c:1: a cycle of includes: a -> b -> c -> a")
     ):
-        Source("a", read)
+        ShaderSource("a", read)
 
 
 def test_an_unknown_chunk_is_refused_where_it_is_named():
     read = library(a='#include "b"', b='\n#include "chunks/nothing.glsl"')
     with pytest.raises(LucidaError, match=r'shaders/b:2: the chunk "chunks/nothing\.glsl"'):
-        Source("a", read)
+        ShaderSource("a", read)
 
 
 def test_a_stage_that_does_not_exist_is_one_line():
     with pytest.raises(LucidaError, match=r"shaders/none\.frag: does not exist"):
-        Source("none.frag", read_shader)
+        ShaderSource("none.frag", read_shader)
 
 
 @pytest.mark.parametrize(
@@ -68,16 +68,16 @@ def test_a_stage_that_does_not_exist_is_one_line():
     ],
 )
 def test_comments_include_nothing(text):
-    assert Source("a", library(a=text)).text == text + "\n"
+    assert ShaderSource("a", library(a=text)).text == text + "\n"
 
 
 def test_an_include_after_a_comment_counts():
     read = library(a='/* one\n*/\n// two /*\n#include "b"', b="b")
-    assert Source("a", read).text == "/* one\n*/\n// two /*\nb\n"
+    assert ShaderSource("a", read).text == "/* one\n*/\n// two /*\nb\n"
 
 
 def test_constants_follow_the_version():
-    source = Source("a", library(a="#version 330 core\nx"), {"YES": True, "NO": False})
+    source = ShaderSource("a", library(a="#version 330 core\nx"), {"YES": True, "NO": False})
     assert source.text.splitlines()[0] == "#version 330 core"
     assert set(source.text.splitlines()[1:3]) == {
         "const bool YES = true;",
@@ -97,7 +97,7 @@ def test_constants_follow_the_version():
     ],
 )
 def test_messages_of_each_driver_are_told_by_file_and_line(message, told):
-    source = Source("a.frag", library(a__frag='one\n#include "b.glsl"\nthree', b__glsl="two"))
+    source = ShaderSource("a.frag", library(a__frag='one\n#include "b.glsl"\nthree', b__glsl="two"))
     assert source.explain(message) == told
 
 
@@ -128,4 +128,4 @@ def test_every_stage_is_glsl_3_30_and_has_a_heading(name):
     lines = read_shader(name).splitlines()
     assert lines[0] == "#version 330 core"
     assert lines[1].startswith("// ")
-    assert len(Source(name).text.splitlines()) == len(Source(name).places)
+    assert len(ShaderSource(name).text.splitlines()) == len(ShaderSource(name).places)

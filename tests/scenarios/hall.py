@@ -10,11 +10,11 @@ from imgui_bundle import imgui
 from window_driver import Driver
 
 from app.lecture import slide
-from app.lecture.exercises import Verdict
+from app.lecture.exercises import Judgement
 from app.lecture.reading import BUILTIN, load_lecture
 from app.lecture.view import LECTURE
 from app.stepper import panel
-from app.stepper.plan import Need, Plan, plan
+from app.stepper.plan import Need, StepperPlan, plan
 from app.widgets.code import LINE
 
 SCALES = (1.0, 1.25, 1.5, 2.0)
@@ -23,11 +23,11 @@ KINDS_STEP = 8
 
 
 @contextmanager
-def plans() -> Iterator[list[tuple[Plan, Need]]]:
+def plans() -> Iterator[list[tuple[StepperPlan, Need]]]:
     """What the stepper has been laid out by."""
-    made: list[tuple[Plan, Need]] = []
+    made: list[tuple[StepperPlan, Need]] = []
 
-    def told(room: Any, need: Need) -> Plan:
+    def told(room: Any, need: Need) -> StepperPlan:
         made.append((plan(room, need), need))
         return made[-1][0]
 
@@ -115,7 +115,7 @@ def drive_exercises_fill_their_column(d: Driver) -> None:
             column = d.ctx.window_info(f"//{LECTURE}/step").window
             assert column is not None
             asked = sizes[-1]
-            session.answers.verdict = Verdict(False, max(task.replies, key=len))
+            session.answers.verdict = Judgement(False, max(task.replies, key=len))
             d.settle()
             assert sizes[-1] == asked, step.title  # nothing moves
             assert column.scroll_max.y == 0, (step.title, column.scroll_max.y, asked, least)

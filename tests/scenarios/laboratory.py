@@ -109,7 +109,7 @@ def drive_the_page_is_left_before_the_sizes_are_known(d: Driver) -> None:
     began, may_end = threading.Event(), threading.Event()
     sizes = disk.sizes
 
-    def waiting(*arguments: Any) -> tuple[disk.Entry, ...]:
+    def waiting(*arguments: Any) -> tuple[disk.DiskRow, ...]:
         began.set()
         may_end.wait(PATIENT_S)
         return sizes(*arguments)

@@ -17,7 +17,7 @@ from app.outside.gizmo import LENGTH
 from app.outside.mouse import Scope
 from app.outside.paint import ground_of
 from app.outside.projected import Strokes
-from app.outside.screen import Screen
+from app.outside.screen import OutsideScreen
 from app.outside.view import OUTSIDE, OutsideView
 from app.widgets import theme
 from renderer.camera import Camera
@@ -49,7 +49,7 @@ def place(d: Driver, point: np.ndarray) -> tuple[float, float]:
     """Where a world point is in the window."""
     at = scope(d)
     size = max(1, round(at.extent.x)), max(1, round(at.extent.y))
-    found = Screen(at.shown, size).spot(np.asarray(point, float))
+    found = OutsideScreen(at.shown, size).spot(np.asarray(point, float))
     assert found is not None
     return at.origin.x + float(found[0][0]), at.origin.y + float(found[0][1])
 

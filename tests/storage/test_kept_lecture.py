@@ -9,7 +9,7 @@ from pathlib import Path
 import pytest
 
 from app.lecture.reading import BUILTIN, load_lecture
-from app.lecture.session import Session
+from app.lecture.session import LectureSession
 from app.lecture.view import LectureView
 from app.storage.kept_lecture import KeptLecture
 from app.storage.session import Arrangement, from_bytes, session_of, to_bytes
@@ -56,7 +56,7 @@ def given(file: Path, folder: Path) -> Start:
     """A window in which the second step was changed and answered; it is closed. What it began with,
     and its state at the end."""
     start = begin_lecture(load_lecture(file), 1, folder)
-    session = Session(load_lecture(file), file, 1)
+    session = LectureSession(load_lecture(file), file, 1)
     scene = session.step.scene
     state = replace(start.state, scene=scene, step=session.place)
     state = state.with_camera(replace(state.camera, eye=(1.0, 2.0, 9.0)))
@@ -89,12 +89,12 @@ def test_the_step_with_its_changes_and_answers_comes_back(file, folder):
 
 
 def test_the_built_in_lecture_is_found_wherever_it_is_installed():
-    session = Session(load_lecture(BUILTIN), BUILTIN, 3)
+    session = LectureSession(load_lecture(BUILTIN), BUILTIN, 3)
     session.answers.texts["origin"] = "0, 0"
     state = begin_session(folder=BUILTIN).state  # no place for sessions there: the default
     kept = session.kept(state)
     assert (kept.file, kept.number, kept.in_step) == ("", 3, False)
-    again = Session.resumed(kept)
+    again = LectureSession.resumed(kept)
     assert again.path == BUILTIN
     assert again.answers.texts == {"origin": "0, 0"}
 
@@ -171,12 +171,12 @@ def test_a_lecture_begins_with_what_is_the_users_own(file, folder):
 )
 def test_no_such_file_is_one_clear_error(kept):
     with pytest.raises(LucidaError):
-        Session.resumed(kept)
+        LectureSession.resumed(kept)
 
 
 @pytest.mark.parametrize("number", [-(10**9), 10**9])
 def test_a_number_of_no_step_is_the_nearest(number):
-    session = Session.resumed(KeptLecture(number=number))
+    session = LectureSession.resumed(KeptLecture(number=number))
     assert session.number == (0 if number < 0 else len(session.lecture.steps) - 1)
 
 
@@ -200,9 +200,9 @@ def test_what_the_user_agreed_to_read_elsewhere_comes_back_and_nothing_else(file
     lecture.write_text(named)
     with pytest.raises(LucidaError, match="outside of its folder"):
         load_lecture(lecture)
-    session = Session(load_lecture(lecture, None), lecture)
+    session = LectureSession(load_lecture(lecture, None), lecture)
     kept = session.kept(begin_session(folder=BUILTIN).state)
-    assert Session.resumed(kept).path == lecture
+    assert LectureSession.resumed(kept).path == lecture
     lecture.write_text(named.replace("one.off", "other.off"))
     with pytest.raises(LucidaError, match="outside of its folder"):
-        Session.resumed(kept)
+        LectureSession.resumed(kept)

@@ -18,7 +18,7 @@ from app.storage.paths import is_unicode, restored, stored
 from app.storage.recent import RecentFiles
 from app.storage.session import Arrangement, from_bytes, session_of, to_bytes
 from app.widgets.background import Background
-from app.widgets.dialog import FileDialog, Question
+from app.widgets.dialog import FileDialog, FileQuestion
 from app.widgets.folders import read_folder
 from app.widgets.toasts import Toasts
 from app.window import process
@@ -42,7 +42,7 @@ def model(request, tmp_path: Path) -> str:
 
 
 def is_shown(text: str) -> bool:
-    """Whether windows and terminals take it as it stands."""
+    """Whether windows and terminals take it stands."""
     return text.isprintable() and is_unicode(text)
 
 
@@ -114,7 +114,7 @@ def test_notifications_are_text() -> None:
 def test_the_dialog_opens_the_file_whose_name_it_shows(model: str) -> None:
     chosen: list[str] = []
     dialog = FileDialog(lambda: None)
-    question = Question("Open", False, (".obj",), "", chosen.extend)
+    question = FileQuestion("Open", False, (".obj",), "", chosen.extend)
     dialog.ask(question)
     folder, name = os.path.split(model)
     dialog._listing = read_folder(Path(folder), (".obj",))

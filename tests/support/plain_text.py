@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from app.lecture.text import Block, Code, Formula, Line, Listing, Words
+from app.lecture.text import Block, Code, DisplayedFormula, ItemList, Line, Words
 
 
 def plain_text(blocks: tuple[Block, ...]) -> str:
@@ -10,11 +10,11 @@ def plain_text(blocks: tuple[Block, ...]) -> str:
     parts = []
     for block in blocks:
         match block:
-            case Listing():
+            case ItemList():
                 parts += [words_of(item) for item in block.items]
             case Code():
                 parts.append(block.text)
-            case Formula():
+            case DisplayedFormula():
                 parts.append(block.latex)
             case _:
                 parts.append(words_of(block.line))

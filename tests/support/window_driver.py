@@ -36,7 +36,7 @@ from app.state.app_state import AppState, History
 from app.widgets.surface import Target
 from app.widgets.theme import framebuffer_scale
 from app.window import viewer
-from app.window.canvas import Canvas
+from app.window.canvas import WindowCanvas
 from app.window.platform import start_platform
 from app.window.viewer import Run
 from renderer.scene import load_scene
@@ -51,7 +51,7 @@ IMAGES = {name: f"//###{name}/image##{name}" for name in (RASTER, RAY)}
 Key = imgui.Key
 
 
-class Glimpses(Canvas):
+class Glimpses(WindowCanvas):
     """Frames that nobody looks at are drawn into one pixel: it is a processor that draws them."""
 
     is_seen: Callable[[], bool]
@@ -78,7 +78,7 @@ class Driver:
         self.stay = False  # the mouse, while a picture is taken
         self._pictures = 0
         Glimpses.is_seen = lambda _: bool(self.run.on_drawn or self.window.shell.captures.busy)
-        viewer.Canvas = Glimpses  # type: ignore[misc]
+        viewer.WindowCanvas = Glimpses  # type: ignore[misc]
 
     def reset(self) -> None:
         """Every test begins with the same state, at rest."""

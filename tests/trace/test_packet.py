@@ -16,13 +16,13 @@ from trace_reference import ball
 
 from renderer.camera import Camera
 from renderer.compare import CHANNELS, TOLERANCE_PX, compare_frames
-from renderer.edges import Lines
+from renderer.edges import Discontinuities
 from renderer.frame import Frame
 from renderer.scene import BUILTIN_SCENES, load_scene
 from renderer.scene.flat import flatten
 from renderer.scene.model import Material, Mesh, PointLight, Scene, SceneObject, Sphere
 from renderer.trace.arguments.image import Image, new_image, to_frame
-from renderer.trace.arguments.view import View
+from renderer.trace.arguments.view import KernelView
 from renderer.trace.jobs.engine import Engine
 from renderer.trace.packets.cells import cells_of
 from renderer.trace.packets.engine import PacketEngine
@@ -57,7 +57,7 @@ class Both:
         image = new_image(size, channels)
         for buffer in (image.color, image.depth, image.normal, image.id, image.primitive):
             buffer.fill(-77)  # every pixel is written
-        engine.trace(View.of(camera), image, new_control())
+        engine.trace(KernelView.of(camera), image, new_control())
         return to_frame(image, self.scene.background, 0.0)
 
     def unexplained(self, camera: Camera, size: tuple[int, int]) -> str:
@@ -107,7 +107,7 @@ def test_depth_is_exact_to_a_few_roundings(projection: str, both) -> None:
     i, j = np.nonzero(same)
     exact = reference.depth[i, j].astype(float)
     # A ray that is off by a 1,000th of a pixel sees another depth on an oblique surface.
-    slope = Lines(pair.flat, camera, size).slope(reference.primitive[i, j], i, j, exact)
+    slope = Discontinuities(pair.flat, camera, size).slope(reference.primitive[i, j], i, j, exact)
     error = np.abs(packets.depth[i, j] - exact)
     inside = np.isfinite(slope)  # it has none within a 256th of a pixel of a silhouette
     assert np.all(error[inside] <= (DEPTH * exact + 1e-3 * slope)[inside])
@@ -124,7 +124,7 @@ def test_pixels_that_differ_touch_an_outline(both) -> None:
         reference, packets = pair.frames(camera, (160, 120), ("id", "primitive"))
         i, j = np.nonzero(reference.id != packets.id)
         seen = np.maximum(reference.primitive[i, j], packets.primitive[i, j])
-        distance = Lines(pair.flat, camera, (160, 120)).outline_px(seen, i, j)
+        distance = Discontinuities(pair.flat, camera, (160, 120)).outline_px(seen, i, j)
         assert (distance < TOLERANCE_PX / 4).all()
         differ += len(i)
     assert differ < 20
@@ -142,7 +142,7 @@ def test_telephoto(distance: float, projection: str, both) -> None:
         camera = replace(camera, viewport=(-half, half, -half, half), projection=projection)
         assert not (wrong := pair.unexplained(camera, (128, 128))), wrong
     view = packet_view(
-        View.of(camera), (128, 128), pair.packets.instances, np.zeros(3), cells_of(pair.flat)
+        KernelView.of(camera), (128, 128), pair.packets.instances, np.zeros(3), cells_of(pair.flat)
     )
     assert view.exact[0] == 1
 
@@ -159,7 +159,7 @@ def test_no_leak_in_a_closed_mesh() -> None:
         eye = random.uniform(-0.4, 0.4, 3)
         camera = Camera(tuple(eye), *(tuple(vector) for vector in basis), 0.4)
         image = new_image((400, 300), ("id",))
-        engine.trace(View.of(camera), image, new_control())
+        engine.trace(KernelView.of(camera), image, new_control())
         assert not image.id.any()
     team.close()
 
@@ -284,7 +284,7 @@ def test_a_cancelled_image_stops() -> None:
     control = new_control()
     cancel(control)
     image: Image = new_image((640, 480), ("id",))
-    engine.trace(View.of(Camera.look_at((3, 2, 4), (0, 0, 0))), image, control)
+    engine.trace(KernelView.of(Camera.look_at((3, 2, 4), (0, 0, 0))), image, control)
     assert not image.finished.any()
     assert control[DONE] == 0
     team.close()

@@ -8,7 +8,7 @@ from trace_reference import cast, closest, kernel_rays, random_camera, random_sc
 
 from renderer.scene.flat import flatten
 from renderer.trace import Tracer
-from renderer.trace.arguments.view import View
+from renderer.trace.arguments.view import KernelView
 
 ALL = ("color", "depth", "normal", "id", "primitive")
 SIZE = (37, 29)
@@ -43,7 +43,7 @@ def test_rays_are_the_cameras_to_the_last_bit() -> None:
     for _ in range(20):
         camera = random_camera(random)
         want = camera.rays(SIZE)
-        origin, direction = kernel_rays(View.of(camera), *SIZE)
+        origin, direction = kernel_rays(KernelView.of(camera), *SIZE)
         assert np.array_equal(origin, want.origin)
         assert np.array_equal(direction, want.direction)
 

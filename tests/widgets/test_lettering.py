@@ -13,7 +13,7 @@ from app.probe.panel import HIGH_EM, WIDE_EM, type_px
 from app.state.options import Preferences
 from app.stepper.numbers import TEXTS
 from app.stepper.panel import LEAST_PX, LEGIBLE, WANTED_EM, _names
-from app.stepper.plan import SHORT, Need, Plan, canvases_in, plan, plan_of_two
+from app.stepper.plan import SHORT, Need, StepperPlan, canvases_in, plan, plan_of_two
 from app.stepper.recording import Order
 from app.stepper.source import source_of
 from app.widgets.code import LINE, narrowed
@@ -102,7 +102,7 @@ def test_nor_with_the_same_code_in_julia(room):
         assert made.code_px >= LEAST_PX and need.longest * 0.5 * made.code_px <= made.code.width
 
 
-def assert_apart(made: Plan, room: tuple[float, float]) -> None:
+def assert_apart(made: StepperPlan, room: tuple[float, float]) -> None:
     places = [made.code, made.canvases, made.numbers, *([made.depth] if made.depth else [])]
     for place in places:
         assert place.left >= 0 and place.left + place.width <= room[0] + 1

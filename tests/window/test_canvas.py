@@ -6,17 +6,17 @@ import moderngl
 import numpy as np
 import pytest
 
-from app.window.canvas import MOST_KEPT, Canvas
+from app.window.canvas import MOST_KEPT, WindowCanvas
 
 SIZE = (30, 20)
 
 
 @pytest.fixture
-def canvas(gl: moderngl.Context) -> Canvas:
-    return Canvas(gl)
+def canvas(gl: moderngl.Context) -> WindowCanvas:
+    return WindowCanvas(gl)
 
 
-def draw(canvas: Canvas, gray: float, unfinished: bool = False, size: tuple[int, int] = SIZE):
+def draw(canvas: WindowCanvas, gray: float, unfinished: bool = False, size: tuple[int, int] = SIZE):
     """A frame of one gray; what the canvas shows then."""
     drawn = canvas.bind(size, unfinished)
     assert drawn.size == size

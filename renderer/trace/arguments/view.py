@@ -10,7 +10,7 @@ from typing import NamedTuple
 from renderer.camera import Camera, Vector
 
 
-class View(NamedTuple):
+class KernelView(NamedTuple):
     """Float64 throughout, so that a kernel's rays are those of Camera.ray to the last bit.
 
     back: distance * w in perspective, w in parallel projection. t_min, t_max: near and far as
@@ -30,7 +30,7 @@ class View(NamedTuple):
     t_max: float
 
     @classmethod
-    def of(cls, camera: Camera) -> View:
+    def of(cls, camera: Camera) -> KernelView:
         """The numbers of a camera."""
         scale = 1.0 if camera.is_parallel else camera.distance
         x, y, z = camera.w

@@ -5,8 +5,8 @@ Owns how such a stage is handed to the kernel that calls it. Knows nothing of wh
 
 A kernel and its parts are compiled as one piece, by one processor. Where a kernel calls a large
 part once for many rays, the two may as well be compiled apart, at once: the part, with all that is
-the same for the whole image, becomes a Stage, two addresses, and the kernel needs neither its code
-nor the types of what it takes. A call costs some nanoseconds.
+the same for the whole image, becomes StagedCode, two addresses, and the kernel needs neither its
+code nor the types of what it takes. A call costs some nanoseconds.
 """
 
 from __future__ import annotations
@@ -42,7 +42,7 @@ _CODE = ir.FunctionType(
 )
 
 
-class Stage(NamedTuple):
+class StagedCode(NamedTuple):
     """code: the address. room: what the code always needs; whatever that points to must be kept."""
 
     code: int

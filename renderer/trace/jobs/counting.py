@@ -14,7 +14,7 @@ import numpy as np
 from renderer.camera import Camera, Size
 from renderer.scene.flat import flatten
 from renderer.scene.model import Scene
-from renderer.trace.arguments.view import View
+from renderer.trace.arguments.view import KernelView
 from renderer.trace.bvh.binary import tree_of_scene
 from renderer.trace.compile.compiled import kernel
 from renderer.trace.scalar.kernel import viewing_ray
@@ -39,7 +39,7 @@ def counting_tree(scene: Scene) -> Tree:
 def trace_counts(tree: Tree, camera: Camera, size: Size) -> TraceCounts:
     """What the closest hits of all viewing rays of an image (width, height) take."""
     counts = np.zeros(2, np.int64)
-    _count(View.of(camera), tree, *size, counts)
+    _count(KernelView.of(camera), tree, *size, counts)
     return TraceCounts(size[0] * size[1], *counts.tolist())
 
 

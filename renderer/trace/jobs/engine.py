@@ -11,7 +11,7 @@ from renderer.camera import Camera
 from renderer.scene.flat import flatten
 from renderer.scene.model import Scene
 from renderer.trace.arguments.image import Image, new_image
-from renderer.trace.arguments.view import View
+from renderer.trace.arguments.view import KernelView
 from renderer.trace.bvh.binary import tree_of_scene
 from renderer.trace.packets.engine import PacketEngine
 from renderer.trace.scalar.kernel import trace_image
@@ -37,14 +37,14 @@ class Engine:
         # Compile, by an image that is over before it begins.
         over = new_control()
         cancel(over)
-        self.trace(View.of(Camera.canonical()), new_image((1, 1), ()), over)
+        self.trace(KernelView.of(Camera.canonical()), new_image((1, 1), ()), over)
 
     def set_scene(self, scene: Scene) -> None:
         """Prepares another scene."""
         self._flat = flatten(scene)
         self._tree = tree_of_scene(self._flat, self._team)
 
-    def trace(self, view: View, image: Image, control: Control) -> None:
+    def trace(self, view: KernelView, image: Image, control: Control) -> None:
         """Fills the image; returns early if cancelled. Blocks without a finished mark are open."""
         blocks = image.finished.size
         self._team.run(trace_image, view, self._flat, self._tree, image, control, size=blocks)

@@ -13,9 +13,9 @@ from renderer.scene.flat import FlatScene, flatten
 from renderer.scene.model import Scene
 from renderer.scene.positions import lights_from, near_point
 from renderer.trace.arguments.image import Image, new_image
-from renderer.trace.arguments.view import View
+from renderer.trace.arguments.view import KernelView
 from renderer.trace.bvh.instances import Instances
-from renderer.trace.compile.stage import Stage, new_room
+from renderer.trace.compile.stage import StagedCode, new_room
 from renderer.trace.packets.cells import cells_of
 from renderer.trace.packets.effects import effects_of
 from renderer.trace.packets.kernel import trace_packets
@@ -55,13 +55,13 @@ class PacketEngine:
 
     def _compile(self, kernels: tuple[str, ...]) -> None:
         """Compiles kernels, or finds them in the cache, by an image that is over at once."""
-        view, image, over = View.of(Camera.canonical()), new_image((1, 1), ()), new_control()
+        view, image, over = KernelView.of(Camera.canonical()), new_image((1, 1), ()), new_control()
         cancel(over)
         of_image, near = self._seen_from(view, (1, 1))
         if "write" in kernels:
             self._writing(view, of_image, near, image)
         if "walk" in kernels:
-            self._walk(of_image, Stage(0, new_room()), image, over)
+            self._walk(of_image, StagedCode(0, new_room()), image, over)
 
     def set_scene(self, scene: Scene) -> None:
         """Follows a changed scene; unchanged meshes (the same arrays) keep their trees."""
@@ -82,22 +82,26 @@ class PacketEngine:
         """Whether each of many rays hits anything: see rays/query.py."""
         return any_hits(self.instances, self._team, origins, directions, t_min, t_max)
 
-    def trace(self, view: View, image: Image, control: Control) -> None:
+    def trace(self, view: KernelView, image: Image, control: Control) -> None:
         """Fills the image; returns early if cancelled. Blocks without a finished mark are open."""
         of_image, near = self._seen_from(view, (image.width, image.height))
         self._walk(of_image, self._writing(view, of_image, near, image), image, control)
 
-    def _seen_from(self, view: View, size: tuple[int, int]) -> tuple[PacketView, FlatScene]:
+    def _seen_from(self, view: KernelView, size: tuple[int, int]) -> tuple[PacketView, FlatScene]:
         """The camera, and the scene with its lights relative to near_point."""
         point = near_point(self._flat, view.eye)
         near = self._flat._replace(lights=lights_from(self._flat, point))
         return packet_view(view, size, self.instances, point, self._cells), near
 
-    def _writing(self, view: View, of_image: PacketView, near: FlatScene, image: Image) -> Stage:
+    def _writing(
+        self, view: KernelView, of_image: PacketView, near: FlatScene, image: Image
+    ) -> StagedCode:
         effects = effects_of(*self._effects, self._flat.bounds, view.eye)
         return writing_stage(of_image, self.instances.world, near, effects, image)
 
-    def _walk(self, of_image: PacketView, writing: Stage, image: Image, control: Control) -> None:
+    def _walk(
+        self, of_image: PacketView, writing: StagedCode, image: Image, control: Control
+    ) -> None:
         self._team.run(
             trace_packets,
             of_image,

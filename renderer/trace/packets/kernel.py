@@ -34,7 +34,7 @@ _ACROSS = BLOCK // TILE  # tiles of a block, in a row
 def trace_packets(view, world, writing, finished, stack_size, control):
     """Traces blocks of pixels until none are left, or the control array says to stop.
 
-    view: PacketView. world: World. writing: the Stage that writes a tile. finished: as in Image.
+    view: PacketView. world: World. writing: what writes a tile. finished: as in Image.
     control: see control.py.
     """
     rows, columns = finished.shape

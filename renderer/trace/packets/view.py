@@ -25,7 +25,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from renderer.trace.arguments.view import View
+from renderer.trace.arguments.view import KernelView
 from renderer.trace.bvh.instances import Instances
 from renderer.trace.compile.compiled import inlined
 from renderer.trace.packets.cells import Cells, are_blurred
@@ -103,7 +103,7 @@ def view_pointers(view):
 
 
 def packet_view(
-    view: View,
+    view: KernelView,
     size: tuple[int, int],
     instances: Instances,
     near_point: NDArray[np.float64],

@@ -15,7 +15,7 @@ from renderer.scene.flat import FlatScene
 from renderer.trace.arguments.image import Image
 from renderer.trace.bvh.instances import World, world_pointers
 from renderer.trace.compile.compiled import inlined, kernel
-from renderer.trace.compile.stage import Stage, new_room, prepared
+from renderer.trace.compile.stage import StagedCode, new_room, prepared
 from renderer.trace.packets.effects import Effects
 from renderer.trace.packets.refine import packet_depths, refine_square
 from renderer.trace.packets.shade import add_reflections, shade_square
@@ -51,13 +51,13 @@ ID, PRIMITIVE = NUMBERS, NUMBERS + _PIXELS
 
 def writing_stage(
     view: PacketView, world: World, scene: FlatScene, effects: Effects | None, image: Image
-) -> Stage:
+) -> StagedCode:
     """The stage that determines a tile's colours, and writes all channels that the image has.
 
     The arguments' arrays must be kept.
     """
     room = new_room()
-    return Stage(prepare_writing(view, world, scene, effects, image, room), room)
+    return StagedCode(prepare_writing(view, world, scene, effects, image, room), room)
 
 
 @kernel

@@ -19,8 +19,8 @@ from renderer.trace.threads.atomic import count_done, is_cancelled, take_next
 def trace_image(view, scene, tree, image, control):
     """Traces blocks of pixels until none are left, or the control array says to stop.
 
-    view: View. scene: FlatScene. tree: Tree. image: Image, written. control: see control.py; the
-    work's numbers are those of the blocks, row by row.
+    view: KernelView. scene: FlatScene. tree: Tree. image: Image, written. control: see control.py;
+    the work's numbers are those of the blocks, row by row.
     """
     waiting = np.empty(tree.stack_size, np.int32)
     entered = np.empty(tree.stack_size, np.float64)
