@@ -15,6 +15,7 @@ from app.outside.view import OUTSIDE, OutsideView
 from app.pair.view import RAY
 from app.probe import view as probe_view
 from app.probe.formulas import ray_lines
+from app.probe.model import Probe
 from app.probe.reading import Reading
 from app.probe.view import PROBE, ProbeView
 from app.widgets import formula
@@ -221,13 +222,25 @@ def drive_rays_of_a_row_and_of_pins_stand_in_the_outside_view(d: Driver) -> None
     leave(d)
 
 
+def is_shadowed(found: Reading) -> bool:
+    return found.shading is not None and not all(lamp.is_lit for lamp in found.shading.lamps)
+
+
 def drive_shadows_mirrors_and_an_empty_scene(d: Driver) -> None:
     enter(d)
-    state = d.window.state.with_options(marked=(150, 190), shadows=True, mirrors=True)
-    d.window.change(state)
+    camera, size = d.window.renderers.camera(d.window.state), d.window.renderers.size
+    probe = Probe(d.window.state.scene)
+    places = [(i, j) for i in range(5, size[1], 20) for j in range(5, size[0], 20)]
+    readings = [probe.at(place, camera, size, shadows=True, mirror_depth=1) for place in places]
+    dark = next(found.pixel for found in readings if is_shadowed(found))
+    mirroring = next(found.pixel for found in readings if found.bounces)
+    d.window.change(d.window.state.with_options(marked=dark, shadows=True, mirrors=True))
     found = reading(d)
-    assert found.shading is not None
-    assert not all(lamp.is_lit for lamp in found.shading.lamps)
+    assert found.pixel == dark and is_shadowed(found)
+    check(d, found)
+    d.window.change(d.window.state.with_options(marked=mirroring))
+    found = reading(d)
+    assert found.pixel == mirroring and found.bounces
     check(d, found)
     d.window.change(d.window.state.with_scene(Scene(())))
     d.settle()
