@@ -19,9 +19,8 @@ from renderer.shared_numbers import NEAREST_LIGHT
 
 _NONE = (0.0, 0.0, 0.0)
 
-LitTest = Callable[
-    ["SurfaceHit", Vector, float], bool
-]  # of a hit, the unit vector to a light, its reach
+# Of a hit, the unit vector to a light, and its reach.
+LitTest = Callable[["SurfaceHit", Vector, float], bool]
 
 
 @dataclass(frozen=True)

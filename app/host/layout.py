@@ -2,7 +2,7 @@
 
 Owns the dock spaces and which view stands where in each layout. Knows nothing of what the views
 show. A layout is one table: its splits, and the space of each view; a view may in turn name layouts
-that it is in (View.places). Else it is docked beside the last one of the layout's INSTRUMENTS
+that it is in (DockedView.places). Else it is docked beside the last one of the layout's INSTRUMENTS
 space, hidden. HelloImGui keeps the user's changes of each layout, also between runs.
 """
 

@@ -133,7 +133,7 @@ def drive_edges_are_smooth_however_busy_the_machine_is(d: Driver) -> None:
     enter(d)
     found, seconds, own = ground(d), itertools.count(), itertools.count()
 
-    def drawn_anew() -> outside_ground.Picture:
+    def drawn_anew() -> outside_ground.GroundPicture:
         found.forget()
         d.ctx.yield_(3)
         d.settle()

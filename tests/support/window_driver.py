@@ -2,9 +2,9 @@
 
     python window_driver.py REPORT.json FOLDER TOPIC [PART OF A NAME ...]
 
-runs every function of drives/TOPIC.py whose name begins with `drive_` (or those named), in order,
-in one window, and writes a JSON object from their names to "" or the traceback of their failure.
-Pictures of the window are left in FOLDER. test_window.py runs it and tells the results.
+runs every function of scenarios/TOPIC.py whose name begins with `drive_` (or those named), in
+order, in one window, and writes a JSON object from their names to "" or the traceback of their
+failure. Pictures of the window are left in FOLDER. test_window.py runs it and tells the results.
 """
 
 from __future__ import annotations
@@ -212,7 +212,7 @@ def close_at_work(report: Path, folder: Path) -> None:
 
 
 def drives(topic: str) -> dict[str, Callable[[Driver], None]]:
-    """The functions of drives/TOPIC.py, which import this module."""
+    """The functions of scenarios/TOPIC.py, which import this module."""
     sys.modules["window_driver"] = sys.modules[__name__]
     found = runpy.run_path(str(Path(__file__).parents[1] / "scenarios" / f"{topic}.py"))
     return {name: test for name, test in found.items() if name.startswith("drive_")}

@@ -39,11 +39,11 @@ def read(name):
     return text + "oh no;\\n" if name == broken else text
 
 # The default arguments of the functions that read shaders.
-for function in (sources.link, sources.Source.__init__):
+for function in (sources.link, sources.ShaderSource.__init__):
     function.__defaults__ = tuple(read if v is good else v for v in function.__defaults__)
 
 def mended():
-    for function in (sources.link, sources.Source.__init__):
+    for function in (sources.link, sources.ShaderSource.__init__):
         function.__defaults__ = tuple(good if v is read else v for v in function.__defaults__)
 
 def failure():
@@ -108,7 +108,7 @@ def test_a_picture_of_the_window_without_a_shader_is_one_line(tmp_path: Path) ->
         "good = sources.read_shader\n"
         "def read(name):\n"
         "    return good(name) + ('oh no;' if name == 'shade.frag' else '')\n"
-        "for function in (sources.link, sources.Source.__init__):\n"
+        "for function in (sources.link, sources.ShaderSource.__init__):\n"
         "    function.__defaults__ = tuple(\n"
         "        read if v is good else v for v in function.__defaults__)\n"
         "import sys\n"
