@@ -2,14 +2,17 @@
 
 PYTHON_IN_VENV := .venv/bin/python
 ARGS :=
+QUICK := camera compare costs explaining host images/test_placement.py images/test_imaging.py laboratory lecture outside pair probe \
+	project/test_layers.py project/test_names.py state widgets
 
 .DEFAULT_GOAL := help
-.PHONY: help setup run test attack bench pictures lint requirements clean
+.PHONY: help setup run test quick attack bench pictures lint requirements clean
 
 help:
 	@echo 'make setup          prepare .venv and the system libraries'
 	@echo 'make run            open the window           make run ARGS="spheres"'
 	@echo 'make test           run the tests             make test ARGS="-k camera"'
+	@echo 'make quick          run in a minute what a change most likely breaks'
 	@echo 'make attack         half an hour of attacks; make attack ARGS="random_events --minutes 10"'
 	@echo 'make bench          measure the tracer beside others; make bench ARGS="--quick"'
 	@echo 'make pictures       draw the pictures of the window in docs/ anew'
@@ -29,6 +32,12 @@ run: setup
 test:
 	@sh scripts/setup.sh tests
 	@$(PYTHON_IN_VENV) -m pytest -n auto --dist loadgroup --no-loadscope-reorder $(ARGS)
+
+# The linters, and the rooms whose tests need neither a window nor a compilation.
+quick:
+	@sh scripts/setup.sh tests
+	@sh scripts/lint.sh
+	@$(PYTHON_IN_VENV) -m pytest -n auto --dist loadgroup $(addprefix tests/,$(QUICK)) $(ARGS)
 
 # What takes too long for each change: random events, mutations and what else is in tests/attack.
 attack: setup

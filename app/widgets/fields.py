@@ -11,6 +11,7 @@ from dataclasses import dataclass
 
 from imgui_bundle import ImVec2, ImVec4, imgui
 
+from app.explaining import notation
 from app.explaining.arithmetic import number
 from app.widgets import pending, theme, typed
 from renderer.errors import LucidaError
@@ -65,8 +66,12 @@ class Scale:
 
 def number_format(value: float, scale: Scale) -> str:
     """Eight characters wide for all but extreme values, so that nothing moves."""
+    return f"%{WIDTH}.{_usual_decimals(value, scale)}f"
+
+
+def _usual_decimals(value: float, scale: Scale) -> int:
     small_scene = scale.high - scale.low < 1.5 and abs(value) < 100
-    return "%8.4f" if small_scene else "%8.3f"
+    return 4 if small_scene else 3
 
 
 def is_extreme(value: float, scale: Scale) -> bool:
@@ -75,11 +80,17 @@ def is_extreme(value: float, scale: Scale) -> bool:
 
 
 def fitting_format(value: float, scale: Scale, characters: int) -> str:
-    """The usual format where there is room for it; otherwise as many digits as there are. Of an
-    extreme value the text itself."""
+    """The usual format where there is room for it, and more decimals where they are all that the
+    number has: -0.15625; otherwise as many digits as there are. Of an extreme value the text
+    itself."""
     if is_extreme(value, scale):
         most = WIDTH + (value < 0)
         return densest(value, min(characters, most)).rjust(min(characters, WIDTH))
+    whole = notation.number(value) if math.isfinite(value) else ""
+    if whole and len(whole) <= min(characters, WIDTH) and math.isclose(float(whole), value):
+        decimals = len(whole.partition(".")[2])
+        if "e" not in whole and decimals > _usual_decimals(value, scale):
+            return f"%{min(characters, WIDTH)}.{decimals}f"
     if characters >= WIDTH:
         return number_format(value, scale)
     for decimals in (3, 2, 1, 0):

@@ -18,6 +18,25 @@ def test_the_usual_width_is_always_the_same(value: float) -> None:
     assert len(short_number(value)) == 7
 
 
+@pytest.mark.parametrize(
+    ("value", "shown"),
+    [
+        (-0.15625, "-0.15625"),
+        (0.00625, "0.00625"),
+        (2.1875, "2.1875"),
+        (-12.1875, "-12.1875"),
+        (0.5, "0.500"),
+        (0.1234567, "0.123"),  # as it comes of a drag
+        (1 / 3, "0.333"),
+        (-100.15625, "-100.156"),  # no room for more
+    ],
+)
+def test_a_fraction_of_pixels_is_shown_whole(value: float, shown: str) -> None:
+    form = fitting_format(value, Scale(-2.0, 2.0), 20)
+    assert (form % value).strip() == shown
+    assert len(form % value) == WIDTH
+
+
 @pytest.mark.parametrize("characters", range(3, WIDTH))
 @pytest.mark.parametrize("value", [0.0, 0.125, -0.125, 12.5, -12.5])
 def test_in_less_room_the_whole_number_is_still_seen(value: float, characters: int) -> None:
