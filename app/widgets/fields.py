@@ -79,18 +79,19 @@ def is_extreme(value: float, scale: Scale) -> bool:
     return abs(value) >= 1000 or (scale.logarithmic and 0 < value < 0.01)
 
 
-def fitting_format(value: float, scale: Scale, characters: int) -> str:
+def fitting_format(value: float, scale: Scale, characters: int, tight: int = 0) -> str:
     """The usual format where there is room for it, and more decimals where they are all that the
     number has: -0.15625; otherwise as many digits as there are. Of an extreme value the text
-    itself."""
+    itself. tight: characters with no margin, for such decimals."""
     if is_extreme(value, scale):
         most = WIDTH + (value < 0)
         return densest(value, min(characters, most)).rjust(min(characters, WIDTH))
     whole = notation.number(value) if math.isfinite(value) else ""
-    if whole and len(whole) <= min(characters, WIDTH) and math.isclose(float(whole), value):
+    room = min(max(characters, tight), WIDTH)
+    if whole and len(whole) <= room and math.isclose(float(whole), value):
         decimals = len(whole.partition(".")[2])
         if "e" not in whole and decimals > _usual_decimals(value, scale):
-            return f"%{min(characters, WIDTH)}.{decimals}f"
+            return f"%{min(characters, room)}.{decimals}f"
     if characters >= WIDTH:
         return number_format(value, scale)
     for decimals in (3, 2, 1, 0):
@@ -142,10 +143,12 @@ def number_field(
     imgui.set_next_item_width(width_px)
     imgui.push_font(mono, 0.0)
     room_px = width_px - 2 * imgui.get_style().frame_padding.x
-    characters = int(room_px / imgui.calc_text_size("0").x + 0.05)
+    character_px = imgui.calc_text_size("0").x
+    characters = int(room_px / character_px + 0.05)
     if characters < WIDTH + len(unit):
         unit = unit[:1].strip()
-    shown = fitting_format(value, scale, characters - len(unit)) + unit
+    tight = int(width_px / character_px) - len(unit)
+    shown = fitting_format(value, scale, characters - len(unit), tight) + unit
     if marked:
         imgui.push_style_var(imgui.StyleVar_.frame_border_size, 0.1 * imgui.get_font_size())
         imgui.push_style_color(imgui.Col_.border, theme.ERROR)

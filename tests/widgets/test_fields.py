@@ -37,6 +37,14 @@ def test_a_fraction_of_pixels_is_shown_whole(value: float, shown: str) -> None:
     assert len(form % value) == WIDTH
 
 
+def test_a_fraction_of_pixels_may_fill_its_field() -> None:
+    scale = Scale(-2.0, 2.0)
+    assert fitting_format(-0.15625, scale, 7, 8) % -0.15625 == "-0.15625"
+    assert fitting_format(0.15625, scale, 7, 8) % 0.15625 == "0.15625"
+    assert fitting_format(-0.15625, scale, 7, 7) % -0.15625 == " -0.156"
+    assert fitting_format(0.1234567, scale, 7, 8) % 0.1234567 == "  0.123"
+
+
 @pytest.mark.parametrize("characters", range(3, WIDTH))
 @pytest.mark.parametrize("value", [0.0, 0.125, -0.125, 12.5, -12.5])
 def test_in_less_room_the_whole_number_is_still_seen(value: float, characters: int) -> None:
