@@ -375,6 +375,16 @@ def test_orbit_turns_by_the_same_angles_whatever_the_axes_lengths() -> None:
         assert math.atan2(after.w[0], after.w[2]) == pytest.approx(math.atan2(3, 4) - 0.3)
 
 
+def test_orbit_of_a_rolled_camera_does_not_depend_on_the_length_of_w() -> None:
+    level = Camera.look_at((3, 4, 4), (0, 0, 0))
+    rolled = navigation.turned(level, (0, 0, 0), level.w, 0.6)
+    w = (np.asarray(rolled.w) * 1e-4).tolist()
+    after = navigation.orbited(rolled, (0, 0, 0), 0.3, 0.2)
+    short = navigation.orbited(replace(rolled, w=tuple(w)), (0, 0, 0), 0.3, 0.2)
+    assert short.eye == pytest.approx(after.eye)
+    assert np.asarray(short.w) * 1e4 == pytest.approx(np.asarray(after.w))
+
+
 def test_a_turn_is_right_handed_about_an_axis_of_any_length() -> None:
     for axis in ((0, 1, 0), (0, 20, 0)):
         after = navigation.turned(Camera(eye=(1, 2, 3)), (0, 0, 3), axis, math.pi / 2)
