@@ -28,7 +28,6 @@ os.environ.pop("WAYLAND_DISPLAY", None)
 from imgui_bundle import hello_imgui, imgui
 from PIL import Image
 
-from app.outside import ground
 from app.outside import mouse as outside_mouse
 from app.pair import view as pair
 from app.pair.view import RASTER, RAY
@@ -42,9 +41,8 @@ from app.window.viewer import Run
 from renderer.scene import load_scene
 
 SIZE = (1100, 720)
-# On a slow or busy machine a turn of the wheel takes long, and so may the outside view's first
-# drawing, which would leave its edges as they are: no picture may depend on that.
-pair.PAUSE_S = outside_mouse.WHEEL_PAUSE_S = ground.SLOW_S = 10.0
+# On a slow or busy machine a turn of the wheel takes long: no picture may depend on that.
+pair.PAUSE_S = outside_mouse.WHEEL_PAUSE_S = 10.0
 ATTEMPTS = 3  # a picture can be taken of a frame in which a window is still being laid out
 PATIENT_S = 120.0  # the first tracing compiles
 IMAGES = {name: f"//###{name}/image##{name}" for name in (RASTER, RAY)}
