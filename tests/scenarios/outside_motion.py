@@ -145,7 +145,7 @@ def drive_edges_are_smooth_however_busy_the_machine_is(d: Driver) -> None:
     with clocks(thread_time=lambda: float(next(own))):  # this one has as much work
         rough = drawn_anew()
         assert not rough.smooth
-        assert rough.wanted.scene is found._slow
+        assert rough.request.scene is found._slow
     assert not drawn_anew().smooth  # which need not be found out again
     found._slow = None
     assert drawn_anew().smooth
