@@ -27,17 +27,17 @@ setup:
 run: setup
 	@$(PYTHON_IN_VENV) -P -m app $(ARGS)
 
-# As many processes as processors, each with whole files. ARGS="-n 0": all in one process.
+# As many processes as processors, each with whole files or classes. ARGS="-n 0": all in one process.
 # Nothing may follow: pytest's closing line is the last.
 test:
 	@sh scripts/setup.sh tests
-	@$(PYTHON_IN_VENV) -m pytest -n auto --dist loadgroup --no-loadscope-reorder $(ARGS)
+	@$(PYTHON_IN_VENV) -m pytest -n auto --dist loadscope --no-loadscope-reorder $(ARGS)
 
 # The linters, and the rooms whose tests need neither a window nor a compilation.
 quick:
 	@sh scripts/setup.sh tests
 	@sh scripts/lint.sh
-	@$(PYTHON_IN_VENV) -m pytest -n auto --dist loadgroup $(addprefix tests/,$(QUICK)) $(ARGS)
+	@$(PYTHON_IN_VENV) -m pytest -n auto --dist loadscope $(addprefix tests/,$(QUICK)) $(ARGS)
 
 # What takes too long for each change: random events, mutations and what else is in tests/attack.
 attack: setup

@@ -31,12 +31,8 @@ def pytest_sessionstart(session):
 
 
 def pytest_collection_modifyitems(items):
-    """What goes to one process whole: a file, whose fixtures are made once; of the driven windows a
-    topic. What takes longest begins first."""
+    """What takes longest begins first. (One process gets a file or a class whole: loadscope.)"""
     items.sort(key=lambda item: not item.path.stem.startswith(("test_window", "test_desk")))
-    for item in items:
-        topic = getattr(item, "callspec", None) and item.callspec.params.get("topic")
-        item.add_marker(pytest.mark.xdist_group(f"{item.path.stem} {topic or ''}"))
 
 
 @pytest.fixture(scope="session", params=["egl", "osmesa"])

@@ -66,10 +66,18 @@ def driven(tmp_path_factory: pytest.TempPathFactory) -> Callable[[str], dict[str
     return functools.cache(lambda topic: drive(tmp_path_factory.mktemp(topic), topic))
 
 
-@drives_take_long
-@pytest.mark.parametrize(("topic", "name"), DRIVES)
-def test_the_window(driven: Callable[[str], dict[str, str]], topic: str, name: str) -> None:
-    assert driven(topic)[name] == ""
+def _of_topic(topic: str) -> type:
+    """A class of tests: one process gets it whole, so that its drives share one window."""
+
+    @drives_take_long
+    @pytest.mark.parametrize("name", [name for of, name in DRIVES if of == topic])
+    def test(self: object, driven: Callable[[str], dict[str, str]], name: str) -> None:
+        assert driven(topic)[name] == ""
+
+    return type(f"Test_{topic}", (), {"test": test})
+
+
+globals().update((f"Test_{topic}", _of_topic(topic)) for topic, _ in DRIVES)
 
 
 @drives_take_long
