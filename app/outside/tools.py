@@ -196,7 +196,7 @@ def labels(
             continue
         font = fonts.bold if part.strong else fonts.text
         plain = PRESENTED if presented else 1.0
-        size = imgui.get_font_size() * (1.5 if part.strong else plain)
+        size = theme.whole_px(imgui.get_font_size() * (1.5 if part.strong else plain))
         imgui.push_font(font, 0.0)
         box = imgui.calc_text_size(part.text)
         ratio = size / imgui.get_font_size()

@@ -104,4 +104,4 @@ def _with(pixels: Iterator[int], marked: int, first: int, last: int) -> list[int
 
 def _text_size() -> float:
     """In units."""
-    return max(LEAST_TEXT, TEXT * imgui.get_font_size())
+    return theme.whole_px(max(LEAST_TEXT, TEXT * imgui.get_font_size()))

@@ -327,6 +327,13 @@ def px(at_100_percent: float) -> float:
     return at_100_percent * imgui.get_font_size() / TEXT_PX
 
 
+def whole_px(size: float) -> float:
+    """The nearest size of type of whole framebuffer pixels: ImGui stretches the letters of any
+    other, and what lies beside them among its letters shows at their edges."""
+    scale = framebuffer_scale()
+    return max(1.0, round(size * scale)) / scale
+
+
 def line_px(at_100_percent: float = 1.0) -> float:
     """The width of a line that teaches: scaled, and thicker in presentation mode."""
     style = imgui.get_style()
