@@ -32,7 +32,7 @@ HIGHLIGHTS = (
 )
 
 
-class StepTable(StrictTable, kw_only=True):
+class StepTable(StrictTable):
     """[[steps]]. pixel: the marked pixel, row and column, counted as the lecture does."""
 
     title: str
@@ -47,7 +47,7 @@ class StepTable(StrictTable, kw_only=True):
     exercise: dict[str, Any] | None = None
 
 
-class RayTable(StrictTable, kw_only=True, tag_field="kind", tag="ray"):
+class RayTable(StrictTable, tag_field="kind", tag="ray"):
     """[steps.exercise] kind = "ray": the ray of a pixel of the step's camera, or of `camera`.
 
     pixel: row and column, counted as the lecture does. size: width and height of the image.
@@ -77,7 +77,7 @@ class WantedTable(StrictTable):
     wrong: list[WrongTable] = field(default_factory=list)
 
 
-class VectorTable(StrictTable, kw_only=True, tag_field="kind", tag="vector"):
+class VectorTable(StrictTable, tag_field="kind", tag="vector"):
     """[steps.exercise] kind = "vector": one vector or several."""
 
     question: str
@@ -93,7 +93,7 @@ class OptionTable(StrictTable):
     right: bool = False
 
 
-class ChoiceTable(StrictTable, kw_only=True, tag_field="kind", tag="choice"):
+class ChoiceTable(StrictTable, tag_field="kind", tag="choice"):
     """[steps.exercise] kind = "choice": one of several answers."""
 
     question: str

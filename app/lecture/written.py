@@ -25,8 +25,6 @@ def formulas_written(
     source: the file's name."""
     for name, text in _texts_of(step):
         formulas = texts.formulas(texts.parse(text))
-        if not formulas:
-            continue
         first = places.line(f"{field}.{name}")
         for latex, line in zip(formulas, _lines(formulas, text), strict=True):
             yield Written(latex, f"{field}.{name}", source, first + line)
@@ -51,8 +49,7 @@ def _lines(formulas: tuple[str, ...], text: str) -> Iterator[int]:
         bare = f"${''.join(_SOLID.findall(latex))}$"
         start = solid.find(bare, at)
         if start >= 0:
-            number = bisect_right(ends, start + 1)
-            here = pieces[number].start() if number < len(pieces) else len(text)
+            here = pieces[bisect_right(ends, start + 1)].start()
             line += text.count("\n", counted, here)
             counted, at = here, start + len(bare)
         yield line

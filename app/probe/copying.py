@@ -129,7 +129,7 @@ def _root_sign(reading: Reading) -> str:
     """Which root of the sphere's equation is the hit."""
     seen = reading.meetings[0]
     at = next(k for k, crossing in enumerate(seen.crossings) if crossing.standing == SEEN)
-    return "-" if at == 0 and len(seen.crossings) > 1 else "+"
+    return "-" if at == 0 else "+"
 
 
 def _light_program(reading: Reading) -> list[str]:
@@ -197,7 +197,7 @@ def _table(meetings: Iterable[Meeting]) -> list[str]:
             rows.append((meeting.name, "-", "not met"))
         else:
             rows.append((meeting.name, number(nearest.t, fixed=True), nearest.standing))
-    widths = [max(len(row[k]) for row in rows) for k in range(2)]
+    widths = [max(len(row[k]) for row in rows) for k in (0, 1)]
     return [
         f"{name:<{widths[0]}}  {t:>{widths[1]}}  {standing}".rstrip() for name, t, standing in rows
     ]

@@ -195,6 +195,10 @@ def test_things_are_framed_in_perspective_by_hand() -> None:
     deeper = framed(aside, [*sides, (0, 0, -3)])  # cx = 1/2, its middle is z = -1.5
     assert deeper.eye[2] == pytest.approx((3 * 1 + 0.5 * 1.5) * 2.2)
     assert deeper.eye[0] == pytest.approx(-0.5 / 3 * (deeper.eye[2] + 1.5))
+    moved = framed(aside, np.add([*sides, (0, 0, -3)], (3, -2, 1)))
+    assert moved.eye == pytest.approx(np.add(deeper.eye, (3, -2, 1)))
+    slanting = framed(aside, [(-1, 0, 0), (1, 0, -3)])  # the left one is the nearer one
+    assert slanting.eye[2] == pytest.approx((3 * 1 - 0.5 * 1.5) * 2.2)
     line = framed(Camera(), [(0, 0, 0), (0, 0, -4)])
     assert line.eye == pytest.approx((0, 0, 0.2))
     point = framed(Camera(), [(0, 0, 3)])

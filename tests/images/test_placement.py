@@ -305,6 +305,13 @@ def test_every_step_of_the_wheel():
     assert stepped(3, -1, 2) is None, "which is the fit"
 
 
+def test_an_image_is_reduced_by_the_factors_by_which_it_is_magnified():
+    reduced = [step for step in placement.STEPS if step < 1]
+    assert len(reduced) > 5
+    assert {1 / step for step in reduced} <= set(placement.STEPS)
+    assert list(placement.STEPS) == sorted(set(placement.STEPS))
+
+
 @pytest.mark.parametrize(
     ("center", "wanted"),
     [((1.0, 0.0), (0.75, 0.125)), ((0.0, 1.0), (0.25, 0.875)), ((0.6, 0.5), (0.6, 0.5))],

@@ -171,6 +171,63 @@ def test_pixels_at_the_border_of_an_image():
         )
 
 
+def test_every_text_of_a_step_has_its_formulas_in_their_lines():
+    """Lines 4 and on of a file; the same formula twice is two, also at a text's beginning."""
+    text = '''\
+lucida = 1
+title = "L"
+[[steps]]
+title = "A"
+text = """
+$x$ and
+
+then $x$, but not $y + z$"""
+[steps.exercise]
+kind = "choice"
+question = "Why $q$?"
+options = [
+    { text = "$a$", feedback = "No $b$." },
+    { text = "c", feedback = "Yes $d$.", right = true },
+]
+[[steps]]
+title = "B"
+[steps.exercise]
+kind = "vector"
+question = "Which $u$?"
+[[steps.exercise.answers]]
+name = "v"
+value = [1, 2, 3]
+[[steps.exercise.answers]]
+name = "w"
+value = [1, 2, 3]
+wrong = [
+    { value = [0, 0, 1], feedback = "No." },
+    { value = [0, 1, 0], feedback = "Not $e$." },
+]
+'''
+    formulas = lecture_from_toml(text, Path(), "x.toml").formulas
+    assert {entry.source for entry in formulas} == {"x.toml"}
+    assert [(entry.field, entry.latex, entry.line) for entry in formulas] == [
+        ("steps[0].text", "x", 6),
+        ("steps[0].text", "x", 8),
+        ("steps[0].text", "y + z", 8),
+        ("steps[0].exercise.question", "q", 11),
+        ("steps[0].exercise.options[0].text", "a", 13),
+        ("steps[0].exercise.options[0].feedback", "b", 13),
+        ("steps[0].exercise.options[1].feedback", "d", 14),
+        ("steps[1].exercise.question", "u", 20),
+        ("steps[1].exercise.answers[1].wrong[1].feedback", "e", 29),
+    ]
+
+
+def test_what_an_exercise_says_nothing_of():
+    """A ray's direction may have any length, a vector not."""
+    asked = read(exercise("ray", "pixel = [5, 7]\nsize = [7, 5]")).steps[0].exercise
+    assert (asked.scaled, asked.tolerance) == (True, 0.002)
+    asked = read(vectors("u")).steps[0].exercise
+    assert (asked.wanted[0].scaled, asked.tolerance) == (False, 0.002)
+
+
 def test_files_elsewhere_are_named_whatever_names_them(tmp_path):
     """Models of a lecture's own scenes, scenes, views: before any is read."""
     inside = tmp_path / "inside"

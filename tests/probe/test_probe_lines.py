@@ -8,9 +8,10 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from app.explaining.languages import c, julia
 from app.lecture.typesetting import mistake
 from app.probe.color_formulas import color_lines
-from app.probe.copying import all_lines, as_python, as_text
+from app.probe.copying import all_lines, as_c, as_julia, as_latex, as_python, as_text
 from app.probe.formulas import LEAST_COSINE, hit_lines, ray_lines
 from app.probe.model import Probe
 from app.probe.reading import Reading
@@ -380,3 +381,50 @@ def test_a_normal_that_hardly_faces_the_viewer_is_bent_to_it(name) -> None:
     )
     assert by_key(reading)["geometric"][0].startswith("vec(g) = ")
     assert "interpolated" not in as_python(reading)
+
+
+@pytest.mark.parametrize("name", ALL)
+def test_a_copied_program_leaves_what_the_probe_knows(name) -> None:
+    """Of every kind of reading, also from inside and from behind."""
+    reading = ALL[name]()
+    left: dict = {"print": lambda *_: None}
+    exec(as_python(reading), left)
+    assert left["color"] == pytest.approx(np.array(reading.color), rel=1e-6)
+    assert np.abs(left["rgb"] - reading.bytes).max() <= 1
+    if reading.hit is not None:
+        assert left["t"] == pytest.approx(reading.hit.t, rel=1e-6)
+        assert left["normal"] == pytest.approx(np.array(reading.hit.normal), abs=1e-6)
+
+
+def test_a_copied_program_says_what_its_lines_are() -> None:
+    reading = on_the_floor()
+    program = as_python(reading)
+    assert "\ni, j = 3, 1  # row and column, counted from 1, as in the lecture\n" in program
+    arrays = as_python(reading, Indexing.ARRAY)
+    assert "\ni, j = 2, 0  # row and column, counted from 0, as arrays are\n" in arrays
+    told = [line.partition("# ")[2] for line in program.splitlines()]
+    light = told.index("Blinn and Phong's light; colours are linear.")
+    assert [line for line in told[light + 1 :] if line] == [
+        "light 1",
+        "light 2 is shadowed",
+        "mirrored ray 1",
+        "mirrored ray 2",
+        "The display: exposure, curve, 8 bits.",
+    ]
+    assert as_julia(reading, Indexing.ARRAY) == julia.program(arrays)
+    assert as_c(reading, Indexing.ARRAY) == c.program(arrays)
+
+
+def test_copied_formulas_stand_below_one_another() -> None:
+    """At their equals signs, where they have one; the last line is not ended."""
+    rows = as_latex(grazing(BALL, 0.0)).splitlines()
+    assert rows[0] == "% Pixel in row 1, column 1 of 1 x 1, from 1"
+    assert rows[2:4] == [
+        r"  u &= \frac{j - 0.5}{W} - 0.5 \\",
+        r"  &= \frac{1 - 0.5}{1} - 0.5 = 0 \\",
+    ]
+    assert r"  & t > 0 \\" in rows
+    at = rows.index(r"  |\mathbf{p} + t\,\mathbf{d} - \mathbf{c}|^2 &= R^2 \\")
+    assert rows[at + 1].startswith("  & |(0,")
+    assert rows[-2].startswith(r"  &= \lfloor 255\,") and not rows[-2].endswith("\\")
+    assert rows[-1] == r"\end{align*}"

@@ -81,7 +81,7 @@ def test_the_step_with_its_changes_and_answers_comes_back(file, folder):
     assert lecture is not None
     assert lecture.number == 1
     assert start.state.scene is lecture.step.scene
-    assert start.state.step == lecture.place
+    assert start.state.step == lecture.place == (str(file), 1)
     assert start.state.view == left.state.view
     assert start.state.options == left.state.options
     answers = lecture.answers
@@ -159,6 +159,41 @@ def test_a_lecture_begins_with_what_is_the_users_own(file, folder):
     assert preferences.presentation
     assert not start.state.options.shadows
     start.keeper.close(session_of(start.state, Arrangement()))
+
+
+def test_a_session_goes_from_step_to_step_and_no_further(file):
+    session = LectureSession(load_lecture(file), file)
+    assert (session.number, session.answers.solved) == (0, False)
+    assert not session.go(-1)
+    assert session.go(5)
+    assert session.number == 1
+    assert not session.go(1)
+    assert session.go(0)
+    assert session.step.title == "First"
+
+
+def test_a_step_is_there_with_its_scene_and_its_place(file):
+    session = LectureSession(load_lecture(file), file, 1)
+    state = begin_session(folder=BUILTIN).state
+    here = replace(state, scene=session.step.scene, step=session.place)
+    assert session.kept(here).in_step
+    assert not session.kept(replace(here, scene=state.scene)).in_step
+    assert not session.kept(replace(here, step=(str(file), 0))).in_step
+
+
+def test_a_newer_version_goes_on_at_the_step_and_its_files_are_watched(file):
+    session = LectureSession(load_lecture(file), file, 1)
+    session.error = "an older mistake"
+    ball = file.parent / "ball.toml"
+    ball.write_text("[[objects]]\ntype = 'sphere'\n")
+    new = '[[steps]]\ntitle = "New"\ntext = "new"\nscene = "ball.toml"\n\n[[steps]]'
+    file.write_text(LECTURE.replace('[[steps]]\ntitle = "First"', f'{new}\ntitle = "First"'))
+    session.take(load_lecture(file))
+    assert (session.number, session.step.title, session.error) == (2, "Second", "")
+    ball.write_text("[[objects]]\ntype = 'sphere'\nradius = 2\n")
+    session.watch.know(load_lecture(file).files | {ball: None})
+    assert not session.watch.changed(1.0)
+    assert session.watch.changed(2.0)
 
 
 @pytest.mark.parametrize(
