@@ -96,7 +96,7 @@ MODULES: dict[str, tuple[str, ...]] = {
     "app/lecture/reading.py": ("lecture_reading", "lecture", "outside_files"),
     "app/lecture/text.py": ("lecture",),
     "app/lecture/under.py": ("lecture_reading", "lecture"),
-    "app/lecture/written.py": ("lecture_size", "typesetting", "lecture"),
+    "app/lecture/written.py": ("lecture_reading",),
     "app/stepper/loop_parts.py": ("stepper", "rasterization"),
     "app/stepper/loops.py": ("stepper", "rasterization"),
     "app/stepper/raster_parts.py": ("rasterization",),

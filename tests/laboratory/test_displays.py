@@ -10,6 +10,7 @@ import pytest
 from app.laboratory import displays
 from app.laboratory import displays_view as laboratory_displays
 from app.laboratory.displays import DISPLAYS
+from app.laboratory.light import CHANNELS
 from app.laboratory.options import LaboratoryOptions
 from renderer.images import to_srgb8
 
@@ -121,6 +122,49 @@ def test_a_pixels_course_over_the_cycle(color):
 def test_what_a_display_can_show():
     wild = np.array([[[np.nan, -1, 0.25], [np.inf, 3, 0.5]]], np.float32)
     assert displays.shown(wild, 1.0).tolist() == [[[0, 0, 0.5], [1, 1, 1]]]
+
+
+@pytest.mark.parametrize("rounding", [0.0, 0.0625])
+def test_how_much_an_element_covers_by_hand(rounding):
+    """Of 8 x 8: 4.5 wide and 2 high, its corners round by half a pixel at most."""
+    place = (0.5, 0.5, 2.25 / 8, 1 / 8, rounding)
+    kind = replace(DISPLAYS["lcd"], places=(place, place, place), unlit=21)
+    wanted = np.zeros((8, 8))
+    wanted[3:5] = (0, 0.25, 1, 1, 1, 1, 0.25, 0)
+    for channel in range(3):
+        assert kind.elements(8)[..., channel].tolist() == wanted.tolist()
+    dark = displays.instant(kind, np.zeros((1, 1, 3), np.float32), 0.0, 8)
+    assert dark[3, :, 0].tolist() == [0, 5, 21, 21, 21, 21, 5, 0]  # a quarter of 21 is 5.25
+
+
+@pytest.mark.parametrize("name", ["lcd", "led"])
+def test_stripes_stand_side_by_side_in_their_pixel(name):
+    places = DISPLAYS[name].places
+    assert [place[:2] for place in places] == [(1 / 6, 0.5), (0.5, 0.5), (5 / 6, 0.5)]
+    assert all(half_x < 1 / 6 and half_y < 1 / 2 for _, _, half_x, half_y, _ in places)
+
+
+@pytest.mark.parametrize("name", DISPLAYS)
+def test_black_is_dark_at_every_moment(name):
+    black = np.zeros((2, 3, 3), np.float32)
+    for phase in (0.0, 1 / 3, 2 / 3, 1.0):
+        assert not DISPLAYS[name].light(black, phase).any()
+
+
+def test_at_a_cycles_end_all_mirrors_have_turned_away():
+    assert not DISPLAYS["dlp"].light(np.ones((2, 3, 3), np.float32), 1.0).any()
+
+
+def test_a_course_is_taken_in_the_middle_of_each_moment():
+    kind = replace(DISPLAYS["lcd"], light=lambda color, phase: color * np.float32(phase))
+    course = displays.course(kind, np.ones((1, 1, 3), np.float32), (0, 0), 4)
+    assert course[:, 0].tolist() == [0.125, 0.375, 0.625, 0.875]
+
+
+def test_after_the_shares_of_a_colors_time_it_is_the_next_ones_turn():
+    phases = [displays.stepped("dlp", 0.0, 5, 7, k * displays.SHARES) for k in range(4)]
+    turns = [displays.moment("dlp", phase).partition("'")[0] for phase in phases]
+    assert turns == [*CHANNELS, CHANNELS[0]]
 
 
 class Still:

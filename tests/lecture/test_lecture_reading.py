@@ -181,7 +181,11 @@ title = "A"
 text = """
 $x$ and
 
-then $x$, but not $y + z$"""
+then $x$, but not $y + z$
+
+$$
+w
+$$"""
 [steps.exercise]
 kind = "choice"
 question = "Why $q$?"
@@ -211,12 +215,13 @@ wrong = [
         ("steps[0].text", "x", 6),
         ("steps[0].text", "x", 8),
         ("steps[0].text", "y + z", 8),
-        ("steps[0].exercise.question", "q", 11),
-        ("steps[0].exercise.options[0].text", "a", 13),
-        ("steps[0].exercise.options[0].feedback", "b", 13),
-        ("steps[0].exercise.options[1].feedback", "d", 14),
-        ("steps[1].exercise.question", "u", 20),
-        ("steps[1].exercise.answers[1].wrong[1].feedback", "e", 29),
+        ("steps[0].text", "w", 11),
+        ("steps[0].exercise.question", "q", 15),
+        ("steps[0].exercise.options[0].text", "a", 17),
+        ("steps[0].exercise.options[0].feedback", "b", 17),
+        ("steps[0].exercise.options[1].feedback", "d", 18),
+        ("steps[1].exercise.question", "u", 24),
+        ("steps[1].exercise.answers[1].wrong[1].feedback", "e", 33),
     ]
 
 
