@@ -151,3 +151,30 @@ def test_an_eye_that_lies_on_an_edge_sees_it_everywhere(order) -> None:
         middle = np.array([16])
         distance = lines.outline_px(np.zeros(1, int), middle, middle)
         assert (distance[0] == 0) == touched, back
+
+
+def away_px(corners, i: int, j: int) -> float:
+    """From a triangle's nearest edge."""
+    lines = Discontinuities(flatten(Scene((triangle(corners),))), CAMERA, SIZE)
+    return float(lines.outline_px(np.zeros(1, int), np.array([i]), np.array([j]))[0])
+
+
+def test_an_edge_as_near_as_what_is_unknown_of_it_is_met(monkeypatch) -> None:
+    corners = ((-0.3, -0.2, -1.0), (0.3, -0.2, -1.0), (0.0, 0.3, -1.0))
+    monkeypatch.setattr("renderer.edges.unknown_edge_px", lambda *_: np.zeros(1))
+    away = away_px(corners, 11, 16)
+    assert away > 2
+    for unknown, found in ((away, 0.0), (0.99 * away, away)):
+        monkeypatch.setattr("renderer.edges.unknown_edge_px", lambda *_, u=unknown: np.full(1, u))
+        assert away_px(corners, 11, 16) == found
+
+
+@pytest.mark.parametrize("across", [(1.0, 0.25, 0.0), (1.0, 0.0, -4.0)])  # ahead; from behind
+def test_a_ray_through_an_edge_touches_it_wherever_in_the_image(monkeypatch, across) -> None:
+    """The image's first pixel, whose ray is longer than 1; all numbers are exact in float32."""
+    monkeypatch.setattr("renderer.edges.unknown_edge_px", lambda *_: np.full(1, -1.0))
+    met, way = 2 * np.array([-0.484375, 0.359375, -1.0]), np.array(across)
+    beside, above = np.array([0.0, 1.0, -1.0]), np.array([0.0, 1e-4, 0.0])
+    assert away_px((met - way, met + way, met + beside), 0, 0) == 0
+    near = met + above
+    assert away_px((near - way, near + way, near + beside), 0, 0) > 0
