@@ -91,7 +91,8 @@ class LiveRaster:
 
     def follow(self, request: ImageRequest) -> RasterImage:
         """The newest complete image: of an older camera where an image takes several frames. Drawn
-        anew if it must be. Raises one of FAILURES."""
+        anew if it must be: not for effects, which it lacks. Raises one of FAILURES."""
+        request = request.without_effects
         if request != self._asked:
             self._asked, self._changed_s = request, time.monotonic()
             width, height = request.size
@@ -110,13 +111,14 @@ class LiveRaster:
 
     def full(self, request: ImageRequest) -> RasterImage | None:
         """The image of a request, if that is drawn, and not coarse."""
-        image = self.image
+        image, request = self.image, request.without_effects
         is_it = image is not None and image.request == request and image.factor == 1
         return image if is_it else None
 
     def read_back(self, request: ImageRequest) -> Frame | None:
         """All channels of the full image as arrays, a part a call: None until the last. Raises one
         of FAILURES."""
+        request = request.without_effects
         image = self.full(request)
         if image is None:  # to be drawn, and read from the next frame on
             if self._under_way is None or self._under_way.request != request:

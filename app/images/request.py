@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 from renderer.camera import Camera
 from renderer.scene.model import Scene
@@ -27,6 +27,11 @@ class ImageRequest:
     @property
     def has_effects(self) -> bool:
         return self.shadows or self.mirrors
+
+    @property
+    def without_effects(self) -> ImageRequest:
+        """What of it the raster image shows."""
+        return replace(self, shadows=False, mirrors=False) if self.has_effects else self
 
     def is_served_by(self, other: ImageRequest | None) -> bool:
         """Whether the Tracer that was made for another request can serve this one."""

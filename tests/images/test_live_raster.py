@@ -132,6 +132,20 @@ def test_a_motion_shows_something_new_though_an_image_takes_several_frames(textu
     assert numbers[-1] - numbers[0] >= 2
 
 
+def test_effects_that_only_the_tracer_has_draw_nothing_anew(textures) -> None:
+    of = wanted()
+    full(textures, of)
+    image = textures.raster.image
+    for effects in ({"shadows": True}, {"mirrors": True}):
+        asked = replace(of, **effects)
+        frame(textures, asked)
+        assert textures.raster.image is image
+        assert textures.raster.full(asked) is image
+        assert not textures.raster.unfinished
+        assert read_back(textures, asked).size == of.size
+        assert textures.raster.image is image
+
+
 def test_an_image_that_fails_leaves_nothing_broken(textures, monkeypatch) -> None:
     monkeypatch.setattr(Coarseness, "full_s", lambda *_: 0.0)
     before = pixels(full(textures, wanted()))
