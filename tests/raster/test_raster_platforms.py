@@ -5,11 +5,11 @@ import os
 import shutil
 import subprocess
 import sys
-from pathlib import Path
 
 import moderngl
 import numpy as np
 import pytest
+from import_path import import_path
 
 from renderer.camera import Camera
 from renderer.errors import LucidaError
@@ -146,11 +146,9 @@ def test_beside_a_windows_context_on_x11(gl_backend):
     ) as server:
         try:
             display = f":{server.stdout.readline().decode().strip()}"
-            here, tests = Path(__file__).parent, Path(__file__).parents[1]
-            path = os.pathsep.join([str(tests.parent), str(tests / "support"), str(here)])
             done = subprocess.run(
                 [sys.executable, "-c", WITH_A_WINDOW],
-                env={**os.environ, "DISPLAY": display, "PYTHONPATH": path},
+                env={**os.environ, "DISPLAY": display, "PYTHONPATH": import_path(__file__)},
                 capture_output=True,
                 timeout=60,
                 text=True,

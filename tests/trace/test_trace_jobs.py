@@ -10,11 +10,11 @@ import threading
 import time
 import weakref
 from collections.abc import Iterator
-from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pytest
+from import_path import import_path
 from trace_reference import scene_of
 
 from renderer.camera import Camera
@@ -363,6 +363,4 @@ while not jobs[0].progress or not jobs[2].progress:
 
 
 def _environment() -> dict[str, str]:
-    here, tests = Path(__file__).parent, Path(__file__).parents[1]
-    paths = str(tests.parent), str(tests / "support"), str(here)
-    return {**os.environ, "PYTHONPATH": os.pathsep.join(paths)}
+    return {**os.environ, "PYTHONPATH": import_path(__file__)}
