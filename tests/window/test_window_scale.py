@@ -2,16 +2,12 @@
 
 from __future__ import annotations
 
-import os
-import subprocess
-import sys
 from pathlib import Path
 
 import numpy as np
 import pytest
 from PIL import Image
-
-TESTS = Path(__file__).parents[1]
+from test_window import run
 
 SCRIPT = """
 import sys
@@ -42,16 +38,7 @@ print(*told, verdict.unexplained, *run.window.renderers.size)
 
 @pytest.mark.parametrize("type_size", [1.0, 1.25])
 def test_everything_is_twice_as_large(tmp_path: Path, type_size: float) -> None:
-    names = ("DISPLAY", "WAYLAND_DISPLAY")
-    variables = {name: value for name, value in os.environ.items() if name not in names}
-    done = subprocess.run(
-        [sys.executable, "-c", SCRIPT, str(type_size)],
-        env=variables | {"PYTHONPATH": str(TESTS.parent)},
-        cwd=tmp_path,
-        capture_output=True,
-        text=True,
-        timeout=240,
-    )
+    done = run(["-c", SCRIPT, str(type_size)], tmp_path, limit_s=240)
     assert done.returncode == 0, done.stderr
     font, padding, line, main, unexplained, width, height = map(float, done.stdout.split())
     scale = 2 * type_size

@@ -3,17 +3,16 @@
 from __future__ import annotations
 
 import json
-import os
 import signal
 import subprocess
 import sys
 from pathlib import Path
 
 import pytest
+from test_window import run
 
 from app.storage.session import from_bytes
 
-TESTS = Path(__file__).parents[1]
 LIMIT_S = 500
 pytestmark = pytest.mark.timeout(LIMIT_S + 60)
 
@@ -65,17 +64,7 @@ run.run()
 
 
 def window(folder: Path, mode: str) -> subprocess.CompletedProcess[str]:
-    names = ("DISPLAY", "WAYLAND_DISPLAY")
-    variables = {name: value for name, value in os.environ.items() if name not in names}
-    variables |= {"XDG_CONFIG_HOME": str(folder / "config"), "PYTHONPATH": str(TESTS.parent)}
-    return subprocess.run(
-        [sys.executable, "-c", WINDOW, str(folder), mode],
-        env=variables,
-        cwd=folder,
-        capture_output=True,
-        text=True,
-        timeout=LIMIT_S,
-    )
+    return run(["-c", WINDOW, str(folder), mode], folder, limit_s=LIMIT_S)
 
 
 @pytest.mark.skipif(sys.platform == "win32", reason="POSIX's signals")
