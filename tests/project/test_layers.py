@@ -55,6 +55,7 @@ FLOORS = (
     "app.instruments",
     "app.state",
     "app.explaining",
+    "app.checking",
     "app.widgets",
     "app.cameras",
     "app.storage",
@@ -82,7 +83,7 @@ FORBIDDEN = {
 # of instruments all files but those that draw: the ROLES, and what is named here beside them.
 INSTRUMENTS = {room.package for room in ROOMS}
 GRAPHICS = ("glfw", "imgui_bundle", "moderngl")
-PURE = ("app/state", "app/explaining", "app/cameras")
+PURE = ("app/state", "app/explaining", "app/checking", "app/cameras")
 DRAW = {
     "camera_panel": "basis_numbers projection sections",
     "pair": "go_to_pixel image_mouse marks overlay pane pixelgrid resolution rulers toolbar",

@@ -1,0 +1,181 @@
+"""Cameras made up from a seed: from the simplest to any that the formula allows.
+
+All are well conditioned, so that a right answer in float32 is near the right one: the angles, the
+distances and the basis keep away from where numbers cancel.
+"""
+
+from __future__ import annotations
+
+import zlib
+from collections.abc import Callable, Iterator
+from dataclasses import replace
+
+import numpy as np
+
+from app.checking.conventions import Conventions, Shot
+from app.checking.tasks import CAMERA_KINDS, RIGID_KINDS, CheckTask
+from renderer.camera import Camera, Size, Vector
+from renderer.errors import LucidaError
+from renderer.scene.model import View
+
+Random = np.random.Generator
+
+VIEW_SIZE = (8, 6)  # of the images of a task's own views
+SIDES = (3, 9)  # of the images that are made up: enough for a fit, few calls
+
+
+def generator(task: CheckTask) -> Random:
+    """Random numbers of this task: tasks of one seed do not share theirs."""
+    return np.random.default_rng([task.seed, zlib.crc32(task.name.encode())])
+
+
+def rounded(value: float, digits: int = 2) -> float:
+    return round(float(value), digits)
+
+
+def point(random: Random, reach: float = 5.0) -> Vector:
+    """A point with coordinates that can be read."""
+    x, y, z = (rounded(value) for value in random.uniform(-reach, reach, 3))
+    return x, y, z
+
+
+def camera_kinds(conventions: Conventions) -> tuple[str, ...]:
+    """The kinds of cameras that can be told in these words."""
+    if conventions.needs_rigid:
+        return RIGID_KINDS
+    if conventions.space == "camera":  # where lengths and angles are to be the world's
+        return tuple(kind for kind in CAMERA_KINDS if kind != "skewed")
+    return CAMERA_KINDS
+
+
+def shots(task: CheckTask) -> Iterator[Shot]:
+    """The task's views, then those that are made up: kind after kind, from the simplest."""
+    random = generator(task)
+    conventions = task.conventions
+    for view in task.views:
+        yield shot_of(view, task.size or VIEW_SIZE)
+    if not task.count:
+        return
+    kinds = [kind for kind in task.cameras if kind in camera_kinds(conventions)]
+    ways = [(kind, projection) for kind in kinds for projection in task.projections]
+    for number in range(task.count):
+        spread = max(task.count, len(ways))
+        kind, projection = ways[number * len(ways) // spread]
+        yield _made_up(kind, projection, task.size, conventions, random)
+
+
+def _made_up(
+    kind: str, projection: str, size: Size | None, conventions: Conventions, random: Random
+) -> Shot:
+    if size is None:
+        size = _size(random)
+    made, target, up = _KINDS[kind](random, size)
+    camera = replace(made, projection=projection)
+    if conventions.needs_rigid and kind != "turned":
+        camera = camera.fitted(size)
+    if conventions.mirrored:
+        camera = replace(camera, u=_negative(camera.u))
+    return Shot(camera, size, target, up)
+
+
+def shot_of(view: View, size: Size) -> Shot:
+    """A view at a size; its target and its up are those of an orthonormal camera."""
+    camera = view.for_size(size)
+    eye, v, w = (np.asarray(part) for part in (camera.eye, camera.v, camera.w))
+    return Shot(camera, size, _vector(eye - 2.0 * w), _vector(v))
+
+
+def check_views(task: CheckTask) -> None:
+    """Raises LucidaError where a view cannot be told in the task's words."""
+    rigid = task.conventions.needs_rigid
+    if not rigid and task.conventions.space == "world":
+        return
+    for number, view in enumerate(task.views):
+        width, height = task.size or VIEW_SIZE
+        camera = view.for_size((width, height))
+        left, right, bottom, top = camera.viewport
+        wide, high = right - left, top - bottom
+        orthonormal = np.allclose(camera.basis.T @ camera.basis, np.eye(3), atol=1e-9)
+        symmetric = abs(left + right) + abs(bottom + top) <= 1e-9 * (wide + high)
+        fits = abs(wide * height - high * width) <= 1e-9 * wide * height
+        if not orthonormal or (rigid and not (symmetric and fits)):
+            raise LucidaError(
+                f"views[{number}]",
+                "cannot be told by an angle of view, a target or a view direction alone",
+                "give an orthonormal camera with a symmetric viewport, with fit = true",
+            )
+
+
+def _size(random: Random) -> Size:
+    """Wider than high or the other way round: what is exchanged is seen."""
+    width, height = random.choice(np.arange(SIDES[0], SIDES[1] + 1), 2, replace=False).tolist()
+    return width, height
+
+
+def _vector(values: np.ndarray) -> Vector:
+    x, y, z = np.asarray(values, float).tolist()
+    return x, y, z
+
+
+def _negative(vector: Vector) -> Vector:
+    x, y, z = (-value for value in vector)
+    return x, y, z
+
+
+Made = tuple[Camera, Vector, Vector]
+
+
+def _canonical(random: Random, size: Size) -> Made:
+    return Camera.canonical(), (0.0, 0.0, -rounded(random.uniform(1.5, 4.0))), (0.0, 2.0, 0.0)
+
+
+def _moved(random: Random, size: Size) -> Made:
+    """The basis of the world, somewhere, with another distance."""
+    eye = point(random)
+    distance = rounded(random.uniform(0.6, 2.5))
+    distance += 0.25 * (abs(distance - 1.0) < 0.1)
+    x, y, z = eye
+    away = rounded(random.uniform(1.5, 4.0))
+    return Camera(eye=eye, distance=distance), (x, y, z - away), (0.0, 2.0, 0.0)
+
+
+def _turned(random: Random, size: Size) -> Made:
+    """Looking at a target, with the image's aspect ratio."""
+    while True:
+        eye, target = point(random), point(random, 2.0)
+        up = _vector(np.array([0.0, 1.0, 0.0]) + random.uniform(-0.5, 0.5, 3))
+        up = _vector(np.round(np.array(up) * random.uniform(0.5, 2.0), 2))
+        back = np.array(eye) - target
+        sine = np.linalg.norm(np.cross(up, back)) / np.linalg.norm(up) / np.linalg.norm(back)
+        if np.linalg.norm(back) > 1.0 and sine > 0.3:
+            break
+    distance = rounded(random.uniform(0.6, 2.5))
+    height = rounded(random.uniform(0.6, 2.0))
+    camera = Camera.look_at(eye, target, up, distance=distance)
+    half = height / 2 * size[0] / size[1]
+    return replace(camera, viewport=(-half, half, -height / 2, height / 2)), target, up
+
+
+def _off_axis(random: Random, size: Size) -> Made:
+    """An asymmetric viewport of any aspect ratio."""
+    camera, target, up = _turned(random, size)
+    width, height = (rounded(value) for value in random.uniform(0.6, 2.0, 2))
+    left, bottom = (rounded(-value) for value in random.uniform(0.2, 0.8, 2) * (width, height))
+    return replace(camera, viewport=(left, left + width, bottom, bottom + height)), target, up
+
+
+def _skewed(random: Random, size: Size) -> Made:
+    """A basis that is neither of unit length nor at right angles."""
+    camera, target, up = _off_axis(random, size)
+    mixed = np.diag(random.uniform(0.6, 1.6, 3)) + random.uniform(-0.25, 0.25, (3, 3))
+    u, v, w = (_vector(column) for column in (camera.basis @ mixed).T)
+    return replace(camera, u=u, v=v, w=w), target, up
+
+
+_KINDS: dict[str, Callable[[Random, Size], Made]] = {
+    "canonical": _canonical,
+    "moved": _moved,
+    "turned": _turned,
+    "off-axis": _off_axis,
+    "skewed": _skewed,
+}

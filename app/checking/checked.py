@@ -1,0 +1,175 @@
+"""A task tried on a student's code: called, read, compared, and what came of it."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING, Any, Literal
+
+import numpy as np
+from numpy.typing import NDArray
+
+from app.checking.calls import Failure, Run, Student
+from app.checking.kinds import KINDS
+from app.checking.kinds.kind import CheckKind
+from app.checking.kinds.values import text_of
+from app.checking.tasks import CheckCase, CheckTask
+
+if TYPE_CHECKING:
+    from app.checking.mistakes.diagnosis import Diagnosis
+
+Status = Literal["right", "wrong", "failed"]
+ARGUMENT_LETTERS = 400
+
+
+@dataclass(frozen=True)
+class WrongCase:
+    """A case that is answered wrongly, in words and in numbers.
+
+    case: which of all. arguments: as the student's function was given them. right, given: answers
+    as it would write them. where: the pixel. camera, size, pixel, right_answer, given_answer: for
+    views that draw it; the answers in the kind's own form.
+    """
+
+    case: CheckCase
+    arguments: str
+    right: str
+    given: str
+    where: str
+    right_answer: Any
+    given_answer: Any
+
+
+@dataclass(frozen=True)
+class TaskResult:
+    """What came of a task. points: earned. cases: how many there are; wrong: how many of them.
+
+    failure: why it could not be tried, with the arguments that led to it. output: what the
+    student's code printed.
+    """
+
+    task: CheckTask
+    status: Status
+    points: float
+    cases: int
+    wrong: int = 0
+    first: WrongCase | None = None
+    failure: Failure | None = None
+    failed_arguments: str = ""
+    diagnosis: Diagnosis | None = None
+    output: str = ""
+
+
+def check(student: Student, tasks: Sequence[CheckTask]) -> Iterator[TaskResult]:
+    """The results of the tasks, in their order, each as soon as it is there. Raises LucidaError
+    where the student's code cannot be run at all."""
+    functions = student.functions()
+    for task in tasks:
+        if functions is not None and task.function not in functions:
+            yield failed(task, _missing(task, functions))
+        else:
+            yield checked(student, task)
+
+
+def checked(student: Student, task: CheckTask) -> TaskResult:
+    """The result of one task, whose function the student's code has."""
+    kind = KINDS[task.kind]
+    cases = kind.cases(task)
+    run = student.call(kind.calls(task, cases))
+    return judged(task, cases, run)
+
+
+def judged(task: CheckTask, cases: Sequence[CheckCase], run: Run) -> TaskResult:
+    """What a run of all of a task's calls amounts to."""
+    kind = KINDS[task.kind]
+    failure = run.failure
+    failures = [value for value in run.values if isinstance(value, Failure)]
+    if failure is None and failures:
+        number = next(n for n, value in enumerate(run.values) if isinstance(value, Failure))
+        failure = replace(failures[0], call=number)
+    if failure is not None:
+        return _not_judged(task, kind, cases, failure, run.output)
+    given, problems = kind.given(task, cases, run.values)
+    if problems:
+        number = min(problems)
+        failure = Failure("answer", f"{problems[number]}", (), number)
+        return _not_judged(task, kind, cases, failure, run.output)
+    wrong = kind.wrong(task, cases, given)
+    if not wrong.any():
+        return TaskResult(task, "right", task.points, len(cases), output=run.output)
+    return TaskResult(
+        task,
+        "wrong",
+        0.0,
+        len(cases),
+        int(np.count_nonzero(wrong)),
+        _first_wrong(task, kind, cases, given, wrong),
+        diagnosis=_diagnosis(task, cases, kind, given),
+        output=run.output,
+    )
+
+
+def failed(task: CheckTask, failure: Failure) -> TaskResult:
+    """The result of a task that could not be tried."""
+    return TaskResult(task, "failed", 0.0, 0, failure=failure)
+
+
+def status_of(results: Sequence[TaskResult]) -> int:
+    """The exit status: 0 all right, 1 wrong answers, 2 could not be run."""
+    statuses = {result.status for result in results}
+    return 2 if "failed" in statuses else int("wrong" in statuses)
+
+
+def arguments_text(case: CheckCase) -> str:
+    """`i=2, j=5, camera=...`, as the function was called."""
+    text = ", ".join(f"{name}={text_of(value)}" for name, value in case.arguments)
+    return text if len(text) <= ARGUMENT_LETTERS else f"{text[: ARGUMENT_LETTERS - 3]}..."
+
+
+def _missing(task: CheckTask, functions: frozenset[str]) -> Failure:
+    import difflib
+
+    close = difflib.get_close_matches(task.function, functions, 1)
+    remedy = f"did you mean {close[0]}?" if close else "define it"
+    return Failure("missing", f"there is no function {task.function}; {remedy}")
+
+
+def _not_judged(
+    task: CheckTask, kind: CheckKind, cases: Sequence[CheckCase], failure: Failure, output: str
+) -> TaskResult:
+    arguments = ""
+    if failure.call is not None and failure.kind in ("exception", "answer"):
+        number = failure.call
+        if failure.kind == "exception":
+            number = kind.case_of_call(task, cases, number)
+        if number < len(cases):
+            arguments = arguments_text(cases[number])
+    return TaskResult(
+        task, "failed", 0.0, len(cases), failure=failure, failed_arguments=arguments, output=output
+    )
+
+
+def _first_wrong(
+    task: CheckTask,
+    kind: CheckKind,
+    cases: Sequence[CheckCase],
+    given: Any,
+    wrong: NDArray[np.bool_],
+) -> WrongCase:
+    number = int(np.argmax(wrong))
+    case = cases[number]
+    return WrongCase(
+        case,
+        arguments_text(case),
+        kind.answer_text(task, case, case.right),
+        kind.answer_text(task, case, given[number]),
+        kind.call_text(case),
+        case.right,
+        given[number],
+    )
+
+
+def _diagnosis(
+    task: CheckTask, cases: Sequence[CheckCase], kind: CheckKind, given: Any
+) -> Diagnosis | None:
+    return None

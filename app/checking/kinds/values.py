@@ -1,0 +1,85 @@
+"""What a student's function returned, read generously: JSON's values as numbers and vectors.
+
+None means: that is none. What is a number but no finite one is one here; who asks decides.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from typing import Any
+
+SHOWN = 80  # letters of a value in a message
+
+
+def number(value: Any) -> float | None:
+    """A number; also one in a list of its own, as arrays of one element are."""
+    while isinstance(value, list) and len(value) == 1:
+        value = value[0]
+    if isinstance(value, bool) or not isinstance(value, int | float):
+        return None
+    try:
+        return float(value)
+    except OverflowError:
+        return math.inf if value > 0 else -math.inf
+
+
+def vector(value: Any) -> tuple[float, float, float] | None:
+    """Three numbers: in a list, as a row or a column of a matrix, as x, y, z; a fourth one that is
+    0 or 1 is a homogeneous coordinate."""
+    if isinstance(value, dict):
+        value = [value.get(name) for name in ("x", "y", "z")]
+    while isinstance(value, list) and len(value) == 1:
+        value = value[0]
+    if not isinstance(value, list) or len(value) not in (3, 4):
+        return None
+    numbers = [number(part) for part in value]
+    if len(numbers) == 4 and numbers.pop() not in (0.0, 1.0):
+        return None
+    x, y, z = numbers
+    return None if x is None or y is None or z is None else (x, y, z)
+
+
+def vectors(value: Any, names: Sequence[str]) -> list[tuple[float, float, float]] | None:
+    """A vector for each name: in a list in this order, by name, or all their numbers in a row."""
+    if isinstance(value, dict) and all(name in value for name in names):
+        value = [value[name] for name in names]
+    elif isinstance(value, list) and len(value) == 3 * len(names) != 3:
+        value = [value[k : k + 3] for k in range(0, len(value), 3)]
+    elif len(names) == 1 and vector(value) is not None:
+        value = [value]
+    if not isinstance(value, list) or len(value) != len(names):
+        return None
+    found = [vector(part) for part in value]
+    read = [part for part in found if part is not None]
+    return read if len(read) == len(names) else None
+
+
+def is_miss(value: Any) -> bool:
+    """Whether it says that nothing is hit: None, False, inf, nan, or a list of nothing else."""
+    if value is None or value is False:
+        return True
+    if isinstance(value, list):
+        return len(value) <= 2 and all(is_miss(part) for part in value)
+    found = number(value)
+    return found is not None and not math.isfinite(found)
+
+
+def shown(value: Any) -> str:
+    """A returned value in a message, shortened."""
+    text = text_of(value)
+    return text if len(text) <= SHOWN else f"{text[: SHOWN - 3]}..."
+
+
+def text_of(value: Any) -> str:
+    """A value as Python writes it, with numbers of six digits: (1, 0.5, -2)."""
+    match value:
+        case bool() | None | str():
+            return repr(value)
+        case int() | float():
+            return f"{value + 0.0:.6g}" if isinstance(value, float) else str(value)
+        case list() | tuple():
+            return "(" + ", ".join(text_of(part) for part in value) + ")"
+        case dict():
+            return "{" + ", ".join(f"{name}: {text_of(part)}" for name, part in value.items()) + "}"
+    return repr(value)

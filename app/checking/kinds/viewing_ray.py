@@ -1,0 +1,275 @@
+"""The viewing ray of a pixel, in any course's words.
+
+Answers in the kind's own form are arrays (N, 2, 3): origin and direction in the world.
+
+Tolerances. With S = X|u| + Y|v| + d|w|, where X = max(|left|, |right|) + (right - left) and Y the
+same of bottom and top, no number on the way to the ray is larger than M = |eye| + S: neither a point
+on the viewport nor what is left of it when the eye is subtracted again. An origin is right within
+FLOAT32 * M; a direction, as an angle, within FLOAT32 * M / |direction|. Where the basis is to be
+found from a target, eye - target cancels as well, and up x w does where the two are near: the angle
+grows by FLOAT32 * (1 + (|eye| + |target|) / |eye - target|) / sin(up, w). A direction of unit
+length is one within FLOAT32. The cameras that are made up have M / |direction| < 60: within 3e-4;
+half a pixel of their images is at least 1e-2.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from typing import Any, ClassVar
+
+import numpy as np
+from numpy.typing import NDArray
+
+from app.checking.calls import Call
+from app.checking.cases import shots
+from app.checking.conventions import (
+    CAMERA,
+    CAMERA_WORDS,
+    PAIRS,
+    PIXEL_WORDS,
+    Conventions,
+    Shot,
+    argument_lists,
+    vectorised_arguments,
+)
+from app.checking.kinds.kind import FLOAT32, CheckKind, Flags, each
+from app.checking.kinds.values import text_of, vectors
+from app.checking.tasks import CheckCase, CheckTask
+
+Floats = NDArray[np.float64]
+
+
+class ViewingRayKind(CheckKind):
+    name = "viewing-ray"
+    function = "viewing_ray"
+    words: ClassVar[Mapping[str, str]] = {
+        **{name: word.meaning for name, word in PIXEL_WORDS.items()},
+        **{name: f"{a} and {b} in one: [{a}, {b}]" for name, (a, b) in PAIRS.items()},
+        **{name: word.meaning for name, word in CAMERA_WORDS.items()},
+        CAMERA: "an object with the fields that the task declares",
+    }
+    arguments = ("i", "j", "width", "height", "camera")
+    returns = ("origin", "direction")
+    return_words: ClassVar[Mapping[str, str]] = {
+        "origin": "where the ray starts",
+        "direction": "where it goes",
+    }
+    answer = "origin and direction, three numbers each"
+
+    def cases(self, task: CheckTask) -> list[CheckCase]:
+        return [case for shot in shots(task) for case in cases_of(task, shot)]
+
+    def calls(self, task: CheckTask, cases: Sequence[CheckCase]) -> list[Call]:
+        if not task.vectorised:
+            return super().calls(task, cases)
+        return [
+            Call(task.function, _vectorised(task, cases[first:last]), vectorised=True)
+            for first, last in _images(cases)
+        ]
+
+    def case_of_call(self, task: CheckTask, cases: Sequence[CheckCase], call: int) -> int:
+        return _images(cases)[call][0] if task.vectorised else call
+
+    def given(
+        self, task: CheckTask, cases: Sequence[CheckCase], values: Sequence[Any]
+    ) -> tuple[Floats, dict[int, str]]:
+        returns = task.conventions.returns
+        blank = [[np.nan] * 3] * len(returns)
+        problems: dict[int, str]
+        if task.vectorised:
+            rays, problems = _vectorised_rays(task, cases, values)
+        else:
+            found, problems = each(
+                values, lambda value: vectors(value, returns), blank, self.answer
+            )
+            rays = np.array(found, float).reshape(-1, len(returns), 3)
+        given = np.full((len(cases), 2, 3), np.nan)
+        count = len(rays)
+        for place, name in enumerate(("origin", "direction")):
+            if name in returns:
+                given[:count, place] = rays[:, returns.index(name)]
+            else:
+                given[:count, place] = self.right(cases)[:count, place]
+        if task.conventions.space == "camera":
+            for first, last in _images(cases):
+                given[first:last] = _to_world(task.conventions, cases[first], given[first:last])
+        return given, problems
+
+    def right(self, cases: Sequence[CheckCase]) -> Floats:
+        return np.array([case.right for case in cases], float).reshape(-1, 2, 3)
+
+    def wrong(self, task: CheckTask, cases: Sequence[CheckCase], given: Floats) -> Flags:
+        tolerance = np.array([case.tolerance for case in cases], float).reshape(-1, 2)
+        return ~are_right(task.conventions, self.right(cases), given, tolerance)
+
+    def answer_text(self, task: CheckTask, case: CheckCase, answer: Floats) -> str:
+        ray = np.asarray(answer, float)
+        if task.conventions.space == "camera":
+            ray = _to_camera(task.conventions, case, ray)
+        if task.conventions.unit:
+            with np.errstate(all="ignore"):
+                ray = np.array([ray[0], ray[1]])
+        parts = dict(zip(("origin", "direction"), ray.tolist(), strict=True))
+        return ", ".join(f"{name} {text_of(parts[name])}" for name in task.conventions.returns)
+
+    def call_text(self, case: CheckCase) -> str:
+        assert case.size is not None and case.pixel is not None
+        width, height = case.size
+        i, j = case.pixel
+        return f"pixel in row {i}, column {j} (from 0, from the top left) of {width}x{height}"
+
+
+def cases_of(task: CheckTask, shot: Shot) -> list[CheckCase]:
+    """A case for each pixel of an image."""
+    width, height = shot.size
+    i, j = (part.ravel() for part in np.indices((height, width)))
+    rays = shot.camera.ray(i, j, shot.size)
+    right = np.stack([rays.origin, rays.direction], axis=1)
+    if task.conventions.unit:
+        right[:, 1] /= np.linalg.norm(right[:, 1], axis=1, keepdims=True)
+    tolerances = np.column_stack(_tolerances(task.conventions, shot, rays.direction))
+    lists = argument_lists(shot, task.conventions, i, j)
+    names = [name for name, _ in task.conventions.arguments]
+    columns = [lists[word] for _, word in task.conventions.arguments]
+    pixels = zip(i.tolist(), j.tolist(), strict=True)
+    return [
+        CheckCase(
+            tuple(zip(names, values, strict=True)),
+            ray,
+            tolerance,
+            camera=shot.camera,
+            size=shot.size,
+            pixel=pixel,
+            target=shot.target,
+            up=shot.up,
+        )
+        for *values, ray, tolerance, pixel in zip(*columns, right, tolerances, pixels, strict=True)
+    ]
+
+
+def _tolerances(conventions: Conventions, shot: Shot, directions: Floats) -> tuple[Floats, Floats]:
+    """Of origins and of directions, (N,) each; the module's docstring derives them."""
+    camera = shot.camera
+    left, right, bottom, top = camera.viewport
+    x = max(abs(left), abs(right)) + right - left
+    y = max(abs(bottom), abs(top)) + top - bottom
+    u, v, w = (np.linalg.norm(part) for part in (camera.u, camera.v, camera.w))
+    largest = np.linalg.norm(camera.eye) + x * u + y * v + camera.distance * w
+    angle = largest / np.linalg.norm(directions, axis=1)
+    origin = np.full(len(directions), largest)
+    if {"target", "up"} & conventions.words:
+        eye, target = np.asarray(camera.eye), np.asarray(shot.target)
+        away = np.linalg.norm(eye - target)
+        sine = np.linalg.norm(np.cross(shot.up, camera.w)) / np.linalg.norm(shot.up) / w
+        basis = (1 + (np.linalg.norm(eye) + np.linalg.norm(target)) / away) / sine
+        angle = angle + basis
+        origin = origin + basis * (x * u + y * v)
+    return FLOAT32 * origin, FLOAT32 * angle
+
+
+def are_right(conventions: Conventions, right: Floats, given: Floats, tolerance: Floats) -> Flags:
+    """Which rays are right, bool (N,). right, given: (N, 2, 3) in the world; tolerance: (N, 2)."""
+    with np.errstate(all="ignore"):
+        lengths = _norms(given[:, 1])
+        directions = _unit(given[:, 1])
+        wanted = _unit(right[:, 1])
+        turned = _norms(np.cross(directions, wanted))
+        ahead = np.sum(directions * wanted, axis=1) > 0
+        fine = ahead & (turned <= tolerance[:, 1])
+        apart = given[:, 0] - right[:, 0]
+        along = np.zeros(len(right))
+        if conventions.any_origin:
+            along = np.sum(apart * wanted, axis=1)
+            apart = apart - along[:, None] * wanted
+        fine &= _norms(apart) <= tolerance[:, 0] + along * tolerance[:, 1]
+        fine &= along >= -tolerance[:, 0]
+        if conventions.unit:
+            fine &= np.abs(lengths - 1) <= FLOAT32
+    return fine
+
+
+def _norms(vectors: Floats) -> Floats:
+    """Without overflow: a direction may be of any length."""
+    largest = np.max(np.abs(vectors), axis=1)
+    return largest * np.linalg.norm(vectors / np.where(largest > 0, largest, 1)[:, None], axis=1)
+
+
+def _unit(vectors: Floats) -> Floats:
+    scaled = vectors / np.max(np.abs(vectors), axis=1, keepdims=True)
+    return scaled / np.linalg.norm(scaled, axis=1, keepdims=True)
+
+
+def _frame(conventions: Conventions, case: CheckCase) -> tuple[Floats, Floats]:
+    """Camera space's axes as columns, and the eye."""
+    assert case.camera is not None
+    return case.camera.basis * np.array(conventions.axes, float), np.asarray(case.camera.eye)
+
+
+def _to_world(conventions: Conventions, case: CheckCase, rays: Floats) -> Floats:
+    frame, eye = _frame(conventions, case)
+    with np.errstate(all="ignore"):
+        world = rays @ frame.T
+    world[..., 0, :] += eye
+    return world
+
+
+def _to_camera(conventions: Conventions, case: CheckCase, ray: Floats) -> Floats:
+    frame, eye = _frame(conventions, case)
+    return np.linalg.solve(frame, (ray - np.array([eye, np.zeros(3)])).T).T
+
+
+def _images(cases: Sequence[CheckCase]) -> list[tuple[int, int]]:
+    """The first and the last but one case of each image."""
+    starts = [
+        number
+        for number, case in enumerate(cases)
+        if number == 0 or case.camera is not cases[number - 1].camera
+    ]
+    return list(zip(starts, [*starts[1:], len(cases)], strict=True))
+
+
+def _vectorised(task: CheckTask, cases: Sequence[CheckCase]) -> tuple[tuple[str, Any], ...]:
+    """The arguments of one call for all pixels: those of pixels are lists."""
+    first = cases[0]
+    assert first.camera is not None and first.size is not None
+    assert first.target is not None and first.up is not None
+    shot = Shot(first.camera, first.size, first.target, first.up)
+    i, j = np.array([case.pixel for case in cases]).T
+    return vectorised_arguments(shot, task.conventions, i, j)
+
+
+def _vectorised_rays(
+    task: CheckTask, cases: Sequence[CheckCase], values: Sequence[Any]
+) -> tuple[Floats, dict[int, str]]:
+    """The rays of calls that are each for a whole image: (N, parts, 3)."""
+    returns = task.conventions.returns
+    rays = np.full((len(cases), len(returns), 3), np.nan)
+    problems: dict[int, str] = {}
+    for value, (first, last) in zip(values, _images(cases), strict=False):
+        parts = (
+            [value[name] for name in returns]
+            if isinstance(value, dict) and all(name in value for name in returns)
+            else value
+        )
+        parts = [parts] if len(returns) == 1 and isinstance(parts, list) else parts
+        try:
+            assert isinstance(parts, list) and len(parts) == len(returns)
+            for place, part in enumerate(parts):
+                array = np.array(part, float)
+                rays[first:last, place] = array if array.ndim == 1 else array.reshape(-1, 3)
+        except (AssertionError, TypeError, ValueError):
+            problems[first] = (
+                f"returned {_shape_text(value)}, not {' and '.join(returns)} "
+                f"with three numbers for each of {last - first} pixels"
+            )
+    return rays, problems
+
+
+def _shape_text(value: Any) -> str:
+    """What came, by its shape where it has one."""
+    if isinstance(value, list):
+        try:
+            return f"an array of shape {np.array(value, float).shape}"
+        except (TypeError, ValueError):
+            return f"a list of {len(value)}"
+    return text_of(value)[:60]
