@@ -30,7 +30,9 @@ from app.state.options import Pixel
 from renderer.camera import Camera
 
 Floats = NDArray[np.float64]
-Role = Literal["u", "v", "w", "ray", "mark", "plane", "volume", "grid", "eye", "text", "extra"]
+Role = Literal[
+    "u", "v", "w", "ray", "mark", "plane", "volume", "grid", "eye", "text", "extra", "other"
+]  # fmt: skip
 
 PALE = 0.42  # of what is hidden: the opacity of its dashes
 

@@ -11,6 +11,7 @@ from typing import Any
 
 import numpy as np
 
+from app.images.scene_tracer import SceneTracer
 from app.state.options import Pixel
 from app.widgets.background import Background
 from renderer.camera import Camera
@@ -49,7 +50,7 @@ class RayHits:
         self._background: Background[RayDepths] = Background("lucida-outside-rays", wake)
         self._asked: RayQuery | None = None
         self._answer: RayDepths | None = None
-        self._own: tuple[Scene, Any] | None = None  # a tracer, of the thread; used in it only
+        self._tracer = SceneTracer()
 
     @property
     def busy(self) -> bool:
@@ -73,25 +74,10 @@ class RayHits:
 
     def close(self) -> None:
         self._background.close()
-        if self._own is not None:
-            self._own[1].close()
+        self._tracer.close()
 
     def _trace(self, question: RayQuery, tracer: Any | None) -> RayDepths:
-        if tracer is None:
-            tracer = self._own_tracer(question.scene)
-        elif self._own is not None:
-            self._own[1].close()
-            self._own = None
-        return RayDepths(question, traced(question, tracer))
-
-    def _own_tracer(self, scene: Scene) -> Any:
-        if self._own is None or self._own[0] is not scene:
-            from renderer.trace import Tracer  # here: it loads the compiler
-
-            if self._own is not None:
-                self._own[1].close()
-            self._own = (scene, Tracer(scene))
-        return self._own[1]
+        return RayDepths(question, traced(question, self._tracer.of(question.scene, tracer)))
 
 
 def traced(question: RayQuery, tracer: Any) -> dict[Pixel, float]:

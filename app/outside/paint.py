@@ -36,6 +36,7 @@ FIXED: dict[Role, ImVec4] = {
     "eye": theme.rgb("#f4f1ea"),
     "text": theme.rgb("#eef1f4"),
     "extra": theme.rgb("#cc79a7"),  # the reddish purple of Okabe and Ito's palette
+    "other": theme.rgb("#a98bff"),
 }
 
 # On a light ground without a picture behind.
@@ -45,6 +46,7 @@ DARKER: dict[Role, ImVec4] = {
     "grid": theme.rgb("#5d6873"),
     "mark": theme.rgb("#8c7a00"),
     "text": theme.rgb("#16191c"),
+    "other": theme.rgb("#6a3fd1"),
 }
 
 Rgba = tuple[float, float, float, float]
@@ -56,8 +58,8 @@ CASING: Rgba = (0.03, 0.035, 0.04, 0.6)
 
 def role_color(role: Role, ground: theme.Rgb | None = None) -> ImVec4:
     """The colour of a role in the theme in use. ground: what it is drawn on; None: a panel."""
-    if role in theme.BASIS:
-        color = theme.BASIS[role]
+    if role in theme.BASIS or role == "other":
+        color = FIXED[role] if role == "other" else theme.BASIS[role]
         return color if ground is None else theme.seen_on(color, ground)
     if role == "ray":
         return theme.RAY

@@ -42,6 +42,7 @@ FLOORS = (
     "renderer.trace.packets",
     "renderer.trace.jobs",
     "renderer.trace",
+    "renderer.shaded_rays",
     "renderer.pure_python",
     "renderer.nothing_hit",
     "renderer.difference",

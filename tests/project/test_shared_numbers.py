@@ -15,7 +15,8 @@ from renderer.scene.model import DirectionalLight, Material, PointLight, Scene, 
 
 ROOT = Path(__file__).parents[2]
 NUMBERS = {name: value for name, value in vars(shared_numbers).items() if name.isupper()}
-ONLY_PYTHON = {"SRGB_LINEAR_SHOWN"}  # no shader goes from display values to light
+# No shader goes from display values to light, or has secondary rays.
+ONLY_PYTHON = {"SRGB_LINEAR_SHOWN", "AWAY", "AWAY_OF_EYE"}
 SHADERS = [
     path
     for ending in ("*.frag", "*.vert", "*.glsl")
@@ -28,6 +29,8 @@ OTHER_MEANING = {"line.vert", "line.frag", "display.frag"}
 SHADING = (
     "renderer/trace/scalar/shade.py",
     *(f"renderer/trace/packets/{name}.py" for name in ("cells", "shade", "smooth", "surface")),
+    "renderer/trace/packets/effects.py",
+    "renderer/shaded_rays.py",
     "renderer/images/display.py",
     "renderer/scene/flat.py",
     "renderer/raster/depth_range.py",

@@ -13,6 +13,7 @@ from typing import NamedTuple
 import numpy as np
 
 from renderer.scene.flat import SPECULAR_CHECKERED
+from renderer.shared_numbers import AWAY, AWAY_OF_EYE
 from renderer.trace.compile.compiled import inlined
 from renderer.trace.packets.surface import Pixels, store3
 from renderer.trace.packets.tile import OWNER, SECONDARY, SEEN, WAITING_DEPTHS, WAITING_NODES
@@ -24,9 +25,6 @@ from renderer.trace.simd.memory import load, shifted, store
 
 # Vectors in the scratch: where rays start, where they go, how far.
 ORIGIN, DIRECTION, REACH = SECONDARY, SECONDARY + 3 * LANES, SECONDARY + 6 * LANES
-# Rays start a little off a surface, or rounding puts it in their way: of the scene's size, and of
-# the eye's distance, from which the point was computed.
-_AWAY, _AWAY_OF_EYE = 2e-5, 2e-6
 
 
 class Effects(NamedTuple):
@@ -48,7 +46,7 @@ def effects_of(
     if not shadows and not mirror_depth:
         return None
     middle = bounds.mean(axis=0)
-    away = _AWAY * np.abs(bounds - middle).max() + _AWAY_OF_EYE * np.abs(eye - middle).max()
+    away = AWAY * np.abs(bounds - middle).max() + AWAY_OF_EYE * np.abs(eye - middle).max()
     return Effects(shadows, mirror_depth, np.float32(away))
 
 

@@ -1,0 +1,155 @@
+"""Pictures of a scene along any rays, such as those of a wrong program, made in the background.
+
+Owns the thread that makes them, and which of them are still wanted. Knows nothing of windows and of
+where the rays come from.
+"""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable, Hashable
+from dataclasses import dataclass
+from typing import Any, Generic, Protocol, TypeVar
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from app.images.scene_tracer import SceneTracer
+from app.widgets.background import Background
+from renderer.errors import LucidaError
+from renderer.scene.flat import FlatScene, flatten
+from renderer.scene.model import Scene
+from renderer.shaded_rays import Shading, shaded
+
+T = TypeVar("T")
+PATIENCE_S = 0.15  # pictures that are done sooner come, though newer ones are asked for: in motion
+
+
+class TracerSource(Protocol):
+    """progressive_ray.LiveTrace: who may have a Tracer of the scene."""
+
+    @property
+    def preparing_s(self) -> float: ...
+    def tracer_of(self, scene: Scene) -> Any | None: ...
+
+
+class UnwantedError(Exception):
+    """Something newer is asked for, or the tracer has gone on to another scene."""
+
+
+class RayPainter:
+    """What pictures are made with, in the thread."""
+
+    def __init__(
+        self, scene: Scene, flat: FlatScene, tracer: Any, is_wanted: Callable[[], bool]
+    ) -> None:
+        self._scene, self._flat, self._tracer = scene, flat, tracer
+        self._is_wanted = is_wanted
+
+    def picture(
+        self, origins: ArrayLike, directions: ArrayLike, shading: Shading
+    ) -> NDArray[np.float32]:
+        """Linear light (H, W, 3) along rays, see shaded_rays.shaded(). Raises UnwantedError, which
+        is to be let through."""
+        light = shaded(self._tracer, self._flat, origins, directions, shading, self._is_wanted)
+        if light is None or self._tracer.scene is not self._scene:
+            raise UnwantedError
+        return light
+
+
+@dataclass(frozen=True, eq=False)
+class _Question:
+    key: Hashable
+    scene: Scene
+
+
+@dataclass(frozen=True, eq=False)
+class _Answer(Generic[T]):
+    """value: None where an error came, or where it was given up."""
+
+    question: _Question
+    value: T | None = None
+    error: Exception | None = None
+
+
+class RayPictures(Generic[T]):
+    """Makes what was asked for last. wake: called from the thread when something is there.
+
+    error: what went wrong with the newest. Used in the window's thread.
+    """
+
+    def __init__(self, name: str, wake: Callable[[], None]) -> None:
+        self._background: Background[_Answer[T]] = Background(name, wake)
+        self._tracer = SceneTracer()
+        self._flat: tuple[Scene, FlatScene] | None = None  # used in the thread only
+        self._newest: _Question | None = None
+        self._waits = False  # for the window's tracer
+        self._made: T | None = None
+        self.error: Exception | None = None
+
+    def follow(
+        self, key: Hashable, scene: Scene, source: TracerSource, make: Callable[[RayPainter], T]
+    ) -> T | None:
+        """Call once a frame: the last that was made, which stands in for the newest until that
+        comes; None before the first. key: what `make` depends on beside the scene: nothing is made
+        anew while both stay. make: called in the thread."""
+        self._poll()
+        newest = self._newest
+        if newest is None or newest.key != key or newest.scene is not scene:
+            tracer = source.tracer_of(scene)
+            # One that is being prepared now is waited for: two would take twice the memory.
+            self._waits = tracer is None and source.preparing_s > 0
+            if not self._waits:
+                question = self._newest = _Question(key, scene)
+                self.error = None
+                self._background.submit(lambda: self._make(question, tracer, make))
+        return self._made
+
+    @property
+    def busy(self) -> bool:
+        """Whether what was asked for last is still to come."""
+        return self._waits or self._background.busy
+
+    def forget(self) -> None:
+        """Nobody looks any more: what is on its way is dropped, and what is there let go."""
+        self._newest, self._waits, self._made, self.error = None, False, None, None
+
+    def close(self) -> None:
+        self._newest = None
+        self._background.close()
+        self._tracer.close()
+
+    def _poll(self) -> None:
+        outcome = self._background.poll()
+        if outcome is None or self._newest is None:
+            return
+        answer = outcome.value
+        if answer is None:
+            self.error = outcome.error
+        elif answer.value is not None:
+            self._made = answer.value
+        elif answer.question is self._newest:
+            self.error = answer.error
+            if answer.error is None:
+                self._newest = None  # the tracer went on to another scene: asked for again
+
+    def _make(
+        self, question: _Question, tracer: Any | None, make: Callable[[RayPainter], T]
+    ) -> _Answer[T]:
+        end_s = time.monotonic() + PATIENCE_S
+
+        def is_wanted() -> bool:
+            newest = self._newest
+            return newest is question or (newest is not None and time.monotonic() < end_s)
+
+        try:
+            scene = question.scene
+            if self._flat is None or self._flat[0] is not scene:
+                self._flat = (scene, flatten(scene))
+            painter = RayPainter(scene, self._flat[1], self._tracer.of(scene, tracer), is_wanted)
+            return _Answer(question, make(painter))
+        except UnwantedError:
+            return _Answer(question)
+        except LucidaError as error:
+            is_gone = error.field == "tracer"  # the window has closed it meanwhile
+            return _Answer(question, error=None if is_gone else error)

@@ -1,0 +1,101 @@
+"""Another camera beside the window's own, as the outside view draws it: one that somebody wrote.
+
+Owns its frustum, its first pixel, its ray. It is given by rays, not as a Camera: a wrong program's
+rays may be of no camera at all, such as one whose basis is singular. Pure. A view shows it by
+OutsideView.show(its own name, second_camera(...)), and takes it back by showing nothing.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from app.outside.diagram import Dot, Face, Item, Label, Segments, polyline
+
+Floats = NDArray[np.float64]
+
+SAME = 1e-6  # of the reach: origins that are nearer to one another are one eye
+ROLE = "other"
+
+
+@dataclass(frozen=True, eq=False)
+class GivenRay:
+    """origin, direction: (3,). t: of its hit; inf where it meets nothing, None where that is not
+    known."""
+
+    origin: Floats
+    direction: Floats
+    t: float | None = None
+
+
+@dataclass(frozen=True, eq=False)
+class SecondCamera:
+    """origins, directions: (4, 3), of the rays through the image's corner pixels: upper left, upper
+    right, lower right, lower left as that camera's image has them. ray: of the marked pixel.
+    name: what its eye is labelled; first: what its first pixel is."""
+
+    origins: Floats
+    directions: Floats
+    ray: GivenRay | None = None
+    name: str = ""
+    first: str = ""
+
+
+def corner_rays(origins: Floats, directions: Floats) -> tuple[Floats, Floats]:
+    """Of rays (H, W, 3): those of the corner pixels, (4, 3) each, as SecondCamera has them."""
+    rows, columns = [0, 0, -1, -1], [0, -1, -1, 0]
+    return origins[rows, columns], directions[rows, columns]
+
+
+def second_camera(camera: SecondCamera, reach: float) -> list[Item]:
+    """What is drawn of it: as far as its rays are rays. reach: how far that is, world units."""
+    items = _frustum(camera, reach)
+    if camera.ray is not None:
+        items += _ray(camera.ray, reach)
+    return items
+
+
+def _frustum(camera: SecondCamera, reach: float) -> list[Item]:
+    origins, directions = camera.origins, camera.directions
+    length = np.linalg.norm(directions, axis=1).mean()
+    if not np.isfinite(origins).all() or not np.isfinite(length) or length == 0:
+        return []
+    ends = origins + reach / length * directions
+    middle = origins.mean(axis=0)
+    has_eye = bool(np.abs(origins - middle).max() <= SAME * reach)
+    plane = origins + directions if has_eye else origins
+    items: list[Item] = [
+        Face(f"second side {k}", ROLE, np.array([origins[k], ends[k], ends[n], origins[n]]), 0.06)
+        for k, n in enumerate((1, 2, 3, 0))
+    ]
+    items += [
+        Segments("second edges", ROLE, np.stack([origins, ends], axis=1), 1.8, layer=2),
+        Segments("second end", ROLE, polyline(ends, True), 1.0, 0.7, 0.3, dashed=True, layer=2),
+        Segments("second image plane", ROLE, polyline(plane, True), 2.4, layer=2),
+        Dot("second first pixel", ROLE, plane[0], 5.0),
+    ]
+    if camera.first:
+        away = plane.mean(axis=0)
+        items.append(Label("second first pixel", ROLE, camera.first, plane[0], away=away))
+    if has_eye:
+        items.append(Dot("second eye", ROLE, middle, 7.0))
+    if camera.name:
+        at = middle if has_eye else plane[2]
+        items.append(Label("second eye", ROLE, camera.name, at, away=plane.mean(axis=0)))
+    return items
+
+
+def _ray(ray: GivenRay, reach: float) -> list[Item]:
+    length = np.linalg.norm(ray.direction)
+    if not np.isfinite(ray.origin).all() or not np.isfinite(length) or length == 0:
+        return []
+    known = ray.t is not None and bool(np.isfinite(ray.t))
+    t = ray.t if ray.t is not None and known else reach / length
+    reached = ray.origin + t * ray.direction
+    way = np.array([[ray.origin, reached]])
+    items: list[Item] = [Segments("second ray", ROLE, way, 2.6, hidden=0.6, layer=3)]
+    if known:
+        items.append(Dot("second hit", ROLE, reached, 6.0))
+    return items
