@@ -1,5 +1,5 @@
-"""The camera panel beyond its plain numbers: what is coupled, presets, passages, copy and paste,
-flying."""
+"""The camera panel beyond its plain numbers: what is coupled, presets, passages, copy and
+paste."""
 
 from __future__ import annotations
 
@@ -7,27 +7,18 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from held_clock import Clock
 from imgui_bundle import imgui
 from window_driver import Driver, Key, changed
 
 from app.camera_panel import panel as camera_panel
 from app.cameras.presets import PRESETS
 from app.cameras.travel import DURATION_S
-from app.pair.view import RASTER, RAY
 from app.state.app_state import is_orthonormal
 from app.widgets import typed
 from renderer.camera import Camera
 
 SIZE = (400, 300)
-
-
-class Clock:
-    """The passages' clock, held by a test."""
-
-    def __init__(self, d: Driver) -> None:
-        self.s = 10.0
-        d.window.traveller.now_s = lambda: self.s
-        d.window.traveller.instant = False
 
 
 def open_section(d: Driver, name: str) -> None:
@@ -306,67 +297,6 @@ def drive_a_passage_ends_where_the_user_does_something_else(d: Driver) -> None:
     assert d.window.state.camera.is_parallel  # at once
 
 
-def drive_keys_fly_over_an_image(d: Driver) -> None:
-    window = d.window
-    keys = ((Key.w, -np.asarray(d.start.camera.w)), (Key.d, np.asarray(d.start.camera.u)))
-    for name, (key, direction) in zip((RASTER, RAY), keys, strict=True):
-        d.ctx.mouse_teleport_to_pos(d.point(name, 0.5, 0.5))
-        d.ctx.yield_(2)
-        d.ctx.key_down(int(key))
-        d.until(
-            lambda: np.linalg.norm(np.subtract(window.state.camera.eye, d.start.camera.eye)) > 0.3
-        )
-        d.ctx.key_up(int(key))
-        d.ctx.yield_(2)
-        way = np.subtract(window.state.camera.eye, d.start.camera.eye)
-        assert np.allclose(way / np.linalg.norm(way), direction, atol=1e-6)
-        assert window.state.camera.w == d.start.camera.w
-        assert len(window.history.past) == 1
-        resting = window.state
-        d.ctx.yield_(4)
-        assert window.state == resting
-        d.reset()
-    d.ctx.item_double_click(d.field("eye.y"))
-    d.ctx.key_chars_replace("w")
-    d.ctx.key_down(int(Key.w))
-    d.ctx.yield_(4)
-    d.ctx.key_up(int(Key.w))
-    d.ctx.key_press(int(Key.escape))
-    assert window.state == d.start
-
-
-def drive_the_object_under_the_mouse_is_framed(d: Driver) -> None:
-    d.settle()
-    window = d.window
-    request = window.renderers.request(window.state)
-    frame = window.renderers.agreement.frame_of(request)
-    numbers = frame.channel("id")
-    shiny = 2
-    rows, columns = np.nonzero(numbers == shiny)
-    k = len(rows) // 2
-    x, y, right, bottom = d.rect(RASTER)
-    height, width = numbers.shape
-    at = x + (columns[k] + 0.5) / width * (right - x), y + (rows[k] + 0.5) / height * (bottom - y)
-    d.ctx.mouse_teleport_to_pos(at)
-    d.ctx.yield_(3)
-    d.ctx.key_press(int(Key.f))
-    camera = window.state.camera
-    assert (camera.u, camera.v, camera.w) == (
-        d.start.camera.u,
-        d.start.camera.v,
-        d.start.camera.w,
-    )
-    center = window.state.scene.objects[shiny].shape.center
-    seen = window.renderers.camera(window.state).project(center, SIZE)
-    assert abs(seen.row - (SIZE[1] - 1) / 2) < 1
-    assert abs(seen.column - (SIZE[0] - 1) / 2) < 1
-    frame = d.agreeing_images()
-    assert len(window.history.past) == 1
-    d.ctx.key_press(int(Key.h))
-    assert window.state == d.start
-    assert frame[0].std() > 5
-
-
 def drive_the_readout_tells_a_left_handed_skewed_basis(d: Driver) -> None:
     assert is_orthonormal(d.window.state.camera)
     before = d.picture()
@@ -380,21 +310,6 @@ def drive_the_readout_tells_a_left_handed_skewed_basis(d: Driver) -> None:
     right = round(d.ctx.get_window_by_ref("//Camera").rect().max.x)
     difference = np.abs(before.astype(int) - after)[top:bottom, :right]
     assert (difference.max(axis=2) > 30).mean() > 0.05
-
-
-def drive_alt_and_a_drag_looks_around(d: Driver) -> None:
-    start, goal = d.point(RASTER, 0.5, 0.5), d.point(RASTER, 0.6, 0.45)
-    d.ctx.key_down(int(Key.mod_alt))
-    d.drag(start, goal)
-    d.ctx.key_up(int(Key.mod_alt))
-    camera = d.window.state.camera
-    assert np.allclose(camera.eye, d.start.camera.eye)
-    assert not np.allclose(camera.w, d.start.camera.w)
-    # The mouse went to the image's right: so does the view direction.
-    turned = -np.asarray(camera.w) @ np.asarray(d.start.camera.u)
-    assert turned > 0.05
-    assert len(d.window.history.past) == 1
-    d.agreeing_images()
 
 
 def drive_sections_stay_as_the_user_leaves_them(d: Driver) -> None:

@@ -1,4 +1,4 @@
-"""Files and failures: what is opened, what is broken, what takes long."""
+"""Files and failures: dialogs, what is opened, what is broken, what takes long."""
 
 from __future__ import annotations
 
@@ -10,7 +10,10 @@ from typing import Any
 from imgui_bundle import imgui
 from window_driver import PATIENT_S, Driver, Key, changed
 
-from renderer.scene import save_view
+from app.window import loading
+from renderer.scene import load_scene, save_view
+
+CTRL, SHIFT = int(Key.mod_ctrl), int(Key.mod_shift)
 
 
 def drive_files_are_opened_and_broken_ones_told(d: Driver) -> None:
@@ -159,3 +162,66 @@ def drive_a_scene_is_read_again_when_its_file_is_saved(d: Driver) -> None:
     assert window.shell.toasts.texts == ["edited was read again: its file was saved."]
     window.shell.toasts.clear()
     d.agreeing_images()
+
+
+def drive_the_windows_own_dialog_opens_and_saves(d: Driver) -> None:
+    files = d.window.files
+    files._native = False
+    folder = d.folder / "scenes"
+    folder.mkdir()
+    (folder / "mine.toml").write_text('name = "mine"\n[[objects]]\ntype = "sphere"\n')
+    d.press(CTRL | int(Key.o))
+    assert files.dialog.is_open
+    # A folder that is typed is gone into; then a name.
+    d.ctx.key_chars_replace_enter(str(folder))
+    d.until(lambda: files.dialog.folder == folder)
+    d.ctx.yield_(2)
+    d.picture()
+    d.ctx.item_double_click("//###file dialog/**/mine.toml")
+    d.until(lambda: d.window.state.scene.name == "mine")
+    assert not files.dialog.is_open
+    d.press(CTRL | SHIFT | int(Key.s))
+    d.ctx.key_chars_replace_enter("copy")
+    d.until(lambda: (folder / "copy.toml").exists())
+    assert load_scene(folder / "copy.toml").view == d.window.state.view
+    d.until(lambda: any("copy.toml" in text for text in d.window.shell.toasts.texts))
+    # What is there already is not replaced unasked.
+    d.press(CTRL | int(Key.s))
+    d.ctx.key_chars_replace_enter("copy.toml")
+    assert files.dialog.is_open
+    d.picture()
+    d.press(int(Key.escape))
+    assert not files.dialog.is_open
+    assert "objects" in (folder / "copy.toml").read_text()
+    d.until(lambda: [entry.name for entry in files.recent.entries][:1] == ["copy.toml"])
+    d.ctx.menu_click("//##MainMenuBar/File/Recent files/###recent1")
+    d.until(lambda: d.window.files.loading == "" and d.window.state.scene.origin is not None)
+    d.ctx.menu_click("//##MainMenuBar/File/Recent files/Clear the list")
+    assert files.recent.entries == ()
+    files._native = True
+
+
+def drive_several_files_are_dropped(d: Driver) -> None:
+    view = load_scene("canonical").view
+    save_view(d.folder / "dropped.toml", view)
+    d.window._dropped([str(d.folder / "dropped.toml"), "spheres", str(d.folder / "gone.obj")])
+    d.until(lambda: d.window.state.scene.name == "spheres")
+    assert d.window.state.view == view
+    d.ctx.yield_(2)
+    d.press(CTRL | int(Key.z))
+    assert d.window.state == d.start  # one step
+
+
+def drive_loading_is_told_and_cancelled(d: Driver) -> None:
+    gate = threading.Event()
+    d.window.files._source, d.window.files._began_s = "slow.obj", 0.0
+    d.window.files._loading.submit(lambda: gate.wait(PATIENT_S))  # type: ignore[arg-type]
+    d.until(lambda: d.ctx.window_info(f"//{loading.NAME}").id_ != 0)
+    d.ctx.yield_(2)
+    d.picture()
+    d.ctx.item_click(f"//{loading.NAME}/Cancel")
+    d.until(lambda: not d.window.files.busy)
+    assert "cancelled" in d.window.shell.toasts.texts[-1]
+    gate.set()
+    d.window.open("spheres")  # a new thread does it
+    d.until(lambda: d.window.state.scene.name == "spheres")

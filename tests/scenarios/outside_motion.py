@@ -1,4 +1,5 @@
-"""The outside view while it moves: coarse where that is needed, by smooth passages, as one step."""
+"""The outside view while it moves: by mouse and keys, coarse where that is needed, by smooth
+passages, as one step."""
 
 from __future__ import annotations
 
@@ -8,7 +9,8 @@ from contextlib import contextmanager
 from types import SimpleNamespace
 
 import numpy as np
-from imgui_bundle import hello_imgui
+from held_clock import Clock
+from outside_window import empty_place, enter, press, scope, view
 from window_driver import Driver, Key
 
 from app.cameras.travel import DURATION_S
@@ -16,35 +18,13 @@ from app.images.coarseness import Coarseness
 from app.outside import ground as outside_ground
 from app.outside.ground import Ground
 from app.outside.projected import Strokes
-from app.outside.view import OUTSIDE, OutsideView
-
-
-def view(d: Driver) -> OutsideView:
-    found = d.window.views[OUTSIDE]
-    assert isinstance(found, OutsideView)
-    return found
+from app.outside.view import OUTSIDE
 
 
 def ground(d: Driver) -> Ground:
     found = view(d)._ground
     assert found is not None
     return found
-
-
-def enter(d: Driver) -> None:
-    if hello_imgui.current_layout_name() != "Outside view":
-        hello_imgui.switch_layout("Outside view")
-        d.ctx.yield_(5)
-    d.settle()
-
-
-class Clock:
-    """The passages' clock, held by a test."""
-
-    def __init__(self, d: Driver) -> None:
-        self.s = 10.0
-        d.window.traveller.now_s = lambda: self.s
-        d.window.traveller.instant = False
 
 
 def looks_from(d: Driver) -> np.ndarray:
@@ -254,3 +234,81 @@ def drive_a_drag_ends_the_passage_where_it_is(d: Driver) -> None:
     d.until(lambda: window.state.options.outside.camera is not None)
     assert np.allclose(window.state.options.outside.camera.w, (0, 0, 1))
     d.settle()
+
+
+def drive_the_mouse_moves_the_camera_that_looks(d: Driver) -> None:
+    enter(d)
+    window, inner = d.window, d.window.state.camera
+    assert window.state.options.outside.camera is None
+    x, y = empty_place(d)
+    before = scope(d).camera
+    steps = len(window.history.past)
+    d.drag((x, y), (x + 80, y + 30))
+    turned = window.state.options.outside.camera
+    assert turned is not None
+    assert turned.w != before.w
+    assert abs(turned.u[1]) < 1e-9  # no roll
+    assert len(window.history.past) == steps + 1
+    for button, key in ((1, 0), (2, 0), (0, int(Key.mod_shift))):
+        was = window.state.options.outside.camera
+        if key:
+            d.ctx.key_down(key)
+        d.drag((x, y), (x - 40, y - 20), button)
+        if key:
+            d.ctx.key_up(key)
+        moved = window.state.options.outside.camera
+        assert (moved.u, moved.v, moved.w) == (was.u, was.v, was.w)
+        assert moved.eye != was.eye
+    was = window.state.options.outside.camera
+    d.ctx.mouse_teleport_to_pos((x, y))
+    d.ctx.yield_()
+    d.ctx.mouse_wheel_y(2)
+    d.ctx.yield_(2)
+    closer = window.state.options.outside.camera
+    middle = np.asarray(scope(d).center)
+    assert np.linalg.norm(closer.eye - middle) < np.linalg.norm(was.eye - middle)
+    assert window.state.camera == inner  # the other camera stays
+    press(d, "fit all")
+    assert window.state.options.outside.camera is None
+    d.window.undo()
+    assert window.state.options.outside.camera == closer
+
+
+def drive_the_axes_turn_the_view(d: Driver) -> None:
+    enter(d)
+    for name, back in (("x", (1, 0, 0)), ("y", (0, 1, 0)), ("z", (0, 0, 1))):
+        press(d, f"axis {name}")
+        assert np.allclose(d.window.state.options.outside.camera.w, back)
+        d.settle()
+        d.reset()
+        enter(d)
+    press(d, "axis -x")
+    assert np.allclose(d.window.state.options.outside.camera.w, (-1, 0, 0))
+    press(d, "from camera")
+    shown = d.window.renderers.camera(d.window.state)
+    assert d.window.state.options.outside.camera == shown
+    d.settle()
+
+
+def drive_keys_fly_it_and_switch_it(d: Driver) -> None:
+    enter(d)
+    window, inner = d.window, d.window.state.camera
+    d.ctx.mouse_teleport_to_pos(empty_place(d))
+    d.ctx.yield_(2)
+    d.ctx.key_down(int(Key.w))
+    d.until(lambda: window.state.options.outside.camera is not None)
+    before = window.state.options.outside.camera
+    d.until(lambda: window.state.options.outside.camera != before)
+    d.ctx.key_up(int(Key.w))
+    d.ctx.yield_(2)
+    assert window.state.camera == inner
+    d.ctx.key_press(int(Key.mod_shift) | int(Key.h))
+    assert window.state.options.outside.camera is None
+    d.ctx.key_press(int(Key.b))
+    assert min(window.state.options.outside.bundle) > 0
+    d.ctx.key_press(int(Key.g))
+    assert window.state.options.outside.gizmo == "move"
+    d.ctx.key_press(int(Key.t))
+    assert window.state.options.outside.gizmo == "turn"
+    d.ctx.key_press(int(Key.t))
+    assert window.state.options.outside.gizmo == "none"

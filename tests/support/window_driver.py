@@ -175,6 +175,11 @@ class Driver:
         self.ctx.mouse_up(button)
         self.ctx.yield_()
 
+    def press(self, chord: int) -> None:
+        """Keys, and the frames in which they have their effect."""
+        self.ctx.key_press(chord)
+        self.ctx.yield_(3)
+
     def field(self, name: str) -> str:
         return f"//Camera/##{name}"
 
