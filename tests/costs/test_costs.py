@@ -88,7 +88,7 @@ def test_what_the_meter_draws_with(monkeypatch) -> None:
     """Made where they are wanted: what they load takes long."""
     monkeypatch.setattr("renderer.raster.Rasterizer", lambda scene: ("raster", scene.objects))
     monkeypatch.setattr("renderer.trace.Tracer", lambda scene: ("ray", scene.objects))
-    assert [model._make(name) for name in RENDERERS] == [(name, ()) for name in RENDERERS]
+    assert [model.make_renderer(name) for name in RENDERERS] == [(name, ()) for name in RENDERERS]
 
 
 def test_nothing_is_said_of_times_while_they_are_measured_nor_of_flat_ones() -> None:

@@ -65,7 +65,7 @@ def drive_the_field_of_view_is_typed(d: Driver) -> None:
     assert camera.distance > was.distance
     assert changed(before[0], d.agreeing_images()[0]) > 0.1
     d.type("field of view", "200")
-    assert "between 0 and 180" in str(d.window.views["Camera"]._draft.error)
+    assert "between 0 and 180" in str(d.window.views["Camera"].draft.error)
     assert d.window.state.camera == camera
     d.ctx.item_click("//###pending camera/Back to the camera shown")
 
@@ -84,11 +84,11 @@ def drive_fractions_and_roots_are_typed(d: Driver) -> None:
     d.ctx.item_double_click(d.field("eye.x"))
     d.ctx.key_chars_replace("abc")
     d.ctx.yield_(2)
-    assert "'abc' is not a number" in next(iter(typed._open.values())).wrong
+    assert "'abc' is not a number" in next(iter(typed.open_fields.values())).wrong
     assert d.window.state == before
     d.ctx.key_press(int(Key.escape))
     d.ctx.yield_(2)
-    assert d.window.state == before and not typed._open
+    assert d.window.state == before and not typed.open_fields
     d.type("eye.x", "0.5")  # and it can be typed anew
     assert d.window.state.camera.eye[0] == 0.5
     d.ctx.item_double_click(d.field("eye.x"))
@@ -124,7 +124,7 @@ def drive_the_focus_is_the_marked_pixel_s_also_without_a_ray_image(d: Driver) ->
     d.type("eye.x", "3.5")
     d.settle()
     ray = d.window.renderers.camera(d.window.state).ray(*mark, d.window.renderers.size)
-    away = np.cross(np.subtract(d.window.views["Camera"]._dolly, ray.origin), ray.direction)
+    away = np.cross(np.subtract(d.window.views["Camera"].dolly_point, ray.origin), ray.direction)
     assert np.linalg.norm(away) < 1e-9
     d.window.shell.stage.show("Ray")
     d.settle()
@@ -156,7 +156,7 @@ def drive_near_and_far_are_switched_on_and_cut(d: Driver) -> None:
     assert changed(before[0], after[0]) > 0.05
     assert changed(before[1], after[1]) > 0.05
     d.type("far plane", "8")
-    assert "not above near" in str(d.window.views["Camera"]._draft.error)
+    assert "not above near" in str(d.window.views["Camera"].draft.error)
     assert d.window.state.camera.far == 11
     d.ctx.item_click("//###pending camera/Back to the camera shown")
     d.ctx.item_click("//Camera/near")
@@ -214,10 +214,10 @@ def drive_look_at_is_typed(d: Driver) -> None:
         d.type(f"look.up.{axis}", f"{value:.6f}")
     d.ctx.item_click("//Camera/Look there")
     assert d.window.state.camera == camera
-    assert "along the view direction" in str(d.window.views["Camera"]._sections.look.error)
+    assert "along the view direction" in str(d.window.views["Camera"].entered.look.error)
     d.ctx.item_click("//Camera/From the camera")
     d.ctx.yield_(2)
-    assert d.window.views["Camera"]._sections.look.error is None
+    assert d.window.views["Camera"].entered.look.error is None
     close_sections(d)
 
 

@@ -27,9 +27,11 @@ def drive_files_are_opened_and_broken_ones_told(d: Driver) -> None:
     d.ctx.item_click("//##message/Close")
     assert window.files.message == ""
     os.environ["PATH"], path = "", os.environ["PATH"]  # no program that draws dialogs
+    window.files.native = True
     d.ctx.key_press(int(Key.mod_ctrl) | int(Key.o))
     d.ctx.yield_(2)
     os.environ["PATH"] = path
+    window.files.native = False
     if sys.platform.startswith("linux"):
         assert window.files.dialog.is_open  # the window's own
         d.ctx.key_press(int(Key.escape))
@@ -37,7 +39,7 @@ def drive_files_are_opened_and_broken_ones_told(d: Driver) -> None:
     assert not window.files.dialog.is_open
     broken = d.folder / "broken.obj"
     broken.write_bytes(b"\x00\xff nothing of use")
-    window._dropped([str(broken)])
+    d.drop([str(broken)])
     d.until(lambda: "broken.obj" in window.files.message)
     assert window.state == d.start
     window.open("spheres")
@@ -56,17 +58,17 @@ def drive_files_are_opened_and_broken_ones_told(d: Driver) -> None:
 
 def drive_a_failing_tracer_is_told_and_survived(d: Driver) -> None:
     live = d.window.renderers.live
-    good = live._make_tracer
+    good = live.make_tracer
 
     def bad(scene: object) -> Any:
         raise MemoryError
 
-    live._make_tracer = bad
+    live.make_tracer = bad
     d.window.change(d.window.state.with_options(shadows=True))  # that needs a new one
     d.until(lambda: live.error is not None)
     d.ctx.yield_(3)
     d.picture()
-    live._make_tracer = good
+    live.make_tracer = good
     d.window.undo()
     d.window.open("spheres")
     d.until(lambda: d.window.state.scene.name == "spheres")
@@ -76,13 +78,13 @@ def drive_a_failing_tracer_is_told_and_survived(d: Driver) -> None:
 def drive_no_frame_waits_for_the_tracer(d: Driver) -> None:
     """The tracer's thread is held up: the window goes on, with the raster image of now."""
     live, gate = d.window.renderers.live, threading.Event()
-    good = live._make_tracer
+    good = live.make_tracer
 
     def slow(scene: object) -> Any:
         gate.wait(PATIENT_S)
         return good(scene)
 
-    live._make_tracer = slow
+    live.make_tracer = slow
     d.window.open("columns")
     d.until(lambda: d.window.state.scene.name == "columns")
     d.window.change(d.window.state.with_options(mirrors=True))  # that needs a new one
@@ -92,7 +94,7 @@ def drive_no_frame_waits_for_the_tracer(d: Driver) -> None:
     d.until(lambda: not d.window.renderers.textures.unfinished)
     assert changed(before, d.images()[0]) > 0.05
     assert d.window.renderers.live.busy
-    live._make_tracer = good
+    live.make_tracer = good
     gate.set()
     d.window.change(d.window.state.with_options(mirrors=False))
     d.agreeing_images()
@@ -105,7 +107,7 @@ def drive_a_name_that_is_not_utf8_is_shown_and_told(d: Driver) -> None:
     path = os.fsdecode(os.fsencode(d.folder) + b"/caf\xe9 \xff.obj")
     with open(path, "w") as file:
         file.write("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n")
-    window._dropped([path])
+    d.drop([path])
     d.until(lambda: window.state.scene is not d.start.scene)
     assert window.state.scene.name == r"caf\xe9 \xff"
     assert window.files.recent.entries[0].path == path
@@ -131,7 +133,7 @@ def drive_a_dropped_scene_asks_before_it_reads_elsewhere(d: Driver) -> None:
     scene = mine / "asks.toml"
     scene.write_text("[[objects]]\ntype = 'model'\nfile = '../out.obj'\n")
     for answer in ("Cancel", "Open anyway"):
-        window._dropped([str(scene)])
+        d.drop([str(scene)])
         d.until(lambda: window.files.outside is not None)
         assert window.state == d.start
         d.ctx.yield_(3)
@@ -166,7 +168,6 @@ def drive_a_scene_is_read_again_when_its_file_is_saved(d: Driver) -> None:
 
 def drive_the_windows_own_dialog_opens_and_saves(d: Driver) -> None:
     files = d.window.files
-    files._native = False
     folder = d.folder / "scenes"
     folder.mkdir()
     (folder / "mine.toml").write_text('name = "mine"\n[[objects]]\ntype = "sphere"\n')
@@ -198,13 +199,12 @@ def drive_the_windows_own_dialog_opens_and_saves(d: Driver) -> None:
     d.until(lambda: d.window.files.loading == "" and d.window.state.scene.origin is not None)
     d.ctx.menu_click("//##MainMenuBar/File/Recent files/Clear the list")
     assert files.recent.entries == ()
-    files._native = True
 
 
 def drive_several_files_are_dropped(d: Driver) -> None:
     view = load_scene("canonical").view
     save_view(d.folder / "dropped.toml", view)
-    d.window._dropped([str(d.folder / "dropped.toml"), "spheres", str(d.folder / "gone.obj")])
+    d.drop([str(d.folder / "dropped.toml"), "spheres", str(d.folder / "gone.obj")])
     d.until(lambda: d.window.state.scene.name == "spheres")
     assert d.window.state.view == view
     d.ctx.yield_(2)
@@ -214,8 +214,7 @@ def drive_several_files_are_dropped(d: Driver) -> None:
 
 def drive_loading_is_told_and_cancelled(d: Driver) -> None:
     gate = threading.Event()
-    d.window.files._source, d.window.files._began_s = "slow.obj", 0.0
-    d.window.files._loading.submit(lambda: gate.wait(PATIENT_S))  # type: ignore[arg-type]
+    d.window.files.open_later("slow.obj", lambda: gate.wait(PATIENT_S))  # type: ignore[arg-type, return-value]
     d.until(lambda: d.ctx.window_info(f"//{loading.NAME}").id_ != 0)
     d.ctx.yield_(2)
     d.picture()

@@ -11,6 +11,7 @@ from app.pair.view import RASTER, RAY
 from app.widgets.theme import framebuffer_scale
 from renderer.images import to_srgb8
 from renderer.images.display import picture
+from renderer.raster import Display
 
 
 def drive_pixels_can_be_large_and_are_marked(d: Driver) -> None:
@@ -26,7 +27,7 @@ def drive_pixels_can_be_large_and_are_marked(d: Driver) -> None:
     x, y, *_ = d.rect(RASTER)
     d.ctx.mouse_teleport_to_pos((x + 8 * 20 + 4, y + 8 * 30 + 4))
     d.ctx.yield_(3)
-    assert d.window._hovered == (RASTER, (30, 20))
+    assert d.window.hovered == (RASTER, (30, 20))
     d.stay = True
     marked = d.images()[1]
     places = np.argwhere(np.abs(marked - ray).max(axis=2) > 8)
@@ -51,7 +52,7 @@ def drive_the_window_is_resized(d: Driver) -> None:
     hello_imgui.change_window_size((1500, 640))
     d.ctx.yield_(5)
     d.agreeing_images()
-    widths = [width for width, _ in d.window.renderers._panes_px.values()]
+    widths = [width for width, _ in d.window.renderers.panes_px.values()]
     assert abs(widths[0] - widths[1]) <= 2, "both images have half of the room"
     hello_imgui.change_window_size(SIZE)
     d.ctx.yield_(5)
@@ -63,7 +64,7 @@ def drive_a_tiny_window_is_survived(d: Driver) -> None:
     hello_imgui.change_window_size(SIZE)
     d.ctx.yield_(5)
     d.agreeing_images()
-    widths = [width for width, _ in d.window.renderers._panes_px.values()]
+    widths = [width for width, _ in d.window.renderers.panes_px.values()]
     assert abs(widths[0] - widths[1]) <= 2, "both images have half of the room again"
 
 
@@ -138,12 +139,12 @@ def drive_resolutions_are_fixed_and_fitted(d: Driver) -> None:
     d.ctx.key_chars_replace_enter("nonsense")
     d.ctx.yield_(3)
     assert both.size == (1280, 720)
-    assert window._asked is not None and "nonsense" in window._asked.problem
+    assert window.asking_size is not None and "nonsense" in window.asking_size.problem
     d.ctx.key_chars_replace_enter("37x23")
     d.ctx.yield_(3)
     d.settle()
     assert both.size == (37, 23)
-    assert window._asked is None
+    assert window.asking_size is None
     d.ctx.key_press(ALT | int(Key.w))
     d.settle()
     assert window.state.images.resolution is None
@@ -244,10 +245,9 @@ def drive_nothing_is_drawn_twice(d: Driver) -> None:
     choose(d, "Channel/Depth")
     textures = both.textures
     assert textures is not None
-    images = textures._shown_raster, textures._shown_ray
-    shown = [counting(image._display, "show") for image in images]
+    shown = counting(Display, "show")
     rasterizer = textures.rasterizer.of(d.window.state.scene)
     drawn = counting(rasterizer, "draw")
     read = counting(rasterizer, "read")
     d.ctx.yield_(10)
-    assert [count() for count in (*shown, drawn, read)] == [0, 0, 0, 0]
+    assert [count() for count in (shown, drawn, read)] == [0, 0, 0]

@@ -89,7 +89,9 @@ def drive_the_sheet_is_seen_at_once_in_a_lecture_hall(d: Driver) -> None:
 
 
 def drive_menus_do_not_grow_without_end(d: Driver) -> None:
-    """200 % is granted in a window 720 high; menus end at a size at which they have room."""
+    """200 % is granted in a window 720 high; menus end at a size at which they have room.
+
+    Their type has its size while they are drawn, and can be asked for there only."""
     bar, sizes = menus._bar, []
 
     def watched(*rest: object) -> None:
@@ -315,7 +317,7 @@ def drive_escape_ends_what_lies_on_top_before_it_takes_the_mark_away(d: Driver) 
     window.ask_resolution()
     d.ctx.yield_(3)
     d.press(int(Key.escape))
-    assert window._asked is None
+    assert window.asking_size is None
     assert window.state.marked == (20, 30)
     d.press(int(Key.f1))
     assert window.shell.help

@@ -22,7 +22,7 @@ from app.outside.view import OUTSIDE
 
 
 def ground(d: Driver) -> Ground:
-    found = view(d)._ground
+    found = view(d).ground
     assert found is not None
     return found
 
@@ -39,14 +39,14 @@ def looks_from(d: Driver) -> np.ndarray:
 def pace(d: Driver, frame_s: float) -> Iterator[None]:
     """What a picture may take of a frame; and the view is not at rest, however slow the machine."""
     found = ground(d)
-    before = found._coarseness, outside_ground.STILL_S
-    found._coarseness = Coarseness(frame_s, frame_s, outside_ground.COARSEST)
-    found._coarseness.measured(1, 1, 1e-3)
+    before = found.coarseness, outside_ground.STILL_S
+    found.coarseness = Coarseness(frame_s, frame_s, outside_ground.COARSEST)
+    found.coarseness.measured(1, 1, 1e-3)
     outside_ground.STILL_S = 1e9
     try:
         yield
     finally:
-        found._coarseness, outside_ground.STILL_S = before
+        found.coarseness, outside_ground.STILL_S = before
 
 
 def drag(d: Driver) -> list[tuple[int, int]]:
@@ -81,11 +81,11 @@ def drive_a_scene_that_is_too_slow_is_coarse_while_the_view_moves(d: Driver) -> 
     d.settle()
     assert ground(d).factor == 1
     assert view(d).size_px == full
-    number = ground(d)._drawn
+    number = ground(d).shown.number
     sharp = d.picture()
     assert (coarse != sharp).any()
     d.ctx.yield_(20)
-    assert ground(d)._drawn == number  # at rest
+    assert ground(d).shown.number == number  # at rest
 
 
 def drive_a_scene_that_is_fast_enough_stays_full(d: Driver) -> None:
@@ -117,17 +117,17 @@ def drive_edges_are_smooth_however_busy_the_machine_is(d: Driver) -> None:
         found.forget()
         d.ctx.yield_(3)
         d.settle()
-        assert found._picture is not None and found.settled
-        return found._picture
+        assert found.shown is not None and found.settled
+        return found.shown
 
     with clocks(monotonic=lambda: 100.0 * next(seconds)):  # other programs have the processor
         assert drawn_anew().smooth
     with clocks(thread_time=lambda: float(next(own))):  # this one has as much work
         rough = drawn_anew()
         assert not rough.smooth
-        assert rough.request.scene is found._slow
+        assert rough.request.scene is found.slow
     assert not drawn_anew().smooth  # which need not be found out again
-    found._slow = None
+    found.slow = None
     assert drawn_anew().smooth
 
 
@@ -137,13 +137,13 @@ def drive_the_other_cameras_motion_leaves_the_scene_as_it_is(d: Driver) -> None:
     assert at is not None  # else it would follow, to see all
     d.window.change(d.window.state.with_options(outside={"camera": at.camera}))
     d.settle()
-    number = ground(d)._drawn
+    number = ground(d).shown.number
     for name in ("eye.x", "distance"):
         before = view(d).primitives
         d.drag_field(name, 40)
         d.until(lambda before=before: view(d).primitives is not before)
         assert ground(d).factor == 1
-    assert ground(d)._drawn == number
+    assert ground(d).shown.number == number
     assert [p for p in view(d).primitives if isinstance(p, Strokes)]
     d.settle()
 

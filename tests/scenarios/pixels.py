@@ -83,14 +83,14 @@ def drive_the_wheel_with_ctrl_magnifies_at_the_pointer(d: Driver) -> None:
     x, y = round(x), round(y)
     d.ctx.mouse_teleport_to_pos((x, y))
     d.ctx.yield_(2)
-    pixel = window._hovered[1]
+    pixel = window.hovered[1]
     d.ctx.key_down(int(Key.mod_ctrl))
     for _ in range(6):
         d.ctx.mouse_wheel_y(1)
     d.ctx.yield_(2)
     assert window.state.images.magnification == 8
     assert window.state.camera == d.start.camera
-    apart = np.subtract(window._hovered[1], pixel)
+    apart = np.subtract(window.hovered[1], pixel)
     assert np.abs(apart).max() <= 1, f"{pixel} under the pointer moves by {apart}"
     assert len(window.history.past) == 2, "one turn of the wheel is one step"
     center = window.state.images.center
@@ -173,23 +173,23 @@ def drive_rulers_stand_beside_the_image(d: Driver) -> None:
     for row, column in ((0, 0), (8, 15), (4, 7)):
         d.ctx.mouse_teleport_to_pos(d.point(RASTER, (column + 0.5) / 16, (row + 0.5) / 9))
         d.ctx.yield_(3)
-        assert window._hovered == (RASTER, (row, column))
+        assert window.hovered == (RASTER, (row, column))
     left, top, *_ = d.rect(RASTER)
     for place in ((left - 5, top + 5), (left + 5, top - 5)):
         d.ctx.mouse_teleport_to_pos(place)
         d.ctx.yield_(3)
-        assert window._hovered is None, "a ruler is no pixel"
+        assert window.hovered is None, "a ruler is no pixel"
     # Where pixels become large enough for rulers, what is under the pointer stays there.
     choose(d, "Resolution/640 x 360")
     choose(d, "Magnification/4x")
     d.ctx.mouse_teleport_to_pos(tuple(map(round, d.point(RASTER, 0.4, 0.6))))
     d.ctx.yield_(3)
-    pixel = window._hovered[1]
+    pixel = window.hovered[1]
     d.ctx.key_down(int(Key.mod_ctrl))
     while not any(placement(d).margin):
         d.ctx.mouse_wheel_y(1)
         d.ctx.yield_(2)
-        assert np.abs(np.subtract(window._hovered[1], pixel)).max() <= 1
+        assert np.abs(np.subtract(window.hovered[1], pixel)).max() <= 1
     d.ctx.key_up(int(Key.mod_ctrl))
     assert placement(d).magnification == 8
     # Without lines between pixels there are no rulers; with large numbers in them there are.

@@ -9,7 +9,7 @@ import pytest
 from recorded_runs import TWO_BALLS
 
 from app.explaining.projected import EVERYTHING, NOTHING, mesh_extent, sphere_extent
-from app.stepper.loop_parts import MISS, Model, _meets_box, bounding_box
+from app.stepper.loop_parts import MISS, Model, bounding_box, meets_box
 from renderer.camera import Camera
 from renderer.scene import shapes
 from renderer.scene.model import Scene, SceneObject, Sphere
@@ -96,7 +96,7 @@ def test_a_line_meets_a_box_where_no_axis_parts_them() -> None:
         )
         expected = bool((parted <= reach).all())
         box = tuple(map(float, low)), tuple(map(float, high))
-        found = _meets_box(*box, tuple(map(float, origin)), tuple(map(float, direction)))
+        found = meets_box(*box, tuple(map(float, origin)), tuple(map(float, direction)))
         assert found is expected
         met += expected
     assert 500 < met < 2500

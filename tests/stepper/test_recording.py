@@ -52,7 +52,7 @@ def test_a_run_leaves_the_interpreter_to_others_now_and_then(monkeypatch) -> Non
         perf_counter=count(100.0, 0.25).__next__, sleep=lambda _: breaks.append(len(run))
     )
     monkeypatch.setattr(recording, "time", clock)
-    monkeypatch.setattr(recording, "_BREAK_AFTER_S", 0.5)
+    monkeypatch.setattr(recording, "BREAK_AFTER_S", 0.5)
     run.run()
     assert breaks == list(range(17, len(run) + 1, 24))
 

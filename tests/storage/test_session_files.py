@@ -7,13 +7,14 @@ import random
 import signal
 import subprocess
 import sys
+import threading
 import time
 from dataclasses import replace
 from pathlib import Path
 
 import pytest
 from test_session import ARRANGEMENT
-from waiting import wait_for
+from waiting import PATIENT_S, wait_for
 
 from app.state.app_state import AppState
 from app.storage.session import (
@@ -137,7 +138,8 @@ def test_where_no_session_can_be_kept_the_window_opens(tmp_path):
 def test_the_keeper_saves_after_a_while_and_tells_a_failure_once(tmp_path, state, monkeypatch):
     place = take_place(tmp_path)
     assert place is not None
-    keeper = Keeper(place, lambda: None)
+    saved = threading.Semaphore(0)
+    keeper = Keeper(place, saved.release)
     now_s = [100.0]
     monkeypatch.setattr("app.storage.session_store.time.monotonic", lambda: now_s[0])
     assert not keeper.due()
@@ -151,21 +153,19 @@ def test_the_keeper_saves_after_a_while_and_tells_a_failure_once(tmp_path, state
     assert keeper.due()
     keeper.save(session_of(state, ARRANGEMENT))
     monkeypatch.undo()
-    wait_for(place.path.exists)
+    assert saved.acquire(timeout=PATIENT_S)
     assert from_bytes(place.path.read_bytes()) == session_of(state, ARRANGEMENT)
 
     def full(data: bytes) -> None:
         raise LucidaError("", "cannot be written: no space left on device", source="session")
 
     monkeypatch.setattr(place, "save", full)
-    for exposure in (1.0, 2.0):
-        changed = state.with_options(images={"exposure_ev": exposure})
-        wait_for(lambda: not keeper.due() and not keeper._saving.busy)
-        keeper.save(session_of(changed, ARRANGEMENT))
-        wait_for(lambda: not keeper._saving.busy or bool(keeper.due()))
-    wait_for(lambda: not keeper._saving.busy)
-    keeper.due()
-    assert "no space left" in keeper.message
+    for exposure, told in ((1.0, True), (2.0, False)):
+        keeper.message = ""
+        keeper.save(session_of(state.with_options(images={"exposure_ev": exposure}), ARRANGEMENT))
+        assert saved.acquire(timeout=PATIENT_S)
+        keeper.due()
+        assert ("no space left" in keeper.message) == told
     monkeypatch.undo()
     keeper.close(session_of(state, ARRANGEMENT))
     assert from_bytes(place.path.read_bytes()) == session_of(state, ARRANGEMENT)

@@ -22,7 +22,7 @@ def choose(d: Driver, path: str) -> None:
 
 def placement(d: Driver, name: str = RASTER) -> Placement:
     both = d.window.renderers
-    return both.placed(d.window.state.images, both.common_room(both._panes_px[name]))
+    return both.placed(d.window.state.images, both.common_room(both.panes_px[name]))
 
 
 def without_overlays(image: np.ndarray) -> np.ndarray:
