@@ -1,8 +1,8 @@
 """The image laboratory: the current image in the representations that the lecture names.
 
 Owns the way from the state to the pages' pictures: the image is drawn by the rasterizer at the
-pages' own size, a thread makes what they show of it (teach/imagelab/), here it is put on the
-screen. What stands beside the pictures is the other laboratory_*.py's.
+pages' own size, a thread makes what they show of it (laboratory/pages.py), here it is put on the
+screen. What stands beside the pictures: array_view.py, displays_view.py, vector_view.py.
 """
 
 from __future__ import annotations
