@@ -77,8 +77,8 @@ class MainWindow:
         self.asking_size: SizeEntry | None = None
         self.asking_pixel: Going | None = None
         self._focused: tuple[Scene, Focus] | None = None
-        self.traveller = CameraTransition()
-        self.traveller.instant = not smooth
+        self.transition = CameraTransition()
+        self.transition.instant = not smooth
         self.moves = smooth
         self._fly = Fly()
         self._over: DockedView | None = None
@@ -106,7 +106,7 @@ class MainWindow:
     def settled(self) -> bool:
         """Whether nothing will change by itself: both images are complete and compared."""
         views = self.shell.stage.settled
-        moving = self.files.busy or self.traveller.under_way
+        moving = self.files.busy or self.transition.under_way
         return views and self.renderers.settled(self.state) and not moving
 
     def check(self) -> None:
@@ -152,7 +152,7 @@ class MainWindow:
         outside = self.views[OUTSIDE]
         assert isinstance(outside, OutsideView)
         ends = outside.ends(self, state)
-        shown = self.traveller.begin(self.state, state, self.focus, self.renderers.size, ends)
+        shown = self.transition.begin(self.state, state, self.focus, self.renderers.size, ends)
         if shown is state:
             self.change(state)
         self.animate()
@@ -185,12 +185,12 @@ class MainWindow:
             self.animate()
             return
         self._cancel_drags()
-        self.traveller.stop()
+        self.transition.stop()
         self.history = self.history.undo()
 
     def redo(self) -> None:
         self._cancel_drags()
-        self.traveller.stop()
+        self.transition.stop()
         self.history = self.history.redo()
 
     def can_undo(self) -> bool:
@@ -240,7 +240,7 @@ class MainWindow:
         opened = self.files.poll()
         if opened is not None:
             self._take_opened(opened)
-        moving = active or self.traveller.under_way or self._fly.under_way
+        moving = active or self.transition.under_way or self._fly.under_way
         self.renderers.update(self.state, moving)
         self.shell.proportion.keep(self.lecture.arrangements)
         self.shell.frame(self, self)
@@ -308,12 +308,12 @@ class MainWindow:
         """The camera under way, and keys that are held. A press of the mouse on anything ends the
         passage where it is."""
         if active and any(imgui.is_mouse_clicked(button) for button in range(3)):
-            self.traveller.stop()
-        state = self.traveller.step(self.state)
+            self.transition.stop()
+        state = self.transition.step(self.state)
         if state is not self.state:
-            self.history = self.history.change(state, self.traveller.gesture)
+            self.history = self.history.change(state, self.transition.gesture)
         self._fly.frame(self, self._over)
-        if self.traveller.under_way:
+        if self.transition.under_way:
             self.animate()
 
     @property

@@ -301,7 +301,7 @@ class Attack:
         views = [name for name in stage.rects if not stage.views[name].settled]
         return (
             f"no rest: views {views}, failures {stage.failures}, shown {list(stage.rects)}, files "
-            f"{window.files.busy}, travelling {window.traveller.under_way}, images "
+            f"{window.files.busy}, travelling {window.transition.under_way}, images "
             f"{window.renderers.settled(window.state)}, failure {window.renderers.failure}"
         )
 

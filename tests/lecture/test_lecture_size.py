@@ -21,7 +21,7 @@ from renderer.errors import LucidaError
 from renderer.scene.limits import TOML_BYTES
 
 STEP = '[[steps]]\ntitle = "T"\ntext = """\n{}"""\n'
-SMALL = 20_000  # characters
+SMALL = 8_000  # characters
 
 
 def lecture(text: str):

@@ -258,7 +258,7 @@ def drive_a_passage_is_smooth_and_one_step(d: Driver) -> None:
     clock = Clock(d)
     d.ctx.key_press(int(Key.p))
     window = d.window
-    assert window.traveller.under_way
+    assert window.transition.under_way
     distances = []
     for part in (0.2, 0.4, 0.6):
         clock.s = 10.0 + part * DURATION_S
@@ -272,7 +272,7 @@ def drive_a_passage_is_smooth_and_one_step(d: Driver) -> None:
     clock.s += DURATION_S
     d.ctx.yield_(2)
     assert window.state.camera.is_parallel
-    assert not window.traveller.under_way
+    assert not window.transition.under_way
     assert len(window.history.past) == 1
     d.agreeing_images()
     window.undo()
@@ -287,7 +287,7 @@ def drive_a_passage_ends_where_the_user_does_something_else(d: Driver) -> None:
     under_way = d.window.state.camera
     assert under_way not in (d.start.camera, Camera.canonical())
     d.type("eye.x", "1.5")
-    assert not d.window.traveller.under_way
+    assert not d.window.transition.under_way
     assert d.window.state.camera == replace(under_way, eye=(1.5, *under_way.eye[1:]))
     clock.s += DURATION_S
     d.ctx.yield_(3)

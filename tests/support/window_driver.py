@@ -93,8 +93,8 @@ class Driver:
         self.window.files.message = ""
         self.window.shell.toasts.clear()
         self.window.shell.stage.failures.clear()
-        self.window.traveller.stop()
-        self.window.traveller.instant = True  # no passage unless a test wants one
+        self.window.transition.stop()
+        self.window.transition.instant = True  # no passage unless a test wants one
         self.stay = False
         self.ctx.mouse_up(0)  # a test that failed may hold it
         self.ctx.mouse_teleport_to_pos((3, SIZE[1] - 3))
