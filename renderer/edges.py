@@ -89,7 +89,7 @@ class Discontinuities:
                 cut = _zero_px(lambda i, j: self.parameter(primitive, i, j, t) - limit, i, j)  # noqa: B023
                 cut[np.abs(here - limit) <= max(1e-6 * limit, at_eye)] = 0
                 distance = np.fmin(distance, cut)
-        distance[t <= self._drawn_from(primitive, drawn)] = 0
+        distance[t <= self.drawn_from(primitive, drawn)] = 0
         return np.where(primitive >= 0, distance, np.inf)
 
     def checker_px(self, primitive: Ints, i: Ints, j: Ints, t: Floats) -> Floats:
@@ -204,7 +204,7 @@ class Discontinuities:
         result[sphere] = np.where(is_near, near, far)
         return result
 
-    def _drawn_from(self, primitive: Ints, drawn: bool = False) -> Floats:
+    def drawn_from(self, primitive: Ints, drawn: bool = False) -> Floats:
         """The ray parameter from which on a primitive is rasterized, (n,). A sphere is from 0 on: a
         box is drawn in its place, whose far sides are.
 

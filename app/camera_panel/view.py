@@ -29,28 +29,31 @@ LEAST_PX = 13.0  # of type, at 100 %
 
 
 class CameraView(DockedView):
+    """draft: numbers that are no camera yet. entered: what stands in the sections. dolly_point:
+    what the dolly zoom keeps as large as it is."""
+
     name = CAMERA
     title = "Camera"
 
     def __init__(self) -> None:
-        self._draft: Draft | None = None
-        self._sections = Sections()
-        self._dolly: Vector | None = None
+        self.draft: Draft | None = None
+        self.entered = Sections()
+        self.dolly_point: Vector | None = None
         self._picked: tuple[Scene, object, float] | None = None  # t of what was asked
 
     @property
     def sections(self) -> tuple[str, ...] | None:
-        return self._sections.chosen
+        return self.entered.chosen
 
     def open_sections(self, names: tuple[str, ...]) -> None:
-        self._sections = Sections(self._sections.look, chosen=names)
+        self.entered = Sections(self.entered.look, chosen=names)
 
     @property
     def has_pending(self) -> bool:
-        return self._draft is not None and self._draft.error is not None
+        return self.draft is not None and self.draft.error is not None
 
     def drop_pending(self) -> None:
-        self._draft = None
+        self.draft = None
 
     def draw(self, host: Host) -> None:
         """Type that is too large for the numbers gives way to them."""
@@ -60,13 +63,14 @@ class CameraView(DockedView):
 
     def _draw(self, host: Host) -> None:
         state = host.state
-        if self._dolly is None or not imgui.is_any_item_active():  # while it is dragged, it stays
-            self._dolly = self._focus_point(host, state)
+        # While it is dragged, it stays.
+        if self.dolly_point is None or not imgui.is_any_item_active():
+            self.dolly_point = self._focus_point(host, state)
         shown = host.renderers.camera(state)
-        around = PanelContext(host.fonts, shown, host.focus, self._dolly)
-        panel = PanelOutcome(self._draft or Draft.of(state.camera), self._sections)
+        around = PanelContext(host.fonts, shown, host.focus, self.dolly_point)
+        panel = PanelOutcome(self.draft or Draft.of(state.camera), self.entered)
         state, panel = camera_panel(state, panel, around)
-        self._draft, self._sections = panel.draft, panel.sections
+        self.draft, self.entered = panel.draft, panel.sections
         host.apply(state)
         if panel.target is not None:
             host.travel(panel.target)

@@ -176,7 +176,7 @@ class Meter:
         counter: Callable[[], Counting] = Counter,
     ) -> None:
         self._changed = changed
-        self._make = make or _make
+        self._make = make or make_renderer
         self._counter = counter
         self._lock = threading.Lock()
         self._wanted: list[Case] = []
@@ -355,7 +355,7 @@ def _told(error: Exception) -> str:
     return str(error) or type(error).__name__
 
 
-def _make(renderer: Renderer) -> MeasuredRenderer:
+def make_renderer(renderer: Renderer) -> MeasuredRenderer:
     if renderer == "ray":
         from renderer.trace import Tracer  # here, in the thread: it loads the compiler
 

@@ -17,12 +17,17 @@ from app.host.view import DockedView
 class Instrument:
     """make: makes its views, given those of the rooms before it; the list goes on growing.
 
-    actions: for menus, keys and the palette, in the order of the menus. mouse: what the mouse does,
-    rows of the shortcut sheet. synonyms: what people also call its actions and views, by names
-    of actions and titles of views.
+    actions: for menus, keys and the palette, in the order of the menus. synonyms: what people also
+    call its actions and views, by names of actions and titles of views.
+
+    For the shortcut sheet, beside the actions' keys. mouse, keyboard: rows of what these do in its
+    views. heading: of its actions' keys where these hold in its view only; empty: they stand with
+    the others of their menus.
     """
 
     make: Callable[[Sequence[DockedView]], Sequence[DockedView]]
     actions: tuple[Action, ...] = ()
     mouse: tuple[tuple[str, str], ...] = ()
+    keyboard: tuple[tuple[str, str], ...] = ()
+    heading: str = ""
     synonyms: Mapping[str, str] = field(default_factory=dict)

@@ -306,7 +306,7 @@ class Proportion:
             if whole != MAIN or space == CAMERA_SPACE:
                 continue
             across = direction in (imgui.Dir.left, imgui.Dir.right)
-            node = _side(_node(space), imgui.internal.Axis.x if across else imgui.internal.Axis.y)
+            node = _side(node_of(space), imgui.internal.Axis.x if across else imgui.internal.Axis.y)
             parent = node.parent_node if node is not None else None
             if node is None or parent is None or min(*parent.size, *node.size) <= 0:
                 continue
@@ -318,7 +318,7 @@ class Proportion:
     def _widen_camera(self) -> None:
         """A window that was restored, or enlarged, may leave the panel less than it needs; its
         width follows the type's size."""
-        node = _node(CAMERA_SPACE)
+        node = node_of(CAMERA_SPACE)
         parent = node.parent_node if node is not None else None
         if node is None or parent is None or not (parent.size.x > 0 and node.size.y > 0):
             return
@@ -379,7 +379,7 @@ def _own(layout: Layout, space: str) -> str:
     return MAIN if space == MAIN else f"{space} of {layout.name}"
 
 
-def _node(space: str) -> imgui.internal.DockNode | None:
+def node_of(space: str) -> imgui.internal.DockNode | None:
     """A dock space of the layout that is shown; None while it is not there."""
     params = hello_imgui.get_runner_params().docking_params
     number = params.dock_space_id_from_name(_own(current(), space))

@@ -56,12 +56,13 @@ class LiveRaster:
     """In a context that must be current in every call.
 
     image: the newest complete one; None before the first, and after a failure. time_s: what the
-    GPU took for it.
+    GPU took for it. coarseness, pace: how coarse an image begins, and how much of one is drawn in a
+    frame, by what others took.
     """
 
     def __init__(self, context: moderngl.Context, rasterizer: WindowRasterizer) -> None:
         self._rasterizer = rasterizer
-        self._coarseness, self._pace = Coarseness(FRAME_S, FRAME_S, COARSEST), Pace()
+        self.coarseness, self.pace = Coarseness(FRAME_S, FRAME_S, COARSEST), Pace()
         self._timer = context.query(time=True)
         self._timed: tuple[_UnderWay, bool] | None = None  # a part, and whether it was the last
         self._asked: ImageRequest | None = None  # the newest, whether or not it is drawn already
@@ -96,14 +97,14 @@ class LiveRaster:
         if request != self._asked:
             self._asked, self._changed_s = request, time.monotonic()
             width, height = request.size
-            self._factor = self._coarseness.changed(width * height, self._changed_s)
+            self._factor = self.coarseness.changed(width * height, self._changed_s)
         if self._under_way is not None and _is_in_vain(self._under_way, request):
             self._under_way = None
         if self._under_way is None:
             still_s = time.monotonic() - self._changed_s
             if self.image is None or self.image.request != request:
                 self._begin(request)
-            elif self.image.factor > 1 and still_s > max(MOVING_S, self._coarseness.rest_s):
+            elif self.image.factor > 1 and still_s > max(MOVING_S, self.coarseness.rest_s):
                 self._begin(request, sharpening=True)
         self._go_on()
         assert self.image is not None
@@ -161,8 +162,8 @@ class LiveRaster:
             factor,
             PLACES[factor > 1],
             image.place if image is not None else None,
-            self._pace,
-            expected_s=self._coarseness.full_s(width * height) if sharpening else 0.0,
+            self.pace,
+            expected_s=self.coarseness.full_s(width * height) if sharpening else 0.0,
             at_once=image is None or image.request.scene is not request.scene,
         )
         self._under_way = _UnderWay(request, drawing, sharpening)
@@ -196,7 +197,7 @@ class LiveRaster:
         if is_last:
             drawing, self.time_s = part_of.drawing, part_of.time_s
             width, height = drawing.size
-            self._coarseness.measured(drawing.factor, width * height, self.time_s)
+            self.coarseness.measured(drawing.factor, width * height, self.time_s)
 
 
 def _is_in_vain(under_way: _UnderWay, request: ImageRequest) -> bool:

@@ -73,7 +73,7 @@ class LiveTrace:
         begin: Callable[[], None] | None = None,
     ) -> None:
         self._wake = wake
-        self._make_tracer = make_tracer
+        self.make_tracer = make_tracer
         self._begin = begin
         self._changed = threading.Condition()
         self._newest: ImageRequest | None = None
@@ -181,7 +181,7 @@ class LiveTrace:
                     self._prepare()
                     if tracer is not None:
                         tracer.close()
-                    tracer = self._make_tracer(request)
+                    tracer = self.make_tracer(request)
                     coarseness.forget()
                 made_for, self._ready = request, (request.scene, tracer)
                 self._trace(tracer, request, coarseness)

@@ -41,7 +41,8 @@ STILL_S = 0.3  # comparing reads the raster image back, which may cost a frame: 
 class Renderers:
     """wake: called from other threads when the window has something new to show.
 
-    smooth: the tracer gives way to the window's frames; without, it is done sooner.
+    smooth: the tracer gives way to the window's frames; without, it is done sooner. panes_px: by
+    name, the room that the images' windows have.
     """
 
     def __init__(self, wake: Callable[[], None], smooth: bool = True) -> None:
@@ -52,7 +53,7 @@ class Renderers:
         self.textures: ImageTextures | None = None
         self.ray_image: RayImage | None = None
         self.size = (0, 0)  # (width, height) of both images; (0, 0) before the first layout
-        self._panes_px: dict[str, tuple[int, int]] = {}
+        self.panes_px: dict[str, tuple[int, int]] = {}
         self._rulers_px = (0, 0)
         self._chosen: tuple[int, int] | None = None  # the resolution, in the last frame
         self._arrived_s = 0.0
@@ -86,11 +87,11 @@ class Renderers:
         """Says how large the window of an image is, (width, height) in framebuffer pixels: both
         images get the size of the largest of them, or the resolution that was chosen. rulers_px:
         of the rulers beside magnified pixels, see Placement."""
-        self._panes_px[name], self._rulers_px = pane_px, rulers_px
+        self.panes_px[name], self._rulers_px = pane_px, rulers_px
         if options.resolution is not None:
             self.size = options.resolution
             return
-        pane = common_pane(list(self._panes_px.values()))
+        pane = common_pane(list(self.panes_px.values()))
         width, height = own_size(options, pane, rulers_px if options.grid else (0, 0))
         width, height = min(width, LARGEST_SIDE), min(height, LARGEST_SIDE)
         self.size = (width, min(height, LARGEST_PIXELS // width))
@@ -100,14 +101,14 @@ class Renderers:
         smaller, so that both show their images at the same size."""
         near = [
             pane
-            for pane in (*self._panes_px.values(), pane_px)
+            for pane in (*self.panes_px.values(), pane_px)
             if all(abs(a - b) <= NEARBY_PX for a, b in zip(pane, pane_px, strict=True))
         ]
         return min(pane[0] for pane in near), min(pane[1] for pane in near)
 
     def placement(self, state: AppState) -> Placement | None:
         """Where the images stand in the smallest of their windows; None where there is none."""
-        panes = self._panes_px.values()
+        panes = self.panes_px.values()
         if not panes or not min(self.size):
             return None
         room = min(pane[0] for pane in panes), min(pane[1] for pane in panes)
@@ -119,7 +120,7 @@ class Renderers:
 
     def forget_pane(self, name: str) -> None:
         """Says that an image's window is not to be seen."""
-        self._panes_px.pop(name, None)
+        self.panes_px.pop(name, None)
 
     def camera(self, state: AppState) -> Camera:
         """The camera that both images of a state are drawn with."""
@@ -173,7 +174,7 @@ class Renderers:
         resolution = state.images.resolution
         if resolution is not None:
             self.size = resolution
-        elif not self._panes_px and (self._chosen is not None or state.step is not None):
+        elif not self.panes_px and (self._chosen is not None or state.step is not None):
             self.size = _unseen_size(state.images)
         self._chosen = resolution
 

@@ -1,6 +1,6 @@
 """The laboratory's page "Array": the cells about a pixel, its program, and its place in memory.
 
-Owns their looks. Which cell lies where is imagelab/memory.py's, the program array_code.py's.
+Owns their looks. Which cell lies where is laboratory/memory.py's, the program array_code.py's.
 """
 
 from __future__ import annotations

@@ -1,7 +1,7 @@
 """The laboratory's page "Displays": its clock, its switches, and the light of one pixel in time.
 
-Owns where a cycle stands while it plays. What is shown at a moment is imagelab/displays.py's. While
-nothing plays, or the page is not seen, it asks for no frames.
+Owns where a cycle stands while it plays. What is shown at a moment is laboratory/displays.py's.
+While nothing plays, or the page is not seen, it asks for no frames.
 """
 
 from __future__ import annotations

@@ -1,8 +1,8 @@
 """The image laboratory: the current image in the representations that the lecture names.
 
 Owns the way from the state to the pages' pictures: the image is drawn by the rasterizer at the
-pages' own size, a thread makes what they show of it (teach/imagelab/), here it is put on the
-screen. What stands beside the pictures is the other laboratory_*.py's.
+pages' own size, a thread makes what they show of it (laboratory/pages.py), here it is put on the
+screen. What stands beside the pictures: array_view.py, displays_view.py, vector_view.py.
 """
 
 from __future__ import annotations
@@ -77,7 +77,7 @@ class LaboratoryView(DockedView):
         self._uploads: Uploads | None = None
         self._work: Background[_MadePage] | None = None
         self._sizing: Background[tuple[tuple[Any, ...], tuple[disk.DiskRow, ...]]] | None = None
-        self._source: _Source | None = None
+        self.source: _Source | None = None
         self._numbers = itertools.count()
         self._asked: tuple[Any, ...] = ()
         self._made: _MadePage | None = None
@@ -125,7 +125,7 @@ class LaboratoryView(DockedView):
     def unseen(self, host: Host) -> None:
         self._seen = False
         self.displays.unseen()
-        self._source = None  # a large array; drawn anew when it is seen
+        self.source = None  # a large array; drawn anew when it is seen
 
     def draw(self, host: Host) -> None:
         assert self._uploads is not None
@@ -195,7 +195,7 @@ class LaboratoryView(DockedView):
             imgui.text_colored(theme.ERROR, self._error)
             imgui.pop_text_wrap_pos()
             return
-        if self._made is None or self._source is None:
+        if self._made is None or self.source is None:
             return
         made = self._made.plan
 
@@ -207,14 +207,14 @@ class LaboratoryView(DockedView):
             )
 
         if options.page == "array":
-            self._array_page(host, self._made, self._source.color, place)
+            self._array_page(host, self._made, self.source.color, place)
             return
         for number, panel in enumerate(self._made.panels):
             self._panel(host, number, panel, place(number), made)
         if options.page == "displays":
             imgui.set_cursor_screen_pos(ImVec2(corner.x, corner.y + avail.y - below + 0.4 * em))
             pixel = self._pixel(state, made)
-            source = self._source
+            source = self.source
             self.displays.lanes(host, options, made, source.color, source.number, pixel)
         if options.page == "kinds":
             extent = ImVec2(made.cell[0] / scale, made.cell[1] / scale + HEADING_EM * em)
@@ -263,8 +263,8 @@ class LaboratoryView(DockedView):
         camera = state.view.for_size(divided.image)
         request = ImageRequest(state.scene, camera, divided.image)
         try:
-            if self._source is None or self._source.request != request:
-                self._source = _Source(request, _drawn(host, request), next(self._numbers))
+            if self.source is None or self.source.request != request:
+                self.source = _Source(request, _drawn(host, request), next(self._numbers))
             outcome = self._work.poll()
             if outcome is not None and outcome.error is not None:
                 raise outcome.error
@@ -276,7 +276,7 @@ class LaboratoryView(DockedView):
         except (LucidaError, moderngl.Error) as error:
             self._error = describe(error)
             return
-        source, taken_ev = self._source, state.images.exposure_ev
+        source, taken_ev = self.source, state.images.exposure_ev
         color = source.color
         pixel = self._pixel(state, divided)
         # The other pages' options are none of this one's.
@@ -345,8 +345,8 @@ class LaboratoryView(DockedView):
 
     def _export(self, host: Host, format: disk.Format) -> None:
         """Asks where, and writes the image that is shown there, as it is stored."""
-        assert self._source is not None
-        color, options = self._source.color, host.state.of(LaboratoryOptions)
+        assert self.source is not None
+        color, options = self.source.color, host.state.of(LaboratoryOptions)
         taken_ev = host.state.images.exposure_ev
 
         def store(path: str) -> str:

@@ -1,8 +1,8 @@
 """The guided lecture: a column of text beside the views that a step shows.
 
 Owns the session of the lecture that is given, and the way from a step to what the window shows.
-Texts are drawn by lecture/slide.py, exercises by lecture/exercise.py; steps and their states are
-teach/lecture/'s.
+Texts are drawn by lecture/slide.py, exercises by lecture/exercise.py, what leads from step to step
+by lecture/foot.py; what a step is, and its state, are lecture/model.py's and lecture/states.py's.
 """
 
 from __future__ import annotations
@@ -20,6 +20,7 @@ from app.explaining.languages import LANGUAGES
 from app.host import layout
 from app.host.view import DockedView, Host
 from app.lecture.exercise import exercise, fitting_px
+from app.lecture.foot import END, RESTORE, foot, foot_height
 from app.lecture.model import Lecture, Step
 from app.lecture.reading import BUILTIN, load_lecture
 from app.lecture.session import LectureSession
@@ -41,10 +42,7 @@ from renderer.scene.models import read_by
 from renderer.scene.subprocess_reader import ModelReader
 
 LECTURE = "Lecture"
-RESTORE = "back to the step"
-STEP_EM, PLACE_EM = 2.0, 4.4  # the widths of the buttons that walk, and of the place between them
 LAID_OUT = 8  # frames until every view has its place
-END = "End the lecture"
 
 
 class Changeable(Protocol):
@@ -253,10 +251,8 @@ class LectureView(DockedView):
         with lettering(host.fonts.text, sizes.label), at_most(sizes.label):
             self._head(host, session, sizes)
             avail = imgui.get_content_region_avail()
-            rows = 1 if _fits_a_row(avail.x) else 2
-            foot = rows * imgui.get_frame_height_with_spacing() + imgui.get_style().item_spacing.y
             error = self._error_height(session, avail.x)
-            child = ImVec2(avail.x, max(1.0, avail.y - foot - error))
+            child = ImVec2(avail.x, max(1.0, avail.y - foot_height(avail.x) - error))
             if imgui.begin_child("step", child):
                 if self._to_top:
                     imgui.set_scroll_y(0.0)
@@ -333,47 +329,13 @@ class LectureView(DockedView):
         return float(imgui.calc_text_size(session.error, wrap_width=width).y) + 8.0
 
     def _foot(self, host: Host, session: LectureSession) -> None:
-        """Back, the place in the lecture, next; the outline; the way back to the step."""
-        number, count = session.number, len(session.lecture.steps)
-        size = imgui.get_font_size()
-        fits = _fits_a_row(imgui.get_content_region_avail().x)
-        imgui.begin_disabled(number == 0)
-        if imgui.button("<##back", ImVec2(STEP_EM * size, 0)):
-            self.advance(host, -1)
-        imgui.end_disabled()
-        imgui.set_item_tooltip("the step before (Page Up)")
-        imgui.same_line()
-        if imgui.button(f"{number + 1} / {count}##outline", ImVec2(PLACE_EM * size, 0)):
-            imgui.open_popup("outline")
-        imgui.set_item_tooltip("all steps")
-        imgui.same_line()
-        imgui.begin_disabled(number == count - 1)
-        if imgui.button(">##next", ImVec2(STEP_EM * size, 0)):
-            self.advance(host, 1)
-        imgui.end_disabled()
-        imgui.set_item_tooltip("the next step (Page Down)")
-        if fits:
-            imgui.same_line(0, size)
-        imgui.begin_disabled(self._is_as_given(host, session.step))
-        if imgui.button(f"{RESTORE}##restore", ImVec2(0 if fits else _walking_px(), 0)):
-            self.restore(host)
-        imgui.end_disabled()
-        imgui.set_item_tooltip("its own scene, camera and views (Backspace)")
-        self._outline(host, session)
-
-    def _outline(self, host: Host, session: LectureSession) -> None:
-        if not imgui.begin_popup("outline"):
-            return
-        for part, numbers in session.lecture.outline():
-            imgui.separator_text(part or session.lecture.title)
-            for number in numbers:
-                step = session.lecture.steps[number]
-                if imgui.selectable(f"{number + 1}  {step.title}", number == session.number)[0]:
-                    self.go(host, number)
-        imgui.separator()
-        if imgui.selectable(END, False)[0]:
+        asked = foot(session, self._is_as_given(host, session.step))
+        if asked == END:
             self.leave(host)
-        imgui.end_popup()
+        elif asked == RESTORE:
+            self.restore(host)
+        elif isinstance(asked, int):
+            self.go(host, asked)
 
     def _invite(self, host: Host) -> None:
         imgui.push_text_wrap_pos(0.0)
@@ -395,17 +357,6 @@ def _places(step: Step) -> dict[str, str]:
     if "camera" in step.views:
         spaces["camera"] = layout.CAMERA_SPACE
     return {name.capitalize(): space for name, space in spaces.items()}
-
-
-def _walking_px() -> float:
-    """The width of the buttons that walk the steps."""
-    return (2 * STEP_EM + PLACE_EM) * imgui.get_font_size() + 2 * imgui.get_style().item_spacing.x
-
-
-def _fits_a_row(width: float) -> bool:
-    """Whether the way back to the step has room beside them."""
-    text = imgui.calc_text_size(RESTORE).x + 2 * imgui.get_style().frame_padding.x
-    return bool(_walking_px() + imgui.get_font_size() + text <= width)
 
 
 def _read(session: LectureSession) -> tuple[Lecture, LucidaError | None]:

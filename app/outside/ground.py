@@ -52,36 +52,40 @@ class GroundPicture:
 
 
 class Ground:
-    """One for the view, in its context. It stays while only the other camera moves."""
+    """One for the view, in its context. It stays while only the other camera moves.
+
+    shown: the newest picture. coarseness: by what others took. slow: a scene that has proved to be
+    too slow for smooth edges.
+    """
 
     def __init__(self, context: moderngl.Context) -> None:
-        self._picture: GroundPicture | None = None
+        self.shown: GroundPicture | None = None
         self._drawn = 0
         self._read: tuple[object, float] | None = None
         self._timer = context.query(time=True)
         # Factor and pixels of the one whose time is still to be read.
         self._timed: tuple[int, int] | None = None
-        self._coarseness = Coarseness(FRAME_S, FRAME_S, COARSEST)
-        self._slow: Scene | None = None  # it has proved to be too slow for smooth edges
+        self.coarseness = Coarseness(FRAME_S, FRAME_S, COARSEST)
+        self.slow: Scene | None = None
 
     @property
     def settled(self) -> bool:
         """Whether it is full, and its edges are as smooth as they will be."""
-        picture = self._picture
+        picture = self.shown
         return picture is None or (picture.parts == len(SHIFTS) and picture.factor == 1)
 
     @property
     def factor(self) -> int:
         """How coarse the last picture is; 1: it is full."""
-        return self._picture.factor if self._picture is not None else 1
+        return self.shown.factor if self.shown is not None else 1
 
     def forget(self) -> None:
-        self._picture = None
+        self.shown = None
 
     def t_at(self, part: tuple[float, float], overlay: Overlay) -> float:
         """The ray parameter of the scene as it is seen, see Overlay.t_at(); infinity without a
         picture. Read once."""
-        picture = self._picture
+        picture = self.shown
         if picture is None:
             return math.inf
         key = (picture, part)
@@ -94,20 +98,20 @@ class Ground:
     ) -> GroundPicture:
         """Drawn at once; when it has been still, in full, and again with smooth edges, a part of
         that in each call. Raises LucidaError."""
-        now_s, picture = time.monotonic(), self._picture
+        now_s, picture = time.monotonic(), self.shown
         self._read_time()
         if picture is None or picture.request != request:
             if picture is None or picture.request.scene is not request.scene:
-                self._coarseness.forget()
-            factor = self._coarseness.changed(request.size[0] * request.size[1], now_s)
-            self._picture = None
-            self._picture = picture = self._draw(request, rasterizer, now_s, factor)
-        elif now_s - picture.changed_s <= max(STILL_S, self._coarseness.rest_s):
+                self.coarseness.forget()
+            factor = self.coarseness.changed(request.size[0] * request.size[1], now_s)
+            self.shown = None
+            self.shown = picture = self._draw(request, rasterizer, now_s, factor)
+        elif now_s - picture.changed_s <= max(STILL_S, self.coarseness.rest_s):
             pass
         elif picture.factor > 1:
-            self._picture = picture = self._draw(request, rasterizer, picture.changed_s, 1)
+            self.shown = picture = self._draw(request, rasterizer, picture.changed_s, 1)
         elif picture.parts < len(SHIFTS):
-            self._picture = picture = self._smoother(picture, rasterizer, overlay)
+            self.shown = picture = self._smoother(picture, rasterizer, overlay)
         return picture
 
     def _draw(
@@ -115,7 +119,7 @@ class Ground:
     ) -> GroundPicture:
         textures = self._beside(request, rasterizer, factor)
         self._drawn += 1
-        parts = len(SHIFTS) if request.scene is self._slow and factor == 1 else 0
+        parts = len(SHIFTS) if request.scene is self.slow and factor == 1 else 0
         return GroundPicture(request, textures, changed_s, self._drawn, parts, factor=factor)
 
     def _smoother(
@@ -127,7 +131,7 @@ class Ground:
         shift = request.camera.shifted(*SHIFTS[picture.parts], request.size)
         textures = self._beside(replace(request, camera=shift), rasterizer)
         if picture.parts == 0 and time.thread_time() - start_s > SLOW_S:
-            self._slow = request.scene
+            self.slow = request.scene
             return self._draw(request, rasterizer, picture.changed_s, 1)
         mean = overlay.gather(textures, picture.parts == 0, 1 / len(SHIFTS))
         return replace(picture, textures=textures, parts=picture.parts + 1, mean=mean)
@@ -144,5 +148,5 @@ class Ground:
     def _read_time(self) -> None:
         """A frame later: at once, it would wait for the GPU."""
         if self._timed is not None:
-            self._coarseness.measured(*self._timed, self._timer.elapsed * 1e-9)
+            self.coarseness.measured(*self._timed, self._timer.elapsed * 1e-9)
             self._timed = None

@@ -85,7 +85,7 @@ class OutsideView(DockedView):
         self._mouse, self._gizmo = Mouse(), Gizmo()
         self._overlay: Overlay | None = None
         self._hits: RayHits | None = None
-        self._ground: Ground | None = None
+        self.ground: Ground | None = None
         self._error = ""
         self._made: _MadePicture | None = None
         self._extra: dict[str, tuple[Item, ...]] = {}
@@ -93,7 +93,7 @@ class OutsideView(DockedView):
 
     @property
     def settled(self) -> bool:
-        still = self._ground is None or self._ground.settled
+        still = self.ground is None or self.ground.settled
         return still and (self._hits is None or not self._hits.busy)
 
     @property
@@ -120,7 +120,7 @@ class OutsideView(DockedView):
             self._extra.pop(source, None)
 
     def begin(self, host: Host, context: moderngl.Context) -> None:
-        self._overlay, self._ground = Overlay(context), Ground(context)
+        self._overlay, self.ground = Overlay(context), Ground(context)
         self._hits = RayHits(host.animate)
 
     def end(self) -> None:
@@ -135,8 +135,8 @@ class OutsideView(DockedView):
 
     def unseen(self, host: Host) -> None:
         self._made = None
-        if self._ground is not None:
-            self._ground.forget()
+        if self.ground is not None:
+            self.ground.forget()
 
     def flown(self, host: Host) -> Camera | None:
         return self.scope.camera if self.scope is not None else None
@@ -236,7 +236,7 @@ class OutsideView(DockedView):
         if not (outside.image or outside.grid):
             return None
         camera, mouse = host.renderers.camera(host.state), imgui.get_io().mouse_pos
-        ground, overlay, place = self._ground, self._overlay, scope.part(mouse)
+        ground, overlay, place = self.ground, self._overlay, scope.part(mouse)
         hidden_at = None
         if ground is not None and overlay is not None:
             hidden_at = partial(ground.t_at, place, overlay)
@@ -281,7 +281,7 @@ class OutsideView(DockedView):
         is_under: it is for the underlay."""
         both, state = host.renderers, host.state
         assert self._overlay is not None
-        assert self._ground is not None
+        assert self.ground is not None
         assert both.textures is not None
         inner, image_size = both.camera(state), both.size
         options = state.of(OutsideOptions)
@@ -294,8 +294,8 @@ class OutsideView(DockedView):
                 drawn = both.textures.raster.follow(request).number
                 picture = both.textures.whole_raster(request, look_of(state.images))
             seen = ImageRequest(state.scene, camera, size)
-            ground = self._ground.picture(seen, both.textures.rasterizer, self._overlay)
-            if not self._ground.settled:
+            ground = self.ground.picture(seen, both.textures.rasterizer, self._overlay)
+            if not self.ground.settled:
                 host.animate()
             unit_px, symbol_px = units_px(scope.extent)
             key = (
@@ -332,7 +332,7 @@ class OutsideView(DockedView):
             )
         except (LucidaError, moderngl.Error) as error:
             self._made = None
-            self._ground.forget()
+            self.ground.forget()
             self._error = describe(error)
             return None
         self._made = _MadePicture(key, texture, primitives)

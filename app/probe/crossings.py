@@ -48,7 +48,7 @@ class Index:
     def __init__(self, flat: FlatScene) -> None:
         self.flat = flat
         self.vertices = world_vertices(flat)
-        self._order = _neighbours_in_order(flat, self.vertices)
+        self.order = _neighbours_in_order(flat, self.vertices)
         runs = [np.arange(first, first + count, RUN) for first, count in flat.object_faces if count]
         self._starts = np.concatenate(runs) if runs else np.zeros(0, np.int64)
         self._first_run = np.searchsorted(self._starts, flat.object_faces[:, 0])
@@ -97,7 +97,7 @@ class Index:
         if not len(self._starts):
             none = np.zeros((0, 3))
             return none, none
-        corners = self.vertices[self.flat.faces[self._order]]
+        corners = self.vertices[self.flat.faces[self.order]]
         low = np.minimum.reduceat(corners.min(axis=1), self._starts, axis=0)
         high = np.maximum.reduceat(corners.max(axis=1), self._starts, axis=0)
         slack = ROUNDING * np.maximum(np.abs(low), np.abs(high)).max()
@@ -135,7 +135,7 @@ class Index:
         counts = self._ends[runs][met] - starts
         # All of start, start + 1, ..., start + count - 1, one after another.
         skipped = np.repeat(starts - np.cumsum(counts) + counts, counts)
-        return self._order[skipped + np.arange(counts.sum())]
+        return self.order[skipped + np.arange(counts.sum())]
 
     def _spheres(self, p: Floats, d: Floats) -> tuple[Floats, NDArray[np.int64], Floats, Floats]:
         """The same of spheres, both crossings of each; see scalar/intersect.py's hit_sphere."""
@@ -163,11 +163,11 @@ def _neighbours_in_order(flat: FlatScene, vertices: Floats) -> NDArray[np.int64]
     cell = ((middle - low) / np.maximum(high - low, 1e-30) * CELLS).clip(0, CELLS).astype(np.int64)
     key = flat.face_object.astype(np.int64) << 30
     for axis in range(3):
-        key |= _spread(cell[:, axis]) << axis
+        key |= spread_bits(cell[:, axis]) << axis
     return np.argsort(key, kind="stable")
 
 
-def _spread(x: NDArray[np.int64]) -> NDArray[np.int64]:
+def spread_bits(x: NDArray[np.int64]) -> NDArray[np.int64]:
     """Ten bits with two zeros between one another."""
     x = (x | x << 16) & 0x030000FF
     x = (x | x << 8) & 0x0300F00F

@@ -16,5 +16,6 @@ SYNONYMS = {
 INSTRUMENT = Instrument(
     lambda views: [ProbeView(view_of(views, OutsideView), view_of(views, RasterView).linked)],
     PINNING,
+    keyboard=(("arrows in the probe", "another pixel; Shift: by ten"),),
     synonyms=SYNONYMS,
 )

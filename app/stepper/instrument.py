@@ -13,5 +13,8 @@ SYNONYMS = {
 }
 
 INSTRUMENT = Instrument(
-    lambda views: [StepperView(view_of(views, OutsideView))], STEPPING, synonyms=SYNONYMS
+    lambda views: [StepperView(view_of(views, OutsideView))],
+    STEPPING,
+    heading="Loop stepper, once it is clicked",
+    synonyms=SYNONYMS,
 )

@@ -143,7 +143,7 @@ def intersect(object: Object, ray: ViewingRay) -> Hit:
     if object.sphere >= 0:
         t = float(scalar.hit_sphere(flat.spheres, object.sphere, origin, direction, t_min, t_max))
         return MISS if math.isnan(t) else Hit(t, object, len(flat.faces) + object.sphere)
-    if not _meets_box(object.low, object.high, origin, direction):
+    if not meets_box(object.low, object.high, origin, direction):
         return MISS
     found = object.index.mesh_hit(object.number, origin, direction, t_min, t_max)
     return MISS if found is None else Hit(found[0], object, *found[1:])
@@ -167,7 +167,7 @@ def light_at(
     return _three(scalar.color_at(flat, direction, point, geometric, normal, *where))
 
 
-def _meets_box(low: Vector, high: Vector, origin: Vector, direction: Vector) -> bool:
+def meets_box(low: Vector, high: Vector, origin: Vector, direction: Vector) -> bool:
     """Whether the ray's line meets a box, made a little larger. Kay and Kajiya's slabs, 1986."""
     enter, leave = -math.inf, math.inf
     for k in range(3):

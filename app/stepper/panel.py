@@ -279,7 +279,7 @@ def run_panel(
 def _need(shown: Shown) -> Need:
     """Two beside each other are shown alike, whichever needs more."""
     lines = [narrowed(source_of(order.renderer).lines) for order in shown.orders]
-    names = [_names(order) for order in shown.orders]
+    names = [names_of(order) for order in shown.orders]
     return Need(
         longest=max(len(line) for one in lines for line in one),
         lines=max(map(len, lines)),
@@ -294,7 +294,7 @@ def _need(shown: Shown) -> Need:
     )
 
 
-def _names(order: Order) -> list[str]:
+def names_of(order: Order) -> list[str]:
     """The variables that are shown of an algorithm."""
     return [name for name in SHOWN if name in order.renderer.__code__.co_varnames]
 

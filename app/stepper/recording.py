@@ -28,7 +28,7 @@ from renderer.camera import Camera, Size
 
 MOST_STEPS = whole_range_of(StepperOptions, "steps")[1]
 # The interpreter is left to other threads for a moment, this often.
-_BREAK_EVERY, _BREAK_AFTER_S, _BREAK_S = 8, 0.001, 0.0003
+_BREAK_EVERY, BREAK_AFTER_S, _BREAK_S = 8, 0.001, 0.0003
 _MISSING = object()
 
 
@@ -215,6 +215,6 @@ class _Recorder:
                 to.depth_steps.append(step)
 
     def _take_a_break(self) -> None:
-        if time.perf_counter() - self._break_s > _BREAK_AFTER_S:
+        if time.perf_counter() - self._break_s > BREAK_AFTER_S:
             time.sleep(_BREAK_S)
             self._break_s = time.perf_counter()

@@ -37,7 +37,7 @@ def code(
             draw.add_rect_filled(low, high, theme.u32(theme.FRAME_ACTIVE), 2.0)
             draw.add_rect_filled(low, ImVec2(corner.x + bar, high.y), theme.u32(theme.RAY))
         top = y + 0.5 * (line_px - imgui.get_text_line_height())
-        for column, word in _words(text, tuple(called)):
+        for column, word in code_words(text, tuple(called)):
             at = ImVec2(corner.x + 2 * bar + column * letter, top)
             draw.add_text(at, theme.u32(_color(word)), word)
             if word in called:
@@ -77,7 +77,7 @@ def _color(word: str) -> ImVec4:
 
 
 @functools.lru_cache(maxsize=256)
-def _words(text: str, called: tuple[str, ...]) -> tuple[tuple[int, str], ...]:
+def code_words(text: str, called: tuple[str, ...]) -> tuple[tuple[int, str], ...]:
     """The line in parts, with the column of each: names that have a colour, and what is between."""
     try:
         tokens = list(tokenize.generate_tokens(io.StringIO(text.strip()).readline))

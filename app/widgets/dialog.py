@@ -41,7 +41,7 @@ class FileDialog:
 
     def __init__(self, wake: Callable[[], None]) -> None:
         self._reader = FolderReader(wake)
-        self._question: FileQuestion | None = None
+        self.question: FileQuestion | None = None
         self._listing = FolderContent(Path.cwd())
         self._places: list[tuple[str, Path]] = []
         self._name = ""
@@ -53,26 +53,26 @@ class FileDialog:
 
     @property
     def is_open(self) -> bool:
-        return self._question is not None
+        return self.question is not None
 
     @property
     def folder(self) -> Path:
         return self._listing.folder
 
     def ask(self, question: FileQuestion) -> None:
-        self._question, self._name, self._replace = question, question.name, ""
+        self.question, self._name, self._replace = question, question.name, ""
         self._appearing, self._places = True, starting_points()
         self._go(self._listing.folder)
 
     def cancel(self) -> None:
-        self._question = None
+        self.question = None
 
     def close(self) -> None:
         self._reader.close()
 
     def draw(self) -> None:
         """Draws the dialog where it is open."""
-        question = self._question
+        question = self.question
         if question is None:
             return
         listing = self._reader.poll()
@@ -180,7 +180,7 @@ class FileDialog:
                 self._go(self._listing.folder)
 
     def _go(self, folder: Path) -> None:
-        endings = self._question.endings if self._question is not None else ()
+        endings = self.question.endings if self.question is not None else ()
         self._reader.ask(folder, () if self._all_files else endings)
 
     def _meant(self) -> str:
@@ -207,7 +207,7 @@ class FileDialog:
             if path.exists() and self._replace != str(path):
                 self._replace = str(path)
                 return
-        self._question = None
+        self.question = None
         question.chosen([str(path) for path in paths])
 
 

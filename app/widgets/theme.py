@@ -344,17 +344,17 @@ def line_px(at_100_percent: float = 1.0) -> float:
 def legible(color: ImVec4) -> ImVec4:
     """The colour as text on a panel: yellow and orange are darkened where panels are light."""
     behind = _used[0].palette.PANEL
-    return ImVec4(*_legible((color.x, color.y, color.z), (behind.x, behind.y, behind.z)), color.w)
+    return ImVec4(*legible_on((color.x, color.y, color.z), (behind.x, behind.y, behind.z)), color.w)
 
 
 def seen_on(color: ImVec4, ground: Rgb) -> ImVec4:
     """The colour as it is drawn on a ground that is not the theme's: lighter or darker, where it
     would not stand out."""
-    return ImVec4(*_legible((color.x, color.y, color.z), ground, SEEN), color.w)
+    return ImVec4(*legible_on((color.x, color.y, color.z), ground, SEEN), color.w)
 
 
 @functools.lru_cache(maxsize=256)
-def _legible(color: Rgb, behind: Rgb, least: float = LEGIBLE) -> Rgb:
+def legible_on(color: Rgb, behind: Rgb, least: float = LEGIBLE) -> Rgb:
     end = 0.0 if _luminance(behind) > 0.18 else 1.0
     for step in range(21):
         part = step / 20

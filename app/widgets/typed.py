@@ -29,12 +29,12 @@ class _Typing:
 
 # By the fields' ids. There is one keyboard, but where Tab leads from one field to the next, both
 # are open for a frame.
-_open: dict[int, _Typing] = {}
+open_fields: dict[int, _Typing] = {}
 
 
 def is_open(label: str) -> bool:
     """Whether the field of that label is being typed into, or was in the frame before."""
-    return bool(_open) and imgui.get_id(f"##{label}") in _open
+    return bool(open_fields) and imgui.get_id(f"##{label}") in open_fields
 
 
 def take_over(label: str, value: float, changed: bool) -> bool:
@@ -45,7 +45,7 @@ def take_over(label: str, value: float, changed: bool) -> bool:
     item = imgui.get_id(f"##{label}")
     has_begun = bool(imgui.internal.temp_input_is_active(item))
     if has_begun:
-        _open[item] = _Typing(value, _digits(value), is_new=not changed)
+        open_fields[item] = _Typing(value, _digits(value), is_new=not changed)
     return has_begun
 
 
@@ -55,7 +55,7 @@ def field(label: str, value: float) -> tuple[bool, float]:
     The value follows while what is typed is a number; what is none leaves it, and is told.
     """
     item = imgui.get_id(f"##{label}")
-    typing = _open[item]
+    typing = open_fields[item]
     if typing.is_new:
         # The text is the widget's, rounded, and was there for a frame under the same id.
         state = imgui.internal.get_input_text_state(item)
@@ -69,7 +69,7 @@ def field(label: str, value: float) -> tuple[bool, float]:
         imgui.pop_style_color()
     is_active = imgui.is_item_active()
     if not is_active:
-        del _open[item]
+        del open_fields[item]
         if imgui.is_key_pressed(imgui.Key.escape, False):
             return typing.before != value, typing.before
     if edited:

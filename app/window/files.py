@@ -66,14 +66,14 @@ class Files:
     ) -> None:
         self._wake = wake
         self._loading: Background[Opened] = Background("lucida-load", wake)
-        self._models = ModelReader()
+        self.models = ModelReader()
         self._rereading: Background[Opened] = Background("lucida-reread", wake)
         self._watch = SceneWatch()
         self._guarded: dict[str, frozenset[Path]] = {}  # by the file's name: Opened.agreed
         self._mistake = ""  # in a scene's file that was saved
         self._saving: Background[str] = Background("lucida-save", wake)
         self._asking: tuple[dialogs.open_file | dialogs.save_file, Paths] | None = None
-        self._native = native
+        self.native = native
         self._source = ""
         self._again: Callable[[frozenset[Path]], None] = lambda more: None  # loads with consent
         self._began_s = 0.0
@@ -133,9 +133,9 @@ class Files:
         """Ends the loading. A large model is in a process of its own, which is killed; what is not
         is left between two of its parts."""
         if self._loading.busy:
-            self._models.cancel()
+            self.models.cancel()
             self._loading.close(0.0)
-            self._models = ModelReader()
+            self.models = ModelReader()
             self._loading = Background("lucida-load", self._wake)
             self._said.append(f"Loading {self._source} was cancelled.")
 
@@ -253,7 +253,7 @@ class Files:
         self._wake()
 
     def close(self) -> None:
-        self._models.cancel()
+        self.models.cancel()
         self._loading.close()
         self._rereading.close()
         self._saving.close(5.0)
@@ -266,7 +266,7 @@ class Files:
         self._again = lambda more: self._load(source, load, agreed | more)
         self._source = one_line(Path(source).name)
         self._began_s = time.monotonic()
-        models = self._models
+        models = self.models
 
         def loaded() -> Opened:
             with read_by(models.read), cancelled_by(models.check):
@@ -310,7 +310,7 @@ class Files:
     def _ask(self, question: FileQuestion, filters: list[str]) -> None:
         if self._asking is not None or self.dialog.is_open:
             return
-        if not (self._native and has_dialogs()):
+        if not (self.native and has_dialogs()):
             self.dialog.ask(question)
         elif question.saves:
             chooser = dialogs.save_file(question.title, question.name, filters)

@@ -20,7 +20,6 @@ from app.cameras.presets import framed
 from app.cameras.travel import CameraTransition
 from app.host.fly import Fly
 from app.host.view import AView, DockedView, view_of
-from app.images.agreement import Verdict
 from app.images.placement import shown_pixel
 from app.images.renderers import Renderers
 from app.lecture.view import LECTURE, LectureView
@@ -40,8 +39,8 @@ from app.window.menus import menu_bar
 from app.window.opening import Opened
 from app.window.platform import on_drop, set_title
 from app.window.shell import Shell
-from app.window.status import Status, status_line
-from renderer.errors import LucidaError, describe
+from app.window.status import Status, is_good_news, status_line, told
+from renderer.errors import LucidaError
 from renderer.scene import Scene
 from renderer.scene.outside import outside_files
 
@@ -52,6 +51,8 @@ class MainWindow:
 
     smooth: keep the display's rate while tracing; not needed for a picture. keeper: what saves the
     session. folder: where the list of recent files is kept. None: they are not kept.
+
+    asking_size, asking_pixel: the boxes to type a resolution or a pixel into; None: closed.
     """
 
     def __init__(
@@ -73,11 +74,11 @@ class MainWindow:
         self._titled = state.scene
         self._gesture = 0
         self._was_active = False
-        self._asked: SizeEntry | None = None
-        self._going: Going | None = None
+        self.asking_size: SizeEntry | None = None
+        self.asking_pixel: Going | None = None
         self._focused: tuple[Scene, Focus] | None = None
-        self.traveller = CameraTransition()
-        self.traveller.instant = not smooth
+        self.transition = CameraTransition()
+        self.transition.instant = not smooth
         self.moves = smooth
         self._fly = Fly()
         self._over: DockedView | None = None
@@ -105,7 +106,7 @@ class MainWindow:
     def settled(self) -> bool:
         """Whether nothing will change by itself: both images are complete and compared."""
         views = self.shell.stage.settled
-        moving = self.files.busy or self.traveller.under_way
+        moving = self.files.busy or self.transition.under_way
         return views and self.renderers.settled(self.state) and not moving
 
     def check(self) -> None:
@@ -140,18 +141,18 @@ class MainWindow:
 
     def ask_resolution(self) -> None:
         """Opens the box to type the images' resolution into."""
-        self._asked = asked(self.state, self.renderers.size)
+        self.asking_size = asked(self.state, self.renderers.size)
 
     def ask_pixel(self) -> None:
         """Opens the box to type a pixel's row and column into."""
         if min(self.renderers.size):
-            self._going = going(self.state, self.renderers.size)
+            self.asking_pixel = going(self.state, self.renderers.size)
 
     def travel(self, state: AppState) -> None:
         outside = self.views[OUTSIDE]
         assert isinstance(outside, OutsideView)
         ends = outside.ends(self, state)
-        shown = self.traveller.begin(self.state, state, self.focus, self.renderers.size, ends)
+        shown = self.transition.begin(self.state, state, self.focus, self.renderers.size, ends)
         if shown is state:
             self.change(state)
         self.animate()
@@ -184,12 +185,12 @@ class MainWindow:
             self.animate()
             return
         self._cancel_drags()
-        self.traveller.stop()
+        self.transition.stop()
         self.history = self.history.undo()
 
     def redo(self) -> None:
         self._cancel_drags()
-        self.traveller.stop()
+        self.transition.stop()
         self.history = self.history.redo()
 
     def can_undo(self) -> bool:
@@ -239,7 +240,7 @@ class MainWindow:
         opened = self.files.poll()
         if opened is not None:
             self._take_opened(opened)
-        moving = active or self.traveller.under_way or self._fly.under_way
+        moving = active or self.transition.under_way or self._fly.under_way
         self.renderers.update(self.state, moving)
         self.shell.proportion.keep(self.lecture.arrangements)
         self.shell.frame(self, self)
@@ -252,12 +253,12 @@ class MainWindow:
             stage.give_keyboard(LECTURE if begun else stage.keyboard)
         if not self._is_typing:
             run_shortcuts(self)
-        boxed = self._asked is not None or self._going is not None
-        if self._asked is not None:
-            self._asked, state = resolution_box(self._asked, self.state)
+        boxed = self.asking_size is not None or self.asking_pixel is not None
+        if self.asking_size is not None:
+            self.asking_size, state = resolution_box(self.asking_size, self.state)
             self.change(state)
-        if self._going is not None:
-            self._going, pixel = pixel_box(self._going, self.state)
+        if self.asking_pixel is not None:
+            self.asking_pixel, pixel = pixel_box(self.asking_pixel, self.state)
             if pixel is not None:
                 self._go_to(pixel)
         self.shell.draw(self, boxed)
@@ -282,8 +283,8 @@ class MainWindow:
                 ray_s=image.frame.time_s if image else 0.0,
                 size=both.size,
                 factor=image.factor if image else 0,
-                agreement=_agreement(verdict, failure) or both.preparing(),
-                agrees=_agrees(verdict, failure, state.has_effects),
+                agreement=told(verdict, failure) or both.preparing(),
+                agrees=is_good_news(verdict, failure, state.has_effects),
                 scene=state.scene.name,
                 pixel=pixel,
                 indexing=state.options.indexing,
@@ -307,19 +308,19 @@ class MainWindow:
         """The camera under way, and keys that are held. A press of the mouse on anything ends the
         passage where it is."""
         if active and any(imgui.is_mouse_clicked(button) for button in range(3)):
-            self.traveller.stop()
-        state = self.traveller.step(self.state)
+            self.transition.stop()
+        state = self.transition.step(self.state)
         if state is not self.state:
-            self.history = self.history.change(state, self.traveller.gesture)
+            self.history = self.history.change(state, self.transition.gesture)
         self._fly.frame(self, self._over)
-        if self.traveller.under_way:
+        if self.transition.under_way:
             self.animate()
 
     @property
     def _is_typing(self) -> bool:
         """Whether a box has the keyboard: its digits are no bookmarks, also before the field that
         Tab has gone to takes them."""
-        boxes = (self._asked, self._going)
+        boxes = (self.asking_size, self.asking_pixel)
         return any(box is not None and box.focused for box in boxes)
 
     def _go_to(self, pixel: Pixel) -> None:
@@ -342,7 +343,7 @@ class MainWindow:
             if opened.prepared is not None and self.renderers.textures is not None:
                 self.renderers.textures.rasterizer.prepare(opened.scene, opened.prepared)
             if opened.replaces is not None:
-                self._take_newer(opened.replaces, opened.scene)
+                self.take_newer(opened.replaces, opened.scene)
                 return
             state = self.state.with_scene(opened.scene, opened.view)
             if opened.is_first:
@@ -353,7 +354,7 @@ class MainWindow:
         elif opened.view is not None:
             self.change(self.state.with_view(opened.view))
 
-    def _take_newer(self, old: Scene, new: Scene) -> None:
+    def take_newer(self, old: Scene, new: Scene) -> None:
         """A newer version of the shown scene, as a step of its own: with its own camera, unless
         the user has moved it."""
         untouched = self.state.view == old.view
@@ -364,20 +365,6 @@ class MainWindow:
     def _dropped(self, paths: list[str]) -> None:
         self.files.open_all(paths, dropped=True)
         hello_imgui.request_refresh()
-
-
-def _agreement(verdict: Verdict | None, failure: Exception | None) -> str:
-    """What the status line says of both images; empty while nothing is known."""
-    return verdict.text if verdict else describe(failure) if failure else ""
-
-
-def _agrees(verdict: Verdict | None, failure: Exception | None, effects: bool) -> bool | None:
-    """Whether that is good news; None where it is none: nothing was compared."""
-    if failure is not None and verdict is None:
-        return False
-    if effects or verdict is None or verdict.comparison.nothing_hit:
-        return None
-    return verdict.unexplained == 0
 
 
 def title(scene: Scene) -> str:

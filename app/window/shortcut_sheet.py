@@ -1,6 +1,7 @@
 """The sheet of mouse and keys: every key that does something, by menu, in columns.
 
-Made from the table of app/window/action_table.py. Owns its look.
+Made from the table of app/window/action_table.py, and from what the instruments say of their mouse
+and keys. Owns its look.
 """
 
 from __future__ import annotations
@@ -11,9 +12,11 @@ from dataclasses import dataclass
 
 from imgui_bundle import ImVec2, imgui
 
+from app.host.action import Action
 from app.widgets import theme
 from app.widgets.lettering import lettering
 from app.window.action_table import ACTIONS, MENUS, MOUSE
+from app.window.instruments import INSTRUMENTS
 
 COLUMN_EM = 20.5
 MOST_COLUMNS = 4
@@ -24,14 +27,12 @@ NARROW_EM = 18.0  # a column of less has what a key does below the key
 KEYS = 0.36  # the keys' part of a column
 NAME = "Mouse and keys"
 
-STEPPING = "Lecture/Loop stepper"  # the submenu whose keys hold only where the keyboard is
-
 Row = tuple[str, str]  # keys, what they do
 ESCAPE: Row = ("Esc", "close what lies on top; leave presentation")
 MOVING: tuple[Row, ...] = (
     ("Ctrl+Tab", "from view to view"),
     ("Tab, arrows", "from widget to widget; Space uses it"),
-    ("arrows in the probe", "another pixel; Shift: by ten"),
+    *(row for instrument in INSTRUMENTS.values() for row in instrument.keyboard),
     ("Alt", "into the menus"),
     ESCAPE,
 )
@@ -40,10 +41,12 @@ MOVING: tuple[Row, ...] = (
 def sections() -> list[tuple[str, list[Row]]]:
     """The sheet's parts in their order: a heading, and rows of keys and words."""
     parts: list[tuple[str, list[Row]]] = [("Mouse", list(MOUSE))]
+    apart = [instrument for instrument in INSTRUMENTS.values() if instrument.heading]
+    own = [action for instrument in apart for action in instrument.actions]
     for menu in MENUS:
         by_submenu: dict[str, list[Row]] = {}
         for action in ACTIONS:
-            if action.keys and action.menu.split("/")[0] == menu and action.menu != STEPPING:
+            if action.keys and _is_in(action, menu) and action not in own:
                 by_submenu.setdefault(action.menu, []).append((action.keys, action.name))
         folded = {name: _folded(rows) for name, rows in by_submenu.items()}
         large = [name for name, rows in folded.items() if "/" in name and len(rows) >= OWN_PART]
@@ -51,13 +54,22 @@ def sections() -> list[tuple[str, list[Row]]]:
         if rest:
             parts.append((menu, rest))
         parts += [(name.split("/")[1], folded[name]) for name in large]
-        if STEPPING.split("/")[0] == menu:
+        for instrument in apart:
+            # Of "Stepper: play and pause", the heading says the first part.
             keys = [
-                (a.keys, a.name.removeprefix("Stepper: ")) for a in ACTIONS if a.menu == STEPPING
+                (action.keys, action.name.rpartition(": ")[2])
+                for action in instrument.actions
+                if action.keys and _is_in(action, menu)
             ]
-            parts.append(("Loop stepper, once it is clicked", keys))
+            if keys:
+                parts.append((instrument.heading, keys))
     parts.append(("Everywhere", list(MOVING)))
     return parts
+
+
+def _is_in(action: Action, menu: str) -> bool:
+    """Whether it stands in a menu of the bar, or in one of its submenus."""
+    return action.menu.split("/")[0] == menu
 
 
 def _folded(rows: list[Row]) -> list[Row]:

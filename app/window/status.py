@@ -9,8 +9,10 @@ from dataclasses import dataclass
 
 from imgui_bundle import ImVec2, imgui
 
+from app.images.agreement import Verdict
 from app.widgets import theme
 from app.widgets.lettering import fitting_words
+from renderer.errors import describe
 from renderer.pixels import Indexing, Pixel
 
 DIVIDER_PX = 25.0  # at 100 %: a line between two texts, with what is free beside it
@@ -40,6 +42,20 @@ class Status:
     loading: str = ""
     brief: bool = False
     awaited: bool = True
+
+
+def told(verdict: Verdict | None, failure: Exception | None) -> str:
+    """What the line says of both images; empty while nothing is known."""
+    return verdict.text if verdict else describe(failure) if failure else ""
+
+
+def is_good_news(verdict: Verdict | None, failure: Exception | None, effects: bool) -> bool | None:
+    """Whether both images agree; None where nothing was compared."""
+    if failure is not None and verdict is None:
+        return False
+    if effects or verdict is None or verdict.comparison.nothing_hit:
+        return None
+    return verdict.unexplained == 0
 
 
 def status_line(status: Status, fonts: theme.Fonts) -> None:

@@ -210,25 +210,25 @@ class Run:
         )
         callbacks = params.callbacks
         callbacks.setup_imgui_config = _configure
-        callbacks.load_additional_fonts = self._guarded(self.window.fonts.load)
-        callbacks.setup_imgui_style = self._guarded(lambda: theme.begin(state.preferences))
-        callbacks.post_init = self._guarded(self._begin)
-        callbacks.pre_new_frame = self._guarded(self._before_frame)
+        callbacks.load_additional_fonts = self.guarded(self.window.fonts.load)
+        callbacks.setup_imgui_style = self.guarded(lambda: theme.begin(state.preferences))
+        callbacks.post_init = self.guarded(self._begin)
+        callbacks.pre_new_frame = self.guarded(self._before_frame)
         # Before the views are drawn: too early for their images. See _before_render().
-        callbacks.custom_background = self._guarded(self._focusing.begin_frame)
-        callbacks.before_swap = self._guarded(self._before_swap)
-        callbacks.before_imgui_render = self._guarded(self._before_render)
-        callbacks.show_menus = self._guarded(self.window.menus)
-        callbacks.show_status = self._guarded(self.window.status)
-        callbacks.show_gui = self._guarded(self.window.frame)
-        callbacks.after_swap = self._guarded(self._after_frame)
-        callbacks.before_exit = self._guarded(self.window.end)
+        callbacks.custom_background = self.guarded(self._focusing.begin_frame)
+        callbacks.before_swap = self.guarded(self._before_swap)
+        callbacks.before_imgui_render = self.guarded(self._before_render)
+        callbacks.show_menus = self.guarded(self.window.menus)
+        callbacks.show_status = self.guarded(self.window.status)
+        callbacks.show_gui = self.guarded(self.window.frame)
+        callbacks.after_swap = self.guarded(self._after_frame)
+        callbacks.before_exit = self.guarded(self.window.end)
         return params
 
     def _draw(self, view: DockedView) -> Callable[[], None]:
-        return self._guarded(lambda: self.window.draw_view(view))
+        return self.guarded(lambda: self.window.draw_view(view))
 
-    def _guarded(self, function: Callable[[], Any]) -> Callable[[], None]:
+    def guarded(self, function: Callable[[], Any]) -> Callable[[], None]:
         """Exceptions must not go through C++: they end the run, which raises them."""
 
         def call() -> None:

@@ -125,7 +125,7 @@ def _glx() -> Any:
 @cache
 def load_osmesa() -> Any:
     """libOSMesa. Raises OSError where there is none."""
-    names = (_found("OSMesa"), *OSMESA_NAMES)
+    names = (found_library("OSMesa"), *OSMESA_NAMES)
     for name in filter(None, names):
         try:
             library: Any = ctypes.CDLL(name)
@@ -148,7 +148,7 @@ def load_osmesa() -> Any:
     raise OSError("libOSMesa is not installed")
 
 
-def _found(name: str) -> str | None:
+def found_library(name: str) -> str | None:
     """What the system finds, unless that is in the current folder: where libraries have folders, as
     on macOS and Windows, a path without is from there."""
     found = find_library(name)
@@ -157,7 +157,7 @@ def _found(name: str) -> str | None:
 
 
 def _linux_library(name: str) -> Any:
-    found = _found(name) if sys.platform.startswith("linux") else None
+    found = found_library(name) if sys.platform.startswith("linux") else None
     try:
         return ctypes.CDLL(found) if found else None
     except OSError:

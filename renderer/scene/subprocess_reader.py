@@ -46,7 +46,7 @@ class ModelReader:
 
     def __init__(self) -> None:
         self._lock = threading.Lock()
-        self._process: subprocess.Popen[bytes] | None = None
+        self.process: subprocess.Popen[bytes] | None = None
         self._cancelled = False
 
     def read(self, path: Path) -> tuple[SceneObject, ...]:
@@ -65,8 +65,8 @@ class ModelReader:
         read to its end. Nothing can be read afterwards."""
         with self._lock:
             self._cancelled = True
-            if self._process is not None:
-                self._process.kill()
+            if self.process is not None:
+                self.process.kill()
 
     def check(self) -> None:
         """Raises CancelledError once cancel() was called."""
@@ -77,8 +77,8 @@ class ModelReader:
         with self._lock:
             self.check()
             with contextlib.suppress(OSError):
-                self._process = start_child(python, __name__, str(path), output=True)
-            return self._process
+                self.process = start_child(python, __name__, str(path), output=True)
+            return self.process
 
     def _receive(
         self, process: subprocess.Popen[bytes], path: Path
@@ -99,7 +99,7 @@ class ModelReader:
             ) from None
         finally:
             with self._lock:
-                self._process = None
+                self.process = None
             status = end_child(process)
         self.check()
         if not begun:

@@ -158,7 +158,7 @@ class Attack:
     def do_drop(self) -> None:
         paths = self.rng.sample(self.files, self.rng.randrange(1, 4))
         self.tell("drop", [Path(path).name for path in paths])
-        self.window._dropped(paths)
+        self.d.drop(paths)
 
     def do_scene(self) -> None:
         name = self.rng.choice(SCENES)
@@ -301,7 +301,7 @@ class Attack:
         views = [name for name in stage.rects if not stage.views[name].settled]
         return (
             f"no rest: views {views}, failures {stage.failures}, shown {list(stage.rects)}, files "
-            f"{window.files.busy}, travelling {window.traveller.under_way}, images "
+            f"{window.files.busy}, travelling {window.transition.under_way}, images "
             f"{window.renderers.settled(window.state)}, failure {window.renderers.failure}"
         )
 
@@ -333,7 +333,6 @@ def _stay_open(d: Driver, attack: Attack) -> None:
     """What would end the attack, or leave the window: closing, the screen, the system's dialogs."""
     d.window.quit = lambda: attack.tell("  (quit)")  # type: ignore[method-assign]
     d.window.shell.toggle_full_screen = lambda: attack.tell("  (full screen)")  # type: ignore[method-assign]
-    d.window.files._native = False
 
     def fell(args: Any) -> None:
         attack.failed.append(f"{args.thread}: {args.exc_type.__name__}: {args.exc_value}")

@@ -156,7 +156,7 @@ def _start(folder: Path, first: int, named: bool) -> int:
         return process
     try:
         if named:
-            atomic._has_unnamed = lambda folder: False  # type: ignore[assignment]
+            del os.O_TMPFILE  # type: ignore[attr-defined, unused-ignore]
         recent = RecentFiles(folder, lambda: None)
         os.write(writing, b"!")
         while True:

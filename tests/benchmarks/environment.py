@@ -28,7 +28,7 @@ def prepare(folder: Path = FOLDER, requirements: Path = REQUIREMENTS) -> dict[st
     if not stamp.exists() or stamp.read_text() != made_from:
         say(f"making {folder.name}")
         venv.create(folder, clear=True, with_pip=True)
-        own = Path(_ask(folder, "import sysconfig; print(sysconfig.get_path('purelib'))"))
+        own = Path(ask(folder, "import sysconfig; print(sysconfig.get_path('purelib'))"))
         # Behind the environment's own packages on the path, which therefore come first.
         (own / "lucida-runtime.pth").write_text(runtime + "\n")
         stamp.write_text(made_from)
@@ -84,7 +84,7 @@ def _installed() -> list[str]:
     return [f"{name}=={version}" for name, version in sorted(pins.items()) if name != "lucida"]
 
 
-def _ask(folder: Path, code: str) -> str:
+def ask(folder: Path, code: str) -> str:
     command = [str(python_of(folder)), "-c", code]
     return subprocess.run(command, check=True, capture_output=True, text=True).stdout.strip()
 

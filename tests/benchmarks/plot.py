@@ -85,13 +85,13 @@ def _lines(axis: Any, rows: list[dict[str, Any]], label: str, x: list[int]) -> N
         axis.plot(x, y, marker="o", label=name, color=COLORS[k])
     axis.set_xscale("log")
     axis.set_yscale("log")
-    axis.set_xticks(x, [_count(number) for number in x])
+    axis.set_xticks(x, [short_count(number) for number in x])
     axis.set_xticks([], minor=True)
     axis.yaxis.set_major_formatter("{x:g}")
     axis.set_xlabel(label)
     axis.grid(alpha=0.3)
 
 
-def _count(number: int) -> str:
+def short_count(number: int) -> str:
     """3.7M, 70k."""
     return f"{number / 1e6:.2g}M" if number >= 999_500 else f"{number / 1e3:.3g}k"

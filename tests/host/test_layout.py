@@ -37,7 +37,7 @@ class Dock:
 
 def start(monkeypatch, dock: Dock, kept: Proportion, rooms: tuple[float, ...]) -> None:
     monkeypatch.setattr(imgui, "is_mouse_down", lambda _: True)
-    monkeypatch.setattr(layout, "_node", lambda space: dock.node if space == SPACE else None)
+    monkeypatch.setattr(layout, "node_of", lambda space: dock.node if space == SPACE else None)
     monkeypatch.setattr(imgui.internal, "dock_builder_set_node_size", dock.set_size)
     monkeypatch.setattr(layout, "current", lambda: by_name[LECTURE])
     for room in rooms:

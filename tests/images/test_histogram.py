@@ -63,6 +63,6 @@ def test_what_no_number_is_counts_as_black():
 def test_red_green_and_blue_are_legible_in_every_look(palette):
     behind = (palette.PANEL.x, palette.PANEL.y, palette.PANEL.z)
     for color in theme.CHANNELS:
-        shown = theme._legible((color.x, color.y, color.z), behind)
+        shown = theme.legible_on((color.x, color.y, color.z), behind)
         assert theme.contrast(shown, behind) >= 4.5
         assert max(shown) - min(shown) > 0.25, "it is still a colour"

@@ -89,7 +89,9 @@ class Rig:
         self.tracers: list[Tracer] = []
         self.settings: dict = {}
         self.woken = threading.Semaphore(0)
+        others = set(threading.enumerate())
         self.live = LiveTrace(self.woken.release, self._make)
+        (self.thread,) = set(threading.enumerate()) - others
 
     def _make(self, request: ImageRequest) -> Tracer:
         self.tracers.append(Tracer(request.scene, **self.settings))
@@ -128,7 +130,7 @@ def rig() -> Iterator[Rig]:
         for job in tracer.jobs:
             job.ended.set()
     rig.live.close(PATIENT_S)
-    assert not rig.live._thread.is_alive()
+    assert not rig.thread.is_alive()
 
 
 def request(x: float = 0.0, scene: Scene = SCENE) -> ImageRequest:
@@ -294,8 +296,10 @@ def test_the_newest_waiting_work_wins_and_errors_are_outcomes() -> None:
     woken, gate = threading.Semaphore(0), threading.Event()
     background: Background[int] = Background("test", woken.release)
     done: list[int] = []
+    begun = threading.Event()
 
     def work(number: int) -> int:
+        begun.set()
         assert gate.wait(PATIENT_S)
         done.append(number)
         if number == 3:
@@ -303,8 +307,7 @@ def test_the_newest_waiting_work_wins_and_errors_are_outcomes() -> None:
         return number
 
     background.submit(lambda: work(1))
-    while background._waiting is not None:  # until the first has begun
-        time.sleep(0.001)
+    assert begun.wait(PATIENT_S)
     background.submit(lambda: work(2))
     background.submit(lambda: work(3))
     assert background.busy

@@ -78,6 +78,7 @@ def begin_strips(textures: ImageTextures, of: ImageRequest) -> None:
     for _ in range(5):
         textures.begin_frame()
         assert textures.raster.read_back(of) is None
+    # Nothing public says how far an image has come that nobody sees.
     assert textures.raster._under_way is not None
     drawing = textures.raster._under_way.drawing
     assert drawing.factor == 1
@@ -114,7 +115,7 @@ def test_what_is_read_is_the_image_drawn_in_strips(textures) -> None:
 
 def test_a_motion_shows_something_new_in_each_frame_whatever_one_image_took(textures) -> None:
     full(textures, wanted())
-    textures.raster._coarseness.changed = lambda *_: 1  # as fine as can be, though that is slow
+    textures.raster.coarseness.changed = lambda *_: 1  # as fine as can be, though that is slow
     for step in range(1, 6):
         drawn = textures.raster.image.number
         frame(textures, wanted(0.1 * step))
@@ -123,8 +124,8 @@ def test_a_motion_shows_something_new_in_each_frame_whatever_one_image_took(text
 
 def test_a_motion_shows_something_new_though_an_image_takes_several_frames(textures) -> None:
     full(textures, wanted())
-    textures.raster._pace.part_of = lambda triangles: -(-triangles // 3)
-    textures.raster._coarseness.changed = lambda *_: 1
+    textures.raster.pace.part_of = lambda triangles: -(-triangles // 3)
+    textures.raster.coarseness.changed = lambda *_: 1
     numbers = []
     for step in range(1, 16):
         frame(textures, wanted(0.1 * step))
@@ -151,6 +152,7 @@ def test_an_image_that_fails_leaves_nothing_broken(textures, monkeypatch) -> Non
     before = pixels(full(textures, wanted()))
     textures.begin_frame()
     with monkeypatch.context() as full_memory:
+        # Only here does a GPU that is full say so.
         full_memory.setattr(Targets, "_build", lambda *_: (_ for _ in ()).throw(moderngl.Error()))
         with pytest.raises(LucidaError, match="choose a smaller image"):  # where the shown one was
             textures.raster.read_back(wanted(size=OTHER_SIZE))

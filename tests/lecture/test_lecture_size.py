@@ -3,9 +3,12 @@
 from __future__ import annotations
 
 import contextlib
-import time
+import re
+import sys
 from functools import lru_cache
 from pathlib import Path
+from types import FrameType
+from typing import Any
 
 import pytest
 
@@ -18,7 +21,7 @@ from renderer.errors import LucidaError
 from renderer.scene.limits import TOML_BYTES
 
 STEP = '[[steps]]\ntitle = "T"\ntext = """\n{}"""\n'
-SMALL = 40_000  # characters
+SMALL = 8_000  # characters
 
 
 def lecture(text: str):
@@ -32,16 +35,55 @@ def steps_of(size: int, line: str, of_a_step: int = 4000) -> str:
     return 'title = "L"\n' + "".join(steps)
 
 
-def seconds(text: str) -> float:
-    """Of the processor, the least of three."""
-    taken = []
-    for _ in range(3):
-        begin_s = time.process_time()
-        with contextlib.suppress(LucidaError):
-            lecture(text)
-        taken.append(time.process_time() - begin_s)
-        parse.cache_clear()
-    return min(taken)
+class Work:
+    """What is done within it: lines of Python that run, and patterns that are searched for."""
+
+    def __init__(self) -> None:
+        self.lines = self.searches = 0
+
+    def __enter__(self) -> Work:
+        sys.setprofile(self._note_call)
+        sys.settrace(self._note_line)
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        sys.settrace(None)
+        sys.setprofile(None)
+
+    def _note_line(self, _frame: FrameType, _event: str, _value: Any) -> Any:
+        self.lines += 1
+        return self._note_line
+
+    def _note_call(self, _frame: FrameType, _event: str, called: Any) -> None:
+        self.searches += isinstance(getattr(called, "__self__", None), re.Pattern)
+
+
+class Counted(str):
+    """looked: how many of its characters were looked at or copied, of all such texts."""
+
+    looked = 0
+
+    def __getitem__(self, key: Any) -> str:
+        part = super().__getitem__(key)
+        Counted.looked += len(part)
+        return part
+
+    def count(self, sign: str, begin: int = 0, end: int | None = None) -> int:
+        Counted.looked += (len(self) if end is None else end) - begin
+        return super().count(sign, begin, end)
+
+    def index(self, sign: str, begin: int = 0, end: int | None = None) -> int:
+        found = super().index(sign, begin, end)
+        Counted.looked += found + 1 - begin
+        return found
+
+
+def lines_of(text: str) -> int:
+    """The reading of a lecture."""
+    parse.cache_clear()
+    with Work() as work, contextlib.suppress(LucidaError):
+        lecture(text)
+    return work.lines
 
 
 @pytest.mark.parametrize(
@@ -51,17 +93,25 @@ def seconds(text: str) -> float:
         " *a",  # none of them is closed
         "`a **b ",
         "*",
-        r"\*",
+        r"\\*",
         "$x$ ",
         ">>$x$ y\n",
-        "- a\n" + "b\n" * 500,
+        "- a\n" + "b\n" * 40,
         "$$\nx\n$$\n",
     ],
     ids=range(9),
 )
-def test_time_grows_with_the_size_not_with_its_square(line: str) -> None:
-    small, large = (seconds(steps_of(SMALL * factor, line)) for factor in (1, 12))
-    assert large < 36 * small  # 144 times, were it the square
+def test_work_grows_with_the_size_not_with_its_square(line: str) -> None:
+    one, two, four = (lines_of(steps_of(SMALL * factor, line, 200)) for factor in (1, 2, 4))
+    assert four - two < 2.2 * (two - one)  # 4 times, were it the square
+
+
+@pytest.mark.parametrize("line", [" *a", "a *b "])
+def test_what_nothing_closes_is_looked_for_once(line: str) -> None:
+    """Each search may go to the text's end."""
+    with Work() as work:
+        parse(line * 1000)
+    assert work.searches < 50
 
 
 @pytest.mark.parametrize(
@@ -74,17 +124,11 @@ def test_time_grows_with_the_size_not_with_its_square(line: str) -> None:
     ids=["keys", "steps", "numbers"],
 )
 def test_lines_are_found_in_linear_time(text: str) -> None:
-    """Counted by how many characters are looked at for line breaks, whatever the machine."""
-
-    class Counted(str):
-        looked = 0
-
-        def count(self, *arguments) -> int:
-            Counted.looked += len(self)
-            return str.count(self, *arguments)
-
-    places = Places(Counted(text))
-    assert Counted.looked <= 4 * len(text)
+    Counted.looked = 0
+    with Work() as work:
+        places = Places(Counted(text))
+    assert 0 < Counted.looked <= 4 * len(text)
+    assert work.lines <= 20 * len(text)
     assert places.line("") == 1
 
 

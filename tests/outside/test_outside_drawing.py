@@ -316,6 +316,7 @@ def test_a_picture_to_be_copied_under_a_window_is_upside_down(rasterizer: Raster
 @pytest.mark.parametrize("background", [(0, 0, 0), (0.02, 0.03, 0.04), (0.2, 0.2, 0.2), (1, 1, 1)])
 def test_the_basis_stands_out_from_the_scenes_ground(monkeypatch, look, presented, background):
     """By the ground that it is drawn on, not by the theme: light themes show dark scenes too."""
+    # The public way to a look is a window's.
     monkeypatch.setattr(theme, "_used", [theme.WindowLook(look, presented)])
     ground = ground_of(background, 0.0)
     for name in "uvw":

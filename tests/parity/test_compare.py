@@ -4,58 +4,17 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from flawed_images import CAMERA, SIZE, changed, counts, image, wall
 
-from renderer import Camera, Frame
 from renderer.compare import (
-    CAUSES,
-    LABEL_COLORS,
     SHADING,
     UNEXPLAINED,
     compare,
     compare_frames,
 )
-from renderer.difference import CAUSE_COLORS, false_color, signed_difference
 from renderer.edges import Discontinuities
-from renderer.images import encode_srgb
 from renderer.scene.flat import flatten
-from renderer.scene.model import Checker, Material, Mesh, Scene, SceneObject, Sphere
-
-SIZE = (32, 24)
-CAMERA = Camera(viewport=(-0.5, 0.5, -0.375, 0.375))  # one pixel is 1/32 of a unit at t = 1
-
-
-def wall(z, left=-10.0, right=10.0, tilt=0.0, **material):
-    """A rectangle across the view at depth -z; tilt adds to its depth per unit of x."""
-    corners = [(x, y, z + tilt * x) for x, y in ((left, -9), (right, -9), (right, 9), (left, 9))]
-    return SceneObject(Mesh(corners, [[0, 1, 2], [0, 2, 3]]), Material(**material))
-
-
-def image(t, object_id, primitive, size=SIZE):
-    """A frame of one flat colour where everything is hit at t."""
-    shape = size[::-1]
-    return Frame(
-        size=size,
-        color=np.full((*shape, 3), 0.5, np.float32),
-        depth=np.broadcast_to(np.float32(t), shape).copy(),
-        normal=np.broadcast_to(np.float32([0, 0, 1]), (*shape, 3)).copy(),
-        id=np.full(shape, object_id, np.int32),
-        primitive=np.full(shape, primitive, np.int32),
-    )
-
-
-def changed(frame, where, **values):
-    """A copy of the frame with other values at pixels `where`."""
-    arrays = {}
-    for name, value in values.items():
-        arrays[name] = frame.channel(name).copy()
-        arrays[name][where] = value
-    return replace(frame, **arrays)
-
-
-def counts(comparison):
-    return {name: n for name, n in comparison.explained.items() if n} | (
-        {"unexplained": comparison.unexplained} if comparison.unexplained else {}
-    )
+from renderer.scene.model import Checker, Mesh, Scene, SceneObject, Sphere
 
 
 def test_equal_images_agree_everywhere():
@@ -257,46 +216,6 @@ def test_checker_borders_explain_colours_only_where_there_are_checkers():
         assert counts(compare_frames(flat, CAMERA, SIZE, wrong, frame)) == {cause: 24}
 
 
-def test_the_difference_image_and_the_report_show_the_causes():
-    flat = flatten(Scene((wall(-2),)))
-    frame = image(2, 0, 0)
-    comparison = compare_frames(flat, CAMERA, SIZE, changed(frame, (3, 4), id=7), frame)
-    picture = comparison.difference_image()
-    assert picture.shape == (24, 32, 3)
-    assert picture.dtype == np.uint8
-    assert tuple(picture[3, 4]) == (255, 94, 0)
-    report = comparison.to_dict()
-    assert report["unexplained"] == 1
-    assert set(report["explained"]) == set(CAUSES)
-    assert "unexplained: 1" in comparison.summary()
-
-
-def test_what_is_told_of_a_comparison():
-    """The command's lines and the status line, with and without causes."""
-    at = CAMERA.image_point(0, 20, SIZE)[0] * 2
-    flat = flatten(Scene((wall(-2, right=float(at)), wall(-3))))
-    exact = changed(image(2, 0, 0), np.s_[:, 20:], depth=3, id=1, primitive=2)
-    exact = replace(exact, time_s=0.0025)
-    snapped = changed(exact, np.s_[:, 20], depth=2, id=0, primitive=0)
-    comparison = compare_frames(flat, CAMERA, SIZE, snapped, exact)
-    assert comparison.summary_short() == "agree: all but 24 edge pixels"
-    lines = comparison.summary().split("\n")
-    assert lines[:3] == [
-        "32x24: 744 of 768 pixels agree",
-        "explained:   24 (outline 24)",
-        "unexplained: 0",
-    ]
-    assert lines[-1] == "raster 2.5 ms, ray 2.5 ms"
-    one = changed(exact, (3, 20), depth=2, id=0, primitive=0)  # a single pixel has its cause too
-    comparison = compare_frames(flat, CAMERA, SIZE, one, exact)
-    assert comparison.summary_short() == "agree: all but 1 edge pixel"
-    comparison = compare_frames(flat, CAMERA, SIZE, changed(exact, (3, 4), color=0.9), exact)
-    lines = comparison.summary().split("\n")
-    assert lines[1:3] == ["explained:   0", "unexplained: 1 (1 in the colour alone)"]
-    wrong = compare_frames(flat, CAMERA, SIZE, changed(exact, (3, 4), id=9), exact)
-    assert wrong.summary().split("\n")[2] == "unexplained: 1"
-
-
 @pytest.mark.parametrize(("normal", "agrees"), [(0.001, True), (0.001001, False)])
 def test_a_difference_of_the_tolerance_still_agrees(normal, agrees):
     flat = flatten(Scene((wall(-2),)))
@@ -305,21 +224,6 @@ def test_a_difference_of_the_tolerance_still_agrees(normal, agrees):
     comparison = compare_frames(flat, CAMERA, SIZE, other, frame)
     assert (comparison.unexplained == 0) == agrees
     assert comparison.max_normal_error == (np.float32(normal) if agrees else 0)
-
-
-def test_the_difference_image_is_the_raster_image_darkened():
-    flat = flatten(Scene((wall(-2),)))
-    ramp = np.linspace(0, 1, 32, dtype=np.float32)
-    frame = changed(image(2, 0, 0), 0, color=ramp[:, None])
-    comparison = compare_frames(flat, CAMERA, SIZE, changed(frame, (3, 4), id=7), frame)
-    picture = comparison.difference_image()
-    wanted = [int(0.35 * 255 * value) for value in encode_srgb(ramp)]
-    assert picture[0].tolist() == [[value] * 3 for value in wanted]
-    difference = signed_difference(frame, frame, "depth")
-    assert (comparison.false_color("depth", 4.0) == false_color(difference, "depth", 4.0)).all()
-    assert LABEL_COLORS.shape == (256, 3)
-    for label, name in enumerate(CAUSES, start=1):
-        assert tuple(LABEL_COLORS[label]) == CAUSE_COLORS[name]
 
 
 def test_with_effects_no_line_is_looked_for_where_only_the_colour_differs():
@@ -331,21 +235,6 @@ def test_with_effects_no_line_is_looked_for_where_only_the_colour_differs():
     assert counts(comparison) == {"unexplained": 25}
     assert comparison.shading == 24
     assert compare_frames(flat, CAMERA, SIZE, wrong, frame).shading == 0
-
-
-def test_errors_of_images_that_have_nothing_in_common():
-    """Hit by one alone: infinite everywhere, and no finite error."""
-    flat = flatten(Scene((wall(-2),)))
-    missed = image(np.inf, -1, -1)
-    comparison = compare_frames(flat, CAMERA, SIZE, missed, image(2, 0, 0))
-    depth = comparison.errors["depth"]
-    assert (depth.largest, depth.rms, depth.infinite, depth.differing) == (0, 0, 768, 768)
-    assert comparison.max_depth_error == comparison.max_normal_error == 0
-    frame = image(2, 0, 0)
-    some = changed(changed(frame, (5, 6), depth=np.inf), (2, 3), depth=1.5)
-    depth = compare_frames(flat, CAMERA, SIZE, some, frame).errors["depth"]
-    assert (depth.largest, depth.infinite, depth.differing, depth.worst) == (0.25, 1, 2, (5, 6))
-    assert depth.rms == pytest.approx(0.25 / np.sqrt(767))
 
 
 @pytest.mark.parametrize("missing", ["raster", "ray"])
@@ -406,30 +295,3 @@ def test_more_differing_pixels_than_edges_have_are_not_examined(monkeypatch):
     for most, cause in ((768, "meeting"), (767, "unexplained")):
         monkeypatch.setattr("renderer.compare.MOST_EXAMINED", most)
         assert counts(compare_frames(flat, CAMERA, SIZE, *pair)) == {cause: 768}
-
-
-def test_the_smallest_differences_are_told_as_they_are():
-    """After the display transform, which makes those of dark colours 12.92 times as large."""
-    flat = flatten(Scene((wall(-2),)))
-    for color, by in ((0.5, 2e-6), (0.0, 5e-6)):
-        frame = changed(image(2, 0, 0), (3, 4), color=color)
-        near = changed(frame, (3, 4), color=color + by)
-        comparison = compare_frames(flat, CAMERA, SIZE, frame, near)
-        exact = float(encode_srgb(np.float32(color + by)) - encode_srgb(np.float32(color)))
-        assert comparison.max_color_error == pytest.approx(exact, rel=1e-2)
-        assert comparison.worst == (3, 4)
-    other = changed(frame, (3, 4), id=7)
-    comparison = compare_frames(flat, CAMERA, SIZE, frame, other)
-    error = comparison.errors["id"]
-    assert (error.largest, error.infinite, error.differing, error.worst) == (1, 0, 1, (3, 4))
-    missed = compare_frames(flat, CAMERA, SIZE, image(np.inf, -1, -1), frame)
-    assert missed.max_color_error == missed.errors["depth"].rms == 0
-
-
-def test_false_colors_without_options_are_the_colours_differences_as_they_are():
-    flat = flatten(Scene((wall(-2),)))
-    frame = image(2, 0, 0)
-    other = changed(frame, (3, 4), color=0.2)
-    comparison = compare_frames(flat, CAMERA, SIZE, frame, other)
-    difference = signed_difference(frame, other, "color")
-    assert (comparison.false_color() == false_color(difference, "color", 1.0)).all()

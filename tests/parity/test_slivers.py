@@ -46,16 +46,16 @@ def test_clipping_loses_vast_triangles_only_right_before_the_eye():
     lines = Discontinuities(flat, replace(camera, viewport=(-half, half, -half, half)), (40, 8))
     i, j, primitive = np.array([4]), np.array([20]), np.array([0])
     t = lines.parameter(primitive, i, j, np.ones(1))
-    from_t = float(lines._drawn_from(primitive)[0])
+    from_t = float(lines.drawn_from(primitive)[0])
     assert from_t > t[0]
     assert lines.clip_px(primitive, i, j, t)[0] == 0
     usual = Discontinuities(flat, replace(camera, viewport=(-0.5, 0.5, -0.5, 0.5)), (40, 8))
-    assert usual._drawn_from(primitive)[0] < 30
+    assert usual.drawn_from(primitive)[0] < 30
     # By what was drawn, clipping has lost nothing; only depth says what is too near to the eye.
     corners = [(x, 0.0, z) for x in (-4e6, 4e6) for z in (-5e6, 4e6)]
     farthest = lines.camera.project(corners, (40, 8)).parameter.max()
     for either in (lines, usual):
-        drawn_from = either._drawn_from(primitive, drawn=True)
+        drawn_from = either.drawn_from(primitive, drawn=True)
         assert drawn_from == pytest.approx([CLIPPED_FROM * farthest])
         assert either.clip_px(primitive, i, j, drawn_from * 0.99, drawn=True)[0] == 0
         assert either.clip_px(primitive, i, j, drawn_from * 1.01, drawn=True)[0] > 0
@@ -65,7 +65,7 @@ def test_clipping_loses_vast_triangles_only_right_before_the_eye():
     assert lines.clip_px(primitive, i, j, between)[0] == 0
     assert lines.clip_px(primitive, i, j, between, drawn=True)[0] > 0
     parallel = Discontinuities(flat, replace(camera, projection="parallel"), (40, 8))
-    assert parallel._drawn_from(primitive) == [0]
+    assert parallel.drawn_from(primitive) == [0]
 
 
 @named

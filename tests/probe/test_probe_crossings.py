@@ -7,7 +7,7 @@ import math
 import numpy as np
 import pytest
 
-from app.probe.crossings import CELLS, RUN, Index, _spread
+from app.probe.crossings import CELLS, RUN, Index, spread_bits
 from renderer.scene import shapes
 from renderer.scene.flat import flatten
 from renderer.scene.model import Mesh, Scene, SceneObject, Sphere
@@ -188,10 +188,10 @@ def test_triangles_of_a_run_are_neighbours() -> None:
 
     numbers = {tuple(cell): number for number, cell in enumerate(cells.tolist())}
     one = [numbers[cell] for cell in curve(np.zeros(3, int), steps)]
-    assert both._order.tolist() == [*one, *(number + len(cells) for number in one)]
+    assert both.order.tolist() == [*one, *(number + len(cells) for number in one)]
 
 
 def test_bits_are_spread() -> None:
     cells = np.arange(CELLS + 1)
     expected = sum((cells >> bit & 1) << 3 * bit for bit in range(10))
-    np.testing.assert_array_equal(_spread(cells), expected)
+    np.testing.assert_array_equal(spread_bits(cells), expected)

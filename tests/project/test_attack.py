@@ -145,7 +145,7 @@ def test_the_modules_and_their_tests_are_there():
 def test_known_mutants_are_still_there():
     """One that has gone with its line is to be taken from the list."""
     there = {mutant.key for module in mutations.MODULES for mutant in mutants(ROOT, module)}
-    known = mutations._known()
+    known = mutations.known_mutants()
     assert [key for key in known if key not in there] == []
     assert all(reason.strip() for reason in known.values())
 

@@ -202,7 +202,7 @@ class TestTables:
 
     def test_counts_in_the_picture(self):
         numbers = (4276, 70_006, 921_600, 1_000_182)
-        assert [plot._count(n) for n in numbers] == ["4.28k", "70k", "922k", "1M"]
+        assert [plot.short_count(n) for n in numbers] == ["4.28k", "70k", "922k", "1M"]
 
     def test_the_windows_row(self):
         made = report.Table("window", "", tuple("abcdefghi"))
@@ -341,7 +341,7 @@ class TestEnvironment:
             (folder / "own").mkdir(parents=True)
 
         monkeypatch.setattr(environment.venv, "create", create)
-        monkeypatch.setattr(environment, "_ask", lambda folder, code: str(folder / "own"))
+        monkeypatch.setattr(environment, "ask", lambda folder, code: str(folder / "own"))
         monkeypatch.setattr(environment.subprocess, "run", pip)
         requirements = tmp_path / "requirements.txt"
         requirements.write_text("good==1\nbad==1\n")

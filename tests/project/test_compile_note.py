@@ -7,7 +7,7 @@ from types import SimpleNamespace
 import pytest
 
 from app.commands.arguments import progress_bar
-from app.window.main_window import _agreement, _agrees
+from app.window.status import is_good_news, told
 from renderer import compile_note
 from renderer.trace.compile import compiled
 
@@ -18,6 +18,7 @@ def doubled(x):
 
 @pytest.fixture(autouse=True)
 def nothing_noted(monkeypatch):
+    # It counts for a whole process, and nothing but its end takes it back.
     monkeypatch.setattr(compile_note, "_note", "")
 
 
@@ -55,15 +56,15 @@ def test_the_command_line_says_it_once_also_where_nobody_sees_a_bar(capsys):
 
 
 def test_the_status_line_s_words_while_nothing_is_known():
-    assert _agreement(None, None) == ""
-    assert _agrees(None, None, effects=False) is None
-    assert _agrees(None, ValueError("x"), effects=False) is False
+    assert told(None, None) == ""
+    assert is_good_news(None, None, effects=False) is None
+    assert is_good_news(None, ValueError("x"), effects=False) is False
     comparison = SimpleNamespace(nothing_hit="")
     verdict = SimpleNamespace(text="agree", unexplained=0, comparison=comparison)
-    assert _agreement(verdict, ValueError("old")) == "agree"
-    assert _agrees(verdict, None, effects=False) is True
-    assert _agrees(verdict, None, effects=True) is None
+    assert told(verdict, ValueError("old")) == "agree"
+    assert is_good_news(verdict, None, effects=False) is True
+    assert is_good_news(verdict, None, effects=True) is None
     verdict.unexplained = 1
-    assert _agrees(verdict, None, effects=False) is False
+    assert is_good_news(verdict, None, effects=False) is False
     comparison.nothing_hit = "everything is behind the eye"
-    assert _agrees(verdict, None, effects=False) is None
+    assert is_good_news(verdict, None, effects=False) is None

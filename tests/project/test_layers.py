@@ -94,7 +94,7 @@ DRAW = {
     "stepper": "listing numbers plan",
     "costs": "",
     "laboratory": "array_view displays_view pictures schemes tables tools vector_view",
-    "lecture": "exercise slide typesetting",
+    "lecture": "exercise foot slide typesetting",
 }
 ROLES = ("actions", "instrument", "panel", "view")
 

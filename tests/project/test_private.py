@@ -108,9 +108,9 @@ def test_where_users_have_no_numbers_it_is_only_made(
 @pytest.fixture
 def fresh() -> Iterator[None]:
     """The place of the cache is looked for again."""
-    compiled._find_folder.cache_clear()
+    compiled.find_cache_folder.cache_clear()
     yield
-    compiled._find_folder.cache_clear()
+    compiled.find_cache_folder.cache_clear()
 
 
 def test_a_cache_that_others_can_write_into_is_passed_over_and_told_once(
@@ -163,7 +163,7 @@ def test_the_folder_beside_the_package_is_judged_too(
     (mine / "trace").mkdir()
     (mine / "trace").chmod(0o777)
     monkeypatch.delenv("NUMBA_CACHE_DIR", raising=False)
-    monkeypatch.setattr(compiled, "_TRACE", mine / "trace")
+    monkeypatch.setattr(compiled, "TRACE_FOLDER", mine / "trace")
     (mine / "file").write_text("")
     monkeypatch.setattr(
         compiled.platformdirs, "user_cache_dir", lambda *_, **__: str(mine / "file" / "below")
@@ -181,6 +181,7 @@ def test_a_file_in_the_current_folder_does_not_choose_the_cache(
     monkeypatch.setattr(config, "CACHE_LOCATOR_CLASSES", "InTreeCacheLocator")
     monkeypatch.setattr(compiled.platformdirs, "user_cache_dir", lambda *_, **__: str(mine / "own"))
     kernel = compiled.kernel(rights)  # any function in a file: nothing is compiled
+    # numba's own word on where it keeps this kernel; it has no public one.
     assert Path(kernel._cache.cache_path).is_relative_to(mine / "own")
     assert str(mine / "theirs") == config.CACHE_DIR
     assert config.CACHE_LOCATOR_CLASSES == "InTreeCacheLocator"

@@ -81,7 +81,7 @@ def test_sizes_change_and_nothing_is_left(display, gl):
     left = [name for thing in gl.objects if (name := type(thing).__name__) != "InvalidObject"]
     gl.gc_mode = None
     assert left == []
-    assert len(display._pictures) <= MOST_PICTURES
+    assert len(display._pictures) <= MOST_PICTURES  # kept, which shows in nothing but memory
 
 
 @pytest.fixture

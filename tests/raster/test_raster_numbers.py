@@ -5,7 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from raster_reference import reference
-from test_raster import CHECKERED, SIZE, WIDE, agrees, square, triangle
+from raster_scenes import CHECKERED, SIZE, WIDE, agrees, square, triangle
 
 from renderer.camera import Camera
 from renderer.scene.model import (

@@ -282,5 +282,5 @@ def test_systems_without_egl(monkeypatch, name, system):
 def test_no_library_is_taken_from_the_current_folder(monkeypatch, system, found, asked):
     monkeypatch.setattr(current, "find_library", lambda name: found)
     monkeypatch.setattr(current.sys, "platform", system)
-    assert current._found("OSMesa") == asked
+    assert current.found_library("OSMesa") == asked
     assert all("/" in name for name in current.OSMESA_NAMES if name.endswith("dylib"))

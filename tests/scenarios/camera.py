@@ -96,7 +96,7 @@ def drive_a_singular_basis_is_told_and_survived(d: Driver) -> None:
     legal, before = d.window.state, d.images()
     for axis in "xyz":
         d.type(f"w.{axis}", "0")
-    draft = d.window.views["Camera"]._draft
+    draft = d.window.views["Camera"].draft
     assert draft.error is not None
     assert draft.error.field == "w"
     assert "independent" in str(draft.error)
@@ -111,19 +111,19 @@ def drive_a_singular_basis_is_told_and_survived(d: Driver) -> None:
     d.type("distance", "-1")
     assert d.window.state.camera.distance == legal.camera.distance
     d.type("right", "-5")
-    assert d.window.views["Camera"]._draft.error is not None
+    assert d.window.views["Camera"].draft.error is not None
     d.ctx.item_click(f"{NOTE}/Back to the camera shown")
     d.type("w.x", "0.34567")
     d.type("w.y", "0.24567")
     for name in ("u", "v", "w"):
         d.type(f"{name}.z", "0")
-    assert "lies in the plane" in str(d.window.views["Camera"]._draft.error)  # the longest
+    assert "lies in the plane" in str(d.window.views["Camera"].draft.error)  # the longest
     d.ctx.yield_(2)
     assert d.ctx.get_window_by_ref("//Camera").scroll_max.y == 0
     d.ctx.item_click(f"{NOTE}/Back to the camera shown")
     d.ctx.yield_(2)
-    assert d.window.views["Camera"]._draft.error is None
-    assert d.window.views["Camera"]._draft.camera == d.window.state.camera
+    assert d.window.views["Camera"].draft.error is None
+    assert d.window.views["Camera"].draft.camera == d.window.state.camera
     while d.window.state != legal and d.window.can_undo():
         d.ctx.key_press(int(Key.mod_ctrl) | int(Key.z))
     d.settle()
@@ -158,7 +158,7 @@ def drive_the_distance_is_not_dragged_below_zero(d: Driver) -> None:
     assert 0 < d.window.state.camera.distance < d.start.camera.distance
     for _ in range(12):
         d.drag_field("distance", -280)
-    assert d.window.views["Camera"]._draft.error is None
+    assert d.window.views["Camera"].draft.error is None
     assert d.window.state.camera.distance > 0
     d.type("distance", "0.00002")
     assert d.window.state.camera.distance == 0.00002

@@ -1,5 +1,5 @@
-"""The camera panel beyond its plain numbers: what is coupled, presets, passages, copy and paste,
-flying."""
+"""The camera panel beyond its plain numbers: what is coupled, presets, passages, copy and
+paste."""
 
 from __future__ import annotations
 
@@ -7,27 +7,18 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from held_clock import Clock
 from imgui_bundle import imgui
 from window_driver import Driver, Key, changed
 
 from app.camera_panel import panel as camera_panel
 from app.cameras.presets import PRESETS
 from app.cameras.travel import DURATION_S
-from app.pair.view import RASTER, RAY
 from app.state.app_state import is_orthonormal
 from app.widgets import typed
 from renderer.camera import Camera
 
 SIZE = (400, 300)
-
-
-class Clock:
-    """The passages' clock, held by a test."""
-
-    def __init__(self, d: Driver) -> None:
-        self.s = 10.0
-        d.window.traveller.now_s = lambda: self.s
-        d.window.traveller.instant = False
 
 
 def open_section(d: Driver, name: str) -> None:
@@ -74,7 +65,7 @@ def drive_the_field_of_view_is_typed(d: Driver) -> None:
     assert camera.distance > was.distance
     assert changed(before[0], d.agreeing_images()[0]) > 0.1
     d.type("field of view", "200")
-    assert "between 0 and 180" in str(d.window.views["Camera"]._draft.error)
+    assert "between 0 and 180" in str(d.window.views["Camera"].draft.error)
     assert d.window.state.camera == camera
     d.ctx.item_click("//###pending camera/Back to the camera shown")
 
@@ -93,11 +84,11 @@ def drive_fractions_and_roots_are_typed(d: Driver) -> None:
     d.ctx.item_double_click(d.field("eye.x"))
     d.ctx.key_chars_replace("abc")
     d.ctx.yield_(2)
-    assert "'abc' is not a number" in next(iter(typed._open.values())).wrong
+    assert "'abc' is not a number" in next(iter(typed.open_fields.values())).wrong
     assert d.window.state == before
     d.ctx.key_press(int(Key.escape))
     d.ctx.yield_(2)
-    assert d.window.state == before and not typed._open
+    assert d.window.state == before and not typed.open_fields
     d.type("eye.x", "0.5")  # and it can be typed anew
     assert d.window.state.camera.eye[0] == 0.5
     d.ctx.item_double_click(d.field("eye.x"))
@@ -133,7 +124,7 @@ def drive_the_focus_is_the_marked_pixel_s_also_without_a_ray_image(d: Driver) ->
     d.type("eye.x", "3.5")
     d.settle()
     ray = d.window.renderers.camera(d.window.state).ray(*mark, d.window.renderers.size)
-    away = np.cross(np.subtract(d.window.views["Camera"]._dolly, ray.origin), ray.direction)
+    away = np.cross(np.subtract(d.window.views["Camera"].dolly_point, ray.origin), ray.direction)
     assert np.linalg.norm(away) < 1e-9
     d.window.shell.stage.show("Ray")
     d.settle()
@@ -165,7 +156,7 @@ def drive_near_and_far_are_switched_on_and_cut(d: Driver) -> None:
     assert changed(before[0], after[0]) > 0.05
     assert changed(before[1], after[1]) > 0.05
     d.type("far plane", "8")
-    assert "not above near" in str(d.window.views["Camera"]._draft.error)
+    assert "not above near" in str(d.window.views["Camera"].draft.error)
     assert d.window.state.camera.far == 11
     d.ctx.item_click("//###pending camera/Back to the camera shown")
     d.ctx.item_click("//Camera/near")
@@ -223,10 +214,10 @@ def drive_look_at_is_typed(d: Driver) -> None:
         d.type(f"look.up.{axis}", f"{value:.6f}")
     d.ctx.item_click("//Camera/Look there")
     assert d.window.state.camera == camera
-    assert "along the view direction" in str(d.window.views["Camera"]._sections.look.error)
+    assert "along the view direction" in str(d.window.views["Camera"].entered.look.error)
     d.ctx.item_click("//Camera/From the camera")
     d.ctx.yield_(2)
-    assert d.window.views["Camera"]._sections.look.error is None
+    assert d.window.views["Camera"].entered.look.error is None
     close_sections(d)
 
 
@@ -267,7 +258,7 @@ def drive_a_passage_is_smooth_and_one_step(d: Driver) -> None:
     clock = Clock(d)
     d.ctx.key_press(int(Key.p))
     window = d.window
-    assert window.traveller.under_way
+    assert window.transition.under_way
     distances = []
     for part in (0.2, 0.4, 0.6):
         clock.s = 10.0 + part * DURATION_S
@@ -281,7 +272,7 @@ def drive_a_passage_is_smooth_and_one_step(d: Driver) -> None:
     clock.s += DURATION_S
     d.ctx.yield_(2)
     assert window.state.camera.is_parallel
-    assert not window.traveller.under_way
+    assert not window.transition.under_way
     assert len(window.history.past) == 1
     d.agreeing_images()
     window.undo()
@@ -296,7 +287,7 @@ def drive_a_passage_ends_where_the_user_does_something_else(d: Driver) -> None:
     under_way = d.window.state.camera
     assert under_way not in (d.start.camera, Camera.canonical())
     d.type("eye.x", "1.5")
-    assert not d.window.traveller.under_way
+    assert not d.window.transition.under_way
     assert d.window.state.camera == replace(under_way, eye=(1.5, *under_way.eye[1:]))
     clock.s += DURATION_S
     d.ctx.yield_(3)
@@ -304,67 +295,6 @@ def drive_a_passage_ends_where_the_user_does_something_else(d: Driver) -> None:
     d.window.change(d.start.with_options(preferences={"reduced_motion": True}))
     d.ctx.key_press(int(Key.p))
     assert d.window.state.camera.is_parallel  # at once
-
-
-def drive_keys_fly_over_an_image(d: Driver) -> None:
-    window = d.window
-    keys = ((Key.w, -np.asarray(d.start.camera.w)), (Key.d, np.asarray(d.start.camera.u)))
-    for name, (key, direction) in zip((RASTER, RAY), keys, strict=True):
-        d.ctx.mouse_teleport_to_pos(d.point(name, 0.5, 0.5))
-        d.ctx.yield_(2)
-        d.ctx.key_down(int(key))
-        d.until(
-            lambda: np.linalg.norm(np.subtract(window.state.camera.eye, d.start.camera.eye)) > 0.3
-        )
-        d.ctx.key_up(int(key))
-        d.ctx.yield_(2)
-        way = np.subtract(window.state.camera.eye, d.start.camera.eye)
-        assert np.allclose(way / np.linalg.norm(way), direction, atol=1e-6)
-        assert window.state.camera.w == d.start.camera.w
-        assert len(window.history.past) == 1
-        resting = window.state
-        d.ctx.yield_(4)
-        assert window.state == resting
-        d.reset()
-    d.ctx.item_double_click(d.field("eye.y"))
-    d.ctx.key_chars_replace("w")
-    d.ctx.key_down(int(Key.w))
-    d.ctx.yield_(4)
-    d.ctx.key_up(int(Key.w))
-    d.ctx.key_press(int(Key.escape))
-    assert window.state == d.start
-
-
-def drive_the_object_under_the_mouse_is_framed(d: Driver) -> None:
-    d.settle()
-    window = d.window
-    request = window.renderers.request(window.state)
-    frame = window.renderers.agreement.frame_of(request)
-    numbers = frame.channel("id")
-    shiny = 2
-    rows, columns = np.nonzero(numbers == shiny)
-    k = len(rows) // 2
-    x, y, right, bottom = d.rect(RASTER)
-    height, width = numbers.shape
-    at = x + (columns[k] + 0.5) / width * (right - x), y + (rows[k] + 0.5) / height * (bottom - y)
-    d.ctx.mouse_teleport_to_pos(at)
-    d.ctx.yield_(3)
-    d.ctx.key_press(int(Key.f))
-    camera = window.state.camera
-    assert (camera.u, camera.v, camera.w) == (
-        d.start.camera.u,
-        d.start.camera.v,
-        d.start.camera.w,
-    )
-    center = window.state.scene.objects[shiny].shape.center
-    seen = window.renderers.camera(window.state).project(center, SIZE)
-    assert abs(seen.row - (SIZE[1] - 1) / 2) < 1
-    assert abs(seen.column - (SIZE[0] - 1) / 2) < 1
-    frame = d.agreeing_images()
-    assert len(window.history.past) == 1
-    d.ctx.key_press(int(Key.h))
-    assert window.state == d.start
-    assert frame[0].std() > 5
 
 
 def drive_the_readout_tells_a_left_handed_skewed_basis(d: Driver) -> None:
@@ -380,21 +310,6 @@ def drive_the_readout_tells_a_left_handed_skewed_basis(d: Driver) -> None:
     right = round(d.ctx.get_window_by_ref("//Camera").rect().max.x)
     difference = np.abs(before.astype(int) - after)[top:bottom, :right]
     assert (difference.max(axis=2) > 30).mean() > 0.05
-
-
-def drive_alt_and_a_drag_looks_around(d: Driver) -> None:
-    start, goal = d.point(RASTER, 0.5, 0.5), d.point(RASTER, 0.6, 0.45)
-    d.ctx.key_down(int(Key.mod_alt))
-    d.drag(start, goal)
-    d.ctx.key_up(int(Key.mod_alt))
-    camera = d.window.state.camera
-    assert np.allclose(camera.eye, d.start.camera.eye)
-    assert not np.allclose(camera.w, d.start.camera.w)
-    # The mouse went to the image's right: so does the view direction.
-    turned = -np.asarray(camera.w) @ np.asarray(d.start.camera.u)
-    assert turned > 0.05
-    assert len(d.window.history.past) == 1
-    d.agreeing_images()
 
 
 def drive_sections_stay_as_the_user_leaves_them(d: Driver) -> None:

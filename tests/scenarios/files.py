@@ -1,4 +1,4 @@
-"""Files and failures: what is opened, what is broken, what takes long."""
+"""Files and failures: dialogs, what is opened, what is broken, what takes long."""
 
 from __future__ import annotations
 
@@ -10,7 +10,10 @@ from typing import Any
 from imgui_bundle import imgui
 from window_driver import PATIENT_S, Driver, Key, changed
 
-from renderer.scene import save_view
+from app.window import loading
+from renderer.scene import load_scene, save_view
+
+CTRL, SHIFT = int(Key.mod_ctrl), int(Key.mod_shift)
 
 
 def drive_files_are_opened_and_broken_ones_told(d: Driver) -> None:
@@ -24,9 +27,11 @@ def drive_files_are_opened_and_broken_ones_told(d: Driver) -> None:
     d.ctx.item_click("//##message/Close")
     assert window.files.message == ""
     os.environ["PATH"], path = "", os.environ["PATH"]  # no program that draws dialogs
+    window.files.native = True
     d.ctx.key_press(int(Key.mod_ctrl) | int(Key.o))
     d.ctx.yield_(2)
     os.environ["PATH"] = path
+    window.files.native = False
     if sys.platform.startswith("linux"):
         assert window.files.dialog.is_open  # the window's own
         d.ctx.key_press(int(Key.escape))
@@ -34,7 +39,7 @@ def drive_files_are_opened_and_broken_ones_told(d: Driver) -> None:
     assert not window.files.dialog.is_open
     broken = d.folder / "broken.obj"
     broken.write_bytes(b"\x00\xff nothing of use")
-    window._dropped([str(broken)])
+    d.drop([str(broken)])
     d.until(lambda: "broken.obj" in window.files.message)
     assert window.state == d.start
     window.open("spheres")
@@ -53,17 +58,17 @@ def drive_files_are_opened_and_broken_ones_told(d: Driver) -> None:
 
 def drive_a_failing_tracer_is_told_and_survived(d: Driver) -> None:
     live = d.window.renderers.live
-    good = live._make_tracer
+    good = live.make_tracer
 
     def bad(scene: object) -> Any:
         raise MemoryError
 
-    live._make_tracer = bad
+    live.make_tracer = bad
     d.window.change(d.window.state.with_options(shadows=True))  # that needs a new one
     d.until(lambda: live.error is not None)
     d.ctx.yield_(3)
     d.picture()
-    live._make_tracer = good
+    live.make_tracer = good
     d.window.undo()
     d.window.open("spheres")
     d.until(lambda: d.window.state.scene.name == "spheres")
@@ -73,13 +78,13 @@ def drive_a_failing_tracer_is_told_and_survived(d: Driver) -> None:
 def drive_no_frame_waits_for_the_tracer(d: Driver) -> None:
     """The tracer's thread is held up: the window goes on, with the raster image of now."""
     live, gate = d.window.renderers.live, threading.Event()
-    good = live._make_tracer
+    good = live.make_tracer
 
     def slow(scene: object) -> Any:
         gate.wait(PATIENT_S)
         return good(scene)
 
-    live._make_tracer = slow
+    live.make_tracer = slow
     d.window.open("columns")
     d.until(lambda: d.window.state.scene.name == "columns")
     d.window.change(d.window.state.with_options(mirrors=True))  # that needs a new one
@@ -89,7 +94,7 @@ def drive_no_frame_waits_for_the_tracer(d: Driver) -> None:
     d.until(lambda: not d.window.renderers.textures.unfinished)
     assert changed(before, d.images()[0]) > 0.05
     assert d.window.renderers.live.busy
-    live._make_tracer = good
+    live.make_tracer = good
     gate.set()
     d.window.change(d.window.state.with_options(mirrors=False))
     d.agreeing_images()
@@ -102,7 +107,7 @@ def drive_a_name_that_is_not_utf8_is_shown_and_told(d: Driver) -> None:
     path = os.fsdecode(os.fsencode(d.folder) + b"/caf\xe9 \xff.obj")
     with open(path, "w") as file:
         file.write("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n")
-    window._dropped([path])
+    d.drop([path])
     d.until(lambda: window.state.scene is not d.start.scene)
     assert window.state.scene.name == r"caf\xe9 \xff"
     assert window.files.recent.entries[0].path == path
@@ -128,7 +133,7 @@ def drive_a_dropped_scene_asks_before_it_reads_elsewhere(d: Driver) -> None:
     scene = mine / "asks.toml"
     scene.write_text("[[objects]]\ntype = 'model'\nfile = '../out.obj'\n")
     for answer in ("Cancel", "Open anyway"):
-        window._dropped([str(scene)])
+        d.drop([str(scene)])
         d.until(lambda: window.files.outside is not None)
         assert window.state == d.start
         d.ctx.yield_(3)
@@ -159,3 +164,63 @@ def drive_a_scene_is_read_again_when_its_file_is_saved(d: Driver) -> None:
     assert window.shell.toasts.texts == ["edited was read again: its file was saved."]
     window.shell.toasts.clear()
     d.agreeing_images()
+
+
+def drive_the_windows_own_dialog_opens_and_saves(d: Driver) -> None:
+    files = d.window.files
+    folder = d.folder / "scenes"
+    folder.mkdir()
+    (folder / "mine.toml").write_text('name = "mine"\n[[objects]]\ntype = "sphere"\n')
+    d.press(CTRL | int(Key.o))
+    assert files.dialog.is_open
+    # A folder that is typed is gone into; then a name.
+    d.ctx.key_chars_replace_enter(str(folder))
+    d.until(lambda: files.dialog.folder == folder)
+    d.ctx.yield_(2)
+    d.picture()
+    d.ctx.item_double_click("//###file dialog/**/mine.toml")
+    d.until(lambda: d.window.state.scene.name == "mine")
+    assert not files.dialog.is_open
+    d.press(CTRL | SHIFT | int(Key.s))
+    d.ctx.key_chars_replace_enter("copy")
+    d.until(lambda: (folder / "copy.toml").exists())
+    assert load_scene(folder / "copy.toml").view == d.window.state.view
+    d.until(lambda: any("copy.toml" in text for text in d.window.shell.toasts.texts))
+    # What is there already is not replaced unasked.
+    d.press(CTRL | int(Key.s))
+    d.ctx.key_chars_replace_enter("copy.toml")
+    assert files.dialog.is_open
+    d.picture()
+    d.press(int(Key.escape))
+    assert not files.dialog.is_open
+    assert "objects" in (folder / "copy.toml").read_text()
+    d.until(lambda: [entry.name for entry in files.recent.entries][:1] == ["copy.toml"])
+    d.ctx.menu_click("//##MainMenuBar/File/Recent files/###recent1")
+    d.until(lambda: d.window.files.loading == "" and d.window.state.scene.origin is not None)
+    d.ctx.menu_click("//##MainMenuBar/File/Recent files/Clear the list")
+    assert files.recent.entries == ()
+
+
+def drive_several_files_are_dropped(d: Driver) -> None:
+    view = load_scene("canonical").view
+    save_view(d.folder / "dropped.toml", view)
+    d.drop([str(d.folder / "dropped.toml"), "spheres", str(d.folder / "gone.obj")])
+    d.until(lambda: d.window.state.scene.name == "spheres")
+    assert d.window.state.view == view
+    d.ctx.yield_(2)
+    d.press(CTRL | int(Key.z))
+    assert d.window.state == d.start  # one step
+
+
+def drive_loading_is_told_and_cancelled(d: Driver) -> None:
+    gate = threading.Event()
+    d.window.files.open_later("slow.obj", lambda: gate.wait(PATIENT_S))  # type: ignore[arg-type, return-value]
+    d.until(lambda: d.ctx.window_info(f"//{loading.NAME}").id_ != 0)
+    d.ctx.yield_(2)
+    d.picture()
+    d.ctx.item_click(f"//{loading.NAME}/Cancel")
+    d.until(lambda: not d.window.files.busy)
+    assert "cancelled" in d.window.shell.toasts.texts[-1]
+    gate.set()
+    d.window.open("spheres")  # a new thread does it
+    d.until(lambda: d.window.state.scene.name == "spheres")

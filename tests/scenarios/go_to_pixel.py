@@ -9,27 +9,22 @@ from app.pair.go_to_pixel import TITLE
 OPEN = int(Key.mod_ctrl) | int(Key.g)
 
 
-def press(d: Driver, key: int) -> None:
-    d.ctx.key_press(key)
-    d.ctx.yield_(3)
-
-
 def typed(d: Driver, row: str, column: str) -> None:
     """Ctrl+G, a row, Tab, a column, Enter; nothing is clicked."""
-    press(d, OPEN)
+    d.press(OPEN)
     for key, text in ((None, row), (Key.tab, column)):
         if key is not None:
-            press(d, int(key))
+            d.press(int(key))
         d.ctx.key_chars(text)
         d.ctx.yield_(2)
-    press(d, int(Key.enter))
+    d.press(int(Key.enter))
 
 
 def drive_a_pixel_is_typed(d: Driver) -> None:
     window = d.window
     typed(d, "31", "41")
     assert window.state.marked == (30, 40)
-    assert window._going is None
+    assert window.asking_pixel is None
     window.change(window.state.with_options(one_based=False))
     typed(d, "31", "41")
     assert window.state.marked == (31, 41)
@@ -39,9 +34,9 @@ def drive_a_pixel_is_typed(d: Driver) -> None:
 def drive_enter_in_the_first_field_keeps_the_column(d: Driver) -> None:
     d.window.change(d.window.state.with_options(marked=(5, 6)))
     d.ctx.yield_(2)
-    press(d, OPEN)
+    d.press(OPEN)
     d.ctx.key_chars("9")
-    press(d, int(Key.enter))
+    d.press(int(Key.enter))
     assert d.window.state.marked == (8, 6)
 
 
@@ -51,11 +46,11 @@ def drive_a_mistake_is_said_and_escape_leaves(d: Driver) -> None:
     window.change(before)
     d.ctx.yield_(2)
     typed(d, "99999", "1")
-    assert window._going is not None
-    assert "'99999' is no row of this image; give 1 to" in window._going.problem
+    assert window.asking_pixel is not None
+    assert "'99999' is no row of this image; give 1 to" in window.asking_pixel.problem
     assert window.state == before
-    press(d, int(Key.escape))
-    assert window._going is None
+    d.press(int(Key.escape))
+    assert window.asking_pixel is None
     assert window.state.marked == (5, 6), "Escape has left the box and nothing else"
 
 
@@ -65,16 +60,16 @@ def drive_keys_in_the_box_are_for_the_box(d: Driver) -> None:
     window.change(window.state.with_options(preferences={"presentation": True}))
     d.settle()
     before = window.state
-    press(d, OPEN)
-    press(d, int(Key.tab))
-    press(d, int(Key.tab))  # on to the button
-    press(d, int(Key._2))
+    d.press(OPEN)
+    d.press(int(Key.tab))
+    d.press(int(Key.tab))  # on to the button
+    d.press(int(Key._2))
     assert not window.shell.toasts.texts
-    press(d, int(Key.p))  # would switch the projection
-    assert window._going is not None
+    d.press(int(Key.p))  # would switch the projection
+    assert window.asking_pixel is not None
     assert window.state == before
-    press(d, int(Key.escape))
-    assert window._going is None
+    d.press(int(Key.escape))
+    assert window.asking_pixel is None
     assert window.state == before, "presentation goes on"
     window.undo()
     d.settle()

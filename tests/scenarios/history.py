@@ -7,6 +7,8 @@ from window_driver import IMAGES, Driver, Key
 
 from app.pair.view import RASTER, RAY
 
+CTRL = int(Key.mod_ctrl)
+
 
 def drive_undo_and_redo(d: Driver) -> None:
     d.drag_field("eye.x", 40)
@@ -14,14 +16,14 @@ def drive_undo_and_redo(d: Driver) -> None:
     d.drag(d.point(RAY, 0.5, 0.5), d.point(RAY, 0.6, 0.5))
     turned = d.window.state
     assert len(d.window.history.past) == 2
-    ctrl, shift = int(Key.mod_ctrl), int(Key.mod_shift)
-    d.ctx.key_press(ctrl | int(Key.z))
+    shift = int(Key.mod_shift)
+    d.ctx.key_press(CTRL | int(Key.z))
     assert d.window.state == moved
-    d.ctx.key_press(ctrl | int(Key.z))
+    d.ctx.key_press(CTRL | int(Key.z))
     assert d.window.state == d.start
-    d.ctx.key_press(ctrl | shift | int(Key.z))
+    d.ctx.key_press(CTRL | shift | int(Key.z))
     assert d.window.state == moved
-    d.ctx.key_press(ctrl | int(Key.y))
+    d.ctx.key_press(CTRL | int(Key.y))
     assert d.window.state == turned
     d.ctx.menu_click("//##MainMenuBar/Edit/Undo")
     assert d.window.state == moved
@@ -80,3 +82,26 @@ def drive_shadows_and_mirrors_are_the_ray_images_alone(d: Driver) -> None:
     d.window.undo()
     d.window.undo()
     d.agreeing_images()
+
+
+def drive_the_history_is_a_list(d: Driver) -> None:
+    d.drag_field("eye.x", 30)
+    d.ctx.menu_click("//##MainMenuBar/View/Look/Light theme")
+    d.drag_field("eye.y", 30)
+    assert len(d.window.history.past) == 3
+    d.ctx.menu_click("//##MainMenuBar/Edit/History/###step0")
+    assert d.window.state == d.start
+    assert len(d.window.history.future) == 3
+
+
+def drive_undo_takes_back_a_number_that_is_not_legal_before_any_edit(d: Driver) -> None:
+    d.type("eye.y", "2.5")
+    edited = d.window.state
+    assert edited != d.start
+    d.type("left", "9")  # and right is smaller
+    assert d.window.views["Camera"].has_pending
+    d.press(CTRL | int(Key.z))
+    assert d.window.state == edited
+    assert not d.window.views["Camera"].has_pending
+    d.press(CTRL | int(Key.z))
+    assert d.window.state.camera == d.start.camera

@@ -86,7 +86,7 @@ def drive_the_kinds_are_of_the_image_that_is_seen(d: Driver) -> None:
     view = _open(d, page="kinds")
     titles = [panel.title for panel in view.made]
     assert titles == [kind.title for kind in kinds.KINDS]
-    color = view._source.color  # type: ignore[union-attr]
+    color = view.source.color  # type: ignore[union-attr]
     np.testing.assert_array_equal(view.made[2].picture, to_srgb8(color))
     expected = shown(store(color, kinds.BITMAP, 0.0, "floyd-steinberg"))
     np.testing.assert_array_equal(view.made[0].picture, expected)
@@ -149,7 +149,7 @@ def drive_exposure_after_storage(d: Driver) -> None:
     assert d.window.state.options.laboratory.after_ev == -2.0
     kept, floats = (panel.picture for panel in view.made)
     # Where the bytes were white they are one gray now; the floats still differ there.
-    color = view._source.color * 4.0  # type: ignore[union-attr]
+    color = view.source.color * 4.0  # type: ignore[union-attr]
     white = (color > 1).all(axis=2)
     assert white.any()
     assert len(np.unique(kept[white], axis=0)) == 1

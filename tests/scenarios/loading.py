@@ -72,7 +72,7 @@ class Patiently:
 
 
 def process_of(files: Files) -> subprocess.Popen | None:
-    return files._models._process
+    return files.models.process
 
 
 def open_patiently(d: Driver, path: Path) -> subprocess.Popen:

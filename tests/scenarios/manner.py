@@ -1,30 +1,23 @@
-"""What stands around the views: palette, sheet, layouts, looks, bookmarks, pictures, dialogs."""
+"""What stands around the views: palette, sheet, layouts, looks, bookmarks, pictures."""
 
 from __future__ import annotations
 
 import os
-import threading
 
 import numpy as np
 from imgui_bundle import ImVec2, hello_imgui, imgui
 from PIL import Image
-from window_driver import PATIENT_S, SIZE, Driver, Key
+from window_driver import SIZE, Driver, Key
 
 from app.camera_panel.view import CAMERA
 from app.host import layout
 from app.pair.view import RASTER, RAY
 from app.widgets import theme
-from app.window import loading, menus
+from app.window import menus
 from app.window.shortcut_sheet import planned, sections
-from renderer.scene import load_scene, save_view
 
 NO_ERROR = int(imgui.test_engine.TestOpFlags_.no_error)
 CTRL, SHIFT = int(Key.mod_ctrl), int(Key.mod_shift)
-
-
-def press(d: Driver, chord: int) -> None:
-    d.ctx.key_press(chord)
-    d.ctx.yield_(2)
 
 
 def into(d: Driver, name: str) -> None:
@@ -37,44 +30,44 @@ def into(d: Driver, name: str) -> None:
 
 def drive_the_palette_does_what_is_typed(d: Driver) -> None:
     palette = d.window.shell.palette
-    press(d, CTRL | SHIFT | int(Key.p))
+    d.press(CTRL | SHIFT | int(Key.p))
     assert palette.open
     d.ctx.key_chars("parallel")
     d.ctx.yield_(2)
     d.picture()
-    press(d, int(Key.enter))
+    d.press(int(Key.enter))
     assert not palette.open
     assert d.window.state.camera.is_parallel
-    press(d, CTRL | SHIFT | int(Key.p))
+    d.press(CTRL | SHIFT | int(Key.p))
     d.ctx.key_chars("scene spheres")
     d.ctx.yield_(2)
-    press(d, int(Key.enter))
+    d.press(int(Key.enter))
     d.until(lambda: d.window.state.scene.name == "spheres")
     # Without letters, what was done last stands first; the arrows choose.
-    press(d, CTRL | SHIFT | int(Key.p))
-    press(d, int(Key.down_arrow))
+    d.press(CTRL | SHIFT | int(Key.p))
+    d.press(int(Key.down_arrow))
     assert not d.window.state.camera.is_parallel  # the scene's own view
-    press(d, int(Key.enter))
+    d.press(int(Key.enter))
     assert d.window.state.camera.is_parallel
-    press(d, CTRL | SHIFT | int(Key.p))
+    d.press(CTRL | SHIFT | int(Key.p))
     d.ctx.key_chars("qqqqq")
-    press(d, int(Key.enter))
+    d.press(int(Key.enter))
     assert palette.open  # nothing of that name: nothing is done
-    press(d, int(Key.escape))
+    d.press(int(Key.escape))
     assert not palette.open
 
 
 def drive_the_sheet_fits_the_window_at_every_size_of_type(d: Driver) -> None:
     for scale in (1.0, 3.0):
         d.window.change(d.window.state.with_options(preferences={"font_scale": scale}))
-        press(d, SHIFT | int(Key.slash))
+        d.press(SHIFT | int(Key.slash))
         d.ctx.yield_(3)
         assert d.window.shell.help
         box = d.ctx.window_info("//Mouse and keys").rect_full
         assert box.min.x >= 0 and box.max.x <= SIZE[0]
         assert box.min.y >= 0 and box.max.y <= SIZE[1]
         d.picture()
-        press(d, int(Key.escape))
+        d.press(int(Key.escape))
         assert not d.window.shell.help
 
 
@@ -82,7 +75,7 @@ def drive_the_sheet_is_seen_at_once_in_a_lecture_hall(d: Driver) -> None:
     """In 1280 x 720 nothing has to be scrolled, and its type is not below 13 pixels."""
     hello_imgui.change_window_size((1280, 720))
     d.ctx.yield_(5)
-    press(d, int(Key.f1))
+    d.press(int(Key.f1))
     d.ctx.yield_(3)
     sheet = d.ctx.window_info("//Mouse and keys").window
     assert sheet is not None
@@ -90,13 +83,15 @@ def drive_the_sheet_is_seen_at_once_in_a_lecture_hall(d: Driver) -> None:
     assert sheet.scroll_max.x == 0
     plan = planned(sections(), ImVec2(1200, 600), imgui.get_font_size())
     assert plan.size_px >= 13
-    press(d, int(Key.escape))
+    d.press(int(Key.escape))
     hello_imgui.change_window_size(SIZE)
     d.ctx.yield_(5)
 
 
 def drive_menus_do_not_grow_without_end(d: Driver) -> None:
-    """200 % is granted in a window 720 high; menus end at a size at which they have room."""
+    """200 % is granted in a window 720 high; menus end at a size at which they have room.
+
+    Their type has its size while they are drawn, and can be asked for there only."""
     bar, sizes = menus._bar, []
 
     def watched(*rest: object) -> None:
@@ -122,18 +117,18 @@ def drive_looks_are_options_that_undo_takes_back(d: Driver) -> None:
     assert theme.PANEL.x > 0.9
     assert d.picture().mean() > dark + 40
     height = imgui.get_font_size()
-    press(d, CTRL | int(Key.equal))
-    press(d, CTRL | int(Key.equal))
+    d.press(CTRL | int(Key.equal))
+    d.press(CTRL | int(Key.equal))
     assert d.window.state.preferences.font_scale == 1.5
     assert imgui.get_font_size() == 1.5 * height
-    press(d, CTRL | int(Key._0))
+    d.press(CTRL | int(Key._0))
     assert d.window.state.preferences.font_scale == 1.0
     for _ in range(12):
-        press(d, CTRL | int(Key.minus))
+        d.press(CTRL | int(Key.minus))
     assert d.window.state.preferences.font_scale == 0.75
     assert d.window.can_undo()
     while d.window.can_undo():
-        press(d, CTRL | int(Key.z))
+        d.press(CTRL | int(Key.z))
     d.ctx.yield_(3)
     assert d.window.state == d.start
     assert abs(d.picture().mean() - dark) < 10
@@ -141,21 +136,21 @@ def drive_looks_are_options_that_undo_takes_back(d: Driver) -> None:
 
 def drive_presentation_is_large_and_reduced_and_ends_with_escape(d: Driver) -> None:
     assert d.window.shell.stage.is_shown(CAMERA)
-    press(d, int(Key.f9))
+    d.press(int(Key.f9))
     d.until(lambda: layout.current().name == layout.PRESENTATION)
     d.settle()
     assert imgui.get_font_size() >= 0.02 * SIZE[1]
     assert theme.LINE_WIDTH == 2.0
     assert not d.window.shell.stage.is_shown(CAMERA)
     d.picture()
-    press(d, int(Key.escape))
+    d.press(int(Key.escape))
     d.until(lambda: layout.current().name == layout.LAYOUTS[0].name)
     d.settle()
     assert theme.LINE_WIDTH == 1.0
     assert d.window.shell.stage.is_shown(CAMERA)
-    press(d, CTRL | int(Key.z))  # of leaving it
+    d.press(CTRL | int(Key.z))  # of leaving it
     d.until(lambda: layout.current().name == layout.PRESENTATION)
-    press(d, CTRL | int(Key.z))
+    d.press(CTRL | int(Key.z))
     d.until(lambda: layout.current().name == layout.LAYOUTS[0].name)
     assert d.window.state == d.start
 
@@ -165,17 +160,17 @@ def drive_layouts_have_keys_and_remember_the_users_changes(d: Driver) -> None:
     into(d, layout.LAYOUTS[1].name)
     into(d, layout.LAYOUTS[0].name)
     for number, one in enumerate(layout.LAYOUTS):
-        press(d, CTRL | (int(Key.f1) + number))
+        d.press(CTRL | (int(Key.f1) + number))
         d.until(lambda name=one.name: layout.current().name == name)  # type: ignore[misc]
         d.ctx.yield_(3)
         for name in one.places:
             if name in stage.views:
                 assert stage.is_shown(name), (one.name, name)
-    press(d, CTRL | int(Key.f2))
+    d.press(CTRL | int(Key.f2))
     d.until(lambda: layout.current().name == layout.LAYOUTS[1].name)
     stage.show(RASTER, False)
     d.ctx.yield_(3)
-    press(d, CTRL | int(Key.f1))
+    d.press(CTRL | int(Key.f1))
     d.until(lambda: layout.current().name == layout.LAYOUTS[0].name)
     d.ctx.yield_(3)
     assert stage.is_shown(RASTER)
@@ -199,14 +194,14 @@ def drive_a_view_is_maximised_and_comes_back(d: Driver) -> None:
     small = stage.rects[RASTER]
     stage.show(RASTER)
     d.until(lambda: stage.focused == RASTER)
-    press(d, CTRL | int(Key.m))
+    d.press(CTRL | int(Key.m))
     d.until(lambda: stage.maximised == RASTER and stage.rects[RASTER][2] > small[2] + 100)
     assert RAY not in stage.rects
     d.picture()
     # From view to view, each in its turn.
-    press(d, int(Key.f3))
+    d.press(int(Key.f3))
     d.until(lambda: stage.maximised == RAY and RAY in stage.rects)
-    press(d, int(Key.escape))
+    d.press(int(Key.escape))
     d.until(lambda: not stage.maximised)
     d.settle()
     assert stage.rects[RASTER] == small
@@ -218,11 +213,11 @@ def drive_the_keyboard_goes_from_view_to_view(d: Driver) -> None:
     stage = d.window.shell.stage
     seen = []
     for _ in stage.shown:
-        press(d, int(Key.f3))
+        d.press(int(Key.f3))
         d.ctx.yield_(2)
         seen.append(stage.focused)
     assert sorted(seen) == sorted(view.name for view in stage.shown)
-    press(d, SHIFT | int(Key.f3))
+    d.press(SHIFT | int(Key.f3))
     d.ctx.yield_(2)
     assert stage.focused == seen[-2]
 
@@ -230,26 +225,26 @@ def drive_the_keyboard_goes_from_view_to_view(d: Driver) -> None:
 def drive_bookmarks_bring_views_back(d: Driver) -> None:
     d.ctx.mouse_teleport_to_pos(d.point(RASTER, 0.5, 0.5))
     home = d.window.state.view
-    press(d, CTRL | int(Key._3))
+    d.press(CTRL | int(Key._3))
     d.type("eye.x", "1")
     d.ctx.mouse_teleport_to_pos(d.point(RASTER, 0.5, 0.5))
     away = d.window.state.view
     assert away != home
-    press(d, CTRL | int(Key._9))
-    press(d, int(Key._3))
+    d.press(CTRL | int(Key._9))
+    d.press(int(Key._3))
     d.until(lambda: d.window.state.view == home)
-    press(d, int(Key._9))
+    d.press(int(Key._9))
     d.until(lambda: d.window.state.view == away)
-    press(d, int(Key._5))
+    d.press(int(Key._5))
     assert "free" in d.window.shell.toasts.texts[-1]
     assert d.window.state.view == away
     d.ctx.menu_click("//##MainMenuBar/Camera/Bookmarks/###go3")
     d.until(lambda: d.window.state.view == home)
-    press(d, CTRL | int(Key.z))
+    d.press(CTRL | int(Key.z))
     d.until(lambda: d.window.state.view == away)
     d.ctx.menu_click("//##MainMenuBar/Camera/Bookmarks/Forget/All")
     assert d.window.state.options.bookmarks == ()
-    press(d, CTRL | int(Key.z))
+    d.press(CTRL | int(Key.z))
     assert [mark.number for mark in d.window.state.options.bookmarks] == [3, 9]
 
 
@@ -258,14 +253,14 @@ def drive_pictures_show_what_the_window_shows(d: Driver) -> None:
     shell.captures.folder = d.folder / "pictures"
     shell.captures.folder.mkdir(exist_ok=True)
     d.settle()
-    press(d, int(Key.f12))
+    d.press(int(Key.f12))
     d.until(lambda: len(list(shell.captures.folder.glob("*.png"))) == 1)
     window = np.asarray(Image.open(next(shell.captures.folder.glob("*.png"))))
     assert window.shape == (SIZE[1], SIZE[0], 3)
     assert window.std() > 20
     shell.stage.show(RAY)
     d.until(lambda: shell.stage.focused == RAY)
-    press(d, SHIFT | int(Key.f12))
+    d.press(SHIFT | int(Key.f12))
     d.until(lambda: len(list(shell.captures.folder.glob("lucida ray *.png"))) == 1)
     view = np.asarray(Image.open(next(shell.captures.folder.glob("lucida ray *.png"))))
     left, top, right, bottom = map(round, shell.stage.rects[RAY])
@@ -278,82 +273,9 @@ def drive_pictures_show_what_the_window_shows(d: Driver) -> None:
     d.until(lambda: any("Saved" in text for text in shell.toasts.texts))
     # Without a display there is no clipboard: one line says so.
     os.environ["PATH"], path = "", os.environ["PATH"]
-    press(d, CTRL | int(Key.f12))
+    d.press(CTRL | int(Key.f12))
     d.until(lambda: any("clipboard" in text for text in shell.toasts.texts))
     os.environ["PATH"] = path
-
-
-def drive_the_windows_own_dialog_opens_and_saves(d: Driver) -> None:
-    files = d.window.files
-    files._native = False
-    folder = d.folder / "scenes"
-    folder.mkdir()
-    (folder / "mine.toml").write_text('name = "mine"\n[[objects]]\ntype = "sphere"\n')
-    press(d, CTRL | int(Key.o))
-    assert files.dialog.is_open
-    # A folder that is typed is gone into; then a name.
-    d.ctx.key_chars_replace_enter(str(folder))
-    d.until(lambda: files.dialog.folder == folder)
-    d.ctx.yield_(2)
-    d.picture()
-    d.ctx.item_double_click("//###file dialog/**/mine.toml")
-    d.until(lambda: d.window.state.scene.name == "mine")
-    assert not files.dialog.is_open
-    press(d, CTRL | SHIFT | int(Key.s))
-    d.ctx.key_chars_replace_enter("copy")
-    d.until(lambda: (folder / "copy.toml").exists())
-    assert load_scene(folder / "copy.toml").view == d.window.state.view
-    d.until(lambda: any("copy.toml" in text for text in d.window.shell.toasts.texts))
-    # What is there already is not replaced unasked.
-    press(d, CTRL | int(Key.s))
-    d.ctx.key_chars_replace_enter("copy.toml")
-    assert files.dialog.is_open
-    d.picture()
-    press(d, int(Key.escape))
-    assert not files.dialog.is_open
-    assert "objects" in (folder / "copy.toml").read_text()
-    d.until(lambda: [entry.name for entry in files.recent.entries][:1] == ["copy.toml"])
-    d.ctx.menu_click("//##MainMenuBar/File/Recent files/###recent1")
-    d.until(lambda: d.window.files.loading == "" and d.window.state.scene.origin is not None)
-    d.ctx.menu_click("//##MainMenuBar/File/Recent files/Clear the list")
-    assert files.recent.entries == ()
-    files._native = True
-
-
-def drive_several_files_are_dropped(d: Driver) -> None:
-    view = load_scene("canonical").view
-    save_view(d.folder / "dropped.toml", view)
-    d.window._dropped([str(d.folder / "dropped.toml"), "spheres", str(d.folder / "gone.obj")])
-    d.until(lambda: d.window.state.scene.name == "spheres")
-    assert d.window.state.view == view
-    d.ctx.yield_(2)
-    press(d, CTRL | int(Key.z))
-    assert d.window.state == d.start  # one step
-
-
-def drive_loading_is_told_and_cancelled(d: Driver) -> None:
-    gate = threading.Event()
-    d.window.files._source, d.window.files._began_s = "slow.obj", 0.0
-    d.window.files._loading.submit(lambda: gate.wait(PATIENT_S))  # type: ignore[arg-type]
-    d.until(lambda: d.ctx.window_info(f"//{loading.NAME}").id_ != 0)
-    d.ctx.yield_(2)
-    d.picture()
-    d.ctx.item_click(f"//{loading.NAME}/Cancel")
-    d.until(lambda: not d.window.files.busy)
-    assert "cancelled" in d.window.shell.toasts.texts[-1]
-    gate.set()
-    d.window.open("spheres")  # a new thread does it
-    d.until(lambda: d.window.state.scene.name == "spheres")
-
-
-def drive_the_history_is_a_list(d: Driver) -> None:
-    d.drag_field("eye.x", 30)
-    d.ctx.menu_click("//##MainMenuBar/View/Look/Light theme")
-    d.drag_field("eye.y", 30)
-    assert len(d.window.history.past) == 3
-    d.ctx.menu_click("//##MainMenuBar/Edit/History/###step0")
-    assert d.window.state == d.start
-    assert len(d.window.history.future) == 3
 
 
 def drive_a_narrow_window_keeps_its_menus_and_its_status(d: Driver) -> None:
@@ -366,11 +288,11 @@ def drive_a_narrow_window_keeps_its_menus_and_its_status(d: Driver) -> None:
             d.picture()
             for name in names:
                 assert d.ctx.item_exists(f"//##MainMenuBar/##MenuBar/{name}"), (width, name)
-            press(d, int(Key.f1))
+            d.press(int(Key.f1))
             assert d.window.shell.help
             d.ctx.yield_(3)
             d.picture()
-            press(d, int(Key.escape))
+            d.press(int(Key.escape))
             assert not d.window.shell.help
     finally:
         hello_imgui.change_window_size(SIZE)
@@ -389,31 +311,18 @@ def drive_escape_ends_what_lies_on_top_before_it_takes_the_mark_away(d: Driver) 
     d.ctx.yield_(3)
     any_popup = int(imgui.PopupFlags_.any_popup)
     assert imgui.is_popup_open("", any_popup)
-    press(d, int(Key.escape))
+    d.press(int(Key.escape))
     assert not imgui.is_popup_open("", any_popup)
     assert window.state.marked == (20, 30)
     window.ask_resolution()
     d.ctx.yield_(3)
-    press(d, int(Key.escape))
-    assert window._asked is None
+    d.press(int(Key.escape))
+    assert window.asking_size is None
     assert window.state.marked == (20, 30)
-    press(d, int(Key.f1))
+    d.press(int(Key.f1))
     assert window.shell.help
-    press(d, int(Key.escape))
+    d.press(int(Key.escape))
     assert not window.shell.help
     assert window.state.marked == (20, 30)
-    press(d, int(Key.escape))
+    d.press(int(Key.escape))
     assert window.state.marked is None
-
-
-def drive_undo_takes_back_a_number_that_is_not_legal_before_any_edit(d: Driver) -> None:
-    d.type("eye.y", "2.5")
-    edited = d.window.state
-    assert edited != d.start
-    d.type("left", "9")  # and right is smaller
-    assert d.window.views["Camera"].has_pending
-    press(d, CTRL | int(Key.z))
-    assert d.window.state == edited
-    assert not d.window.views["Camera"].has_pending
-    press(d, CTRL | int(Key.z))
-    assert d.window.state.camera == d.start.camera

@@ -17,19 +17,19 @@ from renderer.errors import LucidaError
 def fail_until_retried(d: Driver, error: BaseException, told: str) -> None:
     """The tracer fails; the window tells it, goes on, and tries again when asked."""
     live = d.window.renderers.live
-    good = live._make_tracer
+    good = live.make_tracer
 
     def bad(request: object) -> Any:
         raise error
 
-    live._make_tracer = bad
+    live.make_tracer = bad
     d.window.change(d.window.state.with_options(shadows=not d.window.state.options.shadows))
     d.until(lambda: live.error is not None)
     d.until(lambda: d.ctx.window_info("//##message").id_ != 0)
     d.ctx.yield_(2)
     d.picture()
     assert told in str(live.error) or told in type(live.error).__name__
-    live._make_tracer = good
+    live.make_tracer = good
     d.ctx.item_click("//##message/Try again")
     d.until(lambda: live.error is None and d.window.settled)
 

@@ -41,14 +41,14 @@ def factor(found: LiveRaster) -> int:
 def slow(d: Driver) -> Iterator[None]:
     """OpenGL seems to run on a slow CPU; and nothing is refined."""
     found = live_raster(d)
-    before = found._coarseness, module.MOVING_S
-    found._coarseness = Coarseness(1e-9, 1e-9, module.COARSEST)
-    found._coarseness.measured(1, 1, 1e-3)
+    before = found.coarseness, module.MOVING_S
+    found.coarseness = Coarseness(1e-9, 1e-9, module.COARSEST)
+    found.coarseness.measured(1, 1, 1e-3)
     module.MOVING_S = 1e9
     try:
         yield
     finally:
-        found._coarseness, module.MOVING_S = before
+        found.coarseness, module.MOVING_S = before
 
 
 def drive_a_drag_is_coarse_then_full_then_compared(d: Driver) -> None:
@@ -92,7 +92,7 @@ def drive_an_image_drawn_in_parts_is_the_same(d: Driver) -> None:
         parts.append(triangles)
         return max(triangles // 5, 1)
 
-    found._pace.part_of = part_of  # type: ignore[method-assign]
+    found.pace.part_of = part_of  # type: ignore[method-assign]
     try:
         x, y = d.point(RASTER, 0.5, 0.5)
         d.drag((x, y), (x + 60, y + 20))
@@ -102,7 +102,7 @@ def drive_an_image_drawn_in_parts_is_the_same(d: Driver) -> None:
             d.until(lambda drawn=drawn: number(found) > drawn)
         d.agreeing_images()
     finally:
-        del found._pace.part_of
+        del found.pace.part_of
     assert len(parts) >= 6
     assert both.agreement.pair is not None
     in_parts, here = both.agreement.pair[1], d.window.state
@@ -154,6 +154,7 @@ def shown(d: Driver) -> tuple[np.ndarray, np.ndarray]:
     left, top, right, bottom = (round(edge) for edge in d.rect(RASTER))
 
     def look(target: Target) -> None:  # in the window's thread, unlike drives
+        # What was made: asked for in the public way, it would be made anew.
         picture = textures._shown_raster._pictures[PANE].texture
         rows = np.frombuffer(picture.read(), np.uint8).reshape(picture.height, picture.width, 4)
         seen = target.read()[top:bottom, left:right]

@@ -1,4 +1,4 @@
-"""The mouse over the images."""
+"""The mouse over the images, and the keys that act where it is."""
 
 from __future__ import annotations
 
@@ -6,6 +6,8 @@ import numpy as np
 from window_driver import Driver, Key, changed
 
 from app.pair.view import RASTER, RAY
+
+SIZE = (400, 300)  # to project with
 
 
 def drive_the_mouse_turns_moves_and_zooms(d: Driver) -> None:
@@ -109,3 +111,79 @@ def drive_keys_count_while_an_image_is_dragged(d: Driver) -> None:
     d.ctx.yield_()
     assert window.state == d.start
     assert len(window.history.future) == 3
+
+
+def drive_keys_fly_over_an_image(d: Driver) -> None:
+    window = d.window
+    keys = ((Key.w, -np.asarray(d.start.camera.w)), (Key.d, np.asarray(d.start.camera.u)))
+    for name, (key, direction) in zip((RASTER, RAY), keys, strict=True):
+        d.ctx.mouse_teleport_to_pos(d.point(name, 0.5, 0.5))
+        d.ctx.yield_(2)
+        d.ctx.key_down(int(key))
+        d.until(
+            lambda: np.linalg.norm(np.subtract(window.state.camera.eye, d.start.camera.eye)) > 0.3
+        )
+        d.ctx.key_up(int(key))
+        d.ctx.yield_(2)
+        way = np.subtract(window.state.camera.eye, d.start.camera.eye)
+        assert np.allclose(way / np.linalg.norm(way), direction, atol=1e-6)
+        assert window.state.camera.w == d.start.camera.w
+        assert len(window.history.past) == 1
+        resting = window.state
+        d.ctx.yield_(4)
+        assert window.state == resting
+        d.reset()
+    d.ctx.item_double_click(d.field("eye.y"))
+    d.ctx.key_chars_replace("w")
+    d.ctx.key_down(int(Key.w))
+    d.ctx.yield_(4)
+    d.ctx.key_up(int(Key.w))
+    d.ctx.key_press(int(Key.escape))
+    assert window.state == d.start
+
+
+def drive_the_object_under_the_mouse_is_framed(d: Driver) -> None:
+    d.settle()
+    window = d.window
+    request = window.renderers.request(window.state)
+    frame = window.renderers.agreement.frame_of(request)
+    numbers = frame.channel("id")
+    shiny = 2
+    rows, columns = np.nonzero(numbers == shiny)
+    k = len(rows) // 2
+    x, y, right, bottom = d.rect(RASTER)
+    height, width = numbers.shape
+    at = x + (columns[k] + 0.5) / width * (right - x), y + (rows[k] + 0.5) / height * (bottom - y)
+    d.ctx.mouse_teleport_to_pos(at)
+    d.ctx.yield_(3)
+    d.ctx.key_press(int(Key.f))
+    camera = window.state.camera
+    assert (camera.u, camera.v, camera.w) == (
+        d.start.camera.u,
+        d.start.camera.v,
+        d.start.camera.w,
+    )
+    center = window.state.scene.objects[shiny].shape.center
+    seen = window.renderers.camera(window.state).project(center, SIZE)
+    assert abs(seen.row - (SIZE[1] - 1) / 2) < 1
+    assert abs(seen.column - (SIZE[0] - 1) / 2) < 1
+    frame = d.agreeing_images()
+    assert len(window.history.past) == 1
+    d.ctx.key_press(int(Key.h))
+    assert window.state == d.start
+    assert frame[0].std() > 5
+
+
+def drive_alt_and_a_drag_looks_around(d: Driver) -> None:
+    start, goal = d.point(RASTER, 0.5, 0.5), d.point(RASTER, 0.6, 0.45)
+    d.ctx.key_down(int(Key.mod_alt))
+    d.drag(start, goal)
+    d.ctx.key_up(int(Key.mod_alt))
+    camera = d.window.state.camera
+    assert np.allclose(camera.eye, d.start.camera.eye)
+    assert not np.allclose(camera.w, d.start.camera.w)
+    # The mouse went to the image's right: so does the view direction.
+    turned = -np.asarray(camera.w) @ np.asarray(d.start.camera.u)
+    assert turned > 0.05
+    assert len(d.window.history.past) == 1
+    d.agreeing_images()

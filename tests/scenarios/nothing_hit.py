@@ -6,7 +6,7 @@ from dataclasses import replace
 
 from window_driver import RASTER, RAY, Driver
 
-from app.window.main_window import _agreement, _agrees
+from app.window.status import is_good_news, told
 
 WHY = "everything is behind the eye"
 
@@ -20,8 +20,8 @@ def drive_an_empty_image_says_why(d: Driver) -> None:
     d.settle()
     assert window.renderers.nothing_hit(window.state) == WHY
     verdict = window.renderers.verdict(window.state)
-    assert _agreement(verdict, None) == f"nothing is hit: {WHY}"
-    assert _agrees(verdict, None, effects=False) is None
+    assert told(verdict, None) == f"nothing is hit: {WHY}"
+    assert is_good_news(verdict, None, effects=False) is None
     for image in d.images():  # a box with text in the middle of a plain background
         height, width = image.shape[:2]
         middle = image[2 * height // 5 : 3 * height // 5, width // 3 : 2 * width // 3]

@@ -1,4 +1,4 @@
-"""The outside view: its camera, its handles, its switches, and the pixels that it shares."""
+"""The outside view: its handles, its switches, and the pixels that it shares."""
 
 from __future__ import annotations
 
@@ -7,120 +7,20 @@ from typing import Any
 import numpy as np
 from imgui_bundle import hello_imgui
 from imgui_bundle.imguizmo import im_guizmo
-from window_driver import SIZE, Driver, Key
+from outside_window import enter, place, press, rect, scope, strokes, view
+from window_driver import Driver
 
 from app.outside import gizmo as outside_gizmo
 from app.outside import tint as outside_tint
 from app.outside import view as outside
 from app.outside.frustum import plane_corners
 from app.outside.gizmo import LENGTH
-from app.outside.mouse import Scope
 from app.outside.paint import ground_of
 from app.outside.projected import Strokes
-from app.outside.screen import OutsideScreen
-from app.outside.view import OUTSIDE, OutsideView
+from app.outside.view import OUTSIDE
 from app.widgets import theme
 from renderer.camera import Camera
 from renderer.scene.model import Sphere
-
-IMAGE = f"//###{OUTSIDE}/image##{OUTSIDE}"
-
-
-def view(d: Driver) -> OutsideView:
-    found = d.window.views[OUTSIDE]
-    assert isinstance(found, OutsideView)
-    return found
-
-
-def enter(d: Driver, layout: str = "Outside view") -> None:
-    if hello_imgui.current_layout_name() != layout:
-        hello_imgui.switch_layout(layout)
-        d.ctx.yield_(5)
-    d.settle()
-
-
-def scope(d: Driver) -> Scope:
-    found = view(d).scope
-    assert found is not None
-    return found
-
-
-def place(d: Driver, point: np.ndarray) -> tuple[float, float]:
-    """Where a world point is in the window."""
-    at = scope(d)
-    size = max(1, round(at.extent.x)), max(1, round(at.extent.y))
-    found = OutsideScreen(at.shown, size).spot(np.asarray(point, float))
-    assert found is not None
-    return at.origin.x + float(found[0][0]), at.origin.y + float(found[0][1])
-
-
-def empty_place(d: Driver) -> tuple[float, float]:
-    """Over the view, and neither over the image plane nor a tool."""
-    at = scope(d)
-    return at.origin.x + 0.62 * at.extent.x, at.origin.y + 0.85 * at.extent.y
-
-
-def press(d: Driver, name: str) -> None:
-    d.ctx.item_click(f"//###{OUTSIDE}/{name}##outside")
-    d.ctx.yield_(2)
-
-
-def strokes(d: Driver, name: str) -> list[Strokes]:
-    return [p for p in view(d).primitives if isinstance(p, Strokes) and p.name == name]
-
-
-def drive_the_mouse_moves_the_camera_that_looks(d: Driver) -> None:
-    enter(d)
-    window, inner = d.window, d.window.state.camera
-    assert window.state.options.outside.camera is None
-    x, y = empty_place(d)
-    before = scope(d).camera
-    steps = len(window.history.past)
-    d.drag((x, y), (x + 80, y + 30))
-    turned = window.state.options.outside.camera
-    assert turned is not None
-    assert turned.w != before.w
-    assert abs(turned.u[1]) < 1e-9  # no roll
-    assert len(window.history.past) == steps + 1
-    for button, key in ((1, 0), (2, 0), (0, int(Key.mod_shift))):
-        was = window.state.options.outside.camera
-        if key:
-            d.ctx.key_down(key)
-        d.drag((x, y), (x - 40, y - 20), button)
-        if key:
-            d.ctx.key_up(key)
-        moved = window.state.options.outside.camera
-        assert (moved.u, moved.v, moved.w) == (was.u, was.v, was.w)
-        assert moved.eye != was.eye
-    was = window.state.options.outside.camera
-    d.ctx.mouse_teleport_to_pos((x, y))
-    d.ctx.yield_()
-    d.ctx.mouse_wheel_y(2)
-    d.ctx.yield_(2)
-    closer = window.state.options.outside.camera
-    middle = np.asarray(scope(d).center)
-    assert np.linalg.norm(closer.eye - middle) < np.linalg.norm(was.eye - middle)
-    assert window.state.camera == inner  # the other camera stays
-    press(d, "fit all")
-    assert window.state.options.outside.camera is None
-    d.window.undo()
-    assert window.state.options.outside.camera == closer
-
-
-def drive_the_axes_turn_the_view(d: Driver) -> None:
-    enter(d)
-    for name, back in (("x", (1, 0, 0)), ("y", (0, 1, 0)), ("z", (0, 0, 1))):
-        press(d, f"axis {name}")
-        assert np.allclose(d.window.state.options.outside.camera.w, back)
-        d.settle()
-        d.reset()
-        enter(d)
-    press(d, "axis -x")
-    assert np.allclose(d.window.state.options.outside.camera.w, (-1, 0, 0))
-    press(d, "from camera")
-    shown = d.window.renderers.camera(d.window.state)
-    assert d.window.state.options.outside.camera == shown
-    d.settle()
 
 
 def drive_a_pixel_is_the_same_in_all_views(d: Driver) -> None:
@@ -236,30 +136,6 @@ def drive_it_is_drawn_anew_in_another_look(d: Driver) -> None:
             d.until(lambda it=palette: bool(drawn) and drawn[-1] is it)
     finally:
         outside.layers = layers
-
-
-def drive_keys_fly_it_and_switch_it(d: Driver) -> None:
-    enter(d)
-    window, inner = d.window, d.window.state.camera
-    d.ctx.mouse_teleport_to_pos(empty_place(d))
-    d.ctx.yield_(2)
-    d.ctx.key_down(int(Key.w))
-    d.until(lambda: window.state.options.outside.camera is not None)
-    before = window.state.options.outside.camera
-    d.until(lambda: window.state.options.outside.camera != before)
-    d.ctx.key_up(int(Key.w))
-    d.ctx.yield_(2)
-    assert window.state.camera == inner
-    d.ctx.key_press(int(Key.mod_shift) | int(Key.h))
-    assert window.state.options.outside.camera is None
-    d.ctx.key_press(int(Key.b))
-    assert min(window.state.options.outside.bundle) > 0
-    d.ctx.key_press(int(Key.g))
-    assert window.state.options.outside.gizmo == "move"
-    d.ctx.key_press(int(Key.t))
-    assert window.state.options.outside.gizmo == "turn"
-    d.ctx.key_press(int(Key.t))
-    assert window.state.options.outside.gizmo == "none"
 
 
 def drive_handles_move_the_eye_and_turn_the_basis(d: Driver) -> None:
@@ -437,9 +313,3 @@ def drive_layouts_and_cameras(d: Driver) -> None:
             assert picture.std() > 3
     hello_imgui.switch_layout("Side by side")
     d.ctx.yield_(5)
-
-
-def rect(d: Driver) -> tuple[float, float, float, float]:
-    box = d.ctx.item_info(IMAGE).rect_full
-    assert box.max.x <= SIZE[0]
-    return box.min.x, box.min.y, box.max.x, box.max.y

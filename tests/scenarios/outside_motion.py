@@ -1,4 +1,5 @@
-"""The outside view while it moves: coarse where that is needed, by smooth passages, as one step."""
+"""The outside view while it moves: by mouse and keys, coarse where that is needed, by smooth
+passages, as one step."""
 
 from __future__ import annotations
 
@@ -8,7 +9,8 @@ from contextlib import contextmanager
 from types import SimpleNamespace
 
 import numpy as np
-from imgui_bundle import hello_imgui
+from held_clock import Clock
+from outside_window import empty_place, enter, press, scope, view
 from window_driver import Driver, Key
 
 from app.cameras.travel import DURATION_S
@@ -16,35 +18,13 @@ from app.images.coarseness import Coarseness
 from app.outside import ground as outside_ground
 from app.outside.ground import Ground
 from app.outside.projected import Strokes
-from app.outside.view import OUTSIDE, OutsideView
-
-
-def view(d: Driver) -> OutsideView:
-    found = d.window.views[OUTSIDE]
-    assert isinstance(found, OutsideView)
-    return found
+from app.outside.view import OUTSIDE
 
 
 def ground(d: Driver) -> Ground:
-    found = view(d)._ground
+    found = view(d).ground
     assert found is not None
     return found
-
-
-def enter(d: Driver) -> None:
-    if hello_imgui.current_layout_name() != "Outside view":
-        hello_imgui.switch_layout("Outside view")
-        d.ctx.yield_(5)
-    d.settle()
-
-
-class Clock:
-    """The passages' clock, held by a test."""
-
-    def __init__(self, d: Driver) -> None:
-        self.s = 10.0
-        d.window.traveller.now_s = lambda: self.s
-        d.window.traveller.instant = False
 
 
 def looks_from(d: Driver) -> np.ndarray:
@@ -59,14 +39,14 @@ def looks_from(d: Driver) -> np.ndarray:
 def pace(d: Driver, frame_s: float) -> Iterator[None]:
     """What a picture may take of a frame; and the view is not at rest, however slow the machine."""
     found = ground(d)
-    before = found._coarseness, outside_ground.STILL_S
-    found._coarseness = Coarseness(frame_s, frame_s, outside_ground.COARSEST)
-    found._coarseness.measured(1, 1, 1e-3)
+    before = found.coarseness, outside_ground.STILL_S
+    found.coarseness = Coarseness(frame_s, frame_s, outside_ground.COARSEST)
+    found.coarseness.measured(1, 1, 1e-3)
     outside_ground.STILL_S = 1e9
     try:
         yield
     finally:
-        found._coarseness, outside_ground.STILL_S = before
+        found.coarseness, outside_ground.STILL_S = before
 
 
 def drag(d: Driver) -> list[tuple[int, int]]:
@@ -101,11 +81,11 @@ def drive_a_scene_that_is_too_slow_is_coarse_while_the_view_moves(d: Driver) -> 
     d.settle()
     assert ground(d).factor == 1
     assert view(d).size_px == full
-    number = ground(d)._drawn
+    number = ground(d).shown.number
     sharp = d.picture()
     assert (coarse != sharp).any()
     d.ctx.yield_(20)
-    assert ground(d)._drawn == number  # at rest
+    assert ground(d).shown.number == number  # at rest
 
 
 def drive_a_scene_that_is_fast_enough_stays_full(d: Driver) -> None:
@@ -137,17 +117,17 @@ def drive_edges_are_smooth_however_busy_the_machine_is(d: Driver) -> None:
         found.forget()
         d.ctx.yield_(3)
         d.settle()
-        assert found._picture is not None and found.settled
-        return found._picture
+        assert found.shown is not None and found.settled
+        return found.shown
 
     with clocks(monotonic=lambda: 100.0 * next(seconds)):  # other programs have the processor
         assert drawn_anew().smooth
     with clocks(thread_time=lambda: float(next(own))):  # this one has as much work
         rough = drawn_anew()
         assert not rough.smooth
-        assert rough.request.scene is found._slow
+        assert rough.request.scene is found.slow
     assert not drawn_anew().smooth  # which need not be found out again
-    found._slow = None
+    found.slow = None
     assert drawn_anew().smooth
 
 
@@ -157,13 +137,13 @@ def drive_the_other_cameras_motion_leaves_the_scene_as_it_is(d: Driver) -> None:
     assert at is not None  # else it would follow, to see all
     d.window.change(d.window.state.with_options(outside={"camera": at.camera}))
     d.settle()
-    number = ground(d)._drawn
+    number = ground(d).shown.number
     for name in ("eye.x", "distance"):
         before = view(d).primitives
         d.drag_field(name, 40)
         d.until(lambda before=before: view(d).primitives is not before)
         assert ground(d).factor == 1
-    assert ground(d)._drawn == number
+    assert ground(d).shown.number == number
     assert [p for p in view(d).primitives if isinstance(p, Strokes)]
     d.settle()
 
@@ -174,7 +154,7 @@ def drive_a_click_on_an_axis_turns_the_view_smoothly_as_one_step(d: Driver) -> N
     start = looks_from(d)
     assert window.state.options.outside.camera is None
     d.ctx.item_click(f"//###{OUTSIDE}/axis x##outside")
-    d.until(lambda: window.traveller.under_way)
+    d.until(lambda: window.transition.under_way)
     inner, turned = window.state.view, []
     for part in (0.25, 0.5, 0.75):
         clock.s = 10.0 + part * DURATION_S
@@ -189,7 +169,7 @@ def drive_a_click_on_an_axis_turns_the_view_smoothly_as_one_step(d: Driver) -> N
     assert 0 < turned[0] < turned[1] < turned[2] < whole
     assert abs(turned[1] - whole / 2) < 0.02  # half of the way after half of the time
     clock.s += DURATION_S
-    d.until(lambda: not window.traveller.under_way)
+    d.until(lambda: not window.transition.under_way)
     d.ctx.yield_(2)
     assert np.allclose(looks_from(d), (1, 0, 0))
     assert len(window.history.past) == 1
@@ -197,7 +177,7 @@ def drive_a_click_on_an_axis_turns_the_view_smoothly_as_one_step(d: Driver) -> N
     # Back to the view of all, which the state leaves to the view: at the end, without a step.
     d.ctx.item_click(f"//###{OUTSIDE}/fit all##outside")
     clock.s += 0.999 * DURATION_S
-    d.until(lambda: window.state.options.outside.camera is not None and window.traveller.under_way)
+    d.until(lambda: window.state.options.outside.camera is not None and window.transition.under_way)
     d.ctx.yield_(2)
     near_end = looks_from(d)
     clock.s += DURATION_S
@@ -221,12 +201,12 @@ def drive_an_object_is_aimed_at_smoothly(d: Driver) -> None:
     d.ctx.mouse_teleport_to_pos((at.origin.x + float(column), at.origin.y + float(row)))
     d.ctx.yield_(3)
     d.ctx.key_press(int(Key.f))
-    d.until(lambda: window.traveller.under_way)
+    d.until(lambda: window.transition.under_way)
     clock.s += 0.5 * DURATION_S
     d.until(lambda: window.state.options.outside.camera not in (None, at.camera))
     half = window.state.options.outside.camera
     clock.s += DURATION_S
-    d.until(lambda: not window.traveller.under_way)
+    d.until(lambda: not window.transition.under_way)
     end = window.state.options.outside.camera
     way = np.subtract(end.eye, at.camera.eye)
     assert 0 < np.subtract(half.eye, at.camera.eye) @ way < way @ way
@@ -243,7 +223,7 @@ def drive_a_drag_ends_the_passage_where_it_is(d: Driver) -> None:
     clock.s += 0.5 * DURATION_S
     d.until(lambda: window.state.options.outside.camera not in (None, before.camera))
     drag(d)
-    assert not window.traveller.under_way
+    assert not window.transition.under_way
     turned = window.state.options.outside.camera
     clock.s += DURATION_S
     d.ctx.yield_(3)
@@ -254,3 +234,81 @@ def drive_a_drag_ends_the_passage_where_it_is(d: Driver) -> None:
     d.until(lambda: window.state.options.outside.camera is not None)
     assert np.allclose(window.state.options.outside.camera.w, (0, 0, 1))
     d.settle()
+
+
+def drive_the_mouse_moves_the_camera_that_looks(d: Driver) -> None:
+    enter(d)
+    window, inner = d.window, d.window.state.camera
+    assert window.state.options.outside.camera is None
+    x, y = empty_place(d)
+    before = scope(d).camera
+    steps = len(window.history.past)
+    d.drag((x, y), (x + 80, y + 30))
+    turned = window.state.options.outside.camera
+    assert turned is not None
+    assert turned.w != before.w
+    assert abs(turned.u[1]) < 1e-9  # no roll
+    assert len(window.history.past) == steps + 1
+    for button, key in ((1, 0), (2, 0), (0, int(Key.mod_shift))):
+        was = window.state.options.outside.camera
+        if key:
+            d.ctx.key_down(key)
+        d.drag((x, y), (x - 40, y - 20), button)
+        if key:
+            d.ctx.key_up(key)
+        moved = window.state.options.outside.camera
+        assert (moved.u, moved.v, moved.w) == (was.u, was.v, was.w)
+        assert moved.eye != was.eye
+    was = window.state.options.outside.camera
+    d.ctx.mouse_teleport_to_pos((x, y))
+    d.ctx.yield_()
+    d.ctx.mouse_wheel_y(2)
+    d.ctx.yield_(2)
+    closer = window.state.options.outside.camera
+    middle = np.asarray(scope(d).center)
+    assert np.linalg.norm(closer.eye - middle) < np.linalg.norm(was.eye - middle)
+    assert window.state.camera == inner  # the other camera stays
+    press(d, "fit all")
+    assert window.state.options.outside.camera is None
+    d.window.undo()
+    assert window.state.options.outside.camera == closer
+
+
+def drive_the_axes_turn_the_view(d: Driver) -> None:
+    enter(d)
+    for name, back in (("x", (1, 0, 0)), ("y", (0, 1, 0)), ("z", (0, 0, 1))):
+        press(d, f"axis {name}")
+        assert np.allclose(d.window.state.options.outside.camera.w, back)
+        d.settle()
+        d.reset()
+        enter(d)
+    press(d, "axis -x")
+    assert np.allclose(d.window.state.options.outside.camera.w, (-1, 0, 0))
+    press(d, "from camera")
+    shown = d.window.renderers.camera(d.window.state)
+    assert d.window.state.options.outside.camera == shown
+    d.settle()
+
+
+def drive_keys_fly_it_and_switch_it(d: Driver) -> None:
+    enter(d)
+    window, inner = d.window, d.window.state.camera
+    d.ctx.mouse_teleport_to_pos(empty_place(d))
+    d.ctx.yield_(2)
+    d.ctx.key_down(int(Key.w))
+    d.until(lambda: window.state.options.outside.camera is not None)
+    before = window.state.options.outside.camera
+    d.until(lambda: window.state.options.outside.camera != before)
+    d.ctx.key_up(int(Key.w))
+    d.ctx.yield_(2)
+    assert window.state.camera == inner
+    d.ctx.key_press(int(Key.mod_shift) | int(Key.h))
+    assert window.state.options.outside.camera is None
+    d.ctx.key_press(int(Key.b))
+    assert min(window.state.options.outside.bundle) > 0
+    d.ctx.key_press(int(Key.g))
+    assert window.state.options.outside.gizmo == "move"
+    d.ctx.key_press(int(Key.t))
+    assert window.state.options.outside.gizmo == "turn"
+    d.ctx.key_press(int(Key.t))
+    assert window.state.options.outside.gizmo == "none"

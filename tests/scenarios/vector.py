@@ -157,8 +157,8 @@ def _store(d: Driver, path: Path) -> ElementTree.Element:
     """Answers the window's own dialog and reads what was written."""
     dialog = d.window.files.dialog
     d.until(lambda: dialog.is_open)
-    assert dialog._question is not None
-    question = dialog._question
+    assert dialog.question is not None
+    question = dialog.question
     assert question.saves and question.endings == (".svg",)
     dialog.cancel()
     question.chosen([str(path)])
@@ -169,7 +169,6 @@ def _store(d: Driver, path: Path) -> ElementTree.Element:
 
 
 def drive_the_diagram_is_exported_as_it_is_seen(d: Driver) -> None:
-    d.window.files._native = False
     d.window.change(d.window.state.with_options(marked=(60, 90), outside={"bundle": (2, 2)}))
     d.settle()
     d.ctx.key_press(int(Key.mod_ctrl) | int(Key.mod_shift) | int(Key.e))

@@ -248,14 +248,14 @@ def test_cancelling_kills_the_process(tmp_path: Path, child):
 
     thread = threading.Thread(target=read)
     thread.start()
-    wait_for(lambda: reader._process is not None)
-    process = reader._process
+    wait_for(lambda: reader.process is not None)
+    process = reader.process
     assert process is not None
     reader.cancel()
     thread.join(PATIENT_S)
     assert [type(error) for error in outcome] == [CancelledError]
     assert process.returncode not in (0, None)
-    assert reader._process is None
+    assert reader.process is None
     with pytest.raises(CancelledError):  # nothing begins afterwards, large or not
         reader.read(path)
 
@@ -266,8 +266,8 @@ def test_closing_and_cancelling_the_windows_files_ends_the_process(tmp_path: Pat
     files = Files(lambda: None, native=False)
     for end in (files.cancel, files.close):
         files.open(str(path))
-        wait_for(lambda: files._models._process is not None)
-        process = files._models._process
+        wait_for(lambda: files.models.process is not None)
+        process = files.models.process
         assert process is not None
         assert files.loading == "a.obj"
         end()
@@ -283,7 +283,7 @@ def test_what_is_opened_next_does_not_wait_for_a_large_model(tmp_path: Path, chi
     monkeypatch.setattr(apart, "is_large", lambda path: path.name == "large.obj")
     files = Files(lambda: None, native=False)
     files.open(str(written(tmp_path / "large.obj", TRIANGLE)))
-    wait_for(lambda: files._models._process is not None)
+    wait_for(lambda: files.models.process is not None)
     files.open(str(written(tmp_path / "next.obj", TRIANGLE)))
     assert files.loading == "next.obj"
     came: list[Opened | None] = []
@@ -314,9 +314,11 @@ def test_of_several_that_are_opened_at_once_the_last_one_wins(tmp_path: Path, ch
 
 
 def test_what_was_opened_before_has_no_message_either(tmp_path: Path):
-    files = Files(lambda: None, native=False)
+    woken = threading.Semaphore(0)
+    files = Files(woken.release, native=False)
     files.open(str(tmp_path / "none.obj"))
-    wait_for(lambda: files._loading._outcome is not None)  # and nobody has asked
+    for _ in ("the list of recent files", "the loading"):  # is done, and nobody has asked
+        assert woken.acquire(timeout=PATIENT_S)
     files.open(str(written(tmp_path / "next.obj", TRIANGLE)))
     came: list[Opened | None] = []
     wait_for(lambda: came.append(files.poll()) or came[-1])

@@ -8,7 +8,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from test_stepper import TWO_BOXES, cameras, last, recorded
+from recorded_runs import TWO_BOXES, cameras, last, recorded
 
 from app.stepper import model as stepper
 from app.stepper.loop_parts import Model

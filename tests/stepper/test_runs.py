@@ -13,7 +13,7 @@ from app.stepper.model import moment_at
 from app.stepper.recording import Order
 from app.stepper.runs import Pair, Runs
 from app.widgets.canvas import CELL, LEAST_CELL, cell_of, color_picture, depth_picture
-from app.widgets.code import _words
+from app.widgets.code import code_words
 from app.widgets.formula import breakable
 from renderer.camera import Camera
 from renderer.errors import LucidaError
@@ -92,6 +92,7 @@ def test_a_long_run_is_ended_by_the_next_wish(watched: Watched) -> None:
     columns = load_scene("columns")
     camera = columns.view.for_size((64, 48))
     watched.runs.of(columns, camera, (64, 48))
+    # A wish that comes a moment too late for the run: nobody else can make it so.
     while not watched.runs._under_way:
         time.sleep(0.001)
     going = watched.runs._under_way
@@ -138,7 +139,7 @@ def test_the_depth_buffer_as_a_picture() -> None:
 
 def test_names_with_a_colour_stand_apart_in_the_code() -> None:
     line = "        hit = intersect(object, ray)"
-    words = _words(line, ("intersect",))
+    words = code_words(line, ("intersect",))
     assert [word for _, word in words if word.strip() in ("hit", "intersect", "ray")] == [
         "hit",
         "intersect",
@@ -147,7 +148,7 @@ def test_names_with_a_colour_stand_apart_in_the_code() -> None:
     assert "".join(word for _, word in words) == line
     for column, word in words:
         assert line[column : column + len(word)] == word
-    assert _words("    for j in range(W):", ()) == ((0, "    for j in range(W):"),)
+    assert code_words("    for j in range(W):", ()) == ((0, "    for j in range(W):"),)
 
 
 @pytest.mark.parametrize(

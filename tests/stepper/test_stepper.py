@@ -4,88 +4,27 @@ from __future__ import annotations
 
 import inspect
 import math
-import sys
 from dataclasses import replace
-from itertools import count
-from types import SimpleNamespace
 
 import numpy as np
 import pytest
+from recorded_runs import SCENES, SIZE, TWO_BALLS, TWO_BOXES, cameras, last, recorded
 
-from app.explaining.projected import EVERYTHING, NOTHING, mesh_extent, sphere_extent
-from app.stepper import loops, recording
+from app.stepper import loops
 from app.stepper import model as stepper
-from app.stepper.loop_parts import MISS, Hit, Model, ViewingRay, _meets_box, bounding_box
+from app.stepper.loop_parts import MISS, Hit, Model, ViewingRay, bounding_box
 from app.stepper.loops import image_order, object_order
-from app.stepper.model import Moment, moment_at
+from app.stepper.model import moment_at
 from app.stepper.raster_parts import Corner, triangles
 from app.stepper.recording import Order, Recording
 from renderer.camera import Camera
 from renderer.compare import compare_frames
-from renderer.errors import LucidaError
 from renderer.frame import CHANNELS
-from renderer.scene import BUILTIN_SCENES, load_scene, shapes
-from renderer.scene.model import Material, PointLight, Scene, SceneObject, Sphere
+from renderer.scene import BUILTIN_SCENES, load_scene
+from renderer.scene.model import Material, Scene, SceneObject
 from renderer.trace import Tracer
 
-SIZE = (20, 15)
-TWO_BALLS = Scene(
-    (
-        SceneObject(Sphere((0, 0, -5), 2), Material((0.9, 0.1, 0.1)), "far"),
-        SceneObject(Sphere((0.3, 0, -3), 0.5), Material((0.1, 0.9, 0.1)), "near"),
-    ),
-    (PointLight((2, 3, 1)),),
-    background=(0.25, 0.5, 0.75),
-)
-TWO_BOXES = Scene(
-    tuple(
-        SceneObject(shapes.translate(shapes.box((size, size, size)), place), color, name)
-        for name, size, place, color in (
-            ("far", 4.0, (0.0, 0.0, -7.0), Material((0.9, 0.1, 0.1))),
-            ("near", 1.0, (0.3, 0.0, -3.0), Material((0.1, 0.9, 0.1))),
-        )
-    ),
-    (PointLight((2, 3, 1)),),
-    background=(0.25, 0.5, 0.75),
-)
-SCENES = {Order.RASTER: TWO_BOXES, Order.OBJECT: TWO_BALLS, Order.IMAGE: TWO_BALLS}
-
-
-def recorded(scene: Scene, order: Order, camera: Camera | None = None, size=SIZE) -> Recording:
-    run = Recording(Model(scene), camera or Camera.canonical(), size, order)
-    run.run()
-    assert run.complete and not run.truncated
-    return run
-
-
-def last(run: Recording) -> Moment:
-    return moment_at(run, len(run) - 1)
-
-
 # One image, proved against the fast renderers.
-
-
-def cameras(scene: Scene, rng: np.random.Generator):
-    """The scene's own view; then random ones: perspective, parallel, skewed, clipped."""
-    own = scene.view.for_size(SIZE)
-    yield own
-    for kind in ("perspective", "parallel", "skewed", "clipped"):
-        turn = np.eye(3) + rng.normal(scale=0.08, size=(3, 3))
-        basis = own.basis @ (turn if kind == "skewed" else np.linalg.qr(turn)[0])
-        if kind != "skewed":
-            basis *= np.sign(np.sum(basis * own.basis, axis=0))
-        eye = np.array(own.eye) + rng.normal(scale=0.3, size=3)
-        depth = float(np.linalg.norm(eye)) + 3
-        parallel = kind == "parallel"
-        viewport = tuple(3.0 * side for side in own.viewport) if parallel else own.viewport
-        yield Camera(
-            tuple(eye),
-            *(tuple(vector) for vector in basis.T),
-            own.distance,
-            viewport,
-            "parallel" if parallel else "perspective",
-            *((0.6 * depth, 0.9 * depth) if kind == "clipped" else (None, None)),
-        )
 
 
 @pytest.mark.parametrize("name", BUILTIN_SCENES)
@@ -362,175 +301,3 @@ def test_a_moment_before_the_first_or_after_the_last_is_the_first_or_the_last() 
     run = recorded(TWO_BALLS, Order.OBJECT, size=(4, 3))
     assert moment_at(run, -5).step == 0
     assert moment_at(run, 10**9).step == len(run) - 1
-
-
-# Runs.
-
-
-def test_a_run_in_the_background_can_be_watched_and_cancelled() -> None:
-    scene = load_scene("columns")
-    run = Recording(Model(scene), scene.view.for_size((64, 48)), (64, 48), Order.IMAGE)
-    thread = run.start()
-    assert thread.daemon  # no exit waits for it
-    while len(run) < 2000:
-        assert thread.is_alive()
-    for step in range(0, len(run), 97):
-        assert moment_at(run, step).step == step
-    run.cancel()
-    thread.join()
-    assert run.error is None
-    assert not run.complete and not run.truncated
-    assert len(run) < 400_000
-    assert not moment_at(run, len(run)).finished
-
-
-def test_a_run_ends_at_the_most_steps(monkeypatch) -> None:
-    monkeypatch.setattr(recording, "MOST_STEPS", 100)
-    run = Recording(Model(TWO_BALLS), Camera.canonical(), SIZE, Order.IMAGE)
-    done: list[int] = []
-    run.start(lambda: done.append(len(run))).join()
-    assert run.truncated and not run.complete and done == [100] and len(run) == 100
-
-
-def test_a_run_leaves_the_interpreter_to_others_now_and_then(monkeypatch) -> None:
-    """After half a second here, of a clock that is looked at every eighth step."""
-    run = Recording(Model(TWO_BALLS), Camera.canonical(), (4, 3), Order.IMAGE)
-    breaks: list[int] = []
-    clock = SimpleNamespace(
-        perf_counter=count(100.0, 0.25).__next__, sleep=lambda _: breaks.append(len(run))
-    )
-    monkeypatch.setattr(recording, "time", clock)
-    monkeypatch.setattr(recording, "_BREAK_AFTER_S", 0.5)
-    run.run()
-    assert breaks == list(range(17, len(run) + 1, 24))
-
-
-def test_a_failing_run_says_why(monkeypatch) -> None:
-    monkeypatch.setattr(loops, "intersect", lambda *_: 1 / 0)
-    run = Recording(Model(TWO_BALLS), Camera.canonical(), SIZE, Order.OBJECT)
-    run.start().join()
-    assert isinstance(run.error, ZeroDivisionError)
-    assert moment_at(run, len(run)).line == run.source.test
-
-
-def test_recording_leaves_tracing_as_it_was() -> None:
-    def watching(frame, event, argument):
-        return None
-
-    before = sys.gettrace()
-    sys.settrace(watching)
-    try:
-        recorded(TWO_BALLS, Order.IMAGE, size=(2, 2))
-        assert sys.gettrace() is watching
-    finally:
-        sys.settrace(before)
-
-
-@pytest.mark.parametrize("size", [(0, 3), (65, 3), (4, 49)])
-def test_canvases_are_small(size: tuple[int, int]) -> None:
-    with pytest.raises(
-        LucidaError, match=r"canvas\[[01]\]: \d+ is out of range; give 1 to (64|48)"
-    ):
-        Recording(Model(TWO_BALLS), Camera.canonical(), size, Order.IMAGE)
-
-
-@pytest.mark.parametrize("order", Order)
-def test_an_empty_scene_and_a_single_pixel(order: Order) -> None:
-    run = recorded(Scene((), background=(0.5, 0.5, 0.5)), order, size=(1, 1))
-    assert (last(run).canvas == 0.5).all()
-    assert last(run).counters.tests == 0
-    one = recorded(TWO_BALLS, order, size=(1, 3))
-    for step in range(len(one)):
-        moment = moment_at(one, step)
-        if moment.ray is not None:
-            assert moment.pixel is not None
-            assert moment.ray.direction[1] == pytest.approx(-((moment.pixel[0] + 0.5) / 3 - 0.5))
-
-
-# Bounding boxes.
-
-
-def outline(scene: Scene, camera: Camera) -> tuple[int, int, int, int]:
-    """First and last row and column that the tracer sees anything in."""
-    with Tracer(scene) as tracer:
-        rows, columns = np.nonzero(tracer.render(camera, (240, 180), ("id",)).id >= 0)
-    return rows.min(), rows.max(), columns.min(), columns.max()
-
-
-@pytest.mark.parametrize("projection", ["perspective", "parallel"])
-@pytest.mark.parametrize("shape", ["sphere", "torus"])
-def test_boxes_fit_tightly(shape: str, projection: str) -> None:
-    """Also in a skewed basis, seen from the side."""
-    one = Sphere((0.4, 0.3, -4), 0.8) if shape == "sphere" else shapes.torus(0.9, 0.3)
-    if not isinstance(one, Sphere):
-        one = shapes.translate(shapes.rotate(one, (50, 20, 0)), (0.2, 0.1, -4))
-    scene = Scene((SceneObject(one),))
-    camera = Camera(
-        (0.1, 0, 0.5), (1, 0.2, 0.1), (-0.3, 1.1, 0), (0.2, 0.1, 0.9), 1.2,
-        (-1, 1, -0.8, 0.7) if projection == "perspective" else (-2.5, 2.5, -2, 2), projection,
-    )  # fmt: skip
-    rows, columns = bounding_box(Model(scene).objects[0], camera, (240, 180))
-    top, bottom, left, right = outline(scene, camera)
-    assert 0 < left < right < 239 and 0 < top < bottom < 179
-    for first, second in ((rows.start, top), (columns.start, left)):
-        assert 0 <= second - first <= 1
-    for first, second in ((rows.stop - 1, bottom), (columns.stop - 1, right)):
-        assert 0 <= first - second <= 1
-
-
-def test_boxes_of_what_reaches_behind_the_eye() -> None:
-    camera = Camera.canonical()
-    floor = shapes.translate(shapes.rectangle(4, 40), (0, -1, 0))
-    rows, columns = bounding_box(Model(Scene((SceneObject(floor),))).objects[0], camera, (240, 180))
-    # y = -1 is seen below the horizon down to the image's lower edge, the far end at z = -20.
-    assert rows.stop == 180 and columns == range(240)
-    assert rows.start == math.ceil((0.5 + 1 / 20) * 180 - 0.5)
-    assert sphere_extent(np.array([0, 0, 3.0]), 1, camera) == NOTHING
-    assert sphere_extent(np.array([0, 0, 0.5]), 1, camera) == EVERYTHING
-    behind = np.array([[0, 0, 1.0], [1, 0, 2], [0, 1, 3]])
-    assert mesh_extent(behind, np.array([[0, 1, 2]]), camera) == NOTHING
-    clipped = Camera(near=2, far=4)
-    assert sphere_extent(np.array([0, 0, -1.0]), 0.5, clipped) == NOTHING
-    assert sphere_extent(np.array([0, 0, -5.0]), 0.5, clipped) == NOTHING
-
-
-def test_a_miss_is_infinitely_far() -> None:
-    assert tuple(MISS) == (math.inf, None, -1, 0.0, 0.0)
-
-
-def test_an_object_has_a_name_a_box_and_its_own_triangles() -> None:
-    box = shapes.translate(shapes.box((1, 2, 3)), (5, 0, 0))
-    scene = Scene((*TWO_BALLS.objects, SceneObject(box), SceneObject(box, name="its twin")))
-    far, _, one, twin = Model(scene).objects
-    assert (far.name, one.name, twin.name) == ("far", "object 2", "its twin")
-    assert (far.low, far.high) == ((-2, -2, -7), (2, 2, -3))
-    assert (twin.low, twin.high) == ((4.5, -1, -1.5), (5.5, 1, 1.5))
-    assert far.vertices.shape == far.faces.shape == (0, 3)
-    for thing in (one, twin):
-        assert thing.faces.shape == (12, 3) and len(thing.vertices) == thing.faces.max() + 1
-        assert (np.abs(thing.vertices - (5, 0, 0)) == (0.5, 1, 1.5)).all()
-
-
-def test_a_line_meets_a_box_where_no_axis_parts_them() -> None:
-    """Touching it, too; flat boxes, and lines along an axis. No plane of two axes parts them: the
-    separating axis theorem."""
-    rng = np.random.default_rng(5)
-    met = 0
-    for _ in range(3000):
-        corners, origin, direction = rng.integers(-2, 3, (3, 2, 3))
-        low, high = corners.min(axis=0), corners.max(axis=0)
-        origin, direction = origin[0], direction[0]
-        if not direction.any():
-            continue
-        # Of twice the box, so that its middle is a whole number.
-        parted = np.abs(np.cross(2 * origin - low - high, direction))
-        half = high - low
-        reach = np.abs(direction) @ np.array(
-            [[0, *half[[2, 1]]], [half[2], 0, half[0]], [half[1], half[0], 0]]
-        )
-        expected = bool((parted <= reach).all())
-        box = tuple(map(float, low)), tuple(map(float, high))
-        found = _meets_box(*box, tuple(map(float, origin)), tuple(map(float, direction)))
-        assert found is expected
-        met += expected
-    assert 500 < met < 2500

@@ -60,7 +60,7 @@ def test_the_list_runs_on_while_the_disk_sleeps(tmp_path, monkeypatch, kept):
 
     def exists(path):
         asleep.set()
-        return awake.wait(PATIENT_S)
+        return not awake.wait(PATIENT_S)
 
     monkeypatch.setattr("app.storage.recent._exists", exists)
     recent = RecentFiles(tmp_path if kept else None, lambda: None)
@@ -76,7 +76,8 @@ def test_the_list_runs_on_while_the_disk_sleeps(tmp_path, monkeypatch, kept):
     newest = ["/last.obj", names[3], *(name for name in reversed(names) if name != names[3])]
     assert paths(recent) == newest[:MOST]
     awake.set()
-    wait_for(lambda: bool(recent.entries) and not recent._work.busy)
+    # Looked for, all of them: the thread has come to the newest list.
+    wait_for(lambda: [entry.missing for entry in recent.entries] == [True] * MOST)
     assert paths(recent) == newest[:MOST]
     recent.close()
     if kept:
@@ -287,18 +288,17 @@ def test_a_scene_that_is_cancelled_is_not_built_to_its_end(tmp_path, monkeypatch
     built, gate, box = [], threading.Event(), shapes.box
 
     def slow(size):
-        built.append(size)
+        built.append(threading.current_thread())
         gate.wait(PATIENT_S)
         return box(size)
 
     monkeypatch.setattr(shapes, "box", slow)
     files = Files(lambda: None)
-    thread = files._loading._thread
     files.open(str(path))
     wait_for(lambda: bool(built))
     files.cancel()
     gate.set()
-    wait_for(lambda: not thread.is_alive())
+    wait_for(lambda: not built[0].is_alive())
     assert len(built) == 1
     assert files.poll() is None
     assert files.poll_said() == ["Loading boxes.toml was cancelled."]

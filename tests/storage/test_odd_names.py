@@ -11,6 +11,7 @@ from types import SimpleNamespace
 
 import msgspec
 import pytest
+from waiting import wait_for
 
 from app.cameras.text import command_line
 from app.state.app_state import AppState
@@ -74,8 +75,9 @@ def test_it_is_among_the_recent_files(model: str, tmp_path: Path) -> None:
     recent.add(model)
     recent.close()
     again = RecentFiles(tmp_path / "settings", lambda: None)
+    wait_for(lambda: bool(again.entries))
+    (entry,) = again.entries
     again.close()
-    (entry,) = again._done([])
     assert (entry.path, entry.missing) == (model, False)
     assert is_shown(entry.name)
     assert is_shown(entry.folder)
@@ -117,6 +119,7 @@ def test_the_dialog_opens_the_file_whose_name_it_shows(model: str) -> None:
     question = FileQuestion("Open", False, (".obj",), "", chosen.extend)
     dialog.ask(question)
     folder, name = os.path.split(model)
+    # What ImGui would be needed for: to show the folder, to type and to confirm a name.
     dialog._listing = read_folder(Path(folder), (".obj",))
     dialog._name = one_line(name)  # as it is shown and can be typed
     dialog._finish(question)
@@ -153,6 +156,7 @@ def test_names_that_are_dropped_are_decoded_as_files_names_are(monkeypatch) -> N
     given = []
     library = SimpleNamespace(glfwSetDropCallback=lambda _, call: given.append(call))
     monkeypatch.setattr(platform.glfw, "get_current_context", lambda: window)
+    # The binding's library itself, which the platform calls too: the binding takes all for UTF-8.
     monkeypatch.setattr(platform.glfw, "_glfw", library)
     monkeypatch.setattr(platform.glfw, "_GLFWdropfun", lambda call: call)
     platform.on_drop(dropped.append)

@@ -49,7 +49,7 @@ def path(tmp_path: Path) -> Path:
 def files(monkeypatch):
     # There only: who waits for a process has the real clock.
     monkeypatch.setattr("app.window.files.time", SimpleNamespace(monotonic=Clock()))
-    files = Files(lambda: None)
+    files = Files(lambda: None, native=False)
     yield files
     files.close()
 
@@ -58,8 +58,9 @@ def follow(files: Files, scene: Scene, looks: int = 4) -> Opened | None:
     """What comes of some frames in which the scene is shown."""
     for _ in range(looks):
         files.follow(scene)
-    wait_for(lambda: not files._rereading._working and files._rereading._waiting is None)
-    return files.poll()
+    came: list[Opened | None] = []
+    wait_for(lambda: came.append(files.poll()) or not files.busy)
+    return next((opened for opened in came if opened is not None), None)
 
 
 def loaded(files: Files) -> Opened:
@@ -227,7 +228,7 @@ def test_a_file_that_is_away_for_a_moment_is_no_change(path: Path, files: Files)
 def test_what_the_window_saves_itself_is_not_read_again(path: Path, files: Files, monkeypatch):
     scene = load_scene(path)
     follow(files, scene)
-    monkeypatch.setattr(files, "_ask", lambda question, filters: question.chosen([str(path)]))
+    monkeypatch.setattr(files.dialog, "ask", lambda question: question.chosen([str(path)]))
     os.utime(path, (1, 1))
     files.save_scene_dialog(scene, scene.view)
     wait_for(lambda: bool(files.poll_said() or files.poll()))
@@ -312,7 +313,7 @@ def test_the_users_camera_stays_and_undo_goes_back(path: Path, moved: bool) -> N
     path.write_text(BALL + "center = [9, 0, 0]\n" + MODEL)
     new = load_scene(path)
     before = window.state
-    MainWindow._take_newer(window, old, new)
+    MainWindow.take_newer(window, old, new)
     assert window.state.scene is new
     assert window.state.view == (before.view if moved else new.view)
     assert window.state.view != (new.view if moved else before.view)

@@ -27,12 +27,12 @@ def main() -> None:
     finalize = JITCodeLibrary.finalize
 
     def compile_twice(library: JITCodeLibrary) -> None:
-        if isinstance(library, inlining._Whole):
+        if isinstance(library, inlining.WholeProgram):
             compile_for_arm(library)  # our parts are linked by now, numba's own are not
         finalize(library)
 
     def compile_for_arm(library: JITCodeLibrary) -> None:
-        text = str(library._final_module)
+        text = str(library._final_module)  # numba's: it shows it to nobody
         module = llvm.parse_assembly(text)
         module.triple, module.data_layout = TRIPLE, str(machine.target_data)
         code = machine.emit_object(module)

@@ -34,7 +34,7 @@ from app.pair.view import RASTER, RAY
 from app.state.app_state import AppState, History
 from app.widgets.surface import Target
 from app.widgets.theme import framebuffer_scale
-from app.window import viewer
+from app.window import main_window, viewer
 from app.window.canvas import WindowCanvas
 from app.window.platform import start_platform
 from app.window.viewer import Run
@@ -73,10 +73,19 @@ class Driver:
         self.run = Run(start_platform(want_display=False), state, SIZE, remember=False)
         self.window = self.run.window
         self.ctx: Any = None
+        self.drop: Callable[[list[str]], None] = lambda paths: None  # files, upon the window
         self.stay = False  # the mouse, while a picture is taken
         self._pictures = 0
         Glimpses.is_seen = lambda _: bool(self.run.on_drawn or self.window.shell.captures.busy)
         viewer.WindowCanvas = Glimpses  # type: ignore[misc]
+        self.window.files.native = False  # the system's dialogs, which would wait for somebody
+        on_drop = main_window.on_drop
+
+        def listen(dropped: Callable[[list[str]], None]) -> None:
+            self.drop = dropped
+            on_drop(dropped)
+
+        main_window.on_drop = listen
 
     def reset(self) -> None:
         """Every test begins with the same state, at rest."""
@@ -84,8 +93,8 @@ class Driver:
         self.window.files.message = ""
         self.window.shell.toasts.clear()
         self.window.shell.stage.failures.clear()
-        self.window.traveller.stop()
-        self.window.traveller.instant = True  # no passage unless a test wants one
+        self.window.transition.stop()
+        self.window.transition.instant = True  # no passage unless a test wants one
         self.stay = False
         self.ctx.mouse_up(0)  # a test that failed may hold it
         self.ctx.mouse_teleport_to_pos((3, SIZE[1] - 3))
@@ -175,6 +184,11 @@ class Driver:
         self.ctx.mouse_up(button)
         self.ctx.yield_()
 
+    def press(self, chord: int) -> None:
+        """Keys, and the frames in which they have their effect."""
+        self.ctx.key_press(chord)
+        self.ctx.yield_(3)
+
     def field(self, name: str) -> str:
         return f"//Camera/##{name}"
 
@@ -197,7 +211,7 @@ def changed(before: np.ndarray, after: np.ndarray) -> float:
 def close_at_work(report: Path, folder: Path) -> None:
     """Closes the window while a tracer prepares, which nothing can cancel."""
     driver = Driver(folder)
-    driver.window.renderers.live._make_tracer = lambda scene: threading.Event().wait()
+    driver.window.renderers.live.make_tracer = lambda scene: threading.Event().wait()
     frames = iter(range(20))
 
     def count() -> None:

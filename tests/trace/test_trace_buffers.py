@@ -75,7 +75,7 @@ def test_what_idles_is_bounded(monkeypatch: pytest.MonkeyPatch) -> None:
     held = [pool.arrays([((size,), np.uint8)]) for size in (64, 128, 192, 256, 320, 20_032)]
     while held:
         held.pop(0)
-    assert [block.nbytes // 64 for block in pool._idle] == [5, 6, 7]
+    assert [block.nbytes // 64 for block in pool.idle] == [5, 6, 7]
 
 
 def test_threads_never_get_the_same_memory() -> None:

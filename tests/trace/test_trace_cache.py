@@ -121,8 +121,9 @@ def test_what_a_full_disk_cannot_keep_is_not_said_to_be_kept(
 
 
 def test_what_cannot_be_kept_is_told(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(compile_note, "_note", "")
+    monkeypatch.setattr(compile_note, "_note", "")  # which counts for a whole process
     monkeypatch.setattr(compiled, "cache_folder", lambda: tmp_path)
+    # Where numba writes: a disk that is full is told from there.
     monkeypatch.setattr(caching.IndexDataCacheFile, "_save_data", full)
     assert compiled.kernel(tripled)(4) == 12
     assert compile_note.note() == compile_note.EACH_TIME
@@ -147,7 +148,7 @@ def test_old_folders_are_pruned(tmp_path: Path) -> None:
         os.utime(folder, (stamp, stamp))
     for name in ("young", "used"):
         (tmp_path / name).mkdir()
-    compiled._prune(tmp_path, tmp_path / "used")
+    compiled.prune(tmp_path, tmp_path / "used")
     left = {path.name for path in tmp_path.iterdir()}
     assert left == {"used", "young", "old0", "old1", "old2"}
 

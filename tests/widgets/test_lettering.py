@@ -12,7 +12,7 @@ from app.pair.pixelgrid import ADVANCE, DIGITS_HIGH, LEADING, VALUES_FROM, text_
 from app.probe.panel import HIGH_EM, WIDE_EM, type_px
 from app.state.options import Preferences
 from app.stepper.numbers import TEXTS
-from app.stepper.panel import LEAST_PX, LEGIBLE, WANTED_EM, _names
+from app.stepper.panel import LEAST_PX, LEGIBLE, WANTED_EM, names_of
 from app.stepper.plan import SHORT, Need, StepperPlan, canvases_in, plan, plan_of_two
 from app.stepper.recording import Order
 from app.stepper.source import source_of
@@ -49,7 +49,7 @@ def test_code_and_numbers_beside_a_lecture_are_read_from_afar(
     """12 of a slide's 540 points, but for less than what a font's sizes differ by; whole, and with
     a canvas that shows something."""
     lines = narrowed(source_of(order.renderer).lines)
-    names = _names(order)
+    names = names_of(order)
     wanted_px = WANTED_EM * PRESENTED * height * scale
     short = 3 + sum(name not in TEXTS for name in names)
     need = Need(

@@ -33,7 +33,7 @@ class Buffers:
     def __init__(self) -> None:
         # Its single operations are atomic, so that there is no lock for _Lease.__del__ to wait for,
         # which may interrupt any thread anywhere.
-        self._idle: deque[Block] = deque(maxlen=KEPT)
+        self.idle: deque[Block] = deque(maxlen=KEPT)
 
     def arrays(self, layouts: Iterable[tuple[tuple[int, ...], DTypeLike]]) -> list[NDArray]:
         """An array of each (shape, dtype), writable, which hold anything. Raises MemoryError."""
@@ -42,7 +42,7 @@ class Buffers:
         begins = [0]
         for size in sizes:
             begins.append(begins[-1] + -(-size // _LINE_BYTES) * _LINE_BYTES + _STAGGER_BYTES)
-        lease = _Lease(self._block(begins[-1] + _LINE_BYTES), self._idle)
+        lease = _Lease(self._block(begins[-1] + _LINE_BYTES), self.idle)
         # Every view of `whole`, and every view of these, keeps it alive, and it the lease.
         whole = np.asarray(lease)
         first = -whole.ctypes.data % _LINE_BYTES
@@ -55,12 +55,12 @@ class Buffers:
         """An idle block of that size, the last used one, of which most is cached; or a new one."""
         for _ in range(KEPT):
             try:
-                block = self._idle.pop()
+                block = self.idle.pop()
             except IndexError:
                 break
             if block.nbytes == size:
                 return block
-            self._idle.appendleft(block)
+            self.idle.appendleft(block)
         return np.empty(size, np.uint8)
 
 

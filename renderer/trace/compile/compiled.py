@@ -58,7 +58,7 @@ if hasattr(config, "_config_fname") and hasattr(config, "reload_config"):
     config._config_fname = os.devnull
     config.reload_config()
 
-_TRACE = Path(__file__).parents[1]  # the tracer's folder
+TRACE_FOLDER = Path(__file__).parents[1]  # the tracer's folder
 
 
 def inlined(function: Callable[..., Any]) -> Any:
@@ -89,16 +89,16 @@ def kernel(function: Callable[..., Any]) -> Any:
 
 def cache_folder() -> Path | None:
     """The folder for these sources and versions, made if need be; None: nowhere to write."""
-    return _find_folder()[0]
+    return find_cache_folder()[0]
 
 
 def cache_problem() -> str:
     """Why a folder was passed over, for the user; "" if none was that could be written."""
-    return _find_folder()[1]
+    return find_cache_folder()[1]
 
 
 @cache
-def _find_folder() -> tuple[Path | None, str]:
+def find_cache_folder() -> tuple[Path | None, str]:
     problem = ""
     for base in filter(Path.is_absolute, _bases()):
         try:
@@ -112,7 +112,7 @@ def _find_folder() -> tuple[Path | None, str]:
         except (OSError, RuntimeError):  # RuntimeError: links in a circle, or no home
             continue
         if _writable(folder):
-            _prune(base, folder)
+            prune(base, folder)
             return folder, problem
     return None, problem
 
@@ -120,7 +120,7 @@ def _find_folder() -> tuple[Path | None, str]:
 def source_hash() -> str:
     """Names the code that is compiled: the tracer's sources and what they take from elsewhere,
     the scene's layout and the shared numbers; the versions."""
-    sources = sorted(_TRACE.rglob("*.py"))
+    sources = sorted(TRACE_FOLDER.rglob("*.py"))
     digest = hashlib.sha256()
     for path in (*sources, Path(renderer.scene.flat.__file__), Path(shared_numbers.__file__)):
         digest.update(path.name.encode() + b"\0" + path.read_bytes() + b"\0")
@@ -136,7 +136,7 @@ def _bases() -> Iterator[Path]:
     if given := os.environ.get("NUMBA_CACHE_DIR"):
         yield Path(given) / "lucida-kernels"
     yield Path(platformdirs.user_cache_dir("lucida", appauthor=False)) / "kernels"
-    yield _TRACE / "__pycache__" / "kernels"
+    yield TRACE_FOLDER / "__pycache__" / "kernels"
 
 
 def _writable(folder: Path) -> bool:
@@ -150,7 +150,7 @@ def _writable(folder: Path) -> bool:
     return True
 
 
-def _prune(base: Path, used: Path) -> None:
+def prune(base: Path, used: Path) -> None:
     """Removes folders of other sources, but the last few used."""
     try:
         others = [path for path in base.iterdir() if path.is_dir() and path != used]

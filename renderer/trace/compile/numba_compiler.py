@@ -93,7 +93,7 @@ class _Part(JITCodeLibrary):
         """There is nowhere to set it."""
 
 
-class _Whole(JITCodeLibrary):
+class WholeProgram(JITCodeLibrary):
     """A kernel's code, with that of its parts and of their parts."""
 
     def finalize(self) -> None:
@@ -133,7 +133,7 @@ class KernelCompiler(Compiler):
     def define_pipelines(self) -> list[PassManager]:
         state = self.state
         if state.library is None:
-            state.library = _Whole(state.targetctx.codegen(), state.func_id.func_qualname)
+            state.library = WholeProgram(state.targetctx.codegen(), state.func_id.func_qualname)
             state.library.enable_object_caching()
         return super().define_pipelines()
 

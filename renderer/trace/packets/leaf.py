@@ -244,7 +244,7 @@ def _largest(f, x_low, x_high, y_low, y_high):
 
 
 @inlined
-def see_leaf(view, corner, leaf, space, tile, least, floats, ints):
+def rasterize_leaf(view, corner, leaf, space, tile, least, floats, ints):
     """Lets the tile's pixels see a leaf's triangles; gives the tile's new least key.
 
     least: the smallest of the pixels' best keys: what is not nearer cannot be seen by any.
@@ -308,7 +308,7 @@ def see_leaf(view, corner, leaf, space, tile, least, floats, ints):
         covered &= covered - 1
         found = bits((squares_of & np.int32(1 << square)) != np.int32(0))
         x, y = first_point(tile, square)
-        see_triangles(view, found, leaf, space, x, y, square, floats, ints)
+        rasterize_triangles(view, found, leaf, space, x, y, square, floats, ints)
     return smallest(load(floats, LEAST))
 
 
@@ -323,7 +323,7 @@ def _bound(floats, lane, function):
 
 
 @inlined
-def see_triangles(view, found, leaf, space, x_first, y_first, square, floats, ints):
+def rasterize_triangles(view, found, leaf, space, x_first, y_first, square, floats, ints):
     """A square's 16 pixels against the triangles in `found`, bits of the leaf's lanes."""
     x, y = lane_column() + x_first, lane_row() + y_first
     best = load(floats, BEST + LANES * square)

@@ -146,7 +146,7 @@ def sphere_depths(equation, x, y):
 
 
 @inlined
-def see_sphere(view, spheres, sphere, tile, least, floats, ints):
+def intersect_sphere(view, spheres, sphere, tile, least, floats, ints):
     """Lets the tile's pixels see a sphere; gives the tile's new least key."""
     box = view.sphere_box
     left, top = box[4 * sphere], box[4 * sphere + 1]

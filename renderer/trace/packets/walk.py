@@ -12,8 +12,8 @@ import numpy as np
 
 from renderer.trace.bvh.bvh16 import CORNERS, FIRST_LEAF, WIDTH
 from renderer.trace.compile.compiled import inlined
-from renderer.trace.packets.leaf import see_leaf
-from renderer.trace.packets.sphere import see_sphere
+from renderer.trace.packets.leaf import rasterize_leaf
+from renderer.trace.packets.sphere import intersect_sphere
 from renderer.trace.packets.tile import (
     DEPTHS,
     WAITING_DEPTHS,
@@ -76,7 +76,7 @@ def walk_world(view, world, tile, floats, ints):
             continue
         item = FIRST_LEAF - node
         if item >= space:
-            least = see_sphere(view, world.spheres, item - space, tile, least, floats, ints)
+            least = intersect_sphere(view, world.spheres, item - space, tile, least, floats, ints)
             continue
         set_planes(view, item, tile, floats, ints)
         least = walk_instance(view, world, item, tile, top, least, floats, ints)
@@ -106,5 +106,5 @@ def walk_instance(view, world, space, tile, base, least, floats, ints):
                 for line in range(0, CORNERS, 16):
                     prefetch(world.corner, following * CORNERS + line)
             leaf = FIRST_LEAF - node
-            least = see_leaf(view, world.corner, leaf, space, tile, least, floats, ints)
+            least = rasterize_leaf(view, world.corner, leaf, space, tile, least, floats, ints)
     return least

@@ -131,9 +131,9 @@ class Script:
         self._seen: Any = None
         self._play = self._scene()
         callbacks = run.params.callbacks
-        callbacks.pre_new_frame = run._guarded(self._before)
+        callbacks.pre_new_frame = run.guarded(self._before)
         self._then = callbacks.after_swap
-        callbacks.after_swap = run._guarded(self._after)
+        callbacks.after_swap = run.guarded(self._after)
 
     def _before(self) -> None:
         """The beginning of a frame: the next thing that the user does."""

@@ -1,0 +1,80 @@
+"""The foot of the lecture's column: back, the place in the lecture, next; the outline; the way back
+to the step. Draws what it is given, and gives what was asked for.
+"""
+
+from __future__ import annotations
+
+from imgui_bundle import ImVec2, imgui
+
+from app.lecture.session import LectureSession
+
+RESTORE = "back to the step"
+END = "End the lecture"
+STEP_EM, PLACE_EM = 2.0, 4.4  # the widths of the buttons that walk, and of the place between them
+
+
+def foot(session: LectureSession, is_as_given: bool) -> int | str | None:
+    """The number of the step to go to, RESTORE, END, or None. is_as_given: state and views are the
+    step's own, so that there is no way back to it."""
+    number, count = session.number, len(session.lecture.steps)
+    size, asked = imgui.get_font_size(), None
+    fits = _fits_a_row(imgui.get_content_region_avail().x)
+    imgui.begin_disabled(number == 0)
+    if imgui.button("<##back", ImVec2(STEP_EM * size, 0)):
+        asked = number - 1
+    imgui.end_disabled()
+    imgui.set_item_tooltip("the step before (Page Up)")
+    imgui.same_line()
+    if imgui.button(f"{number + 1} / {count}##outline", ImVec2(PLACE_EM * size, 0)):
+        imgui.open_popup("outline")
+    imgui.set_item_tooltip("all steps")
+    imgui.same_line()
+    imgui.begin_disabled(number == count - 1)
+    if imgui.button(">##next", ImVec2(STEP_EM * size, 0)):
+        asked = number + 1
+    imgui.end_disabled()
+    imgui.set_item_tooltip("the next step (Page Down)")
+    if fits:
+        imgui.same_line(0, size)
+    imgui.begin_disabled(is_as_given)
+    restored = imgui.button(f"{RESTORE}##restore", ImVec2(0 if fits else _walking_px(), 0))
+    imgui.end_disabled()
+    imgui.set_item_tooltip("its own scene, camera and views (Backspace)")
+    chosen = _outline(session)
+    return chosen if chosen is not None else RESTORE if restored else asked
+
+
+def foot_height(width: float) -> float:
+    """Of the foot in a column of that width."""
+    rows = 1 if _fits_a_row(width) else 2
+    spacing = imgui.get_style().item_spacing.y
+    return float(rows * imgui.get_frame_height_with_spacing() + spacing)
+
+
+def _outline(session: LectureSession) -> int | str | None:
+    """What is chosen among all steps."""
+    chosen: int | str | None = None
+    if not imgui.begin_popup("outline"):
+        return chosen
+    for part, numbers in session.lecture.outline():
+        imgui.separator_text(part or session.lecture.title)
+        for number in numbers:
+            step = session.lecture.steps[number]
+            if imgui.selectable(f"{number + 1}  {step.title}", number == session.number)[0]:
+                chosen = number
+    imgui.separator()
+    if imgui.selectable(END, False)[0]:
+        chosen = END
+    imgui.end_popup()
+    return chosen
+
+
+def _walking_px() -> float:
+    """The width of the buttons that walk the steps."""
+    return (2 * STEP_EM + PLACE_EM) * imgui.get_font_size() + 2 * imgui.get_style().item_spacing.x
+
+
+def _fits_a_row(width: float) -> bool:
+    """Whether the way back to the step has room beside them."""
+    text = imgui.calc_text_size(RESTORE).x + 2 * imgui.get_style().frame_padding.x
+    return bool(_walking_px() + imgui.get_font_size() + text <= width)

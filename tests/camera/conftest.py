@@ -1,0 +1,13 @@
+"""What several of the camera's tests look at."""
+
+from __future__ import annotations
+
+import pytest
+
+from renderer.scene import load_scene
+from renderer.scene.model import Scene
+
+
+@pytest.fixture(scope="module")
+def scene() -> Scene:
+    return load_scene("spheres")

@@ -1,0 +1,40 @@
+"""Views to copy as text, and what is around them when they are pasted."""
+
+from __future__ import annotations
+
+import numpy as np
+from hypothesis import assume
+from hypothesis import strategies as st
+
+from app.cameras.text import Subject
+from renderer.camera import Camera, volume
+from renderer.scene.model import View
+
+SIZE = (160, 90)
+NOW = View(Camera(eye=(9, 9, 9), distance=2.5, near=0.25), fit=True)
+BOUNDS = np.array([[x, y, z] for x in (-2, 2) for y in (-1, 2) for z in (-3, 2)], float)
+numbers = st.floats(-3, 3)
+vectors = st.tuples(numbers, numbers, numbers)
+
+
+@st.composite
+def views(draw: st.DrawFn) -> View:
+    basis = np.array([draw(vectors) for _ in range(3)])
+    lengths = np.linalg.norm(basis, axis=1)
+    assume((lengths > 0.1).all())
+    assume(abs(volume(*(basis / lengths[:, None]))) > 0.02)
+    left, bottom = draw(numbers), draw(numbers)
+    camera = Camera(
+        draw(vectors),
+        *(tuple(row) for row in basis.tolist()),
+        draw(st.floats(0.1, 5)),
+        (left, left + draw(st.floats(0.05, 4)), bottom, bottom + draw(st.floats(0.05, 4))),
+        draw(st.sampled_from(("perspective", "parallel"))),
+        draw(st.none() | st.floats(0.01, 3)),
+        draw(st.none() | st.floats(3.5, 50)),
+    )
+    return View(camera, draw(st.booleans()))
+
+
+def subject(view: View) -> Subject:
+    return Subject(view, view.for_size(SIZE), "still-life", BOUNDS)

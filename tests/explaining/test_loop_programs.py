@@ -1,0 +1,172 @@
+"""The stepper's loops and the lecture's program: in all languages they draw the same."""
+
+from __future__ import annotations
+
+import re
+import textwrap
+from types import SimpleNamespace
+from typing import Any
+
+import numpy as np
+import pytest
+from compilers import CC, run_c
+
+from app.explaining.languages import julia
+from app.lecture import text as texts
+from app.lecture.reading import BUILTIN, load_lecture
+from app.lecture.states import state_of
+from app.state.app_state import AppState
+from app.stepper import loop_parts, raster_parts
+from app.stepper.loop_parts import Model
+from app.stepper.recording import Order
+from app.stepper.source import source_of
+from renderer.scene import load_scene
+
+# The stepper's loops.
+
+
+def loops_read_back(lines: tuple[str, ...]) -> str:
+    """Julia's loops as Python: the indents are there already."""
+    text = []
+    for line in lines:
+        if line.strip() == "end":
+            continue
+        line = re.sub(r"\b1:(\w+)$", r"range(1, \1 + 1)", line)
+        line = line.replace("&&", "and").replace("||", "or").replace("function ", "def ")
+        opens = line.strip().startswith(("def ", "for ", "if ", "while ", "else"))
+        text.append(line + ":" if opens else line)
+    return "\n".join(text)
+
+
+class FromOne:
+    """A canvas or a depth buffer whose rows and columns are counted from 1."""
+
+    def __init__(self, made: Any) -> None:
+        self.made = made
+
+    def __getitem__(self, pixel: tuple[int, int]) -> Any:
+        assert min(pixel) >= 1
+        return self.made[pixel[0] - 1, pixel[1] - 1]
+
+    def __setitem__(self, pixel: tuple[int, int], value: Any) -> None:
+        assert min(pixel) >= 1
+        self.made[pixel[0] - 1, pixel[1] - 1] = value
+
+
+def from_one(ranges: tuple[range, range]) -> tuple[range, ...]:
+    return tuple(range(one.start + 1, one.stop + 1) for one in ranges)
+
+
+@pytest.mark.parametrize("order", list(Order))
+def test_the_loops_in_julia_draw_the_same(order):
+    written = julia.loops("\n".join(source_of(order.renderer).lines))
+    names = {name: getattr(raster_parts, name) for name in dir(raster_parts)}
+    names |= {name: getattr(loop_parts, name) for name in dir(loop_parts)}
+    names |= {
+        "prepared": lambda *given: tuple(map(FromOne, raster_parts.prepared(*given))),
+        "box_around": lambda *given: from_one(raster_parts.box_around(*given)),
+        "Canvas": lambda *given: FromOne(loop_parts.Canvas(*given)),
+        "DepthBuffer": lambda size: FromOne(loop_parts.DepthBuffer(size)),
+        "bounding_box": lambda *given: from_one(loop_parts.bounding_box(*given)),
+    }
+    exec(compile(loops_read_back(written.lines), "julia", "exec"), names)
+    scene = load_scene("canonical")
+    model, size = Model(scene), (12, 9)
+    camera = scene.view.for_size(size)
+    drawn = names[order.renderer.__name__](model, camera, size)
+    told = order.renderer(model, camera, size)
+    np.testing.assert_array_equal(drawn.made.array, told.array)
+
+
+@pytest.mark.parametrize("order", list(Order))
+def test_every_line_has_its_line_in_julia(order):
+    lines = source_of(order.renderer).lines
+    written = julia.loops("\n".join(lines))
+    assert len(written.line_of) == len(lines)
+    ends = [line for line in written.lines if line.strip() == "end"]
+    blocks = sum(line.rstrip().endswith(":") for line in lines)
+    assert len(ends) == blocks and len(written.lines) == len(lines) + blocks
+    for line, number in zip(lines, written.line_of, strict=True):
+        twin = written.lines[number]
+        assert len(twin) - len(twin.lstrip()) == len(line) - len(line.lstrip())
+        kept = set(re.findall(r"\w+", line)) - {"def", "range", "0", "5"}
+        assert kept <= set(re.findall(r"\w+", twin)), (line, twin)
+    assert "j - 0.5" in "".join(written.lines) and "j + 0.5" in "".join(lines)
+
+
+# The lecture's program.
+
+PROGRAMS = {
+    block.language: block.text
+    for step in load_lecture(BUILTIN).steps
+    if texts.languages(step.blocks)
+    for block in step.blocks
+    if isinstance(block, texts.Code)
+}
+CAMERA = {"eye": (1.0, 2.0, 3.0), "u": (1.0, 0.0, 0.5), "v": (0.0, 1.0, 0.25), "w": (0.5, 0, 1)}
+AROUND = """
+#include <stdio.h>
+typedef struct {{ double x, y, z; }} Vec;
+typedef struct {{ Vec eye, u, v, w; double d; }} Camera;
+typedef double Hit;
+Vec direction(Camera c, double a, double b) {{
+    Vec r = {{ a*c.u.x + b*c.v.x - c.d*c.w.x, a*c.u.y + b*c.v.y - c.d*c.w.y,
+              a*c.u.z + b*c.v.z - c.d*c.w.z }};
+    return r;
+}}
+Hit closest(int scene, Vec p, Vec d) {{ return scene + p.x + 10 * d.x + 100 * d.y + 1000 * d.z; }}
+double color(Hit hit) {{ return hit; }}
+int main(void) {{
+    enum {{ H = 3, W = 4 }};
+    double canvas[H][W];
+    int scene = 0;
+    Camera cam = {{ {eye}, {u}, {v}, {w}, 1.5 }};
+{program}
+    for (int k = 0; k < H * W; k++) printf("%.17g\\n", (&canvas[0][0])[k]);
+    return 0;
+}}
+"""
+
+
+def drawn_by(program: str, canvas: Any) -> np.ndarray:
+    vectors = {name: np.array(value) for name, value in CAMERA.items()}
+    names = {
+        **{"H": 3, "W": 4, "scene": 0.0, "canvas": canvas},
+        "cam": SimpleNamespace(**vectors, d=1.5),
+        "closest": lambda scene, p, d: scene + p[0] + d @ np.array([10.0, 100.0, 1000.0]),
+        "color": lambda hit: hit,
+    }
+    exec(compile(program, "lecture", "exec"), names)
+    return np.asarray(getattr(canvas, "made", canvas))
+
+
+def test_the_lectures_program_is_the_same_in_all_languages(tmp_path):
+    assert set(PROGRAMS) == {"python", "julia", "c"}
+    told = drawn_by(PROGRAMS["python"], np.full((3, 4), np.nan))
+    assert np.isfinite(told).all() and len(np.unique(told)) == 12
+    julias = loops_read_back(tuple(PROGRAMS["julia"].splitlines()))
+    np.testing.assert_array_equal(drawn_by(julias, FromOne(np.full((3, 4), np.nan))), told)
+    if CC is not None:
+        parts = {name: f"{{ {', '.join(map(str, value))} }}" for name, value in CAMERA.items()}
+        program = textwrap.indent(PROGRAMS["c"], "    ")
+        out = run_c(AROUND.format(program=program, **parts), tmp_path)
+        np.testing.assert_allclose(np.array(out.split(), float).reshape(3, 4), told, rtol=1e-12)
+
+
+def test_one_of_a_texts_programs_is_shown():
+    blocks = texts.parse("a\n```python\nP\n```\n```c\nC\n```\nb\n```\nplain\n```\n```c\nD\n```")
+    assert texts.languages(blocks) == ("python", "c")
+    for language, shown in (("python", "PplainD"), ("c", "CplainD"), ("julia", "PplainD")):
+        kept = texts.in_language(blocks, language)
+        code = [block.text for block in kept if isinstance(block, texts.Code)]
+        assert "".join(code) == shown
+        assert len(kept) == len(blocks) - 1
+    assert texts.languages(texts.parse("```c\nx\n```")) == ()
+
+
+def test_the_language_stays_from_step_to_step():
+    lecture = load_lecture(BUILTIN)
+    step = lecture.steps[3]
+    base = AppState.for_scene(step.scene).with_options(language="c", shadows=True)
+    options = state_of(step, base).options
+    assert options.language == "c" and not options.shadows

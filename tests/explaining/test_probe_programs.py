@@ -1,0 +1,185 @@
+"""The probe's program in Python, Julia and C: they compute the same.
+
+Julia's text is also read back as Python, with vectors that refuse what Julia's vectors refuse.
+"""
+
+from __future__ import annotations
+
+import functools
+import re
+from dataclasses import dataclass, replace
+from typing import Any
+
+import numpy as np
+import pytest
+from compilers import needs_c, needs_julia, run_c, run_julia
+
+from app.explaining.languages import julia
+from app.probe.copying import as_c, as_julia, as_python
+from app.probe.model import Probe
+from app.probe.reading import Reading
+from renderer.pixels import Indexing
+from renderer.scene import load_scene
+
+SIZE = (64, 48)
+
+
+@functools.cache
+def readings() -> list[tuple[Reading, Indexing]]:
+    """Of spheres, meshes and the background, with shadows and mirrors, both curves, perspective and
+    parallel."""
+    found = []
+    for name, pixels in (
+        ("still-life", ((0, 0), (9, 18), (13, 19), (30, 40), (40, 20))),
+        ("spheres", ((24, 32), (30, 20), (36, 40), (40, 12))),
+    ):
+        scene = load_scene(name)
+        probe, camera = Probe(scene), scene.view.for_size(SIZE)
+        for number, pixel in enumerate(pixels):
+            curve = ("srgb", "linear")[number % 2]
+            reading = probe.at(pixel, camera, SIZE, 0.5, curve, True, 2)
+            found.append((reading, tuple(Indexing)[number % 2]))
+        parallel = replace(camera, projection="parallel", distance=1.0)
+        found.append((probe.at((24, 32), parallel, SIZE), Indexing.LECTURE))
+    return found
+
+
+def expected(program: str) -> dict[str, np.ndarray]:
+    names: dict[str, Any] = {"print": lambda *_: None}
+    exec(compile(program, "python", "exec"), names)
+    return {name: np.asarray(names[name]) for name in ("origin", "direction", "color", "rgb")}
+
+
+def test_the_pixels_show_every_part_of_the_program():
+    text = "".join(as_python(reading, indexing) for reading, indexing in readings())
+    for part in ("hits nothing", "np.cross", "radius**2", "shadowed", "mirrored", "shown = exposed",
+                 "np.where", "origin = eye + ", "j + 0.5", "j - 0.5", "l /= "):  # fmt: skip
+        assert part in text, part
+
+
+@needs_c
+def test_the_program_in_c(tmp_path):
+    for reading, indexing in readings():
+        told = expected(as_python(reading, indexing))
+        lines = run_c(as_c(reading, indexing), tmp_path).splitlines()
+        found = {line.split()[0]: [float(x) for x in line.split()[1:]] for line in lines}
+        assert set(found) == set(told)
+        for name, values in told.items():
+            np.testing.assert_allclose(found[name], values, rtol=1e-11, atol=1e-14, err_msg=name)
+
+
+@needs_julia
+def test_the_program_in_julia_runs(tmp_path):
+    for reading, indexing in readings():
+        told = expected(as_python(reading, indexing))
+        out = run_julia(as_julia(reading, indexing), tmp_path)
+        found = [float(x) for x in re.findall(r"-?\d+(?:\.\d+)?(?:e[-+]?\d+)?", out)]
+        np.testing.assert_allclose(found, np.concatenate(list(told.values())), rtol=1e-11)
+
+
+@dataclass(frozen=True)
+class Each:
+    """A number beside a dotted operator."""
+
+    value: float
+
+
+class Vector:
+    """Three numbers that do what Julia's vectors do without a dot; and what has one, with Each or
+    written as @."""
+
+    def __init__(self, values: Any) -> None:
+        self.values = np.asarray(values, float)
+
+    def _with(self, other: Any) -> Any:
+        assert isinstance(other, Vector | Each), "a vector and a number need a dot"
+        return other.values if isinstance(other, Vector) else other.value
+
+    def __add__(self, other: Any) -> Vector:
+        return Vector(self.values + self._with(other))
+
+    def __sub__(self, other: Any) -> Vector:
+        return Vector(self.values - self._with(other))
+
+    def __mul__(self, factor: Any) -> Vector:
+        assert isinstance(factor, float | int), "two vectors need a dot"
+        return Vector(self.values * factor)
+
+    __rmul__ = __mul__
+
+    def __truediv__(self, divisor: Any) -> Vector:
+        assert isinstance(divisor, float | int)
+        return Vector(self.values / divisor)
+
+    def __matmul__(self, other: Vector) -> Vector:  # .*
+        return Vector(self.values * other.values)
+
+    def __pow__(self, exponent: float) -> Vector:
+        return Vector(self.values**exponent)
+
+    def __le__(self, other: Each) -> Vector:
+        return Vector(self.values <= other.value)
+
+    def __neg__(self) -> Vector:
+        return Vector(-self.values)
+
+
+NAMES: dict[str, Any] = {
+    "Vector": Vector,
+    "Each": Each,
+    "println": lambda *_: None,
+    "sqrt": np.sqrt,
+    "max": max,
+    "sign": lambda x: float(np.sign(x)),
+    "dot": lambda a, b: float(a.values @ b.values),
+    "norm": lambda a: float(np.linalg.norm(a.values)),
+    "cross": lambda a, b: Vector(np.cross(a.values, b.values)),
+    "clamp": lambda a, low, high: Vector(np.clip(a.values, low, high)),
+    "ifelse": lambda c, a, b: Vector(np.where(c.values, a.values, b.values)),
+    "floor_each": lambda a: Vector(np.floor(a.values)),
+}
+
+
+def read_back(text: str) -> str:
+    """A Julia program as Python."""
+    for pattern, plain in (
+        (r"using LinearAlgebra", ""),
+        (r" \.(\+|-|<=) ([\d.e-]+)", r" \1 Each(\2)"),
+        (r" \.\* ", " @ "),
+        (r" ?\.?\^ ?", " ** "),
+        (r"floor\.\(Int, ", "floor_each("),
+        (r"(clamp|ifelse)\.\(", r"\1("),
+        (r"\[([^\[\]]*)\]", r"Vector([\1])"),
+    ):
+        text = re.sub(pattern, plain, text)
+    return text
+
+
+def test_the_program_in_julia_read_back():
+    for reading, indexing in readings():
+        program = as_julia(reading, indexing)
+        assert program.count("\n") == as_python(reading, indexing).count("\n")  # line by line
+        names = dict(NAMES)
+        exec(compile(read_back(program), "julia", "exec"), names)
+        for name, values in expected(as_python(reading, indexing)).items():
+            np.testing.assert_allclose(names[name].values, values, rtol=1e-11, atol=1e-14)
+
+
+@pytest.mark.parametrize(
+    ("python", "written"),
+    [
+        ("x = a - (b - c)", "x = a - (b - c)"),
+        ("x = a - b - c", "x = a - b - c"),
+        ("x = -(a + b) * c", "x = -(a + b) * c"),
+        ("x = (a + b)**2 / (c * d)", "x = (a + b)^2 / (c * d)"),
+        ("x = a**(b * c)", "x = a^(b * c)"),
+        ("x = -a**2", "x = -a^2"),
+        ("p = np.array([1.0, 2.0, 3.0]) * np.array([a, b, c])", "p = [1.0, 2.0, 3.0] .* [a, b, c]"),
+        ("p = np.array([1.0, 2.0, 3.0]) + 1", "p = [1.0, 2.0, 3.0] .+ 1"),
+        ("p = 2 / np.array([1.0, 2.0, 4.0])", "p = 2 ./ [1.0, 2.0, 4.0]"),
+        ("x = 3  # counted from 1", "x = 3  # counted from 1"),
+        ('# "quoted" # twice', '# "quoted" # twice'),
+    ],
+)
+def test_julias_dots_and_parentheses(python, written):
+    assert julia.program(python) == written + "\n"

@@ -1,0 +1,105 @@
+"""The light that a pixel stands for, against arithmetic by hand."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from app.laboratory import light
+from renderer.images import to_srgb8
+
+
+class TestLight:
+    def test_aligned_projectors_give_the_picture(self, color):
+        whole = light.projected(color, light.triangle(0))
+        np.testing.assert_array_equal(whole, to_srgb8(color))
+
+    def test_light_adds_where_pictures_overlap(self):
+        white = np.ones((4, 6, 3), np.float32)
+        wall = light.projected(white, ((0, 0), (0, 2), (1, 2)))
+        assert wall.shape == (5, 8, 3)
+        assert wall[0, 0].tolist() == [255, 0, 0]
+        assert wall[0, 3].tolist() == [255, 255, 0]  # red and green: yellow
+        assert wall[2, 3].tolist() == [255, 255, 255]
+        assert wall[2, 7].tolist() == [0, 255, 255]
+        assert wall[4, 3].tolist() == [0, 0, 255]
+        assert wall[0, 7].tolist() == [0, 255, 0]
+        assert wall[4, 0].tolist() == [0, 0, 0]
+
+    def test_the_wall_is_as_large_as_all_pictures_together(self):
+        """Moved up and to the left too: as when all are moved one way and back."""
+        white = np.ones((4, 6, 3), np.float32)
+        wall = light.projected(white, ((-1, 0), (0, -2), (2, 3)))
+        assert wall.shape == (4 + 3, 6 + 5, 3)
+        for channel, (top, left) in enumerate(((0, 2), (1, 0), (3, 5))):
+            lit = np.zeros((7, 11), bool)
+            lit[top : top + 4, left : left + 6] = True
+            assert (wall[..., channel] == 255 * lit).all()
+
+    def test_the_triangle_of_projectors(self):
+        assert light.triangle(10) == ((-10, 0), (5, -9), (5, 9))
+
+    def test_subpixels_are_three_stripes(self):
+        picture = np.array([[[10, 20, 30], [40, 50, 60]]], np.uint8)
+        image = light.subpixels(picture, 6)
+        assert image.shape == (6, 12, 3)
+        for row in image:
+            assert row[:, 0].tolist() == [10, 10, 0, 0, 0, 0, 40, 40, 0, 0, 0, 0]
+            assert row[:, 1].tolist() == [0, 0, 20, 20, 0, 0, 0, 0, 50, 50, 0, 0]
+            assert row[:, 2].tolist() == [0, 0, 0, 0, 30, 30, 0, 0, 0, 0, 60, 60]
+        gapped = light.subpixels(picture, 9, gap=1)
+        assert gapped[0, :9, 0].tolist() == [10, 10, 0, 0, 0, 0, 0, 0, 0]
+        assert gapped[0, :9, 2].tolist() == [0, 0, 0, 0, 0, 0, 30, 30, 0]
+        assert not gapped[8].any()
+
+    @pytest.mark.parametrize("side", [6, 7, 8, 10, 11, 13, 36, 45])
+    @pytest.mark.parametrize("gap", [1, 2])
+    def test_every_stripe_ends_in_its_gap_whether_3_divides_the_side_or_not(self, side, gap):
+        image = light.subpixels(np.full((1, 1, 3), 255, np.uint8), side, gap)
+        whole = light.subpixels(np.full((1, 1, 3), 255, np.uint8), side)
+        for channel in range(3):
+            stripe = np.flatnonzero(whole[0, :, channel])
+            lit = np.flatnonzero(image[0, :, channel])
+            assert lit.tolist() == stripe[:-gap].tolist()
+            assert (image[: side - gap, lit, channel] == 255).all()
+        assert not image[side - gap :].any()
+
+    @pytest.mark.parametrize("side", [3, 4, 5, 7, 8])
+    def test_every_column_of_a_pixel_shines_in_one_colour(self, side):
+        image = light.subpixels(np.full((2, 2, 3), 255, np.uint8), side)
+        assert (image.sum(axis=2) == 255).all()
+
+    def test_magnified_pixels(self):
+        picture = np.arange(12, dtype=np.uint8).reshape(2, 2, 3)
+        large = light.magnified(picture, 4)
+        assert large.shape == (8, 8, 3)
+        np.testing.assert_array_equal(large[::4, ::4], picture)
+        np.testing.assert_array_equal(large[3::4, 3::4], picture)
+
+    def test_windows_stay_inside(self):
+        image = np.arange(35).reshape(5, 7)
+        assert light.window(image, 0, 0, 3, 3)[:2] == (0, 0)
+        first, left, part = light.window(image, 4, 6, 3, 3)
+        assert (first, left) == (2, 4)
+        np.testing.assert_array_equal(part, image[2:5, 4:7])
+        assert light.window(image, 2, 3, 50, 50)[2].shape == (5, 7)
+        assert light.window(image, 4, 6, 5, 7)[:2] == (0, 0)
+        assert light.window(image, 2, 3, 4, 4)[:2] == (0, 1)
+
+    def test_the_test_picture_of_bars(self):
+        """Each is two of 16 columns wide; the last quarter of the rows is a ramp."""
+        picture = light.bars(9, 16)
+        names = ["white", "yellow", "cyan", "green", "magenta", "red", "blue", "black"]
+        colors = {"white": (1, 1, 1), "yellow": (1, 1, 0), "cyan": (0, 1, 1), "green": (0, 1, 0)}
+        colors |= {"magenta": (1, 0, 1), "red": (1, 0, 0), "blue": (0, 0, 1), "black": (0, 0, 0)}
+        wanted = [colors[name] for name in names for _ in range(2)]
+        assert picture.shape == (9, 16, 3)
+        assert picture[:7].tolist() == [list(map(list, wanted))] * 7
+        np.testing.assert_allclose(picture[7:], np.ones((2, 16, 3)) * (np.mgrid[:16] / 15)[:, None])
+
+    def test_the_test_picture_of_a_disc(self):
+        """Of radius 2.5 about the middle: white where the pixel's centre is inside."""
+        rows = ["...##...", "..####..", "..####..", "..####..", "...##..."]
+        wanted = np.array([[letter == "#" for letter in row] for row in rows], float)
+        for picture in (light.disc(5, 8), light.disc(8, 5).swapaxes(0, 1)):
+            assert picture.tolist() == np.stack([wanted] * 3, axis=-1).tolist()

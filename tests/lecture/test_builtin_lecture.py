@@ -1,0 +1,83 @@
+"""The built-in lecture holds what it should, and each step can be shown."""
+
+from __future__ import annotations
+
+import itertools
+import re
+
+import numpy as np
+from plain_text import plain_text
+
+from app.explaining.languages import LANGUAGES
+from app.lecture import text as texts
+from app.lecture.exercises import ChoiceExercise, RayExercise, VectorExercise
+from app.lecture.reading import BUILTIN, load_lecture
+from app.probe.model import Probe
+
+
+class TestTheBuiltInLecture:
+    lecture = load_lecture(BUILTIN)
+
+    def test_it_covers_the_lecture_in_its_order(self):
+        parts = [part for part, _ in self.lecture.outline()]
+        assert parts == [
+            "Rendering",
+            "What is an image?",
+            "Representations",
+            "Two algorithms",
+            "Losing a dimension",
+            "Rays",
+            "The camera",
+            "One camera, two renderers",
+        ]
+        titles = [step.title for step in self.lecture.steps]
+        order = [
+            "What is an image?", "Kinds of raster image", "Object order: rasterization",
+            "The camera conundrum", "Perspective projection", "Parallel projection",
+            "A ray is half a line", "A simple camera", "From pixel to ray", "Any camera",
+            "The program", "One camera, two renderers",
+        ]  # fmt: skip
+        assert [title for title in titles if title in order] == order
+        assert 20 <= len(titles) == len(set(titles))
+
+    def test_it_fits_a_slide(self):
+        for step, language in itertools.product(self.lecture.steps, LANGUAGES):
+            shown = texts.in_language(step.blocks, language)
+            words = len(re.findall(r"\w+", plain_text(shown)))
+            assert 5 <= words <= 85, (step.title, language, words)
+
+    def test_every_kind_of_exercise_is_in_it(self):
+        kinds = {type(step.exercise) for step in self.lecture.steps} - {type(None)}
+        assert kinds == {RayExercise, VectorExercise, ChoiceExercise}
+
+    def test_marked_pixels_are_in_their_images(self):
+        marked = [step for step in self.lecture.steps if step.pixel]
+        assert len(marked) > 5
+        for step in marked:
+            width, height = step.options["images"]["resolution"]
+            assert step.pixel[0] < height and step.pixel[1] < width, step.title
+
+    def test_what_is_shown_worked_out_hits_something(self):
+        step = next(step for step in self.lecture.steps if "probe" in step.views)
+        assert step.pixel is not None
+        size = step.options["images"]["resolution"]
+        reading = Probe(step.scene).at(step.pixel, step.view.camera, size)
+        assert sum(meeting.is_on_ray for meeting in reading.meetings) >= 2
+
+    def test_u_and_v_exchanged_are_told_as_such(self):
+        for step in self.lecture.steps:
+            if isinstance(step.exercise, RayExercise):
+                camera, pixel, size = step.exercise.camera, step.pixel, step.exercise.size
+                assert pixel == step.exercise.pixel
+                x, y = camera.image_point(*pixel, size)
+                way = y * np.array(camera.u) + x * np.array(camera.v)
+                way -= camera.distance * np.array(camera.w)
+                given = {"origin": str(camera.eye), "direction": " ".join(map(str, way))}
+                assert "exchanged" in step.exercise.check(given).text, step.title
+
+    def test_rays_that_are_asked_for_are_the_ones_shown(self):
+        for step in self.lecture.steps:
+            if isinstance(step.exercise, RayExercise):
+                assert step.pixel == step.exercise.pixel
+                assert step.options["images"]["resolution"] == step.exercise.size
+                assert step.view.for_size(step.exercise.size) == step.exercise.camera

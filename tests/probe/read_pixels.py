@@ -1,0 +1,61 @@
+"""Pixels that the probe reads, and what it says and copies of them."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from app.probe.copying import as_python
+from app.probe.reading import Reading
+from renderer.camera import Camera
+from renderer.pixels import Indexing
+from renderer.scene.flat import flatten
+from renderer.scene.model import (
+    Material,
+    PointLight,
+    Scene,
+    SceneObject,
+    Sphere,
+)
+
+SIZE = (64, 48)
+ALL = ("color", "depth", "normal", "id", "primitive")
+BALL = Scene(
+    (SceneObject(Sphere((0, 0, -3), 1), Material((0.5, 0.4, 0.3), (0.2, 0.2, 0.2), 20), "ball"),),
+    (PointLight((2, 3, 1), (0.9, 0.8, 0.7)),),
+    ambient=(0.1, 0.1, 0.2),
+    background=(0.25, 0.5, 0.75),
+)
+
+
+def line(lines, key):
+    return next(line for line in lines if line.key == key)
+
+
+def cameras(scene: Scene):
+    """The scene's own, a parallel one, a skewed one and a clipped one."""
+    own = scene.view.for_size(SIZE)
+    reach = float(np.abs(flatten(scene).bounds).max())
+    wide = (-reach / 3, reach / 3, -reach / 4, reach / 4)
+    yield own
+    yield Camera(own.eye, own.u, own.v, own.w, 1.0, wide, "parallel")
+    skewed = np.array(own.u) + 0.3 * np.array(own.w), 1.4 * np.array(own.v) - 0.2 * np.array(own.u)
+    yield Camera(own.eye, *map(tuple, skewed), own.w, own.distance, own.viewport)
+    depth = float(np.linalg.norm(own.eye)) or 4.0
+    yield Camera(
+        own.eye, own.u, own.v, own.w, own.distance, own.viewport, near=0.7 * depth, far=1.2 * depth
+    )
+
+
+def run(reading: Reading, indexing: Indexing = Indexing.LECTURE) -> dict:
+    """Executes the copied program, and checks what it computes."""
+    names: dict = {"print": lambda *_: None}
+    exec(compile(as_python(reading, indexing), "copied", "exec"), names)
+    np.testing.assert_allclose(names["origin"], reading.origin, rtol=1e-12)
+    np.testing.assert_allclose(names["direction"], reading.direction, rtol=1e-12, atol=1e-15)
+    np.testing.assert_allclose(names["color"], reading.color, rtol=1e-7, atol=1e-9)
+    assert np.abs(names["rgb"] - reading.bytes).max() <= 1
+    if reading.hit is not None:
+        assert names["t"] == pytest.approx(reading.hit.t, rel=1e-7)
+        np.testing.assert_allclose(names["point"], reading.hit.point, rtol=1e-6, atol=1e-7)
+    return names

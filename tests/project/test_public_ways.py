@@ -1,0 +1,49 @@
+"""Tests use what they test in the public way. Where there is none, the test says why."""
+
+from __future__ import annotations
+
+import ast
+import re
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+
+TESTS = Path(__file__).parents[1]
+PRIVATE = re.compile(r"_[a-zA-Z]\w*")
+PYTHONS = {"_exit", "_replace"}  # of os and of named tuples: public in spite of their names
+
+# Each is explained where it stands.
+NONE_IS_PUBLIC = {
+    "images/test_live_raster.py": {"_under_way", "_first_row", "_build"},
+    "outside/test_outside_drawing.py": {"_used"},
+    "project/test_compile_note.py": {"_note"},
+    "project/test_private.py": {"_cache"},
+    "raster/test_raster_display.py": {"_pictures"},
+    "scenarios/lecture.py": {"_native", "_dropped"},
+    "scenarios/manner.py": {"_bar"},
+    "scenarios/motion.py": {"_placed", "_pictures", "_shown_raster"},
+    "stepper/test_runs.py": {"_under_way", "_cancelled"},
+    "storage/test_odd_names.py": {"_listing", "_name", "_finish", "_glfw", "_GLFWdropfun"},
+    "support/other_processor.py": {"_final_module"},
+    "trace/test_trace_cache.py": {"_note", "_save_data"},
+}
+
+
+def private_names(tree: ast.Module) -> Iterator[str]:
+    """Attributes of anything but self, imported names, and what monkeypatch.setattr() replaces."""
+    for node in ast.walk(tree):
+        if isinstance(node, ast.Attribute):
+            if not (isinstance(node.value, ast.Name) and node.value.id in ("self", "cls")):
+                yield node.attr
+        elif isinstance(node, ast.ImportFrom):
+            yield from (alias.name for alias in node.names)
+        elif isinstance(node, ast.Call) and ast.unparse(node.func).endswith(("setattr", "delattr")):
+            yield from (str(part.value) for part in node.args if isinstance(part, ast.Constant))
+
+
+@pytest.mark.parametrize("path", sorted(TESTS.rglob("*.py")), ids=lambda path: path.stem)
+def test_a_test_reaches_into_nothing(path: Path) -> None:
+    names = set(private_names(ast.parse(path.read_text("utf-8"))))
+    private = {name for name in names if PRIVATE.fullmatch(name)} - PYTHONS
+    assert private <= NONE_IS_PUBLIC.get(path.relative_to(TESTS).as_posix(), set())

@@ -1,0 +1,30 @@
+"""What a window may have left."""
+
+from __future__ import annotations
+
+import pytest
+
+from app.state.app_state import AppState
+from app.state.options import Bookmark
+from renderer.camera import Camera
+from renderer.scene import View, load_scene
+
+
+@pytest.fixture(scope="module")
+def scene():
+    return load_scene("spheres")
+
+
+@pytest.fixture
+def state(scene):
+    view = View(Camera((1 / 3, 2, 3), distance=0.1, near=0.25), fit=False)
+    marks = (Bookmark(1, "a 'name' with \" and é", view), Bookmark(9, "far", scene.view))
+    return AppState.for_scene(scene, view).with_options(
+        images={"exposure_ev": 1.5, "pixel_size": 4, "resolution": (16, 9)},
+        compare={"mode": "wipe"},
+        outside={"camera": Camera((9, 9, 9)), "bundle": (3, 4)},
+        preferences={"theme": "light", "font_scale": 1.25},
+        marked=(3, 4),
+        shadows=True,
+        bookmarks=marks,
+    )

@@ -1,0 +1,222 @@
+"""Sessions as files: whatever stands in the file's place, nothing is lost."""
+
+from __future__ import annotations
+
+import os
+import random
+import signal
+import subprocess
+import sys
+import threading
+import time
+from dataclasses import replace
+from pathlib import Path
+
+import pytest
+from test_session import ARRANGEMENT
+from waiting import PATIENT_S, wait_for
+
+from app.state.app_state import AppState
+from app.storage.session import (
+    Arrangement,
+    from_bytes,
+    session_of,
+    to_bytes,
+)
+from app.storage.session_store import Keeper, take_place
+from app.window.start import begin_session
+from renderer.errors import LucidaError
+from renderer.scene import load_scene
+
+ROOT = Path(__file__).parents[2]
+
+
+def saved(folder: Path, state: AppState) -> Path:
+    place = take_place(folder)
+    assert place is not None
+    place.save(to_bytes(session_of(state, ARRANGEMENT)))
+    place.release()
+    return place.path
+
+
+def test_the_window_goes_on_with_the_session(tmp_path, state):
+    saved(tmp_path, state)
+    start = begin_session(folder=tmp_path)
+    assert replace(start.state, scene=state.scene) == state
+    assert start.state.scene.name == "spheres"
+    assert start.message == ""
+    assert start.session is not None
+    assert start.session.arrangement == ARRANGEMENT
+    assert start.keeper is not None
+    start.keeper.close(start.session)
+
+
+def test_without_a_session_the_window_begins_as_ever(tmp_path):
+    start = begin_session(folder=tmp_path / "new" / "folder")
+    assert start.session is None
+    assert start.message == ""
+    assert start.state.scene.name == "still life"
+    assert start.keeper is not None
+    start.keeper.close(session_of(start.state, Arrangement()))
+    assert (tmp_path / "new" / "folder" / "session-1.json").exists()
+
+
+def test_fresh_begins_without_it(tmp_path, state):
+    path = saved(tmp_path, state)
+    start = begin_session(fresh=True, folder=tmp_path)
+    assert start.session is None
+    assert start.state.preferences.theme == "dark"
+    assert path.exists()
+    assert start.keeper is not None
+    start.keeper.close(session_of(start.state, Arrangement()))
+
+
+@pytest.mark.parametrize("content", [b"nonsense", b'{"lucida_session": 99, "of": "the future"}'])
+def test_a_file_that_is_of_no_use_is_kept_and_told(tmp_path, content):
+    (tmp_path / "session-1.json").write_bytes(content)
+    kept = []
+    for number in (1, 2):
+        (tmp_path / "session-1.json").write_bytes(content)
+        start = begin_session(folder=tmp_path)
+        assert start.session is None
+        assert "could not be restored" in start.message
+        assert start.keeper is not None
+        start.keeper.close(session_of(start.state, Arrangement()))
+        kept = sorted(tmp_path.glob("session-1.*-*.json"))
+        assert len(kept) == number  # the older one was not overwritten
+        assert kept[-1].name in start.message
+    assert all(path.read_bytes() == content for path in kept)
+
+
+def test_a_scene_that_is_gone_is_told_and_the_rest_comes_back(tmp_path, state):
+    (tmp_path / "scene.toml").write_text('[[objects]]\ntype = "sphere"\n')
+    gone = load_scene(tmp_path / "scene.toml")
+    saved(tmp_path, replace(state, scene=gone))
+    (tmp_path / "scene.toml").unlink()
+    start = begin_session(folder=tmp_path)
+    assert "scene.toml" in start.message
+    assert start.state.view == state.view
+    assert start.state.options == state.options
+    assert start.keeper is not None
+    start.keeper.close(session_of(start.state, Arrangement()))
+
+
+def test_a_scene_file_is_found_from_another_folder(tmp_path, state, monkeypatch):
+    (tmp_path / "here").mkdir()
+    (tmp_path / "here" / "scene.toml").write_text('name = "own"\n[[objects]]\ntype = "sphere"\n')
+    monkeypatch.chdir(tmp_path / "here")
+    scene = load_scene("scene.toml")
+    saved(tmp_path / "sessions", replace(state, scene=scene))
+    monkeypatch.chdir(tmp_path)
+    start = begin_session(folder=tmp_path / "sessions")
+    assert start.state.scene.name == "own"
+    assert start.keeper is not None
+    start.keeper.close(session_of(start.state, Arrangement()))
+
+
+def test_two_windows_have_two_sessions(tmp_path, state):
+    first = begin_session(folder=tmp_path)
+    second = begin_session(folder=tmp_path)
+    assert first.keeper is not None
+    assert second.keeper is not None
+    second.keeper.close(session_of(state, Arrangement()))
+    first.keeper.close(session_of(first.state, Arrangement()))
+    again = begin_session(folder=tmp_path)
+    assert again.state.scene.name == "still life"  # the first one's
+    assert again.keeper is not None
+    again.keeper.close(session_of(again.state, Arrangement()))
+    assert len(list(tmp_path.glob("session-*.json"))) == 2
+
+
+def test_where_no_session_can_be_kept_the_window_opens(tmp_path):
+    (tmp_path / "file").write_text("")
+    start = begin_session(folder=tmp_path / "file")
+    assert start.keeper is None
+    assert start.state.scene.name == "still life"
+
+
+def test_the_keeper_saves_after_a_while_and_tells_a_failure_once(tmp_path, state, monkeypatch):
+    place = take_place(tmp_path)
+    assert place is not None
+    saved = threading.Semaphore(0)
+    keeper = Keeper(place, saved.release)
+    now_s = [100.0]
+    monkeypatch.setattr("app.storage.session_store.time.monotonic", lambda: now_s[0])
+    assert not keeper.due()
+    keeper.mark()
+    assert not keeper.due()
+    now_s[0] += 1.0
+    keeper.mark()
+    now_s[0] += 1.5
+    assert not keeper.due()  # it is changing
+    now_s[0] += 1.0
+    assert keeper.due()
+    keeper.save(session_of(state, ARRANGEMENT))
+    monkeypatch.undo()
+    assert saved.acquire(timeout=PATIENT_S)
+    assert from_bytes(place.path.read_bytes()) == session_of(state, ARRANGEMENT)
+
+    def full(data: bytes) -> None:
+        raise LucidaError("", "cannot be written: no space left on device", source="session")
+
+    monkeypatch.setattr(place, "save", full)
+    for exposure, told in ((1.0, True), (2.0, False)):
+        keeper.message = ""
+        keeper.save(session_of(state.with_options(images={"exposure_ev": exposure}), ARRANGEMENT))
+        assert saved.acquire(timeout=PATIENT_S)
+        keeper.due()
+        assert ("no space left" in keeper.message) == told
+    monkeypatch.undo()
+    keeper.close(session_of(state, ARRANGEMENT))
+    assert from_bytes(place.path.read_bytes()) == session_of(state, ARRANGEMENT)
+
+
+WRITER = """
+import sys
+from pathlib import Path
+from app.storage.session import Arrangement, session_of, to_bytes
+from app.storage.session_store import take_place
+from app.state.app_state import AppState
+from renderer.scene import load_scene
+
+state = AppState.for_scene(load_scene("spheres"))
+place = take_place(Path(sys.argv[1]))
+print(place.path.name, flush=True)
+number = 0
+while True:
+    number += 1
+    windows = f"{number}" + "x" * 200_000 + f"{number}"
+    place.save(to_bytes(session_of(state, Arrangement("", (), windows))))
+"""
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="POSIX's signals")
+def test_killed_at_any_moment_the_file_is_whole_and_its_place_is_free(tmp_path):
+    """The old file or the new one, never a part; and the lock ends with the process."""
+    rng = random.Random(4)
+    seen = 0
+    for _ in range(8):
+        writer = subprocess.Popen(
+            [sys.executable, "-c", WRITER, str(tmp_path)],
+            stdout=subprocess.PIPE,
+            text=True,
+            env=os.environ | {"PYTHONPATH": str(ROOT)},
+        )
+        assert writer.stdout is not None
+        assert writer.stdout.readline() == "session-1.json\n"
+        wait_for((tmp_path / "session-1.json").exists)
+        time.sleep(rng.uniform(0, 0.05))
+        writer.send_signal(signal.SIGKILL)
+        writer.wait()
+        writer.stdout.close()
+        windows = from_bytes((tmp_path / "session-1.json").read_bytes()).arrangement.windows
+        number = windows.partition("x")[0]
+        assert windows == number + "x" * 200_000 + number
+        seen += 1
+    assert seen == 8
+    place = take_place(tmp_path)
+    assert place is not None
+    assert place.load().message == ""
+    place.save(b"x")
+    place.release()
+    assert not list(tmp_path.glob(".*.part"))  # what a killed window left is cleared away

@@ -1,0 +1,63 @@
+"""Where things are in the outside view: for several topics of drives."""
+
+from __future__ import annotations
+
+import numpy as np
+from imgui_bundle import hello_imgui
+from window_driver import SIZE, Driver
+
+from app.outside.mouse import Scope
+from app.outside.projected import Strokes
+from app.outside.screen import OutsideScreen
+from app.outside.view import OUTSIDE, OutsideView
+
+IMAGE = f"//###{OUTSIDE}/image##{OUTSIDE}"
+
+
+def view(d: Driver) -> OutsideView:
+    found = d.window.views[OUTSIDE]
+    assert isinstance(found, OutsideView)
+    return found
+
+
+def enter(d: Driver, layout: str = "Outside view") -> None:
+    if hello_imgui.current_layout_name() != layout:
+        hello_imgui.switch_layout(layout)
+        d.ctx.yield_(5)
+    d.settle()
+
+
+def scope(d: Driver) -> Scope:
+    found = view(d).scope
+    assert found is not None
+    return found
+
+
+def place(d: Driver, point: np.ndarray) -> tuple[float, float]:
+    """Where a world point is in the window."""
+    at = scope(d)
+    size = max(1, round(at.extent.x)), max(1, round(at.extent.y))
+    found = OutsideScreen(at.shown, size).spot(np.asarray(point, float))
+    assert found is not None
+    return at.origin.x + float(found[0][0]), at.origin.y + float(found[0][1])
+
+
+def empty_place(d: Driver) -> tuple[float, float]:
+    """Over the view, and neither over the image plane nor a tool."""
+    at = scope(d)
+    return at.origin.x + 0.62 * at.extent.x, at.origin.y + 0.85 * at.extent.y
+
+
+def press(d: Driver, name: str) -> None:
+    d.ctx.item_click(f"//###{OUTSIDE}/{name}##outside")
+    d.ctx.yield_(2)
+
+
+def strokes(d: Driver, name: str) -> list[Strokes]:
+    return [p for p in view(d).primitives if isinstance(p, Strokes) and p.name == name]
+
+
+def rect(d: Driver) -> tuple[float, float, float, float]:
+    box = d.ctx.item_info(IMAGE).rect_full
+    assert box.max.x <= SIZE[0]
+    return box.min.x, box.min.y, box.max.x, box.max.y

@@ -1,0 +1,60 @@
+"""What the image windows show, pixel by pixel, and their menu: for several topics of drives."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+import numpy as np
+from window_driver import Driver, Key
+
+from app.images.placement import Placement
+from app.pair.view import RASTER
+from renderer.images.display import picture
+
+ALT, CTRL, SHIFT = int(Key.mod_alt), int(Key.mod_ctrl), int(Key.mod_shift)
+MENU = "//##MainMenuBar/Image"
+
+
+def choose(d: Driver, path: str) -> None:
+    d.ctx.menu_click(f"{MENU}/{path}")
+    d.settle()
+
+
+def placement(d: Driver, name: str = RASTER) -> Placement:
+    both = d.window.renderers
+    return both.placed(d.window.state.images, both.common_room(both.panes_px[name]))
+
+
+def without_overlays(image: np.ndarray) -> np.ndarray:
+    """The middle of an image, where no legend, badge or ruler is."""
+    height, width = image.shape[:2]
+    return image[height // 4 : -height // 3, width // 4 : -width // 4]
+
+
+def pixels(d: Driver, name: str, channel: str) -> np.ndarray:
+    """What the middle of a fitted image must show: its own channel, as saved pictures have it."""
+    request = d.window.renderers.agreement.pair
+    assert request is not None
+    frame = request[1 if name == RASTER else 2]
+    return without_overlays(picture(frame, channel).astype(np.int16))
+
+
+def magnified(d: Driver, name: str, channel: str) -> np.ndarray:
+    """What is seen of an image whose pixels are magnified by a whole number."""
+    at, request = placement(d, name), d.window.renderers.agreement.pair
+    frame, factor = request[1 if name == RASTER else 2], round(at.magnification)
+    large = picture(frame, channel).repeat(factor, axis=0).repeat(factor, axis=1)
+    (left, top, right, bottom), (x, y) = at.visible, at.origin
+    return large[top - y : bottom - y, left - x : right - x].astype(np.int16)
+
+
+def counting(owner: object, name: str) -> Callable[[], int]:
+    """Counts the calls of a method from now on."""
+    method, calls = getattr(owner, name), []
+
+    def counted(*arguments: object) -> object:
+        calls.append(arguments)
+        return method(*arguments)
+
+    setattr(owner, name, counted)
+    return lambda: len(calls)
