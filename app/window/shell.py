@@ -166,7 +166,10 @@ class Shell:
         if self._keeper is not None:
             self._keeper.close(self._session(window))
 
-    def _session(self, window: Window) -> Session:
+    def _session(self, window: Window) -> Session | None:
+        """What to keep; None as long as what the window was to begin with is not there."""
+        if self.files.awaits_first:
+            return None
         state = window.state
         arrangement = replace(self.stage.arrangement(), parts=self.proportion.parts())
         return session_of(state, arrangement, window.view(LectureView).kept(state))
@@ -216,8 +219,9 @@ class Shell:
         if state is not self._kept or io.want_save_ini_settings or answered:
             self._kept, io.want_save_ini_settings = state, False
             keeper.mark()
-        if keeper.due():
-            keeper.save(self._session(window))
+        session = self._session(window) if keeper.due() else None
+        if session is not None:
+            keeper.save(session)
 
     def _view_in_use(self) -> str:
         stage = self.stage
