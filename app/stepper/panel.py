@@ -92,8 +92,8 @@ class RunTextures:
 class Shown:
     """How algorithms are shown. orders: those that stand beside one another; canvas: its pixels,
     (width, height). em_px: the size of type that was asked for, which the code follows; legible_px:
-    the least at which it is read; set_px: of the window's own, which stands round it. indexing: how pixels are counted in what stands beside
-    the code. in_julia: the code in Julia, too."""
+    the least at which it is read; set_px: of the window's own, which stands round it. indexing: how
+    pixels are counted in what stands beside the code. in_julia: the code in Julia, too."""
 
     orders: tuple[Order, ...]
     canvas: tuple[int, int]

@@ -62,6 +62,7 @@ class Shell:
         self._fonts = fonts
         self._keeper = keeper
         self._kept: AppState | None = None
+        self._asked = False  # whether something was typed into, in the last frame
         self._popup = False  # whether a popup was open at the end of the last frame
         self._failure: Exception | None = None  # the one whose message was closed
 
@@ -150,6 +151,14 @@ class Shell:
         self._messages(window)
         self.palette.draw(lambda: entries(window), self._fonts)
         self.toasts.draw()
+        self._hide_cursor(boxed or self.palette.open or self.files.dialog.is_open)
+
+    def _hide_cursor(self, asks: bool) -> None:
+        """What was typed into is gone: the keyboard's cursor, and the tooltip that it brings, would
+        be on something that nobody went to. It comes back with Tab and the arrow keys."""
+        if self._asked and not asks:
+            imgui.set_nav_cursor_visible(False)
+        self._asked = asks
 
     def note_popups(self) -> None:
         """Once a frame, at its end: ImGui closes a popup by Escape before the next one begins."""
