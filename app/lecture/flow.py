@@ -29,7 +29,7 @@ LEADING = 1.32  # from line to line
 PARAGRAPH = 0.62  # between blocks
 ITEM = 0.3  # between a list's items
 INDENT = 1.25  # of a list, at least
-CODE_SIZE = 0.92
+CODE_SIZE, SMALLEST_CODE = 0.92, 0.46
 SMALLEST_FORMULA = 0.6  # of a displayed formula that is wide, in parts of its usual size
 HEADING_SIZE = 1.25
 ASIDE = 0.8  # beside a question's text
@@ -180,10 +180,15 @@ class _Column:
         """Lines as they are; the size gives way where one is too long."""
         lines = text.splitlines() or [""]
         inset = 0.5 * self._size
-        size = CODE_SIZE * self._size
-        widest = max(self._measure(Piece(line, "code", size)).width for line in lines)
-        if widest > self._width - 2 * inset:
-            size *= max(0.5, (self._width - 2 * inset) / widest)
+        size, least = CODE_SIZE * self._size, SMALLEST_CODE * self._size
+        room = self._width - 2 * inset
+
+        def widest() -> float:
+            return max(self._measure(Piece(line, "code", size)).width for line in lines)
+
+        # Letters are whole pixels wide: a line is not narrower by what its type is smaller.
+        while (wide := widest()) > room + 0.01 and size > least:
+            size = max(least, size * min(0.98, room / wide))
         top = self.y
         self.y += inset
         for line in lines:

@@ -8,8 +8,7 @@ from __future__ import annotations
 from dataclasses import replace
 
 from app.lecture.model import Step
-from app.lecture.step_options import OWN
-from app.state.all_options import Options
+from app.lecture.step_options import own
 from app.state.app_state import AppState, is_orthonormal
 
 
@@ -19,8 +18,7 @@ def state_of(step: Step, base: AppState) -> AppState:
     base: the present state, of which only what is the user's own stays, the language of programs,
     and where in a lecture it is.
     """
-    kept = {name: getattr(base.options, name) for name in (*OWN, "language")}
-    options = replace(Options(), **kept, marked=step.pixel, highlight=step.highlight)
+    options = replace(own(base.options), marked=step.pixel, highlight=step.highlight)
     keep = is_orthonormal(step.view.camera)
     state = AppState(step.scene, step.view, keep, options, base.step)
     return state.with_options(**step.options)

@@ -6,7 +6,7 @@ lecture at once, within the bounds that stand on its field.
 
 from __future__ import annotations
 
-from dataclasses import fields, is_dataclass
+from dataclasses import fields, is_dataclass, replace
 from functools import lru_cache
 from typing import Any, get_args, get_type_hints
 
@@ -27,6 +27,11 @@ OWN = ("preferences", "bookmarks")  # the user's own, which no step changes
 ELSEWHERE = (*OWN, "marked", "highlight")  # what has a field of its own in a step
 
 NAMES = tuple(entry.name for entry in fields(Options) if entry.name not in ELSEWHERE)
+
+
+def own(options: Options) -> Options:
+    """What is the user's own, the rest as on the first day."""
+    return replace(Options(), **{name: getattr(options, name) for name in (*OWN, "language")})
 
 
 def options_from_table(tables: dict[str, Any]) -> dict[str, Any]:

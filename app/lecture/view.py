@@ -26,10 +26,9 @@ from app.lecture.reading import BUILTIN, load_lecture
 from app.lecture.session import LectureSession
 from app.lecture.slide import Sizes, Slides, sizes_of
 from app.lecture.states import state_of
-from app.lecture.step_options import OWN
+from app.lecture.step_options import own
 from app.lecture.text import Block, in_language, languages
 from app.lecture.typesetting import first_mistake
-from app.state.all_options import Options
 from app.state.app_state import AppState
 from app.storage.kept_lecture import KeptLecture
 from app.storage.session import source_of
@@ -120,8 +119,7 @@ class LectureView(DockedView):
         if self.session is None:
             return
         self.session, state = None, window.state
-        kept = {name: getattr(state.options, name) for name in (*OWN, "language")}
-        state = replace(state, options=replace(Options(), **kept), step=None)
+        state = replace(state, options=own(state.options), step=None)
         window.change(state.with_options(preferences={"presentation": False}))
         layout.switch(layout.LAYOUTS[0].name)
 

@@ -119,8 +119,6 @@ def _chip(name: str, color: ImVec4 | None, on: bool, tip: str) -> bool:
         draw.add_circle(spot, theme.px(4.5), theme.u32(theme.DIM if on else theme.PLAIN))
     text = ImVec2(at.x + dot + theme.px(6), middle - imgui.get_text_line_height() / 2)
     draw.add_text(text, theme.u32(theme.TEXT if on or color is None else theme.DIM), name)
-    if imgui.is_item_focused():
-        draw.add_rect(at, far, theme.u32(theme.ACCENT), theme.px(4))
     return bool(clicked)
 
 

@@ -21,9 +21,9 @@ Shown = tuple[Bytes, tuple[float, float, float]]  # a pixel's bytes, and its col
 
 
 def values_and_histogram(
-    pixel: Shown | None, found: Histogram | None, problem: str, fonts: theme.Fonts
+    pixel: Shown | None, found: Histogram | None, is_traced: bool, fonts: theme.Fonts
 ) -> None:
-    """Over the width of the window. problem: why there is no histogram."""
+    """Over the width of the window. is_traced: whether there is an image to have a histogram."""
     line, start = imgui.get_text_line_height(), imgui.get_cursor_screen_pos()
     width, high = imgui.get_content_region_avail().x, LINES * line
     draw = imgui.get_window_draw_list()
@@ -42,16 +42,14 @@ def values_and_histogram(
     imgui.dummy(ImVec2(left - start.x, high))
     end = imgui.get_cursor_screen_pos()
     size = ImVec2(start.x + width - left, high)
-    if size.x > 4 * line:
+    if is_traced and size.x > 4 * line:
         imgui.set_cursor_screen_pos(ImVec2(left, start.y))
-        _plot(found, pixel[0] if pixel is not None else None, problem, size, fonts)
+        _plot(found, pixel[0] if pixel is not None else None, size, fonts)
         imgui.set_cursor_screen_pos(end)
         imgui.dummy(ImVec2(0, 0))
 
 
-def _plot(
-    found: Histogram | None, pixel: Bytes | None, problem: str, size: ImVec2, fonts: theme.Fonts
-) -> None:
+def _plot(found: Histogram | None, pixel: Bytes | None, size: ImVec2, fonts: theme.Fonts) -> None:
     """The three channels over one another, the pixel's own values as lines, and an axis."""
     low, draw = imgui.get_cursor_screen_pos(), imgui.get_window_draw_list()
     axis = AXIS * imgui.get_font_size()
@@ -59,7 +57,7 @@ def _plot(
     high = ImVec2(low.x + graph.x, low.y + graph.y)
     draw.add_rect(low, high, theme.u32(theme.PLAIN))
     if found is None:
-        draw.add_text(ImVec2(low.x + 0.4 * axis, low.y + 0.4 * axis), theme.u32(theme.DIM), problem)
+        draw.add_text(ImVec2(low.x + 0.4 * axis, low.y + 0.4 * axis), theme.u32(theme.DIM), "...")
         return
     imgui.push_style_var(imgui.StyleVar_.frame_padding, ImVec2(0, 0))
     imgui.push_style_color(imgui.Col_.frame_bg, ImVec4(0, 0, 0, 0))

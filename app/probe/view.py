@@ -104,9 +104,9 @@ class ProbeView(DockedView):
         pins = self._pins(host, size)
         if pins:
             host.apply(panel.pin_row(host.state, pins, pixel))
-        problem = self._count(host)
+        is_traced = self._count(host)
         shown = (reading.bytes, reading.display) if reading is not None else None
-        values_and_histogram(shown, self.histogram, problem, host.fonts)
+        values_and_histogram(shown, self.histogram, is_traced, host.fonts)
         imgui.separator()
         imgui.begin_child("reading")
         if self._error:
@@ -135,9 +135,9 @@ class ProbeView(DockedView):
             self._wanted, scene = state.scene, state.scene
             self._making.submit(lambda: Probe(scene))
 
-    def _count(self, host: Host) -> str:
+    def _count(self, host: Host) -> bool:
         """Follows the ray image with its histogram, counted in the background once an image; gives
-        why there is none. While an image is on its way, the one before is shown."""
+        whether one is shown. While an image is on its way, the histogram before is shown."""
         assert self._counting is not None
         both, images = host.renderers, host.state.images
         outcome = self._counting.poll()
@@ -145,13 +145,13 @@ class ProbeView(DockedView):
             self.histogram = outcome.value
         if not both.is_tracing:
             self.histogram = self._counted = None
-            return "histogram: only while the ray image is shown"
+            return False
         image = both.ray_image
         key = (image, images.exposure_ev, images.transfer)
         if image is not None and image.factor == 1 and key != self._counted:
             self._counted, color = key, image.frame.channel("color")
             self._counting.submit(lambda: histogram(color, images))
-        return "..."
+        return True
 
     def _pixel(self, host: Host, size: Size) -> Pixel | None:
         """The marked pixel, else the one under the mouse."""

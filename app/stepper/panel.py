@@ -65,7 +65,6 @@ TITLES = {
 }
 WANTED_EM = 1.25  # of the code
 LEAST_PX = 11.0  # of the code, at 100 %, unless the width forbids it
-LEGIBLE = 1 / 44  # of code and numbers, in parts of the window's height: 12 of a slide's 540 points
 SLIDER_EM = 14.0  # the least width of the slider beside a title
 RUNNING = f"Python, counts {Indexing.ARRAY.told}"
 
@@ -92,13 +91,14 @@ class RunTextures:
 @dataclass(frozen=True)
 class Shown:
     """How algorithms are shown. orders: those that stand beside one another; canvas: its pixels,
-    (width, height). em_px: the size of type that was asked for, which the code follows; set_px: of
-    the window's own, which stands round it. indexing: how pixels are counted in what stands beside
-    the code. in_julia: the code in Julia, too."""
+    (width, height). em_px: the size of type that was asked for, which the code follows; legible_px:
+    the least at which it is read; set_px: of the window's own, which stands round it. indexing: how
+    pixels are counted in what stands beside the code. in_julia: the code in Julia, too."""
 
     orders: tuple[Order, ...]
     canvas: tuple[int, int]
     em_px: float
+    legible_px: float
     set_px: float
     indexing: Indexing
     in_julia: bool
@@ -235,18 +235,19 @@ def run_panel(
     shown: Shown,
 ) -> Answer:
     """Code, canvas, variables and counters, in a room."""
+    notes = [] if shown.in_julia else [RUNNING]  # the listings say it
+    if recording.order is Order.RASTER and len(recording.model.flat.spheres):
+        notes.append("spheres by rays, first")  # which have no triangles
+    note = "; ".join(notes)
     imgui.push_font(fonts.bold, 0.0)
     title = TITLES[recording.order]
-    if imgui.calc_text_size(title).x > room.x:
+    beside = imgui.calc_text_size(note).x + imgui.get_style().item_spacing.x
+    if imgui.calc_text_size(title).x + beside > room.x:  # a row is worth more than its words
         title = title.partition(":")[0]
     imgui.align_text_to_frame_padding()
     imgui.text(title)
     imgui.pop_font()
-    notes = [] if shown.in_julia else [RUNNING]  # the listings say it
-    if recording.order is Order.RASTER and len(recording.model.flat.spheres):
-        notes.append("spheres by rays, first")  # which have no triangles
-    if notes:
-        note = "; ".join(notes)
+    if note:
         follow(imgui.calc_text_size(note).x)
         imgui.align_text_to_frame_padding()
         imgui.text_colored(theme.DIM, note)
@@ -287,7 +288,7 @@ def _need(shown: Shown) -> Need:
         has_depth=any(order.has_depth for order in shown.orders),
         em_px=imgui.get_font_size(),
         wanted_px=WANTED_EM * shown.em_px,
-        legible_px=LEGIBLE * imgui.get_io().display_size.y,
+        legible_px=shown.legible_px,
         least_px=LEAST_PX * imgui.get_style().font_scale_dpi,
         short=max(SHORT, *(3 + sum(name not in TEXTS for name in one) for one in names)),
         long=max(LONG, *(1 + sum(name in TEXTS for name in one) for one in names)),  # one wraps

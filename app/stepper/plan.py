@@ -21,10 +21,11 @@ NEXT_EM = 9.0  # and of the columns beside it, whose names are of a letter or tw
 TEXTS_EM = 17.0  # of a line of text below the columns
 SHORT, LONG, ROW_EM = 9, 4, 1.18  # how many numbers, and texts, at least; the height of one
 BETWEEN_EM = 0.7  # numbers and texts
-WANTED_CANVAS = 0.44  # of the room's height
+WANTED_CANVAS = 0.5  # of the room's height
 LEAST_CANVAS = 0.22  # below that it shows too little
-WEIGHTS = (3.5, 2.4, 2.4)  # code, canvas, numbers
+WEIGHTS = (3.0, 4.0, 2.4)  # code, canvas, numbers
 UNREAD = 12.0  # the weight of what each of them lacks to be read at all
+YIELDS = 0.8  # where larger code is wanted: the power at which numbers are, too
 ENOUGH = 1.3  # of the numbers' type, in parts of what is legible
 GROWS = 0.1  # of legible code: the power of the type, the rest of which has less room
 WANTED = 1.35  # of the code, in parts of what is legible, at the usual size of type
@@ -67,7 +68,7 @@ class StepperPlan:
 class Need:
     """What is to be shown. longest: letters of the code's longest line; lines: of the code.
     canvas: its pixels, (width, height). em_px: the size of the type round it; wanted_px: of the
-    code; legible_px: of code and numbers, at which they are read from afar; least_px: of the code,
+    code; legible_px: of code and numbers, at which they are read; least_px: of the code,
     at which rather a part of it is shown. short, long: how many numbers there are, and texts."""
 
     longest: int
@@ -150,6 +151,10 @@ def _plans(room: Size, need: Need) -> Iterator[StepperPlan]:
             canvases = Place(0, top, part * width, rest)
             numbers = Place(part * width + gap, top, (1 - part) * width - gap, rest)
             yield _with(code, code_px, canvases, numbers, need)
+        for part in (0.35, 0.4, 0.45, 0.5, 0.55, 0.6, 0.65):  # each over all of the width
+            canvases = Place(0, top, width, part * rest)
+            numbers = Place(0, top + part * rest + gap, width, (1 - part) * rest - gap)
+            yield _with(code, code_px, canvases, numbers, need)
 
 
 def _sizes(room: Size, need: Need) -> Iterator[tuple[float, float]]:
@@ -197,7 +202,8 @@ def _worth(made: StepperPlan, room: Size, need: Need) -> float:
         min(made.numbers_px / need.legible_px, 1.0),
     )
     # Logarithms: what is small costs more than what is large gains.
-    weights = (WEIGHTS[0] * more**2, *WEIGHTS[1:], *[UNREAD * more, 0.5 * UNREAD, UNREAD * more])
+    unread = UNREAD * more, 0.5 * UNREAD, UNREAD * more**YIELDS
+    weights = (WEIGHTS[0] * more**2, *WEIGHTS[1:], *unread)
     return sum(w * math.log(max(part, 1e-3)) for w, part in zip(weights, parts, strict=True))
 
 

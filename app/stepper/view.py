@@ -37,6 +37,10 @@ from renderer.scene.model import Sphere
 
 STEPPER = "Stepper"
 LEAST_PX = 13.0  # of type, at 100 %
+# Code and numbers that are read, in parts of the window's height: at a desk, from the last row,
+# where it is 12 of a slide's 540 points.
+AT_DESK, LEGIBLE = 1 / 60, 1 / 44
+LARGER = 1.05  # at a desk, where larger type was asked for: what stands round takes the room, too
 LINES = 40  # of the type round the code that the view has room for, at least
 LONGEST_FRAME_S = 0.25  # what a frame that took longer is taken for
 _EDGES = ((0, 1), (0, 2), (0, 4), (1, 3), (1, 5), (2, 3), (2, 6), (3, 7), (4, 5), (4, 6), (5, 7),
@@ -52,7 +56,8 @@ class StepperView(DockedView):
         self._runs: Runs | None = None
         self._uploads: Uploads | None = None
         self.playing = self._seen = False
-        self._em_px = self._set_px = 0.0  # the size of type that was asked for, of the window's own
+        # Sizes of type: that was asked for; the least that is read; the window's own.
+        self._em_px = self._legible_px = self._set_px = 0.0
         self._before_s = 0.0  # when the last frame of playing was
         self._owed = 0.0  # parts of a step that have not been taken
         self._drawn: dict[Order, Any] = {}  # what the textures were made from
@@ -91,9 +96,12 @@ class StepperView(DockedView):
 
     def draw(self, host: Host) -> None:
         """What stands round the code gives way to it where type is large."""
-        asked_px = theme.PRESENTED * imgui.get_io().display_size.y
-        self._set_px = imgui.get_font_size()
-        self._em_px = max(self._set_px, host.state.preferences.font_scale * asked_px)
+        preferences, height = host.state.preferences, imgui.get_io().display_size.y
+        self._em_px = self._set_px = imgui.get_font_size()
+        self._legible_px = AT_DESK * height * min(preferences.font_scale, LARGER)
+        if preferences.presentation:  # from the last row
+            self._em_px = max(self._set_px, preferences.font_scale * theme.PRESENTED * height)
+            self._legible_px = LEGIBLE * height
         least = LEAST_PX * imgui.get_style().font_scale_dpi
         with at_most(max(least, imgui.get_content_region_avail().y / LINES)):
             self._draw(host)
@@ -196,8 +204,8 @@ class StepperView(DockedView):
         )
         state = host.state
         shown = panel.Shown(
-            tuple(orders), state.of(StepperOptions).canvas, self._em_px, self._set_px,
-            state.options.indexing, state.options.language == "julia",
+            tuple(orders), state.of(StepperOptions).canvas, self._em_px, self._legible_px,
+            self._set_px, state.options.indexing, state.options.language == "julia",
         )  # fmt: skip
         self.moments = {}
         wanted = list(steps)

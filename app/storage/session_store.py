@@ -156,12 +156,12 @@ class Keeper:
         if data != self._saved:
             self._saving.submit(lambda: self._write(data))
 
-    def close(self, session: Session) -> None:
-        """Saves at once, and gives the place back."""
+    def close(self, session: Session | None) -> None:
+        """Saves at once, and gives the place back. None: what was saved last stays."""
         self._saving.close(5.0)
-        data = to_bytes(session)
+        data = to_bytes(session) if session is not None else self._saved
         with contextlib.suppress(LucidaError):
-            if data != self._saved:
+            if data is not None and data != self._saved:
                 self._place.save(data)
         self._place.release()
 

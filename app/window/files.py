@@ -77,6 +77,7 @@ class Files:
         self._source = ""
         self._again: Callable[[frozenset[Path]], None] = lambda more: None  # loads with consent
         self._began_s = 0.0
+        self._is_first = False
         self.dialog = FileDialog(wake)
         self.recent = RecentFiles(folder, wake)
         self.message = ""
@@ -112,6 +113,12 @@ class Files:
     def open_later(self, source: str, load: Callable[[], Opened]) -> None:
         """Loads what the window was to begin with. load: does it, in the background."""
         self._load(source, lambda _: load())
+        self._is_first = True
+
+    @property
+    def awaits_first(self) -> bool:
+        """Whether what the window was to begin with is still being loaded."""
+        return self._is_first and self._loading.busy
 
     def follow(self, scene: Scene) -> bool:
         """Once a frame: reads the shown scene again when its files were saved; poll() has it then.
@@ -262,7 +269,7 @@ class Files:
 
     def _load(self, source: str, load: Load, agreed: frozenset[Path] = frozenset()) -> None:
         self.cancel()  # the newest wins, and does not wait for what takes long
-        self.message, self.outside = "", None
+        self.message, self.outside, self._is_first = "", None, False
         self._again = lambda more: self._load(source, load, agreed | more)
         self._source = one_line(Path(source).name)
         self._began_s = time.monotonic()

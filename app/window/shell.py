@@ -62,6 +62,7 @@ class Shell:
         self._fonts = fonts
         self._keeper = keeper
         self._kept: AppState | None = None
+        self._asked = False  # whether something was typed into, in the last frame
         self._popup = False  # whether a popup was open at the end of the last frame
         self._failure: Exception | None = None  # the one whose message was closed
 
@@ -150,6 +151,14 @@ class Shell:
         self._messages(window)
         self.palette.draw(lambda: entries(window), self._fonts)
         self.toasts.draw()
+        self._hide_cursor(boxed or self.palette.open or self.files.dialog.is_open)
+
+    def _hide_cursor(self, asks: bool) -> None:
+        """What was typed into is gone: the keyboard's cursor, and the tooltip that it brings, would
+        be on something that nobody went to. It comes back with Tab and the arrow keys."""
+        if self._asked and not asks:
+            imgui.set_nav_cursor_visible(False)
+        self._asked = asks
 
     def note_popups(self) -> None:
         """Once a frame, at its end: ImGui closes a popup by Escape before the next one begins."""
@@ -166,7 +175,10 @@ class Shell:
         if self._keeper is not None:
             self._keeper.close(self._session(window))
 
-    def _session(self, window: Window) -> Session:
+    def _session(self, window: Window) -> Session | None:
+        """What to keep; None as long as what the window was to begin with is not there."""
+        if self.files.awaits_first:
+            return None
         state = window.state
         arrangement = replace(self.stage.arrangement(), parts=self.proportion.parts())
         return session_of(state, arrangement, window.view(LectureView).kept(state))
@@ -216,8 +228,9 @@ class Shell:
         if state is not self._kept or io.want_save_ini_settings or answered:
             self._kept, io.want_save_ini_settings = state, False
             keeper.mark()
-        if keeper.due():
-            keeper.save(self._session(window))
+        session = self._session(window) if keeper.due() else None
+        if session is not None:
+            keeper.save(session)
 
     def _view_in_use(self) -> str:
         stage = self.stage

@@ -16,6 +16,7 @@ from imgui_bundle import hello_imgui
 from app.lecture.model import Lecture
 from app.lecture.session import LectureSession
 from app.lecture.states import state_of
+from app.lecture.step_options import own
 from app.state.all_options import Options
 from app.state.app_state import AppState
 from app.storage.kept_lecture import KeptLecture
@@ -107,16 +108,31 @@ def begin_session(fresh: bool = False, folder: Path | None = None) -> Start:
     return replace(start, keeper=keeper, lecture=lecture, message=both)
 
 
+def kept(start: Start, fresh: bool = False, folder: Path | None = None) -> Start:
+    """A scene that the command line named is the session from now on. What is the user's own in the
+    last one stays, at a desk; the rest ends. fresh, folder: as in begin_session."""
+    options, keeper, message = _in_place(fresh, folder)
+    state = replace(start.state, options=own(options))
+    state = state.with_options(preferences={"presentation": False})
+    return replace(start, state=state, keeper=keeper, message=message, fresh=fresh)
+
+
 def begin_lecture(lecture: Lecture, number: int = 0, folder: Path | None = None) -> Start:
     """A lecture at a step, which is kept as the session. What is the user's own in the last session
     stays; the rest ends, as the last session does when another scene is opened."""
+    options, keeper, message = _in_place(False, folder)
+    return Start(first_state(lecture, number, options), keeper=keeper, message=message)
+
+
+def _in_place(fresh: bool, folder: Path | None) -> tuple[Options, Keeper | None, str]:
+    """A place for another session, and what to take from the one that was there: its options, and
+    what the user is told about it."""
     place = take_place(folder)
     if place is None:
-        return Start(first_state(lecture, number))
-    found = place.load()
-    own = found.session.options if found.session is not None else Options()
-    keeper = Keeper(place, hello_imgui.request_refresh)
-    return Start(first_state(lecture, number, own), keeper=keeper, message=found.message)
+        return Options(), None, ""
+    found = Found() if fresh else place.load()
+    options = found.session.options if found.session is not None else Options()
+    return options, Keeper(place, hello_imgui.request_refresh), found.message
 
 
 def first_state(lecture: Lecture, number: int = 0, options: Options | None = None) -> AppState:
@@ -148,7 +164,7 @@ def _lecture(kept: KeptLecture | None) -> tuple[LectureSession | None, str]:
 
 
 def _gone_on(session: Session, lecture: LectureSession | None) -> Start:
-    """The session's scene, or what is shown instead."""
+    """The session's scene; instead of one that cannot be read, or not yet, a scene of its own."""
     if lecture is not None and session.lecture is not None and session.lecture.in_step:
         state = replace(session.state(lecture.step.scene), step=lecture.place)
         return Start(state, session)
@@ -161,8 +177,9 @@ def _gone_on(session: Session, lecture: LectureSession | None) -> Start:
         return Start(session.state(scene), session)
     view = session.view
     later = None if message else Later(session.source, lambda _: view)
-    default = load_scene(BUILTIN_SCENES[0])
-    return Start(session.state(default), session, message=message, later=later)
+    default = load_scene(BUILTIN_SCENES[0])  # of which the session's camera may see nothing
+    state = replace(session.state(default), view=default.view)
+    return Start(state, session, message=message, later=later)
 
 
 class _LargeModelError(Exception):

@@ -38,7 +38,7 @@ from app.window.platform import (
     start_platform,
 )
 from app.window.signals import ended_by_signals
-from app.window.start import Start, begin_scene, begin_session
+from app.window.start import Start, begin_scene, begin_session, kept
 from renderer import compile_note
 from renderer.atomic import atomic_write, check_writable
 from renderer.errors import LucidaError
@@ -64,7 +64,8 @@ def run_viewer(
 ) -> int:
     """Opens the window on a scene and returns when it is closed; gives the exit status.
 
-    Without a scene, a view, a screenshot and `fresh`, the last session is gone on with.
+    Without a scene, a view, a screenshot and `fresh`, the last session is gone on with; a scene or
+    a view that is given is the session from then on.
     screenshot: draw the whole window once, with both images complete, save it there as PNG, and
     return. With no display that is done in any case, into lucida.png, or lucida-2.png where there
     is one, and one line says so. size: the window's (width, height). view: a view file. change:
@@ -77,7 +78,9 @@ def run_viewer(
     platform, picture = start_drawing(screenshot, "the window")
     if start is None:
         start = begin_session(fresh) if picture is None else begin_scene()
-    elif start.later is not None and picture is not None:
+    elif picture is None:
+        start = kept(start, fresh)
+    elif start.later is not None:
         start = begin_scene(scene_source, view, change, wait=True)
     run = Run(platform, start.state, size or DEFAULT_SIZE, picture is not None, start=start)
     return run.to_the_end(picture, tell=screenshot is None)

@@ -173,6 +173,22 @@ def test_code_is_made_smaller_rather_than_broken():
     assert placed.piece.size < 10
 
 
+def test_code_with_letters_of_whole_pixels_keeps_no_text_small():
+    """Its type gives way until its lines do; not the text above it, which has room."""
+
+    def in_pixels(piece: Piece) -> PieceSize:
+        one = measure(piece)
+        wide = len(piece.text) * round(0.5 * piece.size) if piece.style == "code" else one.width
+        return PieceSize(wide, one.ascent, one.descent)
+
+    blocks = parse("Large.\n\n```\n" + 40 * "x" + "\n```")
+    for width in range(230, 400, 10):
+        result, size = fitted(blocks, (width, 1000), (5, 20), in_pixels)
+        assert size == 20, width
+        code = [placed for placed in result.pieces if placed.kind == "code"]
+        assert all(placed.x + in_pixels(placed.piece).width <= width for placed in code)
+
+
 def test_texts_are_as_large_as_they_fit():
     blocks = parse("one two three four five six seven eight nine ten " * 3)
     roomy, size = fitted(blocks, (200, 400), (5, 20), measure)

@@ -57,6 +57,23 @@ def drive_the_palette_does_what_is_typed(d: Driver) -> None:
     assert not palette.open
 
 
+def drive_what_was_typed_into_leaves_no_cursor(d: Driver) -> None:
+    """ImGui's frame and a tooltip would stand on what nobody went to, over a picture, until the
+    next key; F3 and the arrows bring them back."""
+    context = imgui.get_current_context()
+    for opening, typed in ((CTRL | SHIFT | int(Key.p), "maximise"), (CTRL | int(Key.g), "12")):
+        for leaving in (int(Key.enter), int(Key.escape)):
+            press(d, opening)
+            assert context.nav_cursor_visible
+            d.ctx.key_chars(typed)
+            d.ctx.yield_(2)
+            press(d, leaving)
+            d.ctx.yield_(3)
+            assert not context.nav_cursor_visible, (typed, leaving)
+    press(d, int(Key.tab))
+    assert context.nav_cursor_visible
+
+
 def drive_the_sheet_fits_the_window_at_every_size_of_type(d: Driver) -> None:
     for scale in (1.0, 3.0):
         d.window.change(d.window.state.with_options(preferences={"font_scale": scale}))

@@ -97,6 +97,20 @@ def drive_the_legend_switches(d: Driver) -> None:
     assert window.state.options.outside.bundle == (0, 0)
 
 
+def drive_a_switch_that_was_clicked_looks_like_the_others(d: Driver) -> None:
+    """Another one has been thrown last in each picture: a ring would say nothing, and be gone after
+    the next start."""
+    enter(d)
+    seen = []
+    for name in ("ray", "grid"):
+        press(d, name)
+        press(d, name)
+        d.ctx.mouse_teleport_to_pos((3, SIZE[1] - 3))
+        d.settle()
+        seen.append(d.picture()[: -SIZE[1] // 10])  # without the status line, which tells times
+    assert np.array_equal(*seen)
+
+
 def drive_nothing_is_drawn_anew_while_nothing_changes(d: Driver) -> None:
     enter(d)
     d.until(lambda: view(d).settled)

@@ -13,6 +13,7 @@ from app.host import layout
 from app.outside.projected import Strokes
 from app.outside.view import OUTSIDE, OutsideView
 from app.pair.view import RAY
+from app.probe import histogram as histogram_look
 from app.probe import view as probe_view
 from app.probe.formulas import ray_lines
 from app.probe.model import Probe
@@ -279,8 +280,18 @@ def drive_the_histogram_is_of_the_image_that_is_shown(d: Driver) -> None:
     finally:
         probe_view.histogram = real
     # No ray image in sight: the histogram of one that is gone is not shown.
-    d.window.shell.stage.show(RAY, False)
-    d.ctx.yield_(4)
+    plotted, plot = [], histogram_look._plot
+    histogram_look._plot = lambda *arguments: plotted.append(plot(*arguments))
+    try:
+        d.ctx.yield_(4)
+        assert plotted
+        d.window.shell.stage.show(RAY, False)
+        d.ctx.yield_(4)
+        plotted.clear()
+        d.ctx.yield_(2)
+        assert not plotted, "an empty box"
+    finally:
+        histogram_look._plot = plot
     assert view(d).histogram is None
     d.window.shell.stage.show(RAY)
     d.settle()

@@ -11,9 +11,12 @@ from window_driver import Driver, Key
 from app.host import layout
 from app.outside.projected import Strokes
 from app.outside.view import OUTSIDE, OutsideView
+from app.stepper import panel
 from app.stepper.model import Moment
+from app.stepper.plan import Need, Size, StepperPlan, canvases_in
 from app.stepper.recording import Order
 from app.stepper.view import STEPPER, StepperView
+from app.widgets.code import LINE
 from app.window.palette_entries import entries
 from app.window.shortcut_sheet import sections
 from renderer.images.display import encode_srgb
@@ -235,4 +238,26 @@ def drive_the_same_lines_stand_beside_it_in_julia(d: Driver) -> None:
     assert d.window.state.options.language == "python"
     d.window.undo()
     assert d.window.state.options.language == "julia"
+    leave(d)
+
+
+def drive_at_a_desk_the_canvases_have_room_beside_the_code(d: Driver) -> None:
+    """Where it is read from a chair, the code is not as large as from the last row."""
+    made, good = [], panel.plan
+
+    def told(room: Size, need: Need) -> StepperPlan:
+        made.append((good(room, need), need))
+        return made[-1][0]
+
+    panel.plan = told
+    try:
+        enter(d, form="triangles", steps=(40, 40), canvas=(16, 12), order="object")
+    finally:
+        panel.plan = good
+    now, need = made[-1]
+    assert now.code.height >= need.lines * LINE * now.code_px  # no line is cut off
+    assert min(now.code_px, now.numbers_px) > 0.95 * need.legible_px
+    together = now.depth is None
+    first, _, _ = canvases_in(now.canvases.size, (16, 12), together, 20.0, (6.0, 4.0))
+    assert min(first[0] / 16, first[1] / 12) > 15.0, now  # of a canvas's pixel
     leave(d)

@@ -95,7 +95,8 @@ def test_a_scene_that_is_gone_is_told_and_the_rest_comes_back(tmp_path, state):
     (tmp_path / "scene.toml").unlink()
     start = begin_session(folder=tmp_path)
     assert "scene.toml" in start.message
-    assert start.state.view == state.view
+    assert start.state.scene.name == "still life"
+    assert start.state.view == start.state.scene.view  # the session's saw another scene
     assert start.state.options == state.options
     assert start.keeper is not None
     start.keeper.close(session_of(start.state, Arrangement()))

@@ -111,6 +111,8 @@ VIEWS = [replace(entry, also=SYNONYMS.get(entry.name[6:], "")) for entry in VIEW
         ("gamma", "Linear light without sRGB's curve"),
         ("shortcuts", "Mouse and keys"),
         ("font", "Larger type"),
+        ("count from", "Pixels from 1 (lecture)"),
+        ("indices", "Pixels from 0 (arrays)"),
         ("undo", "Undo"),
         ("depth", "Depth"),
     ],

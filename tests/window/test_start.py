@@ -7,10 +7,11 @@ from pathlib import Path
 
 import pytest
 
+from app.state.all_options import Options
 from app.storage.session import Arrangement, session_of
 from app.storage.session_store import Keeper, take_place
 from app.window import start
-from app.window.start import begin_scene, begin_session
+from app.window.start import begin_scene, begin_session, kept
 from renderer.errors import LucidaError
 from renderer.scene import load_scene, save_view
 
@@ -89,3 +90,45 @@ def test_a_session_of_a_large_model_goes_on_once_that_is_read(tmp_path, model):
     assert opened.view == view
     assert begun.keeper is not None
     begun.keeper.close(session_of(kept, Arrangement()))
+
+
+def test_a_named_scene_is_the_session_from_then_on_with_the_user_s_own_settings(tmp_path):
+    before = begin_session(folder=tmp_path)
+    state = before.state.with_options(
+        preferences={"theme": "light", "presentation": True}, language="julia", shadows=True
+    )
+    assert before.keeper is not None
+    before.keeper.close(session_of(state, Arrangement()))
+    (tmp_path / "small.obj").write_text(TRIANGLE)
+    begun = kept(begin_scene(str(tmp_path / "small.obj")), folder=tmp_path)
+    options = begun.state.options
+    assert (options.preferences.theme, options.language) == ("light", "julia")
+    assert not options.preferences.presentation
+    assert not options.shadows  # which belonged to the scene before
+    assert begun.keeper is not None
+    moved = begun.state.with_camera(replace(begun.state.camera, eye=(3.0, 4.0, 5.0)))
+    begun.keeper.close(session_of(moved, Arrangement()))
+    again = begin_session(folder=tmp_path)
+    assert again.keeper is not None
+    again.keeper.close(None)
+    assert again.state.scene.name == "small"
+    assert again.state.camera.eye == (3.0, 4.0, 5.0)
+    (tmp_path / "small.obj").unlink()
+    gone = begin_session(folder=tmp_path)
+    assert gone.message.count("\n") == 0
+    assert "small.obj" in gone.message
+    assert gone.state.view == load_scene("still-life").view
+    assert gone.keeper is not None
+    gone.keeper.close(None)
+
+
+def test_fresh_takes_nothing_for_a_named_scene(tmp_path):
+    before = begin_session(folder=tmp_path)
+    assert before.keeper is not None
+    light = before.state.with_options(preferences={"theme": "light"})
+    before.keeper.close(session_of(light, Arrangement()))
+    begun = kept(begin_scene("canonical"), fresh=True, folder=tmp_path)
+    assert begun.keeper is not None
+    begun.keeper.close(None)
+    assert begun.fresh  # the window's layout, too
+    assert begun.state.options == Options()

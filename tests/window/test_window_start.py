@@ -10,6 +10,9 @@ import pytest
 from PIL import Image
 from test_window import LIMIT_S, run
 
+from app.storage.session import Arrangement, session_of, to_bytes
+from app.storage.session_store import take_place
+from app.window.start import begin_scene
 from renderer.scene.subprocess_reader import is_large
 
 pytestmark = pytest.mark.timeout(LIMIT_S + 60)
@@ -154,3 +157,44 @@ run.run()
     done = run(["-c", script], tmp_path)
     assert done.returncode == 0, done.stderr
     assert int(done.stdout.split()[-1]) > 0, "the model was read before the first frame"
+
+
+def test_a_window_that_ends_before_its_scene_is_read_leaves_the_session(tmp_path: Path) -> None:
+    """What it shows meanwhile is not what was open."""
+    script = """
+import threading
+from pathlib import Path
+from app.window import start as starting
+from app.window import viewer
+from app.window.platform import start_platform
+
+folder = Path.cwd()
+viewer.settings_file = lambda fresh=False: folder / "window.ini"
+viewer._folder = lambda: folder
+starting.is_large = lambda path: True
+starting.Later.open = lambda self: threading.Event().wait()  # for ever
+start = starting.begin_session(folder=folder)
+assert start.later is not None
+run = viewer.Run(start_platform(want_display=False), start.state, (900, 600), start=start)
+frames = iter(range(10**9))
+
+def step():
+    frame = next(frames)
+    if frame == 5:
+        window = run.window
+        window.change(window.state.with_options(shadows=True))
+    run.params.app_shall_exit = frame == 20
+
+run.params.callbacks.post_new_frame = step
+run.params.fps_idling.enable_idling = False
+run.run()
+"""
+    (tmp_path / "model.obj").write_text("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n")
+    place = take_place(tmp_path)
+    assert place is not None
+    kept = to_bytes(session_of(begin_scene(str(tmp_path / "model.obj")).state, Arrangement()))
+    place.save(kept)
+    place.release()
+    done = run(["-c", script], tmp_path)
+    assert done.returncode == 0, done.stderr
+    assert place.path.read_bytes() == kept
