@@ -55,6 +55,7 @@ FLOORS = (
     "app.instruments",
     "app.state",
     "app.explaining",
+    "app.checking",
     "app.widgets",
     "app.cameras",
     "app.storage",
