@@ -1,0 +1,200 @@
+"""From the pixel to (x, y) on the image plane: the two lines, and what goes wrong in them."""
+
+from __future__ import annotations
+
+from app.checking.mistakes.program import CodeLine, Mistake
+from renderer.pixels import Indexing
+
+PART = "From pixel to ray"
+FISHEYE = "Straight lines stay straight: equal steps on the image plane, not equal angles."
+
+
+def pixel_lines(words: frozenset[str], indexing: Indexing, from_top: bool) -> list[CodeLine]:
+    """x and y from i, j, or from what a task calls x01, y01 in [0, 1], x11, y11 in [-1, 1]."""
+    across, down = _parts(words, indexing)
+    return [CodeLine("x", _x(across)), CodeLine("y", _y(down, from_top))]
+
+
+def pixel_mistakes(
+    words: frozenset[str], indexing: Indexing, from_top: bool, distance: str
+) -> list[Mistake]:
+    """distance: what stands for it; empty in parallel projection, where there are no angles."""
+    across, down = _parts(words, indexing)
+    made = _flips(across, down, from_top)
+    if "i" in words:
+        made += _centres(indexing, from_top) + _exchanges(indexing, from_top)
+    else:
+        made += _in_units(words, from_top)
+    return made + _angles(across, down, from_top, distance) if distance else made
+
+
+def _parts(words: frozenset[str], indexing: Indexing) -> tuple[str, str]:
+    """How far the pixel is across the image, and how far along its rows."""
+    if "i" in words:
+        return f"(j {indexing.offset}) / width", f"(i {indexing.offset}) / height"
+    return ("x01", "y01") if "x01" in words else ("(x11 + 1) / 2", "(y11 + 1) / 2")
+
+
+def _x(part: str) -> str:
+    return f"x = left + {part} * (right - left)"
+
+
+def _y(part: str, from_top: bool) -> str:
+    """Of rows that are counted from the top, or from the bottom."""
+    if from_top:
+        return f"y = top - {part} * (top - bottom)"
+    return f"y = bottom + {part} * (top - bottom)"
+
+
+def _flips(across: str, down: str, from_top: bool) -> list[Mistake]:
+    hint = (
+        "Rows count downwards, v points up: v needs its minus sign."
+        if from_top
+        else "Here rows count upwards, as v does: v needs no minus sign."
+    )
+    name = "rows count upwards" if from_top else "rows count downwards"
+    return [
+        Mistake(name, (("y", _y(down, not from_top)),), hint, PART),
+        Mistake(
+            "columns count leftwards",
+            (("x", f"x = right - {across} * (right - left)"),),
+            "Columns count to the right, as u does: u has no minus sign.",
+            PART,
+        ),
+    ]
+
+
+def _centres(indexing: Indexing, from_top: bool) -> list[Mistake]:
+    """The half pixel, and the number of steps: in both lines, or in one alone."""
+    if indexing is Indexing.LECTURE:
+        corner, whole, off, one = "({} - 1)", "{}", "({} + 0.5)", "({} - 1)"
+        whole_name, whole_hint = "no half pixel", "the centre is at j - 0.5, not at j."
+        off_hint = "subtract the half pixel, do not add it."
+    else:
+        corner, whole, off, one = "{}", "({} + 1)", "({} - 0.5)", "{}"
+        whole_name, whole_hint = "a whole pixel", "the centre is at j + 0.5, not at j + 1."
+        off_hint = "add the half pixel, do not subtract it."
+    told = f"i and j count {indexing.told}: "
+    centre = f"({{}} {indexing.offset})"
+    wrong = (
+        (
+            "the corner, not the centre",
+            f"{corner} / {{}}",
+            "That ray goes through the pixel's corner. Its centre is half a pixel further.",
+        ),
+        (whole_name, f"{whole} / {{}}", told + whole_hint),
+        ("one pixel off", f"{off} / {{}}", told + off_hint),
+        (
+            "one step too few",
+            f"{one} / ({{}} - 1)",
+            "W pixels are W steps, each 1/W of the viewport: divide by W, not by W - 1.",
+        ),
+        (
+            "the centre, but one step too few",
+            f"{centre} / ({{}} - 1)",
+            "The half pixel is right. Divide by W and H, not by W - 1 and H - 1.",
+        ),
+    )
+    made = []
+    for name, part, hint in wrong:
+        x = ("x", _x(part.format("j", "width")))
+        y = ("y", _y(part.format("i", "height"), from_top))
+        made += [
+            Mistake(name, (x, y), hint, PART, is_common=not name.startswith("the centre,")),
+            Mistake(f"{name}: in the columns", (x,), f"Of the column: {hint}", PART, False),
+            Mistake(f"{name}: in the rows", (y,), f"Of the row: {hint}", PART, False),
+        ]
+    return made
+
+
+def _exchanges(indexing: Indexing, from_top: bool) -> list[Mistake]:
+    half = indexing.offset
+
+    def both(name: str, across: str, down: str, hint: str) -> Mistake:
+        return Mistake(name, (("x", _x(across)), ("y", _y(down, from_top))), hint, PART)
+
+    return [
+        both(
+            "row and column exchanged",
+            f"(i {half}) / width",
+            f"(j {half}) / height",
+            "(i, j) is row, column: the column j gives u, the row i gives v.",
+        ),
+        both(
+            "width and height exchanged",
+            f"(j {half}) / height",
+            f"(i {half}) / width",
+            "The column is divided by the width W, the row by the height H.",
+        ),
+        both(
+            "the image transposed",
+            f"(i {half}) / height",
+            f"(j {half}) / width",
+            "The column j, of W, gives u; the row i, of H, gives v: here they are exchanged.",
+        ),
+        Mistake(
+            "both divided by the width",
+            (("y", _y(f"(i {half}) / width", from_top)),),
+            "The row is divided by the height H: there are H rows.",
+            PART,
+        ),
+        Mistake(
+            "both divided by the height",
+            (("x", _x(f"(j {half}) / height")),),
+            "The column is divided by the width W: there are W columns.",
+            PART,
+        ),
+    ]
+
+
+def _angles(across: str, down: str, from_top: bool, distance: str) -> list[Mistake]:
+    def steps(part: str, first: str, last: str) -> str:
+        start, end = f"atan({first} / {distance})", f"atan({last} / {distance})"
+        return f"{distance} * tan({start} + {part} * ({end} - {start}))"
+
+    x = ("x", f"x = {steps(across, 'left', 'right')}")
+    y = ("y", f"y = {steps(down, *(('top', 'bottom') if from_top else ('bottom', 'top')))}")
+    return [
+        Mistake("equal angles, not equal distances", (x, y), FISHEYE, PART),
+        Mistake(
+            "longitude and latitude",
+            (x, ("y", f"{y[1]}\ny = y * sqrt(1 + (x / {distance})**2)")),
+            FISHEYE,
+            PART,
+            is_common=False,
+        ),
+    ]
+
+
+def _in_units(words: frozenset[str], from_top: bool) -> list[Mistake]:
+    """What is made of x and y in [0, 1] or [-1, 1]."""
+    unit = "01" if "x01" in words else "11"
+    across, down = _parts(words, Indexing.ARRAY)
+    made: list[Mistake] = []
+    if unit == "01":
+        other, far = (f"(2*{axis}01 - 1)" for axis in "xy"), ("[0, 1]", "[-1, 1]")
+    else:
+        other, far = (f"{axis}11" for axis in "xy"), ("[-1, 1]", "[0, 1]")
+    hint = f"The coordinates reach over {far[0]}, not over {far[1]}: 0 is "
+    hint += "the edge, not the middle." if unit == "01" else "the middle, not the edge."
+    x, y = other
+    made += [
+        Mistake(f"{far[1]} for {far[0]}", (("x", _x(x)), ("y", _y(y, from_top))), hint, PART),
+        Mistake(
+            "across and along exchanged",
+            (("x", _x(down)), ("y", _y(across, from_top))),
+            "The first coordinate goes across the image and gives u, the second gives v.",
+            PART,
+        ),
+    ]
+    if {"width", "height"} <= words:
+        x, y = f"({across} + 0.5 / width)", f"({down} + 0.5 / height)"
+        made.append(
+            Mistake(
+                "half a pixel more",
+                (("x", _x(x)), ("y", _y(y, from_top))),
+                "These coordinates are the point itself: no half pixel is added.",
+                PART,
+            )
+        )
+    return made

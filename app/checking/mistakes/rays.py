@@ -1,0 +1,139 @@
+"""The viewing ray of a pixel: its lines as a task's words ask for them, and what goes wrong there.
+
+With all that a camera is, (i, j) from 0 and row 0 at the top, they are the camera's contract:
+
+    x = left + (j + 0.5) / width * (right - left)
+    y = top - (i + 0.5) / height * (top - bottom)
+    origin = eye
+    direction = x*u + y*v - distance*w
+"""
+
+from __future__ import annotations
+
+import functools
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from app.checking.mistakes.basis import BASIS_LINES, BASIS_MISTAKES
+from app.checking.mistakes.bodies import body_lines, body_mistakes
+from app.checking.mistakes.pixels import pixel_lines, pixel_mistakes
+from app.checking.mistakes.program import Mistake, Program
+from app.checking.mistakes.viewport import viewport_lines, viewport_mistakes
+from renderer.camera import Camera, Size
+from renderer.pixels import Indexing
+
+Floats = NDArray[np.float64]
+
+# What a task hands over by default.
+WORDS = frozenset(
+    {"i", "j", "width", "height", "eye", "u", "v", "w", "distance"}
+    | {"left", "right", "bottom", "top", "projection"}
+)
+
+
+@dataclass(frozen=True)
+class RayTask:
+    """How a task asks for rays. words: what it hands over, of the pixel and of the camera.
+    indexing, from_top: how i counts rows, and j columns."""
+
+    projection: str = "perspective"
+    indexing: Indexing = Indexing.ARRAY
+    from_top: bool = True
+    words: frozenset[str] = WORDS
+
+
+@functools.lru_cache(256)
+def ray_program(task: RayTask) -> Program:
+    """Its right lines, and what is written instead. They make origin and direction."""
+    words = task.words
+    is_parallel = task.projection == "parallel"
+    distance = "distance" if "distance" in words else "1"
+    matrix = ""
+    if not {"u", "v", "w"} <= words:
+        matrix = next((m for m in ("camera_to_world", "world_to_camera") if m in words), "")
+    parts = [
+        (
+            pixel_lines(words, task.indexing, task.from_top),
+            pixel_mistakes(words, task.indexing, task.from_top, "" if is_parallel else distance),
+        ),
+        (
+            body_lines(is_parallel, matrix, distance),
+            body_mistakes(is_parallel, matrix, distance),
+        ),
+    ]
+    if "left" not in words:
+        parts.insert(0, (viewport_lines(words), viewport_mistakes(words)))
+    if not matrix and not {"u", "v", "w"} <= words:
+        parts.insert(0, (BASIS_LINES, BASIS_MISTAKES))
+    lines = tuple(line for part, _ in parts for line in part)
+    mistakes = [mistake for _, part in parts for mistake in part]
+    mistakes.sort(key=lambda mistake: not mistake.is_common)
+    return Program(lines, tuple(mistakes), ("origin", "direction"))
+
+
+def ray_values(
+    camera: Camera, i: ArrayLike, j: ArrayLike, size: Size, task: RayTask | None = None
+) -> dict[str, Any]:
+    """What the lines know: of the camera, and of pixels (i, j), 0-based, row 0 at the top, of an
+    image of (width, height): all words but target and up."""
+    task = task or RayTask(camera.projection)
+    row, column = (np.asarray(value, float)[..., None] for value in np.broadcast_arrays(i, j))
+    width, height = size
+    left, right, bottom, top = camera.viewport
+    to_world = np.eye(4)
+    to_world[:3] = np.column_stack([camera.u, camera.v, camera.w, camera.eye])
+    x01 = (column + 0.5) / width
+    down = (row + 0.5) / height
+    y01 = down if task.from_top else 1.0 - down
+    if not task.from_top:
+        row = height - 1 - row
+    return {
+        "i": row + task.indexing.value,
+        "j": column + task.indexing.value,
+        "x01": x01,
+        "y01": y01,
+        "x11": 2 * x01 - 1,
+        "y11": 2 * y01 - 1,
+        "width": float(width),
+        "height": float(height),
+        "eye": np.asarray(camera.eye),
+        "u": np.asarray(camera.u),
+        "v": np.asarray(camera.v),
+        "w": np.asarray(camera.w),
+        "distance": camera.distance,
+        "left": left,
+        "right": right,
+        "bottom": bottom,
+        "top": top,
+        "fov_y": camera.fov_y_deg,
+        "aspect": (right - left) / (top - bottom),
+        "camera_to_world": to_world,
+        "world_to_camera": camera.camera_from_world,
+    }
+
+
+def run_rays(
+    program: Program, known: Mapping[str, Any], mistakes: tuple[Mistake, ...] = ()
+) -> tuple[Floats, Floats]:
+    """Origins and directions, (..., 3) for each pixel that is known."""
+    origin, direction = program.run(known, mistakes)
+    one = np.asarray(known["i"] if "i" in known else known["x01"])
+    shape = np.broadcast_shapes(one.shape, np.shape(origin), np.shape(direction))
+    return np.broadcast_to(origin, shape), np.broadcast_to(direction, shape)
+
+
+def camera_rays(
+    camera: Camera,
+    size: Size,
+    mistakes: tuple[Mistake, ...] = (),
+    indexing: Indexing = Indexing.ARRAY,
+) -> tuple[Floats, Floats]:
+    """The rays of a whole image as wrong lines make them, (height, width, 3) each: those of
+    `ray_program` for that camera's projection."""
+    task = RayTask(camera.projection, indexing)
+    i, j = np.arange(size[1])[:, None], np.arange(size[0])
+    return run_rays(ray_program(task), ray_values(camera, i, j, size, task), mistakes)

@@ -1,0 +1,86 @@
+"""What the programs' lines may use: a formula's functions, for one ray and for many at once.
+
+A number is an array (..., 1), a vector (..., 3): so `x*u` is written as in a formula.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+Floats = NDArray[np.float64]
+
+
+def dot(a: ArrayLike, b: ArrayLike) -> Floats:
+    return np.sum(np.multiply(a, b), axis=-1, keepdims=True)
+
+
+def norm(a: ArrayLike) -> Floats:
+    return np.sqrt(dot(a, a))
+
+
+def normalized(a: ArrayLike) -> Floats:
+    return np.divide(a, norm(a))
+
+
+def vector(*numbers: ArrayLike) -> Floats:
+    """Of three numbers."""
+    parts = np.broadcast_arrays(*(np.asarray(number, float) for number in numbers))
+    return np.concatenate([np.atleast_1d(part) for part in parts], axis=-1)
+
+
+def columns(*vectors: ArrayLike) -> Floats:
+    """The matrix with these columns, (..., 3, 3)."""
+    return np.stack(np.broadcast_arrays(*vectors), axis=-1).astype(float)
+
+
+def rows(*vectors: ArrayLike) -> Floats:
+    """The matrix with these rows."""
+    return transposed(columns(*vectors))
+
+
+def columns_of(matrix: ArrayLike) -> tuple[Floats, ...]:
+    """Its three, as vectors."""
+    return tuple(np.moveaxis(np.asarray(matrix), -1, 0))
+
+
+def transposed(matrix: ArrayLike) -> Floats:
+    return np.asarray(np.swapaxes(matrix, -1, -2))
+
+
+def inverse(matrix: ArrayLike) -> Floats:
+    """NaN where any of several has none."""
+    try:
+        return np.asarray(np.linalg.inv(np.asarray(matrix, float)))
+    except np.linalg.LinAlgError:
+        return np.full_like(np.asarray(matrix, float), np.nan)
+
+
+def times(matrix: ArrayLike, a: ArrayLike) -> Floats:
+    """The product with a vector, (..., 3, 3) and (..., 3)."""
+    return np.asarray(np.einsum("...ij,...j->...i", np.asarray(matrix), np.asarray(a)))
+
+
+def times_vector(matrix: ArrayLike, a: ArrayLike) -> Floats:
+    """Of a matrix (..., 4, 4) with a direction, whose fourth number is 0."""
+    return times(np.asarray(matrix)[..., :3, :3], a)
+
+
+def times_point(matrix: ArrayLike, a: ArrayLike) -> Floats:
+    """Of a matrix (..., 4, 4) with a point, whose fourth number is 1."""
+    return times_vector(matrix, a) + np.asarray(matrix)[..., :3, 3]
+
+
+FUNCTIONS: dict[str, Callable[..., Any]] = {
+    function.__name__: function
+    for function in (
+        dot, norm, normalized, vector, columns, columns_of, rows, transposed, inverse,
+        times, times_vector, times_point,
+    )
+} | {
+    "cross": np.cross, "sqrt": np.sqrt, "sin": np.sin, "cos": np.cos, "tan": np.tan,
+    "atan": np.arctan, "radians": np.radians, "where": np.where, "floor": np.floor,
+}  # fmt: skip
