@@ -21,7 +21,7 @@ from app.lecture.exercises import (
     Wanted,
 )
 from app.lecture.model import Lecture, Step, Written
-from app.lecture.places import Places, located
+from renderer.scene.places import Places, located
 from app.lecture.schema import (
     HIGHLIGHTS,
     PANEL,

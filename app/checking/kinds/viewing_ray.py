@@ -106,17 +106,15 @@ class ViewingRayKind(CheckKind):
         ray = np.asarray(answer, float)
         if task.conventions.space == "camera":
             ray = _to_camera(task.conventions, case, ray)
-        if task.conventions.unit:
-            with np.errstate(all="ignore"):
-                ray = np.array([ray[0], ray[1]])
         parts = dict(zip(("origin", "direction"), ray.tolist(), strict=True))
         return ", ".join(f"{name} {text_of(parts[name])}" for name in task.conventions.returns)
 
-    def call_text(self, case: CheckCase) -> str:
+    def first_wrong(self, task: CheckTask, case: CheckCase, answer: Any) -> tuple[str, str, str]:
         assert case.size is not None and case.pixel is not None
         width, height = case.size
         i, j = case.pixel
-        return f"pixel in row {i}, column {j} (from 0, from the top left) of {width}x{height}"
+        where = f"pixel in row {i}, column {j} (from 0, from the top left) of {width}x{height}"
+        return where, *super().first_wrong(task, case, answer)[1:]
 
 
 def cases_of(task: CheckTask, shot: Shot) -> list[CheckCase]:
