@@ -7,7 +7,6 @@ from typing import Any
 from app.checking.conventions import Conventions
 from app.checking.kinds import KINDS
 from app.checking.tasks import CheckTask
-from renderer.shared_numbers import LUMINANCE
 
 COLOR_BYTES = 12  # of a pixel: three float32, as in the lecture
 
@@ -28,9 +27,7 @@ def default_conventions(kind: str) -> Conventions:
 def _task(kind: str, part: str, text: str, points: float, **more: Any) -> CheckTask:
     name = more.pop("name", kind)
     conventions = default_conventions(kind)
-    return CheckTask(
-        name, kind, KINDS[kind].function, part, text, points, conventions, **more
-    )
+    return CheckTask(name, kind, KINDS[kind].function, part, text, points, conventions, **more)
 
 
 BUILTIN = (
@@ -41,7 +38,6 @@ BUILTIN = (
         "light. rgb is an array of height x width x 3 numbers from 0 to 1; give height x width.",
         1.0,
         count=4,
-        weights=(LUMINANCE,),
     ),
     _task(
         "to-bitmap",
@@ -121,6 +117,5 @@ BUILTIN = (
         count=6,
         projections=("perspective", "parallel"),
         cameras=("canonical", "turned", "off-axis"),
-        size=None,
     ),
 )

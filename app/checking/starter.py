@@ -36,18 +36,20 @@ def _function(tasks: Sequence[CheckTask]) -> str:
     lines += _wrapped(first.text, 4)[1:]
     for task in tasks[1:]:
         lines += ["", *_wrapped(task.text, 4)]
-    lines += ["", *_arguments(first), f"    Returns: {returned(first)}", '    """']
+    lines += ["", *arguments_text(first), f"    Returns: {returned(first)}", '    """']
     return "\n".join([*lines, "    return None  # write it here"])
 
 
-def _arguments(task: CheckTask) -> list[str]:
+def arguments_text(task: CheckTask, indent: int = 4) -> list[str]:
+    """What each argument is, in lines; of a camera each field."""
     words = KINDS[task.kind].words
     lines = []
     for name, word in task.conventions.arguments:
-        lines += _wrapped(f"{name}: {words[word]}", 4, more=8)
+        lines += _wrapped(f"{name}: {words[word]}", indent, indent + 4)
         if word == CAMERA:
             for field, meant in task.conventions.camera:
-                lines += _wrapped(f"{name}.{field}: {CAMERA_WORDS[meant].meaning}", 8, more=12)
+                text = f"{name}.{field}: {CAMERA_WORDS[meant].meaning}"
+                lines += _wrapped(text, indent + 4, indent + 8)
     return lines
 
 

@@ -13,12 +13,13 @@ from typing import Any
 from app.checking.builtin import BUILTIN
 from app.checking.calls import Limits
 from app.checking.cases import VIEW_SIZE, camera_kinds, check_views
-from app.checking.conventions import CAMERA, CAMERA_WORDS, PAIRS, PIXEL_WORDS, Conventions, Named
+from app.checking.conventions import CAMERA_WORDS, PAIRS, PIXEL_WORDS, Conventions, Named
 from app.checking.kinds import KINDS
 from app.checking.kinds.basis import PARTS
 from app.checking.kinds.kind import CheckKind
 from app.checking.task_schema import ConventionsTable, TaskFile, TaskTable
 from app.checking.tasks import CAMERA_KINDS, SEED, CheckTask
+from renderer.camera import Vector
 from renderer.errors import LucidaError
 from renderer.scene.limits import TOML_BYTES
 from renderer.scene.model import View
@@ -215,7 +216,9 @@ def _returns(entry: TaskTable, kind: CheckKind) -> tuple[str, ...]:
         _known(f"returns[{number}]", word, kind.return_words)
     same = [PARTS[word][0] if kind.name == "basis" else word for word in entry.returns]
     if not same or len(set(same)) < len(same):
-        raise LucidaError("returns", "names nothing, or one thing twice", f"give e.g. {list(kind.returns)}")
+        raise LucidaError(
+            "returns", "names nothing, or one thing twice", f"give e.g. {list(kind.returns)}"
+        )
     if kind.name == "closest-hit" and len(same) < 2:
         raise LucidaError("returns", "names one thing", 'give "object" and "t"')
     return tuple(entry.returns)
@@ -231,7 +234,7 @@ def _cameras(entry: TaskTable, conventions: Conventions, base: CheckTask) -> tup
             raise LucidaError(
                 f"cameras[{number}]",
                 f"{kind!r} cannot be told in the words of the arguments",
-                f"give {', '.join(possible)}; or viewport, u, v and w in place of angles and targets",
+                f"give {', '.join(possible)}; or u, v, w and viewport for angles and targets",
             )
     if not entry.cameras:
         raise LucidaError("cameras", "is empty", "name one, or set cases = 0 and give views")
@@ -306,18 +309,17 @@ def _views(views: list[dict[str, Any] | str], folder: Path) -> Iterator[View]:
 
 def _vectorised(entry: TaskTable, kind: CheckKind) -> bool:
     if entry.vectorised and kind.name != "viewing-ray":
-        raise LucidaError("vectorised", f"{kind.name} has no pixels to be called for", "leave it out")
+        raise LucidaError(
+            "vectorised", f"{kind.name} has no pixels to be called for", "leave it out"
+        )
     return entry.vectorised
 
 
-def _weights(entry: TaskTable, base: CheckTask) -> tuple[tuple[float, float, float], ...]:
-    weights = entry.weights
-    if weights is None:
-        return base.weights
-    several = weights if isinstance(weights, list) else [weights]
-    if not several or not all(math.isfinite(part) for one in several for part in one):
-        raise LucidaError("weights", "holds no finite numbers", "give e.g. [0.2126, 0.7152, 0.0722]")
-    return tuple(several)
+def _weights(entry: TaskTable, base: CheckTask) -> Vector:
+    if entry.weights is not None and not all(map(math.isfinite, entry.weights)):
+        remedy = "give e.g. [0.2126, 0.7152, 0.0722]"
+        raise LucidaError("weights", "are no finite numbers", remedy)
+    return base.weights if entry.weights is None else entry.weights
 
 
 def _check(task: CheckTask) -> None:

@@ -26,7 +26,7 @@ class AxesTable(StrictTable):
 class ConventionsTable(StrictTable):
     """[conventions], of all tasks of the file; each task may say otherwise. None: the contract's.
 
-    camera: the fields of the camera object, name = "word". from: see Conventions.base.
+    camera: the fields of the camera object, name = "word". pixels_from: see Conventions.base.
     """
 
     pixels_from: Literal[0, 1] | None = None
@@ -39,7 +39,7 @@ class ConventionsTable(StrictTable):
     camera: dict[str, str] | None = None
 
 
-class TaskTable(ConventionsTable):
+class TaskTable(ConventionsTable, kw_only=True):
     """[[tasks]]. arguments: words, or name = "word"; returns: words. cases: how many are made up.
 
     views: cameras as tables, files, or built-in scenes' names. Of to-gray: weights; of to-bitmap:
@@ -62,13 +62,13 @@ class TaskTable(ConventionsTable):
     cases: int | None = None
     seed: int | None = None
     feedback: FeedbackName | None = None
-    weights: Numbers3 | list[Numbers3] | None = None
+    weights: Numbers3 | None = None
     at_threshold: Literal[0, 1] | None = None
     order: Literal["row-major", "column-major"] | None = None
     stride: int | None = None
 
 
-class TaskFile(StrictTable):
+class TaskFile(StrictTable, kw_only=True):
     """A task file. seconds, memory_mb: limits, unless the command line gives them."""
 
     title: str = ""

@@ -53,7 +53,9 @@ class ImageKind(CheckKind):
         return [case.right for case in cases]
 
     def wrong(self, task: CheckTask, cases: Sequence[CheckCase], given: Any) -> Flags:
-        marks = (self.wrong_pixels(task, case, image) for case, image in zip(cases, given, strict=True))
+        marks = (
+            self.wrong_pixels(task, case, image) for case, image in zip(cases, given, strict=True)
+        )
         return np.array([bool(mark.any()) for mark in marks], bool)
 
     def wrong_pixels(self, task: CheckTask, case: CheckCase, image: Floats | None) -> Flags:
@@ -64,9 +66,7 @@ class ImageKind(CheckKind):
             near = np.abs(image - case.right) <= case.tolerance
         return ~near if near.ndim == 2 else ~near.all(axis=2)
 
-    def first_wrong(
-        self, task: CheckTask, case: CheckCase, answer: Any
-    ) -> tuple[str, str, str]:
+    def first_wrong(self, task: CheckTask, case: CheckCase, answer: Any) -> tuple[str, str, str]:
         """The first wrong pixel: where it is, the right value and the one given."""
         marks = self.wrong_pixels(task, case, answer)
         i, j = (int(part) for part in np.argwhere(marks)[0])
@@ -105,7 +105,7 @@ class GrayKind(ImageKind):
     def _case(self, task: CheckTask, image: Floats) -> CheckCase:
         height, width = image.shape[:2]
         values = {"rgb": image.tolist(), "width": width, "height": height}
-        right = image @ np.array(task.weights[0])
+        right = image @ np.array(task.weights)
         return CheckCase(named(task, values), right, HALF_A_BYTE, values)
 
 
@@ -128,7 +128,11 @@ class BitmapKind(ImageKind):
         for number_ in range(task.count):
             image = _image(random)
             threshold = float(random.choice(image.ravel()))
-            made.append((np.round(image * 255), round(threshold * 255)) if number_ % 2 else (image, threshold))
+            made.append(
+                (np.round(image * 255), round(threshold * 255))
+                if number_ % 2
+                else (image, threshold)
+            )
         return [self._case(task, image, float(threshold)) for image, threshold in made]
 
     def _case(self, task: CheckTask, image: Floats, threshold: float) -> CheckCase:
@@ -147,7 +151,9 @@ class BitmapKind(ImageKind):
     ) -> tuple[list[Floats | None], dict[int, str]]:
         """White may be 1, True or 255."""
         images, problems = super().given(task, cases, values)
-        return [image / 255 if image is not None and image.max() == 255 else image for image in images], problems
+        return [
+            image / 255 if image is not None and image.max() == 255 else image for image in images
+        ], problems
 
 
 class OffsetKind(CheckKind):

@@ -3,8 +3,8 @@
 Answers in the kind's own form: a list of arrays (H, W, 3), one for each case.
 
 Tolerance: half of 1/255, so that an answer in bytes, divided by 255, is right. A pixel whose ray
-passes an edge or the outline of an object by less than EDGE of its size, or meets two objects within
-EDGE of each other, is not judged: EDGE is a hundred times what float32 makes of such a ray
+passes an edge or the outline of an object by less than EDGE of its size, or meets two objects
+within EDGE of each other, is not judged: EDGE is a hundred times what float32 makes of such a ray
 (viewing_ray.py, hits.py).
 """
 

@@ -1,4 +1,4 @@
-"""Results as Gradescope's autograder reads them: results.json, whose fields its documentation names.
+"""Results as Gradescope's autograder reads them: results.json, with the fields of its documents.
 
 https://gradescope-autograders.readthedocs.io/en/latest/specs/#output-format
 """
@@ -62,7 +62,13 @@ def _test(result: TaskResult) -> dict[str, Any]:
 
 
 def _untried(task: CheckTask, reason: str) -> dict[str, Any]:
-    return {**_named(task), "score": 0.0, "status": "failed", "output": reason, "visibility": "visible"}
+    return {
+        **_named(task),
+        "score": 0.0,
+        "status": "failed",
+        "output": reason,
+        "visibility": "visible",
+    }
 
 
 def _named(task: CheckTask) -> dict[str, Any]:
