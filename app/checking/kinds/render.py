@@ -92,7 +92,7 @@ def rendered(
         t, margin = hits(rays.origin, rays.direction, shape)
         judged &= margin > EDGE
         with np.errstate(invalid="ignore"):
-            judged &= ~(np.abs(t - nearest) <= EDGE * np.abs(t))
+            judged &= ~(np.isfinite(t) & (np.abs(t - nearest) <= EDGE * t))
         closer = t < nearest
         image[closer] = shape["color"]
         nearest = np.minimum(t, nearest)
