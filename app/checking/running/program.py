@@ -86,7 +86,7 @@ class StudentProgram:
         self._lines: deque[bytes] = deque()
         self._received = 0
         self._ending = threading.Lock()
-        self._ended, self._stopped = False, False
+        self._ended, self._stopped, self._closed = False, False, False
         threading.Thread(target=self._read, args=(answers,), daemon=True).start()
         threading.Thread(target=self._write, args=(self._input,), daemon=True).start()
 
@@ -98,7 +98,7 @@ class StudentProgram:
         """What it answers, for as long as it is asked for. end: in time.monotonic's seconds. Raises
         ProgramOverError."""
         why: _Why | None = None
-        look, closed = 0.0, False
+        look = 0.0
         while True:
             while self._lines:
                 yield self._lines.popleft()
@@ -117,15 +117,15 @@ class StudentProgram:
                 if why:  # what it has answered counts, and tells how far it came
                     self.end()
                     end = now + _FAREWELL
-            if closed or (why and now >= end):
+            if self._closed or (why and now >= end):
                 raise ProgramOverError(why or "ended", None if why else self._status())
             try:
                 chunk = self._chunks.get(timeout=max(0, min(_LOOK, end - now)))
             except queue.Empty:
                 continue
-            closed = not chunk
+            self._closed = not chunk
             self._received += len(chunk)
-            if why and closed:
+            if why and self._closed:
                 self._pending.clear()  # a line that it did not come to the end of
             self._split(chunk)
 
