@@ -32,8 +32,9 @@ def diagnosis(
     """What is told of the wrong answers of a task beside the first one; None where nothing is.
 
     given: in the kind's own form. wrong: bool (N,), which are."""
-    if task.kind == "viewing-ray":
-        return _of_rays(task, cases, np.asarray(given), wrong)
+    with np.errstate(all="ignore"):  # they may be any numbers
+        if task.kind == "viewing-ray":
+            return _of_rays(task, cases, np.asarray(given), wrong)
     return None
 
 
