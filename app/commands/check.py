@@ -23,6 +23,7 @@ if TYPE_CHECKING:
 
 NAME = "check"
 RAYS = (".csv", ".npy", ".txt", ".tsv")  # what is not code
+PYTHON = (".py", ".pyw", "")
 SIZE = (64, 48)  # of the image of --view
 
 DESCRIPTION = """\
@@ -102,10 +103,23 @@ def run(arguments: argparse.Namespace) -> int:
             student.close()
     except LucidaError as error:
         seconds = time.perf_counter() - begin
-        _write_json(arguments, results, tasks, seconds, str(error))
+        lines = _why(error)
+        _write_json(arguments, results, tasks, seconds, "\n".join([str(error), *lines]))
+        if lines:
+            print("\n".join(lines), file=sys.stderr)
         raise
     _write_json(arguments, results, tasks, time.perf_counter() - begin)
     return _end(arguments, results)
+
+
+def _why(error: LucidaError) -> list[str]:
+    """The student's own lines, of a file that does not run, and what it printed until then."""
+    from app.checking.running.file import NotRunnableError
+
+    if not isinstance(error, NotRunnableError):
+        return []
+    printed = error.output.rstrip().splitlines()
+    return [*(line.rstrip() for line in error.failure.traceback), *printed]
 
 
 def _end(arguments: argparse.Namespace, results: list[TaskResult]) -> int:
@@ -206,6 +220,9 @@ def _student(arguments: argparse.Namespace, limits: Limits, tasks: list[CheckTas
     if path.suffix.lower() not in RAYS:
         from app.checking.running.file import FileStudent
 
+        if path.suffix.lower() not in PYTHON:
+            problem, remedy = "is no Python file", "--command runs other programs: lucida check -h"
+            raise LucidaError("", problem, remedy, str(path))
         return FileStudent(path, limits)
     from app.checking.running.rays_file import RaysFile
 
