@@ -114,12 +114,13 @@ def run(arguments: argparse.Namespace) -> int:
 
 def _why(error: LucidaError) -> list[str]:
     """The student's own lines, of a file that does not run, and what it printed until then."""
+    from app.checking.reports.told import failure_lines
     from app.checking.running.file import NotRunnableError
 
     if not isinstance(error, NotRunnableError):
         return []
     printed = error.output.rstrip().splitlines()
-    return [*(line.rstrip() for line in error.failure.traceback), *printed]
+    return [*printed, *failure_lines(error.failure)]
 
 
 def _end(arguments: argparse.Namespace, results: list[TaskResult]) -> int:

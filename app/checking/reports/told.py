@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+from app.checking.calls import Failure
 from app.checking.checked import Status, TaskResult
 from app.checking.tasks import FEEDBACK
 from renderer.errors import one_line
@@ -22,7 +23,9 @@ def told(result: TaskResult) -> Told:
     could not be mended."""
     feedback = FEEDBACK.index(result.task.feedback)
     if result.status == "failed":
-        return Told("failed", tuple(_failure(result)))
+        assert result.failure is not None
+        why = one_line(result.failure.text)
+        return Told("failed", (why, *failure_lines(result.failure)))
     if feedback == 0:
         return Told(None)
     if result.status == "right" or feedback == 1:
@@ -42,11 +45,9 @@ def _first_wrong(result: TaskResult) -> list[str]:
     return [*lines, call, f"right: {first.right}", f"given: {first.given}"]
 
 
-def _failure(result: TaskResult) -> list[str]:
-    """Why, and the student's own lines; the last of them is told in the first line already."""
-    failure = result.failure
-    assert failure is not None
+def failure_lines(failure: Failure) -> list[str]:
+    """The student's own lines; not the last of them where the failure's text has it already."""
     lines = [line.rstrip() for line in failure.traceback]
     if lines and lines[-1] in failure.text:
         del lines[-1]
-    return [one_line(failure.text), *(lines if len(lines) > 1 else [])]
+    return lines if len(lines) > 1 else []
