@@ -29,7 +29,7 @@ _NAME = "LUCIDA_STUDENT"
 _LOOK = 0.1  # seconds between looks at the memory
 _GATHER = 0.002  # seconds: answers are read many at once, not each as it comes
 _KEEPER = 'read -r nothing; kill -s KILL -- "-$0"'
-_FAREWELL = 2.0  # seconds that a program which closed its answers may take to end
+_FAREWELL = 1.0  # seconds that a program which closed its answers may take to end
 _MOST_ANSWERS = 1 << 28  # bytes
 
 

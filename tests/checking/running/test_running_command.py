@@ -154,7 +154,7 @@ def test_a_line_without_end_is_not_kept(program, monkeypatch):
 
 @pytest.mark.skipif(not sys.platform.startswith("linux"), reason="elsewhere looked at seldom")
 def test_too_much_memory(program):
-    source = "held = os.urandom(90 << 20)\nos.fork(); os.fork()\nheld = os.urandom(90 << 20)"
+    source = "held = b'x' * (90 << 20)\nos.fork(); os.fork()\nheld = b'x' * (90 << 20)"
     failure = program(f"{source}\ntime.sleep(10**6)", memory_mb=128).call(CALLS).failure
     assert failure.kind == "memory"
     assert "it needs more than the memory limit of 128 MB, with 0 of 3072 answers" in failure.text

@@ -100,7 +100,7 @@ def test_too_much_memory_in_all_processes_together(student):
         def f():
             for _ in range(4):
                 if not os.fork():
-                    held = os.urandom(90 << 20)
+                    held = b"x" * (90 << 20)
                     time.sleep(10**6)
             time.sleep(10**6)
         """,
@@ -146,6 +146,17 @@ def test_a_process_that_ends(student, body, told):
     assert told in run.failure.text
     assert run.output == "kept\n"
     assert one.call([called("f", i=0)]).values == (None,)  # another process
+
+
+@pytest.mark.parametrize("when", ["def f(): pass\n", ""])
+def test_what_is_written_between_the_answers(student, when):
+    write = "    for number in range(3, 30):\n        try: os.write(number, b'\\xff\\nzz\\n')"
+    source = f"import os\n{when}if 1:\n{write}\n        except OSError: pass\n"
+    if not when:
+        source = source.replace("if 1:", "def f():")
+    failure = student(source).call([F]).failure
+    assert failure.kind == "ended"
+    assert "it wrote into a file of ours" in failure.text
 
 
 @pytest.mark.parametrize(
