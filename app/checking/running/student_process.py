@@ -249,7 +249,7 @@ class StudentFile:
         return lines
 
     def _short(self, path):
-        return path.removeprefix(self._folder + os.sep)
+        return printable(path.removeprefix(self._folder + os.sep))
 
 
 def printable(line):

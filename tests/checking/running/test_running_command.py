@@ -106,6 +106,12 @@ FAULTS = {
     "quotes": ("print({'a': 1})", 0, "answer", "is no JSON: {'a': 1}; answer to f(i=0)"),
     "nested": ("print('[' * 10**5)", 0, "answer", "is no JSON: [[["),
     "long": ("print('x' * 10**6)", 0, "answer", "xxx...xxx"),
+    "left another": (
+        "print(1); sys.stdout.flush(); os.fork() or time.sleep(10**6); os._exit(4)",
+        1,
+        "ended",
+        "it ended with exit status 4, with 1 of 4 answers",
+    ),
     "closed": ("os.close(1); time.sleep(10**6)", 0, "ended", "closed what it answers through"),
 }
 
