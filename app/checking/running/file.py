@@ -43,7 +43,8 @@ class NotRunnableError(LucidaError):
 
 class FileStudent:
     """Reads the file once, at its first use. One process serves all calls, until one of them ends
-    it; then the next run starts another. python: Lucida's own, unless another is named."""
+    it; then the next run starts another. python: Lucida's own, unless another is named. It is to be
+    closed: nobody else ends its process while this one lives."""
 
     def __init__(self, path: Path | str, limits: Limits | None = None, python: str = "") -> None:
         self._path, self._limits, self._python = Path(path), limits or Limits(), python
@@ -55,7 +56,7 @@ class FileStudent:
         self._runs = 0
         self._functions: dict[str, list[str]] = {}
         self._failed: Failure | None = None  # for good
-        self._closed = False
+        self._closed = threading.Event()
         self._printed = ""
 
     def __enter__(self) -> Self:
@@ -72,7 +73,11 @@ class FileStudent:
     def functions(self) -> frozenset[str]:
         """All that the file has and that can be called. Raises NotRunnableError."""
         with self._turn:
-            failure = self._start(time.monotonic() + self._limits.seconds)
+            try:
+                failure = self._start(time.monotonic() + self._limits.seconds)
+            except BaseException:  # Ctrl-C
+                self._end()
+                raise
             if failure:
                 raise NotRunnableError(failure, self._printed)
             return frozenset(self._functions["functions"])
@@ -97,20 +102,22 @@ class FileStudent:
             program.stop()
 
     def close(self) -> None:
-        self._closed = True
+        self._closed.set()
         self.stop()
         with self._turn:
             self._end()
 
     def _start(self, end: float) -> Failure | None:
         """A process that has run the file, unless there is one."""
-        if self._closed or self._failed:
-            return self._failed or Failure("ended", f"{self._name}: it is closed")
+        if self._closed.is_set() or self._failed:
+            return self._failed or self._is_closed()
         if self._program:
             return None
         try:
             source = self._source()
             with self._change:
+                if self._closed.is_set():
+                    return self._is_closed()
                 self._program = self._started()
         except LucidaError as error:
             self._failed = Failure("missing", str(error))
@@ -132,10 +139,14 @@ class FileStudent:
         try:
             if line[:1] == b"f":
                 return self._import_failed(self._failure(json.loads(line[1:]), None))
-            self._functions = json.loads(line[1:])
+            told = json.loads(line[1:])
+            self._functions = {kind: [*told[kind]] for kind in ("functions", "own")}
         except _GARBLED:
             return self._import_failed(Failure("ended", f"{self._name}: {_WROTE_BETWEEN}"))
         return None
+
+    def _is_closed(self) -> Failure:
+        return Failure("ended", f"{self._name}: it is closed")
 
     def _import_failed(self, failure: Failure, over: ProgramOverError | None = None) -> Failure:
         self._printed = self._taken_output()

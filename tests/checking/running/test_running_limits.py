@@ -299,6 +299,29 @@ def test_a_stop_while_importing_and_another_run_then(student, tmp_path):
     assert one.call([F]).values == (7,)
 
 
+@pytest.mark.parametrize("ask", ["functions", "call"])
+def test_ctrl_c_ends_the_process_and_another_run_starts_anew(student, monkeypatch, ask):
+    one = student("def f(): return 7\n")
+
+    def pressed(*_):
+        raise KeyboardInterrupt
+
+    with monkeypatch.context() as patched:
+        patched.setattr("app.checking.running.program.StudentProgram.lines", pressed)
+        with pytest.raises(KeyboardInterrupt):
+            one.functions() if ask == "functions" else one.call([F])
+    assert one._program is None
+    assert one.call([F]).values == (7,)
+
+
+def test_closed_while_it_starts(student, monkeypatch):
+    one = student("def f(): return 7\n")
+    source = one._source
+    monkeypatch.setattr(one, "_source", lambda: one._closed.set() or source())
+    assert one.call([F]).failure.text == "rays.py: it is closed"
+    assert one._program is None
+
+
 def test_closed_is_closed(student):
     one = student("def f(): return 7\n")
     assert one.call([F]).values == (7,)
