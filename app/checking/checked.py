@@ -4,19 +4,19 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING, Any, Literal
+from typing import Any, Literal
 
 import numpy as np
 from numpy.typing import NDArray
 
-from app.checking.calls import Failure, Run, Student
+from app.checking.calls import Call, Failure, Run, Student
+from app.checking.diagnosed import diagnosis
 from app.checking.kinds import KINDS
 from app.checking.kinds.kind import CheckKind
 from app.checking.kinds.values import text_of
+from app.checking.mistakes.diagnosis import Diagnosis
+from app.checking.running.told import told_call
 from app.checking.tasks import CheckCase, CheckTask
-
-if TYPE_CHECKING:
-    from app.checking.mistakes.diagnosis import Diagnosis
 
 Status = Literal["right", "wrong", "failed"]
 ARGUMENT_LETTERS = 400
@@ -26,9 +26,8 @@ ARGUMENT_LETTERS = 400
 class WrongCase:
     """A case that is answered wrongly, in words and in numbers.
 
-    case: which of all. arguments: as the student's function was given them. right, given: answers
-    as it would write them. where: the pixel. camera, size, pixel, right_answer, given_answer: for
-    views that draw it; the answers in the kind's own form.
+    arguments: as the student's function was given them. right, given: answers as it would write
+    them. where: the pixel. answer: the one given in the kind's own form, as case.right is.
     """
 
     case: CheckCase
@@ -36,15 +35,14 @@ class WrongCase:
     right: str
     given: str
     where: str
-    right_answer: Any
-    given_answer: Any
+    answer: Any
 
 
 @dataclass(frozen=True)
 class TaskResult:
     """What came of a task. points: earned. cases: how many there are; wrong: how many of them.
 
-    failure: why it could not be tried, with the arguments that led to it. output: what the
+    failure: why it could not be tried, with the call that led to it. output: what the
     student's code printed.
     """
 
@@ -55,7 +53,6 @@ class TaskResult:
     wrong: int = 0
     first: WrongCase | None = None
     failure: Failure | None = None
-    failed_arguments: str = ""
     diagnosis: Diagnosis | None = None
     output: str = ""
 
@@ -88,12 +85,13 @@ def judged(task: CheckTask, cases: Sequence[CheckCase], run: Run) -> TaskResult:
         number = next(n for n, value in enumerate(run.values) if isinstance(value, Failure))
         failure = replace(failures[0], call=number)
     if failure is not None:
-        return _not_judged(task, kind, cases, failure, run.output)
+        return failed(task, failure, len(cases), run.output)
     given, problems = kind.given(task, cases, run.values)
     if problems:
         number = min(problems)
-        failure = Failure("answer", f"{problems[number]}", (), number)
-        return _not_judged(task, kind, cases, failure, run.output)
+        call = told_call(Call(task.function, cases[number].arguments))
+        failure = Failure("answer", f"{call} {problems[number]}", call=number)
+        return failed(task, failure, len(cases), run.output)
     wrong = kind.wrong(task, cases, given)
     if not wrong.any():
         return TaskResult(task, "right", task.points, len(cases), output=run.output)
@@ -104,14 +102,14 @@ def judged(task: CheckTask, cases: Sequence[CheckCase], run: Run) -> TaskResult:
         len(cases),
         int(np.count_nonzero(wrong)),
         _first_wrong(task, kind, cases, given, wrong),
-        diagnosis=_diagnosis(task, cases, kind, given),
+        diagnosis=diagnosis(task, cases, given, wrong) if task.feedback == "diagnosis" else None,
         output=run.output,
     )
 
 
-def failed(task: CheckTask, failure: Failure) -> TaskResult:
+def failed(task: CheckTask, failure: Failure, cases: int = 0, output: str = "") -> TaskResult:
     """The result of a task that could not be tried."""
-    return TaskResult(task, "failed", 0.0, 0, failure=failure)
+    return TaskResult(task, "failed", 0.0, cases, failure=failure, output=output)
 
 
 def status_of(results: Sequence[TaskResult]) -> int:
@@ -134,21 +132,6 @@ def _missing(task: CheckTask, functions: frozenset[str]) -> Failure:
     return Failure("missing", f"there is no function {task.function}; {remedy}")
 
 
-def _not_judged(
-    task: CheckTask, kind: CheckKind, cases: Sequence[CheckCase], failure: Failure, output: str
-) -> TaskResult:
-    arguments = ""
-    if failure.call is not None and failure.kind in ("exception", "answer"):
-        number = failure.call
-        if failure.kind == "exception":
-            number = kind.case_of_call(task, cases, number)
-        if number < len(cases):
-            arguments = arguments_text(cases[number])
-    return TaskResult(
-        task, "failed", 0.0, len(cases), failure=failure, failed_arguments=arguments, output=output
-    )
-
-
 def _first_wrong(
     task: CheckTask,
     kind: CheckKind,
@@ -158,18 +141,12 @@ def _first_wrong(
 ) -> WrongCase:
     number = int(np.argmax(wrong))
     case = cases[number]
+    where, right, answer = kind.first_wrong(task, case, given[number])
     return WrongCase(
         case,
         arguments_text(case),
-        kind.answer_text(task, case, case.right),
-        kind.answer_text(task, case, given[number]),
-        kind.call_text(case),
-        case.right,
+        right,
+        answer,
+        where,
         given[number],
     )
-
-
-def _diagnosis(
-    task: CheckTask, cases: Sequence[CheckCase], kind: CheckKind, given: Any
-) -> Diagnosis | None:
-    return None

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+from app.checking.calls import Failure
 from app.checking.checked import Status, TaskResult
 from app.checking.tasks import FEEDBACK
 from renderer.errors import one_line
@@ -18,10 +19,13 @@ class Told:
 
 
 def told(result: TaskResult) -> Told:
-    """Of a task that could not be tried, why is always told: else it could not be mended."""
+    """Of a task that could not be tried, why is always told, with the call that led to it: else it
+    could not be mended."""
     feedback = FEEDBACK.index(result.task.feedback)
     if result.status == "failed":
-        return Told("failed", tuple(_failure(result, feedback > 1)))
+        assert result.failure is not None
+        why = one_line(result.failure.text)
+        return Told("failed", (why, *failure_lines(result.failure)))
     if feedback == 0:
         return Told(None)
     if result.status == "right" or feedback == 1:
@@ -41,10 +45,9 @@ def _first_wrong(result: TaskResult) -> list[str]:
     return [*lines, call, f"right: {first.right}", f"given: {first.given}"]
 
 
-def _failure(result: TaskResult, arguments: bool) -> list[str]:
-    failure = result.failure
-    assert failure is not None
-    lines = [one_line(failure.text), *(line.rstrip() for line in failure.traceback)]
-    if arguments and result.failed_arguments:
-        lines.append(f"called: {result.task.function}({result.failed_arguments})")
-    return lines
+def failure_lines(failure: Failure) -> list[str]:
+    """The student's own lines; not the last of them where the failure's text has it already."""
+    lines = [line.rstrip() for line in failure.traceback]
+    if lines and lines[-1] in failure.text:
+        del lines[-1]
+    return lines if len(lines) > 1 else []

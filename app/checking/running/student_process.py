@@ -1,0 +1,398 @@
+"""The one file of ours in the process that runs a student's Python file: reads calls, answers them.
+
+Imports the standard library alone, and nothing of it stays in the way of a student's own modules.
+The other end is file.py. A line of JSON comes for each request; each answer is a line that begins
+with a letter: i, what the file has; a, a call's value; m, no such function; f, a failure.
+"""
+
+import sys
+
+_AT_START = frozenset(sys.modules)
+
+# ruff: noqa: E402 what is loaded from here on, a student may have by the same name
+import _thread
+import contextlib
+import copy
+import json
+import linecache
+import os
+import queue
+import tokenize
+import traceback
+import types
+from collections.abc import Mapping
+from io import BytesIO, TextIOWrapper
+
+_LONGEST_LINE = 300
+_FULL_TRACEBACKS = 3  # failures of a run that are told with all their lines
+_LEAST_RECURSION = 500  # of sys.setrecursionlimit, for what is done here
+_MEMORY_STATUS = 86  # exit status: no memory was left to say so
+_FIRST_LINES, _LAST_LINES = 16, 24  # of a long traceback
+_PLAIN = (list, tuple)
+_NAMED_PARTS = (("origin", "direction"), ("u", "v", "w"), ("x", "y", "z", "w"), ("x", "y", "z"))
+
+
+def main():
+    """Serves the process at the other end until that closes its pipe."""
+    sys.modules["__main__"] = types.ModuleType("__main__")  # this file is not the student's program
+    channel = Channel()
+    student = StudentFile(channel.next())
+    try:
+        student.load()
+        kind, told = "i", student.names()
+    except BaseException as error:
+        kind, told = "f", student.failure(error, loading=True)
+    channel.send(kind, _encode(told), mark=student.mark)
+    while True:
+        student.answer(channel, channel.next())
+
+
+class Channel:
+    """Requests come and answers go through copies of standard input and output, which are the
+    student's no more: nothing can be read, and what is printed goes where errors go."""
+
+    def __init__(self):
+        self._process = os.getpid()
+        self._requests, self._answers, self._output = os.dup(0), os.dup(1), os.dup(2)
+        nothing = os.open(os.devnull, os.O_RDONLY)
+        os.dup2(nothing, 0)
+        os.close(nothing)
+        os.dup2(2, 1)
+        for stream in (sys.stdout, sys.stderr):
+            stream.reconfigure(  # type: ignore[union-attr]
+                encoding="utf-8", errors="backslashreplace", line_buffering=True
+            )
+        if hasattr(os, "register_at_fork"):
+            os.register_at_fork(after_in_child=self._forget)
+        self._lines: queue.SimpleQueue[bytes] = queue.SimpleQueue()
+        # Not by threading: it is none of the threads that the student's code can see.
+        _thread.start_new_thread(self._read, ())
+
+    def next(self):
+        """The next request."""
+        return json.loads(self._lines.get())
+
+    def send(self, kind, text, mark=None):
+        """mark: shows in the output that all was printed."""
+        if os.getpid() != self._process:
+            os._exit(0)  # a copy that the student's code made came back from it
+        if mark is not None:
+            for stream in (sys.stdout, sys.stderr):
+                with contextlib.suppress(Exception):  # closed, or no stream at all
+                    stream.flush()
+            self._write(self._output, mark.encode())
+        self._write(self._answers, f"{kind}{text}\n".encode())
+
+    @staticmethod
+    def _write(file, data):
+        while data:
+            data = data[os.write(file, data) :]
+
+    def _read(self):
+        pending: list[bytes] = []
+        with contextlib.suppress(OSError):  # the student's code has closed it
+            while chunk := os.read(self._requests, 1 << 16):
+                *lines, rest = chunk.split(b"\n")
+                for line in lines:
+                    self._lines.put(b"".join([*pending, line]))
+                    pending = []
+                pending.append(rest)
+        os._exit(1)  # the other end is gone
+
+    def _forget(self):
+        for file in (self._requests, self._answers, self._output):
+            with contextlib.suppress(OSError):
+                os.close(file)
+
+
+class StudentFile:
+    """opening: path, source (its bytes as Latin-1), memory_mb, mark."""
+
+    def __init__(self, opening):
+        self.mark = opening["mark"]
+        self._path, self._source = opening["path"], opening["source"].encode("latin-1")
+        self._folder = os.path.dirname(self._path)
+        self._failures = 0
+        stem = os.path.splitext(os.path.basename(self._path))[0]
+        taken = stem in sys.modules or stem in sys.stdlib_module_names or not stem.isidentifier()
+        self._module = types.ModuleType("student" if taken else stem)
+        self._module.__file__ = self._path
+        limit_memory(opening["memory_mb"])
+
+    def load(self):
+        """Runs the file. Raises what it raises."""
+        sys.path[:] = [self._folder, *(sys.argv[1:] or sys.path)]
+        sys.argv = [self._path]
+        own = set()
+        with contextlib.suppress(OSError):  # a folder that cannot be listed
+            own = {name.partition(".")[0] for name in os.listdir(self._folder)}
+        own.discard(os.path.splitext(os.path.basename(self._path))[0])
+        for name in sys.modules.keys() - _AT_START:
+            if name.partition(".")[0] in own:
+                del sys.modules[name]  # the student has a module of that name
+        code = compile(self._source, self._path, "exec", dont_inherit=True)
+        self._keep_lines()
+        sys.modules[self._module.__name__] = self._module
+        exec(code, self._module.__dict__)
+
+    def _keep_lines(self):
+        """For tracebacks, as they are now: the file may be saved or deleted meanwhile."""
+        encoding, _ = tokenize.detect_encoding(BytesIO(self._source).readline)
+        text = TextIOWrapper(BytesIO(self._source), encoding).read()
+        linecache.cache[self._path] = (len(text), None, text.splitlines(True), self._path)
+
+    def names(self):
+        """functions: all that can be called. own: those that the file defines itself."""
+        found = {
+            name: value
+            for name, value in self._module.__dict__.items()
+            if callable(value) and not name.startswith("__")
+        }
+        own = [
+            name
+            for name, value in found.items()
+            if getattr(value, "__module__", None) == self._module.__name__
+        ]
+        return {"functions": [*found], "own": own}
+
+    def answer(self, channel, request):
+        """request: shared, (name, value, whether as an array) of values that are no plain numbers;
+        calls, (function, arguments): numbers, or [where in shared]."""
+        self._failures = 0
+        made, calls = [], request["calls"]
+        for name, value, as_array in request["shared"]:
+            made.append(array_maker(value) if as_array else maker(value, name))
+        for number, call in enumerate(calls):
+            kind, text = self._called(call, made)
+            if sys.getrecursionlimit() < _LEAST_RECURSION:
+                sys.setrecursionlimit(_LEAST_RECURSION)
+            channel.send(kind, text, mark=self.mark if number + 1 == len(calls) else None)
+
+    def _called(self, call, made):
+        """The letter of what came of a call, and its text."""
+        name, arguments = call
+        function = self._module.__dict__.get(name)
+        if not callable(function):
+            return "m", ""
+        try:
+            answer = function(*[made[a[0]]() if type(a) is list else a for a in arguments])
+            try:
+                return "a", written(answer)
+            except Exception as error:
+                if isinstance(error, MemoryError) or self._where(error):
+                    raise
+                failure = {"kind": "answer", "text": no_answer(answer), "where": "", "lines": []}
+        except BaseException as error:
+            failure = self.failure(error)
+        return "f", _encode(failure)
+
+    def failure(self, error, loading=False):
+        """kind, text, where in the student's files, and the traceback's own lines of theirs."""
+        sys.setrecursionlimit(max(sys.getrecursionlimit(), _LEAST_RECURSION))
+        self._failures += 1
+        where = self._where(error)
+        kind = "exception"
+        if isinstance(error, SystemExit):
+            kind = "ended"
+        elif isinstance(error, MemoryError):
+            kind = "memory"
+        elif loading and (isinstance(error, SyntaxError) or not where):
+            kind = "syntax"  # null bytes are a ValueError
+        full = self._failures <= _FULL_TRACEBACKS
+        lines = self._lines(traceback.TracebackException.from_exception(error)) if full else []
+        return {"kind": kind, "text": self._one_line(error), "where": where, "lines": lines}
+
+    def _where(self, error):
+        """The last line of the student's own files; "" where none is concerned."""
+        if isinstance(error, SyntaxError) and error.lineno and error.filename:
+            return f"{self._short(error.filename)}, line {error.lineno}"
+        step, where = error.__traceback__, ""
+        while step is not None:
+            name = step.tb_frame.f_code.co_filename
+            if name.startswith(self._folder + os.sep) and "site-packages" not in name:
+                where = f"{self._short(name)}, line {step.tb_lineno}"
+            step = step.tb_next
+        return where
+
+    def _one_line(self, error):
+        try:
+            text = " ".join(str(error.msg if isinstance(error, SyntaxError) else error).split())
+        except BaseException:
+            text = ""  # its own __str__ fails
+        text = (
+            f"{type(error).__name__}: {text}" if text not in ("", "None") else type(error).__name__
+        )
+        return printable(text if len(text) <= _LONGEST_LINE else text[:_LONGEST_LINE] + "...")
+
+    def _lines(self, told):
+        seen = set()
+
+        def forget_ours(told):
+            if told is None or id(told) in seen:
+                return
+            seen.add(id(told))
+            told.stack[:] = [
+                frame
+                for frame in told.stack
+                if frame.filename != __file__ and not frame.filename.startswith("<frozen ")
+            ]
+            group = getattr(told, "exceptions", None) or ()
+            for other in (told.__cause__, told.__context__, *group):
+                forget_ours(other)
+
+        forget_ours(told)
+        text = "".join(told.format()).replace(f'File "{self._folder}{os.sep}', 'File "')
+        lines = [printable(line[:_LONGEST_LINE]) for line in text.splitlines()]
+        if len(lines) > _FIRST_LINES + _LAST_LINES + 1:
+            left_out = f"  ... {len(lines) - _FIRST_LINES - _LAST_LINES} lines left out ..."
+            lines[_FIRST_LINES:-_LAST_LINES] = [left_out]
+        return lines
+
+    def _short(self, path):
+        return printable(path.removeprefix(self._folder + os.sep))
+
+
+def printable(line):
+    """Without what a terminal would take for a command."""
+    return "".join(c if c.isprintable() else ascii(c)[1:-1] for c in line.expandtabs(4))
+
+
+def no_answer(answer):
+    """What it was instead of a value that JSON has."""
+    try:
+        text = " ".join(repr(answer).split())
+    except BaseException:
+        text = "something"
+    text = printable(text if len(text) <= 120 else text[:117] + "...")
+    return text if isinstance(answer, type) else f"{text} of type {type(answer).__name__}"
+
+
+class Values(types.SimpleNamespace, Mapping):
+    """A camera, an object of a scene: camera.eye, and camera["eye"]."""
+
+    def __getattr__(self, name):
+        has = ", ".join(self.__dict__)
+        kind = type(self).__name__
+        raise AttributeError(f"{kind} has no {name!r}; it has: {has}", name=name, obj=self)
+
+    def __getitem__(self, name):
+        if name not in self.__dict__:
+            raise KeyError(name)
+        return self.__dict__[name]
+
+    def __setitem__(self, name, value):
+        self.__dict__[name] = value
+
+    def __iter__(self):
+        return iter(self.__dict__)
+
+    def __len__(self):
+        return len(self.__dict__)
+
+    def __eq__(self, other):
+        return self is other
+
+    def __hash__(self):  # type: ignore[override]
+        return id(self)
+
+    def __reduce__(self):  # for processes that the student's code starts: they lack this class
+        return types.SimpleNamespace, (), self.__dict__
+
+    def __copy__(self):
+        return type(self)(**self.__dict__)
+
+    def __deepcopy__(self, memo):
+        return type(self)(**copy.deepcopy(self.__dict__, memo))
+
+
+def maker(value, name):
+    """A function that gives each call its value: what code could change, an object, is another one
+    each time. Lists are tuples."""
+    if isinstance(value, dict):
+        kind = type(name.title().replace("_", "") or "Values", (Values,), {})
+        parts = {key: maker(part, key) for key, part in value.items()}
+        constant = {key: parts[key]() for key, part in value.items() if not has_objects(part)}
+        changing = {key: make for key, make in parts.items() if key not in constant}
+        if not changing:
+            return lambda: kind(**constant)
+        return lambda: kind(**{key: make() for key, make in parts.items()})
+    if isinstance(value, list):
+        makers = [maker(part, name.removesuffix("s")) for part in value]
+        if has_objects(value):
+            return lambda: tuple([make() for make in makers])
+        value = tuple([make() for make in makers])
+    return lambda: value
+
+
+def has_objects(value):
+    return isinstance(value, dict) or (isinstance(value, list) and any(map(has_objects, value)))
+
+
+def array_maker(value):
+    """The same for a NumPy array."""
+
+    def make():
+        import numpy
+
+        return numpy.array(value)
+
+    return make
+
+
+def written(answer):
+    """The answer in JSON. Raises TypeError, ValueError and such where it has none, and what the
+    student's own code raises on the way: a generator, for instance."""
+    if type(answer) not in _PLAIN and isinstance(answer, (tuple, dict)):
+        answer = named_parts(answer, _NAMED_PARTS[:1]) or answer
+    return _encode(answer)
+
+
+def named_parts(value, names):
+    for parts in names:
+        if isinstance(value, dict) and all(part in value for part in parts):
+            return {part: value[part] for part in parts}
+        if all(hasattr(value, part) for part in parts):
+            found = [getattr(value, part) for part in parts]
+            return found if parts[0] == "x" else dict(zip(parts, found, strict=True))
+    return None
+
+
+def plain(value):
+    """One step from what JSON does not have to what it has."""
+    if isinstance(value, (type, set, frozenset, types.ModuleType, types.FunctionType)):
+        raise TypeError
+    for name in ("tolist", "item"):
+        if callable(method := getattr(value, name, None)):
+            return method()
+    if (parts := named_parts(value, _NAMED_PARTS)) is not None:
+        return parts
+    if hasattr(value, "__index__"):
+        return value.__index__()
+    if hasattr(value, "__float__"):
+        return float(value)
+    if hasattr(value, "keys"):
+        return dict(value)
+    return list(value)
+
+
+_encode = json.JSONEncoder(default=plain).encode
+
+
+def limit_memory(megabytes):
+    try:
+        import resource
+
+        with open("/proc/self/statm") as file:
+            now = int(file.read().split()[0]) * resource.getpagesize()
+        resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
+        most = now + (megabytes << 20)
+        resource.setrlimit(resource.RLIMIT_AS, (most, most))
+    except (ImportError, OSError, ValueError):
+        pass  # no such limit here: the other end watches
+
+
+if __name__ == "__main__":
+    try:
+        main()
+    except MemoryError:
+        os._exit(_MEMORY_STATUS)
