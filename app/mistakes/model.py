@@ -85,7 +85,7 @@ def picture_size(state: AppState, images: Size) -> Size:
 def scaled_pixel(pixel: Pixel, of: Size, size: Size) -> Pixel:
     """The pixel of an image of `size` that lies where that one does in an image of another."""
     row, column = (
-        min(int((at + 0.5) / old * new), new - 1)
+        (2 * at + 1) * new // (2 * old)  # where its middle lies
         for at, old, new in zip(pixel, reversed(of), reversed(size), strict=True)
     )
     return row, column
