@@ -67,9 +67,9 @@ def situation_of(state: AppState, images: Size) -> Situation:
     camera = state.view.for_size(size)
     depth = MIRROR_DEPTH if state.options.mirrors else 0
     shading = RayShading(camera.t_range, state.options.shadows, depth)
-    pixel = None
-    if state.marked is not None and min(images):
-        pixel = scaled_pixel(state.marked, images, size)
+    marked, pixel = state.marked, None
+    if marked is not None and marked[0] < images[1] and marked[1] < images[0]:
+        pixel = scaled_pixel(marked, images, size)
     return Situation(camera, size, state.options.indexing, shading, pixel)
 
 

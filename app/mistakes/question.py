@@ -74,10 +74,11 @@ def _drawn(
     for number, mistake in enumerate([*asked, *others][:TRIED]):
         light = picture(mistake)
         look = shown(light, 0.0)
-        if all(are_apart(look, other) for other in seen):
+        is_asked = bool(asked) and number == 0
+        if all(are_apart(look, other) for other in seen) and (is_asked or not is_blank(look)):
             kept.append((mistake, light))
             seen.append(look)
-        elif asked and number == 0:
+        elif is_asked:
             problem = f'With this camera, "{options.asked}" makes the right picture: move it.'
             return QuizQuestion((), 0, right, (), problem)
         if len(kept) == CHOICES:
@@ -102,6 +103,11 @@ def are_apart(one: Bytes, other: Bytes) -> bool:
     """Whether two pictures of a size, as shown, look different."""
     steps = np.abs(_places(one) - _places(other)).max(axis=2)
     return bool((steps > CLEAR).mean() >= PART)
+
+
+def is_blank(picture: Bytes) -> bool:
+    """Whether nothing is to be seen in it."""
+    return bool(np.ptp(_places(picture), axis=(0, 1)).max() <= CLEAR)
 
 
 def _places(picture: Bytes) -> NDArray[np.float64]:

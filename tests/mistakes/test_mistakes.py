@@ -152,6 +152,12 @@ def test_pixels_of_other_sizes() -> None:
     assert model.scaled_pixel((5, 7), (80, 60), (800, 600)) == (55, 75)
 
 
+def test_a_mark_beside_the_images_marks_nothing() -> None:
+    """It is of a larger image, or of a layout with others."""
+    for marked, pixel in (((59, 79), (47, 63)), ((60, 79), None), ((59, 80), None)):
+        assert situation(STATE.with_options(marked=marked)).pixel == pixel
+
+
 def test_unknown_names_are_told() -> None:
     names = tuple(mistake.name for program in PROGRAMS for mistake in program.mistakes)
     assert model.unknown((*names, "no such thing")) == ("no such thing",)

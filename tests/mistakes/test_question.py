@@ -44,6 +44,7 @@ def test_four_pictures_differ_and_one_of_them_is_it(painter, state, seed) -> Non
     assert asked.right_at == quiz.right_at(options)
     looks = [model.shown(light, 0.0) for light in (asked.right, *asked.pictures)]
     assert all(quiz.are_apart(*pair) for pair in combinations(looks, 2))
+    assert not any(quiz.is_blank(look) for look in looks)
     for name, light in zip(asked.names, asked.pictures, strict=True):
         rays = model.rays_of(now, model.named(now.program, (name,)))
         assert np.array_equal(painter.picture(*rays, now.shading), light)
