@@ -42,5 +42,6 @@ ROOMS: tuple[Room, ...] = (
     Room("app.stepper", ("stepper",)),
     Room("app.costs", ("costs",)),
     Room("app.laboratory", ("laboratory",)),
+    Room("app.mistakes", ("mistakes",)),
     Room("app.lecture"),
 )

@@ -94,6 +94,7 @@ DRAW = {
     "stepper": "listing numbers plan",
     "costs": "",
     "laboratory": "array_view displays_view pictures schemes tables tools vector_view",
+    "mistakes": "pages",
     "lecture": "exercise foot slide typesetting",
 }
 ROLES = ("actions", "instrument", "panel", "view")

@@ -8,7 +8,7 @@ import numpy as np
 from imgui_bundle import hello_imgui
 from imgui_bundle.imguizmo import im_guizmo
 from outside_window import enter, place, press, rect, scope, strokes, view
-from window_driver import Driver
+from window_driver import SIZE, Driver
 
 from app.outside import gizmo as outside_gizmo
 from app.outside import tint as outside_tint
