@@ -42,5 +42,6 @@ ROOMS: tuple[Room, ...] = (
     Room("app.stepper", ("stepper",)),
     Room("app.costs", ("costs",)),
     Room("app.laboratory", ("laboratory",)),
+    Room("app.your_code", ("your-code",)),
     Room("app.lecture"),
 )

@@ -65,6 +65,14 @@ def is_of_camera(task: CheckTask) -> bool:
     return task.kind in (RAY, BASIS)
 
 
+def chosen_of(tasks: Sequence[CheckTask], name: str) -> CheckTask | None:
+    """The task of that name; without one the first that makes a picture of the camera, or else the
+    first."""
+    wished = (task for task in tasks if task.name == name)
+    pictured = (task for task in tasks if is_of_camera(task))
+    return next(wished, None) or next(pictured, None) or next(iter(tasks), None)
+
+
 def for_camera(task: CheckTask, camera: Camera) -> CheckTask:
     """The task of the same function for this camera's projection."""
     fitting = (

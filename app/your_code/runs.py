@@ -21,7 +21,7 @@ from app.checking.kinds import KINDS
 from app.checking.running.file import FileStudent, NotRunnableError
 from app.checking.tasks import CheckTask
 from app.widgets.background import Background
-from app.your_code.model import CodeRays, cases_for, for_camera, is_of_camera, rays_of, tasks_of
+from app.your_code.model import CodeRays, cases_for, chosen_of, for_camera, is_of_camera, rays_of, tasks_of
 from app.your_code.report import CodeQuestion, CodeReport
 from renderer.errors import LucidaError, describe
 
@@ -191,8 +191,7 @@ class CodeRuns:
             self._publish(_timed(CodeReport(question, failure=_missing(error)), begin))
             return
         tasks = tasks_of(functions)
-        chosen = next((task for task in tasks if task.name == question.task), None)
-        chosen = chosen or next(iter(tasks), None)
+        chosen = chosen_of(tasks, question.task)
         report = CodeReport(
             question,
             tuple(tasks),
