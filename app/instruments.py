@@ -42,6 +42,7 @@ ROOMS: tuple[Room, ...] = (
     Room("app.stepper", ("stepper",)),
     Room("app.costs", ("costs",)),
     Room("app.laboratory", ("laboratory",)),
+    Room("app.mistakes", ("mistakes",)),
     Room("app.your_code", ("your-code",)),
     Room("app.lecture"),
 )

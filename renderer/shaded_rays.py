@@ -48,7 +48,7 @@ class RayTracer(Protocol):
 
 
 @dataclass(frozen=True)
-class Shading:
+class RayShading:
     """t_range: parameters within which viewing rays hit. shadows, mirror_depth: as Tracer's."""
 
     t_range: tuple[float, float] = (0.0, math.inf)
@@ -74,7 +74,7 @@ def shaded(
     flat: FlatScene,
     origins: ArrayLike,
     directions: ArrayLike,
-    shading: Shading,
+    shading: RayShading,
     is_wanted: Callable[[], bool],
 ) -> NDArray[np.float32] | None:
     """Linear light, float32 with the shape of the directions; None where it is no longer wanted.
@@ -97,7 +97,7 @@ def shaded(
 
 
 def _seen(
-    tracer: RayTracer, flat: FlatScene, origins: Floats, directions: Floats, shading: Shading
+    tracer: RayTracer, flat: FlatScene, origins: Floats, directions: Floats, shading: RayShading
 ) -> Floats:
     """The light (n, 3) along rays, and along their reflections."""
     light = np.zeros(origins.shape)
@@ -140,7 +140,7 @@ def _hits(
         objects[round_] = flat.sphere_object[spheres]
         out = points[round_] - flat.spheres[spheres, :3]
         # A tiny sphere far away may round to its centre.
-        out = np.where(out.any(axis=1)[:, None], out, directions[round_])
+        out = np.where((out != 0).any(axis=1)[:, None], out, directions[round_])
         geometric[round_] = normals[round_] = _facing(_unit(out), directions[round_])
     tint = None
     if not round_.all():
@@ -168,7 +168,7 @@ def _on_triangles(
     points: Floats,
     directions: Floats,
 ) -> tuple[Floats, Floats, Floats | None]:
-    """Geometric and shading normals on the viewer's side, and the vertices' colours; None: white."""
+    """Geometric and shading normals on the viewer's side; the vertices' colours, None for white."""
     corners = flat.faces[faces]
     matrix = flat.world_from_object[objects, :3]
     a, b, c = (flat.vertices[corners[:, k]].astype(np.float64) for k in range(3))
@@ -179,7 +179,7 @@ def _on_triangles(
     geometric = _unit(across)
     facing = _facing(geometric, directions)
     normals = flat.normals[corners].astype(np.float64)  # (n, 3 corners, 3)
-    is_smooth = normals.any(axis=2).all(axis=1)
+    is_smooth: Bools = (normals != 0).any(axis=2).all(axis=1)
     colors = flat.colors[corners]
     is_tinted = bool((colors != 1).any())
     if not is_smooth.any() and not is_tinted:

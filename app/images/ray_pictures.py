@@ -19,7 +19,7 @@ from app.widgets.background import Background
 from renderer.errors import LucidaError
 from renderer.scene.flat import FlatScene, flatten
 from renderer.scene.model import Scene
-from renderer.shaded_rays import Shading, shaded
+from renderer.shaded_rays import RayShading, shaded
 
 T = TypeVar("T")
 PATIENCE_S = 0.15  # pictures that are done sooner come, though newer ones are asked for: in motion
@@ -47,7 +47,7 @@ class RayPainter:
         self._is_wanted = is_wanted
 
     def picture(
-        self, origins: ArrayLike, directions: ArrayLike, shading: Shading
+        self, origins: ArrayLike, directions: ArrayLike, shading: RayShading
     ) -> NDArray[np.float32]:
         """Linear light (H, W, 3) along rays, see shaded_rays.shaded(). Raises UnwantedError, which
         is to be let through."""
@@ -55,6 +55,11 @@ class RayPainter:
         if light is None or self._tracer.scene is not self._scene:
             raise UnwantedError
         return light
+
+    def hit(self, origin: ArrayLike, direction: ArrayLike, shading: RayShading) -> float:
+        """Where a ray (3,), (3,) ends, in units of its direction; inf where it meets nothing."""
+        t = self._tracer.closest_hits([origin], [direction], *shading.t_range)[0]
+        return float(t[0])
 
 
 @dataclass(frozen=True, eq=False)

@@ -17,7 +17,7 @@ from app.images.agreement import Agreement, Verdict
 from app.images.placement import Placement, common_pane, own_size, place
 from app.images.progressive_ray import AnyTracer, LiveTrace, RayImage
 from app.images.readback import Region
-from app.images.request import ImageRequest
+from app.images.request import MIRROR_DEPTH, ImageRequest
 from app.images.shown import Picture
 from app.images.textures import ImageTextures
 from app.images.underlay import Underlay
@@ -32,7 +32,6 @@ from renderer.raster import Look
 from renderer.scene.model import View
 
 NOTE_AFTER_S = 0.3
-MIRROR_DEPTH = 4
 NEARBY_PX = 4  # by which the halves of a window may differ
 IMAGE_SIZE = (640, 480)  # of the camera's image while no view shows it
 STILL_S = 0.3  # comparing reads the raster image back, which may cost a frame: not while dragging

@@ -7,6 +7,8 @@ from dataclasses import dataclass, field, replace
 from renderer.camera import Camera
 from renderer.scene.model import Scene
 
+MIRROR_DEPTH = 4  # reflections of a ray, where mirrors are shown
+
 
 @dataclass(frozen=True)
 class ImageRequest:

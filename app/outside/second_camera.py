@@ -12,12 +12,12 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from app.outside.diagram import Dot, Face, Item, Label, Segments, polyline
+from app.outside.diagram import Dot, Face, Item, Label, Role, Segments, polyline
 
 Floats = NDArray[np.float64]
 
 SAME = 1e-6  # of the reach: origins that are nearer to one another are one eye
-ROLE = "other"
+ROLE: Role = "other"
 
 
 @dataclass(frozen=True, eq=False)
@@ -34,7 +34,7 @@ class GivenRay:
 class SecondCamera:
     """origins, directions: (4, 3), of the rays through the image's corner pixels: upper left, upper
     right, lower right, lower left as that camera's image has them. ray: of the marked pixel.
-    name: what its eye is labelled; first: what its first pixel is."""
+    name: what it is called; first: what its first pixel is."""
 
     origins: Floats
     directions: Floats
@@ -82,8 +82,7 @@ def _frustum(camera: SecondCamera, reach: float) -> list[Item]:
     if has_eye:
         items.append(Dot("second eye", ROLE, middle, 7.0))
     if camera.name:
-        at = middle if has_eye else plane[2]
-        items.append(Label("second eye", ROLE, camera.name, at, away=plane.mean(axis=0)))
+        items.append(Label("second name", ROLE, camera.name, plane[2], away=plane.mean(axis=0)))
     return items
 
 

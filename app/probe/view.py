@@ -16,7 +16,7 @@ from imgui_bundle import imgui
 
 from app.host.view import DockedView, Host
 from app.images.histogram import Histogram, histogram
-from app.images.renderers import MIRROR_DEPTH
+from app.images.request import MIRROR_DEPTH
 from app.outside.diagram import Arrow, Dot, Item, Segments
 from app.outside.extent import end_parameter
 from app.outside.view import OutsideView

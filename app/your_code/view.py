@@ -45,7 +45,7 @@ from app.your_code.words import told_of
 from renderer.atomic import atomic_write
 from renderer.camera import Camera
 from renderer.errors import LucidaError, describe, one_line
-from renderer.shaded_rays import Shading
+from renderer.shaded_rays import RayShading
 
 YOUR_CODE = "Your-code"
 LAYOUT = "Your code"
@@ -221,7 +221,7 @@ class YourCodeView(DockedView):
         if not rays.came.any():
             self.pictures, self._uploaded = None, None
             return
-        shading = Shading(rays.camera.t_range)
+        shading = RayShading(rays.camera.t_range)
 
         def make(painter: RayPainter) -> _Painted:
             given = painter.picture(rays.origins, rays.directions, shading)

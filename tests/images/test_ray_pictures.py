@@ -13,7 +13,7 @@ from waiting import wait_for
 from app.images.ray_pictures import RayPictures, UnwantedError
 from renderer.errors import LucidaError
 from renderer.scene.model import Scene, SceneObject, Sphere
-from renderer.shaded_rays import Shading
+from renderer.shaded_rays import RayShading
 
 SCENE, OTHER = Scene((SceneObject(Sphere()),)), Scene((), background=(0.1, 0.2, 0.3))
 ORIGINS, DIRECTIONS = np.zeros((2, 3, 3)), np.broadcast_to((0.0, 0.0, -1.0), (2, 3, 3))
@@ -63,7 +63,7 @@ def followed(pictures, key, scene, asked, make) -> Any:
 
 
 def along(painter):
-    return painter.picture(ORIGINS, DIRECTIONS, Shading())
+    return painter.picture(ORIGINS, DIRECTIONS, RayShading())
 
 
 def test_a_picture_comes_and_is_made_once(pictures) -> None:

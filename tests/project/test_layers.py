@@ -95,6 +95,7 @@ DRAW = {
     "costs": "",
     "your_code": "",
     "laboratory": "array_view displays_view pictures schemes tables tools vector_view",
+    "mistakes": "pages",
     "lecture": "exercise slide typesetting",
 }
 ROLES = ("actions", "instrument", "panel", "view")

@@ -1,0 +1,87 @@
+"""The mistakes' actions: what is shown, and the quiz's keys.
+
+The answers' keys 1 to 4 and A to D hold while the view has the keyboard and are read by its panel;
+the ones here hold wherever the keyboard is.
+"""
+
+from __future__ import annotations
+
+from app.host.action import SHIFT, Action, Key, Window
+from app.mistakes import model
+from app.mistakes.options import MistakesOptions, Mode
+from app.mistakes.panel import Wish
+from app.mistakes.question import LETTERS
+from app.mistakes.view import MISTAKES, MistakesView
+
+MENU = "Lecture/Mistakes"
+MODES: dict[Mode, str] = {
+    "laboratory": "Mistakes: a laboratory of wrong lines",
+    "which-line": "Mistakes: which line made this picture?",
+    "which-picture": "Mistakes: what will this line do?",
+}
+
+
+def _show(window: Window, mode: Mode) -> None:
+    window.shell.stage.show(MISTAKES)
+    changes = {"mode": mode, "names": (), "answer": "", "revealed": False}
+    window.change(window.state.with_options(mistakes=changes))
+
+
+def _follow(window: Window, step: int) -> None:
+    state = window.state
+    chosen = state.of(MistakesOptions).chosen
+    now = model.situation_of(state, window.renderers.size)
+    names = model.following(now.program, chosen, step)
+    window.change(state.with_options(mistakes={"chosen": names}))
+
+
+def _is_in(window: Window, quiz: bool) -> bool:
+    is_quiz = window.state.of(MistakesOptions).mode != "laboratory"
+    return MISTAKES in window.shell.stage.rects and is_quiz == quiz
+
+
+def _mode(mode: Mode, name: str) -> Action:
+    return Action(
+        MENU,
+        name,
+        lambda window: _show(window, mode),
+        is_on=lambda state: state.of(MistakesOptions).mode == mode,
+    )
+
+
+def _asking(name: str, wish: Wish | int, keys: str, chord: int, separated: bool) -> Action:
+    return Action(
+        MENU,
+        f"Mistakes: {name}",
+        lambda window: window.view(MistakesView).ask(wish),
+        keys,
+        (chord,),
+        can=lambda window: _is_in(window, quiz=True),
+        separated=separated,
+    )
+
+
+_NUMBERS = (Key._1, Key._2, Key._3, Key._4)
+
+WRONG_LINES = (
+    *(_mode(mode, name) for mode, name in MODES.items()),
+    Action(
+        MENU,
+        "Mistakes: the next wrong line",
+        lambda window: _follow(window, 1),
+        can=lambda window: _is_in(window, quiz=False),
+        separated=True,
+    ),
+    Action(
+        MENU,
+        "Mistakes: the wrong line before",
+        lambda window: _follow(window, -1),
+        can=lambda window: _is_in(window, quiz=False),
+    ),
+    *(
+        _asking(f"answer {letter}", number, f"Shift+{number + 1}", SHIFT | int(key), number == 0)
+        for number, (letter, key) in enumerate(zip(LETTERS, _NUMBERS, strict=True))
+    ),
+    _asking("reveal the answer", "reveal", "R", int(Key.r), True),
+    _asking("next question", "next", "Shift+R", SHIFT | int(Key.r), False),
+)

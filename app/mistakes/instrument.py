@@ -1,0 +1,17 @@
+"""The mistakes, as the window takes them."""
+
+from __future__ import annotations
+
+from app.host.instrument import Instrument
+from app.host.view import view_of
+from app.mistakes.actions import WRONG_LINES
+from app.mistakes.view import MistakesView
+from app.outside.view import OutsideView
+
+SYNONYMS = {
+    "Mistakes": "wrong lines errors quiz exercise what if students sign offset",
+}
+
+INSTRUMENT = Instrument(
+    lambda views: [MistakesView(view_of(views, OutsideView))], WRONG_LINES, synonyms=SYNONYMS
+)

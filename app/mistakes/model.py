@@ -1,0 +1,198 @@
+"""What the laboratory computes: which lines there are, which of them are wrong, and what that
+changes. Knows nothing of windows; the lines and their mistakes are app/checking/mistakes/.
+"""
+
+from __future__ import annotations
+
+import textwrap
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from app.checking.mistakes.program import Mistake, Mistakes, Program
+from app.checking.mistakes.rays import RayTask, camera_rays, ray_program
+from app.images.ray_pictures import RayPainter
+from app.images.request import MIRROR_DEPTH
+from app.mistakes.options import MistakesOptions
+from app.outside.second_camera import GivenRay, corner_rays
+from app.state.app_state import AppState
+from app.state.options import Pixel
+from renderer.camera import Camera, Size
+from renderer.images import to_srgb8
+from renderer.pixels import Indexing
+from renderer.shaded_rays import RayShading
+
+Light = NDArray[np.float32]
+Bytes = NDArray[np.uint8]
+Floats = NDArray[np.float64]
+
+LONGEST_LINE = 50  # letters: of a line that is longer, the rest stands below
+SEEN = 2  # of 255: what differs by more is marked
+GRAY = 0.4  # of its light: what does not differ
+MARK = (255, 176, 0)  # what differs
+
+
+@dataclass(frozen=True)
+class Situation:
+    """What pictures depend on beside the scene and the wrong lines. camera: fitted to size. pixel:
+    the marked one in an image of that size, or None."""
+
+    camera: Camera
+    size: Size
+    indexing: Indexing
+    shading: RayShading
+    pixel: Pixel | None = None
+
+    @property
+    def program(self) -> Program:
+        return ray_program(RayTask(self.camera.projection, self.indexing))
+
+
+@dataclass(frozen=True, eq=False)
+class Compared:
+    """right, wrong: linear light (H, W, 3). corners: origins and directions (4, 3) of the wrong
+    rays, as outside.second_camera takes them. ray: of the marked pixel, as wrong as the others."""
+
+    right: Light
+    wrong: Light
+    corners: tuple[Floats, Floats]
+    ray: GivenRay | None
+
+
+def situation_of(state: AppState, images: Size) -> Situation:
+    """images: the size of the window's own images, whose shape is taken."""
+    size = picture_size(state, images)
+    camera = state.view.for_size(size)
+    depth = MIRROR_DEPTH if state.options.mirrors else 0
+    shading = RayShading(camera.t_range, state.options.shadows, depth)
+    pixel = None
+    if state.marked is not None and min(images):
+        pixel = scaled_pixel(state.marked, images, size)
+    return Situation(camera, size, state.options.indexing, shading, pixel)
+
+
+def picture_size(state: AppState, images: Size) -> Size:
+    """As large as the images where these are as coarse, else of the columns that were chosen."""
+    columns = state.of(MistakesOptions).columns
+    width, height = images if min(images) else (4, 3)
+    if state.images.resolution is not None and width <= columns:
+        return width, height
+    return columns, max(1, min(2 * columns, round(columns * height / width)))
+
+
+def scaled_pixel(pixel: Pixel, of: Size, size: Size) -> Pixel:
+    """The pixel of an image of `size` that lies where that one does in an image of another."""
+    row, column = (
+        min(int((at + 0.5) / old * new), new - 1)
+        for at, old, new in zip(pixel, reversed(of), reversed(size), strict=True)
+    )
+    return row, column
+
+
+def rays_of(now: Situation, mistakes: Mistakes) -> tuple[Floats, Floats]:
+    """Origins and directions (H, W, 3) as the lines with these mistakes make them."""
+    return camera_rays(now.camera, now.size, mistakes, now.indexing)
+
+
+def compared(painter: RayPainter, now: Situation, mistakes: Mistakes) -> Compared:
+    """Both pictures; for a thread."""
+    right = painter.picture(*rays_of(now, ()), now.shading)
+    origins, directions = rays_of(now, mistakes)
+    wrong = painter.picture(origins, directions, now.shading) if mistakes else right
+    ray = None
+    if now.pixel is not None:
+        origin, direction = origins[now.pixel], directions[now.pixel]
+        ray = GivenRay(origin, direction, painter.hit(origin, direction, now.shading))
+    return Compared(right, wrong, corner_rays(origins, directions), ray)
+
+
+def named(program: Program, names: Iterable[str]) -> Mistakes:
+    """The mistakes of these names that the program has, in their order; at most two, and not two in
+    one line."""
+    found: list[Mistake] = []
+    for name in names:
+        for mistake in program.mistakes:
+            clash = any(mistake.keys & other.keys for other in found)
+            if mistake.name == name and not clash and len(found) < 2:
+                found.append(mistake)
+    return tuple(found)
+
+
+def unknown(names: Iterable[str]) -> tuple[str, ...]:
+    """The names that no program of a ray has."""
+    known = {
+        mistake.name
+        for projection in ("perspective", "parallel")
+        for mistake in ray_program(RayTask(projection)).mistakes
+    } | {mistake.name for mistake in ray_program(RayTask(indexing=Indexing.LECTURE)).mistakes}
+    return tuple(name for name in names if name not in known)
+
+
+def of_line(program: Program, key: str) -> Mistakes:
+    """What may be wrong in a line, with others or alone."""
+    return tuple(mistake for mistake in program.mistakes if key in mistake.keys)
+
+
+def switched(program: Program, names: Sequence[str], name: str) -> tuple[str, ...]:
+    """The names after a mistake was switched on, or off. What is in the same line gives way; of the
+    others, the last one stays."""
+    if name in names:
+        return tuple(one for one in names if one != name)
+    (new,) = (mistake for mistake in program.mistakes if mistake.name == name)
+    others = [one.name for one in named(program, names) if not one.keys & new.keys]
+    return (*others[-1:], name)
+
+
+def without_line(program: Program, names: Sequence[str], key: str) -> tuple[str, ...]:
+    """The names after a line was made right again."""
+    return tuple(one.name for one in named(program, names) if key not in one.keys)
+
+
+def following(program: Program, names: Sequence[str], step: int) -> tuple[str, ...]:
+    """The next mistake of the program alone, or the one before."""
+    all_names = [mistake.name for mistake in program.mistakes]
+    now = named(program, names)
+    at = all_names.index(now[0].name) + step if now else (0 if step > 0 else -1)
+    return (all_names[at % len(all_names)],)
+
+
+def folded(code: str) -> list[str]:
+    """The code in lines that have room: what goes on is indented."""
+    lines = []
+    for line in code.split("\n"):
+        lines += textwrap.wrap(
+            line, LONGEST_LINE, subsequent_indent="      ", break_long_words=False
+        ) or [""]
+    return lines
+
+
+def changed_pixels(right: Bytes, wrong: Bytes) -> NDArray[np.bool_]:
+    """(H, W): which pixels of two pictures as shown differ to be marked."""
+    differs: NDArray[np.bool_] = (
+        np.abs(right.astype(np.int16) - wrong.astype(np.int16)).max(axis=2) > SEEN
+    )
+    return differs
+
+
+def difference_picture(right: Bytes, changed: NDArray[np.bool_]) -> Bytes:
+    """Where they differ: bright, on the right picture in dark gray."""
+    gray = (GRAY * right.mean(axis=2)).astype(np.uint8)
+    picture: Bytes = np.repeat(gray[..., None], 3, axis=2)
+    picture[changed] = MARK
+    return picture
+
+
+def shown(light: Light, exposure_ev: float) -> Bytes:
+    """Linear light as it is shown."""
+    return to_srgb8(light, exposure_ev)
+
+
+def told_difference(changed: NDArray[np.bool_]) -> str:
+    """How much of the picture it is."""
+    count = int(changed.sum())
+    if count == 0:
+        return "nowhere: this camera does not tell them apart"
+    part = 100 * count / changed.size
+    return f"{part:.0f} % of the pixels" if part >= 1 else f"{count} pixels of {changed.size}"

@@ -1,0 +1,324 @@
+"""The two pages: the laboratory and the quiz, from what a thread has made of the state.
+
+Owns how much room the code, what is said, and the pictures have. What each looks like is panel.py's
+and widgets/picture_grid.py's.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Any
+
+import moderngl
+from imgui_bundle import ImVec2, imgui
+
+from app.checking.mistakes.program import Mistakes, Program
+from app.mistakes import model, panel, question
+from app.mistakes.model import Bytes, Compared, Situation
+from app.mistakes.options import MistakesOptions
+from app.mistakes.question import LETTERS, QuizQuestion
+from app.state.options import Pixel
+from app.widgets import theme
+from app.widgets.lettering import hall_px
+from app.widgets.picture_grid import GridPicture, picture_grid
+from app.widgets.theme import Fonts
+from app.widgets.uploads import Uploads
+
+LETTERS_A_LINE = 58.0  # over the whole view
+TEXT_PART = 0.55  # of the view's height, at most, for all but the pictures
+LOW = 0.6  # of its width: a lower view has the pictures beside the text
+COLUMN_PART = 0.64  # of its width that the text then has, at most
+GAP_EM = 0.8  # between both
+SMALLER = 0.94  # each size of type that is tried is that part of the one before
+ANSWER_MARGIN = 5  # letters before a choice's code
+
+
+@dataclass(frozen=True, eq=False)
+class Made:
+    """What the thread has made. of: what it was asked for."""
+
+    of: Any
+    now: Situation
+    mistakes: Mistakes = ()
+    compared: Compared | None = None
+    question: QuizQuestion | None = None
+
+
+class MadeTextures:
+    """The pictures of what was made, on the GPU."""
+
+    def __init__(self, context: moderngl.Context) -> None:
+        self.uploads = Uploads(context)
+        self._key: Any = None
+        self.told = ""  # about them
+
+    def take(self, key: Any, make: Callable[[], tuple[dict[str, Bytes], str]]) -> None:
+        """Puts pictures there, unless they are. make: gives them by their names, and what is told
+        about them. Raises LucidaError where there is no memory for them."""
+        if key == self._key:
+            return
+        pictures, self.told = make()
+        for name, picture in pictures.items():
+            self.uploads.put(name, picture)
+        self._key = key
+
+    def get(self, name: str) -> moderngl.Texture | None:
+        return self.uploads.get(name)
+
+    def forget(self) -> None:
+        self._key = None
+
+
+@dataclass(frozen=True)
+class Page:
+    """What is drawn into: its room, and the window's fonts and exposure."""
+
+    room: ImVec2
+    fonts: Fonts
+    exposure_ev: float
+    textures: MadeTextures
+
+
+@dataclass(frozen=True)
+class LaboratoryAnswer:
+    """chosen: the mistakes that are to be on; None: as they are. pixel: that was clicked."""
+
+    chosen: tuple[str, ...] | None = None
+    pixel: Pixel | None = None
+
+
+# The laboratory.
+
+
+def laboratory(
+    page: Page, now: Situation, made: Made | None, options: MistakesOptions
+) -> LaboratoryAnswer:
+    """The program, what is told of its wrong lines, and the pictures that both make."""
+    program, fonts = now.program, page.fonts
+    mistakes = model.named(program, options.chosen)
+    told = [f"{one.hint} (lecture: {one.part})" for one in mistakes]
+    rows, longest = panel.code_rows(program, mistakes), model.LONGEST_LINE + 3
+    text = _division(page.room, longest)
+    width = text.width
+
+    def height(size: float) -> float:
+        code = rows * panel.LINE * _code_px(width, size, longest)
+        return code + panel.paragraphs_px(told, width, size, fonts)
+
+    size = _fitting(text, height)
+    clicked = panel.program_lines(program, mistakes, _code_px(width, size, longest), width, fonts)
+    for one in told:
+        panel.paragraph(one, width, size, theme.TEXT, fonts)
+    pixel = _compared(page, now, made, options, _pictures_room(page, text))
+    if clicked is None:
+        return LaboratoryAnswer(None, pixel)
+    if clicked.mistake is None:
+        return LaboratoryAnswer(model.without_line(program, options.chosen, clicked.key))
+    return LaboratoryAnswer(model.switched(program, options.chosen, clicked.mistake.name))
+
+
+def _compared(
+    page: Page, now: Situation, made: Made | None, options: MistakesOptions, room: ImVec2
+) -> Pixel | None:
+    """The right picture, the wrong one, and where they differ; gives the pixel that was clicked."""
+    if made is None or made.compared is None:
+        imgui.text_colored(theme.DIM, "the first pictures are being traced ...")
+        return None
+    both, textures = made.compared, page.textures
+
+    def pictures() -> tuple[dict[str, Bytes], str]:
+        right, wrong = (model.shown(one, page.exposure_ev) for one in (both.right, both.wrong))
+        changed = model.changed_pixels(right, wrong)
+        difference = model.difference_picture(right, changed)
+        told = model.told_difference(changed)
+        return {"right": right, "wrong": wrong, "difference": difference}, told
+
+    textures.take((made, page.exposure_ev), pictures)
+    pixel = now.pixel if made.now.size == now.size else None
+    shown = [GridPicture("right", "right", textures.get("right"), pixel=pixel)]
+    if made.mistakes:
+        name = "wrong line" if len(made.mistakes) == 1 else "two wrong lines"
+        wrong = panel.wrong_color()
+        shown.append(GridPicture("wrong", name, textures.get("wrong"), "", wrong, pixel))
+    if made.mistakes and options.difference:
+        difference = textures.get("difference")
+        shown.append(GridPicture("difference", "difference", difference, textures.told))
+    clicked = picture_grid(shown, made.now.size, room, page.fonts)
+    return clicked.pixel if clicked is not None else None
+
+
+# The quiz.
+
+
+def quiz(page: Page, made: Made | None, options: MistakesOptions) -> int | None:
+    """The question, and after the answer the reason; gives the number of the one that was
+    clicked."""
+    asked = made.question if made is not None else None
+    if made is None or asked is None:
+        imgui.text_colored(theme.DIM, "drawing a question ...")
+        return None
+    if not asked.names:
+        size = hall_px(page.room.x, LETTERS_A_LINE)
+        panel.paragraph(asked.problem, page.room.x, size, theme.TEXT, page.fonts)
+        return None
+    told = (asked.problem,) if asked.problem else ()
+    if options.revealed:
+        told = (_reason(made.now.program, asked, options), *told)
+    if options.mode == "which-line":
+        return _which_line(page, made, asked, options, told)
+    return _which_picture(page, made, asked, options, told)
+
+
+def _which_line(
+    page: Page, made: Made, asked: QuizQuestion, options: MistakesOptions, told: tuple[str, ...]
+) -> int | None:
+    fonts = page.fonts
+    title = "Which line made the wrong picture?"
+    choices = [
+        panel.Choice(_code(made.now.program, name), _verdict(asked, options, number))
+        for number, name in enumerate(asked.names)
+    ]
+    longest = ANSWER_MARGIN + max(len(line) for choice in choices for line in choice.lines)
+    text = _division(page.room, longest)
+    width = text.width
+
+    def height(size: float) -> float:
+        code = panel.choices_px(choices, _code_px(width, size, longest))
+        return code + panel.paragraphs_px((title, *told), width, size, fonts)
+
+    size = _fitting(text, height)
+    panel.paragraph(title, width, size, theme.TEXT, fonts)
+    clicked = panel.choose_line(choices, width, _code_px(width, size, longest), fonts)
+    _say(page, told, options, width, size)
+    _take_question(page, made, asked)
+    wrong = page.textures.get(f"picture {asked.right_at}")
+    shown = [
+        GridPicture("right", "right", page.textures.get("right")),
+        GridPicture("wrong", "wrong", wrong, "", panel.wrong_color()),
+    ]
+    picture_grid(shown, made.now.size, _pictures_room(page, text), fonts)
+    return clicked
+
+
+def _which_picture(
+    page: Page, made: Made, asked: QuizQuestion, options: MistakesOptions, told: tuple[str, ...]
+) -> int | None:
+    fonts, program = page.fonts, made.now.program
+    title = "Which picture does the wrong line make?"
+    mistakes = model.named(program, (asked.names[asked.right_at],))
+    keys = mistakes[0].keys
+    lines = tuple(line for line in program.lines if line.key in keys)
+    part = Program(lines, mistakes, program.results)  # the lines that the question is about
+    rows, longest = panel.code_rows(part, mistakes), model.LONGEST_LINE + 3
+    text = _division(page.room, longest)
+    width = text.width
+
+    def height(size: float) -> float:
+        code = rows * panel.LINE * _code_px(width, size, longest)
+        return code + panel.paragraphs_px((title, *told), width, size, fonts)
+
+    size = _fitting(text, height)
+    panel.paragraph(title, width, size, theme.TEXT, fonts)
+    code_px = _code_px(width, size, longest)
+    panel.program_lines(part, mistakes, code_px, width, fonts, can_change=False)
+    _say(page, told, options, width, size)
+    _take_question(page, made, asked)
+    shown = [GridPicture("right", "right line", page.textures.get("right"))]
+    for number, name in enumerate(asked.names):
+        verdict = panel.verdict_color(_verdict(asked, options, number))
+        caption = name if options.revealed else ""
+        texture = page.textures.get(f"picture {number}")
+        shown.append(GridPicture(f"picture {number}", LETTERS[number], texture, caption, verdict))
+    clicked = picture_grid(shown, made.now.size, _pictures_room(page, text), fonts)
+    return clicked.number - 1 if clicked is not None and clicked.number else None
+
+
+def _say(
+    page: Page, told: tuple[str, ...], options: MistakesOptions, width: float, size: float
+) -> None:
+    for number, text in enumerate(told):
+        color = theme.TEXT
+        if options.answer and number == 0:
+            is_right = text.startswith("Right")
+            color = theme.GOOD if is_right else theme.legible(theme.ERROR)
+        panel.paragraph(text, width, size, color, page.fonts)
+
+
+def _take_question(page: Page, made: Made, asked: QuizQuestion) -> None:
+    def pictures() -> tuple[dict[str, Bytes], str]:
+        lights = {f"picture {n}": light for n, light in enumerate(asked.pictures)}
+        lights["right"] = asked.right
+        return {name: model.shown(one, page.exposure_ev) for name, one in lights.items()}, ""
+
+    page.textures.take((made, page.exposure_ev), pictures)
+
+
+def _code(program: Program, name: str) -> tuple[str, ...]:
+    mistake = next(one for one in program.mistakes if one.name == name)
+    return tuple(row for _, code in mistake.lines for row in panel.rows_of(code))
+
+
+def _verdict(asked: QuizQuestion, options: MistakesOptions, number: int) -> bool | None:
+    if not options.revealed:
+        return None
+    if number == asked.right_at:
+        return True
+    return False if asked.names[number] == options.answer else None
+
+
+def _reason(program: Program, asked: QuizQuestion, options: MistakesOptions) -> str:
+    truth = next(one for one in program.mistakes if one.name == asked.names[asked.right_at])
+    said = question.reason(program, asked.names, asked.right_at, options.answer)
+    return f"{said} (lecture: {truth.part})"
+
+
+# Room.
+
+
+@dataclass(frozen=True)
+class Division:
+    """corner: of the page, on the screen. width: that the text has. height: that it may have.
+    beside: whether the pictures stand beside it, else below."""
+
+    corner: ImVec2
+    width: float
+    height: float
+    beside: bool
+
+
+def _division(room: ImVec2, longest: int) -> Division:
+    """longest: letters of a line of code, which a column beside pictures has room for."""
+    corner, em = imgui.get_cursor_screen_pos(), imgui.get_font_size()
+    if room.y >= LOW * room.x:
+        return Division(corner, room.x, TEXT_PART * room.y, False)
+    width = min(_code_width(em, longest), COLUMN_PART * room.x)
+    return Division(corner, width, room.y, True)
+
+
+def _pictures_room(page: Page, text: Division) -> ImVec2:
+    """What is left for the pictures, from the cursor on. Call after the text."""
+    if not text.beside:
+        used = imgui.get_cursor_screen_pos().y - text.corner.y
+        return ImVec2(page.room.x, max(1.0, page.room.y - used))
+    left = text.width + GAP_EM * imgui.get_font_size()
+    imgui.set_cursor_screen_pos(ImVec2(text.corner.x + left, text.corner.y))
+    return ImVec2(max(1.0, page.room.x - left), page.room.y)
+
+
+def _fitting(text: Division, height: Callable[[float], float]) -> float:
+    """The size of type at which a text has room; never below the window's."""
+    least = imgui.get_font_size()
+    size = hall_px(text.width, LETTERS_A_LINE)
+    while size > least and height(size) > text.height:
+        size = max(least, SMALLER * size)
+    return size
+
+
+def _code_px(width: float, size: float, longest: int) -> float:
+    """Of code whose longest line has so many letters, each half as wide as it is high."""
+    return min(size, size * width / _code_width(size, longest))
+
+
+def _code_width(size: float, longest: int) -> float:
+    return size * (0.52 * longest + 2.0)

@@ -1,0 +1,299 @@
+"""The mistakes' panel: the program with its wrong lines struck out, the choices of the quiz, and
+what is said.
+
+Owns their look. Gets values and returns what was asked for; what is wrong is model.py's.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from typing import Literal
+
+from imgui_bundle import ImVec2, ImVec4, imgui
+
+from app.checking.mistakes.program import Mistake, Mistakes, Program
+from app.mistakes import model
+from app.mistakes.options import COLUMNS, MistakesOptions, Mode
+from app.mistakes.question import LETTERS
+from app.outside.paint import role_color
+from app.widgets import theme
+from app.widgets.checks import checkbox, radio_button
+from app.widgets.lettering import lettering
+from app.widgets.rows import follow
+from app.widgets.theme import Fonts
+
+Wish = Literal["", "reveal", "next", "right"]
+
+MODES: dict[Mode, tuple[str, str]] = {
+    "laboratory": ("laboratory", "switch wrong lines on, and see what they do"),
+    "which-line": ("which line?", "a quiz: a wrong picture, and four lines of code"),
+    "which-picture": ("which picture?", "a quiz: a wrong line, and four pictures"),
+}
+LINE = 1.3  # a line's height, in parts of the type's
+INSET = 0.6  # left of the code, likewise
+POPUP_ROWS = 14
+
+
+@dataclass(frozen=True)
+class LineAnswer:
+    """A mistake to switch on or off; or, without one, the line that is to be right again."""
+
+    key: str
+    mistake: Mistake | None
+
+
+def wrong_color() -> ImVec4:
+    """Of what a wrong line makes, as text: that of its camera in the outside view."""
+    return theme.legible(role_color("other"))
+
+
+def controls(options: MistakesOptions, is_asked: bool) -> tuple[MistakesOptions, Wish]:
+    """The mode, the pictures' size, and what the mode has. is_asked: there is a question."""
+    wish: Wish = ""
+    for number, (mode, (name, tip)) in enumerate(MODES.items()):
+        if number:
+            follow(imgui.calc_text_size(name).x + 1.5 * imgui.get_frame_height())
+        if radio_button(f"{name}##mode", options.mode == mode) and options.mode != mode:
+            options = replace(options, mode=mode, names=(), answer="", revealed=False)
+        imgui.set_item_tooltip(tip)
+    options = _columns(options)
+    if options.mode == "laboratory":
+        follow(imgui.calc_text_size("difference").x + 1.5 * imgui.get_frame_height())
+        _, on = checkbox("difference", options.difference)
+        imgui.set_item_tooltip("a picture of the pixels that the wrong lines change")
+        options = replace(options, difference=on)
+        if options.chosen and _button("all right", "every line as it should be"):
+            wish = "right"
+        return options, wish
+    imgui.begin_disabled(not is_asked or bool(options.answer))
+    shown = "hide" if options.revealed and not options.answer else "reveal"
+    if _button(f"{shown}###reveal", "which one it is (R)"):
+        wish = "reveal"
+    imgui.end_disabled()
+    if _button("next question", "another one (Shift+R)"):
+        wish = "next"
+    right, count = options.score
+    if count:
+        text = f"{right} of {count} right"
+        follow(imgui.calc_text_size(text).x)
+        imgui.align_text_to_frame_padding()
+        imgui.text_colored(theme.DIM, text)
+    return options, wish
+
+
+def _button(label: str, tip: str) -> bool:
+    shown = label.partition("##")[0]
+    follow(imgui.calc_text_size(shown).x + 2 * imgui.get_style().frame_padding.x)
+    clicked = bool(imgui.button(label))
+    imgui.set_item_tooltip(tip)
+    return clicked
+
+
+def _columns(options: MistakesOptions) -> MistakesOptions:
+    width = imgui.calc_text_size("320 pixels").x + 2.2 * imgui.get_frame_height()
+    follow(width)
+    imgui.set_next_item_width(width)
+    if imgui.begin_combo("##columns", f"{options.columns} pixels"):
+        for columns in COLUMNS:
+            if imgui.selectable(f"{columns} pixels", columns == options.columns)[0]:
+                options = replace(options, columns=columns)
+        imgui.end_combo()
+    imgui.set_item_tooltip(
+        "the pictures' width: half a pixel is to be seen where there are few of them"
+    )
+    return options
+
+
+# The program.
+
+
+def code_rows(program: Program, mistakes: Mistakes) -> int:
+    """How many rows program_lines() takes."""
+    return sum(
+        len(model.folded(line.code)) + len(rows_of(line.instead)) for line in program.text(mistakes)
+    )
+
+
+def rows_of(instead: str | None) -> list[str]:
+    """What is written instead of a line, as it is shown."""
+    if instead is None:
+        return []
+    return model.folded(instead) if instead else ["(left out)"]
+
+
+def program_lines(
+    program: Program,
+    mistakes: Mistakes,
+    size_px: float,
+    width: float,
+    fonts: Fonts,
+    can_change: bool = True,
+) -> LineAnswer | None:
+    """The program: what is wrong struck out, and what is written instead below it. A click on a
+    line opens what may be wrong in it. size_px: of the type."""
+    answer = None
+    height = LINE * size_px
+    for line in program.text(mistakes):
+        rows, instead = model.folded(line.code), rows_of(line.instead)
+        corner = imgui.get_cursor_screen_pos()
+        extent = ImVec2(width, height * (len(rows) + len(instead)))
+        draw, popup = imgui.get_window_draw_list(), f"mistakes of {line.key}"
+        if can_change:
+            if imgui.invisible_button(f"line {line.key}", extent):
+                imgui.open_popup(popup)
+            if imgui.is_item_hovered() or imgui.is_item_focused() or imgui.is_popup_open(popup):
+                far = ImVec2(corner.x + width, corner.y + extent.y)
+                draw.add_rect_filled(corner, far, theme.u32(theme.FRAME_HOVERED), theme.px(3))
+            imgui.set_item_tooltip(f"what may be wrong in the line of {line.key}: click")
+        else:
+            imgui.dummy(extent)
+        wrong = wrong_color()
+        with lettering(fonts.mono, size_px):
+            for number, text in enumerate([*rows, *instead]):
+                is_struck = number < len(rows) and line.instead is not None
+                is_wrong = number >= len(rows)
+                at = ImVec2(corner.x + INSET * size_px, corner.y + number * height)
+                at.y += 0.5 * (height - imgui.get_text_line_height())
+                color = wrong if is_wrong else theme.DIM if is_struck else theme.TEXT
+                draw.add_text(at, theme.u32(color), text)
+                if is_struck:
+                    _strike(draw, at, text, wrong)
+        if can_change:
+            caret = ImVec2(corner.x + width - 1.1 * size_px, corner.y + 0.5 * height)
+            _caret(draw, caret, 0.28 * size_px)
+            answer = _popup(popup, program, line.key, mistakes, width, fonts) or answer
+    return answer
+
+
+def _strike(draw: imgui.ImDrawList, at: ImVec2, text: str, color: ImVec4) -> None:
+    indent = imgui.calc_text_size(text[: len(text) - len(text.lstrip())]).x
+    y = at.y + 0.52 * imgui.get_text_line_height()
+    end = at.x + imgui.calc_text_size(text).x
+    width = max(theme.px(1), 0.06 * imgui.get_font_size())
+    draw.add_line(ImVec2(at.x + indent, y), ImVec2(end, y), theme.u32(color), width)
+
+
+def _caret(draw: imgui.ImDrawList, at: ImVec2, half: float) -> None:
+    draw.add_triangle_filled(
+        ImVec2(at.x - half, at.y - 0.5 * half),
+        ImVec2(at.x + half, at.y - 0.5 * half),
+        ImVec2(at.x, at.y + 0.7 * half),
+        theme.u32(theme.PLAIN),
+    )
+
+
+def _popup(
+    name: str, program: Program, key: str, mistakes: Mistakes, width: float, fonts: Fonts
+) -> LineAnswer | None:
+    """The mistakes of a line, by their names, with the code of each."""
+    row = 2.1 * imgui.get_text_line_height_with_spacing()
+    imgui.set_next_window_size_constraints(ImVec2(0, 0), ImVec2(max(width, 20.0), POPUP_ROWS * row))
+    if not imgui.begin_popup(name):
+        return None
+    answer = None
+    chosen = {mistake.name for mistake in mistakes}
+    is_right = not any(key in mistake.keys for mistake in mistakes)
+    if imgui.menu_item("right", "", is_right)[0]:
+        answer = LineAnswer(key, None)
+    for mistake in model.of_line(program, key):
+        if imgui.menu_item(mistake.name, "", mistake.name in chosen)[0]:
+            answer = LineAnswer(key, mistake)
+        imgui.set_item_tooltip(mistake.hint)
+        with lettering(fonts.mono, 0.9 * imgui.get_font_size()):
+            imgui.push_style_color(imgui.Col_.text, theme.DIM)
+            imgui.indent()
+            for line_key, code in mistake.lines:
+                if line_key == key:
+                    imgui.text_unformatted("\n".join(rows_of(code)))
+            imgui.unindent()
+            imgui.pop_style_color()
+    imgui.end_popup()
+    return answer
+
+
+# What is said.
+
+
+def paragraph(text: str, width: float, size_px: float, color: ImVec4, fonts: Fonts) -> None:
+    with lettering(fonts.text, size_px):
+        imgui.push_text_wrap_pos(imgui.get_cursor_pos_x() + width)
+        imgui.text_colored(color, text)
+        imgui.pop_text_wrap_pos()
+
+
+def paragraphs_px(texts: Sequence[str], width: float, size_px: float, fonts: Fonts) -> float:
+    """The height of paragraphs one below another."""
+    gap = imgui.get_style().item_spacing.y
+    with lettering(fonts.text, size_px):
+        return sum(imgui.calc_text_size(text, wrap_width=width).y + gap for text in texts)
+
+
+# The quiz.
+
+
+@dataclass(frozen=True)
+class Choice:
+    """lines: of code. verdict: whether it is the right one, once that is told, of that and of the
+    one that was answered."""
+
+    lines: tuple[str, ...]
+    verdict: bool | None = None
+
+
+def choices_px(choices: Sequence[Choice], size_px: float) -> float:
+    """The height of choose_line()."""
+    gap = imgui.get_style().item_spacing.y
+    rows = sum(len(choice.lines) + 2 * INSET / LINE for choice in choices)
+    return LINE * size_px * rows + gap * len(choices)
+
+
+def choose_line(
+    choices: Sequence[Choice], width: float, size_px: float, fonts: Fonts
+) -> int | None:
+    """Four lines of code with their letters; gives the one that was clicked."""
+    clicked = None
+    height, pad = LINE * size_px, INSET * size_px
+    for number, choice in enumerate(choices):
+        corner = imgui.get_cursor_screen_pos()
+        extent = ImVec2(width, height * len(choice.lines) - (LINE - 1) * size_px + 2 * pad)
+        if imgui.invisible_button(f"choice {LETTERS[number]}", extent):
+            clicked = number
+        draw = imgui.get_window_draw_list()
+        far = ImVec2(corner.x + extent.x, corner.y + extent.y)
+        hovered = imgui.is_item_hovered() or imgui.is_item_focused()
+        fill = theme.FRAME_HOVERED if hovered else theme.FRAME
+        draw.add_rect_filled(corner, far, theme.u32(fill), theme.px(4))
+        edge = verdict_color(choice.verdict) or theme.LINE
+        wide = theme.line_px(1 if choice.verdict is None else 3)
+        draw.add_rect(corner, far, theme.u32(edge), theme.px(4), wide)
+        with lettering(fonts.bold, size_px):
+            draw.add_text(
+                ImVec2(corner.x + pad, corner.y + pad), theme.u32(theme.TEXT), LETTERS[number]
+            )
+        with lettering(fonts.mono, size_px):
+            for row, text in enumerate(choice.lines):
+                at = ImVec2(corner.x + 2.4 * pad + size_px, corner.y + pad + row * height)
+                draw.add_text(at, theme.u32(wrong_color()), text)
+    return clicked
+
+
+def verdict_color(verdict: bool | None) -> ImVec4 | None:
+    if verdict is None:
+        return None
+    return theme.GOOD if verdict else theme.legible(theme.ERROR)
+
+
+def key_answer() -> int | None:
+    """The answer whose key was pressed while the view has the keyboard: 1 to 4, or A to D."""
+    key, focused = imgui.Key, int(imgui.InputFlags_.route_focused)
+    table = (
+        (key._1, key.keypad1, key.a),
+        (key._2, key.keypad2, key.b),
+        (key._3, key.keypad3, key.c),
+        (key._4, key.keypad4, key.d),
+    )
+    for number, keys in enumerate(table):
+        if any([imgui.shortcut(int(one), focused) for one in keys]):
+            return number
+    return None

@@ -1,0 +1,164 @@
+"""The quiz: a mistake and three others whose pictures differ, drawn for a scene and a camera.
+
+Pure. What is drawn depends on the seed alone, on what the camera can tell apart, and on the table
+of mistakes.
+"""
+
+from __future__ import annotations
+
+import random
+from collections.abc import Callable
+from dataclasses import dataclass
+from itertools import combinations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from app.checking.mistakes.program import Mistake, Program
+from app.images.ray_pictures import RayPainter
+from app.mistakes.model import Bytes, Light, Situation, rays_of, shown
+from app.mistakes.options import MistakesOptions
+
+CHOICES = 4
+LETTERS = "ABCD"
+ACROSS = 20  # places in a row of a picture, whose means are compared: edges alone are no difference
+CLEAR, PART = 20, 0.1  # of 255, and of the places: pictures that differ so much look different
+LONGEST = 62  # letters: longer lines are not asked for
+TRIED = 24  # mistakes whose pictures are made to find four
+
+
+@dataclass(frozen=True, eq=False)
+class QuizQuestion:
+    """names: of the four mistakes, in the order of the letters. right_at: which of them it is.
+    right, pictures: linear light (H, W, 3), without a mistake and of each. problem: why the camera
+    cannot tell them apart, or empty; without names there is no question."""
+
+    names: tuple[str, ...]
+    right_at: int
+    right: Light
+    pictures: tuple[Light, ...]
+    problem: str = ""
+
+
+def right_at(options: MistakesOptions) -> int:
+    """Where the right answer stands among the four."""
+    return random.Random(options.seed).randrange(CHOICES)
+
+
+def question(
+    painter: RayPainter, now: Situation, options: MistakesOptions, names: tuple[str, ...] = ()
+) -> QuizQuestion:
+    """The question of these options; for a thread. names: of one that stands; else it is drawn."""
+    program = now.program
+    by_name = {mistake.name: mistake for mistake in program.mistakes}
+    right = painter.picture(*rays_of(now, ()), now.shading)
+
+    def picture(mistake: Mistake) -> Light:
+        return painter.picture(*rays_of(now, (mistake,)), now.shading)
+
+    if len(names) == CHOICES and all(name in by_name for name in names):
+        pictures = tuple(picture(by_name[name]) for name in names)
+        return QuizQuestion(names, right_at(options), right, pictures, _alike(right, pictures))
+    return _drawn(program, options, right, picture)
+
+
+def _drawn(
+    program: Program, options: MistakesOptions, right: Light, picture: Callable[[Mistake], Light]
+) -> QuizQuestion:
+    asked = [mistake for mistake in program.mistakes if mistake.name == options.asked]
+    others = [one for one in program.mistakes if _is_short(one) and one.name != options.asked]
+    # The seed has drawn the place of the right one already: another one for the order.
+    random.Random(f"{options.seed}").shuffle(others)
+    kept: list[tuple[Mistake, Light]] = []
+    seen = [shown(right, 0.0)]
+    for number, mistake in enumerate([*asked, *others][:TRIED]):
+        light = picture(mistake)
+        look = shown(light, 0.0)
+        if all(are_apart(look, other) for other in seen):
+            kept.append((mistake, light))
+            seen.append(look)
+        elif asked and number == 0:
+            problem = f'With this camera, "{options.asked}" makes the right picture: move it.'
+            return QuizQuestion((), 0, right, (), problem)
+        if len(kept) == CHOICES:
+            break
+    else:
+        problem = (
+            "With this camera too few wrong lines make pictures that differ: move it, or take "
+            "another scene."
+        )
+        return QuizQuestion((), 0, right, (), problem)
+    at = right_at(options)
+    kept.insert(at, kept.pop(0))
+    names, pictures = zip(*((mistake.name, light) for mistake, light in kept), strict=True)
+    return QuizQuestion(names, at, right, pictures)
+
+
+def _is_short(mistake: Mistake) -> bool:
+    return all(len(code) <= LONGEST for _, code in mistake.lines)
+
+
+def are_apart(one: Bytes, other: Bytes) -> bool:
+    """Whether two pictures of a size, as shown, look different."""
+    steps = np.abs(_places(one) - _places(other)).max(axis=2)
+    return bool((steps > CLEAR).mean() >= PART)
+
+
+def _places(picture: Bytes) -> NDArray[np.float64]:
+    """The means of the picture's parts, which are squares, but at its edges."""
+    side = max(1, picture.shape[1] // ACROSS)
+    total: NDArray[np.float64] = picture.astype(np.float64)
+    for axis in (0, 1):
+        starts = np.arange(0, total.shape[axis], side)
+        counts = np.diff(np.append(starts, total.shape[axis]))
+        sums = np.add.reduceat(total, starts, axis=axis)
+        total = sums / counts.reshape((-1, 1, 1) if axis == 0 else (1, -1, 1))
+    return total
+
+
+def _alike(right: Light, pictures: tuple[Light, ...]) -> str:
+    """Which of the pictures this camera cannot tell apart, in words; empty where it can."""
+    looks = [shown(light, 0.0) for light in pictures]
+    for (a, one), (b, other) in combinations(enumerate(looks), 2):
+        if not are_apart(one, other):
+            return f"This camera cannot tell {LETTERS[a]} and {LETTERS[b]} apart: move it."
+    same = [n for n, look in enumerate(looks) if not are_apart(look, shown(right, 0.0))]
+    if same:
+        return f"With this camera, {LETTERS[same[0]]} makes the right picture: move it."
+    return ""
+
+
+def reason(program: Program, names: tuple[str, ...], at: int, answer: str) -> str:
+    """What is told after the answer; answer: the name of the one that was given, or empty."""
+    truth = next(mistake for mistake in program.mistakes if mistake.name == names[at])
+    told = f"{LETTERS[at]}, {truth.name}. {truth.hint}"
+    if answer == truth.name:
+        return f"Right: {told}"
+    if answer in names:
+        return f"Not {LETTERS[names.index(answer)]}, {answer}. It is {told}"
+    return f"It is {told}"
+
+
+def answered(options: MistakesOptions, names: tuple[str, ...], number: int) -> dict[str, object]:
+    """The options after an answer, as changes; none where it is answered already."""
+    if options.answer or options.revealed or not 0 <= number < len(names):
+        return {}
+    is_right = number == right_at(options)
+    right, count = options.score
+    return {
+        "names": names, "answer": names[number], "revealed": True,
+        "score": (right + is_right, count + 1),
+    }  # fmt: skip
+
+
+def revealed(options: MistakesOptions, names: tuple[str, ...]) -> dict[str, object]:
+    """The right one is told; or taken back, where nobody has answered."""
+    if options.answer or not names:
+        return {}
+    return {"names": names, "revealed": not options.revealed}
+
+
+def next_question(options: MistakesOptions, step: int = 1) -> dict[str, object]:
+    """Another one, drawn anew; after a step's own question any mistake may be asked for."""
+    seed = (options.seed + step) % 1_000_000
+    return {"seed": seed, "asked": "", "names": (), "answer": "", "revealed": False}

@@ -1,0 +1,241 @@
+"""The mistakes: a laboratory of wrong lines, and a quiz on them, as a view.
+
+Owns what is asked of the pictures' thread, the question that stands, and what the outside view
+shows of it. What pictures there are is model.py's and question.py's; how they look, pages.py's.
+"""
+
+from __future__ import annotations
+
+from dataclasses import asdict
+from typing import Any
+
+import moderngl
+import numpy as np
+from imgui_bundle import ImVec2, imgui
+
+from app.host.view import DockedView, Host
+from app.images.ray_pictures import RayPictures
+from app.mistakes import model, pages, panel, question
+from app.mistakes.model import Situation
+from app.mistakes.options import MistakesOptions
+from app.mistakes.pages import Made, MadeTextures, Page
+from app.mistakes.question import CHOICES
+from app.outside.diagram import Item
+from app.outside.extent import end_parameter
+from app.outside.second_camera import SecondCamera, second_camera
+from app.outside.view import OutsideView
+from app.state.options import Pixel
+from app.widgets import theme
+from app.widgets.lettering import at_most
+from renderer.errors import LucidaError, describe
+
+MISTAKES = "Mistakes"
+LEAST_EM = 11.0  # the view's height, at least: lower ones are scrolled
+CONTROLS_EM = 30.0  # the view's width, at least, in the type of its controls
+
+
+class MistakesView(DockedView):
+    """made: the pictures that are shown; None before the first."""
+
+    name = MISTAKES
+    title = "Mistakes"
+
+    def __init__(self, outside: OutsideView) -> None:
+        self._outside = outside
+        self._pictures: RayPictures[Made] | None = None
+        self._textures: MadeTextures | None = None
+        self._shown: Any = None  # what the outside view's lines were made from
+        self._stands: tuple[Any, tuple[str, ...]] = (None, ())  # a question's key, and its names
+        self._asked: list[panel.Wish | int | None] = []  # by keys and clicks, for the next frame
+        self._seen = False
+        self.made: Made | None = None
+
+    def ask(self, wish: panel.Wish | int) -> None:
+        """What a button, or the number of an answer, would do; for the next frame."""
+        self._asked.append(wish)
+
+    @property
+    def settled(self) -> bool:
+        if not self._seen or self._pictures is None:
+            return True
+        return not (self._pictures.busy or self._asked)
+
+    def begin(self, host: Host, context: moderngl.Context) -> None:
+        self._pictures = RayPictures("lucida-mistakes", host.animate)
+        self._textures = MadeTextures(context)
+
+    def end(self) -> None:
+        if self._pictures is not None:
+            self._pictures.close()
+        if self._textures is not None:
+            self._textures.uploads.release()
+
+    def unseen(self, host: Host) -> None:
+        if self._pictures is None or self._textures is None or not self._seen:
+            return
+        self._pictures.forget()
+        self._textures.forget()
+        self._seen, self.made, self._shown = False, None, None
+        self._asked.clear()
+        self._outside.show(MISTAKES, ())
+
+    def begin_anew(self) -> None:
+        self._stands = (None, ())
+        self._asked.clear()
+
+    def draw(self, host: Host) -> None:
+        assert self._textures is not None
+        self._textures.uploads.begin_frame()
+        self._seen = True
+        host.renderers.need_size(host.state.images)
+        usual = theme.TEXT_PX * imgui.get_style().font_scale_dpi
+        with at_most(max(usual, imgui.get_content_region_avail().x / CONTROLS_EM)):
+            self._draw(host, self._textures)
+        self._show_outside(host)
+
+    def _draw(self, host: Host, textures: MadeTextures) -> None:
+        now = model.situation_of(host.state, host.renderers.size)
+        options = host.state.of(MistakesOptions)
+        self.made = self._follow(host, now, options)
+        changed, wish = panel.controls(options, bool(self._names(options, now)))
+        if changed != options:
+            host.change(host.state.with_options(mistakes=asdict(changed)))
+        self._grant(host, now, wish)
+        error = self._problem(host.state.of(MistakesOptions))
+        if error:
+            width = imgui.get_content_region_avail().x
+            panel.paragraph(error, width, imgui.get_font_size(), theme.ERROR, host.fonts)
+        room = imgui.get_content_region_avail()
+        if imgui.begin_child("page", room):
+            width = imgui.get_content_region_avail().x
+            height = max(room.y, LEAST_EM * imgui.get_font_size())
+            exposure_ev = host.state.images.exposure_ev
+            try:
+                self._page(
+                    host, now, Page(ImVec2(width, height), host.fonts, exposure_ev, textures)
+                )
+            except LucidaError as problem:  # no memory for the textures
+                imgui.text_colored(theme.ERROR, describe(problem))
+        imgui.end_child()
+
+    def _page(self, host: Host, now: Situation, page: Page) -> None:
+        options = host.state.of(MistakesOptions)
+        if options.mode != "laboratory":
+            clicked = pages.quiz(page, self.made, options)
+            if clicked is not None:
+                self.ask(clicked)
+                host.animate()
+            return
+        answer = pages.laboratory(page, now, self.made, options)
+        if answer.chosen is not None:
+            host.change(host.state.with_options(mistakes={"chosen": answer.chosen}))
+        elif answer.pixel is not None and self.made is not None:
+            self._mark(host, self.made.now, answer.pixel)
+
+    def _mark(self, host: Host, now: Situation, pixel: Pixel) -> None:
+        """Marks a pixel in all views, or takes the mark away."""
+        images = host.renderers.size
+        marked = None if now.pixel == pixel else model.scaled_pixel(pixel, now.size, images)
+        host.change(host.state.with_options(marked=marked))
+
+    def _problem(self, options: MistakesOptions) -> str:
+        """What is wrong, in words; empty where nothing is."""
+        assert self._pictures is not None
+        if self._pictures.error is not None:
+            return describe(self._pictures.error)
+        names = (*options.chosen, *([options.asked] if options.asked else []))
+        unknown = model.unknown(names)
+        if unknown:
+            return f'There is no mistake "{unknown[0]}"; the lines\' menus have their names.'
+        return ""
+
+    # From the state to the pictures.
+
+    def _follow(self, host: Host, now: Situation, options: MistakesOptions) -> Made | None:
+        """The pictures of this state, or the last ones while these are on their way."""
+        assert self._pictures is not None
+        scene, live = host.state.scene, host.renderers.live
+        if options.mode == "laboratory":
+            mistakes = model.named(now.program, options.chosen)
+            made = self._pictures.follow(
+                (now, mistakes),
+                scene,
+                live,
+                lambda painter: Made(
+                    None, now, mistakes, compared=model.compared(painter, now, mistakes)
+                ),
+            )
+            return made if made is not None and made.compared is not None else None
+        key, names = self._key(options, now), self._names(options, now)
+        made = self._pictures.follow(
+            (now, key, options.names),
+            scene,
+            live,
+            lambda painter: Made(
+                key, now, question=question.question(painter, now, options, names)
+            ),
+        )
+        if made is None or made.question is None or made.of != key:
+            return None
+        if not names:
+            self._stands = (key, made.question.names)
+        return made
+
+    def _key(self, options: MistakesOptions, now: Situation) -> Any:
+        """What a question is drawn from, beside what the camera can tell apart."""
+        return options.seed, options.asked, now.program
+
+    def _names(self, options: MistakesOptions, now: Situation) -> tuple[str, ...]:
+        """Of the question that stands: it stays while the camera moves."""
+        known = {mistake.name for mistake in now.program.mistakes}
+        if len(options.names) == CHOICES and known.issuperset(options.names):
+            return options.names
+        key, names = self._stands
+        return names if key == self._key(options, now) else ()
+
+    # What was asked for.
+
+    def _grant(self, host: Host, now: Situation, wish: panel.Wish) -> None:
+        asked, self._asked = [*self._asked, wish], []
+        if host.state.of(MistakesOptions).mode != "laboratory":
+            asked.append(panel.key_answer())
+        for one in asked:
+            options = host.state.of(MistakesOptions)
+            changes = self._changes(options, self._names(options, now), one)
+            if changes:
+                host.change(host.state.with_options(mistakes=changes))
+
+    def _changes(
+        self, options: MistakesOptions, names: tuple[str, ...], wish: panel.Wish | int | None
+    ) -> dict[str, Any]:
+        """What a wish changes of the options."""
+        if wish == "right":
+            return {"chosen": ()}
+        if options.mode == "laboratory":
+            return {}
+        if wish == "next":
+            return question.next_question(options)
+        if wish == "reveal":
+            return question.revealed(options, names)
+        return question.answered(options, names, wish) if isinstance(wish, int) else {}
+
+    # What the outside view shows.
+
+    def _show_outside(self, host: Host) -> None:
+        """The camera of the wrong lines, and its ray; not in the quiz: it would be the answer."""
+        made = self.made
+        if made is None or made.compared is None or not made.mistakes:
+            self._shown = None
+            self._outside.show(MISTAKES, ())
+            return
+        now = made.now
+        end = end_parameter(now.camera, host.focus.framed)
+        if self._shown == (made, end):
+            return
+        self._shown = made, end
+        middle = (now.size[1] - 1) / 2, (now.size[0] - 1) / 2
+        reach = end * float(np.linalg.norm(now.camera.ray(*middle, now.size).direction))
+        first = f"pixel {now.indexing.text((0, 0))}"
+        corners, ray = made.compared.corners, made.compared.ray
+        items: list[Item] = second_camera(SecondCamera(*corners, ray, "as written", first), reach)
+        self._outside.show(MISTAKES, items)
