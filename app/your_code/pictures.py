@@ -10,23 +10,23 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from renderer.difference import false_color, most
-from renderer.images.display import encode_srgb, to_srgb8
+from app.mistakes.model import changed_pixels, difference_picture, told_difference
+from renderer.images.display import to_srgb8
 
 Bytes = NDArray[np.uint8]
-SAME_COLOR = (70, 84, 104)  # in the difference: another ray that happens to have the same colour
-LEAST_SEEN = 1.5 / 255
+SAME_COLOR = (70, 110, 160)  # in the difference: another ray that happens to have the same colour
 LARGEST_SIDE = 512  # of an image that a function made
+LARGEST_PX = 512  # a picture's width, as far as that makes its pixels larger
 
 
 @dataclass(frozen=True, eq=False)
 class CodePictures:
-    """came: which pixels of the given one are there, bool (H, W)."""
+    """told: how much of the picture differs, in words."""
 
     given: Bytes
     right: Bytes
     difference: Bytes
-    came: NDArray[np.bool_]
+    told: str
 
     @property
     def size(self) -> tuple[int, int]:
@@ -41,13 +41,14 @@ def compared(
     wrong: NDArray[np.bool_],
     exposure_ev: float = 0.0,
 ) -> CodePictures:
-    """wrong: pixels that are wrong, whatever their colour."""
-    given = np.where(came[..., None], given, 0).astype(np.float32)
-    apart = np.abs(most(encode_srgb(right) - encode_srgb(given)))
-    difference = false_color(apart, "color")
-    difference[wrong & came & (apart < LEAST_SEEN)] = SAME_COLOR
-    difference[~came] = 0
-    return CodePictures(to_srgb8(given, exposure_ev), to_srgb8(right, exposure_ev), difference, came)
+    """came: which pixels are there at all, bool (H, W). wrong: those that are wrong, whatever their
+    colour."""
+    shown = to_srgb8(np.where(came[..., None], given, 0), exposure_ev)
+    wanted = to_srgb8(right, exposure_ev)
+    changed = changed_pixels(wanted, shown) & came
+    difference = difference_picture(wanted, changed)
+    difference[wrong & came & ~changed] = SAME_COLOR
+    return CodePictures(shown, wanted, difference, told_difference(changed))
 
 
 def image_pair(right: object, given: object) -> CodePictures | None:
@@ -55,9 +56,9 @@ def image_pair(right: object, given: object) -> CodePictures | None:
     pair = [np.asarray(one) for one in (right, given)]
     if any(one.dtype.kind not in "fiub" or one.ndim not in (2, 3) for one in pair):
         return None
-    if pair[0].shape != pair[1].shape or not 1 <= max(pair[0].shape[:2]) <= LARGEST_SIDE:
+    if pair[0].shape != pair[1].shape or not 1 <= min(pair[0].shape[:2]):
         return None
-    if pair[0].ndim == 3 and pair[0].shape[2] != 3:
+    if max(pair[0].shape[:2]) > LARGEST_SIDE or (pair[0].ndim == 3 and pair[0].shape[2] != 3):
         return None
     first, second = (
         (one if one.ndim == 3 else np.repeat(one[..., None], 3, axis=2)).astype(np.float32)
@@ -65,3 +66,9 @@ def image_pair(right: object, given: object) -> CodePictures | None:
     )
     came = np.isfinite(second).all(axis=2)
     return compared(second, first, came, np.zeros(came.shape, bool))
+
+
+def magnified(picture: Bytes) -> Bytes:
+    """With larger pixels: what shows it smooths the edges of its texels."""
+    times = max(1, LARGEST_PX // picture.shape[1])
+    return picture.repeat(times, axis=0).repeat(times, axis=1)

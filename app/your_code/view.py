@@ -38,7 +38,7 @@ from app.your_code.following import FileFollower
 from app.your_code.model import CodeRays, canvas_pixel
 from app.your_code.options import YourCodeOptions
 from app.your_code.panel import CodeHead, CodeWish
-from app.your_code.pictures import CodePictures, compared, image_pair
+from app.your_code.pictures import CodePictures, compared, image_pair, magnified
 from app.your_code.report import CodeQuestion, CodeReport
 from app.your_code.runs import CodeRuns
 from app.your_code.words import told_of
@@ -198,7 +198,8 @@ class YourCodeView(DockedView):
             if beside:
                 imgui.same_line()
         lines = told_of(report, marked, host.state.options.indexing)
-        panel.words(lines, for_words, host.fonts)
+        left = imgui.get_content_region_avail()  # pictures may need less than they may have
+        panel.words(lines, for_words if beside else left, host.fonts)
         self._show_outside(host, report, marked)
         return wish
 
@@ -243,7 +244,7 @@ class YourCodeView(DockedView):
         self._uploaded = key
         if self.pictures is not None:
             for name in ("given", "right", "difference"):
-                self._uploads.put(name, getattr(self.pictures, name))
+                self._uploads.put(name, magnified(getattr(self.pictures, name)))
 
     def _draw_pictures(
         self,
@@ -256,13 +257,13 @@ class YourCodeView(DockedView):
         assert self._uploads is not None
         pixel = marked if report.rays is not None and pictures.size == report.rays.size else None
         titles = {
-            "given": ("yours", role_color("other")),
-            "right": ("right", None),
-            "difference": ("difference", None),
+            "given": ("yours", "", role_color("other")),
+            "right": ("right", "", None),
+            "difference": ("difference", pictures.told, None),
         }
         grid = [
-            GridPicture(name, title, self._uploads.get(name), frame=frame, pixel=pixel)
-            for name, (title, frame) in titles.items()
+            GridPicture(name, title, self._uploads.get(name), caption, frame, pixel)
+            for name, (title, caption, frame) in titles.items()
         ]
         try:
             answer = picture_grid(grid, pictures.size, room, host.fonts)
