@@ -86,9 +86,10 @@ def run(arguments: argparse.Namespace) -> int:
         check_image_path(arguments.screenshot, (".png",))
         screenshot = Path(arguments.screenshot)
     any_camera = any(getattr(arguments, name) is not None for name in CAMERA_OPTIONS)
-    source, code = arguments.scene, ""
+    code = ""
+    source: str | None = arguments.scene
     if source is not None and is_code(source):
-        source, code = None, found_code(source)
+        code, source = found_code(source), None
     elif source is not None:
         check_is_scene(source)
     from app.window.viewer import run_viewer  # after the quick mistakes: it loads the whole window

@@ -77,7 +77,7 @@ def _with_files(tables: dict[str, Any]) -> Iterator[tuple[type, str, dict[str, A
     types = _types(Options)
     for name, part in tables.items():
         kind = types.get(name)
-        if is_dataclass(kind) and isinstance(part, dict) and files_of(kind):
+        if isinstance(kind, type) and is_dataclass(kind) and isinstance(part, dict):
             yield kind, name, part
 
 

@@ -52,7 +52,9 @@ class CodeRays:
     @property
     def came(self) -> NDArray[np.bool_]:
         """Which pixels have a ray, bool (H, W)."""
-        return np.isfinite(self.origins).all(axis=2) & np.isfinite(self.directions).all(axis=2)
+        numbers = np.isfinite(self.origins) & np.isfinite(self.directions)
+        came: NDArray[np.bool_] = np.logical_and.reduce(numbers, axis=2)
+        return came
 
 
 def tasks_of(functions: frozenset[str] | None) -> list[CheckTask]:

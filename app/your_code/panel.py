@@ -13,7 +13,6 @@ from typing import Literal
 from imgui_bundle import ImVec2, ImVec4, imgui
 
 from app.checking.tasks import CheckTask
-from app.state.options import Pixel
 from app.stepper.panel import CANVASES
 from app.widgets import theme
 from app.widgets.lettering import lettering

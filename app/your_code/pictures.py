@@ -15,6 +15,7 @@ from renderer.images.display import to_srgb8
 
 Bytes = NDArray[np.uint8]
 SAME_COLOR = (70, 110, 160)  # in the difference: another ray that happens to have the same colour
+IMAGES = ("render", "to-gray", "to-bitmap")  # kinds of functions whose answers are images
 LARGEST_SIDE = 512  # of an image that a function made
 LARGEST_PX = 512  # a picture's width, as far as that makes its pixels larger
 
@@ -56,7 +57,7 @@ def image_pair(right: object, given: object) -> CodePictures | None:
     pair = [np.asarray(one) for one in (right, given)]
     if any(one.dtype.kind not in "fiub" or one.ndim not in (2, 3) for one in pair):
         return None
-    if pair[0].shape != pair[1].shape or not 1 <= min(pair[0].shape[:2]):
+    if pair[0].shape != pair[1].shape or not min(pair[0].shape[:2]) >= 1:
         return None
     if max(pair[0].shape[:2]) > LARGEST_SIDE or (pair[0].ndim == 3 and pair[0].shape[2] != 3):
         return None
@@ -64,7 +65,7 @@ def image_pair(right: object, given: object) -> CodePictures | None:
         (one if one.ndim == 3 else np.repeat(one[..., None], 3, axis=2)).astype(np.float32)
         for one in pair
     )
-    came = np.isfinite(second).all(axis=2)
+    came = np.logical_and.reduce(np.isfinite(second), axis=2)
     return compared(second, first, came, np.zeros(came.shape, bool))
 
 

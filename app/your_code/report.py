@@ -1,4 +1,4 @@
-"""What is known of a file at a moment, as one immutable value: a thread makes it, the view reads it."""
+"""What is known of a file, as one immutable value: a thread makes it, the view reads it."""
 
 from __future__ import annotations
 

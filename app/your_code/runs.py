@@ -21,7 +21,15 @@ from app.checking.kinds import KINDS
 from app.checking.running.file import FileStudent, NotRunnableError
 from app.checking.tasks import CheckTask
 from app.widgets.background import Background
-from app.your_code.model import CodeRays, cases_for, chosen_of, for_camera, is_of_camera, rays_of, tasks_of
+from app.your_code.model import (
+    CodeRays,
+    cases_for,
+    chosen_of,
+    for_camera,
+    is_of_camera,
+    rays_of,
+    tasks_of,
+)
 from app.your_code.report import CodeQuestion, CodeReport
 from renderer.errors import LucidaError, describe
 
@@ -210,9 +218,7 @@ class CodeRuns:
                 results = {**report.results, task.name: _tried(student, task, report)}
                 report = self._publish(replace(report, results=results))
 
-    def _rays(
-        self, question: CodeQuestion, task: CheckTask, student: CodeStudent
-    ) -> CodeRays:
+    def _rays(self, question: CodeQuestion, task: CheckTask, student: CodeStudent) -> CodeRays:
         if question in self._kept:
             return self._kept[question]
         camera, size = question.camera, question.size

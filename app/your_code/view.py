@@ -38,7 +38,7 @@ from app.your_code.following import FileFollower
 from app.your_code.model import CodeRays, canvas_pixel
 from app.your_code.options import YourCodeOptions
 from app.your_code.panel import CodeHead, CodeWish
-from app.your_code.pictures import CodePictures, compared, image_pair, magnified
+from app.your_code.pictures import IMAGES, CodePictures, compared, image_pair, magnified
 from app.your_code.report import CodeQuestion, CodeReport
 from app.your_code.runs import CodeRuns
 from app.your_code.words import told_of
@@ -177,9 +177,7 @@ class YourCodeView(DockedView):
         )
         report = runs.report if runs.report and runs.report.question.path == path else None
         file = Path(path)
-        told = CodeHead(
-            file.name, str(file.parent), options.canvas, runs.running_s, runs.progress
-        )
+        told = CodeHead(file.name, str(file.parent), options.canvas, runs.running_s, runs.progress)
         wish, canvas = panel.head(told, report, host.fonts)
         if canvas != options.canvas:
             host.apply(host.state.with_options(your_code={"canvas": canvas}))
@@ -215,8 +213,8 @@ class YourCodeView(DockedView):
             key: Any = first
             if key != self._uploaded:
                 self.pictures = None
-                if first is not None:
-                    self.pictures = image_pair(first.right_answer, first.given_answer)
+                if first is not None and report.chosen and report.chosen.kind in IMAGES:
+                    self.pictures = image_pair(first.case.right, first.answer)
                 self._upload(key)
             return
         if not rays.came.any():

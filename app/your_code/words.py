@@ -69,8 +69,12 @@ def _of_task(report: CodeReport, pixel: Pixel | None, indexing: Indexing) -> Ite
             return
     result = report.results.get(chosen.name)
     if result is None:
-        yield ToldLine("dim", f"{chosen.name} is being tried with other cameras ..."
-                       if is_of_camera(chosen) else f"{chosen.name} is being tried ...")
+        yield ToldLine(
+            "dim",
+            f"{chosen.name} is being tried with other cameras ..."
+            if is_of_camera(chosen)
+            else f"{chosen.name} is being tried ...",
+        )
     elif rays is None or (rays.result.status == "right" and result.status != "right"):
         if rays is not None:
             yield ToldLine("bad", "But not for every camera:")
@@ -83,11 +87,14 @@ def _of_rays(report: CodeReport, rays: CodeRays) -> Iterator[ToldLine]:
     """What is to be seen in the pictures, and why."""
     result, count = rays.result, int(rays.wrong.sum())
     if result.failure is not None:
-        yield from (ToldLine("code" if k else "bad", line)
-                    for k, line in enumerate(told(result).lines))
+        yield from (
+            ToldLine("code" if k else "bad", line) for k, line in enumerate(told(result).lines)
+        )
     elif result.status == "right":
         what = "basis" if rays.task.kind == BASIS else "ray"
-        yield ToldLine("good", f"Every {what} is right." if what == "ray" else "The basis is right.")
+        yield ToldLine(
+            "good", f"Every {what} is right." if what == "ray" else "The basis is right."
+        )
     else:
         if rays.task.kind == BASIS:
             yield ToldLine("bad", "The basis is wrong.")
@@ -116,8 +123,9 @@ def _of_pixel(rays: CodeRays, pixel: Pixel, indexing: Indexing) -> Iterator[Told
         ("yours", rays.origins, rays.directions),
         ("right", rays.right_origins, rays.right_directions),
     ):
-        origin, direction = (text_of(np.round(part[pixel], 12).tolist()) for part in
-                             (origins, directions))
+        origin, direction = (
+            text_of(np.round(part[pixel], 12).tolist()) for part in (origins, directions)
+        )
         yield ToldLine("code", f"{name}  {origin} + t {direction}")
 
 
@@ -139,6 +147,10 @@ def _of_output(report: CodeReport) -> Iterator[ToldLine]:
     printed = output.rstrip().splitlines()
     if printed:
         more = len(printed) - OUTPUT_LINES
-        yield ToldLine("dim", f"printed, the last {OUTPUT_LINES} of {len(printed)} lines:"
-                       if more > 0 else "printed:")
+        yield ToldLine(
+            "dim",
+            f"printed, the last {OUTPUT_LINES} of {len(printed)} lines:"
+            if more > 0
+            else "printed:",
+        )
         yield from (ToldLine("code", line.expandtabs(4)) for line in printed[-OUTPUT_LINES:])
