@@ -7,6 +7,7 @@ from dataclasses import replace
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from app.checking.conventions import PAIRS, Conventions
 from app.checking.kinds.kind import Flags
@@ -17,6 +18,8 @@ from app.checking.mistakes.ray_trial import RayCase
 from app.checking.mistakes.rays import WORDS, RayTask
 from app.checking.tasks import CheckCase, CheckTask
 from renderer.pixels import Indexing
+
+MOST = 1000  # cases of rays that are looked at: of a large image, these
 
 _SAME = {"row": "i", "column": "j"}
 _PIXELS = ({"i", "j"}, {"x01", "y01"}, {"x11", "y11"})
@@ -32,8 +35,9 @@ def diagnosis(
     """What is told of the wrong answers of a task beside the first one; None where nothing is.
 
     given: in the kind's own form. wrong: bool (N,), which are."""
-    if task.kind == "viewing-ray":
-        return _of_rays(task, cases, np.asarray(given), wrong)
+    with np.errstate(all="ignore"):  # they may be any numbers
+        if task.kind == "viewing-ray":
+            return _of_rays(task, cases, np.asarray(given), wrong)
     return None
 
 
@@ -46,14 +50,30 @@ def _of_rays(
         of_any_length = replace(task.conventions, unit=False)
         if are_right(of_any_length, right, given, tolerance).all():
             return Diagnosis(("The directions are right, but not of length 1: normalise them.",))
+    chosen = np.arange(len(cases)) if len(cases) <= MOST else _some(wrong)
     asked = [
         RayCase(case.camera, case.size, case.pixel, case.target, case.up)
-        for case in cases
+        for case in (cases[number] for number in chosen.tolist())
         if case.camera is not None and case.size is not None and case.pixel is not None
     ]
     return diagnose_rays(
-        asked, given, wrong, ray_task(task.conventions), any_origin=task.conventions.any_origin
+        asked,
+        given[chosen],
+        wrong[chosen],
+        ray_task(task.conventions),
+        any_origin=task.conventions.any_origin,
     )
+
+
+def _some(wrong: Flags) -> NDArray[np.intp]:
+    """As many numbers of cases as are looked at, evenly of those that are wrong and of the
+    others; the first of each is one of them."""
+    parts = []
+    for flags in (wrong, ~wrong):
+        numbers = np.flatnonzero(flags)
+        step = max(len(numbers) * 2 // MOST, 1)
+        parts.append(numbers[::step])
+    return np.sort(np.concatenate(parts))
 
 
 def ray_task(conventions: Conventions) -> RayTask:

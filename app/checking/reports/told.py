@@ -18,10 +18,11 @@ class Told:
 
 
 def told(result: TaskResult) -> Told:
-    """Of a task that could not be tried, why is always told: else it could not be mended."""
+    """Of a task that could not be tried, why is always told, with the call that led to it: else it
+    could not be mended."""
     feedback = FEEDBACK.index(result.task.feedback)
     if result.status == "failed":
-        return Told("failed", tuple(_failure(result, feedback > 1)))
+        return Told("failed", tuple(_failure(result)))
     if feedback == 0:
         return Told(None)
     if result.status == "right" or feedback == 1:
@@ -41,10 +42,11 @@ def _first_wrong(result: TaskResult) -> list[str]:
     return [*lines, call, f"right: {first.right}", f"given: {first.given}"]
 
 
-def _failure(result: TaskResult, arguments: bool) -> list[str]:
+def _failure(result: TaskResult) -> list[str]:
+    """Why, and the student's own lines; the last of them is told in the first line already."""
     failure = result.failure
     assert failure is not None
-    lines = [one_line(failure.text), *(line.rstrip() for line in failure.traceback)]
-    if arguments and result.failed_arguments:
-        lines.append(f"called: {result.task.function}({result.failed_arguments})")
-    return lines
+    lines = [line.rstrip() for line in failure.traceback]
+    if lines and lines[-1] in failure.text:
+        del lines[-1]
+    return [one_line(failure.text), *(lines if len(lines) > 1 else [])]
