@@ -43,5 +43,6 @@ ROOMS: tuple[Room, ...] = (
     Room("app.costs", ("costs",)),
     Room("app.laboratory", ("laboratory",)),
     Room("app.mistakes", ("mistakes",)),
+    Room("app.your_code", ("your-code",)),
     Room("app.lecture"),
 )

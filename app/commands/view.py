@@ -1,4 +1,5 @@
-"""`lucida [SCENE]`: the window with both renderers side by side.
+"""`lucida [SCENE]`: the window with both renderers side by side; `lucida rays.py`: with a student's
+program.
 
 Knows nothing of how the window is made (app/window/viewer.py).
 """
@@ -15,6 +16,7 @@ from app.commands.arguments import (
     VIEW_HELP,
     size,
 )
+from app.storage.code_files import found_code, is_code
 
 NAME = "view"
 SMALLEST_SIDE = 64  # of the window, in pixels
@@ -40,6 +42,7 @@ examples:
   lucida bunny.obj                        a model, lit and framed
   lucida spheres --view corner.toml       a built-in scene, seen by another camera
   lucida spheres --eye=0,2,6              the scene's own camera, moved
+  lucida rays.py                          your own viewing_ray, its picture beside the right one
   lucida --screenshot window.png          draw the window once, save it, leave
 
 With no display, lucida draws the window once, saves the picture and says where.
@@ -83,15 +86,20 @@ def run(arguments: argparse.Namespace) -> int:
         check_image_path(arguments.screenshot, (".png",))
         screenshot = Path(arguments.screenshot)
     any_camera = any(getattr(arguments, name) is not None for name in CAMERA_OPTIONS)
-    if arguments.scene is not None:
-        check_is_scene(arguments.scene)
+    code = ""
+    source: str | None = arguments.scene
+    if source is not None and is_code(source):
+        code, source = found_code(source), None
+    elif source is not None:
+        check_is_scene(source)
     from app.window.viewer import run_viewer  # after the quick mistakes: it loads the whole window
 
     return run_viewer(
-        arguments.scene,
+        source,
         screenshot,
         size=arguments.size,
         view=arguments.view,
         change=(lambda view: with_camera_options(arguments, view)) if any_camera else None,
         fresh=arguments.fresh,
+        code=code,
     )

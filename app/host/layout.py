@@ -135,6 +135,14 @@ LAYOUTS = (
         ),
         {"Raster": MAIN, "Ray": RIGHT_SPACE},
     ),
+    Layout(
+        "Your code",
+        (
+            (MAIN, RIGHT_SPACE, imgui.Dir.right, 0.3),
+            (RIGHT_SPACE, INSTRUMENTS, imgui.Dir.down, 0.5),
+        ),
+        {"Outside": RIGHT_SPACE, "Ray": INSTRUMENTS, "Raster": INSTRUMENTS},
+    ),
 )
 
 

@@ -41,6 +41,7 @@ class Stage:
         self.failures: dict[str, Exception] = {}
         self._to_begin: dict[str, Callable[[], None]] = {}  # of those that could not
         self._next_focus = ""
+        self._next_shown = "", ""  # a view, and the layout that it is to be shown in
         self._keyboard = self._next_keyboard = ""  # as focused, but "" while something else has it
         self._hovered: DockedView | None = None
         self._restoring: Arrangement | None = None
@@ -72,7 +73,7 @@ class Stage:
     @property
     def settled(self) -> bool:
         """Whether the views are laid out, and nothing will change by itself in those to be seen."""
-        if self._frames < LAID_OUT or self.failures:
+        if self._frames < LAID_OUT or self.failures or self._next_shown[0]:
             return False
         return all(self.views[name].settled for name in self.rects)
 
@@ -105,6 +106,20 @@ class Stage:
         elif self.maximised == name:
             self.maximised = ""
 
+    def show_in(self, name: str, wanted: str) -> None:
+        """Shows a view in a layout that is made for it; in a lecture, beside the step's own."""
+        self._next_shown = name, wanted
+
+    def _show_next(self) -> None:
+        name, wanted = self._next_shown
+        if not name or self._restoring is not None:
+            return
+        if layout.current().name in (wanted, layout.LECTURE):
+            self._next_shown = "", ""
+            self.show(name)
+        else:
+            layout.switch(wanted)
+
     def focus_next(self, step: int) -> None:
         """Gives the keyboard to the next view, or the one before (step -1)."""
         names = [view.name for view in self.shown]
@@ -134,6 +149,7 @@ class Stage:
                 name, focused = self._before
                 layout.switch(name if name != layout.PRESENTATION else layout.LAYOUTS[0].name)
                 self.give_keyboard(focused)
+        self._show_next()
         self._give_keyboard()
         if self._next_focus:
             name, self._next_focus = self._next_focus, ""

@@ -32,7 +32,7 @@ from app.lecture.schema import (
     StepTable,
     VectorTable,
 )
-from app.lecture.step_options import options_from_table
+from app.lecture.step_options import files_named, options_from_table, with_files
 from app.lecture.under import under
 from app.lecture.written import formulas_written, pieces_written
 from app.state.all_options import Options
@@ -169,6 +169,7 @@ class _LectureReader:
                 scene = step.get("scene")
                 inside = scene in file.scenes or scene in BUILTIN_SCENES
                 names += [None if inside else scene, step.get("camera")]
+                names += files_named(step.get("options"))
         return (self._folder / name for name in names if isinstance(name, str))
 
     def _keep(self, name: str, scene: Scene) -> None:
@@ -219,7 +220,7 @@ class _LectureReader:
 
     def _options(self, tables: dict[str, Any]) -> dict[str, Any]:
         """The step's options; pixels are counted as the lecture says, in all of its steps."""
-        options = options_from_table(tables)
+        options = with_files(options_from_table(tables), self._folder)
         one_based = self._indexing is Indexing.LECTURE
         if one_based != Options().one_based:
             options = {"one_based": one_based} | options

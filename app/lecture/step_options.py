@@ -6,15 +6,18 @@ lecture at once, within the bounds that stand on its field.
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import fields, is_dataclass, replace
 from functools import lru_cache
+from pathlib import Path
 from typing import Any, get_args, get_type_hints
 
 import msgspec
 
 from app.lecture.under import under
 from app.state.all_options import Options
-from app.state.bounds import check
+from app.state.bounds import check, files_of
+from app.storage.paths import stored
 from renderer.camera import Camera
 from renderer.errors import LucidaError
 from renderer.scene.reading import suggestion
@@ -51,6 +54,36 @@ def options_from_table(tables: dict[str, Any]) -> dict[str, Any]:
                 changes[name] = _part(kind, value)
     check(Options, changes)
     return changes
+
+
+def files_named(tables: Any) -> Iterator[str]:
+    """The files that a step's options name, whatever else is wrong with them."""
+    for kind, _, part in _with_files(tables if isinstance(tables, dict) else {}):
+        yield from (part[name] for name in files_of(kind) if isinstance(part.get(name), str))
+
+
+def with_files(changes: dict[str, Any], folder: Path) -> dict[str, Any]:
+    """The changes with the files that they name, which lie in the lecture's folder, by their
+    absolute paths. Raises LucidaError where one is not there."""
+    changes = dict(changes)
+    for kind, where, part in list(_with_files(changes)):
+        found = {name: part[name] for name in files_of(kind) if part.get(name)}
+        for name, file in found.items():
+            path = (folder / file).absolute()
+            if not path.is_file():
+                raise LucidaError(f"{where}.{name}", f"{file!r} does not exist", "check its name")
+            found[name] = stored(str(path))
+        changes[where] = part | found
+    return changes
+
+
+def _with_files(tables: dict[str, Any]) -> Iterator[tuple[type, str, dict[str, Any]]]:
+    """The parts of options that name files: their class, their name, what they hold."""
+    types = _types(Options)
+    for name, part in tables.items():
+        kind = types.get(name)
+        if isinstance(kind, type) and is_dataclass(kind) and isinstance(part, dict):
+            yield kind, name, part
 
 
 def _part(kind: Any, table: dict[str, Any]) -> dict[str, Any]:

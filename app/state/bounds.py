@@ -70,6 +70,22 @@ class AtMost:
 
 
 @dataclass(frozen=True)
+class Beside:
+    """The path of a file, "" for none. A lecture names one beside itself; its reader makes that
+    absolute."""
+
+    endings: tuple[str, ...]
+
+    def problem(self, value: str) -> tuple[str, str] | None:
+        if not value or value.lower().endswith(self.endings):
+            return None
+        return f"{value!r} is no such file", f"give one that ends in {' or '.join(self.endings)}"
+
+    def clamped(self, value: str, default: Any) -> Any:
+        return default
+
+
+@dataclass(frozen=True)
 class Accepted:
     """What a check that stands elsewhere accepts: it raises LucidaError for what it does not."""
 
@@ -114,6 +130,15 @@ def whole_range_of(kind: type, field: str) -> tuple[int, int]:
     """range_of() for whole numbers."""
     least, most = range_of(kind, field)
     return int(least), int(most)
+
+
+def files_of(kind: type) -> tuple[str, ...]:
+    """The fields that hold a file's path."""
+    return tuple(
+        name
+        for name, hint in _hints(kind).items()
+        if any(isinstance(mark, Beside) for mark in _marks_inside(hint))
+    )
 
 
 def _text(number: float) -> str:

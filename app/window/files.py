@@ -15,6 +15,7 @@ from pathlib import Path
 
 from imgui_bundle import portable_file_dialogs as dialogs
 
+from app.storage.code_files import CODE_ENDING
 from app.storage.recent import RecentFiles
 from app.storage.scene_watch import SceneWatch
 from app.widgets.background import Background
@@ -101,7 +102,8 @@ class Files:
         return time.monotonic() - self._began_s if self._loading.busy else 0.0
 
     def open(self, source: str) -> None:
-        """Loads a built-in scene, a scene file, a model, a view or a lecture in the background."""
+        """Loads a built-in scene, a scene file, a model, a view or a lecture in the background, or
+        finds a Python file."""
         self.open_all([source])
 
     def open_all(self, sources: Sequence[str], dropped: bool = False) -> None:
@@ -165,6 +167,12 @@ class Files:
                 "Open a lecture", False, (LECTURE_ENDING,), "", lambda p: self.open_lecture(p[0])
             ),
             ["Lectures", f"*{LECTURE_ENDING}", "All files", "*"],
+        )
+
+    def open_code_dialog(self) -> None:
+        self._ask(
+            FileQuestion("Open Python code", False, (CODE_ENDING,), "", self.open_all),
+            ["Python files", f"*{CODE_ENDING}"],
         )
 
     def save_view_dialog(self, view: View) -> None:

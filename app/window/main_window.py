@@ -40,7 +40,8 @@ from app.window.opening import Opened
 from app.window.platform import on_drop, set_title
 from app.window.shell import Shell
 from app.window.status import Status, is_good_news, status_line, told
-from renderer.errors import LucidaError
+from app.your_code.view import YourCodeView
+from renderer.errors import LucidaError, describe
 from renderer.scene import Scene
 from renderer.scene.outside import outside_files
 
@@ -202,6 +203,10 @@ class MainWindow:
     def open(self, source: str) -> None:
         self.files.open(source)
 
+    def open_code(self, path: str) -> None:
+        """Runs the user's own Python file, in its view. path: absolute."""
+        self.view(YourCodeView).open(self, path)
+
     def retry(self) -> None:
         """Tries again what a renderer or a view has failed at."""
         self.renderers.retry()
@@ -334,6 +339,9 @@ class MainWindow:
             view.cancel()
 
     def _take_opened(self, opened: Opened) -> None:
+        if opened.code:
+            self.open_code(opened.code)
+            self.animate()
         if opened.lecture is not None:  # whose steps have scenes of their own
             self.lecture.give(*opened.lecture)
             self.animate()

@@ -12,6 +12,7 @@ from pathlib import Path
 
 from app.lecture.model import Lecture
 from app.lecture.reading import is_lecture, load_lecture
+from app.storage.code_files import found_code, is_code
 from renderer.errors import LucidaError, describe
 from renderer.raster import Prepared, prepare
 from renderer.scene import BUILTIN_SCENES, Scene, View, load_scene, load_view
@@ -32,6 +33,7 @@ class Opened:
     is_first: it takes the place of what the window has begun with, without a step of undo.
     replaces: the scene of which this is a newer version; None for another one. agreed: the files
     outside of its folder that a scene which came by itself may read; None where the user named it.
+    code: the absolute path of a Python file, which is there.
     """
 
     sources: tuple[str, ...] = ()
@@ -43,22 +45,26 @@ class Opened:
     is_first: bool = False
     replaces: Scene | None = None
     agreed: frozenset[Path] | None = None
+    code: str = ""
 
 
 def open_sources(
     sources: Sequence[str], dropped: bool = False, agreed: frozenset[Path] = frozenset()
 ) -> Opened:
-    """Loads the first scene and the first view among sources; and the first lecture.
+    """Loads the first scene and the first view among sources; and the first lecture, the first
+    Python file.
 
     dropped: scenes must not name files outside of their folder but those that are agreed to;
     lectures never. Raises LucidaError where there is but one and it cannot be read, OutsideError
     in any case.
     """
-    scene, view, lecture = None, None, None
+    scene, view, lecture, code = None, None, None, ""
     good, problems = [], []
     for source in sources:
         try:
-            if source not in BUILTIN_SCENES and _is_view(Path(source)):
+            if source not in BUILTIN_SCENES and is_code(source):
+                code = code or found_code(source)
+            elif source not in BUILTIN_SCENES and _is_view(Path(source)):
                 view = view or load_view(source)
             elif source not in BUILTIN_SCENES and is_lecture(source):
                 lecture = lecture or (load_lecture(source, agreed), Path(source).absolute())
@@ -73,7 +79,9 @@ def open_sources(
             problems.append(describe(error))
     given = agreed if dropped else None
     prepared = _prepared(scene)
-    return Opened(tuple(good), scene, view, tuple(problems), lecture, prepared, agreed=given)
+    return Opened(
+        tuple(good), scene, view, tuple(problems), lecture, prepared, agreed=given, code=code
+    )
 
 
 def _load_scene(source: str, agreed: frozenset[Path] | None) -> Scene:

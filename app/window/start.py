@@ -53,7 +53,8 @@ class Start:
     """What a window begins with. session: what it goes on with, None for nothing. keeper: what
     saves it. message: what the user is told about it. opened: a scene for the recent files. later:
     what takes the place of the state's scene as soon as it is read. lecture: the one that is gone
-    on with. fresh: begin as on the first day, with no layout of a window before."""
+    on with. fresh: begin as on the first day, with no layout of a window before. code: the absolute
+    path of a student's Python file, which is run."""
 
     state: AppState
     session: Session | None = None
@@ -63,6 +64,7 @@ class Start:
     later: Later | None = None
     lecture: LectureSession | None = None
     fresh: bool = False
+    code: str = ""
 
 
 def begin_scene(

@@ -9,6 +9,7 @@ from __future__ import annotations
 import sys
 import time
 from collections.abc import Callable
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -19,7 +20,7 @@ from app.host import layout
 from app.host.view import DockedView
 from app.state.app_state import AppState
 from app.storage.capture import free_path
-from app.storage.paths import is_unicode
+from app.storage.paths import is_unicode, stored
 from app.storage.session import source_of
 from app.storage.session_store import settings_folder
 from app.storage.settings import settings_file
@@ -61,6 +62,7 @@ def run_viewer(
     view: str | Path | None = None,
     change: Callable[[SceneView], SceneView] | None = None,
     fresh: bool = False,
+    code: str = "",
 ) -> int:
     """Opens the window on a scene and returns when it is closed; gives the exit status.
 
@@ -69,7 +71,8 @@ def run_viewer(
     screenshot: draw the whole window once, with both images complete, save it there as PNG, and
     return. With no display that is done in any case, into lucida.png, or lucida-2.png where there
     is one, and one line says so. size: the window's (width, height). view: a view file. change:
-    what else the command line says about the view. Raises LucidaError.
+    what else the command line says about the view. code: the absolute path of a Python file, which
+    is run. Raises LucidaError.
     """
     goes_on = scene_source is None and view is None and change is None and screenshot is None
     if screenshot is not None:
@@ -82,6 +85,9 @@ def run_viewer(
         start = kept(start, fresh)
     elif start.later is not None:
         start = begin_scene(scene_source, view, change, wait=True)
+    if code:
+        kept = start.state.with_options(your_code={"file": stored(code), "task": ""})
+        start = replace(start, state=kept, code=code)
     run = Run(platform, start.state, size or DEFAULT_SIZE, picture is not None, start=start)
     return run.to_the_end(picture, tell=screenshot is None)
 
@@ -179,6 +185,9 @@ class Run:
             self.window.files.recent.add(str(Path(start.opened).absolute()))
         if start.later is not None:
             self.window.files.open_later(start.later.source, start.later.open)
+        if start.code:
+            self.window.open_code(start.code)
+            self.window.files.recent.add(start.code)
 
     def _end(self) -> None:
         self._ended = self.params.app_shall_exit = True

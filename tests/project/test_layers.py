@@ -93,6 +93,7 @@ DRAW = {
     "probe": "histogram",
     "stepper": "listing numbers plan",
     "costs": "",
+    "your_code": "",
     "laboratory": "array_view displays_view pictures schemes tables tools vector_view",
     "mistakes": "pages",
     "lecture": "exercise foot slide typesetting",

@@ -63,14 +63,14 @@ def drive_what_was_typed_into_leaves_no_cursor(d: Driver) -> None:
     context = imgui.get_current_context()
     for opening, typed in ((CTRL | SHIFT | int(Key.p), "maximise"), (CTRL | int(Key.g), "12")):
         for leaving in (int(Key.enter), int(Key.escape)):
-            press(d, opening)
+            d.press(opening)
             assert context.nav_cursor_visible
             d.ctx.key_chars(typed)
             d.ctx.yield_(2)
-            press(d, leaving)
+            d.press(leaving)
             d.ctx.yield_(3)
             assert not context.nav_cursor_visible, (typed, leaving)
-    press(d, int(Key.tab))
+    d.press(int(Key.tab))
     assert context.nav_cursor_visible
 
 

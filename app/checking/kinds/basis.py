@@ -57,7 +57,7 @@ class BasisKind(CheckKind):
             ((3.0, 3.0, 3.0), (0.0, 0.0, 0.0), (0.0, 1.0, 0.0)),
         ]
         made = [*simple, *(look(random) for _ in range(task.count))]
-        return [_case(task, *one) for one in made]
+        return [case_of(task, *one) for one in made]
 
     def given(
         self, task: CheckTask, cases: Sequence[CheckCase], values: Sequence[Any]
@@ -91,7 +91,7 @@ class BasisKind(CheckKind):
         return ", ".join(parts)
 
 
-def _case(task: CheckTask, eye: Vector, target: Vector, up: Vector) -> CheckCase:
+def case_of(task: CheckTask, eye: Vector, target: Vector, up: Vector) -> CheckCase:
     camera = Camera.look_at(eye, target, up)
     right = np.array([camera.u, camera.v, camera.w])
     away = np.linalg.norm(np.subtract(eye, target))

@@ -58,6 +58,7 @@ class FileStudent:
         self._failed: Failure | None = None  # for good
         self._closed = threading.Event()
         self._printed = ""
+        self._values: list[Any] = []
 
     def __enter__(self) -> Self:
         return self
@@ -82,10 +83,15 @@ class FileStudent:
                 raise NotRunnableError(failure, self._printed)
             return frozenset(self._functions["functions"])
 
+    @property
+    def answered(self) -> int:
+        """How many calls of the run under way, or the last one, are answered; from any thread."""
+        return len(self._values)
+
     def call(self, calls: Sequence[Call]) -> Run:
         with self._turn:
             end = time.monotonic() + self._limits.seconds
-            values: list[Any] = []
+            values = self._values = []
             try:
                 failure = self._start(end)
                 if failure is None and calls:

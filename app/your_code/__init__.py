@@ -1,0 +1,1 @@
+"""What a student's own file makes of the window's camera: its picture beside the right one."""

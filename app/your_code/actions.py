@@ -1,0 +1,30 @@
+"""The actions of the view "Your code"."""
+
+from __future__ import annotations
+
+from app.host.action import Action, Window
+from app.your_code.options import YourCodeOptions
+from app.your_code.panel import CodeWish
+from app.your_code.view import LAYOUT, YOUR_CODE, YourCodeView
+
+MENU = "File/Your code"
+
+
+def _ask(wish: CodeWish, window: Window) -> None:
+    window.shell.stage.show_in(YOUR_CODE, LAYOUT)
+    window.view(YourCodeView).ask(wish)
+
+
+def _has_file(window: Window) -> bool:
+    return bool(window.state.of(YourCodeOptions).file)
+
+
+YOURS = (
+    Action(MENU, "Open Python code...", lambda window: _ask("open", window)),
+    Action(MENU, "Write code to begin with...", lambda window: _ask("starter", window)),
+    Action(
+        MENU, "Run your code", lambda window: _ask("run", window), can=_has_file, separated=True
+    ),
+    Action(MENU, "Stop your code", lambda window: _ask("stop", window), can=_has_file),
+    Action(MENU, "Edit your code", lambda window: _ask("edit", window), can=_has_file),
+)

@@ -1,0 +1,23 @@
+"""Which file is run, for which function, on how many pixels."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Annotated
+
+from app.state.bounds import AtMost, Beside, Range
+
+
+@dataclass(frozen=True)
+class YourCodeOptions:
+    """The view "Your code". file: an absolute path, as app.storage.paths.stored() writes it, "" for
+    none; in a lecture one beside the lecture's file. task: the name of the one that is looked at;
+    "" for the first whose function the file has. canvas: (width, height) of the pictures.
+    """
+
+    file: Annotated[str, Beside((".py",))] = ""
+    task: Annotated[str, AtMost(64)] = ""
+    canvas: tuple[Annotated[int, Range(1, 64)], Annotated[int, Range(1, 48)]] = (32, 24)
+
+
+OPTIONS = YourCodeOptions

@@ -1,0 +1,199 @@
+"""How the view "Your code" looks: its controls, the tasks, the pictures, what is told.
+
+Owns the layout. Gets values and returns wishes.
+"""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Literal
+
+from imgui_bundle import ImVec2, ImVec4, imgui
+
+from app.checking.tasks import CheckTask
+from app.stepper.panel import CANVASES
+from app.widgets import theme
+from app.widgets.lettering import lettering
+from app.widgets.rows import follow
+from app.widgets.theme import Fonts
+from app.your_code.report import CodeReport
+from app.your_code.words import ToldLine, ToldRole, verdict_of
+from renderer.camera import Size
+from renderer.errors import one_line
+
+CodeWish = Literal["", "open", "starter", "run", "stop", "edit"]
+RUNNING_S = 0.3  # a run that takes longer shows how far it is
+BESIDE = 2.0  # width / height of the room from which words stand beside the pictures
+WORDS_EM = 24.0  # the least width of the words there
+TEXT_PART = 0.42  # of the height, for the words below the pictures
+CODE_LETTERS = 24  # a line of code is made smaller until so many fit, and then is broken
+
+INVITATION = (
+    "Write the ray of a pixel yourself. Lucida runs your Python file on the camera that you see"
+    " here, again whenever you save it, and shows your picture beside the right one."
+)
+SIGNATURE = "def viewing_ray(i, j, width, height, camera):\n    ...\n    return origin, direction"
+TRUST = (
+    "It has not been run: you have not opened it yourself. It would run in a process of its own,"
+    " with your rights. Read it first."
+)
+
+
+@dataclass(frozen=True)
+class CodeHead:
+    """What stands above. name, folder: of the file. running_s: how long it has been running; 0
+    where it is not. progress: how much of the picture is there, 0 to 1."""
+
+    name: str
+    folder: str
+    canvas: Size
+    running_s: float = 0.0
+    progress: float = 0.0
+    may_run: bool = True
+
+
+def invitation(fonts: Fonts) -> CodeWish:
+    """Where no file is open."""
+    imgui.push_text_wrap_pos(0.0)
+    imgui.text(INVITATION)
+    imgui.pop_text_wrap_pos()
+    imgui.dummy(ImVec2(0, 0.3 * imgui.get_font_size()))
+    with lettering(fonts.mono, imgui.get_font_size()):
+        imgui.text_colored(theme.DIM, SIGNATURE)
+    imgui.dummy(ImVec2(0, 0.3 * imgui.get_font_size()))
+    wish: CodeWish = ""
+    if imgui.button("Write a file to begin with..."):
+        wish = "starter"
+    imgui.set_item_tooltip("a Python file with empty functions, and what each is to return")
+    follow(imgui.calc_text_size("Open a Python file...").x + 2 * imgui.get_style().frame_padding.x)
+    if imgui.button("Open a Python file..."):
+        wish = "open"
+    imgui.push_text_wrap_pos(0.0)
+    imgui.text_colored(theme.DIM, "Or drop one on the window, or: lucida rays.py")
+    imgui.pop_text_wrap_pos()
+    return wish
+
+
+def head(told: CodeHead, report: CodeReport | None, fonts: Fonts) -> tuple[CodeWish, Size]:
+    """The file and what can be done with it; gives the canvas as it is chosen."""
+    wish: CodeWish = ""
+    with lettering(fonts.bold, imgui.get_font_size()):
+        imgui.align_text_to_frame_padding()
+        imgui.text(one_line(told.name))
+    imgui.set_item_tooltip(one_line(told.folder))
+    running = told.running_s > RUNNING_S
+    label, tip = ("Stop", "end its process") if running else ("Run", "as when the file is saved")
+    for name, shown, tooltip in (
+        ("stop" if running else "run", label, tip),
+        ("edit", "Edit", "open it in your editor; it runs again when you save it"),
+        ("open", "Open...", "another Python file"),
+    ):
+        if name == "run" and not told.may_run:
+            continue
+        follow(_button_width(shown))
+        if imgui.button(f"{shown}###{name}"):
+            wish = name  # type: ignore[assignment]
+        imgui.set_item_tooltip(tooltip)
+    canvas = _canvas(told.canvas)
+    if running:
+        width = 9 * imgui.get_font_size()
+        follow(width)
+        part = told.progress if told.progress > 0 else -0.5 * told.running_s
+        imgui.progress_bar(part, ImVec2(width, 0), f"{told.running_s:.0f} s")
+    elif report is not None and report.at:
+        at = time.strftime("%H:%M:%S", time.localtime(report.at))
+        text = f"ran at {at}, {report.seconds:.2g} s" if report.seconds else f"ran at {at}"
+        follow(imgui.calc_text_size(text).x)
+        imgui.align_text_to_frame_padding()
+        imgui.text_colored(theme.DIM, text)
+    return wish, canvas
+
+
+def tasks(report: CodeReport, chosen: CheckTask | None) -> CheckTask | None:
+    """A button for each task whose function the file has, with its verdict; gives the one that
+    was clicked."""
+    clicked = None
+    for number, task in enumerate(report.tasks):
+        verdict = verdict_of(report, task)
+        label = f"{task.name}: {verdict or '...'}"
+        if number:
+            follow(_button_width(label))
+        on = task == chosen
+        color = {"right": theme.GOOD, "wrong": theme.ERROR, "failed": theme.ERROR}.get(verdict)
+        imgui.push_style_color(imgui.Col_.text, color or theme.DIM)
+        imgui.push_style_color(imgui.Col_.border, theme.TEXT if on else theme.LINE)
+        imgui.push_style_var(imgui.StyleVar_.frame_border_size, theme.px(2 if on else 1))
+        if imgui.button(f"{label}###{task.name}"):
+            clicked = task
+        imgui.pop_style_var()
+        imgui.pop_style_color(2)
+        imgui.set_item_tooltip(task.text)
+    return clicked
+
+
+def rooms(room: ImVec2, has_pictures: bool) -> tuple[ImVec2, ImVec2, bool]:
+    """The room for the pictures, for the words, and whether they stand beside one another."""
+    gap = imgui.get_style().item_spacing
+    if not has_pictures:
+        return ImVec2(0, 0), room, False
+    em = imgui.get_font_size()
+    if room.x > BESIDE * room.y and room.x > 2 * WORDS_EM * em:
+        words = max(WORDS_EM * em, 0.34 * room.x)
+        return ImVec2(room.x - words - gap.x, room.y), ImVec2(words, room.y), True
+    height = max(TEXT_PART * room.y, min(8 * em, 0.6 * room.y))
+    return ImVec2(room.x, room.y - height - gap.y), ImVec2(room.x, height), False
+
+
+def words(lines: Sequence[ToldLine], room: ImVec2, fonts: Fonts) -> None:
+    """What is told, scrolled where it has no room."""
+    if imgui.begin_child("told", room):
+        em = imgui.get_font_size()
+        width = imgui.get_content_region_avail().x
+        for line in lines:
+            is_code = line.role == "code"
+            size = min(em, 2 * width / CODE_LETTERS) if is_code else em
+            with lettering(fonts.mono if is_code else fonts.text, size):
+                imgui.push_text_wrap_pos(0.0)
+                imgui.text_colored(_color(line.role), line.text)
+                imgui.pop_text_wrap_pos()
+    imgui.end_child()
+
+
+def unrun(text: str, room: ImVec2, fonts: Fonts) -> bool:
+    """A file that the user has not opened: what is in it; gives whether it is to be run."""
+    imgui.push_text_wrap_pos(0.0)
+    imgui.text(TRUST)
+    imgui.pop_text_wrap_pos()
+    run = bool(imgui.button("Run it"))
+    left = imgui.get_content_region_avail()
+    if imgui.begin_child("source", ImVec2(left.x, left.y), imgui.ChildFlags_.borders):
+        with lettering(fonts.mono, imgui.get_font_size()):
+            imgui.text_unformatted(text)
+    imgui.end_child()
+    return run
+
+
+def _color(role: ToldRole) -> ImVec4:
+    return {"good": theme.GOOD, "bad": theme.ERROR, "dim": theme.DIM}.get(role, theme.TEXT)
+
+
+def _canvas(chosen: Size) -> Size:
+    def name(size: Size) -> str:
+        return f"{size[0]} x {size[1]} pixels"
+
+    width = imgui.calc_text_size("64 x 48 pixels").x + 2.2 * imgui.get_frame_height()
+    follow(width)
+    imgui.set_next_item_width(width)
+    if imgui.begin_combo("##canvas", name(chosen)):
+        for size in CANVASES:
+            if imgui.selectable(name(size), size == chosen)[0]:
+                chosen = size
+        imgui.end_combo()
+    imgui.set_item_tooltip("the pictures' size: one call a pixel")
+    return chosen
+
+
+def _button_width(name: str) -> float:
+    return imgui.calc_text_size(name).x + 2 * imgui.get_style().frame_padding.x

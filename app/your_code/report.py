@@ -1,0 +1,55 @@
+"""What is known of a file, as one immutable value: a thread makes it, the view reads it."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+
+from app.checking.calls import Failure
+from app.checking.checked import TaskResult
+from app.checking.tasks import CheckTask
+from app.your_code.model import CodeRays
+from renderer.camera import Camera, Size
+
+ENDLESS = ("time", "memory", "ended")  # what a file is not run after by itself, until it is saved
+
+
+@dataclass(frozen=True)
+class CodeQuestion:
+    """path: of the file. version: another number, another content. task: the chosen one's name.
+    camera: for the canvas; size: of that."""
+
+    path: str
+    version: int
+    task: str
+    camera: Camera
+    size: Size
+
+
+@dataclass(frozen=True, eq=False)
+class CodeReport:
+    """tasks: whose functions the file has. chosen: the one that is looked at. rays: for the
+    window's camera, None where the chosen one makes none. results: of the tasks that have been
+    tried, by name. failure: why the file answers nothing at all. output: what it printed.
+
+    seconds: that the newest run took. at: when it ended, seconds since 1970. done: the calls that
+    are answered of those that are made for the picture; total 0: none are being made.
+    """
+
+    question: CodeQuestion
+    tasks: tuple[CheckTask, ...] = ()
+    chosen: CheckTask | None = None
+    rays: CodeRays | None = None
+    results: Mapping[str, TaskResult] = field(default_factory=dict)
+    failure: Failure | None = None
+    output: str = ""
+    seconds: float = 0.0
+    at: float = 0.0
+
+    @property
+    def halted(self) -> bool:
+        """Whether it is better not to run again by itself: it would only take as long again."""
+        failure = self.failure
+        if failure is None and self.rays is not None:
+            failure = self.rays.result.failure
+        return failure is not None and failure.kind in ENDLESS

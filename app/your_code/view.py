@@ -1,0 +1,388 @@
+"""The view "Your code": a student's file, run on the window's camera while it is being written.
+
+Owns what is asked of the file's process and of the pictures' thread, which files may run, and what
+the outside view shows. What is asked is model.py's, how it looks panel.py's.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any, ClassVar
+
+import moderngl
+import numpy as np
+from imgui_bundle import ImVec2, imgui
+from numpy.typing import NDArray
+
+from app.checking.builtin import BUILTIN
+from app.checking.starter import starter
+from app.host import layout
+from app.host.action import Window
+from app.host.view import DockedView, Host
+from app.images.ray_pictures import RayPainter, RayPictures
+from app.outside.diagram import Item, Segments
+from app.outside.extent import end_parameter
+from app.outside.paint import role_color
+from app.outside.second_camera import GivenRay, SecondCamera, corner_rays, second_camera
+from app.outside.view import OutsideView
+from app.state.options import Pixel
+from app.storage.paths import restored, stored
+from app.widgets import theme
+from app.widgets.lettering import at_most
+from app.widgets.picture_grid import GridPicture, picture_grid
+from app.widgets.uploads import Uploads
+from app.your_code import panel
+from app.your_code.editor import open_in_editor
+from app.your_code.following import FileFollower
+from app.your_code.model import CodeRays, canvas_pixel
+from app.your_code.options import YourCodeOptions
+from app.your_code.panel import CodeHead, CodeWish
+from app.your_code.pictures import IMAGES, CodePictures, compared, image_pair, magnified
+from app.your_code.report import CodeQuestion, CodeReport
+from app.your_code.runs import CodeRuns
+from app.your_code.words import told_of
+from renderer.atomic import atomic_write
+from renderer.camera import Camera
+from renderer.errors import LucidaError, describe, one_line
+from renderer.shaded_rays import RayShading
+
+YOUR_CODE = "Your-code"
+LAYOUT = "Your code"
+STARTER = "rays.py"
+CONTROLS_EM = 30.0  # the view's width, at least, in the type of its controls
+READ_BYTES = 100_000  # of a file that is shown and not run
+
+
+@dataclass(frozen=True, eq=False)
+class _Painted:
+    """Linear light (H, W, 3) along the rays of an answer. t: where the marked pixel's given ray
+    ends."""
+
+    rays: CodeRays
+    given: NDArray[np.float32]
+    right: NDArray[np.float32]
+
+
+class YourCodeView(DockedView):
+    """runs: None before there is a context. pictures: the ones that are shown; None for none."""
+
+    name = YOUR_CODE
+    title = "Your code"
+    places: ClassVar = {LAYOUT: layout.MAIN}
+
+    def __init__(self, outside: OutsideView) -> None:
+        self._outside = outside
+        self.runs: CodeRuns | None = None
+        self._follower: FileFollower | None = None
+        self._painter: RayPictures[_Painted] | None = None
+        self._uploads: Uploads | None = None
+        self._agreed: set[str] = set()  # files that the user has opened in this window
+        self._written: list[str] = []  # files to begin with that have been written
+        self._source: tuple[str, str] = ("", "")  # of a file that is not run: its path, its text
+        self._uploaded: Any = None
+        self._shown: Any = None  # what the outside view's lines were made from
+        self._seen = False
+        self._asked: CodeWish = ""
+        self.pictures: CodePictures | None = None
+
+    def open(self, window: Window, path: str) -> None:
+        """The user has opened a file: it is run, now and whenever it is saved."""
+        self._agreed.add(path)
+        self._source = ("", "")
+        options = {"file": stored(path), "task": ""}
+        if window.state.of(YourCodeOptions).file != options["file"]:
+            window.change(window.state.with_options(your_code=options))
+        elif self._follower is not None:
+            self._follower.again()
+        window.shell.stage.show_in(YOUR_CODE, LAYOUT)
+
+    def ask(self, wish: CodeWish) -> None:
+        """What a button would do; for the next frame."""
+        self._asked = wish
+
+    @property
+    def settled(self) -> bool:
+        if not self._seen or self.runs is None or self._painter is None:
+            return True
+        return not (self.runs.busy or self._painter.busy)
+
+    def begin(self, host: Host, context: moderngl.Context) -> None:
+        runs = self.runs = CodeRuns(host.animate)
+        self._follower = FileFollower(host.animate, lambda: runs.busy, runs.tick)
+        self._painter = RayPictures("lucida-your-pictures", host.animate)
+        self._uploads = Uploads(context)
+
+    def end(self) -> None:
+        if self._follower is not None:
+            self._follower.close()
+        if self.runs is not None:
+            self.runs.close()
+        if self._painter is not None:
+            self._painter.close()
+        if self._uploads is not None:
+            self._uploads.release()
+
+    def unseen(self, host: Host) -> None:
+        if not self._seen:
+            return
+        assert self._follower is not None and self._painter is not None
+        self._seen = False
+        self._follower.follow("")
+        self._painter.forget()
+        self.pictures, self._uploaded, self._shown = None, None, None
+        self._outside.show(YOUR_CODE, ())
+
+    def draw(self, host: Host) -> None:
+        assert self._uploads is not None
+        self._uploads.begin_frame()
+        self._seen = True
+        host.renderers.need_size(host.state.images)
+        usual = theme.TEXT_PX * imgui.get_style().font_scale_dpi
+        with at_most(max(usual, imgui.get_content_region_avail().x / CONTROLS_EM)):
+            self._draw(host)
+
+    def _draw(self, host: Host) -> None:
+        assert self.runs is not None and self._follower is not None
+        path = restored(host.state.of(YourCodeOptions).file)
+        if self._written:
+            self._open_written(host)
+        wish: CodeWish
+        if not path:
+            self._show_outside(host, None, None)
+            wish = panel.invitation(host.fonts)
+        elif not self._may_run(host, path):
+            self._show_outside(host, None, None)
+            wish = self._untrusted(host, path)
+        else:
+            wish = self._of_file(host, path)
+        self._grant(host, self._asked or wish, path)
+        self._asked = ""
+
+    def _may_run(self, host: Host, path: str) -> bool:
+        """A file that the user has opened, in this window or before: it stands in the list of
+        recent files then."""
+        if path in self._agreed:
+            return True
+        return any(entry.path == path for entry in host.files.recent.entries)
+
+    def _of_file(self, host: Host, path: str) -> CodeWish:
+        assert self.runs is not None and self._follower is not None
+        runs, options = self.runs, host.state.of(YourCodeOptions)
+        self._follower.follow(path)
+        runs.poll()
+        camera = host.state.view.for_size(options.canvas)
+        runs.follow(
+            CodeQuestion(path, self._follower.version, options.task, camera, options.canvas)
+        )
+        report = runs.report if runs.report and runs.report.question.path == path else None
+        file = Path(path)
+        told = CodeHead(file.name, str(file.parent), options.canvas, runs.running_s, runs.progress)
+        wish, canvas = panel.head(told, report, host.fonts)
+        if canvas != options.canvas:
+            host.apply(host.state.with_options(your_code={"canvas": canvas}))
+        if report is None:
+            imgui.text_colored(theme.DIM, "running ...")
+            return wish
+        clicked = panel.tasks(report, report.chosen)
+        if clicked is not None:
+            host.apply(host.state.with_options(your_code={"task": clicked.name}))
+        self._follow_pictures(host, report)
+        marked = self._marked(host, report)
+        room = imgui.get_content_region_avail()
+        for_pictures, for_words, beside = panel.rooms(room, self.pictures is not None)
+        if self.pictures is not None:
+            self._draw_pictures(host, report, self.pictures, for_pictures, marked)
+            if beside:
+                imgui.same_line()
+        lines = told_of(report, marked, host.state.options.indexing)
+        left = imgui.get_content_region_avail()  # pictures may need less than they may have
+        panel.words(lines, for_words if beside else left, host.fonts)
+        self._show_outside(host, report, marked)
+        return wish
+
+    # The pictures.
+
+    def _follow_pictures(self, host: Host, report: CodeReport) -> None:
+        """The pictures of a report, or the last ones while these are on their way."""
+        assert self._painter is not None
+        rays, state = report.rays, host.state
+        if rays is None:
+            result = report.results.get(report.chosen.name) if report.chosen is not None else None
+            first = result.first if result is not None else None
+            key: Any = first
+            if key != self._uploaded:
+                self.pictures = None
+                if first is not None and report.chosen and report.chosen.kind in IMAGES:
+                    self.pictures = image_pair(first.case.right, first.answer)
+                self._upload(key)
+            return
+        if not rays.came.any():
+            self.pictures, self._uploaded = None, None
+            return
+        shading = RayShading(rays.camera.t_range)
+
+        def make(painter: RayPainter) -> _Painted:
+            given = painter.picture(rays.origins, rays.directions, shading)
+            right = painter.picture(rays.right_origins, rays.right_directions, shading)
+            return _Painted(rays, given, right)
+
+        made = self._painter.follow(rays, state.scene, host.renderers.live, make)
+        if made is None:
+            return
+        key = (made, state.images.exposure_ev)
+        if key != self._uploaded:
+            self.pictures = compared(
+                made.given, made.right, made.rays.came, made.rays.wrong, state.images.exposure_ev
+            )
+            self._upload(key)
+
+    def _upload(self, key: Any) -> None:
+        assert self._uploads is not None
+        self._uploaded = key
+        if self.pictures is not None:
+            for name in ("given", "right", "difference"):
+                self._uploads.put(name, magnified(getattr(self.pictures, name)))
+
+    def _draw_pictures(
+        self,
+        host: Host,
+        report: CodeReport,
+        pictures: CodePictures,
+        room: ImVec2,
+        marked: Pixel | None,
+    ) -> None:
+        assert self._uploads is not None
+        pixel = marked if report.rays is not None and pictures.size == report.rays.size else None
+        titles = {
+            "given": ("yours", "", role_color("other")),
+            "right": ("right", "", None),
+            "difference": ("difference", pictures.told, None),
+        }
+        grid = [
+            GridPicture(name, title, self._uploads.get(name), caption, frame, pixel)
+            for name, (title, caption, frame) in titles.items()
+        ]
+        try:
+            answer = picture_grid(grid, pictures.size, room, host.fonts)
+        except LucidaError as error:
+            imgui.text_colored(theme.ERROR, describe(error))
+            return
+        if answer is not None and report.rays is not None and pictures.size == report.rays.size:
+            self._mark(host, report.rays, answer.pixel, answer.pixel == marked)
+
+    def _mark(self, host: Host, rays: CodeRays, pixel: Pixel, again: bool) -> None:
+        """Marks a pixel in all views, or takes the mark away."""
+        found = canvas_pixel(pixel, rays.camera, rays.size, *self._images(host))
+        host.change(host.state.with_options(marked=None if again else found))
+
+    def _marked(self, host: Host, report: CodeReport) -> Pixel | None:
+        """The marked pixel, of the pictures; without one, the first wrong one."""
+        rays, marked = report.rays, host.state.marked
+        if rays is None:
+            return None
+        if marked is not None:
+            return canvas_pixel(marked, *self._images(host), rays.camera, rays.size)
+        wrong = np.argwhere(rays.wrong)
+        return (int(wrong[0, 0]), int(wrong[0, 1])) if len(wrong) else None
+
+    def _images(self, host: Host) -> tuple[Camera, tuple[int, int]]:
+        return host.renderers.camera(host.state), host.renderers.size
+
+    # What the outside view shows.
+
+    def _show_outside(self, host: Host, report: CodeReport | None, marked: Pixel | None) -> None:
+        """The camera that was written, where it is not the right one; the marked pixel's rays."""
+        rays = report.rays if report is not None else None
+        if rays is None:
+            if self._shown is not None:
+                self._outside.show(YOUR_CODE, ())
+            self._shown = None
+            return
+        end = end_parameter(rays.camera, host.focus.framed)
+        key = (rays, marked, end, host.state.options.indexing)
+        if key == self._shown:
+            return
+        self._shown = key
+        first = f"pixel {host.state.options.indexing.text((0, 0))}"
+        self._outside.show(YOUR_CODE, outside_items(rays, marked, end, first))
+
+    # What the user asks for.
+
+    def _untrusted(self, host: Host, path: str) -> CodeWish:
+        """A file that a lecture has named: what is in it."""
+        if self._source[0] != path:
+            self._source = (path, source_text(path))
+        file = Path(path)
+        told = CodeHead(
+            file.name, str(file.parent), host.state.of(YourCodeOptions).canvas, may_run=False
+        )
+        wish, _ = panel.head(told, None, host.fonts)
+        if panel.unrun(self._source[1], imgui.get_content_region_avail(), host.fonts):
+            self._agree(host, path)
+        return wish
+
+    def _agree(self, host: Host, path: str) -> None:
+        self._agreed.add(path)
+        host.files.recent.add(path)
+        host.animate()
+
+    def _grant(self, host: Host, wish: CodeWish, path: str) -> None:
+        assert self.runs is not None and self._follower is not None
+        if wish == "open":
+            host.files.open_code_dialog()
+        elif wish == "starter":
+            host.files.save_as_dialog(
+                "Write a file to begin with", STARTER, ("Python files", ".py"), self._write
+            )
+        elif wish == "edit" and path and not open_in_editor(path):
+            host.files.message = f"No editor was found. The file is {one_line(path)}."
+        elif wish == "run" and path and self._may_run(host, path):
+            self.runs.forget()
+            self._follower.again()
+            host.animate()
+        elif wish == "stop":
+            self.runs.stop()
+
+    def _write(self, path: str) -> str:
+        """In a thread: the file to begin with."""
+        with atomic_write(Path(path)) as file:
+            file.write(starter(BUILTIN).encode())
+        self._written.append(path)
+        return one_line(f"Wrote {path}.")
+
+    def _open_written(self, host: Host) -> None:
+        path = str(Path(self._written.pop()).absolute())
+        self._agree(host, path)
+        host.change(host.state.with_options(your_code={"file": stored(path), "task": ""}))
+
+
+def outside_items(rays: CodeRays, marked: Pixel | None, end: float, first: str) -> list[Item]:
+    """What the outside view shows of an answer. end: the ray parameter at which the scene ends.
+    first: what the first pixel is called."""
+    camera = rays.camera
+    middle = (rays.size[1] - 1) / 2, (rays.size[0] - 1) / 2
+    reach = end * float(np.linalg.norm(camera.ray(*middle, rays.size).direction))
+    items: list[Item] = []
+    if marked is not None:
+        way = np.stack([rays.right_origins[marked], end * rays.right_directions[marked]])
+        way[1] += way[0]
+        items.append(Segments("right ray", "ray", way[None], 2.5, layer=3))
+    if rays.wrong.any():
+        given = None
+        if marked is not None and rays.came[marked]:
+            given = GivenRay(rays.origins[marked], rays.directions[marked])
+        corners = corner_rays(rays.origins, rays.directions)
+        items += second_camera(SecondCamera(*corners, given, "yours", first), reach)
+    return items
+
+
+def source_text(path: str) -> str:
+    """What is in a file, to be read; in words why that cannot be shown."""
+    try:
+        with Path(path).open("rb") as file:
+            data = file.read(READ_BYTES + 1)
+    except OSError as error:
+        return f"{one_line(path)} cannot be read: {error.strerror}"
+    text = data[:READ_BYTES].decode("utf-8", "replace").replace("\0", " ")
+    return text + ("\n..." if len(data) > READ_BYTES else "")

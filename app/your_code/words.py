@@ -1,0 +1,156 @@
+"""What is told of a file beside its pictures, line by line. Pure."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Literal
+
+import numpy as np
+
+from app.checking.builtin import BUILTIN
+from app.checking.checked import TaskResult
+from app.checking.kinds.values import text_of
+from app.checking.reports.told import told
+from app.checking.tasks import CheckTask
+from app.state.options import Pixel
+from app.your_code.model import BASIS, CodeRays, for_camera, is_of_camera
+from app.your_code.report import CodeReport
+from renderer.pixels import Indexing
+
+if TYPE_CHECKING:
+    from app.checking.mistakes.diagnosis import Diagnosis
+
+ToldRole = Literal["good", "bad", "text", "code", "dim"]
+OUTPUT_LINES = 40  # of what a file has printed, the last ones
+
+
+@dataclass(frozen=True)
+class ToldLine:
+    """role: what it means, from which it takes its look. code: of letters of one width."""
+
+    role: ToldRole
+    text: str
+
+
+def told_of(report: CodeReport, pixel: Pixel | None, indexing: Indexing) -> list[ToldLine]:
+    """All that is known, the most telling first. pixel: the marked one, of the pictures."""
+    lines = [*_of_file(report)] or [*_of_task(report, pixel, indexing)]
+    return [*lines, *_of_output(report)]
+
+
+def verdict_of(report: CodeReport, task: CheckTask) -> str:
+    """right, wrong, failed, or "" while it is not known."""
+    result = report.results.get(task.name)
+    return result.status if result is not None else ""
+
+
+def _of_file(report: CodeReport) -> Iterator[ToldLine]:
+    """Why the file answers nothing; no lines where it does."""
+    if report.failure is not None:
+        yield ToldLine("bad", report.failure.text)
+        yield from (ToldLine("code", line) for line in report.failure.traceback)
+    elif report.chosen is None:
+        names = ", ".join(dict.fromkeys(task.function for task in BUILTIN))
+        yield ToldLine("bad", f"The file has none of the functions that are asked for: {names}.")
+
+
+def _of_task(report: CodeReport, pixel: Pixel | None, indexing: Indexing) -> Iterator[ToldLine]:
+    chosen, rays = report.chosen, report.rays
+    assert chosen is not None
+    if rays is not None:
+        yield from _of_rays(report, rays)
+        if for_camera(chosen, rays.camera) != chosen:
+            other = "parallel" if "parallel" in chosen.projections else "perspective"
+            yield ToldLine("dim", f"{chosen.name} is for {other} projection: P switches to it.")
+        if pixel is not None and bool(rays.came[pixel]):
+            yield from _of_pixel(rays, pixel, indexing)
+        if rays.result.failure is not None:
+            return
+    result = report.results.get(chosen.name)
+    if result is None:
+        yield ToldLine(
+            "dim",
+            f"{chosen.name} is being tried with other cameras ..."
+            if is_of_camera(chosen)
+            else f"{chosen.name} is being tried ...",
+        )
+    elif rays is None or (rays.result.status == "right" and result.status != "right"):
+        if rays is not None:
+            yield ToldLine("bad", "But not for every camera:")
+        yield from _of_result(result)
+    elif result.status == "right":
+        yield ToldLine("good", f"{chosen.name}: right with {result.cases} cases of other cameras.")
+
+
+def _of_rays(report: CodeReport, rays: CodeRays) -> Iterator[ToldLine]:
+    """What is to be seen in the pictures, and why."""
+    result, count = rays.result, int(rays.wrong.sum())
+    if result.failure is not None:
+        yield from (
+            ToldLine("code" if k else "bad", line) for k, line in enumerate(told(result).lines)
+        )
+    elif result.status == "right":
+        what = "basis" if rays.task.kind == BASIS else "ray"
+        yield ToldLine(
+            "good", f"Every {what} is right." if what == "ray" else "The basis is right."
+        )
+    else:
+        if rays.task.kind == BASIS:
+            yield ToldLine("bad", "The basis is wrong.")
+        else:
+            yield ToldLine("bad", f"{count} of {rays.wrong.size} rays are wrong.")
+        found = _diagnosis(report, result)
+        if found is not None:
+            yield from (ToldLine("text", sentence) for sentence in found.sentences)
+        if rays.task.kind == BASIS and result.first is not None:
+            yield ToldLine("code", f"yours  {result.first.given}")
+            yield ToldLine("code", f"right  {result.first.right}")
+
+
+def _diagnosis(report: CodeReport, result: TaskResult) -> Diagnosis | None:
+    """That of the window's camera; where it names no mistake, that of the task's many cameras."""
+    assert report.chosen is not None
+    tried = report.results.get(report.chosen.name)
+    others = tried.diagnosis if tried is not None else None
+    own = result.diagnosis
+    return others if own is None or (not own.candidates and others is not None) else own
+
+
+def _of_pixel(rays: CodeRays, pixel: Pixel, indexing: Indexing) -> Iterator[ToldLine]:
+    yield ToldLine("dim", f"pixel {indexing.text(pixel)}, {indexing.told}, of the pictures:")
+    for name, origins, directions in (
+        ("yours", rays.origins, rays.directions),
+        ("right", rays.right_origins, rays.right_directions),
+    ):
+        origin, direction = (
+            text_of(np.round(part[pixel], 12).tolist()) for part in (origins, directions)
+        )
+        yield ToldLine("code", f"{name}  {origin} + t {direction}")
+
+
+def _of_result(result: TaskResult) -> Iterator[ToldLine]:
+    say = told(result)
+    if result.status == "right":
+        yield ToldLine("good", f"{result.task.name}: right in all of {result.cases} cases.")
+        return
+    head = result.task.function
+    yield ToldLine("bad", f"{head} is wrong." if result.status == "wrong" else f"{head} failed.")
+    yield from (ToldLine("text", line) for line in say.lines)
+
+
+def _of_output(report: CodeReport) -> Iterator[ToldLine]:
+    output = report.output
+    if not output and report.chosen is not None and report.rays is None:
+        result = report.results.get(report.chosen.name)
+        output = result.output if result is not None else ""
+    printed = output.rstrip().splitlines()
+    if printed:
+        more = len(printed) - OUTPUT_LINES
+        yield ToldLine(
+            "dim",
+            f"printed, the last {OUTPUT_LINES} of {len(printed)} lines:"
+            if more > 0
+            else "printed:",
+        )
+        yield from (ToldLine("code", line.expandtabs(4)) for line in printed[-OUTPUT_LINES:])
