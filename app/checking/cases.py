@@ -139,16 +139,21 @@ def _moved(random: Random, size: Size) -> Made:
     return Camera(eye=eye, distance=distance), (x, y, z - away), (0.0, 2.0, 0.0)
 
 
-def _turned(random: Random, size: Size) -> Made:
-    """Looking at a target, with the image's aspect ratio."""
+def look(random: Random) -> tuple[Vector, Vector, Vector]:
+    """An eye, a target and an up vector that is neither of length 1 nor at right angles."""
     while True:
         eye, target = point(random), point(random, 2.0)
-        up = _vector(np.array([0.0, 1.0, 0.0]) + random.uniform(-0.5, 0.5, 3))
-        up = _vector(np.round(np.array(up) * random.uniform(0.5, 2.0), 2))
-        back = np.array(eye) - target
+        upwards = np.array([0.0, 1.0, 0.0]) + random.uniform(-0.5, 0.5, 3)
+        up = _vector(np.round(upwards * random.uniform(0.5, 2.0), 2))
+        back = np.subtract(eye, target)
         sine = np.linalg.norm(np.cross(up, back)) / np.linalg.norm(up) / np.linalg.norm(back)
         if np.linalg.norm(back) > 1.0 and sine > 0.3:
-            break
+            return eye, target, up
+
+
+def _turned(random: Random, size: Size) -> Made:
+    """Looking at a target, with the image's aspect ratio."""
+    eye, target, up = look(random)
     distance = rounded(random.uniform(0.6, 2.5))
     height = rounded(random.uniform(0.6, 2.0))
     camera = Camera.look_at(eye, target, up, distance=distance)

@@ -99,11 +99,12 @@ def _centres(indexing: Indexing, from_top: bool) -> list[Mistake]:
     for name, part, hint in wrong:
         x = ("x", _x(part.format("j", "width")))
         y = ("y", _y(part.format("i", "height"), from_top))
-        made.append(Mistake(name, (x, y), hint, PART))
-        made.append(Mistake(f"{name}: in the columns", (x,), f"Of the column: {hint}", PART))
-        made.append(Mistake(f"{name}: in the rows", (y,), f"Of the row: {hint}", PART))
-    # The classic ones as a whole come first.
-    return sorted(made, key=lambda mistake: len(mistake.lines) == 1)
+        made += [
+            Mistake(name, (x, y), hint, PART, is_common=not name.startswith("the centre,")),
+            Mistake(f"{name}: in the columns", (x,), f"Of the column: {hint}", PART, False),
+            Mistake(f"{name}: in the rows", (y,), f"Of the row: {hint}", PART, False),
+        ]
+    return made
 
 
 def _exchanges(indexing: Indexing, from_top: bool) -> list[Mistake]:
@@ -160,6 +161,7 @@ def _angles(across: str, down: str, from_top: bool, distance: str) -> list[Mista
             (x, ("y", f"{y[1]}\ny = y * sqrt(1 + (x / {distance})**2)")),
             FISHEYE,
             PART,
+            is_common=False,
         ),
     ]
 

@@ -30,14 +30,15 @@ class Mistake:
     """A wrong line, or several that are wrong in the same way.
 
     name: what was done, unlike all others of its program. lines: (key of the line, what is written
-    instead; empty: it is left out). hint: what to tell, in the lecture's words. part: the title of
-    the lecture's step to read again.
+    instead). hint: what to tell, in the lecture's words. part: the title of the lecture's step to
+    read again. is_common: whether many make it; those are told first.
     """
 
     name: str
     lines: tuple[tuple[str, str], ...]
     hint: str
     part: str
+    is_common: bool = True
 
     @property
     def keys(self) -> frozenset[str]:
@@ -49,8 +50,8 @@ Mistakes = tuple[Mistake, ...]
 
 @dataclass(frozen=True)
 class ShownLine:
-    """code: the right line. instead: what is written where it is struck out, else None; empty
-    where it is left out, several lines where one became several."""
+    """code: the right line. instead: what is written where it is struck out, else None; it may be
+    several lines."""
 
     key: str
     code: str
@@ -79,7 +80,7 @@ class Program:
         written = (
             line.code if line.instead is None else line.instead for line in self.text(mistakes)
         )
-        return "\n".join(line for line in written if line)
+        return "\n".join(written)
 
     def run(self, known: Mapping[str, Any], mistakes: Sequence[Mistake] = ()) -> tuple[Any, ...]:
         """The results, as the lines give them. known: the values of the names that the lines

@@ -30,8 +30,8 @@ Floats = NDArray[np.float64]
 
 # What a task hands over by default.
 WORDS = frozenset(
-    ("i", "j", "width", "height", "eye", "u", "v", "w", "distance")
-    + ("left", "right", "bottom", "top", "projection")
+    {"i", "j", "width", "height", "eye", "u", "v", "w", "distance"}
+    | {"left", "right", "bottom", "top", "projection"}
 )
 
 
@@ -70,8 +70,9 @@ def ray_program(task: RayTask) -> Program:
     if not matrix and not {"u", "v", "w"} <= words:
         parts.insert(0, (BASIS_LINES, BASIS_MISTAKES))
     lines = tuple(line for part, _ in parts for line in part)
-    mistakes = tuple(mistake for _, part in parts for mistake in part)
-    return Program(lines, mistakes, ("origin", "direction"))
+    mistakes = [mistake for _, part in parts for mistake in part]
+    mistakes.sort(key=lambda mistake: not mistake.is_common)
+    return Program(lines, tuple(mistakes), ("origin", "direction"))
 
 
 def ray_values(

@@ -6,6 +6,7 @@ from app.checking.mistakes.program import CodeLine, Mistake
 
 PART = "Any camera"
 HALF = "The angle is that of the whole viewport: its upper half is the tangent of half of it."
+RARE = {"a quarter of the angle", "half of the viewport's half", "the tangent upside down"}
 
 
 def viewport_lines(words: frozenset[str]) -> list[CodeLine]:
@@ -25,7 +26,7 @@ def viewport_mistakes(words: frozenset[str]) -> list[Mistake]:
     angle = _angle(word)
 
     def of_first(name: str, code: str, hint: str) -> Mistake:
-        return Mistake(name, ((first, f"{first} = {code}"),), hint, PART)
+        return Mistake(name, ((first, f"{first} = {code}"),), hint, PART, name not in RARE)
 
     def of_second(name: str, code: str, hint: str) -> Mistake:
         return Mistake(name, ((second, f"{second} = {code}"),), hint, PART)

@@ -1,0 +1,106 @@
+"""A camera's basis from an eye, a target and an up vector.
+
+Answers in the kind's own form are arrays (N, 3, 3): u, v, w in the world, one after another.
+
+Tolerance, of each of them. eye - target cancels: its direction has an error of
+FLOAT32 * (|eye| + |target|) / |eye - target|; up x w loses what up and w have in common, so that all
+is divided by the sine of their angle: FLOAT32 * (1 + (|eye| + |target|) / |eye - target|) / sin(up, w).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from typing import Any, ClassVar
+
+import numpy as np
+from numpy.typing import NDArray
+
+from app.checking.cases import generator, look
+from app.checking.kinds.kind import FLOAT32, CheckKind, Flags, each, named
+from app.checking.kinds.values import text_of, vectors
+from app.checking.tasks import CheckCase, CheckTask
+from renderer.camera import Camera, Vector
+
+Floats = NDArray[np.float64]
+
+# Which of u, v, w, and its sign.
+PARTS = {
+    "u": (0, 1), "v": (1, 1), "w": (2, 1),
+    "right": (0, 1), "up": (1, 1), "back": (2, 1),
+    "left": (0, -1), "down": (1, -1), "forward": (2, -1),
+}  # fmt: skip
+
+
+class BasisKind(CheckKind):
+    name = "basis"
+    function = "basis"
+    words: ClassVar[Mapping[str, str]] = {
+        "eye": "the camera's position",
+        "target": "a point that is looked at",
+        "up": "a vector that is upwards in the image; not of length 1, nor at right angles to w",
+        "forward": "from the eye to the target, of length 1",
+    }
+    arguments = ("eye", "target", "up")
+    returns = ("u", "v", "w")
+    return_words: ClassVar[Mapping[str, str]] = {
+        "u": "right in the image", "v": "up", "w": "back, from the target to the eye",
+        "right": "u", "up": "v", "back": "w", "left": "-u", "down": "-v", "forward": "-w",
+    }  # fmt: skip
+    answer = "u, v and w, three numbers each"
+
+    def cases(self, task: CheckTask) -> list[CheckCase]:
+        random = generator(task)
+        simple: list[tuple[Vector, Vector, Vector]] = [
+            ((0.0, 0.0, 4.0), (0.0, 0.0, 0.0), (0.0, 1.0, 0.0)),
+            ((4.0, 0.0, 0.0), (0.0, 0.0, 0.0), (0.0, 1.0, 0.0)),
+            ((1.0, 2.0, 3.0), (1.0, 2.0, -2.0), (0.0, 1.0, 0.0)),
+            ((3.0, 3.0, 3.0), (0.0, 0.0, 0.0), (0.0, 1.0, 0.0)),
+        ]
+        made = [*simple, *(look(random) for _ in range(task.count))]
+        return [_case(task, *one) for one in made]
+
+    def given(
+        self, task: CheckTask, cases: Sequence[CheckCase], values: Sequence[Any]
+    ) -> tuple[Floats, dict[int, str]]:
+        returns = task.conventions.returns
+        blank = [[np.nan] * 3] * len(returns)
+        wanted = f"{', '.join(returns)}, three numbers each"
+        found, problems = each(values, lambda value: vectors(value, returns), blank, wanted)
+        parts = np.array(found, float).reshape(-1, len(returns), 3)
+        given = np.full((len(cases), 3, 3), np.nan)
+        given[: len(parts)] = self.right(cases)[: len(parts)]  # what is not asked for
+        for place, name in enumerate(returns):
+            which, sign = PARTS[name]
+            given[: len(parts), which] = sign * parts[:, place]
+        return given, problems
+
+    def right(self, cases: Sequence[CheckCase]) -> Floats:
+        return np.array([case.right for case in cases], float).reshape(-1, 3, 3)
+
+    def wrong(self, task: CheckTask, cases: Sequence[CheckCase], given: Floats) -> Flags:
+        near = np.array([case.tolerance for case in cases], float)
+        with np.errstate(all="ignore"):
+            apart = np.linalg.norm(given - self.right(cases), axis=2)
+            return ~np.all(apart <= near[:, None], axis=1)
+
+    def answer_text(self, task: CheckTask, case: CheckCase, answer: Floats) -> str:
+        parts = []
+        for name in task.conventions.returns:
+            which, sign = PARTS[name]
+            parts.append(f"{name} {text_of((sign * np.asarray(answer)[which]).tolist())}")
+        return ", ".join(parts)
+
+
+def _case(task: CheckTask, eye: Vector, target: Vector, up: Vector) -> CheckCase:
+    camera = Camera.look_at(eye, target, up)
+    right = np.array([camera.u, camera.v, camera.w])
+    away = np.linalg.norm(np.subtract(eye, target))
+    sine = np.linalg.norm(np.cross(up, camera.w)) / np.linalg.norm(up)
+    near = FLOAT32 * (1 + (np.linalg.norm(eye) + np.linalg.norm(target)) / away) / sine
+    values = {
+        "eye": list(eye),
+        "target": list(target),
+        "up": list(up),
+        "forward": (-right[2]).tolist(),
+    }
+    return CheckCase(named(task, values), right, float(near), values, target=target, up=up)

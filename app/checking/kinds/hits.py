@@ -1,0 +1,344 @@
+"""Where a ray meets a sphere, a triangle, the nearest of several objects.
+
+Answers in the kind's own form: t, float64 (N,), inf where nothing is hit; of the nearest object
+(N, 2): its number from 0 and t, -1 and inf where there is none.
+
+Tolerances. Sphere: with M = |o| + |c| + r no number on the way is larger than M^2 |d|^2; the
+discriminant cancels to (s |d|)^2, s being half of the chord, and its root carries an error of
+FLOAT32 * M^2 / (2 s) relative to |d|: t is right within FLOAT32 * (M + M^2 / (2 s)) / |d|.
+Triangle: with L the longest edge, M = |o| + the farthest corner and n the product of two edges, the
+numerator n . (a - o) has an error of FLOAT32 * L^2 M, the denominator of FLOAT32 * L^2 |d|: t is right
+within FLOAT32 * L^2 (M + t |d|) / |n . d|. Whether a ray hits is only asked where rounding cannot
+decide: MARGIN (shapes.py), which is a thousand times what float32 rounds.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from typing import Any, ClassVar
+
+import numpy as np
+from numpy.typing import NDArray
+
+from app.checking.cases import Random, generator, point, rounded
+from app.checking.kinds.kind import FLOAT32, CheckKind, Flags, each, named
+from app.checking.kinds.shapes import hits, tolerance
+from app.checking.kinds.values import is_miss, number, text_of
+from app.checking.tasks import CheckCase, CheckTask
+
+Floats = NDArray[np.float64]
+
+MARGIN = 0.05
+RAY_WORDS = {
+    "origin": "where the ray starts",
+    "direction": "where it goes; of any length",
+    "ray": "an object with origin and direction",
+}
+Values = dict[str, Any]
+
+
+class HitKind(CheckKind):
+    """What a sphere and a triangle have in common."""
+
+    answer = "a number t, or None"
+    shape: ClassVar[tuple[str, ...]]
+
+    def cases(self, task: CheckTask) -> list[CheckCase]:
+        random = generator(task)
+        made = [*self._simple(), *(self._made_up(random, n) for n in range(task.count))]
+        return [self._case(task, values) for values in made]
+
+    def _case(self, task: CheckTask, values: Values) -> CheckCase:
+        kind = self.shape[0]
+        shape = {"type": kind} | {name: values[name] for name in self.shape[1:]}
+        t, _ = hits(values["origin"], values["direction"], shape)
+        near = tolerance(values["origin"], values["direction"], shape, float(t), FLOAT32)
+        ray = {name: values[name] for name in ("origin", "direction")}
+        values = {**values, "ray": ray, kind: {name: values[name] for name in self.shape[1:]}}
+        return CheckCase(named(task, values), float(t), near, values)
+
+    def _simple(self) -> list[Values]:
+        raise NotImplementedError
+
+    def _made_up(self, random: Random, number: int) -> Values:
+        raise NotImplementedError
+
+    def given(
+        self, task: CheckTask, cases: Sequence[CheckCase], values: Sequence[Any]
+    ) -> tuple[Floats, dict[int, str]]:
+        found, problems = each(values, parameter, np.nan, self.answer)
+        return np.array(found + [np.nan] * (len(cases) - len(found)), float), problems
+
+    def right(self, cases: Sequence[CheckCase]) -> Floats:
+        return np.array([case.right for case in cases], float)
+
+    def wrong(self, task: CheckTask, cases: Sequence[CheckCase], given: Floats) -> Flags:
+        near = np.array([case.tolerance for case in cases], float)
+        return _differ(self.right(cases), given, near)
+
+    def answer_text(self, task: CheckTask, case: CheckCase, answer: Any) -> str:
+        return f"{float(answer):.6g}" if np.isfinite(answer) else "None (no hit)"
+
+
+class SphereHitKind(HitKind):
+    name = "hit-sphere"
+    function = "hit_sphere"
+    words: ClassVar[Mapping[str, str]] = {
+        **RAY_WORDS,
+        "center": "the sphere's centre",
+        "radius": "its radius",
+        "sphere": "an object with center and radius",
+    }
+    arguments = ("origin", "direction", "center", "radius")
+    shape = ("sphere", "center", "radius")
+
+    def _simple(self) -> list[Values]:
+        straight = {"origin": [0.0, 0.0, 5.0], "center": [0.0, 0.0, 0.0], "radius": 1.0}
+        return [
+            {**straight, "direction": [0.0, 0.0, -1.0]},
+            {**straight, "direction": [0.0, 0.0, -2.0]},
+            {**straight, "direction": [0.0, 0.0, 1.0]},
+            {**straight, "direction": [0.0, 1.0, 0.0]},
+            {**straight, "origin": [0.0, 0.0, 0.0], "direction": [0.0, 0.5, 0.0]},
+        ]
+
+    def _made_up(self, random: Random, number: int) -> Values:
+        """Ahead, beside, ahead, behind, from inside, in turn."""
+        while True:
+            values = aimed_at_sphere(random, ("ahead", "beside", "ahead", "behind", "inside")[number % 5])
+            shape = {"type": "sphere", "center": values["center"], "radius": values["radius"]}
+            if hits(values["origin"], values["direction"], shape)[1] > MARGIN:
+                return values
+
+
+class TriangleHitKind(HitKind):
+    name = "hit-triangle"
+    function = "hit_triangle"
+    words: ClassVar[Mapping[str, str]] = {
+        **RAY_WORDS,
+        "a": "a corner",
+        "b": "the next one",
+        "c": "the last one",
+        "triangle": "an object with a, b and c",
+    }
+    arguments = ("origin", "direction", "a", "b", "c")
+    shape = ("triangle", "a", "b", "c")
+
+    def _simple(self) -> list[Values]:
+        flat = {"a": [-1.0, -1.0, 0.0], "b": [2.0, -1.0, 0.0], "c": [-1.0, 2.0, 0.0]}
+        at = [0.0, 0.0, 4.0]
+        return [
+            {"origin": at, "direction": [0.0, 0.0, -1.0], **flat},
+            {"origin": at, "direction": [0.0, 0.0, -2.0], **flat},
+            {"origin": [0.0, 0.0, -4.0], "direction": [0.0, 0.0, 1.0], **flat},
+            {"origin": at, "direction": [0.0, 0.0, 1.0], **flat},
+            {"origin": [1.5, 1.5, 4.0], "direction": [0.0, 0.0, -1.0], **flat},
+            {"origin": at, "direction": [0.0, 1.0, 0.0], **flat},
+        ]
+
+    def _made_up(self, random: Random, number: int) -> Values:
+        """Inside, then beyond each edge and each corner, and behind."""
+        while True:
+            values = aimed_at_triangle(random, number % 6)
+            shape = {"type": "triangle"} | {name: values[name] for name in "abc"}
+            if is_clear_triangle(values) and (
+                hits(values["origin"], values["direction"], shape)[1] > MARGIN
+            ):
+                return values
+
+
+class ClosestHitKind(CheckKind):
+    name = "closest-hit"
+    function = "closest_hit"
+    words: ClassVar[Mapping[str, str]] = {
+        **RAY_WORDS,
+        "objects": "a list of objects: type ('sphere' or 'triangle') with center and radius, or a, "
+        "b and c",
+    }
+    arguments = ("origin", "direction", "objects")
+    return_words: ClassVar[Mapping[str, str]] = {"object": "its number", "t": "the ray parameter"}
+    returns = ("object", "t")
+    answer = "the object's number and t, or None"
+
+    def cases(self, task: CheckTask) -> list[CheckCase]:
+        random = generator(task)
+        made = [*self._simple(), *(self._made_up(random, n) for n in range(task.count))]
+        return [self._case(task, values) for values in made]
+
+    def _case(self, task: CheckTask, values: Values) -> CheckCase:
+        ray = {name: values[name] for name in ("origin", "direction")}
+        found = closest(values["origin"], values["direction"], values["objects"])
+        number, t = int(found[0]), float(found[1])
+        near = 0.0
+        if number >= 0:
+            shape = values["objects"][number]
+            near = tolerance(values["origin"], values["direction"], shape, t, FLOAT32)
+        values = {**values, "ray": ray}
+        return CheckCase(named(task, values), (float(number), t), near, values)
+
+    def _simple(self) -> list[Values]:
+        ray = {"origin": [0.0, 0.0, 5.0], "direction": [0.0, 0.0, -1.0]}
+        ahead, farther, behind = (
+            {"type": "sphere", "center": [0.0, 0.0, z], "radius": 1.0} for z in (0.0, -4.0, 9.0)
+        )
+        beside = {"type": "sphere", "center": [5.0, 0.0, 0.0], "radius": 1.0}
+        flat = {"type": "triangle", "a": [-1.0, -1.0, 2.0], "b": [2.0, -1.0, 2.0], "c": [-1.0, 2.0, 2.0]}
+        many = ([ahead], [ahead, farther], [farther, ahead], [ahead, flat, farther],
+                [behind, farther, ahead], [beside, behind], [])  # fmt: skip
+        return [{**ray, "objects": objects} for objects in many]
+
+    def _made_up(self, random: Random, number: int) -> Values:
+        """Objects at random, of which the ray meets several."""
+        while True:
+            values = {
+                "origin": list(point(random)),
+                "direction": _direction(random),
+                "objects": [_object(random) for _ in range(int(random.integers(2, 7)))],
+            }
+            parameters, margins = _all_hits(values["origin"], values["direction"], values["objects"])
+            met = np.sort(parameters[np.isfinite(parameters)])
+            apart = met.size < 2 or bool(np.all(np.diff(met) > 0.02 * met[1:]))
+            clear = all(o["type"] == "sphere" or is_clear_triangle({**values, **o}) for o in values["objects"])
+            if clear and apart and np.all(margins > MARGIN) and met.size >= (0, 1, 2)[number % 3]:
+                return values
+
+    def given(
+        self, task: CheckTask, cases: Sequence[CheckCase], values: Sequence[Any]
+    ) -> tuple[Floats, dict[int, str]]:
+        base, order = task.conventions.base, task.conventions.returns
+
+        def read(value: Any) -> list[float] | None:
+            if isinstance(value, dict) and all(name in value for name in order):
+                value = [value[name] for name in order]
+            if is_miss(value):
+                return [-1.0, np.inf]
+            if not isinstance(value, list) or len(value) != 2:
+                return None
+            object_number, t = (value[order.index(name)] for name in ("object", "t"))
+            if is_miss(t) and not (isinstance(t, float) and np.isnan(t)):
+                return [-1.0, np.inf]
+            which, parameter = number(object_number), number(t)
+            return None if which is None or parameter is None else [which - base, parameter]
+
+        found, problems = each(values, read, [np.nan, np.nan], self.answer)
+        missing = [[np.nan, np.nan]] * (len(cases) - len(found))
+        return np.array(found + missing, float).reshape(-1, 2), problems
+
+    def right(self, cases: Sequence[CheckCase]) -> Floats:
+        return np.array([case.right for case in cases], float).reshape(-1, 2)
+
+    def wrong(self, task: CheckTask, cases: Sequence[CheckCase], given: Floats) -> Flags:
+        near = np.array([case.tolerance for case in cases], float)
+        right = self.right(cases)
+        return (given[:, 0] != right[:, 0]) | _differ(right[:, 1], given[:, 1], near)
+
+    def answer_text(self, task: CheckTask, case: CheckCase, answer: Any) -> str:
+        which, t = (float(part) for part in answer)
+        if np.isinf(t) and which < 0:
+            return "None (no hit)"
+        parts = {"object": which + task.conventions.base, "t": t}
+        return ", ".join(f"{name} {text_of(parts[name])}" for name in task.conventions.returns)
+
+
+def closest(origin: Any, direction: Any, objects: Sequence[Mapping[str, Any]]) -> tuple[int, float]:
+    """The number of the nearest object from 0 and t; -1 and inf where there is none."""
+    parameters = _all_hits(origin, direction, objects)[0]
+    if not np.isfinite(parameters).any():
+        return -1, np.inf
+    number = int(np.argmin(parameters))
+    return number, float(parameters[number])
+
+
+def _all_hits(
+    origin: Any, direction: Any, objects: Sequence[Mapping[str, Any]]
+) -> tuple[Floats, Floats]:
+    found = [hits(origin, direction, shape) for shape in objects]
+    return np.array([t for t, _ in found]), np.array([margin for _, margin in found])
+
+
+def parameter(value: Any) -> float | None:
+    """t; inf for a miss. Also (hit, t), as some courses return it."""
+    if isinstance(value, list) and len(value) == 2 and isinstance(value[0], bool):
+        value = value[1] if value[0] else None
+    if isinstance(value, dict) and "t" in value:
+        value = value["t"]
+    return np.inf if is_miss(value) else number(value)
+
+
+def _differ(right: Floats, given: Floats, near: Floats) -> Flags:
+    """Whether parameters differ, of which inf is a miss."""
+    with np.errstate(invalid="ignore"):
+        same = np.isinf(right) & np.isposinf(given)
+        return ~(same | (np.abs(given - right) <= near))
+
+
+def _direction(random: Random) -> list[float]:
+    """Of lengths from 0.4 to 3: what assumes 1 is seen."""
+    unit = random.normal(size=3)
+    scaled = unit / np.linalg.norm(unit) * random.uniform(0.4, 3.0)
+    return [rounded(value, 3) for value in scaled]
+
+
+def _aside(random: Random, direction: Floats) -> Floats:
+    """A unit vector at right angles to a direction."""
+    made: Floats = np.cross(direction, random.normal(size=3))
+    return made / np.linalg.norm(made)
+
+
+def aimed_at_sphere(random: Random, how: str) -> Values:
+    """A ray and a sphere that it meets, passes, has behind or begins in."""
+    center, radius = np.array(point(random, 3.0)), rounded(random.uniform(0.4, 2.0))
+    direction = np.array(_direction(random))
+    unit = direction / np.linalg.norm(direction)
+    miss = how == "beside"
+    offset = random.uniform(1.1, 2.0) if miss else random.uniform(0.0, 0.9)
+    away = random.uniform(0.0, 0.3) if how == "inside" else random.uniform(1.3, 4.0)
+    sign = 1 if how == "behind" else -1
+    origin = center + radius * (offset * _aside(random, unit) + sign * away * unit)
+    return {
+        "origin": [rounded(value, 3) for value in origin],
+        "direction": direction.tolist(),
+        "center": center.tolist(),
+        "radius": radius,
+    }
+
+
+def aimed_at_triangle(random: Random, how: int) -> Values:
+    """how: 0, 1 inside; 2, 3, 4 beyond an edge; 5 behind."""
+    a, b, c = (np.array(point(random, 2.0)) for _ in range(3))
+    weights = random.dirichlet((2.0, 2.0, 2.0))
+    if 2 <= how <= 4:
+        weights = weights * np.where(np.arange(3) == how - 2, -1.0, 1.0)
+        weights = weights / weights.sum() if abs(weights.sum()) > 0.1 else weights + 1 / 3
+    aim = weights @ np.array([a, b, c])
+    direction = np.array(_direction(random))
+    away = random.uniform(1.0, 4.0) * (1 if how == 5 else -1)
+    origin = aim + away * direction / np.linalg.norm(direction)
+    return {
+        "origin": [rounded(value, 3) for value in origin],
+        "direction": direction.tolist(),
+        "a": a.tolist(),
+        "b": b.tolist(),
+        "c": c.tolist(),
+    }
+
+
+def is_clear_triangle(values: Values) -> bool:
+    """Whether it is neither thin nor seen from its side: where float32 keeps its numbers."""
+    a, b, c = (np.array(values[name]) for name in "abc")
+    across = np.cross(b - a, c - a)
+    edges = [b - a, c - a, c - b]
+    longest = max(float(np.linalg.norm(edge)) for edge in edges)
+    facing = abs(float(across @ np.array(values["direction"])))
+    return facing > 0.1 * longest**2 * float(np.linalg.norm(values["direction"])) > 0.02
+
+
+def _object(random: Random) -> dict[str, Any]:
+    if random.random() < 0.6:
+        center, radius = point(random, 4.0), rounded(random.uniform(0.5, 2.5))
+        return {"type": "sphere", "center": list(center), "radius": radius}
+    corner = np.array(point(random, 3.0))
+    others = [np.round(corner + random.uniform(-4, 4, 3), 2).tolist() for _ in range(2)]
+    return {"type": "triangle", "a": corner.tolist(), "b": others[0], "c": others[1]}
+
+

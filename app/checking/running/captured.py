@@ -1,0 +1,66 @@
+"""What a program prints: read as it comes, so that the program never waits; kept in its parts."""
+
+from __future__ import annotations
+
+import threading
+from typing import IO
+
+
+class CapturedOutput:
+    """Reads a pipe to its end in a thread of its own, and closes it.
+
+    most: characters that are kept; of more, the beginning and the end. mark: what the program
+    prints, where it can, when all of a run is printed; never shown.
+    """
+
+    def __init__(self, pipe: IO[bytes], most: int, mark: bytes) -> None:
+        self._pipe, self._most, self._mark = pipe, most, mark
+        self._changed = threading.Condition()
+        self._first, self._last, self._left_out = bytearray(), bytearray(), 0
+        self._before = b""  # the mark may come in two parts
+        self._marks, self._ended = 0, False
+        threading.Thread(target=self._read, daemon=True).start()
+
+    def wait(self, marks: int, seconds: float) -> None:
+        """Until so many marks have come in all, or the end."""
+        with self._changed:
+            self._changed.wait_for(lambda: self._ended or self._marks >= marks, seconds)
+
+    def wait_for_end(self, seconds: float) -> None:
+        with self._changed:
+            self._changed.wait_for(lambda: self._ended, seconds)
+
+    def take(self) -> str:
+        """What came since the last time."""
+        with self._changed:
+            first, last, left_out = bytes(self._first), bytes(self._last), self._left_out
+            self._first, self._last, self._left_out = bytearray(), bytearray(), 0
+        half = self._most // 2
+        if not left_out:
+            text = (first + last).replace(self._mark, b"").decode("utf-8", "replace")
+            if len(text) <= self._most:
+                return text
+            left_out = len(text) - 2 * half
+            return f"{text[:half]}\n... {left_out:,} characters left out ...\n{text[-half:]}"
+        begin = first.replace(self._mark, b"").decode("utf-8", "replace")[:half]
+        end = last.replace(self._mark, b"").decode("utf-8", "replace")[-half:]
+        return f"{begin}\n... about {left_out:,} characters left out ...\n{end}"
+
+    def _read(self) -> None:
+        bound = 4 * self._most + len(self._mark)  # bytes; a character has up to four
+        with self._pipe:
+            while chunk := self._pipe.read1(1 << 16):  # type: ignore[attr-defined]
+                with self._changed:
+                    room = max(bound - len(self._first), 0)
+                    self._first += chunk[:room]
+                    self._last += chunk[room:]
+                    if len(self._last) > 2 * bound:
+                        self._left_out += len(self._last) - bound
+                        del self._last[:-bound]
+                    seen = self._before + chunk
+                    self._marks += seen.count(self._mark)
+                    self._before = seen[1 - len(self._mark) :]
+                    self._changed.notify_all()
+        with self._changed:
+            self._ended = True
+            self._changed.notify_all()

@@ -1,0 +1,287 @@
+"""A student's Python file as what answers calls: it runs in a process of its own."""
+
+from __future__ import annotations
+
+import difflib
+import json
+import os
+import threading
+import time
+from collections.abc import Iterator, Sequence
+from pathlib import Path
+from types import TracebackType
+from typing import Any, Self
+
+import renderer
+from app.checking.calls import Call, Failure, Limits, Run
+from app.checking.running.program import ProgramOverError, StudentProgram
+from app.checking.running.told import told_call, told_status
+from renderer.child import import_path, interpreter
+from renderer.errors import LucidaError
+
+_LONGEST_FILE = 4 << 20  # bytes
+_MEMORY_STATUS = 86  # of student_process.py
+_MAIN = 'put what runs on its own under `if __name__ == "__main__":`'
+# One thread for a library's arithmetic: of calls so small, more only cost. And no window.
+_ENVIRONMENT = {
+    **dict.fromkeys(("OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS", "MKL_NUM_THREADS"), "1"),
+    "MALLOC_ARENA_MAX": "2",
+    "MPLBACKEND": "Agg",
+}
+
+
+class NotRunnableError(LucidaError):
+    """A file that answers no call. output: what it printed until then."""
+
+    def __init__(self, failure: Failure, output: str) -> None:
+        super().__init__("", failure.text)
+        self.failure, self.output = failure, output
+
+
+class FileStudent:
+    """Reads the file once, at its first use. One process serves all calls, until one of them ends
+    it; then the next run starts another. python: Lucida's own, unless another is named."""
+
+    def __init__(self, path: Path | str, limits: Limits | None = None, python: str = "") -> None:
+        self._path, self._limits, self._python = Path(path), limits or Limits(), python
+        self._name = self._path.name
+        self._turn = threading.Lock()  # one run at a time
+        self._change = threading.Lock()
+        self._program: StudentProgram | None = None
+        self._lines: Iterator[bytes] = iter(())
+        self._runs = 0
+        self._functions: dict[str, list[str]] = {}
+        self._failed: Failure | None = None  # for good
+        self._closed = False
+        self._printed = ""
+
+    def __enter__(self) -> Self:
+        return self
+
+    def __exit__(
+        self,
+        kind: type[BaseException] | None,
+        error: BaseException | None,
+        trace: TracebackType | None,
+    ) -> None:
+        self.close()
+
+    def functions(self) -> frozenset[str]:
+        """All that the file has and that can be called. Raises NotRunnableError."""
+        with self._turn:
+            failure = self._start(time.monotonic() + self._limits.seconds)
+            if failure:
+                raise NotRunnableError(failure, self._printed)
+            return frozenset(self._functions["functions"])
+
+    def call(self, calls: Sequence[Call]) -> Run:
+        with self._turn:
+            end = time.monotonic() + self._limits.seconds
+            values: list[Any] = []
+            try:
+                failure = self._start(end)
+                if failure is None and calls:
+                    failure = self._run(calls, values, end)
+            except BaseException:  # Ctrl-C
+                self._end()
+                raise
+            return Run(tuple(values), self._taken_output(), failure)
+
+    def stop(self) -> None:
+        with self._change:
+            program = self._program
+        if program:
+            program.stop()
+
+    def close(self) -> None:
+        self._closed = True
+        self.stop()
+        with self._turn:
+            self._end()
+
+    def _start(self, end: float) -> Failure | None:
+        """A process that has run the file, unless there is one."""
+        if self._closed or self._failed:
+            return self._failed or Failure("ended", f"{self._name}: it is closed")
+        if self._program:
+            return None
+        try:
+            source = self._source()
+            with self._change:
+                self._program = self._started()
+        except LucidaError as error:
+            self._failed = Failure("missing", str(error))
+            return self._failed
+        self._runs = 0
+        opening = {
+            "path": os.path.realpath(self._path),
+            "source": source.decode("latin-1"),
+            "memory_mb": self._limits.memory_mb,
+            "mark": self._program.mark,
+        }
+        self._program.send(json.dumps(opening).encode() + b"\n")
+        self._lines = self._program.lines(end, self._limits.memory_mb)
+        try:
+            line = next(self._lines)
+        except ProgramOverError as over:
+            return self._import_failed(self._over(over, "while the file is imported", _MAIN), over)
+        self._runs = 1
+        if line[:1] == b"f":
+            return self._import_failed(self._failure(json.loads(line[1:]), None))
+        self._functions = json.loads(line[1:])
+        return None
+
+    def _import_failed(self, failure: Failure, over: ProgramOverError | None = None) -> Failure:
+        self._printed = self._taken_output()
+        self._end()
+        if not over or over.why != "stopped":
+            self._failed = failure
+        return failure
+
+    def _source(self) -> bytes:
+        try:
+            if self._path.is_dir():
+                raise LucidaError("", "it is a folder", "give a .py file", self._name)
+            if self._path.exists() and not self._path.is_file():
+                raise LucidaError("", "it is no file", "give a .py file", self._name)
+            with self._path.open("rb") as file:
+                source = file.read(_LONGEST_FILE + 1)
+        except FileNotFoundError:
+            raise LucidaError("", "there is no such file", source=str(self._path)) from None
+        except (OSError, ValueError) as error:
+            reason = getattr(error, "strerror", None) or str(error)
+            raise LucidaError("", f"cannot be read: {reason}", source=str(self._path)) from None
+        if len(source) > _LONGEST_FILE:
+            raise LucidaError("", "it is longer than 4 MB, too long for code", source=self._name)
+        return source
+
+    def _started(self) -> StudentProgram:
+        python = self._python or interpreter()
+        if python is None:
+            raise LucidaError("", "Python files need Python", "install Lucida by pip")
+        path = [] if self._python else _libraries()
+        command = [python, "-I", "-B", str(Path(__file__).with_name("student_process.py")), *path]
+        folder = Path(os.path.realpath(self._path)).parent
+        try:
+            return StudentProgram(command, folder, _ENVIRONMENT, self._limits.output)
+        except OSError as error:
+            raise LucidaError("", f"{python} cannot be started: {error.strerror}") from None
+
+    def _run(self, calls: Sequence[Call], values: list[Any], end: float) -> Failure | None:
+        """Appends to the values; what ended the run early."""
+        assert self._program
+        self._program.send(_request(calls, self._limits.seconds))
+        self._lines = self._program.lines(end, self._limits.memory_mb)
+        try:
+            for call, line in zip(calls, self._lines, strict=False):
+                kind, text = line[:1], line[1:]
+                if kind == b"a":
+                    values.append(json.loads(text, parse_int=_number))
+                elif kind == b"m":
+                    values.append(Failure("missing", self._lacks(call), call=len(values)))
+                else:
+                    failure = self._failure(json.loads(text), call, len(values))
+                    values.append(failure)
+        except ProgramOverError as over:
+            number = len(values)
+            place = f"in call {number + 1} of {len(calls)}: {told_call(calls[number])}"
+            failure = self._over(over, place, "is there a loop that does not end?", number)
+            self._printed = self._taken_output()
+            self._end()
+            return failure
+        self._runs += 1
+        return None
+
+    def _taken_output(self) -> str:
+        if not self._program:
+            printed, self._printed = self._printed, self._printed if self._failed else ""
+            return printed
+        self._program.output.wait(self._runs, 1.0)
+        return self._program.output.take()
+
+    def _end(self) -> None:
+        with self._change:
+            program, self._program = self._program, None
+        if program:
+            program.end()
+
+    def _lacks(self, call: Call) -> str:
+        own = self._functions["own"]
+        if not own:
+            return f"{self._name} has no function {call.function}; it has none"
+        has = ", ".join(own[:8]) + (", ..." if len(own) > 8 else "")
+        near = difflib.get_close_matches(call.function, own, 1)
+        meant = f"; did you mean {near[0]}?" if near else ""
+        return f"{self._name} has no function {call.function}; it has: {has}{meant}"
+
+    def _failure(
+        self, told: dict[str, Any], call: Call | None, number: int | None = None
+    ) -> Failure:
+        """What the process says of an exception, of no answer."""
+        kind, text = told["kind"], told["text"]
+        where = told["where"] or self._name
+        called = f"; called as {told_call(call)}" if call else ""
+        if kind == "answer":
+            assert call
+            wanted = "numbers, lists, arrays, or an object with origin and direction"
+            text = f"{call.function} returned {text}; wanted are {wanted}"
+        elif kind == "memory":
+            text = f"it needs more than the memory limit of {self._limits.memory_mb} MB ({text})"
+        elif kind == "ended":
+            remedy = "a function is to return" if call else _MAIN
+            text = f"it ends the program ({text}); {remedy}"
+        elif text.startswith("EOFError: EOF when reading a line"):
+            text += f"; input() finds nothing here: {'use the arguments' if call else _MAIN}"
+        return Failure(kind, f"{where}: {text}{called}", tuple(told["lines"]), number)
+
+    def _over(
+        self, over: ProgramOverError, place: str, endless: str, number: int | None = None
+    ) -> Failure:
+        """What ended the process."""
+        limits, why = self._limits, over.why
+        if why == "ended" and over.status == _MEMORY_STATUS:
+            why = "memory"
+        if why == "time":
+            text = f"the time limit of {limits.seconds:g} s is over {place}; {endless}"
+            return Failure("time", f"{self._name}: {text}", call=number)
+        if why == "memory":
+            text = f"needs more than the memory limit of {limits.memory_mb} MB {place}"
+            return Failure("memory", f"{self._name}: {text}", call=number)
+        text = {"stopped": "was stopped", "length": "answered too much"}.get(why, "")
+        text = text or f"its process {told_status(over.status)}"
+        return Failure("ended", f"{self._name}: {text} {place}", call=number)
+
+
+def _number(text: str) -> int | float:
+    """Integers that no float holds exactly come as floats."""
+    return int(text) if len(text) < 18 else float(text)
+
+
+def _request(calls: Sequence[Call], seconds: float) -> bytes:
+    """Values that are no plain numbers are sent once, however many calls have them."""
+    places: dict[tuple[int, bool], int] = {}
+    shared: list[tuple[str, Any, bool]] = []
+    written = []
+    for call in calls:
+        arguments = []
+        for name, value in call.arguments:
+            if isinstance(value, dict | list | tuple):
+                as_array = call.vectorised and not isinstance(value, dict)
+                place = places.setdefault((id(value), as_array), len(shared))
+                if place == len(shared):
+                    shared.append((name, value, as_array))
+                arguments.append([place])
+            else:
+                arguments.append(value)
+        written.append((call.function, arguments))
+    return json.dumps({"shared": shared, "calls": written, "seconds": seconds}).encode() + b"\n"
+
+
+def _libraries() -> list[str]:
+    """Where installed packages are; not where ours lie, unless that is the same folder."""
+    ours = Path(renderer.__file__).resolve().parent.parent
+    return [
+        folder
+        for folder in import_path()
+        if Path(folder).resolve() != ours or (ours / "numpy").is_dir()
+    ]

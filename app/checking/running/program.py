@@ -1,0 +1,208 @@
+"""A program that runs what a student wrote: started, fed, watched, and ended with all it started.
+
+Each has a session of its own and, in its environment, a name that what it starts inherits. On Linux
+whatever bears that name is ended with it, also what has left the session; elsewhere its session,
+on Windows its tree.
+"""
+
+from __future__ import annotations
+
+import os
+import queue
+import secrets
+import signal
+import subprocess
+import sys
+import threading
+import time
+from collections.abc import Iterator, Mapping, Sequence
+from pathlib import Path
+from typing import IO, Literal
+
+from app.checking.running.captured import CapturedOutput
+from app.checking.running.memory import memory_of
+
+_NAME = "LUCIDA_STUDENT"
+_LOOK = 0.1  # seconds between looks at the memory
+_FAREWELL = 2.0  # seconds that a program which closed its answers may take to end
+_MOST_ANSWERS = 1 << 28  # bytes
+
+
+class ProgramOverError(Exception):
+    """No more answers come. why: time, memory, ended (by itself: status, or None where it still ran
+    and had closed its answers), stopped, length."""
+
+    def __init__(
+        self,
+        why: Literal["time", "memory", "ended", "stopped", "length"],
+        status: int | None = None,
+    ) -> None:
+        super().__init__(why)
+        self.why, self.status = why, status
+
+
+class StudentProgram:
+    """Raises OSError where it cannot be started."""
+
+    def __init__(
+        self,
+        command: Sequence[str] | str,
+        folder: Path | None,
+        environment: Mapping[str, str],
+        output: int,
+    ) -> None:
+        name = secrets.token_hex(16)
+        self.mark = f"\0{secrets.token_hex(8)}\0"
+        self._bears = f"{_NAME}={name}".encode()
+        flags = 0
+        if sys.platform == "win32":
+            flags = subprocess.CREATE_NO_WINDOW | subprocess.CREATE_NEW_PROCESS_GROUP
+        self._process = subprocess.Popen(
+            command,
+            cwd=folder,
+            env={**os.environ, **environment, _NAME: name},
+            stdin=subprocess.PIPE,
+            stdout=subprocess.PIPE,
+            stderr=subprocess.PIPE,
+            start_new_session=True,
+            creationflags=flags,
+        )
+        pipes = (self._process.stdin, self._process.stdout, self._process.stderr)
+        self._input, answers, printed = pipes
+        assert self._input and answers and printed
+        self.output = CapturedOutput(printed, output, self.mark.encode())
+        self._chunks: queue.SimpleQueue[bytes] = queue.SimpleQueue()
+        self._requests: queue.SimpleQueue[bytes | None] = queue.SimpleQueue()
+        self._pending: list[bytes] = []
+        self._lines: list[bytes] = []
+        self._received = 0
+        self._ending = threading.Lock()
+        self._ended, self._stopped = False, False
+        threading.Thread(target=self._read, args=(answers,), daemon=True).start()
+        threading.Thread(target=self._write, args=(self._input,), daemon=True).start()
+
+    def send(self, data: bytes | None) -> None:
+        """Without waiting. None: the end of its input."""
+        self._requests.put(data)
+
+    def lines(self, end: float, memory_mb: int) -> Iterator[bytes]:
+        """What it answers, for as long as it is asked for. end: in time.monotonic's seconds. Raises
+        ProgramOverError."""
+        look, closed = 0.0, False
+        while True:
+            if self._lines:
+                yield from self._taken()
+            now = time.monotonic()
+            if self._stopped:
+                raise ProgramOverError("stopped")
+            if now >= end:
+                raise ProgramOverError("time")
+            if now >= look:
+                look = now + _LOOK
+                if memory_of(self._process.pid) > memory_mb << 20:
+                    raise ProgramOverError("memory")
+            if closed:
+                raise ProgramOverError("ended", self._status())
+            try:
+                chunk = self._chunks.get(timeout=min(_LOOK, end - now))
+            except queue.Empty:
+                continue
+            closed = not chunk
+            self._received += len(chunk)
+            if self._received > _MOST_ANSWERS:
+                raise ProgramOverError("length")
+            self._split(chunk)
+
+    def stop(self) -> None:
+        """Ends it, from any thread: `lines` says so."""
+        self._stopped = True
+        self.end()
+
+    def end(self) -> None:
+        """Kills it and all that it started."""
+        with self._ending:
+            if not self._ended:
+                self._ended = True
+                self._kill()
+                self._process.wait()
+                self._requests.put(None)
+                self.output.wait_for_end(_FAREWELL)
+
+    def _split(self, chunk: bytes) -> None:
+        *lines, rest = chunk.split(b"\n")
+        for line in lines:
+            self._lines.append(b"".join([*self._pending, line]))
+            self._pending = []
+        if rest:
+            self._pending.append(rest)
+        elif not chunk and self._pending:  # a last line without its end
+            self._lines.append(b"".join(self._pending))
+            self._pending = []
+
+    def _taken(self) -> Iterator[bytes]:
+        taken = 0
+        try:
+            for line in self._lines:
+                taken += 1
+                yield line
+        finally:
+            del self._lines[:taken]
+
+    def _status(self) -> int | None:
+        """Its exit status, without letting its number go to another process before it is killed."""
+        if sys.platform == "win32":
+            try:
+                return self._process.wait(_FAREWELL)
+            except subprocess.TimeoutExpired:
+                return None
+        end = time.monotonic() + _FAREWELL
+        options = os.WEXITED | os.WNOWAIT | os.WNOHANG
+        while (found := os.waitid(os.P_PID, self._process.pid, options)) is None:
+            if time.monotonic() > end:
+                return None
+            time.sleep(0.002)
+        status = found.si_status
+        return status if found.si_code == os.CLD_EXITED else -status
+
+    def _kill(self) -> None:
+        if sys.platform == "win32":
+            command = ["taskkill", "/T", "/F", "/PID", str(self._process.pid)]
+            try:
+                subprocess.run(command, capture_output=True, check=False)
+            except OSError:
+                pass
+            self._process.kill()
+            return
+        try:
+            os.killpg(self._process.pid, signal.SIGKILL)
+        except (ProcessLookupError, PermissionError):
+            self._process.kill()
+        for _ in range(100):  # what it is starting meanwhile
+            if not self._kill_bearers():
+                break
+
+    def _kill_bearers(self) -> bool:
+        found = False
+        for process in Path("/proc").glob("[0-9]*/environ"):
+            try:
+                if self._bears in process.read_bytes():
+                    os.kill(int(process.parent.name), signal.SIGKILL)
+                    found = True
+            except OSError:
+                continue
+        return found
+
+    def _read(self, pipe: IO[bytes]) -> None:
+        with pipe:
+            while chunk := pipe.read1(1 << 16):  # type: ignore[attr-defined]
+                self._chunks.put(chunk)
+        self._chunks.put(b"")
+
+    def _write(self, pipe: IO[bytes]) -> None:
+        try:
+            with pipe:
+                while (data := self._requests.get()) is not None:
+                    pipe.write(data)
+                    pipe.flush()
+        except OSError:
+            pass  # it reads no more

@@ -1,0 +1,408 @@
+"""The one file of ours in the process that runs a student's Python file: reads calls, answers them.
+
+Imports the standard library alone, and nothing of it stays in the way of a student's own modules.
+The other end is file.py. A line of JSON comes for each request; each answer is a line that begins
+with a letter: i, what the file has; a, a call's value; m, no such function; f, a failure.
+"""
+
+import sys
+
+_AT_START = frozenset(sys.modules)
+
+import _thread
+import json
+import linecache
+import os
+import queue
+import time
+import tokenize
+import traceback
+import types
+from io import BytesIO, TextIOWrapper
+
+_LONGEST_LINE = 300
+_FULL_TRACEBACKS = 10  # failures of a run that are told with all their lines
+_LEAST_RECURSION = 500  # of sys.setrecursionlimit, for what is done here
+_MEMORY_STATUS = 86  # exit status: no memory was left to say so
+_FIRST_LINES, _LAST_LINES = 16, 24  # of a long traceback
+_NAMED_PARTS = (("origin", "direction"), ("u", "v", "w"), ("x", "y", "z", "w"), ("x", "y", "z"))
+
+
+def main():
+    """Serves the process at the other end until that closes its pipe."""
+    sys.modules["__main__"] = types.ModuleType("__main__")  # this file is not the student's program
+    channel = Channel()
+    student = StudentFile(channel.next())
+    failure = student.load()
+    channel.send("f" if failure else "i", failure or student.names(), mark=student.mark)
+    while True:
+        student.answer(channel, channel.next())
+
+
+class Channel:
+    """Requests come and answers go through copies of standard input and output, which are the
+    student's no more: nothing can be read, and what is printed goes where errors go."""
+
+    def __init__(self):
+        self._process = os.getpid()
+        self._requests, self._answers, self._output = os.dup(0), os.dup(1), os.dup(2)
+        nothing = os.open(os.devnull, os.O_RDONLY)
+        os.dup2(nothing, 0)
+        os.close(nothing)
+        os.dup2(2, 1)
+        for stream in (sys.stdout, sys.stderr):
+            stream.reconfigure(encoding="utf-8", errors="backslashreplace", line_buffering=True)
+        if hasattr(os, "register_at_fork"):
+            os.register_at_fork(after_in_child=self._forget)
+        self._lines = queue.SimpleQueue()
+        # Not by threading: it is none of the threads that the student's code can see.
+        _thread.start_new_thread(self._read, ())
+
+    def next(self):
+        """The next request."""
+        return json.loads(self._lines.get())
+
+    def send(self, kind, value=None, text=None, mark=None):
+        """text: the value in JSON, where it is known. mark: shows in the output that all was
+        printed."""
+        if os.getpid() != self._process:
+            os._exit(0)  # a copy that the student's code made came back from it
+        if mark is not None:
+            for stream in (sys.stdout, sys.stderr):
+                try:
+                    stream.flush()
+                except Exception:
+                    pass  # closed, or no stream at all
+            self._write(self._output, mark.encode())
+        text = json.dumps(value) if text is None else text
+        self._write(self._answers, f"{kind}{text}\n".encode())
+
+    @staticmethod
+    def _write(file, data):
+        while data:
+            data = data[os.write(file, data) :]
+
+    def _read(self):
+        pending = []
+        while chunk := os.read(self._requests, 1 << 16):
+            *lines, rest = chunk.split(b"\n")
+            for line in lines:
+                self._lines.put(b"".join([*pending, line]))
+                pending = []
+            pending.append(rest)
+        if hasattr(os, "killpg") and os.getpgrp() == self._process:
+            os.killpg(0, 9)
+        os._exit(1)
+
+    def _forget(self):
+        for file in (self._requests, self._answers, self._output):
+            try:
+                os.close(file)
+            except OSError:
+                pass
+
+
+class StudentFile:
+    """opening: path, source (its bytes as Latin-1), memory_mb, mark."""
+
+    def __init__(self, opening):
+        self.mark = opening["mark"]
+        self._path, self._source = opening["path"], opening["source"].encode("latin-1")
+        self._folder = os.path.dirname(self._path)
+        self._failures = 0
+        stem = os.path.splitext(os.path.basename(self._path))[0]
+        taken = stem in sys.modules or stem in sys.stdlib_module_names or not stem.isidentifier()
+        self._module = types.ModuleType("student" if taken else stem)
+        self._module.__file__ = self._path
+        limit_memory(opening["memory_mb"])
+
+    def load(self):
+        """Runs the file; what failed, or None."""
+        sys.path[:] = [self._folder, *(sys.argv[1:] or sys.path)]
+        sys.argv = [self._path]
+        own = {name.partition(".")[0] for name in os.listdir(self._folder)}
+        own.discard(os.path.splitext(os.path.basename(self._path))[0])
+        for name in sys.modules.keys() - _AT_START:
+            if name.partition(".")[0] in own:
+                del sys.modules[name]  # the student has a module of that name
+        try:
+            code = compile(self._source, self._path, "exec", dont_inherit=True)
+            self._keep_lines()
+            sys.modules[self._module.__name__] = self._module
+            exec(code, self._module.__dict__)
+        except BaseException as error:
+            return self.failure(error)
+        return None
+
+    def _keep_lines(self):
+        """For tracebacks, as they are now: the file may be saved or deleted meanwhile."""
+        encoding, _ = tokenize.detect_encoding(BytesIO(self._source).readline)
+        text = TextIOWrapper(BytesIO(self._source), encoding).read()
+        linecache.cache[self._path] = (len(text), None, text.splitlines(True), self._path)
+
+    def names(self):
+        """functions: all that can be called. own: those that the file defines itself."""
+        found = {
+            name: value
+            for name, value in self._module.__dict__.items()
+            if callable(value) and not name.startswith("__")
+        }
+        own = [
+            name
+            for name, value in found.items()
+            if getattr(value, "__module__", None) == self._module.__name__
+        ]
+        return {"functions": [*found], "own": own}
+
+    def answer(self, channel, request):
+        """request: shared, (name, value, whether as an array) of values that are no plain numbers;
+        calls, (function, arguments): numbers, or [where in shared]; seconds."""
+        self._failures = 0
+        limit_processor(request["seconds"])
+        made, calls = [], request["calls"]
+        for name, value, as_array in request["shared"]:
+            made.append(array_maker(value) if as_array else maker(value, name))
+        for number, (name, arguments) in enumerate(calls):
+            mark = self.mark if number + 1 == len(calls) else None
+            function = self._module.__dict__.get(name)
+            if not callable(function):
+                channel.send("m", mark=mark)
+                continue
+            written_answer = None
+            try:
+                values = [made[a[0]]() if type(a) is list else a for a in arguments]
+                answer = function(*values)
+                try:
+                    written_answer = written(answer)
+                except (
+                    ArithmeticError,
+                    LookupError,
+                    TypeError,
+                    ValueError,
+                    RecursionError,
+                ) as error:
+                    if self._where(error):
+                        raise
+                    failure = {
+                        "kind": "answer",
+                        "text": no_answer(answer),
+                        "where": "",
+                        "lines": [],
+                    }
+            except BaseException as error:
+                failure = self.failure(error)
+            if sys.getrecursionlimit() < _LEAST_RECURSION:
+                sys.setrecursionlimit(_LEAST_RECURSION)
+            if written_answer is None:
+                channel.send("f", failure, mark=mark)
+            else:
+                channel.send("a", text=written_answer, mark=mark)
+
+    def failure(self, error):
+        """kind, text, where in the student's files, and the traceback's own lines of theirs."""
+        sys.setrecursionlimit(max(sys.getrecursionlimit(), _LEAST_RECURSION))
+        self._failures += 1
+        where = self._where(error)
+        kind = "exception"
+        if isinstance(error, SystemExit):
+            kind = "ended"
+        elif isinstance(error, MemoryError):
+            kind = "memory"
+        elif isinstance(error, SyntaxError) or (not where and isinstance(error, ValueError)):
+            kind = "syntax"  # a ValueError is for null bytes
+        full = self._failures <= _FULL_TRACEBACKS
+        lines = self._lines(traceback.TracebackException.from_exception(error)) if full else []
+        return {"kind": kind, "text": self._one_line(error), "where": where, "lines": lines}
+
+    def _where(self, error):
+        """The last line of the student's own files; "" where none is concerned."""
+        if isinstance(error, SyntaxError) and error.lineno and error.filename:
+            return f"{self._short(error.filename)}, line {error.lineno}"
+        step, where = error.__traceback__, ""
+        while step is not None:
+            name = step.tb_frame.f_code.co_filename
+            if name.startswith(self._folder + os.sep) and "site-packages" not in name:
+                where = f"{self._short(name)}, line {step.tb_lineno}"
+            step = step.tb_next
+        return where
+
+    def _one_line(self, error):
+        try:
+            text = " ".join(str(error.msg if isinstance(error, SyntaxError) else error).split())
+        except BaseException:
+            text = ""  # its own __str__ fails
+        text = f"{type(error).__name__}: {text}" if text else type(error).__name__
+        return text if len(text) <= _LONGEST_LINE else text[:_LONGEST_LINE] + "..."
+
+    def _lines(self, told):
+        seen = set()
+
+        def forget_ours(told):
+            if told is None or id(told) in seen:
+                return
+            seen.add(id(told))
+            told.stack[:] = [
+                frame
+                for frame in told.stack
+                if frame.filename != __file__ and not frame.filename.startswith("<frozen ")
+            ]
+            group = getattr(told, "exceptions", None) or ()
+            for other in (told.__cause__, told.__context__, *group):
+                forget_ours(other)
+
+        forget_ours(told)
+        text = "".join(told.format()).replace(f'File "{self._folder}{os.sep}', 'File "')
+        lines = [line[:_LONGEST_LINE] for line in text.splitlines()]
+        if len(lines) > _FIRST_LINES + _LAST_LINES + 1:
+            left_out = f"  ... {len(lines) - _FIRST_LINES - _LAST_LINES} lines left out ..."
+            lines[_FIRST_LINES:-_LAST_LINES] = [left_out]
+        return lines
+
+    def _short(self, path):
+        return path.removeprefix(self._folder + os.sep)
+
+
+def no_answer(answer):
+    """What it was instead of a value that JSON has."""
+    try:
+        text = " ".join(repr(answer).split())
+    except BaseException:
+        text = "something"
+    text = text if len(text) <= 120 else text[:117] + "..."
+    return text if isinstance(answer, type) else f"{text} of type {type(answer).__name__}"
+
+
+class Values(types.SimpleNamespace):
+    """A camera, an object of a scene: camera.eye, and camera["eye"]."""
+
+    def __getattr__(self, name):
+        has = ", ".join(self.__dict__)
+        kind = type(self).__name__
+        raise AttributeError(f"{kind} has no {name!r}; it has: {has}", name=name, obj=self)
+
+    def __getitem__(self, name):
+        return getattr(self, name)
+
+    def __setitem__(self, name, value):
+        setattr(self, name, value)
+
+    def __contains__(self, name):
+        return name in self.__dict__
+
+    def __iter__(self):
+        return iter(self.__dict__)
+
+    def __len__(self):
+        return len(self.__dict__)
+
+    def keys(self):
+        return self.__dict__.keys()
+
+    def values(self):
+        return self.__dict__.values()
+
+    def items(self):
+        return self.__dict__.items()
+
+    def get(self, name, default=None):
+        return self.__dict__.get(name, default)
+
+
+def maker(value, name):
+    """A function that gives each call its value: what code could change, an object, is another one
+    each time. Lists are tuples."""
+    if isinstance(value, dict):
+        kind = type(name.title().replace("_", "") or "Values", (Values,), {})
+        parts = {key: maker(part, key) for key, part in value.items()}
+        constant = {key: parts[key]() for key, part in value.items() if not has_objects(part)}
+        changing = {key: make for key, make in parts.items() if key not in constant}
+        if not changing:
+            return lambda: kind(**constant)
+        return lambda: kind(**{key: make() for key, make in parts.items()})
+    if isinstance(value, list):
+        makers = [maker(part, name.removesuffix("s")) for part in value]
+        if has_objects(value):
+            return lambda: tuple([make() for make in makers])
+        value = tuple([make() for make in makers])
+    return lambda: value
+
+
+def has_objects(value):
+    return isinstance(value, dict) or (isinstance(value, list) and any(map(has_objects, value)))
+
+
+def array_maker(value):
+    """The same for a NumPy array."""
+    import numpy
+
+    return lambda: numpy.array(value)
+
+
+def written(answer):
+    """The answer in JSON. Raises TypeError, ValueError and such where it has none, and what the
+    student's own code raises on the way: a generator, for instance."""
+    ray = isinstance(answer, (tuple, dict)) and named_parts(answer, _NAMED_PARTS[:1])
+    return _encode(ray or answer)
+
+
+def named_parts(value, names):
+    for parts in names:
+        if isinstance(value, dict) and all(part in value for part in parts):
+            return {part: value[part] for part in parts}
+        if all(hasattr(value, part) for part in parts):
+            found = [getattr(value, part) for part in parts]
+            return found if parts[0] == "x" else dict(zip(parts, found, strict=True))
+    return None
+
+
+def plain(value):
+    """One step from what JSON does not have to what it has."""
+    if isinstance(value, (type, set, frozenset, types.ModuleType, types.FunctionType)):
+        raise TypeError
+    for name in ("tolist", "item"):
+        if callable(method := getattr(value, name, None)):
+            return method()
+    if (parts := named_parts(value, _NAMED_PARTS)) is not None:
+        return parts
+    if hasattr(value, "__index__"):
+        return value.__index__()
+    if hasattr(value, "__float__"):
+        return float(value)
+    if hasattr(value, "keys") and hasattr(value, "__getitem__"):
+        return {key: value[key] for key in value.keys()}
+    return list(value)
+
+
+_encode = json.JSONEncoder(default=plain).encode
+
+
+def limit_memory(megabytes):
+    try:
+        import resource
+
+        with open("/proc/self/statm") as file:
+            now = int(file.read().split()[0]) * resource.getpagesize()
+        resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
+        most = now + (megabytes << 20)
+        resource.setrlimit(resource.RLIMIT_AS, (most, most))
+    except (ImportError, OSError, ValueError):
+        pass  # no such limit here: the other end watches
+
+
+def limit_processor(seconds):
+    """The end of a loop that lets no other thread run, should the other end be killed."""
+    try:
+        import resource
+
+        used = time.process_time() + (seconds + 10) * (os.cpu_count() or 1)
+        _, most = resource.getrlimit(resource.RLIMIT_CPU)
+        resource.setrlimit(resource.RLIMIT_CPU, (int(used) + 1, most))
+    except (ImportError, OSError, ValueError):
+        pass
+
+
+if __name__ == "__main__":
+    try:
+        main()
+    except MemoryError:
+        os._exit(_MEMORY_STATUS)

@@ -1,0 +1,54 @@
+"""Calls and limits as messages say them."""
+
+from __future__ import annotations
+
+import signal
+from typing import Any
+
+from app.checking.calls import Call
+from renderer.errors import one_line, shortened
+
+_LONGEST_CALL = 240
+_LONGEST_VALUE = 120
+
+
+def told_call(call: Call) -> str:
+    """The call in one line: viewing_ray(i=3, j=4, camera={eye: (0, 0, 5), ...})."""
+    given = ", ".join(f"{name}={told_value(value)}" for name, value in call.arguments)
+    return one_line(shortened(f"{call.function}({given})", _LONGEST_CALL))
+
+
+def told_value(value: Any) -> str:
+    """A value of JSON as Python writes it, shortened."""
+    return shortened(_written(value, _LONGEST_VALUE), _LONGEST_VALUE)
+
+
+def _written(value: Any, most: int) -> str:
+    if isinstance(value, dict):
+        parts = (f"{key}: {_written(part, most)}" for key, part in value.items())
+        return "{" + _joined(parts, most) + "}"
+    if isinstance(value, list | tuple):
+        return "(" + _joined((_written(part, most) for part in value), most) + ")"
+    return f"{value:.6g}" if isinstance(value, float) else repr(value)
+
+
+def _joined(parts: Any, most: int) -> str:
+    """Not all, of many."""
+    text = ""
+    for part in parts:
+        if len(text) > most:
+            return text + ", ..."
+        text += (", " if text else "") + part
+    return text
+
+
+def told_status(status: int | None) -> str:
+    """How a program ended, from its exit status; -9 is of signal 9."""
+    if status is None:
+        return "closed what it answers through"
+    if status >= 0:
+        return f"ended with exit status {status}"
+    try:
+        return f"was ended by {signal.Signals(-status).name}"
+    except ValueError:
+        return f"was ended by signal {-status}"
