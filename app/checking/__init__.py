@@ -1,1 +1,1 @@
-"""What a student wrote, checked: tasks, right answers, the code in a process of its own, diagnosis."""
+"""What a student wrote, checked: tasks, right answers, its own process, the diagnosis."""

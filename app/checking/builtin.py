@@ -1,39 +1,121 @@
-"""The built-in tasks, along the lecture's parts."""
+"""The built-in tasks, along the lecture's parts. What the lecture leaves open, their texts say."""
 
 from __future__ import annotations
+
+from typing import Any
 
 from app.checking.conventions import Conventions
 from app.checking.kinds import KINDS
 from app.checking.tasks import CheckTask
 
+COLOR_BYTES = 12  # of a pixel: three float32, as in the lecture
 
-def _conventions(kind: str) -> Conventions:
+_HIT = (
+    "Give the ray parameter t of the nearest hit with t > 0: the point is origin + t * direction. "
+    "Give None where there is none. The direction is of any length: do not assume 1."
+)
+
+
+def default_conventions(kind: str) -> Conventions:
+    """How the camera contract writes: from 0, row 0 at the top."""
     return Conventions(
         arguments=tuple((word, word) for word in KINDS[kind].arguments),
         returns=KINDS[kind].returns,
     )
 
 
+def _task(kind: str, part: str, text: str, points: float, **more: Any) -> CheckTask:
+    name = more.pop("name", kind)
+    conventions = default_conventions(kind)
+    return CheckTask(name, kind, KINDS[kind].function, part, text, points, conventions, **more)
+
+
 BUILTIN = (
-    CheckTask(
-        "viewing-ray",
-        "viewing-ray",
-        "viewing_ray",
-        "Any camera",
-        "The viewing ray of pixel (i, j) in perspective: its origin and its direction, of any "
-        "length. i, j count from 0, row 0 is at the top, the ray goes through the pixel's centre.",
-        3.0,
-        _conventions("viewing-ray"),
+    _task(
+        "to-gray",
+        "Kinds of raster image",
+        "The grey of each pixel: 0.2126 red + 0.7152 green + 0.0722 blue, the luminance of linear "
+        "light. rgb is an array of height x width x 3 numbers from 0 to 1; give height x width.",
+        1.0,
+        count=4,
     ),
-    CheckTask(
-        "viewing-ray-parallel",
+    _task(
+        "to-bitmap",
+        "One bit per pixel",
+        "One bit per pixel: 1 where gray is at least the threshold, else 0. gray is an array of "
+        "height x width numbers, from 0 to 255 or from 0 to 1 as the threshold is; give as many "
+        "of 0 and 1.",
+        1.0,
+        count=5,
+    ),
+    _task(
+        "memory-offset",
+        "The image as an array",
+        "How many bytes after the first pixel does pixel (i, j) begin, in an image of rows one "
+        "after another (row-major), with three float32 a pixel? i, j count from 0.",
+        1.0,
+        count=20,
+        stride=COLOR_BYTES,
+    ),
+    _task(
         "viewing-ray",
-        "viewing_ray",
+        "Any camera",
+        "The viewing ray of pixel (i, j) in perspective: its origin, the eye, and its direction, "
+        "of any length. i, j count from 0, row 0 is at the top, the ray goes through the pixel's "
+        "centre. The basis u, v, w may be any: use it as it is.",
+        3.0,
+    ),
+    _task(
+        "viewing-ray",
         "Parallel: the pixel moves the origin",
-        "The same in parallel projection (camera.projection is 'parallel'): the pixel moves the "
-        "origin, all directions are -w.",
+        "The same where camera.projection is 'parallel': the pixel moves the origin, in the plane "
+        "of the eye; all directions are -w.",
         2.0,
-        _conventions("viewing-ray"),
+        name="viewing-ray-parallel",
         projections=("parallel",),
+    ),
+    _task(
+        "basis",
+        "The basis from a target",
+        "The camera's basis u (right), v (up), w (back), each of length 1 and at right angles to "
+        "the others. up is neither of length 1 nor at right angles to the view.",
+        2.0,
+        count=20,
+    ),
+    _task(
+        "hit-sphere",
+        "A ray is half a line",
+        f"Where does a ray meet a sphere? {_HIT} From inside, that is the far side.",
+        2.0,
+        count=25,
+    ),
+    _task(
+        "hit-triangle",
+        "A ray is half a line",
+        f"Where does a ray meet the triangle a, b, c? {_HIT} Both of its sides count; a ray in "
+        "parallel to its plane does not meet it.",
+        2.0,
+        count=24,
+    ),
+    _task(
+        "closest-hit",
+        "Ray tracing",
+        "Which object does a ray meet first? objects is a list; each has a type: 'sphere', with "
+        "center and radius, or 'triangle', with a, b and c. Give its number, from 0, and t > 0; "
+        "None where nothing is hit. The list may be empty.",
+        2.0,
+        count=24,
+    ),
+    _task(
+        "render",
+        "The program",
+        "The image: for each pixel the color of the nearest object as it is, without light; "
+        "scene.background where there is none. scene.objects are as in closest_hit, each with a "
+        "color, three numbers from 0 to 1. Give an array of height x width x 3, row 0 at the top. "
+        "Pixels whose ray just touches an edge are not judged.",
+        3.0,
+        count=6,
+        projections=("perspective", "parallel"),
+        cameras=("canonical", "turned", "off-axis"),
     ),
 )

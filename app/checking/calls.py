@@ -1,4 +1,4 @@
-"""What a student's code is asked, and what came of it: the values between a check and what runs the code.
+"""What a student's code is asked, and what came of it: between a check and what runs the code.
 
 Values are those of JSON. A camera, an object, a scene is a dict: Python code gets it as an object
 with attributes, any other program as it stands in JSON.

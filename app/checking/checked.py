@@ -158,12 +158,13 @@ def _first_wrong(
 ) -> WrongCase:
     number = int(np.argmax(wrong))
     case = cases[number]
+    where, right, answer = kind.first_wrong(task, case, given[number])
     return WrongCase(
         case,
         arguments_text(case),
-        kind.answer_text(task, case, case.right),
-        kind.answer_text(task, case, given[number]),
-        kind.call_text(case),
+        right,
+        answer,
+        where,
         case.right,
         given[number],
     )

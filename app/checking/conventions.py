@@ -18,6 +18,7 @@ from numpy.typing import NDArray
 from renderer.camera import Camera, Size, Vector
 
 Floats = NDArray[np.float64]
+Whole = NDArray[np.intp]
 Named = tuple[tuple[str, str], ...]  # the name in the student's program, and the word
 
 DEFAULT_FIELDS = ("eye", "u", "v", "w", "distance", "left", "right", "bottom", "top", "projection")
@@ -94,10 +95,10 @@ class PixelWord:
     """value: of rows and columns, from 0 and from the top left."""
 
     meaning: str
-    value: Callable[[Floats, Floats, Size, Conventions], Floats]
+    value: Callable[[Whole, Whole, Size, Conventions], NDArray[Any]]
 
 
-def rows_of(i: Floats, size: Size, conventions: Conventions) -> Floats:
+def rows_of(i: Whole, size: Size, conventions: Conventions) -> Whole:
     """The rows as the course counts them, from 0."""
     return i if conventions.rows == "top" else size[1] - 1 - i
 
@@ -171,7 +172,8 @@ def _matrix(shot: Shot, conventions: Conventions, inverse: bool) -> list[Any]:
     matrix = np.eye(4)
     matrix[:3, :3] = shot.frame(conventions)
     matrix[:3, 3] = shot.camera.eye
-    matrix = np.linalg.inv(matrix) if inverse else matrix
+    if inverse:
+        matrix[:] = np.linalg.inv(matrix)
     return (matrix.T if conventions.row_vectors else matrix).tolist()
 
 
@@ -294,7 +296,7 @@ def camera_object(shot: Shot, conventions: Conventions) -> dict[str, Any]:
 
 
 def argument_lists(
-    shot: Shot, conventions: Conventions, i: Floats, j: Floats
+    shot: Shot, conventions: Conventions, i: Whole, j: Whole
 ) -> dict[str, list[Any]]:
     """The value of each argument's word for each of these pixels. i, j: int (N,), from 0."""
     lists: dict[str, list[Any]] = {}
@@ -315,7 +317,7 @@ def argument_lists(
 
 
 def vectorised_arguments(
-    shot: Shot, conventions: Conventions, i: Floats, j: Floats
+    shot: Shot, conventions: Conventions, i: Whole, j: Whole
 ) -> tuple[tuple[str, Any], ...]:
     """The arguments of one call for all of these pixels: those of pixels are lists."""
     of_pixels = {*PIXEL_WORDS, *PAIRS}

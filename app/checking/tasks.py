@@ -11,6 +11,7 @@ from typing import Any, Literal
 from app.checking.conventions import Conventions
 from renderer.camera import Camera, Size, Vector
 from renderer.scene.model import View
+from renderer.shared_numbers import LUMINANCE
 
 Feedback = Literal["nothing", "verdict", "first-wrong", "diagnosis"]
 FEEDBACK: tuple[Feedback, ...] = ("nothing", "verdict", "first-wrong", "diagnosis")
@@ -28,7 +29,8 @@ class CheckTask:
     kind: a name of kinds.KINDS. function: what it is called. part: the lecture's step to read.
     text: what is asked, for people. cameras: the kinds of cameras that are made up, count of them
     in all, from the seed; views: those that are tried beside them. size: of the image; None: a
-    small one for each camera. weights: of to_gray.
+    small one for each camera. vectorised: one call for all pixels of an image. weights: of to_gray;
+    inclusive: whether the threshold itself is white; column_major, stride: of memory_offset.
     """
 
     name: str
@@ -46,7 +48,7 @@ class CheckTask:
     seed: int = SEED
     feedback: Feedback = "diagnosis"
     vectorised: bool = False
-    weights: tuple[tuple[float, float, float], ...] = ()
+    weights: Vector = LUMINANCE
     inclusive: bool = True
     column_major: bool = False
     stride: int = 1

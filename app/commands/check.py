@@ -1,34 +1,334 @@
-"""`lucida check`: a student's code beside the right answers."""
+"""`lucida check`: a student's code beside the right answers.
+
+Light: what a check of rays needs, and no tracer.
+"""
 
 from __future__ import annotations
 
 import argparse
+import json
 import sys
+import time
+from dataclasses import replace
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from app.commands import arguments as common
+from renderer.errors import LucidaError
+
+if TYPE_CHECKING:
+    from app.checking.calls import Limits, Student
+    from app.checking.checked import TaskResult
+    from app.checking.tasks import CheckTask
 
 NAME = "check"
+RAYS = (".csv", ".npy", ".txt", ".tsv")  # what is not code
+SIZE = (64, 48)  # of the image of --view
 
-DESCRIPTION = "Check what a student wrote."
+DESCRIPTION = """\
+Check what a student wrote: a Python file, a file of rays, or any program; and say what it does
+instead. `lucida tasks` lists what can be asked; docs/checking.md has it all."""
+
+EPILOG = """\
+The code runs in a process of its own, with limits on time and memory, and with the user's rights.
+exit status: 0 all right, 1 wrong answers, 2 could not be run (a missing function, an exception,
+the time limit, ...) or a mistake in the arguments, 130 interrupted
+
+examples:
+  lucida check --starter viewing-ray -o rays.py    a file to begin with
+  lucida check rays.py                             all tasks whose functions the file has
+  lucida check rays.py --tasks hw2.toml --json results.json
+  lucida check rays.csv --view corner.toml --size 64x48
+  lucida check --command "julia rays.jl" --task viewing-ray"""
 
 
 def configure(parser: argparse.ArgumentParser) -> None:
-    parser.description = DESCRIPTION
-    parser.add_argument("file", metavar="FILE")
+    parser.description, parser.epilog = DESCRIPTION, EPILOG
+    parser.add_argument(
+        "file",
+        nargs="?",
+        metavar="FILE",
+        help="a Python file; or rays, .csv or .npy: i, j, ox, oy, oz, dx, dy, dz",
+    )
+    parser.add_argument(
+        "--command", metavar="COMMAND", help="a program: one JSON object a line in, one a line out"
+    )
+    parser.add_argument("--tasks", metavar="FILE.toml", help="a lecturer's own tasks")
+    parser.add_argument("--task", metavar="NAME", help="this task alone")
+    parser.add_argument(
+        "--json", metavar="OUT", help="write the results as Gradescope reads them; -: print them"
+    )
+    parser.add_argument("--view", metavar="VIEW.toml", help="try this camera alone")
+    parser.add_argument(
+        "--size",
+        type=common.size,
+        metavar="WxH",
+        help=f"of the images that are tried (with --view: {SIZE[0]}x{SIZE[1]})",
+    )
+    parser.add_argument("--seed", type=_seed, metavar="N", help="other cameras, other numbers")
+    parser.add_argument(
+        "--from",
+        dest="indexing",
+        type=common.indexing,
+        metavar="0|1",
+        help="count pixels from 0 or from 1 (default: 0, or as the task file says)",
+    )
+    parser.add_argument(
+        "--time-limit", type=_seconds, metavar="SECONDS", help="for each task (default: 20)"
+    )
+    parser.add_argument(
+        "--memory-limit", type=_megabytes, metavar="MB", help="of the process (default: 1024)"
+    )
+    parser.add_argument("--starter", metavar="TASK", help="write a file to begin with; all: of all")
+    parser.add_argument("-o", dest="output", metavar="FILE", help="where to write that")
 
 
 def run(arguments: argparse.Namespace) -> int:
-    from pathlib import Path
+    if arguments.starter is not None:
+        return _write_starter(arguments)
+    begin = time.perf_counter()
+    tasks: list[CheckTask] = []
+    results: list[TaskResult] = []
+    try:
+        _check_arguments(arguments)
+        tasks, limits = _asked_for(arguments)
+        student = _student(arguments, limits, tasks)
+        try:
+            tasks = _possible(arguments, student, tasks)
+            for result in _results(student, tasks):
+                results.append(result)
+                _tell(arguments, result)
+        finally:
+            student.close()
+    except LucidaError as error:
+        seconds = time.perf_counter() - begin
+        _write_json(arguments, results, tasks, seconds, str(error))
+        raise
+    _write_json(arguments, results, tasks, time.perf_counter() - begin)
+    return _end(arguments, results)
 
-    from app.checking.builtin import BUILTIN
-    from app.checking.checked import check, status_of
-    from app.checking.in_process import InProcess
-    from app.checking.reports import terminal
 
-    student = InProcess(Path(arguments.file))
-    functions = student.functions()
-    tasks = [task for task in BUILTIN if task.function in functions]
-    results = []
-    for result in check(student, tasks):
-        results.append(result)
-        print("\n".join(terminal.lines(result, terminal.is_colored(sys.stdout))))
-    print(terminal.summary(results))
+def _end(arguments: argparse.Namespace, results: list[TaskResult]) -> int:
+    from app.checking.checked import status_of
+    from app.checking.reports.terminal import summary
+
+    if arguments.json != "-" and (line := summary(results)):
+        print(line)
     return status_of(results)
+
+
+def _check_arguments(arguments: argparse.Namespace) -> None:
+    if (arguments.file is None) == (arguments.command is None):
+        problem = "is missing" if arguments.file is None else "is given beside --command"
+        raise LucidaError("FILE", problem, "give a Python file, a file of rays, or --command")
+    if arguments.output is not None:
+        raise LucidaError("-o", "is for --starter", "results are written with --json OUT")
+    if arguments.command is not None and arguments.task is None and arguments.tasks is None:
+        raise LucidaError("--task", "is missing", "say what the program answers: lucida tasks")
+
+
+def _asked_for(arguments: argparse.Namespace) -> tuple[list[CheckTask], Limits]:
+    """The tasks as the arguments have them, whether or not the code has their functions."""
+    from app.checking.builtin import BUILTIN
+    from app.checking.calls import Limits
+
+    if arguments.tasks is None:
+        tasks, limits = list(BUILTIN), Limits()
+    else:
+        from app.checking.task_file import load_tasks
+
+        found = load_tasks(arguments.tasks)
+        tasks, limits = list(found.tasks), found.limits
+    if arguments.task is not None:
+        tasks = [named(tasks, arguments.task)]
+    if arguments.time_limit is not None:
+        limits = replace(limits, seconds=arguments.time_limit)
+    if arguments.memory_limit is not None:
+        limits = replace(limits, memory_mb=arguments.memory_limit)
+    return _changed(arguments, tasks), limits
+
+
+def named(tasks: list[CheckTask], name: str) -> CheckTask:
+    """The task of a name; also with _ for -. Raises LucidaError."""
+    from renderer.scene.reading import suggestion
+
+    wanted = name.replace("_", "-")
+    found = [task for task in tasks if task.name == name]
+    found += [task for task in tasks if task.name.replace("_", "-") == wanted]
+    if not found:
+        names = [task.name for task in tasks]
+        raise LucidaError("--task", f"{name[:40]!r} is unknown", suggestion(name, names))
+    return found[0]
+
+
+def _changed(arguments: argparse.Namespace, tasks: list[CheckTask]) -> list[CheckTask]:
+    """The tasks with the arguments' camera, size, seed and counting."""
+    if arguments.seed is not None:
+        tasks = [replace(task, seed=arguments.seed) for task in tasks]
+    if arguments.indexing is not None:
+        base = arguments.indexing.value
+        tasks = [replace(task, conventions=replace(task.conventions, base=base)) for task in tasks]
+    if arguments.view is not None:
+        return _with_view(arguments, tasks)
+    if arguments.size is not None:
+        return [
+            replace(task, size=arguments.size) if task.kind in ("viewing-ray", "render") else task
+            for task in tasks
+        ]
+    return tasks
+
+
+def _with_view(arguments: argparse.Namespace, tasks: list[CheckTask]) -> list[CheckTask]:
+    from app.checking.cases import check_views
+    from renderer.scene.views import load_view
+
+    view = load_view(arguments.view)
+    size = arguments.size or SIZE
+    projection = view.camera.projection
+    seen = [
+        replace(task, views=(view,), count=0, size=size, projections=(projection,))
+        for task in tasks
+        if task.kind in ("viewing-ray", "render") and projection in task.projections
+    ]
+    if not seen:
+        raise LucidaError("--view", f"no task is tried in {projection}", "give another camera")
+    for task in seen:
+        check_views(task)
+    return seen
+
+
+def _student(arguments: argparse.Namespace, limits: Limits, tasks: list[CheckTask]) -> Student:
+    if arguments.command is not None:
+        from app.checking.running.command import CommandStudent
+
+        return CommandStudent(arguments.command, limits)
+    path = Path(arguments.file)
+    if path.suffix.lower() not in RAYS:
+        from app.checking.running.file import FileStudent
+
+        return FileStudent(path, limits)
+    from app.checking.running.rays_file import RaysFile
+
+    if arguments.view is None and not any(task.views for task in tasks):
+        raise LucidaError("--view", "is missing", "give the camera that the rays are of")
+    bases = [task.conventions.base for task in tasks]
+    return RaysFile(path, bases[0] if bases else 0)
+
+
+def _possible(
+    arguments: argparse.Namespace, student: Student, tasks: list[CheckTask]
+) -> list[CheckTask]:
+    """Those that are tried: all that a lecturer or the user has named; of the built-in ones those
+    whose functions are there; of a file of rays those of rays."""
+    functions = student.functions()
+    if arguments.file is not None and Path(arguments.file).suffix.lower() in RAYS:
+        return _of_rays(tasks)
+    if functions is None or arguments.tasks is not None or arguments.task is not None:
+        return tasks
+    found = [task for task in tasks if task.function in functions]
+    if not found:
+        names = ", ".join(dict.fromkeys(task.function for task in tasks))
+        problem = "it has none of the functions that are asked for"
+        raise LucidaError("", problem, f"define one of {names}", arguments.file)
+    return found
+
+
+def _of_rays(tasks: list[CheckTask]) -> list[CheckTask]:
+    """What a file of rays answers: i and j."""
+    found = [
+        replace(
+            task,
+            conventions=replace(task.conventions, arguments=(("i", "i"), ("j", "j"))),
+            vectorised=False,
+        )
+        for task in tasks
+        if task.kind == "viewing-ray"
+    ]
+    if not found:
+        raise LucidaError("FILE", "holds rays", "give a task of kind viewing-ray")
+    return found
+
+
+def _results(student: Student, tasks: list[CheckTask]) -> Any:
+    from app.checking.checked import check
+
+    return check(student, tasks)
+
+
+def _tell(arguments: argparse.Namespace, result: TaskResult) -> None:
+    from app.checking.reports.terminal import is_colored, lines
+
+    if arguments.json == "-":
+        return
+    print("\n".join(lines(result, is_colored(sys.stdout))), flush=True)
+
+
+def _write_json(
+    arguments: argparse.Namespace,
+    results: list[TaskResult],
+    tasks: list[CheckTask],
+    seconds: float,
+    problem: str = "",
+) -> None:
+    if arguments.json is None:
+        return
+    from app.checking.reports import gradescope
+
+    values = gradescope.results(results, tasks, seconds, problem)
+    text = json.dumps(values, indent=2, allow_nan=False) + "\n"
+    if arguments.json == "-":
+        sys.stdout.write(text)
+    else:
+        from renderer.atomic import atomic_write
+
+        with atomic_write(arguments.json) as file:
+            file.write(text.encode())
+
+
+def _write_starter(arguments: argparse.Namespace) -> int:
+    from app.checking.builtin import BUILTIN
+    from app.checking.starter import starter
+
+    tasks = list(BUILTIN)
+    if arguments.tasks is not None:
+        from app.checking.task_file import load_tasks
+
+        tasks = list(load_tasks(arguments.tasks).tasks)
+    if arguments.starter != "all":
+        first = named(tasks, arguments.starter)
+        tasks = [task for task in tasks if task.function == first.function]
+    text = starter(tasks)
+    if arguments.output is None:
+        print(text, end="")
+        return 0
+    path = Path(arguments.output)
+    try:
+        with path.open("x", encoding="utf-8") as file:
+            file.write(text)
+    except FileExistsError:
+        problem, remedy = "is there already", "give another name, or delete it first"
+        raise LucidaError("-o", problem, remedy, str(path)) from None
+    print(f"{path}: {', '.join(dict.fromkeys(task.function for task in tasks))}")
+    return 0
+
+
+def _seed(text: str) -> int:
+    if not (text.isascii() and text.isdigit() and len(text) < 19):
+        raise argparse.ArgumentTypeError(f"{text!r} is not a seed; give a whole number, e.g. 7")
+    return int(text)
+
+
+def _seconds(text: str) -> float:
+    try:
+        value = float(text)
+    except ValueError:
+        value = 0.0
+    if not 0 < value <= 3600:
+        raise argparse.ArgumentTypeError(f"{text!r} is not a time limit; give seconds up to 3600")
+    return value
+
+
+def _megabytes(text: str) -> int:
+    if not (text.isascii() and text.isdigit() and 16 <= int(text[:9]) <= 1 << 20):
+        raise argparse.ArgumentTypeError(f"{text!r} is not a memory limit; give MB, e.g. 1024")
+    return int(text)

@@ -27,6 +27,8 @@ commands:
   lucida render SCENE -o OUT     draw one image into a file
   lucida compare SCENE           raster against ray: counts, errors, causes
   lucida pick SCENE ROW COLUMN   what one pixel sees: object, t, point, normal, colour
+  lucida check FILE.py           what a student wrote, beside the right answers
+  lucida tasks                   what can be asked of it
   lucida lecture [FILE]          a guided lecture, step by step
   lucida scenes                  the built-in scenes
   lucida doctor                  which GL platforms work here, and what to install

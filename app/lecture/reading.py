@@ -21,7 +21,6 @@ from app.lecture.exercises import (
     Wanted,
 )
 from app.lecture.model import Lecture, Step, Written
-from app.lecture.places import Places, located
 from app.lecture.schema import (
     HIGHLIGHTS,
     PANEL,
@@ -46,6 +45,7 @@ from renderer.scene.load import BUILTIN_SCENES, load_scene
 from renderer.scene.model import Mesh, Scene, View
 from renderer.scene.noting import noting
 from renderer.scene.outside import check_inside, kept_inside
+from renderer.scene.places import Places, located
 from renderer.scene.reading import decode_text, read_file, suggestion
 from renderer.scene.tables import parse_toml, to_struct
 from renderer.scene.views import load_view, view_from_table

@@ -13,7 +13,7 @@ from typing import Any
 
 from app.lecture import text as texts
 from app.lecture.model import Written
-from app.lecture.places import Places
+from renderer.scene.places import Places
 
 _SOLID = re.compile(r"[^\s>]+")
 

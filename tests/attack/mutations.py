@@ -93,7 +93,7 @@ MODULES: dict[str, tuple[str, ...]] = {
     "app/lecture/session.py": ("kept_lecture", "lecture"),
     "app/lecture/states.py": ("lecture_ways", "lecture"),
     "app/lecture/step_options.py": ("lecture", "bounds"),
-    "app/lecture/places.py": ("lecture",),
+    "renderer/scene/places.py": ("lecture",),
     "app/explaining/plain.py": ("plain",),
     "app/lecture/reading.py": ("lecture_reading", "lecture", "outside_files"),
     "app/lecture/text.py": ("lecture",),

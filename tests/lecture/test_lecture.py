@@ -19,7 +19,7 @@ from app.lecture import reading
 from app.lecture import text as texts
 from app.lecture.exercises import ChoiceExercise, RayExercise, VectorExercise
 from app.lecture.model import Lecture
-from app.lecture.places import Places, parsed_path
+from renderer.scene.places import Places, parsed_path
 from app.lecture.reading import BUILTIN, lecture_from_toml, load_lecture
 from app.lecture.session import LectureSession
 from app.lecture.states import state_of

@@ -11,7 +11,7 @@ import pytest
 
 from app.lecture import reading
 from app.lecture import text as texts
-from app.lecture.places import Places
+from renderer.scene.places import Places
 from app.lecture.reading import PIECES, lecture_from_toml
 from app.lecture.text import Math, Paragraph, Words, parse
 from renderer.errors import LucidaError

@@ -3,11 +3,33 @@
 kind         what all of them have
 values       what a student's function returned, read generously
 viewing_ray  the ray of a pixel
+basis        a camera's basis from a target
+hits         a sphere, a triangle, the nearest of several; their mathematics: shapes
+images       gray, one bit a pixel, the place in memory
+render       both loops
 """
 
 from __future__ import annotations
 
+from app.checking.kinds.basis import BasisKind
+from app.checking.kinds.hits import ClosestHitKind, SphereHitKind, TriangleHitKind
+from app.checking.kinds.images import BitmapKind, GrayKind, OffsetKind
 from app.checking.kinds.kind import CheckKind
+from app.checking.kinds.render import RenderKind
 from app.checking.kinds.viewing_ray import ViewingRayKind
 
-KINDS: dict[str, CheckKind] = {kind.name: kind for kind in (ViewingRayKind(),)}
+# In the order of the lecture, as the built-in tasks.
+KINDS: dict[str, CheckKind] = {
+    kind.name: kind
+    for kind in (
+        GrayKind(),
+        BitmapKind(),
+        OffsetKind(),
+        ViewingRayKind(),
+        BasisKind(),
+        SphereHitKind(),
+        TriangleHitKind(),
+        ClosestHitKind(),
+        RenderKind(),
+    )
+}

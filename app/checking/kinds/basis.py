@@ -2,9 +2,9 @@
 
 Answers in the kind's own form are arrays (N, 3, 3): u, v, w in the world, one after another.
 
-Tolerance, of each of them. eye - target cancels: its direction has an error of
-FLOAT32 * (|eye| + |target|) / |eye - target|; up x w loses what up and w have in common, so that all
-is divided by the sine of their angle: FLOAT32 * (1 + (|eye| + |target|) / |eye - target|) / sin(up, w).
+Tolerance, of each of them. eye - target cancels: its direction has an error of FLOAT32 * C with
+C = (|eye| + |target|) / |eye - target|; up x w loses what up and w have in common, so that all is
+divided by the sine of their angle: FLOAT32 * (1 + C) / sin(up, w).
 """
 
 from __future__ import annotations

@@ -6,10 +6,10 @@ Answers in the kind's own form: t, float64 (N,), inf where nothing is hit; of th
 Tolerances. Sphere: with M = |o| + |c| + r no number on the way is larger than M^2 |d|^2; the
 discriminant cancels to (s |d|)^2, s being half of the chord, and its root carries an error of
 FLOAT32 * M^2 / (2 s) relative to |d|: t is right within FLOAT32 * (M + M^2 / (2 s)) / |d|.
-Triangle: with L the longest edge, M = |o| + the farthest corner and n the product of two edges, the
-numerator n . (a - o) has an error of FLOAT32 * L^2 M, the denominator of FLOAT32 * L^2 |d|: t is right
-within FLOAT32 * L^2 (M + t |d|) / |n . d|. Whether a ray hits is only asked where rounding cannot
-decide: MARGIN (shapes.py), which is a thousand times what float32 rounds.
+Triangle: with L the longest edge, M = |o| + the farthest corner and n the product of two edges,
+the numerator n . (a - o) has an error of FLOAT32 * L^2 M, the denominator of FLOAT32 * L^2 |d|: t
+is right within FLOAT32 * L^2 (M + t |d|) / |n . d|. Whether a ray hits is only asked where rounding
+cannot decide: MARGIN (shapes.py), which is a thousand times what float32 rounds.
 """
 
 from __future__ import annotations
@@ -105,7 +105,9 @@ class SphereHitKind(HitKind):
     def _made_up(self, random: Random, number: int) -> Values:
         """Ahead, beside, ahead, behind, from inside, in turn."""
         while True:
-            values = aimed_at_sphere(random, ("ahead", "beside", "ahead", "behind", "inside")[number % 5])
+            values = aimed_at_sphere(
+                random, ("ahead", "beside", "ahead", "behind", "inside")[number % 5]
+            )
             shape = {"type": "sphere", "center": values["center"], "radius": values["radius"]}
             if hits(values["origin"], values["direction"], shape)[1] > MARGIN:
                 return values
@@ -182,25 +184,30 @@ class ClosestHitKind(CheckKind):
             {"type": "sphere", "center": [0.0, 0.0, z], "radius": 1.0} for z in (0.0, -4.0, 9.0)
         )
         beside = {"type": "sphere", "center": [5.0, 0.0, 0.0], "radius": 1.0}
-        flat = {"type": "triangle", "a": [-1.0, -1.0, 2.0], "b": [2.0, -1.0, 2.0], "c": [-1.0, 2.0, 2.0]}
-        many = ([ahead], [ahead, farther], [farther, ahead], [ahead, flat, farther],
-                [behind, farther, ahead], [beside, behind], [])  # fmt: skip
+        flat = {
+            "type": "triangle",
+            "a": [-1.0, -1.0, 2.0],
+            "b": [2.0, -1.0, 2.0],
+            "c": [-1.0, 2.0, 2.0],
+        }
+        many: tuple[list[dict[str, Any]], ...] = (
+            [ahead], [ahead, farther], [farther, ahead], [ahead, flat, farther],
+            [behind, farther, ahead], [beside, behind], [],
+        )  # fmt: skip
         return [{**ray, "objects": objects} for objects in many]
 
     def _made_up(self, random: Random, number: int) -> Values:
         """Objects at random, of which the ray meets several."""
         while True:
-            values = {
-                "origin": list(point(random)),
-                "direction": _direction(random),
-                "objects": [_object(random) for _ in range(int(random.integers(2, 7)))],
-            }
-            parameters, margins = _all_hits(values["origin"], values["direction"], values["objects"])
+            objects = [_object(random) for _ in range(int(random.integers(2, 7)))]
+            ray: Values = {"origin": list(point(random)), "direction": _direction(random)}
+            parameters, margins = _all_hits(ray["origin"], ray["direction"], objects)
             met = np.sort(parameters[np.isfinite(parameters)])
-            apart = met.size < 2 or bool(np.all(np.diff(met) > 0.02 * met[1:]))
-            clear = all(o["type"] == "sphere" or is_clear_triangle({**values, **o}) for o in values["objects"])
-            if clear and apart and np.all(margins > MARGIN) and met.size >= (0, 1, 2)[number % 3]:
-                return values
+            apart = bool(np.all(np.diff(met) > 0.02 * met[1:]))
+            triangles = [ray | shape for shape in objects if shape["type"] == "triangle"]
+            clear = np.all(margins > MARGIN) and all(map(is_clear_triangle, triangles))
+            if clear and apart and met.size >= (0, 1, 2)[number % 3]:
+                return {**ray, "objects": objects}
 
     def given(
         self, task: CheckTask, cases: Sequence[CheckCase], values: Sequence[Any]
@@ -340,5 +347,3 @@ def _object(random: Random) -> dict[str, Any]:
     corner = np.array(point(random, 3.0))
     others = [np.round(corner + random.uniform(-4, 4, 3), 2).tolist() for _ in range(2)]
     return {"type": "triangle", "a": corner.tolist(), "b": others[0], "c": others[1]}
-
-

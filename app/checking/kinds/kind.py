@@ -64,9 +64,11 @@ class CheckKind(ABC):
     def answer_text(self, task: CheckTask, case: CheckCase, answer: Any) -> str:
         """An answer in the kind's own form, as the student would write it."""
 
-    def call_text(self, case: CheckCase) -> str:
-        """Where a case is, beside its arguments; empty where they say it all."""
-        return ""
+    def first_wrong(self, task: CheckTask, case: CheckCase, answer: Any) -> tuple[str, str, str]:
+        """Where a wrong case is, beside its arguments, or empty where they say it all; the right
+        answer and the one given."""
+        right = self.answer_text(task, case, case.right)
+        return "", right, self.answer_text(task, case, answer)
 
 
 def named(task: CheckTask, values: Mapping[str, Any]) -> tuple[tuple[str, Any], ...]:

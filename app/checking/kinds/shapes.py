@@ -1,7 +1,7 @@
 """Where rays meet spheres and triangles: the right answers, and how clear each of them is.
 
-An answer is clear by its margin: how far the ray is from where it would be another one, as a part of
-the object's size. Where the margin is small, rounding decides; nobody is asked for that.
+An answer is clear by its margin: how far the ray is from where it would be another one, as a part
+of the object's size. Where the margin is small, rounding decides; nobody is asked for that.
 """
 
 from __future__ import annotations

@@ -3,13 +3,13 @@
 Answers in the kind's own form are arrays (N, 2, 3): origin and direction in the world.
 
 Tolerances. With S = X|u| + Y|v| + d|w|, where X = max(|left|, |right|) + (right - left) and Y the
-same of bottom and top, no number on the way to the ray is larger than M = |eye| + S: neither a point
-on the viewport nor what is left of it when the eye is subtracted again. An origin is right within
-FLOAT32 * M; a direction, as an angle, within FLOAT32 * M / |direction|. Where the basis is to be
-found from a target, eye - target cancels as well, and up x w does where the two are near: the angle
-grows by FLOAT32 * (1 + (|eye| + |target|) / |eye - target|) / sin(up, w). A direction of unit
-length is one within FLOAT32. The cameras that are made up have M / |direction| < 60: within 3e-4;
-half a pixel of their images is at least 1e-2.
+same of bottom and top, no number on the way to the ray is larger than M = |eye| + S: neither a
+point on the viewport nor what is left of it when the eye is subtracted again. An origin is right
+within FLOAT32 * M; a direction, as an angle, within FLOAT32 * M / |direction|. Where the basis is
+to be found from a target, eye - target cancels as well, and up x w does where the two are near:
+the angle grows by what basis.py allows. A direction of unit length is one within FLOAT32. The
+cameras that are made up have M / |direction| < 60: within 3e-4; half a pixel of their images is at
+least 1e-2.
 """
 
 from __future__ import annotations
@@ -106,17 +106,15 @@ class ViewingRayKind(CheckKind):
         ray = np.asarray(answer, float)
         if task.conventions.space == "camera":
             ray = _to_camera(task.conventions, case, ray)
-        if task.conventions.unit:
-            with np.errstate(all="ignore"):
-                ray = np.array([ray[0], ray[1]])
         parts = dict(zip(("origin", "direction"), ray.tolist(), strict=True))
         return ", ".join(f"{name} {text_of(parts[name])}" for name in task.conventions.returns)
 
-    def call_text(self, case: CheckCase) -> str:
+    def first_wrong(self, task: CheckTask, case: CheckCase, answer: Any) -> tuple[str, str, str]:
         assert case.size is not None and case.pixel is not None
         width, height = case.size
         i, j = case.pixel
-        return f"pixel in row {i}, column {j} (from 0, from the top left) of {width}x{height}"
+        where = f"pixel in row {i}, column {j} (from 0, from the top left) of {width}x{height}"
+        return where, *super().first_wrong(task, case, answer)[1:]
 
 
 def cases_of(task: CheckTask, shot: Shot) -> list[CheckCase]:

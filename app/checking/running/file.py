@@ -15,7 +15,7 @@ from typing import Any, Self
 import renderer
 from app.checking.calls import Call, Failure, Limits, Run
 from app.checking.running.program import ProgramOverError, StudentProgram
-from app.checking.running.told import told_call, told_status
+from app.checking.running.told import told_call, told_status, whole_number
 from renderer.child import import_path, interpreter
 from renderer.errors import LucidaError
 
@@ -170,13 +170,13 @@ class FileStudent:
     def _run(self, calls: Sequence[Call], values: list[Any], end: float) -> Failure | None:
         """Appends to the values; what ended the run early."""
         assert self._program
-        self._program.send(_request(calls, self._limits.seconds))
+        self._program.send(_request(calls))
         self._lines = self._program.lines(end, self._limits.memory_mb)
         try:
             for call, line in zip(calls, self._lines, strict=False):
                 kind, text = line[:1], line[1:]
                 if kind == b"a":
-                    values.append(json.loads(text, parse_int=_number))
+                    values.append(json.loads(text, parse_int=whole_number))
                 elif kind == b"m":
                     values.append(Failure("missing", self._lacks(call), call=len(values)))
                 else:
@@ -252,12 +252,7 @@ class FileStudent:
         return Failure("ended", f"{self._name}: {text} {place}", call=number)
 
 
-def _number(text: str) -> int | float:
-    """Integers that no float holds exactly come as floats."""
-    return int(text) if len(text) < 18 else float(text)
-
-
-def _request(calls: Sequence[Call], seconds: float) -> bytes:
+def _request(calls: Sequence[Call]) -> bytes:
     """Values that are no plain numbers are sent once, however many calls have them."""
     places: dict[tuple[int, bool], int] = {}
     shared: list[tuple[str, Any, bool]] = []
@@ -274,7 +269,7 @@ def _request(calls: Sequence[Call], seconds: float) -> bytes:
             else:
                 arguments.append(value)
         written.append((call.function, arguments))
-    return json.dumps({"shared": shared, "calls": written, "seconds": seconds}).encode() + b"\n"
+    return json.dumps({"shared": shared, "calls": written}).encode() + b"\n"
 
 
 def _libraries() -> list[str]:

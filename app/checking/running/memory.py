@@ -10,15 +10,18 @@ from pathlib import Path
 
 def memory_of(process: int) -> int:
     """In bytes; 0 where it has ended, and where nobody can tell."""
-    if sys.platform == "linux":
-        tree = _tree(process)
-        held = sum(_resident(number) for number in tree)
-        # Copies share most of what they hold: counting that exactly takes longer.
-        return held if len(tree) == 1 or held < 1 << 28 else sum(map(_proportional, tree))
+    if sys.platform != "linux":
+        return _told_by_system(process)
+    tree = _tree(process)
+    held = sum(map(_resident, tree))
+    # Copies share most of what they hold: counting that exactly takes longer.
+    return held if len(tree) == 1 or held < 1 << 28 else sum(map(_proportional, tree))
+
+
+def _told_by_system(process: int) -> int:
+    command = ["ps", "-o", "rss=", "-p", str(process)]
     if sys.platform == "win32":
         command = ["tasklist", "/FI", f"PID eq {process}", "/FO", "CSV", "/NH"]
-    else:
-        command = ["ps", "-o", "rss=", "-p", str(process)]
     try:
         printed = subprocess.run(command, capture_output=True, text=True, check=False).stdout
     except OSError:

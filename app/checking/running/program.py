@@ -2,11 +2,13 @@
 
 Each has a session of its own and, in its environment, a name that what it starts inherits. On Linux
 whatever bears that name is ended with it, also what has left the session; elsewhere its session,
-on Windows its tree.
+on Windows its tree. It ends too where this process is killed: its keeper sees to that, which waits
+for what this process never sends.
 """
 
 from __future__ import annotations
 
+import contextlib
 import os
 import queue
 import secrets
@@ -15,6 +17,7 @@ import subprocess
 import sys
 import threading
 import time
+from collections import deque
 from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import IO, Literal
@@ -24,6 +27,8 @@ from app.checking.running.memory import memory_of
 
 _NAME = "LUCIDA_STUDENT"
 _LOOK = 0.1  # seconds between looks at the memory
+_GATHER = 0.002  # seconds: answers are read many at once, not each as it comes
+_KEEPER = 'read -r nothing; kill -s KILL -- "-$0"'
 _FAREWELL = 2.0  # seconds that a program which closed its answers may take to end
 _MOST_ANSWERS = 1 << 28  # bytes
 
@@ -67,6 +72,7 @@ class StudentProgram:
             start_new_session=True,
             creationflags=flags,
         )
+        self._keeper = _started_keeper(self._process.pid)
         pipes = (self._process.stdin, self._process.stdout, self._process.stderr)
         self._input, answers, printed = pipes
         assert self._input and answers and printed
@@ -74,7 +80,7 @@ class StudentProgram:
         self._chunks: queue.SimpleQueue[bytes] = queue.SimpleQueue()
         self._requests: queue.SimpleQueue[bytes | None] = queue.SimpleQueue()
         self._pending: list[bytes] = []
-        self._lines: list[bytes] = []
+        self._lines: deque[bytes] = deque()
         self._received = 0
         self._ending = threading.Lock()
         self._ended, self._stopped = False, False
@@ -90,8 +96,8 @@ class StudentProgram:
         ProgramOverError."""
         look, closed = 0.0, False
         while True:
-            if self._lines:
-                yield from self._taken()
+            while self._lines:
+                yield self._lines.popleft()
             now = time.monotonic()
             if self._stopped:
                 raise ProgramOverError("stopped")
@@ -123,6 +129,9 @@ class StudentProgram:
         with self._ending:
             if not self._ended:
                 self._ended = True
+                if self._keeper:
+                    self._keeper.kill()
+                    self._keeper.communicate()
                 self._kill()
                 self._process.wait()
                 self._requests.put(None)
@@ -138,15 +147,6 @@ class StudentProgram:
         elif not chunk and self._pending:  # a last line without its end
             self._lines.append(b"".join(self._pending))
             self._pending = []
-
-    def _taken(self) -> Iterator[bytes]:
-        taken = 0
-        try:
-            for line in self._lines:
-                taken += 1
-                yield line
-        finally:
-            del self._lines[:taken]
 
     def _status(self) -> int | None:
         """Its exit status, without letting its number go to another process before it is killed."""
@@ -167,10 +167,8 @@ class StudentProgram:
     def _kill(self) -> None:
         if sys.platform == "win32":
             command = ["taskkill", "/T", "/F", "/PID", str(self._process.pid)]
-            try:
+            with contextlib.suppress(OSError):
                 subprocess.run(command, capture_output=True, check=False)
-            except OSError:
-                pass
             self._process.kill()
             return
         try:
@@ -196,13 +194,27 @@ class StudentProgram:
         with pipe:
             while chunk := pipe.read1(1 << 16):  # type: ignore[attr-defined]
                 self._chunks.put(chunk)
+                time.sleep(_GATHER)
         self._chunks.put(b"")
 
     def _write(self, pipe: IO[bytes]) -> None:
-        try:
-            with pipe:
-                while (data := self._requests.get()) is not None:
-                    pipe.write(data)
-                    pipe.flush()
-        except OSError:
-            pass  # it reads no more
+        with contextlib.suppress(OSError), pipe:  # it may read no more
+            while (data := self._requests.get()) is not None:
+                pipe.write(data)
+                pipe.flush()
+
+
+def _started_keeper(process: int) -> subprocess.Popen[bytes] | None:
+    if sys.platform == "win32":
+        return None
+    try:
+        return subprocess.Popen(
+            ["/bin/sh", "-c", _KEEPER, str(process)],
+            cwd="/",
+            stdin=subprocess.PIPE,
+            stdout=subprocess.DEVNULL,
+            stderr=subprocess.DEVNULL,
+            start_new_session=True,
+        )
+    except OSError:
+        return None

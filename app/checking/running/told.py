@@ -52,3 +52,8 @@ def told_status(status: int | None) -> str:
         return f"was ended by {signal.Signals(-status).name}"
     except ValueError:
         return f"was ended by signal {-status}"
+
+
+def whole_number(text: str) -> int | float:
+    """An integer in an answer; as a float, where no float holds it exactly."""
+    return int(text) if len(text) < 18 else float(text)

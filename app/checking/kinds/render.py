@@ -1,0 +1,128 @@
+"""Both loops: an image of spheres and triangles, in the colour of the nearest object, unshaded.
+
+Answers in the kind's own form: a list of arrays (H, W, 3), one for each case.
+
+Tolerance: half of 1/255, so that an answer in bytes, divided by 255, is right. A pixel whose ray
+passes an edge or the outline of an object by less than EDGE of its size, or meets two objects
+within EDGE of each other, is not judged: EDGE is a hundred times what float32 makes of such a ray
+(viewing_ray.py, hits.py).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from typing import Any, ClassVar
+
+import numpy as np
+from numpy.typing import NDArray
+
+from app.checking.calls import Call
+from app.checking.cases import Random, generator, rounded, shots
+from app.checking.conventions import CAMERA, CAMERA_WORDS, Shot, camera_object
+from app.checking.kinds.images import HALF_A_BYTE, ImageKind
+from app.checking.kinds.kind import Flags, named
+from app.checking.kinds.shapes import hits
+from app.checking.tasks import CheckCase, CheckTask
+
+Floats = NDArray[np.float64]
+
+EDGE = 2e-3
+
+
+class RenderKind(ImageKind):
+    name = "render"
+    function = "render"
+    words: ClassVar[Mapping[str, str]] = {
+        "scene": "an object with objects (type, its numbers, and color) and background (a colour)",
+        "objects": "the scene's objects alone",
+        "background": "its background alone",
+        CAMERA: "an object with the fields that the task declares",
+        **{name: word.meaning for name, word in CAMERA_WORDS.items()},
+    }
+    arguments = ("scene", "camera", "width", "height")
+    answer = "height x width x 3 numbers from 0 to 1"
+
+    def calls(self, task: CheckTask, cases: Sequence[CheckCase]) -> list[Call]:
+        return [Call(task.function, case.arguments) for case in cases]
+
+    def cases(self, task: CheckTask) -> list[CheckCase]:
+        random = generator(task)
+        return [_case(task, shot, random) for shot in shots(task)]
+
+    def wrong_pixels(self, task: CheckTask, case: CheckCase, image: Floats | None) -> Flags:
+        judged: Flags = case.values["judged"]
+        return super().wrong_pixels(task, case, image) & judged
+
+
+def _case(task: CheckTask, shot: Shot, random: Random) -> CheckCase:
+    background = [rounded(value) for value in random.uniform(0.0, 0.2, 3)]
+    objects = [_object(shot, random, number) for number in range(int(random.integers(3, 6)))]
+    image, judged = rendered(shot, objects, background)
+    if task.conventions.rows == "bottom":
+        image, judged = image[::-1], judged[::-1]
+    scene = {"objects": objects, "background": background}
+    values: dict[str, Any] = {"scene": scene, **scene}
+    for _, word in task.conventions.arguments:
+        if word in CAMERA_WORDS:
+            values[word] = CAMERA_WORDS[word].value(shot, task.conventions)
+    values[CAMERA] = camera_object(shot, task.conventions)
+    arguments = named(task, values)
+    values["judged"] = judged
+    return CheckCase(
+        arguments,
+        image,
+        HALF_A_BYTE,
+        values,
+        camera=shot.camera,
+        size=shot.size,
+        target=shot.target,
+        up=shot.up,
+    )
+
+
+def rendered(
+    shot: Shot, objects: Sequence[Mapping[str, Any]], background: Sequence[float]
+) -> tuple[Floats, Flags]:
+    """The image (H, W, 3), and which pixels can be judged (H, W)."""
+    rays = shot.camera.rays(shot.size)
+    image = np.broadcast_to(np.array(background, float), (*rays.origin.shape[:2], 3)).copy()
+    nearest = np.full(image.shape[:2], np.inf)
+    judged = np.ones(image.shape[:2], bool)
+    for shape in objects:
+        t, margin = hits(rays.origin, rays.direction, shape)
+        judged &= margin > EDGE
+        with np.errstate(invalid="ignore"):
+            judged &= ~(np.abs(t - nearest) <= EDGE * np.abs(t))
+        closer = t < nearest
+        image[closer] = shape["color"]
+        nearest = np.minimum(t, nearest)
+    return image, judged
+
+
+def _object(shot: Shot, random: Random, number: int) -> dict[str, Any]:
+    """A sphere or a triangle that is in the picture; every fourth is behind the camera."""
+    behind = number % 4 == 3
+    camera = shot.camera
+    left, right, bottom, top = camera.viewport
+    x, y = random.uniform(left, right), random.uniform(bottom, top)
+    depth = random.uniform(2.0, 6.0) * (-1 if behind else 1)
+    across = depth / camera.distance if not camera.is_parallel else 1.0
+    basis = camera.basis
+    center = np.asarray(camera.eye) + basis @ np.array([x * across, y * across, -depth])
+    seen = 0.3 * abs(across) * min(right - left, top - bottom)
+    size = float(seen * random.uniform(0.7, 1.5) * np.linalg.norm(basis[:, 0]))
+    color = [rounded(value) for value in random.uniform(0.3, 1.0, 3)]
+    if random.random() < 0.6:
+        return {
+            "type": "sphere",
+            "center": [rounded(value, 3) for value in center],
+            "radius": rounded(size, 3),
+            "color": color,
+        }
+    turn = random.uniform(0.0, 2 * np.pi)
+    corners = {}
+    for name, angle in zip("abc", (0.0, 2.1, 4.2), strict=True):
+        around = np.array([np.cos(turn + angle), np.sin(turn + angle), random.uniform(-0.5, 0.5)])
+        unit = basis / np.linalg.norm(basis, axis=0)
+        corners[name] = [rounded(value, 3) for value in center + 1.5 * size * unit @ around]
+    return {"type": "triangle", **corners, "color": color}

@@ -1,0 +1,88 @@
+"""Results as Gradescope's autograder reads them: results.json, with the fields of its documents.
+
+https://gradescope-autograders.readthedocs.io/en/latest/specs/#output-format
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any
+
+from app.checking.checked import TaskResult
+from app.checking.reports.told import told
+from app.checking.starter import signature
+from app.checking.tasks import CheckTask
+
+OUTPUT_LETTERS = 4000  # of what the student's code printed
+
+
+def results(
+    tried: Sequence[TaskResult],
+    tasks: Sequence[CheckTask],
+    seconds: float,
+    problem: str = "",
+) -> dict[str, Any]:
+    """results.json as values of JSON. Each task is a test; what its feedback keeps back is not in
+    it, and a test of which nothing is to be told is hidden.
+
+    tried: what there is; tasks: all that were to be tried: the others have no points. problem: why
+    nothing could be run at all.
+    """
+    names = {result.task.name for result in tried}
+    tests = [_test(result) for result in tried]
+    reason = problem or "was not tried"
+    tests += [_untried(task, reason) for task in tasks if task.name not in names]
+    for number, test in enumerate(tests, 1):
+        test["number"] = str(number)
+    return {
+        "score": round(sum(result.points for result in tried), 6),
+        "execution_time": round(seconds, 3),
+        "output": problem or _summary(tried),
+        "output_format": "text",
+        "test_output_format": "text",
+        "test_name_format": "text",
+        "visibility": "visible",
+        "stdout_visibility": "hidden",
+        "tests": tests,
+    }
+
+
+def _test(result: TaskResult) -> dict[str, Any]:
+    say = told(result)
+    lines = list(say.lines)
+    if say.verdict is not None and result.output:
+        lines += ["", "Printed:", result.output[:OUTPUT_LETTERS].rstrip()]
+    return {
+        **_named(result.task),
+        "score": result.points,
+        "status": "passed" if result.status == "right" else "failed",
+        "output": "\n".join(lines) or ("Right." if say.verdict == "right" else ""),
+        "visibility": "hidden" if say.verdict is None else "visible",
+    }
+
+
+def _untried(task: CheckTask, reason: str) -> dict[str, Any]:
+    return {
+        **_named(task),
+        "score": 0.0,
+        "status": "failed",
+        "output": reason,
+        "visibility": "visible",
+    }
+
+
+def _named(task: CheckTask) -> dict[str, Any]:
+    return {
+        "name": f"{task.name}: {signature(task)}",
+        "name_format": "text",
+        "output_format": "text",
+        "max_score": task.points,
+    }
+
+
+def _summary(tried: Sequence[TaskResult]) -> str:
+    open_ones = [result for result in tried if told(result).verdict is not None]
+    right = sum(result.status == "right" for result in open_ones)
+    if len(open_ones) < len(tried):
+        return f"{len(tried)} tasks were tried."
+    return f"{right} of {len(tried)} tasks are right."

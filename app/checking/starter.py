@@ -1,0 +1,63 @@
+"""A file to begin with: a function with nothing in it yet, and what is asked of it."""
+
+from __future__ import annotations
+
+import textwrap
+from collections.abc import Sequence
+
+from app.checking.conventions import CAMERA, CAMERA_WORDS
+from app.checking.kinds import KINDS
+from app.checking.tasks import CheckTask
+
+_WIDTH = 96
+
+
+def starter(tasks: Sequence[CheckTask]) -> str:
+    """The text of a Python file. Tasks of one function share it."""
+    parts = ['"""What is to be written; `lucida check` with this file\'s name tries it."""']
+    for function in dict.fromkeys(task.function for task in tasks):
+        parts.append(_function([task for task in tasks if task.function == function]))
+    return "\n\n\n".join(parts) + "\n"
+
+
+def signature(task: CheckTask) -> str:
+    """`viewing_ray(i, j, width, height, camera)`."""
+    return f"{task.function}({', '.join(name for name, _ in task.conventions.arguments)})"
+
+
+def returned(task: CheckTask) -> str:
+    """`origin, direction`; what a function without parts gives back, in words."""
+    return ", ".join(task.conventions.returns) or KINDS[task.kind].answer
+
+
+def _function(tasks: Sequence[CheckTask]) -> str:
+    first = tasks[0]
+    lines = [f"def {signature(first)}:", '    """' + _wrapped(first.text, 4)[0].lstrip()]
+    lines += _wrapped(first.text, 4)[1:]
+    for task in tasks[1:]:
+        lines += ["", *_wrapped(task.text, 4)]
+    lines += ["", *arguments_text(first), f"    Returns: {returned(first)}", '    """']
+    return "\n".join([*lines, "    return None  # write it here"])
+
+
+def arguments_text(task: CheckTask, indent: int = 4) -> list[str]:
+    """What each argument is, in lines; of a camera each field."""
+    words = KINDS[task.kind].words
+    lines = []
+    for name, word in task.conventions.arguments:
+        lines += _wrapped(f"{name}: {words[word]}", indent, indent + 4)
+        if word == CAMERA:
+            for field, meant in task.conventions.camera:
+                text = f"{name}.{field}: {CAMERA_WORDS[meant].meaning}"
+                lines += _wrapped(text, indent + 4, indent + 8)
+    return lines
+
+
+def _wrapped(text: str, indent: int, more: int | None = None) -> list[str]:
+    return textwrap.wrap(
+        text.replace("\\", "\\\\").replace('"', "'"),
+        _WIDTH,
+        initial_indent=" " * indent,
+        subsequent_indent=" " * (indent if more is None else more),
+        break_long_words=False,
+    )

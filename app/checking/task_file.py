@@ -1,0 +1,363 @@
+"""A lecturer's task file into tasks; every mistake with the file, the line and the field."""
+
+from __future__ import annotations
+
+import math
+import re
+from collections.abc import Iterable, Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass, replace
+from pathlib import Path
+from typing import Any
+
+from app.checking.builtin import BUILTIN
+from app.checking.calls import Limits
+from app.checking.cases import VIEW_SIZE, camera_kinds, check_views
+from app.checking.conventions import CAMERA_WORDS, PAIRS, PIXEL_WORDS, Conventions, Named
+from app.checking.kinds import KINDS
+from app.checking.kinds.basis import PARTS
+from app.checking.kinds.kind import CheckKind
+from app.checking.task_schema import ConventionsTable, TaskFile, TaskTable
+from app.checking.tasks import CAMERA_KINDS, SEED, CheckTask
+from renderer.camera import Vector
+from renderer.errors import LucidaError
+from renderer.scene.limits import TOML_BYTES
+from renderer.scene.model import View
+from renderer.scene.places import Places, located
+from renderer.scene.reading import decode_text, read_file, suggestion
+from renderer.scene.tables import parse_toml, to_struct
+
+TASKS = 100
+CASES = 1000
+SIDE = 512  # of a task's images
+CALLS = 300_000  # of one task
+NAME = re.compile(r"[^\W\d]\w*")
+_LINE = re.compile(r"line (\d+)(?:, (column \d+))?")
+
+
+@dataclass(frozen=True)
+class TaskSet:
+    """The tasks of a file, and its limits."""
+
+    title: str
+    tasks: tuple[CheckTask, ...]
+    limits: Limits
+
+
+def load_tasks(path: str | Path, seed: int | None = None) -> TaskSet:
+    """The tasks in a file; seed: in place of those that the file gives.
+
+    Raises LucidaError: `file:line: field: problem; remedy`."""
+    source = str(path)
+    text = decode_text(read_file(Path(path), TOML_BYTES), source)
+    try:
+        tables = parse_toml(text)
+    except LucidaError as error:
+        raise _at_its_line(error, text, source) from None
+    try:
+        return _tasks(to_struct(tables, TaskFile), Path(path).parent, seed)
+    except LucidaError as error:
+        if error.source:  # of another file, a view's
+            raise
+        raise located(error, Places(text), source) from None
+
+
+def _at_its_line(error: LucidaError, text: str, source: str) -> LucidaError:
+    if error.field == "lucida":
+        return located(error, Places(text), source)
+    place = _LINE.fullmatch(error.field)
+    if place is None:
+        return error.in_file(source)
+    return LucidaError(place[2] or "", error.problem, error.remedy, f"{source}:{place[1]}")
+
+
+def _tasks(file: TaskFile, folder: Path, seed: int | None) -> TaskSet:
+    if not 1 <= len(file.tasks) <= TASKS:
+        raise LucidaError("tasks", f"holds {len(file.tasks)} tasks", f"give 1 to {TASKS}")
+    limits = Limits()
+    if file.seconds is not None:
+        if not 0 < file.seconds <= 3600:
+            raise LucidaError("seconds", f"{file.seconds:g} is out of range", "give up to 3600")
+        limits = replace(limits, seconds=file.seconds)
+    if file.memory_mb is not None:
+        if not 64 <= file.memory_mb <= 1 << 20:
+            raise LucidaError("memory_mb", f"{file.memory_mb} is out of range", "give e.g. 1024")
+        limits = replace(limits, memory_mb=file.memory_mb)
+    tasks: list[CheckTask] = []
+    for number, table in enumerate(file.tasks):
+        field = f"tasks[{number}]"
+        entry: TaskTable = to_struct(table, TaskTable, field)
+        with _under(field):
+            task = _task(entry, file, folder, seed)
+            if any(task.name == other.name for other in tasks):
+                remedy = "give each task a name of its own"
+                raise LucidaError("name", f"{task.name!r} is there already", remedy)
+            tasks.append(task)
+    return TaskSet(file.title, tuple(tasks), limits)
+
+
+def _task(entry: TaskTable, file: TaskFile, folder: Path, seed: int | None) -> CheckTask:
+    if entry.kind not in KINDS:
+        raise LucidaError("kind", f"{entry.kind!r} is unknown", suggestion(entry.kind, KINDS))
+    kind = KINDS[entry.kind]
+    base = next(task for task in BUILTIN if task.kind == kind.name)
+    conventions = _conventions(entry, file.conventions, kind, base)
+    projections = base.projections
+    if entry.projection is not None:
+        projections = (
+            ("perspective", "parallel") if entry.projection == "both" else (entry.projection,)
+        )
+    _check_rigid_parallel(conventions, projections)
+    own_seed = next(s for s in (seed, entry.seed, file.seed, SEED) if s is not None)
+    if own_seed < 0:
+        raise LucidaError("seed", f"{own_seed} is negative", "give e.g. 7")
+    task = replace(
+        base,
+        name=entry.name or entry.kind,
+        function=_function(entry.function or kind.function),
+        part=entry.part or base.part,
+        text=entry.text or _text(entry, kind, base),
+        points=_points(entry.points),
+        conventions=conventions,
+        cameras=_cameras(entry, conventions, base),
+        projections=projections,
+        count=_count(entry, base),
+        views=tuple(_views(entry.views, folder)),
+        size=entry.size if entry.size is None else _size(entry.size),
+        seed=own_seed,
+        feedback=entry.feedback or file.feedback,
+        vectorised=_vectorised(entry, kind),
+        weights=_weights(entry, base),
+        inclusive=entry.at_threshold != 0,
+        column_major=entry.order == "column-major",
+        stride=base.stride if entry.stride is None else entry.stride,
+    )
+    _check(task)
+    return task
+
+
+def _text(entry: TaskTable, kind: CheckKind, base: CheckTask) -> str:
+    """The built-in task's text holds for its own conventions only."""
+    own = entry.arguments is None and entry.returns is None
+    return base.text if own else f"See the course's own text. Give {kind.answer}."
+
+
+def _conventions(
+    entry: TaskTable, shared: ConventionsTable, kind: CheckKind, base: CheckTask
+) -> Conventions:
+    def said(name: str, default: Any) -> Any:
+        values = (getattr(entry, name), getattr(shared, name))
+        return next((value for value in values if value is not None), default)
+
+    axes = said("axes", None)
+    signs = (1, 1, 1)
+    if axes is not None:
+        signs = (
+            1 if axes.x == "right" else -1,
+            1 if axes.y == "up" else -1,
+            1 if axes.z == "back" else -1,
+        )
+    camera = base.conventions.camera
+    if entry.camera is not None:
+        camera = tuple(_camera("camera", entry.camera))
+    elif shared.camera is not None:
+        with _at_top():
+            camera = tuple(_camera("conventions.camera", shared.camera))
+    return Conventions(
+        _arguments(entry, kind),
+        camera,
+        _returns(entry, kind),
+        said("pixels_from", 0),
+        said("rows", "top"),
+        signs,
+        said("vectors", "column") == "row",
+        said("space", "world"),
+        bool(said("unit", False)),
+        said("origin", "exact") == "on-ray",
+    )
+
+
+def _arguments(entry: TaskTable, kind: CheckKind) -> Named:
+    given = entry.arguments
+    if given is None:
+        return tuple((word, word) for word in kind.arguments)
+    if isinstance(given, dict):
+        named = list(given.items())
+        for name, word in named:
+            _known(f"arguments.{name}", word, kind.words)
+            _check_name(f"arguments.{name}", name)
+    else:
+        named = [(word, word) for word in given]
+        for number, word in enumerate(given):
+            _known(f"arguments[{number}]", word, kind.words)
+    if not named:
+        raise LucidaError("arguments", "is empty", f"give e.g. {list(kind.arguments)}")
+    words = [word for _, word in named]
+    if len(set(words)) < len(words):
+        raise LucidaError("arguments", "names a word twice", "give each once")
+    if kind.name == "viewing-ray" and not {*PIXEL_WORDS, *PAIRS} & set(words):
+        raise LucidaError("arguments", "has no word for the pixel", 'give e.g. "i", "j" or "xy01"')
+    return tuple(named)
+
+
+def _camera(field: str, fields: dict[str, str]) -> Iterator[tuple[str, str]]:
+    for name, word in fields.items():
+        _check_name(f"{field}.{name}", name)
+        _known(f"{field}.{name}", word, CAMERA_WORDS)
+        yield name, word
+
+
+def _returns(entry: TaskTable, kind: CheckKind) -> tuple[str, ...]:
+    if entry.returns is None:
+        return kind.returns
+    if not kind.returns:
+        raise LucidaError("returns", f"{kind.name} gives {kind.answer}", "leave it out")
+    for number, word in enumerate(entry.returns):
+        _known(f"returns[{number}]", word, kind.return_words)
+    same = [PARTS[word][0] if kind.name == "basis" else word for word in entry.returns]
+    if not same or len(set(same)) < len(same):
+        raise LucidaError(
+            "returns", "names nothing, or one thing twice", f"give e.g. {list(kind.returns)}"
+        )
+    if kind.name == "closest-hit" and len(same) < 2:
+        raise LucidaError("returns", "names one thing", 'give "object" and "t"')
+    return tuple(entry.returns)
+
+
+def _cameras(entry: TaskTable, conventions: Conventions, base: CheckTask) -> tuple[str, ...]:
+    possible = camera_kinds(conventions)
+    if entry.cameras is None:
+        return tuple(kind for kind in base.cameras if kind in possible)
+    for number, kind in enumerate(entry.cameras):
+        _known(f"cameras[{number}]", kind, CAMERA_KINDS)
+        if kind not in possible:
+            raise LucidaError(
+                f"cameras[{number}]",
+                f"{kind!r} cannot be told in the words of the arguments",
+                f"give {', '.join(possible)}; or u, v, w and viewport for angles and targets",
+            )
+    if not entry.cameras:
+        raise LucidaError("cameras", "is empty", "name one, or set cases = 0 and give views")
+    return tuple(entry.cameras)
+
+
+def _check_rigid_parallel(conventions: Conventions, projections: Iterable[str]) -> None:
+    """A parallel camera has no angle of view."""
+    angles = sorted(word for word in conventions.words if word.startswith("fov"))
+    sized = {"left", "right", "viewport", "viewport_width", "viewport_height", "horizontal"}
+    sized |= {"pixel00", "top_left", "bottom_left"}
+    if "parallel" in projections and angles and not sized & conventions.words:
+        raise LucidaError(
+            "projection",
+            f"a parallel view has no {angles[0]}",
+            "give viewport_height, or perspective alone",
+        )
+
+
+def _count(entry: TaskTable, base: CheckTask) -> int:
+    if entry.cases is None:
+        return base.count
+    if not 0 <= entry.cases <= CASES:
+        raise LucidaError("cases", f"{entry.cases} is out of range", f"give 0 to {CASES}")
+    return entry.cases
+
+
+def _points(points: float) -> float:
+    if not (math.isfinite(points) and points >= 0):
+        raise LucidaError("points", f"{points:g} is no number of points", "give 0 or more")
+    return points
+
+
+def _function(name: str) -> str:
+    _check_name("function", name)
+    return name
+
+
+def _check_name(field: str, name: str) -> None:
+    if not NAME.fullmatch(name):
+        raise LucidaError(field, f"{name[:40]!r} is no name", "give letters, digits and _")
+
+
+def _size(size: tuple[int, int]) -> tuple[int, int]:
+    if not 1 <= min(size) <= max(size) <= SIDE:
+        raise LucidaError("size", f"{list(size)} is out of range", f"give sides of 1 to {SIDE}")
+    return size
+
+
+def _views(views: list[dict[str, Any] | str], folder: Path) -> Iterator[View]:
+    from renderer.scene.load import BUILTIN_SCENES, load_scene
+    from renderer.scene.views import load_view, view_from_table
+
+    for number, view in enumerate(views):
+        if isinstance(view, dict):
+            try:
+                yield view_from_table(view)
+            except LucidaError as error:
+                field = error.field.removeprefix("camera").lstrip(".")
+                found = LucidaError(field, error.problem, error.remedy)
+                raise found.within(f"views[{number}]") from None
+        elif view in BUILTIN_SCENES:
+            yield load_scene(view).view
+        else:
+            try:
+                yield load_view(folder / view)
+            except LucidaError as error:
+                parts = [part for part in (error.source, error.field) if part]
+                problem = ": ".join([*parts, error.problem])
+                raise LucidaError(f"views[{number}]", problem, error.remedy) from None
+
+
+def _vectorised(entry: TaskTable, kind: CheckKind) -> bool:
+    if entry.vectorised and kind.name != "viewing-ray":
+        raise LucidaError(
+            "vectorised", f"{kind.name} has no pixels to be called for", "leave it out"
+        )
+    return entry.vectorised
+
+
+def _weights(entry: TaskTable, base: CheckTask) -> Vector:
+    if entry.weights is not None and not all(map(math.isfinite, entry.weights)):
+        remedy = "give e.g. [0.2126, 0.7152, 0.0722]"
+        raise LucidaError("weights", "are no finite numbers", remedy)
+    return base.weights if entry.weights is None else entry.weights
+
+
+def _check(task: CheckTask) -> None:
+    """What concerns several fields."""
+    if task.kind in ("viewing-ray", "render"):
+        if not task.count and not task.views:
+            raise LucidaError("cases", "is 0, and there are no views", "give one of them")
+        width, height = task.size or VIEW_SIZE
+        if (task.count + len(task.views)) * width * height > CALLS:
+            raise LucidaError("size", f"makes more than {CALLS} rays", "give smaller images")
+        check_views(task)
+    elif task.views or task.size:
+        which = "views" if task.views else "size"
+        raise LucidaError(which, f"{task.kind} has no cameras", "leave it out")
+
+
+def _known(field: str, name: str, names: Iterable[str]) -> None:
+    if name not in names:
+        raise LucidaError(field, f"{name[:40]!r} is unknown", suggestion(name, names))
+
+
+class _OutsideError(LucidaError):
+    """Of a field that is not in the task's own table."""
+
+
+@contextmanager
+def _under(field: str) -> Iterator[None]:
+    try:
+        yield
+    except _OutsideError as error:
+        raise LucidaError(error.field, error.problem, error.remedy) from None
+    except LucidaError as error:
+        raise error.within(field) from None
+
+
+@contextmanager
+def _at_top() -> Iterator[None]:
+    try:
+        yield
+    except LucidaError as error:
+        raise _OutsideError(error.field, error.problem, error.remedy) from None

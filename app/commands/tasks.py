@@ -1,0 +1,95 @@
+"""`lucida tasks`: what can be asked of a student's code."""
+
+from __future__ import annotations
+
+import argparse
+import json
+import textwrap
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from app.checking.tasks import CheckTask
+
+NAME = "tasks"
+WIDTH = 96
+
+DESCRIPTION = """\
+List the tasks that `lucida check` tries: the function, what it is given and returns, its points.
+With a task's name: what is asked, and what each word means."""
+
+EPILOG = """\
+examples:
+  lucida tasks
+  lucida tasks viewing-ray
+  lucida tasks --tasks hw2.toml --json"""
+
+
+def configure(parser: argparse.ArgumentParser) -> None:
+    parser.description, parser.epilog = DESCRIPTION, EPILOG
+    parser.add_argument("task", nargs="?", metavar="NAME", help="this task alone, with its text")
+    parser.add_argument("--tasks", metavar="FILE.toml", help="a lecturer's own tasks")
+    parser.add_argument("--json", action="store_true", help="print one JSON object")
+
+
+def run(arguments: argparse.Namespace) -> int:
+    from app.checking.builtin import BUILTIN
+    from app.commands.check import named
+
+    tasks = list(BUILTIN)
+    if arguments.tasks is not None:
+        from app.checking.task_file import load_tasks
+
+        tasks = list(load_tasks(arguments.tasks).tasks)
+    if arguments.task is not None:
+        tasks = [named(tasks, arguments.task)]
+    if arguments.json:
+        print(json.dumps({"tasks": [as_data(task) for task in tasks]}, indent=2))
+    elif arguments.task is not None:
+        print("\n".join(described(tasks[0])))
+    else:
+        print("\n".join(listed(tasks)))
+    return 0
+
+
+def as_data(task: CheckTask) -> dict[str, Any]:
+    """A task as JSON's values."""
+    from app.checking.kinds import KINDS
+    from app.checking.starter import returned, signature
+
+    words = KINDS[task.kind].words
+    return {
+        "name": task.name,
+        "kind": task.kind,
+        "function": task.function,
+        "signature": signature(task),
+        "returns": returned(task),
+        "arguments": {name: words[word] for name, word in task.conventions.arguments},
+        "points": task.points,
+        "part": task.part,
+        "text": task.text,
+    }
+
+
+def listed(tasks: list[CheckTask]) -> list[str]:
+    """A line a task, in columns."""
+    from app.checking.starter import returned, signature
+
+    rows = [
+        (task.name, f"{task.points:g}", f"{signature(task)} -> {returned(task)}") for task in tasks
+    ]
+    widths = [max(len(row[column]) for row in rows) for column in range(2)]
+    return [f"{name:{widths[0]}}  {points:>{widths[1]}}  {call}" for name, points, call in rows]
+
+
+def described(task: CheckTask) -> list[str]:
+    """A task with its text and the meanings of its words."""
+    from app.checking.starter import arguments_text, returned, signature
+
+    return [
+        f"{task.name}: {signature(task)} -> {returned(task)}",
+        *textwrap.wrap(task.text, WIDTH),
+        "",
+        *arguments_text(task, indent=2),
+        "",
+        f"{task.points:g} points. In the lecture: {task.part}.",
+    ]
