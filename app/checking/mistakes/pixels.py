@@ -53,13 +53,15 @@ def _flips(across: str, down: str, from_top: bool) -> list[Mistake]:
         else "Here rows count upwards, as v does: v needs no minus sign."
     )
     name = "rows count upwards" if from_top else "rows count downwards"
+    rows = ("y = top -", "y = bottom +") if from_top else ("y = bottom +", "y = top -")
     return [
-        Mistake(name, (("y", _y(down, not from_top)),), hint, PART),
+        Mistake(name, (("y", _y(down, not from_top)),), hint, PART, swaps=(rows,)),
         Mistake(
             "columns count leftwards",
             (("x", f"x = right - {across} * (right - left)"),),
             "Columns count to the right, as u does: u has no minus sign.",
             PART,
+            swaps=(("x = left +", "x = right -"),),
         ),
     ]
 
@@ -67,11 +69,11 @@ def _flips(across: str, down: str, from_top: bool) -> list[Mistake]:
 def _centres(indexing: Indexing, from_top: bool) -> list[Mistake]:
     """The half pixel, and the number of steps: in both lines, or in one alone."""
     if indexing is Indexing.LECTURE:
-        corner, whole, off, one = "({} - 1)", "{}", "({} + 0.5)", "({} - 1)"
+        corner, whole, off = "({} - 1)", "{}", "({} + 0.5)"
         whole_name, whole_hint = "no half pixel", "the centre is at j - 0.5, not at j."
         off_hint = "subtract the half pixel, do not add it."
     else:
-        corner, whole, off, one = "{}", "({} + 1)", "({} - 0.5)", "{}"
+        corner, whole, off = "{}", "({} + 1)", "({} - 0.5)"
         whole_name, whole_hint = "a whole pixel", "the centre is at j + 0.5, not at j + 1."
         off_hint = "add the half pixel, do not subtract it."
     told = f"i and j count {indexing.told}: "
@@ -86,7 +88,7 @@ def _centres(indexing: Indexing, from_top: bool) -> list[Mistake]:
         ("one pixel off", f"{off} / {{}}", told + off_hint),
         (
             "one step too few",
-            f"{one} / ({{}} - 1)",
+            f"{corner} / ({{}} - 1)",
             "W pixels are W steps, each 1/W of the viewport: divide by W, not by W - 1.",
         ),
         (
@@ -99,8 +101,12 @@ def _centres(indexing: Indexing, from_top: bool) -> list[Mistake]:
     for name, part, hint in wrong:
         x = ("x", _x(part.format("j", "width")))
         y = ("y", _y(part.format("i", "height"), from_top))
+        new = part.partition(" / ")[0]
+        swaps = (
+            tuple((centre.format(k), new.format(k)) for k in "ij") if part.endswith("/ {}") else ()
+        )
         made += [
-            Mistake(name, (x, y), hint, PART, is_common=not name.startswith("the centre,")),
+            Mistake(name, (x, y), hint, PART, not name.startswith("the centre,"), swaps),
             Mistake(f"{name}: in the columns", (x,), f"Of the column: {hint}", PART, False),
             Mistake(f"{name}: in the rows", (y,), f"Of the row: {hint}", PART, False),
         ]

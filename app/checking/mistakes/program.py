@@ -31,7 +31,8 @@ class Mistake:
 
     name: what was done, unlike all others of its program. lines: (key of the line, what is written
     instead). hint: what to tell, in the lecture's words. part: the title of the lecture's step to
-    read again. is_common: whether many make it; those are told first.
+    read again. is_common: whether many make it; those are told first. swaps: (old, new) texts that
+    make it where another mistake has rewritten its line already.
     """
 
     name: str
@@ -39,10 +40,17 @@ class Mistake:
     hint: str
     part: str
     is_common: bool = True
+    swaps: tuple[tuple[str, str], ...] = ()
 
     @property
     def keys(self) -> frozenset[str]:
         return frozenset(key for key, _ in self.lines)
+
+    def swapped(self, code: str) -> str:
+        """A line that another mistake has rewritten, with this one made in it as well."""
+        for old, new in self.swaps:
+            code = code.replace(old, new)
+        return code
 
 
 Mistakes = tuple[Mistake, ...]
@@ -67,12 +75,12 @@ class Program:
     results: tuple[str, ...]
 
     def text(self, mistakes: Sequence[Mistake] = ()) -> tuple[ShownLine, ...]:
-        """All lines, in their order, with what is written instead. Mistakes of the same line: the
-        first one's counts."""
+        """All lines, in their order, with what is written instead. Of mistakes that cannot be
+        made together in one line, the first counts."""
         instead: dict[str, str] = {}
-        for mistake in mistakes:
+        for mistake in sorted(mistakes, key=lambda mistake: bool(mistake.swaps)):
             for key, code in mistake.lines:
-                instead.setdefault(key, code)
+                instead[key] = mistake.swapped(instead[key]) if key in instead else code
         return tuple(ShownLine(line.key, line.code, instead.get(line.key)) for line in self.lines)
 
     def source(self, mistakes: Sequence[Mistake] = ()) -> str:
@@ -91,10 +99,19 @@ class Program:
         return tuple(names[name] for name in self.results)
 
     def pairs(self) -> Iterator[tuple[Mistake, Mistake]]:
-        """Any two mistakes of different lines."""
+        """Any two mistakes that can be made together."""
         for first, second in combinations(self.mistakes, 2):
-            if not first.keys & second.keys:
+            if self.can_combine(first, second):
                 yield first, second
+
+    def can_combine(self, first: Mistake, second: Mistake) -> bool:
+        """Whether they are in different lines, or both show in the line that they share."""
+        shared = first.keys & second.keys
+        if not shared:
+            return True
+        codes = {line.key: line.instead for line in self.text((first, second))}
+        alone = (dict(first.lines), dict(second.lines))
+        return all(codes[key] != one[key] for key in shared for one in alone)
 
 
 @functools.lru_cache(4096)
