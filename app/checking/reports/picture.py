@@ -43,7 +43,7 @@ def in_frustum(camera: Camera, size: Size, rays: Floats) -> Floats:
     distance = camera.distance
     to_frustum, offset = np.diag([*1 / half, 1 / distance]), np.zeros(3)
     if camera.is_parallel:
-        to_frustum[:2] *= DEPTH
+        to_frustum *= DEPTH
         offset[:2] = -DEPTH * middle / half
     else:
         to_frustum[:2, 2] = middle / half / distance

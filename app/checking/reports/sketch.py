@@ -15,8 +15,8 @@ from renderer.camera import Camera, Size
 Floats = NDArray[np.float64]
 
 # Where X, Y and Z of the frustum go on the paper: depth to the right, X towards the reader.
-AXES = np.array([[0.42, 0.30], [0.0, -1.0], [-1.5, 0.0]])
-LENGTH = 2.1  # of a ray, with the viewport at 1
+AXES = np.array([[0.36, 0.24], [0.0, -1.0], [-1.8, 0.0]])
+BEYOND = 1.6  # how far the right ray is drawn: to the viewport it is 1; the given one is as long
 FAR = 4.0  # an origin that is farther away is drawn at the paper's edge
 UNIT = 90.0  # of the drawing, for 1 of the frustum
 MARGIN = 34.0
@@ -34,13 +34,18 @@ def sketch(camera: Camera, size: Size, right: Floats, given: Floats) -> str:
         eye = _on_paper(np.zeros((1, 3)))
         shapes += [_path(np.array([eye[0], corner]), "edge") for corner in paper]
     drawn = [paper, _on_paper(np.zeros((1, 3)))]
-    for name, ray in (("right", right), ("given", given)):
-        ends = _ends(in_frustum(camera, size, ray) / scale)
+    inside = [in_frustum(camera, size, ray) / scale for ray in (right, given)]
+    to_viewport = inside[0][1] / -inside[0][1][2]
+    length = BEYOND * float(np.linalg.norm(to_viewport))
+    for name, ray in zip(("right", "given"), inside, strict=True):
+        ends = _ends(ray, length)
         if ends is not None:
             line = _on_paper(ends)
             drawn.append(line)
             shapes += [_path(line, name), _head(line, name)]
     x, y = _on_paper(np.zeros((1, 3)))[0]
+    px, py = _on_paper(inside[0][:1] + to_viewport)[0]
+    shapes.append(f'<circle class="right" cx="{px:.1f}" cy="{py:.1f}" r="4"/>')
     shapes.append(f'<circle class="eye" cx="{x:.1f}" cy="{y:.1f}" r="4"/>')
     shapes.append(f'<text x="{x:.1f}" y="{y + 18:.1f}" text-anchor="middle">eye</text>')
     least, most = (getattr(np.vstack(drawn), name)(axis=0) for name in ("min", "max"))
@@ -57,7 +62,7 @@ def _on_paper(points: Floats) -> Floats:
     return points @ AXES * UNIT
 
 
-def _ends(ray: Floats) -> Floats | None:
+def _ends(ray: Floats, shown: float) -> Floats | None:
     """Where a ray begins, and where its arrow is; None for what is no ray."""
     origin, direction = ray
     length = np.linalg.norm(direction)
@@ -65,7 +70,7 @@ def _ends(ray: Floats) -> Floats | None:
         return None
     away = np.linalg.norm(origin)
     origin = origin * min(1.0, FAR / away) if away > 0 else origin
-    return np.array([origin, origin + LENGTH * direction / length])
+    return np.array([origin, origin + shown * direction / length])
 
 
 def _path(points: Floats, name: str, closed: bool = False) -> str:

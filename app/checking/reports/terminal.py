@@ -10,6 +10,7 @@ from app.checking.checked import TaskResult
 from app.checking.reports.told import told
 
 COLORS = {"right": "32", "wrong": "31", "failed": "33", "dim": "2"}
+PRINTED = 20  # lines of what the student's code printed
 
 
 def is_colored(stream: TextIO) -> bool:
@@ -26,7 +27,12 @@ def lines(result: TaskResult, colored: bool = False) -> list[str]:
     head = f"{_painted(f'{say.verdict:6}', say.verdict, colored)} {name}"
     points = f"  {result.points:g} of {result.task.points:g} points"
     head += _painted(points, "dim", colored)
-    return [head, *(f"       {line}" for line in say.lines)]
+    helping = list(say.lines)
+    if say.output:
+        printed = say.output.split("\n")
+        more = [f"... {len(printed) - PRINTED} more lines"] * (len(printed) > PRINTED)
+        helping += ["printed:", *(f"  {line}" for line in [*printed[:PRINTED], *more])]
+    return [head, *(f"       {line}" for line in helping)]
 
 
 def summary(results: Sequence[TaskResult]) -> str:
