@@ -9,6 +9,7 @@ from __future__ import annotations
 import zlib
 from collections.abc import Callable, Iterator
 from dataclasses import replace
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -16,7 +17,9 @@ from app.checking.conventions import Conventions, Shot
 from app.checking.tasks import CAMERA_KINDS, RIGID_KINDS, CheckTask
 from renderer.camera import Camera, Size, Vector
 from renderer.errors import LucidaError
-from renderer.scene.model import View
+
+if TYPE_CHECKING:
+    from renderer.scene.model import View
 
 Random = np.random.Generator
 

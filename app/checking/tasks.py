@@ -6,12 +6,14 @@ A lecturer's own come from a file (task_file.py).
 from __future__ import annotations
 
 from dataclasses import dataclass, field
-from typing import Any, Literal
+from typing import TYPE_CHECKING, Any, Literal
 
 from app.checking.conventions import Conventions
 from renderer.camera import Camera, Size, Vector
-from renderer.scene.model import View
 from renderer.shared_numbers import LUMINANCE
+
+if TYPE_CHECKING:
+    from renderer.scene.model import View
 
 Feedback = Literal["nothing", "verdict", "first-wrong", "diagnosis"]
 FEEDBACK: tuple[Feedback, ...] = ("nothing", "verdict", "first-wrong", "diagnosis")

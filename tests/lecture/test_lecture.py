@@ -19,7 +19,6 @@ from app.lecture import reading
 from app.lecture import text as texts
 from app.lecture.exercises import ChoiceExercise, RayExercise, VectorExercise
 from app.lecture.model import Lecture
-from renderer.scene.places import Places, parsed_path
 from app.lecture.reading import BUILTIN, lecture_from_toml, load_lecture
 from app.lecture.session import LectureSession
 from app.lecture.states import state_of
@@ -32,6 +31,7 @@ from renderer.camera import Camera
 from renderer.errors import LucidaError
 from renderer.scene import load_scene
 from renderer.scene.noting import stamp
+from renderer.scene.places import Places, parsed_path
 
 FILE = '''\
 lucida = 1

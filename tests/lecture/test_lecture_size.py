@@ -11,11 +11,11 @@ import pytest
 
 from app.lecture import reading
 from app.lecture import text as texts
-from renderer.scene.places import Places
 from app.lecture.reading import PIECES, lecture_from_toml
 from app.lecture.text import Math, Paragraph, Words, parse
 from renderer.errors import LucidaError
 from renderer.scene.limits import TOML_BYTES
+from renderer.scene.places import Places
 
 STEP = '[[steps]]\ntitle = "T"\ntext = """\n{}"""\n'
 SMALL = 40_000  # characters

@@ -197,16 +197,15 @@ class ClosestHitKind(CheckKind):
         return [{**ray, "objects": objects} for objects in many]
 
     def _made_up(self, random: Random, number: int) -> Values:
-        """Objects at random, of which the ray meets several."""
+        """Several objects, of which the ray meets none, one or more, in turn at least."""
         while True:
-            objects = [_object(random) for _ in range(int(random.integers(2, 7)))]
+            objects: list[dict[str, Any]] = []
             ray: Values = {"origin": list(point(random)), "direction": _direction(random)}
-            parameters, margins = _all_hits(ray["origin"], ray["direction"], objects)
-            met = np.sort(parameters[np.isfinite(parameters)])
-            apart = bool(np.all(np.diff(met) > 0.02 * met[1:]))
-            triangles = [ray | shape for shape in objects if shape["type"] == "triangle"]
-            clear = np.all(margins > MARGIN) and all(map(is_clear_triangle, triangles))
-            if clear and apart and met.size >= (0, 1, 2)[number % 3]:
+            for _ in range(int(random.integers(2, 7))):
+                objects.append(_clear_object(random, ray))
+            met = np.sort(_all_hits(ray["origin"], ray["direction"], objects))
+            met = met[np.isfinite(met)]
+            if met.size >= number % 3 and np.all(np.diff(met) > 0.02 * met[1:]):
                 return {**ray, "objects": objects}
 
     def given(
@@ -249,18 +248,15 @@ class ClosestHitKind(CheckKind):
 
 def closest(origin: Any, direction: Any, objects: Sequence[Mapping[str, Any]]) -> tuple[int, float]:
     """The number of the nearest object from 0 and t; -1 and inf where there is none."""
-    parameters = _all_hits(origin, direction, objects)[0]
+    parameters = _all_hits(origin, direction, objects)
     if not np.isfinite(parameters).any():
         return -1, np.inf
     number = int(np.argmin(parameters))
     return number, float(parameters[number])
 
 
-def _all_hits(
-    origin: Any, direction: Any, objects: Sequence[Mapping[str, Any]]
-) -> tuple[Floats, Floats]:
-    found = [hits(origin, direction, shape) for shape in objects]
-    return np.array([t for t, _ in found]), np.array([margin for _, margin in found])
+def _all_hits(origin: Any, direction: Any, objects: Sequence[Mapping[str, Any]]) -> Floats:
+    return np.array([float(hits(origin, direction, shape)[0]) for shape in objects])
 
 
 def parameter(value: Any) -> float | None:
@@ -340,10 +336,21 @@ def is_clear_triangle(values: Values) -> bool:
     return facing > 0.1 * longest**2 * float(np.linalg.norm(values["direction"])) > 0.02
 
 
-def _object(random: Random) -> dict[str, Any]:
+def _clear_object(random: Random, ray: Values) -> dict[str, Any]:
+    """An object that the ray meets or misses clearly; many of them are met."""
+    while True:
+        shape = _object(random, ray)
+        clear = shape["type"] == "sphere" or is_clear_triangle({**ray, **shape})
+        if clear and hits(ray["origin"], ray["direction"], shape)[1] > MARGIN:
+            return shape
+
+
+def _object(random: Random, ray: Values) -> dict[str, Any]:
+    unit = np.array(ray["direction"]) / np.linalg.norm(ray["direction"])
+    middle = np.array(ray["origin"]) + random.uniform(-6.0, 12.0) * unit
+    middle += random.uniform(-1.0, 1.0, 3)
     if random.random() < 0.6:
-        center, radius = point(random, 4.0), rounded(random.uniform(0.5, 2.5))
-        return {"type": "sphere", "center": list(center), "radius": radius}
-    corner = np.array(point(random, 3.0))
-    others = [np.round(corner + random.uniform(-4, 4, 3), 2).tolist() for _ in range(2)]
-    return {"type": "triangle", "a": corner.tolist(), "b": others[0], "c": others[1]}
+        center = [rounded(value) for value in middle]
+        return {"type": "sphere", "center": center, "radius": rounded(random.uniform(0.5, 1.5))}
+    corners = np.round(middle + random.uniform(-3.0, 3.0, (3, 3)), 2).tolist()
+    return {"type": "triangle"} | dict(zip("abc", corners, strict=True))

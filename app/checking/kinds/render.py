@@ -56,7 +56,7 @@ class RenderKind(ImageKind):
 
 def _case(task: CheckTask, shot: Shot, random: Random) -> CheckCase:
     background = [rounded(value) for value in random.uniform(0.0, 0.2, 3)]
-    objects = [_object(shot, random, number) for number in range(int(random.integers(3, 6)))]
+    objects = _objects(shot, random, nearest_last=random.random() < 0.5)
     image, judged = rendered(shot, objects, background)
     if task.conventions.rows == "bottom":
         image, judged = image[::-1], judged[::-1]
@@ -92,37 +92,48 @@ def rendered(
         t, margin = hits(rays.origin, rays.direction, shape)
         judged &= margin > EDGE
         with np.errstate(invalid="ignore"):
-            judged &= ~(np.abs(t - nearest) <= EDGE * np.abs(t))
+            judged &= ~(np.isfinite(t) & (np.abs(t - nearest) <= EDGE * t))
         closer = t < nearest
         image[closer] = shape["color"]
         nearest = np.minimum(t, nearest)
     return image, judged
 
 
-def _object(shot: Shot, random: Random, number: int) -> dict[str, Any]:
-    """A sphere or a triangle that is in the picture; every fourth is behind the camera."""
-    behind = number % 4 == 3
+def _objects(shot: Shot, random: Random, nearest_last: bool) -> list[dict[str, Any]]:
+    """One before another, in front of the camera and, on the same lines, behind it; and one more
+    anywhere in the picture."""
+    left, right, bottom, top = shot.camera.viewport
+    middle = np.array([left + right, bottom + top]) / 2
+    reach = np.array([right - left, top - bottom]) / 2
+    at = middle + random.uniform(-0.4, 0.4, 2) * reach
+    near, far = (
+        _object(shot, random, at, depth, size) for depth, size in ((2.0, 0.25), (5.0, 0.45))
+    )
+    behind = _object(shot, random, middle, -1.5, 0.4)
+    beside = _object(shot, random, middle + random.uniform(-0.8, 0.8, 2) * reach, 3.5, 0.25)
+    order = (far, behind, near, beside) if nearest_last else (near, beside, far, behind)
+    return list(order)
+
+
+def _object(shot: Shot, random: Random, at: Floats, depth: float, part: float) -> dict[str, Any]:
+    """A sphere or a triangle. at: on the image plane; depth: in front of the eye, in units of w;
+    part: its size, of the picture's."""
     camera = shot.camera
     left, right, bottom, top = camera.viewport
-    x, y = random.uniform(left, right), random.uniform(bottom, top)
-    depth = random.uniform(2.0, 6.0) * (-1 if behind else 1)
-    across = depth / camera.distance if not camera.is_parallel else 1.0
-    basis = camera.basis
-    center = np.asarray(camera.eye) + basis @ np.array([x * across, y * across, -depth])
-    seen = 0.3 * abs(across) * min(right - left, top - bottom)
-    size = float(seen * random.uniform(0.7, 1.5) * np.linalg.norm(basis[:, 0]))
+    across = 1.0 if camera.is_parallel else depth / camera.distance
+    unit = camera.basis / np.linalg.norm(camera.basis, axis=0)
+    center = np.asarray(camera.eye) + camera.basis @ np.array([*(at * across), -depth])
+    seen = abs(across) * min(
+        (right - left) * np.linalg.norm(camera.u), (top - bottom) * np.linalg.norm(camera.v)
+    )
+    size = float(part * random.uniform(0.8, 1.2) * seen)
     color = [rounded(value) for value in random.uniform(0.3, 1.0, 3)]
     if random.random() < 0.6:
-        return {
-            "type": "sphere",
-            "center": [rounded(value, 3) for value in center],
-            "radius": rounded(size, 3),
-            "color": color,
-        }
+        where = [rounded(value, 3) for value in center]
+        return {"type": "sphere", "center": where, "radius": rounded(size, 3), "color": color}
     turn = random.uniform(0.0, 2 * np.pi)
     corners = {}
     for name, angle in zip("abc", (0.0, 2.1, 4.2), strict=True):
-        around = np.array([np.cos(turn + angle), np.sin(turn + angle), random.uniform(-0.5, 0.5)])
-        unit = basis / np.linalg.norm(basis, axis=0)
+        around = np.array([np.cos(turn + angle), np.sin(turn + angle), random.uniform(-0.2, 0.2)])
         corners[name] = [rounded(value, 3) for value in center + 1.5 * size * unit @ around]
     return {"type": "triangle", **corners, "color": color}

@@ -1,0 +1,108 @@
+"""Answers to basis."""
+
+import math
+
+import numpy as np
+
+
+def _unit(a):
+    length = math.sqrt(sum(part * part for part in a))
+    return tuple(part / length for part in a)
+
+
+def _cross(a, b):
+    return a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]
+
+
+def right_tuples(eye, target, up):
+    w = _unit([e - t for e, t in zip(eye, target)])
+    u = _unit(_cross(up, w))
+    return u, _cross(w, u), w
+
+
+def right_arrays(eye, target, up):
+    w = np.subtract(eye, target)
+    w /= np.linalg.norm(w)
+    u = np.cross(up, w)
+    u /= np.linalg.norm(u)
+    return np.array([u, np.cross(w, u), w])
+
+
+def right_gram_schmidt(eye, target, up):
+    w = np.subtract(eye, target) / math.dist(eye, target)
+    v = np.array(up) - np.dot(up, w) * w
+    v = v / np.sqrt(v @ v)
+    return [np.cross(v, w), v, w]
+
+
+def right_forward(eye, target, up):
+    forward = np.subtract(target, eye)
+    right = np.cross(forward, up)
+    right = right / np.linalg.norm(right)
+    above = np.cross(right, forward)
+    return right, above / np.linalg.norm(above), -forward / np.linalg.norm(forward)
+
+
+def right_float32(eye, target, up):
+    eye, target, up = np.float32([eye, target, up])
+    w = (eye - target) / np.linalg.norm(eye - target)
+    u = np.cross(up, w)
+    u = u / np.linalg.norm(u)
+    return {"w": w, "u": u, "v": np.cross(w, u)}
+
+
+def right_flat(eye, target, up):
+    return right_arrays(eye, target, up).ravel()
+
+
+def wrong_forwards(eye, target, up):
+    return right_arrays(target, eye, up)
+
+
+def wrong_target_as_direction(eye, target, up):
+    return right_arrays((0, 0, 0), target, up) if any(target) else right_arrays(target, eye, up)
+
+
+def wrong_not_normalised(eye, target, up):
+    u, v, w = right_arrays(eye, target, up)
+    return u, v, w * math.dist(eye, target)
+
+
+def wrong_u_not_normalised(eye, target, up):
+    w = right_arrays(eye, target, up)[2]
+    u = np.cross(up, w)
+    return u, np.cross(w, u), w
+
+
+def wrong_up_as_v(eye, target, up):
+    u, _, w = right_arrays(eye, target, up)
+    return u, up, w
+
+
+def wrong_order_of_cross(eye, target, up):
+    w = right_arrays(eye, target, up)[2]
+    u = np.cross(w, up)
+    u = u / np.linalg.norm(u)
+    return u, np.cross(w, u), w
+
+
+def wrong_upside_down(eye, target, up):
+    u, v, w = right_arrays(eye, target, up)
+    return u, -v, w
+
+
+def wrong_transposed(eye, target, up):
+    return right_arrays(eye, target, up).T
+
+
+def wrong_order(eye, target, up):
+    u, v, w = right_arrays(eye, target, up)
+    return w, u, v
+
+
+def unusable_two(eye, target, up):
+    return right_arrays(eye, target, up)[:2]
+
+
+def unusable_none(eye, target, up):
+    return None

@@ -1,0 +1,120 @@
+"""Answers to closest-hit."""
+
+import math
+
+import hit_sphere
+import hit_triangle
+import numpy as np
+
+
+def _hit(origin, direction, thing):
+    if thing.type == "sphere":
+        return hit_sphere.right_quadratic(origin, direction, thing.center, thing.radius)
+    return hit_triangle.right_inside_out(origin, direction, thing.a, thing.b, thing.c)
+
+
+def _hits(origin, direction, objects):
+    for number, thing in enumerate(objects):
+        t = _hit(origin, direction, thing)
+        if t is not None:
+            yield number, t
+
+
+def right_loop(origin, direction, objects):
+    nearest, which = math.inf, None
+    for number, t in _hits(origin, direction, objects):
+        if t < nearest:
+            nearest, which = t, number
+    return None if which is None else (which, nearest)
+
+
+def right_min(origin, direction, objects):
+    return min(_hits(origin, direction, objects), key=lambda hit: hit[1], default=None)
+
+
+def right_arrays(origin, direction, objects):
+    found = [
+        hit_sphere.right_geometric(origin, direction, o["center"], o["radius"])
+        if o["type"] == "sphere"
+        else hit_triangle.right_moller_trumbore(origin, direction, o["a"], o["b"], o["c"]) or np.inf
+        for o in objects
+    ]
+    if not found or np.isinf(min(found)):
+        return -1, np.inf
+    return np.argmin(found), np.min(found)
+
+
+def right_dict(origin, direction, objects):
+    found = right_loop(origin, direction, objects)
+    return {"object": found[0], "t": found[1]} if found else {"object": None, "t": math.inf}
+
+
+def right_none_pair(origin, direction, objects):
+    return right_loop(origin, direction, objects) or (None, None)
+
+
+def right_float32(origin, direction, objects):
+    found = right_loop(origin, direction, objects)
+    return [np.int64(found[0]), np.float32(found[1])] if found else False
+
+
+def wrong_last(origin, direction, objects):
+    found = list(_hits(origin, direction, objects))
+    return found[-1] if found else None
+
+
+def wrong_first(origin, direction, objects):
+    return next(_hits(origin, direction, objects), None)
+
+
+def wrong_farthest(origin, direction, objects):
+    return max(_hits(origin, direction, objects), key=lambda hit: hit[1], default=None)
+
+
+def wrong_behind(origin, direction, objects):
+    found = []
+    for number, thing in enumerate(objects):
+        t = (
+            hit_sphere.wrong_behind(origin, direction, thing.center, thing.radius)
+            if thing.type == "sphere"
+            else _hit(origin, direction, thing)
+        )
+        if t is not None:
+            found.append((t, number))
+    return min(found)[::-1] if found else None
+
+
+def wrong_from_one(origin, direction, objects):
+    found = right_loop(origin, direction, objects)
+    return found and (found[0] + 1, found[1])
+
+
+def wrong_order(origin, direction, objects):
+    found = right_loop(origin, direction, objects)
+    return found and found[::-1]
+
+
+def wrong_no_triangles(origin, direction, objects):
+    found = [hit for hit in _hits(origin, direction, objects) if objects[hit[0]].type == "sphere"]
+    return min(found, key=lambda hit: hit[1], default=None)
+
+
+def wrong_t_not_kept(origin, direction, objects):
+    nearest, answer = math.inf, None
+    for number, t in _hits(origin, direction, objects):
+        if t < nearest:
+            answer = number, t
+    return answer
+
+
+def wrong_distance(origin, direction, objects):
+    found = right_loop(origin, direction, objects)
+    return found and (found[0], found[1] * math.hypot(*direction))
+
+
+def unusable_number(origin, direction, objects):
+    return 3
+
+
+def unusable_empty(origin, direction, objects):
+    return min(_hits(origin, direction, objects), key=lambda hit: hit[1])

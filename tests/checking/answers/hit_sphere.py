@@ -1,0 +1,126 @@
+"""Answers to hit-sphere."""
+
+import math
+
+import numpy as np
+
+
+def _roots(o, d, c, r):
+    a = sum(x * x for x in d)
+    b = 2 * sum((x - y) * z for x, y, z in zip(o, c, d))
+    k = sum((x - y) ** 2 for x, y in zip(o, c)) - r * r
+    return a, b, b * b - 4 * a * k
+
+
+def right_quadratic(origin, direction, center, radius):
+    a, b, disc = _roots(origin, direction, center, radius)
+    if disc < 0:
+        return None
+    near, far = (-b - math.sqrt(disc)) / (2 * a), (-b + math.sqrt(disc)) / (2 * a)
+    if near > 0:
+        return near
+    return far if far > 0 else None
+
+
+def right_geometric(origin, direction, center, radius):
+    o, d, c = (np.array(part) for part in (origin, direction, center))
+    length = np.linalg.norm(d)
+    d = d / length
+    along = (c - o) @ d
+    aside = np.sum((c - o) ** 2) - along**2
+    if aside > radius**2:
+        return math.inf
+    half = np.sqrt(radius**2 - aside)
+    for t in (along - half, along + half):
+        if t > 1e-6:
+            return t / length
+    return math.inf
+
+
+def right_nan(origin, direction, center, radius):
+    with np.errstate(invalid="ignore"):
+        a, b, disc = _roots(origin, direction, center, radius)
+        roots = (-b + np.array([-1, 1]) * np.sqrt(np.float64(disc))) / (2 * a)
+    ahead = roots[roots > 0]
+    return ahead.min() if len(ahead) else np.nan
+
+
+def right_false(origin, direction, center, radius):
+    found = right_quadratic(origin, direction, center, radius)
+    return found if found else False
+
+
+def right_float32(origin, direction, center, radius):
+    o, d, c = (np.float32(part) for part in (origin, direction, center))
+    oc = o - c
+    a, h, k = d @ d, oc @ d, oc @ oc - np.float32(radius) ** 2
+    disc = h * h - a * k
+    if disc < 0:
+        return None
+    root = np.sqrt(disc)
+    t = (-h - root) / a
+    t = t if t > 0 else (-h + root) / a
+    return np.array([t]) if t > 0 else None
+
+
+def right_pair(origin, direction, center, radius):
+    t = right_quadratic(origin, direction, center, radius)
+    return (t is not None), t
+
+
+def wrong_far_root(origin, direction, center, radius):
+    a, b, disc = _roots(origin, direction, center, radius)
+    t = (-b + math.sqrt(max(disc, 0))) / (2 * a)
+    return t if disc > 0 and t > 0 else None
+
+
+def wrong_near_root_only(origin, direction, center, radius):
+    a, b, disc = _roots(origin, direction, center, radius)
+    t = (-b - math.sqrt(max(disc, 0))) / (2 * a)
+    return t if disc > 0 and t > 0 else None
+
+
+def wrong_behind(origin, direction, center, radius):
+    a, b, disc = _roots(origin, direction, center, radius)
+    return (-b - math.sqrt(disc)) / (2 * a) if disc > 0 else None
+
+
+def wrong_unit_assumed(origin, direction, center, radius):
+    _, b, _ = _roots(origin, direction, center, radius)
+    k = sum((x - y) ** 2 for x, y in zip(origin, center)) - radius**2
+    disc = b * b - 4 * k
+    return (-b - math.sqrt(disc)) / 2 if disc > 0 and -b > math.sqrt(disc) else None
+
+
+def wrong_distance(origin, direction, center, radius):
+    t = right_quadratic(origin, direction, center, radius)
+    return None if t is None else t * math.hypot(*direction)
+
+
+def wrong_radius_not_squared(origin, direction, center, radius):
+    return right_quadratic(origin, direction, center, math.sqrt(radius))
+
+
+def wrong_half(origin, direction, center, radius):
+    t = right_quadratic(origin, direction, center, radius)
+    return None if t is None else t / 2
+
+
+def wrong_no_center(origin, direction, center, radius):
+    return right_quadratic(origin, direction, (0, 0, 0), radius)
+
+
+def wrong_sign(origin, direction, center, radius):
+    return right_quadratic(origin, [-x for x in direction], center, radius)
+
+
+def wrong_never(origin, direction, center, radius):
+    return None
+
+
+def unusable_point(origin, direction, center, radius):
+    return origin
+
+
+def unusable_exception(origin, direction, center, radius):
+    return math.sqrt(_roots(origin, direction, center, radius)[2])

@@ -1,0 +1,134 @@
+"""Answers to hit-triangle."""
+
+import math
+
+import numpy as np
+
+
+def _solved(o, d, a, b, c):
+    o, d, a, b, c = (np.array(part, float) for part in (o, d, a, b, c))
+    n = np.cross(b - a, c - a)
+    if abs(n @ d) < 1e-9:
+        return None
+    t = n @ (a - o) / (n @ d)
+    return o + t * d, t, n
+
+
+def right_inside_out(origin, direction, a, b, c):
+    found = _solved(origin, direction, a, b, c)
+    if found is None:
+        return None
+    p, t, n = found
+    corners = [np.array(x) for x in (a, b, c)]
+    inside = all(
+        np.cross(corners[(k + 1) % 3] - corners[k], p - corners[k]) @ n > 0 for k in range(3)
+    )
+    return t if inside and t > 0 else None
+
+
+def right_matrix(origin, direction, a, b, c):
+    m = np.column_stack([np.subtract(a, b), np.subtract(a, c), direction])
+    try:
+        beta, gamma, t = np.linalg.solve(m, np.subtract(a, origin))
+    except np.linalg.LinAlgError:
+        return None
+    return float(t) if t > 0 and beta > 0 and gamma > 0 and beta + gamma < 1 else math.inf
+
+
+def right_moller_trumbore(origin, direction, a, b, c):
+    e1, e2 = np.subtract(b, a), np.subtract(c, a)
+    p = np.cross(direction, e2)
+    det = e1 @ p
+    if abs(det) < 1e-10:
+        return False
+    s = np.subtract(origin, a)
+    u = s @ p / det
+    q = np.cross(s, e1)
+    v = np.dot(direction, q) / det
+    if u < 0 or v < 0 or u + v > 1:
+        return False
+    t = e2 @ q / det
+    return t if t > 0 else False
+
+
+def right_areas(origin, direction, a, b, c):
+    found = _solved(origin, direction, a, b, c)
+    if found is None or found[1] <= 0:
+        return None
+    p, t, n = found
+
+    def area(x, y):
+        return np.linalg.norm(np.cross(np.subtract(x, p), np.subtract(y, p)))
+
+    outside = area(a, b) + area(b, c) + area(c, a) > np.linalg.norm(n) * (1 + 1e-9)
+    return None if outside else t
+
+
+def right_float32(origin, direction, a, b, c):
+    o, d, a, b, c = (np.float32(part) for part in (origin, direction, a, b, c))
+    n = np.cross(b - a, c - a)
+    if n @ d == 0:
+        return float("nan")
+    t = (n @ (a - o)) / (n @ d)
+    p = o + t * d
+    beta = (np.cross(c - a, p - a) @ n) / (n @ n)
+    gamma = (np.cross(b - a, p - a) @ n) / (n @ n)
+    beta = -beta
+    return t if t > 0 and beta > 0 and gamma > 0 and beta + gamma < 1 else float("nan")
+
+
+def wrong_plane(origin, direction, a, b, c):
+    found = _solved(origin, direction, a, b, c)
+    return found[1] if found and found[1] > 0 else None
+
+
+def wrong_behind(origin, direction, a, b, c):
+    t = right_inside_out(origin, direction, a, b, c)
+    if t is None:
+        t = right_inside_out(origin, [-x for x in direction], a, b, c)
+        t = None if t is None else -t
+    return t
+
+
+def wrong_one_sided(origin, direction, a, b, c):
+    n = np.cross(np.subtract(b, a), np.subtract(c, a))
+    return right_inside_out(origin, direction, a, b, c) if n @ np.array(direction) < 0 else None
+
+
+def wrong_parallelogram(origin, direction, a, b, c):
+    m = np.column_stack([np.subtract(a, b), np.subtract(a, c), direction])
+    try:
+        beta, gamma, t = np.linalg.solve(m, np.subtract(a, origin))
+    except np.linalg.LinAlgError:
+        return None
+    return t if t > 0 and 0 < beta < 1 and 0 < gamma < 1 else None
+
+
+def wrong_unit(origin, direction, a, b, c):
+    t = right_inside_out(origin, direction, a, b, c)
+    return None if t is None else t * math.hypot(*direction)
+
+
+def wrong_edges(origin, direction, a, b, c):
+    return right_inside_out(origin, direction, a, b, np.add(a, c))
+
+
+def wrong_from_the_world(origin, direction, a, b, c):
+    return right_inside_out((0, 0, 0), direction, a, b, c)
+
+
+def wrong_always(origin, direction, a, b, c):
+    return 1.0
+
+
+def wrong_never(origin, direction, a, b, c):
+    return None
+
+
+def unusable_division(origin, direction, a, b, c):
+    n = [float(x) for x in np.cross(np.subtract(b, a), np.subtract(c, a))]
+    return 1 / sum(x * y for x, y in zip(n, direction))
+
+
+def unusable_point(origin, direction, a, b, c):
+    return a

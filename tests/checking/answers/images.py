@@ -1,0 +1,196 @@
+"""Answers to to-gray, to-bitmap and memory-offset, the task's name after right_, wrong_, ..."""
+
+import numpy as np
+
+WEIGHTS = 0.2126, 0.7152, 0.0722
+
+
+def right_gray_dot(rgb):
+    return rgb @ np.array(WEIGHTS)
+
+
+def right_gray_channels(rgb):
+    return 0.2126 * rgb[:, :, 0] + 0.7152 * rgb[:, :, 1] + 0.0722 * rgb[:, :, 2]
+
+
+def right_gray_lists(rgb):
+    return [[sum(w * c for w, c in zip(WEIGHTS, pixel)) for pixel in row] for row in rgb]
+
+
+def right_gray_float32(rgb):
+    return rgb.astype(np.float32).dot(np.float32(WEIGHTS))
+
+
+def right_gray_bytes(rgb):
+    return np.round(rgb @ np.array(WEIGHTS) * 255) / 255
+
+
+def wrong_gray_mean(rgb):
+    return rgb.mean(axis=2)
+
+
+def wrong_gray_rec601(rgb):
+    return rgb @ [0.299, 0.587, 0.114]
+
+
+def wrong_gray_green(rgb):
+    return rgb[..., 1]
+
+
+def wrong_gray_bgr(rgb):
+    return rgb[..., ::-1] @ np.array(WEIGHTS)
+
+
+def wrong_gray_largest(rgb):
+    return rgb.max(axis=2)
+
+
+def wrong_gray_bytes(rgb):
+    return np.round(rgb @ np.array(WEIGHTS) * 255)
+
+
+def wrong_gray_sum(rgb):
+    return rgb.sum(axis=2)
+
+
+def wrong_gray_lightness(rgb):
+    return (rgb.max(axis=2) + rgb.min(axis=2)) / 2
+
+
+def wrong_gray_gamma(rgb):
+    return (rgb @ np.array(WEIGHTS)) ** (1 / 2.2)
+
+
+def unusable_gray_three(rgb):
+    return np.repeat((rgb @ np.array(WEIGHTS))[..., None], 3, axis=2)
+
+
+def unusable_gray_number(rgb):
+    return float(rgb.mean())
+
+
+def right_bitmap_array(gray, threshold):
+    return gray >= threshold
+
+
+def right_bitmap_where(gray, threshold):
+    return np.where(gray < threshold, 0, 1)
+
+
+def right_bitmap_lists(gray, threshold):
+    return [[1 if value >= threshold else 0 for value in row] for row in gray]
+
+
+def right_bitmap_float(gray, threshold):
+    return 1.0 - (gray < threshold)
+
+
+def right_bitmap_white(gray, threshold):
+    return ((gray >= threshold) * 255).astype(np.uint8)
+
+
+def wrong_bitmap_above(gray, threshold):
+    return gray > threshold
+
+
+def wrong_bitmap_inverted(gray, threshold):
+    return gray < threshold
+
+
+def wrong_bitmap_half(gray, threshold):
+    return gray >= 0.5
+
+
+def wrong_bitmap_128(gray, threshold):
+    return gray >= 128
+
+
+def wrong_bitmap_gray(gray, threshold):
+    return np.where(gray >= threshold, gray, 0)
+
+
+def wrong_bitmap_rounded(gray, threshold):
+    return np.round(gray / gray.max())
+
+
+def wrong_bitmap_one_row(gray, threshold):
+    bits = gray >= threshold
+    bits[1:] = bits[0]
+    return bits
+
+
+def wrong_bitmap_white(gray, threshold):
+    return np.ones_like(gray)
+
+
+def wrong_bitmap_mean(gray, threshold):
+    return gray >= gray.mean()
+
+
+def unusable_bitmap_flat(gray, threshold):
+    return (gray >= threshold).ravel()
+
+
+def right_offset_rows(i, j, width):
+    return 12 * (i * width + j)
+
+
+def right_offset_float(i, j, width):
+    return 12.0 * i * width + 12.0 * j
+
+
+def right_offset_numpy(i, j, width):
+    return np.int64(np.ravel_multi_index((i, j), (i + 1, width)) * 12)
+
+
+def right_offset_channels(i, j, width):
+    return 4 * (3 * (i * width + j))
+
+
+def right_offset_strides(i, j, width):
+    strides = np.empty((1, width, 3), np.float32).strides
+    return [int(np.dot((i, j), strides[:2]))]
+
+
+def wrong_offset_columns(i, j, width):
+    return 12 * (j * width + i)
+
+
+def wrong_offset_pixels(i, j, width):
+    return i * width + j
+
+
+def wrong_offset_from_one(i, j, width):
+    return 12 * ((i - 1) * width + (j - 1))
+
+
+def wrong_offset_bytes(i, j, width):
+    return 3 * (i * width + j)
+
+
+def wrong_offset_doubles(i, j, width):
+    return 24 * (i * width + j)
+
+
+def wrong_offset_brackets(i, j, width):
+    return 12 * i * width + j
+
+
+def wrong_offset_width(i, j, width):
+    return 12 * (i * (width - 1) + j)
+
+
+def wrong_offset_sum(i, j, width):
+    return 12 * (i + j)
+
+
+def wrong_offset_nan(i, j, width):
+    return float("nan")
+
+
+def unusable_offset_none(i, j, width):
+    return None
+
+
+def unusable_offset_pair(i, j, width):
+    return i * width, j

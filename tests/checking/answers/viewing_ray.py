@@ -1,0 +1,184 @@
+"""Answers to viewing-ray as students write them: right_, wrong_, unusable_."""
+
+from collections import namedtuple
+
+import numpy as np
+
+
+def right_scalars(i, j, width, height, camera):
+    x = camera.left + (j + 0.5) / width * (camera.right - camera.left)
+    y = camera.top - (i + 0.5) / height * (camera.top - camera.bottom)
+    direction = []
+    for k in range(3):
+        direction.append(x * camera.u[k] + y * camera.v[k] - camera.distance * camera.w[k])
+    return camera.eye, direction
+
+
+def right_arrays(row, column, w, h, cam):
+    s = np.array([(column + 0.5) / w, (row + 0.5) / h])
+    uv = np.array([cam.left, cam.top]) + s * np.array([cam.right - cam.left, cam.bottom - cam.top])
+    basis = np.column_stack([cam.u, cam.v, cam.w])
+    return np.array(cam.eye), basis @ np.array([*uv, -cam.distance])
+
+
+def right_normalised(i, j, width, height, camera):
+    origin, direction = right_arrays(i, j, width, height, camera)
+    return [*origin], list(direction / np.linalg.norm(direction))
+
+
+def right_float32(i, j, width, height, camera):
+    f = np.float32
+    left, right, bottom, top = f([camera.left, camera.right, camera.bottom, camera.top])
+    x = left + (f(j) + f(0.5)) / f(width) * (right - left)
+    y = top - (f(i) + f(0.5)) / f(height) * (top - bottom)
+    d = x * f(camera.u) + y * f(camera.v) - f(camera.distance) * f(camera.w)
+    return f(camera.eye), d / f(np.sqrt(np.sum(d * d)))
+
+
+class Ray:
+    def __init__(self, origin, direction):
+        self.origin = origin
+        self.direction = direction
+
+
+def right_class(i, j, width, height, camera):
+    origin, direction = right_arrays(i, j, width, height, camera)
+    return Ray(origin, 7.5 * direction)
+
+
+def right_point_on_viewport(i, j, width, height, camera):
+    eye, u, v, w = (np.array(p) for p in (camera.eye, camera.u, camera.v, camera.w))
+    corner = eye - camera.distance * w + camera.left * u + camera.top * v
+    across = (camera.right - camera.left) * u / width
+    down = (camera.bottom - camera.top) * v / height
+    point = corner + (j + 0.5) * across + (i + 0.5) * down
+    return {"origin": eye, "direction": point - eye}
+
+
+def right_bottom_up(i, j, width, height, camera):
+    i = height - 1 - i
+    y = camera.bottom + (i + 0.5) * (camera.top - camera.bottom) / height
+    x = camera.left + (j + 0.5) * (camera.right - camera.left) / width
+    d = [x * a + y * b - camera.distance * c for a, b, c in zip(camera.u, camera.v, camera.w)]
+    return (*camera.eye, *d)
+
+
+Both = namedtuple("Both", "direction origin")
+
+
+def right_named_tuple(i, j, width, height, camera):
+    origin, direction = right_scalars(i, j, width, height, camera)
+    return Both(direction, origin)
+
+
+def right_matrix(i, j, width, height, camera):
+    return np.array(right_scalars(i, j, width, height, camera))
+
+
+def right_column_vectors(i, j, width, height, camera):
+    return [np.array(part).reshape(3, 1) for part in right_scalars(i, j, width, height, camera)]
+
+
+def right_homogeneous(i, j, width, height, camera):
+    origin, direction = right_scalars(i, j, width, height, camera)
+    return (*origin, 1), (*direction, 0)
+
+
+def _made(i, j, width, height, camera, x=None, y=None, distance=None, swap=False):
+    c = camera
+    x = c.left + (j + 0.5) / width * (c.right - c.left) if x is None else x
+    y = c.top - (i + 0.5) / height * (c.top - c.bottom) if y is None else y
+    d = c.distance if distance is None else distance
+    return c.eye, x * np.array(c.u) + y * np.array(c.v) - d * np.array(c.w)
+
+
+def wrong_rows_from_the_bottom(i, j, width, height, camera):
+    return _made(height - 1 - i, j, width, height, camera)
+
+
+def wrong_corner(i, j, width, height, camera):
+    return _made(i - 0.5, j - 0.5, width, height, camera)
+
+
+def wrong_from_one(i, j, width, height, camera):
+    return _made(i - 1, j - 1, width, height, camera)
+
+
+def wrong_steps(i, j, width, height, camera):
+    x = camera.left + j / (width - 1) * (camera.right - camera.left)
+    return _made(i, j, width, height, camera, x=x)
+
+
+def wrong_exchanged(i, j, width, height, camera):
+    return _made(j, i, width, height, camera)
+
+
+def wrong_sides(i, j, width, height, camera):
+    return _made(i, j, height, width, camera)
+
+
+def wrong_forwards(i, j, width, height, camera):
+    return _made(i, j, width, height, camera, distance=-camera.distance)
+
+
+def wrong_no_distance(i, j, width, height, camera):
+    return _made(i, j, width, height, camera, distance=1)
+
+
+def wrong_point(i, j, width, height, camera):
+    origin, direction = _made(i, j, width, height, camera)
+    return origin, direction + origin
+
+
+def wrong_origin(i, j, width, height, camera):
+    return (0, 0, 0), _made(i, j, width, height, camera)[1]
+
+
+def wrong_origin_on_the_viewport(i, j, width, height, camera):
+    origin, direction = _made(i, j, width, height, camera)
+    return origin + direction, direction
+
+
+def wrong_transposed(i, j, width, height, camera):
+    x, y = j / width - 0.5, 0.5 - i / height
+    return camera.eye, np.array([camera.u, camera.v, camera.w]) @ [x, y, -camera.distance]
+
+
+def wrong_nan(i, j, width, height, camera):
+    return camera.eye, (float("nan"), 0, -1)
+
+
+def wrong_zero(i, j, width, height, camera):
+    return camera.eye, (0, 0, 0)
+
+
+def wrong_backwards(i, j, width, height, camera):
+    return camera.eye, -_made(i, j, width, height, camera)[1]
+
+
+def wrong_infinite(i, j, width, height, camera):
+    return camera.eye, (0, 10**400, -1)
+
+
+def unusable_none(i, j, width, height, camera):
+    pass
+
+
+def unusable_two_numbers(i, j, width, height, camera):
+    return camera.eye, (1, 2)
+
+
+def unusable_direction_alone(i, j, width, height, camera):
+    return _made(i, j, width, height, camera)[1]
+
+
+def unusable_text(i, j, width, height, camera):
+    return "eye", "d"
+
+
+def unusable_flags(i, j, width, height, camera):
+    return camera.eye, (True, False, True)
+
+
+def unusable_strange_fourth(i, j, width, height, camera):
+    return camera.eye, (0, 0, -1, 5)
