@@ -4,19 +4,18 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING, Any, Literal
+from typing import Any, Literal
 
 import numpy as np
 from numpy.typing import NDArray
 
 from app.checking.calls import Failure, Run, Student
+from app.checking.diagnosed import diagnosis
 from app.checking.kinds import KINDS
 from app.checking.kinds.kind import CheckKind
 from app.checking.kinds.values import text_of
+from app.checking.mistakes.diagnosis import Diagnosis
 from app.checking.tasks import CheckCase, CheckTask
-
-if TYPE_CHECKING:
-    from app.checking.mistakes.diagnosis import Diagnosis
 
 Status = Literal["right", "wrong", "failed"]
 ARGUMENT_LETTERS = 400
@@ -26,9 +25,8 @@ ARGUMENT_LETTERS = 400
 class WrongCase:
     """A case that is answered wrongly, in words and in numbers.
 
-    case: which of all. arguments: as the student's function was given them. right, given: answers
-    as it would write them. where: the pixel. camera, size, pixel, right_answer, given_answer: for
-    views that draw it; the answers in the kind's own form.
+    arguments: as the student's function was given them. right, given: answers as it would write
+    them. where: the pixel. answer: the one given in the kind's own form, as case.right is.
     """
 
     case: CheckCase
@@ -36,8 +34,7 @@ class WrongCase:
     right: str
     given: str
     where: str
-    right_answer: Any
-    given_answer: Any
+    answer: Any
 
 
 @dataclass(frozen=True)
@@ -104,7 +101,7 @@ def judged(task: CheckTask, cases: Sequence[CheckCase], run: Run) -> TaskResult:
         len(cases),
         int(np.count_nonzero(wrong)),
         _first_wrong(task, kind, cases, given, wrong),
-        diagnosis=_diagnosis(task, cases, kind, given),
+        diagnosis=diagnosis(task, cases, given, wrong) if task.feedback == "diagnosis" else None,
         output=run.output,
     )
 
@@ -165,12 +162,5 @@ def _first_wrong(
         right,
         answer,
         where,
-        case.right,
         given[number],
     )
-
-
-def _diagnosis(
-    task: CheckTask, cases: Sequence[CheckCase], kind: CheckKind, given: Any
-) -> Diagnosis | None:
-    return None
