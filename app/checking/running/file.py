@@ -20,6 +20,7 @@ from renderer.child import import_path, interpreter
 from renderer.errors import LucidaError
 
 _LONGEST_FILE = 4 << 20  # bytes
+_PYTHON_MB = 96  # what Python and its libraries hold beside what the student's code asks for
 _MEMORY_STATUS = 86  # of student_process.py
 _MAIN = 'put what runs on its own under `if __name__ == "__main__":`'
 # One thread for a library's arithmetic: of calls so small, more only cost. And no window.
@@ -120,7 +121,7 @@ class FileStudent:
             "mark": self._program.mark,
         }
         self._program.send(json.dumps(opening).encode() + b"\n")
-        self._lines = self._program.lines(end, self._limits.memory_mb)
+        self._lines = self._program.lines(end, self._limits.memory_mb + _PYTHON_MB)
         try:
             line = next(self._lines)
         except ProgramOverError as over:
@@ -171,7 +172,7 @@ class FileStudent:
         """Appends to the values; what ended the run early."""
         assert self._program
         self._program.send(_request(calls))
-        self._lines = self._program.lines(end, self._limits.memory_mb)
+        self._lines = self._program.lines(end, self._limits.memory_mb + _PYTHON_MB)
         try:
             for call, line in zip(calls, self._lines, strict=False):
                 kind, text = line[:1], line[1:]

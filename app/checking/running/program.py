@@ -33,13 +33,16 @@ _FAREWELL = 2.0  # seconds that a program which closed its answers may take to e
 _MOST_ANSWERS = 1 << 28  # bytes
 
 
+_Why = Literal["time", "memory", "ended", "stopped", "length"]
+
+
 class ProgramOverError(Exception):
     """No more answers come. why: time, memory, ended (by itself: status, or None where it still ran
     and had closed its answers), stopped, length."""
 
     def __init__(
         self,
-        why: Literal["time", "memory", "ended", "stopped", "length"],
+        why: _Why,
         status: int | None = None,
     ) -> None:
         super().__init__(why)
@@ -83,7 +86,7 @@ class StudentProgram:
         self._lines: deque[bytes] = deque()
         self._received = 0
         self._ending = threading.Lock()
-        self._ended, self._stopped = False, False
+        self._ended, self._stopped, self._closed = False, False, False
         threading.Thread(target=self._read, args=(answers,), daemon=True).start()
         threading.Thread(target=self._write, args=(self._input,), daemon=True).start()
 
@@ -94,29 +97,36 @@ class StudentProgram:
     def lines(self, end: float, memory_mb: int) -> Iterator[bytes]:
         """What it answers, for as long as it is asked for. end: in time.monotonic's seconds. Raises
         ProgramOverError."""
-        look, closed = 0.0, False
+        why: _Why | None = None
+        look = 0.0
         while True:
             while self._lines:
                 yield self._lines.popleft()
             now = time.monotonic()
-            if self._stopped:
-                raise ProgramOverError("stopped")
-            if now >= end:
-                raise ProgramOverError("time")
-            if now >= look:
-                look = now + _LOOK
-                if memory_of(self._process.pid) > memory_mb << 20:
-                    raise ProgramOverError("memory")
-            if closed:
-                raise ProgramOverError("ended", self._status())
+            if why is None:
+                if self._stopped:
+                    why = "stopped"
+                elif now >= end:
+                    why = "time"
+                elif self._received > _MOST_ANSWERS:
+                    why = "length"
+                elif now >= look:
+                    look = now + _LOOK
+                    if memory_of(self._process.pid) > memory_mb << 20:
+                        why = "memory"
+                if why:  # what it has answered counts, and tells how far it came
+                    self.end()
+                    end = now + _FAREWELL
+            if self._closed or (why and now >= end):
+                raise ProgramOverError(why or "ended", None if why else self._status())
             try:
-                chunk = self._chunks.get(timeout=min(_LOOK, end - now))
+                chunk = self._chunks.get(timeout=max(0, min(_LOOK, end - now)))
             except queue.Empty:
                 continue
-            closed = not chunk
+            self._closed = not chunk
             self._received += len(chunk)
-            if self._received > _MOST_ANSWERS:
-                raise ProgramOverError("length")
+            if why and self._closed:
+                self._pending.clear()  # a line that it did not come to the end of
             self._split(chunk)
 
     def stop(self) -> None:

@@ -156,6 +156,8 @@ def _from_text(data: bytes) -> Iterator[tuple[str, tuple[float, ...]]]:
         if where is None:
             separator = next((sign for sign in ";\t," if sign in text), None)
         cells = [cell.strip().strip("\"'").strip() for cell in text.split(separator)]
+        while not cells[-1]:
+            cells.pop()
         if where is None:
             named = any(_number(cell, separator) is None for cell in cells)
             if named:

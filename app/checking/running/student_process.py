@@ -76,7 +76,7 @@ class Channel:
                 with contextlib.suppress(Exception):  # closed, or no stream at all
                     stream.flush()
             self._write(self._output, mark.encode())
-        text = json.dumps(value) if text is None else text
+        text = _encode(value) if text is None else text
         self._write(self._answers, f"{kind}{text}\n".encode())
 
     @staticmethod
@@ -228,7 +228,9 @@ class StudentFile:
             text = " ".join(str(error.msg if isinstance(error, SyntaxError) else error).split())
         except BaseException:
             text = ""  # its own __str__ fails
-        text = f"{type(error).__name__}: {text}" if text else type(error).__name__
+        text = (
+            f"{type(error).__name__}: {text}" if text not in ("", "None") else type(error).__name__
+        )
         return text if len(text) <= _LONGEST_LINE else text[:_LONGEST_LINE] + "..."
 
     def _lines(self, told):

@@ -1,0 +1,52 @@
+"""Students to be checked; and nothing that they started lives on."""
+
+from __future__ import annotations
+
+import secrets
+import sys
+import textwrap
+
+import pytest
+from students import bearers, called
+from waiting import wait_for
+
+from app.checking.calls import Limits
+from app.checking.running.file import FileStudent
+
+
+@pytest.fixture
+def nothing_left(monkeypatch):
+    """At the end of the test, no process that it started lives."""
+    name = secrets.token_hex(16)
+    monkeypatch.setenv("LUCIDA_TEST", name)
+    yield name
+    if sys.platform.startswith("linux"):
+        wait_for(lambda: not bearers(name))
+
+
+@pytest.fixture
+def student(tmp_path, nothing_left):
+    """Makes a student of a file's text. limits: by name."""
+    made = []
+
+    def make(source: str | bytes, file: str = "rays.py", **limits) -> FileStudent:
+        data = textwrap.dedent(source).encode() if isinstance(source, str) else source
+        (tmp_path / file).write_bytes(data)
+        made.append(FileStudent(tmp_path / file, Limits(**{"seconds": 60, **limits})))
+        return made[-1]
+
+    yield make
+    for one in made:
+        one.close()
+
+
+@pytest.fixture
+def answer(student):
+    """What the function f of a file answers, called once with arguments by name."""
+
+    def ask(source: str | bytes, vectorised: bool = False, /, **arguments):
+        run = student(source).call([called("f", vectorised, **arguments)])
+        assert run.failure is None, run.failure
+        return run.values[0]
+
+    return ask

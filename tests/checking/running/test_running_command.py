@@ -1,0 +1,283 @@
+"""Programs in any language: a line of JSON for each call, a line of JSON from each."""
+
+from __future__ import annotations
+
+import json
+import shutil
+import subprocess
+import sys
+import threading
+
+import pytest
+from students import CAMERA, bearers, called
+from waiting import wait_for
+
+from app.checking.calls import Failure, Limits
+from app.checking.running.command import CommandStudent
+from renderer.errors import LucidaError
+
+POSIX = pytest.mark.skipif(sys.platform == "win32", reason="shells and C as POSIX has them")
+CALLS = [called("viewing_ray", i=i, j=j, camera=CAMERA) for i in range(48) for j in range(64)]
+RAYS = tuple({"origin": [0, 0, 5], "direction": [c.arguments[1][1], 0.5, -1]} for c in CALLS)
+
+
+@pytest.fixture
+def program(tmp_path, nothing_left):
+    """Makes a student of a Python program's text, which is run by a command."""
+    made = []
+
+    def make(source: str, **limits) -> CommandStudent:
+        path = tmp_path / "my rays.py"
+        path.write_text(f"import json, os, sys, time\n{source}\n", "utf-8")
+        command = f'"{sys.executable}" -I "{path}"'
+        made.append(CommandStudent(command, Limits(**{"seconds": 60, **limits})))
+        return made[-1]
+
+    yield make
+    for one in made:
+        one.close()
+
+
+def test_a_program_is_given_the_calls_by_name(program):
+    one = program("for line in sys.stdin: print(json.dumps([json.loads(line)]))")
+    first = called("viewing_ray", i=1, j=2.5, camera=CAMERA)
+    assert one.functions() is None
+    values = one.call([first, called("basis", up=[0, 1, 0])]).values
+    assert values == (
+        [{"function": "viewing_ray", "i": 1, "j": 2.5, "camera": CAMERA}],
+        [{"function": "basis", "up": [0, 1, 0]}],
+    )
+    assert one.call([first]).values == values[:1]
+
+
+ANSWERING = {
+    "line by line": "for line in sys.stdin: print(line, end='', flush=True)",
+    "at the end": "lines = sys.stdin.readlines()\nsys.stdout.write(''.join(lines))",
+    "in small parts": "for sign in sys.stdin.read(): sys.stdout.write(sign)",
+    "blank lines": "for line in sys.stdin: print(line, end='\\n  \\r\\n\\n')",
+    "windows": "sys.stdout.reconfigure(newline='\\r\\n')\nprint(sys.stdin.read(), end='')",
+    "no last line end": "sys.stdout.write(sys.stdin.read().rstrip())",
+    "mark of UTF-8": "sys.stdout.write('\\ufeff' + sys.stdin.read())",
+    "never ends": "for line in sys.stdin: print(line, end='', flush=True)\ntime.sleep(10**6)",
+    "status": "print(sys.stdin.read(), end='')\nsys.exit(3)",
+    "much to errors": "for line in sys.stdin: print(line); print(line * 9, file=sys.stderr)",
+}
+
+
+@pytest.mark.parametrize("name", ANSWERING)
+def test_whenever_a_program_answers(program, name):
+    run = program(ANSWERING[name]).call(CALLS)
+    assert run.failure is None
+    assert len(run.values) == len(CALLS)
+    assert run.values[-1]["i"] == 47
+
+
+def test_values_as_programs_write_them(program):
+    written = [
+        '{"origin": [0], "direction": [1]}',
+        "[[0], [1.5]]",
+        "null",
+        "0.5",
+        "NaN",
+        "-Infinity",
+    ]
+    one = program(f"print('\\n'.join({written}))")
+    values = one.call([called("f")] * 6).values
+    assert values[:4] == ({"origin": [0], "direction": [1]}, [[0], [1.5]], None, 0.5)
+    assert values[4] != values[4]
+    assert values[5] == float("-inf")
+    assert program(f"print({'9' * 400})").call([called("f")]).values == (float("inf"),)
+
+
+FAULTS = {
+    "too few": ("print(1); print(2)", 2, "ended", "ended with exit status 0, with 2 of 4 answers"),
+    "status": (
+        "print(1); sys.exit(7)",
+        1,
+        "ended",
+        "ended with exit status 7, with 1 of 4 answers",
+    ),
+    "nothing": ("", 0, "ended", "0 of 4 answers; the next was f(i=0)"),
+    "exception": ("raise ValueError('mine')", 0, "ended", "ended with exit status 1"),
+    "signal": ("os.abort()", 0, "ended", "was ended by SIGABRT"),
+    "too many": ("print('1\\n' * 5)", 4, "answer", "more than the 4 calls"),
+    "text": ("print('1\\nhello')", 1, "answer", "line 2 of what it answers is no JSON: hello;"),
+    "bytes": ("sys.stdout.buffer.write(b'\\xff\\n')", 0, "answer", "line 1 of what it answers"),
+    "quotes": ("print({'a': 1})", 0, "answer", "is no JSON: {'a': 1}; answer to f(i=0)"),
+    "nested": ("print('[' * 10**5)", 0, "answer", "is no JSON: [[["),
+    "long": ("print('x' * 10**6)", 0, "answer", "xxx...xxx"),
+    "closed": ("os.close(1); time.sleep(10**6)", 0, "ended", "closed what it answers through"),
+}
+
+
+@pytest.mark.parametrize("name", FAULTS)
+def test_what_a_program_does_wrong_is_told_in_one_line(program, name):
+    source, answered, kind, told = FAULTS[name]
+    run = program(source).call([called("f", i=i) for i in range(4)])
+    assert len(run.values) == answered
+    assert run.failure.kind == kind
+    assert told in run.failure.text
+    assert run.failure.call == (None if name == "too many" else answered)
+    assert "\n" not in run.failure.text
+    assert len(run.failure.text) < 400
+
+
+def test_what_a_program_says_on_standard_error_is_its_output(program):
+    run = program("print('one', file=sys.stderr)\nraise ValueError('two')").call([called("f")])
+    assert run.output.startswith("one\nTraceback")
+    assert run.output.endswith("ValueError: two\n")
+
+
+@pytest.mark.parametrize(
+    "source", ["while True: pass", "time.sleep(10**6)", "print(1)\nos.fork()\nwhile 1: 0"]
+)
+def test_a_program_without_end(program, source):
+    if "fork" in source and sys.platform == "win32":
+        pytest.skip("Windows has no fork")
+    failure = program(source, seconds=0.5).call(CALLS).failure
+    assert failure.kind == "time"
+    assert "the time limit of 0.5 s is over, with " in failure.text
+    assert "of 3072 answers; does it read to the end of its input" in failure.text
+
+
+def test_answers_without_end(program):
+    run = program("while True: print(1)").call([called("f")] * 3)
+    assert run.values == (1, 1, 1)
+    assert "it answers more than the 3 calls" in run.failure.text
+
+
+def test_a_line_without_end_is_not_kept(program, monkeypatch):
+    monkeypatch.setattr("app.checking.running.program._MOST_ANSWERS", 1 << 22)
+    run = program("while True: print('1' * 10**6, end='')").call([called("f")])
+    assert "it answered too much, with 0 of 1 answers" in run.failure.text
+
+
+@pytest.mark.skipif(not sys.platform.startswith("linux"), reason="elsewhere looked at seldom")
+def test_too_much_memory(program):
+    source = "held = os.urandom(90 << 20)\nos.fork(); os.fork()\nheld = os.urandom(90 << 20)"
+    failure = program(f"{source}\ntime.sleep(10**6)", memory_mb=128).call(CALLS).failure
+    assert failure.kind == "memory"
+    assert "it needs more than the memory limit of 128 MB, with 0 of 3072 answers" in failure.text
+
+
+@pytest.mark.skipif(not sys.platform.startswith("linux"), reason="Linux says who lives")
+def test_what_a_program_starts_ends_with_it(program, nothing_left):
+    source = "os.fork() or (os.setsid(), os.fork(), time.sleep(10**6))\n"
+    run = program(source + "print(sys.stdin.read(), end='')").call(CALLS)
+    assert run.failure is None
+    wait_for(lambda: not bearers(nothing_left))
+
+
+def test_a_stop_from_another_thread(program, tmp_path):
+    begun = tmp_path / "begun"
+    one = program(f"print(1, flush=True)\nopen({str(begun)!r}, 'w').close()\nwhile True: pass")
+    runs = []
+    thread = threading.Thread(target=lambda: runs.append(one.call(CALLS)))
+    thread.start()
+    wait_for(begun.exists)
+    one.stop()
+    thread.join()
+    assert runs[0].failure.kind == "ended"
+    assert "it was stopped, with 1 of 3072 answers" in runs[0].failure.text
+    one.close()
+    assert "it is closed" in one.call(CALLS).failure.text
+
+
+@pytest.mark.parametrize(
+    ("command", "told"),
+    [
+        ("", "is empty; name a program"),
+        ("  ", "is empty"),
+        ("''", "is empty"),
+        ("julia 'rays.jl", "No closing quotation; close the quotes"),
+        ("a\0b", "zero byte"),
+    ],
+)
+def test_what_is_no_command(command, told):
+    if sys.platform == "win32" and "'" in command:
+        pytest.skip("no quotes there")
+    with pytest.raises(LucidaError, match=told):
+        CommandStudent(command)
+
+
+@POSIX
+def test_programs_that_cannot_be_started(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    for name, text in {
+        "plain": "#!/bin/sh\n",
+        "lost": "#!/no/such/thing\n",
+        "bare": "echo\n",
+    }.items():
+        (tmp_path / name).write_text(text, "utf-8")
+    (tmp_path / "lost").chmod(0o755)
+    (tmp_path / "bare").chmod(0o755)
+    for command, told in {
+        "no-such-program-at-all -x": "no-such-program-at-all: there is no such program; is it",
+        "./nothing": "./nothing: there is no such program",
+        "./plain": "./plain: it is not executable; name what runs it first",
+        "./lost": "./lost: what runs it is not there; see its first line, #!...",
+        "./bare": "bare: it cannot be started: Exec format error; name what runs it first",
+        str(tmp_path): "there is no such program",
+    }.items():
+        run = CommandStudent(command).call([called("f")])
+        assert isinstance(run.failure, Failure)
+        assert run.failure.kind == "missing"
+        assert told in run.failure.text
+
+
+def of(command: str, calls=CALLS):
+    return CommandStudent(command, Limits(60)).call(calls)
+
+
+@pytest.mark.skipif(shutil.which("node") is None, reason="no node")
+def test_a_node_script(tmp_path, nothing_left):
+    """Its virtual memory is many times the limit: what it holds counts."""
+    (tmp_path / "rays.js").write_text(
+        "const lines = require('fs').readFileSync(0, 'utf8').split('\\n').filter(Boolean)\n"
+        "for (const line of lines) {\n"
+        "  const { j, camera } = JSON.parse(line)\n"
+        "  console.log(JSON.stringify({ origin: camera.eye, direction: [j, 0.5, -1] }))\n"
+        "}\n",
+        "utf-8",
+    )
+    run = of(f"node {tmp_path / 'rays.js'}")
+    assert run.failure is None
+    assert run.values == RAYS
+
+
+@POSIX
+def test_a_shell_script(tmp_path, nothing_left):
+    path = tmp_path / "rays.sh"
+    path.write_text('#!/bin/sh\nwhile read -r line; do echo "[0.5, 1]"; done\n', "utf-8")
+    path.chmod(0o755)
+    run = of(str(path), CALLS[:50])
+    assert run.failure is None
+    assert run.values == ([0.5, 1],) * 50
+
+
+@POSIX
+@pytest.mark.skipif(shutil.which("gcc") is None, reason="no gcc")
+def test_a_c_program(tmp_path, nothing_left):
+    (tmp_path / "rays.c").write_text(
+        r"""
+        #include <stdio.h>
+        #include <string.h>
+        int main(void) {
+            static char line[1 << 16];
+            int j;
+            while (fgets(line, sizeof line, stdin)) {
+                sscanf(strstr(line, "\"j\":"), "\"j\": %d", &j);
+                printf("[[0, 0, 5], [%d, 0.5, -1]]\n", j);
+            }
+            fprintf(stderr, "done\n");
+        }
+        """,
+        "utf-8",
+    )
+    built = tmp_path / "rays"
+    subprocess.run(["gcc", "-o", str(built), str(tmp_path / "rays.c")], check=True)
+    run = of(str(built))
+    assert run.failure is None
+    assert run.values == tuple([ray["origin"], ray["direction"]] for ray in RAYS)
+    assert run.output == "done\n"
+    assert json.dumps(run.values[0])

@@ -1,0 +1,204 @@
+"""What a student's code is given, and what its answers become."""
+
+from __future__ import annotations
+
+import math
+import textwrap
+
+from students import CAMERA, called
+
+from app.checking.calls import Failure
+
+RAY = {"origin": [0.0, 0.0, 5.0], "direction": [0.5, 0.25, -1.0]}
+
+ANSWERS = {
+    "tuples": ("(0.0, 0.5), (1, 2)", [[0.0, 0.5], [1, 2]]),
+    "none": ("None", None),
+    "bools": ("[True, False]", [True, False]),
+    "text": ("'sphere'", "sphere"),
+    "not a number": ("float('nan')", math.nan),
+    "infinite": ("[float('inf'), -float('inf')]", [math.inf, -math.inf]),
+    "range": ("range(3)", [0, 1, 2]),
+    "map": ("map(float, (1, 2))", [1.0, 2.0]),
+    "generator": ("(k / 2 for k in range(3))", [0.0, 0.5, 1.0]),
+    "dict's values": ("{'u': 1, 'v': 2}.values()", [1, 2]),
+    "dict": ("{'u': (1, 2), 'v': None}", {"u": [1, 2], "v": None}),
+    "array.array": ("__import__('array').array('d', [1, 2])", [1.0, 2.0]),
+    "fraction": ("__import__('fractions').Fraction(1, 4)", 0.25),
+    "decimal": ("[__import__('decimal').Decimal('0.25')]", [0.25]),
+    "large integer": ("2**80", float(2**80)),
+    "bytes": ("b'\\x00\\xff'", [0, 255]),
+    "float32": ("np.float32(0.5)", 0.5),
+    "integers of numpy": ("[np.int64(3), np.uint8(255), np.bool_(True)]", [3, 255, True]),
+    "array": ("np.array([[0.5, 1], [2, 3]], np.float32)", [[0.5, 1.0], [2.0, 3.0]]),
+    "arrays in a tuple": ("np.zeros(2), np.ones(1)", [[0.0, 0.0], [1.0]]),
+    "array of no dimension": ("np.array(2.5)", 2.5),
+    "masked": ("np.ma.array([1.0, 2.0])", [1.0, 2.0]),
+    "array of objects": ("np.array([__import__('fractions').Fraction(1, 2)])", [0.5]),
+    "dict of a ray": ("{'direction': D, 'origin': O, 'self': object()}", RAY),
+    "dataclass": ("Ray(D, O)", RAY),
+    "named tuple, the other way round": ("Named(D, O)", RAY),
+    "namespace": ("types.SimpleNamespace(origin=O, direction=D)", RAY),
+    "basis": ("types.SimpleNamespace(v=2, w=3, u=1)", {"u": 1, "v": 2, "w": 3}),
+    "vectors": ("[Vector(1, 2, 3)]", [[1, 2, 3]]),
+    "sequence": ("Sequence()", [0.0, 0.5, 1.0]),
+}
+SOURCE = """
+    import collections, dataclasses, types
+    import numpy as np
+    O, D = (0.0, 0.0, 5.0), [0.5, 0.25, -1.0]
+
+    @dataclasses.dataclass
+    class Ray:
+        direction: object
+        origin: object
+
+    Named = collections.namedtuple("Named", "direction origin")
+
+    class Vector:
+        def __init__(self, x, y, z):
+            self.x, self.y, self.z = x, y, z
+
+    class Sequence:
+        def __len__(self):
+            return 3
+        def __getitem__(self, k):
+            if k > 2:
+                raise IndexError
+            return k / 2
+
+"""
+NO_VALUES = {
+    "object()": "of type object",
+    "int": "returned <class 'int'>",
+    "{1, 2}": "{1, 2} of type set",
+    "print": "of type builtin_function_or_method",
+    "1j": "1j of type complex",
+    "[1, [2, print]]": "of type list",
+    "(lambda a: a.append(a) or a)([])": "[[...]] of type list",
+    "type('Loud', (), {'__repr__': lambda self: 1 / 0})()": "returned something of type Loud",
+    "type('Long', (), {'__repr__': lambda self: 'x' * 9000})()": "xxx... of type Long",
+    "{(1, 2): 3}": "of type dict",
+    "types": "of type module",
+    "10 ** 9000": "something of type int",
+}
+
+
+def answers(student, written: list[str]):
+    """What functions that return these answer."""
+    source = textwrap.dedent(SOURCE)
+    for number, text in enumerate(written):
+        source += f"def f{number}():\n    return {text}\n"
+    run = student(source).call([called(f"f{number}") for number in range(len(written))])
+    assert run.failure is None
+    return run.values
+
+
+def equal(one, other) -> bool:
+    if isinstance(one, float) and isinstance(other, float) and math.isnan(other):
+        return math.isnan(one)
+    return one == other
+
+
+def test_answers_become_values_of_json(student):
+    given = answers(student, [written for written, _ in ANSWERS.values()])
+    for (name, (_, wanted)), value in zip(ANSWERS.items(), given, strict=True):
+        assert equal(value, wanted), name
+        assert type(value) is type(wanted), name
+
+
+def test_what_is_no_value_is_told(student):
+    for number, failure in enumerate(answers(student, [*NO_VALUES])):
+        told = [*NO_VALUES.values()][number]
+        assert isinstance(failure, Failure), told
+        assert (failure.kind, failure.call) == ("answer", number)
+        assert told in failure.text
+        assert "wanted are numbers" in failure.text
+        assert len(failure.text) < 400
+        assert "\n" not in failure.text
+
+
+def test_an_async_function_answers_nothing(answer):
+    failure = answer("async def f():\n    return 1\n")
+    assert "of type coroutine" in failure.text
+
+
+def test_what_an_answers_own_code_raises_is_the_students(answer):
+    failure = answer("def f():\n    return (1 / k for k in (1, 0))\n")
+    assert failure.kind == "exception"
+    assert "rays.py, line 2: ZeroDivisionError" in failure.text
+
+
+def test_objects_have_attributes_and_keys(answer):
+    given = answer(
+        """
+        def f(camera, scene, i):
+            both = {**camera}
+            assert camera["eye"] == camera.eye == both["eye"] == camera.get("eye")
+            assert "eye" in camera and "fov" not in camera and len(camera) == 10
+            assert isinstance(camera.eye, tuple) and isinstance(i, int)
+            assert [*camera] == [*camera.keys()] and not hasattr(camera, "fov")
+            return scene.objects[1].center, camera.distance, scene.objects[0].kind, i
+        """,
+        camera=CAMERA,
+        scene={"objects": [{"kind": "plane"}, {"kind": "sphere", "center": [1, 2, 3]}]},
+        i=4,
+    )
+    assert given == [[1, 2, 3], 1.0, "plane", 4]
+
+
+def test_a_field_that_is_not_there_says_which_are(answer):
+    failure = answer("def f(camera):\n    return camera.d\n", camera=CAMERA)
+    assert "AttributeError: Camera has no 'd'; it has: eye, u, v, w, distance" in failure.text
+    assert not any("student_process" in line for line in failure.traceback)
+
+
+def test_a_call_does_not_change_what_the_next_is_given(student):
+    one = student(
+        """
+        def f(camera, objects):
+            before = camera.eye, camera.inner.x, len(objects), objects[0].r, hasattr(camera, "new")
+            camera.eye, camera.inner.x, camera.new = 0, 0, 1
+            objects[0].r = 0
+            return before
+        """
+    )
+    camera = {"eye": [1, 2, 3], "inner": {"x": 5}}
+    again = called("f", camera=camera, objects=[{"r": 2}])
+    run = one.call([again, again, again])
+    assert run.values == ([[1, 2, 3], 5, 1, 2, False],) * 3
+
+
+def test_vectorised_calls_get_arrays_of_their_own(student):
+    one = student(
+        """
+        def f(i, j, camera):
+            assert type(i).__module__ == "numpy" and i.dtype.kind == "i"
+            i += 1
+            return i * 10 + j, camera.eye
+        """
+    )
+    again = called("f", True, i=[0, 1], j=[2, 3], camera=CAMERA)
+    assert one.call([again, again]).values == ([[12, 23], [0.0, 0.0, 5.0]],) * 2
+
+
+def test_numpy_is_imported_for_no_other_call(answer):
+    given = answer("import sys\ndef f(a):\n    return 'numpy' in sys.modules\n", a=[1, 2])
+    assert given is False
+
+
+def test_calls_of_one_function_and_of_others(student):
+    one = student("def f(x):\n    return x\ndef g():\n    return f(1)\n")
+    assert one.functions() == {"f", "g"}
+    assert one.call([called("f", x=7), called("g"), called("f", x="a")]).values == (7, 1, "a")
+    assert one.call([]).values == ()
+    assert one.call([called("g")]).values == (1,)
+
+
+def test_many_calls(student):
+    one = student("def f(i, camera):\n    print(i)\n    return i, camera.eye\n", output=100)
+    run = one.call([called("f", i=i, camera=CAMERA) for i in range(3072)])
+    assert run.values == tuple([i, [0.0, 0.0, 5.0]] for i in range(3072))
+    assert run.output.startswith("0\n1\n2\n")
+    assert run.output.endswith("3070\n3071\n")
+    assert "characters left out" in run.output
