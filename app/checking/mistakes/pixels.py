@@ -6,6 +6,11 @@ from app.checking.mistakes.program import CodeLine, Mistake
 from renderer.pixels import Indexing
 
 PART = "From pixel to ray"
+UNITS = {
+    "_pixel": ("x_pixel / width", "y_pixel / height"),
+    "01": ("x01", "y01"),
+    "11": ("(x11 + 1) / 2", "(y11 + 1) / 2"),
+}
 FISHEYE = "Straight lines stay straight: equal steps on the image plane, not equal angles."
 
 
@@ -21,18 +26,27 @@ def pixel_mistakes(
     """distance: what stands for it; empty in parallel projection, where there are no angles."""
     across, down = _parts(words, indexing)
     made = _flips(across, down, from_top)
-    if "i" in words:
-        made += _centres(indexing, from_top) + _exchanges(indexing, from_top)
+    unit = _unit(words)
+    if unit:
+        made += _in_units(words, unit, from_top)
     else:
-        made += _in_units(words, from_top)
+        made += _centres(indexing, from_top) + _exchanges(indexing, from_top)
     return made + _angles(across, down, from_top, distance) if distance else made
+
+
+def _unit(words: frozenset[str]) -> str:
+    """How a pixel is told, where not by row and column."""
+    if {"i", "j"} & words:
+        return ""
+    return next((unit for unit in UNITS if f"x{unit}" in words), "")
 
 
 def _parts(words: frozenset[str], indexing: Indexing) -> tuple[str, str]:
     """How far the pixel is across the image, and how far along its rows."""
-    if "i" in words:
-        return f"(j {indexing.offset}) / width", f"(i {indexing.offset}) / height"
-    return ("x01", "y01") if "x01" in words else ("(x11 + 1) / 2", "(y11 + 1) / 2")
+    return UNITS.get(_unit(words)) or (
+        f"(j {indexing.offset}) / width",
+        f"(i {indexing.offset}) / height",
+    )
 
 
 def _x(part: str) -> str:
@@ -172,27 +186,27 @@ def _angles(across: str, down: str, from_top: bool, distance: str) -> list[Mista
     ]
 
 
-def _in_units(words: frozenset[str], from_top: bool) -> list[Mistake]:
-    """What is made of x and y in [0, 1] or [-1, 1]."""
-    unit = "01" if "x01" in words else "11"
-    across, down = _parts(words, Indexing.ARRAY)
+def _in_units(words: frozenset[str], unit: str, from_top: bool) -> list[Mistake]:
+    """What is made of the pixel's centre in pixels, or of x and y in [0, 1] or [-1, 1]."""
+    across, down = UNITS[unit]
     made: list[Mistake] = []
     if unit == "01":
-        other, far = (f"(2*{axis}01 - 1)" for axis in "xy"), ("[0, 1]", "[-1, 1]")
+        other, far = [f"(2*{axis}01 - 1)" for axis in "xy"], ("[0, 1]", "[-1, 1]")
+        hint = "The coordinates reach over [0, 1], not over [-1, 1]: 0 is the edge."
     else:
-        other, far = (f"{axis}11" for axis in "xy"), ("[-1, 1]", "[0, 1]")
-    hint = f"The coordinates reach over {far[0]}, not over {far[1]}: 0 is "
-    hint += "the edge, not the middle." if unit == "01" else "the middle, not the edge."
-    x, y = other
-    made += [
-        Mistake(f"{far[1]} for {far[0]}", (("x", _x(x)), ("y", _y(y, from_top))), hint, PART),
+        other, far = [f"{axis}11" for axis in "xy"], ("[-1, 1]", "[0, 1]")
+        hint = "The coordinates reach over [-1, 1], not over [0, 1]: 0 is the middle."
+    if unit != "_pixel":
+        lines = (("x", _x(other[0])), ("y", _y(other[1], from_top)))
+        made.append(Mistake(f"{far[1]} for {far[0]}", lines, hint, PART))
+    made.append(
         Mistake(
             "across and along exchanged",
             (("x", _x(down)), ("y", _y(across, from_top))),
             "The first coordinate goes across the image and gives u, the second gives v.",
             PART,
-        ),
-    ]
+        )
+    )
     if {"width", "height"} <= words:
         x, y = f"({across} + 0.5 / width)", f"({down} + 0.5 / height)"
         made.append(

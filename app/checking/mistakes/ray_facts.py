@@ -39,7 +39,7 @@ def facts(rays: Rays) -> list[str]:
 def _not_numbers(rays: Rays) -> Iterator[str]:
     broken = len(rays.cases) - np.count_nonzero(np.isfinite(rays.given).all(axis=(1, 2)))
     if broken:
-        yield f"{broken} of {len(rays.cases)} rays are not finite numbers: something is divided by zero."
+        yield f"{broken} of {len(rays.cases)} rays are no finite numbers: look for a division by 0."
     short = np.linalg.norm(rays.given[:, 1], axis=1) == 0
     if short.any():
         yield f"{np.count_nonzero(short)} of {len(rays.cases)} directions are zero."
