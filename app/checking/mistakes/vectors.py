@@ -83,4 +83,5 @@ FUNCTIONS: dict[str, Callable[..., Any]] = {
 } | {
     "cross": np.cross, "sqrt": np.sqrt, "sin": np.sin, "cos": np.cos, "tan": np.tan,
     "atan": np.arctan, "radians": np.radians, "where": np.where, "floor": np.floor,
+    "minimum": np.minimum, "maximum": np.maximum,
 }  # fmt: skip

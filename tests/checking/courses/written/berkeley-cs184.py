@@ -27,7 +27,7 @@ def right_from_the_middle(camera, x, y):
 
 
 def wrong_degrees(camera, x, y):
-    """generate-ray: the tangent takes radians"""
+    """generate-ray: The tangent takes radians"""
     point = [tan(camera.hFov / 2) * (2 * x - 1), tan(camera.vFov / 2) * (2 * y - 1), -1]
     return camera.pos, unit(np.array(camera.c2w) @ point)
 
@@ -52,7 +52,7 @@ def wrong_transposed(camera, x, y):
 
 
 def wrong_from_the_edge(camera, x, y):
-    """generate-ray: the edge, not the middle"""
+    """generate-ray: begins at its edge"""
     h, v = radians(camera.hFov), radians(camera.vFov)
     return camera.pos, unit(np.array(camera.c2w) @ [2 * tan(h / 2) * x, 2 * tan(v / 2) * y, -1])
 

@@ -41,7 +41,7 @@ def right_parallel(camera, u, v):
 
 
 def wrong_not_centred(camera, u, v):
-    """perspective-camera: the edge, not the middle"""
+    """perspective-camera: begins at its edge"""
     basis_u, basis_v, basis_w = init_view(camera)
     x, y = camera.viewWidth * u, camera.viewHeight * v
     return camera.viewPoint, x * basis_u + y * basis_v - camera.projDistance * basis_w

@@ -36,7 +36,7 @@ def right_offset(i, j, width):
 
 
 def wrong_from_zero(i, j, width, height, camera):
-    """viewing-ray: half a pixel, do not add it"""
+    """viewing-ray: the half pixel, do not add it"""
     x = camera.left + (j + 0.5) / width * (camera.right - camera.left)
     y = camera.top - (i + 0.5) / height * (camera.top - camera.bottom)
     u, v, w = np.array(camera.u), np.array(camera.v), np.array(camera.w)

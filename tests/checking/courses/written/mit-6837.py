@@ -53,7 +53,7 @@ def wrong_up_as_given(camera, point):
 
 
 def wrong_cross_order(camera, point):
-    """generate-ray: the camera's left"""
+    """generate-ray: u has no minus sign"""
     w = normalized(camera.direction)
     u = normalized(np.cross(camera.up, w))
     v = normalized(np.cross(w, u))
@@ -71,7 +71,7 @@ def wrong_degrees(camera, point):
 
 
 def wrong_unit_square(camera, point):
-    """generate-ray: the middle, not the edge"""
+    """generate-ray: 0 is the middle"""
     w = normalized(camera.direction)
     u = normalized(np.cross(w, camera.up))
     v = normalized(np.cross(u, w))

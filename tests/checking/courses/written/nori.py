@@ -35,7 +35,7 @@ def right_plain(camera, sample_position):
 
 
 def wrong_x_to_the_right(camera, sample_position):
-    """sample-ray: u points to the right"""
+    """sample-ray: x points to the left"""
     width, height = camera.output_size
     half = math.tan(math.radians(camera.fov) / 2)
     x = half * (2 * sample_position[0] - width) / width

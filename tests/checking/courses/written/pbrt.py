@@ -37,7 +37,7 @@ def right_by_hand(camera, p_film):
 
 
 def wrong_z_backwards(camera, p_film):
-    """generate-ray: points backwards"""
+    """generate-ray: z points forwards"""
     half = math.tan(math.radians(camera.fov) / 2)
     sx, sy = screen_window(camera)
     x = (2 * p_film[0] / camera.resolution[0] - 1) * sx * half

@@ -40,7 +40,7 @@ def right_solved(camera, px, py):
 
 
 def wrong_x_to_the_right(camera, px, py):
-    """ray-for-pixel: u points to the right"""
+    """ray-for-pixel: x points to the left"""
     half_width, half_height, pixel_size = measured(camera)
     world_x = (px + 0.5) * pixel_size - half_width
     world_y = half_height - (py + 0.5) * pixel_size
