@@ -9,12 +9,13 @@ from typing import Any, Literal
 import numpy as np
 from numpy.typing import NDArray
 
-from app.checking.calls import Failure, Run, Student
+from app.checking.calls import Call, Failure, Run, Student
 from app.checking.diagnosed import diagnosis
 from app.checking.kinds import KINDS
 from app.checking.kinds.kind import CheckKind
 from app.checking.kinds.values import text_of
 from app.checking.mistakes.diagnosis import Diagnosis
+from app.checking.running.told import told_call
 from app.checking.tasks import CheckCase, CheckTask
 
 Status = Literal["right", "wrong", "failed"]
@@ -41,7 +42,7 @@ class WrongCase:
 class TaskResult:
     """What came of a task. points: earned. cases: how many there are; wrong: how many of them.
 
-    failure: why it could not be tried, with the arguments that led to it. output: what the
+    failure: why it could not be tried, with the call that led to it. output: what the
     student's code printed.
     """
 
@@ -52,7 +53,6 @@ class TaskResult:
     wrong: int = 0
     first: WrongCase | None = None
     failure: Failure | None = None
-    failed_arguments: str = ""
     diagnosis: Diagnosis | None = None
     output: str = ""
 
@@ -85,12 +85,13 @@ def judged(task: CheckTask, cases: Sequence[CheckCase], run: Run) -> TaskResult:
         number = next(n for n, value in enumerate(run.values) if isinstance(value, Failure))
         failure = replace(failures[0], call=number)
     if failure is not None:
-        return _not_judged(task, kind, cases, failure, run.output)
+        return failed(task, failure, len(cases), run.output)
     given, problems = kind.given(task, cases, run.values)
     if problems:
         number = min(problems)
-        failure = Failure("answer", f"{problems[number]}", (), number)
-        return _not_judged(task, kind, cases, failure, run.output)
+        call = told_call(Call(task.function, cases[number].arguments))
+        failure = Failure("answer", f"{call} {problems[number]}", call=number)
+        return failed(task, failure, len(cases), run.output)
     wrong = kind.wrong(task, cases, given)
     if not wrong.any():
         return TaskResult(task, "right", task.points, len(cases), output=run.output)
@@ -106,9 +107,9 @@ def judged(task: CheckTask, cases: Sequence[CheckCase], run: Run) -> TaskResult:
     )
 
 
-def failed(task: CheckTask, failure: Failure) -> TaskResult:
+def failed(task: CheckTask, failure: Failure, cases: int = 0, output: str = "") -> TaskResult:
     """The result of a task that could not be tried."""
-    return TaskResult(task, "failed", 0.0, 0, failure=failure)
+    return TaskResult(task, "failed", 0.0, cases, failure=failure, output=output)
 
 
 def status_of(results: Sequence[TaskResult]) -> int:
@@ -129,21 +130,6 @@ def _missing(task: CheckTask, functions: frozenset[str]) -> Failure:
     close = difflib.get_close_matches(task.function, functions, 1)
     remedy = f"did you mean {close[0]}?" if close else "define it"
     return Failure("missing", f"there is no function {task.function}; {remedy}")
-
-
-def _not_judged(
-    task: CheckTask, kind: CheckKind, cases: Sequence[CheckCase], failure: Failure, output: str
-) -> TaskResult:
-    arguments = ""
-    if failure.call is not None and failure.kind in ("exception", "answer"):
-        number = failure.call
-        if failure.kind == "exception":
-            number = kind.case_of_call(task, cases, number)
-        if number < len(cases):
-            arguments = arguments_text(cases[number])
-    return TaskResult(
-        task, "failed", 0.0, len(cases), failure=failure, failed_arguments=arguments, output=output
-    )
 
 
 def _first_wrong(

@@ -8,6 +8,7 @@ from dataclasses import replace
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from app.checking.conventions import PAIRS, Conventions
 from app.checking.kinds.kind import Flags
@@ -21,6 +22,7 @@ from app.checking.mistakes.sides import SIZES
 from app.checking.tasks import CheckCase, CheckTask
 from renderer.pixels import Indexing
 
+MOST = 1000  # cases of rays that are looked at: of a large image, these
 LETTERS = {"row": "i", "column": "j"}  # by which the table knows them
 
 # Words by what the table of wrong lines calls them.
@@ -43,8 +45,9 @@ def diagnosis(
     """What is told of the wrong answers of a task beside the first one; None where nothing is.
 
     given: in the kind's own form. wrong: bool (N,), which are."""
-    if task.kind == "viewing-ray":
-        return _of_rays(task, cases, np.asarray(given), wrong)
+    with np.errstate(all="ignore"):  # they may be any numbers
+        if task.kind == "viewing-ray":
+            return _of_rays(task, cases, np.asarray(given), wrong)
     return None
 
 
@@ -57,17 +60,33 @@ def _of_rays(
         of_any_length = replace(task.conventions, unit=False)
         if are_right(of_any_length, right, given, tolerance).all():
             return Diagnosis(("The directions are right, but not of length 1: normalise them.",))
+    chosen = np.arange(len(cases)) if len(cases) <= MOST else _some(wrong)
     asked = [
         RayCase(case.camera, case.size, case.pixel, case.target, case.up)
-        for case in cases
+        for case in (cases[number] for number in chosen.tolist())
         if case.camera is not None and case.size is not None and case.pixel is not None
     ]
     found = diagnose_rays(
-        asked, given, wrong, ray_task(task.conventions), any_origin=task.conventions.any_origin
+        asked,
+        given[chosen],
+        wrong[chosen],
+        ray_task(task.conventions),
+        any_origin=task.conventions.any_origin,
     )
     if found is None:
         return None
     return replace(found, sentences=_in_the_tasks_words(task, found.sentences))
+
+
+def _some(wrong: Flags) -> NDArray[np.intp]:
+    """As many numbers of cases as are looked at, evenly of those that are wrong and of the
+    others; the first of each is one of them."""
+    parts = []
+    for flags in (wrong, ~wrong):
+        numbers = np.flatnonzero(flags)
+        step = max(len(numbers) * 2 // MOST, 1)
+        parts.append(numbers[::step])
+    return np.sort(np.concatenate(parts))
 
 
 def ray_task(conventions: Conventions) -> RayTask:

@@ -31,6 +31,7 @@ TASKS = 100
 CASES = 1000
 SIDE = 512  # of a task's images
 CALLS = 300_000  # of one task
+WITH_CAMERAS = ("viewing-ray", "render")
 NAME = re.compile(r"[^\W\d]\w*")
 _LINE = re.compile(r"line (\d+)(?:, (column \d+))?")
 
@@ -44,10 +45,8 @@ class TaskSet:
     limits: Limits
 
 
-def load_tasks(path: str | Path, seed: int | None = None) -> TaskSet:
-    """The tasks in a file; seed: in place of those that the file gives.
-
-    Raises LucidaError: `file:line: field: problem; remedy`."""
+def load_tasks(path: str | Path) -> TaskSet:
+    """The tasks in a file. Raises LucidaError: `file:line: field: problem; remedy`."""
     source = str(path)
     text = decode_text(read_file(Path(path), TOML_BYTES), source)
     try:
@@ -55,7 +54,7 @@ def load_tasks(path: str | Path, seed: int | None = None) -> TaskSet:
     except LucidaError as error:
         raise _at_its_line(error, text, source) from None
     try:
-        return _tasks(to_struct(tables, TaskFile), Path(path).parent, seed)
+        return _tasks(to_struct(tables, TaskFile), Path(path).parent)
     except LucidaError as error:
         if error.source:  # of another file, a view's
             raise
@@ -71,7 +70,7 @@ def _at_its_line(error: LucidaError, text: str, source: str) -> LucidaError:
     return LucidaError(place[2] or "", error.problem, error.remedy, f"{source}:{place[1]}")
 
 
-def _tasks(file: TaskFile, folder: Path, seed: int | None) -> TaskSet:
+def _tasks(file: TaskFile, folder: Path) -> TaskSet:
     if not 1 <= len(file.tasks) <= TASKS:
         raise LucidaError("tasks", f"holds {len(file.tasks)} tasks", f"give 1 to {TASKS}")
     limits = Limits()
@@ -88,7 +87,7 @@ def _tasks(file: TaskFile, folder: Path, seed: int | None) -> TaskSet:
         field = f"tasks[{number}]"
         entry: TaskTable = to_struct(table, TaskTable, field)
         with _under(field):
-            task = _task(entry, file, folder, seed)
+            task = _task(entry, file, folder)
             if any(task.name == other.name for other in tasks):
                 remedy = "give each task a name of its own"
                 raise LucidaError("name", f"{task.name!r} is there already", remedy)
@@ -96,7 +95,7 @@ def _tasks(file: TaskFile, folder: Path, seed: int | None) -> TaskSet:
     return TaskSet(file.title, tuple(tasks), limits)
 
 
-def _task(entry: TaskTable, file: TaskFile, folder: Path, seed: int | None) -> CheckTask:
+def _task(entry: TaskTable, file: TaskFile, folder: Path) -> CheckTask:
     if entry.kind not in KINDS:
         raise LucidaError("kind", f"{entry.kind!r} is unknown", suggestion(entry.kind, KINDS))
     kind = KINDS[entry.kind]
@@ -108,9 +107,9 @@ def _task(entry: TaskTable, file: TaskFile, folder: Path, seed: int | None) -> C
             ("perspective", "parallel") if entry.projection == "both" else (entry.projection,)
         )
     _check_rigid_parallel(conventions, projections)
-    own_seed = next(s for s in (seed, entry.seed, file.seed, SEED) if s is not None)
-    if own_seed < 0:
-        raise LucidaError("seed", f"{own_seed} is negative", "give e.g. 7")
+    seed = next(s for s in (entry.seed, file.seed, SEED) if s is not None)
+    if seed < 0:
+        raise LucidaError("seed", f"{seed} is negative", "give e.g. 7")
     task = replace(
         base,
         name=entry.name or entry.kind,
@@ -124,7 +123,7 @@ def _task(entry: TaskTable, file: TaskFile, folder: Path, seed: int | None) -> C
         count=_count(entry, base),
         views=tuple(_views(entry.views, folder)),
         size=entry.size if entry.size is None else _size(entry.size),
-        seed=own_seed,
+        seed=seed,
         feedback=entry.feedback or file.feedback,
         vectorised=_vectorised(entry, kind),
         weights=_weights(entry, base),
@@ -226,6 +225,8 @@ def _returns(entry: TaskTable, kind: CheckKind) -> tuple[str, ...]:
 
 def _cameras(entry: TaskTable, conventions: Conventions, base: CheckTask) -> tuple[str, ...]:
     possible = camera_kinds(conventions)
+    if entry.cameras is None and entry.kind not in WITH_CAMERAS:
+        return base.cameras
     if entry.cameras is None:
         return tuple(kind for kind in base.cameras if kind in possible)
     for number, kind in enumerate(entry.cameras):
@@ -324,7 +325,7 @@ def _weights(entry: TaskTable, base: CheckTask) -> Vector:
 
 def _check(task: CheckTask) -> None:
     """What concerns several fields."""
-    if task.kind in ("viewing-ray", "render"):
+    if task.kind in WITH_CAMERAS:
         if not task.count and not task.views:
             raise LucidaError("cases", "is 0, and there are no views", "give one of them")
         width, height = task.size or VIEW_SIZE

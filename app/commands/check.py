@@ -24,6 +24,7 @@ if TYPE_CHECKING:
 
 NAME = "check"
 RAYS = (".csv", ".npy", ".txt", ".tsv")  # what is not code
+PYTHON = (".py", ".pyw", "")
 SIZE = (64, 48)  # of the image of --view
 
 DESCRIPTION = """\
@@ -113,12 +114,27 @@ def run(arguments: argparse.Namespace) -> int:
             student.close()
     except LucidaError as error:
         seconds = time.perf_counter() - begin
-        _write_json(arguments, results, tasks, seconds, str(error))
-        _write_page(arguments, results, tasks, pictures, str(error))
+        lines = _why(error)
+        problem = "\n".join([str(error), *lines])
+        _write_json(arguments, results, tasks, seconds, problem)
+        _write_page(arguments, results, tasks, pictures, problem)
+        if lines:
+            print("\n".join(lines), file=sys.stderr)
         raise
     _write_json(arguments, results, tasks, time.perf_counter() - begin)
     _write_page(arguments, results, tasks, pictures)
     return _end(arguments, results)
+
+
+def _why(error: LucidaError) -> list[str]:
+    """The student's own lines, of a file that does not run, and what it printed until then."""
+    from app.checking.reports.told import failure_lines
+    from app.checking.running.file import NotRunnableError
+
+    if not isinstance(error, NotRunnableError):
+        return []
+    printed = error.output.rstrip().splitlines()
+    return [*printed, *failure_lines(error.failure)]
 
 
 def _end(arguments: argparse.Namespace, results: list[TaskResult]) -> int:
@@ -220,6 +236,9 @@ def _student(arguments: argparse.Namespace, limits: Limits, tasks: list[CheckTas
     if path.suffix.lower() not in RAYS:
         from app.checking.running.file import FileStudent
 
+        if path.suffix.lower() not in PYTHON:
+            problem, remedy = "is no Python file", "--command runs other programs: lucida check -h"
+            raise LucidaError("", problem, remedy, str(path))
         return FileStudent(path, limits)
     from app.checking.running.rays_file import RaysFile
 

@@ -88,9 +88,7 @@ def test_it_stands_in_the_vector_drawing_too() -> None:
     items = second_camera(second(name="as written"), REACH)
     size = (400, 300)
     paint = vector.Paint(lambda role, tint: (0.5, 0.4, 1.0), (1, 1, 1), (0, 0, 0))
-    made = vector.drawing(
-        project(items, OutsideScreen(LOOKING, size)), (), paint, LOOKING, size
-    )
+    made = vector.drawing(project(items, OutsideScreen(LOOKING, size)), (), paint, LOOKING, size)
     assert {part.name for part in made.parts} >= {"second edges", "second eye"}
 
 

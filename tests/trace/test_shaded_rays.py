@@ -41,9 +41,7 @@ def builtin(name: str) -> tuple[Scene, View]:
 SCENES = {
     "crowd": near_crowd,
     "crowd, near and far": lambda: near_crowd(near=2.5, far=5.0),
-    "crowd, parallel": lambda: near_crowd(
-        projection="parallel", viewport=(-2.0, 2.0, -1.5, 1.5)
-    ),
+    "crowd, parallel": lambda: near_crowd(projection="parallel", viewport=(-2.0, 2.0, -1.5, 1.5)),
     "crowd, far away": far_crowd,
     "no objects": lambda: (Scene((), background=(0.2, 0.4, 0.1)), View(Camera.canonical())),
     **{

@@ -28,4 +28,6 @@ def task_path(named: str) -> Path:
     names = course_names()
     if named in names:
         return FOLDER / f"{named}.toml"
-    raise LucidaError("--tasks", f"{named!r} is neither a file nor a course", suggestion(named, names))
+    raise LucidaError(
+        "--tasks", f"{named!r} is neither a file nor a course", suggestion(named, names)
+    )

@@ -132,7 +132,9 @@ def _centres(indexing: Indexing, from_top: bool) -> list[Mistake]:
 
 
 def _whole_numbers(indexing: Indexing, from_top: bool) -> list[Mistake]:
-    x, y = (f"({name} {indexing.offset}) // {side}" for name, side in (("j", "width"), ("i", "height")))
+    x, y = (
+        f"({name} {indexing.offset}) // {side}" for name, side in (("j", "width"), ("i", "height"))
+    )
     hint = "`//` gives whole numbers, here always 0: divide with `/`."
     return [Mistake("divided to whole numbers", (("x", _x(x)), ("y", _y(y, from_top))), hint, PART)]
 

@@ -99,7 +99,9 @@ def _one(side: str, unit: str, words: frozenset[str]) -> Part:
             f"{hint}, not of the {other}er one.",
             PART,
         ),
-        of_sides("the vertical angle", f"half * {aspect}, half", f"{hint}, not always the vertical."),
+        of_sides(
+            "the vertical angle", f"half * {aspect}, half", f"{hint}, not always the vertical."
+        ),
         of_sides(
             "the horizontal angle", f"half, half / {aspect}", f"{hint}, not always the horizontal."
         ),

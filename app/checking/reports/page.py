@@ -142,7 +142,7 @@ def _first(result: TaskResult, wrong: str, first: WrongCase) -> str:
     drawn = ""
     case = first.case
     if result.task.kind == "viewing-ray" and case.camera and case.size:
-        rays = (np.asarray(ray, float) for ray in (first.right_answer, first.given_answer))
+        rays = (np.asarray(ray, float) for ray in (case.right, first.answer))
         drawn = (
             f'{sketch(case.camera, case.size, *rays)}\n<p class="dim"><span class="key"></span> '
             'the right ray, <span class="key given"></span> the given one; from the eye through '

@@ -71,7 +71,7 @@ def _of_rays(student: Student, result: TaskResult, first: WrongCase) -> Pictured
 
 
 def _of_images(result: TaskResult, first: WrongCase) -> Pictured | None:
-    given, right = first.given_answer, np.asarray(first.right_answer, float)
+    given, right = first.answer, np.asarray(first.case.right, float)
     if given is None or np.shape(given) != right.shape or right.ndim != 3:
         return None
     upright = -1 if result.task.conventions.rows == "bottom" else 1

@@ -4,11 +4,10 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+from app.checking.calls import Failure
 from app.checking.checked import Status, TaskResult, WrongCase
 from app.checking.tasks import FEEDBACK
 from renderer.errors import one_line
-
-CALLED = "; called as "  # what a failure's text ends with, where it is of a call
 
 
 @dataclass(frozen=True)
@@ -37,11 +36,14 @@ class Told:
 
 
 def told(result: TaskResult) -> Told:
-    """Of a task that could not be tried, why is always told: else it could not be mended."""
+    """Of a task that could not be tried, why is always told, with the call that led to it: else it
+    could not be mended."""
     feedback = FEEDBACK.index(result.task.feedback)
     output = visible(result.output).rstrip()
     if result.status == "failed":
-        return Told("failed", failure=_failure(result, feedback > 1), output=output)
+        assert result.failure is not None
+        why = one_line(result.failure.text)
+        return Told("failed", failure=(why, *failure_lines(result.failure)), output=output)
     if feedback == 0:
         return Told(None)
     if result.status == "right" or feedback == 1:
@@ -64,10 +66,9 @@ def visible(text: str) -> str:
     )
 
 
-def _failure(result: TaskResult, arguments: bool) -> tuple[str, ...]:
-    failure = result.failure
-    assert failure is not None
-    reason, _, call = one_line(failure.text).partition(CALLED)
-    lines = [reason, *(visible(line.rstrip()) for line in failure.traceback)]
-    call = call if not result.failed_arguments else f"{result.task.function}({result.failed_arguments})"
-    return (*lines, f"called: {call}") if arguments and call else tuple(lines)
+def failure_lines(failure: Failure) -> list[str]:
+    """The student's own lines; not the last of them where the failure's text has it already."""
+    lines = [visible(line.rstrip()) for line in failure.traceback]
+    if lines and lines[-1] in failure.text:
+        del lines[-1]
+    return lines if len(lines) > 1 else []

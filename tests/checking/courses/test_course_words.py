@@ -82,7 +82,11 @@ def test_only_the_words_that_are_given_are_used() -> None:
             continue
         known = known_values(cases, asked)
         for mistakes in [(), *((one,) for one in ray_program(asked).mistakes)]:
-            run_rays(ray_program(asked), {name: known[name] for name in asked.words & known.keys()}, mistakes)
+            run_rays(
+                ray_program(asked),
+                {name: known[name] for name in asked.words & known.keys()},
+                mistakes,
+            )
 
 
 SWAPPED = """

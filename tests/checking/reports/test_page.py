@@ -14,7 +14,7 @@ import pytest
 from PIL import Image
 
 from app.checking.builtin import BUILTIN
-from app.checking.checked import TaskResult, checked
+from app.checking.checked import TaskResult, WrongCase, checked
 from app.checking.conventions import Conventions
 from app.checking.mistakes.diagnosis import Diagnosis
 from app.checking.reports.page import page
@@ -22,7 +22,7 @@ from app.checking.reports.picture import NO_RAY, difference, picture
 from app.checking.reports.pictured import Pictured, pictured
 from app.checking.reports.sketch import sketch
 from app.checking.running.file import FileStudent
-from app.checking.tasks import FEEDBACK
+from app.checking.tasks import FEEDBACK, CheckCase
 from app.cli import main
 from renderer.camera import Camera
 from renderer.images import to_srgb8
@@ -207,12 +207,9 @@ def test_pictures_of_render_are_the_images_themselves() -> None:
     )
     right = np.zeros((2, 3, 3))
     right[0] = 1.0
-    from app.checking.checked import WrongCase
-    from app.checking.tasks import CheckCase
-
     case = CheckCase((), right, 0.0, camera=Camera.canonical(), size=(3, 2))
     result = TaskResult(
-        task, "wrong", 0.0, 1, 1, WrongCase(case, "", "", "", "", right, np.full((2, 3, 3), 0.5))
+        task, "wrong", 0.0, 1, 1, WrongCase(case, "", "", "", "", np.full((2, 3, 3), 0.5))
     )
     found = pictured(None, result)  # type: ignore[arg-type]
     assert found is not None

@@ -35,7 +35,11 @@ def wrong_degrees(camera, x, y):
 def wrong_not_unit(camera, x, y):
     """generate-ray: length"""
     h, v = radians(camera.hFov), radians(camera.vFov)
-    return camera.pos, np.array(camera.c2w) @ [tan(h / 2) * (2 * x - 1), tan(v / 2) * (2 * y - 1), -1]
+    return camera.pos, np.array(camera.c2w) @ [
+        tan(h / 2) * (2 * x - 1),
+        tan(v / 2) * (2 * y - 1),
+        -1,
+    ]
 
 
 def wrong_whole_angle(camera, x, y):

@@ -36,7 +36,10 @@ def right_solved(camera, px, py):
     local = [half_width - (px + 0.5) * pixel_size, half_height - (py + 0.5) * pixel_size, -1]
     turn = np.array(camera.transform)[:3, :3]
     origin = -turn.T @ np.array(camera.transform)[:3, 3]
-    return {"origin": origin.tolist(), "direction": normalize(np.linalg.solve(turn, local)).tolist()}
+    return {
+        "origin": origin.tolist(),
+        "direction": normalize(np.linalg.solve(turn, local)).tolist(),
+    }
 
 
 def wrong_x_to_the_right(camera, px, py):

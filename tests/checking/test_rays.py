@@ -1,0 +1,163 @@
+"""Viewing rays: right answers are never called wrong, near ones always are."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from app.checking.builtin import BUILTIN
+from app.checking.cases import shots
+from app.checking.conventions import Conventions
+from app.checking.kinds import KINDS
+from app.checking.kinds.viewing_ray import are_right
+from app.checking.tasks import CAMERA_KINDS
+
+KIND = KINDS["viewing-ray"]
+TASK = next(task for task in BUILTIN if task.name == "viewing-ray")
+MANY = replace(TASK, count=10_000, size=(2, 1), projections=("perspective", "parallel"))
+
+
+@pytest.fixture(scope="module")
+def many():
+    """20,000 rays of 10,000 cameras, and of each ray what the student's function is given."""
+    cases = KIND.cases(MANY)
+    names = ("eye", "u", "v", "w")
+    known = {name: np.array([getattr(c.camera, name) for c in cases]) for name in names}
+    numbers = [
+        (*c.camera.viewport, c.camera.distance, *c.pixel, c.camera.is_parallel) for c in cases
+    ]
+    known["numbers"] = np.array(numbers, float)
+    return cases, known
+
+
+def rays(known, kind, through_the_world=False, moved=0.0):
+    """What the contract's lines give in numbers of a kind. through_the_world: by the point on the
+    viewport, from which the eye is subtracted again. moved: columns."""
+    eye, u, v, w = (known[name].astype(kind) for name in ("eye", "u", "v", "w"))
+    parts = known["numbers"].astype(kind).T[..., None]
+    left, right, bottom, top, distance, i, j, parallel = parts
+    half, width, height = kind(0.5), kind(2), kind(1)
+    x = left + (j + half + kind(moved)) / width * (right - left)
+    y = top - (i + half) / height * (top - bottom)
+    direction = x * u + y * v - distance * w
+    if through_the_world:
+        direction = (eye + x * u + y * v - distance * w) - eye
+    origin = np.where(parallel > 0, eye + x * u + y * v, eye)
+    return np.stack([origin, np.where(parallel > 0, -w, direction)], axis=1)
+
+
+def wrong(cases, made, task=MANY):
+    given, problems = KIND.given(task, cases, made.tolist())
+    assert not problems
+    return KIND.wrong(task, cases, given)
+
+
+@pytest.mark.parametrize("kind", [np.float64, np.float32])
+@pytest.mark.parametrize("through_the_world", [False, True])
+def test_right_answers_are_right_for_ten_thousand_cameras(many, kind, through_the_world):
+    cases, known = many
+    assert len({id(case.camera) for case in cases}) == 10_000
+    assert not wrong(cases, rays(known, kind, through_the_world)).any()
+
+
+def test_so_are_those_of_unit_length_in_float32(many):
+    cases, known = many
+    made = rays(known, np.float32)
+    made[:, 1] /= np.linalg.norm(made[:, 1], axis=1, keepdims=True)
+    unit = replace(MANY, conventions=replace(MANY.conventions, unit=True))
+    assert made.dtype == np.float32 and not wrong(cases, made, unit).any()
+    made[:, 1] *= np.float32(1.0001)
+    assert wrong(cases, made, unit).all()
+
+
+def test_a_twentieth_of_a_pixel_is_seen(many):
+    cases, known = many
+    assert wrong(cases, rays(known, np.float64, moved=0.05)).all()
+
+
+def test_tolerances_are_as_small_as_the_documentation_says(many):
+    assert max(case.tolerance[1] for case in many[0]) < 3e-4
+
+
+lengths = st.floats(1e-150, 1e150)
+SHOT = next(shots(replace(TASK, cameras=("turned",), count=1)))
+RAY = SHOT.camera.ray(1, 2, SHOT.size)
+
+
+@given(lengths)
+def test_any_positive_length_is_right(length):
+    unit = RAY.direction / np.linalg.norm(RAY.direction)
+    made = np.array([[RAY.origin, unit * length], [RAY.origin, -unit * length]])
+    right = np.array([RAY, RAY])
+    near = np.full((2, 2), 1e-9)
+    assert are_right(Conventions(), right, made, near).tolist() == [True, False]
+
+
+@given(st.floats(0, 1e6), st.booleans())
+def test_any_origin_on_the_ray_where_the_task_allows_it(way, allowed):
+    made = np.array([[RAY.origin + way * RAY.direction, RAY.direction]])
+    near = np.full((1, 2), 1e-6)
+    conventions = Conventions(any_origin=allowed)
+    fine = are_right(conventions, np.array([RAY]), made, near)[0]
+    assert fine == (allowed or way * np.linalg.norm(RAY.direction) <= 1e-6)
+
+
+def test_an_origin_behind_the_ray_or_beside_it_is_wrong():
+    aside = np.cross(RAY.direction, (0.0, 1.0, 0.0))
+    for origin in (RAY.origin - RAY.direction, RAY.origin + RAY.direction + 0.1 * aside):
+        made = np.array([[origin, RAY.direction]])
+        near = np.full((1, 2), 1e-6)
+        assert not are_right(Conventions(any_origin=True), np.array([RAY]), made, near)[0]
+
+
+def test_cases_follow_from_the_seed_and_begin_with_the_simplest():
+    first, again = KIND.cases(TASK), KIND.cases(TASK)
+    assert [c.arguments for c in first] == [c.arguments for c in again]
+    other = KIND.cases(replace(TASK, seed=TASK.seed + 1))
+    assert [c.arguments for c in first] != [c.arguments for c in other]
+    cameras = list(dict.fromkeys(case.camera for case in first))
+    assert cameras[0].eye == (0, 0, 0) and cameras[0].u == (1, 0, 0)
+    assert len(list(shots(TASK))) == TASK.count
+
+
+@pytest.mark.parametrize("kind", CAMERA_KINDS)
+def test_kinds_of_cameras_are_what_they_say(kind):
+    for shot in shots(replace(TASK, cameras=(kind,), count=30)):
+        camera = shot.camera
+        orthonormal = np.allclose(camera.basis.T @ camera.basis, np.eye(3))
+        assert orthonormal == (kind != "skewed") and camera.determinant > 0
+        left, right, bottom, top = camera.viewport
+        centred = abs(left + right) + abs(bottom + top) < 1e-9
+        assert centred == (kind in ("canonical", "moved", "turned"))
+        assert shot.size[0] != shot.size[1]
+
+
+def test_one_call_for_all_pixels():
+    task = replace(TASK, vectorised=True, count=4)
+    cases = KIND.cases(task)
+    calls = KIND.calls(task, cases)
+    assert len(calls) == 4 and all(call.vectorised for call in calls)
+    right = KIND.right(cases)
+    values, first = [], 0
+    for call in calls:
+        i = dict(call.arguments)["i"]
+        count = len(i)
+        part = right[first : first + count]
+        values.append([part[0, 0].tolist(), part[:, 1].tolist()])
+        assert KIND.case_of_call(task, cases, len(values) - 1) == first
+        first += count
+    made, problems = KIND.given(task, cases, values)
+    assert not problems and not KIND.wrong(task, cases, made).any()
+    height_by_width = [values[0][0], np.reshape(values[0][1], (-1, cases[0].size[0], 3)).tolist()]
+    made, problems = KIND.given(task, cases, [height_by_width, *values[1:]])
+    assert not problems and not KIND.wrong(task, cases, made).any()
+    as_dict = {"origin": values[0][0], "direction": values[0][1]}
+    made, problems = KIND.given(task, cases, [as_dict, *values[1:]])
+    assert not problems and not KIND.wrong(task, cases, made).any()
+    _, problems = KIND.given(task, cases, [values[0][1], *values[1:]])
+    assert "shape" in problems[0] and "pixels" in problems[0]
+    assert KIND.given(task, cases, [None, *values[1:]])[1][0].startswith("returned None")

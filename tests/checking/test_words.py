@@ -1,0 +1,335 @@
+"""Each word of a convention, by what a course's student makes of it: then the ray is right."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from app.checking.builtin import BUILTIN
+from app.checking.calls import Run
+from app.checking.cases import shots
+from app.checking.checked import judged
+from app.checking.conventions import CAMERA_WORDS, PAIRS, PIXEL_WORDS, Conventions
+from app.checking.kinds import KINDS
+
+KIND = KINDS["viewing-ray"]
+BASE = next(task for task in BUILTIN if task.name == "viewing-ray")
+
+
+def a(values):
+    return np.array(values, float)
+
+
+def unit(vector):
+    return vector / np.linalg.norm(vector)
+
+
+def course(arguments, camera=None, returns=("origin", "direction"), **more):
+    """A task in a course's words."""
+    fields = {"camera": tuple(camera.items())} if camera else {}
+    conventions = Conventions(
+        arguments=tuple((word, word) for word in arguments), returns=returns, **fields, **more
+    )
+    return replace(BASE, conventions=conventions, count=12)
+
+
+def tried(task, function):
+    """The result of a function in this process, which is given its values by name."""
+    cases = KIND.cases(task)
+    values = []
+    for call in KIND.calls(task, cases):
+        made = function(**dict(call.arguments))
+        values.append([np.asarray(part, float).tolist() for part in made])
+    return judged(task, cases, Run(tuple(values)))
+
+
+def lecture(i, j, width, height, camera):
+    x = camera["left"] + (j - 0.5) / width * (camera["right"] - camera["left"])
+    y = camera["top"] - (i - 0.5) / height * (camera["top"] - camera["bottom"])
+    u, v, w = (a(camera[name]) for name in "uvw")
+    if camera["projection"] == "parallel":
+        return a(camera["eye"]) + x * u + y * v, -w
+    return camera["eye"], x * u + y * v - camera["distance"] * w
+
+
+def frustum(x01, y01, camera):
+    """Fields of view in degrees, a rotation; from the bottom left."""
+    x = (2 * x01 - 1) * math.tan(math.radians(camera["hFov"]) / 2)
+    y = (2 * y01 - 1) * math.tan(math.radians(camera["vFov"]) / 2)
+    return camera["pos"], a(camera["c2w"]) @ [x, y, -1]
+
+
+def in_camera_space(xy01, fov_y, aspect):
+    half = math.tan(math.radians(fov_y) / 2)
+    x, y = xy01
+    return [0, 0, 0], unit(a([(2 * x - 1) * half * aspect, (2 * y - 1) * half, -1]))
+
+
+def center_direction_up_angle(xy11, camera):
+    half = math.tan(camera["angle"] / 2)
+    z = a(camera["direction"])
+    right = unit(np.cross(z, a(camera["up"])))
+    x, y = xy11
+    image = x * half * camera["aspect"] * right + y * half * np.cross(right, z)
+    return camera["center"], unit(image + z)
+
+
+def deltas(column, row, camera):
+    pixel = a(camera["pixel00"]) + column * a(camera["du"]) + row * a(camera["dv"])
+    return camera["center"], pixel - a(camera["center"])
+
+
+def corners(xy01, camera):
+    s, t = xy01
+    point = a(camera["corner"]) + s * a(camera["horizontal"]) + t * a(camera["vertical"])
+    return camera["origin"], point - a(camera["origin"])
+
+
+def from_the_top(xy01, camera):
+    s, t = xy01
+    point = a(camera["top_left"]) + s * a(camera["horizontal"]) - t * a(camera["vertical"])
+    return camera["origin"], point - a(camera["origin"])
+
+
+def view_matrix(camera, column, row):
+    """x to the left; the angle is that of the larger side."""
+    half = math.tan(camera["field_of_view"] / 2)
+    aspect = camera["hsize"] / camera["vsize"]
+    half_width, half_height = (half, half / aspect) if aspect >= 1 else (half * aspect, half)
+    size = 2 * half_width / camera["hsize"]
+    x, y = half_width - (column + 0.5) * size, half_height - (row + 0.5) * size
+    inverse = np.linalg.inv(a(camera["transform"]))
+    origin = inverse @ [0, 0, 0, 1]
+    return origin[:3], unit((inverse @ [x, y, -1, 1] - origin)[:3])
+
+
+def z_forward(x_pixel, y_pixel, width, height, camera):
+    """The angle is that of the shorter side."""
+    half = math.tan(math.radians(camera["fov"]) / 2)
+    shorter = min(width, height)
+    x = (2 * x_pixel - width) / shorter * half
+    y = (height - 2 * y_pixel) / shorter * half
+    matrix = a(camera["camera_to_world"])
+    return matrix[:3, 3], matrix[:3, :3] @ [x, y, 1]
+
+
+def row_vectors(i, j, width, height, camera):
+    x = (2 * (j + 0.5) / width - 1) * math.tan(camera["fov"] / 2)
+    y = (1 - 2 * (i + 0.5) / height) * math.tan(camera["fov"] / 2) * height / width
+    matrix = a(camera["matrix"])
+    return matrix[3, :3], a([x, y, -1]) @ matrix[:3, :3]
+
+
+def target_and_up(i, j, size, eye, target, up, fov_y):
+    w = unit(a(eye) - a(target))
+    u = unit(np.cross(up, w))
+    v = np.cross(w, u)
+    half = math.tan(math.radians(fov_y) / 2)
+    width, height = size
+    x = (2 * (j + 0.5) / width - 1) * half * width / height
+    return (eye, x * u + (1 - 2 * (i + 0.5) / height) * half * v - w)
+
+
+def upside_down(x_pixel, y_pixel, size, viewport, distance, rotation, eye):
+    """y downwards and z forwards, as in computer vision."""
+    left, right, bottom, top = viewport
+    x = left + x_pixel / size[0] * (right - left)
+    y = -top + y_pixel / size[1] * (top - bottom)
+    return eye, a(rotation) @ [x, y, distance]
+
+
+def sized(xy11, camera):
+    u, v, w = (a(camera[name]) for name in "uvw")
+    x, y = xy11[0] / 2 * camera["wide"], xy11[1] / 2 * camera["high"]
+    return (a(camera["eye"]) + x * u + y * v, -w)
+
+
+BOTTOM = {"rows": "bottom"}
+COURSES = {
+    "lecture": (course(["i", "j", "width", "height", "camera"], base=1), lecture),
+    "lecture, parallel": (
+        replace(course(["i", "j", "width", "height", "camera"], base=1), projections=("parallel",)),
+        lecture,
+    ),
+    "fields of view": (
+        course(
+            ["x01", "y01", "camera"],
+            {"pos": "eye", "hFov": "fov_x", "vFov": "fov_y", "c2w": "rotation"},
+            **BOTTOM,
+        ),
+        frustum,
+    ),
+    "camera space": (
+        course(["xy01", "fov_y", "aspect"], space="camera", unit=True, **BOTTOM),
+        in_camera_space,
+    ),
+    "direction and angle": (
+        course(
+            ["xy11", "camera"],
+            {
+                "center": "eye",
+                "direction": "forward",
+                "up": "up",
+                "angle": "fov_y_rad",
+                "aspect": "aspect",
+            },
+            unit=True,
+            **BOTTOM,
+        ),
+        center_direction_up_angle,
+    ),
+    "deltas": (
+        course(
+            ["column", "row", "camera"],
+            {"center": "eye", "pixel00": "pixel00", "du": "delta_u", "dv": "delta_v"},
+        ),
+        deltas,
+    ),
+    "corners": (
+        course(
+            ["xy01", "camera"],
+            {
+                "origin": "eye",
+                "corner": "bottom_left",
+                "horizontal": "horizontal",
+                "vertical": "vertical",
+            },
+            **BOTTOM,
+        ),
+        corners,
+    ),
+    "from the top": (
+        course(
+            ["xy01", "camera"],
+            {
+                "origin": "eye",
+                "top_left": "top_left",
+                "horizontal": "horizontal",
+                "vertical": "vertical",
+            },
+        ),
+        from_the_top,
+    ),
+    "view matrix": (
+        course(
+            ["camera", "column", "row"],
+            {
+                "hsize": "width",
+                "vsize": "height",
+                "field_of_view": "fov_long_rad",
+                "transform": "world_to_camera",
+            },
+            axes=(-1, 1, 1),
+            unit=True,
+        ),
+        view_matrix,
+    ),
+    "z forward": (
+        course(
+            ["x_pixel", "y_pixel", "width", "height", "camera"],
+            {"fov": "fov_short", "camera_to_world": "camera_to_world"},
+            axes=(1, 1, -1),
+        ),
+        z_forward,
+    ),
+    "row vectors": (
+        course(
+            ["i", "j", "width", "height", "camera"],
+            {"fov": "fov_x_rad", "matrix": "camera_to_world"},
+            row_vectors=True,
+        ),
+        row_vectors,
+    ),
+    "target and up": (
+        course(["i", "j", "size", "eye", "target", "up", "fov_y"]),
+        target_and_up,
+    ),
+    "y downwards": (
+        course(
+            ["x_pixel", "y_pixel", "size", "viewport", "distance", "rotation", "eye"],
+            axes=(1, -1, -1),
+        ),
+        upside_down,
+    ),
+    "parallel by its size": (
+        replace(
+            course(
+                ["xy11", "camera"],
+                {
+                    **{name: name for name in ("eye", "u", "v", "w")},
+                    "wide": "viewport_width",
+                    "high": "viewport_height",
+                },
+                **BOTTOM,
+            ),
+            projections=("parallel",),
+            cameras=("canonical", "moved", "turned"),
+        ),
+        sized,
+    ),
+}
+
+
+@pytest.mark.parametrize("name", COURSES)
+def test_a_course_s_words_lead_to_the_right_ray(name):
+    task, function = COURSES[name]
+    result = tried(task, function)
+    assert result.status == "right", result.first
+
+
+def test_pixels_from_the_bottom_and_from_one():
+    task, _ = COURSES["lecture"]
+    task = replace(task, conventions=replace(task.conventions, rows="bottom"))
+
+    def bottom_up(i, j, width, height, camera):
+        return lecture(height + 1 - i, j, width, height, camera)
+
+    assert tried(task, bottom_up).status == "right"
+    assert tried(task, lecture).status == "wrong"
+
+
+def test_parts_in_another_order_or_one_alone():
+    task, function = COURSES["deltas"]
+    swapped = replace(task.conventions, returns=("direction", "origin"))
+    swapped_task = replace(task, conventions=swapped)
+    assert tried(swapped_task, lambda **v: function(**v)[::-1]).status == "right"
+    assert tried(swapped_task, function).status == "wrong"
+    alone = replace(task, conventions=replace(task.conventions, returns=("direction",)))
+    assert tried(alone, lambda **v: function(**v)[1:]).status == "right"
+
+
+def test_every_word_has_been_used_here():
+    used = set()
+    for task, _ in COURSES.values():
+        used |= task.conventions.words
+    used |= {part for word in used & PAIRS.keys() for part in PAIRS[word]}
+    known = {*PIXEL_WORDS, *CAMERA_WORDS, *PAIRS}
+    rest = known - used
+    assert rest == {"ij", "ji", "xy_pixel", "fov_long", "fov_short_rad"}
+
+
+@pytest.mark.parametrize("axes", [(1, 1, 1), (-1, 1, 1), (1, 1, -1), (1, -1, -1), (-1, -1, 1)])
+def test_matrices_are_rotations_whichever_way_the_axes_point(axes):
+    conventions = replace(COURSES["z forward"][0].conventions, axes=axes)
+    task = replace(COURSES["z forward"][0], conventions=conventions)
+    for shot in shots(task):
+        assert np.linalg.det(CAMERA_WORDS["rotation"].value(shot, conventions)) == pytest.approx(1)
+        to_world = a(CAMERA_WORDS["camera_to_world"].value(shot, conventions))
+        back = a(CAMERA_WORDS["world_to_camera"].value(shot, conventions))
+        assert np.allclose(back @ to_world, np.eye(4))
+
+
+def test_angles_need_a_camera_that_they_tell():
+    task, _ = COURSES["target and up"]
+    assert task.conventions.needs_rigid
+    for shot in shots(task):
+        camera, (width, height) = shot.camera, shot.size
+        left, right, bottom, top = camera.viewport
+        assert left == -right and bottom == -top
+        assert (right - left) / (top - bottom) == pytest.approx(width / height)
+        back = unit(np.subtract(camera.eye, shot.target))
+        assert np.allclose(back, camera.w)
+        assert np.allclose(unit(np.cross(shot.up, camera.w)), camera.u)

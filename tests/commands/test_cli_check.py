@@ -1,0 +1,370 @@
+"""`lucida check` and `lucida tasks`: exit statuses, reports, and what is said of mistakes."""
+
+from __future__ import annotations
+
+import json
+import subprocess
+import sys
+
+import numpy as np
+import pytest
+
+from app.checking.builtin import BUILTIN
+from app.cli import main
+from renderer.camera import Camera
+from renderer.scene.model import View
+from renderer.scene.views import save_view
+
+RIGHT = """\
+def memory_offset(i, j, width):
+    return 12 * (i * width + j)
+"""
+WRONG = RIGHT.replace("12 *", "3 *")
+RAISES = RIGHT.replace("return", "return 1 //").replace("12 * (i * width + j)", "(i * width + j)")
+ALSO = """
+def hit_sphere(origin, direction, center, radius):
+    print("called")
+    return 1.5
+"""
+TASKS = """\
+feedback = "{feedback}"
+[[tasks]]
+kind = "memory-offset"
+points = 2
+[[tasks]]
+kind = "hit-sphere"
+points = 3
+"""
+
+
+@pytest.fixture
+def check(tmp_path, capsys, monkeypatch):
+    """Runs `lucida check` with a file of this text; the status, what was printed, and errors."""
+    monkeypatch.chdir(tmp_path)
+
+    def run(text, *words):
+        if text is not None:
+            (tmp_path / "answer.py").write_text(text, "utf-8")
+            words = ("answer.py", *words)
+        status = main(["check", *words])
+        told = capsys.readouterr()
+        return status, told.out, told.err
+
+    return run
+
+
+def results(text, tmp_path):
+    """results.json, with the fields that Gradescope's documentation names and no others."""
+    values = json.loads(text)
+    known = {"score", "execution_time", "output", "output_format", "test_output_format"}
+    known |= {"test_name_format", "visibility", "stdout_visibility", "extra_data", "tests"}
+    assert values.keys() <= known | {"leaderboard"}
+    of_test = {"score", "max_score", "status", "name", "name_format", "number", "output"}
+    of_test |= {"output_format", "tags", "visibility", "extra_data"}
+    seen = ("hidden", "after_due_date", "after_published", "visible")
+    formats = ("text", "html", "simple_format", "md", "ansi")
+    assert values["visibility"] in seen and values["stdout_visibility"] in seen
+    assert isinstance(values["score"], float | int) and values["execution_time"] >= 0
+    for test in values["tests"]:
+        assert test.keys() <= of_test
+        assert test["visibility"] in seen and test["status"] in ("passed", "failed")
+        assert test["output_format"] in formats and test["name_format"] in formats
+        assert isinstance(test["output"], str) and isinstance(test["number"], str)
+        assert 0 <= test["score"] <= test["max_score"]
+    assert values["score"] == sum(test["score"] for test in values["tests"])
+    return values
+
+
+def test_right_is_0_wrong_is_1_and_what_cannot_run_is_2(check):
+    status, out, err = check(RIGHT)
+    assert (status, err) == (0, "") and out == "right  memory-offset  1 of 1 points\n"
+    status, out, err = check(WRONG)
+    assert (status, err) == (1, "")
+    assert out.startswith("wrong  memory-offset  0 of 1 points\n")
+    assert "memory_offset(i=0, j=1, width=8)\n" in out
+    assert "right: 12\n" in out and "given: 3\n" in out
+    status, out, err = check(RAISES)
+    assert (status, err) == (2, "")
+    assert out.startswith("failed memory-offset") and "ZeroDivisionError" in out
+    assert "memory_offset(i=0, j=0, width=8)" in out
+
+
+def test_several_tasks_are_told_in_their_order_with_a_sum(check):
+    status, out, _ = check(WRONG + ALSO)
+    heads = [line for line in out.splitlines() if not line.startswith(" ")]
+    assert status == 1
+    assert [line.split()[1] for line in heads[:2]] == ["memory-offset", "hit-sphere"]
+    assert heads[2] == "0 of 2 tasks right, 0 of 3 points"
+    status, out, _ = check(RAISES + ALSO)
+    assert status == 2 and out.count("wrong ") == 1
+
+
+def test_a_file_with_none_of_the_functions(check):
+    status, out, err = check("def other():\n    pass\n")
+    assert (status, out) == (2, "")
+    assert err.startswith("lucida: answer.py: it has none of the functions") and "basis" in err
+
+
+def test_a_named_task_must_be_there(check):
+    status, out, _ = check(RIGHT, "--task", "hit-sphere")
+    assert status == 2 and "there is no function hit_sphere" in out
+    status, _, err = check(RIGHT, "--task", "hit-spere")
+    assert status == 2 and "did you mean 'hit-sphere'" in err
+    status, out, _ = check(RIGHT + ALSO, "--task", "memory_offset")
+    assert status == 0 and out.count("\n") == 1
+
+
+def test_a_file_that_does_not_run(check, tmp_path):
+    status, _, err = check("def f(:\n", "--json", "r.json")
+    assert status == 2 and err.splitlines()[-1].startswith("lucida: answer.py, line 1")
+    values = results((tmp_path / "r.json").read_text(), tmp_path)
+    assert values["score"] == 0 and "line 1" in values["output"]
+    assert len(values["tests"]) == len(BUILTIN)
+    assert all("line 1" in test["output"] for test in values["tests"])
+    status, _, err = check(None, "nowhere.py", "--json", "r.json")
+    assert status == 2 and "nowhere.py" in err
+    assert "nowhere.py" in results((tmp_path / "r.json").read_text(), tmp_path)["output"]
+
+
+def test_a_file_that_fails_while_it_is_imported(check, tmp_path):
+    text = "print('so far')\ndef help():\n    return 1 / 0\nhelp()\n" + RIGHT
+    status, out, err = check(text, "--json", "r.json")
+    assert (status, out) == (2, "") and "ZeroDivisionError" in err.splitlines()[-1]
+    assert "return 1 / 0" in err and "so far" in err
+    told = results((tmp_path / "r.json").read_text(), tmp_path)["output"]
+    assert "return 1 / 0" in told and "so far" in told
+
+
+def test_what_is_no_python(check, tmp_path):
+    (tmp_path / "rays.jl").write_text("viewing_ray(i, j) = 1\n")
+    status, _, err = check(None, "rays.jl")
+    assert status == 2 and "rays.jl: is no Python file" in err and "--command" in err
+
+
+def test_what_was_printed_is_shown(check):
+    text = RIGHT.replace("    return", "    print('row', i)\n    return")
+    status, out, _ = check(text)
+    lines = out.splitlines()
+    assert status == 0 and lines[1:3] == ["       printed:", "         row 0"]
+    assert lines[-1] == "         ... and 16 lines more"
+
+
+def test_results_for_an_autograder(check, tmp_path):
+    (tmp_path / "hw.toml").write_text(TASKS.format(feedback="diagnosis"))
+    status, out, _ = check(RIGHT + ALSO, "--tasks", "hw.toml", "--json", "r.json")
+    assert status == 1 and "2 of 5 points" in out
+    values = results((tmp_path / "r.json").read_text(), tmp_path)
+    first, second = values["tests"]
+    assert (first["score"], first["max_score"], first["status"]) == (2.0, 2.0, "passed")
+    assert first["name"] == "memory-offset: memory_offset(i, j, width)"
+    assert (second["score"], second["max_score"], second["status"]) == (0.0, 3.0, "failed")
+    assert "right: 4" in second["output"] and "called" in second["output"]
+    status, out, _ = check(RIGHT + ALSO, "--tasks", "hw.toml", "--json", "-")
+    assert status == 1 and results(out, tmp_path)["score"] == 2.0
+
+
+@pytest.mark.parametrize("feedback", ["nothing", "verdict", "first-wrong", "diagnosis"])
+def test_no_more_is_told_than_the_feedback_says(check, tmp_path, feedback):
+    (tmp_path / "hw.toml").write_text(TASKS.format(feedback=feedback))
+    status, out, _ = check(RIGHT + ALSO, "--tasks", "hw.toml", "--json", "r.json")
+    text = (tmp_path / "r.json").read_text()
+    values = results(text, tmp_path)
+    assert status == 1 and values["score"] == 2.0
+    told = ("wrong" in out, "given: 1.5" in out)
+    shown = ["visible" if feedback != "nothing" else "hidden"] * 2
+    assert [test["visibility"] for test in values["tests"]] == shown
+    if feedback == "nothing":
+        assert told == (False, False) and out == "tried  memory-offset\ntried  hit-sphere\n"
+        assert "given" not in text and "right" not in text
+    elif feedback == "verdict":
+        assert told == (True, False) and "given" not in text and "center=" not in text
+    else:
+        assert told == (True, True) and "given: 1.5" in text
+
+
+def test_a_failure_is_told_whatever_the_feedback_is(check, tmp_path):
+    (tmp_path / "hw.toml").write_text(TASKS.format(feedback="nothing"))
+    status, out, _ = check(RAISES + ALSO, "--tasks", "hw.toml")
+    assert status == 2 and "ZeroDivisionError" in out
+
+
+def test_colours_only_on_a_terminal_that_wants_them(monkeypatch):
+    from app.checking.reports.terminal import is_colored
+
+    class Terminal:
+        def __init__(self, is_terminal):
+            self.isatty = lambda: is_terminal
+
+    monkeypatch.delenv("NO_COLOR", raising=False)
+    monkeypatch.setenv("TERM", "xterm")
+    assert is_colored(Terminal(True)) and not is_colored(Terminal(False))
+    monkeypatch.setenv("NO_COLOR", "1")
+    assert not is_colored(Terminal(True))
+    monkeypatch.setenv("NO_COLOR", "")
+    assert is_colored(Terminal(True))
+    monkeypatch.setenv("TERM", "dumb")
+    assert not is_colored(Terminal(True))
+
+
+def test_what_is_coloured(check, monkeypatch):
+    from app.checking.reports import terminal
+
+    monkeypatch.setattr(terminal, "is_colored", lambda stream: True)
+    _, out, _ = check(RIGHT)
+    assert out == "\x1b[32mright \x1b[0m memory-offset\x1b[2m  1 of 1 points\x1b[0m\n"
+
+
+def test_a_starter_is_never_written_over_another_file(check, tmp_path):
+    status, out, _ = check(None, "--starter", "viewing-ray", "-o", "rays.py")
+    assert (status, out) == (0, "rays.py: viewing_ray\n")
+    text = (tmp_path / "rays.py").read_text("utf-8")
+    assert "def viewing_ray(i, j, width, height, camera):" in text and "parallel" in text
+    assert text.isascii() and max(map(len, text.splitlines())) <= 100
+    status, _, err = check(None, "--starter", "viewing-ray", "-o", "rays.py")
+    assert status == 2 and "rays.py: -o: is there already" in err
+    assert (tmp_path / "rays.py").read_text("utf-8") == text
+    status, out, _ = check(None, "rays.py")
+    assert status == 2 and "returned None" in out
+    status, out, _ = check(None, "--starter", "viewing-ray")
+    assert (status, out) == (0, text)
+    assert main(["check", "--starter", "all", "-o", "all.py"]) == 0
+    compile((tmp_path / "all.py").read_text("utf-8"), "all.py", "exec")
+    assert (tmp_path / "all.py").read_text("utf-8").count("\ndef ") == 9
+
+
+CORNER = Camera.look_at((3, 2, 4), (0, 0, 0), distance=1.5)
+
+
+def rays_of(folder, base=0, name="rays.csv", moved=0.0):
+    save_view(folder / "corner.toml", View(CORNER, False))
+    i, j = (part.ravel() for part in np.indices((6, 8)))
+    rays = CORNER.ray(i, j + moved, (8, 6))
+    table = np.column_stack([i + base, j + base, rays.origin, rays.direction])
+    header = "i,j,ox,oy,oz,dx,dy,dz"
+    np.savetxt(folder / name, table, "%.9g", ",", header=header, comments="")
+
+
+def test_a_file_of_rays(check, tmp_path):
+    words = ("rays.csv", "--view", "corner.toml", "--size", "8x6")
+    rays_of(tmp_path)
+    assert check(None, *words) == (0, "right  viewing-ray  3 of 3 points\n", "")
+    rays_of(tmp_path, base=1)
+    assert check(None, *words, "--from", "1")[0] == 0
+    assert check(None, *words)[0] == 2
+    rays_of(tmp_path, moved=0.5)
+    status, out, _ = check(None, *words)
+    assert status == 1 and "48 of 48 cases are wrong" in out
+    status, _, err = check(None, "rays.csv")
+    assert status == 2 and "--view: is missing" in err
+    status, _, err = check(None, *words, "--task", "basis")
+    assert status == 2 and "--view" in err
+
+
+def test_a_view_alone_for_a_python_file(check, tmp_path):
+    save_view(tmp_path / "corner.toml", View(CORNER, False))
+    text = """\
+def viewing_ray(i, j, width, height, camera):
+    assert (width, height, camera.eye) == (5, 4, (3.0, 2.0, 4.0))
+    return camera.eye, (0, 0, 0)
+"""
+    status, out, _ = check(text, "--view", "corner.toml", "--size", "5x4")
+    assert status == 1 and "20 of 20 cases are wrong" in out and "parallel" not in out.split()[1]
+
+
+def test_a_program(check, tmp_path):
+    program = tmp_path / "answers.py"
+    program.write_text(
+        "import json, sys\n"
+        "for line in sys.stdin:\n"
+        "    asked = json.loads(line)\n"
+        "    print(12 * (asked['i'] * asked['width'] + asked['j']))\n"
+    )
+    command = f'"{sys.executable}" answers.py'
+    assert check(None, "--command", command, "--task", "memory-offset")[0] == 0
+    status, _, err = check(None, "--command", command)
+    assert status == 2 and "--task: is missing" in err
+    status, _, err = check(RIGHT, "--command", command, "--task", "memory-offset")
+    assert status == 2 and "beside --command" in err
+    status, _, err = check(None)
+    assert status == 2 and "FILE: is missing" in err
+
+
+def test_other_seeds_are_other_cases(check):
+    text = RIGHT.replace("return", "print(i, j, width)\n    return")
+    outputs = []
+    for seed in ("1", "2", "1"):
+        _, out, _ = check(text, "--json", "-", "--seed", seed)
+        outputs.append(json.loads(out)["tests"][0]["output"])
+    assert outputs[0] == outputs[2] != outputs[1]
+
+
+def test_limits_of_the_command_line_come_first(check, tmp_path):
+    (tmp_path / "hw.toml").write_text("seconds = 100\n" + TASKS.format(feedback="verdict"))
+    text = "def memory_offset(i, j, width):\n    while True:\n        pass\n" + ALSO
+    status, out, _ = check(text, "--tasks", "hw.toml", "--time-limit", "0.5")
+    assert status == 2 and "0.5 s" in out and "wrong  hit-sphere" in out
+
+
+@pytest.mark.parametrize(
+    "words",
+    [
+        ["--time-limit", "0"],
+        ["--memory-limit", "1"],
+        ["--seed", "-1"],
+        ["--from", "2"],
+        ["-o", "x"],
+    ],
+)
+def test_arguments_that_are_none(check, words, capsys):
+    status, _, err = check(RIGHT, *words)
+    assert status == 2 and err.count("\n") == 1
+
+
+def test_a_mistake_in_the_task_file_leaves_results_too(check, tmp_path):
+    (tmp_path / "hw.toml").write_text('[[tasks]]\nkind = "none"\n')
+    status, _, err = check(RIGHT, "--tasks", "hw.toml", "--json", "r.json")
+    assert status == 2 and "hw.toml:2: tasks[0].kind" in err
+    assert "hw.toml:2" in results((tmp_path / "r.json").read_text(), tmp_path)["output"]
+
+
+def test_the_list_of_tasks(capsys, tmp_path):
+    assert main(["tasks"]) == 0
+    lines = capsys.readouterr().out.splitlines()
+    assert [line.split()[0] for line in lines] == [task.name for task in BUILTIN]
+    assert main(["tasks", "--json"]) == 0
+    told = json.loads(capsys.readouterr().out)["tasks"]
+    assert [task["name"] for task in told] == [task.name for task in BUILTIN]
+    assert told[3]["signature"] == "viewing_ray(i, j, width, height, camera)"
+    assert main(["tasks", "viewing-ray"]) == 0
+    out = capsys.readouterr().out
+    assert "camera.eye: the camera's position" in out and "In the lecture: Any camera." in out
+    (tmp_path / "hw.toml").write_text(TASKS.format(feedback="verdict"))
+    assert main(["tasks", "--tasks", str(tmp_path / "hw.toml")]) == 0
+    assert len(capsys.readouterr().out.splitlines()) == 2
+    assert main(["tasks", "rays"]) == 2
+
+
+def test_lecture_parts_are_steps_of_the_lecture():
+    from app.lecture.reading import BUILTIN as LECTURE
+    from app.lecture.reading import load_lecture
+
+    titles = {step.title for step in load_lecture(LECTURE).steps}
+    assert {task.part for task in BUILTIN} <= titles
+
+
+def test_a_check_of_rays_is_light(tmp_path):
+    """Neither the compiler of the tracer nor OpenGL nor a reader of models, and no window."""
+    file = tmp_path / "rays.py"
+    file.write_text("def viewing_ray(i, j, *others):\n    return (0, 0, 0), (i, j, 1)\n")
+    save_view(tmp_path / "corner.toml", View(CORNER, False))
+    code = (
+        "import sys\nfrom app.cli import main\n"
+        f"for words in ([], ['--view', {str(tmp_path / 'corner.toml')!r}]):\n"
+        f"    main(['check', {str(file)!r}, *words])\n"
+        "heavy = {'numba', 'llvmlite', 'trimesh', 'moderngl', 'glfw', 'imgui_bundle'}\n"
+        "print(sorted(heavy & set(sys.modules)))\n"
+    )
+    done = subprocess.run(
+        [sys.executable, "-c", code], capture_output=True, text=True, timeout=120, check=False
+    )
+    assert done.stdout.splitlines()[-1] == "[]", done.stderr
