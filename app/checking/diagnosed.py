@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Sequence
 from dataclasses import replace
 from typing import Any
@@ -12,20 +13,29 @@ from numpy.typing import NDArray
 from app.checking.conventions import PAIRS, Conventions
 from app.checking.kinds.kind import Flags
 from app.checking.kinds.viewing_ray import are_right
+from app.checking.mistakes.corners import has_corners
 from app.checking.mistakes.diagnosis import Diagnosis
 from app.checking.mistakes.ray_diagnosis import diagnose_rays
 from app.checking.mistakes.ray_trial import RayCase
 from app.checking.mistakes.rays import WORDS, RayTask
+from app.checking.mistakes.sides import SIZES
 from app.checking.tasks import CheckCase, CheckTask
 from renderer.pixels import Indexing
 
 MOST = 1000  # cases of rays that are looked at: of a large image, these
+LETTERS = {"row": "i", "column": "j"}  # by which the table knows them
 
-_SAME = {"row": "i", "column": "j"}
-_PIXELS = ({"i", "j"}, {"x01", "y01"}, {"x11", "y11"})
+# Words by what the table of wrong lines calls them.
+_SAME = {
+    "row": {"i"},
+    "column": {"j"},
+    "size": {"width", "height"},
+    "viewport": {"left", "right", "bottom", "top"},
+    **{name: set(pair) for name, pair in PAIRS.items()},
+}
+_PIXELS = ({"i", "j"}, {"x_pixel", "y_pixel"}, {"x01", "y01"}, {"x11", "y11"})
 _EDGES = {"left", "right", "bottom", "top"}
-_ANGLES = {"fov_y", "fov_x", "fov_y_rad", "fov_x_rad"}
-_FRAMES = ({"eye", "u", "v", "w"}, {"eye", "target", "up"})
+_FRAMES = ({"eye", "u", "v", "w"}, {"eye", "target", "up"}, {"eye", "forward", "up"})
 _MATRICES = {"camera_to_world", "world_to_camera"}
 
 
@@ -56,13 +66,16 @@ def _of_rays(
         for case in (cases[number] for number in chosen.tolist())
         if case.camera is not None and case.size is not None and case.pixel is not None
     ]
-    return diagnose_rays(
+    found = diagnose_rays(
         asked,
         given[chosen],
         wrong[chosen],
         ray_task(task.conventions),
         any_origin=task.conventions.any_origin,
     )
+    if found is None:
+        return None
+    return replace(found, sentences=_in_the_tasks_words(task, found.sentences))
 
 
 def _some(wrong: Flags) -> NDArray[np.intp]:
@@ -78,15 +91,31 @@ def _some(wrong: Flags) -> NDArray[np.intp]:
 
 def ray_task(conventions: Conventions) -> RayTask:
     """How the table of wrong lines has these words; the camera's own, where it has not."""
-    words = {_SAME.get(word, word) for word in conventions.words}
-    words |= {part for word in words & PAIRS.keys() for part in PAIRS[word]}
+    words = {same for word in conventions.words for same in _SAME.get(word, {word})}
     pixel = next((pair for pair in _PIXELS if pair <= words), {"i", "j"})
-    camera = words & (WORDS | _ANGLES | _MATRICES | {"target", "up", "aspect"})
-    framed = any(frame <= words for frame in _FRAMES)
-    by_matrix = bool(words & _MATRICES) and conventions.axes == (1, 1, 1)
-    seen = words >= _EDGES or bool(words & _ANGLES)
-    if not (seen and (framed or (by_matrix and not conventions.row_vectors))):
-        camera = set(WORDS)
-    camera = camera - {"i", "j"} | pixel | {"width", "height"}
-    indexing = Indexing(conventions.base)
-    return RayTask("perspective", indexing, conventions.rows == "top", frozenset(camera))
+    if {"rotation", "eye"} <= words or (words & _MATRICES and conventions.row_vectors):
+        words = words - _MATRICES | {"eye", "u", "v", "w"}
+    seen = words >= _EDGES or words >= set(SIZES) or any(word.startswith("fov") for word in words)
+    placed = bool(words & _MATRICES) or any(frame <= words for frame in _FRAMES)
+    if not (has_corners(words) or (seen and placed)):
+        words = set(WORDS)
+    words = words - set().union(*_PIXELS) | pixel | {"width", "height"}
+    return RayTask(
+        indexing=Indexing(conventions.base),
+        from_top=conventions.rows == "top",
+        words=frozenset(words),
+        axes=conventions.axes,
+    )
+
+
+def _in_the_tasks_words(task: CheckTask, sentences: Sequence[str]) -> tuple[str, ...]:
+    """The sentences, and what the task calls the letters of a pixel in them."""
+    text = " ".join(sentences)
+    called = []
+    for name, word in task.conventions.arguments:
+        for place, part in enumerate(PAIRS.get(word, (word,))):
+            letter = LETTERS.get(part, part)
+            own = name if word not in PAIRS else f"{name}[{place}]"
+            if own != letter and re.search(rf"\b{letter}\b", text):
+                called.append(f"{letter} is your `{own}`")
+    return (*sentences, f"Here {' and '.join(called)}.") if called else tuple(sentences)

@@ -41,7 +41,7 @@ from app.window.platform import on_drop, set_title
 from app.window.shell import Shell
 from app.window.status import Status, is_good_news, status_line, told
 from app.your_code.view import YourCodeView
-from renderer.errors import LucidaError, describe
+from renderer.errors import LucidaError
 from renderer.scene import Scene
 from renderer.scene.outside import outside_files
 

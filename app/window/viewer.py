@@ -86,8 +86,8 @@ def run_viewer(
     elif start.later is not None:
         start = begin_scene(scene_source, view, change, wait=True)
     if code:
-        kept = start.state.with_options(your_code={"file": stored(code), "task": ""})
-        start = replace(start, state=kept, code=code)
+        opened = start.state.with_options(your_code={"file": stored(code), "task": ""})
+        start = replace(start, state=opened, code=code)
     run = Run(platform, start.state, size or DEFAULT_SIZE, picture is not None, start=start)
     return run.to_the_end(picture, tell=screenshot is None)
 

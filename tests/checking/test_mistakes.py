@@ -39,7 +39,7 @@ TASKS = {
     "field of view in radians": PIXEL | {"eye", "u", "v", "w", "fov_y_rad", "aspect"},
     "horizontal field of view": PIXEL | {"eye", "u", "v", "w", "fov_x", "aspect"},
     "in pixels": {"x_pixel", "y_pixel", "width", "height"} | CAMERA_PARTS | {"u", "v", "w"},
-    "in other words": {"xy01", "forward", "pixel00", "delta_u", "delta_v"},
+    "in other words": {"xy01", "forward", "pixel00", "horizontal"},
     "from 0 to 1": {"x01", "y01", "width", "height"} | CAMERA_PARTS | {"u", "v", "w"},
     "from -1 to 1": {"x11", "y11"} | CAMERA_PARTS | {"u", "v", "w"},
 }

@@ -85,6 +85,21 @@ BASIS_MISTAKES = [
     ),
 ]
 
+# Where the direction of view is given, not a target.
+FORWARD_LINES = [CodeLine("w", "w = normalized(-forward)"), *BASIS_LINES[1:]]
+FORWARD_MISTAKES = [
+    _one(
+        "w points forwards",
+        "w = normalized(forward)",
+        "w points back, against the direction of view: w = -forward.",
+    ),
+    *(
+        mistake
+        for mistake in BASIS_MISTAKES
+        if "w" not in mistake.keys and "target" not in mistake.name
+    ),
+]
+
 BASIS = Program(
     (*BASIS_LINES, CodeLine("answer", "answer = u, v, w")),
     (

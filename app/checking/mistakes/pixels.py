@@ -31,6 +31,10 @@ def pixel_mistakes(
         made += _in_units(words, unit, from_top)
     else:
         made += _centres(indexing, from_top) + _exchanges(indexing, from_top)
+        made += _whole_numbers(indexing, from_top)
+    made.append(_without_edges(across, down, from_top))
+    if "left" in words:
+        made += _fixed_viewports(across, down, from_top)
     return made + _angles(across, down, from_top, distance) if distance else made
 
 
@@ -125,6 +129,49 @@ def _centres(indexing: Indexing, from_top: bool) -> list[Mistake]:
             Mistake(f"{name}: in the rows", (y,), f"Of the row: {hint}", PART, False),
         ]
     return made
+
+
+def _whole_numbers(indexing: Indexing, from_top: bool) -> list[Mistake]:
+    x, y = (
+        f"({name} {indexing.offset}) // {side}" for name, side in (("j", "width"), ("i", "height"))
+    )
+    hint = "`//` gives whole numbers, here always 0: divide with `/`."
+    return [Mistake("divided to whole numbers", (("x", _x(x)), ("y", _y(y, from_top))), hint, PART)]
+
+
+def _without_edges(across: str, down: str, from_top: bool) -> Mistake:
+    sign, edge = ("-", "t") if from_top else ("", "b")
+    return Mistake(
+        "the edges left out",
+        (
+            ("x", f"x = {across} * (right - left)"),
+            ("y", f"y = {sign}{down} * (top - bottom)"),
+        ),
+        f"The viewport begins at its edge, not at its middle: x starts at l, y at {edge}.",
+        PART,
+    )
+
+
+def _fixed_viewports(across: str, down: str, from_top: bool) -> list[Mistake]:
+    """Made for one viewport, whatever left, right, bottom and top are."""
+
+    def lines(x: str, y: str) -> tuple[tuple[str, str], ...]:
+        return ("x", f"x = {x}"), ("y", f"y = {y if not from_top else f'-({y})'}")
+
+    hint = "That is right for a viewport {} only: scale and shift it by l, r, b and t."
+    return [
+        Mistake(
+            f"a viewport {told}",
+            lines(made.format(across), made.format(down)),
+            hint.format(told),
+            PART,
+        )
+        for told, made in (
+            ("from -0.5 to 0.5", "{} - 0.5"),
+            ("from -1 to 1", "2 * {} - 1"),
+            ("from 0 to 1", "{}"),
+        )
+    ]
 
 
 def _exchanges(indexing: Indexing, from_top: bool) -> list[Mistake]:

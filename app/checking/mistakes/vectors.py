@@ -82,5 +82,6 @@ FUNCTIONS: dict[str, Any] = {
 } | {
     "cross": np.cross, "sqrt": np.sqrt, "sin": np.sin, "cos": np.cos, "tan": np.tan,
     "atan": np.arctan, "radians": np.radians, "where": np.where, "floor": np.floor,
+    "minimum": np.minimum, "maximum": np.maximum,
     "inf": np.inf,
 }  # fmt: skip

@@ -8,7 +8,6 @@ from typing import TextIO
 
 from app.checking.checked import TaskResult
 from app.checking.reports.told import told
-from renderer.errors import one_line
 
 MOST = 8  # lines of what it printed
 COLORS = {"right": "32", "wrong": "31", "failed": "33", "dim": "2"}
@@ -28,13 +27,13 @@ def lines(result: TaskResult, colored: bool = False) -> list[str]:
     head = f"{_painted(f'{say.verdict:6}', say.verdict, colored)} {name}"
     points = f"  {result.points:g} of {result.task.points:g} points"
     head += _painted(points, "dim", colored)
-    printed = (_painted(line, "dim", colored) for line in _printed(result.output))
+    printed = (_painted(line, "dim", colored) for line in _printed(say.output))
     return [head, *(f"       {line}" for line in (*say.lines, *printed))]
 
 
 def _printed(output: str) -> list[str]:
     """What the student's code printed, shortened."""
-    lines = [one_line(line) for line in output.rstrip().splitlines()]
+    lines = output.split("\n") if output else []
     if not lines:
         return []
     more = [f"... and {len(lines) - MOST} lines more"] if len(lines) > MOST else []
