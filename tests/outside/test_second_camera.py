@@ -39,7 +39,7 @@ def test_a_perspective_camera_s_edges_leave_its_eye() -> None:
     assert np.allclose(edges.segments[:, 0], CAMERA.eye)
     lengths = np.linalg.norm(edges.segments[:, 1] - edges.segments[:, 0], axis=1)
     assert lengths.mean() == pytest.approx(REACH)
-    eye, label = named(items, "second eye")
+    (eye,), (label,) = named(items, "second eye"), named(items, "second name")
     assert isinstance(eye, Dot) and np.allclose(eye.point, CAMERA.eye)
     assert isinstance(label, Label) and label.text == "as written"
     plane = named(items, "second image plane")[0].segments[:, 0]
@@ -89,7 +89,7 @@ def test_it_stands_in_the_vector_drawing_too() -> None:
     size = (400, 300)
     paint = vector.Paint(lambda role, tint: (0.5, 0.4, 1.0), (1, 1, 1), (0, 0, 0))
     made = vector.drawing(project(items, OutsideScreen(LOOKING, size)), (), paint, LOOKING, size)
-    assert {part.name for part in made.parts} >= {"second edges", "second eye"}
+    assert {part.name for part in made.parts} >= {"second edges", "second name"}
 
 
 @pytest.mark.parametrize("ground", [(0.0, 0.0, 0.0), (0.2, 0.2, 0.25), (0.7, 0.8, 0.9), (1, 1, 1)])
