@@ -28,6 +28,7 @@ from app.lecture.states import state_of
 from app.lecture.step_options import own
 from app.lecture.text import Block, in_language, languages
 from app.lecture.typesetting import first_mistake
+from app.lecture.walking import Wish, rows_of, walking
 from app.state.app_state import AppState
 from app.storage.kept_lecture import KeptLecture
 from app.storage.session import source_of
@@ -40,10 +41,7 @@ from renderer.scene.models import read_by
 from renderer.scene.subprocess_reader import ModelReader
 
 LECTURE = "Lecture"
-RESTORE = "back to the step"
-STEP_EM, PLACE_EM = 2.0, 4.4  # the widths of the buttons that walk, and of the place between them
 LAID_OUT = 8  # frames until every view has its place
-END = "End the lecture"
 
 
 class Changeable(Protocol):
@@ -251,7 +249,7 @@ class LectureView(DockedView):
         with lettering(host.fonts.text, sizes.label), at_most(sizes.label):
             self._head(host, session, sizes)
             avail = imgui.get_content_region_avail()
-            rows = 1 if _fits_a_row(avail.x) else 2
+            rows = rows_of(avail.x)
             foot = rows * imgui.get_frame_height_with_spacing() + imgui.get_style().item_spacing.y
             error = self._error_height(session, avail.x)
             child = ImVec2(avail.x, max(1.0, avail.y - foot - error))
@@ -265,7 +263,15 @@ class LectureView(DockedView):
                 imgui.push_text_wrap_pos(0.0)
                 imgui.text_colored(theme.ERROR, session.error)
                 imgui.pop_text_wrap_pos()
-            self._foot(host, session)
+            self._take(host, walking(session, self._is_as_given(host, session.step)))
+
+    def _take(self, host: Host, wish: Wish) -> None:
+        if wish.number is not None:
+            self.go(host, wish.number)
+        elif wish.restores:
+            self.restore(host)
+        elif wish.ends:
+            self.leave(host)
 
     def _keys(self, host: Host) -> None:
         """The arrow keys, where the column has the keyboard; Page Up and Down are actions."""
@@ -330,49 +336,6 @@ class LectureView(DockedView):
             return 0.0
         return float(imgui.calc_text_size(session.error, wrap_width=width).y) + 8.0
 
-    def _foot(self, host: Host, session: LectureSession) -> None:
-        """Back, the place in the lecture, next; the outline; the way back to the step."""
-        number, count = session.number, len(session.lecture.steps)
-        size = imgui.get_font_size()
-        fits = _fits_a_row(imgui.get_content_region_avail().x)
-        imgui.begin_disabled(number == 0)
-        if imgui.button("<##back", ImVec2(STEP_EM * size, 0)):
-            self.advance(host, -1)
-        imgui.end_disabled()
-        imgui.set_item_tooltip("the step before (Page Up)")
-        imgui.same_line()
-        if imgui.button(f"{number + 1} / {count}##outline", ImVec2(PLACE_EM * size, 0)):
-            imgui.open_popup("outline")
-        imgui.set_item_tooltip("all steps")
-        imgui.same_line()
-        imgui.begin_disabled(number == count - 1)
-        if imgui.button(">##next", ImVec2(STEP_EM * size, 0)):
-            self.advance(host, 1)
-        imgui.end_disabled()
-        imgui.set_item_tooltip("the next step (Page Down)")
-        if fits:
-            imgui.same_line(0, size)
-        imgui.begin_disabled(self._is_as_given(host, session.step))
-        if imgui.button(f"{RESTORE}##restore", ImVec2(0 if fits else _walking_px(), 0)):
-            self.restore(host)
-        imgui.end_disabled()
-        imgui.set_item_tooltip("its own scene, camera and views (Backspace)")
-        self._outline(host, session)
-
-    def _outline(self, host: Host, session: LectureSession) -> None:
-        if not imgui.begin_popup("outline"):
-            return
-        for part, numbers in session.lecture.outline():
-            imgui.separator_text(part or session.lecture.title)
-            for number in numbers:
-                step = session.lecture.steps[number]
-                if imgui.selectable(f"{number + 1}  {step.title}", number == session.number)[0]:
-                    self.go(host, number)
-        imgui.separator()
-        if imgui.selectable(END, False)[0]:
-            self.leave(host)
-        imgui.end_popup()
-
     def _invite(self, host: Host) -> None:
         imgui.push_text_wrap_pos(0.0)
         imgui.text("A guided lecture: steps of text, each with its own scene, camera and views.")
@@ -393,17 +356,6 @@ def _places(step: Step) -> dict[str, str]:
     if "camera" in step.views:
         spaces["camera"] = layout.CAMERA_SPACE
     return {name.capitalize(): space for name, space in spaces.items()}
-
-
-def _walking_px() -> float:
-    """The width of the buttons that walk the steps."""
-    return (2 * STEP_EM + PLACE_EM) * imgui.get_font_size() + 2 * imgui.get_style().item_spacing.x
-
-
-def _fits_a_row(width: float) -> bool:
-    """Whether the way back to the step has room beside them."""
-    text = imgui.calc_text_size(RESTORE).x + 2 * imgui.get_style().frame_padding.x
-    return bool(_walking_px() + imgui.get_font_size() + text <= width)
 
 
 def _read(session: LectureSession) -> tuple[Lecture, LucidaError | None]:

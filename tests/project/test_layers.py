@@ -92,7 +92,7 @@ DRAW = {
     "stepper": "listing numbers plan",
     "costs": "",
     "laboratory": "array_view displays_view pictures schemes tables tools vector_view",
-    "lecture": "exercise slide typesetting",
+    "lecture": "exercise slide typesetting walking",
 }
 ROLES = ("actions", "instrument", "panel", "view")
 

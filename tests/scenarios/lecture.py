@@ -10,7 +10,8 @@ from app.host import layout
 from app.lecture.model import Lecture
 from app.lecture.reading import BUILTIN, load_lecture
 from app.lecture.states import state_of
-from app.lecture.view import LECTURE, RESTORE, LectureView
+from app.lecture.view import LECTURE, LectureView
+from app.lecture.walking import RESTORE
 from app.widgets import formula
 
 SMALL = """\
