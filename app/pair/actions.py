@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
-from app.host.action import ALT, CTRL, Action, Key, Window, changing
+from app.host.action import ALT, CTRL, SHIFT, Action, Key, Window, changing
 from app.images.imaging import (
     CHANNELS,
     COMPONENTS,
@@ -157,7 +157,11 @@ IMAGE = (
         is_on=lambda state: state.images.magnification is None,
     ),
     Action(
-        MAGNIFY, "Magnify", _step(1), "Alt++", (ALT | int(Key.equal), ALT | int(Key.keypad_add))
+        MAGNIFY,
+        "Magnify",
+        _step(1),
+        "Alt++",
+        (ALT | int(Key.equal), ALT | SHIFT | int(Key.equal), ALT | int(Key.keypad_add)),
     ),
     Action(
         MAGNIFY,
@@ -189,7 +193,7 @@ IMAGE = (
         "Brighter",
         changing(_exposure(0.5)),
         "+",
-        (int(Key.equal), int(Key.keypad_add)),
+        (int(Key.equal), SHIFT | int(Key.equal), int(Key.keypad_add)),
         separated=True,
     ),
     Action(

@@ -7,10 +7,11 @@ from imgui_bundle import hello_imgui, imgui
 from window_driver import SIZE, Driver, Key, changed
 
 from app.host import layout
+from app.lecture.foot import RESTORE
 from app.lecture.model import Lecture
 from app.lecture.reading import BUILTIN, load_lecture
 from app.lecture.states import state_of
-from app.lecture.view import LECTURE, RESTORE, LectureView
+from app.lecture.view import LECTURE, LectureView
 from app.widgets import formula
 
 SMALL = """\

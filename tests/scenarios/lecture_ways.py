@@ -8,8 +8,9 @@ import numpy as np
 from imgui_bundle import imgui
 from window_driver import Driver
 
+from app.lecture.foot import RESTORE
 from app.lecture.reading import BUILTIN, load_lecture
-from app.lecture.view import LECTURE, RESTORE, LectureView
+from app.lecture.view import LECTURE, LectureView
 from app.storage.capture import Rect
 from app.widgets.theme import framebuffer_scale
 

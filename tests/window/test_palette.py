@@ -9,6 +9,7 @@ import pytest
 from app.camera_panel import view as camera
 from app.compare import view as compare
 from app.costs import view as costs
+from app.host.action import ALT, CTRL, SHIFT, Key
 from app.laboratory import view as laboratory
 from app.lecture import view as lecture
 from app.mistakes import view as mistakes
@@ -181,3 +182,13 @@ def test_steps_of_undo_have_words():
     assert change(state, state.with_fit(not state.view.fit)) == "fit to the aspect ratio"
     assert change(state, state) == "nothing to be seen"
     assert change(state, replace(moved, step=("x.toml", 4))) == "lecture: step 5"
+
+
+def test_a_plus_is_a_plus_with_or_without_shift():
+    """On many keyboards + stands above =."""
+    plus = [action for action in ACTIONS if action.keys.endswith("+")]
+    assert len(plus) == 3
+    for action in plus:
+        modifiers = ALT * ("Alt" in action.keys) | CTRL * ("Ctrl" in action.keys)
+        for shift in (0, SHIFT):
+            assert modifiers | shift | int(Key.equal) in action.chords, action.name
