@@ -15,12 +15,12 @@ POINT = "That is the point on the image plane. The direction leads to it from th
 
 
 def has_corners(words: Set[str]) -> bool:
-    return GRID <= words or EDGES <= words
+    return words >= GRID or words >= EDGES
 
 
 def corner_program(words: frozenset[str], indexing: Indexing, from_top: bool) -> Program:
     """Its lines make origin and direction, in perspective."""
-    point, written = _grid(indexing) if GRID <= words else _edges(words, indexing, from_top)
+    point, written = _grid(indexing) if words >= GRID else _edges(words, indexing, from_top)
     made = [
         Mistake(name, (("point", f"point = {code}"),), hint, PART) for name, code, hint in written
     ]

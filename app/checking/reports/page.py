@@ -22,7 +22,6 @@ from app.checking.starter import signature
 from app.checking.tasks import CheckTask
 from renderer.images import encode_array
 
-
 STYLE = """
 :root { color-scheme: light dark; --paper: #ffffff; --ink: #1b1f24; --dim: #59636e;
   --line: #d1d9e0; --shade: #f4f6f8; --right: #1a7f37; --wrong: #c4232b; --failed: #9a6700; }
