@@ -13,11 +13,8 @@ from numpy.typing import NDArray
 from app.checking.conventions import PAIRS, Conventions
 from app.checking.kinds.kind import Flags
 from app.checking.kinds.viewing_ray import are_right
-<<<<<<< HEAD
-from app.checking.mistakes.corners import has_corners
-=======
 from app.checking.mistakes.basis import BASIS
->>>>>>> core
+from app.checking.mistakes.corners import has_corners
 from app.checking.mistakes.diagnosis import Diagnosis
 from app.checking.mistakes.hits import CLOSEST, SHAPES, SPHERE, TRIANGLE
 from app.checking.mistakes.images import bitmap_program, gray_program, offset_program
@@ -25,12 +22,9 @@ from app.checking.mistakes.program import Program
 from app.checking.mistakes.ray_diagnosis import diagnose_rays
 from app.checking.mistakes.ray_trial import RayCase
 from app.checking.mistakes.rays import WORDS, RayTask
-<<<<<<< HEAD
-from app.checking.mistakes.sides import SIZES
-=======
 from app.checking.mistakes.render import render_program, render_values
+from app.checking.mistakes.sides import SIZES
 from app.checking.mistakes.value_diagnosis import ValueCase, diagnose_values
->>>>>>> core
 from app.checking.tasks import CheckCase, CheckTask
 from renderer.pixels import Indexing
 

@@ -81,12 +81,9 @@ def test_only_the_words_that_are_given_are_used() -> None:
         if asked.words >= WORDS - {"i", "j", "x01", "y01"}:
             continue
         known = known_values(cases, asked)
+        given = {name: known[name] for name in asked.words & known.keys()}
         for mistakes in [(), *((one,) for one in ray_program(asked).mistakes)]:
-            run_rays(
-                ray_program(asked),
-                {name: known[name] for name in asked.words & known.keys()},
-                mistakes,
-            )
+            run_rays(ray_program(asked), given, mistakes)
 
 
 SWAPPED = """
