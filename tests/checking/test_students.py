@@ -1,4 +1,4 @@
-"""Ten right and thirty wrong files as students write them: verdicts, and what the diagnosis says."""
+"""Ten right and thirty wrong files as students write them: verdicts and what the diagnosis says."""
 
 from __future__ import annotations
 

@@ -35,9 +35,9 @@ def corner_program(words: frozenset[str], indexing: Indexing, from_top: bool) ->
         ("normalised", "eye", "normalized(point - eye)",
          "The direction is right, its length is not: do not normalise it."),
     ):  # fmt: skip
-        lines = [("origin", f"origin = {origin}")] * (origin != "eye")
-        lines += [("direction", f"direction = {direction}")] * (direction != "point - eye")
-        made.append(Mistake(name, tuple(lines), hint, PART, name != "normalised"))
+        rewritten = [("origin", f"origin = {origin}")] * (origin != "eye")
+        rewritten += [("direction", f"direction = {direction}")] * (direction != "point - eye")
+        made.append(Mistake(name, tuple(rewritten), hint, PART, name != "normalised"))
     lines = (
         CodeLine("point", f"point = {point}"),
         CodeLine("origin", "origin = eye"),
