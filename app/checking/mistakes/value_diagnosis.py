@@ -48,19 +48,20 @@ class ValueTrial:
         return given, right
 
 
-def _made(program: Program, case: ValueCase, mistakes: Mistakes) -> Floats:
-    """The program's answer, in the right one's shape; NaN where it has another one."""
+def _made(program: Program, case: ValueCase, mistakes: Mistakes) -> Floats | None:
+    """The program's answer, in the right one's shape; None where it has another one."""
     shape = np.shape(case.right)
     (answer,) = program.run(case.known, mistakes)
     if isinstance(answer, tuple):
         answer = np.stack([np.asarray(part, float).reshape(-1) for part in answer])
     made = np.asarray(answer, float)
-    return made.reshape(shape) if made.size == np.prod(shape, dtype=int) else np.full(shape, np.nan)
+    return made.reshape(shape) if made.size == np.prod(shape, dtype=int) else None
 
 
-def _apart(case: ValueCase, answer: Any, made: Floats) -> float:
-    """LOOSE is what is allowed: the tolerance, or as much of the largest number."""
-    if answer is None:
+def _apart(case: ValueCase, answer: Any, made: Floats | None) -> float:
+    """LOOSE is what is allowed: the tolerance, or as much of the largest number. What divides by
+    zero as the program does, in the same places, is the same."""
+    if answer is None or made is None:
         return np.inf
     found = np.asarray(answer, float)
     if found.shape != made.shape:
@@ -68,11 +69,12 @@ def _apart(case: ValueCase, answer: Any, made: Floats) -> float:
     if case.judged is not None:
         found, made = found[case.judged], made[case.judged]
     if case.tolerance is None:
-        return 0.0 if (found == made).all() else np.inf
+        return 0.0 if np.array_equal(found, made, equal_nan=True) else np.inf
     finite = made[np.isfinite(made)]
     near = max(case.tolerance, LOOSE * float(np.abs(finite).max(initial=0.0)), 1e-300)
     with np.errstate(invalid="ignore"):
-        apart = np.where(found == made, 0.0, np.abs(found - made) / near * LOOSE)
+        same = (found == made) | (np.isnan(found) & np.isnan(made))
+        apart = np.where(same, 0.0, np.abs(found - made) / near * LOOSE)
     return float(apart.max(initial=0.0))
 
 
