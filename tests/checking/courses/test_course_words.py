@@ -11,10 +11,10 @@ from app.checking.cases import shots
 from app.checking.checked import check
 from app.checking.conventions import Conventions
 from app.checking.courses import course_names, task_path
-from app.checking.diagnosed import ray_task
 from app.checking.mistakes.candidates import candidates
 from app.checking.mistakes.ray_trial import RayCase, RayTrial, known_values
 from app.checking.mistakes.rays import WORDS, RayTask, ray_program, run_rays
+from app.checking.ray_words import ray_task
 from app.checking.reports.told import told
 from app.checking.running.file import FileStudent
 from app.checking.task_file import load_tasks
