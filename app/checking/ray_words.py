@@ -6,7 +6,7 @@ import re
 from collections.abc import Sequence
 
 from app.checking.conventions import PAIRS, Conventions
-from app.checking.mistakes.corners import has_corners
+from app.checking.mistakes.corners import EDGES, GRID, has_corners
 from app.checking.mistakes.rays import WORDS, RayTask
 from app.checking.mistakes.sides import SIZES
 from app.checking.tasks import CheckTask
@@ -26,6 +26,7 @@ _PIXELS = ({"i", "j"}, {"x_pixel", "y_pixel"}, {"x01", "y01"}, {"x11", "y11"})
 _EDGES = {"left", "right", "bottom", "top"}
 _FRAMES = ({"eye", "u", "v", "w"}, {"eye", "target", "up"}, {"eye", "forward", "up"})
 _MATRICES = {"camera_to_world", "world_to_camera"}
+_KNOWN = {*WORDS, *SIZES, *GRID, *EDGES, *_MATRICES, "target", "up", "forward", "aspect"}
 
 
 def ray_task(conventions: Conventions) -> RayTask:
@@ -38,6 +39,7 @@ def ray_task(conventions: Conventions) -> RayTask:
     placed = bool(words & _MATRICES) or any(frame <= words for frame in _FRAMES)
     if not (has_corners(words) or (seen and placed)):
         words = set(WORDS)
+    words = {word for word in words if word in _KNOWN or word.startswith("fov")}
     words = words - set().union(*_PIXELS) | pixel | {"width", "height"}
     return RayTask(
         indexing=Indexing(conventions.base),

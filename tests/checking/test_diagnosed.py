@@ -11,9 +11,10 @@ import pytest
 from app.checking.builtin import BUILTIN
 from app.checking.calls import Run
 from app.checking.checked import checked, judged
-from app.checking.diagnosed import MOST, ray_task
+from app.checking.diagnosed import MOST
 from app.checking.kinds import KINDS
 from app.checking.mistakes.rays import WORDS
+from app.checking.ray_words import ray_task
 from app.checking.running.file import FileStudent
 from renderer.camera import Camera
 from renderer.pixels import Indexing

@@ -9,8 +9,8 @@ from app.checking.mistakes.program import CodeLine, Mistake, Program
 from renderer.pixels import Indexing
 
 PART = "Any camera"
-GRID = frozenset({"pixel00", "delta_u", "delta_v"})
-EDGES = frozenset({"bottom_left", "horizontal", "vertical"})
+GRID = frozenset({"eye", "pixel00", "delta_u", "delta_v"})
+EDGES = frozenset({"eye", "bottom_left", "horizontal", "vertical"})
 POINT = "That is the point on the image plane. The direction leads to it from the eye: subtract e."
 
 
