@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Sequence
 from dataclasses import replace
 from typing import Any
@@ -10,33 +9,18 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from app.checking.conventions import PAIRS, Conventions
 from app.checking.kinds.kind import Flags
 from app.checking.kinds.viewing_ray import are_right
-from app.checking.mistakes.corners import has_corners
 from app.checking.mistakes.diagnosis import Diagnosis
 from app.checking.mistakes.ray_diagnosis import diagnose_rays
 from app.checking.mistakes.ray_trial import RayCase
-from app.checking.mistakes.rays import WORDS, RayTask
-from app.checking.mistakes.sides import SIZES
+from app.checking.mistakes.render import render_program, render_values
+from app.checking.mistakes.value_diagnosis import ValueCase, diagnose_by_kind, diagnose_values
+from app.checking.mistakes.value_kinds import value_case, value_program
+from app.checking.ray_words import in_the_tasks_words, ray_task
 from app.checking.tasks import CheckCase, CheckTask
-from renderer.pixels import Indexing
 
 MOST = 1000  # cases of rays that are looked at: of a large image, these
-LETTERS = {"row": "i", "column": "j"}  # by which the table knows them
-
-# Words by what the table of wrong lines calls them.
-_SAME = {
-    "row": {"i"},
-    "column": {"j"},
-    "size": {"width", "height"},
-    "viewport": {"left", "right", "bottom", "top"},
-    **{name: set(pair) for name, pair in PAIRS.items()},
-}
-_PIXELS = ({"i", "j"}, {"x_pixel", "y_pixel"}, {"x01", "y01"}, {"x11", "y11"})
-_EDGES = {"left", "right", "bottom", "top"}
-_FRAMES = ({"eye", "u", "v", "w"}, {"eye", "target", "up"}, {"eye", "forward", "up"})
-_MATRICES = {"camera_to_world", "world_to_camera"}
 
 
 def diagnosis(
@@ -48,7 +32,46 @@ def diagnosis(
     with np.errstate(all="ignore"):  # they may be any numbers
         if task.kind == "viewing-ray":
             return _of_rays(task, cases, np.asarray(given), wrong)
-    return None
+        if task.kind == "render":
+            return _of_images(task, cases, given, wrong)
+        if task.kind == "closest-hit" and np.isinf(np.asarray(given)[:, 1]).all():
+            return Diagnosis(("You never find a hit.",))
+        program = value_program(
+            task.kind,
+            task.weights,
+            task.inclusive,
+            task.conventions.base,
+            task.column_major,
+            task.stride,
+        )
+        asked = [
+            value_case(
+                task.kind, case.values, np.asarray(case.right, float), answer, case.tolerance
+            )
+            for case, answer in zip(cases, given, strict=True)
+        ]
+        return diagnose_values(program, asked, wrong)
+
+
+def _of_images(
+    task: CheckTask, cases: Sequence[CheckCase], given: Any, wrong: Flags
+) -> Diagnosis | None:
+    """As the student writes the loops: from 0, whatever the task counts elsewhere."""
+    rays = ray_task(replace(task.conventions, base=0))
+    kinds, asked = [], []
+    for case, image in zip(cases, given, strict=True):
+        assert case.camera is not None and case.size is not None
+        kinds.append(case.camera.projection)
+        its_task = replace(rays, projection=case.camera.projection)
+        scene = case.values["scene"]
+        known = render_values(
+            case.camera, case.size, its_task, scene["objects"], scene["background"]
+        )
+        known |= {"target": np.asarray(case.target), "up": np.asarray(case.up)}
+        judged = case.values["judged"]
+        asked.append(ValueCase(known, case.right, image, case.tolerance, judged))
+    programs = {kind: render_program(replace(rays, projection=kind)) for kind in kinds}
+    return diagnose_by_kind(programs, kinds, asked, wrong)
 
 
 def _of_rays(
@@ -75,7 +98,7 @@ def _of_rays(
     )
     if found is None:
         return None
-    return replace(found, sentences=_in_the_tasks_words(task, found.sentences))
+    return replace(found, sentences=in_the_tasks_words(task, found.sentences))
 
 
 def _some(wrong: Flags) -> NDArray[np.intp]:
@@ -87,35 +110,3 @@ def _some(wrong: Flags) -> NDArray[np.intp]:
         step = max(len(numbers) * 2 // MOST, 1)
         parts.append(numbers[::step])
     return np.sort(np.concatenate(parts))
-
-
-def ray_task(conventions: Conventions) -> RayTask:
-    """How the table of wrong lines has these words; the camera's own, where it has not."""
-    words = {same for word in conventions.words for same in _SAME.get(word, {word})}
-    pixel = next((pair for pair in _PIXELS if pair <= words), {"i", "j"})
-    if {"rotation", "eye"} <= words or (words & _MATRICES and conventions.row_vectors):
-        words = words - _MATRICES | {"eye", "u", "v", "w"}
-    seen = words >= _EDGES or words >= set(SIZES) or any(word.startswith("fov") for word in words)
-    placed = bool(words & _MATRICES) or any(frame <= words for frame in _FRAMES)
-    if not (has_corners(words) or (seen and placed)):
-        words = set(WORDS)
-    words = words - set().union(*_PIXELS) | pixel | {"width", "height"}
-    return RayTask(
-        indexing=Indexing(conventions.base),
-        from_top=conventions.rows == "top",
-        words=frozenset(words),
-        axes=conventions.axes,
-    )
-
-
-def _in_the_tasks_words(task: CheckTask, sentences: Sequence[str]) -> tuple[str, ...]:
-    """The sentences, and what the task calls the letters of a pixel in them."""
-    text = " ".join(sentences)
-    called = []
-    for name, word in task.conventions.arguments:
-        for place, part in enumerate(PAIRS.get(word, (word,))):
-            letter = LETTERS.get(part, part)
-            own = name if word not in PAIRS else f"{name}[{place}]"
-            if own != letter and re.search(rf"\b{letter}\b", text):
-                called.append(f"{letter} is your `{own}`")
-    return (*sentences, f"Here {' and '.join(called)}.") if called else tuple(sentences)

@@ -128,12 +128,12 @@ def run(arguments: argparse.Namespace) -> int:
 
 def _why(error: LucidaError) -> list[str]:
     """The student's own lines, of a file that does not run, and what it printed until then."""
-    from app.checking.reports.told import failure_lines
+    from app.checking.reports.told import failure_lines, visible
     from app.checking.running.file import NotRunnableError
 
     if not isinstance(error, NotRunnableError):
         return []
-    printed = error.output.rstrip().splitlines()
+    printed = visible(error.output).rstrip().split("\n") if error.output else []
     return [*printed, *failure_lines(error.failure)]
 
 

@@ -9,6 +9,7 @@ import pytest
 
 from app.checking.builtin import BUILTIN
 from app.checking.conventions import CAMERA_WORDS, PAIRS, PIXEL_WORDS
+from app.checking.courses import course_names, task_path
 from app.checking.kinds import KINDS
 from app.checking.starter import signature
 from app.checking.task_file import load_tasks
@@ -42,3 +43,14 @@ def test_the_task_file_is_read(tmp_path):
     (tmp_path / "hw2.toml").write_text(re.sub("^    ", "", text, flags=re.MULTILINE), "utf-8")
     found = load_tasks(tmp_path / "hw2.toml")
     assert [task.kind for task in found.tasks] == ["viewing-ray", "basis", "to-gray"]
+
+
+def test_courses_are_there_with_their_functions_and_fields():
+    table = PAGE[PAGE.index("## Courses and books") : PAGE.index("## Autograders")]
+    rows = {row.split("`")[1]: row for row in table.splitlines() if row.startswith("| `")}
+    rows.pop("--tasks")
+    assert list(rows) and set(rows) == set(course_names())
+    for name, row in rows.items():
+        for task in load_tasks(task_path(name)).tasks:
+            if task.kind == "viewing-ray":
+                assert re.search(rf"\b{task.function}\b", row), (name, task.function)

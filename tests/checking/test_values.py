@@ -76,6 +76,14 @@ def test_neither(value):
     assert parameter(value) is None
 
 
+def test_lists_in_lists_without_end():
+    deep: list = []
+    for _ in range(900):
+        deep = [deep, 1]
+    assert values.vectors(deep, RAY) is None and parameter(deep) is None and array(deep) is None
+    assert values.shown(deep) == "((((((((..., ...), 1), 1), 1), 1), 1), 1), 1)"
+
+
 def test_numbers_beyond_floats():
     assert values.number(10**400) == math.inf and values.number(-(10**400)) == -math.inf
 

@@ -1,6 +1,6 @@
-"""The conventions of courses and books as task files: `lucida check rays.py --tasks cornell-cs4620`.
+"""The conventions of courses and books as task files: `--tasks cornell-cs4620`.
 
-Conventions only, from their public pages and code; what each file says of them was looked up there.
+Conventions only, from their public pages and code: what each file says was looked up there.
 """
 
 from __future__ import annotations

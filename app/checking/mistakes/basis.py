@@ -111,6 +111,18 @@ BASIS = Program(
             PART,
         ),
         Mistake(
+            "w in its full length",
+            (("answer", "answer = u, v, eye - target"),),
+            "w has length 1, as u and v: divide it by its length.",
+            PART,
+        ),
+        Mistake(
+            "the view direction for w",
+            (("answer", "answer = u, v, -w"),),
+            "w points back, from the target to the eye.",
+            PART,
+        ),
+        Mistake(
             "w, u, v for u, v, w",
             (("answer", "answer = w, u, v"),),
             "The answer is u, v, w, in this order.",

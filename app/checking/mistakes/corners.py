@@ -9,18 +9,18 @@ from app.checking.mistakes.program import CodeLine, Mistake, Program
 from renderer.pixels import Indexing
 
 PART = "Any camera"
-GRID = frozenset({"pixel00", "delta_u", "delta_v"})
-EDGES = frozenset({"bottom_left", "horizontal", "vertical"})
+GRID = frozenset({"eye", "pixel00", "delta_u", "delta_v"})
+EDGES = frozenset({"eye", "bottom_left", "horizontal", "vertical"})
 POINT = "That is the point on the image plane. The direction leads to it from the eye: subtract e."
 
 
 def has_corners(words: Set[str]) -> bool:
-    return GRID <= words or EDGES <= words
+    return words >= GRID or words >= EDGES
 
 
 def corner_program(words: frozenset[str], indexing: Indexing, from_top: bool) -> Program:
     """Its lines make origin and direction, in perspective."""
-    point, written = _grid(indexing) if GRID <= words else _edges(words, indexing, from_top)
+    point, written = _grid(indexing) if words >= GRID else _edges(words, indexing, from_top)
     made = [
         Mistake(name, (("point", f"point = {code}"),), hint, PART) for name, code, hint in written
     ]
@@ -35,9 +35,9 @@ def corner_program(words: frozenset[str], indexing: Indexing, from_top: bool) ->
         ("normalised", "eye", "normalized(point - eye)",
          "The direction is right, its length is not: do not normalise it."),
     ):  # fmt: skip
-        lines = [("origin", f"origin = {origin}")] * (origin != "eye")
-        lines += [("direction", f"direction = {direction}")] * (direction != "point - eye")
-        made.append(Mistake(name, tuple(lines), hint, PART, name != "normalised"))
+        rewritten = [("origin", f"origin = {origin}")] * (origin != "eye")
+        rewritten += [("direction", f"direction = {direction}")] * (direction != "point - eye")
+        made.append(Mistake(name, tuple(rewritten), hint, PART, name != "normalised"))
     lines = (
         CodeLine("point", f"point = {point}"),
         CodeLine("origin", "origin = eye"),

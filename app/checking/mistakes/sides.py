@@ -99,12 +99,8 @@ def _one(side: str, unit: str, words: frozenset[str]) -> Part:
             f"{hint}, not of the {other}er one.",
             PART,
         ),
-        of_sides(
-            "the vertical angle", f"half * {aspect}, half", f"{hint}, not always the vertical."
-        ),
-        of_sides(
-            "the horizontal angle", f"half, half / {aspect}", f"{hint}, not always the horizontal."
-        ),
+        of_sides("the vertical angle", f"half * {aspect}, half", f"{hint}, not of the height."),
+        of_sides("the horizontal angle", f"half, half / {aspect}", f"{hint}, not of the width."),
         of_sides(
             "no aspect ratio",
             "half, half",

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from app.checking.mistakes.candidates import LOOSE, candidates
-from app.checking.mistakes.diagnosis import Diagnosis, candidate_sentences
+from app.checking.mistakes.diagnosis import Diagnosis, Told, shared, told_sentences
 from app.checking.mistakes.program import Mistakes, Program
 
 Floats = NDArray[np.float64]
@@ -48,19 +48,20 @@ class ValueTrial:
         return given, right
 
 
-def _made(program: Program, case: ValueCase, mistakes: Mistakes) -> Floats:
-    """The program's answer, in the right one's shape; NaN where it has another one."""
+def _made(program: Program, case: ValueCase, mistakes: Mistakes) -> Floats | None:
+    """The program's answer, in the right one's shape; None where it has another one."""
     shape = np.shape(case.right)
     (answer,) = program.run(case.known, mistakes)
     if isinstance(answer, tuple):
         answer = np.stack([np.asarray(part, float).reshape(-1) for part in answer])
     made = np.asarray(answer, float)
-    return made.reshape(shape) if made.size == np.prod(shape, dtype=int) else np.full(shape, np.nan)
+    return made.reshape(shape) if made.size == np.prod(shape, dtype=int) else None
 
 
-def _apart(case: ValueCase, answer: Any, made: Floats) -> float:
-    """LOOSE is what is allowed: the tolerance, or as much of the largest number."""
-    if answer is None:
+def _apart(case: ValueCase, answer: Any, made: Floats | None) -> float:
+    """LOOSE is what is allowed: the tolerance, or as much of the largest number. What divides by
+    zero as the program does, in the same places, is the same."""
+    if answer is None or made is None:
         return np.inf
     found = np.asarray(answer, float)
     if found.shape != made.shape:
@@ -68,11 +69,12 @@ def _apart(case: ValueCase, answer: Any, made: Floats) -> float:
     if case.judged is not None:
         found, made = found[case.judged], made[case.judged]
     if case.tolerance is None:
-        return 0.0 if (found == made).all() else np.inf
+        return 0.0 if np.array_equal(found, made, equal_nan=True) else np.inf
     finite = made[np.isfinite(made)]
     near = max(case.tolerance, LOOSE * float(np.abs(finite).max(initial=0.0)), 1e-300)
     with np.errstate(invalid="ignore"):
-        apart = np.where(found == made, 0.0, np.abs(found - made) / near * LOOSE)
+        same = (found == made) | (np.isnan(found) & np.isnan(made))
+        apart = np.where(same, 0.0, np.abs(found - made) / near * LOOSE)
     return float(apart.max(initial=0.0))
 
 
@@ -80,12 +82,45 @@ def diagnose_values(
     program: Program, cases: Sequence[ValueCase], wrong: ArrayLike
 ) -> Diagnosis | None:
     """What is told of the answers that were given; None where none is wrong. wrong: which are."""
+    return diagnose_by_kind({"": program}, ["" for _ in cases], cases, wrong)
+
+
+def diagnose_by_kind(
+    programs: Mapping[str, Program],
+    kinds: Sequence[str],
+    cases: Sequence[ValueCase],
+    wrong: ArrayLike,
+) -> Diagnosis | None:
+    """The same of cases of which each has its kind's program: the projection of an image."""
     flags = np.asarray(wrong, bool)
     if not flags.any():
         return None
-    found = candidates(program, ValueTrial(cases), flags)
-    sentences = candidate_sentences(program, found) if found else _facts(cases)
+    constant = _constant(cases)
+    if constant:
+        return Diagnosis((constant,), first=int(np.argmax(flags)))
+    told: Told = {}
+    for kind in dict.fromkeys(kinds):
+        chosen = [number for number, its in enumerate(kinds) if its == kind]
+        if flags[chosen].any():
+            trial = ValueTrial([cases[number] for number in chosen])
+            told[kind] = programs[kind], candidates(programs[kind], trial, flags[chosen])
+    told = shared(told)
+    sentences = told_sentences(told, len(set(kinds)))
+    if not all(found for _, found in told.values()):
+        sentences += _facts(cases)
+    found = tuple(dict.fromkeys(one for _, its in told.values() for one in its))
     return Diagnosis(tuple(sentences), found, first=int(np.argmax(flags)))
+
+
+def _constant(cases: Sequence[ValueCase]) -> str:
+    """What is said of answers that are one and the same number; empty for others."""
+    answers = [np.ravel(np.asarray(case.given, float)) for case in cases if case.given is not None]
+    numbers = np.concatenate(answers) if answers else np.zeros(0)
+    if len(cases) < 3 or len(answers) < len(cases) or not (numbers == numbers[0]).all():
+        return ""
+    if np.isinf(numbers[0]):
+        return "You never find a hit."
+    return f"All your answers are {numbers[0]:.4g}, whatever is asked."
 
 
 def _facts(cases: Sequence[ValueCase]) -> list[str]:
@@ -99,6 +134,8 @@ def _facts(cases: Sequence[ValueCase]) -> list[str]:
         return []
     given, right = (np.concatenate(parts) for parts in zip(*pairs, strict=True))
     told = []
+    if np.isnan(given).any():
+        told.append(f"{np.count_nonzero(np.isnan(given))} of {given.size} numbers are none (NaN).")
     missed = np.isinf(given) & np.isfinite(right)
     invented = np.isfinite(given) & np.isinf(right)
     if missed.any():
@@ -108,7 +145,7 @@ def _facts(cases: Sequence[ValueCase]) -> list[str]:
     if np.isinf(right).any() and not missed.any() and not invented.any():
         told.append("Hits and misses are right, only the numbers are not.")
     both = np.isfinite(given) & np.isfinite(right) & (np.abs(right) > 1e-9)
-    if both.any():
+    if np.count_nonzero(both) >= 3:
         ratio = given[both] / right[both]
         if np.ptp(ratio) <= 1e-4 * abs(ratio[0]) and abs(ratio[0] - 1) > 1e-3:
             told.append(f"Your numbers are {ratio[0]:.4g} times the right ones.")

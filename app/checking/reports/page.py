@@ -22,7 +22,6 @@ from app.checking.starter import signature
 from app.checking.tasks import CheckTask
 from renderer.images import encode_array
 
-
 STYLE = """
 :root { color-scheme: light dark; --paper: #ffffff; --ink: #1b1f24; --dim: #59636e;
   --line: #d1d9e0; --shade: #f4f6f8; --right: #1a7f37; --wrong: #c4232b; --failed: #9a6700; }
@@ -37,7 +36,8 @@ p { margin: .25rem 0; }
 .dim { color: var(--dim); }
 section { margin: 1.5rem 0 0; padding: 1rem 1.25rem; border: 1px solid var(--line);
   border-left: .4rem solid var(--dim); border-radius: .4rem; }
-section.right { border-left-color: var(--right); } section.wrong { border-left-color: var(--wrong); }
+section.right { border-left-color: var(--right); }
+section.wrong { border-left-color: var(--wrong); }
 section.failed { border-left-color: var(--failed); }
 .verdict { margin-left: .5rem; } .right .verdict { color: var(--right); }
 .wrong .verdict { color: var(--wrong); } .failed .verdict { color: var(--failed); }
@@ -60,7 +60,8 @@ img { width: 100%; image-rendering: pixelated; border: 1px solid var(--line); di
 .sketch .given.head, .sketch circle.given { fill: var(--wrong); stroke-dasharray: none; }
 .key { display: inline-block; width: 1.6rem; border-top: 3px solid var(--right);
   vertical-align: middle; } .key.given { border-top: 3px dashed var(--wrong); }
-@media print { body { max-width: none; padding: 0; font-size: 11pt; } section { break-inside: avoid; }
+@media print { body { max-width: none; padding: 0; font-size: 11pt; }
+  section { break-inside: avoid; }
   :root { --paper: #ffffff; --ink: #000000; --dim: #444444; --line: #999999; --shade: #ffffff; }
   pre { border: 1px solid var(--line); } * { print-color-adjust: exact; } }
 """

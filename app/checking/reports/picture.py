@@ -1,4 +1,4 @@
-"""What rays see: a small scene of its own before the camera, so that a wrong ray is a wrong picture.
+"""What rays see: a scene of its own before the camera, so that a wrong ray is a wrong picture.
 
 The scene stands in the frustum's own coordinates, in which the right rays of a perspective camera
 are (0, 0, 0) + t (X, Y, -1), Y from -1 to 1 over the image's height and X by its shape, and those

@@ -11,10 +11,10 @@ from app.checking.cases import shots
 from app.checking.checked import check
 from app.checking.conventions import Conventions
 from app.checking.courses import course_names, task_path
-from app.checking.diagnosed import ray_task
 from app.checking.mistakes.candidates import candidates
 from app.checking.mistakes.ray_trial import RayCase, RayTrial, known_values
 from app.checking.mistakes.rays import WORDS, RayTask, ray_program, run_rays
+from app.checking.ray_words import ray_task
 from app.checking.reports.told import told
 from app.checking.running.file import FileStudent
 from app.checking.task_file import load_tasks
@@ -81,12 +81,9 @@ def test_only_the_words_that_are_given_are_used() -> None:
         if asked.words >= WORDS - {"i", "j", "x01", "y01"}:
             continue
         known = known_values(cases, asked)
+        given = {name: known[name] for name in asked.words & known.keys()}
         for mistakes in [(), *((one,) for one in ray_program(asked).mistakes)]:
-            run_rays(
-                ray_program(asked),
-                {name: known[name] for name in asked.words & known.keys()},
-                mistakes,
-            )
+            run_rays(ray_program(asked), given, mistakes)
 
 
 SWAPPED = """

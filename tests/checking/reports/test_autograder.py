@@ -44,8 +44,10 @@ def submitted(folder: Path, code: str, feedback: str = "diagnosis") -> tuple[int
     (folder / "tasks.toml").write_text(TASKS.format(feedback=feedback), "utf-8")
     out = folder / "results.json"
     status = main(
-        ["check", str(folder / "submission.py"), "--tasks", str(folder / "tasks.toml")]
-        + ["--json", str(out)]
+        [
+            *("check", str(folder / "submission.py")),
+            *("--tasks", str(folder / "tasks.toml"), "--json", str(out)),
+        ]
     )
     return status, published(out)
 

@@ -1,6 +1,5 @@
 import numpy as np
 
-
 def viewing_ray(i, j, width, height, camera):
     u, v, w, e = map(np.array, (camera.u, camera.v, camera.w, camera.eye))
     us = camera.left + (camera.right - camera.left) * (j + 0.5) / width

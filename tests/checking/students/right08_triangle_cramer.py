@@ -1,6 +1,4 @@
 import numpy as np
-
-
 def hit_triangle(origin, direction, a, b, c):
     A = np.column_stack([np.subtract(a, b), np.subtract(a, c), direction])
     try:

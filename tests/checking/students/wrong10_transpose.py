@@ -1,6 +1,4 @@
 import numpy as np
-
-
 def viewing_ray(i, j, width, height, camera):
     B = np.array([camera.u, camera.v, camera.w])
     x = camera.left + (camera.right - camera.left) * (j + 0.5) / width

@@ -1,6 +1,4 @@
 import numpy as np
-
-
 def basis(eye, target, up):
     w = np.array(eye) - np.array(target)
     w = w / np.linalg.norm(w)

@@ -1,6 +1,4 @@
 import math
-
-
 # builds its own viewport from the angle
 def viewing_ray(i, j, width, height, camera):
     fov = 2 * math.atan(camera.top / camera.distance)

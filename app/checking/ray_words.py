@@ -1,0 +1,62 @@
+"""A task's words as the table of wrong lines has them, and back."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Sequence
+
+from app.checking.conventions import PAIRS, Conventions
+from app.checking.mistakes.corners import EDGES, GRID, has_corners
+from app.checking.mistakes.rays import WORDS, RayTask
+from app.checking.mistakes.sides import SIZES
+from app.checking.tasks import CheckTask
+from renderer.pixels import Indexing
+
+LETTERS = {"row": "i", "column": "j"}  # by which the table knows them
+
+# Words by what the table calls them.
+_SAME = {
+    "row": {"i"},
+    "column": {"j"},
+    "size": {"width", "height"},
+    "viewport": {"left", "right", "bottom", "top"},
+    **{name: set(pair) for name, pair in PAIRS.items()},
+}
+_PIXELS = ({"i", "j"}, {"x_pixel", "y_pixel"}, {"x01", "y01"}, {"x11", "y11"})
+_EDGES = {"left", "right", "bottom", "top"}
+_FRAMES = ({"eye", "u", "v", "w"}, {"eye", "target", "up"}, {"eye", "forward", "up"})
+_MATRICES = {"camera_to_world", "world_to_camera"}
+_KNOWN = {*WORDS, *SIZES, *GRID, *EDGES, *_MATRICES, "target", "up", "forward", "aspect"}
+
+
+def ray_task(conventions: Conventions) -> RayTask:
+    """How the table of wrong lines has these words; the camera's own, where it has not."""
+    words = {same for word in conventions.words for same in _SAME.get(word, {word})}
+    pixel = next((pair for pair in _PIXELS if pair <= words), {"i", "j"})
+    if {"rotation", "eye"} <= words or (words & _MATRICES and conventions.row_vectors):
+        words = words - _MATRICES | {"eye", "u", "v", "w"}
+    seen = words >= _EDGES or words >= set(SIZES) or any(word.startswith("fov") for word in words)
+    placed = bool(words & _MATRICES) or any(frame <= words for frame in _FRAMES)
+    if not (has_corners(words) or (seen and placed)):
+        words = set(WORDS)
+    words = {word for word in words if word in _KNOWN or word.startswith("fov")}
+    words = words - set().union(*_PIXELS) | pixel | {"width", "height"}
+    return RayTask(
+        indexing=Indexing(conventions.base),
+        from_top=conventions.rows == "top",
+        words=frozenset(words),
+        axes=conventions.axes,
+    )
+
+
+def in_the_tasks_words(task: CheckTask, sentences: Sequence[str]) -> tuple[str, ...]:
+    """The sentences, and what the task calls the letters of a pixel in them."""
+    text = " ".join(sentences)
+    called = []
+    for name, word in task.conventions.arguments:
+        for place, part in enumerate(PAIRS.get(word, (word,))):
+            letter = LETTERS.get(part, part)
+            own = name if word not in PAIRS else f"{name}[{place}]"
+            if own != letter and re.search(rf"\b{letter}\b", text):
+                called.append(f"{letter} is your `{own}`")
+    return (*sentences, f"Here {' and '.join(called)}.") if called else tuple(sentences)
