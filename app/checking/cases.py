@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from app.checking.conventions import Conventions, Shot
-from app.checking.tasks import CAMERA_KINDS, RIGID_KINDS, CheckTask
+from app.checking.tasks import CAMERA_KINDS, MOST_CALLS, RIGID_KINDS, CheckTask
 from renderer.camera import Camera, Size, Vector
 from renderer.errors import LucidaError
 
@@ -86,6 +86,13 @@ def shot_of(view: View, size: Size) -> Shot:
     camera = view.for_size(size)
     eye, v, w = (np.asarray(part) for part in (camera.eye, camera.v, camera.w))
     return Shot(camera, size, _vector(eye - 2.0 * w), _vector(v))
+
+
+def check_size(task: CheckTask, field: str) -> None:
+    """Raises LucidaError where a task's images have too many pixels together."""
+    width, height = task.size or VIEW_SIZE
+    if (task.count + len(task.views)) * width * height > MOST_CALLS:
+        raise LucidaError(field, f"makes more than {MOST_CALLS} rays", "give smaller images")
 
 
 def check_views(task: CheckTask) -> None:
