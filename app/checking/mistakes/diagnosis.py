@@ -18,14 +18,13 @@ class Diagnosis:
     """sentences: the most telling first, in the lecture's words. candidates: the mistakes, one or
     two at once, that all fit the numbers; () where none does. differences: of the fitted camera
     from the one that was asked for, in words. camera: the fitted one, of the first case that is
-    wrong, as asked_camera is; None where the rays are no camera's. first: the number of that case.
+    wrong; None where the rays are no camera's. first: the number of that case.
     """
 
     sentences: tuple[str, ...]
     candidates: tuple[Mistakes, ...] = ()
     differences: tuple[str, ...] = ()
     camera: Camera | None = None
-    asked_camera: Camera | None = None
     first: int = 0
 
 

@@ -42,7 +42,6 @@ def diagnose_rays(
         return None
     rays = np.asarray(given, float).reshape(-1, 2, 3)
     task = task or RayTask()
-    first = int(np.argmax(flags))
     kinds = dict.fromkeys(case.camera.projection for case in cases)
     told: Told = {}
     for kind in kinds:
@@ -66,8 +65,7 @@ def diagnose_rays(
             )
         sentences += facts(Rays(cases, rays, flags, task, any_origin, camera is not None))
     found = tuple(dict.fromkeys(one for _, kind in told.values() for one in kind))
-    asked = cases[first].camera
-    return Diagnosis(tuple(sentences), found, differences, camera, asked, first)
+    return Diagnosis(tuple(sentences), found, differences, camera, int(np.argmax(flags)))
 
 
 def _fits(cases: Sequence[RayCase], rays: Floats, wrong: Flags) -> list[Fit]:
