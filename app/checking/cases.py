@@ -56,7 +56,10 @@ def shots(task: CheckTask) -> Iterator[Shot]:
     random = generator(task)
     conventions = task.conventions
     for view in task.views:
-        yield shot_of(view, task.size or VIEW_SIZE)
+        shot = shot_of(view, task.size or VIEW_SIZE)
+        if conventions.mirrored and shot.camera.determinant > 0:
+            shot = replace(shot, camera=_mirrored(shot.camera))
+        yield shot
     if not task.count:
         return
     kinds = [kind for kind in task.cameras if kind in camera_kinds(conventions)]
@@ -77,7 +80,7 @@ def _made_up(
     if conventions.needs_rigid and kind != "turned":
         camera = camera.fitted(size)
     if conventions.mirrored:
-        camera = replace(camera, u=_negative(camera.u))
+        camera = _mirrored(camera)
     return Shot(camera, size, target, up)
 
 
@@ -127,9 +130,9 @@ def _vector(values: np.ndarray) -> Vector:
     return x, y, z
 
 
-def _negative(vector: Vector) -> Vector:
-    x, y, z = (-value for value in vector)
-    return x, y, z
+def _mirrored(camera: Camera) -> Camera:
+    x, y, z = camera.u
+    return replace(camera, u=(-x, -y, -z))
 
 
 Made = tuple[Camera, Vector, Vector]
