@@ -224,7 +224,9 @@ def _returns(entry: TaskTable, kind: CheckKind) -> tuple[str, ...]:
 
 def _cameras(entry: TaskTable, conventions: Conventions, base: CheckTask) -> tuple[str, ...]:
     possible = camera_kinds(conventions)
-    if entry.cameras is None and entry.kind not in WITH_CAMERAS:
+    if entry.kind not in WITH_CAMERAS:
+        if entry.cameras is not None:
+            raise LucidaError("cameras", f"{entry.kind} has no cameras", "leave it out")
         return base.cameras
     if entry.cameras is None:
         return tuple(kind for kind in base.cameras if kind in possible)
