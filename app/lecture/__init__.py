@@ -3,7 +3,6 @@
 schema      the file format, as msgspec structures
 places      the line of each field in a TOML text
 text        Markdown with formulas, into blocks to draw
-mistakes    the classic wrong lines of a camera, to know a wrong answer by
 exercises   questions with checked answers
 model       the lecture: steps, parts, outline
 reading     a file into a lecture; errors with file, line and field

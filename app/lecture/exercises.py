@@ -6,17 +6,18 @@ or as the number of an option.
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
 
+from app.checking.mistakes.program import Mistake
+from app.checking.mistakes.rays import RayTask, ray_program, ray_values, run_rays
 from app.explaining.arithmetic import text_of, vector, vector_text
-from app.lecture.mistakes import mistakes
 from app.lecture.text import escaped
-from renderer.camera import Camera
+from renderer.camera import Camera, Ray
 from renderer.errors import LucidaError
 from renderer.pixels import Indexing
 
@@ -66,9 +67,9 @@ class RayExercise:
         wrong_direction = not self._is_direction(given["direction"], ray.direction)
         if not wrong_origin and not wrong_direction:
             return Judgement(True, "Right.")
-        for mistake in mistakes(self.camera, *self.pixel, self.size, self.indexing):
-            if self._is_origin(given["origin"], mistake.ray.origin) and self._is_direction(
-                given["direction"], mistake.ray.direction
+        for mistake, wrong in self._wrong_rays():
+            if self._is_origin(given["origin"], wrong.origin) and self._is_direction(
+                given["direction"], wrong.direction
             ):
                 return Judgement(False, mistake.hint, "origin" if wrong_origin else "direction")
         return self._one_part(given, wrong_origin)
@@ -96,15 +97,22 @@ class RayExercise:
     @cached_property
     def replies(self) -> tuple[str, ...]:
         """What may be said to an answer, but for one that is no vector."""
-        said = mistakes(self.camera, *self.pixel, self.size, self.indexing)
-        return NOT_NORMALISED, *(mistake.hint for mistake in said)
+        program = ray_program(RayTask(self.camera.projection, self.indexing))
+        return NOT_NORMALISED, *(mistake.hint for mistake in program.mistakes)
+
+    def _wrong_rays(self) -> Iterator[tuple[Mistake, Ray]]:
+        """What each wrong line gives for the pixel; it may be the right ray."""
+        task = RayTask(self.camera.projection, self.indexing)
+        program, known = ray_program(task), ray_values(self.camera, *self.pixel, self.size, task)
+        for mistake in program.mistakes:
+            yield mistake, Ray(*run_rays(program, known, (mistake,)))
 
     def _one_part(self, given: dict[str, Floats], wrong_origin: bool) -> Judgement:
         """No classic mistake as a whole: the first wrong part, and its own mistake if it is one."""
-        for mistake in mistakes(self.camera, *self.pixel, self.size, self.indexing):
-            if wrong_origin and self._is_origin(given["origin"], mistake.ray.origin):
+        for mistake, wrong in self._wrong_rays():
+            if wrong_origin and self._is_origin(given["origin"], wrong.origin):
                 return Judgement(False, mistake.hint, "origin")
-            if not wrong_origin and self._is_direction(given["direction"], mistake.ray.direction):
+            if not wrong_origin and self._is_direction(given["direction"], wrong.direction):
                 return Judgement(False, mistake.hint, "direction")
         if wrong_origin:
             where = "on the image plane" if self.camera.is_parallel else "at the eye"

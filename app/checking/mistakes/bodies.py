@@ -20,6 +20,13 @@ TRANSPOSED = (
     "That multiplies by rows for columns. The basis vectors are the columns: u u + v v - d w."
 )
 INVERTED = "That leads from the world to the camera. From the camera to the world: u u + v v - d w."
+RARE = {
+    "divided by the distance",
+    "from the eye to the viewport",
+    "no w",
+    "normalised",
+    "the direction is the eye's",
+}
 
 
 def body_lines(is_parallel: bool, matrix: str, distance: str) -> list[CodeLine]:
@@ -49,7 +56,7 @@ def _made(name: str, origin: str, direction: str, hint: str, part: str) -> Mista
     """origin, direction: what is written instead; empty where that is right."""
     lines = (("origin", origin), ("direction", direction))
     written = tuple((key, f"{key} = {code}") for key, code in lines if code)
-    return Mistake(name, written, hint, part)
+    return Mistake(name, written, hint, part, name not in RARE)
 
 
 def body_mistakes(is_parallel: bool, matrix: str, distance: str) -> list[Mistake]:

@@ -6,6 +6,11 @@ from app.checking.mistakes.program import CodeLine, Mistake
 from renderer.pixels import Indexing
 
 PART = "From pixel to ray"
+UNITS = {
+    "_pixel": ("x_pixel / width", "y_pixel / height"),
+    "01": ("x01", "y01"),
+    "11": ("(x11 + 1) / 2", "(y11 + 1) / 2"),
+}
 FISHEYE = "Straight lines stay straight: equal steps on the image plane, not equal angles."
 
 
@@ -21,18 +26,27 @@ def pixel_mistakes(
     """distance: what stands for it; empty in parallel projection, where there are no angles."""
     across, down = _parts(words, indexing)
     made = _flips(across, down, from_top)
-    if "i" in words:
-        made += _centres(indexing, from_top) + _exchanges(indexing, from_top)
+    unit = _unit(words)
+    if unit:
+        made += _in_units(words, unit, from_top)
     else:
-        made += _in_units(words, from_top)
+        made += _centres(indexing, from_top) + _exchanges(indexing, from_top)
     return made + _angles(across, down, from_top, distance) if distance else made
+
+
+def _unit(words: frozenset[str]) -> str:
+    """How a pixel is told, where not by row and column."""
+    if {"i", "j"} & words:
+        return ""
+    return next((unit for unit in UNITS if f"x{unit}" in words), "")
 
 
 def _parts(words: frozenset[str], indexing: Indexing) -> tuple[str, str]:
     """How far the pixel is across the image, and how far along its rows."""
-    if "i" in words:
-        return f"(j {indexing.offset}) / width", f"(i {indexing.offset}) / height"
-    return ("x01", "y01") if "x01" in words else ("(x11 + 1) / 2", "(y11 + 1) / 2")
+    return UNITS.get(_unit(words)) or (
+        f"(j {indexing.offset}) / width",
+        f"(i {indexing.offset}) / height",
+    )
 
 
 def _x(part: str) -> str:
@@ -53,13 +67,15 @@ def _flips(across: str, down: str, from_top: bool) -> list[Mistake]:
         else "Here rows count upwards, as v does: v needs no minus sign."
     )
     name = "rows count upwards" if from_top else "rows count downwards"
+    rows = ("y = top -", "y = bottom +") if from_top else ("y = bottom +", "y = top -")
     return [
-        Mistake(name, (("y", _y(down, not from_top)),), hint, PART),
+        Mistake(name, (("y", _y(down, not from_top)),), hint, PART, swaps=(rows,)),
         Mistake(
             "columns count leftwards",
             (("x", f"x = right - {across} * (right - left)"),),
             "Columns count to the right, as u does: u has no minus sign.",
             PART,
+            swaps=(("x = left +", "x = right -"),),
         ),
     ]
 
@@ -67,11 +83,11 @@ def _flips(across: str, down: str, from_top: bool) -> list[Mistake]:
 def _centres(indexing: Indexing, from_top: bool) -> list[Mistake]:
     """The half pixel, and the number of steps: in both lines, or in one alone."""
     if indexing is Indexing.LECTURE:
-        corner, whole, off, one = "({} - 1)", "{}", "({} + 0.5)", "({} - 1)"
+        corner, whole, off = "({} - 1)", "{}", "({} + 0.5)"
         whole_name, whole_hint = "no half pixel", "the centre is at j - 0.5, not at j."
         off_hint = "subtract the half pixel, do not add it."
     else:
-        corner, whole, off, one = "{}", "({} + 1)", "({} - 0.5)", "{}"
+        corner, whole, off = "{}", "({} + 1)", "({} - 0.5)"
         whole_name, whole_hint = "a whole pixel", "the centre is at j + 0.5, not at j + 1."
         off_hint = "add the half pixel, do not subtract it."
     told = f"i and j count {indexing.told}: "
@@ -86,7 +102,7 @@ def _centres(indexing: Indexing, from_top: bool) -> list[Mistake]:
         ("one pixel off", f"{off} / {{}}", told + off_hint),
         (
             "one step too few",
-            f"{one} / ({{}} - 1)",
+            f"{corner} / ({{}} - 1)",
             "W pixels are W steps, each 1/W of the viewport: divide by W, not by W - 1.",
         ),
         (
@@ -99,11 +115,16 @@ def _centres(indexing: Indexing, from_top: bool) -> list[Mistake]:
     for name, part, hint in wrong:
         x = ("x", _x(part.format("j", "width")))
         y = ("y", _y(part.format("i", "height"), from_top))
-        made.append(Mistake(name, (x, y), hint, PART))
-        made.append(Mistake(f"{name}: in the columns", (x,), f"Of the column: {hint}", PART))
-        made.append(Mistake(f"{name}: in the rows", (y,), f"Of the row: {hint}", PART))
-    # The classic ones as a whole come first.
-    return sorted(made, key=lambda mistake: len(mistake.lines) == 1)
+        new = part.partition(" / ")[0]
+        swaps = (
+            tuple((centre.format(k), new.format(k)) for k in "ij") if part.endswith("/ {}") else ()
+        )
+        made += [
+            Mistake(name, (x, y), hint, PART, not name.startswith("the centre,"), swaps),
+            Mistake(f"{name}: in the columns", (x,), f"Of the column: {hint}", PART, False),
+            Mistake(f"{name}: in the rows", (y,), f"Of the row: {hint}", PART, False),
+        ]
+    return made
 
 
 def _exchanges(indexing: Indexing, from_top: bool) -> list[Mistake]:
@@ -160,31 +181,32 @@ def _angles(across: str, down: str, from_top: bool, distance: str) -> list[Mista
             (x, ("y", f"{y[1]}\ny = y * sqrt(1 + (x / {distance})**2)")),
             FISHEYE,
             PART,
+            is_common=False,
         ),
     ]
 
 
-def _in_units(words: frozenset[str], from_top: bool) -> list[Mistake]:
-    """What is made of x and y in [0, 1] or [-1, 1]."""
-    unit = "01" if "x01" in words else "11"
-    across, down = _parts(words, Indexing.ARRAY)
+def _in_units(words: frozenset[str], unit: str, from_top: bool) -> list[Mistake]:
+    """What is made of the pixel's centre in pixels, or of x and y in [0, 1] or [-1, 1]."""
+    across, down = UNITS[unit]
     made: list[Mistake] = []
     if unit == "01":
-        other, far = (f"(2*{axis}01 - 1)" for axis in "xy"), ("[0, 1]", "[-1, 1]")
+        other, far = [f"(2*{axis}01 - 1)" for axis in "xy"], ("[0, 1]", "[-1, 1]")
+        hint = "The coordinates reach over [0, 1], not over [-1, 1]: 0 is the edge."
     else:
-        other, far = (f"{axis}11" for axis in "xy"), ("[-1, 1]", "[0, 1]")
-    hint = f"The coordinates reach over {far[0]}, not over {far[1]}: 0 is "
-    hint += "the edge, not the middle." if unit == "01" else "the middle, not the edge."
-    x, y = other
-    made += [
-        Mistake(f"{far[1]} for {far[0]}", (("x", _x(x)), ("y", _y(y, from_top))), hint, PART),
+        other, far = [f"{axis}11" for axis in "xy"], ("[-1, 1]", "[0, 1]")
+        hint = "The coordinates reach over [-1, 1], not over [0, 1]: 0 is the middle."
+    if unit != "_pixel":
+        lines = (("x", _x(other[0])), ("y", _y(other[1], from_top)))
+        made.append(Mistake(f"{far[1]} for {far[0]}", lines, hint, PART))
+    made.append(
         Mistake(
             "across and along exchanged",
             (("x", _x(down)), ("y", _y(across, from_top))),
             "The first coordinate goes across the image and gives u, the second gives v.",
             PART,
-        ),
-    ]
+        )
+    )
     if {"width", "height"} <= words:
         x, y = f"({across} + 0.5 / width)", f"({down} + 0.5 / height)"
         made.append(

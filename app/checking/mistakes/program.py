@@ -30,18 +30,27 @@ class Mistake:
     """A wrong line, or several that are wrong in the same way.
 
     name: what was done, unlike all others of its program. lines: (key of the line, what is written
-    instead; empty: it is left out). hint: what to tell, in the lecture's words. part: the title of
-    the lecture's step to read again.
+    instead). hint: what to tell, in the lecture's words. part: the title of the lecture's step to
+    read again. is_common: whether many make it; those are told first. swaps: (old, new) texts that
+    make it where another mistake has rewritten its line already.
     """
 
     name: str
     lines: tuple[tuple[str, str], ...]
     hint: str
     part: str
+    is_common: bool = True
+    swaps: tuple[tuple[str, str], ...] = ()
 
     @property
     def keys(self) -> frozenset[str]:
         return frozenset(key for key, _ in self.lines)
+
+    def swapped(self, code: str) -> str:
+        """A line that another mistake has rewritten, with this one made in it as well."""
+        for old, new in self.swaps:
+            code = code.replace(old, new)
+        return code
 
 
 Mistakes = tuple[Mistake, ...]
@@ -49,8 +58,8 @@ Mistakes = tuple[Mistake, ...]
 
 @dataclass(frozen=True)
 class ShownLine:
-    """code: the right line. instead: what is written where it is struck out, else None; empty
-    where it is left out, several lines where one became several."""
+    """code: the right line. instead: what is written where it is struck out, else None; it may be
+    several lines."""
 
     key: str
     code: str
@@ -59,19 +68,21 @@ class ShownLine:
 
 @dataclass(frozen=True, eq=False)
 class Program:
-    """lines, and the mistakes that are made in them; results: the names of what it makes."""
+    """lines, and the mistakes that are made in them. results: the names of what it makes.
+    has_pairs: whether two mistakes at once are looked for: not where a run takes long."""
 
     lines: tuple[CodeLine, ...]
     mistakes: Mistakes
     results: tuple[str, ...]
+    has_pairs: bool = True
 
     def text(self, mistakes: Sequence[Mistake] = ()) -> tuple[ShownLine, ...]:
-        """All lines, in their order, with what is written instead. Mistakes of the same line: the
-        first one's counts."""
+        """All lines, in their order, with what is written instead. Of mistakes that cannot be
+        made together in one line, the first counts."""
         instead: dict[str, str] = {}
-        for mistake in mistakes:
+        for mistake in sorted(mistakes, key=lambda mistake: bool(mistake.swaps)):
             for key, code in mistake.lines:
-                instead.setdefault(key, code)
+                instead[key] = mistake.swapped(instead[key]) if key in instead else code
         return tuple(ShownLine(line.key, line.code, instead.get(line.key)) for line in self.lines)
 
     def source(self, mistakes: Sequence[Mistake] = ()) -> str:
@@ -79,7 +90,7 @@ class Program:
         written = (
             line.code if line.instead is None else line.instead for line in self.text(mistakes)
         )
-        return "\n".join(line for line in written if line)
+        return "\n".join(written)
 
     def run(self, known: Mapping[str, Any], mistakes: Sequence[Mistake] = ()) -> tuple[Any, ...]:
         """The results, as the lines give them. known: the values of the names that the lines
@@ -90,10 +101,19 @@ class Program:
         return tuple(names[name] for name in self.results)
 
     def pairs(self) -> Iterator[tuple[Mistake, Mistake]]:
-        """Any two mistakes of different lines."""
+        """Any two mistakes that can be made together."""
         for first, second in combinations(self.mistakes, 2):
-            if not first.keys & second.keys:
+            if self.can_combine(first, second):
                 yield first, second
+
+    def can_combine(self, first: Mistake, second: Mistake) -> bool:
+        """Whether they are in different lines, or both show in the line that they share."""
+        shared = first.keys & second.keys
+        if not shared:
+            return True
+        codes = {line.key: line.instead for line in self.text((first, second))}
+        alone = (dict(first.lines), dict(second.lines))
+        return all(codes[key] != one[key] for key in shared for one in alone)
 
 
 @functools.lru_cache(4096)

@@ -11,6 +11,7 @@ With all that a camera is, (i, j) from 0 and row 0 at the top, they are the came
 from __future__ import annotations
 
 import functools
+import math
 from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
@@ -22,7 +23,7 @@ from app.checking.mistakes.basis import BASIS_LINES, BASIS_MISTAKES
 from app.checking.mistakes.bodies import body_lines, body_mistakes
 from app.checking.mistakes.pixels import pixel_lines, pixel_mistakes
 from app.checking.mistakes.program import Mistake, Program
-from app.checking.mistakes.viewport import viewport_lines, viewport_mistakes
+from app.checking.mistakes.viewport import ANGLES, viewport_lines, viewport_mistakes
 from renderer.camera import Camera, Size
 from renderer.pixels import Indexing
 
@@ -30,15 +31,20 @@ Floats = NDArray[np.float64]
 
 # What a task hands over by default.
 WORDS = frozenset(
-    ("i", "j", "width", "height", "eye", "u", "v", "w", "distance")
-    + ("left", "right", "bottom", "top", "projection")
+    {"i", "j", "width", "height", "eye", "u", "v", "w", "distance"}
+    | {"left", "right", "bottom", "top", "projection"}
 )
+
+PIXEL_NAMES = ("i", "j", "x_pixel", "y_pixel", "x01", "y01", "x11", "y11")
 
 
 @dataclass(frozen=True)
 class RayTask:
-    """How a task asks for rays. words: what it hands over, of the pixel and of the camera.
-    indexing, from_top: how i counts rows, and j columns."""
+    """How a task asks for rays. words: what it hands over, of the pixel (i, j; x_pixel, y_pixel:
+    the centre in pixels; x01, y01; x11, y11) and of the camera (eye, u, v, w or target, up or
+    camera_to_world or world_to_camera; left, right, bottom, top or fov_y, fov_x, in degrees or with
+    _rad in radians, and aspect). Where they are others, the lines are those of the camera contract.
+    indexing, from_top: how i counts rows, and j columns; y01 and y11 begin where rows do."""
 
     projection: str = "perspective"
     indexing: Indexing = Indexing.ARRAY
@@ -51,9 +57,10 @@ def ray_program(task: RayTask) -> Program:
     """Its right lines, and what is written instead. They make origin and direction."""
     words = task.words
     is_parallel = task.projection == "parallel"
-    distance = "distance" if "distance" in words else "1"
+    has_angle = "left" not in words and bool(words & set(ANGLES))
+    distance = "1" if has_angle and "distance" not in words else "distance"
     matrix = ""
-    if not {"u", "v", "w"} <= words:
+    if not {"u", "v", "w"} & words:
         matrix = next((m for m in ("camera_to_world", "world_to_camera") if m in words), "")
     parts = [
         (
@@ -65,13 +72,14 @@ def ray_program(task: RayTask) -> Program:
             body_mistakes(is_parallel, matrix, distance),
         ),
     ]
-    if "left" not in words:
+    if has_angle:
         parts.insert(0, (viewport_lines(words), viewport_mistakes(words)))
-    if not matrix and not {"u", "v", "w"} <= words:
+    if {"target", "up"} <= words and not matrix and not {"u", "v", "w"} & words:
         parts.insert(0, (BASIS_LINES, BASIS_MISTAKES))
     lines = tuple(line for part, _ in parts for line in part)
-    mistakes = tuple(mistake for _, part in parts for mistake in part)
-    return Program(lines, mistakes, ("origin", "direction"))
+    mistakes = [mistake for _, part in parts for mistake in part]
+    mistakes.sort(key=lambda mistake: not mistake.is_common)
+    return Program(lines, tuple(mistakes), ("origin", "direction"))
 
 
 def ray_values(
@@ -93,6 +101,8 @@ def ray_values(
     return {
         "i": row + task.indexing.value,
         "j": column + task.indexing.value,
+        "x_pixel": x01 * width,
+        "y_pixel": y01 * height,
         "x01": x01,
         "y01": y01,
         "x11": 2 * x01 - 1,
@@ -108,11 +118,20 @@ def ray_values(
         "right": right,
         "bottom": bottom,
         "top": top,
-        "fov_y": camera.fov_y_deg,
+        **_angles(camera),
         "aspect": (right - left) / (top - bottom),
         "camera_to_world": to_world,
         "world_to_camera": camera.camera_from_world,
     }
+
+
+def _angles(camera: Camera) -> dict[str, float]:
+    """Of an orthonormal camera with a symmetric viewport."""
+    left, right, bottom, top = camera.viewport
+    across = 2 * math.atan2((right - left) / 2, camera.distance)
+    along = 2 * math.atan2((top - bottom) / 2, camera.distance)
+    degrees = {"fov_x": math.degrees(across), "fov_y": math.degrees(along)}
+    return degrees | {"fov_x_rad": across, "fov_y_rad": along}
 
 
 def run_rays(
@@ -120,8 +139,8 @@ def run_rays(
 ) -> tuple[Floats, Floats]:
     """Origins and directions, (..., 3) for each pixel that is known."""
     origin, direction = program.run(known, mistakes)
-    one = np.asarray(known["i"] if "i" in known else known["x01"])
-    shape = np.broadcast_shapes(one.shape, np.shape(origin), np.shape(direction))
+    pixels = (np.shape(known[name]) for name in PIXEL_NAMES if name in known)
+    shape = np.broadcast_shapes(*pixels, np.shape(origin), np.shape(direction))
     return np.broadcast_to(origin, shape), np.broadcast_to(direction, shape)
 
 

@@ -6,6 +6,8 @@ from app.checking.mistakes.program import CodeLine, Mistake
 
 PART = "Any camera"
 HALF = "The angle is that of the whole viewport: its upper half is the tangent of half of it."
+ANGLES = ("fov_y", "fov_x", "fov_y_rad", "fov_x_rad")
+RARE = {"a quarter of the angle", "half of the viewport's half", "the tangent upside down"}
 
 
 def viewport_lines(words: frozenset[str]) -> list[CodeLine]:
@@ -25,7 +27,7 @@ def viewport_mistakes(words: frozenset[str]) -> list[Mistake]:
     angle = _angle(word)
 
     def of_first(name: str, code: str, hint: str) -> Mistake:
-        return Mistake(name, ((first, f"{first} = {code}"),), hint, PART)
+        return Mistake(name, ((first, f"{first} = {code}"),), hint, PART, name not in RARE)
 
     def of_second(name: str, code: str, hint: str) -> Mistake:
         return Mistake(name, ((second, f"{second} = {code}"),), hint, PART)
@@ -102,7 +104,7 @@ def viewport_mistakes(words: frozenset[str]) -> list[Mistake]:
 
 def _given(words: frozenset[str]) -> tuple[str, str, str]:
     """The angle's word, the aspect ratio, and the distance as a factor."""
-    word = next(w for w in ("fov_y", "fov_x", "fov_y_rad", "fov_x_rad") if w in words)
+    word = next(angle for angle in ANGLES if angle in words)
     aspect = "aspect" if "aspect" in words else "width / height"
     return word, aspect, "distance * " if "distance" in words else ""
 

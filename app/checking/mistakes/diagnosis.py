@@ -1,0 +1,50 @@
+"""What is told of wrong answers: the mistakes that they fit, or what else is known of them."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+from app.checking.mistakes.program import Mistakes, Program
+from renderer.camera import Camera
+
+NAMED = 3  # of the candidates; more would not help
+
+
+@dataclass(frozen=True, eq=False)
+class Diagnosis:
+    """sentences: the most telling first, in the lecture's words. candidates: the mistakes, one or
+    two at once, that all fit the numbers; () where none does. differences: of the fitted camera
+    from the one that was asked for, in words. camera: the fitted one, of the first case that is
+    wrong, as asked_camera is; None where the rays are no camera's. first: the number of that case.
+    """
+
+    sentences: tuple[str, ...]
+    candidates: tuple[Mistakes, ...] = ()
+    differences: tuple[str, ...] = ()
+    camera: Camera | None = None
+    asked_camera: Camera | None = None
+    first: int = 0
+
+
+def candidate_sentences(program: Program, found: Sequence[Mistakes]) -> list[str]:
+    """The hints of the first candidate, the lines that were as good as written, where to read
+    again; and the other candidates' hints."""
+    first = found[0]
+    sentences = ["Two mistakes at once." if len(first) == 2 else ""]
+    sentences += list(dict.fromkeys(mistake.hint for mistake in first))
+    for line in program.text(first):
+        if line.instead is not None:
+            written = " and ".join(f"`{code}`" for code in line.instead.split("\n"))
+            sentences.append(f"As if it read {written}, not `{line.code}`.")
+    told = set(sentences)
+    for others in found[1:NAMED]:
+        hint = " ".join(mistake.hint for mistake in others)
+        if hint not in told:
+            told.add(hint)
+            sentences.append(f"Or, with the same numbers: {hint}")
+    if len(found) > NAMED:
+        sentences.append(f"{len(found) - NAMED} more mistakes would give the same numbers.")
+    parts = dict.fromkeys(mistake.part for mistake in first)
+    sentences.append(f"Read again: {', '.join(parts)}.")
+    return [sentence for sentence in sentences if sentence]

@@ -1,0 +1,128 @@
+"""What is told of wrong viewing rays: by name, as a camera, and what of them is right."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from app.checking.mistakes.candidates import candidates
+from app.checking.mistakes.diagnosis import Diagnosis, candidate_sentences
+from app.checking.mistakes.differences import Fit, told_differences
+from app.checking.mistakes.fitted import affine_rays
+from app.checking.mistakes.program import Mistakes, Program
+from app.checking.mistakes.ray_facts import Rays, facts
+from app.checking.mistakes.ray_trial import Lengths, RayCase, RayTrial, images
+from app.checking.mistakes.rays import RayTask, ray_program
+
+Floats = NDArray[np.float64]
+Flags = NDArray[np.bool_]
+
+FITTED = 12  # images, of those that are wrong
+
+
+def diagnose_rays(
+    cases: Sequence[RayCase],
+    given: ArrayLike,
+    wrong: ArrayLike,
+    task: RayTask | None = None,
+    lengths: Lengths = "any",
+    any_origin: bool = False,
+) -> Diagnosis | None:
+    """What is told of the rays that were given for these pixels: origins and directions in the
+    world, (N, 2, 3). None where none is wrong.
+
+    wrong: which are, (N,). task: how it was asked for; its projection does not count, that of each
+    camera does. lengths: whether directions must have the right length ("exact") or any.
+    any_origin: whether any point of a ray may be its origin.
+    """
+    flags = np.asarray(wrong, bool)
+    if not flags.any():
+        return None
+    rays = np.asarray(given, float).reshape(-1, 2, 3)
+    task = task or RayTask()
+    first = int(np.argmax(flags))
+    kinds = dict.fromkeys(case.camera.projection for case in cases)
+    told: dict[str, tuple[Program, tuple[Mistakes, ...]]] = {}
+    for kind in kinds:
+        chosen = np.array([case.camera.projection == kind for case in cases])
+        if flags[chosen].any():
+            its_task = replace(task, projection=kind)
+            its_cases = [case for case, is_its in zip(cases, chosen, strict=True) if is_its]
+            trial = RayTrial(its_cases, rays[chosen], its_task, lengths, any_origin)
+            program = ray_program(its_task)
+            told[kind] = program, candidates(program, trial, flags[chosen])
+    told = _shared(told)
+    fits = _fits(cases, rays, flags)
+    differences = told_differences(fits) if fits else ()
+    camera = fits[0].rays.camera(fits[0].asked, fits[0].size) if fits else None
+    sentences = _candidates_told(told, len(kinds))
+    explained = all(found for _, found in told.values())
+    if not explained:
+        if differences:
+            sentences.append(
+                f"What you wrote is a camera, only another one: {'; '.join(differences)}."
+            )
+        sentences += facts(Rays(cases, rays, flags, task, any_origin, camera is not None))
+    found = tuple(dict.fromkeys(one for _, kind in told.values() for one in kind))
+    asked = cases[first].camera
+    return Diagnosis(tuple(sentences), found, differences, camera, asked, first)
+
+
+def _shared(
+    told: dict[str, tuple[Program, tuple[Mistakes, ...]]],
+) -> dict[str, tuple[Program, tuple[Mistakes, ...]]]:
+    """Where rays of both projections are wrong, what explains them both by one name: that."""
+    if len(told) < 2:
+        return told
+    names = [{_names(one) for one in found} for _, found in told.values()]
+    shared = set.intersection(*names)
+    if not shared:
+        return told
+    return {
+        kind: (program, tuple(one for one in found if _names(one) in shared))
+        for kind, (program, found) in told.items()
+    }
+
+
+def _names(mistakes: Mistakes) -> tuple[str, ...]:
+    return tuple(mistake.name for mistake in mistakes)
+
+
+def _candidates_told(
+    told: dict[str, tuple[Program, tuple[Mistakes, ...]]], kinds: int
+) -> list[str]:
+    """In both projections the same: once."""
+    sentences: list[str] = []
+    seen: set[tuple[tuple[str, ...], ...]] = set()
+    for kind, (program, found) in told.items():
+        names = tuple(_names(one) for one in found)
+        if not found or names in seen:
+            continue
+        seen.add(names)
+        if kinds > 1 and (len(told) == 1 or any(names != _all_names(t) for t in told.values())):
+            place = "In perspective" if kind == "perspective" else "In parallel projection"
+            sentences.append(f"{place}:")
+        sentences += candidate_sentences(program, found)
+    return sentences
+
+
+def _all_names(told: tuple[Program, tuple[Mistakes, ...]]) -> tuple[tuple[str, ...], ...]:
+    return tuple(_names(one) for one in told[1])
+
+
+def _fits(cases: Sequence[RayCase], rays: Floats, wrong: Flags) -> list[Fit]:
+    """The cameras that the wrong images are of; none where one of them is no camera's."""
+    fits = []
+    chosen = [(first, last) for first, last in images(cases) if wrong[first:last].any()]
+    for first, last in chosen[:FITTED]:
+        case = cases[first]
+        i, j = np.array([one.pixel for one in cases[first:last]]).T
+        scale = float(np.linalg.norm(case.camera.eye))
+        found = affine_rays(i, j, rays[first:last, 0], rays[first:last, 1], scale)
+        if found is None or found.camera(case.camera, case.size) is None:
+            return []
+        fits.append(Fit(case.camera, case.size, found, case.target, case.up))
+    return fits

@@ -1,0 +1,159 @@
+"""What of wrong rays is right, and where: said when no mistake's name fits."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from app.checking.mistakes.candidates import LOOSE
+from app.checking.mistakes.ray_trial import RayCase, RayTrial, images
+from app.checking.mistakes.rays import RayTask
+
+Floats = NDArray[np.float64]
+Flags = NDArray[np.bool_]
+
+TOLD = 3  # facts; more would hide the one that helps
+
+
+@dataclass(frozen=True, eq=False)
+class Rays:
+    """given: (N, 2, 3), of which wrong are wrong. is_camera: whether they are those of one."""
+
+    cases: Sequence[RayCase]
+    given: Floats
+    wrong: Flags
+    task: RayTask
+    any_origin: bool
+    is_camera: bool
+
+
+def facts(rays: Rays) -> list[str]:
+    """A few sentences, the most telling first."""
+    told = [*_not_numbers(rays), *_parts(rays), *_where(rays), *_same(rays)]
+    return told[:TOLD] or [*_shape(rays)]
+
+
+def _not_numbers(rays: Rays) -> Iterator[str]:
+    broken = len(rays.cases) - np.count_nonzero(np.isfinite(rays.given).all(axis=(1, 2)))
+    if broken:
+        yield f"{broken} of {len(rays.cases)} rays are no finite numbers: look for a division by 0."
+    short = np.linalg.norm(rays.given[:, 1], axis=1) == 0
+    if short.any():
+        yield f"{np.count_nonzero(short)} of {len(rays.cases)} directions are zero."
+
+
+def _parts(rays: Rays) -> Iterator[str]:
+    """Origins and directions, each for itself."""
+    trial = RayTrial(rays.cases, rays.given, rays.task, "any", rays.any_origin)
+    everything = np.arange(trial.count)
+    right, given = trial.right, rays.given
+
+    def is_right(origins: Floats, directions: Floats) -> Flags:
+        return trial.apart(np.stack([origins, directions], axis=1), right, everything) <= LOOSE
+
+    origins = is_right(given[:, 0], right[:, 1])
+    directions = is_right(right[:, 0], given[:, 1])
+    backwards = is_right(right[:, 0], -given[:, 1])
+    if (backwards & ~directions).any() and (backwards | directions).all():
+        yield "Your directions point backwards: t > 0 must lead into the scene."
+    elif origins.all() and directions.all():
+        yield "Your rays are right, only the lengths of their directions are not."
+    elif origins.all() and not directions.any():
+        yield "Your origins are right, your directions are not."
+    elif directions.all() and not origins.any():
+        yield "Your directions are right, your origins are not."
+    if not directions.all() and origins.all():
+        yield from _axes(rays)
+
+
+def _axes(rays: Rays) -> Iterator[str]:
+    """Of wrong directions in perspective, which part is wrong: that along u, or along v."""
+    found, wanted = [], []
+    for case, ray in zip(rays.cases, rays.given, strict=True):
+        if case.camera.is_parallel:
+            return
+        inverse = np.linalg.inv(case.camera.basis)
+        found.append(inverse @ ray[1])
+        wanted.append(inverse @ case.camera.ray(*case.pixel, case.size).direction)
+    with np.errstate(all="ignore"):
+        points, asked = (part[:, :2] / -part[:, 2:] for part in (np.array(found), np.array(wanted)))
+        apart = np.abs(points - asked)
+    near = 64 * LOOSE * (1 + np.abs(asked))
+    right = apart <= near
+    if right[:, 1].all() and not right[:, 0].all():
+        yield "Their part along v is right, that along u is not: look at the column j."
+    elif right[:, 0].all() and not right[:, 1].all():
+        yield "Their part along u is right, that along v is not: look at the row i."
+
+
+def _is_orthonormal(case: RayCase) -> bool:
+    basis = case.camera.basis
+    return bool(np.allclose(basis.T @ basis, np.eye(3), atol=1e-9))
+
+
+def _is_symmetric(case: RayCase) -> bool:
+    left, right, bottom, top = case.camera.viewport
+    return abs(left + right) + abs(bottom + top) <= 1e-9 * (right - left + top - bottom)
+
+
+PLACES: tuple[tuple[str, Callable[[RayCase], bool]], ...] = (
+    ("in parallel projection", lambda case: case.camera.is_parallel),
+    ("in perspective", lambda case: not case.camera.is_parallel),
+    ("where the basis is that of the world",
+     lambda case: bool(np.allclose(case.camera.basis, np.eye(3), atol=1e-9))),
+    ("where the basis is orthonormal", _is_orthonormal),
+    ("where the eye is at the world's origin", lambda case: not np.any(case.camera.eye)),
+    ("where the viewport is symmetric", _is_symmetric),
+    ("where d = 1", lambda case: case.camera.distance == 1.0),
+    ("in square images", lambda case: case.size[0] == case.size[1]),
+)  # fmt: skip
+
+
+def _where(rays: Rays) -> Iterator[str]:
+    """Where all rays are right and elsewhere none is, or hardly one."""
+    for place, is_there in PLACES:
+        there = np.array([is_there(case) for case in rays.cases])
+        if there.all() or not there.any() or rays.wrong[there].any():
+            continue
+        if 2 * np.count_nonzero(rays.wrong) >= np.count_nonzero(~there):
+            yield f"Your rays are right {place}, and wrong elsewhere."
+            return
+
+
+def _same(rays: Rays) -> Iterator[str]:
+    """Rays that do not depend on what they should."""
+    whole, rows, columns = True, True, True
+    judged = False
+    for first, last in images(rays.cases):
+        pixels = np.array([case.pixel for case in rays.cases[first:last]])
+        given = rays.given[first:last].reshape(-1, 6)
+        if len(np.unique(pixels[:, 0])) < 2 or len(np.unique(pixels[:, 1])) < 2:
+            continue
+        judged = True
+        whole = whole and bool((given == given[0]).all())
+        rows = rows and _constant(given, pixels[:, 1])
+        columns = columns and _constant(given, pixels[:, 0])
+    if not judged:
+        return
+    if whole:
+        yield "All your rays of an image are the same: they do not depend on i and j."
+    elif rows:
+        yield "Your rays are the same in all rows: they do not depend on i."
+    elif columns:
+        yield "Your rays are the same in all columns: they do not depend on j."
+
+
+def _constant(given: Floats, group: NDArray[np.intp]) -> bool:
+    return all(bool(np.ptp(given[group == value], axis=0).max() == 0) for value in set(group))
+
+
+def _shape(rays: Rays) -> Iterator[str]:
+    """When nothing else is known: what they are not."""
+    if not rays.is_camera and max(last - first for first, last in images(rays.cases)) >= 9:
+        yield (
+            "Your rays are not those of a camera: from one pixel to the next, they do not take "
+            "equal steps on one image plane."
+        )

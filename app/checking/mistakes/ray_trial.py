@@ -1,0 +1,126 @@
+"""Cases of viewing rays, of many cameras together, and how near answers are to each other."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from typing import Any, Literal
+
+import numpy as np
+from numpy.typing import NDArray
+
+from app.checking.mistakes.program import Mistakes, Program
+from app.checking.mistakes.rays import RayTask, ray_values, run_rays
+from renderer.camera import Camera, Size
+
+Floats = NDArray[np.float64]
+Numbers = NDArray[np.intp]
+Lengths = Literal["any", "exact"]
+
+
+@dataclass(frozen=True, eq=False)
+class RayCase:
+    """One pixel's ray that was asked for. pixel: (row, column), 0-based, row 0 at the top. target,
+    up: what the task gives in place of a basis."""
+
+    camera: Camera
+    size: Size
+    pixel: tuple[int, int]
+    target: tuple[float, float, float] | None = None
+    up: tuple[float, float, float] | None = None
+
+
+def images(cases: Sequence[RayCase]) -> Iterator[tuple[int, int]]:
+    """(first, last + 1) of neighbouring cases of one camera and size."""
+    first = 0
+    for number in range(1, len(cases) + 1):
+        if number == len(cases) or not _is_same_image(cases[number], cases[first]):
+            yield first, number
+            first = number
+
+
+def _is_same_image(one: RayCase, other: RayCase) -> bool:
+    return (one.camera, one.size, one.target, one.up) == (
+        other.camera, other.size, other.target, other.up
+    )  # fmt: skip
+
+
+def known_values(cases: Sequence[RayCase], task: RayTask) -> dict[str, Any]:
+    """What the programs' lines know of all cases: numbers (N, 1), vectors (N, 3)."""
+    parts: dict[str, list[Any]] = {}
+    for first, last in images(cases):
+        case = cases[first]
+        i, j = np.array([one.pixel for one in cases[first:last]]).T
+        values = ray_values(case.camera, i, j, case.size, task)
+        for name in ("target", "up"):
+            given = getattr(case, name)
+            values[name] = np.full(3, np.nan) if given is None else np.asarray(given, float)
+        for name, value in values.items():
+            array = np.asarray(value, float)
+            if array.ndim < 2:
+                array = np.broadcast_to(array, (last - first, max(array.size, 1)))
+            elif array.shape == (4, 4):
+                array = np.broadcast_to(array, (last - first, 4, 4))
+            parts.setdefault(name, []).append(array)
+    return {name: np.concatenate(arrays) for name, arrays in parts.items()}
+
+
+def largest_numbers(known: dict[str, Any]) -> Floats:
+    """Of each case, the largest number on the way to the ray: |eye| and a point of the viewport;
+    (N,)."""
+    length = {name: np.linalg.norm(known[name], axis=-1) for name in ("eye", "u", "v", "w")}
+    sides = {name: np.abs(known[name][:, 0]) for name in ("left", "right", "bottom", "top")}
+    across = np.maximum(sides["left"], sides["right"]) * length["u"]
+    along = np.maximum(sides["bottom"], sides["top"]) * length["v"]
+    return np.asarray(length["eye"] + across + along + known["distance"][:, 0] * length["w"])
+
+
+class RayTrial:
+    """cases with given and right rays, (N, 2, 3) each. lengths: whether directions must have the
+    right ones. any_origin: whether any point of the ray may be its origin."""
+
+    def __init__(
+        self,
+        cases: Sequence[RayCase],
+        given: Floats,
+        task: RayTask,
+        lengths: Lengths = "any",
+        any_origin: bool = False,
+    ) -> None:
+        self.count = len(cases)
+        self.known = known_values(cases, task)
+        self.given = given
+        rays = [case.camera.ray(*case.pixel, case.size) for case in cases]
+        self.right = np.array(rays, float).reshape(-1, 2, 3)
+        self.scale = largest_numbers(self.known)
+        self.lengths, self.any_origin = lengths, any_origin
+
+    def errors(
+        self, program: Program, tried: Sequence[Mistakes], cases: Numbers
+    ) -> tuple[Floats, Floats]:
+        made = self.made(program, tried, cases)
+        given = self.apart(self.given[cases], made, cases)
+        return given, self.apart(self.right[cases], made, cases)
+
+    def made(self, program: Program, tried: Sequence[Mistakes], cases: Numbers) -> Floats:
+        """The rays with each of these mistakes, (tried, cases, 2, 3)."""
+        known = {name: value[cases] for name, value in self.known.items()}
+        return np.array([run_rays(program, known, one) for one in tried]).swapaxes(1, 2)
+
+    def apart(self, rays: Floats, made: Floats, cases: Numbers) -> Floats:
+        """How far rays are from these, relative to the largest number on the way: (..., cases)."""
+        with np.errstate(all="ignore"):
+            origins, directions = made[..., 0, :], made[..., 1, :]
+            length = np.linalg.norm(directions, axis=-1)
+            own = np.linalg.norm(rays[..., 1, :], axis=-1)
+            scale = self.scale[cases] + np.linalg.norm(origins, axis=-1) + length
+            along = directions / length[..., None]
+            moved = rays[..., 0, :] - origins
+            if self.any_origin:
+                moved = moved - np.sum(moved * along, axis=-1)[..., None] * along
+            turned = np.linalg.norm(rays[..., 1, :] / own[..., None] - along, axis=-1) * length
+            no_way = (own == 0) | (length == 0)
+            turned = np.where(no_way, np.maximum(own, length), turned)
+            if self.lengths == "exact":
+                turned = np.maximum(turned, np.abs(own - length))
+            return np.asarray(np.maximum(np.linalg.norm(moved, axis=-1), turned) / scale)

@@ -1,0 +1,383 @@
+"""Wrong rays by name: one mistake, two at once, never another; right rays never."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from asked_rays import KINDS, made_camera, made_cases
+from numpy.typing import NDArray
+
+from app.checking.mistakes.candidates import LOOSE, candidates
+from app.checking.mistakes.program import Mistakes, Program
+from app.checking.mistakes.ray_diagnosis import diagnose_rays
+from app.checking.mistakes.ray_trial import RayCase, RayTrial
+from app.checking.mistakes.rays import WORDS, RayTask, ray_program
+from renderer.camera import Camera
+from renderer.pixels import Indexing
+
+PROJECTIONS = ("perspective", "parallel")
+PIXEL = {"i", "j", "width", "height"}
+TASKS = {
+    "perspective": RayTask(),
+    "parallel": RayTask("parallel"),
+    "from 1": RayTask(indexing=Indexing.LECTURE),
+    "parallel, from 1, rows from the bottom": RayTask("parallel", Indexing.LECTURE, False),
+    "from a target": RayTask(words=WORDS - {"u", "v", "w"} | {"target", "up"}),
+    "matrix": RayTask(words=WORDS - {"u", "v", "w"} | {"camera_to_world"}),
+    "inverse matrix": RayTask("parallel", words=WORDS - {"u", "v", "w"} | {"world_to_camera"}),
+    "field of view": RayTask(words=frozenset(PIXEL | {"eye", "target", "up", "fov_y", "aspect"})),
+    "in [0, 1]": RayTask(words=WORDS - {"i", "j"} | {"x01", "y01"}, from_top=False),
+    "in [-1, 1]": RayTask(words=WORDS - {"i", "j"} | {"x11", "y11"}),
+    "in pixels": RayTask(words=WORDS - {"i", "j"} | {"x_pixel", "y_pixel"}),
+}
+
+
+def asked_cases(task: RayTask, count: int, seed: int = 2) -> list[RayCase]:
+    """Cameras that can be told in the task's words."""
+    has_angle = "fov_y" in task.words
+    kinds = ("orthonormal",) if has_angle or "target" in task.words else KINDS
+    made = []
+    for case in made_cases(seed, count, task.projection, kinds):
+        camera = case.camera
+        if has_angle:
+            high = camera.viewport[3]
+            wide = high * case.size[0] / case.size[1]
+            camera = replace(camera, viewport=(-wide, wide, -high, high))
+        back, up = np.asarray(camera.w), np.asarray(camera.v)
+        target = tuple((np.asarray(camera.eye) - 2.5 * back).tolist())
+        tilted = tuple((1.5 * up + 0.4 * back).tolist())
+        made.append(replace(case, camera=camera, target=target, up=tilted))
+    return made
+
+
+class KeptTrial(RayTrial):
+    """One that remembers what programs make: many answers to the same cases."""
+
+    def made(
+        self, program: Program, tried: Sequence[Mistakes], cases: NDArray[np.intp]
+    ) -> NDArray[np.float64]:
+        kept = self.__dict__.setdefault("kept", {})
+        key = (len(tried), tuple(tried[:1]), tuple(tried[-1:]), cases.tobytes())
+        if key not in kept:
+            kept[key] = super().made(program, tried, cases)
+        return kept[key]
+
+
+def alone(trial: RayTrial, program: Program, mistakes: Mistakes) -> NDArray[np.float64]:
+    return RayTrial.made(trial, program, [mistakes], np.arange(trial.count))[0]
+
+
+def same(trial: RayTrial, rays: NDArray[np.float64], others: NDArray[np.float64]) -> bool:
+    """By numbers of its own: origins, and directions up to a positive factor."""
+    with np.errstate(all="ignore"):
+        along, along_others = (
+            each[:, 1] / np.linalg.norm(each[:, 1], axis=1)[:, None] for each in (rays, others)
+        )
+    near = 1e-9 * (1 + np.abs(others[:, 0]).max())
+    clear = (np.linalg.norm(others[:, 1], axis=1) > 1e-9) & np.isfinite(along).all(axis=1)
+    return bool(
+        (np.abs(rays[:, 0] - others[:, 0]) <= near).all()
+        and (np.abs(along - along_others)[clear] <= 1e-9).all()
+    )
+
+
+def as_student(rays: NDArray[np.float64], how: str) -> NDArray[np.float64]:
+    """In another form that is as right: normalised, longer, in float32."""
+    if how == "float32":
+        return rays.astype(np.float32).astype(float)
+    made = rays.copy()
+    length = np.linalg.norm(made[:, 1], axis=1)
+    factor = np.where(length > 0, 1 / np.where(length > 0, length, 1), 0)
+    made[:, 1] *= factor[:, None] if how == "unit" else np.linspace(0.1, 10, len(made))[:, None]
+    return made
+
+
+@pytest.mark.parametrize("name", TASKS)
+def test_each_mistake_is_named(name):
+    """Of 52 cameras together, in float64 of any length, or of length 1, and in float32."""
+    task = TASKS[name]
+    program = ray_program(task)
+    trial = KeptTrial(asked_cases(task, 52), np.zeros((1, 2, 3)), task)
+    everywhere = np.ones(trial.count, bool)
+    named = 0
+    for mistake in program.mistakes:
+        rays = alone(trial, program, (mistake,))
+        if same(trial, rays, trial.right):
+            continue
+        named += 1
+        for how in ("unit", "long", "float32"):
+            trial.given = as_student(rays, how)
+            found = candidates(program, trial, everywhere)
+            assert (mistake,) in found, (mistake.name, how)
+            for others in found:
+                assert len(others) == 1
+                assert same(trial, rays, alone(trial, program, others)), (mistake.name, others)
+    assert named >= len(program.mistakes) - 3
+
+
+def test_few_mistakes_cannot_be_told_apart():
+    """Of cameras of all kinds, only what is the same."""
+    for task in TASKS.values():
+        program = ray_program(task)
+        trial = KeptTrial(asked_cases(task, 12), np.zeros((1, 2, 3)), task)
+        for mistake in program.mistakes:
+            trial.given = alone(trial, program, (mistake,))
+            found = candidates(program, trial, np.ones(trial.count, bool))
+            names = {other.name for (other,) in found} - {mistake.name}
+            if mistake.name in LIKE or "fov_y" in task.words or "target" in task.words:
+                continue
+            assert not names, (task, mistake.name)
+
+
+LIKE = {  # the same rays, for every camera
+    "from the world to the camera", "matrix transposed", "basis transposed", "along +w",
+    "the direction from the world to the camera", "the origin as a direction", "no eye",
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("name", ["perspective", "parallel"])
+def test_two_mistakes_at_once_are_named(name):
+    """All pairs, of eight cameras together: by their names, or by those of what is the same."""
+    task = TASKS[name]
+    program = ray_program(task)
+    trial = KeptTrial(asked_cases(task, 8), np.zeros((1, 2, 3)), task)
+    everywhere = np.ones(trial.count, bool)
+    pairs, exactly = list(program.pairs()), 0
+    rays_of = dict(zip(pairs, trial.made(program, pairs, np.arange(trial.count)), strict=True))
+    for pair, rays in rays_of.items():
+        if same(trial, rays, trial.right):
+            continue
+        trial.given = rays
+        found = candidates(program, trial, everywhere)
+        assert found, [mistake.name for mistake in pair]
+        exactly += pair in found
+        for others in found:
+            if others != pair:
+                assert same(trial, rays, alone(trial, program, others)), (pair, others)
+    assert len(pairs) > 400 and exactly > 0.85 * len(pairs)
+
+
+@pytest.mark.parametrize("projection", PROJECTIONS)
+@pytest.mark.parametrize(("form", "count"), [(np.float32, 5_000), (np.float64, 500)])
+def test_right_answers_of_10_000_cameras_have_no_name(projection, form, count):
+    """5,000 cameras in each projection, a pixel each, computed in float32; fewer in float64: of any
+    length, nothing is told of them, even if they were handed over as wrong."""
+    random = np.random.default_rng(7)
+    task = RayTask(projection)
+    program = ray_program(task)
+    cases = []
+    for number in range(count):
+        camera = made_camera(random, KINDS[number % len(KINDS)], projection)
+        width, height = random.integers(2, 2000, 2).tolist()
+        pixel = (int(random.integers(height)), int(random.integers(width)))
+        cases.append(RayCase(camera, (width, height), pixel))
+    trial = RayTrial(cases, np.zeros((1, 2, 3)), task)
+    known = {key: np.asarray(value, form) for key, value in trial.known.items()}
+    origin, direction = program.run(known)
+    assert origin.dtype == direction.dtype == form
+    length = random.uniform(1e-3, 1e3, len(cases)).astype(form)
+    given = np.empty((len(cases), 2, 3))
+    given[:, 0], given[:, 1] = origin, direction * length[:, None]
+    assert trial.apart(given, trial.right, np.arange(len(cases))).max() < LOOSE / 4
+    for first in range(0, len(cases), 500):
+        chosen = slice(first, first + 500)
+        part = RayTrial(cases[chosen], given[chosen], task)
+        assert candidates(program, part, np.ones(500, bool)) == ()
+
+
+class TestWhatIsSaid:
+    def diagnosed(self, make, cases=None, task=None, **more):
+        """Of a function of a case that gives origin and direction."""
+        cases = cases or made_cases(5, 6)
+        given = np.array([make(case) for case in cases], float)
+        right = np.array([case.camera.ray(*case.pixel, case.size) for case in cases])
+        apart = RayTrial(cases, given, RayTask()).apart(given, right, np.arange(len(cases)))
+        return diagnose_rays(cases, given, ~(apart <= 1e-6), task, **more)
+
+    def test_nothing_of_right_rays(self):
+        assert self.diagnosed(lambda case: case.camera.ray(*case.pixel, case.size)) is None
+
+    def test_one_mistake(self):
+        def upside_down(case):
+            i, j = case.pixel
+            return case.camera.ray(case.size[1] - 1 - i, j, case.size)
+
+        said = self.diagnosed(upside_down)
+        assert [[one.name for one in found] for found in said.candidates] == [
+            ["rows count upwards"]
+        ]
+        assert said.sentences == (
+            "Rows count downwards, v points up: v needs its minus sign.",
+            "As if it read `y = bottom + (i + 0.5) / height * (top - bottom)`, not "
+            "`y = top - (i + 0.5) / height * (top - bottom)`.",
+            "Read again: From pixel to ray.",
+        )
+        assert said.first == 0
+
+    def test_two_mistakes(self):
+        def made(case):
+            camera = replace(case.camera, distance=1.0)
+            i, j = case.pixel
+            return camera.ray(i - 0.5, j - 0.5, case.size)
+
+        said = self.diagnosed(made)
+        assert [{one.name for one in found} for found in said.candidates] == [
+            {"no distance", "the corner, not the centre"}
+        ]
+        assert said.sentences[0] == "Two mistakes at once."
+
+    def test_what_numbers_cannot_tell_apart_is_all_named(self):
+        """In square images of a square viewport, the image transposed and rows for columns."""
+        camera = Camera((1, 2, 3), distance=2.0)
+        cases = [RayCase(camera, (5, 5), (i, j)) for i in range(5) for j in range(5)]
+        said = self.diagnosed(lambda case: camera.ray(*case.pixel[::-1], case.size), cases)
+        names = {found[0].name for found in said.candidates}
+        assert names == {"row and column exchanged", "the image transposed"}
+        assert any(sentence.startswith("Or, with the same numbers:") for sentence in said.sentences)
+
+    def test_both_projections_share_a_mistake(self):
+        cases = made_cases(5, 4) + made_cases(6, 4, "parallel")
+
+        def off(case):
+            i, j = case.pixel
+            return case.camera.ray(i - 1, j - 1, case.size)
+
+        said = self.diagnosed(off, cases)
+        assert {found[0].name for found in said.candidates} == {"one pixel off"}
+        assert sum("do not subtract" in sentence for sentence in said.sentences) == 1
+
+    def test_a_mistake_in_one_projection_alone(self):
+        cases = made_cases(5, 4) + made_cases(6, 4, "parallel")
+
+        def made(case):
+            ray = case.camera.ray(*case.pixel, case.size)
+            return (case.camera.eye, ray.direction) if case.camera.is_parallel else ray
+
+        said = self.diagnosed(made, cases)
+        assert said.sentences[0] == "In parallel projection:"
+        assert said.candidates[0][0].name == "all rays start at the eye"
+
+    @pytest.mark.parametrize(
+        ("told", "make"),
+        [
+            ("your d is 2 d",
+             lambda case: replace(case.camera, distance=2 * case.camera.distance)),
+            ("your eye is e + (0.5, 0, 0)",
+             lambda case: replace(case.camera, eye=np.add(case.camera.eye, (0.5, 0, 0)))),
+            ("your viewport is shifted by 2 pixels to the right",
+             lambda case: case.camera.shifted(0, 2, case.size)),
+            ("your viewport is 0.5 times as large",
+             lambda case: replace(case.camera, viewport=around(case.camera, 0.5))),
+            ("your v is 2 v", lambda case: replace(case.camera, v=np.multiply(case.camera.v, 2))),
+            ("your u is w; your w is u",
+             lambda case: replace(case.camera, u=case.camera.w, w=case.camera.u)),
+        ],
+    )  # fmt: skip
+    def test_a_camera_of_no_known_mistake_is_told(self, told, make):
+        said = self.diagnosed(lambda case: make(case).ray(*case.pixel, case.size))
+        assert said.candidates == ()
+        assert said.sentences[0] == f"What you wrote is a camera, only another one: {told}."
+        case = made_cases(5, 6)[0]
+        rays, fitted = make(case).rays(case.size), said.camera.rays(case.size)
+        assert np.abs(fitted.origin - rays.origin).max() < 1e-9
+        turned = np.cross(fitted.direction, rays.direction)
+        assert np.abs(turned).max() < 1e-9
+
+    def test_the_eye_at_the_target(self):
+        task = TASKS["from a target"]
+        cases = asked_cases(task, 5)
+        said = self.diagnosed(
+            lambda case: (case.target, case.camera.ray(*case.pixel, case.size).direction),
+            cases,
+            task,
+        )
+        assert said.differences == ("your eye is the target",)
+
+    @pytest.mark.parametrize(
+        ("told", "make"),
+        [
+            ("Your directions point backwards: t > 0 must lead into the scene.",
+             lambda ray, case: (ray.origin, -ray.direction * (1 + case.pixel[0]))),
+            ("Your origins are right, your directions are not.",
+             lambda ray, case: (ray.origin, np.sin(ray.direction + 1))),
+            ("Your directions are right, your origins are not.",
+             lambda ray, case: (np.sin(np.asarray(case.pixel).sum() + ray.origin), ray.direction)),
+            ("All your rays of an image are the same: they do not depend on i and j.",
+             lambda ray, case: ((1, 2, 3), (4, 5, 6))),
+            ("Your rays are the same in all rows: they do not depend on i.",
+             lambda ray, case: ((1, 2, 3), (1, case.pixel[1] ** 2, 2))),
+        ],
+    )  # fmt: skip
+    def test_what_is_right_of_the_rest(self, told, make):
+        said = self.diagnosed(lambda case: make(case.camera.ray(*case.pixel, case.size), case))
+        assert told in said.sentences or said.candidates
+
+    def test_which_part_of_the_direction(self):
+        def bent(case):
+            camera = case.camera
+            x, y = camera.image_point(*case.pixel, case.size)
+            return camera.eye, camera.basis @ (x + 0.1 * x**2, y, -camera.distance)
+
+        said = self.diagnosed(bent)
+        assert "look at the column j" in " ".join(said.sentences)
+
+    def test_where_rays_are_right(self):
+        cases = [
+            replace(case, size=size, pixel=(i, j))
+            for case in made_cases(5, 40)[::25]
+            for size in ((3, 3), (3, 4))
+            for i in range(3)
+            for j in range(3)
+        ]
+
+        def bent(case):
+            ray = case.camera.ray(*case.pixel, case.size)
+            square = case.size[0] == case.size[1]
+            return (ray.origin, ray.direction + (0 if square else np.sin(case.pixel[0] + 1)))
+
+        said = self.diagnosed(bent, cases)
+        assert "Your rays are right in square images, and wrong elsewhere." in said.sentences
+
+    def test_rays_of_no_camera(self):
+        def bent(case):
+            ray = case.camera.ray(*case.pixel, case.size)
+            return np.sin(ray.origin + case.pixel[0]), np.sin(ray.direction + case.pixel[1] ** 2)
+
+        said = self.diagnosed(bent)
+        assert said.camera is None and said.candidates == ()
+        assert "not those of a camera" in said.sentences[0]
+
+    def test_no_numbers(self):
+        said = self.diagnosed(lambda case: ((np.nan, 0, 0), (0, 0, 0)))
+        assert "are no finite numbers" in said.sentences[0]
+        assert "directions are zero" in said.sentences[1]
+
+    def test_lengths_where_they_count(self):
+        def unit(case):
+            ray = case.camera.ray(*case.pixel, case.size)
+            return ray.origin, ray.direction / np.linalg.norm(ray.direction)
+
+        cases = made_cases(5, 4)
+        given = np.array([unit(case) for case in cases])
+        said = diagnose_rays(cases, given, np.ones(len(cases), bool), lengths="exact")
+        assert said.candidates[0][0].name == "normalised"
+
+    def test_any_point_of_the_ray(self):
+        """Where it may begin anywhere, that is no mistake; what is wrong beside it is told."""
+
+        def moved(case):
+            ray = case.camera.ray(*case.pixel[::-1], case.size)
+            return ray.origin + 0.7 * ray.direction, ray.direction
+
+        said = self.diagnosed(moved, any_origin=True)
+        assert said.candidates[0][0].name == "row and column exchanged"
+
+
+def around(camera, factor):
+    left, right, bottom, top = camera.viewport
+    x, y = (left + right) / 2, (bottom + top) / 2
+    wide, high = factor * (right - left) / 2, factor * (top - bottom) / 2
+    return x - wide, x + wide, y - high, y + high

@@ -1,0 +1,357 @@
+"""The wrong lines: the right program is the camera's, each mistake by hand, what is shown runs."""
+
+from __future__ import annotations
+
+import math
+import tomllib
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+from asked_rays import made_cases
+
+import app.lectures
+from app.checking.mistakes.basis import BASIS
+from app.checking.mistakes.program import CodeLine, Mistake, Program
+from app.checking.mistakes.ray_trial import known_values
+from app.checking.mistakes.rays import (
+    WORDS,
+    RayTask,
+    camera_rays,
+    ray_program,
+    ray_values,
+    run_rays,
+)
+from renderer.camera import Camera
+from renderer.pixels import Indexing
+
+PROJECTIONS = ("perspective", "parallel")
+CAMERA_PARTS = {"eye", "distance", "left", "right", "bottom", "top"}
+PIXEL = {"i", "j", "width", "height"}
+TASKS = {
+    "all": WORDS,
+    "from a target": PIXEL | CAMERA_PARTS | {"target", "up"},
+    "camera to world": PIXEL | CAMERA_PARTS - {"eye"} | {"camera_to_world"},
+    "world to camera": PIXEL | CAMERA_PARTS - {"eye"} | {"world_to_camera"},
+    "field of view": PIXEL | {"eye", "target", "up", "fov_y", "aspect"},
+    "field of view at a distance": PIXEL | {"eye", "u", "v", "w", "distance", "fov_y"},
+    "field of view in radians": PIXEL | {"eye", "u", "v", "w", "fov_y_rad", "aspect"},
+    "horizontal field of view": PIXEL | {"eye", "u", "v", "w", "fov_x", "aspect"},
+    "in pixels": {"x_pixel", "y_pixel", "width", "height"} | CAMERA_PARTS | {"u", "v", "w"},
+    "in other words": {"xy01", "forward", "pixel00", "delta_u", "delta_v"},
+    "from 0 to 1": {"x01", "y01", "width", "height"} | CAMERA_PARTS | {"u", "v", "w"},
+    "from -1 to 1": {"x11", "y11"} | CAMERA_PARTS | {"u", "v", "w"},
+}
+
+
+def asked(words: str, seed: int = 4):
+    """A task's cases with all that its words ask for; a square pixel where an angle is given."""
+    symmetric = any("fov" in word for word in TASKS[words])
+    rigid = symmetric or "target" in TASKS[words]
+    cases = made_cases(seed, 8, kinds=("orthonormal",) if rigid else ("off-axis", "skewed"))
+    made = []
+    for case in cases:
+        camera = case.camera
+        if symmetric:
+            high = camera.viewport[3]
+            wide = high * case.size[0] / case.size[1]
+            camera = replace(camera, viewport=(-wide, wide, -high, high))
+        target = tuple(np.asarray(camera.eye) - 2.5 * np.asarray(camera.w))
+        up = tuple(1.5 * np.asarray(camera.v) + 0.4 * np.asarray(camera.w))
+        made.append(replace(case, camera=camera, target=target, up=up))
+    return made
+
+
+class TestTheRightProgram:
+    @pytest.mark.parametrize("projection", PROJECTIONS)
+    @pytest.mark.parametrize("indexing", Indexing)
+    def test_is_the_camera_s(self, projection, indexing):
+        for case in made_cases(1, 8, projection):
+            right = case.camera.rays(case.size)
+            origin, direction = camera_rays(case.camera, case.size, (), indexing)
+            assert origin.shape == direction.shape == (case.size[1], case.size[0], 3)
+            scale = np.abs(right.origin).max() + np.abs(right.direction).max()
+            assert np.abs(origin - right.origin).max() <= 1e-15 * scale
+            assert (direction == right.direction).all()
+
+    @pytest.mark.parametrize("words", TASKS)
+    @pytest.mark.parametrize("indexing", Indexing)
+    @pytest.mark.parametrize("from_top", [True, False])
+    @pytest.mark.parametrize("projection", PROJECTIONS)
+    def test_in_a_task_s_words(self, words, indexing, from_top, projection):
+        if projection == "parallel" and any("fov" in word for word in TASKS[words]):
+            return
+        task = RayTask(projection, indexing, from_top, frozenset(TASKS[words]))
+        cases = [
+            replace(case, camera=replace(case.camera, projection=projection))
+            for case in asked(words)
+        ]
+        known = known_values(cases, task)
+        needed = {"eye", *(WORDS if words == "in other words" else TASKS[words])}
+        origin, direction = run_rays(
+            ray_program(task), {name: known[name] for name in needed & known.keys()}
+        )
+        right = [case.camera.ray(*case.pixel, case.size) for case in cases]
+        along = direction / np.linalg.norm(direction, axis=1)[:, None]
+        wanted = np.array([ray.direction / np.linalg.norm(ray.direction) for ray in right])
+        assert np.abs(origin - [ray.origin for ray in right]).max() < 1e-12
+        assert np.abs(along - wanted).max() < 1e-12
+
+    def test_reads_like_the_camera_contract(self):
+        assert [line.code for line in ray_program(RayTask()).lines] == [
+            "x = left + (j + 0.5) / width * (right - left)",
+            "y = top - (i + 0.5) / height * (top - bottom)",
+            "origin = eye",
+            "direction = x*u + y*v - distance*w",
+        ]
+        lines = [line.code for line in ray_program(RayTask("parallel", Indexing.LECTURE)).lines]
+        assert lines[0] == "x = left + (j - 0.5) / width * (right - left)"
+        assert lines[2:] == ["origin = eye + x*u + y*v", "direction = -w"]
+
+    def test_basis(self):
+        cases = asked("from a target")
+        known = {name: np.array([getattr(c, name) for c in cases]) for name in ("target", "up")}
+        known["eye"] = np.array([case.camera.eye for case in cases])
+        for made, name in zip(BASIS.run(known)[0], "uvw", strict=True):
+            wanted = [getattr(case.camera, name) for case in cases]
+            assert np.abs(made - wanted).max() < 1e-14
+
+
+def programs() -> list[Program]:
+    made = [
+        ray_program(RayTask(projection, indexing, from_top, frozenset(words)))
+        for projection in PROJECTIONS
+        for indexing in Indexing
+        for from_top in (True, False)
+        for words in TASKS.values()
+    ]
+    return [*made, BASIS]
+
+
+class TestTheTable:
+    def test_names_are_unlike_and_lines_are_there(self):
+        for program in programs():
+            names = [mistake.name for mistake in program.mistakes]
+            assert len(set(names)) == len(names) >= 14
+            keys = {line.key: line.code for line in program.lines}
+            assert len(keys) == len(program.lines)
+            for mistake in program.mistakes:
+                assert mistake.keys <= keys.keys(), mistake.name
+                assert all(keys[key] != code for key, code in mistake.lines), mistake.name
+
+    def test_hints_are_sentences_and_parts_are_the_lecture_s(self):
+        file = Path(app.lectures.__file__).parent / "images-rays-cameras.toml"
+        titles = {step["title"] for step in tomllib.loads(file.read_text("utf-8"))["steps"]}
+        for program in programs():
+            for mistake in program.mistakes:
+                assert mistake.hint.endswith(".") and mistake.part in titles, mistake.name
+
+    def test_what_is_shown_is_run(self):
+        program = ray_program(RayTask())
+        for mistake in program.mistakes:
+            shown = program.text((mistake,))
+            struck = {line.key for line in shown if line.instead is not None}
+            assert struck == mistake.keys
+            written = [line.code if line.instead is None else line.instead for line in shown]
+            assert program.source((mistake,)) == "\n".join(written)
+        assert all(line.instead is None for line in program.text())
+
+
+def one(program: Program, name: str) -> Mistake:
+    return next(mistake for mistake in program.mistakes if mistake.name == name)
+
+
+# Pixel (1, 5), from 0, of 8 x 4, at x = 3/8, y = 1/8 of the viewport.
+CAMERA = Camera((1, 2, 3), distance=3.0, viewport=(-1, 1, -0.5, 0.5))
+AT_X, AT_Y = 3 / 8, 1 / 8
+POINTS = {
+    "one step too few": (-1 + 10 / 7, 0.5 - 1 / 3),
+    "the centre, but one step too few": (-1 + 11 / 7, 0.5 - 1.5 / 3),
+    "the image transposed": (-1 + 2 * 1.5 / 4, 0.5 - 5.5 / 8),
+    "both divided by the width": (AT_X, 0.5 - 1.5 / 8),
+    "both divided by the height": (-1 + 2 * 5.5 / 4, AT_Y),
+    "one pixel off: in the columns": (AT_X - 2 / 8, AT_Y),
+    "the corner, not the centre: in the rows": (AT_X, 0.5 - 1 / 4),
+    "a whole pixel": (0.5, 0.0),
+    "one pixel off": (1 / 8, 3 / 8),
+}
+DIRECTIONS = {
+    "equal angles, not equal distances": (
+        3 * math.tan(0.375 * math.atan(1 / 3)), 3 * math.tan(0.25 * math.atan(1 / 6)), -3,
+    ),
+    "v the wrong way round": (AT_X, -AT_Y, -3),
+    "u the wrong way round": (-AT_X, AT_Y, -3),
+    "points backwards": (-AT_X, -AT_Y, 3),
+    "the eye subtracted": (AT_X - 1, AT_Y - 2, -6),
+    "all rays along -w": (0, 0, -1),
+    "no w": (AT_X, AT_Y, 0),
+    "the direction is the eye's": (1, 2, 3),
+    "divided by the distance": (AT_X, AT_Y, -1 / 3),
+}  # fmt: skip
+ORIGINS = {
+    "the origin on the viewport": (1 + AT_X, 2 + AT_Y, 0),
+    "the origin moves with the pixel": (1 + AT_X, 2 + AT_Y, 3),
+    "no eye": (0, 0, 0),
+}
+
+
+class TestRaysByHand:
+    def ray(self, name, camera=CAMERA):
+        task = RayTask(camera.projection)
+        program = ray_program(task)
+        return run_rays(program, ray_values(camera, 1, 5, (8, 4), task), (one(program, name),))
+
+    @pytest.mark.parametrize("name", POINTS)
+    def test_points(self, name):
+        x, y = POINTS[name]
+        origin, direction = self.ray(name)
+        assert origin == pytest.approx((1, 2, 3)) and direction == pytest.approx((x, y, -3))
+        origin, direction = self.ray(name, replace(CAMERA, projection="parallel"))
+        assert origin == pytest.approx((1 + x, 2 + y, 3))
+        assert direction == pytest.approx((0, 0, -1))
+
+    @pytest.mark.parametrize("name", DIRECTIONS)
+    def test_directions(self, name):
+        origin, direction = self.ray(name)
+        assert origin == pytest.approx((1, 2, 3))
+        assert direction == pytest.approx(DIRECTIONS[name])
+
+    @pytest.mark.parametrize("name", ORIGINS)
+    def test_origins(self, name):
+        origin, direction = self.ray(name)
+        assert origin == pytest.approx(ORIGINS[name])
+        assert direction == pytest.approx((AT_X, AT_Y, -3))
+
+    def test_longitude_and_latitude(self):
+        """The direction of a globe's point: both angles in equal steps."""
+        across, up = 0.375 * math.atan(1 / 3), 0.25 * math.atan(1 / 6)
+        globe = np.array([math.sin(across) * math.cos(up), math.sin(up), 0])
+        globe[2] = -math.cos(across) * math.cos(up)
+        direction = self.ray("longitude and latitude")[1]
+        assert direction / np.linalg.norm(direction) == pytest.approx(globe)
+
+    def test_bases(self):
+        """With u = (1, 1, 0): rows for columns, and the inverse."""
+        camera = replace(CAMERA, u=(1, 1, 0))
+        transposed = self.ray("basis transposed", camera)[1]
+        assert transposed == pytest.approx((AT_X + AT_Y, AT_Y, -3))
+        inverted = self.ray("from the world to the camera", camera)[1]
+        assert inverted == pytest.approx((AT_X, AT_Y - AT_X, -3))
+        normalised = self.ray("normalised", camera)[1]
+        assert np.linalg.norm(normalised) == pytest.approx(1)
+
+    @pytest.mark.parametrize(
+        ("name", "origin", "direction"),
+        [
+            ("all rays start at the eye", (1, 2, 3), (0, 0, -1)),
+            ("the direction as in perspective", (1 + AT_X, 2 + AT_Y, 3), (AT_X, AT_Y, -3)),
+            ("the origin on the plane at d", (1 + AT_X, 2 + AT_Y, 0), (0, 0, -1)),
+            ("the eye subtracted", (AT_X - 1, AT_Y - 2, -3), (0, 0, -1)),
+            ("u the wrong way round", (1 - AT_X, 2 + AT_Y, 3), (0, 0, -1)),
+            ("v the wrong way round", (1 + AT_X, 2 - AT_Y, 3), (0, 0, -1)),
+            ("along the world's -z", (1 + AT_X, 2 + AT_Y, 3), (0, 0, -1)),
+            ("the direction is the eye's", (1 + AT_X, 2 + AT_Y, 3), (1, 2, 3)),
+            ("from the eye to the viewport", (1 + AT_X, 2 + AT_Y, 3), (AT_X, AT_Y, 0)),
+        ],
+    )
+    def test_parallel(self, name, origin, direction):
+        made = self.ray(name, replace(CAMERA, projection="parallel"))
+        assert made[0] == pytest.approx(origin) and made[1] == pytest.approx(direction)
+
+
+class TestTwoInOneLine:
+    @pytest.mark.parametrize(
+        ("names", "x", "y"),
+        [
+            (("rows count upwards", "the corner, not the centre"), 2 / 8, -2 / 8),
+            (("columns count leftwards", "one pixel off"), -1 / 8, 3 / 8),
+            (("rows count upwards", "width and height exchanged"), 14 / 8, -5 / 16),
+            (("a whole pixel", "row and column exchanged"), -4 / 8, -1),
+        ],
+    )
+    def test_by_hand(self, names, x, y):
+        program = ray_program(RayTask())
+        both = tuple(one(program, name) for name in names)
+        known = ray_values(CAMERA, 1, 5, (8, 4))
+        for pair in (both, both[::-1]):
+            assert program.can_combine(*pair)
+            assert run_rays(program, known, pair)[1] == pytest.approx((x, y, -3))
+
+    def test_what_hides_the_other_is_no_pair(self):
+        program = ray_program(RayTask())
+        first, second = one(program, "no distance"), one(program, "along +w")
+        assert not program.can_combine(first, second)
+        assert (first, second) not in set(program.pairs())
+        assert program.text((first, second)) == program.text((first,))
+        for pair in program.pairs():
+            assert program.source(pair) not in {program.source((alone,)) for alone in pair}
+
+
+BASIS_BY_HAND = {
+    "w points forwards": ((0, 0, 1), (0, 1, 0), (-1, 0, 0)),
+    "the target as a direction": ((-0.6, 0, 0.8), (0, 1, 0), (-0.8, 0, -0.6)),
+    "the target as w": ((0.6, 0, -0.8), (0, 1, 0), (0.8, 0, 0.6)),
+    "the eye as w": ((0.2873479, 0, -0.9578263), (0, 1, 0), (0.9578263, 0, 0.2873479)),
+    "w is not normalised": ((0, 0, -1), (0, 6, 0), (6, 0, 0)),
+    "w x up for up x w": ((0, 0, 1), (0, -1, 0), (1, 0, 0)),
+    "u is not normalised": ((0, 0, -2), (0, 2, 0), (1, 0, 0)),
+    "u x w for w x u": ((0, 0, -1), (0, -1, 0), (1, 0, 0)),
+    "up used as v": ((0, 0, -1), (0, 2, 0), (1, 0, 0)),
+    "up, normalised, used as v": ((0, 0, -1), (0, 1, 0), (1, 0, 0)),
+    "v from up, not from u": ((0, 0, -1), (0, 0, 2), (1, 0, 0)),
+    "basis transposed": ((0, 0, 1), (0, 1, 0), (-1, 0, 0)),
+    "w, u, v for u, v, w": ((1, 0, 0), (0, 0, -1), (0, 1, 0)),
+    "v, u, w for u, v, w": ((0, 1, 0), (0, 0, -1), (1, 0, 0)),
+}
+
+
+@pytest.mark.parametrize("name", BASIS_BY_HAND)
+def test_basis_by_hand(name):
+    """From (10, 0, 3) to (4, 0, 3), up (0, 2, 0): w = (1, 0, 0), u = (0, 0, -1), v = (0, 1, 0)."""
+    known = {"eye": np.array([10.0, 0, 3]), "target": np.array([4.0, 0, 3])}
+    known["up"] = np.array([0, 2.0, 0])
+    made = BASIS.run(known, (one(BASIS, name),))[0]
+    assert np.array(made) == pytest.approx(np.array(BASIS_BY_HAND[name]), abs=1e-6)
+
+
+VIEWPORT_BY_HAND = {
+    "degrees for radians": math.tan(30),
+    "the whole angle, not half of it": math.tan(math.radians(60)),
+    "a quarter of the angle": math.tan(math.radians(15)),
+    "the whole viewport for its half": 2 * math.tan(math.radians(30)),
+    "half of the viewport's half": 0.5 * math.tan(math.radians(30)),
+    "the angle without its tangent": math.radians(30),
+    "the sine for the tangent": 0.5,
+    "the tangent upside down": 1 / math.tan(math.radians(30)),
+    "the angle of the other side": math.tan(math.radians(30)) / 1.5,
+}
+WIDE_BY_HAND = {
+    "the angle scaled, not its tangent": math.tan(math.radians(45)),
+    "the aspect ratio upside down": math.tan(math.radians(30)) / 1.5,
+    "no aspect ratio": math.tan(math.radians(30)),
+}
+
+
+@pytest.mark.parametrize("name", [*VIEWPORT_BY_HAND, *WIDE_BY_HAND])
+def test_viewport_by_hand(name):
+    """60 degrees high, 3 : 2: the direction of the lower right corner, u - v - w in its edges."""
+    words = frozenset({"x01", "y01", "eye", "u", "v", "w", "fov_y", "aspect"})
+    program = ray_program(RayTask(words=words))
+    basis = dict(zip("uvw", np.eye(3), strict=True))
+    known = {"eye": np.zeros(3), "fov_y": 60.0, "aspect": 1.5, **basis}
+    known |= {"x01": np.ones(1), "y01": np.ones(1)}
+    direction = run_rays(program, known, (one(program, name),))[1]
+    high = VIEWPORT_BY_HAND.get(name, math.tan(math.radians(30)))
+    wide = WIDE_BY_HAND.get(name, 1.5 * high)
+    assert direction == pytest.approx((wide, -high, -1))
+
+
+def test_a_program_of_any_lines():
+    program = Program(
+        (CodeLine("a", "a = x + 1"), CodeLine("b", "b = norm(vector(a, 0, 0))")),
+        (Mistake("less", (("a", "a = x - 1"),), "More.", "A ray is half a line"),),
+        ("b",),
+    )
+    assert program.run({"x": np.array([1.0])}) == (2.0,)
+    assert program.run({"x": np.array([1.0])}, program.mistakes) == (0.0,)
