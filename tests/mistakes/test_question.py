@@ -9,10 +9,13 @@ import numpy as np
 import pytest
 
 from app.images.ray_pictures import RayPainter
+from app.lecture.step_options import options_from_table
 from app.mistakes import model
 from app.mistakes import question as quiz
 from app.mistakes.options import MistakesOptions
 from app.state.app_state import AppState
+from app.storage.session import Arrangement, from_bytes, session_of, to_bytes
+from renderer.errors import LucidaError
 from renderer.scene import load_scene
 from renderer.scene.flat import flatten
 from renderer.scene.model import Scene
@@ -133,3 +136,23 @@ def test_what_is_said_names_the_line_and_why() -> None:
     wrong = quiz.reason(program, names, 2, "along +w")
     assert wrong.startswith("Not B, along +w. It is C, rows count upwards.")
     assert quiz.reason(program, names, 2, "").startswith("It is C,")
+
+
+def test_a_session_keeps_the_question_and_the_score() -> None:
+    options = {
+        "mode": "which-picture", "seed": 7, "names": ("a", "b", "c", "d"), "answer": "b",
+        "revealed": True, "score": (3, 4), "chosen": ("no eye", "along +w"),
+    }  # fmt: skip
+    state = STATE.with_options(mistakes=options)
+    kept = from_bytes(to_bytes(session_of(state, Arrangement("Lecture", (), ""))))
+    assert kept.options.of(MistakesOptions) == state.of(MistakesOptions)
+    assert state.of(MistakesOptions).score == (3, 4)
+
+
+def test_a_lecture_s_options_are_checked() -> None:
+    good = {"mode": "which-line", "chosen": ["no eye"], "columns": 16}
+    changes = options_from_table({"mistakes": good})
+    assert STATE.with_options(**changes).of(MistakesOptions).columns == 16
+    for bad in ({"mode": "exam"}, {"columns": 17}, {"chosen": ["a", "b", "c"]}, {"seed": -1}):
+        with pytest.raises(LucidaError, match=f"mistakes.{next(iter(bad))}"):
+            options_from_table({"mistakes": bad})
