@@ -69,6 +69,14 @@ def test_a_lecture_s_own_question_is_asked(painter) -> None:
         assert asked.names.count("rows count upwards") == 1
 
 
+def test_no_two_of_them_look_the_same(painter) -> None:
+    """These two lines do the same, in other words."""
+    tiny = model.situation_of(STATE.with_options(mistakes={"columns": 16}), SIZE)
+    for seed in range(30):
+        asked = quiz.question(painter, tiny, MistakesOptions(seed=seed, asked="rows count upwards"))
+        assert "v the wrong way round" not in asked.names and len(asked.names) == quiz.CHOICES
+
+
 def test_a_question_stays_though_the_camera_moves(painter) -> None:
     options = MistakesOptions(seed=2)
     names = quiz.question(painter, situation(), options).names
@@ -119,6 +127,8 @@ def test_answers_are_kept_counted_and_only_once() -> None:
     wrong = replace(options, **quiz.answered(options, names, (right + 1) % 4))
     assert wrong.score == (0, 1)
     assert quiz.answered(options, names, 4) == {} and quiz.answered(options, (), 0) == {}
+    assert quiz.answered(options, names, -1) == {}
+    assert [quiz.answered(options, names, n)["answer"] for n in range(4)] == list(names)
     shown = replace(options, **quiz.revealed(options, names))
     assert shown.revealed and shown.score == (0, 0)
     assert quiz.answered(shown, names, right) == {}  # who has looked does not score
