@@ -28,7 +28,7 @@ from app.widgets.uploads import Uploads
 LETTERS_A_LINE = 58.0  # over the whole view
 TEXT_PART = 0.55  # of the view's height, at most, for all but the pictures
 LOW = 0.6  # of its width: a lower view has the pictures beside the text
-COLUMN_PART = 0.64  # of its width that the text then has, at most
+WIDE_PART, COLUMN_PART = 0.45, 0.64  # of its width that the text then has, at least and at most
 GAP_EM = 0.8  # between both
 SMALLER = 0.94  # each size of type that is tried is that part of the one before
 ANSWER_MARGIN, CARET_MARGIN = 5, 3  # letters before a choice's code; behind a line's
@@ -297,7 +297,7 @@ def _division(room: ImVec2, longest: int) -> Division:
     corner, em = imgui.get_cursor_screen_pos(), imgui.get_font_size()
     if room.y >= LOW * room.x:
         return Division(corner, room.x, TEXT_PART * room.y, False)
-    width = min(_code_width(em, longest), COLUMN_PART * room.x)
+    width = min(max(_code_width(em, longest), WIDE_PART * room.x), COLUMN_PART * room.x)
     return Division(corner, width, room.y, True)
 
 

@@ -125,9 +125,7 @@ def code_extent(program: Program, mistakes: Mistakes) -> tuple[int, int]:
 
 def rows_of(instead: str | None) -> list[str]:
     """What is written instead of a line, as it is shown."""
-    if instead is None:
-        return []
-    return model.folded(instead) if instead else ["(left out)"]
+    return [] if instead is None else model.folded(instead)
 
 
 def program_lines(

@@ -66,7 +66,8 @@ def _drawn(
     program: Program, options: MistakesOptions, right: Light, picture: Callable[[Mistake], Light]
 ) -> QuizQuestion:
     asked = [mistake for mistake in program.mistakes if mistake.name == options.asked]
-    others = [one for one in program.mistakes if _is_short(one) and one.name != options.asked]
+    usual = [one for one in program.mistakes if one.is_common and _is_short(one)]
+    others = [one for one in usual if one.name != options.asked]
     # The seed has drawn the place of the right one already: another one for the order.
     random.Random(f"{options.seed}").shuffle(others)
     kept: list[tuple[Mistake, Light]] = []

@@ -9,10 +9,13 @@ import numpy as np
 import pytest
 
 from app.images.ray_pictures import RayPainter
+from app.lecture.step_options import options_from_table
 from app.mistakes import model
 from app.mistakes import question as quiz
 from app.mistakes.options import MistakesOptions
 from app.state.app_state import AppState
+from app.storage.session import Arrangement, from_bytes, session_of, to_bytes
+from renderer.errors import LucidaError
 from renderer.scene import load_scene
 from renderer.scene.flat import flatten
 from renderer.scene.model import Scene
@@ -66,6 +69,14 @@ def test_a_lecture_s_own_question_is_asked(painter) -> None:
         assert asked.names.count("rows count upwards") == 1
 
 
+def test_no_two_of_them_look_the_same(painter) -> None:
+    """These two lines do the same, in other words."""
+    tiny = model.situation_of(STATE.with_options(mistakes={"columns": 16}), SIZE)
+    for seed in range(30):
+        asked = quiz.question(painter, tiny, MistakesOptions(seed=seed, asked="rows count upwards"))
+        assert "v the wrong way round" not in asked.names and len(asked.names) == quiz.CHOICES
+
+
 def test_a_question_stays_though_the_camera_moves(painter) -> None:
     options = MistakesOptions(seed=2)
     names = quiz.question(painter, situation(), options).names
@@ -116,6 +127,8 @@ def test_answers_are_kept_counted_and_only_once() -> None:
     wrong = replace(options, **quiz.answered(options, names, (right + 1) % 4))
     assert wrong.score == (0, 1)
     assert quiz.answered(options, names, 4) == {} and quiz.answered(options, (), 0) == {}
+    assert quiz.answered(options, names, -1) == {}
+    assert [quiz.answered(options, names, n)["answer"] for n in range(4)] == list(names)
     shown = replace(options, **quiz.revealed(options, names))
     assert shown.revealed and shown.score == (0, 0)
     assert quiz.answered(shown, names, right) == {}  # who has looked does not score
@@ -133,3 +146,23 @@ def test_what_is_said_names_the_line_and_why() -> None:
     wrong = quiz.reason(program, names, 2, "along +w")
     assert wrong.startswith("Not B, along +w. It is C, rows count upwards.")
     assert quiz.reason(program, names, 2, "").startswith("It is C,")
+
+
+def test_a_session_keeps_the_question_and_the_score() -> None:
+    options = {
+        "mode": "which-picture", "seed": 7, "names": ("a", "b", "c", "d"), "answer": "b",
+        "revealed": True, "score": (3, 4), "chosen": ("no eye", "along +w"),
+    }  # fmt: skip
+    state = STATE.with_options(mistakes=options)
+    kept = from_bytes(to_bytes(session_of(state, Arrangement("Lecture", (), ""))))
+    assert kept.options.of(MistakesOptions) == state.of(MistakesOptions)
+    assert state.of(MistakesOptions).score == (3, 4)
+
+
+def test_a_lecture_s_options_are_checked() -> None:
+    good = {"mode": "which-line", "chosen": ["no eye"], "columns": 16}
+    changes = options_from_table({"mistakes": good})
+    assert STATE.with_options(**changes).of(MistakesOptions).columns == 16
+    for bad in ({"mode": "exam"}, {"columns": 17}, {"chosen": ["a", "b", "c"]}, {"seed": -1}):
+        with pytest.raises(LucidaError, match=f"mistakes.{next(iter(bad))}"):
+            options_from_table({"mistakes": bad})

@@ -98,10 +98,12 @@ def test_mistakes_are_switched_one_a_line_two_in_all(program) -> None:
             both = model.switched(program, chosen, other.name)
             if other is mistake:
                 continue
-            clash = bool(mistake.keys & other.keys)
-            assert both == ((other.name,) if clash else (mistake.name, other.name))
+            together = program.can_combine(mistake, other)
+            assert together or mistake.keys & other.keys
+            assert both == ((mistake.name, other.name) if together else (other.name,))
             assert [one.name for one in model.named(program, both)] == list(both)
-    assert model.named(program, ("nothing", "rows count upwards", "rows count upwards")) != ()
+    (once,) = model.named(program, ("nothing", "rows count upwards", "rows count upwards"))
+    assert once.name == "rows count upwards"
     first, second = model.named(program, ("columns count leftwards", "rows count upwards"))
     assert model.without_line(program, (first.name, second.name), "x") == (second.name,)
     third = next(one for one in program.mistakes if not one.keys & {"x", "y"})
@@ -131,9 +133,15 @@ def test_lines_are_folded_without_loss(program) -> None:
             assert " ".join(" ".join(rows).split()) == " ".join(code.split())
 
 
-def test_every_line_can_be_wrong() -> None:
-    for program in PROGRAMS:
-        assert all(model.of_line(program, line.key) for line in program.lines)
+@pytest.mark.parametrize("program", PROGRAMS)
+def test_every_line_can_be_wrong_and_common_mistakes_come_first(program) -> None:
+    for line in program.lines:
+        found = model.of_line(program, line.key)
+        assert {one.name for one in found} == {
+            one.name for one in program.mistakes if line.key in dict(one.lines)
+        }
+        order = [one.is_common for one in found]
+        assert order[0] and order == sorted(order, reverse=True)
 
 
 def test_pictures_are_as_coarse_as_the_images_where_those_are() -> None:
