@@ -6,6 +6,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from right_code import right_ray
 
 from app.checking.builtin import BUILTIN
 from app.checking.calls import Call, Failure, Run
@@ -45,16 +46,6 @@ def answered(camera: Camera, answer, kind: str = RAY, last: int | None = None) -
     calls: list[Call] = KINDS[kind].calls(asked, cases)
     values = [answer(dict(call.arguments)) for call in calls[:last]]
     return rays_of(asked, camera, SIZE, cases, Run(tuple(values)), 0.5)
-
-
-def right_ray(known):
-    camera = known["camera"]
-    x = camera["left"] + (known["j"] + 0.5) / known["width"] * (camera["right"] - camera["left"])
-    y = camera["top"] - (known["i"] + 0.5) / known["height"] * (camera["top"] - camera["bottom"])
-    u, v, w, eye = (np.array(camera[name]) for name in ("u", "v", "w", "eye"))
-    if camera["projection"] == "parallel":
-        return [(eye + x * u + y * v).tolist(), (-w).tolist()]
-    return [eye.tolist(), (3 * (x * u + y * v - camera["distance"] * w)).tolist()]
 
 
 @pytest.mark.parametrize(
