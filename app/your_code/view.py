@@ -83,7 +83,7 @@ class YourCodeView(DockedView):
         self._source: tuple[str, str] = ("", "")  # of a file that is not run: its path, its text
         self._uploaded: Any = None
         self._shown: Any = None  # what the outside view's lines were made from
-        self._seen = False
+        self._seen = self._painting = False
         self._asked: CodeWish = ""
         self.pictures: CodePictures | None = None
         self.told: list[ToldLine] = []
@@ -113,7 +113,7 @@ class YourCodeView(DockedView):
     def settled(self) -> bool:
         if not self._seen or self.runs is None or self._painter is None:
             return True
-        return not (self.runs.busy or self._painter.busy)
+        return not (self.runs.busy or (self._painting and self._painter.busy))
 
     def begin(self, host: Host, context: moderngl.Context) -> None:
         runs = self.runs = CodeRuns(host.animate)
@@ -171,6 +171,8 @@ class YourCodeView(DockedView):
         """Nothing runs, and nothing is shown of what did."""
         assert self.runs is not None and self._follower is not None
         self._follower.follow("")
+        self._painting = False
+        self.runs.poll()
         if self.runs.report is not None:
             self.runs.forget()
         self.pictures, self._uploaded, self.told, self._told_of = None, None, [], None
@@ -228,6 +230,7 @@ class YourCodeView(DockedView):
         """The pictures of a report, or the last ones while these are on their way."""
         assert self._painter is not None
         rays, state = report.rays, host.state
+        self._painting = rays is not None and bool(rays.came.any())
         if rays is None:
             result = report.results.get(report.chosen.name) if report.chosen is not None else None
             first = result.first if result is not None else None
@@ -238,7 +241,7 @@ class YourCodeView(DockedView):
                     self.pictures = image_pair(first.case.right, first.answer)
                 self._upload(key)
             return
-        if not rays.came.any():
+        if not self._painting:
             self.pictures, self._uploaded = None, None
             return
         shading = RayShading(rays.camera.t_range)
@@ -290,7 +293,8 @@ class YourCodeView(DockedView):
             imgui.text_colored(theme.ERROR, describe(error))
             return
         if answer is not None and report.rays is not None and pictures.size == report.rays.size:
-            self._mark(host, report.rays, answer.pixel, answer.pixel == marked)
+            again = host.state.marked is not None and answer.pixel == marked
+            self._mark(host, report.rays, answer.pixel, again)
 
     def _mark(self, host: Host, rays: CodeRays, pixel: Pixel, again: bool) -> None:
         """Marks a pixel in all views, or takes the mark away."""
