@@ -114,9 +114,11 @@ def _seen(
         found = _hits(flat, origins[hit], directions[hit], t[hit], primitives[hit])
         number, weight = number[hit], weight[hit]
         light[number] += weight * _colors(tracer, flat, found, shading.shadows)
+        if bounce == shading.mirror_depth:
+            break
         weight = weight * flat.materials[found.objects, SPECULAR_CHECKERED, :3]
         more = weight.max(axis=1, initial=0.0) > 0
-        if bounce == shading.mirror_depth or not more.any():
+        if not more.any():
             break
         number, weight = number[more], weight[more]
         origins, directions = _reflected(found, more)
@@ -140,7 +142,7 @@ def _hits(
         objects[round_] = flat.sphere_object[spheres]
         out = points[round_] - flat.spheres[spheres, :3]
         # A tiny sphere far away may round to its centre.
-        out = np.where((out != 0).any(axis=1)[:, None], out, directions[round_])
+        out = np.where((_dot(out, out) > 0)[:, None], out, directions[round_])
         geometric[round_] = normals[round_] = _facing(_unit(out), directions[round_])
     tint = None
     if not round_.all():
@@ -179,7 +181,7 @@ def _on_triangles(
     geometric = _unit(across)
     facing = _facing(geometric, directions)
     normals = flat.normals[corners].astype(np.float64)  # (n, 3 corners, 3)
-    is_smooth: Bools = (normals != 0).any(axis=2).all(axis=1)
+    is_smooth = np.einsum("nki,nki->nk", normals, normals).min(axis=1, initial=1.0) > 0
     colors = flat.colors[corners]
     is_tinted = bool((colors != 1).any())
     if not is_smooth.any() and not is_tinted:

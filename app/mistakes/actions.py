@@ -10,7 +10,6 @@ from app.host.action import SHIFT, Action, Key, Window
 from app.mistakes import model
 from app.mistakes.options import MistakesOptions, Mode
 from app.mistakes.panel import Wish
-from app.mistakes.question import LETTERS
 from app.mistakes.view import MISTAKES, MistakesView
 
 MENU = "Lecture/Mistakes"
@@ -79,8 +78,8 @@ WRONG_LINES = (
         can=lambda window: _is_in(window, quiz=False),
     ),
     *(
-        _asking(f"answer {letter}", number, f"Shift+{number + 1}", SHIFT | int(key), number == 0)
-        for number, (letter, key) in enumerate(zip(LETTERS, _NUMBERS, strict=True))
+        _asking(f"answer {number + 1}", number, f"Shift+{number + 1}", SHIFT | int(key), not number)
+        for number, key in enumerate(_NUMBERS)
     ),
     _asking("reveal the answer", "reveal", "R", int(Key.r), True),
     _asking("next question", "next", "Shift+R", SHIFT | int(Key.r), False),

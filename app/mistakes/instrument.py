@@ -8,10 +8,11 @@ from app.mistakes.actions import WRONG_LINES
 from app.mistakes.view import MistakesView
 from app.outside.view import OutsideView
 
+MOUSE = (("click, 1 to 4, A to D", "in the quiz of the mistakes: answer"),)
 SYNONYMS = {
     "Mistakes": "wrong lines errors quiz exercise what if students sign offset",
 }
 
 INSTRUMENT = Instrument(
-    lambda views: [MistakesView(view_of(views, OutsideView))], WRONG_LINES, synonyms=SYNONYMS
+    lambda views: [MistakesView(view_of(views, OutsideView))], WRONG_LINES, MOUSE, SYNONYMS
 )

@@ -67,9 +67,9 @@ def situation_of(state: AppState, images: Size) -> Situation:
     camera = state.view.for_size(size)
     depth = MIRROR_DEPTH if state.options.mirrors else 0
     shading = RayShading(camera.t_range, state.options.shadows, depth)
-    pixel = None
-    if state.marked is not None and min(images):
-        pixel = scaled_pixel(state.marked, images, size)
+    marked, pixel = state.marked, None
+    if marked is not None and marked[0] < images[1] and marked[1] < images[0]:
+        pixel = scaled_pixel(marked, images, size)
     return Situation(camera, size, state.options.indexing, shading, pixel)
 
 
@@ -85,7 +85,7 @@ def picture_size(state: AppState, images: Size) -> Size:
 def scaled_pixel(pixel: Pixel, of: Size, size: Size) -> Pixel:
     """The pixel of an image of `size` that lies where that one does in an image of another."""
     row, column = (
-        min(int((at + 0.5) / old * new), new - 1)
+        (2 * at + 1) * new // (2 * old)  # where its middle lies
         for at, old, new in zip(pixel, reversed(of), reversed(size), strict=True)
     )
     return row, column
@@ -109,13 +109,13 @@ def compared(painter: RayPainter, now: Situation, mistakes: Mistakes) -> Compare
 
 
 def named(program: Program, names: Iterable[str]) -> Mistakes:
-    """The mistakes of these names that the program has, in their order; at most two, and not two in
-    one line."""
+    """The mistakes of these names that the program has, in their order; at most two, which can be
+    made together."""
     found: list[Mistake] = []
     for name in names:
         for mistake in program.mistakes:
-            clash = any(mistake.keys & other.keys for other in found)
-            if mistake.name == name and not clash and len(found) < 2:
+            fits = all(program.can_combine(other, mistake) for other in found)
+            if mistake.name == name and fits and mistake not in found and len(found) < 2:
                 found.append(mistake)
     return tuple(found)
 
@@ -131,17 +131,18 @@ def unknown(names: Iterable[str]) -> tuple[str, ...]:
 
 
 def of_line(program: Program, key: str) -> Mistakes:
-    """What may be wrong in a line, with others or alone."""
-    return tuple(mistake for mistake in program.mistakes if key in mistake.keys)
+    """What may be wrong in a line, with others or alone; what many write comes first."""
+    found = (mistake for mistake in program.mistakes if key in mistake.keys)
+    return tuple(sorted(found, key=lambda mistake: not mistake.is_common))
 
 
 def switched(program: Program, names: Sequence[str], name: str) -> tuple[str, ...]:
-    """The names after a mistake was switched on, or off. What is in the same line gives way; of the
-    others, the last one stays."""
+    """The names after a mistake was switched on, or off. What cannot be made together with it gives
+    way; of the others, the last one stays."""
     if name in names:
         return tuple(one for one in names if one != name)
     (new,) = (mistake for mistake in program.mistakes if mistake.name == name)
-    others = [one.name for one in named(program, names) if not one.keys & new.keys]
+    others = [one.name for one in named(program, names) if program.can_combine(one, new)]
     return (*others[-1:], name)
 
 

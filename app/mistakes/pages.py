@@ -31,7 +31,9 @@ LOW = 0.6  # of its width: a lower view has the pictures beside the text
 COLUMN_PART = 0.64  # of its width that the text then has, at most
 GAP_EM = 0.8  # between both
 SMALLER = 0.94  # each size of type that is tried is that part of the one before
-ANSWER_MARGIN = 5  # letters before a choice's code
+ANSWER_MARGIN, CARET_MARGIN = 5, 3  # letters before a choice's code; behind a line's
+TEXELS = 640  # of a texture's row, about
+AS_WRITTEN = "as written"  # the wrong picture, and its camera in the outside view
 
 
 @dataclass(frozen=True, eq=False)
@@ -60,7 +62,9 @@ class MadeTextures:
             return
         pictures, self.told = make()
         for name, picture in pictures.items():
-            self.uploads.put(name, picture)
+            # ImGui smooths what it enlarges: pixels are to be seen as squares.
+            times = max(1, TEXELS // picture.shape[1])
+            self.uploads.put(name, picture.repeat(times, axis=0).repeat(times, axis=1))
         self._key = key
 
     def get(self, name: str) -> moderngl.Texture | None:
@@ -98,16 +102,18 @@ def laboratory(
     program, fonts = now.program, page.fonts
     mistakes = model.named(program, options.chosen)
     told = [f"{one.hint} (lecture: {one.part})" for one in mistakes]
-    rows, longest = panel.code_rows(program, mistakes), model.LONGEST_LINE + 3
-    text = _division(page.room, longest)
+    rows, longest = panel.code_extent(program, mistakes)
+    text = _division(page.room, longest + CARET_MARGIN)
     width = text.width
 
     def height(size: float) -> float:
-        code = rows * panel.LINE * _code_px(width, size, longest)
+        code = rows * panel.LINE * _code_px(width, size, longest + CARET_MARGIN)
         return code + panel.paragraphs_px(told, width, size, fonts)
 
     size = _fitting(text, height)
-    clicked = panel.program_lines(program, mistakes, _code_px(width, size, longest), width, fonts)
+    clicked = panel.program_lines(
+        program, mistakes, _code_px(width, size, longest + CARET_MARGIN), width, fonts
+    )
     for one in told:
         panel.paragraph(one, width, size, theme.TEXT, fonts)
     pixel = _compared(page, now, made, options, _pictures_room(page, text))
@@ -138,9 +144,8 @@ def _compared(
     pixel = now.pixel if made.now.size == now.size else None
     shown = [GridPicture("right", "right", textures.get("right"), pixel=pixel)]
     if made.mistakes:
-        name = "wrong line" if len(made.mistakes) == 1 else "two wrong lines"
         wrong = panel.wrong_color()
-        shown.append(GridPicture("wrong", name, textures.get("wrong"), "", wrong, pixel))
+        shown.append(GridPicture("wrong", AS_WRITTEN, textures.get("wrong"), "", wrong, pixel))
     if made.mistakes and options.difference:
         difference = textures.get("difference")
         shown.append(GridPicture("difference", "difference", difference, textures.told))
@@ -174,7 +179,7 @@ def _which_line(
     page: Page, made: Made, asked: QuizQuestion, options: MistakesOptions, told: tuple[str, ...]
 ) -> int | None:
     fonts = page.fonts
-    title = "Which line made the wrong picture?"
+    title = "Which line made the second picture?"
     choices = [
         panel.Choice(_code(made.now.program, name), _verdict(asked, options, number))
         for number, name in enumerate(asked.names)
@@ -195,7 +200,7 @@ def _which_line(
     wrong = page.textures.get(f"picture {asked.right_at}")
     shown = [
         GridPicture("right", "right", page.textures.get("right")),
-        GridPicture("wrong", "wrong", wrong, "", panel.wrong_color()),
+        GridPicture("wrong", AS_WRITTEN, wrong, "", panel.wrong_color()),
     ]
     picture_grid(shown, made.now.size, _pictures_room(page, text), fonts)
     return clicked
@@ -210,17 +215,17 @@ def _which_picture(
     keys = mistakes[0].keys
     lines = tuple(line for line in program.lines if line.key in keys)
     part = Program(lines, mistakes, program.results)  # the lines that the question is about
-    rows, longest = panel.code_rows(part, mistakes), model.LONGEST_LINE + 3
-    text = _division(page.room, longest)
+    rows, longest = panel.code_extent(part, mistakes)
+    text = _division(page.room, longest + CARET_MARGIN)
     width = text.width
 
     def height(size: float) -> float:
-        code = rows * panel.LINE * _code_px(width, size, longest)
+        code = rows * panel.LINE * _code_px(width, size, longest + CARET_MARGIN)
         return code + panel.paragraphs_px((title, *told), width, size, fonts)
 
     size = _fitting(text, height)
     panel.paragraph(title, width, size, theme.TEXT, fonts)
-    code_px = _code_px(width, size, longest)
+    code_px = _code_px(width, size, longest + CARET_MARGIN)
     panel.program_lines(part, mistakes, code_px, width, fonts, can_change=False)
     _say(page, told, options, width, size)
     _take_question(page, made, asked)

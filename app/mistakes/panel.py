@@ -48,8 +48,11 @@ def wrong_color() -> ImVec4:
     return theme.legible(role_color("other"))
 
 
-def controls(options: MistakesOptions, is_asked: bool) -> tuple[MistakesOptions, Wish]:
-    """The mode, the pictures' size, and what the mode has. is_asked: there is a question."""
+def controls(
+    options: MistakesOptions, columns: int, is_asked: bool
+) -> tuple[MistakesOptions, Wish]:
+    """The mode, the pictures' size, and what the mode has. columns: of the pictures as they are.
+    is_asked: there is a question."""
     wish: Wish = ""
     for number, (mode, (name, tip)) in enumerate(MODES.items()):
         if number:
@@ -57,7 +60,7 @@ def controls(options: MistakesOptions, is_asked: bool) -> tuple[MistakesOptions,
         if radio_button(f"{name}##mode", options.mode == mode) and options.mode != mode:
             options = replace(options, mode=mode, names=(), answer="", revealed=False)
         imgui.set_item_tooltip(tip)
-    options = _columns(options)
+    options = _columns(options, columns)
     if options.mode == "laboratory":
         follow(imgui.calc_text_size("difference").x + 1.5 * imgui.get_frame_height())
         _, on = checkbox("difference", options.difference)
@@ -90,15 +93,17 @@ def _button(label: str, tip: str) -> bool:
     return clicked
 
 
-def _columns(options: MistakesOptions) -> MistakesOptions:
+def _columns(options: MistakesOptions, shown: int) -> MistakesOptions:
     width = imgui.calc_text_size("320 pixels").x + 2.2 * imgui.get_frame_height()
     follow(width)
     imgui.set_next_item_width(width)
-    if imgui.begin_combo("##columns", f"{options.columns} pixels"):
+    imgui.begin_disabled(shown != options.columns)  # the images' own resolution is as coarse
+    if imgui.begin_combo("##columns", f"{shown} pixels"):
         for columns in COLUMNS:
             if imgui.selectable(f"{columns} pixels", columns == options.columns)[0]:
                 options = replace(options, columns=columns)
         imgui.end_combo()
+    imgui.end_disabled()
     imgui.set_item_tooltip(
         "the pictures' width: half a pixel is to be seen where there are few of them"
     )
@@ -108,18 +113,19 @@ def _columns(options: MistakesOptions) -> MistakesOptions:
 # The program.
 
 
-def code_rows(program: Program, mistakes: Mistakes) -> int:
-    """How many rows program_lines() takes."""
-    return sum(
-        len(model.folded(line.code)) + len(rows_of(line.instead)) for line in program.text(mistakes)
-    )
+def code_extent(program: Program, mistakes: Mistakes) -> tuple[int, int]:
+    """How many rows program_lines() takes, and the letters of the longest."""
+    rows = [
+        row
+        for line in program.text(mistakes)
+        for row in [*model.folded(line.code), *rows_of(line.instead)]
+    ]
+    return len(rows), max(map(len, rows))
 
 
 def rows_of(instead: str | None) -> list[str]:
     """What is written instead of a line, as it is shown."""
-    if instead is None:
-        return []
-    return model.folded(instead) if instead else ["(left out)"]
+    return [] if instead is None else model.folded(instead)
 
 
 def program_lines(

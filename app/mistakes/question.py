@@ -66,7 +66,8 @@ def _drawn(
     program: Program, options: MistakesOptions, right: Light, picture: Callable[[Mistake], Light]
 ) -> QuizQuestion:
     asked = [mistake for mistake in program.mistakes if mistake.name == options.asked]
-    others = [one for one in program.mistakes if _is_short(one) and one.name != options.asked]
+    usual = [one for one in program.mistakes if one.is_common and _is_short(one)]
+    others = [one for one in usual if one.name != options.asked]
     # The seed has drawn the place of the right one already: another one for the order.
     random.Random(f"{options.seed}").shuffle(others)
     kept: list[tuple[Mistake, Light]] = []
@@ -74,10 +75,11 @@ def _drawn(
     for number, mistake in enumerate([*asked, *others][:TRIED]):
         light = picture(mistake)
         look = shown(light, 0.0)
-        if all(are_apart(look, other) for other in seen):
+        is_asked = bool(asked) and number == 0
+        if all(are_apart(look, other) for other in seen) and (is_asked or not is_blank(look)):
             kept.append((mistake, light))
             seen.append(look)
-        elif asked and number == 0:
+        elif is_asked:
             problem = f'With this camera, "{options.asked}" makes the right picture: move it.'
             return QuizQuestion((), 0, right, (), problem)
         if len(kept) == CHOICES:
@@ -102,6 +104,11 @@ def are_apart(one: Bytes, other: Bytes) -> bool:
     """Whether two pictures of a size, as shown, look different."""
     steps = np.abs(_places(one) - _places(other)).max(axis=2)
     return bool((steps > CLEAR).mean() >= PART)
+
+
+def is_blank(picture: Bytes) -> bool:
+    """Whether nothing is to be seen in it."""
+    return bool(np.ptp(_places(picture), axis=(0, 1)).max() <= CLEAR)
 
 
 def _places(picture: Bytes) -> NDArray[np.float64]:

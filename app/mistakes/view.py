@@ -31,7 +31,7 @@ from renderer.errors import LucidaError, describe
 
 MISTAKES = "Mistakes"
 LEAST_EM = 11.0  # the view's height, at least: lower ones are scrolled
-CONTROLS_EM = 30.0  # the view's width, at least, in the type of its controls
+CONTROLS_EM, ROWS_EM = 30.0, 13.0  # larger type gives way where the view is less wide, or high
 
 
 class MistakesView(DockedView):
@@ -89,7 +89,8 @@ class MistakesView(DockedView):
         self._seen = True
         host.renderers.need_size(host.state.images)
         usual = theme.TEXT_PX * imgui.get_style().font_scale_dpi
-        with at_most(max(usual, imgui.get_content_region_avail().x / CONTROLS_EM)):
+        room = imgui.get_content_region_avail()
+        with at_most(max(usual, min(room.x / CONTROLS_EM, room.y / ROWS_EM))):
             self._draw(host, self._textures)
         self._show_outside(host)
 
@@ -97,7 +98,7 @@ class MistakesView(DockedView):
         now = model.situation_of(host.state, host.renderers.size)
         options = host.state.of(MistakesOptions)
         self.made = self._follow(host, now, options)
-        changed, wish = panel.controls(options, bool(self._names(options, now)))
+        changed, wish = panel.controls(options, now.size[0], bool(self._names(options, now)))
         if changed != options:
             host.change(host.state.with_options(mistakes=asdict(changed)))
         self._grant(host, now, wish)
@@ -237,5 +238,7 @@ class MistakesView(DockedView):
         reach = end * float(np.linalg.norm(now.camera.ray(*middle, now.size).direction))
         first = f"pixel {now.indexing.text((0, 0))}"
         corners, ray = made.compared.corners, made.compared.ray
-        items: list[Item] = second_camera(SecondCamera(*corners, ray, "as written", first), reach)
+        items: list[Item] = second_camera(
+            SecondCamera(*corners, ray, pages.AS_WRITTEN, first), reach
+        )
         self._outside.show(MISTAKES, items)

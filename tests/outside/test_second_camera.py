@@ -39,15 +39,27 @@ def test_a_perspective_camera_s_edges_leave_its_eye() -> None:
     assert np.allclose(edges.segments[:, 0], CAMERA.eye)
     lengths = np.linalg.norm(edges.segments[:, 1] - edges.segments[:, 0], axis=1)
     assert lengths.mean() == pytest.approx(REACH)
+    ways = edges.segments[:, 1] - edges.segments[:, 0]
+    assert (ways @ np.asarray(CAMERA.w) < 0).all()  # forwards
     (eye,), (label,) = named(items, "second eye"), named(items, "second name")
     assert isinstance(eye, Dot) and np.allclose(eye.point, CAMERA.eye)
     assert isinstance(label, Label) and label.text == "as written"
+    x, y = CAMERA.image_point(SIZE[1] - 1, SIZE[0] - 1, SIZE)
+    last = np.asarray(CAMERA.eye) + CAMERA.basis @ (x, y, -CAMERA.distance)
+    assert np.allclose(label.point, last)  # apart from the first pixel's
     plane = named(items, "second image plane")[0].segments[:, 0]
     x, y = CAMERA.image_point(0, 0, SIZE)
     corner = np.asarray(CAMERA.eye) + CAMERA.basis @ (x, y, -CAMERA.distance)
     assert np.allclose(plane[0], corner)
     dot, text = named(items, "second first pixel")
     assert np.allclose(dot.point, corner) and text.text == "pixel (1, 1)"
+
+
+def test_corners_are_taken_in_the_order_of_the_image() -> None:
+    rays = np.arange(3 * 4 * 3, dtype=float).reshape(3, 4, 3)
+    origins, directions = corner_rays(rays, -rays)
+    assert np.array_equal(origins, [rays[0, 0], rays[0, 3], rays[2, 3], rays[2, 0]])
+    assert np.array_equal(directions, -origins)
 
 
 def test_a_parallel_camera_has_no_eye_and_its_plane_is_where_its_rays_begin() -> None:

@@ -11,6 +11,7 @@ from app.compare import view as compare
 from app.costs import view as costs
 from app.laboratory import view as laboratory
 from app.lecture import view as lecture
+from app.mistakes import view as mistakes
 from app.outside import view as outside
 from app.pair import view as pair
 from app.probe import view as probe
@@ -86,6 +87,7 @@ VIEWS = [
         costs.CostsView,
         laboratory.LaboratoryView,
         lecture.LectureView,
+        mistakes.MistakesView,
         outside.OutsideView,
         pair.RasterView,
         pair.RayView,

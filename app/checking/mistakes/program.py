@@ -68,11 +68,13 @@ class ShownLine:
 
 @dataclass(frozen=True, eq=False)
 class Program:
-    """lines, and the mistakes that are made in them; results: the names of what it makes."""
+    """lines, and the mistakes that are made in them. results: the names of what it makes.
+    has_pairs: whether two mistakes at once are looked for: not where a run takes long."""
 
     lines: tuple[CodeLine, ...]
     mistakes: Mistakes
     results: tuple[str, ...]
+    has_pairs: bool = True
 
     def text(self, mistakes: Sequence[Mistake] = ()) -> tuple[ShownLine, ...]:
         """All lines, in their order, with what is written instead. Of mistakes that cannot be

@@ -5,7 +5,6 @@ A number is an array (..., 1), a vector (..., 3): so `x*u` is written as in a fo
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from typing import Any
 
 import numpy as np
@@ -74,7 +73,7 @@ def times_point(matrix: ArrayLike, a: ArrayLike) -> Floats:
     return times_vector(matrix, a) + np.asarray(matrix)[..., :3, 3]
 
 
-FUNCTIONS: dict[str, Callable[..., Any]] = {
+FUNCTIONS: dict[str, Any] = {
     function.__name__: function
     for function in (
         dot, norm, normalized, vector, columns, columns_of, rows, transposed, inverse,
@@ -83,4 +82,5 @@ FUNCTIONS: dict[str, Callable[..., Any]] = {
 } | {
     "cross": np.cross, "sqrt": np.sqrt, "sin": np.sin, "cos": np.cos, "tan": np.tan,
     "atan": np.arctan, "radians": np.radians, "where": np.where, "floor": np.floor,
+    "inf": np.inf,
 }  # fmt: skip

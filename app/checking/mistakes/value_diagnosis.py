@@ -1,0 +1,115 @@
+"""What is told of wrong answers that are numbers or arrays: bases, hits, images, offsets."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from app.checking.mistakes.candidates import LOOSE, candidates
+from app.checking.mistakes.diagnosis import Diagnosis, candidate_sentences
+from app.checking.mistakes.program import Mistakes, Program
+
+Floats = NDArray[np.float64]
+Numbers = NDArray[np.intp]
+
+
+@dataclass(frozen=True, eq=False)
+class ValueCase:
+    """known: what the program's lines know, by name: numbers, vectors (3,), arrays. right, given:
+    the answers as arrays of one shape; given may be None. tolerance: of what is right; None where
+    an answer must be the very number. judged: which parts of the answer count; None: all."""
+
+    known: Mapping[str, Any]
+    right: Any
+    given: Any
+    tolerance: float | None = 0.0
+    judged: NDArray[np.bool_] | None = None
+
+
+class ValueTrial:
+    def __init__(self, cases: Sequence[ValueCase]) -> None:
+        self.cases = cases
+        self.count = len(cases)
+
+    def errors(
+        self, program: Program, tried: Sequence[Mistakes], cases: Numbers
+    ) -> tuple[Floats, Floats]:
+        given, right = np.empty((2, len(tried), len(cases)))
+        for row, mistakes in enumerate(tried):
+            for column, number in enumerate(cases):
+                case = self.cases[number]
+                made = _made(program, case, mistakes)
+                given[row, column] = _apart(case, case.given, made)
+                right[row, column] = _apart(case, case.right, made)
+        return given, right
+
+
+def _made(program: Program, case: ValueCase, mistakes: Mistakes) -> Floats:
+    """The program's answer, in the right one's shape; NaN where it has another one."""
+    shape = np.shape(case.right)
+    (answer,) = program.run(case.known, mistakes)
+    if isinstance(answer, tuple):
+        answer = np.stack([np.asarray(part, float).reshape(-1) for part in answer])
+    made = np.asarray(answer, float)
+    return made.reshape(shape) if made.size == np.prod(shape, dtype=int) else np.full(shape, np.nan)
+
+
+def _apart(case: ValueCase, answer: Any, made: Floats) -> float:
+    """LOOSE is what is allowed: the tolerance, or as much of the largest number."""
+    if answer is None:
+        return np.inf
+    found = np.asarray(answer, float)
+    if found.shape != made.shape:
+        return np.inf
+    if case.judged is not None:
+        found, made = found[case.judged], made[case.judged]
+    if case.tolerance is None:
+        return 0.0 if (found == made).all() else np.inf
+    finite = made[np.isfinite(made)]
+    near = max(case.tolerance, LOOSE * float(np.abs(finite).max(initial=0.0)), 1e-300)
+    with np.errstate(invalid="ignore"):
+        apart = np.where(found == made, 0.0, np.abs(found - made) / near * LOOSE)
+    return float(apart.max(initial=0.0))
+
+
+def diagnose_values(
+    program: Program, cases: Sequence[ValueCase], wrong: ArrayLike
+) -> Diagnosis | None:
+    """What is told of the answers that were given; None where none is wrong. wrong: which are."""
+    flags = np.asarray(wrong, bool)
+    if not flags.any():
+        return None
+    found = candidates(program, ValueTrial(cases), flags)
+    sentences = candidate_sentences(program, found) if found else _facts(cases)
+    return Diagnosis(tuple(sentences), found, first=int(np.argmax(flags)))
+
+
+def _facts(cases: Sequence[ValueCase]) -> list[str]:
+    """Of numbers: what all of them have in common."""
+    pairs = [
+        (np.ravel(np.asarray(case.given, float)), np.ravel(np.asarray(case.right, float)))
+        for case in cases
+        if case.given is not None and np.shape(case.given) == np.shape(case.right)
+    ]
+    if not pairs:
+        return []
+    given, right = (np.concatenate(parts) for parts in zip(*pairs, strict=True))
+    told = []
+    missed = np.isinf(given) & np.isfinite(right)
+    invented = np.isfinite(given) & np.isinf(right)
+    if missed.any():
+        told.append(f"{np.count_nonzero(missed)} hits are not found.")
+    if invented.any():
+        told.append(f"{np.count_nonzero(invented)} hits are found where there is none.")
+    if np.isinf(right).any() and not missed.any() and not invented.any():
+        told.append("Hits and misses are right, only the numbers are not.")
+    both = np.isfinite(given) & np.isfinite(right) & (np.abs(right) > 1e-9)
+    if both.any():
+        ratio = given[both] / right[both]
+        if np.ptp(ratio) <= 1e-4 * abs(ratio[0]) and abs(ratio[0] - 1) > 1e-3:
+            told.append(f"Your numbers are {ratio[0]:.4g} times the right ones.")
+    return told

@@ -1,0 +1,382 @@
+"""Bases, hits, images and offsets: right by hand, each mistake by name, two at once."""
+
+from __future__ import annotations
+
+import math
+from typing import ClassVar
+
+import numpy as np
+import pytest
+from asked_rays import made_camera
+
+from app.checking.mistakes.basis import BASIS
+from app.checking.mistakes.hits import CLOSEST, SHAPES, SPHERE, TRIANGLE, crossings
+from app.checking.mistakes.images import bitmap_program, gray_program, offset_program
+from app.checking.mistakes.rays import RayTask
+from app.checking.mistakes.render import MISTAKES as LOOP_MISTAKES
+from app.checking.mistakes.render import render_program, render_values
+from app.checking.mistakes.value_diagnosis import ValueCase, diagnose_values
+
+WEIGHTS = (0.2126, 0.7152, 0.0722)
+
+
+def direction(random):
+    made = random.normal(size=3)
+    return made / np.linalg.norm(made) * random.uniform(0.4, 3)
+
+
+def basis_cases(random):
+    return [
+        {"eye": random.normal(size=3) * 4, "target": random.normal(size=3),
+         "up": direction(random)}
+        for _ in range(20)
+    ]  # fmt: skip
+
+
+def around(random):
+    """A ray that leads near a point: away from it, to it, or from inside."""
+    along, centre = direction(random), random.uniform(-2, 2, 3)
+    origin = centre + random.uniform(-4, 2) * along + random.normal(size=3) * 0.5
+    return {"origin": origin, "direction": along}, centre
+
+
+def sphere_cases(random):
+    made = []
+    for _ in range(60):
+        ray, centre = around(random)
+        made.append({**ray, "center": centre, "radius": random.uniform(0.5, 2)})
+    return made
+
+
+def triangle_cases(random):
+    made = []
+    for _ in range(80):
+        ray, centre = around(random)
+        corners = {name: centre + random.normal(size=3) for name in "abc"}
+        made.append({**ray, **corners})
+    return made
+
+
+def objects_near(random, ray, count):
+    made = []
+    for number in range(count):
+        at = ray["origin"] + random.uniform(-4, 6) * ray["direction"] + random.normal(size=3) * 0.2
+        color = random.uniform(0.2, 1, 3).tolist()
+        if number % 2:
+            corners = {name: (at + random.normal(size=3) * 2).tolist() for name in "abc"}
+            made.append({"type": "triangle", **corners, "color": color})
+        else:
+            made.append({"type": "sphere", "center": at.tolist(), "radius": 0.9, "color": color})
+    return made
+
+
+def closest_cases(random):
+    made = []
+    for number in range(30):
+        ray, _ = around(random)
+        made.append({**ray, "objects": objects_near(random, ray, number % 7), **SHAPES})
+    return made
+
+
+def gray_cases(random):
+    images = [np.ones((2, 3, 3)), *(random.uniform(0, 1, (4, 5, 3)) for _ in range(5))]
+    return [dict(zip(("red", "green", "blue"), np.moveaxis(one, -1, 0), strict=True))
+            for one in images]  # fmt: skip
+
+
+def bitmap_cases(random):
+    made = []
+    for number in range(12):
+        image = np.round(random.uniform(0, 1, (5, 4)), 2) * (255 if number % 2 else 1)
+        made.append({"gray": image, "threshold": float(random.choice(image.ravel()))})
+    return made
+
+
+def offset_cases(random):
+    return [
+        dict(zip(("i", "j", "width", "height"), random.integers(2, 50, 4).tolist(), strict=True))
+        for _ in range(20)
+    ]
+
+
+PROGRAMS = {
+    "basis": (BASIS, basis_cases),
+    "sphere": (SPHERE, sphere_cases),
+    "triangle": (TRIANGLE, triangle_cases),
+    "closest": (CLOSEST, closest_cases),
+    "gray": (gray_program(WEIGHTS), gray_cases),
+    "bitmap": (bitmap_program(True), bitmap_cases),
+    "bitmap, more than": (bitmap_program(False), bitmap_cases),
+    "offset": (offset_program(0, False, 12), offset_cases),
+    "offset, from 1, by columns": (offset_program(1, True, 1), offset_cases),
+}
+
+
+def answers(program, cases, mistakes=()):
+    made = []
+    for known in cases:
+        (answer,) = program.run(known, mistakes)
+        if isinstance(answer, tuple):
+            answer = np.array([np.ravel(part) for part in answer], float)
+            answer = answer[:, 0] if answer.shape[1] == 1 else answer
+        made.append(np.squeeze(np.asarray(answer, float)))
+    return made
+
+
+def diagnosed(program, cases, given, tolerance=0.0):
+    right = answers(program, cases)
+    asked = [
+        ValueCase(known, wanted, found, tolerance)
+        for known, wanted, found in zip(cases, right, given, strict=True)
+    ]
+    near = [
+        np.allclose(wanted, found, rtol=1e-5, atol=1e-7, equal_nan=True)
+        for wanted, found in zip(right, given, strict=True)
+    ]
+    return diagnose_values(program, asked, ~np.array(near))
+
+
+def names(said):
+    return [{one.name for one in found} for found in said.candidates]
+
+
+@pytest.mark.parametrize("name", PROGRAMS)
+def test_each_mistake_is_named(name):
+    program, make = PROGRAMS[name]
+    cases = make(np.random.default_rng(8))
+    right = answers(program, cases)
+    assert len({mistake.name for mistake in program.mistakes}) == len(program.mistakes)
+    for mistake in program.mistakes:
+        given = answers(program, cases, (mistake,))
+        assert any(not np.array_equal(a, b) for a, b in zip(given, right, strict=True)), mistake
+        tolerance = None if "offset" in name or "bitmap" in name else 0.0
+        for form in (np.float64, np.float32) if name in ("basis", "sphere") else (np.float64,):
+            said = diagnosed(program, cases, [one.astype(form) for one in given], tolerance)
+            found = names(said)
+            assert {mistake.name} in found, (mistake.name, found)
+            for others in said.candidates:
+                same = answers(program, cases, others)
+                assert all(
+                    np.allclose(a, b, rtol=1e-5, equal_nan=True)
+                    for a, b in zip(given, same, strict=True)
+                ), (mistake.name, found)
+        assert said.sentences[0] == said.candidates[0][0].hint
+
+
+@pytest.mark.parametrize("name", ["basis", "sphere", "offset"])
+def test_two_at_once(name):
+    program, make = PROGRAMS[name]
+    cases = make(np.random.default_rng(9))
+    right, pairs = answers(program, cases), list(program.pairs())
+    random = np.random.default_rng(1)
+    for number in random.choice(len(pairs), 12, replace=False):
+        given = answers(program, cases, pairs[number])
+        if all(np.allclose(a, b, equal_nan=True) for a, b in zip(given, right, strict=True)):
+            continue
+        if not all(np.isfinite(one).all() or np.isinf(one).all() for one in given):
+            continue
+        said = diagnosed(program, cases, given, None if name == "offset" else 0.0)
+        for others in said.candidates:
+            same = answers(program, cases, others)
+            assert all(
+                np.allclose(a, b, rtol=1e-9, equal_nan=True)
+                for a, b in zip(given, same, strict=True)
+            )
+        assert said.candidates
+
+
+@pytest.mark.parametrize("name", ["closest", "sphere", "triangle"])
+def test_nothing_is_told_of_right_answers(name):
+    program, make = PROGRAMS[name]
+    cases = make(np.random.default_rng(8))
+    right = answers(program, cases)
+    assert diagnosed(program, cases, right) is None
+    asked = [ValueCase(*one, one[1]) for one in zip(cases, right, strict=True)]
+    assert diagnose_values(program, asked, np.ones(len(cases), bool)).candidates == ()
+
+
+class TestHitsByHand:
+    AHEAD: ClassVar = {"origin": np.array([0.0, 0, 5]), "direction": np.array([0.0, 0, -2])}
+    BALL: ClassVar = {"center": np.zeros(3), "radius": 1.0}
+    FLAT: ClassVar = {
+        "a": np.array([-1.0, -1, 0]), "b": np.array([2.0, -1, 0]), "c": np.array([-1.0, 2, 0])
+    }  # fmt: skip
+
+    def hit(self, program, known, name=None):
+        chosen = tuple(one for one in program.mistakes if one.name == name)
+        assert len(chosen) == (name is not None)
+        return float(np.squeeze(program.run(known, chosen)[0]))
+
+    @pytest.mark.parametrize(
+        ("name", "t"),
+        [
+            (None, 2), ("the far root", 3), ("the distance for t", 4), ("not divided by a", 8),
+            ("2 a without brackets", 32), ("hit and miss exchanged", math.inf),
+            ("from the origin to the centre", math.inf), ("not from inside", 2),
+        ],
+    )  # fmt: skip
+    def test_sphere(self, name, t):
+        assert self.hit(SPHERE, self.AHEAD | self.BALL, name) == pytest.approx(t)
+
+    def test_sphere_behind_beside_and_inside(self):
+        behind = self.AHEAD | self.BALL | {"origin": np.array([0.0, 0, -5])}
+        assert self.hit(SPHERE, behind) == math.inf
+        assert self.hit(SPHERE, behind, "t < 0 accepted") == -2
+        assert self.hit(SPHERE, behind, "the smaller root, whatever its sign") == -3
+        inside = self.AHEAD | self.BALL | {"origin": np.zeros(3)}
+        assert self.hit(SPHERE, inside) == 0.5
+        assert self.hit(SPHERE, inside, "not from inside") == math.inf
+        beside = self.AHEAD | self.BALL | {"origin": np.array([0.0, 1.5, 5])}
+        assert self.hit(SPHERE, beside) == math.inf
+
+    @pytest.mark.parametrize(
+        ("name", "t"),
+        [
+            (None, 2.5), ("the distance for t", 5), ("the origin minus the corner", math.inf),
+            ("seen from one side only", 2.5), ("seen from the back only", math.inf),
+            ("outside for inside", math.inf), ("the whole plane", 2.5),
+        ],
+    )  # fmt: skip
+    def test_triangle(self, name, t):
+        assert self.hit(TRIANGLE, self.AHEAD | self.FLAT, name) == pytest.approx(t)
+
+    @pytest.mark.parametrize(
+        ("at", "accepted"),
+        [
+            ((1.5, 1.5), {"the parallelogram", "the edge b c not asked", "the whole plane"}),
+            ((-2, 0), {"the edge c a not asked", "the whole plane"}),
+            ((0, -2), {"the edge a b not asked", "the whole plane"}),
+            ((3, 3), {"the edge b c not asked", "the whole plane"}),
+        ],
+    )
+    def test_beyond_an_edge(self, at, accepted):
+        known = self.AHEAD | self.FLAT | {"origin": np.array([*at, 5.0])}
+        assert self.hit(TRIANGLE, known) == math.inf
+        inside = {one.name for one in TRIANGLE.mistakes if "inside" in one.keys}
+        found = {name for name in inside if self.hit(TRIANGLE, known, name) < math.inf}
+        assert found - {"outside for inside"} == accepted
+
+    def test_beside_and_behind_a_triangle(self):
+        along = self.AHEAD | self.FLAT | {"direction": np.array([1.0, 0, 0])}
+        assert self.hit(TRIANGLE, along) == math.inf
+        behind = self.AHEAD | self.FLAT | {"origin": np.array([0.0, 0, -5])}
+        assert self.hit(TRIANGLE, behind) == math.inf
+        assert self.hit(TRIANGLE, behind, "t < 0 accepted") == -2.5
+
+    def test_points_lie_on_spheres(self):
+        for known in sphere_cases(np.random.default_rng(2)):
+            t = self.hit(SPHERE, known)
+            if t < math.inf:
+                at = known["origin"] + t * known["direction"]
+                assert np.linalg.norm(at - known["center"]) == pytest.approx(known["radius"])
+
+    def test_all_crossings(self):
+        ball = {"type": "sphere", "center": [0, 0, 0], "radius": 1}
+        assert crossings(*self.AHEAD.values(), ball) == pytest.approx([2, 3])
+        flat = {"type": "triangle", **self.FLAT}
+        behind = [0, 0, -5]
+        assert crossings(behind, [0, 0, -2], flat) == pytest.approx([-2.5])
+        assert np.isnan(crossings([9, 9, 5], [0, 0, -2], flat)).all()
+        assert SHAPES["hit"]([0, 0, 5], [0, 0, 2], ball) == math.inf
+        assert SHAPES["first_crossing"]([0, 0, 5], [0, 0, 2], ball) == -3
+        assert SHAPES["last_crossing"]([0, 0, 5], [0, 0, -2], ball) == 3
+        assert SHAPES["last_crossing"]([0, 0, 5], [0, 0, 2], ball) == math.inf
+
+
+def test_images_by_hand():
+    one = gray_program(WEIGHTS)
+    known = {"red": np.array([[1.0, 0]]), "green": np.array([[1.0, 0.5]]), "blue": np.ones((1, 2))}
+    assert one.run(known)[0] == pytest.approx(np.array([[1.0, 0.4298]]))
+    clamp = next(m for m in one.mistakes if m.name == "no clamp before 8 bits")
+    assert one.run(known, (clamp,))[0] == pytest.approx(np.array([[0.0, 110 / 255]]))
+    bits = {"gray": np.array([[127.0, 128, 129]]), "threshold": 128.0}
+    assert bitmap_program(True).run(bits)[0].tolist() == [[0, 1, 1]]
+    assert bitmap_program(False).run(bits)[0].tolist() == [[0, 0, 1]]
+    at = {"i": 2, "j": 3, "width": 8, "height": 6}
+    assert offset_program(0, False, 12).run(at) == (228,)
+    assert offset_program(1, False, 12).run(at) == (120,)
+    assert offset_program(0, True, 1).run(at) == (20,)
+
+
+class TestRender:
+    def cases(self, projection, from_top=True):
+        random = np.random.default_rng(6)
+        task = RayTask(projection, from_top=from_top)
+        made = []
+        for number in range(4):
+            camera = made_camera(random, ("off-axis", "skewed")[number % 2], projection)
+            size = ((7, 5), (4, 6))[number % 2]
+            ray = camera.ray(2, 2, size)._asdict()
+            objects = objects_near(random, ray, 6)
+            made.append((camera, size, objects, [0.1, 0.0, 0.2]))
+        return task, made, [
+            render_values(camera, size, task, *scene) for camera, size, *scene in made
+        ]  # fmt: skip
+
+    @pytest.mark.parametrize("projection", ["perspective", "parallel"])
+    def test_nearest_objects_are_seen(self, projection):
+        """Pixel by pixel, by each object's own hit."""
+        task, made, known = self.cases(projection)
+        for (camera, size, objects, background), values in zip(made, known, strict=True):
+            (image,) = render_program(task).run(values)
+            assert image.shape == (size[1], size[0], 3)
+            for i in range(size[1]):
+                for j in range(size[0]):
+                    ray = camera.ray(i, j, size)
+                    hits = [float(SHAPES["hit"](*ray, shape)) for shape in objects]
+                    nearest = int(np.argmin(hits))
+                    seen = objects[nearest]["color"] if hits[nearest] < np.inf else background
+                    assert image[i, j].tolist() == seen
+
+    @pytest.mark.parametrize("projection", ["perspective", "parallel"])
+    def test_each_mistake_is_named(self, projection):
+        task, _, known = self.cases(projection)
+        program = render_program(task)
+        right = answers(program, known)
+        missed = []
+        for mistake in program.mistakes[: len(LOOP_MISTAKES)] + program.mistakes[-40::4]:
+            given = answers(program, known, (mistake,))
+            if all(np.array_equal(a, b) for a, b in zip(given, right, strict=True)):
+                missed.append(mistake.name)
+                continue
+            wrong = [not np.array_equal(a, b) for a, b in zip(given, right, strict=True)]
+            asked = [ValueCase(*one, 0.5 / 255) for one in zip(known, right, given, strict=True)]
+            said = diagnose_values(program, asked, wrong)
+            assert {mistake.name} in names(said)
+            for others in said.candidates:
+                same = answers(program, known, others)
+                assert all(np.array_equal(a, b) for a, b in zip(given, same, strict=True))
+        assert len(missed) <= 2 and not set(missed) & {one.name for one in LOOP_MISTAKES}
+
+    def test_rows_from_the_bottom(self):
+        task, _, known = self.cases("perspective", from_top=False)
+        top, _, known_top = self.cases("perspective")
+        for one, other in zip(known, known_top, strict=True):
+            (image,), (turned,) = render_program(task).run(one), render_program(top).run(other)
+            assert np.array_equal(image, turned[::-1])
+
+
+class TestFacts:
+    def said(self, right, given):
+        program, make = PROGRAMS["sphere"]
+        known = make(np.random.default_rng(4))[: len(right)]
+        asked = [ValueCase(*one) for one in zip(known, right, given, strict=True)]
+        return diagnose_values(program, asked, np.array(right) != np.array(given)).sentences
+
+    def test_hits_and_misses(self):
+        inf = math.inf
+        assert self.said([1.0, inf, 2.0], [inf, 1.0, 2.0]) == (
+            "1 hits are not found.",
+            "1 hits are found where there is none.",
+        )
+        assert self.said([1.0, inf, 2.0], [3.0, inf, 6.0]) == (
+            "Hits and misses are right, only the numbers are not.",
+            "Your numbers are 3 times the right ones.",
+        )
+
+    def test_answers_of_another_shape_have_no_name(self):
+        program, make = PROGRAMS["gray"]
+        cases = make(np.random.default_rng(4))
+        right = answers(program, cases)
+        asked = [ValueCase(one, wanted, None) for one, wanted in zip(cases, right, strict=True)]
+        assert diagnose_values(program, asked, np.ones(len(cases), bool)).candidates == ()
