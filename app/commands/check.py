@@ -19,10 +19,12 @@ from renderer.errors import LucidaError
 if TYPE_CHECKING:
     from app.checking.calls import Limits, Student
     from app.checking.checked import TaskResult
+    from app.checking.reports.pictured import Pictured
     from app.checking.tasks import CheckTask
 
 NAME = "check"
 RAYS = (".csv", ".npy", ".txt", ".tsv")  # what is not code
+PYTHON = (".py", ".pyw", "")
 SIZE = (64, 48)  # of the image of --view
 
 DESCRIPTION = """\
@@ -53,10 +55,17 @@ def configure(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--command", metavar="COMMAND", help="a program: one JSON object a line in, one a line out"
     )
-    parser.add_argument("--tasks", metavar="FILE.toml", help="a lecturer's own tasks")
+    parser.add_argument(
+        "--tasks",
+        metavar="FILE.toml",
+        help="a lecturer's own tasks; or the name of a course (lucida tasks lists them)",
+    )
     parser.add_argument("--task", metavar="NAME", help="this task alone")
     parser.add_argument(
         "--json", metavar="OUT", help="write the results as Gradescope reads them; -: print them"
+    )
+    parser.add_argument(
+        "--html", metavar="OUT.html", help="write the results as a page, with pictures"
     )
     parser.add_argument("--view", metavar="VIEW.toml", help="try this camera alone")
     parser.add_argument(
@@ -89,6 +98,7 @@ def run(arguments: argparse.Namespace) -> int:
     begin = time.perf_counter()
     tasks: list[CheckTask] = []
     results: list[TaskResult] = []
+    pictures: dict[str, Pictured] = {}
     try:
         _check_arguments(arguments)
         tasks, limits = _asked_for(arguments)
@@ -98,14 +108,33 @@ def run(arguments: argparse.Namespace) -> int:
             for result in _results(student, tasks):
                 results.append(result)
                 _tell(arguments, result)
+                if arguments.html is not None:
+                    pictures |= _pictures(student, result)
         finally:
             student.close()
     except LucidaError as error:
         seconds = time.perf_counter() - begin
-        _write_json(arguments, results, tasks, seconds, str(error))
+        lines = _why(error)
+        problem = "\n".join([str(error), *lines])
+        _write_json(arguments, results, tasks, seconds, problem)
+        _write_page(arguments, results, tasks, pictures, problem)
+        if lines:
+            print("\n".join(lines), file=sys.stderr)
         raise
     _write_json(arguments, results, tasks, time.perf_counter() - begin)
+    _write_page(arguments, results, tasks, pictures)
     return _end(arguments, results)
+
+
+def _why(error: LucidaError) -> list[str]:
+    """The student's own lines, of a file that does not run, and what it printed until then."""
+    from app.checking.reports.told import failure_lines, visible
+    from app.checking.running.file import NotRunnableError
+
+    if not isinstance(error, NotRunnableError):
+        return []
+    printed = visible(error.output).rstrip().split("\n") if error.output else []
+    return [*printed, *failure_lines(error.failure)]
 
 
 def _end(arguments: argparse.Namespace, results: list[TaskResult]) -> int:
@@ -135,9 +164,10 @@ def _asked_for(arguments: argparse.Namespace) -> tuple[list[CheckTask], Limits]:
     if arguments.tasks is None:
         tasks, limits = list(BUILTIN), Limits()
     else:
+        from app.checking.courses import task_path
         from app.checking.task_file import load_tasks
 
-        found = load_tasks(arguments.tasks)
+        found = load_tasks(task_path(arguments.tasks))
         tasks, limits = list(found.tasks), found.limits
     if arguments.task is not None:
         tasks = [named(tasks, arguments.task)]
@@ -206,6 +236,9 @@ def _student(arguments: argparse.Namespace, limits: Limits, tasks: list[CheckTas
     if path.suffix.lower() not in RAYS:
         from app.checking.running.file import FileStudent
 
+        if path.suffix.lower() not in PYTHON:
+            problem, remedy = "is no Python file", "--command runs other programs: lucida check -h"
+            raise LucidaError("", problem, remedy, str(path))
         return FileStudent(path, limits)
     from app.checking.running.rays_file import RaysFile
 
@@ -285,15 +318,41 @@ def _write_json(
             file.write(text.encode())
 
 
+def _pictures(student: Student, result: TaskResult) -> dict[str, Pictured]:
+    from app.checking.reports.pictured import pictured
+
+    found = pictured(student, result)
+    return {} if found is None else {result.task.name: found}
+
+
+def _write_page(
+    arguments: argparse.Namespace,
+    results: list[TaskResult],
+    tasks: list[CheckTask],
+    pictures: dict[str, Pictured],
+    problem: str = "",
+) -> None:
+    if arguments.html is None:
+        return
+    from app.checking.reports.page import page
+    from renderer.atomic import atomic_write
+
+    name = arguments.command if arguments.file is None else Path(arguments.file).name
+    text = page(results, tasks, name, pictures, problem)
+    with atomic_write(arguments.html) as file:
+        file.write(text.encode())
+
+
 def _write_starter(arguments: argparse.Namespace) -> int:
     from app.checking.builtin import BUILTIN
     from app.checking.starter import starter
 
     tasks = list(BUILTIN)
     if arguments.tasks is not None:
+        from app.checking.courses import task_path
         from app.checking.task_file import load_tasks
 
-        tasks = list(load_tasks(arguments.tasks).tasks)
+        tasks = list(load_tasks(task_path(arguments.tasks)).tasks)
     if arguments.starter != "all":
         first = named(tasks, arguments.starter)
         tasks = [task for task in tasks if task.function == first.function]

@@ -21,33 +21,41 @@ EPILOG = """\
 examples:
   lucida tasks
   lucida tasks viewing-ray
+  lucida tasks --tasks cornell-cs4620
   lucida tasks --tasks hw2.toml --json"""
 
 
 def configure(parser: argparse.ArgumentParser) -> None:
     parser.description, parser.epilog = DESCRIPTION, EPILOG
     parser.add_argument("task", nargs="?", metavar="NAME", help="this task alone, with its text")
-    parser.add_argument("--tasks", metavar="FILE.toml", help="a lecturer's own tasks")
+    parser.add_argument(
+        "--tasks", metavar="FILE.toml", help="a lecturer's own tasks; or a course's name"
+    )
     parser.add_argument("--json", action="store_true", help="print one JSON object")
 
 
 def run(arguments: argparse.Namespace) -> int:
     from app.checking.builtin import BUILTIN
+    from app.checking.courses import course_names, task_path
     from app.commands.check import named
 
     tasks = list(BUILTIN)
     if arguments.tasks is not None:
         from app.checking.task_file import load_tasks
 
-        tasks = list(load_tasks(arguments.tasks).tasks)
+        tasks = list(load_tasks(task_path(arguments.tasks)).tasks)
     if arguments.task is not None:
         tasks = [named(tasks, arguments.task)]
     if arguments.json:
-        print(json.dumps({"tasks": [as_data(task) for task in tasks]}, indent=2))
+        data = {"tasks": [as_data(task) for task in tasks], "courses": course_names()}
+        print(json.dumps(data, indent=2))
     elif arguments.task is not None:
         print("\n".join(described(tasks[0])))
     else:
         print("\n".join(listed(tasks)))
+        if arguments.tasks is None:
+            courses = textwrap.fill(", ".join(course_names()), WIDTH, break_on_hyphens=False)
+            print(f"\nIn the words of courses and books, for --tasks:\n{courses}")
     return 0
 
 

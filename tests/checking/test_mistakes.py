@@ -39,7 +39,7 @@ TASKS = {
     "field of view in radians": PIXEL | {"eye", "u", "v", "w", "fov_y_rad", "aspect"},
     "horizontal field of view": PIXEL | {"eye", "u", "v", "w", "fov_x", "aspect"},
     "in pixels": {"x_pixel", "y_pixel", "width", "height"} | CAMERA_PARTS | {"u", "v", "w"},
-    "in other words": {"xy01", "forward", "pixel00", "delta_u", "delta_v"},
+    "in other words": {"xy01", "forward", "pixel00", "horizontal"},
     "from 0 to 1": {"x01", "y01", "width", "height"} | CAMERA_PARTS | {"u", "v", "w"},
     "from -1 to 1": {"x11", "y11"} | CAMERA_PARTS | {"u", "v", "w"},
 }
@@ -175,6 +175,8 @@ POINTS = {
     "the corner, not the centre: in the rows": (AT_X, 0.5 - 1 / 4),
     "a whole pixel": (0.5, 0.0),
     "one pixel off": (1 / 8, 3 / 8),
+    "the simple camera's viewport": (5.5 / 8 - 0.5, 0.5 - 1.5 / 4),
+    "the viewport from -1 to 1": (2 * 5.5 / 8 - 1, 1 - 2 * 1.5 / 4),
 }
 DIRECTIONS = {
     "equal angles, not equal distances": (
@@ -267,6 +269,8 @@ class TestTwoInOneLine:
             (("rows count upwards", "the corner, not the centre"), 2 / 8, -2 / 8),
             (("columns count leftwards", "one pixel off"), -1 / 8, 3 / 8),
             (("rows count upwards", "width and height exchanged"), 14 / 8, -5 / 16),
+            (("rows count upwards", "the simple camera's viewport"), 5.5 / 8 - 0.5, 1.5 / 4 - 0.5),
+            (("columns count leftwards", "the viewport from -1 to 1"), 1 - 2 * 5.5 / 8, 0.25),
             (("a whole pixel", "row and column exchanged"), -4 / 8, -1),
         ],
     )
@@ -301,6 +305,8 @@ BASIS_BY_HAND = {
     "up, normalised, used as v": ((0, 0, -1), (0, 1, 0), (1, 0, 0)),
     "v from up, not from u": ((0, 0, -1), (0, 0, 2), (1, 0, 0)),
     "basis transposed": ((0, 0, 1), (0, 1, 0), (-1, 0, 0)),
+    "w in its full length": ((0, 0, -1), (0, 1, 0), (6, 0, 0)),
+    "the view direction for w": ((0, 0, -1), (0, 1, 0), (-1, 0, 0)),
     "w, u, v for u, v, w": ((1, 0, 0), (0, 0, -1), (0, 1, 0)),
     "v, u, w for u, v, w": ((0, 1, 0), (0, 0, -1), (1, 0, 0)),
 }

@@ -29,7 +29,7 @@ def basis_cases(random):
     return [
         {"eye": random.normal(size=3) * 4, "target": random.normal(size=3),
          "up": direction(random)}
-        for _ in range(20)
+        for _ in range(10)
     ]  # fmt: skip
 
 
@@ -42,7 +42,7 @@ def around(random):
 
 def sphere_cases(random):
     made = []
-    for _ in range(60):
+    for _ in range(40):
         ray, centre = around(random)
         made.append({**ray, "center": centre, "radius": random.uniform(0.5, 2)})
     return made
@@ -136,6 +136,11 @@ def diagnosed(program, cases, given, tolerance=0.0):
     return diagnose_values(program, asked, ~np.array(near))
 
 
+def is_constant(given):
+    """One number for all that is asked: that has no name."""
+    return len(np.unique(np.concatenate([np.ravel(one) for one in given]))) == 1
+
+
 def names(said):
     return [{one.name for one in found} for found in said.candidates]
 
@@ -150,7 +155,9 @@ def test_each_mistake_is_named(name):
         given = answers(program, cases, (mistake,))
         assert any(not np.array_equal(a, b) for a, b in zip(given, right, strict=True)), mistake
         tolerance = None if "offset" in name or "bitmap" in name else 0.0
-        for form in (np.float64, np.float32) if name in ("basis", "sphere") else (np.float64,):
+        if is_constant(given):
+            continue
+        for form in (np.float64, np.float32) if name == "basis" else (np.float64,):
             said = diagnosed(program, cases, [one.astype(form) for one in given], tolerance)
             found = names(said)
             assert {mistake.name} in found, (mistake.name, found)
@@ -169,11 +176,11 @@ def test_two_at_once(name):
     cases = make(np.random.default_rng(9))
     right, pairs = answers(program, cases), list(program.pairs())
     random = np.random.default_rng(1)
-    for number in random.choice(len(pairs), 12, replace=False):
+    for number in random.choice(len(pairs), 8, replace=False):
         given = answers(program, cases, pairs[number])
         if all(np.allclose(a, b, equal_nan=True) for a, b in zip(given, right, strict=True)):
             continue
-        if not all(np.isfinite(one).all() or np.isinf(one).all() for one in given):
+        if is_constant(given) or any(np.isnan(one).any() for one in given):
             continue
         said = diagnosed(program, cases, given, None if name == "offset" else 0.0)
         for others in said.candidates:
@@ -303,7 +310,7 @@ class TestRender:
         random = np.random.default_rng(6)
         task = RayTask(projection, from_top=from_top)
         made = []
-        for number in range(4):
+        for number in range(3):
             camera = made_camera(random, ("off-axis", "skewed")[number % 2], projection)
             size = ((7, 5), (4, 6))[number % 2]
             ray = camera.ray(2, 2, size)._asdict()
@@ -334,7 +341,7 @@ class TestRender:
         program = render_program(task)
         right = answers(program, known)
         missed = []
-        for mistake in program.mistakes[: len(LOOP_MISTAKES)] + program.mistakes[-40::4]:
+        for mistake in program.mistakes[: len(LOOP_MISTAKES)] + program.mistakes[-40::10]:
             given = answers(program, known, (mistake,))
             if all(np.array_equal(a, b) for a, b in zip(given, right, strict=True)):
                 missed.append(mistake.name)
@@ -369,9 +376,15 @@ class TestFacts:
             "1 hits are not found.",
             "1 hits are found where there is none.",
         )
-        assert self.said([1.0, inf, 2.0], [3.0, inf, 6.0]) == (
+        assert self.said([1.0, inf, 2.0, 4.0], [3.0, inf, 6.0, 12.0]) == (
             "Hits and misses are right, only the numbers are not.",
             "Your numbers are 3 times the right ones.",
+        )
+
+    def test_one_answer_to_everything_has_no_name(self):
+        assert self.said([1.0, math.inf, 2.0], [math.inf] * 3) == ("You never find a hit.",)
+        assert self.said([1.0, math.inf, 2.0], [2.5] * 3) == (
+            "All your answers are 2.5, whatever is asked.",
         )
 
     def test_answers_of_another_shape_have_no_name(self):

@@ -116,7 +116,7 @@ def test_a_named_task_must_be_there(check):
 
 def test_a_file_that_does_not_run(check, tmp_path):
     status, _, err = check("def f(:\n", "--json", "r.json")
-    assert status == 2 and err.startswith("lucida: ") and "line 1" in err
+    assert status == 2 and err.splitlines()[-1].startswith("lucida: answer.py, line 1")
     values = results((tmp_path / "r.json").read_text(), tmp_path)
     assert values["score"] == 0 and "line 1" in values["output"]
     assert len(values["tests"]) == len(BUILTIN)
@@ -124,6 +124,29 @@ def test_a_file_that_does_not_run(check, tmp_path):
     status, _, err = check(None, "nowhere.py", "--json", "r.json")
     assert status == 2 and "nowhere.py" in err
     assert "nowhere.py" in results((tmp_path / "r.json").read_text(), tmp_path)["output"]
+
+
+def test_a_file_that_fails_while_it_is_imported(check, tmp_path):
+    text = "print('so far')\ndef help():\n    return 1 / 0\nhelp()\n" + RIGHT
+    status, out, err = check(text, "--json", "r.json")
+    assert (status, out) == (2, "") and "ZeroDivisionError" in err.splitlines()[-1]
+    assert "return 1 / 0" in err and "so far" in err
+    told = results((tmp_path / "r.json").read_text(), tmp_path)["output"]
+    assert "return 1 / 0" in told and "so far" in told
+
+
+def test_what_is_no_python(check, tmp_path):
+    (tmp_path / "rays.jl").write_text("viewing_ray(i, j) = 1\n")
+    status, _, err = check(None, "rays.jl")
+    assert status == 2 and "rays.jl: is no Python file" in err and "--command" in err
+
+
+def test_what_was_printed_is_shown(check):
+    text = RIGHT.replace("    return", "    print('row', i)\n    return")
+    status, out, _ = check(text)
+    lines = out.splitlines()
+    assert status == 0 and lines[1:3] == ["       printed:", "         row 0"]
+    assert lines[-1] == "         ... and 16 lines more"
 
 
 def test_results_for_an_autograder(check, tmp_path):

@@ -41,10 +41,6 @@ class CheckKind(ABC):
         """The calls whose values answer the cases."""
         return [Call(task.function, case.arguments) for case in cases]
 
-    def case_of_call(self, task: CheckTask, cases: Sequence[CheckCase], call: int) -> int:
-        """The case that a call begins with."""
-        return call
-
     @abstractmethod
     def given(
         self, task: CheckTask, cases: Sequence[CheckCase], values: Sequence[Any]

@@ -36,7 +36,7 @@ class RenderKind(ImageKind):
         "scene": "an object with objects (type, its numbers, and color) and background (a colour)",
         "objects": "the scene's objects alone",
         "background": "its background alone",
-        CAMERA: "an object with the fields that the task declares",
+        CAMERA: "an object with these fields",
         **{name: word.meaning for name, word in CAMERA_WORDS.items()},
     }
     arguments = ("scene", "camera", "width", "height")

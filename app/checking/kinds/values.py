@@ -10,6 +10,7 @@ from collections.abc import Sequence
 from typing import Any
 
 SHOWN = 80  # letters of a value in a message
+DEPTH = 8  # of lists in lists that are written out
 
 
 def number(value: Any) -> float | None:
@@ -57,10 +58,10 @@ def vectors(value: Any, names: Sequence[str]) -> list[tuple[float, float, float]
 
 def is_miss(value: Any) -> bool:
     """Whether it says that nothing is hit: None, False, inf, nan, or a list of nothing else."""
+    if isinstance(value, list) and len(value) <= 2:
+        return all(not isinstance(part, list) and is_miss(part) for part in value)
     if value is None or value is False:
         return True
-    if isinstance(value, list):
-        return len(value) <= 2 and all(is_miss(part) for part in value)
     found = number(value)
     return found is not None and not math.isfinite(found)
 
@@ -71,15 +72,21 @@ def shown(value: Any) -> str:
     return text if len(text) <= SHOWN else f"{text[: SHOWN - 3]}..."
 
 
-def text_of(value: Any) -> str:
+def text_of(value: Any, depth: int = DEPTH) -> str:
     """A value as Python writes it, with numbers of six digits: (1, 0.5, -2)."""
+    if depth == 0:
+        return "..."
     match value:
         case bool() | None | str():
             return repr(value)
         case int() | float():
             return f"{value + 0.0:.6g}" if isinstance(value, float) else str(value)
         case list() | tuple():
-            return "(" + ", ".join(text_of(part) for part in value) + ")"
+            return "(" + ", ".join(text_of(part, depth - 1) for part in value) + ")"
         case dict():
-            return "{" + ", ".join(f"{name}: {text_of(part)}" for name, part in value.items()) + "}"
+            return (
+                "{"
+                + ", ".join(f"{name}: {text_of(part, depth - 1)}" for name, part in value.items())
+                + "}"
+            )
     return repr(value)

@@ -46,7 +46,7 @@ class ViewingRayKind(CheckKind):
         **{name: word.meaning for name, word in PIXEL_WORDS.items()},
         **{name: f"{a} and {b} in one: [{a}, {b}]" for name, (a, b) in PAIRS.items()},
         **{name: word.meaning for name, word in CAMERA_WORDS.items()},
-        CAMERA: "an object with the fields that the task declares",
+        CAMERA: "an object with these fields",
     }
     arguments = ("i", "j", "width", "height", "camera")
     returns = ("origin", "direction")
@@ -66,9 +66,6 @@ class ViewingRayKind(CheckKind):
             Call(task.function, _vectorised(task, cases[first:last]), vectorised=True)
             for first, last in _images(cases)
         ]
-
-    def case_of_call(self, task: CheckTask, cases: Sequence[CheckCase], call: int) -> int:
-        return _images(cases)[call][0] if task.vectorised else call
 
     def given(
         self, task: CheckTask, cases: Sequence[CheckCase], values: Sequence[Any]

@@ -85,6 +85,21 @@ BASIS_MISTAKES = [
     ),
 ]
 
+# Where the direction of view is given, not a target.
+FORWARD_LINES = [CodeLine("w", "w = normalized(-forward)"), *BASIS_LINES[1:]]
+FORWARD_MISTAKES = [
+    _one(
+        "w points forwards",
+        "w = normalized(forward)",
+        "w points back, against the direction of view: w = -forward.",
+    ),
+    *(
+        mistake
+        for mistake in BASIS_MISTAKES
+        if "w" not in mistake.keys and "target" not in mistake.name
+    ),
+]
+
 BASIS = Program(
     (*BASIS_LINES, CodeLine("answer", "answer = u, v, w")),
     (
@@ -93,6 +108,18 @@ BASIS = Program(
             "basis transposed",
             (("answer", "answer = columns_of(rows(u, v, w))"),),
             "Those are rows for columns: u is one vector, not the first numbers of all three.",
+            PART,
+        ),
+        Mistake(
+            "w in its full length",
+            (("answer", "answer = u, v, eye - target"),),
+            "w has length 1, as u and v: divide it by its length.",
+            PART,
+        ),
+        Mistake(
+            "the view direction for w",
+            (("answer", "answer = u, v, -w"),),
+            "w points back, from the target to the eye.",
             PART,
         ),
         Mistake(

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from app.checking.mistakes.program import CodeLine, Mistake
 
+Axes = tuple[int, int, int]
+
 PART = "Any camera"
 PARALLEL = "Parallel: the pixel moves the origin"
 POINT = "That is the point on the image plane. The direction leads to it from the eye: subtract e."
@@ -15,6 +17,7 @@ AS_PERSPECTIVE = (
     "That is the perspective ray. In parallel projection all directions are -w, and the origin "
     "depends on the pixel."
 )
+EXCHANGED = "Origin and direction are exchanged: the origin comes first."
 NO_EYE = "That origin forgets the eye: origin = e + u u + v v."
 TRANSPOSED = (
     "That multiplies by rows for columns. The basis vectors are the columns: u u + v v - d w."
@@ -29,19 +32,35 @@ RARE = {
 }
 
 
-def body_lines(is_parallel: bool, matrix: str, distance: str) -> list[CodeLine]:
-    """matrix: the word of the one that is given in place of eye, u, v, w; or empty."""
-    origin, direction = _right(is_parallel, matrix, distance)
+def body_lines(
+    is_parallel: bool, matrix: str, distance: str, axes: Axes = (1, 1, 1)
+) -> list[CodeLine]:
+    """matrix: the word of the one that is given in place of eye, u, v, w; or empty. axes: of its
+    camera space, as in Conventions."""
+    origin, direction = _right(is_parallel, matrix, distance, axes)
     return [
         CodeLine("origin", f"origin = {origin}"),
         CodeLine("direction", f"direction = {direction}"),
     ]
 
 
-def _right(is_parallel: bool, matrix: str, distance: str) -> tuple[str, str]:
+def _local(is_parallel: bool, distance: str, axes: Axes) -> tuple[str, str, str]:
+    """In camera space: the numbers of the origin and of the direction, and those of one that goes
+    the other way along z."""
+    x, y = ("" if axis > 0 else "-" for axis in axes[:2])
+    ahead, back = ("-", "") if axes[2] > 0 else ("", "-")
+    point = f"{x}x, {y}y"
+    if is_parallel:
+        return f"{point}, 0", f"0, 0, {ahead}1", f"0, 0, {back}1"
+    return "0, 0, 0", f"{point}, {ahead}{distance}", f"{point}, {back}{distance}"
+
+
+def _right(
+    is_parallel: bool, matrix: str, distance: str, axes: Axes = (1, 1, 1)
+) -> tuple[str, str]:
     if matrix:
         to_world = matrix if matrix == "camera_to_world" else f"inverse({matrix})"
-        at, to = ("x, y, 0", "0, 0, -1") if is_parallel else ("0, 0, 0", f"x, y, -{distance}")
+        at, to, _ = _local(is_parallel, distance, axes)
         return f"times_point({to_world}, vector({at}))", f"times_vector({to_world}, vector({to}))"
     if is_parallel:
         return "eye + x*u + y*v", "-w"
@@ -59,9 +78,11 @@ def _made(name: str, origin: str, direction: str, hint: str, part: str) -> Mista
     return Mistake(name, written, hint, part, name not in RARE)
 
 
-def body_mistakes(is_parallel: bool, matrix: str, distance: str) -> list[Mistake]:
+def body_mistakes(
+    is_parallel: bool, matrix: str, distance: str, axes: Axes = (1, 1, 1)
+) -> list[Mistake]:
     if matrix:
-        return _of_matrix(is_parallel, matrix, distance)
+        return _of_matrix(is_parallel, matrix, distance, axes)
     return _parallel(distance) if is_parallel else _perspective(distance)
 
 
@@ -99,6 +120,7 @@ def _perspective(distance: str) -> list[Mistake]:
          "In perspective all rays start at the eye, whatever the pixel."),
         ("no eye", "vector(0, 0, 0)", "",
          "The ray begins at the eye e, not at the world's origin."),
+        ("origin and direction exchanged", right, "eye", EXCHANGED),
         ("normalised", "", f"normalized({right})",
          "The direction is right, its length is not: do not normalise it."),
     ]  # fmt: skip
@@ -136,8 +158,18 @@ def _parallel(distance: str) -> list[Mistake]:
          "The rays begin in the plane of the eye: d has no part in parallel projection."),
         ("the eye subtracted", "x*u + y*v - eye", "", NO_EYE),
         ("basis transposed", "eye + times(rows(u, v, w), vector(x, y, 0))", "", TRANSPOSED),
+        ("basis transposed, in both", "eye + times(rows(u, v, w), vector(x, y, 0))",
+         "times(rows(u, v, w), vector(0, 0, -1))", TRANSPOSED),
         ("from the world to the camera",
          "eye + times(inverse(columns(u, v, w)), vector(x, y, 0))", "", INVERTED),
+        ("from the world to the camera, in both",
+         "eye + times(inverse(columns(u, v, w)), vector(x, y, 0))",
+         "times(inverse(columns(u, v, w)), vector(0, 0, -1))", INVERTED),
+        ("the camera's coordinates, in perspective", "vector(0, 0, 0)",
+         f"vector(x, y, -{distance})",
+         "That is the perspective ray in the camera's coordinates: here the pixel moves the "
+         "origin, and the basis vectors are multiplied by these numbers."),
+        ("origin and direction exchanged", "-w", right, EXCHANGED),
         ("along the world's -z", "", "vector(0, 0, -1)",
          "The camera looks along its own -w, not along the world's -z."),
         ("the direction is the eye's", "", "eye",
@@ -148,13 +180,11 @@ def _parallel(distance: str) -> list[Mistake]:
     return [_made(*one, PARALLEL) for one in wrong]
 
 
-def _of_matrix(is_parallel: bool, matrix: str, distance: str) -> list[Mistake]:
+def _of_matrix(is_parallel: bool, matrix: str, distance: str, axes: Axes) -> list[Mistake]:
     part = PARALLEL if is_parallel else PART
     to_world = matrix if matrix == "camera_to_world" else f"inverse({matrix})"
     other = f"inverse({matrix})" if matrix == "camera_to_world" else matrix
-    at, to = ("x, y, 0", "0, 0, -1") if is_parallel else ("0, 0, 0", f"x, y, -{distance}")
-    forwards = "0, 0, 1" if is_parallel else f"x, y, {distance}"
-    at, to, forwards = (f"vector({one})" for one in (at, to, forwards))
+    at, to, forwards = (f"vector({one})" for one in _local(is_parallel, distance, axes))
     point, along = f"times_point({to_world}, {at})", f"times_vector({to_world}, {to})"
     inverted = "That matrix leads from the world to the camera: the other one is needed."
     turned = "That multiplies by the matrix's rows for its columns: do not transpose it."
@@ -173,7 +203,8 @@ def _of_matrix(is_parallel: bool, matrix: str, distance: str) -> list[Mistake]:
         ("the origin as a direction", f"times_vector({to_world}, {at})", "",
          "A point's fourth number is 1: that did not move it to the eye."),
         ("along +w", "", f"times_vector({to_world}, {forwards})",
-         "w points backwards: the direction has -d w."),
+         "w points backwards: the direction has -d w." if axes[2] > 0
+         else "In this camera space z points forwards: the direction has + d, not -d."),
         ("points backwards", "", f"-{along}",
          "That points backwards: t > 0 must lead into the scene."),
         ("the camera's coordinates", at, to,
@@ -183,6 +214,17 @@ def _of_matrix(is_parallel: bool, matrix: str, distance: str) -> list[Mistake]:
         ("no eye", "vector(0, 0, 0)", "",
          "The ray begins at the eye e, not at the world's origin."),
     ]  # fmt: skip
+    if axes[0] < 0:
+        mirrored = _local(is_parallel, distance, (1, *axes[1:]))
+        at_right, to_right = (f"vector({one})" for one in mirrored[:2])
+        wrong.insert(
+            0,
+            ("the camera's x to the right",
+             f"times_point({to_world}, {at_right})" if at_right != at else "",
+             f"times_vector({to_world}, {to_right})" if to_right != to else "",
+             "In this camera space x points to the left, not to the right: x is minus what it is "
+             "along u."),
+        )  # fmt: skip
     if not is_parallel:
         wrong.append(
             ("the origin on the viewport", f"times_point({to_world}, {to})", "",

@@ -8,6 +8,8 @@ from dataclasses import dataclass
 from app.checking.mistakes.program import Mistakes, Program
 from renderer.camera import Camera
 
+Told = dict[str, tuple[Program, tuple[Mistakes, ...]]]  # by the projection
+
 NAMED = 3  # of the candidates; more would not help
 
 
@@ -48,3 +50,42 @@ def candidate_sentences(program: Program, found: Sequence[Mistakes]) -> list[str
     parts = dict.fromkeys(mistake.part for mistake in first)
     sentences.append(f"Read again: {', '.join(parts)}.")
     return [sentence for sentence in sentences if sentence]
+
+
+def shared(told: Told) -> Told:
+    """Where both projections are wrong, what explains them both by one name: that."""
+    if len(told) < 2:
+        return told
+    names = [{_names(one) for one in found} for _, found in told.values()]
+    shared = set.intersection(*names)
+    if not shared:
+        return told
+    return {
+        kind: (program, tuple(one for one in found if _names(one) in shared))
+        for kind, (program, found) in told.items()
+    }
+
+
+def _names(mistakes: Mistakes) -> tuple[str, ...]:
+    return tuple(mistake.name for mistake in mistakes)
+
+
+def told_sentences(told: Told, kinds: int) -> list[str]:
+    """Of each projection's candidates, in words; what is the same in both: once. kinds: how many
+    projections were asked for."""
+    sentences: list[str] = []
+    seen: set[tuple[tuple[str, ...], ...]] = set()
+    for kind, (program, found) in told.items():
+        names = tuple(_names(one) for one in found)
+        if not found or names in seen:
+            continue
+        seen.add(names)
+        if kinds > 1 and (len(told) == 1 or any(names != _all_names(t) for t in told.values())):
+            place = "In perspective" if kind == "perspective" else "In parallel projection"
+            sentences.append(f"{place}:")
+        sentences += candidate_sentences(program, found)
+    return sentences
+
+
+def _all_names(told: tuple[Program, tuple[Mistakes, ...]]) -> tuple[tuple[str, ...], ...]:
+    return tuple(_names(one) for one in told[1])

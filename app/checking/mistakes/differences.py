@@ -7,6 +7,7 @@ hold for every camera that was tried: "your d is 1", not "your d is 0.5 d" if th
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
@@ -152,9 +153,39 @@ def _vectors(fit: Fit, found: list[Floats]) -> Told:
     for name, vector, wanted in zip("uvw", found, basis.T, strict=True):
         if not _is_close(vector, wanted, close):
             sayings = tuple(dict.fromkeys(_vector_sayings(fit, name, vector, wanted, close)))
-            numbers = f"your {name} is {_text(vector)}, not {_text(wanted)}"
+            numbers = _vector_numbers(fit, name, vector, wanted, close)
             differences.append(Difference(name, sayings, numbers))
     return tuple(differences)
+
+
+def _vector_numbers(fit: Fit, name: str, vector: Floats, wanted: Floats, close: float) -> str:
+    """Of a w that is only longer or shorter: the distance."""
+    factor = float(vector @ wanted / (wanted @ wanted))
+    if name != "w" or not (factor > close and _is_close(vector, factor * wanted, close)):
+        return f"your {name} is {_text(vector)}, not {_text(wanted)}"
+    d = fit.asked.distance
+    return ", ".join(
+        [f"your d is {_number(factor * d)}, not {_number(d)}", *_causes(fit, 1 / factor, close)]
+    )
+
+
+def _causes(fit: Fit, factor: float, close: float) -> Iterator[str]:
+    """What is done to an angle of view that makes the viewport larger by this factor."""
+    left, right, bottom, top = fit.asked.viewport
+    for half in dict.fromkeys(((top - bottom) / 2, (right - left) / 2)):
+        angle = math.atan2(half, fit.asked.distance)  # of the half
+        made = {
+            "an angle in radians were in degrees": math.tan(math.radians(angle)),
+            "an angle in degrees were in radians": math.tan(math.degrees(angle)),
+            "the whole angle were half of it": math.tan(2 * angle),
+            "half the angle were the whole": math.tan(angle / 2),
+            "the tangent were left out": angle,
+            "the tangent were upside down": 1 / math.tan(angle),
+        }
+        for cause, wrong in made.items():
+            wanted = wrong / math.tan(angle)
+            if wanted > 0 and abs(wanted - 1) > close and abs(factor - wanted) <= close * wanted:
+                yield f"as if {cause}"
 
 
 def _vector_sayings(
@@ -166,6 +197,7 @@ def _vector_sayings(
     factor = float(vector @ wanted / (wanted @ wanted))
     if _is_close(vector, factor * wanted, close) and abs(factor) > close:
         if name == "w" and factor > 0:
+            yield from (f"your view is {cause}" for cause in _causes(fit, 1 / factor, close))
             yield f"your d is {_number(factor)} d"
             if abs(factor * asked.distance - 1) <= close:
                 yield "your d is 1"
@@ -317,6 +349,7 @@ def _viewports(fit: Fit, edges: list[float], close: float) -> Iterator[Differenc
         sizes = [("large", sizes[0][1], *sizes[0][2:])]
     for how, factor, found, asked in sizes:
         numbers = f"your viewport is {_text(np.array(found))} {how}, not {_text(np.array(asked))}"
+        numbers = ", ".join([numbers, *_causes(fit, factor, close)])
         yield Difference(f"size {how}", tuple(_size_sayings(fit, how, factor, close)), numbers)
     yield from _shifts(shifts, close)
 
@@ -324,6 +357,7 @@ def _viewports(fit: Fit, edges: list[float], close: float) -> Iterator[Differenc
 def _size_sayings(fit: Fit, how: str, factor: float, close: float) -> Iterator[str]:
     width, height = fit.size
     d = fit.asked.distance
+    yield from (f"your viewport is as {how} {cause}" for cause in _causes(fit, factor, close))
     known = {"W/H": width / height, "H/W": height / width, "d": d, "1/d": 1 / d}
     for name, count in (("W", width), ("H", height)):
         if count > 1:

@@ -114,6 +114,12 @@ SPHERE = Program(
             "from_center = origin",
             "The sphere is at its centre c, not at the world's origin: p - c.",
         ),
+        _one(
+            "the origin left out",
+            "from_center",
+            "from_center = -center",
+            "The ray begins at its origin p, not at the world's: p - c.",
+        ),
     ),
     ("t",),
 )  # fmt: skip
@@ -193,6 +199,15 @@ TRIANGLE = Program(
             "t = -dot(normal, origin) / dot(normal, direction)",
             "The plane goes through a: t = n . (a - p) / n . d.",
         ),
+        Mistake(
+            "the origin left out",
+            (
+                ("t", "t = dot(normal, a) / dot(normal, direction)"),
+                ("point", "point = t*direction"),
+            ),
+            "The ray begins at its origin p, not at the world's: p + t d.",
+            RAY,
+        ),
         _one(
             "outside for inside",
             "inside",
@@ -264,6 +279,20 @@ CLOSEST = Program(
         ),
         _one(
             "the distance for t", "answer", "answer = number, best * norm(direction)", DISTANCE,
+            NEAREST,
+        ),
+        _one(
+            "spheres alone",
+            "t",
+            "    t = hit(origin, direction, shape) if shape['type'] == 'sphere' else inf",
+            "Triangles are objects as well: ask them, too.",
+            NEAREST,
+        ),
+        _one(
+            "triangles alone",
+            "t",
+            "    t = hit(origin, direction, shape) if shape['type'] == 'triangle' else inf",
+            "Spheres are objects as well: ask them, too.",
             NEAREST,
         ),
         _one(

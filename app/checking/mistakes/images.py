@@ -109,6 +109,10 @@ def bitmap_program(inclusive: bool) -> Program:
                   "Gray and threshold count alike: do not scale one of them."),
             white("numbers from 0 to 1 against a byte", f"gray / 255 {sign} threshold",
                   "Gray and threshold count alike: do not scale one of them."),
+            white("the mean for the threshold", f"gray {sign} mean(gray)",
+                  "The threshold is given: it is not the mean of the image."),
+            _one("gray kept", "answer", "answer = where(white, gray, 0)",
+                 "One bit has two values, 0 and 1: what is white is 1.", BITS),
             *flipped("where(white, 1, 0)", BITS),
         ),
         ("answer",),
@@ -159,6 +163,8 @@ def offset_program(base: int, column_major: bool, stride: int) -> Program:
             offset("pixels for bytes", "pixels", f"A pixel has {stride} bytes: multiply by them."),
             offset("the first row not in bytes", f"{row} * width + {column} * {stride}",
                    f"Rows count in bytes, too: multiply all by {stride}."),
+            offset("the columns not in bytes", f"{row} * width * {stride} + {column}",
+                   f"Columns count in bytes, too: multiply all by {stride}."),
             *(
                 offset(f"{other} bytes a pixel", f"pixels * {other}",
                        f"A pixel has {stride} bytes: three numbers of single precision.")

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from app.checking.mistakes.program import CodeLine, Mistake
+from app.checking.mistakes.program import CodeLine, Mistake, Swaps
 from renderer.pixels import Indexing
 
 PART = "From pixel to ray"
@@ -11,6 +11,13 @@ UNITS = {
     "01": ("x01", "y01"),
     "11": ("(x11 + 1) / 2", "(y11 + 1) / 2"),
 }
+# What a line that another mistake has rewritten becomes where rows, or columns, are turned round.
+ROWS: Swaps = (("y = top -", "y = bottom +"), ("y = 0.5 -", "y = -0.5 +"), ("y = 1 -", "y = -1 +"))
+COLUMNS: Swaps = (
+    ("x = left +", "x = right -"),
+    ("x = -0.5 +", "x = 0.5 -"),
+    ("x = -1 +", "x = 1 -"),
+)
 FISHEYE = "Straight lines stay straight: equal steps on the image plane, not equal angles."
 
 
@@ -31,6 +38,9 @@ def pixel_mistakes(
         made += _in_units(words, unit, from_top)
     else:
         made += _centres(indexing, from_top) + _exchanges(indexing, from_top)
+        made += _whole_numbers(indexing, from_top)
+    made.append(_without_edges(across, down, from_top))
+    made += _viewports(across, down, from_top)
     return made + _angles(across, down, from_top, distance) if distance else made
 
 
@@ -67,15 +77,15 @@ def _flips(across: str, down: str, from_top: bool) -> list[Mistake]:
         else "Here rows count upwards, as v does: v needs no minus sign."
     )
     name = "rows count upwards" if from_top else "rows count downwards"
-    rows = ("y = top -", "y = bottom +") if from_top else ("y = bottom +", "y = top -")
+    down_up = ROWS if from_top else tuple((up, down) for down, up in ROWS)
     return [
-        Mistake(name, (("y", _y(down, not from_top)),), hint, PART, swaps=(rows,)),
+        Mistake(name, (("y", _y(down, not from_top)),), hint, PART, swaps=down_up),
         Mistake(
             "columns count leftwards",
             (("x", f"x = right - {across} * (right - left)"),),
             "Columns count to the right, as u does: u has no minus sign.",
             PART,
-            swaps=(("x = left +", "x = right -"),),
+            swaps=COLUMNS,
         ),
     ]
 
@@ -127,6 +137,27 @@ def _centres(indexing: Indexing, from_top: bool) -> list[Mistake]:
     return made
 
 
+def _whole_numbers(indexing: Indexing, from_top: bool) -> list[Mistake]:
+    x, y = (
+        f"({name} {indexing.offset}) // {side}" for name, side in (("j", "width"), ("i", "height"))
+    )
+    hint = "`//` gives whole numbers, here always 0: divide with `/`."
+    return [Mistake("divided to whole numbers", (("x", _x(x)), ("y", _y(y, from_top))), hint, PART)]
+
+
+def _without_edges(across: str, down: str, from_top: bool) -> Mistake:
+    sign, edge = ("-", "t") if from_top else ("", "b")
+    return Mistake(
+        "the edges left out",
+        (
+            ("x", f"x = {across} * (right - left)"),
+            ("y", f"y = {sign}{down} * (top - bottom)"),
+        ),
+        f"The viewport begins at its edge, not at its middle: x starts at l, y at {edge}.",
+        PART,
+    )
+
+
 def _exchanges(indexing: Indexing, from_top: bool) -> list[Mistake]:
     half = indexing.offset
 
@@ -163,6 +194,26 @@ def _exchanges(indexing: Indexing, from_top: bool) -> list[Mistake]:
             (("x", _x(f"(j {half}) / height")),),
             "The column is divided by the width W: there are W columns.",
             PART,
+        ),
+    ]
+
+
+def _viewports(across: str, down: str, from_top: bool) -> list[Mistake]:
+    """The lecture's simple camera's, or the usual cube's, whatever the camera's is."""
+    up, low = ("0.5 -", "1 - 2 *") if from_top else ("-0.5 +", "-1 + 2 *")
+    hint = "This camera's viewport reaches from left to right and from bottom to top, not from "
+    return [
+        Mistake(
+            "the simple camera's viewport",
+            (("x", f"x = -0.5 + {across}"), ("y", f"y = {up} {down}")),
+            f"{hint}-0.5 to 0.5.",
+            "Any camera",
+        ),
+        Mistake(
+            "the viewport from -1 to 1",
+            (("x", f"x = -1 + 2 * {across}"), ("y", f"y = {low} {down}")),
+            f"{hint}-1 to 1.",
+            "Any camera",
         ),
     ]
 

@@ -16,6 +16,8 @@ import numpy as np
 
 from app.checking.mistakes.vectors import FUNCTIONS
 
+Swaps = tuple[tuple[str, str], ...]
+
 
 @dataclass(frozen=True)
 class CodeLine:
@@ -40,7 +42,7 @@ class Mistake:
     hint: str
     part: str
     is_common: bool = True
-    swaps: tuple[tuple[str, str], ...] = ()
+    swaps: Swaps = ()
 
     @property
     def keys(self) -> frozenset[str]:

@@ -9,10 +9,9 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from app.checking.mistakes.candidates import candidates
-from app.checking.mistakes.diagnosis import Diagnosis, candidate_sentences
+from app.checking.mistakes.diagnosis import Diagnosis, Told, shared, told_sentences
 from app.checking.mistakes.differences import Fit, told_differences
 from app.checking.mistakes.fitted import affine_rays
-from app.checking.mistakes.program import Mistakes, Program
 from app.checking.mistakes.ray_facts import Rays, facts
 from app.checking.mistakes.ray_trial import Lengths, RayCase, RayTrial, images
 from app.checking.mistakes.rays import RayTask, ray_program
@@ -45,7 +44,7 @@ def diagnose_rays(
     task = task or RayTask()
     first = int(np.argmax(flags))
     kinds = dict.fromkeys(case.camera.projection for case in cases)
-    told: dict[str, tuple[Program, tuple[Mistakes, ...]]] = {}
+    told: Told = {}
     for kind in kinds:
         chosen = np.array([case.camera.projection == kind for case in cases])
         if flags[chosen].any():
@@ -54,11 +53,11 @@ def diagnose_rays(
             trial = RayTrial(its_cases, rays[chosen], its_task, lengths, any_origin)
             program = ray_program(its_task)
             told[kind] = program, candidates(program, trial, flags[chosen])
-    told = _shared(told)
+    told = shared(told)
     fits = _fits(cases, rays, flags)
     differences = told_differences(fits) if fits else ()
     camera = fits[0].rays.camera(fits[0].asked, fits[0].size) if fits else None
-    sentences = _candidates_told(told, len(kinds))
+    sentences = told_sentences(told, len(kinds))
     explained = all(found for _, found in told.values())
     if not explained:
         if differences:
@@ -69,48 +68,6 @@ def diagnose_rays(
     found = tuple(dict.fromkeys(one for _, kind in told.values() for one in kind))
     asked = cases[first].camera
     return Diagnosis(tuple(sentences), found, differences, camera, asked, first)
-
-
-def _shared(
-    told: dict[str, tuple[Program, tuple[Mistakes, ...]]],
-) -> dict[str, tuple[Program, tuple[Mistakes, ...]]]:
-    """Where rays of both projections are wrong, what explains them both by one name: that."""
-    if len(told) < 2:
-        return told
-    names = [{_names(one) for one in found} for _, found in told.values()]
-    shared = set.intersection(*names)
-    if not shared:
-        return told
-    return {
-        kind: (program, tuple(one for one in found if _names(one) in shared))
-        for kind, (program, found) in told.items()
-    }
-
-
-def _names(mistakes: Mistakes) -> tuple[str, ...]:
-    return tuple(mistake.name for mistake in mistakes)
-
-
-def _candidates_told(
-    told: dict[str, tuple[Program, tuple[Mistakes, ...]]], kinds: int
-) -> list[str]:
-    """In both projections the same: once."""
-    sentences: list[str] = []
-    seen: set[tuple[tuple[str, ...], ...]] = set()
-    for kind, (program, found) in told.items():
-        names = tuple(_names(one) for one in found)
-        if not found or names in seen:
-            continue
-        seen.add(names)
-        if kinds > 1 and (len(told) == 1 or any(names != _all_names(t) for t in told.values())):
-            place = "In perspective" if kind == "perspective" else "In parallel projection"
-            sentences.append(f"{place}:")
-        sentences += candidate_sentences(program, found)
-    return sentences
-
-
-def _all_names(told: tuple[Program, tuple[Mistakes, ...]]) -> tuple[tuple[str, ...], ...]:
-    return tuple(_names(one) for one in told[1])
 
 
 def _fits(cases: Sequence[RayCase], rays: Floats, wrong: Flags) -> list[Fit]:

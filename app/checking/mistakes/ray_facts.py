@@ -32,7 +32,7 @@ class Rays:
 
 def facts(rays: Rays) -> list[str]:
     """A few sentences, the most telling first."""
-    told = [*_not_numbers(rays), *_parts(rays), *_where(rays), *_same(rays)]
+    told = [*_not_numbers(rays)] or [*_parts(rays), *_where(rays), *_same(rays)]
     return told[:TOLD] or [*_shape(rays)]
 
 

@@ -19,11 +19,18 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from app.checking.mistakes.basis import BASIS_LINES, BASIS_MISTAKES
+from app.checking.mistakes.basis import (
+    BASIS_LINES,
+    BASIS_MISTAKES,
+    FORWARD_LINES,
+    FORWARD_MISTAKES,
+)
 from app.checking.mistakes.bodies import body_lines, body_mistakes
+from app.checking.mistakes.corners import corner_program, has_corners
 from app.checking.mistakes.pixels import pixel_lines, pixel_mistakes
 from app.checking.mistakes.program import Mistake, Program
-from app.checking.mistakes.viewport import ANGLES, viewport_lines, viewport_mistakes
+from app.checking.mistakes.sides import sides_part
+from app.checking.mistakes.viewport import viewport_lines, viewport_mistakes
 from renderer.camera import Camera, Size
 from renderer.pixels import Indexing
 
@@ -43,13 +50,15 @@ class RayTask:
     """How a task asks for rays. words: what it hands over, of the pixel (i, j; x_pixel, y_pixel:
     the centre in pixels; x01, y01; x11, y11) and of the camera (eye, u, v, w or target, up or
     camera_to_world or world_to_camera; left, right, bottom, top or fov_y, fov_x, in degrees or with
-    _rad in radians, and aspect). Where they are others, the lines are those of the camera contract.
-    indexing, from_top: how i counts rows, and j columns; y01 and y11 begin where rows do."""
+    _rad in radians, and aspect; or what sides.py and corners.py have). Where they are others, the
+    lines are those of the camera contract. indexing, from_top: how i counts rows, and j columns;
+    y01 and y11 begin where rows do. axes: of the matrices' camera space, as in Conventions."""
 
     projection: str = "perspective"
     indexing: Indexing = Indexing.ARRAY
     from_top: bool = True
     words: frozenset[str] = WORDS
+    axes: tuple[int, int, int] = (1, 1, 1)
 
 
 @functools.lru_cache(256)
@@ -57,7 +66,10 @@ def ray_program(task: RayTask) -> Program:
     """Its right lines, and what is written instead. They make origin and direction."""
     words = task.words
     is_parallel = task.projection == "parallel"
-    has_angle = "left" not in words and bool(words & set(ANGLES))
+    if has_corners(words) and not is_parallel:
+        return corner_program(words, task.indexing, task.from_top)
+    sides = None if "left" in words else sides_part(words)
+    has_angle = "left" not in words and any(word.startswith("fov_") for word in words)
     distance = "1" if has_angle and "distance" not in words else "distance"
     matrix = ""
     if not {"u", "v", "w"} & words:
@@ -68,15 +80,22 @@ def ray_program(task: RayTask) -> Program:
             pixel_mistakes(words, task.indexing, task.from_top, "" if is_parallel else distance),
         ),
         (
-            body_lines(is_parallel, matrix, distance),
-            body_mistakes(is_parallel, matrix, distance),
+            body_lines(is_parallel, matrix, distance, task.axes),
+            body_mistakes(is_parallel, matrix, distance, task.axes),
         ),
     ]
-    if has_angle:
+    if sides is not None:
+        parts.insert(0, sides)
+    elif has_angle:
         parts.insert(0, (viewport_lines(words), viewport_mistakes(words)))
-    if {"target", "up"} <= words and not matrix and not {"u", "v", "w"} & words:
-        parts.insert(0, (BASIS_LINES, BASIS_MISTAKES))
+    if "up" in words and not matrix and not {"u", "v", "w"} & words:
+        if "target" in words:
+            parts.insert(0, (BASIS_LINES, BASIS_MISTAKES))
+        elif "forward" in words:
+            parts.insert(0, (FORWARD_LINES, FORWARD_MISTAKES))
     lines = tuple(line for part, _ in parts for line in part)
+    if task.axes != (1, 1, 1):  # what is told first is told in that space
+        parts.reverse()
     mistakes = [mistake for _, part in parts for mistake in part]
     mistakes.sort(key=lambda mistake: not mistake.is_common)
     return Program(lines, tuple(mistakes), ("origin", "direction"))
@@ -92,7 +111,10 @@ def ray_values(
     width, height = size
     left, right, bottom, top = camera.viewport
     to_world = np.eye(4)
-    to_world[:3] = np.column_stack([camera.u, camera.v, camera.w, camera.eye])
+    to_world[:3, :3] = camera.basis * np.array(task.axes, float)
+    to_world[:3, 3] = camera.eye
+    corner = camera.basis @ [left, bottom, -camera.distance] + camera.eye
+    horizontal, vertical = camera.basis[:, :2].T * [[right - left], [top - bottom]]
     x01 = (column + 0.5) / width
     down = (row + 0.5) / height
     y01 = down if task.from_top else 1.0 - down
@@ -120,8 +142,17 @@ def ray_values(
         "top": top,
         **_angles(camera),
         "aspect": (right - left) / (top - bottom),
+        "viewport_width": right - left,
+        "viewport_height": top - bottom,
+        "forward": -np.asarray(camera.w),
         "camera_to_world": to_world,
-        "world_to_camera": camera.camera_from_world,
+        "world_to_camera": np.linalg.inv(to_world),
+        "bottom_left": corner,
+        "horizontal": horizontal,
+        "vertical": vertical,
+        "pixel00": corner + 0.5 / width * horizontal + (1 - 0.5 / height) * vertical,
+        "delta_u": horizontal / width,
+        "delta_v": -vertical / height,
     }
 
 
@@ -130,8 +161,14 @@ def _angles(camera: Camera) -> dict[str, float]:
     left, right, bottom, top = camera.viewport
     across = 2 * math.atan2((right - left) / 2, camera.distance)
     along = 2 * math.atan2((top - bottom) / 2, camera.distance)
-    degrees = {"fov_x": math.degrees(across), "fov_y": math.degrees(along)}
-    return degrees | {"fov_x_rad": across, "fov_y_rad": along}
+    angles = {
+        "fov_x": across,
+        "fov_y": along,
+        "fov_long": max(across, along),
+        "fov_short": min(across, along),
+    }
+    degrees = {name: math.degrees(angle) for name, angle in angles.items()}
+    return degrees | {f"{name}_rad": angle for name, angle in angles.items()}
 
 
 def run_rays(

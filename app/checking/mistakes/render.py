@@ -45,6 +45,12 @@ MISTAKES = (
          _hint("t < 0 accepted")),
     _one("the far root", "t", "    t = last_crossing(origin, direction, shape)",
          _hint("the far root")),
+    _one("spheres alone", "t",
+         "    t = hit(origin, direction, shape) if shape['type'] == 'sphere' else best",
+         _hint("spheres alone")),
+    _one("triangles alone", "t",
+         "    t = hit(origin, direction, shape) if shape['type'] == 'triangle' else best",
+         _hint("triangles alone")),
     _one("the last object is not asked", "loop", "for shape in objects[:-1]:",
          _hint("the last object is not asked")),
     _one("the first object is not asked", "loop", "for shape in objects[1:]:",
@@ -59,10 +65,17 @@ MISTAKES = (
          "Colours go from 0 to 1 here: do not multiply by 255."),
     _one("blue and red exchanged", "answer", "answer = image[:, :, ::-1]",
          "A colour is red, green, blue, in this order."),
-    _one("the last row and column are missing", "answer", "answer = short(image, background)",
+    _one("whole bytes for numbers from 0 to 1", "answer", "answer = floor(255 * image)",
+         "Colours go from 0 to 1 here: do not multiply by 255."),
+    _one("the last row and column are missing", "answer",
+         "image[-1], image[:, -1] = 0, 0\nanswer = image",
          "The loops go over all rows and columns, the last ones too."),
+    _one("the last row is missing", "answer", "image[-1] = 0\nanswer = image",
+         "The loop goes over all rows, the last one too."),
+    _one("the last column is missing", "answer", "image[:, -1] = 0\nanswer = image",
+         "The loop goes over all columns, the last one too."),
     _one("the first row and column are missing", "answer",
-         "answer = short(image[::-1, ::-1], background)[::-1, ::-1]",
+         "image[0], image[:, 0] = 0, 0\nanswer = image",
          "The loops go over all rows and columns, from the first one."),
     *flipped("image", PART),
 )  # fmt: skip
@@ -90,7 +103,7 @@ def render_values(
     on_image = {name: _on_image(function, size) for name, function in SHAPES.items()}
     return known | on_image | {
         "objects": objects, "background": background,
-        "far_away": _far_away, "plain": _plain, "short": _short,
+        "far_away": _far_away, "plain": _plain,
     }  # fmt: skip
 
 
@@ -105,9 +118,3 @@ def _far_away(width: float, height: float) -> Any:
 
 def _plain(color: Sequence[float], width: float, height: float) -> Any:
     return np.broadcast_to(np.asarray(color, float), (int(height), int(width), 3)).copy()
-
-
-def _short(image: Any, background: Sequence[float]) -> Any:
-    made = image.copy()
-    made[-1], made[:, -1] = background, background
-    return made

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from app.checking.mistakes.candidates import LOOSE, candidates
-from app.checking.mistakes.diagnosis import Diagnosis, candidate_sentences
+from app.checking.mistakes.diagnosis import Diagnosis, Told, shared, told_sentences
 from app.checking.mistakes.program import Mistakes, Program
 
 Floats = NDArray[np.float64]
@@ -80,12 +80,45 @@ def diagnose_values(
     program: Program, cases: Sequence[ValueCase], wrong: ArrayLike
 ) -> Diagnosis | None:
     """What is told of the answers that were given; None where none is wrong. wrong: which are."""
+    return diagnose_by_kind({"": program}, ["" for _ in cases], cases, wrong)
+
+
+def diagnose_by_kind(
+    programs: Mapping[str, Program],
+    kinds: Sequence[str],
+    cases: Sequence[ValueCase],
+    wrong: ArrayLike,
+) -> Diagnosis | None:
+    """The same of cases of which each has its kind's program: the projection of an image."""
     flags = np.asarray(wrong, bool)
     if not flags.any():
         return None
-    found = candidates(program, ValueTrial(cases), flags)
-    sentences = candidate_sentences(program, found) if found else _facts(cases)
+    constant = _constant(cases)
+    if constant:
+        return Diagnosis((constant,), first=int(np.argmax(flags)))
+    told: Told = {}
+    for kind in dict.fromkeys(kinds):
+        chosen = [number for number, its in enumerate(kinds) if its == kind]
+        if flags[chosen].any():
+            trial = ValueTrial([cases[number] for number in chosen])
+            told[kind] = programs[kind], candidates(programs[kind], trial, flags[chosen])
+    told = shared(told)
+    sentences = told_sentences(told, len(set(kinds)))
+    if not all(found for _, found in told.values()):
+        sentences += _facts(cases)
+    found = tuple(dict.fromkeys(one for _, its in told.values() for one in its))
     return Diagnosis(tuple(sentences), found, first=int(np.argmax(flags)))
+
+
+def _constant(cases: Sequence[ValueCase]) -> str:
+    """What is said of answers that are one and the same number; empty for others."""
+    answers = [np.ravel(np.asarray(case.given, float)) for case in cases if case.given is not None]
+    numbers = np.concatenate(answers) if answers else np.zeros(0)
+    if len(cases) < 3 or len(answers) < len(cases) or not (numbers == numbers[0]).all():
+        return ""
+    if np.isinf(numbers[0]):
+        return "You never find a hit."
+    return f"All your answers are {numbers[0]:.4g}, whatever is asked."
 
 
 def _facts(cases: Sequence[ValueCase]) -> list[str]:
@@ -99,6 +132,8 @@ def _facts(cases: Sequence[ValueCase]) -> list[str]:
         return []
     given, right = (np.concatenate(parts) for parts in zip(*pairs, strict=True))
     told = []
+    if np.isnan(given).any():
+        told.append(f"{np.count_nonzero(np.isnan(given))} of {given.size} numbers are none (NaN).")
     missed = np.isinf(given) & np.isfinite(right)
     invented = np.isfinite(given) & np.isinf(right)
     if missed.any():
@@ -108,7 +143,7 @@ def _facts(cases: Sequence[ValueCase]) -> list[str]:
     if np.isinf(right).any() and not missed.any() and not invented.any():
         told.append("Hits and misses are right, only the numbers are not.")
     both = np.isfinite(given) & np.isfinite(right) & (np.abs(right) > 1e-9)
-    if both.any():
+    if np.count_nonzero(both) >= 3:
         ratio = given[both] / right[both]
         if np.ptp(ratio) <= 1e-4 * abs(ratio[0]) and abs(ratio[0] - 1) > 1e-3:
             told.append(f"Your numbers are {ratio[0]:.4g} times the right ones.")

@@ -50,8 +50,8 @@ def results(
 def _test(result: TaskResult) -> dict[str, Any]:
     say = told(result)
     lines = list(say.lines)
-    if say.verdict is not None and result.output:
-        lines += ["", "Printed:", result.output[:OUTPUT_LETTERS].rstrip()]
+    if say.output:
+        lines += [""] * bool(lines) + ["Printed:", say.output[:OUTPUT_LETTERS]]
     return {
         **_named(result.task),
         "score": result.points,

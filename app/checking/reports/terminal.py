@@ -9,6 +9,7 @@ from typing import TextIO
 from app.checking.checked import TaskResult
 from app.checking.reports.told import told
 
+MOST = 8  # lines of what it printed
 COLORS = {"right": "32", "wrong": "31", "failed": "33", "dim": "2"}
 
 
@@ -26,7 +27,17 @@ def lines(result: TaskResult, colored: bool = False) -> list[str]:
     head = f"{_painted(f'{say.verdict:6}', say.verdict, colored)} {name}"
     points = f"  {result.points:g} of {result.task.points:g} points"
     head += _painted(points, "dim", colored)
-    return [head, *(f"       {line}" for line in say.lines)]
+    printed = (_painted(line, "dim", colored) for line in _printed(say.output))
+    return [head, *(f"       {line}" for line in (*say.lines, *printed))]
+
+
+def _printed(output: str) -> list[str]:
+    """What the student's code printed, shortened."""
+    lines = output.split("\n") if output else []
+    if not lines:
+        return []
+    more = [f"... and {len(lines) - MOST} lines more"] if len(lines) > MOST else []
+    return ["printed:", *(f"  {line}" for line in lines[:MOST]), *(f"  {line}" for line in more)]
 
 
 def summary(results: Sequence[TaskResult]) -> str:

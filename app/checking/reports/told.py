@@ -4,49 +4,71 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from app.checking.checked import Status, TaskResult
+from app.checking.calls import Failure
+from app.checking.checked import Status, TaskResult, WrongCase
 from app.checking.tasks import FEEDBACK
 from renderer.errors import one_line
 
 
 @dataclass(frozen=True)
 class Told:
-    """verdict: None where it is kept back. lines: what helps."""
+    """verdict: None where it is kept back. diagnosis: sentences. wrong: how many cases are, in
+    words. first: the first of them. failure: why the task could not be tried, with the student's
+    own lines. output: what the student's code printed."""
 
     verdict: Status | None
-    lines: tuple[str, ...] = ()
+    diagnosis: tuple[str, ...] = ()
+    wrong: str = ""
+    first: WrongCase | None = None
+    function: str = ""
+    failure: tuple[str, ...] = ()
+    output: str = ""
+
+    @property
+    def lines(self) -> tuple[str, ...]:
+        """All that helps, but for what was printed."""
+        found = [*self.failure, *self.diagnosis]
+        if self.first is not None:
+            found += [f"{self.wrong}; the first one:"] + [self.first.where] * bool(self.first.where)
+            found += [f"{self.function}({self.first.arguments})"]
+            found += [f"right: {self.first.right}", f"given: {self.first.given}"]
+        return tuple(found)
 
 
 def told(result: TaskResult) -> Told:
     """Of a task that could not be tried, why is always told, with the call that led to it: else it
     could not be mended."""
     feedback = FEEDBACK.index(result.task.feedback)
+    output = visible(result.output).rstrip()
     if result.status == "failed":
-        return Told("failed", tuple(_failure(result)))
+        assert result.failure is not None
+        why = one_line(result.failure.text)
+        return Told("failed", failure=(why, *failure_lines(result.failure)), output=output)
     if feedback == 0:
         return Told(None)
     if result.status == "right" or feedback == 1:
-        return Told(result.status)
-    lines = list(result.diagnosis.sentences) if feedback == 3 and result.diagnosis else []
-    return Told("wrong", (*lines, *_first_wrong(result)))
+        return Told(result.status, output=output)
+    return Told(
+        "wrong",
+        tuple(result.diagnosis.sentences) if feedback == 3 and result.diagnosis else (),
+        f"{result.wrong} of {result.cases} cases are wrong",
+        result.first,
+        result.task.function,
+        output=output,
+    )
 
 
-def _first_wrong(result: TaskResult) -> list[str]:
-    first = result.first
-    if first is None:
-        return []
-    lines = [f"{result.wrong} of {result.cases} cases are wrong; the first one:"]
-    if first.where:
-        lines.append(first.where)
-    call = f"{result.task.function}({first.arguments})"
-    return [*lines, call, f"right: {first.right}", f"given: {first.given}"]
+def visible(text: str) -> str:
+    """A program's text as lines of what can be seen: other signs as Python writes them."""
+    return "".join(
+        sign if sign.isprintable() or sign in "\n\t" else sign.encode("unicode_escape").decode()
+        for sign in text.replace("\r\n", "\n")
+    )
 
 
-def _failure(result: TaskResult) -> list[str]:
-    """Why, and the student's own lines; the last of them is told in the first line already."""
-    failure = result.failure
-    assert failure is not None
-    lines = [line.rstrip() for line in failure.traceback]
+def failure_lines(failure: Failure) -> list[str]:
+    """The student's own lines; not the last of them where the failure's text has it already."""
+    lines = [visible(line.rstrip()) for line in failure.traceback]
     if lines and lines[-1] in failure.text:
         del lines[-1]
-    return [one_line(failure.text), *(lines if len(lines) > 1 else [])]
+    return lines if len(lines) > 1 else []

@@ -95,7 +95,7 @@ class CommandStudent:
                 try:
                     values.append(json.loads(line, parse_int=whole_number))
                 except (ValueError, RecursionError):
-                    text = one_line(shortened(line.decode("utf-8", "replace"), 80))
+                    text = shortened(one_line(line.decode("utf-8", "replace")), 80)
                     told = f"line {number} of what it answers is no JSON: {text}"
                     remedy = f"answer to {told_call(call)}; print other things to standard error"
                     return self._failure("answer", f"{told}; {remedy}", len(values))

@@ -17,12 +17,14 @@ from app.checking.calls import Call, Failure, Limits, Run
 from app.checking.running.program import ProgramOverError, StudentProgram
 from app.checking.running.told import told_call, told_status, whole_number
 from renderer.child import import_path, interpreter
-from renderer.errors import LucidaError
+from renderer.errors import LucidaError, one_line
 
 _LONGEST_FILE = 4 << 20  # bytes
 _PYTHON_MB = 96  # what Python and its libraries hold beside what the student's code asks for
 _MEMORY_STATUS = 86  # of student_process.py
 _MAIN = 'put what runs on its own under `if __name__ == "__main__":`'
+_GARBLED = (ValueError, LookupError, TypeError, RecursionError)  # what came is not of our process
+_WROTE_BETWEEN = "it wrote into a file of ours: one that it has not opened itself"
 # One thread for a library's arithmetic: of calls so small, more only cost. And no window.
 _ENVIRONMENT = {
     **dict.fromkeys(("OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS", "MKL_NUM_THREADS"), "1"),
@@ -41,11 +43,12 @@ class NotRunnableError(LucidaError):
 
 class FileStudent:
     """Reads the file once, at its first use. One process serves all calls, until one of them ends
-    it; then the next run starts another. python: Lucida's own, unless another is named."""
+    it; then the next run starts another. python: Lucida's own, unless another is named. It is to be
+    closed: nobody else ends its process while this one lives."""
 
     def __init__(self, path: Path | str, limits: Limits | None = None, python: str = "") -> None:
         self._path, self._limits, self._python = Path(path), limits or Limits(), python
-        self._name = self._path.name
+        self._name = one_line(self._path.name)
         self._turn = threading.Lock()  # one run at a time
         self._change = threading.Lock()
         self._program: StudentProgram | None = None
@@ -53,7 +56,7 @@ class FileStudent:
         self._runs = 0
         self._functions: dict[str, list[str]] = {}
         self._failed: Failure | None = None  # for good
-        self._closed = False
+        self._closed = threading.Event()
         self._printed = ""
         self._values: list[Any] = []
 
@@ -71,7 +74,11 @@ class FileStudent:
     def functions(self) -> frozenset[str]:
         """All that the file has and that can be called. Raises NotRunnableError."""
         with self._turn:
-            failure = self._start(time.monotonic() + self._limits.seconds)
+            try:
+                failure = self._start(time.monotonic() + self._limits.seconds)
+            except BaseException:  # Ctrl-C
+                self._end()
+                raise
             if failure:
                 raise NotRunnableError(failure, self._printed)
             return frozenset(self._functions["functions"])
@@ -101,20 +108,22 @@ class FileStudent:
             program.stop()
 
     def close(self) -> None:
-        self._closed = True
+        self._closed.set()
         self.stop()
         with self._turn:
             self._end()
 
     def _start(self, end: float) -> Failure | None:
         """A process that has run the file, unless there is one."""
-        if self._closed or self._failed:
-            return self._failed or Failure("ended", f"{self._name}: it is closed")
+        if self._closed.is_set() or self._failed:
+            return self._failed or self._is_closed()
         if self._program:
             return None
         try:
             source = self._source()
             with self._change:
+                if self._closed.is_set():
+                    return self._is_closed()
                 self._program = self._started()
         except LucidaError as error:
             self._failed = Failure("missing", str(error))
@@ -133,10 +142,17 @@ class FileStudent:
         except ProgramOverError as over:
             return self._import_failed(self._over(over, "while the file is imported", _MAIN), over)
         self._runs = 1
-        if line[:1] == b"f":
-            return self._import_failed(self._failure(json.loads(line[1:]), None))
-        self._functions = json.loads(line[1:])
+        try:
+            if line[:1] == b"f":
+                return self._import_failed(self._failure(json.loads(line[1:]), None))
+            told = json.loads(line[1:])
+            self._functions = {kind: [*told[kind]] for kind in ("functions", "own")}
+        except _GARBLED:
+            return self._import_failed(Failure("ended", f"{self._name}: {_WROTE_BETWEEN}"))
         return None
+
+    def _is_closed(self) -> Failure:
+        return Failure("ended", f"{self._name}: it is closed")
 
     def _import_failed(self, failure: Failure, over: ProgramOverError | None = None) -> Failure:
         self._printed = self._taken_output()
@@ -181,23 +197,27 @@ class FileStudent:
         self._lines = self._program.lines(end, self._limits.memory_mb + _PYTHON_MB)
         try:
             for call, line in zip(calls, self._lines, strict=False):
-                kind, text = line[:1], line[1:]
-                if kind == b"a":
-                    values.append(json.loads(text, parse_int=whole_number))
-                elif kind == b"m":
-                    values.append(Failure("missing", self._lacks(call), call=len(values)))
-                else:
-                    failure = self._failure(json.loads(text), call, len(values))
-                    values.append(failure)
-        except ProgramOverError as over:
+                values.append(self._answer(call, line, len(values)))
+        except (ProgramOverError, *_GARBLED) as error:
             number = len(values)
             place = f"in call {number + 1} of {len(calls)}: {told_call(calls[number])}"
-            failure = self._over(over, place, "is there a loop that does not end?", number)
+            if isinstance(error, ProgramOverError):
+                failure = self._over(error, place, "is there a loop that does not end?", number)
+            else:
+                failure = Failure("ended", f"{self._name}: {_WROTE_BETWEEN} {place}", call=number)
             self._printed = self._taken_output()
             self._end()
             return failure
         self._runs += 1
         return None
+
+    def _answer(self, call: Call, line: bytes, number: int) -> Any:
+        kind, text = line[:1], line[1:]
+        if kind == b"a":
+            return json.loads(text, parse_int=whole_number)
+        if kind == b"m":
+            return Failure("missing", self._lacks(call), call=number)
+        return self._failure(json.loads(text), call, number)
 
     def _taken_output(self) -> str:
         if not self._program:

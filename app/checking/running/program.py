@@ -11,7 +11,6 @@ from __future__ import annotations
 import contextlib
 import os
 import queue
-import secrets
 import signal
 import subprocess
 import sys
@@ -26,10 +25,13 @@ from app.checking.running.captured import CapturedOutput
 from app.checking.running.memory import memory_of
 
 _NAME = "LUCIDA_STUDENT"
-_LOOK = 0.1  # seconds between looks at the memory
+_WAIT = 0.1  # seconds at most that nobody looks how it is
+_LOOK = (
+    0.1 if sys.platform == "linux" else 1.0
+)  # the same of its memory, which another program says
 _GATHER = 0.002  # seconds: answers are read many at once, not each as it comes
 _KEEPER = 'read -r nothing; kill -s KILL -- "-$0"'
-_FAREWELL = 2.0  # seconds that a program which closed its answers may take to end
+_FAREWELL = 1.0  # seconds that a program which closed its answers may take to end
 _MOST_ANSWERS = 1 << 28  # bytes
 
 
@@ -59,8 +61,8 @@ class StudentProgram:
         environment: Mapping[str, str],
         output: int,
     ) -> None:
-        name = secrets.token_hex(16)
-        self.mark = f"\0{secrets.token_hex(8)}\0"
+        name = os.urandom(16).hex()
+        self.mark = f"\0{os.urandom(8).hex()}\0"
         self._bears = f"{_NAME}={name}".encode()
         flags = 0
         if sys.platform == "win32":
@@ -99,6 +101,7 @@ class StudentProgram:
         ProgramOverError."""
         why: _Why | None = None
         look = 0.0
+        gone: float | None = None
         while True:
             while self._lines:
                 yield self._lines.popleft()
@@ -120,8 +123,12 @@ class StudentProgram:
             if self._closed or (why and now >= end):
                 raise ProgramOverError(why or "ended", None if why else self._status())
             try:
-                chunk = self._chunks.get(timeout=max(0, min(_LOOK, end - now)))
+                chunk = self._chunks.get(timeout=max(0, min(_WAIT, end - now)))
             except queue.Empty:
+                status = None if why else self._status_now()
+                gone = None if status is None else gone or now
+                if gone and now > gone + _FAREWELL:  # what it has started holds its answers open
+                    raise ProgramOverError("ended", status) from None
                 continue
             self._closed = not chunk
             self._received += len(chunk)
@@ -159,20 +166,23 @@ class StudentProgram:
             self._pending = []
 
     def _status(self) -> int | None:
-        """Its exit status, without letting its number go to another process before it is killed."""
-        if sys.platform == "win32":
-            try:
-                return self._process.wait(_FAREWELL)
-            except subprocess.TimeoutExpired:
-                return None
+        """Its exit status, once it has ended."""
         end = time.monotonic() + _FAREWELL
-        options = os.WEXITED | os.WNOWAIT | os.WNOHANG
-        while (found := os.waitid(os.P_PID, self._process.pid, options)) is None:
-            if time.monotonic() > end:
-                return None
+        while (status := self._status_now()) is None and time.monotonic() < end:
             time.sleep(0.002)
-        status = found.si_status
-        return status if found.si_code == os.CLD_EXITED else -status
+        return status
+
+    def _status_now(self) -> int | None:
+        """Its number does not go to another process before it is killed: it is not waited for."""
+        if sys.platform == "win32" or not hasattr(os, "waitid"):
+            return self._process.poll()
+        try:
+            found = os.waitid(os.P_PID, self._process.pid, os.WEXITED | os.WNOWAIT | os.WNOHANG)
+        except ChildProcessError:  # `end` was faster
+            return self._process.returncode
+        if found is None:
+            return None
+        return found.si_status if found.si_code == os.CLD_EXITED else -found.si_status
 
     def _kill(self) -> None:
         if sys.platform == "win32":

@@ -12,6 +12,7 @@ _AT_START = frozenset(sys.modules)
 # ruff: noqa: E402 what is loaded from here on, a student may have by the same name
 import _thread
 import contextlib
+import copy
 import json
 import linecache
 import os
@@ -19,10 +20,11 @@ import queue
 import tokenize
 import traceback
 import types
+from collections.abc import Mapping
 from io import BytesIO, TextIOWrapper
 
 _LONGEST_LINE = 300
-_FULL_TRACEBACKS = 10  # failures of a run that are told with all their lines
+_FULL_TRACEBACKS = 3  # failures of a run that are told with all their lines
 _LEAST_RECURSION = 500  # of sys.setrecursionlimit, for what is done here
 _MEMORY_STATUS = 86  # exit status: no memory was left to say so
 _FIRST_LINES, _LAST_LINES = 16, 24  # of a long traceback
@@ -35,8 +37,12 @@ def main():
     sys.modules["__main__"] = types.ModuleType("__main__")  # this file is not the student's program
     channel = Channel()
     student = StudentFile(channel.next())
-    failure = student.load()
-    channel.send("f" if failure else "i", failure or student.names(), mark=student.mark)
+    try:
+        student.load()
+        kind, told = "i", student.names()
+    except BaseException as error:
+        kind, told = "f", student.failure(error, loading=True)
+    channel.send(kind, _encode(told), mark=student.mark)
     while True:
         student.answer(channel, channel.next())
 
@@ -66,9 +72,8 @@ class Channel:
         """The next request."""
         return json.loads(self._lines.get())
 
-    def send(self, kind, value=None, text=None, mark=None):
-        """text: the value in JSON, where it is known. mark: shows in the output that all was
-        printed."""
+    def send(self, kind, text, mark=None):
+        """mark: shows in the output that all was printed."""
         if os.getpid() != self._process:
             os._exit(0)  # a copy that the student's code made came back from it
         if mark is not None:
@@ -76,7 +81,6 @@ class Channel:
                 with contextlib.suppress(Exception):  # closed, or no stream at all
                     stream.flush()
             self._write(self._output, mark.encode())
-        text = _encode(value) if text is None else text
         self._write(self._answers, f"{kind}{text}\n".encode())
 
     @staticmethod
@@ -86,12 +90,13 @@ class Channel:
 
     def _read(self):
         pending: list[bytes] = []
-        while chunk := os.read(self._requests, 1 << 16):
-            *lines, rest = chunk.split(b"\n")
-            for line in lines:
-                self._lines.put(b"".join([*pending, line]))
-                pending = []
-            pending.append(rest)
+        with contextlib.suppress(OSError):  # the student's code has closed it
+            while chunk := os.read(self._requests, 1 << 16):
+                *lines, rest = chunk.split(b"\n")
+                for line in lines:
+                    self._lines.put(b"".join([*pending, line]))
+                    pending = []
+                pending.append(rest)
         os._exit(1)  # the other end is gone
 
     def _forget(self):
@@ -115,22 +120,20 @@ class StudentFile:
         limit_memory(opening["memory_mb"])
 
     def load(self):
-        """Runs the file; what failed, or None."""
+        """Runs the file. Raises what it raises."""
         sys.path[:] = [self._folder, *(sys.argv[1:] or sys.path)]
         sys.argv = [self._path]
-        own = {name.partition(".")[0] for name in os.listdir(self._folder)}
+        own = set()
+        with contextlib.suppress(OSError):  # a folder that cannot be listed
+            own = {name.partition(".")[0] for name in os.listdir(self._folder)}
         own.discard(os.path.splitext(os.path.basename(self._path))[0])
         for name in sys.modules.keys() - _AT_START:
             if name.partition(".")[0] in own:
                 del sys.modules[name]  # the student has a module of that name
-        try:
-            code = compile(self._source, self._path, "exec", dont_inherit=True)
-            self._keep_lines()
-            sys.modules[self._module.__name__] = self._module
-            exec(code, self._module.__dict__)
-        except BaseException as error:
-            return self.failure(error)
-        return None
+        code = compile(self._source, self._path, "exec", dont_inherit=True)
+        self._keep_lines()
+        sys.modules[self._module.__name__] = self._module
+        exec(code, self._module.__dict__)
 
     def _keep_lines(self):
         """For tracebacks, as they are now: the file may be saved or deleted meanwhile."""
@@ -159,43 +162,31 @@ class StudentFile:
         made, calls = [], request["calls"]
         for name, value, as_array in request["shared"]:
             made.append(array_maker(value) if as_array else maker(value, name))
-        for number, (name, arguments) in enumerate(calls):
-            mark = self.mark if number + 1 == len(calls) else None
-            function = self._module.__dict__.get(name)
-            if not callable(function):
-                channel.send("m", mark=mark)
-                continue
-            written_answer = None
-            try:
-                values = [made[a[0]]() if type(a) is list else a for a in arguments]
-                answer = function(*values)
-                try:
-                    written_answer = written(answer)
-                except (
-                    ArithmeticError,
-                    LookupError,
-                    TypeError,
-                    ValueError,
-                    RecursionError,
-                ) as error:
-                    if self._where(error):
-                        raise
-                    failure = {
-                        "kind": "answer",
-                        "text": no_answer(answer),
-                        "where": "",
-                        "lines": [],
-                    }
-            except BaseException as error:
-                failure = self.failure(error)
+        for number, call in enumerate(calls):
+            kind, text = self._called(call, made)
             if sys.getrecursionlimit() < _LEAST_RECURSION:
                 sys.setrecursionlimit(_LEAST_RECURSION)
-            if written_answer is None:
-                channel.send("f", failure, mark=mark)
-            else:
-                channel.send("a", text=written_answer, mark=mark)
+            channel.send(kind, text, mark=self.mark if number + 1 == len(calls) else None)
 
-    def failure(self, error):
+    def _called(self, call, made):
+        """The letter of what came of a call, and its text."""
+        name, arguments = call
+        function = self._module.__dict__.get(name)
+        if not callable(function):
+            return "m", ""
+        try:
+            answer = function(*[made[a[0]]() if type(a) is list else a for a in arguments])
+            try:
+                return "a", written(answer)
+            except Exception as error:
+                if isinstance(error, MemoryError) or self._where(error):
+                    raise
+                failure = {"kind": "answer", "text": no_answer(answer), "where": "", "lines": []}
+        except BaseException as error:
+            failure = self.failure(error)
+        return "f", _encode(failure)
+
+    def failure(self, error, loading=False):
         """kind, text, where in the student's files, and the traceback's own lines of theirs."""
         sys.setrecursionlimit(max(sys.getrecursionlimit(), _LEAST_RECURSION))
         self._failures += 1
@@ -205,8 +196,8 @@ class StudentFile:
             kind = "ended"
         elif isinstance(error, MemoryError):
             kind = "memory"
-        elif isinstance(error, SyntaxError) or (not where and isinstance(error, ValueError)):
-            kind = "syntax"  # a ValueError is for null bytes
+        elif loading and (isinstance(error, SyntaxError) or not where):
+            kind = "syntax"  # null bytes are a ValueError
         full = self._failures <= _FULL_TRACEBACKS
         lines = self._lines(traceback.TracebackException.from_exception(error)) if full else []
         return {"kind": kind, "text": self._one_line(error), "where": where, "lines": lines}
@@ -231,7 +222,7 @@ class StudentFile:
         text = (
             f"{type(error).__name__}: {text}" if text not in ("", "None") else type(error).__name__
         )
-        return text if len(text) <= _LONGEST_LINE else text[:_LONGEST_LINE] + "..."
+        return printable(text if len(text) <= _LONGEST_LINE else text[:_LONGEST_LINE] + "...")
 
     def _lines(self, told):
         seen = set()
@@ -251,14 +242,19 @@ class StudentFile:
 
         forget_ours(told)
         text = "".join(told.format()).replace(f'File "{self._folder}{os.sep}', 'File "')
-        lines = [line[:_LONGEST_LINE] for line in text.splitlines()]
+        lines = [printable(line[:_LONGEST_LINE]) for line in text.splitlines()]
         if len(lines) > _FIRST_LINES + _LAST_LINES + 1:
             left_out = f"  ... {len(lines) - _FIRST_LINES - _LAST_LINES} lines left out ..."
             lines[_FIRST_LINES:-_LAST_LINES] = [left_out]
         return lines
 
     def _short(self, path):
-        return path.removeprefix(self._folder + os.sep)
+        return printable(path.removeprefix(self._folder + os.sep))
+
+
+def printable(line):
+    """Without what a terminal would take for a command."""
+    return "".join(c if c.isprintable() else ascii(c)[1:-1] for c in line.expandtabs(4))
 
 
 def no_answer(answer):
@@ -267,11 +263,11 @@ def no_answer(answer):
         text = " ".join(repr(answer).split())
     except BaseException:
         text = "something"
-    text = text if len(text) <= 120 else text[:117] + "..."
+    text = printable(text if len(text) <= 120 else text[:117] + "...")
     return text if isinstance(answer, type) else f"{text} of type {type(answer).__name__}"
 
 
-class Values(types.SimpleNamespace):
+class Values(types.SimpleNamespace, Mapping):
     """A camera, an object of a scene: camera.eye, and camera["eye"]."""
 
     def __getattr__(self, name):
@@ -280,13 +276,12 @@ class Values(types.SimpleNamespace):
         raise AttributeError(f"{kind} has no {name!r}; it has: {has}", name=name, obj=self)
 
     def __getitem__(self, name):
-        return getattr(self, name)
+        if name not in self.__dict__:
+            raise KeyError(name)
+        return self.__dict__[name]
 
     def __setitem__(self, name, value):
-        setattr(self, name, value)
-
-    def __contains__(self, name):
-        return name in self.__dict__
+        self.__dict__[name] = value
 
     def __iter__(self):
         return iter(self.__dict__)
@@ -294,17 +289,20 @@ class Values(types.SimpleNamespace):
     def __len__(self):
         return len(self.__dict__)
 
-    def keys(self):
-        return self.__dict__.keys()
+    def __eq__(self, other):
+        return self is other
 
-    def values(self):
-        return self.__dict__.values()
+    def __hash__(self):  # type: ignore[override]
+        return id(self)
 
-    def items(self):
-        return self.__dict__.items()
+    def __reduce__(self):  # for processes that the student's code starts: they lack this class
+        return types.SimpleNamespace, (), self.__dict__
 
-    def get(self, name, default=None):
-        return self.__dict__.get(name, default)
+    def __copy__(self):
+        return type(self)(**self.__dict__)
+
+    def __deepcopy__(self, memo):
+        return type(self)(**copy.deepcopy(self.__dict__, memo))
 
 
 def maker(value, name):
@@ -332,9 +330,13 @@ def has_objects(value):
 
 def array_maker(value):
     """The same for a NumPy array."""
-    import numpy
 
-    return lambda: numpy.array(value)
+    def make():
+        import numpy
+
+        return numpy.array(value)
+
+    return make
 
 
 def written(answer):
@@ -368,9 +370,8 @@ def plain(value):
         return value.__index__()
     if hasattr(value, "__float__"):
         return float(value)
-    if hasattr(value, "keys") and hasattr(value, "__getitem__"):
-        keys = value.keys()
-        return {key: value[key] for key in keys}
+    if hasattr(value, "keys"):
+        return dict(value)
     return list(value)
 
 

@@ -3,40 +3,37 @@
 from __future__ import annotations
 
 import signal
+from collections.abc import Iterable
 from typing import Any
 
 from app.checking.calls import Call
 from renderer.errors import one_line, shortened
 
 _LONGEST_CALL = 240
-_LONGEST_VALUE = 120
+_LONGEST_VALUE = 80
 
 
 def told_call(call: Call) -> str:
     """The call in one line: viewing_ray(i=3, j=4, camera={eye: (0, 0, 5), ...})."""
-    given = ", ".join(f"{name}={told_value(value)}" for name, value in call.arguments)
-    return one_line(shortened(f"{call.function}({given})", _LONGEST_CALL))
+    given = [f"{name}={told_value(value)}" for name, value in call.arguments]
+    return one_line(f"{call.function}({_joined(given, _LONGEST_CALL)})")
 
 
 def told_value(value: Any) -> str:
     """A value of JSON as Python writes it, shortened."""
-    return shortened(_written(value, _LONGEST_VALUE), _LONGEST_VALUE)
-
-
-def _written(value: Any, most: int) -> str:
     if isinstance(value, dict):
-        parts = (f"{key}: {_written(part, most)}" for key, part in value.items())
-        return "{" + _joined(parts, most) + "}"
+        parts = (f"{key}: {told_value(part)}" for key, part in value.items())
+        return "{" + _joined(parts, _LONGEST_VALUE) + "}"
     if isinstance(value, list | tuple):
-        return "(" + _joined((_written(part, most) for part in value), most) + ")"
-    return f"{value:.6g}" if isinstance(value, float) else repr(value)
+        return "(" + _joined(map(told_value, value), _LONGEST_VALUE) + ")"
+    return f"{value:.6g}" if isinstance(value, float) else shortened(repr(value), _LONGEST_VALUE)
 
 
-def _joined(parts: Any, most: int) -> str:
-    """Not all, of many."""
+def _joined(parts: Iterable[str], most: int) -> str:
+    """As many as fit, and at least one."""
     text = ""
     for part in parts:
-        if len(text) > most:
+        if text and len(text) + len(part) > most:
             return text + ", ..."
         text += (", " if text else "") + part
     return text

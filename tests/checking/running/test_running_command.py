@@ -106,6 +106,12 @@ FAULTS = {
     "quotes": ("print({'a': 1})", 0, "answer", "is no JSON: {'a': 1}; answer to f(i=0)"),
     "nested": ("print('[' * 10**5)", 0, "answer", "is no JSON: [[["),
     "long": ("print('x' * 10**6)", 0, "answer", "xxx...xxx"),
+    "left another": (
+        "print(1); sys.stdout.flush(); os.fork() or time.sleep(10**6); os._exit(4)",
+        1,
+        "ended",
+        "it ended with exit status 4, with 1 of 4 answers",
+    ),
     "closed": ("os.close(1); time.sleep(10**6)", 0, "ended", "closed what it answers through"),
 }
 
@@ -154,7 +160,7 @@ def test_a_line_without_end_is_not_kept(program, monkeypatch):
 
 @pytest.mark.skipif(not sys.platform.startswith("linux"), reason="elsewhere looked at seldom")
 def test_too_much_memory(program):
-    source = "held = os.urandom(90 << 20)\nos.fork(); os.fork()\nheld = os.urandom(90 << 20)"
+    source = "held = b'x' * (90 << 20)\nos.fork(); os.fork()\nheld = b'x' * (90 << 20)"
     failure = program(f"{source}\ntime.sleep(10**6)", memory_mb=128).call(CALLS).failure
     assert failure.kind == "memory"
     assert "it needs more than the memory limit of 128 MB, with 0 of 3072 answers" in failure.text

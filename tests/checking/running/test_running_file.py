@@ -7,7 +7,7 @@ import os
 import sys
 
 import pytest
-from students import called
+from students import CAMERA, called
 
 from app.checking.running.file import FileStudent, NotRunnableError
 
@@ -239,11 +239,11 @@ def test_an_endless_recursion_is_short(student):
 
 
 def test_many_exceptions(student):
-    run = student("def f(i):\n    return f(i)\n").call([called("f", i=i) for i in range(300)])
+    run = student("def f(i):\n    return f(i)\n").call([called("f", i=i) for i in range(60)])
     assert all(failure.kind == "exception" for failure in run.values)
     assert run.values[0].traceback
     assert not run.values[-1].traceback
-    assert "f(i=299)" in run.values[-1].text
+    assert "f(i=59)" in run.values[-1].text
 
 
 @pytest.mark.parametrize(
@@ -259,7 +259,9 @@ def test_many_exceptions(student):
         ("import sys\ndef f(): sys.exit('bye')", "it ends the program (SystemExit: bye); a func"),
         ("def f(): exit()", "rays.py, line 1: it ends the program (SystemExit); a function"),
         ("def f(a): return 1", "TypeError: f() missing 1 required positional argument: 'a'"),
+        ("f = __import__('functools').partial(int, 'x')", "rays.py: ValueError: invalid literal"),
         ("f = 3", "has no function f"),
+        ("def f(): raise ValueError('\\x1b[31m\\0\\udcff')", "ValueError: \\x1b[31m\\x00\\udcff;"),
     ],
 )
 def test_unusual_exceptions_are_told_and_the_next_call_is_answered(student, source, told):
@@ -269,7 +271,9 @@ def test_unusual_exceptions_are_told_and_the_next_call_is_answered(student, sour
     assert told in failure.text
     assert len(failure.text) < 500
     assert right == [[1.0]]
+    assert failure.kind != "syntax"
     assert again.text == failure.text
+    assert all(line.isprintable() for line in (failure.text, *failure.traceback))
 
 
 @pytest.mark.parametrize(
@@ -278,6 +282,10 @@ def test_unusual_exceptions_are_told_and_the_next_call_is_answered(student, sour
         ("import sys; sys.exit()", "it ends the program (SystemExit); put what runs on its own"),
         ("n = int(input())", "input() finds nothing here: put what runs on its own under"),
         ("raise KeyboardInterrupt", "rays.py, line 1: KeyboardInterrupt"),
+        (
+            "class A:\n  __module__ = property(lambda s: 1 / 0)\n  __call__ = max\na = A()",
+            "Zero",
+        ),
         ("from renderer import nothing", "ModuleNotFoundError: No module named 'renderer'"),
     ],
 )
@@ -308,3 +316,20 @@ def test_another_python_than_ours(student, tmp_path):
         assert mine.call([F]).values == one.call([F]).values
     wrong = FileStudent(tmp_path / "rays.py", python=str(tmp_path / "nopython"))
     assert "cannot be started" in wrong.call([F]).failure.text
+
+
+def test_a_name_that_no_terminal_shows(student):
+    (failure,) = student("def f(): return object()", "a\n'\x1b.py").call([F]).values
+    assert failure.text.startswith("a '\\x1b.py: f returned <object")
+
+
+def test_the_arguments_of_a_call_are_told_in_a_line(student):
+    given = {"image": [[[0.25] * 3] * 64] * 48, "text": "x" * 999, "camera": CAMERA}
+    (failure,) = (
+        student("def f(image, text, camera): return object()").call([called("f", **given)]).values
+    )
+    told = failure.text.partition("called as ")[2]
+    assert told.startswith("f(image=(((0.25, 0.25, 0.25), (0.25, 0.25, 0.25), ")
+    assert "), ...), text='xxx" in told
+    assert told.endswith("xxx', ...)")
+    assert len(told) < 400

@@ -100,7 +100,7 @@ def test_too_much_memory_in_all_processes_together(student):
         def f():
             for _ in range(4):
                 if not os.fork():
-                    held = os.urandom(90 << 20)
+                    held = b"x" * (90 << 20)
                     time.sleep(10**6)
             time.sleep(10**6)
         """,
@@ -146,6 +146,17 @@ def test_a_process_that_ends(student, body, told):
     assert told in run.failure.text
     assert run.output == "kept\n"
     assert one.call([called("f", i=0)]).values == (None,)  # another process
+
+
+@pytest.mark.parametrize("when", ["def f(): pass\n", ""])
+def test_what_is_written_between_the_answers(student, when):
+    write = "    for number in range(3, 30):\n        try: os.write(number, b'\\xff\\nzz\\n')"
+    source = f"import os\n{when}if 1:\n{write}\n        except OSError: pass\n"
+    if not when:
+        source = source.replace("if 1:", "def f():")
+    failure = student(source).call([F]).failure
+    assert failure.kind == "ended"
+    assert "it wrote into a file of ours" in failure.text
 
 
 @pytest.mark.parametrize(
@@ -286,6 +297,29 @@ def test_a_stop_while_importing_and_another_run_then(student, tmp_path):
     )
     assert "was stopped while the file is imported" in stopped(one, [F], begun).failure.text
     assert one.call([F]).values == (7,)
+
+
+@pytest.mark.parametrize("ask", ["functions", "call"])
+def test_ctrl_c_ends_the_process_and_another_run_starts_anew(student, monkeypatch, ask):
+    one = student("def f(): return 7\n")
+
+    def pressed(*_):
+        raise KeyboardInterrupt
+
+    with monkeypatch.context() as patched:
+        patched.setattr("app.checking.running.program.StudentProgram.lines", pressed)
+        with pytest.raises(KeyboardInterrupt):
+            one.functions() if ask == "functions" else one.call([F])
+    assert one._program is None
+    assert one.call([F]).values == (7,)
+
+
+def test_closed_while_it_starts(student, monkeypatch):
+    one = student("def f(): return 7\n")
+    source = one._source
+    monkeypatch.setattr(one, "_source", lambda: one._closed.set() or source())
+    assert one.call([F]).failure.text == "rays.py: it is closed"
+    assert one._program is None
 
 
 def test_closed_is_closed(student):

@@ -147,6 +147,23 @@ def test_objects_have_attributes_and_keys(answer):
     assert given == [[1, 2, 3], 1.0, "plane", 4]
 
 
+def test_objects_can_be_copied_compared_and_sent_to_processes(answer):
+    given = answer(
+        """
+        import copy, functools, pickle
+        @functools.cache
+        def f(camera):
+            other, deep = copy.copy(camera), copy.deepcopy(camera)
+            deep.inner.x = other.eye = 0
+            sent = pickle.loads(pickle.dumps(camera))
+            assert deep["inner"]["x"] == 0 and camera == camera and other != camera
+            return camera.eye, sent.eye, sent.inner.x, repr(camera.inner)
+        """,
+        camera={"eye": [1, 2], "inner": {"x": 5}},
+    )
+    assert given == [[1, 2], [1, 2], 5, "Inner(x=5)"]
+
+
 def test_a_field_that_is_not_there_says_which_are(answer):
     failure = answer("def f(camera):\n    return camera.d\n", camera=CAMERA)
     assert "AttributeError: Camera has no 'd'; it has: eye, u, v, w, distance" in failure.text
@@ -180,6 +197,14 @@ def test_vectorised_calls_get_arrays_of_their_own(student):
     )
     again = called("f", True, i=[0, 1], j=[2, 3], camera=CAMERA)
     assert one.call([again, again]).values == ([[12, 23], [0.0, 0.0, 5.0]],) * 2
+
+
+def test_a_vectorised_call_where_numpy_is_not_numpy(student, tmp_path):
+    (tmp_path / "numpy.py").write_text("mine = 7\n", "utf-8")
+    run = student("def f(i): return 1\n").call([called("f", True, i=[1]), called("f", i=1)])
+    failure, right = run.values
+    assert "module 'numpy' has no attribute 'array'" in failure.text
+    assert (failure.kind, right) == ("exception", 1)
 
 
 def test_numpy_is_imported_for_no_other_call(answer):

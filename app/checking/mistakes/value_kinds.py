@@ -1,0 +1,57 @@
+"""Which program has the lines of which kind of function, and what its lines know of a case."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+import numpy as np
+
+from app.checking.mistakes.basis import BASIS
+from app.checking.mistakes.hits import CLOSEST, SHAPES, SPHERE, TRIANGLE
+from app.checking.mistakes.images import bitmap_program, gray_program, offset_program
+from app.checking.mistakes.program import Program
+from app.checking.mistakes.value_diagnosis import ValueCase
+
+LUMINANCE = (0.2126, 0.7152, 0.0722)  # Rec. 709, of linear light
+
+
+def value_program(
+    kind: str,
+    weights: Sequence[float] = LUMINANCE,
+    inclusive: bool = True,
+    base: int = 0,
+    column_major: bool = False,
+    stride: int = 1,
+) -> Program:
+    """Of "basis", "hit-sphere", "hit-triangle", "closest-hit", "to-gray", "to-bitmap" and
+    "memory-offset". weights: of red, green and blue. inclusive: whether a gray that is the
+    threshold is white. base, column_major, stride: of offsets. Raises KeyError for other kinds."""
+    if kind == "to-gray":
+        red, green, blue = weights
+        return gray_program((red, green, blue))
+    if kind == "to-bitmap":
+        return bitmap_program(inclusive)
+    if kind == "memory-offset":
+        return offset_program(base, column_major, stride)
+    fixed = {"basis": BASIS, "hit-sphere": SPHERE, "hit-triangle": TRIANGLE}
+    return (fixed | {"closest-hit": CLOSEST})[kind]
+
+
+def value_case(
+    kind: str, values: Mapping[str, Any], right: Any, given: Any, tolerance: float
+) -> ValueCase:
+    """A case of that kind. values: by the task's words (eye, target, up; origin, direction, center,
+    radius, a, b, c; objects; rgb; gray, threshold; i, j, width, height). right, given: u, v, w
+    (3, 3); t, inf for a miss; object's number from 0 and t, (2,); an image (H, W); a number."""
+    known: dict[str, Any] = dict(values)
+    for name in ("eye", "target", "up", "origin", "direction", "center", "a", "b", "c", "gray"):
+        if name in known:
+            known[name] = np.asarray(known[name], float)
+    if kind == "to-gray":
+        red, green, blue = np.moveaxis(np.asarray(values["rgb"], float), -1, 0)
+        known |= {"red": red, "green": green, "blue": blue}
+    if kind == "closest-hit":
+        known |= SHAPES
+    is_exact = kind in ("to-bitmap", "memory-offset")
+    return ValueCase(known, right, given, None if is_exact else tolerance)

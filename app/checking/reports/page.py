@@ -1,0 +1,192 @@
+"""Results as one HTML file that can be handed back: it needs no network, no script, no other file.
+
+What the task's feedback keeps back is not in it at all. All that comes from the student's program
+is text: escaped, and its control characters written out.
+"""
+
+from __future__ import annotations
+
+import base64
+from collections.abc import Iterable, Mapping, Sequence
+from html import escape
+
+import numpy as np
+from numpy.typing import NDArray
+
+from app.checking.checked import TaskResult, WrongCase
+from app.checking.reports.picture import difference
+from app.checking.reports.pictured import Pictured
+from app.checking.reports.sketch import sketch
+from app.checking.reports.told import told, visible
+from app.checking.starter import signature
+from app.checking.tasks import CheckTask
+from renderer.images import encode_array
+
+STYLE = """
+:root { color-scheme: light dark; --paper: #ffffff; --ink: #1b1f24; --dim: #59636e;
+  --line: #d1d9e0; --shade: #f4f6f8; --right: #1a7f37; --wrong: #c4232b; --failed: #9a6700; }
+@media (prefers-color-scheme: dark) { :root { --paper: #14181d; --ink: #e6eaef; --dim: #9aa5b1;
+  --line: #3a434d; --shade: #1e242b; --right: #4cc46a; --wrong: #ff7b72; --failed: #e3b341; } }
+* { box-sizing: border-box; }
+body { margin: 0 auto; max-width: 60rem; padding: 1.5rem; background: var(--paper);
+  color: var(--ink); font: 1rem/1.5 system-ui, sans-serif; }
+h1 { font-size: 1.5rem; margin: 0 0 .25rem; overflow-wrap: anywhere; }
+h2 { font-size: 1.2rem; margin: 0; } h3 { font-size: 1rem; margin: 1rem 0 .25rem; }
+p { margin: .25rem 0; }
+.dim { color: var(--dim); }
+section { margin: 1.5rem 0 0; padding: 1rem 1.25rem; border: 1px solid var(--line);
+  border-left: .4rem solid var(--dim); border-radius: .4rem; }
+section.right { border-left-color: var(--right); }
+section.wrong { border-left-color: var(--wrong); }
+section.failed { border-left-color: var(--failed); }
+.verdict { margin-left: .5rem; } .right .verdict { color: var(--right); }
+.wrong .verdict { color: var(--wrong); } .failed .verdict { color: var(--failed); }
+.points { float: right; font-weight: normal; font-size: 1rem; color: var(--dim); }
+pre, code { font: .9rem/1.45 ui-monospace, monospace; }
+pre { background: var(--shade); padding: .6rem .8rem; border-radius: .3rem; margin: .25rem 0;
+  white-space: pre-wrap; overflow-wrap: anywhere; }
+.told { margin: .5rem 0; padding-left: 1.2rem; } .told li:first-child { font-weight: 600; }
+.pictures { display: flex; flex-wrap: wrap; gap: 1rem; margin-top: .75rem; }
+figure { margin: 0; flex: 1 1 14rem; max-width: 22rem; }
+figcaption { color: var(--dim); font-size: .9rem; }
+img { width: 100%; image-rendering: pixelated; border: 1px solid var(--line); display: block; }
+.sketch { width: 100%; max-height: 20rem; border: 1px solid var(--line); background: var(--shade); }
+.sketch path { fill: none; stroke: var(--dim); stroke-width: 1.5; }
+.sketch .edge { stroke-dasharray: 2 5; } .sketch text { fill: var(--dim); font-size: 14px; }
+.sketch .eye { fill: var(--ink); }
+.sketch .right { stroke: var(--right); stroke-width: 3; }
+.sketch .given { stroke: var(--wrong); stroke-width: 3; stroke-dasharray: 9 5; }
+.sketch .right.head, .sketch circle.right { fill: var(--right); }
+.sketch .given.head, .sketch circle.given { fill: var(--wrong); stroke-dasharray: none; }
+.key { display: inline-block; width: 1.6rem; border-top: 3px solid var(--right);
+  vertical-align: middle; } .key.given { border-top: 3px dashed var(--wrong); }
+@media print { body { max-width: none; padding: 0; font-size: 11pt; }
+  section { break-inside: avoid; }
+  :root { --paper: #ffffff; --ink: #000000; --dim: #444444; --line: #999999; --shade: #ffffff; }
+  pre { border: 1px solid var(--line); } * { print-color-adjust: exact; } }
+"""
+
+
+def page(
+    tried: Sequence[TaskResult],
+    tasks: Sequence[CheckTask],
+    name: str,
+    pictures: Mapping[str, Pictured],
+    problem: str = "",
+) -> str:
+    """The page. tried, tasks, problem: as in gradescope.results. name: of what was checked, as it
+    is shown. pictures: by the tasks' names."""
+    names = {result.task.name for result in tried}
+    sections = [_section(result, pictures.get(result.task.name)) for result in tried]
+    reason = problem or "was not tried"
+    sections += [_untried(task, reason) for task in tasks if task.name not in names]
+    title = f"Lucida check: {_text(name)}"
+    summary = _summary(tried, tasks) if not problem else _text(problem)
+    return (
+        '<!DOCTYPE html>\n<html lang="en">\n<head>\n<meta charset="utf-8">\n'
+        '<meta name="viewport" content="width=device-width, initial-scale=1">\n'
+        f"<title>{title}</title>\n<style>{STYLE}</style>\n</head>\n<body>\n"
+        f'<h1>{title}</h1>\n<p class="dim">{summary}</p>\n'
+        f"{''.join(sections)}</body>\n</html>\n"
+    )
+
+
+def _summary(tried: Sequence[TaskResult], tasks: Sequence[CheckTask]) -> str:
+    """Right tasks and points, where all of them may be known."""
+    if any(told(result).verdict is None for result in tried):
+        return f"{len(tried)} tasks were tried."
+    right = sum(result.status == "right" for result in tried)
+    points = sum(result.points for result in tried)
+    most = sum(task.points for task in tasks)
+    return f"{right} of {len(tasks)} tasks are right: {points:g} of {most:g} points."
+
+
+def _section(result: TaskResult, pictures: Pictured | None) -> str:
+    say = told(result)
+    verdict = say.verdict or "tried"
+    points = "" if say.verdict is None else f"{result.points:g} of {result.task.points:g} points"
+    parts = [_head(result.task, verdict, points)]
+    if say.failure:
+        reason, *lines = say.failure
+        parts.append(f"<p>{_text(reason)}</p>\n")
+        parts.append(_pre("", lines))
+    if say.diagnosis:
+        items = "".join(f"<li>{_coded(sentence)}</li>" for sentence in say.diagnosis)
+        parts.append(f'<ul class="told">{items}</ul>\n')
+    if say.first is not None:
+        parts.append(_first(result, say.wrong, say.first))
+        if pictures is not None:
+            parts.append(_pictures(pictures))
+    if say.output:
+        parts.append(_pre("Printed", [say.output]))
+    return f'<section class="{verdict}">\n{"".join(parts)}</section>\n'
+
+
+def _untried(task: CheckTask, reason: str) -> str:
+    head = _head(task, "failed", f"0 of {task.points:g} points")
+    return f'<section class="failed">\n{head}<p>{_text(reason)}</p>\n</section>\n'
+
+
+def _head(task: CheckTask, verdict: str, points: str) -> str:
+    return (
+        f'<h2>{_text(task.name)} <span class="verdict">{verdict}</span>'
+        f'<span class="points">{points}</span></h2>\n'
+        f'<p class="dim"><code>{_text(signature(task))}</code></p>\n'
+    )
+
+
+def _first(result: TaskResult, wrong: str, first: WrongCase) -> str:
+    """The first wrong case in numbers, and as a drawing."""
+    lines = [first.where] if first.where else []
+    lines += [f"{result.task.function}({first.arguments})"]
+    lines += ["", f"right: {first.right}", f"given: {first.given}"]
+    drawn = ""
+    case = first.case
+    if result.task.kind == "viewing-ray" and case.camera and case.size:
+        rays = (np.asarray(ray, float) for ray in (case.right, first.answer))
+        drawn = (
+            f'{sketch(case.camera, case.size, *rays)}\n<p class="dim"><span class="key"></span> '
+            'the right ray, <span class="key given"></span> the given one; from the eye through '
+            "the viewport</p>\n"
+        )
+    return f"<h3>{_text(wrong)}; the first one:</h3>\n{_pre('', lines)}{drawn}"
+
+
+def _pictures(pictures: Pictured) -> str:
+    shown = (
+        ("with your code", pictures.given),
+        ("right", pictures.right),
+        ("where they differ", difference(pictures.given, pictures.right)),
+    )
+    figures = "".join(
+        f'<figure><img alt="{caption}" src="{_data(image)}">'
+        f"<figcaption>{caption}</figcaption></figure>"
+        for caption, image in shown
+    )
+    return f'<div class="pictures">{figures}</div>\n'
+
+
+def _data(image: NDArray[np.uint8]) -> str:
+    content = base64.b64encode(encode_array(np.ascontiguousarray(image), ".png")).decode()
+    return f"data:image/png;base64,{content}"
+
+
+def _pre(title: str, lines: Iterable[str]) -> str:
+    text = "\n".join(lines)
+    if not text:
+        return ""
+    head = f"<h3>{title}</h3>\n" if title else ""
+    return f"{head}<pre>{_text(text)}</pre>\n"
+
+
+def _coded(sentence: str) -> str:
+    """Text, with `code` as code."""
+    parts = [_text(part) for part in sentence.split("`")]
+    return "".join(
+        f"<code>{part}</code>" if number % 2 else part for number, part in enumerate(parts)
+    )
+
+
+def _text(text: str) -> str:
+    """Text for a page."""
+    return escape(visible(text))

@@ -1,0 +1,96 @@
+"""What rays see: a scene of its own before the camera, so that a wrong ray is a wrong picture.
+
+The scene stands in the frustum's own coordinates, in which the right rays of a perspective camera
+are (0, 0, 0) + t (X, Y, -1), Y from -1 to 1 over the image's height and X by its shape, and those
+of a parallel one (4 X, 4 Y, 0) + t (0, 0, -1). So the right picture is the same for all cameras: a
+checkered floor, a red sphere on the left, a blue one behind on the right, a small yellow one above.
+The way there from the world is affine: a line stays a line, and any other ray, from wherever it
+comes, sees what it would see beside the right ones.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from app.checking.kinds.shapes import sphere_hits
+from renderer.camera import Camera, Size
+from renderer.images import to_srgb8
+
+Floats = NDArray[np.float64]
+Bytes = NDArray[np.uint8]
+
+DEPTH = 4.0  # of the scene's middle: perspective cameras see there what parallel ones see
+SPHERES = (  # centre, radius, colour
+    ((-1.9, -0.9, -3.6), 1.3, (0.75, 0.08, 0.05)),
+    ((2.2, -0.3, -5.4), 1.5, (0.05, 0.16, 0.70)),
+    ((0.6, 2.0, -4.2), 0.7, (0.80, 0.55, 0.02)),
+)
+FLOOR, SLOPE = -2.4, 0.3  # its height at the scene's middle; it rises away from the eye
+CELL, CELLS = 2.0, ((0.72, 0.72, 0.68), (0.24, 0.26, 0.28))
+FADED = 14.0  # how far away the cells are one colour
+HORIZON, ZENITH = (0.86, 0.90, 0.94), (0.28, 0.48, 0.80)
+NO_RAY = (0.35, 0.0, 0.35)  # where numbers or a direction are missing
+TOWARDS_LIGHT = np.array([-0.48, 0.72, 0.5]) / np.linalg.norm([-0.48, 0.72, 0.5])
+AMBIENT = 0.25
+
+
+def in_frustum(camera: Camera, size: Size, rays: Floats) -> Floats:
+    """Rays (..., 2, 3) of the world, origin and direction, in the frustum's coordinates."""
+    left, right, bottom, top = camera.viewport
+    half = np.array([(right - left) / 2 * size[1] / size[0], (top - bottom) / 2])
+    middle = np.array([left + right, bottom + top]) / 2
+    distance = camera.distance
+    to_frustum, offset = np.diag([*1 / half, 1 / distance]), np.zeros(3)
+    if camera.is_parallel:
+        to_frustum *= DEPTH
+        offset[:2] = -DEPTH * middle / half
+    else:
+        to_frustum[:2, 2] = middle / half / distance
+    to_frustum = to_frustum @ np.linalg.inv(camera.basis)
+    with np.errstate(all="ignore"):
+        inside = (rays - np.array([camera.eye, np.zeros(3)])) @ to_frustum.T
+    inside[..., 0, :] += offset
+    return inside
+
+
+def picture(camera: Camera, size: Size, rays: Floats) -> Bytes:
+    """What rays (H, W, 2, 3) of the world see, sRGB (H, W, 3)."""
+    inside = in_frustum(camera, size, rays)
+    origin, direction = inside[..., 0, :], inside[..., 1, :]
+    with np.errstate(all="ignore"):
+        direction = direction / np.linalg.norm(direction, axis=-1, keepdims=True)
+        upwards = np.clip(direction[..., 1:2] * 1.5, 0, 1)
+        color = np.array(HORIZON) * (1 - upwards) + np.array(ZENITH) * upwards
+        nearest, floor = _floor(origin, direction)
+        color = np.where(np.isfinite(nearest)[..., None], floor, color)
+        for center, radius, albedo in SPHERES:
+            t, _ = sphere_hits(origin, direction, center, radius)
+            at = origin + t[..., None] * direction
+            normal = (at - center) / radius
+            light = AMBIENT + (1 - AMBIENT) * np.maximum(normal @ TOWARDS_LIGHT, 0)
+            shaded = light[..., None] * np.array(albedo)
+            is_nearer = t < nearest
+            color = np.where(is_nearer[..., None], shaded, color)
+            nearest = np.where(is_nearer, t, nearest)
+    is_ray = np.isfinite(origin).all(-1) & np.isfinite(direction).all(-1)
+    return to_srgb8(np.where(is_ray[..., None], color, NO_RAY).astype(np.float32))
+
+
+def _floor(origin: Floats, direction: Floats) -> tuple[Floats, Floats]:
+    """t > 0 at which each ray meets the floor, inf where it does not; and the colour there."""
+    across = np.array([0.0, 1.0, SLOPE])
+    t = (FLOOR - SLOPE * DEPTH - origin @ across) / (direction @ across)
+    t = np.where(t > 0, t, np.inf)
+    at = origin + t[..., None] * direction
+    cell = np.floor(at[..., 0] / CELL) + np.floor(at[..., 2] / CELL)
+    first, second = map(np.array, CELLS)
+    contrast = np.where(cell % 2 == 0, 0.5, -0.5) * np.clip(1 - t / FADED, 0, 1)
+    return t, (first + second) / 2 + contrast[..., None] * (first - second)
+
+
+def difference(first: Bytes, second: Bytes) -> Bytes:
+    """Black where two pictures are the same, brighter where they differ more."""
+    apart = np.abs(first.astype(int) - second.astype(int)).max(axis=-1)
+    gray = np.where(apart > 0, 60 + apart * 195 // 255, 0).astype(np.uint8)
+    return np.repeat(gray[..., None], 3, axis=-1)

@@ -1,0 +1,83 @@
+"""Pictures of a wrong answer: what was given and what is right, at a size at which one sees it.
+
+For rays the student's function is asked once more, for a larger image of the camera of the first
+wrong case: those that are tried are small.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from app.checking.calls import Failure, Student
+from app.checking.checked import TaskResult, WrongCase
+from app.checking.conventions import Shot
+from app.checking.kinds.viewing_ray import ViewingRayKind, cases_of
+from app.checking.reports.picture import picture
+from app.checking.reports.told import told
+
+Bytes = NDArray[np.uint8]
+
+SIDE = 96  # of a picture, about; its sides are whole multiples of those that were asked for
+
+
+@dataclass(frozen=True, eq=False)
+class Pictured:
+    """Pictures, sRGB (H, W, 3): what was given, and what is right."""
+
+    given: Bytes
+    right: Bytes
+
+
+def pictured(student: Student, result: TaskResult) -> Pictured | None:
+    """The pictures of a wrong answer, as far as the task's feedback allows; None where there are
+    none: of other kinds of functions, or where the student's code fails at a larger image."""
+    first = told(result).first
+    if first is None or first.case.camera is None:
+        return None
+    if result.task.kind == "viewing-ray":
+        return _of_rays(student, result, first)
+    if result.task.kind == "render":
+        return _of_images(result, first)
+    return None
+
+
+def _of_rays(student: Student, result: TaskResult, first: WrongCase) -> Pictured | None:
+    case = first.case
+    assert case.camera and case.size and case.target and case.up
+    camera, (width, height) = case.camera, case.size
+    times = max(1, SIDE // max(width, height))
+    step = math.ceil(max(width, height) / (2 * SIDE))
+    size = width * times, height * times
+    task, kind = result.task, ViewingRayKind()
+    shot = Shot(camera, size, case.target, case.up)
+    cases = [
+        pixel
+        for pixel in cases_of(task, shot)
+        if pixel.pixel and not (pixel.pixel[0] % step or pixel.pixel[1] % step)
+    ]
+    run = student.call(kind.calls(task, cases))
+    if run.failure or any(isinstance(value, Failure) for value in run.values):
+        return None
+    given, problems = kind.given(task, cases, run.values)
+    if problems:
+        return None
+    shape = (math.ceil(size[1] / step), math.ceil(size[0] / step), 2, 3)
+    rays = (np.asarray(part).reshape(shape) for part in (given, kind.right(cases)))
+    return Pictured(*(picture(camera, size, part) for part in rays))
+
+
+def _of_images(result: TaskResult, first: WrongCase) -> Pictured | None:
+    given, right = first.answer, np.asarray(first.case.right, float)
+    if given is None or np.shape(given) != right.shape or right.ndim != 3:
+        return None
+    upright = -1 if result.task.conventions.rows == "bottom" else 1
+    return Pictured(_bytes(np.asarray(given, float)[::upright]), _bytes(right[::upright]))
+
+
+def _bytes(image: NDArray[np.float64]) -> Bytes:
+    """Numbers from 0 to 1 as they stand, black where there are none."""
+    return np.rint(255 * np.clip(np.nan_to_num(image), 0, 1)).astype(np.uint8)

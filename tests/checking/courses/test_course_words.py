@@ -1,0 +1,111 @@
+"""The table of wrong lines in the words of courses: right lines are right, wrong ones are known."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from app.checking.cases import shots
+from app.checking.checked import check
+from app.checking.conventions import Conventions
+from app.checking.courses import course_names, task_path
+from app.checking.diagnosed import ray_task
+from app.checking.mistakes.candidates import candidates
+from app.checking.mistakes.ray_trial import RayCase, RayTrial, known_values
+from app.checking.mistakes.rays import WORDS, RayTask, ray_program, run_rays
+from app.checking.reports.told import told
+from app.checking.running.file import FileStudent
+from app.checking.task_file import load_tasks
+from app.checking.tasks import CheckTask
+
+TASKS = [
+    pytest.param(task, id=f"{name}: {task.name}")
+    for name in course_names()
+    for task in load_tasks(task_path(name)).tasks
+    if task.kind == "viewing-ray"
+]
+CAMERAS = 50
+PIXELS = 4  # of each image
+
+
+def cases_of(task: CheckTask) -> tuple[list[RayCase], RayTask]:
+    """A few pixels of 50 cameras, as the course's words ask for them."""
+    made = []
+    random = np.random.default_rng(7)
+    for shot in shots(replace(task, count=CAMERAS)):
+        width, height = shot.size
+        for number in sorted(random.choice(width * height, PIXELS, replace=False).tolist()):
+            pixel = divmod(number, width)
+            made.append(RayCase(shot.camera, shot.size, pixel, shot.target, shot.up))
+    asked = replace(ray_task(task.conventions), projection=task.projections[0])
+    return made, asked
+
+
+@pytest.mark.parametrize("task", TASKS)
+def test_the_right_lines_are_right(task: CheckTask) -> None:
+    cases, asked = cases_of(task)
+    program = ray_program(asked)
+    trial = RayTrial(cases, np.zeros((len(cases), 2, 3)), asked)
+    made = trial.made(program, [()], np.arange(len(cases)))
+    assert (trial.apart(trial.right, made[0], np.arange(len(cases))) < 1e-13).all()
+
+
+@pytest.mark.parametrize("task", TASKS)
+def test_every_mistake_is_known_by_name(task: CheckTask) -> None:
+    cases, asked = cases_of(task)
+    program = ray_program(asked)
+    everything = np.arange(len(cases))
+    for mistake in program.mistakes:
+        given = RayTrial(cases, np.zeros((len(cases), 2, 3)), asked).made(
+            program, [(mistake,)], everything
+        )[0]
+        trial = RayTrial(cases, given, asked)
+        apart = trial.apart(trial.right, given, everything)
+        wrong = ~(apart < 1e-9)
+        if not wrong.any():  # of directions of any length: those that differ in it
+            is_square = task.size is not None and task.size[0] == task.size[1]
+            assert mistake.name == "normalised" or is_square, mistake.name
+            continue
+        if not np.isfinite(given).all():
+            continue
+        found = candidates(program, trial, wrong)
+        assert (mistake,) in found, mistake.name
+
+
+def test_only_the_words_that_are_given_are_used() -> None:
+    for parameter in TASKS:
+        task = parameter.values[0]
+        cases, asked = cases_of(task)
+        if asked.words >= WORDS - {"i", "j", "x01", "y01"}:
+            continue
+        known = known_values(cases, asked)
+        given = {name: known[name] for name in asked.words & known.keys()}
+        for mistakes in [(), *((one,) for one in ray_program(asked).mistakes)]:
+            run_rays(ray_program(asked), given, mistakes)
+
+
+SWAPPED = """
+def get_ray(i, j, camera):
+    c, p, u, v = camera.center, camera.pixel00_loc, camera.pixel_delta_u, camera.pixel_delta_v
+    return c, [p[k] + j * u[k] + i * v[k] - c[k] for k in range(3)]
+"""
+
+
+def test_letters_are_told_as_the_course_calls_them(tmp_path) -> None:
+    """There i is the column: what the lecture calls i is the student's j."""
+    path = tmp_path / "book.py"
+    path.write_text(SWAPPED, "utf-8")
+    task = load_tasks(task_path("ray-tracing-in-one-weekend")).tasks[0]
+    with FileStudent(path) as student:
+        (result,) = check(student, [task])
+    lines = told(result).lines
+    assert any("they are exchanged" in line for line in lines)
+    assert "Here j is your `i` and i is your `j`." in lines
+
+
+def test_words_without_lines_of_their_own_are_told_by_the_contract() -> None:
+    words = (("p", "xy11"), ("q", "top_left"), ("camera", "camera"))
+    asked = ray_task(Conventions(arguments=words, camera=(("z", "forward"),)))
+    assert asked.words == WORDS - {"i", "j"} | {"x11", "y11"}

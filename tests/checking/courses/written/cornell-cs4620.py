@@ -1,0 +1,86 @@
+"""As students of CS4620 would write getRay, in Python."""
+
+import numpy as np
+
+
+def normalize(a):
+    return a / np.linalg.norm(a)
+
+
+def init_view(camera):
+    basis_w = normalize(-np.array(camera.projNormal))
+    basis_u = normalize(np.cross(camera.viewUp, basis_w))
+    basis_v = np.cross(basis_w, basis_u)
+    return basis_u, basis_v, basis_w
+
+
+def right_perspective(camera, u, v):
+    """perspective-camera"""
+    basis_u, basis_v, basis_w = init_view(camera)
+    x = -camera.viewWidth / 2 + camera.viewWidth * u
+    y = -camera.viewHeight / 2 + camera.viewHeight * v
+    return camera.viewPoint, x * basis_u + y * basis_v - camera.projDistance * basis_w
+
+
+def right_corner_first(camera, u, v):
+    """perspective-camera"""
+    forward = np.array(camera.viewDir)
+    side = normalize(np.cross(forward, camera.viewUp)) * camera.viewWidth
+    above = normalize(np.cross(side, forward)) * camera.viewHeight
+    corner = camera.viewPoint + camera.projDistance * forward - side / 2 - above / 2
+    point = corner + u * side + v * above
+    return {"origin": camera.viewPoint, "direction": normalize(point - camera.viewPoint)}
+
+
+def right_parallel(camera, u, v):
+    """parallel-camera"""
+    basis_u, basis_v, _ = init_view(camera)
+    x = camera.viewWidth / 2 * (2 * u - 1)
+    y = camera.viewHeight / 2 * (2 * v - 1)
+    return camera.viewPoint + x * basis_u + y * basis_v, camera.viewDir
+
+
+def wrong_not_centred(camera, u, v):
+    """perspective-camera: begins at its edge"""
+    basis_u, basis_v, basis_w = init_view(camera)
+    x, y = camera.viewWidth * u, camera.viewHeight * v
+    return camera.viewPoint, x * basis_u + y * basis_v - camera.projDistance * basis_w
+
+
+def wrong_from_the_top(camera, u, v):
+    """perspective-camera: v needs no minus sign"""
+    basis_u, basis_v, basis_w = init_view(camera)
+    x, y = camera.viewWidth * (u - 0.5), camera.viewHeight * (0.5 - v)
+    return camera.viewPoint, x * basis_u + y * basis_v - camera.projDistance * basis_w
+
+
+def wrong_origin_on_the_window(camera, u, v):
+    """perspective-camera: all rays start at the eye"""
+    basis_u, basis_v, basis_w = init_view(camera)
+    x, y = camera.viewWidth * (u - 0.5), camera.viewHeight * (v - 0.5)
+    direction = x * basis_u + y * basis_v - camera.projDistance * basis_w
+    return camera.viewPoint + direction, direction
+
+
+def wrong_view_up(camera, u, v):
+    """perspective-camera: up only says which way is up"""
+    basis_u, _, basis_w = init_view(camera)
+    x, y = camera.viewWidth * (u - 0.5), camera.viewHeight * (v - 0.5)
+    direction = x * basis_u + y * np.array(camera.viewUp) - camera.projDistance * basis_w
+    return camera.viewPoint, direction
+
+
+def wrong_w_forwards(camera, u, v):
+    """perspective-camera: w points back"""
+    basis_w = normalize(np.array(camera.projNormal))
+    basis_u = normalize(np.cross(camera.viewUp, basis_w))
+    basis_v = np.cross(basis_w, basis_u)
+    x, y = camera.viewWidth * (u - 0.5), camera.viewHeight * (v - 0.5)
+    return camera.viewPoint, x * basis_u + y * basis_v - camera.projDistance * basis_w
+
+
+def wrong_parallel_as_perspective(camera, u, v):
+    """parallel-camera: all directions are -w"""
+    basis_u, basis_v, basis_w = init_view(camera)
+    x, y = camera.viewWidth * (u - 0.5), camera.viewHeight * (v - 0.5)
+    return camera.viewPoint, x * basis_u + y * basis_v - camera.projDistance * basis_w

@@ -1,0 +1,130 @@
+"""Cases of hits and images: clear ones, in float32 too, and what pixels of an image are judged."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from app.checking.builtin import BUILTIN
+from app.checking.kinds import KINDS
+from app.checking.kinds.hits import MARGIN
+from app.checking.kinds.shapes import sphere_hits, triangle_hits
+
+TASKS = {task.name: task for task in BUILTIN}
+
+
+def cases(name, count):
+    return KINDS[name].cases(replace(TASKS[name], count=count))
+
+
+def differ(name, made, given):
+    found, problems = KINDS[name].given(TASKS[name], made, given)
+    assert not problems
+    return KINDS[name].wrong(TASKS[name], made, found)
+
+
+def sphere32(origin, direction, center, radius):
+    o, d, c = (np.float32(part) for part in (origin, direction, center))
+    oc = o - c
+    a, h, k = d @ d, oc @ d, oc @ oc - np.float32(radius) ** 2
+    disc = h * h - a * k
+    if disc < 0:
+        return None
+    roots = [(-h - np.sqrt(disc)) / a, (-h + np.sqrt(disc)) / a]
+    assert all(root.dtype == np.float32 for root in roots)
+    return next((float(root) for root in roots if root > 0), None)
+
+
+def triangle32(origin, direction, a, b, c):
+    o, d, a, b, c = (np.float32(part) for part in (origin, direction, a, b, c))
+    n = np.cross(b - a, c - a)
+    if n @ d == 0:
+        return None
+    t = (n @ (a - o)) / (n @ d)
+    p = o + t * d
+    sides = [np.cross(q - r, p - r) @ n for r, q in ((a, b), (b, c), (c, a))]
+    return float(t) if t > 0 and min(sides) > 0 else None
+
+
+@pytest.mark.parametrize(
+    ("name", "solve"), [("hit-sphere", sphere32), ("hit-triangle", triangle32)]
+)
+def test_float32_is_right_in_two_thousand_cases(name, solve):
+    made = cases(name, 2000)
+    given = [solve(*(value for _, value in case.arguments)) for case in made]
+    assert not differ(name, made, given).any()
+    hits = sum(answer is not None for answer in given)
+    assert 600 < hits < 1700
+    nearly = [None if answer is None else answer * 1.02 for answer in given]
+    assert np.count_nonzero(differ(name, made, nearly)) == hits
+
+
+def test_the_nearest_in_float32():
+    made = cases("closest-hit", 500)
+    given = []
+    for case in made:
+        origin, direction, objects = (value for _, value in case.arguments)
+        found = []
+        for number, shape in enumerate(objects):
+            solve = sphere32 if shape["type"] == "sphere" else triangle32
+            numbers = [value for name, value in shape.items() if name != "type"]
+            t = solve(origin, direction, *numbers)
+            if t is not None:
+                found.append((t, number))
+        given.append([min(found)[1], min(found)[0]] if found else None)
+    assert not differ("closest-hit", made, given).any()
+    assert sum(answer is None for answer in given) > 10
+    several = [case for case in made if len(case.values["objects"]) > 3]
+    assert len(several) > 100
+
+
+@pytest.mark.parametrize("name", ["hit-sphere", "hit-triangle"])
+def test_what_is_asked_is_clear(name):
+    shape = {"hit-sphere": ("center", "radius"), "hit-triangle": ("a", "b", "c")}[name]
+    solve = sphere_hits if name == "hit-sphere" else triangle_hits
+    for case in cases(name, 300):
+        with np.errstate(all="ignore"):
+            values = [case.values[word] for word in ("origin", "direction", *shape)]
+            assert solve(*values)[1] > MARGIN
+
+
+def test_the_basis_in_float32():
+    made = cases("basis", 2000)
+    given = []
+    for case in made:
+        eye, target, up = (np.float32(value) for _, value in case.arguments)
+        w = (eye - target) / np.linalg.norm(eye - target)
+        u = np.cross(up, w)
+        u = u / np.linalg.norm(u)
+        given.append([u.tolist(), np.cross(w, u).tolist(), w.tolist()])
+    assert not differ("basis", made, given).any()
+
+
+def test_nearly_all_pixels_of_an_image_are_judged_and_objects_overlap():
+    made = cases("render", 100)
+    judged = np.concatenate([case.values["judged"].ravel() for case in made])
+    assert judged.mean() > 0.97
+    kinds = {shape["type"] for case in made for shape in case.values["objects"]}
+    assert kinds == {"sphere", "triangle"}
+    colours = [len(np.unique(case.right.reshape(-1, 3), axis=0)) for case in made]
+    assert np.mean(colours) > 3
+
+
+def test_an_image_from_the_bottom():
+    task = TASKS["render"]
+    upside_down = replace(task, conventions=replace(task.conventions, rows="bottom"))
+    for one, other in zip(
+        KINDS["render"].cases(task), KINDS["render"].cases(upside_down), strict=True
+    ):
+        assert (one.right == other.right[::-1]).all()
+
+
+def test_a_threshold_that_is_met():
+    for inclusive in (True, False):
+        task = replace(TASKS["to-bitmap"], inclusive=inclusive)
+        for case in KINDS["to-bitmap"].cases(task):
+            gray, threshold = np.array(case.values["gray"]), case.values["threshold"]
+            assert (gray == threshold).any()
+            assert (case.right[gray == threshold] == inclusive).all()
