@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import subprocess
 import sys
+import tempfile
 from collections.abc import Callable
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -31,7 +32,7 @@ LAYOUT_AT = 3  # the frame in which the layout is chosen; the first ones are Hel
 @dataclass(frozen=True)
 class Picture:
     """options: as AppState.with_options takes them. step: its title in the built-in lecture, and it
-    says what is to be seen; empty: none."""
+    says what is to be seen; empty: none. code: a student's file."""
 
     name: str
     layout: str = layout.LAYOUTS[0].name
@@ -39,7 +40,16 @@ class Picture:
     size: tuple[int, int] = (1280, 720)
     options: dict[str, Any] = field(default_factory=dict)
     step: str = ""
+    code: str = ""
 
+
+WRONG = """\
+def viewing_ray(i, j, width, height, camera):
+    x = camera.left + j / width * (camera.right - camera.left)
+    y = camera.bottom + (i + 0.5) / height * (camera.top - camera.bottom)
+    d = camera.distance
+    return camera.eye, [x * u + y * v - d * w for u, v, w in zip(camera.u, camera.v, camera.w)]
+"""
 
 PICTURES = (
     Picture("window"),
@@ -47,6 +57,7 @@ PICTURES = (
     Picture("compare", "Compare", "spheres"),
     Picture("probe", "Probe", "primitives", (1600, 900), {"marked": (190, 150)}),
     Picture("loops", "Loops", "still-life", (1600, 900), {"stepper": {"steps": (1010, 4720)}}),
+    Picture("your-code", "Your code", size=(1600, 900), code=WRONG),
     Picture("lecture", step="From pixel to ray", size=(1600, 900)),
     Picture(
         "presentation",
@@ -69,7 +80,12 @@ def draw(picture: Picture, folder: Path = FOLDER) -> Path:
     state = AppState.for_scene(load_scene(picture.scene)).with_options(**picture.options)
     run = Run(start_platform(want_display=False), state, picture.size, take_picture=True)
     run.params.callbacks.post_new_frame = _chooser(picture.layout)
-    save_png(path, run.run())
+    with tempfile.TemporaryDirectory() as scratch:
+        if picture.code:
+            file = Path(scratch, "rays.py")
+            file.write_text(picture.code)
+            run.window.open_code(str(file))
+        save_png(path, run.run())
     return path
 
 

@@ -7,7 +7,7 @@ nothing of windows, threads and processes.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -16,9 +16,11 @@ from app.checking.builtin import BUILTIN
 from app.checking.calls import Failure, Run
 from app.checking.cases import shot_of
 from app.checking.checked import TaskResult, judged
+from app.checking.diagnosed import diagnosis
 from app.checking.kinds import KINDS
 from app.checking.kinds.basis import case_of
 from app.checking.kinds.viewing_ray import cases_of
+from app.checking.mistakes.diagnosis import Diagnosis
 from app.checking.tasks import CheckCase, CheckTask
 from renderer.camera import Camera, Size
 from renderer.scene.model import View
@@ -34,8 +36,8 @@ class CodeRays:
     """The rays of an image, as a function makes them and as they are. size: (width, height).
 
     origins, directions: (H, W, 3), NaN where nothing came; right_origins, right_directions
-    likewise. wrong: bool (H, W), of what came. result: in the words of a check. seconds: that
-    the calls took.
+    likewise. wrong: bool (H, W), of what came. result: in the words of a check, without diagnosis.
+    seconds: that the calls took. cases, given: what was asked and answered, in the kind's own form.
     """
 
     task: CheckTask
@@ -47,7 +49,9 @@ class CodeRays:
     right_directions: Floats
     wrong: NDArray[np.bool_]
     result: TaskResult
-    seconds: float = 0.0
+    seconds: float
+    cases: Sequence[CheckCase]
+    given: Floats
 
     @property
     def came(self) -> NDArray[np.bool_]:
@@ -107,7 +111,7 @@ def rays_of(
     kind = KINDS[task.kind]
     values = [None if isinstance(value, Failure) else value for value in run.values]
     given, _ = kind.given(task, cases, values)
-    result = judged(task, cases, run)
+    result = judged(replace(task, feedback="first-wrong"), cases, run)
     if task.kind == RAY:
         right, rays = kind.right(cases), given
         wrong = kind.wrong(task, cases, given) & np.isfinite(given).all(axis=(1, 2))
@@ -128,7 +132,15 @@ def rays_of(
         wrong.reshape(height, width),
         result,
         seconds,
+        cases,
+        given,
     )
+
+
+def diagnosis_of(rays: CodeRays) -> Diagnosis | None:
+    """What the rays are instead, as far as that is known; takes a while."""
+    wrong = KINDS[rays.task.kind].wrong(rays.task, rays.cases, rays.given)
+    return diagnosis(rays.task, rays.cases, rays.given, wrong)
 
 
 def _turned(camera: Camera, size: Size, basis: Floats) -> Floats:

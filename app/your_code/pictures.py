@@ -15,6 +15,7 @@ from renderer.images.display import to_srgb8
 
 Bytes = NDArray[np.uint8]
 SAME_COLOR = (70, 110, 160)  # in the difference: another ray that happens to have the same colour
+SAME = "the same colours"  # though rays are wrong
 IMAGES = ("render", "to-gray", "to-bitmap")  # kinds of functions whose answers are images
 LARGEST_SIDE = 512  # of an image that a function made
 LARGEST_PX = 512  # a picture's width, as far as that makes its pixels larger
@@ -49,7 +50,8 @@ def compared(
     changed = changed_pixels(wanted, shown) & came
     difference = difference_picture(wanted, changed)
     difference[wrong & came & ~changed] = SAME_COLOR
-    return CodePictures(shown, wanted, difference, told_difference(changed))
+    told = told_difference(changed) if changed.any() else "none" if not wrong.any() else SAME
+    return CodePictures(shown, wanted, difference, told)
 
 
 def image_pair(right: object, given: object) -> CodePictures | None:

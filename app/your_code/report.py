@@ -7,6 +7,7 @@ from dataclasses import dataclass, field
 
 from app.checking.calls import Failure
 from app.checking.checked import TaskResult
+from app.checking.mistakes.diagnosis import Diagnosis
 from app.checking.tasks import CheckTask
 from app.your_code.model import CodeRays
 from renderer.camera import Camera, Size
@@ -25,15 +26,20 @@ class CodeQuestion:
     camera: Camera
     size: Size
 
+    @property
+    def of(self) -> tuple[str, int]:
+        """The content that it is asked about."""
+        return self.path, self.version
+
 
 @dataclass(frozen=True, eq=False)
 class CodeReport:
     """tasks: whose functions the file has. chosen: the one that is looked at. rays: for the
     window's camera, None where the chosen one makes none. results: of the tasks that have been
-    tried, by name. failure: why the file answers nothing at all. output: what it printed.
+    tried, by name. diagnosis: why the rays are wrong; None while that is not known. failure: why
+    the file answers nothing at all. output: what it printed.
 
-    seconds: that the newest run took. at: when it ended, seconds since 1970. done: the calls that
-    are answered of those that are made for the picture; total 0: none are being made.
+    seconds: that the newest run took. at: when it ended, seconds since 1970.
     """
 
     question: CodeQuestion
@@ -41,6 +47,7 @@ class CodeReport:
     chosen: CheckTask | None = None
     rays: CodeRays | None = None
     results: Mapping[str, TaskResult] = field(default_factory=dict)
+    diagnosis: Diagnosis | None = None
     failure: Failure | None = None
     output: str = ""
     seconds: float = 0.0

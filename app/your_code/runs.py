@@ -1,8 +1,9 @@
 """Runs a student's file in the background: for the window's camera, then for the built-in tasks.
 
-Owns the thread that waits for the file's process, the newest question, and which answers are kept.
+Owns the threads that wait for the file's process, the newest question, and which answers are kept.
 The newest question wins; one that is overtaken is given up, and its process ended where it takes
-long. Knows nothing of windows.
+long. What takes long by itself, the diagnosis and the tasks, comes once the camera rests, in a
+thread of its own: pictures follow the camera meanwhile. Knows nothing of windows.
 """
 
 from __future__ import annotations
@@ -13,7 +14,7 @@ from collections import OrderedDict
 from collections.abc import Callable, Sequence
 from dataclasses import replace
 from pathlib import Path
-from typing import Protocol
+from typing import Any, Protocol
 
 from app.checking.calls import Call, Failure, Limits, Run
 from app.checking.checked import TaskResult, checked, failed
@@ -25,6 +26,7 @@ from app.your_code.model import (
     CodeRays,
     cases_for,
     chosen_of,
+    diagnosis_of,
     for_camera,
     is_of_camera,
     rays_of,
@@ -35,7 +37,8 @@ from renderer.errors import LucidaError, describe
 
 LIMITS = Limits(seconds=10.0)
 OVERTAKEN_S = 0.3  # what has run for so long, and is not wanted any more, is ended
-SLOW_S = 0.25  # a file whose run took longer is run once the camera has rested as long
+REST_S = 0.25  # the camera rests; a file whose run took longer is not run before
+CLOSING_S = 2.0
 KEPT = 16  # answers for cameras that undo may come back to
 
 
@@ -55,7 +58,7 @@ def file_student(path: Path) -> CodeStudent:
 
 
 class CodeRuns:
-    """wake: called from the thread when there is news. make: what answers for a file.
+    """wake: called from the threads when there is news. make: what answers for a file.
 
     report: the newest; None before the first. Methods are for the window's thread, but for tick().
     """
@@ -64,44 +67,47 @@ class CodeRuns:
         self, wake: Callable[[], None], make: Callable[[Path], CodeStudent] = file_student
     ) -> None:
         self._wake, self._make = wake, make
-        self._background: Background[None] = Background("lucida-your-code", wake)
-        self._lock = threading.Lock()
+        self._pictures: Background[None] = Background("lucida-your-code", wake)
+        self._checks: Background[None] = Background("lucida-your-checks", wake)
+        self._lock = threading.Lock()  # of the student, and of the report
         self._student: tuple[tuple[str, int], CodeStudent] | None = None
         self._newest: CodeQuestion | None = None
+        self._asked = threading.Event()  # something newer, or the end
         self._calls = 0  # that are being made for a picture
-        self._begun: tuple[CodeQuestion, float] | None = None  # what runs, since when
-        self._stopped = False  # by the user
-        self._closed = threading.Event()
-        self._kept: OrderedDict[CodeQuestion, CodeRays] = OrderedDict()  # used in the thread
+        self._runs: dict[str, tuple[CodeQuestion, float]] = {}  # by thread: what for, since when
+        self._stopped = self._closed = False  # by the user; for good
+        self._kept: OrderedDict[CodeQuestion, CodeRays] = OrderedDict()  # of one version
         self.report: CodeReport | None = None
 
     def follow(self, question: CodeQuestion | None) -> None:
         """Once a frame: what is to be known; None for nothing. A file that has run endlessly is not
         run again until it is another version."""
         report = self.report
-        if question is None or question == self._newest:
+        if question is None or question == self._newest or self._closed:
             return
-        if report is not None and report.halted and _version(report.question) == _version(question):
+        if report is not None and report.halted and report.question.of == question.of:
             return
         self._newest = question
-        self._background.submit(lambda: self._work(question))
+        self._asked.set()
+        self._pictures.submit(lambda: self._work(question))
 
     @property
     def busy(self) -> bool:
-        return self._background.busy
+        return self._pictures.busy or self._checks.busy
 
     def poll(self) -> None:
-        """Once a frame: takes note of the thread's end."""
-        outcome = self._background.poll()
-        if outcome is not None and outcome.error is not None and self._newest is not None:
-            failure = Failure("ended", describe(outcome.error))
-            self.report = CodeReport(self._newest, failure=failure)
+        """Once a frame: takes note of what the threads could not do."""
+        for thread in (self._pictures, self._checks):
+            outcome = thread.poll()
+            if outcome is not None and outcome.error is not None and self._newest is not None:
+                failure = Failure("ended", describe(outcome.error))
+                self.report = CodeReport(self._newest, failure=failure)
 
     @property
     def running_s(self) -> float:
-        """How long the file has been running for the present question; 0 where it is not."""
-        begun = self._begun
-        return time.monotonic() - begun[1] if begun is not None else 0.0
+        """How long the file has been running; 0 where it is not."""
+        begun = [since for _, since in self._runs.copy().values()]
+        return time.monotonic() - min(begun) if begun else 0.0
 
     @property
     def progress(self) -> float:
@@ -115,108 +121,137 @@ class CodeRuns:
         self._end_run()
 
     def forget(self) -> None:
-        """Another file, or none: what was known is of no use."""
-        self._newest = self.report = None
-        self._end_run()
+        """No file any more, or this one anew: what was known is of no use."""
+        with self._lock:
+            self._newest = self.report = None
+        self._asked.set()
+        self._close_student()
 
     def tick(self) -> None:
         """From any thread, now and then: ends what is overtaken."""
-        begun = self._begun
-        if begun is None or begun[0] is self._newest:
-            return
-        if time.monotonic() - begun[1] > OVERTAKEN_S:
+        now = time.monotonic()
+        if any(
+            question is not self._newest and now - since > OVERTAKEN_S
+            for question, since in self._runs.copy().values()
+        ):
             self._end_run()
-
-    def _end_run(self) -> None:
-        student = self._student
-        if student is not None and self._begun is not None:
-            student[1].stop()
 
     def close(self) -> None:
         """Ends the file's process."""
-        self._newest = None
-        self._closed.set()
+        self._newest, self._closed = None, True
+        self._asked.set()
+        closing = self._close_student()
+        if closing is not None:
+            closing.join(CLOSING_S)
+        self._pictures.close()
+        self._checks.close()
+
+    def _end_run(self) -> None:
+        student = self._student
+        if student is not None and self._runs:
+            student[1].stop()
+
+    def _close_student(self) -> threading.Thread | None:
+        """Ends the process in a thread, which a file that is being read may keep a while."""
         with self._lock:
             student, self._student = self._student, None
-        if student is not None:
-            closing = threading.Thread(target=student[1].close, daemon=True)
-            closing.start()
-            closing.join(2.0)
-        self._background.close()
+        if student is None:
+            return None
+        closing = threading.Thread(target=student[1].close, daemon=True)
+        closing.start()
+        return closing
 
-    # In the thread.
+    # In the threads.
 
     def _is_wanted(self, question: CodeQuestion) -> bool:
         return question is self._newest
 
-    def _publish(self, report: CodeReport) -> CodeReport:
-        if self._is_wanted(report.question):
+    def _rests(self, question: CodeQuestion) -> bool:
+        """Waits until the camera rests; whether the question is still wanted then."""
+        self._asked.clear()
+        if self._is_wanted(question):
+            self._asked.wait(REST_S)
+        return self._is_wanted(question)
+
+    def _publish(self, report: CodeReport) -> None:
+        with self._lock:
+            if not self._is_wanted(report.question):
+                return
             self.report = report
-            self._wake()
-        return report
+        self._wake()
+
+    def _add(self, question: CodeQuestion, **changes: Any) -> None:
+        """More of what is known of a question."""
+        with self._lock:
+            report = self.report
+            if report is None or report.question is not question:
+                return
+            self.report = replace(report, **changes)
+        self._wake()
 
     def _student_of(self, question: CodeQuestion) -> CodeStudent:
         """The file's process, or a new one for another version."""
-        version = _version(question)
         with self._lock:
-            if self._student is not None and self._student[0] == version:
+            if self._student is not None and self._student[0] == question.of:
                 return self._student[1]
             old, self._student = self._student, None
-            if not self._closed.is_set():
-                self._student = version, self._make(Path(question.path))
+            if not self._closed and self._is_wanted(question):
+                self._student = question.of, self._make(Path(question.path))
             made = self._student
         if old is not None:
             old[1].close()
         if made is None:
-            raise LucidaError("", "the window is closed")
+            raise LucidaError("", "nobody waits for it")
         return made[1]
 
     def _work(self, question: CodeQuestion) -> None:
         before = self.report
-        if before is not None and _version(before.question) != _version(question):
+        if before is not None and before.question.of != question.of:
             before = None
             self._kept.clear()
-        if before is not None and before.seconds > SLOW_S and question not in self._kept:
-            self._closed.wait(SLOW_S)  # the camera may move on
-        if not self._is_wanted(question) or self._closed.is_set():
+        is_slow = before is not None and before.seconds > REST_S
+        if is_slow and question not in self._kept and not self._rests(question):
             return
-        begin = time.monotonic()
-        self._begun, self._stopped = (question, begin), False
+        if not self._is_wanted(question):
+            return
+        begin, self._stopped = time.monotonic(), False
+        self._runs["picture"] = question, begin
         try:
-            self._tell(question, before, begin)
+            report, student = self._report(question, before, begin)
         finally:
-            self._begun, self._calls = None, 0
+            self._calls = 0
+            del self._runs["picture"]
+        self._publish(report)
+        if student is not None and self._is_wanted(question):
+            self._checks.submit(lambda: self._check(question, student))
 
-    def _tell(self, question: CodeQuestion, before: CodeReport | None, begin: float) -> None:
+    def _report(
+        self, question: CodeQuestion, before: CodeReport | None, begin: float
+    ) -> tuple[CodeReport, CodeStudent | None]:
+        """What the file answers for the camera, and who may be asked more."""
         try:
             student = self._student_of(question)
             functions = student.functions()
         except NotRunnableError as error:
             report = CodeReport(question, failure=error.failure, output=error.output)
-            self._publish(_timed(report, begin))
-            return
+            return _timed(report, begin), None
         except LucidaError as error:
-            self._publish(_timed(CodeReport(question, failure=_missing(error)), begin))
-            return
+            failure = Failure("missing", describe(error))
+            return _timed(CodeReport(question, failure=failure), begin), None
         tasks = tasks_of(functions)
         chosen = chosen_of(tasks, question.task)
-        report = CodeReport(
-            question,
-            tuple(tasks),
-            chosen,
-            results=before.results if before is not None else {},
-            at=time.time(),
+        results = before.results if before is not None else {}
+        report = CodeReport(question, tuple(tasks), chosen, results=results, at=time.time())
+        if chosen is None or not is_of_camera(chosen):
+            return report, student
+        rays = self._rays(question, for_camera(chosen, question.camera), student)
+        output, diagnosis = rays.result.output, None
+        if before is not None and before.rays is rays:
+            diagnosis = before.diagnosis
+        report = replace(
+            report, rays=rays, output=output, seconds=rays.seconds, diagnosis=diagnosis
         )
-        if chosen is not None and is_of_camera(chosen):
-            rays = self._rays(question, for_camera(chosen, question.camera), student)
-            report = replace(report, rays=rays, output=rays.result.output, seconds=rays.seconds)
-        report = self._publish(report)
-        for task in tasks:
-            if self._stopped or not self._is_wanted(question):
-                return
-            if task.name not in report.results:
-                results = {**report.results, task.name: _tried(student, task, report)}
-                report = self._publish(replace(report, results=results))
+        return report, student
 
     def _rays(self, question: CodeQuestion, task: CheckTask, student: CodeStudent) -> CodeRays:
         if question in self._kept:
@@ -234,17 +269,31 @@ class CodeRuns:
                 self._kept.popitem(last=False)
         return rays
 
-
-def _version(question: CodeQuestion) -> tuple[str, int]:
-    return question.path, question.version
+    def _check(self, question: CodeQuestion, student: CodeStudent) -> None:
+        """The tasks that have not been tried, then why the picture is wrong."""
+        report = self.report
+        if not self._rests(question) or report is None or report.question is not question:
+            return
+        results: dict[str, TaskResult] = dict(report.results)
+        for task in report.tasks:
+            if self._stopped or not self._is_wanted(question):
+                return
+            if task.name not in results:
+                self._runs["check"] = question, time.monotonic()
+                try:
+                    result = _tried(student, task, report)
+                finally:
+                    del self._runs["check"]
+                if self._is_wanted(question):  # else it may have been ended for that
+                    results[task.name] = result
+                    self._add(question, results=dict(results))
+        rays = report.rays
+        if rays is not None and rays.result.status == "wrong" and report.diagnosis is None:
+            self._add(question, diagnosis=diagnosis_of(rays))
 
 
 def _timed(report: CodeReport, begin: float) -> CodeReport:
     return replace(report, seconds=time.monotonic() - begin, at=time.time())
-
-
-def _missing(error: LucidaError) -> Failure:
-    return Failure("missing", describe(error))
 
 
 def _tried(student: CodeStudent, task: CheckTask, report: CodeReport) -> TaskResult:

@@ -35,13 +35,13 @@ from app.widgets.uploads import Uploads
 from app.your_code import panel
 from app.your_code.editor import open_in_editor
 from app.your_code.following import FileFollower
-from app.your_code.model import CodeRays, canvas_pixel
+from app.your_code.model import RAY, CodeRays, canvas_pixel
 from app.your_code.options import YourCodeOptions
 from app.your_code.panel import CodeHead, CodeWish
 from app.your_code.pictures import IMAGES, CodePictures, compared, image_pair, magnified
 from app.your_code.report import CodeQuestion, CodeReport
 from app.your_code.runs import CodeRuns
-from app.your_code.words import told_of
+from app.your_code.words import ToldLine, told_of
 from renderer.atomic import atomic_write
 from renderer.camera import Camera
 from renderer.errors import LucidaError, describe, one_line
@@ -65,7 +65,8 @@ class _Painted:
 
 
 class YourCodeView(DockedView):
-    """runs: None before there is a context. pictures: the ones that are shown; None for none."""
+    """runs: None before there is a context. pictures: the ones that are shown; None for none. told:
+    what stands beside them."""
 
     name = YOUR_CODE
     title = "Your code"
@@ -82,9 +83,16 @@ class YourCodeView(DockedView):
         self._source: tuple[str, str] = ("", "")  # of a file that is not run: its path, its text
         self._uploaded: Any = None
         self._shown: Any = None  # what the outside view's lines were made from
-        self._seen = False
+        self._seen = self._painting = False
         self._asked: CodeWish = ""
         self.pictures: CodePictures | None = None
+        self.told: list[ToldLine] = []
+        self._told_of: Any = None
+
+    @property
+    def report(self) -> CodeReport | None:
+        """What is known of the file that is open; None before that."""
+        return self.runs.report if self.runs is not None else None
 
     def open(self, window: Window, path: str) -> None:
         """The user has opened a file: it is run, now and whenever it is saved."""
@@ -105,7 +113,7 @@ class YourCodeView(DockedView):
     def settled(self) -> bool:
         if not self._seen or self.runs is None or self._painter is None:
             return True
-        return not (self.runs.busy or self._painter.busy)
+        return not (self.runs.busy or (self._painting and self._painter.busy))
 
     def begin(self, host: Host, context: moderngl.Context) -> None:
         runs = self.runs = CodeRuns(host.animate)
@@ -149,15 +157,28 @@ class YourCodeView(DockedView):
             self._open_written(host)
         wish: CodeWish
         if not path:
-            self._show_outside(host, None, None)
+            self._rest()
             wish = panel.invitation(host.fonts)
         elif not self._may_run(host, path):
-            self._show_outside(host, None, None)
+            self._rest()
             wish = self._untrusted(host, path)
         else:
             wish = self._of_file(host, path)
         self._grant(host, self._asked or wish, path)
         self._asked = ""
+
+    def _rest(self) -> None:
+        """Nothing runs, and nothing is shown of what did."""
+        assert self.runs is not None and self._follower is not None
+        self._follower.follow("")
+        self._painting = False
+        self.runs.poll()
+        if self.runs.report is not None:
+            self.runs.forget()
+        self.pictures, self._uploaded, self.told, self._told_of = None, None, [], None
+        if self._shown is not None:
+            self._shown = None
+            self._outside.show(YOUR_CODE, ())
 
     def _may_run(self, host: Host, path: str) -> bool:
         """A file that the user has opened, in this window or before: it stands in the list of
@@ -195,9 +216,11 @@ class YourCodeView(DockedView):
             self._draw_pictures(host, report, self.pictures, for_pictures, marked)
             if beside:
                 imgui.same_line()
-        lines = told_of(report, marked, host.state.options.indexing)
+        key = (report, marked, host.state.options.indexing)
+        if key != self._told_of:
+            self._told_of, self.told = key, told_of(*key)
         left = imgui.get_content_region_avail()  # pictures may need less than they may have
-        panel.words(lines, for_words if beside else left, host.fonts)
+        panel.words(self.told, for_words if beside else left, host.fonts)
         self._show_outside(host, report, marked)
         return wish
 
@@ -207,6 +230,7 @@ class YourCodeView(DockedView):
         """The pictures of a report, or the last ones while these are on their way."""
         assert self._painter is not None
         rays, state = report.rays, host.state
+        self._painting = rays is not None and bool(rays.came.any())
         if rays is None:
             result = report.results.get(report.chosen.name) if report.chosen is not None else None
             first = result.first if result is not None else None
@@ -217,7 +241,7 @@ class YourCodeView(DockedView):
                     self.pictures = image_pair(first.case.right, first.answer)
                 self._upload(key)
             return
-        if not rays.came.any():
+        if not self._painting:
             self.pictures, self._uploaded = None, None
             return
         shading = RayShading(rays.camera.t_range)
@@ -269,7 +293,8 @@ class YourCodeView(DockedView):
             imgui.text_colored(theme.ERROR, describe(error))
             return
         if answer is not None and report.rays is not None and pictures.size == report.rays.size:
-            self._mark(host, report.rays, answer.pixel, answer.pixel == marked)
+            again = host.state.marked is not None and answer.pixel == marked
+            self._mark(host, report.rays, answer.pixel, again)
 
     def _mark(self, host: Host, rays: CodeRays, pixel: Pixel, again: bool) -> None:
         """Marks a pixel in all views, or takes the mark away."""
@@ -291,9 +316,9 @@ class YourCodeView(DockedView):
 
     # What the outside view shows.
 
-    def _show_outside(self, host: Host, report: CodeReport | None, marked: Pixel | None) -> None:
+    def _show_outside(self, host: Host, report: CodeReport, marked: Pixel | None) -> None:
         """The camera that was written, where it is not the right one; the marked pixel's rays."""
-        rays = report.rays if report is not None else None
+        rays = report.rays
         if rays is None:
             if self._shown is not None:
                 self._outside.show(YOUR_CODE, ())
@@ -347,7 +372,7 @@ class YourCodeView(DockedView):
     def _write(self, path: str) -> str:
         """In a thread: the file to begin with."""
         with atomic_write(Path(path)) as file:
-            file.write(starter(BUILTIN).encode())
+            file.write(starter([task for task in BUILTIN if task.kind == RAY]).encode())
         self._written.append(path)
         return one_line(f"Wrote {path}.")
 

@@ -4,22 +4,20 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Literal
+from typing import Literal
 
 import numpy as np
 
 from app.checking.builtin import BUILTIN
 from app.checking.checked import TaskResult
 from app.checking.kinds.values import text_of
+from app.checking.mistakes.diagnosis import Diagnosis
 from app.checking.reports.told import told
 from app.checking.tasks import CheckTask
 from app.state.options import Pixel
 from app.your_code.model import BASIS, CodeRays, for_camera, is_of_camera
 from app.your_code.report import CodeReport
 from renderer.pixels import Indexing
-
-if TYPE_CHECKING:
-    from app.checking.mistakes.diagnosis import Diagnosis
 
 ToldRole = Literal["good", "bad", "text", "code", "dim"]
 OUTPUT_LINES = 40  # of what a file has printed, the last ones
@@ -40,9 +38,18 @@ def told_of(report: CodeReport, pixel: Pixel | None, indexing: Indexing) -> list
 
 
 def verdict_of(report: CodeReport, task: CheckTask) -> str:
-    """right, wrong, failed, or "" while it is not known."""
+    """right, wrong, failed, "empty" where the function has nothing in it yet, or "" while it is not
+    known."""
     result = report.results.get(task.name)
-    return result.status if result is not None else ""
+    if result is None:
+        return ""
+    return "empty" if _is_empty(result) else result.status
+
+
+def _is_empty(result: TaskResult) -> bool:
+    """Whether it returns what a file to begin with does."""
+    failure = result.failure
+    return failure is not None and failure.kind == "answer" and "returned None" in failure.text
 
 
 def _of_file(report: CodeReport) -> Iterator[ToldLine]:
@@ -86,7 +93,9 @@ def _of_task(report: CodeReport, pixel: Pixel | None, indexing: Indexing) -> Ite
 def _of_rays(report: CodeReport, rays: CodeRays) -> Iterator[ToldLine]:
     """What is to be seen in the pictures, and why."""
     result, count = rays.result, int(rays.wrong.sum())
-    if result.failure is not None:
+    if _is_empty(result):
+        yield ToldLine("text", f"{rays.task.function} returns nothing yet. {rays.task.text}")
+    elif result.failure is not None:
         yield from (
             ToldLine("code" if k else "bad", line) for k, line in enumerate(told(result).lines)
         )
@@ -100,7 +109,9 @@ def _of_rays(report: CodeReport, rays: CodeRays) -> Iterator[ToldLine]:
             yield ToldLine("bad", "The basis is wrong.")
         else:
             yield ToldLine("bad", f"{count} of {rays.wrong.size} rays are wrong.")
-        found = _diagnosis(report, result)
+        found = _diagnosis(report)
+        if found is None and report.chosen is not None and report.chosen.name not in report.results:
+            yield ToldLine("dim", "looking for the reason ...")
         if found is not None:
             yield from (ToldLine("text", sentence) for sentence in found.sentences)
         if rays.task.kind == BASIS and result.first is not None:
@@ -108,12 +119,12 @@ def _of_rays(report: CodeReport, rays: CodeRays) -> Iterator[ToldLine]:
             yield ToldLine("code", f"right  {result.first.right}")
 
 
-def _diagnosis(report: CodeReport, result: TaskResult) -> Diagnosis | None:
+def _diagnosis(report: CodeReport) -> Diagnosis | None:
     """That of the window's camera; where it names no mistake, that of the task's many cameras."""
     assert report.chosen is not None
     tried = report.results.get(report.chosen.name)
     others = tried.diagnosis if tried is not None else None
-    own = result.diagnosis
+    own = report.diagnosis
     return others if own is None or (not own.candidates and others is not None) else own
 
 
@@ -135,6 +146,9 @@ def _of_result(result: TaskResult) -> Iterator[ToldLine]:
         yield ToldLine("good", f"{result.task.name}: right in all of {result.cases} cases.")
         return
     head = result.task.function
+    if _is_empty(result):
+        yield ToldLine("text", f"{head} returns nothing yet. {result.task.text}")
+        return
     yield ToldLine("bad", f"{head} is wrong." if result.status == "wrong" else f"{head} failed.")
     yield from (ToldLine("text", line) for line in say.lines)
 

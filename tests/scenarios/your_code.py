@@ -1,0 +1,280 @@
+"""The view "Your code": a student's file is run, shown, told, run again, stopped."""
+
+from __future__ import annotations
+
+import os
+import time
+from pathlib import Path
+
+import numpy as np
+from imgui_bundle import hello_imgui
+from window_driver import Driver
+
+from app.host import layout
+from app.host.view import view_of
+from app.outside.view import OutsideView
+from app.storage.paths import stored
+from app.your_code.view import LAYOUT, YOUR_CODE, YourCodeView
+
+WINDOW = f"//###{YOUR_CODE}"
+RIGHT = """\
+def viewing_ray(i, j, width, height, camera):
+    x = camera.left + (j + 0.5) / width * (camera.right - camera.left)
+    y = camera.top - (i + 0.5) / height * (camera.top - camera.bottom)
+    if camera.projection == "parallel":
+        origin = [e + x * a + y * b for e, a, b in zip(camera.eye, camera.u, camera.v)]
+        return origin, [-c for c in camera.w]
+    d = camera.distance
+    return camera.eye, [x * a + y * b - d * c for a, b, c in zip(camera.u, camera.v, camera.w)]
+"""
+CORNER = RIGHT.replace("(j + 0.5)", "j")
+BASIS = """\
+import numpy as np
+
+def basis(eye, target, up):
+    w = np.subtract(eye, target)
+    w = w / np.linalg.norm(w)
+    u = np.cross({})
+    u = u / np.linalg.norm(u)
+    return u, np.cross(w, u), w
+"""
+
+
+def view(d: Driver) -> YourCodeView:
+    found = d.window.views[YOUR_CODE]
+    assert isinstance(found, YourCodeView) and found.runs is not None
+    return found
+
+
+def write(d: Driver, text: str, name: str = "rays.py") -> Path:
+    """As an editor does that puts a new file in the old one's place: its time is always another."""
+    path, new = d.folder / name, d.folder / f"{name}.new"
+    new.write_text(text)
+    new.replace(path)
+    return path
+
+
+def told(d: Driver) -> list[str]:
+    """What the view tells now."""
+    return [line.text for line in view(d).told]
+
+
+def until_told(d: Driver, *parts: str) -> None:
+    d.until(lambda: all(part in "\n".join(told(d)) for part in parts))
+
+
+def opened(d: Driver, text: str, name: str = "rays.py") -> Path:
+    path = write(d, text, name)
+    d.window._dropped([str(path)])
+    d.until(lambda: d.window.state.options.your_code.file == stored(str(path)))
+    d.until(lambda: d.window.shell.stage.is_shown(YOUR_CODE))
+    d.until(lambda: view(d).report is not None)
+    return path
+
+
+def leave(d: Driver) -> None:
+    """No file, and the layout that the other tests begin with."""
+    d.window.change(d.window.state.with_options(your_code={"file": ""}))
+    d.ctx.yield_(3)
+    hello_imgui.switch_layout(layout.LAYOUTS[0].name)
+    d.ctx.yield_(5)
+
+
+def drive_without_a_file_it_helps_to_begin(d: Driver) -> None:
+    d.window.shell.stage.show_in(YOUR_CODE, LAYOUT)
+    d.until(lambda: layout.current().name == LAYOUT)
+    d.ctx.yield_(8)
+    d.picture()
+    d.ctx.item_click(f"{WINDOW}/Write a file to begin with...")
+    d.ctx.yield_(3)
+    dialog = d.window.files.dialog
+    if dialog.is_open:  # the window's own: there is no system's here
+        dialog.cancel()
+    view(d)._write(str(d.folder / "begun.py"))
+    d.until(lambda: d.window.state.options.your_code.file == stored(str(d.folder / "begun.py")))
+    until_told(d, "viewing_ray returns nothing yet")
+    d.picture()
+    leave(d)
+
+
+def drive_a_right_file_is_told_right_and_follows_the_camera(d: Driver) -> None:
+    opened(d, RIGHT)
+    until_told(d, "Every ray is right.", "viewing-ray: right")
+    d.settle()
+    d.picture()
+    pictures = view(d).pictures
+    assert pictures is not None and pictures.size == (32, 24)
+    assert (pictures.given == pictures.right).all()
+    before = pictures.given
+    d.window.change(d.window.state.with_options(your_code={"canvas": (16, 12)}))
+    d.until(lambda: view(d).pictures is not None and view(d).pictures.size == (16, 12))
+    state = d.window.state
+    d.window.change(state.with_view(d.start.scene.view))
+    parallel = state.camera.__class__(**{**vars_of(state.camera), "projection": "parallel"})
+    d.window.change(d.window.state.with_camera(parallel))
+    d.until(lambda: view(d).report is not None and view(d).report.rays.camera.is_parallel)
+    until_told(d, "Every ray is right.", "viewing-ray is for perspective")
+    d.settle()
+    assert view(d).pictures.size == (16, 12)
+    assert before.shape == (24, 32, 3)
+    d.window.open("spheres")
+    d.until(lambda: d.window.state.scene.name == "spheres")
+    d.settle()
+    d.picture()
+    leave(d)
+
+
+def vars_of(camera: object) -> dict[str, object]:
+    return {name: getattr(camera, name) for name in camera.__dataclass_fields__}  # type: ignore[attr-defined]
+
+
+def drive_a_wrong_file_is_told_by_name_and_again_when_it_is_saved(d: Driver) -> None:
+    opened(d, CORNER)
+    until_told(d, "768 of 768 rays are wrong.", "half a pixel")
+    d.settle()
+    outside = view_of(d.window.views.values(), OutsideView)
+    assert any(item.name == "second edges" for item in outside.extra)
+    pictures = view(d).pictures
+    assert pictures is not None and (pictures.given != pictures.right).any()
+    d.picture()
+    info = d.ctx.item_info(f"{WINDOW}/right").rect_full
+    d.ctx.mouse_teleport_to_pos((info.min.x + 3.0, info.min.y + 3.0))
+    d.ctx.yield_(2)
+    d.ctx.mouse_click(0)
+    d.ctx.yield_(3)
+    assert d.window.state.marked is not None
+    until_told(d, "pixel (1, 1), from 1")
+    write(d, RIGHT)
+    until_told(d, "Every ray is right.")
+    d.until(lambda: not any(item.name == "second edges" for item in outside.extra))
+    write(d, RIGHT + "\ndef broken(:\n")
+    until_told(d, "SyntaxError", "line 10")
+    d.picture()
+    write(d, RIGHT.replace("x = camera.left", "x = camera.lft"))
+    until_told(d, "rays.py, line 2", "lft")
+    d.picture()
+    (d.folder / "rays.py").unlink()
+    view(d).ask("run")
+    until_told(d, "there is no such file")
+    write(d, RIGHT)
+    until_told(d, "Every ray is right.")
+    leave(d)
+    assert not any(item.name.startswith("second") for item in outside.extra)
+
+
+def drive_an_endless_loop_holds_no_frame_up_and_is_stopped(d: Driver) -> None:
+    opened(d, RIGHT.replace("    x =", "    while i == 3:\n        pass\n    x =", 1))
+    runs = view(d).runs
+    assert runs is not None
+    d.until(lambda: runs.progress > 0.1)
+    frames = 0
+    while frames < 30:  # the window goes on meanwhile
+        d.ctx.yield_()
+        frames += 1
+    assert runs.busy
+    d.picture()
+    processes = children()
+    assert processes
+    view(d).ask("stop")
+    until_told(d, "was stopped")
+    d.until(lambda: not runs.busy)
+    d.until(lambda: not (children() & processes))
+    d.picture()
+    version = view(d).report.question.version
+    d.window.change(d.window.state.with_options(your_code={"canvas": (16, 12)}))
+    d.ctx.yield_(10)
+    assert not runs.busy  # not by itself
+    assert view(d).report.question.version == version
+    write(d, RIGHT)
+    until_told(d, "Every ray is right.")
+    leave(d)
+
+
+def drive_the_newest_camera_wins_while_it_runs(d: Driver) -> None:
+    """The first camera's run never ends; it is given up for the second one's."""
+    endless = RIGHT.replace(
+        "    x =", "    while camera.distance == 7.0:\n        pass\n    x =", 1
+    )
+    state = d.window.state
+    camera = state.camera
+    far = camera.__class__(**{**vars_of(camera), "distance": 7.0})
+    d.window.change(state.with_camera(far))
+    opened_path = write(d, endless)
+    d.window._dropped([str(opened_path)])
+    runs = view(d).runs
+    assert runs is not None
+    d.until(lambda: runs.running_s > 0)
+    d.window.change(d.window.state.with_camera(camera))
+    until_told(d, "Every ray is right.")
+    leave(d)
+
+
+def drive_a_basis_has_its_picture(d: Driver) -> None:
+    opened(d, BASIS.format("up, w"), "basis.py")
+    until_told(d, "The basis is right.")
+    d.settle()
+    write(d, BASIS.format("w, up"), "basis.py")
+    until_told(d, "The basis is wrong.")
+    d.settle()
+    pictures = view(d).pictures
+    assert pictures is not None
+    assert np.abs(pictures.given.astype(int) - pictures.right).mean() > 5
+    d.picture()
+    leave(d)
+
+
+def drive_images_are_pictures_and_other_functions_words(d: Driver) -> None:
+    opened(
+        d,
+        "def to_gray(rgb):\n    return [[(r + g + b) / 3 for r, g, b in row] for row in rgb]\n"
+        "def memory_offset(i, j, width):\n    print('asked', i)\n    return (i + j * width) * 12\n",
+        "images.py",
+    )
+    until_told(d, "to_gray is wrong.")
+    d.until(lambda: view(d).pictures is not None)
+    d.picture()
+    d.window.change(d.window.state.with_options(your_code={"task": "memory-offset"}))
+    until_told(d, "memory_offset is wrong.", "printed", "asked 0")
+    assert view(d).pictures is None
+    d.picture()
+    leave(d)
+
+
+def drive_a_file_that_a_lecture_names_is_not_run_unasked(d: Driver) -> None:
+    ran = d.folder / "ran"
+    write(d, f"open({str(ran)!r}, 'w').close()\n{RIGHT}", "theirs.py")
+    lecture = d.folder / "lecture.toml"
+    lecture.write_text(
+        'title = "Code"\n[[steps]]\ntitle = "yours"\nviews = ["your-code"]\n'
+        'options.your_code.file = "theirs.py"\noptions.your_code.canvas = [16, 12]\n'
+    )
+    d.window.files.open_lecture(str(lecture))
+    d.until(lambda: d.window.state.options.your_code.file == stored(str(d.folder / "theirs.py")))
+    d.until(lambda: YOUR_CODE in d.window.shell.stage.rects)
+    d.settle()
+    time.sleep(0.3)  # nothing is to come of it
+    d.ctx.yield_(5)
+    assert view(d).report is None and not ran.exists()
+    d.picture()
+    d.ctx.item_click(f"{WINDOW}/Run it")
+    until_told(d, "Every ray is right.")
+    assert ran.exists()
+    d.settle()
+    d.picture()
+    d.window.lecture.leave(d.window)
+    d.ctx.yield_(5)
+    d.settle()
+
+
+def children() -> set[int]:
+    """The processes that this one has begun, where that can be known."""
+    found = set()
+    for entry in Path("/proc").glob("[0-9]*/stat"):
+        try:
+            words = entry.read_text().rpartition(")")[2].split()
+            command = (entry.parent / "cmdline").read_bytes()
+        except OSError:
+            continue
+        if int(words[1]) == os.getpid() and b"student_process" in command and words[0] != "Z":
+            found.add(int(entry.parent.name))
+    return found

@@ -1,0 +1,84 @@
+"""Whether the file was saved, seen while nobody draws; and where it is opened to be edited."""
+
+from __future__ import annotations
+
+import threading
+from pathlib import Path
+
+from waiting import wait_for
+
+from app.your_code import editor
+from app.your_code.following import FileFollower
+
+
+def test_a_saved_file_is_another_version_and_wakes_the_window(tmp_path: Path):
+    file = tmp_path / "rays.py"
+    file.write_text("one")
+    woken, ticks = threading.Event(), threading.Event()
+    follower = FileFollower(woken.set, lambda: False, ticks.set)
+    try:
+        assert follower.version == 0
+        follower.follow(str(file))
+        first = follower.version
+        assert first == 1
+        wait_for(ticks.is_set)
+        new = tmp_path / "new"
+        new.write_text("two")
+        new.replace(file)  # as editors save
+        wait_for(lambda: follower.version == first + 1)
+        wait_for(woken.is_set)
+        file.unlink()
+        file.write_text("three, back again")
+        wait_for(lambda: follower.version == first + 2)
+        follower.again()
+        assert follower.version == first + 3
+        follower.follow(str(tmp_path / "other.py"))
+        assert follower.version == first + 4
+    finally:
+        follower.close()
+
+
+def test_it_wakes_while_something_runs_and_not_otherwise(tmp_path: Path):
+    woken, busy = threading.Event(), threading.Event()
+    ticked = threading.Semaphore(0)
+    follower = FileFollower(woken.set, busy.is_set, ticked.release)
+    try:
+        follower.follow(str(tmp_path / "rays.py"))
+        for _ in range(3):
+            ticked.acquire()
+        assert not woken.is_set()
+        busy.set()
+        wait_for(woken.is_set)
+    finally:
+        follower.close()
+
+
+def test_nothing_is_looked_at_while_nobody_sees_it(tmp_path: Path):
+    ticks: list[int] = []
+    follower = FileFollower(lambda: None, lambda: True, lambda: ticks.append(1))
+    follower.follow("")
+    follower.close()
+    assert not ticks
+
+
+def test_each_platform_s_editor_never_what_would_run_it(monkeypatch):
+    monkeypatch.setattr(editor.shutil, "which", lambda name: f"/usr/bin/{name}")
+    for platform, command in (
+        ("linux", ["xdg-open", "rays.py"]),
+        ("darwin", ["open", "-t", "rays.py"]),
+        ("win32", ["notepad.exe", "rays.py"]),
+    ):
+        monkeypatch.setattr(editor.sys, "platform", platform)
+        assert editor.editor_command("rays.py") == command
+
+
+def test_without_an_editor_it_says_so(monkeypatch):
+    monkeypatch.setattr(editor.sys, "platform", "linux")
+    monkeypatch.setattr(editor.shutil, "which", lambda name: None)
+    assert not editor.open_in_editor("rays.py")
+    begun = []
+    monkeypatch.setattr(editor, "editor_command", lambda path: ["no such program", path])
+    assert not editor.open_in_editor("rays.py")
+    monkeypatch.setattr(editor.subprocess, "Popen", lambda command, **_: begun.append(command))
+    assert editor.open_in_editor("rays.py")
+    assert begun == [["no such program", "rays.py"]]

@@ -1,0 +1,122 @@
+"""How a Python file comes into the window: named, dropped, in a lecture, in a session."""
+
+from __future__ import annotations
+
+import os
+import sys
+from dataclasses import replace
+from pathlib import Path
+
+import pytest
+
+from app import cli
+from app.lecture.reading import load_lecture
+from app.state.app_state import AppState
+from app.storage.paths import restored, stored
+from app.storage.session import Arrangement, from_bytes, session_of, to_bytes
+from app.window.opening import open_sources
+from app.your_code.options import YourCodeOptions
+from app.your_code.view import source_text
+from renderer.errors import LucidaError
+from renderer.scene import load_scene
+from renderer.scene.outside import OutsideError
+
+STEP = """
+title = "Code"
+[[steps]]
+title = "yours"
+views = ["your-code", "outside"]
+"""
+
+
+def lecture(folder: Path, line: str):
+    file = folder / "lecture.toml"
+    file.write_text(STEP + line)
+    return load_lecture(file)
+
+
+def test_a_lecture_names_a_file_beside_itself(tmp_path: Path):
+    (tmp_path / "rays.py").write_text("")
+    options = lecture(tmp_path, 'options.your_code = { file = "rays.py", canvas = [8, 6] }').steps[
+        0
+    ]
+    assert options.views == ("your-code", "outside")
+    assert options.options["your_code"]["file"] == str(tmp_path / "rays.py")
+    assert options.options["your_code"]["canvas"] == (8, 6)
+    assert (
+        lecture(tmp_path, 'options.your_code.file = ""').steps[0].options["your_code"]["file"] == ""
+    )
+
+
+@pytest.mark.parametrize(
+    ("line", "problem"),
+    [
+        ('options.your_code.file = "away.py"', "your_code.file: 'away.py' does not exist"),
+        ('options.your_code.file = "rays.txt"', "your_code.file: 'rays.txt' is no such file"),
+        ("options.your_code.file = 3", "your_code.file"),
+        ("options.your_code.canvas = [65, 1]", "your_code.canvas[0]"),
+    ],
+)
+def test_a_lecture_s_mistakes_name_line_and_field(tmp_path: Path, line: str, problem: str):
+    (tmp_path / "rays.txt").write_text("")
+    with pytest.raises(LucidaError) as caught:
+        lecture(tmp_path, line)
+    assert f"lecture.toml:6: steps[0].options.{problem}" in str(caught.value)
+
+
+def test_check_says_that_the_file_is_missing(tmp_path: Path, capsys):
+    (tmp_path / "lecture.toml").write_text(STEP + 'options.your_code.file = "away.py"')
+    assert cli.main(["lecture", str(tmp_path / "lecture.toml"), "--check"]) == 2
+    error = capsys.readouterr().err
+    assert error.count("\n") == 1
+    assert "'away.py' does not exist" in error
+
+
+def test_a_file_outside_of_the_lecture_s_folder_is_asked_about(tmp_path: Path):
+    inside = tmp_path / "inside"
+    inside.mkdir()
+    (tmp_path / "rays.py").write_text("")
+    with pytest.raises(OutsideError):
+        lecture(inside, 'options.your_code.file = "../rays.py"')
+
+
+def test_a_python_file_is_never_read_as_a_scene(tmp_path: Path):
+    file = tmp_path / "Rays.PY"
+    file.write_text("objects = []")
+    opened = open_sources([str(file)], dropped=True)
+    assert opened.code == str(file)
+    assert opened.scene is None
+    assert opened.sources == (str(file),)
+    both = open_sources(["spheres", str(file), str(tmp_path / "other.py")])
+    assert both.scene is not None
+    assert both.code == str(file)
+    for name, problem in (("away.py", "does not exist"), ("folder.py", "is a folder")):
+        (tmp_path / "folder.py").mkdir(exist_ok=True)
+        with pytest.raises(LucidaError, match=problem):
+            open_sources([str(tmp_path / name)])
+
+
+def test_a_missing_file_on_the_command_line_is_one_line(tmp_path: Path, capsys):
+    assert cli.main([str(tmp_path / "away.py")]) == 2
+    error = capsys.readouterr().err
+    assert error.count("\n") == 1
+    assert "away.py: does not exist" in error
+
+
+def test_a_session_keeps_the_file_whatever_its_name(tmp_path: Path):
+    path = os.fsdecode(b"/caf\xe9/rays.py") if sys.platform != "win32" else "C:\\rays.py"
+    state = AppState.for_scene(load_scene("spheres"))
+    state = state.with_options(your_code={"file": stored(path), "canvas": (8, 6), "task": "basis"})
+    kept = from_bytes(to_bytes(session_of(state, Arrangement()))).options.of(YourCodeOptions)
+    assert restored(kept.file) == path
+    assert kept == replace(state.of(YourCodeOptions))
+
+
+def test_what_is_in_a_file_that_is_not_run(tmp_path: Path):
+    file = tmp_path / "rays.py"
+    file.write_bytes(b"x = 1\n\xff\0")
+    assert source_text(str(file)) == "x = 1\n\N{REPLACEMENT CHARACTER} "
+    file.write_text("#" * 200_000)
+    assert source_text(str(file)).endswith("#\n...")
+    assert len(source_text(str(file))) == 100_004
+    assert "cannot be read" in source_text(str(tmp_path / "away.py"))

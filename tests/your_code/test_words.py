@@ -1,0 +1,145 @@
+"""What is told of a file, and in which order."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import Any
+
+import numpy as np
+from right_code import right_ray
+
+from app.checking.builtin import BUILTIN
+from app.checking.calls import Failure, Run
+from app.checking.checked import TaskResult
+from app.checking.kinds import KINDS
+from app.checking.mistakes.diagnosis import Diagnosis
+from app.your_code.model import BASIS, RAY, cases_for, rays_of
+from app.your_code.report import CodeQuestion, CodeReport
+from app.your_code.words import OUTPUT_LINES, told_of, verdict_of
+from renderer.camera import Camera
+from renderer.pixels import Indexing
+
+SIZE = (4, 3)
+CAMERA = Camera.look_at((1.0, 2.0, 5.0), (0.0, 0.5, 0.0), aspect=4 / 3)
+TASK = next(task for task in BUILTIN if task.kind == RAY)
+PARALLEL = next(task for task in BUILTIN if task.projections == ("parallel",))
+RIGHT = TaskResult(TASK, "right", 3.0, 379)
+QUESTION = CodeQuestion("rays.py", 1, "", CAMERA, SIZE)
+
+
+def report(answer: Any = right_ray, run: Run | None = None, **changes: Any) -> CodeReport:
+    cases = cases_for(TASK, CAMERA, SIZE)
+    if run is None:
+        calls = KINDS[RAY].calls(TASK, cases)
+        run = Run(tuple(answer(dict(call.arguments)) for call in calls))
+    rays = rays_of(TASK, CAMERA, SIZE, cases, run)
+    found = CodeReport(QUESTION, (TASK, PARALLEL), TASK, rays, {TASK.name: RIGHT})
+    return replace(found, **changes)
+
+
+def mirrored(known: dict[str, Any]) -> list[list[float]]:
+    origin, direction = right_ray(known)
+    return [origin, [-direction[0], *direction[1:]]]
+
+
+def texts(one: CodeReport, pixel: tuple[int, int] | None = None) -> list[str]:
+    return [line.text for line in told_of(one, pixel, Indexing.LECTURE)]
+
+
+def test_what_is_right_is_told_in_a_line_for_this_camera_and_the_others():
+    found = told_of(report(), None, Indexing.LECTURE)
+    assert [line.text for line in found] == [
+        "Every ray is right.",
+        "viewing-ray: right with 379 cases of other cameras.",
+    ]
+    assert {line.role for line in found} == {"good"}
+    assert "being tried" in texts(report(results={}))[-1]
+
+
+def test_a_camera_that_does_not_tell_is_no_verdict():
+    wrong = replace(RIGHT, status="wrong", wrong=9)
+    found = texts(report(results={TASK.name: wrong}))
+    assert found[:3] == [
+        "Every ray is right.",
+        "But not for every camera:",
+        "viewing_ray is wrong.",
+    ]
+
+
+def test_wrong_rays_are_told_with_the_reason_of_the_camera_that_names_it():
+    found = texts(report(mirrored, results={}))
+    assert found[:2] == ["12 of 12 rays are wrong.", "looking for the reason ..."]
+    own = Diagnosis(("u points left.",))
+    others = Diagnosis(("of many cameras",))
+    wrong = replace(RIGHT, status="wrong", diagnosis=others)
+    assert texts(report(mirrored, diagnosis=own, results={}))[1] == "u points left."
+    # No mistake is named by this camera: then by the others.
+    both = report(mirrored, diagnosis=own, results={TASK.name: wrong})
+    assert texts(both)[1] == "of many cameras"
+    named = replace(own, candidates=((),))
+    assert texts(replace(both, diagnosis=named))[1] == "u points left."
+
+
+def test_the_marked_pixel_in_numbers():
+    found = texts(report(mirrored), (1, 2))
+    first = next(k for k, text in enumerate(found) if text.startswith("pixel"))
+    assert found[first] == "pixel (2, 3), from 1, of the pictures:"
+    assert found[first + 1].startswith("yours  (1, 2, 5) + t (")
+    assert found[first + 2].startswith("right  (1, 2, 5) + t (")
+    assert found[first + 1] != found[first + 2]
+    half = report(run=Run((right_ray(dict(cases_for(TASK, CAMERA, SIZE)[0].arguments)),)))
+    assert not any(text.startswith("pixel") for text in texts(half, (1, 2)))  # it has not come
+
+
+def test_an_exception_is_told_with_its_own_lines():
+    failure = Failure("exception", "rays.py, line 3: ZeroDivisionError", ("File x", "1 / 0"))
+    found = told_of(report(run=Run((), "said\n", failure), output="said\n"), None, Indexing.LECTURE)
+    assert [(line.role, line.text) for line in found[:3]] == [
+        ("bad", "rays.py, line 3: ZeroDivisionError"),
+        ("code", "File x"),
+        ("code", "1 / 0"),
+    ]
+    assert [line.text for line in found[-2:]] == ["printed:", "said"]
+    assert not any("right" in line.text for line in found)
+
+
+def test_a_file_that_answers_nothing():
+    failure = Failure("syntax", "rays.py, line 2: SyntaxError", ("    x = (",))
+    found = CodeReport(QUESTION, failure=failure, output="before")
+    assert texts(found) == ["rays.py, line 2: SyntaxError", "    x = (", "printed:", "before"]
+    assert "none of the functions" in texts(CodeReport(QUESTION))[0]
+
+
+def test_a_function_with_nothing_in_it_is_told_what_it_is_to_do():
+    empty = report(lambda known: None)
+    assert texts(empty)[0].startswith("viewing_ray returns nothing yet. The viewing ray of pixel")
+    failed = replace(RIGHT, status="failed", failure=Failure("answer", "returned None, not"))
+    other = CodeReport(QUESTION, (TASK,), TASK, results={TASK.name: failed})
+    assert texts(other)[0].startswith("viewing_ray returns nothing yet.")
+    assert verdict_of(other, TASK) == "empty"
+    assert verdict_of(other, PARALLEL) == ""
+    assert verdict_of(report(), TASK) == "right"
+
+
+def test_the_other_projection_s_task_says_how_to_see_it():
+    found = texts(report(chosen=PARALLEL, results={}))
+    assert "viewing-ray-parallel is for parallel projection: P switches to it." in found
+
+
+def test_a_basis_in_numbers():
+    task = next(one for one in BUILTIN if one.kind == BASIS)
+    cases = cases_for(task, CAMERA, SIZE)
+    wrong = (np.array(cases[0].right) * [[-1], [1], [1]]).tolist()
+    rays = rays_of(task, CAMERA, SIZE, cases, Run((wrong,)))
+    found = texts(CodeReport(QUESTION, (task,), task, rays))
+    assert found[0] == "The basis is wrong."
+    assert any(text.startswith("yours  u (") for text in found)
+    assert any(text.startswith("right  u (") for text in found)
+
+
+def test_of_much_that_was_printed_the_end():
+    many = "\n".join(f"line\t{number}" for number in range(100))
+    found = texts(report(output=many))
+    assert f"printed, the last {OUTPUT_LINES} of 100 lines:" in found
+    assert found[-1] == "line    99"
+    assert len([text for text in found if text.startswith("line")]) == OUTPUT_LINES
