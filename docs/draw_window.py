@@ -22,7 +22,7 @@ from app.lecture.reading import BUILTIN, load_lecture
 from app.state.app_state import AppState
 from app.window.lecturing import run_lecture
 from app.window.platform import start_platform
-from app.window.viewer import Run, save_png
+from app.window.viewer import WindowRun, save_png
 from renderer.scene import load_scene
 
 FOLDER = Path(__file__).parent
@@ -78,7 +78,7 @@ def draw(picture: Picture, folder: Path = FOLDER) -> Path:
         run_lecture(BUILTIN, lecture, picture.size, number, path)
         return path
     state = AppState.for_scene(load_scene(picture.scene)).with_options(**picture.options)
-    run = Run(start_platform(want_display=False), state, picture.size, take_picture=True)
+    run = WindowRun(start_platform(want_display=False), state, picture.size, take_picture=True)
     run.params.callbacks.post_new_frame = _chooser(picture.layout)
     with tempfile.TemporaryDirectory() as scratch:
         if picture.code:

@@ -14,5 +14,5 @@ SYNONYMS = {
 }
 
 INSTRUMENT = Instrument(
-    lambda views: [MistakesView(view_of(views, OutsideView))], WRONG_LINES, MOUSE, SYNONYMS
+    lambda views: [MistakesView(view_of(views, OutsideView))], WRONG_LINES, MOUSE, synonyms=SYNONYMS
 )

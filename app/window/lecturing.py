@@ -13,7 +13,7 @@ from app.lecture.model import Lecture
 from app.widgets.surface import Target
 from app.window.platform import start_platform
 from app.window.start import Start, begin_lecture, begin_scene, first_state
-from app.window.viewer import DEFAULT_SIZE, SCREENSHOT_LIMIT_S, Run, save_png, start_drawing
+from app.window.viewer import DEFAULT_SIZE, SCREENSHOT_LIMIT_S, WindowRun, save_png, start_drawing
 from renderer.atomic import check_writable
 from renderer.errors import LucidaError
 from renderer.scene.outside import OutsideError
@@ -40,7 +40,7 @@ def run_lecture(
     platform, picture = start_drawing(screenshot, "the step")
     pictured = picture is not None
     start = Start(first_state(lecture, number)) if pictured else begin_lecture(lecture, number)
-    run = Run(platform, start.state, size or DEFAULT_SIZE, pictured, start=start)
+    run = WindowRun(platform, start.state, size or DEFAULT_SIZE, pictured, start=start)
     run.window.lecture.give(lecture, path, number)
     return run.to_the_end(picture, tell=screenshot is None)
 
@@ -52,7 +52,7 @@ def ask_lecture(path: Path, error: OutsideError, size: tuple[int, int] | None = 
     if not platform.has_display:
         raise LucidaError("", error.problem, "add --outside to agree", error.source)
     start = begin_scene()
-    run = Run(platform, start.state, size or DEFAULT_SIZE, start=start)
+    run = WindowRun(platform, start.state, size or DEFAULT_SIZE, start=start)
     run.window.files.open_lecture(str(path))
     return run.to_the_end(None)
 
@@ -83,7 +83,7 @@ def export_lecture(
     for file in files:
         check_writable(file)
     platform = start_platform(want_display=False)
-    run = Run(platform, first_state(lecture), size, take_picture=True)
+    run = WindowRun(platform, first_state(lecture), size, take_picture=True)
     run.take_picture = False  # not one picture at the end: one a step
     run.window.lecture.give(lecture, path)
     run.on_drawn = _Export(run, files, progress).drawn
@@ -94,7 +94,9 @@ def export_lecture(
 class _Export:
     """Saves each step once nothing changes any more, and goes on to the next."""
 
-    def __init__(self, run: Run, files: list[Path], progress: Callable[[float], None]) -> None:
+    def __init__(
+        self, run: WindowRun, files: list[Path], progress: Callable[[float], None]
+    ) -> None:
         self._run, self._files, self._progress = run, files, progress
         self._number = 0
         self._quiet = 0

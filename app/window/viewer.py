@@ -88,7 +88,7 @@ def run_viewer(
     if code:
         opened = start.state.with_options(your_code={"file": stored(code), "task": ""})
         start = replace(start, state=opened, code=code)
-    run = Run(platform, start.state, size or DEFAULT_SIZE, picture is not None, start=start)
+    run = WindowRun(platform, start.state, size or DEFAULT_SIZE, picture is not None, start=start)
     return run.to_the_end(picture, tell=screenshot is None)
 
 
@@ -105,7 +105,7 @@ def start_drawing(screenshot: Path | None, what: str) -> tuple[Platform, Path | 
     return platform, picture
 
 
-class Run:
+class WindowRun:
     """One run of the window. params may be changed before run(), as tests do.
 
     take_picture: leave once both images are complete, and use no settings of the user's.

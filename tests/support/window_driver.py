@@ -37,7 +37,7 @@ from app.widgets.theme import framebuffer_scale
 from app.window import main_window, viewer
 from app.window.canvas import WindowCanvas
 from app.window.platform import start_platform
-from app.window.viewer import Run
+from app.window.viewer import WindowRun
 from renderer.scene import load_scene
 
 SIZE = (1100, 720)
@@ -70,7 +70,7 @@ class Driver:
         self.folder = folder
         state = AppState.for_scene(load_scene("still-life"))
         self.start = state
-        self.run = Run(start_platform(want_display=False), state, SIZE, remember=False)
+        self.run = WindowRun(start_platform(want_display=False), state, SIZE, remember=False)
         self.window = self.run.window
         self.ctx: Any = None
         self.drop: Callable[[list[str]], None] = lambda paths: None  # files, upon the window

@@ -177,13 +177,13 @@ import glfw
 from pathlib import Path
 from app.window.platform import start_platform
 from app.state.app_state import AppState
-from app.window.viewer import Run, save_png
+from app.window.viewer import WindowRun, save_png
 from renderer.scene import load_scene
 
 platform = start_platform()
 assert platform.has_display, platform.reason
 state = AppState.for_scene(load_scene("still-life"))
-run = Run(platform, state, (1280, 720), take_picture=True)
+run = WindowRun(platform, state, (1280, 720), take_picture=True)
 visible = []
 
 def look(target):
@@ -205,12 +205,12 @@ import glfw
 import numpy as np
 from app.window.platform import start_platform
 from app.state.app_state import AppState
-from app.window.viewer import Run, save_png
+from app.window.viewer import WindowRun, save_png
 from renderer.scene import load_scene
 
 platform = start_platform()
 assert platform.has_display, platform.reason
-run = Run(platform, AppState.for_scene(load_scene("still-life")), (1000, 700), remember=False)
+run = WindowRun(platform, AppState.for_scene(load_scene("still-life")), (1000, 700), remember=False)
 run.params.fps_idling.enable_idling = False
 sizes, still = [(1000, 700), (800, 500), (1300, 820), (640, 480)], 0
 
@@ -253,12 +253,12 @@ def test_idle_means_idle_and_settings_are_the_users(tmp_path: Path, xvfb: str) -
 import sys, threading, time
 from app.window.platform import start_platform
 from app.state.app_state import AppState
-from app.window.viewer import Run
+from app.window.viewer import WindowRun
 from renderer.scene import load_scene
 
 platform = start_platform()
 assert platform.has_display, platform.reason
-run = Run(platform, AppState.for_scene(load_scene("spheres")), (900, 600))
+run = WindowRun(platform, AppState.for_scene(load_scene("spheres")), (900, 600))
 frames = []
 run.params.callbacks.post_new_frame = lambda: frames.append(time.monotonic())
 
@@ -290,13 +290,13 @@ def test_signals_close_the_window_and_the_next_start_finds_its_layout(
 import os, signal, sys, threading, time
 from app.window.platform import start_platform
 from app.state.app_state import AppState
-from app.window.viewer import Run
+from app.window.viewer import WindowRun
 from renderer.scene import load_scene
 
 number = getattr(signal, sys.argv[1])
 usual = signal.default_int_handler if number == signal.SIGINT else signal.SIG_DFL
 signal.signal(number, usual)  # whatever this process has inherited
-run = Run(start_platform(), AppState.for_scene(load_scene("spheres")), (900, 600))
+run = WindowRun(start_platform(), AppState.for_scene(load_scene("spheres")), (900, 600))
 
 def watch():
     while not run.window.settled:

@@ -16,12 +16,12 @@ from imgui_bundle import imgui
 from app.widgets import theme
 from app.window.platform import start_platform
 from app.state.app_state import AppState
-from app.window.viewer import Run, save_png
+from app.window.viewer import WindowRun, save_png
 from renderer.scene import load_scene
 
 state = AppState.for_scene(load_scene("spheres"))
 state = state.with_options(preferences={"font_scale": float(sys.argv[1])})
-run = Run(start_platform(want_display=False), state, (1600, 1000), take_picture=True)
+run = WindowRun(start_platform(want_display=False), state, (1600, 1000), take_picture=True)
 run.params.dpi_aware_params.dpi_window_size_factor = 2.0
 told = []
 

@@ -25,14 +25,14 @@ from imgui_bundle import hello_imgui
 from app.host import layout
 from app.window.platform import start_platform
 from app.state.app_state import AppState
-from app.window.viewer import Run
+from app.window.viewer import WindowRun
 from renderer.raster import sources
 from renderer.scene import load_scene
 
 broken, view = sys.argv[1], sys.argv[2]
 good = sources.read_shader
 state = AppState.for_scene(load_scene("still-life"))
-run = Run(start_platform(want_display=False), state, (1100, 720), remember=False)
+run = WindowRun(start_platform(want_display=False), state, (1100, 720), remember=False)
 window, told = run.window, {}
 frames = iter(range(10**9))
 waited = 0
@@ -136,10 +136,11 @@ def test_the_window_is_there_before_a_large_model(tmp_path: Path) -> None:
     script = """
 from app.window.platform import start_platform
 from app.window.start import begin_scene
-from app.window.viewer import Run
+from app.window.viewer import WindowRun
 
 start = begin_scene("large.obj")
-run = Run(start_platform(want_display=False), start.state, (900, 600), remember=False, start=start)
+platform = start_platform(want_display=False)
+run = WindowRun(platform, start.state, (900, 600), remember=False, start=start)
 window, frames = run.window, 0
 
 def step():
@@ -175,7 +176,7 @@ starting.is_large = lambda path: True
 starting.Later.open = lambda self: threading.Event().wait()  # for ever
 start = starting.begin_session(folder=folder)
 assert start.later is not None
-run = viewer.Run(start_platform(want_display=False), start.state, (900, 600), start=start)
+run = viewer.WindowRun(start_platform(want_display=False), start.state, (900, 600), start=start)
 frames = iter(range(10**9))
 
 def step():
