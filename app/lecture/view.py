@@ -28,7 +28,7 @@ from app.lecture.states import state_of
 from app.lecture.step_options import own
 from app.lecture.text import Block, in_language, languages
 from app.lecture.typesetting import first_mistake
-from app.lecture.walking import Wish, rows_of, walking
+from app.lecture.walking import Walk, rows_of, walking
 from app.state.app_state import AppState
 from app.storage.kept_lecture import KeptLecture
 from app.storage.session import source_of
@@ -265,7 +265,7 @@ class LectureView(DockedView):
                 imgui.pop_text_wrap_pos()
             self._take(host, walking(session, self._is_as_given(host, session.step)))
 
-    def _take(self, host: Host, wish: Wish) -> None:
+    def _take(self, host: Host, wish: Walk) -> None:
         if wish.number is not None:
             self.go(host, wish.number)
         elif wish.restores:

@@ -17,7 +17,7 @@ STEP_EM, PLACE_EM = 2.0, 4.4  # the widths of the buttons that walk, and of the 
 
 
 @dataclass(frozen=True)
-class Wish:
+class Walk:
     """What was clicked. number: of a step to go to."""
 
     number: int | None = None
@@ -32,15 +32,15 @@ def rows_of(width: float) -> int:
     return 1 if _walking_px() + imgui.get_font_size() + text <= width else 2
 
 
-def walking(session: LectureSession, is_as_given: bool) -> Wish:
+def walking(session: LectureSession, is_as_given: bool) -> Walk:
     """Back, the place in the lecture, next; the outline; the way back to the step. is_as_given:
     whether nothing differs from the step's own."""
     number, count = session.number, len(session.lecture.steps)
-    size, wish = imgui.get_font_size(), Wish()
+    size, wish = imgui.get_font_size(), Walk()
     fits = rows_of(imgui.get_content_region_avail().x) == 1
     imgui.begin_disabled(number == 0)
     if imgui.button("<##back", ImVec2(STEP_EM * size, 0)):
-        wish = Wish(number - 1)
+        wish = Walk(number - 1)
     imgui.end_disabled()
     imgui.set_item_tooltip("the step before (Page Up)")
     imgui.same_line()
@@ -50,20 +50,20 @@ def walking(session: LectureSession, is_as_given: bool) -> Wish:
     imgui.same_line()
     imgui.begin_disabled(number == count - 1)
     if imgui.button(">##next", ImVec2(STEP_EM * size, 0)):
-        wish = Wish(number + 1)
+        wish = Walk(number + 1)
     imgui.end_disabled()
     imgui.set_item_tooltip("the next step (Page Down)")
     if fits:
         imgui.same_line(0, size)
     imgui.begin_disabled(is_as_given)
     if imgui.button(f"{RESTORE}##restore", ImVec2(0 if fits else _walking_px(), 0)):
-        wish = Wish(restores=True)
+        wish = Walk(restores=True)
     imgui.end_disabled()
     imgui.set_item_tooltip("its own scene, camera and views (Backspace)")
     return _outline(session) or wish
 
 
-def _outline(session: LectureSession) -> Wish | None:
+def _outline(session: LectureSession) -> Walk | None:
     """All steps, in their parts, and the end, where the place was clicked."""
     wish = None
     if not imgui.begin_popup("outline"):
@@ -73,10 +73,10 @@ def _outline(session: LectureSession) -> Wish | None:
         for number in numbers:
             step = session.lecture.steps[number]
             if imgui.selectable(f"{number + 1}  {step.title}", number == session.number)[0]:
-                wish = Wish(number)
+                wish = Walk(number)
     imgui.separator()
     if imgui.selectable(END, False)[0]:
-        wish = Wish(ends=True)
+        wish = Walk(ends=True)
     imgui.end_popup()
     return wish
 
