@@ -1,4 +1,4 @@
-"""The view "Your code" from start to start: it goes on with a file; nothing is left of it at the end."""
+"""The view "Your code" from start to start: it goes on with a file, and leaves no process behind."""
 
 from __future__ import annotations
 
