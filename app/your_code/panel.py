@@ -44,7 +44,8 @@ TRUST = (
 @dataclass(frozen=True)
 class CodeHead:
     """What stands above. name, folder: of the file. running_s: how long it has been running; 0
-    where it is not. progress: how much of the picture is there, 0 to 1."""
+    where it is not. progress: how much of the picture is there, 0 to 1. may_run: whether the user
+    has opened it."""
 
     name: str
     folder: str
@@ -96,7 +97,7 @@ def head(told: CodeHead, report: CodeReport | None, fonts: Fonts) -> tuple[CodeW
         if imgui.button(f"{shown}###{name}"):
             wish = name  # type: ignore[assignment]
         imgui.set_item_tooltip(tooltip)
-    canvas = _canvas(told.canvas)
+    canvas = _canvas(told.canvas) if told.may_run else told.canvas
     if running:
         width = 9 * imgui.get_font_size()
         follow(width)

@@ -1,0 +1,84 @@
+"""The view "Your code" from start to start: it goes on with a file, and leaves no process behind."""
+
+from __future__ import annotations
+
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+from test_window import drives_take_long, run
+
+SCRIPT = """
+import os, sys
+from pathlib import Path
+from app.window import viewer
+from app.window.platform import start_platform
+from app.your_code.view import YOUR_CODE
+
+folder, mode = Path(sys.argv[1]), sys.argv[2]
+code = str(folder / "rays.py") if mode == "named" else ""
+viewer.settings_file = lambda fresh=False: folder / "window.ini"
+viewer._folder = lambda: folder
+start = viewer.begin_session(folder=folder)
+if code:
+    kept = start.state.with_options(your_code={"file": viewer.stored(code)})
+    start = viewer.replace(start, state=kept, code=code)
+run = viewer.Run(start_platform(want_display=False), start.state, (900, 600), start=start)
+view = run.window.views[YOUR_CODE]
+waited = []
+
+def step():
+    if view.runs is None:
+        return
+    waited.append(1)
+    if mode == "unknown":  # it is shown, and is not run
+        if len(waited) > 60:
+            print(view.report, YOUR_CODE in run.window.shell.stage.rects)
+            run.params.app_shall_exit = True
+    elif view.runs.progress > 0.5:  # it hangs, in the last row
+        print(" ".join(sorted(children())))
+        run.params.app_shall_exit = True
+
+def children():
+    for entry in Path("/proc").glob("[0-9]*/stat"):
+        try:
+            parent = entry.read_text().rpartition(")")[2].split()[1]
+            if int(parent) == os.getpid() and b"student_process" in (
+                entry.parent / "cmdline"
+            ).read_bytes():
+                yield entry.parent.name
+        except OSError:
+            pass
+
+run.params.callbacks.post_new_frame = step
+run.params.fps_idling.enable_idling = False
+run.run()
+"""
+ENDLESS = """
+def viewing_ray(i, j, width, height, camera):
+    while i == height - 1:
+        pass
+    return camera.eye, (0, 0, -1)
+"""
+
+
+def opened(folder: Path, mode: str) -> subprocess.CompletedProcess[str]:
+    done = run(["-c", SCRIPT, str(folder), mode], folder)
+    assert done.returncode == 0, done.stderr
+    return done
+
+
+@drives_take_long
+@pytest.mark.skipif(not sys.platform.startswith("linux"), reason="processes are looked up in /proc")
+def test_closing_while_it_runs_leaves_no_process_and_the_next_start_runs_it_again(
+    tmp_path: Path,
+) -> None:
+    (tmp_path / "rays.py").write_text(ENDLESS)
+    for mode in ("named", "again"):
+        (process,) = opened(tmp_path, mode).stdout.split()
+        status = Path("/proc", process, "stat")
+        assert not status.exists() or status.read_text().rpartition(")")[2].split()[0] == "Z"
+    # A session of a file that the user has never opened here.
+    (tmp_path / "recent.json").unlink()
+    assert opened(tmp_path, "unknown").stdout.split() == ["None", "True"]
