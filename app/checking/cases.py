@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from app.checking.conventions import Conventions, Shot
-from app.checking.tasks import CAMERA_KINDS, RIGID_KINDS, CheckTask
+from app.checking.tasks import CAMERA_KINDS, MOST_CALLS, RIGID_KINDS, CheckTask
 from renderer.camera import Camera, Size, Vector
 from renderer.errors import LucidaError
 
@@ -56,7 +56,10 @@ def shots(task: CheckTask) -> Iterator[Shot]:
     random = generator(task)
     conventions = task.conventions
     for view in task.views:
-        yield shot_of(view, task.size or VIEW_SIZE)
+        shot = shot_of(view, task.size or VIEW_SIZE)
+        if conventions.mirrored and shot.camera.determinant > 0:
+            shot = replace(shot, camera=_mirrored(shot.camera))
+        yield shot
     if not task.count:
         return
     kinds = [kind for kind in task.cameras if kind in camera_kinds(conventions)]
@@ -77,7 +80,7 @@ def _made_up(
     if conventions.needs_rigid and kind != "turned":
         camera = camera.fitted(size)
     if conventions.mirrored:
-        camera = replace(camera, u=_negative(camera.u))
+        camera = _mirrored(camera)
     return Shot(camera, size, target, up)
 
 
@@ -86,6 +89,13 @@ def shot_of(view: View, size: Size) -> Shot:
     camera = view.for_size(size)
     eye, v, w = (np.asarray(part) for part in (camera.eye, camera.v, camera.w))
     return Shot(camera, size, _vector(eye - 2.0 * w), _vector(v))
+
+
+def check_size(task: CheckTask, field: str) -> None:
+    """Raises LucidaError where a task's images have too many pixels together."""
+    width, height = task.size or VIEW_SIZE
+    if (task.count + len(task.views)) * width * height > MOST_CALLS:
+        raise LucidaError(field, f"makes more than {MOST_CALLS} rays", "give smaller images")
 
 
 def check_views(task: CheckTask) -> None:
@@ -120,9 +130,9 @@ def _vector(values: np.ndarray) -> Vector:
     return x, y, z
 
 
-def _negative(vector: Vector) -> Vector:
-    x, y, z = (-value for value in vector)
-    return x, y, z
+def _mirrored(camera: Camera) -> Camera:
+    x, y, z = camera.u
+    return replace(camera, u=(-x, -y, -z))
 
 
 Made = tuple[Camera, Vector, Vector]

@@ -12,7 +12,7 @@ from typing import Any
 
 from app.checking.builtin import BUILTIN
 from app.checking.calls import Limits
-from app.checking.cases import VIEW_SIZE, camera_kinds, check_views
+from app.checking.cases import camera_kinds, check_size, check_views
 from app.checking.conventions import CAMERA_WORDS, PAIRS, PIXEL_WORDS, Conventions, Named
 from app.checking.kinds import KINDS
 from app.checking.kinds.basis import PARTS
@@ -30,7 +30,6 @@ from renderer.scene.tables import parse_toml, to_struct
 TASKS = 100
 CASES = 1000
 SIDE = 512  # of a task's images
-CALLS = 300_000  # of one task
 WITH_CAMERAS = ("viewing-ray", "render")
 NAME = re.compile(r"[^\W\d]\w*")
 _LINE = re.compile(r"line (\d+)(?:, (column \d+))?")
@@ -225,7 +224,9 @@ def _returns(entry: TaskTable, kind: CheckKind) -> tuple[str, ...]:
 
 def _cameras(entry: TaskTable, conventions: Conventions, base: CheckTask) -> tuple[str, ...]:
     possible = camera_kinds(conventions)
-    if entry.cameras is None and entry.kind not in WITH_CAMERAS:
+    if entry.kind not in WITH_CAMERAS:
+        if entry.cameras is not None:
+            raise LucidaError("cameras", f"{entry.kind} has no cameras", "leave it out")
         return base.cameras
     if entry.cameras is None:
         return tuple(kind for kind in base.cameras if kind in possible)
@@ -328,9 +329,7 @@ def _check(task: CheckTask) -> None:
     if task.kind in WITH_CAMERAS:
         if not task.count and not task.views:
             raise LucidaError("cases", "is 0, and there are no views", "give one of them")
-        width, height = task.size or VIEW_SIZE
-        if (task.count + len(task.views)) * width * height > CALLS:
-            raise LucidaError("size", f"makes more than {CALLS} rays", "give smaller images")
+        check_size(task, "size")
         check_views(task)
     elif task.views or task.size:
         which = "views" if task.views else "size"

@@ -22,6 +22,7 @@ FEEDBACK: tuple[Feedback, ...] = ("nothing", "verdict", "first-wrong", "diagnosi
 CAMERA_KINDS = ("canonical", "moved", "turned", "off-axis", "skewed")
 RIGID_KINDS = ("canonical", "moved", "turned")
 SEED = 20
+MOST_CALLS = 500_000  # of one task: what memory and patience bear
 
 
 @dataclass(frozen=True)

@@ -24,6 +24,7 @@ if TYPE_CHECKING:
 
 NAME = "check"
 RAYS = (".csv", ".npy", ".txt", ".tsv")  # what is not code
+WITH_CAMERAS = ("viewing-ray", "render")  # kinds of tasks
 PYTHON = (".py", ".pyw", "")
 SIZE = (64, 48)  # of the image of --view
 
@@ -206,15 +207,22 @@ def _changed(arguments: argparse.Namespace, tasks: list[CheckTask]) -> list[Chec
     if arguments.view is not None:
         return _with_view(arguments, tasks)
     if arguments.size is not None:
-        return [
-            replace(task, size=arguments.size) if task.kind in ("viewing-ray", "render") else task
-            for task in tasks
-        ]
+        return [_sized(task, arguments.size) for task in tasks]
     return tasks
 
 
+def _sized(task: CheckTask, size: tuple[int, int]) -> CheckTask:
+    from app.checking.cases import check_size
+
+    if task.kind not in WITH_CAMERAS:
+        return task
+    sized = replace(task, size=size)
+    check_size(sized, "--size")
+    return sized
+
+
 def _with_view(arguments: argparse.Namespace, tasks: list[CheckTask]) -> list[CheckTask]:
-    from app.checking.cases import check_views
+    from app.checking.cases import check_size, check_views
     from renderer.scene.views import load_view
 
     view = load_view(arguments.view)
@@ -223,11 +231,12 @@ def _with_view(arguments: argparse.Namespace, tasks: list[CheckTask]) -> list[Ch
     seen = [
         replace(task, views=(view,), count=0, size=size, projections=(projection,))
         for task in tasks
-        if task.kind in ("viewing-ray", "render") and projection in task.projections
+        if task.kind in WITH_CAMERAS and projection in task.projections
     ]
     if not seen:
         raise LucidaError("--view", f"no task is tried in {projection}", "give another camera")
     for task in seen:
+        check_size(task, "--size")
         check_views(task)
     return seen
 

@@ -94,6 +94,17 @@ def test_all_that_a_file_can_say(tmp_path):
     assert not bits.inclusive and gray.weights == (0.299, 0.587, 0.114)
 
 
+def test_limits_and_axes(tmp_path):
+    text = "seconds = {}\nmemory_mb = {}\n" + RAYS + 'axes = {{ x = "{}", y = "{}", z = "{}" }}'
+    for seconds, memory, words, signs in (
+        (0.5, 64, ("right", "down", "back"), (1, -1, 1)),
+        (3600, 1 << 20, ("left", "up", "forward"), (-1, 1, -1)),
+    ):
+        found = load(tmp_path, text.format(seconds, memory, *words))
+        assert (found.limits.seconds, found.limits.memory_mb) == (seconds, memory)
+        assert found.tasks[0].conventions.axes == signs
+
+
 def test_what_such_tasks_ask(tmp_path):
     text = '[[tasks]]\nkind = "memory-offset"\norder = "column-major"\nstride = 1\npixels_from = 1'
     (task,) = load(tmp_path, text).tasks
@@ -124,6 +135,7 @@ MISTAKES = {
     "arguments = []": (7, "tasks[1].arguments", "is empty"),
     'arguments = ["i", "i"]': (7, "tasks[1].arguments", "names a word twice"),
     'arguments = ["camera"]': (7, "tasks[1].arguments", "no word for the pixel"),
+    'arguments = { "a b" = "j" }': (7, "tasks[1].arguments.a b", "is no name"),
     'camera = { fov = "fov" }': (7, "tasks[1].camera.fov", "'fov' is unknown"),
     'camera = { "a b" = "eye" }': (7, 'tasks[1].camera.a b', "is no name"),
     'returns = ["origin", "way"]': (7, "tasks[1].returns[1]", "'way' is unknown"),
@@ -133,7 +145,7 @@ MISTAKES = {
     "cases = -1": (7, "tasks[1].cases", "out of range"),
     "cases = 0": (7, "tasks[1].cases", "there are no views"),
     "size = [0, 4]": (7, "tasks[1].size", "out of range"),
-    "size = [500, 500]": (7, "tasks[1].size", "300000"),
+    "size = [500, 500]": (7, "tasks[1].size", "500000"),
     "seed = -1": (7, "tasks[1].seed", "-1 is negative"),
     'rows = "left"': (7, "tasks[1].rows", "'left' is unknown"),
     "pixels_from = 2": (7, "tasks[1].pixels_from", "2 is unknown"),
@@ -174,6 +186,10 @@ OTHERS = {
     '[conventions]\ncamera = { a = "b" }\n' + RAYS: ("2: conventions.camera.a", "unknown"),
     "[conventions]\nrow = 1\n" + RAYS: ("2: conventions.row", "did you mean 'rows'"),
     '[[tasks]]\nkind = "hit-sphere"\nviews = ["spheres"]': ("3: tasks[0].views", "no cameras"),
+    '[[tasks]]\nkind = "basis"\ncameras = ["turned"]': ("3: tasks[0].cameras", "no cameras"),
+    "seconds = 3601\n" + RAYS: ("1: seconds", "out of range"),
+    "memory_mb = 63\n" + RAYS: ("1: memory_mb", "out of range"),
+    "memory_mb = 1048577\n" + RAYS: ("1: memory_mb", "out of range"),
     '[[tasks]]\nkind = "basis"\nsize = [3, 4]': ("3: tasks[0].size", "no cameras"),
     '[[tasks]]\nkind = "basis"\nvectorised = true': ("3: tasks[0].vectorised", "no pixels"),
     '[[tasks]]\nkind = "basis"\nreturns = ["w", "back"]': ("3: tasks[0].returns", "twice"),

@@ -14,6 +14,8 @@ from app.checking.cases import shots
 from app.checking.checked import judged
 from app.checking.conventions import CAMERA_WORDS, PAIRS, PIXEL_WORDS, Conventions
 from app.checking.kinds import KINDS
+from renderer.camera import Camera
+from renderer.scene.model import View
 
 KIND = KINDS["viewing-ray"]
 BASE = next(task for task in BUILTIN if task.name == "viewing-ray")
@@ -289,6 +291,14 @@ def test_pixels_from_the_bottom_and_from_one():
 
     assert tried(task, bottom_up).status == "right"
     assert tried(task, lecture).status == "wrong"
+
+
+def test_views_of_a_file_are_mirrored_too_where_the_course_is():
+    task, function = COURSES["view matrix"]
+    camera = Camera.look_at((3, 2, 4), (0, 0, 0), distance=1.5).fitted((8, 6))
+    task = replace(task, views=(View(camera, False),), count=0)
+    (shot,) = shots(task)
+    assert shot.camera.determinant < 0 and tried(task, function).status == "right"
 
 
 def test_parts_in_another_order_or_one_alone():

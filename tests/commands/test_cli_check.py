@@ -256,6 +256,10 @@ def test_a_file_of_rays(check, tmp_path):
     assert status == 1 and "48 of 48 cases are wrong" in out
     status, _, err = check(None, "rays.csv")
     assert status == 2 and "--view: is missing" in err
+    status, _, err = check(None, *words[:-1], "1280x720")
+    assert status == 2 and "--size: makes more than 500000 rays" in err
+    status, _, err = check("", "--size", "640x480")
+    assert status == 2 and "--size: makes more than 500000 rays" in err
     status, _, err = check(None, *words, "--task", "basis")
     assert status == 2 and "--view" in err
 
