@@ -148,9 +148,14 @@ def _end(arguments: argparse.Namespace, results: list[TaskResult]) -> int:
 
 
 def _check_arguments(arguments: argparse.Namespace) -> None:
+    from renderer.atomic import check_writable
+
     if (arguments.file is None) == (arguments.command is None):
         problem = "is missing" if arguments.file is None else "is given beside --command"
         raise LucidaError("FILE", problem, "give a Python file, a file of rays, or --command")
+    for path in (arguments.json, arguments.html):
+        if path not in (None, "-"):
+            check_writable(path)
     if arguments.output is not None:
         raise LucidaError("-o", "is for --starter", "results are written with --json OUT")
     if arguments.command is not None and arguments.task is None and arguments.tasks is None:
@@ -346,10 +351,17 @@ def _write_page(
     from app.checking.reports.page import page
     from renderer.atomic import atomic_write
 
-    name = arguments.command if arguments.file is None else Path(arguments.file).name
-    text = page(results, tasks, name, pictures, problem)
+    text = page(results, tasks, *_without_folders(arguments, problem), pictures)
     with atomic_write(arguments.html) as file:
         file.write(text.encode())
+
+
+def _without_folders(arguments: argparse.Namespace, problem: str) -> tuple[str, str]:
+    """What was checked, and the problem, with no more of a path than the file's name."""
+    parts = [arguments.file] if arguments.command is None else arguments.command.split()
+    for part in parts:
+        problem = problem.replace(part, Path(part).name or part)
+    return " ".join(Path(part).name or part for part in parts), problem
 
 
 def _write_starter(arguments: argparse.Namespace) -> int:

@@ -71,8 +71,8 @@ def page(
     tried: Sequence[TaskResult],
     tasks: Sequence[CheckTask],
     name: str,
+    problem: str,
     pictures: Mapping[str, Pictured],
-    problem: str = "",
 ) -> str:
     """The page. tried, tasks, problem: as in gradescope.results. name: of what was checked, as it
     is shown. pictures: by the tasks' names."""

@@ -83,6 +83,20 @@ def test_what_cannot_be_run_says_why(tmp_path: Path, code: str, says: str) -> No
     assert status in (1, 2) and says in shown.output + shown.tests[0][2]
 
 
+def test_a_task_file_or_a_submission_that_is_none(tmp_path: Path) -> None:
+    out = tmp_path / "results.json"
+    code, tasks = tmp_path / "rays.py", tmp_path / "tasks.toml"
+    code.write_text(RIGHT, "utf-8")
+    tasks.write_text('[[tasks]]\nkind = "viewing-rya"\n', "utf-8")
+    for asked in (
+        ["check", str(code), "--tasks", str(tasks)],
+        ["check", str(tmp_path / "none.py"), "--task", "basis"],
+    ):
+        assert main([*asked, "--json", str(out)]) == 2
+        shown = published(out)
+        assert shown.score == 0.0 and shown.output
+
+
 def test_a_verdict_alone(tmp_path: Path) -> None:
     _, shown = submitted(tmp_path, WRONG, "verdict")
     assert shown.tests[0][1:] == ("failed", "")

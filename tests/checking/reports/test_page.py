@@ -88,7 +88,7 @@ def tried(tmp_path_factory: pytest.TempPathFactory) -> tuple[TaskResult, Picture
 
 def shown(tried: tuple[TaskResult, Pictured], feedback: str) -> str:
     result = replace(tried[0], task=replace(tried[0].task, feedback=feedback))
-    return page([result], [result.task], "rays.py", {result.task.name: tried[1]})
+    return page([result], [result.task], "rays.py", "", {result.task.name: tried[1]})
 
 
 def test_the_page_stands_alone_and_the_students_text_is_text(tried) -> None:
@@ -129,10 +129,10 @@ def test_what_the_feedback_keeps_back_is_not_in_the_file(tried, feedback: str) -
 
 def test_a_right_answer_and_one_that_cannot_be_hidden(tried) -> None:
     right = replace(tried[0], status="right", points=3.0, first=None, diagnosis=None, wrong=0)
-    text = page([right], [right.task], "rays.py", {})
+    text = page([right], [right.task], "rays.py", "", {})
     assert "1 of 1 tasks are right: 3 of 3 points." in text and "<img" not in text
     other = replace(TASK, name="other", points=2.0)
-    text = page([right], [right.task, other], "a&b.py", {}, "a&b.py, line 3: invalid syntax")
+    text = page([right], [right.task, other], "a&b.py", "a&b.py, line 3: invalid syntax", {})
     parsed = WellFormed(text)
     assert "Lucida check: a&b.py" in parsed.text and "0 of 2 points" in parsed.text
     assert parsed.text.count("line 3: invalid syntax") == 2
@@ -153,6 +153,27 @@ def test_the_command_writes_the_page_with_the_files_name_only(tmp_path: Path, ca
     assert "line 1" in parsed.text and "rays.py" in parsed.text and tmp_path.name not in parsed.text
 
 
+def test_no_folder_is_in_the_page(tmp_path: Path, capsys) -> None:
+    code, out = tmp_path / "rays.py", tmp_path / "report.html"
+    code.write_text("def viewing_rya(): ...\n", "utf-8")
+    ends = tmp_path / "rays.py.sh"
+    ends.write_text("exit 3\n", "utf-8")
+    asked = (["check", str(code)], ["check", "--command", f"sh {ends}", "--task", "basis"])
+    for arguments in asked:
+        assert main([*arguments, "--html", str(out)]) == 2
+        text = out.read_text("utf-8")
+        assert "rays.py" in WellFormed(text).text and tmp_path.name not in text
+
+
+def test_a_page_that_cannot_be_written_is_told_first(tmp_path: Path, capsys) -> None:
+    code = tmp_path / "rays.py"
+    code.write_text("print('ran')\n", "utf-8")
+    for option in ("--html", "--json"):
+        assert main(["check", str(code), option, str(tmp_path / "none" / "out")]) == 2
+        said = capsys.readouterr()
+        assert "none" in said.err and "ran" not in said.out + said.err
+
+
 def test_code_that_fails_at_a_larger_image_has_no_pictures(tmp_path: Path) -> None:
     code = tmp_path / "small.py"
     code.write_text(
@@ -164,7 +185,7 @@ def test_code_that_fails_at_a_larger_image_has_no_pictures(tmp_path: Path) -> No
     with FileStudent(code) as student:
         result = checked(student, replace(TASK, count=1))
         assert result.status == "wrong" and pictured(student, result) is None
-    assert "<svg" in page([result], [result.task], "small.py", {})
+    assert "<svg" in page([result], [result.task], "small.py", "", {})
 
 
 def test_rays_that_are_none_are_shown_as_such() -> None:
