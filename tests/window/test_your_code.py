@@ -1,4 +1,4 @@
-"""The view "Your code" from start to start: it goes on with a file, and leaves no process behind."""
+"""The view "Your code" from start to start: it goes on with a file, leaves no process behind."""
 
 from __future__ import annotations
 
