@@ -7,6 +7,7 @@ from typing import Any
 from app.checking.conventions import Conventions
 from app.checking.kinds import KINDS
 from app.checking.tasks import CheckTask
+from renderer.shared_numbers import LUMINANCE
 
 COLOR_BYTES = 12  # of a pixel: three float32, as in the lecture
 
@@ -30,11 +31,15 @@ def _task(kind: str, part: str, text: str, points: float, **more: Any) -> CheckT
     return CheckTask(name, kind, KINDS[kind].function, part, text, points, conventions, **more)
 
 
+_LUMINANCE = " + ".join(
+    f"{weight} {name}" for weight, name in zip(LUMINANCE, ("red", "green", "blue"), strict=True)
+)
+
 BUILTIN = (
     _task(
         "to-gray",
         "Kinds of raster image",
-        "The grey of each pixel: 0.2126 red + 0.7152 green + 0.0722 blue, the luminance of linear "
+        f"The gray of each pixel: {_LUMINANCE}, the luminance of linear "
         "light. rgb is an array of height x width x 3 numbers from 0 to 1; give height x width.",
         1.0,
         count=4,

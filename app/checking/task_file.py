@@ -26,6 +26,7 @@ from renderer.scene.model import View
 from renderer.scene.places import Places, located
 from renderer.scene.reading import decode_text, read_file, suggestion
 from renderer.scene.tables import parse_toml, to_struct
+from renderer.shared_numbers import LUMINANCE
 
 TASKS = 100
 CASES = 1000
@@ -319,8 +320,7 @@ def _vectorised(entry: TaskTable, kind: CheckKind) -> bool:
 
 def _weights(entry: TaskTable, base: CheckTask) -> Vector:
     if entry.weights is not None and not all(map(math.isfinite, entry.weights)):
-        remedy = "give e.g. [0.2126, 0.7152, 0.0722]"
-        raise LucidaError("weights", "are no finite numbers", remedy)
+        raise LucidaError("weights", "are no finite numbers", f"give e.g. {list(LUMINANCE)}")
     return base.weights if entry.weights is None else entry.weights
 
 

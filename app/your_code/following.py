@@ -45,6 +45,11 @@ class FileFollower:
         else:
             self._looking.clear()
 
+    def forget(self) -> None:
+        """Another version is followed next, whatever it is."""
+        self._looking.clear()
+        self._watch, self._path = None, ""
+
     def again(self) -> None:
         """As if the file had been saved."""
         self.version += 1

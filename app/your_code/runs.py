@@ -89,19 +89,16 @@ class CodeRuns:
             return
         self._newest = question
         self._asked.set()
-        self._pictures.submit(lambda: self._work(question))
+        self._pictures.submit(lambda: self._told(question, lambda: self._work(question)))
 
     @property
     def busy(self) -> bool:
         return self._pictures.busy or self._checks.busy
 
     def poll(self) -> None:
-        """Once a frame: takes note of what the threads could not do."""
-        for thread in (self._pictures, self._checks):
-            outcome = thread.poll()
-            if outcome is not None and outcome.error is not None and self._newest is not None:
-                failure = Failure("ended", describe(outcome.error))
-                self.report = CodeReport(self._newest, failure=failure)
+        """Once a frame: takes note of the threads' ends."""
+        self._pictures.poll()
+        self._checks.poll()
 
     @property
     def running_s(self) -> float:
@@ -124,6 +121,7 @@ class CodeRuns:
         """No file any more, or this one anew: what was known is of no use."""
         with self._lock:
             self._newest = self.report = None
+        self._kept = OrderedDict()
         self._asked.set()
         self._close_student()
 
@@ -172,6 +170,13 @@ class CodeRuns:
         if self._is_wanted(question):
             self._asked.wait(REST_S)
         return self._is_wanted(question)
+
+    def _told(self, question: CodeQuestion, work: Callable[[], None]) -> None:
+        """Does it; what goes wrong with it is told of this question, unless it is overtaken."""
+        try:
+            work()
+        except Exception as error:
+            self._publish(CodeReport(question, failure=Failure("ended", describe(error))))
 
     def _publish(self, report: CodeReport) -> None:
         with self._lock:
@@ -223,7 +228,9 @@ class CodeRuns:
             del self._runs["picture"]
         self._publish(report)
         if student is not None and self._is_wanted(question):
-            self._checks.submit(lambda: self._check(question, student))
+            self._checks.submit(
+                lambda: self._told(question, lambda: self._check(question, student))
+            )
 
     def _report(
         self, question: CodeQuestion, before: CodeReport | None, begin: float

@@ -170,7 +170,7 @@ class YourCodeView(DockedView):
     def _rest(self) -> None:
         """Nothing runs, and nothing is shown of what did."""
         assert self.runs is not None and self._follower is not None
-        self._follower.follow("")
+        self._follower.forget()
         self._painting = False
         self.runs.poll()
         if self.runs.report is not None:

@@ -139,7 +139,7 @@ def test_the_modules_and_their_tests_are_there():
     for module, tests in mutations.MODULES.items():
         assert (ROOT / module).is_file(), module
         for name in tests:
-            assert len(list(ROOT.glob(f"tests/*/test_{name}.py"))) == 1, name
+            assert len(list(ROOT.glob(f"tests/**/test_{name}.py"))) == 1, name
 
 
 def test_known_mutants_are_still_there():

@@ -44,7 +44,7 @@ folder, mode = Path(sys.argv[1]), sys.argv[2]
 viewer.settings_file = lambda fresh=False: folder / "window.ini"
 viewer._folder = lambda: folder
 start = viewer.begin_session(folder=folder)
-run = viewer.Run(start_platform(want_display=False), start.state, (900, 600), start=start)
+run = viewer.WindowRun(start_platform(want_display=False), start.state, (900, 600), start=start)
 window, frames = run.window, iter(range(10**9))
 
 def step():

@@ -67,8 +67,7 @@ def opened(d: Driver, text: str, name: str = "rays.py") -> Path:
     path = write(d, text, name)
     d.window._dropped([str(path)])
     d.until(lambda: d.window.state.options.your_code.file == stored(str(path)))
-    d.until(lambda: d.window.shell.stage.is_shown(YOUR_CODE))
-    d.until(lambda: view(d).report is not None)
+    d.until(lambda: YOUR_CODE in d.window.shell.stage.rects)
     return path
 
 

@@ -24,7 +24,7 @@ start = viewer.begin_session(folder=folder)
 if code:
     kept = start.state.with_options(your_code={"file": viewer.stored(code)})
     start = viewer.replace(start, state=kept, code=code)
-run = viewer.Run(start_platform(want_display=False), start.state, (900, 600), start=start)
+run = viewer.WindowRun(start_platform(want_display=False), start.state, (900, 600), start=start)
 view = run.window.views[YOUR_CODE]
 waited = []
 

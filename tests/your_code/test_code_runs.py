@@ -254,6 +254,29 @@ def test_forgetting_ends_the_process(desk):
     wait_for(lambda: desk.made[0].closed)
     assert desk.told(QUESTION).rays.result.status == "right"
     assert len(desk.made) == 2
+    assert len(desk.made[1].runs) == 3  # nothing of before is taken for an answer
+
+
+def test_a_failure_of_an_overtaken_run_is_not_the_newest_s(desk):
+    gate = threading.Event()
+
+    def breaks(student):
+        def call(calls):
+            student.answered = 6
+            gate.wait(60)
+            raise OSError("broken")
+
+        student.call = call
+
+    desk.prepare = breaks
+    desk.runs.follow(QUESTION)
+    wait_for(lambda: desk.made and desk.made[0].answered == 6)
+    desk.prepare = lambda student: None
+    desk.runs.follow(replace(QUESTION, version=2))
+    gate.set()
+    report = desk.settled()
+    assert report.failure is None
+    assert report.rays.result.status == "right"
 
 
 def test_closing_while_it_runs_ends_the_process(desk):

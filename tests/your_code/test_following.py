@@ -34,6 +34,12 @@ def test_a_saved_file_is_another_version_and_wakes_the_window(tmp_path: Path):
         assert follower.version == first + 3
         follower.follow(str(tmp_path / "other.py"))
         assert follower.version == first + 4
+        follower.follow("")
+        follower.follow(str(tmp_path / "other.py"))
+        assert follower.version == first + 4  # it was only out of sight
+        follower.forget()
+        follower.follow(str(tmp_path / "other.py"))
+        assert follower.version == first + 5
     finally:
         follower.close()
 

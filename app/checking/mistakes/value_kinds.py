@@ -12,8 +12,7 @@ from app.checking.mistakes.hits import CLOSEST, SHAPES, SPHERE, TRIANGLE
 from app.checking.mistakes.images import bitmap_program, gray_program, offset_program
 from app.checking.mistakes.program import Program
 from app.checking.mistakes.value_diagnosis import ValueCase
-
-LUMINANCE = (0.2126, 0.7152, 0.0722)  # Rec. 709, of linear light
+from renderer.shared_numbers import LUMINANCE
 
 
 def value_program(

@@ -246,7 +246,7 @@ class Script:
 def _worker(mesh: str, seconds: float, steps: int) -> None:
     from app.state.app_state import AppState
     from app.window.platform import start_platform
-    from app.window.viewer import Run as WindowRun
+    from app.window.viewer import WindowRun
     from renderer.scene import View
 
     subject: Subject = SUBJECTS[mesh]() if mesh in SUBJECTS else model(mesh)
