@@ -43,7 +43,7 @@ class RayPainter:
     def __init__(
         self, scene: Scene, flat: FlatScene, tracer: Any, is_wanted: Callable[[], bool]
     ) -> None:
-        self._scene, self._flat, self._tracer = scene, flat, tracer
+        self._scene, self._flat, self.tracer = scene, flat, tracer
         self._is_wanted = is_wanted
 
     def picture(
@@ -51,14 +51,14 @@ class RayPainter:
     ) -> NDArray[np.float32]:
         """Linear light (H, W, 3) along rays, see shaded_rays.shaded(). Raises UnwantedError, which
         is to be let through."""
-        light = shaded(self._tracer, self._flat, origins, directions, shading, self._is_wanted)
-        if light is None or self._tracer.scene is not self._scene:
+        light = shaded(self.tracer, self._flat, origins, directions, shading, self._is_wanted)
+        if light is None or self.tracer.scene is not self._scene:
             raise UnwantedError
         return light
 
     def hit(self, origin: ArrayLike, direction: ArrayLike, shading: RayShading) -> float:
         """Where a ray (3,), (3,) ends, in units of its direction; inf where it meets nothing."""
-        t = self._tracer.closest_hits([origin], [direction], *shading.t_range)[0]
+        t = self.tracer.closest_hits([origin], [direction], *shading.t_range)[0]
         return float(t[0])
 
 
@@ -85,7 +85,7 @@ class RayPictures(Generic[T]):
 
     def __init__(self, name: str, wake: Callable[[], None]) -> None:
         self._background: Background[_Answer[T]] = Background(name, wake)
-        self._tracer = SceneTracer()
+        self.tracer = SceneTracer()
         self._flat: tuple[Scene, FlatScene] | None = None  # used in the thread only
         self._newest: _Question | None = None
         self._waits = False  # for the window's tracer
@@ -122,7 +122,7 @@ class RayPictures(Generic[T]):
     def close(self) -> None:
         self._newest = None
         self._background.close()
-        self._tracer.close()
+        self.tracer.close()
 
     def _poll(self) -> None:
         outcome = self._background.poll()
@@ -151,7 +151,7 @@ class RayPictures(Generic[T]):
             scene = question.scene
             if self._flat is None or self._flat[0] is not scene:
                 self._flat = (scene, flatten(scene))
-            painter = RayPainter(scene, self._flat[1], self._tracer.of(scene, tracer), is_wanted)
+            painter = RayPainter(scene, self._flat[1], self.tracer.of(scene, tracer), is_wanted)
             return _Answer(question, make(painter))
         except UnwantedError:
             return _Answer(question)

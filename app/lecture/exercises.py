@@ -118,19 +118,19 @@ class RayExercise:
             where = "on the image plane" if self.camera.is_parallel else "at the eye"
             return Judgement(False, f"Not yet: the ray begins {where}.", "origin")
         ray = self.camera.ray(*self.pixel, self.size)
-        if _is_multiple(given["direction"], ray.direction, self.tolerance):
+        if is_multiple(given["direction"], ray.direction, self.tolerance):
             return Judgement(False, NOT_NORMALISED, "direction")
-        if _is_multiple(-given["direction"], ray.direction, self.tolerance):
+        if is_multiple(-given["direction"], ray.direction, self.tolerance):
             return Judgement(
                 False, "That points backwards: t > 0 must lead into the scene.", "direction"
             )
         return Judgement(False, "Not yet: the origin is right, the direction is not.", "direction")
 
     def _is_origin(self, given: Floats, exact: Floats) -> bool:
-        return _is_close(given, exact, self.tolerance)
+        return is_close(given, exact, self.tolerance)
 
     def _is_direction(self, given: Floats, exact: Floats) -> bool:
-        compare = _is_multiple if self.scaled else _is_close
+        compare = is_multiple if self.scaled else is_close
         return compare(given, exact, self.tolerance)
 
 
@@ -168,16 +168,16 @@ class VectorExercise:
             return given
         for wanted in self.wanted:
             value, exact = given[wanted.name], np.asarray(wanted.value)
-            compare = _is_multiple if wanted.scaled else _is_close
+            compare = is_multiple if wanted.scaled else is_close
             if compare(value, exact, self.tolerance):
                 continue
             for wrong, text in wanted.wrong:
                 if compare(value, np.asarray(wrong), self.tolerance):
                     return Judgement(False, text, wanted.name)
             name = escaped(wanted.name)
-            if _is_multiple(value, exact, self.tolerance):
+            if is_multiple(value, exact, self.tolerance):
                 text = _wrong_length(wanted)
-            elif _is_multiple(-value, exact, self.tolerance):
+            elif is_multiple(-value, exact, self.tolerance):
                 text = f"{name} points the other way."
             else:
                 text = f"Not yet: {name} is not right."
@@ -242,11 +242,11 @@ def _vectors(answers: Mapping[str, str], names: tuple[str, ...]) -> dict[str, Fl
     return given
 
 
-def _is_close(given: Floats, exact: Floats, tolerance: float) -> bool:
+def is_close(given: Floats, exact: Floats, tolerance: float) -> bool:
     return bool(np.linalg.norm(given - exact) <= tolerance * max(1.0, float(np.linalg.norm(exact))))
 
 
-def _is_multiple(given: Floats, exact: Floats, tolerance: float) -> bool:
+def is_multiple(given: Floats, exact: Floats, tolerance: float) -> bool:
     """Whether two vectors have one direction; never for a vector without one."""
     lengths = np.linalg.norm(given), np.linalg.norm(exact)
     if min(lengths) < 1e-12:

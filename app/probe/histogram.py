@@ -44,12 +44,14 @@ def values_and_histogram(
     size = ImVec2(start.x + width - left, high)
     if is_traced and size.x > 4 * line:
         imgui.set_cursor_screen_pos(ImVec2(left, start.y))
-        _plot(found, pixel[0] if pixel is not None else None, size, fonts)
+        plot_counts(found, pixel[0] if pixel is not None else None, size, fonts)
         imgui.set_cursor_screen_pos(end)
         imgui.dummy(ImVec2(0, 0))
 
 
-def _plot(found: Histogram | None, pixel: Bytes | None, size: ImVec2, fonts: theme.Fonts) -> None:
+def plot_counts(
+    found: Histogram | None, pixel: Bytes | None, size: ImVec2, fonts: theme.Fonts
+) -> None:
     """The three channels over one another, the pixel's own values as lines, and an axis."""
     low, draw = imgui.get_cursor_screen_pos(), imgui.get_window_draw_list()
     axis = AXIS * imgui.get_font_size()

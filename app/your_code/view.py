@@ -358,7 +358,7 @@ class YourCodeView(DockedView):
             host.files.open_code_dialog()
         elif wish == "starter":
             host.files.save_as_dialog(
-                "Write a file to begin with", STARTER, ("Python files", ".py"), self._write
+                "Write a file to begin with", STARTER, ("Python files", ".py"), self.write_starter
             )
         elif wish == "edit" and path and not open_in_editor(path):
             host.files.message = f"No editor was found. The file is {one_line(path)}."
@@ -369,7 +369,7 @@ class YourCodeView(DockedView):
         elif wish == "stop":
             self.runs.stop()
 
-    def _write(self, path: str) -> str:
+    def write_starter(self, path: str) -> str:
         """In a thread: the file to begin with."""
         with atomic_write(Path(path)) as file:
             file.write(starter([task for task in BUILTIN if task.kind == RAY]).encode())

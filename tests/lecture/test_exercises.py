@@ -151,7 +151,7 @@ class TestRays:
         right = camera.ray(*pixel, size)
         told = set()
         made = mistakes(camera, *pixel, size)
-        close, along = exercises._is_close, exercises._is_multiple
+        close, along = exercises.is_close, exercises.is_multiple
         same_direction = along if exercise.scaled else close
         for mistake, ray in made:
             same = close(ray.origin, right.origin, TOLERANCE) and same_direction(

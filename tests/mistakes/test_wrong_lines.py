@@ -47,7 +47,7 @@ def situation(state: AppState = STATE, columns: int = 64) -> Situation:
 def test_the_right_lines_make_the_ray_image(painter, state) -> None:
     now = situation(state)
     both = model.compared(painter, now, ())
-    image = painter._tracer.render(now.camera, now.size, ("color",)).channel("color")
+    image = painter.tracer.render(now.camera, now.size, ("color",)).channel("color")
     looks = [model.shown(light, 0.0) for light in (both.right, image)]
     assert model.changed_pixels(*looks).mean() < 0.01
     assert both.wrong is both.right and both.ray is None

@@ -9,10 +9,15 @@ from pathlib import Path
 
 TESTS = Path(__file__).parents[1]
 PRIVATE = re.compile(r"_[a-zA-Z]\w*")
-PYTHONS = {"_exit", "_replace"}  # of os and of named tuples: public in spite of their names
+PYTHONS = {
+    "_asdict",
+    "_exit",
+    "_replace",
+}  # of os and of named tuples: public in spite of their names
 
 # Each is explained where it stands.
 NONE_IS_PUBLIC = {
+    "checking/running/test_running_limits.py": {"_closed", "_program", "_source"},
     "images/test_live_raster.py": {"_under_way", "_first_row", "_build"},
     "outside/test_outside_drawing.py": {"_used"},
     "project/test_compile_note.py": {"_note"},
@@ -25,6 +30,7 @@ NONE_IS_PUBLIC = {
     "storage/test_odd_names.py": {"_listing", "_name", "_finish", "_glfw", "_GLFWdropfun"},
     "support/other_processor.py": {"_final_module"},
     "trace/test_trace_cache.py": {"_note", "_save_data"},
+    "your_code/test_code_runs.py": {"_asked", "_wake"},
 }
 
 

@@ -280,8 +280,8 @@ def drive_the_histogram_is_of_the_image_that_is_shown(d: Driver) -> None:
     finally:
         probe_view.histogram = real
     # No ray image in sight: the histogram of one that is gone is not shown.
-    plotted, plot = [], histogram_look._plot
-    histogram_look._plot = lambda *arguments: plotted.append(plot(*arguments))
+    plotted, plot = [], histogram_look.plot_counts
+    histogram_look.plot_counts = lambda *arguments: plotted.append(plot(*arguments))
     try:
         d.ctx.yield_(4)
         assert plotted
@@ -291,7 +291,7 @@ def drive_the_histogram_is_of_the_image_that_is_shown(d: Driver) -> None:
         d.ctx.yield_(2)
         assert not plotted, "an empty box"
     finally:
-        histogram_look._plot = plot
+        histogram_look.plot_counts = plot
     assert view(d).histogram is None
     d.window.shell.stage.show(RAY)
     d.settle()

@@ -65,7 +65,7 @@ def until_told(d: Driver, *parts: str) -> None:
 
 def opened(d: Driver, text: str, name: str = "rays.py") -> Path:
     path = write(d, text, name)
-    d.window._dropped([str(path)])
+    d.drop([str(path)])
     d.until(lambda: d.window.state.options.your_code.file == stored(str(path)))
     d.until(lambda: YOUR_CODE in d.window.shell.stage.rects)
     return path
@@ -89,7 +89,7 @@ def drive_without_a_file_it_helps_to_begin(d: Driver) -> None:
     dialog = d.window.files.dialog
     if dialog.is_open:  # the window's own: there is no system's here
         dialog.cancel()
-    view(d)._write(str(d.folder / "begun.py"))
+    view(d).write_starter(str(d.folder / "begun.py"))
     d.until(lambda: d.window.state.options.your_code.file == stored(str(d.folder / "begun.py")))
     until_told(d, "viewing_ray returns nothing yet")
     d.picture()
@@ -199,7 +199,7 @@ def drive_the_newest_camera_wins_while_it_runs(d: Driver) -> None:
     far = camera.__class__(**{**vars_of(camera), "distance": 7.0})
     d.window.change(state.with_camera(far))
     opened_path = write(d, endless)
-    d.window._dropped([str(opened_path)])
+    d.drop([str(opened_path)])
     runs = view(d).runs
     assert runs is not None
     d.until(lambda: runs.running_s > 0)

@@ -293,6 +293,7 @@ def test_closing_while_it_runs_ends_the_process(desk):
 def test_a_slow_file_waits_until_the_camera_rests(desk, monkeypatch):
     monkeypatch.setattr(runs_module, "REST_S", -1.0)  # each run is slow, no wait is long
     waited = []
+    # How long it rests before it asks on is seen nowhere else.
     monkeypatch.setattr(desk.runs._asked, "wait", lambda seconds: waited.append(seconds))
     desk.told(QUESTION)
     assert len(waited) == 1  # before the tasks
@@ -304,7 +305,7 @@ def test_a_slow_file_waits_until_the_camera_rests(desk, monkeypatch):
 
 def test_wrong_rays_are_told_first_then_why(desk):
     seen = []
-    wake = desk.runs._wake
+    wake = desk.runs._wake  # each report that a frame could see
     desk.runs._wake = lambda: (seen.append(desk.runs.report), wake())
 
     def mirrored(student):

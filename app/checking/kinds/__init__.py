@@ -5,7 +5,7 @@ values       what a student's function returned, read generously
 viewing_ray  the ray of a pixel
 basis        a camera's basis from a target
 hits         a sphere, a triangle, the nearest of several; their mathematics: shapes
-images       gray, one bit a pixel, the place in memory
+images       gray, one bit per pixel, the place in memory
 render       both loops
 """
 

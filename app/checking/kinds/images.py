@@ -1,4 +1,4 @@
-"""The lecture's part on images: gray, one bit a pixel, and where a pixel lies in memory.
+"""The lecture's part on images: gray, one bit per pixel, and where a pixel lies in memory.
 
 Answers in the kind's own form: a list of arrays (H, W), one for each case; of memory_offset numbers
 (N,). None where a shape is another one.

@@ -1,4 +1,4 @@
-"""Images as arrays: gray, one bit a pixel, a pixel's place in memory: lines, and mistakes."""
+"""Images as arrays: gray, one bit per pixel, a pixel's place in memory: lines, and mistakes."""
 
 from __future__ import annotations
 
@@ -121,7 +121,7 @@ def bitmap_program(inclusive: bool) -> Program:
 
 @functools.cache
 def offset_program(base: int, column_major: bool, stride: int) -> Program:
-    """The place of pixel (i, j), counted from base, with `stride` bytes a pixel."""
+    """The place of pixel (i, j), counted from base, with `stride` bytes per pixel."""
     row, column = ("i", "j") if base == 0 else (f"(i - {base})", f"(j - {base})")
     by_rows, by_columns = f"{row} * width + {column}", f"{column} * height + {row}"
     right, other = (by_columns, by_rows) if column_major else (by_rows, by_columns)
@@ -166,7 +166,7 @@ def offset_program(base: int, column_major: bool, stride: int) -> Program:
             offset("the columns not in bytes", f"{row} * width * {stride} + {column}",
                    f"Columns count in bytes, too: multiply all by {stride}."),
             *(
-                offset(f"{other} bytes a pixel", f"pixels * {other}",
+                offset(f"{other} bytes per pixel", f"pixels * {other}",
                        f"A pixel has {stride} bytes: three numbers of single precision.")
                 for other in (3, 4, 8, 24, 96) if other != stride
             ),

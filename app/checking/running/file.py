@@ -47,7 +47,7 @@ class FileStudent:
     closed: nobody else ends its process while this one lives."""
 
     def __init__(self, path: Path | str, limits: Limits | None = None, python: str = "") -> None:
-        self._path, self._limits, self._python = Path(path), limits or Limits(), python
+        self._path, self.limits, self._python = Path(path), limits or Limits(), python
         self._name = one_line(self._path.name)
         self._turn = threading.Lock()  # one run at a time
         self._change = threading.Lock()
@@ -75,7 +75,7 @@ class FileStudent:
         """All that the file has and that can be called. Raises NotRunnableError."""
         with self._turn:
             try:
-                failure = self._start(time.monotonic() + self._limits.seconds)
+                failure = self._start(time.monotonic() + self.limits.seconds)
             except BaseException:  # Ctrl-C
                 self._end()
                 raise
@@ -90,7 +90,7 @@ class FileStudent:
 
     def call(self, calls: Sequence[Call]) -> Run:
         with self._turn:
-            end = time.monotonic() + self._limits.seconds
+            end = time.monotonic() + self.limits.seconds
             values = self._values = []
             try:
                 failure = self._start(end)
@@ -132,11 +132,11 @@ class FileStudent:
         opening = {
             "path": os.path.realpath(self._path),
             "source": source.decode("latin-1"),
-            "memory_mb": self._limits.memory_mb,
+            "memory_mb": self.limits.memory_mb,
             "mark": self._program.mark,
         }
         self._program.send(json.dumps(opening).encode() + b"\n")
-        self._lines = self._program.lines(end, self._limits.memory_mb + _PYTHON_MB)
+        self._lines = self._program.lines(end, self.limits.memory_mb + _PYTHON_MB)
         try:
             line = next(self._lines)
         except ProgramOverError as over:
@@ -186,7 +186,7 @@ class FileStudent:
         command = [python, "-I", "-B", str(Path(__file__).with_name("student_process.py")), *path]
         folder = Path(os.path.realpath(self._path)).parent
         try:
-            return StudentProgram(command, folder, _ENVIRONMENT, self._limits.output)
+            return StudentProgram(command, folder, _ENVIRONMENT, self.limits.output)
         except OSError as error:
             raise LucidaError("", f"{python} cannot be started: {error.strerror}") from None
 
@@ -194,7 +194,7 @@ class FileStudent:
         """Appends to the values; what ended the run early."""
         assert self._program
         self._program.send(_request(calls))
-        self._lines = self._program.lines(end, self._limits.memory_mb + _PYTHON_MB)
+        self._lines = self._program.lines(end, self.limits.memory_mb + _PYTHON_MB)
         try:
             for call, line in zip(calls, self._lines, strict=False):
                 values.append(self._answer(call, line, len(values)))
@@ -253,7 +253,7 @@ class FileStudent:
             wanted = "numbers, lists, arrays, or an object with origin and direction"
             text = f"{call.function} returned {text}; wanted are {wanted}"
         elif kind == "memory":
-            text = f"it needs more than the memory limit of {self._limits.memory_mb} MB ({text})"
+            text = f"it needs more than the memory limit of {self.limits.memory_mb} MB ({text})"
         elif kind == "ended":
             remedy = "a function is to return" if call else _MAIN
             text = f"it ends the program ({text}); {remedy}"
@@ -265,7 +265,7 @@ class FileStudent:
         self, over: ProgramOverError, place: str, endless: str, number: int | None = None
     ) -> Failure:
         """What ended the process."""
-        limits, why = self._limits, over.why
+        limits, why = self.limits, over.why
         if why == "ended" and over.status == _MEMORY_STATUS:
             why = "memory"
         if why == "time":

@@ -11,14 +11,15 @@ from pathlib import Path
 def memory_of(process: int) -> int:
     """In bytes; 0 where it has ended, and where nobody can tell."""
     if sys.platform != "linux":
-        return _told_by_system(process)
-    tree = _tree(process)
+        return told_by_system(process)
+    tree = tree_of(process)
     held = sum(map(_resident, tree))
     # Copies share most of what they hold: counting that exactly takes longer.
     return held if len(tree) == 1 or held < 1 << 28 else sum(map(_proportional, tree))
 
 
-def _told_by_system(process: int) -> int:
+def told_by_system(process: int) -> int:
+    """Bytes of a process, as `ps` or `tasklist` tells; 0 where it is gone."""
     command = ["ps", "-o", "rss=", "-p", str(process)]
     if sys.platform == "win32":
         command = ["tasklist", "/FI", f"PID eq {process}", "/FO", "CSV", "/NH"]
@@ -30,7 +31,8 @@ def _told_by_system(process: int) -> int:
     return int(digits or 0) << 10
 
 
-def _tree(process: int) -> list[int]:
+def tree_of(process: int) -> list[int]:
+    """A process and all below it. Linux."""
     tree = [process]
     for number in tree:
         try:

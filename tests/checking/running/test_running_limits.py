@@ -31,7 +31,7 @@ def hasty(student):
     def make(source: str, **limits) -> FileStudent:
         one = student(source, **limits)
         one.functions()
-        one._limits = dataclasses.replace(one._limits, seconds=SHORT)
+        one.limits = dataclasses.replace(one.limits, seconds=SHORT)
         return one
 
     return make
@@ -73,7 +73,7 @@ def test_a_file_that_never_ends_while_it_is_imported(student):
 def test_after_the_time_limit_the_next_run_has_a_process_of_its_own(hasty):
     one = hasty("def f(i):\n    while i: pass\n    return i\n")
     assert one.call([called("f", i=1)]).failure.kind == "time"
-    one._limits = Limits(60)
+    one.limits = Limits(60)
     assert one.call([called("f", i=0)]).values == (0,)
 
 
@@ -310,13 +310,13 @@ def test_ctrl_c_ends_the_process_and_another_run_starts_anew(student, monkeypatc
         patched.setattr("app.checking.running.program.StudentProgram.lines", pressed)
         with pytest.raises(KeyboardInterrupt):
             one.functions() if ask == "functions" else one.call([F])
-    assert one._program is None
+    assert one._program is None  # a process is nobody's business but its own
     assert one.call([F]).values == (7,)
 
 
 def test_closed_while_it_starts(student, monkeypatch):
     one = student("def f(): return 7\n")
-    source = one._source
+    source = one._source  # the moment between reading and starting, which nothing else reaches
     monkeypatch.setattr(one, "_source", lambda: one._closed.set() or source())
     assert one.call([F]).failure.text == "rays.py: it is closed"
     assert one._program is None

@@ -31,20 +31,20 @@ def test_what_a_process_holds(holding):
 
 @pytest.mark.skipif(sys.platform != "linux", reason="elsewhere a process counts alone")
 def test_what_it_has_started_counts(holding):
-    assert holding in memory._tree(os.getpid())
+    assert holding in memory.tree_of(os.getpid())
     assert memory.memory_of(os.getpid()) > 50 << 20
 
 
 @pytest.mark.skipif(sys.platform != "win32" and shutil.which("ps") is None, reason="no ps")
 def test_what_another_program_says(holding):
-    assert 50 << 20 < memory._told_by_system(holding) < 100 << 20
+    assert 50 << 20 < memory.told_by_system(holding) < 100 << 20
 
 
 def test_a_process_that_is_not_there_holds_nothing(holding):
     assert memory.memory_of(2**22 + 1) == 0
-    assert memory._told_by_system(2**22 + 1) == 0
+    assert memory.told_by_system(2**22 + 1) == 0
 
 
 def test_where_nobody_can_tell_there_is_no_limit(monkeypatch):
     monkeypatch.setenv("PATH", "")
-    assert memory._told_by_system(os.getpid()) == 0
+    assert memory.told_by_system(os.getpid()) == 0
