@@ -23,7 +23,6 @@ NONE_IS_PUBLIC = {
     "project/test_compile_note.py": {"_note"},
     "project/test_private.py": {"_cache"},
     "raster/test_raster_display.py": {"_pictures"},
-    "scenarios/lecture.py": {"_native", "_dropped"},
     "scenarios/manner.py": {"_bar"},
     "scenarios/motion.py": {"_placed", "_pictures", "_shown_raster"},
     "stepper/test_runs.py": {"_under_way", "_cancelled"},

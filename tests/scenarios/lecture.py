@@ -332,13 +332,11 @@ def drive_a_lecture_is_opened_and_dropped(d: Driver) -> None:
     broken.write_text(SMALL.replace('"canonical"', '"canonicle"'))
     lecture, files = d.window.lecture, d.window.files
     lecture.session = None
-    files._native = False
     d.ctx.menu_click("//##MainMenuBar/Lecture/Open lecture...")
     assert files.dialog.is_open
     d.ctx.yield_(2)
     d.ctx.key_chars_replace_enter(str(path))
     d.until(lambda: lecture.session is not None)
-    files._native = True
     d.settle()
     assert lecture.session is not None and lecture.session.lecture.title == "Mine"
     assert d.window.state.scene.name == "spheres"
@@ -346,7 +344,7 @@ def drive_a_lecture_is_opened_and_dropped(d: Driver) -> None:
     d.until(lambda: [entry.name for entry in files.recent.entries][:1] == ["mine.toml"])
     # A broken one is told with its line, and nothing is lost.
     session, state = lecture.session, d.window.state
-    d.window._dropped([str(broken)])
+    d.drop([str(broken)])
     d.until(lambda: bool(files.message))
     assert "broken.toml:9: steps[1].scene: 'canonicle' is unknown" in files.message
     assert (lecture.session, d.window.state) == (session, state)
@@ -356,7 +354,7 @@ def drive_a_lecture_is_opened_and_dropped(d: Driver) -> None:
     lecture.session = None
     d.window.change(d.start)
     d.settle()
-    d.window._dropped([str(path)])
+    d.drop([str(path)])
     d.until(lambda: lecture.session is not None)
     d.settle()
     assert lecture.session is not None and lecture.session.lecture.title == "Dropped"
