@@ -25,6 +25,8 @@ INSTRUMENTS = "InstrumentSpace"  # below or beside: tabs
 CAMERA_WIDTH_EM = 19.5
 PRESENTATION = "Presentation"  # what presentation mode shows
 LECTURE = "Lecture"  # what a lecture shows, each step in its own way
+CODE = "Your code"
+SHOWN_TO_A_CLASS = (LECTURE, CODE)  # presentation mode changes their style only
 ARRANGING_FRAMES = 3  # until the dock spaces of a layout are there again
 RESTORING_FRAMES = 5  # at a start, until the layout of the session is there
 ROUNDED_PX = 1.5  # that ImGui gives a dock space more or less than was asked for
@@ -136,7 +138,7 @@ LAYOUTS = (
         {"Raster": MAIN, "Ray": RIGHT_SPACE},
     ),
     Layout(
-        "Your code",
+        CODE,
         (
             (MAIN, RIGHT_SPACE, imgui.Dir.right, 0.3),
             (RIGHT_SPACE, INSTRUMENTS, imgui.Dir.down, 0.5),

@@ -135,13 +135,13 @@ class Stage:
         self._next_focus = self.maximised or was
 
     def follow(self, preferences: Preferences) -> None:
-        """Presentation mode has a layout of its own, except in a lecture, which is made to be
-        presented; call once a frame, before the views."""
+        """Presentation mode has a layout of its own, but for those that are made for a class; call
+        once a frame, before the views."""
         self._frames += 1
         self._restore()
         if preferences.presentation != self._presenting:
             self._presenting = preferences.presentation
-            if self._presenting and layout.current().name != layout.LECTURE:
+            if self._presenting and layout.current().name not in layout.SHOWN_TO_A_CLASS:
                 self._before = layout.current().name, self.keyboard
                 self._keyboard_for = None
                 layout.switch(layout.PRESENTATION)

@@ -2,16 +2,17 @@
 
 from __future__ import annotations
 
+from app.host import layout
 from app.host.action import Action, Window
 from app.your_code.options import YourCodeOptions
 from app.your_code.panel import CodeWish
-from app.your_code.view import LAYOUT, YOUR_CODE, YourCodeView
+from app.your_code.view import YOUR_CODE, YourCodeView
 
 MENU = "File/Your code"
 
 
 def _ask(wish: CodeWish, window: Window) -> None:
-    window.shell.stage.show_in(YOUR_CODE, LAYOUT)
+    window.shell.stage.show_in(YOUR_CODE, layout.CODE)
     window.view(YourCodeView).ask(wish)
 
 

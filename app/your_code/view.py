@@ -48,7 +48,6 @@ from renderer.errors import LucidaError, describe, one_line
 from renderer.shaded_rays import RayShading
 
 YOUR_CODE = "Your-code"
-LAYOUT = "Your code"
 STARTER = "rays.py"
 CONTROLS_EM = 30.0  # the view's width, at least, in the type of its controls
 READ_BYTES = 100_000  # of a file that is shown and not run
@@ -70,7 +69,7 @@ class YourCodeView(DockedView):
 
     name = YOUR_CODE
     title = "Your code"
-    places: ClassVar = {LAYOUT: layout.MAIN}
+    places: ClassVar = {layout.CODE: layout.MAIN}
 
     def __init__(self, outside: OutsideView) -> None:
         self._outside = outside
@@ -103,7 +102,7 @@ class YourCodeView(DockedView):
             window.change(window.state.with_options(your_code=options))
         elif self._follower is not None:
             self._follower.again()
-        window.shell.stage.show_in(YOUR_CODE, LAYOUT)
+        window.shell.stage.show_in(YOUR_CODE, layout.CODE)
 
     def ask(self, wish: CodeWish) -> None:
         """What a button would do; for the next frame."""

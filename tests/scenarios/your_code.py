@@ -8,13 +8,13 @@ from pathlib import Path
 
 import numpy as np
 from imgui_bundle import hello_imgui
-from window_driver import Driver
+from window_driver import Driver, Key
 
 from app.host import layout
 from app.host.view import view_of
 from app.outside.view import OutsideView
 from app.storage.paths import stored
-from app.your_code.view import LAYOUT, YOUR_CODE, YourCodeView
+from app.your_code.view import YOUR_CODE, YourCodeView
 
 WINDOW = f"//###{YOUR_CODE}"
 RIGHT = """\
@@ -80,8 +80,8 @@ def leave(d: Driver) -> None:
 
 
 def drive_without_a_file_it_helps_to_begin(d: Driver) -> None:
-    d.window.shell.stage.show_in(YOUR_CODE, LAYOUT)
-    d.until(lambda: layout.current().name == LAYOUT)
+    d.window.shell.stage.show_in(YOUR_CODE, layout.CODE)
+    d.until(lambda: layout.current().name == layout.CODE)
     d.ctx.yield_(8)
     d.picture()
     d.ctx.item_click(f"{WINDOW}/Write a file to begin with...")
@@ -277,3 +277,15 @@ def children() -> set[int]:
         if int(words[1]) == os.getpid() and b"student_process" in command and words[0] != "Z":
             found.add(int(entry.parent.name))
     return found
+
+
+def drive_presentation_leaves_the_code_in_sight(d: Driver) -> None:
+    opened(d, RIGHT)
+    layout.switch(layout.CODE)
+    d.until(lambda: layout.current().name == layout.CODE)
+    for key, presented in ((Key.f9, True), (Key.escape, False)):
+        d.press(int(key))
+        assert d.window.state.preferences.presentation is presented
+        d.ctx.yield_(4)
+        assert layout.current().name == layout.CODE
+        assert YOUR_CODE in d.window.shell.stage.rects
