@@ -9,8 +9,6 @@ from app.checking.kinds import KINDS
 from app.checking.tasks import CheckTask
 from renderer.shared_numbers import LUMINANCE
 
-COLOR_BYTES = 12  # of a pixel: three float32, as in the lecture
-
 _HIT = (
     "Give the ray parameter t of the nearest hit with t > 0: the point is origin + t * direction. "
     "Give None where there is none. The direction is of any length: do not assume 1."
@@ -56,11 +54,10 @@ BUILTIN = (
     _task(
         "memory-offset",
         "The image as an array",
-        "How many bytes after the first pixel does pixel (i, j) begin, in an image of rows one "
-        "after another (row-major), with three float32 a pixel? i, j count from 0.",
+        "How many pixels lie in memory before pixel (i, j), in an image of rows one after another "
+        "(row-major)? i, j count from 0.",
         1.0,
         count=20,
-        stride=COLOR_BYTES,
     ),
     _task(
         "viewing-ray",

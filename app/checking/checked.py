@@ -20,6 +20,10 @@ from app.checking.tasks import CheckCase, CheckTask
 
 Status = Literal["right", "wrong", "failed"]
 ARGUMENT_LETTERS = 400
+CHANGES = (
+    "Asked again, the first wrong case has another answer: is there a random number in it, or does "
+    "it keep something from one call to the next?"
+)
 
 
 @dataclass(frozen=True)
@@ -72,8 +76,27 @@ def checked(student: Student, task: CheckTask) -> TaskResult:
     """The result of one task, whose function the student's code has."""
     kind = KINDS[task.kind]
     cases = kind.cases(task)
-    run = student.call(kind.calls(task, cases))
-    return judged(task, cases, run)
+    result = judged(task, cases, student.call(kind.calls(task, cases)))
+    if result.status == "wrong" and task.feedback == "diagnosis" and not task.vectorised:
+        return _asked_again(student, result)
+    return result
+
+
+def _asked_again(student: Student, result: TaskResult) -> TaskResult:
+    """The result, with a word on a first wrong case that has another answer the second time."""
+    task, first = result.task, result.first
+    assert first is not None
+    kind = KINDS[task.kind]
+    run = student.call(kind.calls(task, [first.case]))
+    if run.failure is not None or any(isinstance(value, Failure) for value in run.values):
+        return result
+    given, problems = kind.given(task, [first.case], run.values)
+    if problems or np.array_equal(
+        np.asarray(given[0], float), np.asarray(first.answer, float), equal_nan=True
+    ):
+        return result
+    told = result.diagnosis or Diagnosis(())
+    return replace(result, diagnosis=replace(told, sentences=(CHANGES, *told.sentences)))
 
 
 def judged(task: CheckTask, cases: Sequence[CheckCase], run: Run) -> TaskResult:

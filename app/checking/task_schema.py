@@ -43,7 +43,8 @@ class TaskTable(ConventionsTable, kw_only=True):
     """[[tasks]]. arguments: words, or name = "word"; returns: words. cases: how many are made up.
 
     views: cameras as tables, files, or built-in scenes' names. Of to-gray: weights; of to-bitmap:
-    at_threshold, what is made of a gray that is the threshold; of memory-offset: order, stride.
+    at_threshold, what is made of a gray that is the threshold; of memory-offset: order,
+    stride: bytes a pixel, 1 where pixels are counted.
     """
 
     kind: str

@@ -93,11 +93,12 @@ def described(task: CheckTask) -> list[str]:
     """A task with its text and the meanings of its words."""
     from app.checking.starter import arguments_text, returned, signature
 
+    points = "point" if task.points == 1 else "points"
     return [
         f"{task.name}: {signature(task)} -> {returned(task)}",
         *textwrap.wrap(task.text, WIDTH),
         "",
         *arguments_text(task, indent=2),
         "",
-        f"{task.points:g} points. In the lecture: {task.part}.",
+        f"{task.points:g} {points}. In the lecture: {task.part}.",
     ]

@@ -34,7 +34,7 @@ NAMED = {
     ("render", "render.wrong_last_object"): "the last object wins",
     ("to-gray", "images.wrong_gray_mean"): "the mean",
     ("to-bitmap", "images.wrong_bitmap_above"): "the threshold itself",
-    ("memory-offset", "images.wrong_offset_pixels"): "pixels for bytes",
+    ("memory-offset", "images.wrong_offset_bytes"): "bytes for pixels",
 }
 
 

@@ -321,6 +321,58 @@ class TestWhatIsSaid:
         said = self.diagnosed(bent, cases)
         assert "Your rays are right in square images, and wrong elsewhere." in said.sentences
 
+    def test_where_they_are_right_by_chance_nothing_is_said(self):
+        """Half of the rays of every image of 3 x 4 pixels are wrong: not "elsewhere"."""
+        cases = [
+            replace(case, size=size, pixel=(i, j))
+            for case in made_cases(5, 40)[::25]
+            for size in ((3, 3), (3, 4), (4, 3))
+            for i in range(3)
+            for j in range(3)
+        ]
+
+        def bent(case):
+            ray = case.camera.ray(*case.pixel, case.size)
+            wrong = case.size == (3, 4) and case.pixel != (0, 0)
+            return ray.origin, ray.direction + wrong * np.sin(case.pixel[0] + 1)
+
+        said = self.diagnosed(bent, cases)
+        assert not any("right where" in one or "right in" in one for one in said.sentences)
+
+    def test_only_the_last_row_or_column(self):
+        cases = [
+            replace(case, size=(4, 4), pixel=(i, j))
+            for case in made_cases(5, 40)[::25]
+            for i in range(4)
+            for j in range(4)
+        ]
+
+        def bent(case):
+            i, j = case.pixel
+            ray = case.camera.ray(min(i, 2), min(j, 2), case.size)
+            return ray.origin, ray.direction
+
+        said = self.diagnosed(bent, cases)
+        assert "Only rays of the last row or column are wrong." in said.sentences
+
+    def test_the_first_camera_for_all(self):
+        cases = [
+            replace(case, size=(4, 4), pixel=(i, j))
+            for case in made_cases(5, 40)[::25]
+            for i in range(4)
+            for j in range(4)
+        ]
+
+        def first(case):
+            camera = cases[0].camera
+            if case.camera.is_parallel != camera.is_parallel:
+                camera = replace(camera, projection=case.camera.projection)
+            camera = replace(camera, viewport=case.camera.viewport, distance=case.camera.distance)
+            return camera.ray(*case.pixel, case.size)
+
+        said = self.diagnosed(first, cases)
+        assert "does it keep its eye and basis from one call" in " ".join(said.sentences)
+
     def test_rays_of_no_camera(self):
         def bent(case):
             ray = case.camera.ray(*case.pixel, case.size)
@@ -332,7 +384,7 @@ class TestWhatIsSaid:
 
     def test_no_numbers(self):
         said = self.diagnosed(lambda case: ((np.nan, 0, 0), (0, 0, 0)))
-        assert "are no finite numbers" in said.sentences[0]
+        assert "have NaN or inf" in said.sentences[0]
         assert "directions are zero" in said.sentences[1]
 
     def test_lengths_where_they_count(self):

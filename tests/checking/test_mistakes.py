@@ -282,9 +282,27 @@ class TestTwoInOneLine:
             assert program.can_combine(*pair)
             assert run_rays(program, known, pair)[1] == pytest.approx((x, y, -3))
 
+    @pytest.mark.parametrize(
+        ("names", "direction"),
+        [
+            (("no distance", "along +w"), "x*u + y*v + w"),
+            (("no distance", "a point, not a direction"), "eye + x*u + y*v - w"),
+            (("no distance", "the camera's coordinates"), "vector(x, y, -1)"),
+            (("along +w", "a point, not a direction"), "eye + x*u + y*v + distance*w"),
+            (("v the wrong way round", "along +w"), "x*u - y*v + distance*w"),
+            (("u the wrong way round", "no distance"), "-x*u + y*v - w"),
+        ],
+    )
+    def test_of_the_direction(self, names, direction):
+        program = ray_program(RayTask())
+        both = tuple(one(program, name) for name in names)
+        for pair in (both, both[::-1]):
+            assert program.can_combine(*pair)
+            assert program.source(pair).splitlines()[-1] == f"direction = {direction}"
+
     def test_what_hides_the_other_is_no_pair(self):
         program = ray_program(RayTask())
-        first, second = one(program, "no distance"), one(program, "along +w")
+        first, second = one(program, "no w"), one(program, "along +w")
         assert not program.can_combine(first, second)
         assert (first, second) not in set(program.pairs())
         assert program.text((first, second)) == program.text((first,))

@@ -17,10 +17,10 @@ from renderer.scene.views import save_view
 
 RIGHT = """\
 def memory_offset(i, j, width):
-    return 12 * (i * width + j)
+    return i * width + j
 """
-WRONG = RIGHT.replace("12 *", "3 *")
-RAISES = RIGHT.replace("return", "return 1 //").replace("12 * (i * width + j)", "(i * width + j)")
+WRONG = RIGHT.replace("j\n", "j + 1\n")
+RAISES = RIGHT.replace("return", "return 1 // (").replace("+ j", "+ j)")
 ALSO = """
 def hit_sphere(origin, direction, center, radius):
     print("called")
@@ -77,16 +77,26 @@ def results(text, tmp_path):
 
 def test_right_is_0_wrong_is_1_and_what_cannot_run_is_2(check):
     status, out, err = check(RIGHT)
-    assert (status, err) == (0, "") and out == "right  memory-offset  1 of 1 points\n"
+    assert (status, err) == (0, "") and out == "right  memory-offset  1 of 1 point\n"
     status, out, err = check(WRONG)
     assert (status, err) == (1, "")
-    assert out.startswith("wrong  memory-offset  0 of 1 points\n")
-    assert "memory_offset(i=0, j=1, width=8)\n" in out
-    assert "right: 12\n" in out and "given: 3\n" in out
+    assert out.startswith("wrong  memory-offset  0 of 1 point\n")
+    assert "memory_offset(i=0, j=0, width=8)\n" in out
+    assert "right: 0\n" in out and "given: 1\n" in out
     status, out, err = check(RAISES)
     assert (status, err) == (2, "")
     assert out.startswith("failed memory-offset") and "ZeroDivisionError" in out
     assert "memory_offset(i=0, j=0, width=8)" in out
+
+
+def test_an_answer_that_changes_when_it_is_asked_again(check):
+    text = (
+        "calls = []\ndef memory_offset(i, j, width):\n    calls.append(i)\n    return len(calls)\n"
+    )
+    _, out, _ = check(text)
+    assert "Asked again, the first wrong case has another answer" in out
+    _, out, _ = check(WRONG)
+    assert "Asked again" not in out
 
 
 def test_several_tasks_are_told_in_their_order_with_a_sum(check):
@@ -211,7 +221,7 @@ def test_what_is_coloured(check, monkeypatch):
 
     monkeypatch.setattr(terminal, "is_colored", lambda stream: True)
     _, out, _ = check(RIGHT)
-    assert out == "\x1b[32mright \x1b[0m memory-offset\x1b[2m  1 of 1 points\x1b[0m\n"
+    assert out == "\x1b[32mright \x1b[0m memory-offset\x1b[2m  1 of 1 point\x1b[0m\n"
 
 
 def test_a_starter_is_never_written_over_another_file(check, tmp_path):
@@ -281,7 +291,7 @@ def test_a_program(check, tmp_path):
         "import json, sys\n"
         "for line in sys.stdin:\n"
         "    asked = json.loads(line)\n"
-        "    print(12 * (asked['i'] * asked['width'] + asked['j']))\n"
+        "    print(asked['i'] * asked['width'] + asked['j'])\n"
     )
     command = f'"{sys.executable}" answers.py'
     assert check(None, "--command", command, "--task", "memory-offset")[0] == 0
@@ -333,8 +343,9 @@ def test_a_mistake_in_the_task_file_leaves_results_too(check, tmp_path):
 
 def test_the_list_of_tasks(capsys, tmp_path):
     assert main(["tasks"]) == 0
-    lines = capsys.readouterr().out.splitlines()
-    assert [line.split()[0] for line in lines] == [task.name for task in BUILTIN]
+    tasks, _, courses = capsys.readouterr().out.partition("\n\n")
+    assert [line.split()[0] for line in tasks.splitlines()] == [task.name for task in BUILTIN]
+    assert "--tasks" in courses and "pbrt" in courses
     assert main(["tasks", "--json"]) == 0
     told = json.loads(capsys.readouterr().out)["tasks"]
     assert [task["name"] for task in told] == [task.name for task in BUILTIN]

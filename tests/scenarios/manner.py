@@ -70,8 +70,11 @@ def drive_what_was_typed_into_leaves_no_cursor(d: Driver) -> None:
             d.press(leaving)
             d.ctx.yield_(3)
             assert not context.nav_cursor_visible, (typed, leaving)
+    d.window.shell.stage.maximise()  # which Enter did: back
+    d.ctx.yield_(3)
     d.press(int(Key.tab))
     assert context.nav_cursor_visible
+    assert not d.window.shell.stage.maximised
 
 
 def drive_the_sheet_fits_the_window_at_every_size_of_type(d: Driver) -> None:

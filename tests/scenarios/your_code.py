@@ -226,7 +226,7 @@ def drive_images_are_pictures_and_other_functions_words(d: Driver) -> None:
     opened(
         d,
         "def to_gray(rgb):\n    return [[(r + g + b) / 3 for r, g, b in row] for row in rgb]\n"
-        "def memory_offset(i, j, width):\n    print('asked', i)\n    return (i + j * width) * 12\n",
+        "def memory_offset(i, j, width):\n    print('asked', i)\n    return i + j * width\n",
         "images.py",
     )
     until_told(d, "to_gray is wrong.")

@@ -152,7 +152,8 @@ class BitmapKind(ImageKind):
         """White may be 1, True or 255."""
         images, problems = super().given(task, cases, values)
         return [
-            image / 255 if image is not None and image.max() == 255 else image for image in images
+            image / 255 if image is not None and np.isin(image, (0, 255)).all() else image
+            for image in images
         ], problems
 
 

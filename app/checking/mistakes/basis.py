@@ -64,6 +64,16 @@ BASIS_MISTAKES = [
         "u = up x w: w is the direction back to the eye, not the target.",
     ),
     _one(
+        "the world's y for up",
+        "u = normalized(cross(vector(0, 1, 0), w))",
+        "up is given: it is not always the world's y.",
+    ),
+    _one(
+        "the world's z for up",
+        "u = normalized(cross(vector(0, 0, 1), w))",
+        "up is given: it is not always the world's z.",
+    ),
+    _one(
         "u x w for w x u",
         "v = cross(u, w)",
         "That is upside down: v = w x u, in this order.",

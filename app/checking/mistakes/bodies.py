@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from app.checking.mistakes.program import CodeLine, Mistake
+from app.checking.mistakes.program import CodeLine, Mistake, Swaps
 
 Axes = tuple[int, int, int]
 
@@ -29,6 +29,14 @@ RARE = {
     "no w",
     "normalised",
     "the direction is the eye's",
+}
+# What makes them in a direction that another mistake has rewritten.
+SWAPS: dict[str, Swaps] = {
+    "no distance": ((" distance*w", " w"), ("-distance)", "-1)")),
+    "along +w": (("*v - ", "*v + "),),
+    "v the wrong way round": (("direction = x*u + y*v", "direction = x*u - y*v"),),
+    "u the wrong way round": (("direction = x*u", "direction = -x*u"),),
+    "a point, not a direction": (("direction = x*u", "direction = eye + x*u"),),
 }
 
 
@@ -75,7 +83,7 @@ def _made(name: str, origin: str, direction: str, hint: str, part: str) -> Mista
     """origin, direction: what is written instead; empty where that is right."""
     lines = (("origin", origin), ("direction", direction))
     written = tuple((key, f"{key} = {code}") for key, code in lines if code)
-    return Mistake(name, written, hint, part, name not in RARE)
+    return Mistake(name, written, hint, part, name not in RARE, SWAPS.get(name, ()))
 
 
 def body_mistakes(
@@ -145,6 +153,8 @@ def _parallel(distance: str) -> list[Mistake]:
         ("along +w", "", "w", "w points backwards: the camera looks along -w."),
         ("no eye", "x*u + y*v", "", NO_EYE),
         ("the camera's coordinates", "vector(x, y, 0)", "vector(0, 0, -1)",
+         "Those are the camera's coordinates: multiply the basis vectors by them."),
+        ("the camera's coordinates, from the eye", "eye + vector(x, y, 0)", "vector(0, 0, -1)",
          "Those are the camera's coordinates: multiply the basis vectors by them."),
         ("as in perspective", "eye", _along("x*u + y*v -", distance), AS_PERSPECTIVE),
         ("v the wrong way round", "eye + x*u - y*v", "", "v points up: the origin has + v v."),

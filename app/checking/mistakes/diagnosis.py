@@ -36,8 +36,8 @@ def candidate_sentences(program: Program, found: Sequence[Mistakes]) -> list[str
     sentences += list(dict.fromkeys(mistake.hint for mistake in first))
     for line in program.text(first):
         if line.instead is not None:
-            written = " and ".join(f"`{code}`" for code in line.instead.split("\n"))
-            sentences.append(f"As if it read {written}, not `{line.code}`.")
+            written = " and ".join(f"`{code.strip()}`" for code in line.instead.split("\n"))
+            sentences.append(f"As if it read {written}, not `{line.code.strip()}`.")
     told = set(sentences)
     for others in found[1:NAMED]:
         hint = " ".join(mistake.hint for mistake in others)

@@ -143,7 +143,8 @@ def _perspective(
     # (1 - n n^T) (A + i B + j C) = 0: as n x (...), but of nine numbers each as large as its error.
     across = np.eye(3) - along[:, :, None] * along[:, None, :]
     system = (grid.terms[:, None, :, None] * across[:, :, None, :]).reshape(-1, 9)
-    _, sizes, vectors = np.linalg.svd(system, full_matrices=True)
+    # Of the triangle of its QR, which has the same: many pixels would make the left side large.
+    _, sizes, vectors = np.linalg.svd(np.linalg.qr(system, mode="r"), full_matrices=True)
     if len(sizes) < 9 or sizes[7] < RANK * sizes[0]:
         return None
     found = vectors[8].reshape(3, 3)

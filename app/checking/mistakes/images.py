@@ -54,6 +54,8 @@ def gray_program(weights: tuple[float, float, float]) -> Program:
             gray("the weights of video", _sum(LUMA),
                  "Those weights are for gamma-encoded video: of linear light they are others."),
             gray("the length of the colour", "sqrt(red**2 + green**2 + blue**2)", others),
+            gray("whole numbers before the sum", _sum(weights, "floor({})"),
+                 "The channels are fractions: as whole numbers (uint8) they are 0."),
             gray("gamma applied", f"({_sum(weights)})**(1 / 2.2)",
                  "The luminance of linear light is linear: no power of it."),
             answer("bytes for numbers from 0 to 1", "255 * gray",
@@ -72,9 +74,11 @@ def gray_program(weights: tuple[float, float, float]) -> Program:
     )  # fmt: skip
 
 
-def _sum(weights: tuple[float, float, float]) -> str:
+def _sum(weights: tuple[float, float, float], channel: str = "{}") -> str:
+    """channel: what is made of each."""
     return " + ".join(
-        f"{weight:g}*{name}" for weight, name in zip(weights, ("red", "green", "blue"), strict=True)
+        f"{weight:g}*{channel.format(name)}"
+        for weight, name in zip(weights, ("red", "green", "blue"), strict=True)
     )
 
 
@@ -121,7 +125,8 @@ def bitmap_program(inclusive: bool) -> Program:
 
 @functools.cache
 def offset_program(base: int, column_major: bool, stride: int) -> Program:
-    """The place of pixel (i, j), counted from base, with `stride` bytes per pixel."""
+    """The place of pixel (i, j), counted from base, with `stride` bytes per pixel; with 1, it
+    counts pixels."""
     row, column = ("i", "j") if base == 0 else (f"(i - {base})", f"(j - {base})")
     by_rows, by_columns = f"{row} * width + {column}", f"{column} * height + {row}"
     right, other = (by_columns, by_rows) if column_major else (by_rows, by_columns)
@@ -170,6 +175,16 @@ def offset_program(base: int, column_major: bool, stride: int) -> Program:
                        f"A pixel has {stride} bytes: three numbers of single precision.")
                 for other in (3, 4, 8, 24, 96) if other != stride
             ),
+        ]  # fmt: skip
+    else:
+        made += [
+            offset(name, f"pixels * {size}",
+                   f"Pixels are counted here, not {unit}: do not multiply by {size}.")
+            for name, unit, size in (
+                ("bytes for pixels", "bytes", 12),
+                ("numbers for pixels", "numbers", 3),
+                ("4 bytes a pixel", "bytes", 4),
+            )
         ]  # fmt: skip
     last = "answer = pixels" if stride == 1 else f"answer = pixels * {stride}"
     lines = (CodeLine("pixels", f"pixels = {right}"), CodeLine("answer", last))

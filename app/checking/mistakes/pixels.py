@@ -18,6 +18,9 @@ COLUMNS: Swaps = (
     ("x = -0.5 +", "x = 0.5 -"),
     ("x = -1 +", "x = 1 -"),
 )
+MIDDLE = (
+    "The viewport is not always symmetric: x begins at l, y at t, and its middle need not be 0."
+)
 FISHEYE = "Straight lines stay straight: equal steps on the image plane, not equal angles."
 
 
@@ -41,6 +44,9 @@ def pixel_mistakes(
         made += _whole_numbers(indexing, from_top)
     made.append(_without_edges(across, down, from_top))
     made += _viewports(across, down, from_top)
+    if "left" in words:
+        made += _symmetric(across, down, from_top)
+        made += [] if unit else _square_pixels(indexing, from_top)
     return made + _angles(across, down, from_top, distance) if distance else made
 
 
@@ -198,6 +204,19 @@ def _exchanges(indexing: Indexing, from_top: bool) -> list[Mistake]:
     ]
 
 
+def _square_pixels(indexing: Indexing, from_top: bool) -> list[Mistake]:
+    row, column = f"(i {indexing.offset})", f"(j {indexing.offset})"
+    y = f"y = {'top -' if from_top else 'bottom +'} {row} * (right - left) / width"
+    x = f"x = left + {column} * (top - bottom) / height"
+    hint = "Pixels need not be square: "
+    return [
+        Mistake("rows as far apart as columns", (("y", y),), f"{hint}a row is (t - b) / H high.",
+                PART),
+        Mistake("columns as far apart as rows", (("x", x),),
+                f"{hint}a column is (r - l) / W wide.", PART),
+    ]  # fmt: skip
+
+
 def _viewports(across: str, down: str, from_top: bool) -> list[Mistake]:
     """The lecture's simple camera's, or the usual cube's, whatever the camera's is."""
     up, low = ("0.5 -", "1 - 2 *") if from_top else ("-0.5 +", "-1 + 2 *")
@@ -215,6 +234,24 @@ def _viewports(across: str, down: str, from_top: bool) -> list[Mistake]:
             f"{hint}-1 to 1.",
             "Any camera",
         ),
+    ]
+
+
+def _symmetric(across: str, down: str, from_top: bool) -> list[Mistake]:
+    """As if 0 were in the middle of every viewport."""
+    x = f"(2 * {across} - 1)"
+    y = f"(1 - 2 * {down})" if from_top else f"(2 * {down} - 1)"
+    return [
+        Mistake(
+            name,
+            (("x", f"x = {x} * {half_width}"), ("y", f"y = {y} * {half_height}")),
+            "The viewport need not have 0 in its middle: it reaches from l to r and from b to t.",
+            "Any camera",
+        )
+        for name, half_width, half_height in (
+            ("as far to the left as to the right", "right", "top"),
+            ("the viewport's middle at 0", "(right - left) / 2", "(top - bottom) / 2"),
+        )
     ]
 
 

@@ -12,7 +12,7 @@ from app.checking.mistakes.candidates import candidates
 from app.checking.mistakes.diagnosis import Diagnosis, Told, shared, told_sentences
 from app.checking.mistakes.differences import Fit, told_differences
 from app.checking.mistakes.fitted import affine_rays
-from app.checking.mistakes.ray_facts import Rays, facts
+from app.checking.mistakes.ray_facts import Rays, facts, kept
 from app.checking.mistakes.ray_trial import Lengths, RayCase, RayTrial, images
 from app.checking.mistakes.rays import RayTask, ray_program
 
@@ -57,13 +57,16 @@ def diagnose_rays(
     differences = told_differences(fits) if fits else ()
     camera = fits[0].rays.camera(fits[0].asked, fits[0].size) if fits else None
     sentences = told_sentences(told, len(kinds))
+    asked = Rays(cases, rays, flags, task, any_origin, camera is not None)
     explained = all(found for _, found in told.values())
+    if remembered := kept(asked):
+        sentences.append(f"Or, with the same numbers: {remembered}" if sentences else remembered)
     if not explained:
         if differences:
             sentences.append(
                 f"What you wrote is a camera, only another one: {'; '.join(differences)}."
             )
-        sentences += facts(Rays(cases, rays, flags, task, any_origin, camera is not None))
+        sentences += facts(asked)
     found = tuple(dict.fromkeys(one for _, kind in told.values() for one in kind))
     return Diagnosis(tuple(sentences), found, differences, camera, int(np.argmax(flags)))
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -39,10 +39,11 @@ def facts(rays: Rays) -> list[str]:
 def _not_numbers(rays: Rays) -> Iterator[str]:
     broken = len(rays.cases) - np.count_nonzero(np.isfinite(rays.given).all(axis=(1, 2)))
     if broken:
-        yield f"{broken} of {len(rays.cases)} rays are no finite numbers: look for a division by 0."
-    short = np.linalg.norm(rays.given[:, 1], axis=1) == 0
-    if short.any():
-        yield f"{np.count_nonzero(short)} of {len(rays.cases)} directions are zero."
+        yield f"{broken} of {len(rays.cases)} rays have NaN or inf: look for a division by 0."
+    short = int(np.count_nonzero(np.linalg.norm(rays.given[:, 1], axis=1) == 0))
+    if short:
+        are = "is" if short == 1 else "are"
+        yield f"{short} of {len(rays.cases)} directions {are} zero."
 
 
 def _parts(rays: Rays) -> Iterator[str]:
@@ -99,6 +100,11 @@ def _is_symmetric(case: RayCase) -> bool:
     return abs(left + right) + abs(bottom + top) <= 1e-9 * (right - left + top - bottom)
 
 
+def _has_square_pixels(case: RayCase) -> bool:
+    left, right, bottom, top = case.camera.viewport
+    return abs((right - left) / case.size[0] * case.size[1] / (top - bottom) - 1) <= 1e-9
+
+
 PLACES: tuple[tuple[str, Callable[[RayCase], bool]], ...] = (
     ("in parallel projection", lambda case: case.camera.is_parallel),
     ("in perspective", lambda case: not case.camera.is_parallel),
@@ -109,18 +115,60 @@ PLACES: tuple[tuple[str, Callable[[RayCase], bool]], ...] = (
     ("where the viewport is symmetric", _is_symmetric),
     ("where d = 1", lambda case: case.camera.distance == 1.0),
     ("in square images", lambda case: case.size[0] == case.size[1]),
+    ("where pixels are square", _has_square_pixels),
 )  # fmt: skip
+
+# Whether the first row is meant, the last row, the first column, the last one.
+EDGES = (
+    ("the last row", (False, True, False, False)),
+    ("the last column", (False, False, False, True)),
+    ("the first row", (True, False, False, False)),
+    ("the first column", (False, False, True, False)),
+    ("the last row or column", (False, True, False, True)),
+    ("the first row or column", (True, False, True, False)),
+)
 
 
 def _where(rays: Rays) -> Iterator[str]:
-    """Where all rays are right and elsewhere none is, or hardly one."""
-    for place, is_there in PLACES:
-        there = np.array([is_there(case) for case in rays.cases])
-        if there.all() or not there.any() or rays.wrong[there].any():
-            continue
-        if 2 * np.count_nonzero(rays.wrong) >= np.count_nonzero(~there):
-            yield f"Your rays are right {place}, and wrong elsewhere."
+    """The images in which all rays are right, where every other one has some that are not: what
+    all of them have in common, and none of the others. Else the pixels that all wrong ones are."""
+    spans = list(images(rays.cases))
+    right = [not rays.wrong[first:last].any() for first, last in spans]
+    if any(right):
+        firsts = [rays.cases[first] for first, _ in spans]
+        found = [place for place, is_there in PLACES if [is_there(one) for one in firsts] == right]
+        if len(found) == 1:
+            yield f"Your rays are right {found[0]}, and wrong elsewhere."
+        elif found:
+            yield f"Of the cameras tried, your rays are right only {' and '.join(found)}."
+    pixels = np.array([case.pixel for case in rays.cases])
+    last = np.array([case.size[::-1] for case in rays.cases]) - 1
+    at = np.column_stack([pixels == 0, pixels == last])[:, [0, 2, 1, 3]]
+    for name, edges in EDGES:
+        if at[rays.wrong][:, list(edges)].any(axis=1).all():
+            if not rays.wrong.all():
+                yield f"Only rays of {name} are wrong."
             return
+
+
+def kept(rays: Rays) -> str:
+    """What is said of rays that are right for the first camera, of other ones as well; or ""."""
+    first = rays.cases[0].camera
+    trial = RayTrial(rays.cases, rays.given, rays.task, "any", rays.any_origin)
+    made = []
+    for case in rays.cases:
+        seen = replace(first, viewport=case.camera.viewport, distance=case.camera.distance)
+        seen = replace(seen, projection=case.camera.projection)
+        whole, pose = (camera.ray(*case.pixel, case.size) for camera in (first, seen))
+        made.append((whole, pose))
+    apart = trial.apart(rays.given, np.moveaxis(np.array(made), 1, 0), np.arange(trial.count))
+    for what, errors in zip(("it", "its eye and basis"), apart, strict=True):
+        if errors.max() <= LOOSE:
+            return (
+                "Your rays are right for the first camera that your function was given, also where "
+                f"it is given another one: does it keep {what} from one call to the next?"
+            )
+    return ""
 
 
 def _same(rays: Rays) -> Iterator[str]:

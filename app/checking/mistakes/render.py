@@ -67,6 +67,8 @@ MISTAKES = (
          "A colour is red, green, blue, in this order."),
     _one("whole bytes for numbers from 0 to 1", "answer", "answer = floor(255 * image)",
          "Colours go from 0 to 1 here: do not multiply by 255."),
+    _one("rounded to whole bytes", "answer", "answer = floor(255 * image + 0.5)",
+         "Colours go from 0 to 1 here: do not multiply by 255."),
     _one("the last row and column are missing", "answer",
          "image[-1], image[:, -1] = 0, 0\nanswer = image",
          "The loops go over all rows and columns, the last ones too."),

@@ -17,7 +17,7 @@ from app.checking.checked import TaskResult, WrongCase
 from app.checking.reports.picture import difference
 from app.checking.reports.pictured import Pictured
 from app.checking.reports.sketch import sketch
-from app.checking.reports.told import told, visible
+from app.checking.reports.told import of_points, told, visible
 from app.checking.starter import signature
 from app.checking.tasks import CheckTask
 from renderer.images import encode_array
@@ -98,13 +98,13 @@ def _summary(tried: Sequence[TaskResult], tasks: Sequence[CheckTask]) -> str:
     right = sum(result.status == "right" for result in tried)
     points = sum(result.points for result in tried)
     most = sum(task.points for task in tasks)
-    return f"{right} of {len(tasks)} tasks are right: {points:g} of {most:g} points."
+    return f"{right} of {len(tasks)} tasks are right: {of_points(points, most)}."
 
 
 def _section(result: TaskResult, pictures: Pictured | None) -> str:
     say = told(result)
     verdict = say.verdict or "tried"
-    points = "" if say.verdict is None else f"{result.points:g} of {result.task.points:g} points"
+    points = "" if say.verdict is None else of_points(result.points, result.task.points)
     parts = [_head(result.task, verdict, points)]
     if say.failure:
         reason, *lines = say.failure
@@ -123,7 +123,7 @@ def _section(result: TaskResult, pictures: Pictured | None) -> str:
 
 
 def _untried(task: CheckTask, reason: str) -> str:
-    head = _head(task, "failed", f"0 of {task.points:g} points")
+    head = _head(task, "failed", of_points(0, task.points))
     return f'<section class="failed">\n{head}<p>{_text(reason)}</p>\n</section>\n'
 
 

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from typing import TextIO
 
 from app.checking.checked import TaskResult
-from app.checking.reports.told import told
+from app.checking.reports.told import of_points, told
 
 MOST = 8  # lines of what it printed
 COLORS = {"right": "32", "wrong": "31", "failed": "33", "dim": "2"}
@@ -25,7 +25,7 @@ def lines(result: TaskResult, colored: bool = False) -> list[str]:
     if say.verdict is None:
         return [f"{_painted('tried ', 'dim', colored)} {name}"]
     head = f"{_painted(f'{say.verdict:6}', say.verdict, colored)} {name}"
-    points = f"  {result.points:g} of {result.task.points:g} points"
+    points = f"  {of_points(result.points, result.task.points)}"
     head += _painted(points, "dim", colored)
     printed = (_painted(line, "dim", colored) for line in _printed(say.output))
     return [head, *(f"       {line}" for line in (*say.lines, *printed))]
@@ -46,7 +46,7 @@ def summary(results: Sequence[TaskResult]) -> str:
         return ""
     right = sum(result.status == "right" for result in results)
     points, most = sum(r.points for r in results), sum(r.task.points for r in results)
-    return f"{right} of {len(results)} tasks right, {points:g} of {most:g} points"
+    return f"{right} of {len(results)} tasks right, {of_points(points, most)}"
 
 
 def _painted(text: str, color: str, colored: bool) -> str:

@@ -58,6 +58,10 @@ def told(result: TaskResult) -> Told:
     )
 
 
+def of_points(points: float, most: float) -> str:
+    return f"{points:g} of {most:g} {'point' if most == 1 else 'points'}"
+
+
 def visible(text: str) -> str:
     """A program's text as lines of what can be seen: other signs as Python writes them."""
     return "".join(

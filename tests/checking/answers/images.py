@@ -132,39 +132,39 @@ def unusable_bitmap_flat(gray, threshold):
 
 
 def right_offset_rows(i, j, width):
-    return 12 * (i * width + j)
-
-
-def right_offset_float(i, j, width):
-    return 12.0 * i * width + 12.0 * j
-
-
-def right_offset_numpy(i, j, width):
-    return np.int64(np.ravel_multi_index((i, j), (i + 1, width)) * 12)
-
-
-def right_offset_channels(i, j, width):
-    return 4 * (3 * (i * width + j))
-
-
-def right_offset_strides(i, j, width):
-    strides = np.empty((1, width, 3), np.float32).strides
-    return [int(np.dot((i, j), strides[:2]))]
-
-
-def wrong_offset_columns(i, j, width):
-    return 12 * (j * width + i)
-
-
-def wrong_offset_pixels(i, j, width):
     return i * width + j
 
 
-def wrong_offset_from_one(i, j, width):
-    return 12 * ((i - 1) * width + (j - 1))
+def right_offset_float(i, j, width):
+    return 1.0 * i * width + j
+
+
+def right_offset_numpy(i, j, width):
+    return np.ravel_multi_index((i, j), (i + 1, width))
+
+
+def right_offset_counted(i, j, width):
+    return len(range(i * width)) + len(range(j))
+
+
+def right_offset_strides(i, j, width):
+    strides = np.empty((1, width), np.int8).strides
+    return [int(np.dot((i, j), strides))]
+
+
+def wrong_offset_columns(i, j, width):
+    return j * width + i
 
 
 def wrong_offset_bytes(i, j, width):
+    return 12 * (i * width + j)
+
+
+def wrong_offset_from_one(i, j, width):
+    return (i - 1) * width + (j - 1)
+
+
+def wrong_offset_numbers(i, j, width):
     return 3 * (i * width + j)
 
 
@@ -173,15 +173,15 @@ def wrong_offset_doubles(i, j, width):
 
 
 def wrong_offset_brackets(i, j, width):
-    return 12 * i * width + j
+    return i * (width + j)
 
 
 def wrong_offset_width(i, j, width):
-    return 12 * (i * (width - 1) + j)
+    return i * (width - 1) + j
 
 
 def wrong_offset_sum(i, j, width):
-    return 12 * (i + j)
+    return i + j
 
 
 def wrong_offset_nan(i, j, width):

@@ -11,11 +11,11 @@ from tests.support.mock_gradescope import Shown, published
 
 RIGHT = """
 def memory_offset(i, j, width):
-    return 12 * (i * width + j)
+    return i * width + j
 """
 WRONG = """
 def memory_offset(i, j, width):
-    return 12 * (i + j * width)
+    return i + j * width
 """
 PRINTS = WRONG.replace("    return", '    print("offset \\x00 of", i, j)\n    return')
 RAISES = """
