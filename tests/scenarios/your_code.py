@@ -7,6 +7,7 @@ import time
 from pathlib import Path
 
 import numpy as np
+import pytest
 from imgui_bundle import hello_imgui
 from window_driver import Driver
 
@@ -206,6 +207,15 @@ def drive_the_newest_camera_wins_while_it_runs(d: Driver) -> None:
     d.window.change(d.window.state.with_camera(camera))
     until_told(d, "Every ray is right.")
     leave(d)
+
+
+def drive_what_is_written_to_an_ended_process_is_no_crash(d: Driver) -> None:
+    """The test engine's own handler made it one."""
+    reading, writing = os.pipe()
+    os.close(reading)
+    with pytest.raises(BrokenPipeError):
+        os.write(writing, b"nobody reads")
+    os.close(writing)
 
 
 def drive_a_basis_has_its_picture(d: Driver) -> None:
