@@ -230,7 +230,9 @@ def _try_module(module: str, chosen: list[Mutant], known: dict[str, str], once: 
     tally = Tally(len(chosen))
     left = [mutant for mutant in chosen if mutant.key not in known]
     tally.known = len(chosen) - len(left)
-    tests = [str(path) for name in MODULES[module] for path in ROOT.glob(f"tests/**/test_{name}.py")]
+    tests = [
+        str(path) for name in MODULES[module] for path in ROOT.glob(f"tests/**/test_{name}.py")
+    ]
     # In a process of its own: this one must stay without the module, to fork fresh ones.
     found = forked(lambda: collected_run(ROOT, module, left, tests), 3600.0 + len(left) * 60.0)
     if found is None or "error" in found:
