@@ -50,6 +50,8 @@ def compared(
     difference = difference_picture(wanted, changed)
     difference[wrong & came & ~changed] = SAME_COLOR
     told = told_difference(changed) if changed.any() else "none" if not wrong.any() else SAME
+    if not came.all():
+        told = f"{np.count_nonzero(~came)} of {came.size} missing"
     return CodePictures(shown, wanted, difference, told)
 
 

@@ -137,6 +137,8 @@ class YourCodeView(DockedView):
         assert self._follower is not None and self._painter is not None
         self._seen = False
         self._follower.follow("")
+        if self.runs is not None and self.runs.busy:
+            self.runs.forget()  # nothing runs that nobody sees
         self._painter.forget()
         self.pictures, self._uploaded, self._shown = None, None, None
         self._outside.show(YOUR_CODE, ())

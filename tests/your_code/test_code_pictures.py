@@ -41,6 +41,7 @@ def test_what_has_not_come_is_black_and_not_compared():
     found = compared(given, LIGHT, came, YES)
     assert not found.given[1, 1].any()
     assert tuple(found.difference[1, 1]) not in (MARK, SAME_COLOR)
+    assert found.told == "1 of 6 missing"  # and not: the same colours
 
 
 def test_exposure_holds_for_both():
