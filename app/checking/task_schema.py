@@ -44,7 +44,7 @@ class TaskTable(ConventionsTable, kw_only=True):
 
     views: cameras as tables, files, or built-in scenes' names. Of to-gray: weights; of to-bitmap:
     at_threshold, what is made of a gray that is the threshold; of memory-offset: order,
-    stride: bytes a pixel, 1 where pixels are counted.
+    stride: bytes per pixel, 1 where pixels are counted.
     """
 
     kind: str

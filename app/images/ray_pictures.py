@@ -22,6 +22,7 @@ from renderer.scene.model import Scene
 from renderer.shaded_rays import RayShading, shaded
 
 T = TypeVar("T")
+L = TypeVar("L")
 PATIENCE_S = 0.15  # pictures that are done sooner come, though newer ones are asked for: in motion
 
 
@@ -51,15 +52,37 @@ class RayPainter:
     ) -> NDArray[np.float32]:
         """Linear light (H, W, 3) along rays, see shaded_rays.shaded(). Raises UnwantedError, which
         is to be let through."""
-        light = shaded(self.tracer, self._flat, origins, directions, shading, self._is_wanted)
-        if light is None or self.tracer.scene is not self._scene:
+
+        def traced() -> NDArray[np.float32] | None:
+            return shaded(self.tracer, self._flat, origins, directions, shading, self._is_wanted)
+
+        light = self._of_this_scene(traced)
+        if light is None:
             raise UnwantedError
         return light
 
     def hit(self, origin: ArrayLike, direction: ArrayLike, shading: RayShading) -> float:
-        """Where a ray (3,), (3,) ends, in units of its direction; inf where it meets nothing."""
-        t = self.tracer.closest_hits([origin], [direction], *shading.t_range)[0]
-        return float(t[0])
+        """Where a ray (3,), (3,) ends, in units of its direction; inf where it meets nothing.
+        Raises UnwantedError."""
+
+        def traced() -> float:
+            t = self.tracer.closest_hits([origin], [direction], *shading.t_range)[0]
+            return float(t[0])
+
+        return self._of_this_scene(traced)
+
+    def _of_this_scene(self, work: Callable[[], L]) -> L:
+        """Raises UnwantedError where the tracer has gone on meanwhile: what it hit there may be no
+        part of this scene at all."""
+        try:
+            found = work()
+        except Exception:
+            if self.tracer.scene is self._scene:
+                raise
+            raise UnwantedError from None
+        if self.tracer.scene is not self._scene:
+            raise UnwantedError
+        return found
 
 
 @dataclass(frozen=True, eq=False)

@@ -32,7 +32,6 @@ WIDE_PART, COLUMN_PART = 0.45, 0.64  # of its width that the text then has, at l
 GAP_EM = 0.8  # between both
 SMALLER = 0.94  # each size of type that is tried is that part of the one before
 ANSWER_MARGIN, CARET_MARGIN = 5, 3  # letters before a choice's code; behind a line's
-TEXELS = 640  # of a texture's row, about
 AS_WRITTEN = "as written"  # the wrong picture, and its camera in the outside view
 
 
@@ -62,9 +61,7 @@ class MadeTextures:
             return
         pictures, self.told = make()
         for name, picture in pictures.items():
-            # ImGui smooths what it enlarges: pixels are to be seen as squares.
-            times = max(1, TEXELS // picture.shape[1])
-            self.uploads.put(name, picture.repeat(times, axis=0).repeat(times, axis=1))
+            self.uploads.put_pixels(name, picture)
         self._key = key
 
     def get(self, name: str) -> moderngl.Texture | None:

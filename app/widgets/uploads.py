@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 from renderer.raster.resources import check
 
+ENLARGED_PX = 640  # about a texture's width, where a picture's pixels are made larger
 KEPT_FRAMES = 3  # the window may still show a texture in the frame in which it was replaced
 
 
@@ -36,6 +37,12 @@ class Uploads:
         texture.filter = moderngl.NEAREST, moderngl.NEAREST
         texture.repeat_x = texture.repeat_y = False
         self._textures[name] = texture
+
+    def put_pixels(self, name: str, picture: NDArray[np.uint8]) -> None:
+        """As put(), with larger pixels, which are to be seen as squares: ImGui smooths what it
+        enlarges."""
+        times = max(1, ENLARGED_PX // picture.shape[1])
+        self.put(name, picture.repeat(times, axis=0).repeat(times, axis=1))
 
     def get(self, name: str) -> moderngl.Texture | None:
         return self._textures.get(name)

@@ -18,7 +18,6 @@ SAME_COLOR = (70, 110, 160)  # in the difference: another ray that happens to ha
 SAME = "the same colours"  # though rays are wrong
 IMAGES = ("render", "to-gray", "to-bitmap")  # kinds of functions whose answers are images
 LARGEST_SIDE = 512  # of an image that a function made
-LARGEST_PX = 512  # a picture's width, as far as that makes its pixels larger
 
 
 @dataclass(frozen=True, eq=False)
@@ -51,6 +50,8 @@ def compared(
     difference = difference_picture(wanted, changed)
     difference[wrong & came & ~changed] = SAME_COLOR
     told = told_difference(changed) if changed.any() else "none" if not wrong.any() else SAME
+    if not came.all():
+        told = f"{np.count_nonzero(~came)} of {came.size} missing"
     return CodePictures(shown, wanted, difference, told)
 
 
@@ -69,9 +70,3 @@ def image_pair(right: object, given: object) -> CodePictures | None:
     )
     came = np.logical_and.reduce(np.isfinite(second), axis=2)
     return compared(second, first, came, np.zeros(came.shape, bool))
-
-
-def magnified(picture: Bytes) -> Bytes:
-    """With larger pixels: what shows it smooths the edges of its texels."""
-    times = max(1, LARGEST_PX // picture.shape[1])
-    return picture.repeat(times, axis=0).repeat(times, axis=1)

@@ -11,7 +11,8 @@ from __future__ import annotations
 import threading
 import time
 from collections import OrderedDict
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import contextmanager
 from dataclasses import replace
 from pathlib import Path
 from typing import Any, Protocol
@@ -74,7 +75,9 @@ class CodeRuns:
         self._newest: CodeQuestion | None = None
         self._asked = threading.Event()  # something newer, or the end
         self._calls = 0  # that are being made for a picture
-        self._runs: dict[str, tuple[CodeQuestion, float]] = {}  # by thread: what for, since when
+        self._turn = threading.Lock()  # one thread at a time has the process
+        self._ending = threading.Lock()  # while a run is ended, no other follows it
+        self._run: tuple[CodeQuestion, float] | None = None  # what for, since when
         self._stopped = self._closed = False  # by the user; for good
         self._kept: OrderedDict[CodeQuestion, CodeRays] = OrderedDict()  # of one version
         self.report: CodeReport | None = None
@@ -103,8 +106,8 @@ class CodeRuns:
     @property
     def running_s(self) -> float:
         """How long the file has been running; 0 where it is not."""
-        begun = [since for _, since in self._runs.copy().values()]
-        return time.monotonic() - min(begun) if begun else 0.0
+        run = self._run
+        return time.monotonic() - run[1] if run is not None else 0.0
 
     @property
     def progress(self) -> float:
@@ -113,9 +116,8 @@ class CodeRuns:
         return min(1.0, student[1].answered / calls) if student is not None and calls else 0.0
 
     def stop(self) -> None:
-        """Ends what runs; its report says so."""
+        """Ends what runs, at the next tick(); its report says so."""
         self._stopped = True
-        self._end_run()
 
     def forget(self) -> None:
         """No file any more, or this one anew: what was known is of no use."""
@@ -126,13 +128,15 @@ class CodeRuns:
         self._close_student()
 
     def tick(self) -> None:
-        """From any thread, now and then: ends what is overtaken."""
-        now = time.monotonic()
-        if any(
-            question is not self._newest and now - since > OVERTAKEN_S
-            for question, since in self._runs.copy().values()
-        ):
-            self._end_run()
+        """From any thread but the window's, now and then: ends what is overtaken, or stopped. That
+        may take a while."""
+        with self._ending:
+            student, run = self._student, self._run
+            if student is None or run is None:
+                return
+            is_late = time.monotonic() - run[1] > OVERTAKEN_S
+            if self._stopped or (is_late and not self._is_wanted(run[0])):
+                student[1].stop()
 
     def close(self) -> None:
         """Ends the file's process."""
@@ -143,11 +147,6 @@ class CodeRuns:
             closing.join(CLOSING_S)
         self._pictures.close()
         self._checks.close()
-
-    def _end_run(self) -> None:
-        student = self._student
-        if student is not None and self._runs:
-            student[1].stop()
 
     def _close_student(self) -> threading.Thread | None:
         """Ends the process in a thread, which a file that is being read may keep a while."""
@@ -160,6 +159,18 @@ class CodeRuns:
         return closing
 
     # In the threads.
+
+    @contextmanager
+    def _running(self, question: CodeQuestion) -> Iterator[float]:
+        """While the process works for a question, in this thread; gives since when."""
+        with self._turn:
+            begin = time.monotonic()
+            self._run = question, begin
+            try:
+                yield begin
+            finally:
+                with self._ending:
+                    self._run = None
 
     def _is_wanted(self, question: CodeQuestion) -> bool:
         return question is self._newest
@@ -219,13 +230,12 @@ class CodeRuns:
             return
         if not self._is_wanted(question):
             return
-        begin, self._stopped = time.monotonic(), False
-        self._runs["picture"] = question, begin
+        self._stopped = False
         try:
-            report, student = self._report(question, before, begin)
+            with self._running(question) as begin:
+                report, student = self._report(question, before, begin)
         finally:
             self._calls = 0
-            del self._runs["picture"]
         self._publish(report)
         if student is not None and self._is_wanted(question):
             self._checks.submit(
@@ -286,11 +296,8 @@ class CodeRuns:
             if self._stopped or not self._is_wanted(question):
                 return
             if task.name not in results:
-                self._runs["check"] = question, time.monotonic()
-                try:
+                with self._running(question):
                     result = _tried(student, task, report)
-                finally:
-                    del self._runs["check"]
                 if self._is_wanted(question):  # else it may have been ended for that
                     results[task.name] = result
                     self._add(question, results=dict(results))

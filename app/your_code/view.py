@@ -38,7 +38,7 @@ from app.your_code.following import FileFollower
 from app.your_code.model import RAY, CodeRays, canvas_pixel
 from app.your_code.options import YourCodeOptions
 from app.your_code.panel import CodeHead, CodeWish
-from app.your_code.pictures import IMAGES, CodePictures, compared, image_pair, magnified
+from app.your_code.pictures import IMAGES, CodePictures, compared, image_pair
 from app.your_code.report import CodeQuestion, CodeReport
 from app.your_code.runs import CodeRuns
 from app.your_code.words import ToldLine, told_of
@@ -136,6 +136,8 @@ class YourCodeView(DockedView):
         assert self._follower is not None and self._painter is not None
         self._seen = False
         self._follower.follow("")
+        if self.runs is not None and self.runs.busy:
+            self.runs.forget()  # nothing runs that nobody sees
         self._painter.forget()
         self.pictures, self._uploaded, self._shown = None, None, None
         self._outside.show(YOUR_CODE, ())
@@ -215,6 +217,8 @@ class YourCodeView(DockedView):
             self._draw_pictures(host, report, self.pictures, for_pictures, marked)
             if beside:
                 imgui.same_line()
+        elif self._painting:
+            self._tell_waiting(host)
         key = (report, marked, host.state.options.indexing)
         if key != self._told_of:
             self._told_of, self.told = key, told_of(*key)
@@ -260,12 +264,23 @@ class YourCodeView(DockedView):
             )
             self._upload(key)
 
+    def _tell_waiting(self, host: Host) -> None:
+        """Why there are no pictures, or not yet."""
+        assert self._painter is not None
+        error = self._painter.error
+        text = describe(error) if error is not None else host.renderers.preparing()
+        if not text:
+            return
+        imgui.push_text_wrap_pos(0.0)
+        imgui.text_colored(theme.ERROR if error is not None else theme.DIM, text)
+        imgui.pop_text_wrap_pos()
+
     def _upload(self, key: Any) -> None:
         assert self._uploads is not None
         self._uploaded = key
         if self.pictures is not None:
             for name in ("given", "right", "difference"):
-                self._uploads.put(name, magnified(getattr(self.pictures, name)))
+                self._uploads.put_pixels(name, getattr(self.pictures, name))
 
     def _draw_pictures(
         self,

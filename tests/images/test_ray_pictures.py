@@ -140,6 +140,31 @@ def test_a_tracer_that_has_gone_on_is_asked_again(pictures, gone) -> None:
     wait_for(lambda: pictures.follow("key", OTHER, asked, make) is not None)
 
 
+@pytest.mark.parametrize("asks", ["picture", "hit"])
+def test_hits_of_the_scene_that_the_tracer_has_gone_on_to_are_no_error(pictures, asks) -> None:
+    class GoesOn(Hitless):
+        """As when the scene changes while rays are traced: what they hit is no part of it."""
+
+        def closest_hits(self, origins, directions, t_min=0.0, t_max=0.0):
+            self.scene = SCENE
+            return np.ones(len(origins), np.float32), np.full(len(origins), 7, np.int32)
+
+    asked, calls = Source({id(OTHER): GoesOn(OTHER)}), []
+
+    def make(painter):
+        calls.append(painter)
+        if asks == "hit":
+            return painter.hit(ORIGINS[0, 0], DIRECTIONS[0, 0], RayShading())
+        return along(painter)
+
+    def again() -> bool:
+        assert pictures.follow("key", OTHER, asked, make) is None
+        assert pictures.error is None
+        return len(calls) > 1
+
+    wait_for(again)
+
+
 def test_the_window_s_tracer_is_waited_for_while_it_prepares(pictures) -> None:
     asked = Source(preparing_s=0.1)
     assert pictures.follow(0, OTHER, asked, along) is None and pictures.busy

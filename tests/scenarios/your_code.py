@@ -7,13 +7,16 @@ import time
 from pathlib import Path
 
 import numpy as np
+import pytest
 from imgui_bundle import hello_imgui
 from window_driver import Driver, Key
 
+from app.checking.calls import Limits
 from app.host import layout
 from app.host.view import view_of
 from app.outside.view import OutsideView
 from app.storage.paths import stored
+from app.your_code import runs as runs_module
 from app.your_code.view import YOUR_CODE, YourCodeView
 
 WINDOW = f"//###{YOUR_CODE}"
@@ -206,6 +209,33 @@ def drive_the_newest_camera_wins_while_it_runs(d: Driver) -> None:
     d.window.change(d.window.state.with_camera(camera))
     until_told(d, "Every ray is right.")
     leave(d)
+
+
+def drive_nothing_runs_that_nobody_sees(d: Driver) -> None:
+    usual, runs_module.LIMITS = runs_module.LIMITS, Limits(seconds=10_000.0)  # not by itself
+    opened(d, RIGHT.replace("    x =", "    while i == 3:\n        pass\n    x =", 1))
+    runs = view(d).runs
+    assert runs is not None
+    d.until(lambda: runs.progress > 0.1)
+    processes = children()
+    assert processes
+    hello_imgui.switch_layout(layout.LAYOUTS[0].name)
+    d.until(lambda: YOUR_CODE not in d.window.shell.stage.rects)
+    d.until(lambda: not (children() & processes))
+    runs_module.LIMITS = usual
+    write(d, RIGHT)
+    d.window.shell.stage.show_in(YOUR_CODE, layout.CODE)
+    until_told(d, "Every ray is right.")
+    leave(d)
+
+
+def drive_what_is_written_to_an_ended_process_is_no_crash(d: Driver) -> None:
+    """The test engine's own handler made it one."""
+    reading, writing = os.pipe()
+    os.close(reading)
+    with pytest.raises(BrokenPipeError):
+        os.write(writing, b"nobody reads")
+    os.close(writing)
 
 
 def drive_a_basis_has_its_picture(d: Driver) -> None:

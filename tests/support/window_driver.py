@@ -12,6 +12,7 @@ from __future__ import annotations
 import json
 import os
 import runpy
+import signal
 import sys
 import threading
 import time
@@ -230,6 +231,13 @@ def drives(topic: str) -> dict[str, Callable[[Driver], None]]:
     return {name: test for name, test in found.items() if name.startswith("drive_")}
 
 
+def ignore_broken_pipes() -> None:
+    """As Python does. The test engine takes the signal for a crash and aborts, or hangs while it
+    prints: whenever something is written to a process that has just been ended."""
+    if hasattr(signal, "SIGPIPE"):
+        signal.signal(signal.SIGPIPE, signal.SIG_IGN)
+
+
 def main(report: Path, folder: Path, topic: str, only: list[str]) -> None:
     tests = drives(topic)
     tests = {n: t for n, t in tests.items() if not only or any(part in n for part in only)}
@@ -252,6 +260,7 @@ def main(report: Path, folder: Path, topic: str, only: list[str]) -> None:
         return call
 
     def register() -> None:
+        ignore_broken_pipes()
         engine = hello_imgui.get_imgui_test_engine()
         io = imgui.test_engine.get_io(engine)
         io.config_run_speed = imgui.test_engine.TestRunSpeed.fast

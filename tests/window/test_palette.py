@@ -6,20 +6,11 @@ from dataclasses import replace
 
 import pytest
 
-from app.camera_panel import view as camera
-from app.compare import view as compare
-from app.costs import view as costs
 from app.host.action import ALT, CTRL, SHIFT, Key
-from app.laboratory import view as laboratory
-from app.lecture import view as lecture
-from app.mistakes import view as mistakes
-from app.outside import view as outside
-from app.pair import view as pair
-from app.probe import view as probe
 from app.state.app_state import AppState
 from app.state.changes import change
-from app.stepper import view as stepper
 from app.window.action_table import ACTIONS, MENUS
+from app.window.instruments import make_views
 from app.window.palette_search import Entry, found, score
 from app.window.shortcut_sheet import in_columns, sections
 from app.window.synonyms import SYNONYMS
@@ -80,23 +71,11 @@ TABLE = [
     Entry(action.name, action.menu, lambda: None, also=SYNONYMS.get(action.name, ""))
     for action in ACTIONS
 ]
+TITLES = [" ".join(view.title.split()) for view in make_views()]
 VIEWS = [
-    Entry(f"Go to {' '.join(view.title.split())}", "View > Views", lambda: None)
-    for view in (
-        camera.CameraView,
-        compare.CompareView,
-        costs.CostsView,
-        laboratory.LaboratoryView,
-        lecture.LectureView,
-        mistakes.MistakesView,
-        outside.OutsideView,
-        pair.RasterView,
-        pair.RayView,
-        probe.ProbeView,
-        stepper.StepperView,
-    )
+    Entry(f"Go to {title}", "View > Views", lambda: None, also=SYNONYMS.get(title, ""))
+    for title in TITLES
 ]
-VIEWS = [replace(entry, also=SYNONYMS.get(entry.name[6:], "")) for entry in VIEWS]
 
 
 @pytest.mark.parametrize(
@@ -131,7 +110,7 @@ def test_whole_words_stand_before_letters_that_lie_apart():
 
 
 def test_synonyms_name_what_there_is():
-    names = {entry.name for entry in TABLE} | {entry.name[6:] for entry in VIEWS}
+    names = {entry.name for entry in TABLE} | set(TITLES)
     assert SYNONYMS.keys() <= names
 
 

@@ -169,11 +169,40 @@ def test_an_overtaken_run_is_ended_and_the_newest_answered(desk, monkeypatch):
     assert desk.runs.progress == 0
 
 
+def test_ending_a_run_that_has_just_ended_does_not_end_the_next(desk, monkeypatch):
+    monkeypatch.setattr(runs_module, "OVERTAKEN_S", 0.0)
+    gate = desk.hangs()
+    desk.runs.follow(QUESTION)
+    wait_for(lambda: desk.made and desk.made[0].answered == 6)
+    (student,) = desk.made
+    next_gate, stop = threading.Event(), student.stop
+
+    def stop_late() -> None:
+        """The run is over by itself before it is ended; nothing else may have begun."""
+        student.gate = next_gate
+        gate.set()
+        begun = threading.Event()
+        call = student.call
+        student.call = lambda calls: (begun.set(), call(calls))[1]
+        assert not begun.wait(0.05)
+        stop()
+
+    student.stop = stop_late
+    desk.runs.follow(OTHER)
+    desk.runs.tick()
+    next_gate.set()
+    report = desk.settled()
+    assert report.question == OTHER
+    assert report.rays.result.status == "right"
+
+
 def test_what_was_stopped_is_not_run_again_by_itself(desk):
     desk.hangs()
     desk.runs.follow(QUESTION)
     wait_for(lambda: desk.made and desk.made[0].answered == 6)
     desk.runs.stop()
+    assert not desk.made[0].ended.is_set()  # that takes long: not in the window's thread
+    desk.runs.tick()
     report = desk.settled()
     assert report.rays.result.failure.text == "rays.py: was stopped"
     assert report.halted

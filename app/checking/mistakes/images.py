@@ -183,7 +183,7 @@ def offset_program(base: int, column_major: bool, stride: int) -> Program:
             for name, unit, size in (
                 ("bytes for pixels", "bytes", 12),
                 ("numbers for pixels", "numbers", 3),
-                ("4 bytes a pixel", "bytes", 4),
+                ("4 bytes per pixel", "bytes", 4),
             )
         ]  # fmt: skip
     last = "answer = pixels" if stride == 1 else f"answer = pixels * {stride}"
