@@ -18,9 +18,6 @@ COLUMNS: Swaps = (
     ("x = -0.5 +", "x = 0.5 -"),
     ("x = -1 +", "x = 1 -"),
 )
-MIDDLE = (
-    "The viewport is not always symmetric: x begins at l, y at t, and its middle need not be 0."
-)
 FISHEYE = "Straight lines stay straight: equal steps on the image plane, not equal angles."
 
 
