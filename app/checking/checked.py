@@ -4,19 +4,20 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
-from typing import Any, Literal
+from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
 from numpy.typing import NDArray
 
 from app.checking.calls import Call, Failure, Run, Student
-from app.checking.diagnosed import diagnosis
 from app.checking.kinds import KINDS
 from app.checking.kinds.kind import CheckKind
 from app.checking.kinds.values import text_of
-from app.checking.mistakes.diagnosis import Diagnosis
 from app.checking.running.told import told_call
 from app.checking.tasks import CheckCase, CheckTask
+
+if TYPE_CHECKING:
+    from app.checking.mistakes.diagnosis import Diagnosis
 
 Status = Literal["right", "wrong", "failed"]
 ARGUMENT_LETTERS = 400
@@ -95,6 +96,8 @@ def _asked_again(student: Student, result: TaskResult) -> TaskResult:
         np.asarray(given[0], float), np.asarray(first.answer, float), equal_nan=True
     ):
         return result
+    from app.checking.mistakes.diagnosis import Diagnosis
+
     told = result.diagnosis or Diagnosis(())
     return replace(result, diagnosis=replace(told, sentences=(CHANGES, *told.sentences)))
 
@@ -125,9 +128,19 @@ def judged(task: CheckTask, cases: Sequence[CheckCase], run: Run) -> TaskResult:
         len(cases),
         int(np.count_nonzero(wrong)),
         _first_wrong(task, kind, cases, given, wrong),
-        diagnosis=diagnosis(task, cases, given, wrong) if task.feedback == "diagnosis" else None,
+        diagnosis=_diagnosis(task, cases, given, wrong),
         output=run.output,
     )
+
+
+def _diagnosis(
+    task: CheckTask, cases: Sequence[CheckCase], given: Any, wrong: NDArray[np.bool_]
+) -> Diagnosis | None:
+    if task.feedback != "diagnosis":
+        return None
+    from app.checking.diagnosed import diagnosis  # the mistakes: only where there are some
+
+    return diagnosis(task, cases, given, wrong)
 
 
 def failed(task: CheckTask, failure: Failure, cases: int = 0, output: str = "") -> TaskResult:

@@ -137,8 +137,11 @@ def _task(entry: TaskTable, file: TaskFile, folder: Path) -> CheckTask:
 
 def _text(entry: TaskTable, kind: CheckKind, base: CheckTask) -> str:
     """The built-in task's text holds for its own conventions only."""
-    own = entry.arguments is None and entry.returns is None
-    return base.text if own else f"See the course's own text. Give {kind.answer}."
+    others = (entry.arguments, entry.returns, entry.stride, entry.order, entry.weights)
+    if all(other is None for other in (*others, entry.at_threshold)):
+        return base.text
+    answer = kind.answer if entry.returns is None else ", ".join(entry.returns)
+    return f"See the course's own text. Give {answer}."
 
 
 def _conventions(

@@ -6,14 +6,14 @@ Light: what a check of rays needs, and no tracer.
 from __future__ import annotations
 
 import argparse
-import json
 import sys
 import time
-from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from app.commands import arguments as common
+from app.commands.asked_tasks import RAYS, SIZE, asked_for, named, possible
+from app.commands.check_reports import pictures_of, write_json, write_page
 from renderer.errors import LucidaError
 
 if TYPE_CHECKING:
@@ -23,10 +23,8 @@ if TYPE_CHECKING:
     from app.checking.tasks import CheckTask
 
 NAME = "check"
-RAYS = (".csv", ".npy", ".txt", ".tsv")  # what is not code
-WITH_CAMERAS = ("viewing-ray", "render")  # kinds of tasks
+
 PYTHON = (".py", ".pyw", "")
-SIZE = (64, 48)  # of the image of --view
 
 DESCRIPTION = """\
 Check what a student wrote: a Python file, a file of rays, or any program; and say what it does
@@ -102,28 +100,28 @@ def run(arguments: argparse.Namespace) -> int:
     pictures: dict[str, Pictured] = {}
     try:
         _check_arguments(arguments)
-        tasks, limits = _asked_for(arguments)
+        tasks, limits = asked_for(arguments)
         student = _student(arguments, limits, tasks)
         try:
-            tasks = _possible(arguments, student, tasks)
+            tasks = possible(arguments, student, tasks)
             for result in _results(student, tasks):
                 results.append(result)
                 _tell(arguments, result)
                 if arguments.html is not None:
-                    pictures |= _pictures(student, result)
+                    pictures |= pictures_of(student, result)
         finally:
             student.close()
     except LucidaError as error:
         seconds = time.perf_counter() - begin
         lines = _why(error)
         problem = "\n".join([str(error), *lines])
-        _write_json(arguments, results, tasks, seconds, problem)
-        _write_page(arguments, results, tasks, pictures, problem)
+        write_json(arguments, results, tasks, seconds, problem)
+        write_page(arguments, results, tasks, pictures, problem)
         if lines:
             print("\n".join(lines), file=sys.stderr)
         raise
-    _write_json(arguments, results, tasks, time.perf_counter() - begin)
-    _write_page(arguments, results, tasks, pictures)
+    write_json(arguments, results, tasks, time.perf_counter() - begin)
+    write_page(arguments, results, tasks, pictures)
     return _end(arguments, results)
 
 
@@ -162,85 +160,6 @@ def _check_arguments(arguments: argparse.Namespace) -> None:
         raise LucidaError("--task", "is missing", "say what the program answers: lucida tasks")
 
 
-def _asked_for(arguments: argparse.Namespace) -> tuple[list[CheckTask], Limits]:
-    """The tasks as the arguments have them, whether or not the code has their functions."""
-    from app.checking.builtin import BUILTIN
-    from app.checking.calls import Limits
-
-    if arguments.tasks is None:
-        tasks, limits = list(BUILTIN), Limits()
-    else:
-        from app.checking.courses import task_path
-        from app.checking.task_file import load_tasks
-
-        found = load_tasks(task_path(arguments.tasks))
-        tasks, limits = list(found.tasks), found.limits
-    if arguments.task is not None:
-        tasks = [named(tasks, arguments.task)]
-    if arguments.time_limit is not None:
-        limits = replace(limits, seconds=arguments.time_limit)
-    if arguments.memory_limit is not None:
-        limits = replace(limits, memory_mb=arguments.memory_limit)
-    return _changed(arguments, tasks), limits
-
-
-def named(tasks: list[CheckTask], name: str) -> CheckTask:
-    """The task of a name; also with _ for -. Raises LucidaError."""
-    from renderer.scene.reading import suggestion
-
-    wanted = name.replace("_", "-")
-    found = [task for task in tasks if task.name == name]
-    found += [task for task in tasks if task.name.replace("_", "-") == wanted]
-    if not found:
-        names = [task.name for task in tasks]
-        raise LucidaError("--task", f"{name[:40]!r} is unknown", suggestion(name, names))
-    return found[0]
-
-
-def _changed(arguments: argparse.Namespace, tasks: list[CheckTask]) -> list[CheckTask]:
-    """The tasks with the arguments' camera, size, seed and counting."""
-    if arguments.seed is not None:
-        tasks = [replace(task, seed=arguments.seed) for task in tasks]
-    if arguments.indexing is not None:
-        base = arguments.indexing.value
-        tasks = [replace(task, conventions=replace(task.conventions, base=base)) for task in tasks]
-    if arguments.view is not None:
-        return _with_view(arguments, tasks)
-    if arguments.size is not None:
-        return [_sized(task, arguments.size) for task in tasks]
-    return tasks
-
-
-def _sized(task: CheckTask, size: tuple[int, int]) -> CheckTask:
-    from app.checking.cases import check_size
-
-    if task.kind not in WITH_CAMERAS:
-        return task
-    sized = replace(task, size=size)
-    check_size(sized, "--size")
-    return sized
-
-
-def _with_view(arguments: argparse.Namespace, tasks: list[CheckTask]) -> list[CheckTask]:
-    from app.checking.cases import check_size, check_views
-    from renderer.scene.views import load_view
-
-    view = load_view(arguments.view)
-    size = arguments.size or SIZE
-    projection = view.camera.projection
-    seen = [
-        replace(task, views=(view,), count=0, size=size, projections=(projection,))
-        for task in tasks
-        if task.kind in WITH_CAMERAS and projection in task.projections
-    ]
-    if not seen:
-        raise LucidaError("--view", f"no task is tried in {projection}", "give another camera")
-    for task in seen:
-        check_size(task, "--size")
-        check_views(task)
-    return seen
-
-
 def _student(arguments: argparse.Namespace, limits: Limits, tasks: list[CheckTask]) -> Student:
     if arguments.command is not None:
         from app.checking.running.command import CommandStudent
@@ -262,40 +181,6 @@ def _student(arguments: argparse.Namespace, limits: Limits, tasks: list[CheckTas
     return RaysFile(path, bases[0] if bases else 0)
 
 
-def _possible(
-    arguments: argparse.Namespace, student: Student, tasks: list[CheckTask]
-) -> list[CheckTask]:
-    """Those that are tried: all that a lecturer or the user has named; of the built-in ones those
-    whose functions are there; of a file of rays those of rays."""
-    functions = student.functions()
-    if arguments.file is not None and Path(arguments.file).suffix.lower() in RAYS:
-        return _of_rays(tasks)
-    if functions is None or arguments.tasks is not None or arguments.task is not None:
-        return tasks
-    found = [task for task in tasks if task.function in functions]
-    if not found:
-        names = ", ".join(dict.fromkeys(task.function for task in tasks))
-        problem = "it has none of the functions that are asked for"
-        raise LucidaError("", problem, f"define one of {names}", arguments.file)
-    return found
-
-
-def _of_rays(tasks: list[CheckTask]) -> list[CheckTask]:
-    """What a file of rays answers: i and j."""
-    found = [
-        replace(
-            task,
-            conventions=replace(task.conventions, arguments=(("i", "i"), ("j", "j"))),
-            vectorised=False,
-        )
-        for task in tasks
-        if task.kind == "viewing-ray"
-    ]
-    if not found:
-        raise LucidaError("FILE", "holds rays", "give a task of kind viewing-ray")
-    return found
-
-
 def _results(student: Student, tasks: list[CheckTask]) -> Any:
     from app.checking.checked import check
 
@@ -308,60 +193,6 @@ def _tell(arguments: argparse.Namespace, result: TaskResult) -> None:
     if arguments.json == "-":
         return
     print("\n".join(lines(result, is_colored(sys.stdout))), flush=True)
-
-
-def _write_json(
-    arguments: argparse.Namespace,
-    results: list[TaskResult],
-    tasks: list[CheckTask],
-    seconds: float,
-    problem: str = "",
-) -> None:
-    if arguments.json is None:
-        return
-    from app.checking.reports import gradescope
-
-    values = gradescope.results(results, tasks, seconds, problem)
-    text = json.dumps(values, indent=2, allow_nan=False) + "\n"
-    if arguments.json == "-":
-        sys.stdout.write(text)
-    else:
-        from renderer.atomic import atomic_write
-
-        with atomic_write(arguments.json) as file:
-            file.write(text.encode())
-
-
-def _pictures(student: Student, result: TaskResult) -> dict[str, Pictured]:
-    from app.checking.reports.pictured import pictured
-
-    found = pictured(student, result)
-    return {} if found is None else {result.task.name: found}
-
-
-def _write_page(
-    arguments: argparse.Namespace,
-    results: list[TaskResult],
-    tasks: list[CheckTask],
-    pictures: dict[str, Pictured],
-    problem: str = "",
-) -> None:
-    if arguments.html is None:
-        return
-    from app.checking.reports.page import page
-    from renderer.atomic import atomic_write
-
-    text = page(results, tasks, *_without_folders(arguments, problem), pictures)
-    with atomic_write(arguments.html) as file:
-        file.write(text.encode())
-
-
-def _without_folders(arguments: argparse.Namespace, problem: str) -> tuple[str, str]:
-    """What was checked, and the problem, with no more of a path than the file's name."""
-    parts = [arguments.file] if arguments.command is None else arguments.command.split()
-    for part in parts:
-        problem = problem.replace(part, Path(part).name or part)
-    return " ".join(Path(part).name or part for part in parts), problem
 
 
 def _write_starter(arguments: argparse.Namespace) -> int:

@@ -37,7 +37,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
 def run(arguments: argparse.Namespace) -> int:
     from app.checking.builtin import BUILTIN
     from app.checking.courses import course_names, task_path
-    from app.commands.check import named
+    from app.commands.asked_tasks import named
 
     tasks = list(BUILTIN)
     if arguments.tasks is not None:

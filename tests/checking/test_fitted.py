@@ -8,7 +8,8 @@ import numpy as np
 import pytest
 from asked_rays import KINDS, made_camera
 
-from app.checking.mistakes.differences import Fit, told_differences
+from app.checking.mistakes.difference import Fit
+from app.checking.mistakes.differences import told_differences
 from app.checking.mistakes.fitted import affine_rays
 from renderer.camera import Camera
 

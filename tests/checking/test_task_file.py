@@ -105,6 +105,13 @@ def test_limits_and_axes(tmp_path):
         assert found.tasks[0].conventions.axes == signs
 
 
+def test_the_built_in_text_is_not_told_where_it_is_not_true(tmp_path):
+    text = '[[tasks]]\nkind = "memory-offset"\nstride = 4\n[[tasks]]\nkind = "viewing-ray"\n'
+    offset, rays = load(tmp_path, text + 'returns = ["direction"]\n').tasks
+    assert offset.text == "See the course's own text. Give a whole number."
+    assert rays.text == "See the course's own text. Give direction."
+
+
 def test_what_such_tasks_ask(tmp_path):
     text = '[[tasks]]\nkind = "memory-offset"\norder = "column-major"\nstride = 1\npixels_from = 1'
     (task,) = load(tmp_path, text).tasks

@@ -113,15 +113,21 @@ def test_a_file_with_none_of_the_functions(check):
     status, out, err = check("def other():\n    pass\n")
     assert (status, out) == (2, "")
     assert err.startswith("lucida: answer.py: it has none of the functions") and "basis" in err
+    for name, wanted in (("viewingRay", "viewing_ray"), ("hit_spere", "hit_sphere")):
+        _, _, err = check(f"def {name}():\n    pass\n")
+        assert err.endswith(f"asked for; is {name} to be {wanted}?\n")
 
 
-def test_a_named_task_must_be_there(check):
+def test_a_named_task_must_be_there(check, tmp_path):
     status, out, _ = check(RIGHT, "--task", "hit-sphere")
     assert status == 2 and "there is no function hit_sphere" in out
     status, _, err = check(RIGHT, "--task", "hit-spere")
     assert status == 2 and "did you mean 'hit-sphere'" in err
     status, out, _ = check(RIGHT + ALSO, "--task", "memory_offset")
     assert status == 0 and out.count("\n") == 1
+    (tmp_path / "hw.toml").write_text('[[tasks]]\nkind = "memory-offset"\nfunction = "place"\n')
+    renamed = RIGHT.replace("memory_offset", "place")
+    assert check(renamed, "--tasks", "hw.toml", "--task", "place")[0] == 0
 
 
 def test_a_file_that_does_not_run(check, tmp_path):

@@ -10,7 +10,8 @@ from numpy.typing import ArrayLike, NDArray
 
 from app.checking.mistakes.candidates import candidates
 from app.checking.mistakes.diagnosis import Diagnosis, Told, shared, told_sentences
-from app.checking.mistakes.differences import Fit, told_differences
+from app.checking.mistakes.difference import Fit
+from app.checking.mistakes.differences import told_differences
 from app.checking.mistakes.fitted import affine_rays
 from app.checking.mistakes.ray_facts import Rays, facts, kept
 from app.checking.mistakes.ray_trial import Lengths, RayCase, RayTrial, images

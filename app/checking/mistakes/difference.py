@@ -1,0 +1,100 @@
+"""What a fitted camera and the one that was asked for are compared by, and how it is told."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from app.checking.mistakes.fitted import AffineRays
+from renderer.camera import Camera, Size
+
+Floats = NDArray[np.float64]
+
+OPPOSITE = {
+    "u": "your u points to the left",
+    "v": "your v points down",
+    "w": "your w points forwards",
+}
+
+
+@dataclass(frozen=True, eq=False)
+class Fit:
+    """The rays of one camera that was asked for, and what they are affine to. target, up: what
+    the task gave in place of a basis, or None."""
+
+    asked: Camera
+    size: Size
+    rays: AffineRays
+    target: ArrayLike | None = None
+    up: ArrayLike | None = None
+
+
+@dataclass(frozen=True)
+class Difference:
+    """sayings: all that is true of one parameter, in general words; the most telling first.
+    numbers: the same in this camera's numbers."""
+
+    topic: str
+    sayings: tuple[str, ...]
+    numbers: str
+
+
+Told = tuple[Difference, ...]
+
+
+def factors(fit: Fit, lengths: Sequence[tuple[float, float]]) -> list[float]:
+    """By what the directions may be multiplied: their own lengths, if they kept them, or what
+    makes one of these lengths, (is, should be), right."""
+    own = [1.0] if fit.rays.is_parallel or fit.rays.keeps_lengths else []
+    if fit.rays.is_parallel:
+        return own
+    return own + [wanted / found for found, wanted in lengths if found > 0 and wanted > 0]
+
+
+def closeness(fit: Fit) -> float:
+    """What is equal, relative to the viewport's size: the rays' own error, as it shows there."""
+    rays, size = fit.rays, fit.size
+    extent = min(
+        float(np.linalg.norm(rays.column)) * size[0], float(np.linalg.norm(rays.row)) * size[1]
+    )
+    largest = rays.scale if rays.is_parallel else float(np.linalg.norm(rays.at))
+    return 1e-9 + 16 * rays.error * max(1.0, largest / max(extent, 1e-300))
+
+
+def is_close(a: ArrayLike, b: ArrayLike, relative: float, least: float = 0.0) -> bool:
+    """Whether two vectors or numbers are the same, relative to the larger one or to `least`."""
+    size = max(float(np.linalg.norm(a)), float(np.linalg.norm(b)), least)
+    return float(np.linalg.norm(np.subtract(a, b))) <= relative * size
+
+
+def causes(fit: Fit, factor: float, close: float) -> Iterator[str]:
+    """What is done to an angle of view that makes the viewport larger by this factor."""
+    left, right, bottom, top = fit.asked.viewport
+    for half in dict.fromkeys(((top - bottom) / 2, (right - left) / 2)):
+        angle = math.atan2(half, fit.asked.distance)  # of the half
+        made = {
+            "an angle in radians were in degrees": math.tan(math.radians(angle)),
+            "an angle in degrees were in radians": math.tan(math.degrees(angle)),
+            "the whole angle were half of it": math.tan(2 * angle),
+            "half the angle were the whole": math.tan(angle / 2),
+            "the tangent were left out": angle,
+            "the tangent were upside down": 1 / math.tan(angle),
+        }
+        for cause, wrong in made.items():
+            wanted = wrong / math.tan(angle)
+            if wanted > 0 and abs(wanted - 1) > close and abs(factor - wanted) <= close * wanted:
+                yield f"as if {cause}"
+
+
+def number(value: float) -> str:
+    rounded = f"{value:.4g}"
+    return "0" if rounded == "-0" else rounded
+
+
+def text(vector: Floats) -> str:
+    size = float(np.abs(vector).max())
+    return "(" + ", ".join(number(0.0 if abs(x) < 1e-9 * size else x) for x in vector) + ")"

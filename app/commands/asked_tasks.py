@@ -1,0 +1,145 @@
+"""Which tasks `lucida check` tries: as its arguments, a task file and the student's code say."""
+
+from __future__ import annotations
+
+import argparse
+from dataclasses import replace
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from renderer.errors import LucidaError
+
+if TYPE_CHECKING:
+    from app.checking.calls import Limits, Student
+    from app.checking.tasks import CheckTask
+
+RAYS = (".csv", ".npy")
+WITH_CAMERAS = ("viewing-ray", "render")  # kinds of tasks
+
+
+SIZE = (64, 48)  # of the image of --view
+
+
+def asked_for(arguments: argparse.Namespace) -> tuple[list[CheckTask], Limits]:
+    """The tasks as the arguments have them, whether or not the code has their functions."""
+    from app.checking.builtin import BUILTIN
+    from app.checking.calls import Limits
+
+    if arguments.tasks is None:
+        tasks, limits = list(BUILTIN), Limits()
+    else:
+        from app.checking.courses import task_path
+        from app.checking.task_file import load_tasks
+
+        found = load_tasks(task_path(arguments.tasks))
+        tasks, limits = list(found.tasks), found.limits
+    if arguments.task is not None:
+        tasks = [named(tasks, arguments.task)]
+    if arguments.time_limit is not None:
+        limits = replace(limits, seconds=arguments.time_limit)
+    if arguments.memory_limit is not None:
+        limits = replace(limits, memory_mb=arguments.memory_limit)
+    return _changed(arguments, tasks), limits
+
+
+def named(tasks: list[CheckTask], name: str) -> CheckTask:
+    """The task of a name; also with _ for -, or of a function's name. Raises LucidaError."""
+    from renderer.scene.reading import suggestion
+
+    wanted = name.replace("_", "-")
+    found = [task for task in tasks if task.name == name]
+    found += [task for task in tasks if task.name.replace("_", "-") == wanted]
+    found += [task for task in tasks if task.function == name]
+    if not found:
+        names = [task.name for task in tasks]
+        raise LucidaError("--task", f"{name[:40]!r} is unknown", suggestion(name, names))
+    return found[0]
+
+
+def _changed(arguments: argparse.Namespace, tasks: list[CheckTask]) -> list[CheckTask]:
+    """The tasks with the arguments' camera, size, seed and counting."""
+    if arguments.seed is not None:
+        tasks = [replace(task, seed=arguments.seed) for task in tasks]
+    if arguments.indexing is not None:
+        base = arguments.indexing.value
+        tasks = [replace(task, conventions=replace(task.conventions, base=base)) for task in tasks]
+    if arguments.view is not None:
+        return _with_view(arguments, tasks)
+    if arguments.size is not None:
+        return [_sized(task, arguments.size) for task in tasks]
+    return tasks
+
+
+def _sized(task: CheckTask, size: tuple[int, int]) -> CheckTask:
+    from app.checking.cases import check_size
+
+    if task.kind not in WITH_CAMERAS:
+        return task
+    sized = replace(task, size=size)
+    check_size(sized, "--size")
+    return sized
+
+
+def _with_view(arguments: argparse.Namespace, tasks: list[CheckTask]) -> list[CheckTask]:
+    from app.checking.cases import check_size, check_views
+    from renderer.scene.views import load_view
+
+    view = load_view(arguments.view)
+    size = arguments.size or SIZE
+    projection = view.camera.projection
+    seen = [
+        replace(task, views=(view,), count=0, size=size, projections=(projection,))
+        for task in tasks
+        if task.kind in WITH_CAMERAS and projection in task.projections
+    ]
+    if not seen:
+        raise LucidaError("--view", f"no task is tried in {projection}", "give another camera")
+    for task in seen:
+        check_size(task, "--size")
+        check_views(task)
+    return seen
+
+
+def possible(
+    arguments: argparse.Namespace, student: Student, tasks: list[CheckTask]
+) -> list[CheckTask]:
+    """Those that are tried: all that a lecturer or the user has named; of the built-in ones those
+    whose functions are there; of a file of rays those of rays."""
+    functions = student.functions()
+    if arguments.file is not None and Path(arguments.file).suffix.lower() in RAYS:
+        return _of_rays(tasks)
+    if functions is None or arguments.tasks is not None or arguments.task is not None:
+        return tasks
+    found = [task for task in tasks if task.function in functions]
+    if not found:
+        problem = "it has none of the functions that are asked for"
+        raise LucidaError("", problem, _missing(tasks, functions), arguments.file)
+    return found
+
+
+def _missing(tasks: list[CheckTask], functions: frozenset[str]) -> str:
+    """What is to be done where none of their functions is there."""
+    import difflib
+
+    names = list(dict.fromkeys(task.function for task in tasks))
+    plain = {name.replace("_", "").lower(): name for name in names}
+    for function in sorted(functions):
+        if close := difflib.get_close_matches(function.replace("_", "").lower(), plain, 1, 0.8):
+            return f"is {function} to be {plain[close[0]]}?"
+    return f"define one of {', '.join(names)}"
+
+
+def _of_rays(tasks: list[CheckTask]) -> list[CheckTask]:
+    """What a file of rays answers: i and j."""
+    found = [
+        replace(
+            task,
+            conventions=replace(task.conventions, arguments=(("i", "i"), ("j", "j"))),
+            vectorised=False,
+        )
+        for task in tasks
+        if task.kind == "viewing-ray"
+    ]
+    if not found:
+        raise LucidaError("FILE", "holds rays", "give a task of kind viewing-ray")
+    return found

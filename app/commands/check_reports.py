@@ -1,0 +1,69 @@
+"""What `lucida check` writes into files: Gradescope's results, and the page with pictures."""
+
+from __future__ import annotations
+
+import argparse
+import json
+import sys
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from app.checking.calls import Student
+    from app.checking.checked import TaskResult
+    from app.checking.reports.pictured import Pictured
+    from app.checking.tasks import CheckTask
+
+
+def write_json(
+    arguments: argparse.Namespace,
+    results: list[TaskResult],
+    tasks: list[CheckTask],
+    seconds: float,
+    problem: str = "",
+) -> None:
+    if arguments.json is None:
+        return
+    from app.checking.reports import gradescope
+
+    values = gradescope.results(results, tasks, seconds, problem)
+    text = json.dumps(values, indent=2, allow_nan=False) + "\n"
+    if arguments.json == "-":
+        sys.stdout.write(text)
+    else:
+        from renderer.atomic import atomic_write
+
+        with atomic_write(arguments.json) as file:
+            file.write(text.encode())
+
+
+def pictures_of(student: Student, result: TaskResult) -> dict[str, Pictured]:
+    from app.checking.reports.pictured import pictured
+
+    found = pictured(student, result)
+    return {} if found is None else {result.task.name: found}
+
+
+def write_page(
+    arguments: argparse.Namespace,
+    results: list[TaskResult],
+    tasks: list[CheckTask],
+    pictures: dict[str, Pictured],
+    problem: str = "",
+) -> None:
+    if arguments.html is None:
+        return
+    from app.checking.reports.page import page
+    from renderer.atomic import atomic_write
+
+    text = page(results, tasks, *_without_folders(arguments, problem), pictures)
+    with atomic_write(arguments.html) as file:
+        file.write(text.encode())
+
+
+def _without_folders(arguments: argparse.Namespace, problem: str) -> tuple[str, str]:
+    """What was checked, and the problem, with no more of a path than the file's name."""
+    parts = [arguments.file] if arguments.command is None else arguments.command.split()
+    for part in parts:
+        problem = problem.replace(part, Path(part).name or part)
+    return " ".join(Path(part).name or part for part in parts), problem
