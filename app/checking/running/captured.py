@@ -26,9 +26,10 @@ class CapturedOutput:
         with self._changed:
             self._changed.wait_for(lambda: self._ended or self._marks >= marks, seconds)
 
-    def wait_for_end(self, seconds: float) -> None:
+    def wait_for_end(self, seconds: float) -> bool:
+        """Whether nobody can write any more: all that had the pipe have ended."""
         with self._changed:
-            self._changed.wait_for(lambda: self._ended, seconds)
+            return self._changed.wait_for(lambda: self._ended, seconds)
 
     def take(self) -> str:
         """What came since the last time."""

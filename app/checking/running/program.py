@@ -31,6 +31,7 @@ _LOOK = (
 )  # the same of its memory, which another program says
 _GATHER = 0.002  # seconds: answers are read many at once, not each as it comes
 _KEEPER = 'read -r nothing; kill -s KILL -- "-$0"'
+_CHASE = 5.0  # seconds at most that processes are looked for which go on starting others
 _FAREWELL = 1.0  # seconds that a program which closed its answers may take to end
 _MOST_ANSWERS = 1 << 28  # bytes
 
@@ -195,19 +196,26 @@ class StudentProgram:
             os.killpg(self._process.pid, signal.SIGKILL)
         except (ProcessLookupError, PermissionError):
             self._process.kill()
-        for _ in range(100):  # what it is starting meanwhile
-            if not self._kill_bearers():
-                break
+        if sys.platform == "linux":
+            # What forks and ends, again and again, is seldom there when one looks: as long as
+            # somebody holds the pipe of the output, there is one.
+            end, others = time.monotonic() + _CHASE, set[str]()
+            while self._kill_bearers(others) or not self.output.wait_for_end(0.0):
+                if time.monotonic() > end:
+                    break
 
-    def _kill_bearers(self) -> bool:
+    def _kill_bearers(self, others: set[str]) -> bool:
+        """others: processes that were looked at, which this adds to: the next look is quick."""
         found = False
-        for process in Path("/proc").glob("[0-9]*/environ"):
+        for process in set(filter(str.isdigit, os.listdir("/proc"))) - others:
             try:
-                if self._bears in process.read_bytes():
-                    os.kill(int(process.parent.name), signal.SIGKILL)
+                if self._bears in Path(f"/proc/{process}/environ").read_bytes():
+                    os.kill(int(process), signal.SIGKILL)
                     found = True
+                else:
+                    others.add(process)
             except OSError:
-                continue
+                others.add(process)
         return found
 
     def _read(self, pipe: IO[bytes]) -> None:
