@@ -26,6 +26,7 @@ LEAST_CANVAS = 0.22  # below that it shows too little
 WEIGHTS = (3.0, 4.0, 2.4)  # code, canvas, numbers
 UNREAD = 12.0  # the weight of what each of them lacks to be read at all
 YIELDS = 0.8  # where larger code is wanted: the power at which numbers are, too
+NEARLY = 0.95  # of the type round it: code of that size is not smaller than its numbers
 ENOUGH = 1.3  # of the numbers' type, in parts of what is legible
 GROWS = 0.1  # of legible code: the power of the type, the rest of which has less room
 WANTED = 1.35  # of the code, in parts of what is legible, at the usual size of type
@@ -170,9 +171,8 @@ def _sizes(room: Size, need: Need) -> Iterator[tuple[float, float]]:
 
 def _with(code: Place, code_px: float, canvases: Place, numbers: Place, need: Need) -> StepperPlan:
     size, columns = max(_lettered(numbers.size, count, need) for count in (1, 2, 3))
-    return StepperPlan(
-        code, canvases, numbers, code_px, min(size, max(need.em_px, code_px)), columns
-    )
+    most = code_px if code_px > NEARLY * need.em_px else need.em_px  # the code is read first
+    return StepperPlan(code, canvases, numbers, code_px, min(size, most), columns)
 
 
 def _lettered(room: Size, columns: int, need: Need) -> tuple[float, int]:

@@ -12,10 +12,11 @@ from app.pair.pixelgrid import ADVANCE, DIGITS_HIGH, LEADING, VALUES_FROM, text_
 from app.probe.panel import HIGH_EM, WIDE_EM, type_px
 from app.state.options import Preferences
 from app.stepper.numbers import TEXTS
-from app.stepper.panel import LEAST_PX, LEGIBLE, WANTED_EM, names_of
+from app.stepper.panel import LEAST_PX, WANTED_EM, names_of
 from app.stepper.plan import SHORT, Need, StepperPlan, canvases_in, plan, plan_of_two
 from app.stepper.recording import Order
 from app.stepper.source import source_of
+from app.stepper.view import LEGIBLE
 from app.widgets.code import LINE, narrowed
 from app.widgets.sliders import part_of
 from app.widgets.theme import PRESENTED, look_of
