@@ -9,23 +9,33 @@ Matrices are float64 (4, 4) for column vectors, named destination_from_source.
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable
 from dataclasses import dataclass, replace
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 from pyrr import matrix44
 
+from renderer.camera_checks import (
+    SMALLEST,
+    Floats,
+    Vector,
+    check_basis,
+    check_clip,
+    check_projection,
+    check_viewport,
+    listed,
+    number,
+    numbers,
+    volume,
+)
 from renderer.errors import LucidaError
+from renderer.frame import check_size
+from renderer.intrinsics import Intrinsics, as_camera_from_world, camera_fields, decomposed
 
-Vector = tuple[float, float, float]
-Floats = NDArray[np.float64]
 Size = tuple[int, int]
 
-PROJECTIONS = ("perspective", "parallel")
-SINGULAR = 1e-9  # a basis of unit vectors that spans less volume than this has no usable inverse
-SMALLEST, LARGEST = 1e-12, 1e12  # lengths and coordinates that float32 can still square
 # Of the farthest t of an object that reaches behind the eye: what of its triangles is nearer is not
 # rasterized. GL clips in float32: nearer still, what is left of a long triangle might lie behind
 # the eye.
@@ -69,20 +79,20 @@ class Camera:
 
     def __post_init__(self) -> None:
         for name in ("eye", "u", "v", "w"):
-            object.__setattr__(self, name, _numbers(name, getattr(self, name), 3))
-        object.__setattr__(self, "viewport", _numbers("viewport", self.viewport, 4))
-        object.__setattr__(self, "distance", _number("distance", self.distance))
+            object.__setattr__(self, name, numbers(name, getattr(self, name), 3))
+        object.__setattr__(self, "viewport", numbers("viewport", self.viewport, 4))
+        object.__setattr__(self, "distance", number("distance", self.distance))
         for name in ("near", "far"):
             if getattr(self, name) is not None:
-                object.__setattr__(self, name, _number(name, getattr(self, name)))
-        _check_projection(self.projection)
-        _check_basis(self.u, self.v, self.w)
+                object.__setattr__(self, name, number(name, getattr(self, name)))
+        check_projection(self.projection)
+        check_basis(self.u, self.v, self.w)
         if not self.distance >= SMALLEST:
             limit = "0" if self.distance <= 0 else f"{SMALLEST:g}"
             problem = f"{self.distance:g} is not above {limit}"
             raise LucidaError("distance", problem, "give e.g. 1.0")
-        _check_viewport(self.viewport)
-        _check_clip(self.near, self.far)
+        check_viewport(self.viewport)
+        check_clip(self.near, self.far)
 
     @classmethod
     def canonical(cls) -> Camera:
@@ -107,30 +117,30 @@ class Camera:
         Source: Marschner and Shirley, Fundamentals of Computer Graphics, "Constructing a basis".
         """
         position, toward, upward = (
-            np.array(_numbers(name, value, 3))
+            np.array(numbers(name, value, 3))
             for name, value in (("eye", eye), ("target", target), ("up", up))
         )
         back = position - toward
         if not np.linalg.norm(back) >= SMALLEST:
-            problem = f"{_text(toward)} is the eye itself"
+            problem = f"{listed(toward)} is the eye itself"
             raise LucidaError("target", problem, "look at another point")
         if not np.linalg.norm(upward) >= SMALLEST:
-            problem = f"{_text(upward)} has no direction"
+            problem = f"{listed(upward)} has no direction"
             raise LucidaError("up", problem, "give a vector such as (0, 1, 0)")
         w = back / np.linalg.norm(back)
         right = np.cross(upward / np.linalg.norm(upward), w)
         if not np.linalg.norm(right) > 1e-8:
-            problem = f"{_text(upward)} is along the view direction"
+            problem = f"{listed(upward)} is along the view direction"
             raise LucidaError("up", problem, "choose another up")
         u = right / np.linalg.norm(right)
         if fov_y_deg is not None:
             if distance is not None:
                 raise LucidaError("fov_y_deg", "is given beside distance", "give one of the two")
-            fov = _number("fov_y_deg", fov_y_deg)
+            fov = number("fov_y_deg", fov_y_deg)
             if not 0 < fov < 180:
                 raise LucidaError("fov_y_deg", f"{fov:g} is not between 0 and 180", "give e.g. 40")
             distance = 0.5 / math.tan(math.radians(fov) / 2)
-        if not _number("aspect", aspect) > 0:
+        if not number("aspect", aspect) > 0:
             raise LucidaError("aspect", f"{aspect:g} is not above 0", "give width / height")
         return cls(
             _vector(position),
@@ -141,6 +151,33 @@ class Camera:
             (-aspect / 2, aspect / 2, -0.5, 0.5),
             projection,
         )
+
+    @classmethod
+    def from_intrinsics(
+        cls,
+        K: ArrayLike,
+        *,
+        size: Size,
+        world_from_camera: ArrayLike | None = None,
+        camera_from_world: ArrayLike | None = None,
+        axes: str = "opencv",
+        pixel_origin: str = "center",
+    ) -> Camera:
+        """The camera of computer vision: K (3, 3) in pixels and a pose (3, 4) or (4, 4), one of
+        the two; neither: at the origin.
+
+        size: (width, height) of the image that K is for. axes: the pose's, "opencv" (y down,
+        z forward) or "opengl" (y up, z back); K's are always the image's. pixel_origin: whether
+        integers stand at the pixels' "center" (OpenCV) or "corner" (COLMAP). Raises LucidaError.
+        Source: renderer/intrinsics.py.
+        """
+        if world_from_camera is not None:
+            if camera_from_world is not None:
+                problem = "is given beside camera_from_world"
+                raise LucidaError("world_from_camera", problem, "give one of the two")
+            camera_from_world = as_camera_from_world(world_from_camera)
+        pose = np.eye(4) if camera_from_world is None else camera_from_world
+        return cls(**camera_fields(K, pose, check_size(size), axes, pixel_origin))
 
     @property
     def is_parallel(self) -> bool:
@@ -199,6 +236,27 @@ class Camera:
         return self.ray(np.arange(size[1])[:, None], np.arange(size[0]), size)
 
     # Points to pixels.
+
+    def intrinsics(self, size: Size, pixel_origin: str = "center") -> Intrinsics:
+        """K, R and t for an image of this size: what K (R p + t) gives of a world point p, divided
+        by its third part, is its pixel (x, y). Raises LucidaError for a parallel camera.
+
+        K has a skew where u and v are not at right angles, and K[0, 0] < 0 where the basis is
+        left-handed. pixel_origin: as from_intrinsics() has it.
+        """
+        if self.is_parallel:
+            problem = "'parallel' has no focal length"
+            raise LucidaError("projection", problem, "give a perspective camera")
+        width, height = check_size(size)
+        left, right, bottom, top = self.viewport
+        image = np.array(
+            [
+                [(right - left) / width, 0, left],
+                [0, (bottom - top) / height, top],
+                [0, 0, -self.distance],
+            ]
+        )
+        return decomposed(self.basis @ image, self.eye, pixel_origin)
 
     def project(self, points: ArrayLike, size: Size) -> Projected:
         """Pixel coordinates and ray parameters of world points (..., 3): rays run backwards.
@@ -293,106 +351,6 @@ def check_camera(camera: object) -> Camera:
     raise LucidaError("camera", f"is a {kind}, not a Camera", remedy)
 
 
-def volume(u: ArrayLike, v: ArrayLike, w: ArrayLike) -> float:
-    """The volume that three vectors span: the determinant, negative if they are left-handed.
-
-    As a triple product: LAPACK's determinant warns of a division by zero at denormal numbers.
-    """
-    across, up, back = (np.asarray(vector, float).tolist() for vector in (u, v, w))
-    return dot(cross(across, up), back)
-
-
-# In Python's own numbers, which for three are faster than arrays: each new camera is checked.
-
-
-def dot(a: Sequence[float], b: Sequence[float]) -> float:
-    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
-
-
-def cross(a: Sequence[float], b: Sequence[float]) -> Vector:
-    return a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]
-
-
-def _number(name: str, value: object) -> float:
-    try:
-        number = float(value)  # type: ignore[arg-type]
-    except (TypeError, ValueError):
-        raise LucidaError(name, f"{value!r} is not a number", "give a finite number") from None
-    if not math.isfinite(number):
-        raise LucidaError(name, f"{number} is not finite", "give a finite number")
-    if abs(number) > LARGEST:
-        raise LucidaError(name, f"{number:g} is too large", f"stay within {LARGEST:g}")
-    return number
-
-
-def _numbers(name: str, value: object, count: int) -> tuple[float, ...]:
-    items: tuple[object, ...]
-    try:
-        items = tuple(value)  # type: ignore[arg-type]
-    except TypeError:
-        items = ()
-    if isinstance(value, str) or len(items) != count:
-        raise LucidaError(name, f"{value!r} is not {count} numbers", f"give {count} numbers")
-    return tuple(_number(name, item) for item in items)
-
-
 def _vector(array: Floats) -> Vector:
     x, y, z = array.tolist()
     return x, y, z
-
-
-def _text(vector: Iterable[float]) -> str:
-    return "(" + ", ".join(f"{x:g}" for x in vector) + ")"
-
-
-def _check_projection(projection: object) -> None:
-    if projection not in PROJECTIONS:
-        raise LucidaError(
-            "projection", f"{projection!r} is unknown", "give 'perspective' or 'parallel'"
-        )
-
-
-def _check_basis(u: Vector, v: Vector, w: Vector) -> None:
-    vectors = {"u": u, "v": v, "w": w}
-    lengths = {name: math.hypot(*vector) for name, vector in vectors.items()}
-    for name, vector in vectors.items():
-        if not lengths[name] >= SMALLEST:
-            others = " and ".join(other for other in vectors if other != name)
-            raise LucidaError(
-                name,
-                f"{_text(vector)} is not independent of {others}",
-                f"give {name} a part outside their plane",
-            )
-    unit = {name: [x / lengths[name] for x in vector] for name, vector in vectors.items()}
-    if abs(volume(*unit.values())) > SINGULAR:
-        return
-    for first, second in (("u", "v"), ("u", "w"), ("v", "w")):
-        if math.hypot(*cross(unit[first], unit[second])) <= math.sqrt(SINGULAR):
-            raise LucidaError(
-                second,
-                f"{_text(vectors[second])} is parallel to {first} = {_text(vectors[first])}",
-                f"turn {second} away from {first}",
-            )
-    raise LucidaError(
-        "w",
-        f"{_text(w)} lies in the plane of u = {_text(u)} and v = {_text(v)}",
-        "give w a part outside their plane",
-    )
-
-
-def _check_viewport(viewport: tuple[float, float, float, float]) -> None:
-    left, right, bottom, top = viewport
-    smallest = 1e-9 * max(SMALLEST, *map(abs, viewport))
-    for low, high, names in ((left, right, "left < right"), (bottom, top, "bottom < top")):
-        if not high - low > smallest:
-            raise LucidaError(
-                "viewport", f"{_text(viewport)} is empty", f"give left, right, bottom, top, {names}"
-            )
-
-
-def _check_clip(near: float | None, far: float | None) -> None:
-    if near is not None and not near >= SMALLEST:
-        raise LucidaError("near", f"{near:g} is not above 0", "give e.g. 0.1, or leave it out")
-    if far is not None and not far > (near or 0.0):
-        limit = "0" if near is None else f"near = {near:g}"
-        raise LucidaError("far", f"{far:g} is not above {limit}", "give a larger far")

@@ -26,7 +26,8 @@ from typing import TypeVar
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from renderer.camera import SMALLEST, Camera, Vector
+from renderer.camera import Camera, Vector
+from renderer.camera_checks import SMALLEST
 from renderer.errors import LucidaError
 from renderer.scene.model import View
 

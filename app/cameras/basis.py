@@ -11,7 +11,8 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from renderer.camera import Camera, Vector, cross, dot, volume
+from renderer.camera import Camera, Vector
+from renderer.camera_checks import cross, dot, volume
 
 Floats = NDArray[np.float64]
 

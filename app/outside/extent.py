@@ -12,7 +12,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from app.outside.frustum import plane_corners
-from renderer.camera import LARGEST, Camera, Vector
+from renderer.camera import Camera, Vector
+from renderer.camera_checks import LARGEST
 from renderer.errors import LucidaError
 
 Floats = NDArray[np.float64]

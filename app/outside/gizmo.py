@@ -15,7 +15,8 @@ from numpy.typing import NDArray
 from app.outside.mouse import Scope
 from app.outside.tint import handle_colors, hide_text, recolor
 from app.widgets import theme
-from renderer.camera import Camera, Vector, volume
+from renderer.camera import Camera, Vector
+from renderer.camera_checks import volume
 from renderer.errors import LucidaError
 
 gizmo = imguizmo.im_guizmo

@@ -15,7 +15,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from renderer.camera import LARGEST, Camera, volume
+from renderer.camera import Camera
+from renderer.camera_checks import LARGEST, volume
 from renderer.errors import LucidaError, one_line, shortened
 from renderer.scene.noting import Noted
 

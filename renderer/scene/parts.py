@@ -12,7 +12,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from renderer.camera import LARGEST
+from renderer.camera_checks import LARGEST
 from renderer.errors import LucidaError
 from renderer.images.display import from_srgb
 from renderer.scene.model import BRIGHTEST, Material, Mesh

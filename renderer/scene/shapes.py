@@ -15,7 +15,7 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
-from renderer.camera import LARGEST
+from renderer.camera_checks import LARGEST
 from renderer.errors import LucidaError
 from renderer.scene.limits import SEGMENTS
 from renderer.scene.model import Mesh, vector

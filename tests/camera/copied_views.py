@@ -7,7 +7,8 @@ from hypothesis import assume
 from hypothesis import strategies as st
 
 from app.cameras.text import Subject
-from renderer.camera import Camera, volume
+from renderer.camera import Camera
+from renderer.camera_checks import volume
 from renderer.scene.model import View
 
 SIZE = (160, 90)

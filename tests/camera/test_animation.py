@@ -15,7 +15,8 @@ from app.cameras.focus import scene_focus
 from app.cameras.navigation import switched_projection
 from app.cameras.presets import PRESETS, preset_view
 from app.state.app_state import is_orthonormal
-from renderer.camera import Camera, volume
+from renderer.camera import Camera
+from renderer.camera_checks import volume
 from renderer.scene import load_scene
 from renderer.scene.model import View
 

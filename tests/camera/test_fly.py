@@ -14,7 +14,8 @@ from app.cameras.focus import Focus
 from app.host.fly import Fly
 from app.host.view import DockedView
 from app.state.app_state import AppState
-from renderer.camera import LARGEST, Camera
+from renderer.camera import Camera
+from renderer.camera_checks import LARGEST
 from renderer.scene.model import Scene
 
 Key = imgui.Key

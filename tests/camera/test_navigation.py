@@ -12,7 +12,8 @@ from hypothesis import strategies as st
 
 from app.cameras import navigation
 from app.host.fly import way_flown
-from renderer.camera import Camera, volume
+from renderer.camera import Camera
+from renderer.camera_checks import volume
 from renderer.errors import LucidaError
 
 SIZE = (320, 200)

@@ -14,7 +14,8 @@ from app.cameras.focus import object_corners, scene_focus
 from app.cameras.presets import MARGIN, PRESETS, Preset, clip_around, framed, look_at
 from app.cameras.presets import preset_view as make_view
 from app.state.app_state import is_orthonormal
-from renderer.camera import Camera, volume
+from renderer.camera import Camera
+from renderer.camera_checks import volume
 from renderer.errors import LucidaError
 from renderer.scene import BUILTIN_SCENES, Mesh, Scene, SceneObject, Sphere, load_scene, shapes
 from renderer.scene.model import View

@@ -1,0 +1,120 @@
+"""What a camera's numbers must fulfil, and the mistakes in them, told in one line each."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable, Sequence
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from renderer.errors import LucidaError
+
+Vector = tuple[float, float, float]
+Floats = NDArray[np.float64]
+
+PROJECTIONS = ("perspective", "parallel")
+SINGULAR = 1e-9  # a basis of unit vectors that spans less volume than this has no usable inverse
+SMALLEST, LARGEST = 1e-12, 1e12  # lengths and coordinates that float32 can still square
+
+
+def volume(u: ArrayLike, v: ArrayLike, w: ArrayLike) -> float:
+    """The volume that three vectors span: the determinant, negative if they are left-handed.
+
+    As a triple product: LAPACK's determinant warns of a division by zero at denormal numbers.
+    """
+    across, up, back = (np.asarray(vector, float).tolist() for vector in (u, v, w))
+    return dot(cross(across, up), back)
+
+
+# In Python's own numbers, which for three are faster than arrays: each new camera is checked.
+
+
+def dot(a: Sequence[float], b: Sequence[float]) -> float:
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
+
+
+def cross(a: Sequence[float], b: Sequence[float]) -> Vector:
+    return a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]
+
+
+def number(name: str, value: object) -> float:
+    try:
+        number = float(value)  # type: ignore[arg-type]
+    except (TypeError, ValueError):
+        raise LucidaError(name, f"{value!r} is not a number", "give a finite number") from None
+    if not math.isfinite(number):
+        raise LucidaError(name, f"{number} is not finite", "give a finite number")
+    if abs(number) > LARGEST:
+        raise LucidaError(name, f"{number:g} is too large", f"stay within {LARGEST:g}")
+    return number
+
+
+def numbers(name: str, value: object, count: int) -> tuple[float, ...]:
+    items: tuple[object, ...]
+    try:
+        items = tuple(value)  # type: ignore[arg-type]
+    except TypeError:
+        items = ()
+    if isinstance(value, str) or len(items) != count:
+        raise LucidaError(name, f"{value!r} is not {count} numbers", f"give {count} numbers")
+    return tuple(number(name, item) for item in items)
+
+
+def listed(vector: Iterable[float]) -> str:
+    return "(" + ", ".join(f"{x:g}" for x in vector) + ")"
+
+
+def check_projection(projection: object) -> None:
+    if projection not in PROJECTIONS:
+        raise LucidaError(
+            "projection", f"{projection!r} is unknown", "give 'perspective' or 'parallel'"
+        )
+
+
+def check_basis(u: Vector, v: Vector, w: Vector) -> None:
+    vectors = {"u": u, "v": v, "w": w}
+    lengths = {name: math.hypot(*vector) for name, vector in vectors.items()}
+    for name, vector in vectors.items():
+        if not lengths[name] >= SMALLEST:
+            others = " and ".join(other for other in vectors if other != name)
+            raise LucidaError(
+                name,
+                f"{listed(vector)} is not independent of {others}",
+                f"give {name} a part outside their plane",
+            )
+    unit = {name: [x / lengths[name] for x in vector] for name, vector in vectors.items()}
+    if abs(volume(*unit.values())) > SINGULAR:
+        return
+    for first, second in (("u", "v"), ("u", "w"), ("v", "w")):
+        if math.hypot(*cross(unit[first], unit[second])) <= math.sqrt(SINGULAR):
+            raise LucidaError(
+                second,
+                f"{listed(vectors[second])} is parallel to {first} = {listed(vectors[first])}",
+                f"turn {second} away from {first}",
+            )
+    raise LucidaError(
+        "w",
+        f"{listed(w)} lies in the plane of u = {listed(u)} and v = {listed(v)}",
+        "give w a part outside their plane",
+    )
+
+
+def check_viewport(viewport: tuple[float, float, float, float]) -> None:
+    left, right, bottom, top = viewport
+    smallest = 1e-9 * max(SMALLEST, *map(abs, viewport))
+    for low, high, names in ((left, right, "left < right"), (bottom, top, "bottom < top")):
+        if not high - low > smallest:
+            raise LucidaError(
+                "viewport",
+                f"{listed(viewport)} is empty",
+                f"give left, right, bottom, top, {names}",
+            )
+
+
+def check_clip(near: float | None, far: float | None) -> None:
+    if near is not None and not near >= SMALLEST:
+        raise LucidaError("near", f"{near:g} is not above 0", "give e.g. 0.1, or leave it out")
+    if far is not None and not far > (near or 0.0):
+        limit = "0" if near is None else f"near = {near:g}"
+        raise LucidaError("far", f"{far:g} is not above {limit}", "give a larger far")

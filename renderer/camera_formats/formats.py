@@ -1,0 +1,118 @@
+"""The list of formats, and the way from a file to its cameras and back.
+
+A format is a module here and a line in FORMATS. A module that reads has
+
+    recognises(given: Given) -> bool            whether it looks like this format; never raises
+    read(given: Given, options: Options) -> CameraSet
+
+and one that writes has
+
+    write(cameras: Sequence[PosedCamera], options: Options) -> dict[str, bytes]
+
+which gives the content of the file under "", or a folder's files by their names. Each raises
+LucidaError; what it cannot hold, it does not write.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from importlib import import_module
+from pathlib import Path
+from types import ModuleType
+
+from renderer.camera_formats.given import Given, Options, given
+from renderer.camera_formats.posed import CameraSet, PosedCamera
+from renderer.errors import LucidaError
+from renderer.scene.reading import suggestion
+
+
+@dataclass(frozen=True)
+class Format:
+    """name: on the command line. what: in words. ending: of the file that is written, "" for a
+    folder; the first where several are."""
+
+    name: str
+    what: str
+    endings: tuple[str, ...]
+
+    @property
+    def module(self) -> ModuleType:
+        return import_module(f"renderer.camera_formats.{self.name}")
+
+    @property
+    def reads(self) -> bool:
+        return hasattr(self.module, "read")
+
+    @property
+    def writes(self) -> bool:
+        return hasattr(self.module, "write")
+
+
+# In the order in which they are tried on a file.
+FORMATS = (Format("view", "Lucida's view file", (".toml",)),)
+
+
+def format_named(name: str) -> Format:
+    """Raises LucidaError for a name that no format has."""
+    for entry in FORMATS:
+        if entry.name == name:
+            return entry
+    raise LucidaError(
+        "format", f"{name!r} is unknown", suggestion(name, [entry.name for entry in FORMATS])
+    )
+
+
+def read_cameras(
+    source: str | Path | Given, format: str = "", options: Options | None = None
+) -> CameraSet:
+    """The cameras of a file, a folder or a pasted text. format: a name of FORMATS; "": found by
+    name and content. Raises LucidaError naming the file."""
+    found = source if isinstance(source, Given) else given(source)
+    options = options or Options()
+    try:
+        entry = format_named(format) if format else recognised(found)
+        if not entry.reads:
+            raise LucidaError("format", f"{entry.name} is only written", "give another format")
+        cameras: CameraSet = entry.module.read(found, options)
+        if not cameras.cameras:
+            raise LucidaError("", f"holds no camera ({entry.name})", "give another file")
+        _check_distortion(cameras, options)
+        return cameras
+    except LucidaError as error:
+        raise error if error.source else error.in_file(found.name) from None
+
+
+def recognised(found: Given) -> Format:
+    """The format that a file looks like. Raises LucidaError."""
+    for entry in FORMATS:
+        if entry.reads and entry.module.recognises(found):
+            return entry
+    names = ", ".join(entry.name for entry in FORMATS if entry.reads)
+    raise LucidaError("", "is no camera that is known", f"say which with --from: {names}")
+
+
+def written(
+    cameras: Sequence[PosedCamera], format: str, options: Options | None = None
+) -> dict[str, bytes]:
+    """Cameras as files of a format: by name within a folder, or one under "". Raises LucidaError
+    for what the format cannot hold."""
+    entry = format_named(format)
+    if not entry.writes:
+        raise LucidaError("format", f"{entry.name} is only read", "give another format")
+    files: dict[str, bytes] = entry.module.write(cameras, options or Options())
+    return files
+
+
+def _check_distortion(cameras: CameraSet, options: Options) -> None:
+    """A lens is never dropped in silence."""
+    for camera in cameras.cameras:
+        lens = camera.distortion
+        if lens is not None and not options.ignore_distortion:
+            name, value = max(lens.coefficients.items(), key=lambda entry: abs(entry[1]))
+            raise LucidaError(
+                f"{camera.name}.{name}" if camera.name else name,
+                f"{value:g} is a lens's distortion ({lens.model}), which moves a corner by "
+                f"{lens.corner_px:.3g} pixels; a pinhole has none",
+                "give --ignore-distortion, or undistort the images first",
+            )

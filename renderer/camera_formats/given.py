@@ -1,0 +1,78 @@
+"""What is given to a format to read, and what the user has said about it."""
+
+from __future__ import annotations
+
+import json
+from dataclasses import dataclass
+from functools import cached_property
+from pathlib import Path
+from typing import Any
+
+from renderer.camera import Size
+from renderer.errors import LucidaError
+from renderer.intrinsics import PixelOrigin
+from renderer.scene.reading import decode_text, path_of, read_file
+
+LARGEST_BYTES = 1 << 28  # a COLMAP model of some ten thousand images
+
+
+@dataclass(frozen=True)
+class Options:
+    """What the command's options say. pixel_origin: None for the format's own. size: for what has
+    none. ignore_distortion: whether a camera with a lens may be taken as a pinhole."""
+
+    pixel_origin: PixelOrigin | None = None
+    size: Size | None = None
+    ignore_distortion: bool = False
+
+
+@dataclass(frozen=True)
+class Given:
+    """A file, a folder (data is empty), or a text that was pasted (path is None).
+
+    name: for errors. Raises LucidaError where what is asked of it is not there.
+    """
+
+    name: str
+    data: bytes = b""
+    path: Path | None = None
+
+    @cached_property
+    def text(self) -> str:
+        return decode_text(self.data, self.name)
+
+    @cached_property
+    def is_text(self) -> bool:
+        """Whether it could be one: so that a format can look without an error."""
+        try:
+            return bool(self.text.strip()) and "\0" not in self.text
+        except LucidaError:
+            return False
+
+    @cached_property
+    def json(self) -> Any:
+        """What a JSON file holds; None where it is none."""
+        try:
+            return json.loads(self.text) if self.is_text else None
+        except (ValueError, RecursionError):
+            return None
+
+    @property
+    def ending(self) -> str:
+        return self.path.suffix.lower() if self.path is not None else ""
+
+    @property
+    def is_folder(self) -> bool:
+        return self.path is not None and self.path.is_dir()
+
+
+def given(source: str | Path) -> Given:
+    """A file or a folder. Raises LucidaError."""
+    path = Path(source)
+    try:
+        if path.is_dir():
+            return Given(str(source), path=path)
+    except (OSError, ValueError):
+        pass  # path_of() says what is wrong
+    path = path_of(source, "camera")
+    return Given(str(source), read_file(path, LARGEST_BYTES), path)

@@ -1,0 +1,133 @@
+"""The camera of computer vision, K, R and t, against the camera of graphics.
+
+Owns the formulas between the two. Knows nothing of files.
+
+K [R | t] takes a world point to a pixel: K is (3, 3) in pixels, upper triangular, with axes x to
+the right, y down and z forward; R and t are camera_from_world. Where pixel (0, 0) lies is a
+convention that sources differ in: integers at the pixels' centres (OpenCV), or at their corners,
+with centres at .5 (COLMAP, and most renderers).
+Source: Hartley and Zisserman, Multiple View Geometry, "Camera models".
+"""
+
+from __future__ import annotations
+
+from typing import Any, Literal, NamedTuple, get_args
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from renderer.camera_checks import Floats, listed
+from renderer.errors import LucidaError
+
+PixelOrigin = Literal["center", "corner"]
+Axes = Literal["opencv", "opengl"]
+
+_OFFSET = {"center": 0.5, "corner": 0.0}  # from an integer to the corner of the image's first pixel
+_FLIP = np.diag([1.0, -1.0, -1.0])  # between y down, z forward and y up, z back
+
+
+class Intrinsics(NamedTuple):
+    """K (3, 3) in pixels, and camera_from_world as R (3, 3), a rotation, and t (3,)."""
+
+    K: Floats
+    R: Floats
+    t: Floats
+
+
+def camera_fields(
+    K: ArrayLike,
+    camera_from_world: ArrayLike,
+    size: tuple[int, int],
+    axes: str,
+    pixel_origin: str,
+) -> dict[str, Any]:
+    """The fields of the Camera with these intrinsics and this pose, at distance 1.
+
+    camera_from_world: (3, 4) or (4, 4), any affine map. size: (width, height). A negative focal
+    length is a mirrored image. Raises LucidaError.
+    """
+    k = matrix("K", K, (3, 3))
+    pose = matrix("camera_from_world", camera_from_world, (3, 4), (4, 4))
+    offset = _offset(pixel_origin)
+    if axes not in get_args(Axes):
+        raise LucidaError(
+            "axes", f"{axes!r} is unknown", f"give one of {', '.join(get_args(Axes))}"
+        )
+    if k[1, 0] or k[2, 0] or k[2, 1] or not k[2, 2]:
+        problem = f"its rows {', '.join(map(listed, k))} are not [fx s cx], [0 fy cy], [0 0 1]"
+        raise LucidaError("K", problem, "give it row by row")
+    (fx, skew, cx), (_, fy, cy), _ = k / k[2, 2]
+    if not (fx and fy):
+        raise LucidaError("K", f"its focal lengths are {fx:g} and {fy:g}", "give them in pixels")
+    linear = pose[:3, :3] if axes == "opencv" else _FLIP @ pose[:3, :3]
+    try:
+        across, down, forward = np.linalg.inv(linear).T
+        eye = -np.linalg.solve(pose[:3, :3], pose[:3, 3])
+    except np.linalg.LinAlgError:
+        problem = f"its rows {', '.join(map(listed, pose[:3, :3]))} have no inverse"
+        raise LucidaError("camera_from_world", problem, "give a rotation") from None
+    width, height = size
+    left, right = (-cx - offset) / abs(fx), (width - cx - offset) / abs(fx)
+    top, bottom = (cy + offset) / abs(fy), -(height - cy - offset) / abs(fy)
+    return {
+        "eye": eye.tolist(),
+        "u": (np.sign(fx) * across).tolist(),
+        "v": (np.sign(fy) * (skew / fx * across - down)).tolist(),
+        "w": (-forward).tolist(),
+        "distance": 1.0,
+        "viewport": (left, right, bottom, top),
+    }
+
+
+def decomposed(pixel_to_direction: Floats, eye: ArrayLike, pixel_origin: str) -> Intrinsics:
+    """K, R and t of the camera whose ray through the point (x, y) of the image, in pixels from the
+    corner of the first one, has the direction pixel_to_direction @ (x, y, 1).
+
+    K's diagonal is positive, but for K[0, 0] of a mirrored image.
+    """
+    from_corner = np.array(
+        [[1, 0, _offset(pixel_origin)], [0, 1, _offset(pixel_origin)], [0, 0, 1]]
+    )
+    m = np.linalg.inv(pixel_to_direction @ from_corner)
+    # RQ by QR of the rows backwards: m = upper triangular times orthogonal.
+    q, r = np.linalg.qr(m[::-1].T)
+    k, rotation = r.T[::-1, ::-1], q.T[::-1]
+    signs = np.sign(np.diag(k))
+    k, rotation = k * signs, signs[:, None] * rotation
+    if np.linalg.det(rotation) < 0:  # a mirrored image: R stays a rotation
+        k[:, 0], rotation[0] = -k[:, 0], -rotation[0]
+    return Intrinsics(k / k[2, 2], rotation, -rotation @ np.asarray(eye, float))
+
+
+def as_camera_from_world(world_from_camera: ArrayLike) -> Floats:
+    """The inverse of a pose, (4, 4). Raises LucidaError."""
+    pose = np.eye(4)
+    given = matrix("world_from_camera", world_from_camera, (3, 4), (4, 4))
+    pose[:3] = given[:3]
+    try:
+        return np.asarray(np.linalg.inv(pose), np.float64)
+    except np.linalg.LinAlgError:
+        problem = f"its rows {', '.join(map(listed, given[:3]))} have no inverse"
+        raise LucidaError("world_from_camera", problem, "give a rotation") from None
+
+
+def matrix(name: str, value: ArrayLike, *shapes: tuple[int, ...]) -> Floats:
+    """A matrix of finite numbers, of one of these shapes. Raises LucidaError naming it."""
+    try:
+        found: Floats = np.asarray(value, np.float64)
+    except (TypeError, ValueError):
+        raise LucidaError(name, "is not a matrix of numbers", "give its rows") from None
+    if found.shape not in shapes:
+        wanted = " or ".join(" x ".join(map(str, shape)) for shape in shapes)
+        raise LucidaError(name, f"has the shape {found.shape}", f"give {wanted} numbers")
+    if not np.isfinite(found).all():
+        raise LucidaError(name, "has a number that is not finite", "give finite numbers")
+    return found
+
+
+def _offset(pixel_origin: str) -> float:
+    if pixel_origin not in _OFFSET:
+        raise LucidaError(
+            "pixel_origin", f"{pixel_origin!r} is unknown", "give 'center' or 'corner'"
+        )
+    return _OFFSET[pixel_origin]
