@@ -1,7 +1,7 @@
 """Cameras as others write them down: one file a format, each reads and writes.
 
-`read_cameras` takes any of them (formats.py has the list); `written` gives one out. The formulas of K,
-R and t are renderer/intrinsics.py's. Nothing here knows of scenes' objects, renderers or windows.
+`read_cameras` takes any of them (formats.py has the list); `written` gives one out. The formulas of
+K, R and t are renderer/intrinsics.py's. Nothing here knows of scenes' objects, renderers, windows.
 """
 
 from renderer.camera_formats.formats import FORMATS, format_named, read_cameras, written
