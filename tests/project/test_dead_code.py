@@ -15,6 +15,7 @@ from collections.abc import Iterator
 import pytest
 from test_layers import MODULES, ROOT
 
+from renderer.camera_formats import FORMATS
 from renderer.trace.compile import numba_inside
 
 # What is found by its name, and by whom.
@@ -35,6 +36,7 @@ REGISTERED = {"atexit.register", "lower_builtin", "register_model", "type_callab
 
 # Modules that are loaded by name: what they define is asked of what comes.
 LOADED = {f"renderer.trace.compile.{name}" for name in numba_inside.PARTS}
+LOADED |= {f"renderer.camera_formats.{entry.name}" for entry in FORMATS}
 
 
 def definitions(tree: ast.Module) -> Iterator[tuple[str, ast.stmt]]:
