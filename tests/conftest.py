@@ -30,6 +30,11 @@ def pytest_sessionstart(session):
                 tracer.render(scene.view.for_size((64, 36)), (64, 36))
 
 
+def pytest_xdist_auto_num_workers():
+    """One more than there are processors: a window waits for its display and its clock, too."""
+    return (os.cpu_count() or 1) + 1
+
+
 def pytest_collection_modifyitems(items):
     """What takes longest begins first. (One process gets a file or a class whole: loadscope.)"""
     items.sort(key=lambda item: not item.path.stem.startswith(("test_window", "test_desk")))
