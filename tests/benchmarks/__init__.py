@@ -1,6 +1,5 @@
 """Benchmarks: the tracer beside others on the same machine, in the same run. `make bench`.
 
-    environment   the virtual environment with the peers: .venv-bench
     scenes        meshes from formulas, of any number of triangles; a mesh from a file
     cameras       views of them, easy and hard; their rays as arrays
     peers         Mitsuba, Open3D, Embree and trimesh behind one interface; lucida: our side of it

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import json
 import math
-import subprocess
 from importlib import import_module
 
 import numpy as np
@@ -13,7 +12,7 @@ import pytest
 from renderer.errors import LucidaError
 from renderer.scene import flatten
 from tests.benchmarks import __main__ as command
-from tests.benchmarks import cameras, environment, measure, plot, report, run, scenes
+from tests.benchmarks import cameras, measure, plot, report, run, scenes
 from tests.benchmarks.tables import TABLES, build, cancel, memory, moving, window
 
 SIZE = (32, 18)
@@ -316,38 +315,3 @@ class TestCommand:
         arguments = ["--only", "build,cancel", "--no-peers", "--out", str(tmp_path)]
         assert command.main(arguments) == 0
         assert len(json.loads((tmp_path / "bench.json").read_text())["tables"]) == 1
-
-
-class TestEnvironment:
-    def test_requirements(self):
-        text = "# all\nfirst==1.0  # why\n\nsecond==2.0\n"
-        assert environment.wanted(text) == ["first==1.0", "second==2.0"]
-
-    def test_every_peer_is_wanted_in_one_version(self):
-        lines = environment.wanted(environment.REQUIREMENTS.read_text())
-        assert all("==" in line for line in lines)
-        names = {line.partition("==")[0] for line in lines}
-        assert names == {"embreex", "matplotlib", "mitsuba", "open3d"}
-
-    def test_installed_once_failures_named_and_tried_again(self, tmp_path, monkeypatch):
-        commands: list[list[str]] = []
-
-        def pip(command, **_):
-            commands.append(command)
-            failed = command[-1].startswith("bad")
-            return subprocess.CompletedProcess(command, failed, "", "hint\nERROR: no such thing\n")
-
-        def create(folder, **_):
-            (folder / "own").mkdir(parents=True)
-
-        monkeypatch.setattr(environment.venv, "create", create)
-        monkeypatch.setattr(environment, "ask", lambda folder, code: str(folder / "own"))
-        monkeypatch.setattr(environment.subprocess, "run", pip)
-        requirements = tmp_path / "requirements.txt"
-        requirements.write_text("good==1\nbad==1\n")
-        folder = tmp_path / "env"
-        for _ in range(2):
-            assert environment.prepare(folder, requirements) == {"bad==1": "no such thing"}
-        assert [command[-1] for command in commands] == ["good==1", "bad==1", "bad==1"]
-        assert "numpy==" in (folder / environment.CONSTRAINTS).read_text()
-        assert (folder / "own" / "lucida-runtime.pth").exists()

@@ -1,8 +1,9 @@
-"""The environment of the benchmarks: .venv-bench, with the peers, that also sees what Lucida needs.
+"""Environments with the programs that Lucida is held against, that also see what Lucida needs:
+.venv-bench for `make bench`, .venv-conformance for `make conformance`.
 
-`python -m tests.benchmarks.environment` makes it, run by the Python of the project's own
+`python -m tests.peer_environment bench` makes one, run by the Python of the project's own
 environment; what is there already is left alone. A peer that cannot be installed is named and left
-out; the next run tries again. Owns that folder. Needs the standard library only.
+out; the next run tries again. Owns these folders. Needs the standard library only.
 """
 
 from __future__ import annotations
@@ -14,13 +15,20 @@ import venv
 from importlib import metadata
 from pathlib import Path
 
-ROOT = Path(__file__).resolve().parents[2]
-FOLDER = ROOT / ".venv-bench"
-REQUIREMENTS = ROOT / "requirements-bench.txt"
+ROOT = Path(__file__).resolve().parents[1]
+NAMES = ("bench", "conformance")
 CONSTRAINTS = "constraints.txt"
 
 
-def prepare(folder: Path = FOLDER, requirements: Path = REQUIREMENTS) -> dict[str, str]:
+def folder_of(name: str) -> Path:
+    return ROOT / f".venv-{name}"
+
+
+def requirements_of(name: str) -> Path:
+    return ROOT / f"requirements-{name}.txt"
+
+
+def prepare(folder: Path, requirements: Path) -> dict[str, str]:
     """Makes the environment complete. Gives what could not be installed, and why."""
     runtime = sysconfig.get_path("purelib")
     made_from = f"{sys.version}\n{runtime}\n"
@@ -53,7 +61,7 @@ def python_of(folder: Path) -> Path:
 
 
 def say(text: str) -> None:
-    print(f"bench: {text}", file=sys.stderr, flush=True)
+    print(f"peers: {text}", file=sys.stderr, flush=True)
 
 
 def _install(folder: Path, requirement: str) -> str:
@@ -89,12 +97,12 @@ def ask(folder: Path, code: str) -> str:
     return subprocess.run(command, check=True, capture_output=True, text=True).stdout.strip()
 
 
-def main() -> int:
-    """Always 0: the benchmarks run with whatever could be installed."""
-    for requirement, why in prepare().items():
+def main(name: str) -> int:
+    """Always 0: what is run goes on with whatever could be installed."""
+    for requirement, why in prepare(folder_of(name), requirements_of(name)).items():
         say(f"{requirement} is left out: {why}")
     return 0
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    sys.exit(main(NAMES[NAMES.index(sys.argv[1])]))
