@@ -16,7 +16,7 @@ LucidaError; what it cannot hold, it does not write.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from importlib import import_module
 from pathlib import Path
 from types import ModuleType
@@ -77,7 +77,7 @@ def read_cameras(
         cameras: CameraSet = entry.module.read(found, options)
         if not cameras.cameras:
             raise LucidaError("", f"holds no camera ({entry.name})", "give another file")
-        _check_distortion(cameras, options)
+        check_distortion(cameras.cameras, options)
         return cameras
     except LucidaError as error:
         raise error if error.source else error.in_file(found.name) from None
@@ -89,7 +89,9 @@ def recognised(found: Given) -> Format:
         if entry.reads and entry.module.recognises(found):
             return entry
     names = ", ".join(entry.name for entry in FORMATS if entry.reads)
-    raise LucidaError("", "is no camera that is known", f"say which with --from: {names}")
+    raise LucidaError(
+        "", "is no camera that is known", f"say which with `lucida camera --from`: {names}"
+    )
 
 
 def written(
@@ -100,13 +102,21 @@ def written(
     entry = format_named(format)
     if not entry.writes:
         raise LucidaError("format", f"{entry.name} is only read", "give another format")
+    if format != "view":  # which alone can say that a viewport is to be fitted
+        cameras = [_fitted(camera) for camera in cameras]
     files: dict[str, bytes] = entry.module.write(cameras, options or Options())
     return files
 
 
-def _check_distortion(cameras: CameraSet, options: Options) -> None:
-    """A lens is never dropped in silence."""
-    for camera in cameras.cameras:
+def _fitted(posed: PosedCamera) -> PosedCamera:
+    if not posed.fit or posed.size is None:
+        return posed
+    return replace(posed, camera=posed.camera.fitted(posed.size), fit=False)
+
+
+def check_distortion(cameras: Sequence[PosedCamera], options: Options) -> None:
+    """Raises LucidaError: a lens is never dropped in silence."""
+    for camera in cameras:
         lens = camera.distortion
         if lens is not None and not options.ignore_distortion:
             name, value = max(lens.coefficients.items(), key=lambda entry: abs(entry[1]))

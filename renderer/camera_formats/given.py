@@ -68,11 +68,10 @@ class Given:
 
 def given(source: str | Path) -> Given:
     """A file or a folder. Raises LucidaError."""
-    path = Path(source)
+    path = path_of(source, "camera")
     try:
         if path.is_dir():
             return Given(str(source), path=path)
     except (OSError, ValueError):
-        pass  # path_of() says what is wrong
-    path = path_of(source, "camera")
+        pass  # read_file() says what is wrong
     return Given(str(source), read_file(path, LARGEST_BYTES), path)
