@@ -16,7 +16,7 @@ LucidaError; what it cannot hold, it does not write.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from importlib import import_module
 from pathlib import Path
 from types import ModuleType
@@ -102,16 +102,8 @@ def written(
     entry = format_named(format)
     if not entry.writes:
         raise LucidaError("format", f"{entry.name} is only read", "give another format")
-    if format != "view":  # which alone can say that a viewport is to be fitted
-        cameras = [_fitted(camera) for camera in cameras]
     files: dict[str, bytes] = entry.module.write(cameras, options or Options())
     return files
-
-
-def _fitted(posed: PosedCamera) -> PosedCamera:
-    if not posed.fit or posed.size is None:
-        return posed
-    return replace(posed, camera=posed.camera.fitted(posed.size), fit=False)
 
 
 def check_distortion(cameras: Sequence[PosedCamera], options: Options) -> None:

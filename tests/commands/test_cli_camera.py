@@ -205,11 +205,12 @@ class TestWriting:
         assert told(capsys, "herd.json", "--to", "den", "-o", "folder")
         assert len(json.loads(Path("folder", "cameras.txt").read_text())["herd"]) == 3
 
-    def test_the_pixel_origin_and_the_size_reach_the_format(self, capsys):
+    def test_the_options_reach_the_format(self, capsys):
         words = ("corner.toml", "--to", "herd", "--size", "30x20")
         data = json.loads(told(capsys, *words, "--pixel-origin", "corner"))
-        assert (data["origin"], data["herd"][0]["size"]) == ("corner", [30, 20])
-        assert json.loads(told(capsys, *words))["origin"] is None
+        assert (data["said"], data["herd"][0]["size"]) == (["corner", ""], [30, 20])
+        told(capsys, *words, "-o", "a.HERD")
+        assert json.loads(Path("a.HERD").read_text())["said"] == [None, ".herd"]
 
     def test_a_size_of_another_shape_is_said(self, capsys):
         assert main(["camera", "herd.json#0", "--to", "herd", "--size", "100x100"]) == 0
@@ -220,11 +221,6 @@ class TestWriting:
             "its pixels are not as wide as high\n"
         )
         told(capsys, "herd.json#0", "--to", "herd", "--size", "640x480")
-
-    def test_a_fitted_view_is_fitted_to_the_size(self, capsys):
-        save_view("fit.toml", View(Camera(), fit=True))
-        assert told(capsys, "fit.toml", "--to", "view", "--size", "20x10").endswith("fit = true\n")
-        assert told(capsys, "fit.toml", "--to", "herd", "--size", "20x10")
 
 
 class TestDistortion:
