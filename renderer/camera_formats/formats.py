@@ -50,7 +50,12 @@ class Format:
 
 
 # In the order in which they are tried on a file.
-FORMATS = (Format("view", "Lucida's view file", (".toml",)),)
+FORMATS = (
+    Format("view", "Lucida's view file", (".toml",)),
+    Format("colmap", "COLMAP's model", ("",)),
+    Format("three", "three.js's camera", (".json",)),
+    Format("blender", "Blender's camera", (".py", ".json")),
+)
 
 
 def format_named(name: str) -> Format:
