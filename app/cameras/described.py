@@ -76,8 +76,6 @@ def _of_all(found: CameraSet) -> list[Fact]:
         told.append(Fact("points", f"{len(found.points)} of a reconstruction"))
     if ignored := ignored_text(cameras):
         told.append(Fact("distortion", ignored))
-    by_name = f", or --image NAME, such as {names[0]!r}" if names else ""
-    told.append(Fact("to choose", f"--frame N, 0 to {len(cameras) - 1}{by_name}"))
     return told
 
 

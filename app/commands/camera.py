@@ -120,11 +120,16 @@ def run(arguments: argparse.Namespace) -> int:
 
 
 def _described(arguments: argparse.Namespace, found: CameraSet, chosen: PosedCamera | None) -> str:
-    from app.cameras.described import as_data, as_text, facts
+    from app.cameras.described import Fact, as_data, as_text, facts
 
     if arguments.json:
         return json.dumps(as_data(found, chosen), indent=2, allow_nan=False)
-    return as_text(facts(found, chosen))
+    told = facts(found, chosen)
+    if chosen is None:
+        name = next((camera.name for camera in found.cameras if camera.name), "")
+        by_name = f", or --image NAME, such as {name!r}" if name else ""
+        told.append(Fact("to choose", f"--frame N, 0 to {len(found.cameras) - 1}{by_name}"))
+    return as_text(told)
 
 
 def _format(option: str, name: str) -> Format:

@@ -51,7 +51,7 @@ def read_chosen(
         elif which or not several or len(found.cameras) == 1:
             chosen = one_of(found, which)
     except LucidaError as error:
-        example = "" if source.path is None else f", as in {source.path.name}#0"
+        example = "" if source.path is None else f", as in {source.name}#0"
         raise LucidaError("", error.problem, error.remedy + example, source.name) from None
     try:
         check_distortion(found.cameras if chosen is None else (chosen,), options)

@@ -54,7 +54,7 @@ FORMATS = (
     Format("view", "Lucida's view file", (".toml",)),
     Format("colmap", "COLMAP's model", ("",)),
     Format("three", "three.js's camera", (".json",)),
-    Format("blender", "Blender's camera", (".py", ".json")),
+    Format("blender", "Blender's camera", (".py",)),
 )
 
 

@@ -15,7 +15,10 @@ import pytest
 from herd_format import install
 
 from app.cli import main
+from app.commands.view import shown_size
+from app.window import viewer
 from renderer import Camera, View, load_view, save_view
+from renderer.camera_formats import FORMATS, format_named
 
 HERD = {
     "herd": [
@@ -223,6 +226,38 @@ class TestWriting:
         told(capsys, "herd.json#0", "--to", "herd", "--size", "640x480")
 
 
+WAYS = [(entry.name, ending) for entry in FORMATS for ending in entry.endings if entry.writes]
+
+
+@pytest.mark.parametrize(("name", "ending"), WAYS)
+class TestEveryFormat:
+    def test_what_is_written_is_found_and_is_the_same_camera(self, capsys, name, ending):
+        words = ("herd.json#0", "--to", name, "-o", f"out{ending}")
+        assert told(capsys, *words) == f"out{ending}: {name}, 1 camera\n"
+        if ending in (".json", ".gltf"):
+            assert json.loads(Path(f"out{ending}").read_text())
+        assert Path(f"out{ending}").is_dir() or (
+            (Path(f"out{ending}").read_bytes()[:4] == b"glTF") == (ending == ".glb")
+        )
+        if not format_named(name).reads:
+            assert main(["camera", f"out{ending}", "--from", name]) == 2
+            return
+        first = json.loads(told(capsys, "herd.json#0", "--json"))["cameras"][0]
+        words = () if ending == ".toml" else ("--size", "64x48")
+        again = json.loads(told(capsys, f"out{ending}", *words, "--json"))
+        assert again["format"] == name
+        for field in ("eye", "fov_deg", "u", "v", "w"):
+            assert np.allclose(again["cameras"][0][field], first[field], rtol=0, atol=1e-6), field
+
+    def test_what_cannot_be_held_is_one_line(self, capsys, name, ending):
+        save_view("skewed.toml", View(Camera(v=(0.5, 1, 0), w=(0.1, 0.2, -1))))
+        words = ["camera", "skewed.toml", "--to", name, "-o", f"out{ending}", "--size", "64x48"]
+        status = main(words)
+        out, err = capsys.readouterr()
+        assert Path(f"out{ending}").exists() == (status == 0)
+        assert (status, bool(out), err.count("\n")) in ((0, True, 0), (2, False, 1))
+
+
 class TestDistortion:
     def test_it_is_refused(self, capsys):
         assert main(["camera", "lens.json#0"]) == 2
@@ -356,6 +391,26 @@ class TestView:
         assert json.loads(capsys.readouterr().out)["size"] == [64, 48]
         assert main(["pick", "spheres", "48", "63", *words]) == 2
         assert "outside an image of 64x48" in capsys.readouterr().err
+
+    def test_the_window_takes_it_too_in_its_shape(self, monkeypatch):
+        seen = {}
+        monkeypatch.setattr(viewer, "run_viewer", lambda *_, **named: seen.update(named) or 0)
+        assert main(["spheres", "--view", "herd.json#7"]) == 0
+        assert (seen["view"].camera.eye, seen["resolution"]) == ((0, 9, 1), (32, 48))
+        assert main(["spheres", "--view", "corner.toml"]) == 0
+        assert seen["resolution"] is None
+
+    @pytest.mark.parametrize(
+        ("own", "shown"),
+        [((640, 480), (640, 480)), ((6000, 4000), (1500, 1000)), ((1, 16384), (1, 16384))],
+    )
+    def test_a_photograph_is_shown_in_a_part_of_its_pixels(self, own, shown):
+        assert shown_size(own) == shown
+
+    def test_check_tries_a_small_image_of_its_shape(self, capsys):
+        Path("rays.py").write_text("def viewing_ray(i, j, width, height, camera): return 0, 0\n")
+        assert main(["check", "rays.py", "--task", "viewing-ray", "--view", "herd.json#7"]) == 2
+        assert "width=32, height=48" in capsys.readouterr().out
 
     def test_distortion_is_ignored_only_when_asked_for(self, capsys):
         words = ["pick", "spheres", "0", "0", "--view", "lens.json#0"]
