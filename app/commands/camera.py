@@ -21,9 +21,9 @@ from renderer.errors import LucidaError, one_line
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from renderer.camera_formats import CameraSet, PosedCamera
+    from renderer.camera_formats import CameraSet, Options, PosedCamera
     from renderer.camera_formats.formats import Format
-    from renderer.camera_formats.given import Given, Options
+    from renderer.camera_formats.given import Given
 
 NAME = "camera"
 
@@ -83,8 +83,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
 
 
 def run(arguments: argparse.Namespace) -> int:
-    from renderer.camera_formats import read_chosen
-    from renderer.camera_formats.given import Options
+    from renderer.camera_formats import Options, read_chosen
 
     # The quick mistakes first.
     target = _target(arguments)

@@ -42,8 +42,7 @@ def viewed(arguments: argparse.Namespace) -> PosedCamera | None:
     """The one camera of --view; None without it. Raises LucidaError."""
     if arguments.view is None:
         return None
-    from renderer.camera_formats import read_chosen, without_choice
-    from renderer.camera_formats.given import Options
+    from renderer.camera_formats import Options, read_chosen, without_choice
 
     file, which = without_choice(arguments.view)
     options = Options(ignore_distortion=arguments.ignore_distortion)
