@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     from renderer.camera import Camera
+    from renderer.camera_formats import read_cameras
     from renderer.errors import LucidaError
     from renderer.frame import Frame
     from renderer.images import picture, write_image
@@ -29,6 +30,7 @@ _HOME = {
     "load_scene": "renderer.scene",
     "load_view": "renderer.scene",
     "picture": "renderer.images",
+    "read_cameras": "renderer.camera_formats",
     "save_view": "renderer.scene",
     "write_image": "renderer.images",
 }
@@ -44,6 +46,7 @@ __all__ = [
     "load_scene",
     "load_view",
     "picture",
+    "read_cameras",
     "save_view",
     "write_image",
 ]

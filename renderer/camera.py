@@ -194,12 +194,20 @@ class Camera:
         return volume(self.u, self.v, self.w)
 
     @property
+    def fov_x_deg(self) -> float:
+        """Horizontal field of view in degrees, between the viewport's left and right edge."""
+        return self._angle_deg(np.asarray(self.u), *self.viewport[:2])
+
+    @property
     def fov_y_deg(self) -> float:
         """Vertical field of view in degrees, between the viewport's lower and upper edge."""
-        v, dw = np.asarray(self.v), self.distance * np.asarray(self.w)
-        low, high = (self.viewport[2] * v - dw, self.viewport[3] * v - dw)
-        cross, dot = np.linalg.norm(np.cross(low, high)), low @ high
-        return math.degrees(math.atan2(float(cross), float(dot)))
+        return self._angle_deg(np.asarray(self.v), *self.viewport[2:])
+
+    def _angle_deg(self, vector: Floats, low: float, high: float) -> float:
+        ahead = self.distance * np.asarray(self.w)
+        one, other = low * vector - ahead, high * vector - ahead
+        cross = float(np.linalg.norm(np.cross(one, other)))
+        return math.degrees(math.atan2(cross, float(one @ other)))
 
     @property
     def t_range(self) -> tuple[float, float]:

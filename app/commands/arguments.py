@@ -14,11 +14,13 @@ from collections.abc import Callable, Iterator
 from typing import TYPE_CHECKING, NoReturn
 
 from app.cameras.options import with_camera_options
+from app.commands.given_camera import say_changes, viewed
 from renderer.errors import LucidaError, one_line
 from renderer.pixels import Indexing
 
 if TYPE_CHECKING:
     from renderer.camera import Camera
+    from renderer.camera_formats import PosedCamera
     from renderer.scene.model import Scene
 
 DEFAULT_SIZE = (1280, 720)
@@ -29,8 +31,9 @@ TRACEBACK_VARIABLE = "LUCIDA_TRACEBACK"
 SCENE_HELP = """\
 a scene file (.toml), a model (.obj .ply .stl .off .glb .gltf), or the name
 of a built-in scene (`lucida scenes` lists them)"""
-VIEW_HELP = "take the camera from this file, not the scene's own"
-SIZE_HELP = f"width and height in pixels (default: {DEFAULT_SIZE[0]}x{DEFAULT_SIZE[1]})"
+SIZE_HELP = f"""\
+width and height in pixels (default: those of the image that the file of
+--view is for, if it says; else {DEFAULT_SIZE[0]}x{DEFAULT_SIZE[1]})"""
 BACKEND_HELP = "the rasterizer's GL platform; auto: EGL, then OSMesa (default: auto)"
 
 
@@ -101,7 +104,8 @@ def indexing(text: str) -> Indexing:
 
 
 def add_size_option(parser: argparse.ArgumentParser) -> None:
-    parser.add_argument("--size", type=size, default=DEFAULT_SIZE, metavar="WxH", help=SIZE_HELP)
+    """--size: None until the camera is known; see own_view()."""
+    parser.add_argument("--size", type=size, metavar="WxH", help=SIZE_HELP)
 
 
 def add_from_option(parser: argparse.ArgumentParser) -> None:
@@ -126,18 +130,34 @@ def check_is_scene(source: str) -> None:
         raise LucidaError("", "is a lecture, not a scene", f"lucida lecture {source}", source)
 
 
-def scene_and_camera(arguments: argparse.Namespace) -> tuple[Scene, Camera]:
-    """The scene, and the camera of the view file or else of the scene, with the camera's options,
-    for the image's size."""
-    from renderer.scene import load_scene, load_view
+def own_camera(arguments: argparse.Namespace) -> PosedCamera | None:
+    """The camera of --view, None without it; and from then on arguments.size is the image's: the
+    user's, or else this camera's own. Raises LucidaError."""
+    posed = viewed(arguments)
+    if arguments.size is None:
+        arguments.size = (posed and posed.size) or DEFAULT_SIZE
+    return posed
+
+
+def scene_and_camera(
+    arguments: argparse.Namespace, posed: PosedCamera | None = None
+) -> tuple[Scene, Camera]:
+    """The scene, and the camera of --view or else of the scene, with the camera's options, for the
+    image's size, which is arguments.size from then on. posed: what own_camera() has given."""
+    from renderer.scene import load_scene
+    from renderer.scene.model import View
 
     # The quick mistakes first.
-    own_view = load_view(arguments.view) if arguments.view is not None else None
-    if own_view is not None:
-        own_view = with_camera_options(arguments, own_view)
+    posed = posed or own_camera(arguments)
+    view = None
+    if posed is not None:
+        view = with_camera_options(arguments, View(posed.camera, posed.fit))
     check_is_scene(arguments.scene)
     scene = load_scene(arguments.scene)
-    view = own_view or with_camera_options(arguments, scene.view)
+    if posed is not None:
+        follows = arguments.viewport is not None or arguments.fit
+        say_changes([posed], None if follows else arguments.size)
+    view = view or with_camera_options(arguments, scene.view)
     return scene, view.for_size(arguments.size)
 
 

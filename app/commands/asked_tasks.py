@@ -16,8 +16,7 @@ if TYPE_CHECKING:
 RAYS = (".csv", ".npy")
 WITH_CAMERAS = ("viewing-ray", "render")  # kinds of tasks
 
-
-SIZE = (64, 48)  # of the image of --view
+SIZE = (64, 48)  # of the image of --view, or as much of it as the shape of its camera's own takes
 
 
 def asked_for(arguments: argparse.Namespace) -> tuple[list[CheckTask], Limits]:
@@ -82,10 +81,13 @@ def _sized(task: CheckTask, size: tuple[int, int]) -> CheckTask:
 
 def _with_view(arguments: argparse.Namespace, tasks: list[CheckTask]) -> list[CheckTask]:
     from app.checking.cases import check_size, check_views
-    from renderer.scene.views import load_view
+    from app.commands.given_camera import say_changes, viewed
+    from renderer.scene.model import View
 
-    view = load_view(arguments.view)
-    size = arguments.size or SIZE
+    posed = viewed(arguments)
+    assert posed is not None
+    view = View(posed.camera, posed.fit)
+    size = arguments.size or _small(posed.size)
     projection = view.camera.projection
     seen = [
         replace(task, views=(view,), count=0, size=size, projections=(projection,))
@@ -97,7 +99,17 @@ def _with_view(arguments: argparse.Namespace, tasks: list[CheckTask]) -> list[Ch
     for task in seen:
         check_size(task, "--size")
         check_views(task)
+    say_changes([posed], size)
     return seen
+
+
+def _small(own: tuple[int, int] | None) -> tuple[int, int]:
+    """A small image of the shape of the camera's own, within SIZE."""
+    if own is None:
+        return SIZE
+    scale = min(SIZE[0] / own[0], SIZE[1] / own[1])
+    width, height = (max(1, round(side * scale)) for side in own)
+    return width, height
 
 
 def possible(

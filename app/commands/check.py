@@ -14,6 +14,7 @@ from typing import TYPE_CHECKING, Any
 from app.commands import arguments as common
 from app.commands.asked_tasks import RAYS, SIZE, asked_for, named, possible
 from app.commands.check_reports import pictures_of, write_json, write_page
+from app.commands.given_camera import add_view_option
 from renderer.errors import LucidaError
 
 if TYPE_CHECKING:
@@ -66,12 +67,13 @@ def configure(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--html", metavar="OUT.html", help="write the results as a page, with pictures"
     )
-    parser.add_argument("--view", metavar="VIEW.toml", help="try this camera alone")
+    add_view_option(parser, "try this camera alone: a file as `lucida camera` reads it")
     parser.add_argument(
         "--size",
         type=common.size,
         metavar="WxH",
-        help=f"of the images that are tried (with --view: {SIZE[0]}x{SIZE[1]})",
+        help=f"of the images that are tried (with --view: {SIZE[0]}x{SIZE[1]}, or as much of it\n"
+        "as the shape of the camera's own image takes)",
     )
     parser.add_argument("--seed", type=_seed, metavar="N", help="other cameras, other numbers")
     parser.add_argument(

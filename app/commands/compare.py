@@ -11,6 +11,7 @@ import math
 
 from app.cameras.options import add_camera_options
 from app.commands import arguments as common
+from app.commands.given_camera import add_view_option
 
 NAME = "compare"
 
@@ -37,7 +38,7 @@ examples:
 def configure(parser: argparse.ArgumentParser) -> None:
     parser.description, parser.epilog = DESCRIPTION, EPILOG
     parser.add_argument("scene", metavar="SCENE", help=common.SCENE_HELP)
-    parser.add_argument("--view", metavar="VIEW.toml", help=common.VIEW_HELP)
+    add_view_option(parser)
     add_camera_options(parser)
     common.add_size_option(parser)
     parser.add_argument(

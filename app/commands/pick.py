@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any
 
 from app.cameras.options import add_camera_options
 from app.commands import arguments as common
+from app.commands.given_camera import add_view_option
 from renderer.errors import LucidaError, one_line
 from renderer.pixels import Indexing, Pixel
 
@@ -50,14 +51,15 @@ def configure(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--backend", choices=common.BACKENDS, default="auto", help=common.BACKEND_HELP
     )
-    parser.add_argument("--view", metavar="VIEW.toml", help=common.VIEW_HELP)
+    add_view_option(parser)
     add_camera_options(parser)
     parser.add_argument("--json", action="store_true", help="print one JSON object")
 
 
 def run(arguments: argparse.Namespace) -> int:
+    posed = common.own_camera(arguments)
     pixel = _pixel(arguments)
-    scene, camera = common.scene_and_camera(arguments)
+    scene, camera = common.scene_and_camera(arguments, posed)
     frame = _drawn(scene, camera, arguments)
     seen = picked(scene, camera, frame, pixel, arguments.indexing)
     seen["renderer"] = arguments.renderer

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING
 
 from app.cameras.options import add_camera_options
 from app.commands import arguments as common
+from app.commands.given_camera import add_view_option
 from renderer.errors import LucidaError, one_line
 
 if TYPE_CHECKING:
@@ -74,7 +75,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
         metavar="N",
         help="colour samples per pixel: 1, 4, 9, 16, 25, 36, 49 or 64 (default: 1)",
     )
-    parser.add_argument("--view", metavar="VIEW.toml", help=common.VIEW_HELP)
+    add_view_option(parser)
     add_camera_options(parser)
     parser.add_argument(
         "--exposure",

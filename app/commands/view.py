@@ -11,15 +11,13 @@ from pathlib import Path
 
 from app import __version__
 from app.cameras.options import CAMERA_OPTIONS, add_camera_options, with_camera_options
-from app.commands.arguments import (
-    SCENE_HELP,
-    VIEW_HELP,
-    size,
-)
+from app.commands.arguments import SCENE_HELP, size
+from app.commands.given_camera import add_view_option, say_changes, viewed
 from app.storage.code_files import found_code, is_code
 
 NAME = "view"
 SMALLEST_SIDE = 64  # of the window, in pixels
+LARGEST_SHOWN = 1920 * 1200  # pixels of its images, at the start
 
 DESCRIPTION = """\
 One camera, two renderers: a rasterizer (object order) and a ray tracer (image order)
@@ -29,6 +27,7 @@ commands:
   lucida render SCENE -o OUT     draw one image into a file
   lucida compare SCENE           raster against ray: counts, errors, causes
   lucida pick SCENE ROW COLUMN   what one pixel sees: object, t, point, normal, colour
+  lucida camera FILE             what a camera of any format is; and in other formats
   lucida check FILE.py           what a student wrote, beside the right answers
   lucida tasks                   what can be asked of it
   lucida lecture [FILE]          a guided lecture, step by step
@@ -55,7 +54,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--screenshot", metavar="OUT.png", help="draw the whole window once, save it, leave"
     )
-    parser.add_argument("--view", metavar="VIEW.toml", help=VIEW_HELP)
+    add_view_option(parser)
     parser.add_argument(
         "--size", type=window_size, metavar="WxH", help="the window's size in pixels"
     )
@@ -77,9 +76,19 @@ def window_size(text: str) -> tuple[int, int]:
     return width, height
 
 
+def shown_size(own: tuple[int, int]) -> tuple[int, int]:
+    """Of the window's images, in the shape of a camera's own: of a photograph's pixels each second,
+    third, ... one, so that the images follow the mouse."""
+    parts = 1
+    while own[0] * own[1] > LARGEST_SHOWN * parts * parts:
+        parts += 1
+    return max(1, round(own[0] / parts)), max(1, round(own[1] / parts))
+
+
 def run(arguments: argparse.Namespace) -> int:
     from app.commands.arguments import check_is_scene
     from renderer.images import check_image_path
+    from renderer.scene.model import View
 
     screenshot = None
     if arguments.screenshot is not None:
@@ -92,13 +101,17 @@ def run(arguments: argparse.Namespace) -> int:
         code, source = found_code(source), None
     elif source is not None:
         check_is_scene(source)
+    posed = viewed(arguments)
+    if posed is not None:
+        say_changes([posed])
     from app.window.viewer import run_viewer  # after the quick mistakes: it loads the whole window
 
     return run_viewer(
         source,
         screenshot,
         size=arguments.size,
-        view=arguments.view,
+        view=None if posed is None else View(posed.camera, posed.fit),
+        resolution=None if posed is None or posed.size is None else shown_size(posed.size),
         change=(lambda view: with_camera_options(arguments, view)) if any_camera else None,
         fresh=arguments.fresh,
         code=code,

@@ -24,7 +24,7 @@ from app.storage.session import Session
 from app.storage.session_store import Found, Keeper, take_place
 from app.window.opening import Opened, opened_scene
 from renderer.errors import LucidaError, describe
-from renderer.scene import BUILTIN_SCENES, Scene, View, load_scene, load_view
+from renderer.scene import BUILTIN_SCENES, Scene, View, load_scene
 from renderer.scene.model import SceneObject
 from renderer.scene.models import read_by, read_model
 from renderer.scene.subprocess_reader import is_large
@@ -69,16 +69,15 @@ class Start:
 
 def begin_scene(
     source: str | None = None,
-    view: str | Path | None = None,
+    view: View | None = None,
     change: ChangeView | None = None,
     wait: bool = False,
 ) -> Start:
-    """A scene, the default one if none is given, seen by its own view, or that of a view file; and
-    what else is changed about that. wait: for a large model too. Raises LucidaError."""
-    given = None if view is None else load_view(view)
+    """A scene, the default one if none is given, seen by its own view or by `view`; and what else
+    is changed about that. wait: for a large model too. Raises LucidaError."""
 
     def seen_by(own: View) -> View:
-        own = given or own
+        own = view or own
         return own if change is None else change(own)
 
     scene = load_scene(source or BUILTIN_SCENES[0]) if wait else _soon(source or BUILTIN_SCENES[0])

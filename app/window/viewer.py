@@ -18,6 +18,7 @@ from imgui_bundle import hello_imgui, imgui, immapp
 
 from app.host import layout
 from app.host.view import DockedView
+from app.images.imaging import with_resolution
 from app.state.app_state import AppState
 from app.storage.capture import free_path
 from app.storage.paths import is_unicode, stored
@@ -59,7 +60,8 @@ def run_viewer(
     screenshot: Path | None = None,
     *,
     size: tuple[int, int] | None = None,
-    view: str | Path | None = None,
+    view: SceneView | None = None,
+    resolution: tuple[int, int] | None = None,
     change: Callable[[SceneView], SceneView] | None = None,
     fresh: bool = False,
     code: str = "",
@@ -70,9 +72,10 @@ def run_viewer(
     a view that is given is the session from then on.
     screenshot: draw the whole window once, with both images complete, save it there as PNG, and
     return. With no display that is done in any case, into lucida.png, or lucida-2.png where there
-    is one, and one line says so. size: the window's (width, height). view: a view file. change:
-    what else the command line says about the view. code: the absolute path of a Python file, which
-    is run. Raises LucidaError.
+    is one, and one line says so. size: the window's (width, height). view: in place of the scene's
+    own. resolution: of both images, None for what fits the window. change: what else the command
+    line says about the view. code: the absolute path of a Python file, which is run. Raises
+    LucidaError.
     """
     goes_on = scene_source is None and view is None and change is None and screenshot is None
     if screenshot is not None:
@@ -85,6 +88,8 @@ def run_viewer(
         start = kept(start, fresh)
     elif start.later is not None:
         start = begin_scene(scene_source, view, change, wait=True)
+    if resolution is not None:
+        start = replace(start, state=with_resolution(start.state, resolution))
     if code:
         opened = start.state.with_options(your_code={"file": stored(code), "task": ""})
         start = replace(start, state=opened, code=code)

@@ -4,16 +4,21 @@
 K, R and t are renderer/intrinsics.py's. Nothing here knows of scenes' objects, renderers, windows.
 """
 
+from renderer.camera_formats.chosen import read_chosen, without_choice
 from renderer.camera_formats.formats import FORMATS, format_named, read_cameras, written
+from renderer.camera_formats.given import Options
 from renderer.camera_formats.posed import CameraSet, Distortion, PosedCamera, one_of
 
 __all__ = [
     "FORMATS",
     "CameraSet",
     "Distortion",
+    "Options",
     "PosedCamera",
     "format_named",
     "one_of",
     "read_cameras",
+    "read_chosen",
+    "without_choice",
     "written",
 ]

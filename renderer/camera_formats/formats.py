@@ -50,7 +50,15 @@ class Format:
 
 
 # In the order in which they are tried on a file.
-FORMATS = (Format("view", "Lucida's view file", (".toml",)),)
+FORMATS = (
+    Format("view", "Lucida's view file", (".toml",)),
+    Format("colmap", "COLMAP's model", ("",)),
+    Format("nerf", "NeRF's and nerfstudio's transforms.json", (".json",)),
+    Format("three", "three.js's camera", (".json",)),
+    Format("blender", "Blender's camera", (".py",)),
+    Format("opengl", "OpenGL's view and projection matrices", (".txt",)),
+    Format("opencv", "OpenCV's K, R and t, and ROS's camera_info", (".yml", ".json")),
+)
 
 
 def format_named(name: str) -> Format:
@@ -77,7 +85,7 @@ def read_cameras(
         cameras: CameraSet = entry.module.read(found, options)
         if not cameras.cameras:
             raise LucidaError("", f"holds no camera ({entry.name})", "give another file")
-        _check_distortion(cameras, options)
+        check_distortion(cameras.cameras, options)
         return cameras
     except LucidaError as error:
         raise error if error.source else error.in_file(found.name) from None
@@ -89,7 +97,9 @@ def recognised(found: Given) -> Format:
         if entry.reads and entry.module.recognises(found):
             return entry
     names = ", ".join(entry.name for entry in FORMATS if entry.reads)
-    raise LucidaError("", "is no camera that is known", f"say which with --from: {names}")
+    raise LucidaError(
+        "", "is no camera that is known", f"say which with `lucida camera --from`: {names}"
+    )
 
 
 def written(
@@ -104,9 +114,9 @@ def written(
     return files
 
 
-def _check_distortion(cameras: CameraSet, options: Options) -> None:
-    """A lens is never dropped in silence."""
-    for camera in cameras.cameras:
+def check_distortion(cameras: Sequence[PosedCamera], options: Options) -> None:
+    """Raises LucidaError: a lens is never dropped in silence."""
+    for camera in cameras:
         lens = camera.distortion
         if lens is not None and not options.ignore_distortion:
             name, value = max(lens.coefficients.items(), key=lambda entry: abs(entry[1]))

@@ -5,7 +5,16 @@ import math
 import pytest
 
 import renderer
-from renderer import Camera, LucidaError, Rasterizer, Tracer, View, load_scene, load_view
+from renderer import (
+    Camera,
+    LucidaError,
+    Rasterizer,
+    Tracer,
+    View,
+    load_scene,
+    load_view,
+    read_cameras,
+)
 from renderer.frame import check_size
 from renderer.scene.model import Scene
 
@@ -56,7 +65,7 @@ class TestWrongArguments:
         with pytest.raises(LucidaError, match=r"size: .* is not two numbers"):
             check_size((math.inf, 6))
 
-    @pytest.mark.parametrize("load", [load_scene, load_view])
+    @pytest.mark.parametrize("load", [load_scene, load_view, read_cameras])
     def test_what_is_no_path(self, load):
         for source in (None, 3, ["spheres"]):
             with pytest.raises(LucidaError, match=r"is a .*, not a path; give text"):

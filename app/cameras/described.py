@@ -1,0 +1,237 @@
+"""What a file of cameras holds, in the lecture's words: a quantity and its numbers a line.
+
+Pure; for the command line as for a panel, which show the facts as they like. Knows nothing of
+formats but their names.
+"""
+
+from __future__ import annotations
+
+import math
+from collections import Counter
+from collections.abc import Iterable, Sequence
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from app.cameras.basis import measures
+from renderer.camera import Camera, Size
+from renderer.camera_formats import CameraSet, PosedCamera, format_named
+from renderer.errors import one_line
+from renderer.scene.model import View
+
+TOLD = 3  # of the cameras in a file, and of their sizes
+ROUNDING = 1e-14  # of a vector's largest part: less is what a product of matrices leaves
+EXACT, NEARLY = 1e-12, 1e-4  # how far products of an orthonormal basis's vectors are off
+
+
+class Fact(NamedTuple):
+    """name: of a quantity, "" where it goes on with the one before. text: its numbers, in words."""
+
+    name: str
+    text: str
+
+
+def facts(found: CameraSet, chosen: PosedCamera | None = None) -> list[Fact]:
+    """What there is to say of a file: of the chosen one of its cameras, else of all together."""
+    told = [Fact("format", f"{found.format}: {format_named(found.format).what}")]
+    told += [Fact("taken" if not i else "", phrase) for i, phrase in enumerate(found.taken)]
+    told += _of_all(found) if chosen is None else _of_one(chosen)
+    return [Fact(name, one_line(text)) for name, text in told]
+
+
+def as_text(told: Sequence[Fact]) -> str:
+    """A line a fact, in two columns."""
+    width = max(len(fact.name) for fact in told) + 2
+    return "\n".join(f"{name:{width}}{text}" for name, text in told)
+
+
+def ignored_text(cameras: Sequence[PosedCamera]) -> str:
+    """What of these cameras' lenses is left out, and what that does; "" for pinholes."""
+    lenses = [(camera.distortion, camera) for camera in cameras if camera.distortion is not None]
+    if not lenses:
+        return ""
+    lens, camera = max(lenses, key=lambda entry: entry[0].corner_px)
+    numbers = [f"{name} = {value:g}" for name, value in lens.coefficients.items() if value]
+    it_moves = "they move" if len(numbers) > 1 else "it moves"
+    told = f"{', '.join(numbers)} ({lens.model}) ignored: {it_moves} a corner by "
+    told += f"{lens.corner_px:.3g} pixels"
+    if len(cameras) == 1:
+        return told
+    which = f" in {camera.name}" if camera.name else ""
+    return f"{told}{which}, the most of {len(lenses)} such cameras"
+
+
+def _of_all(found: CameraSet) -> list[Fact]:
+    cameras = found.cameras
+    names = [camera.name for camera in cameras if camera.name]
+    first = ", ".join(names[:TOLD]) + (", ..." if len(names) > TOLD else "")
+    told = [Fact("cameras", f"{len(cameras)}: {first}" if names else str(len(cameras)))]
+    sizes = Counter(camera.size for camera in cameras)
+    told.append(Fact("images", _counted((_size_text(size), n) for size, n in sizes.most_common())))
+    kinds = Counter(camera.camera.projection for camera in cameras)
+    told.append(Fact("projection", _counted(kinds.most_common())))
+    eyes = np.array([camera.camera.eye for camera in cameras])
+    told.append(Fact("eyes", f"from {_vector(eyes.min(axis=0))} to {_vector(eyes.max(axis=0))}"))
+    if found.points is not None and len(found.points):
+        told.append(Fact("points", f"{len(found.points)} of a reconstruction"))
+    if ignored := ignored_text(cameras):
+        told.append(Fact("distortion", ignored))
+    return told
+
+
+def _of_one(posed: PosedCamera) -> list[Fact]:
+    camera = _for_own_size(posed)
+    left, right, bottom, top = camera.viewport
+    told = [Fact("name", posed.name)] if posed.name else []
+    if posed.image and posed.image != posed.name:
+        told.append(Fact("photograph", posed.image))
+    told += [
+        Fact("image", _size_text(posed.size)),
+        Fact("projection", camera.projection),
+        Fact("eye", _vector(camera.eye)),
+        Fact("u, right", _vector(camera.u)),
+        Fact("v, up", _vector(camera.v)),
+        Fact("w, back", _vector(camera.w)),
+        Fact("basis", basis_text(camera)),
+        Fact("d", f"{_number(camera.distance)} from the eye to the viewport, along -w"),
+        Fact("viewport", _viewport_text(camera, posed.fit and posed.size is None)),
+    ]
+    told += [
+        Fact(name, f"{_number(value)} along -w")
+        for name, value in (("near", camera.near), ("far", camera.far))
+        if value is not None
+    ]
+    if camera.is_parallel:
+        across, up = math.hypot(*camera.u), math.hypot(*camera.v)
+        sides = f"{_number((right - left) * across)} wide, {_number((top - bottom) * up)} high"
+        told.append(Fact("seen", f"{sides}, in world units"))
+    else:
+        angles = f"{_number(camera.fov_x_deg)} across, {_number(camera.fov_y_deg)} up and down"
+        told.append(Fact("field of view", f"{angles}, in degrees"))
+    told += _in_pixels(camera, posed.size)
+    if ignored := ignored_text([posed]):
+        told.append(Fact("distortion", ignored))
+    return told
+
+
+def _in_pixels(camera: Camera, size: Size | None) -> list[Fact]:
+    """What takes an image's size to say."""
+    if size is None:
+        return [Fact("in pixels", "the file has no image's size; --size WxH says the rest")]
+    told = []
+    left, right, bottom, top = camera.viewport
+    wide = (right - left) / size[0] * math.hypot(*camera.u)
+    high = (top - bottom) / size[1] * math.hypot(*camera.v)
+    if not camera.is_parallel:
+        k = camera.intrinsics(size, "corner").K
+        told = [
+            Fact("focal lengths", f"fx {_number(k[0, 0])}, fy {_number(k[1, 1])}, in pixels"),
+            Fact("principal point", f"{_point(k)} from the corner of the image's first pixel"),
+            Fact("", f"{_point(k - 0.5)} from that pixel's centre"),
+        ]
+        if abs(k[0, 1]) > 1e-9 * abs(k[0, 0]):
+            told.append(Fact("skew", f"{_number(k[0, 1])}, in pixels"))
+    square = abs(wide / high - 1) <= 1e-6
+    shape = "square" if square else f"not square: {_number(wide / high)} as wide as high"
+    return [*told, Fact("pixels", shape)]
+
+
+def basis_text(camera: Camera) -> str:
+    """Whether a basis is orthonormal, and which hand's it is."""
+    hand = "right-handed" if camera.determinant > 0 else "left-handed: the picture is mirrored"
+    error = float(np.abs(camera.basis.T @ camera.basis - np.eye(3)).max())
+    if error <= NEARLY:
+        within = "" if error <= EXACT else f" within {error:.1g}"
+        return f"orthonormal{within}, {hand}"
+    found = measures(camera.u, camera.v, camera.w)
+    pairs = zip(("u and v", "v and w", "w and u"), found.angles_deg, strict=True)
+    skewed = [
+        f"{pair} at {_number(angle)} degrees" for pair, angle in pairs if abs(angle - 90) > 1e-4
+    ]
+    lengths = zip("uvw", found.lengths, strict=True)
+    scaled = [f"|{name}| = {_number(length)}" for name, length in lengths if abs(length - 1) > 1e-6]
+    what = "skewed" if skewed else "orthogonal"
+    return f"{what}, {', '.join([*skewed, *scaled])}, {hand}"
+
+
+def as_data(found: CameraSet, chosen: PosedCamera | None = None) -> dict[str, Any]:
+    """The same as JSON's values. K, R and t take a point to pixels whose centres are whole numbers:
+    None for a parallel camera, and where there is no image's size."""
+    cameras = found.cameras if chosen is None else (chosen,)
+    return {
+        "format": found.format,
+        "taken": list(found.taken),
+        "cameras": [_camera_data(posed) for posed in cameras],
+        "points": 0 if found.points is None else len(found.points),
+    }
+
+
+def _camera_data(posed: PosedCamera) -> dict[str, Any]:
+    camera, size, lens = _for_own_size(posed), posed.size, posed.distortion
+    pixels = None if size is None or camera.is_parallel else camera.intrinsics(size)
+    return {
+        "name": posed.name,
+        "image": posed.image,
+        "size": None if size is None else list(size),
+        "eye": list(camera.eye),
+        "u": list(camera.u),
+        "v": list(camera.v),
+        "w": list(camera.w),
+        "distance": camera.distance,
+        "viewport": list(camera.viewport),
+        "fit": posed.fit,
+        "projection": camera.projection,
+        "near": camera.near,
+        "far": camera.far,
+        "fov_deg": None if camera.is_parallel else [camera.fov_x_deg, camera.fov_y_deg],
+        "basis": basis_text(camera),
+        "K": None if pixels is None else pixels.K.tolist(),
+        "R": None if pixels is None else pixels.R.tolist(),
+        "t": None if pixels is None else pixels.t.tolist(),
+        "ignored": None
+        if lens is None
+        else {"model": lens.model, "corner_px": lens.corner_px, **lens.coefficients},
+    }
+
+
+def _for_own_size(posed: PosedCamera) -> Camera:
+    view = View(posed.camera, posed.fit)
+    return view.camera if posed.size is None else view.for_size(posed.size)
+
+
+def _viewport_text(camera: Camera, fit: bool) -> str:
+    left, right, bottom, top = camera.viewport
+    sides = {"left": left, "right": right, "bottom": bottom, "top": top}
+    told = ", ".join(f"{name} {_number(value)}" for name, value in sides.items())
+    off_axis = abs(left + right) > 1e-9 * (right - left) or abs(bottom + top) > 1e-9 * (
+        top - bottom
+    )
+    told += " (off-axis)" if off_axis else ""
+    return told + "; widened to each image's shape" if fit else told
+
+
+def _size_text(size: Size | None) -> str:
+    return "of any size" if size is None else f"{size[0]}x{size[1]}"
+
+
+def _counted(counts: Iterable[tuple[str, int]]) -> str:
+    """`800x800`, or `800x800 (10), 640x480 (2)`."""
+    counts = list(counts)
+    if len(counts) == 1:
+        return counts[0][0]
+    told = ", ".join(f"{what} ({count})" for what, count in counts[:TOLD])
+    return told + (", ..." if len(counts) > TOLD else "")
+
+
+def _point(k: Any) -> str:
+    return f"({_number(k[0, 2])}, {_number(k[1, 2])})"
+
+
+def _vector(values: Iterable[float]) -> str:
+    numbers = np.fromiter(values, float)
+    numbers[np.abs(numbers) < ROUNDING * np.abs(numbers).max()] = 0.0
+    return "(" + ", ".join(map(_number, numbers.tolist())) + ")"
+
+
+def _number(value: float) -> str:
+    return f"{value + 0.0:.7g}"  # + 0.0: no negative zero

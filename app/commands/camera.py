@@ -1,0 +1,265 @@
+"""`lucida camera`: what a camera of any format is, in the lecture's words; and in other formats.
+
+Knows nothing of the formats themselves (renderer/camera_formats/). Light to import.
+"""
+
+from __future__ import annotations
+
+import argparse
+import contextlib
+import json
+import os
+import sys
+from dataclasses import replace
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from app.commands import arguments as common
+from app.commands.given_camera import add_distortion_option, say_changes, source_of
+from renderer.errors import LucidaError, one_line
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from renderer.camera_formats import CameraSet, Options, PosedCamera
+    from renderer.camera_formats.formats import Format
+    from renderer.camera_formats.given import Given
+
+NAME = "camera"
+
+DESCRIPTION = """\
+Say what a camera of any format is: eye, basis, viewport, d, fields of view, focal lengths and
+principal point, and which conventions it was taken by. With --to or -o: write it in another one."""
+
+EPILOG = """\
+formats: view (Lucida's view file), opencv, colmap, nerf, gltf, opengl, blender, three; to write
+only: mitsuba, pbrt. docs/cameras.md says what each holds, and has the formulas.
+
+A file of several cameras: --frame or --image chooses one, or INPUT#12, INPUT#IMG_7.jpg. Without,
+all are written where the format holds several. Nothing is written where one cannot be held.
+exit status: 0 done, 2 a mistake or a failure (one line says which), 130 interrupted
+
+examples:
+  lucida camera transforms.json                     what it holds
+  lucida camera transforms.json#12                  one of its cameras, with all numbers
+  lucida camera transforms.json --frame 12 -o corner.toml
+  lucida camera sparse/0 --to nerf -o transforms.json
+  lucida camera corner.toml --to opencv --size 1280x720"""
+
+
+def configure(parser: argparse.ArgumentParser) -> None:
+    parser.description, parser.epilog = DESCRIPTION, EPILOG
+    parser.add_argument("input", metavar="INPUT", help="a file or a folder; -: standard input")
+    parser.add_argument(
+        "--from",
+        dest="source_format",
+        default="",
+        metavar="FORMAT",
+        help="of INPUT (default: found by its name and content)",
+    )
+    parser.add_argument("--to", metavar="FORMAT", help="write the camera in this format")
+    parser.add_argument(
+        "-o", "--output", metavar="OUT", help="into this file or folder (default: print it)"
+    )
+    which = parser.add_mutually_exclusive_group()
+    which.add_argument("--image", metavar="NAME", help="the camera of this name, or photograph")
+    which.add_argument(
+        "--frame", type=_whole, metavar="N", help="the camera of this number, from 0"
+    )
+    parser.add_argument(
+        "--size",
+        type=common.size,
+        metavar="WxH",
+        help="of the image, where INPUT has none; or another one: the viewport stands",
+    )
+    parser.add_argument(
+        "--pixel-origin",
+        choices=("center", "corner"),
+        help="where whole numbers stand, in INPUT and in OUT: at pixels' centres\n"
+        "(OpenCV), or corners, with centres at .5 (default: each format's own)",
+    )
+    add_distortion_option(parser)
+    parser.add_argument("--json", action="store_true", help="print what it is as one JSON object")
+
+
+def run(arguments: argparse.Namespace) -> int:
+    from renderer.camera_formats import Options, read_chosen
+
+    # The quick mistakes first.
+    target = _target(arguments)
+    file, which = _input(arguments)
+    if arguments.source_format:
+        _format("--from", arguments.source_format)
+    source = source_of(file)
+    if arguments.output is not None:
+        _check_is_another(arguments.output, source)
+    options = Options(
+        arguments.pixel_origin,
+        arguments.size,
+        arguments.ignore_distortion,
+        ending=Path(arguments.output or "").suffix.lower(),
+    )
+    found, chosen = read_chosen(source, which, arguments.source_format, options, several=True)
+    own = found.cameras if chosen is None else (chosen,)
+    if arguments.size is not None:
+        found = replace(found, cameras=tuple(_sized(arguments, c) for c in found.cameras))
+        chosen = None if chosen is None else _sized(arguments, chosen)
+    if target is None:
+        print(_described(arguments, found, chosen))
+        return 0
+    files = _written(found.cameras if chosen is None else (chosen,), target, options, source)
+    if arguments.output is None:
+        sys.stdout.write(files[""].decode())
+    else:
+        _write(Path(arguments.output), files)
+        told = common.counted((len(own), "camera"))
+        print(f"{one_line(arguments.output)}: {target.name}, {told}")
+    say_changes(own, arguments.size)
+    return 0
+
+
+def _described(arguments: argparse.Namespace, found: CameraSet, chosen: PosedCamera | None) -> str:
+    from app.cameras.described import Fact, as_data, as_text, facts
+
+    if arguments.json:
+        return json.dumps(as_data(found, chosen), indent=2, allow_nan=False)
+    told = facts(found, chosen)
+    if chosen is None:
+        name = next((camera.name for camera in found.cameras if camera.name), "")
+        by_name = f", or --image NAME, such as {name!r}" if name else ""
+        told.append(Fact("to choose", f"--frame N, 0 to {len(found.cameras) - 1}{by_name}"))
+    return as_text(told)
+
+
+def _format(option: str, name: str) -> Format:
+    from renderer.camera_formats import format_named
+
+    try:
+        return format_named(name)
+    except LucidaError as error:
+        raise LucidaError(option, error.problem, error.remedy) from None
+
+
+def _target(arguments: argparse.Namespace) -> Format | None:
+    """The format to write, as --to or OUT's ending says; None for none. Raises LucidaError."""
+    from renderer.camera_formats.formats import FORMATS
+
+    output = arguments.output
+    if arguments.to is None and output is None:
+        return None
+    if arguments.json:
+        raise LucidaError("--json", "is given beside --to or -o", "it says what INPUT is")
+    if arguments.to is None:
+        ending = Path(output).suffix.lower()
+        names = [entry.name for entry in FORMATS if ending in entry.endings and entry.writes]
+        if len(names) != 1:
+            problem = f"is missing: {_of_ending(ending)} {'several formats' if names else 'none'}"
+            all_names = [entry.name for entry in FORMATS if entry.writes]
+            raise LucidaError("--to", problem, f"give one of {', '.join(names or all_names)}")
+        return _format("--to", names[0])
+    target = _format("--to", arguments.to)
+    if not target.writes:
+        raise LucidaError("--to", f"{target.name} is only read", "give another format")
+    if output is None:
+        if not any(target.endings):
+            raise LucidaError("-o", "is missing", f"{target.name} is a folder: give its name")
+    elif "" not in target.endings and Path(output).suffix.lower() not in target.endings:
+        problem = f"{output!r} does not end as a file of {target.name} does"
+        raise LucidaError("-o", problem, f"give {' or '.join(target.endings)}")
+    return target
+
+
+def _of_ending(ending: str) -> str:
+    return f"of the ending {ending} are" if ending else "of folders are"
+
+
+def _input(arguments: argparse.Namespace) -> tuple[str, str | int]:
+    """INPUT's file, and which of its cameras."""
+    from renderer.camera_formats import without_choice
+
+    file, which = without_choice(arguments.input)
+    for option, value in (("--image", arguments.image), ("--frame", arguments.frame)):
+        if value is not None:
+            if which:
+                raise LucidaError(option, f"is given beside #{which}", "give one of the two")
+            return file, value
+    return file, which
+
+
+def _sized(arguments: argparse.Namespace, posed: PosedCamera) -> PosedCamera:
+    return replace(posed, size=arguments.size)
+
+
+def _written(
+    cameras: Sequence[PosedCamera], target: Format, options: Options, source: Given
+) -> dict[str, bytes]:
+    """The files of a format. Raises LucidaError, which names INPUT."""
+    from renderer.camera_formats import written
+
+    try:
+        return written(cameras, target.name, options)
+    except LucidaError as error:
+        raise error if error.source else error.in_file(source.name) from None
+
+
+def _check_is_another(output: str, source: Given) -> None:
+    """Raises LucidaError where OUT is INPUT, or the folder that it lies in."""
+    if source.path is None:
+        return
+    if _is_same(source.path, output):
+        raise LucidaError("-o", f"{output!r} is INPUT itself", "give another name")
+    if _is_same(source.path.parent, output):
+        raise LucidaError("-o", f"{output!r} is INPUT's own folder", "give another name")
+
+
+def _is_same(path: Path, other: str) -> bool:
+    try:
+        return os.path.samefile(path, other)
+    except (OSError, ValueError):  # there is none, or no name of one
+        return False
+
+
+def _write(path: Path, files: dict[str, bytes]) -> None:
+    """A file (under "") or a folder of files, whole or not at all. Raises LucidaError."""
+    from renderer.atomic import atomic_write
+
+    if "" in files:
+        with atomic_write(path) as file:
+            file.write(files[""])
+        return
+    is_new = not os.path.lexists(path)
+    _check_folder(path, is_new, files)
+    try:
+        if is_new:
+            path.mkdir()
+        with contextlib.ExitStack() as stack:  # the files get their names when all are written
+            for name, data in files.items():
+                stack.enter_context(atomic_write(path / name)).write(data)
+    except BaseException:
+        if is_new:
+            with contextlib.suppress(OSError):
+                for name in files:
+                    (path / name).unlink(missing_ok=True)
+                path.rmdir()
+        raise
+
+
+def _check_folder(path: Path, is_new: bool, files: dict[str, bytes]) -> None:
+    """Raises LucidaError where a folder cannot be made, or is another's."""
+    from renderer.atomic import check_writable
+
+    try:
+        if not is_new and not path.is_dir():
+            raise LucidaError("", "is a file", "give the name of a folder")
+        check_writable(path if is_new else path / next(iter(files)))
+        if not is_new and (others := sorted(set(os.listdir(path)) - files.keys())):
+            problem = f"holds other files, such as {others[0]!r}"
+            raise LucidaError("", problem, "give a folder of its own")
+    except LucidaError as error:
+        raise error.in_file(str(path)) from None
+
+
+def _whole(text: str) -> int:
+    if not (text.isascii() and text.isdigit() and len(text) < 10):
+        raise argparse.ArgumentTypeError(f"{text!r} is not a number of a camera; give e.g. 12")
+    return int(text)

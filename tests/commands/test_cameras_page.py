@@ -1,0 +1,155 @@
+"""docs/cameras.md: its commands run, on files as the others' documentation prints them; its Python
+runs; its table names every format; its formulas are the camera's."""
+
+from __future__ import annotations
+
+import re
+import shlex
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from app.cli import main
+from renderer import Camera, load_view
+from renderer.camera_formats import FORMATS
+
+PAGE = (Path(__file__).parents[2] / "docs" / "cameras.md").read_text("utf-8")
+
+# NeRF: nerfstudio's "Data conventions".
+TRANSFORMS = """\
+{
+  "camera_model": "OPENCV",
+  "fl_x": 525.0, "fl_y": 525.0, "cx": 320.0, "cy": 240.0, "w": 640, "h": 480,
+  "k1": 0.0, "k2": 0.0, "p1": 0.0, "p2": 0.0,
+  "frames": [
+    {"file_path": "images/frame_00001.jpeg",
+     "transform_matrix": [[1.0, 0.0, 0.0, 0.0], [0.0, 1.0, 0.0, 1.0], [0.0, 0.0, 1.0, 8.0],
+                          [0.0, 0.0, 0.0, 1.0]]},
+    {"file_path": "images/frame_00002.jpeg",
+     "transform_matrix": [[0.0, 0.0, 1.0, 8.0], [0.0, 1.0, 0.0, 1.0], [-1.0, 0.0, 0.0, 0.0],
+                          [0.0, 0.0, 0.0, 1.0]]}
+  ]
+}
+"""
+
+# OpenCV: cv::FileStorage's own layout.
+CALIBRATION = """\
+%YAML:1.0
+---
+image_width: 640
+image_height: 480
+camera_matrix: !!opencv-matrix
+   rows: 3
+   cols: 3
+   dt: d
+   data: [ 5.2500000000000000e+02, 0., 3.1950000000000000e+02, 0.,
+       5.2500000000000000e+02, 2.3950000000000000e+02, 0., 0., 1. ]
+distortion_coefficients: !!opencv-matrix
+   rows: 5
+   cols: 1
+   dt: d
+   data: [ 0., 0., 0., 0., 0. ]
+"""
+
+# COLMAP: "Output format".
+SPARSE = {
+    "cameras.txt": "# CAMERA_ID, MODEL, WIDTH, HEIGHT, PARAMS[]\n"
+    "1 PINHOLE 640 480 525 525 320 240\n",
+    "images.txt": "# IMAGE_ID, QW, QX, QY, QZ, TX, TY, TZ, CAMERA_ID, NAME\n"
+    "1 0 1 0 0 0 1 8 1 IMG_7.jpg\n\n2 0 0.7071068 0 0.7071068 0 1 8 1 IMG_8.jpg\n\n",
+    "points3D.txt": "# POINT3D_ID, X, Y, Z, R, G, B, ERROR, TRACK[]\n",
+}
+
+
+@pytest.fixture(autouse=True)
+def in_a_folder_of_files(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    Path("transforms.json").write_text(TRANSFORMS)
+    Path("calibration.yml").write_text(CALIBRATION)
+    Path("sparse/0").mkdir(parents=True)
+    for name, text in SPARSE.items():
+        Path("sparse/0", name).write_text(text)
+
+
+def commands() -> list[str]:
+    found = re.findall(r"^    (lucida .*)$", PAGE, re.MULTILINE)
+    return [re.split(r"\s{2,}", line)[0] for line in found]
+
+
+def test_the_commands_run_one_after_the_other(capsys, gl_backend):
+    outs = {}
+    for line in commands():
+        words = shlex.split(line)[1:]
+        if words[0] in ("render", "compare"):
+            words += ["--backend", gl_backend]
+        assert main(words) == 0, line
+        outs[line], err = capsys.readouterr()
+        assert err == "", line
+    assert "cameras     2: " in outs["lucida camera transforms.json"]
+    assert "eye              (8, 1, 0)" in outs["lucida camera transforms.json#1"]
+    told = outs["lucida camera calibration.yml"]
+    assert "(320, 240) from the corner" in told
+    assert "(319.5, 239.5) from that pixel's centre" in told
+    assert "seen.png: color, raster, 640x480" in outs[next(o for o in outs if "render" in o)]
+    left, right, bottom, top = load_view("corner.toml").camera.viewport  # by --pixel-origin corner
+    assert np.allclose(
+        [left, right, bottom, top],
+        [-319.5 / 525, 320.5 / 525, -240.5 / 525, 239.5 / 525],
+        rtol=0,
+        atol=1e-12,
+    )
+    written = Path("centred.yml").read_text().split("camera_matrix")[1]
+    K = np.array(re.search(r"data: \[([^]]*)\]", written)[1].split(","), float).reshape(3, 3)
+    assert np.allclose(K, [[525, 0, 319], [0, 525, 239], [0, 0, 1]], rtol=0, atol=1e-9)
+
+
+def test_python_runs():
+    block = re.search(r"## From Python\n\n((?:    .*\n|\n)+)", PAGE)
+    names: dict = {}
+    exec(re.sub("^    ", "", block[1], flags=re.MULTILINE), names)
+    seen = names["camera"].project((1.0, 1.0, 0.0), names["size"])
+    assert (names["x"], names["y"]) == pytest.approx((seen.column, seen.row), abs=1e-9)
+    for field in ("eye", "u", "v", "w"):
+        there, back = getattr(names["camera"], field), getattr(names["same"], field)
+        assert np.allclose(there, back, rtol=0, atol=1e-12)
+    assert (names["first"].size, names["found"].format) == ((640, 480), "nerf")
+
+
+def test_the_table_names_every_format():
+    table = PAGE.split("<!-- conformance:begin -->")[1].split("<!-- conformance:end -->")[0]
+    rows = {row.split("`")[1]: row.split("|")[3:5] for row in table.splitlines() if "`" in row}
+    for entry in FORMATS:
+        reads, writes = (cell.strip() == "yes" for cell in rows[entry.name])
+        assert (reads, writes) == (entry.reads, entry.writes), entry.name
+
+
+def test_the_formulas_are_the_camera_s():
+    """As the page has them, of one camera in both directions."""
+    camera = Camera.look_at((1, 2, 5), (0, 0.5, 0), fov_y_deg=40.0)
+    left, right, bottom, top = viewport = (-0.3, 0.7, -0.4, 0.35)
+    camera = Camera(camera.eye, camera.u, camera.v, camera.w, camera.distance, viewport)
+    width, height = size = (64, 48)
+    for origin, o in (("center", 0.5), ("corner", 0.0)):
+        K, R, t = camera.intrinsics(size, origin)
+        d = camera.distance
+        fx, fy = d * width / (right - left), d * height / (top - bottom)
+        told = [[fx, 0, -left * fx / d - o], [0, fy, top * fy / d - o], [0, 0, 1]]
+        assert np.allclose(K, told, rtol=1e-12, atol=1e-9)
+        assert np.allclose(R, [camera.u, -np.array(camera.v), -np.array(camera.w)])
+        assert np.allclose(t, -R @ camera.eye)
+        again = Camera.from_intrinsics(
+            K, camera_from_world=np.c_[R, t], size=size, pixel_origin=origin
+        )
+        assert np.allclose(again.eye, -R.T @ t)
+        assert np.allclose([again.u, again.v, again.w], [R[0], -R[1], -R[2]])
+        cx, cy = K[0, 2], K[1, 2]
+        assert np.allclose(
+            again.viewport,
+            [
+                -(cx + o) / fx,
+                (width - cx - o) / fx,
+                -(height - cy - o) / fy,
+                (cy + o) / fy,
+            ],
+        )

@@ -1,0 +1,446 @@
+"""`lucida camera`: every option, every mistake; and `--view FILE#NAME` of the other commands."""
+
+from __future__ import annotations
+
+import io
+import json
+import math
+import os
+import re
+import sys
+from pathlib import Path
+
+import numpy as np
+import pytest
+from herd_format import install
+
+from app.cli import main
+from app.commands.view import shown_size
+from app.window import viewer
+from renderer import Camera, View, load_view, save_view
+from renderer.camera_formats import FORMATS, format_named
+
+HERD = {
+    "herd": [
+        {"name": "images/a.jpg", "size": [64, 48], "eye": [0, 1, 6], "image": "images/a.jpg"},
+        {"name": "images/b.jpg", "size": [64, 48], "eye": [6, 1, 0]},
+        {"name": "7", "size": [32, 48], "eye": [0, 9, 1]},
+    ]
+}
+LENS = {"herd": [{"name": "a", "size": [64, 48], "eye": [0, 1, 6], "k1": -0.2}, HERD["herd"][1]]}
+
+
+@pytest.fixture(autouse=True)
+def in_a_folder_of_cameras(tmp_path, monkeypatch):
+    install(monkeypatch)
+    monkeypatch.chdir(tmp_path)
+    Path("herd.json").write_text(json.dumps(HERD))
+    Path("lens.json").write_text(json.dumps(LENS))
+    save_view("corner.toml", View(Camera.look_at((0, 1, 6), (0, 0, 0), fov_y_deg=40.0)))
+    save_view("parallel.toml", View(Camera(projection="parallel", near=0.5)))
+    Path("text.txt").write_text("no camera")
+    Path("folder").mkdir()
+    Path("full").mkdir()
+    Path("full", "cameras.bin").write_bytes(b"old")
+
+
+def told(capsys, *words: str) -> str:
+    """What it prints, where all goes well and nothing is on standard error."""
+    assert main(["camera", *words]) == 0
+    out, err = capsys.readouterr()
+    assert err == ""
+    return out
+
+
+def facts(capsys, *words: str) -> dict[str, str]:
+    lines = [re.split(r"\s{2,}", line, maxsplit=1) for line in told(capsys, *words).splitlines()]
+    return {name: text for name, text in lines if name}
+
+
+class TestDescription:
+    def test_one_camera_is_told_whole(self, capsys):
+        found = facts(capsys, "herd.json#a.jpg")
+        assert found["format"] == "herd: cameras in a herd"
+        assert found["taken"] == "camera-to-world, y up, z back"
+        assert found["name"] == "images/a.jpg"
+        assert found["image"] == "64x48"
+        assert found["projection"] == "perspective"
+        assert found["eye"] == "(0, 1, 6)"
+        assert found["u, right"] == "(1, 0, 0)"
+        assert found["basis"] == "orthonormal, right-handed"
+        assert found["d"].startswith("1.373739 from the eye")  # 0.5 / tan(20 degrees)
+        assert found["viewport"] == "left -0.6666667, right 0.6666667, bottom -0.5, top 0.5"
+        across = 2 * math.degrees(math.atan(4 / 3 * math.tan(math.radians(20))))
+        assert found["field of view"] == f"{across:.7g} across, 40 up and down, in degrees"
+        assert found["focal lengths"] == "fx 65.93946, fy 65.93946, in pixels"
+        assert found["principal point"] == "(32, 24) from the corner of the image's first pixel"
+        assert found["pixels"] == "square"
+        assert {"distortion", "skew", "near", "photograph"}.isdisjoint(found)
+        assert "(31.5, 23.5) from that pixel's centre" in told(capsys, "herd.json#a.jpg")
+        assert "whole numbers at the pixels' corners" in told(capsys, "herd.json#a.jpg")
+
+    def test_a_set_is_told_together(self, capsys):
+        found = facts(capsys, "herd.json")
+        assert found["cameras"] == "3: images/a.jpg, images/b.jpg, 7"
+        assert found["images"] == "64x48 (2), 32x48 (1)"
+        assert found["projection"] == "perspective"
+        assert found["eyes"] == "from (0, 1, 0) to (6, 9, 6)"
+        assert found["to choose"] == "--frame N, 0 to 2, or --image NAME, such as 'images/a.jpg'"
+
+    def test_a_view_file_has_no_pixels_until_it_has_a_size(self, capsys):
+        found = facts(capsys, "corner.toml")
+        assert found["format"] == "view: Lucida's view file"
+        assert found["image"] == "of any size"
+        assert found["in pixels"].endswith("--size WxH says the rest")
+        assert "focal lengths" not in found
+        found = facts(capsys, "corner.toml", "--size", "200x100")
+        assert found["focal lengths"] == "fx 274.7477, fy 137.3739, in pixels"
+        assert found["pixels"] == "not square: 0.5 as wide as high"
+
+    def test_a_parallel_camera_has_no_angles(self, capsys):
+        found = facts(capsys, "parallel.toml", "--size", "40x40")
+        assert found["seen"] == "1 wide, 1 high, in world units"
+        assert found["near"] == "0.5 along -w"
+        assert {"field of view", "focal lengths", "principal point"}.isdisjoint(found)
+        assert found["pixels"] == "square"
+
+    @pytest.mark.parametrize(
+        ("fields", "said"),
+        [
+            ({"u": (-1, 0, 0)}, "orthonormal, left-handed: the picture is mirrored"),
+            ({"v": (0, 2, 0)}, "orthogonal, |v| = 2, right-handed"),
+            ({"v": (1, 1, 0)}, "skewed, u and v at 45 degrees, |v| = 1.414214, right-handed"),
+            ({"u": (1.000001, 0, 0)}, "orthonormal within 2e-06, right-handed"),
+        ],
+    )
+    def test_a_basis_says_what_it_is(self, capsys, fields, said):
+        save_view("basis.toml", View(Camera(**fields)))
+        assert facts(capsys, "basis.toml")["basis"] == said
+
+    def test_what_is_off_axis_skewed_or_fitted_is_said(self, capsys):
+        save_view("a.toml", View(Camera(v=(0.5, 1, 0), viewport=(-0.2, 0.6, -0.5, 0.5)), fit=True))
+        found = facts(capsys, "a.toml")
+        assert found["viewport"].endswith("top 0.5 (off-axis); widened to each image's shape")
+        found = facts(capsys, "a.toml", "--size", "200x100")
+        assert found["viewport"].startswith("left -0.8, right 1.2,")  # fitted to 2 : 1
+        assert float(found["skew"].split(",")[0]) != 0
+
+    def test_json_has_the_numbers(self, capsys):
+        data = json.loads(told(capsys, "herd.json", "--json"))
+        assert (data["format"], len(data["cameras"]), data["points"]) == ("herd", 3, 0)
+        first = data["cameras"][0]
+        camera = Camera(
+            **{name: first[name] for name in ("eye", "u", "v", "w", "distance", "viewport")}
+        )
+        point = (0.3, -0.2, 0.5)
+        seen = camera.project(point, first["size"])
+        x, y, z = np.array(first["K"]) @ (np.array(first["R"]) @ point + first["t"])
+        assert (x / z, y / z) == pytest.approx((seen.column, seen.row), abs=1e-9)
+        assert first["ignored"] is None
+        alone = json.loads(told(capsys, "herd.json", "--frame", "2", "--json"))
+        assert [camera["name"] for camera in alone["cameras"]] == ["7"]
+        assert json.loads(told(capsys, "parallel.toml", "--json"))["cameras"][0]["K"] is None
+
+
+class TestChoice:
+    @pytest.mark.parametrize(
+        ("words", "name"),
+        [
+            (["herd.json#1"], "images/b.jpg"),
+            (["herd.json#b.jpg"], "images/b.jpg"),
+            (["herd.json#images/b.jpg"], "images/b.jpg"),
+            (["herd.json#7"], "7"),
+            (["herd.json", "--frame", "1"], "images/b.jpg"),
+            (["herd.json", "--image", "b.jpg"], "images/b.jpg"),
+            (["herd.json", "--image", "7"], "7"),
+        ],
+    )
+    def test_a_camera_is_chosen_by_name_or_number(self, capsys, words, name):
+        assert facts(capsys, *words)["name"] == name
+
+    def test_a_file_whose_name_has_a_number_sign_opens(self, capsys):
+        Path("shot#1").mkdir()
+        for name in ("herd.json#1", "shot#1/h#erd.json"):
+            Path(name).write_text(json.dumps(HERD))
+            assert facts(capsys, name)["cameras"].startswith("3")
+            assert facts(capsys, f"{name}#1")["name"] == "images/b.jpg"
+            assert facts(capsys, f"{name}#")["cameras"].startswith("3")
+
+    def test_a_name_with_a_number_sign_is_chosen(self, capsys):
+        herd = {"herd": [HERD["herd"][0], {**HERD["herd"][1], "name": "b#2"}]}
+        Path("signs.json").write_text(json.dumps(herd))
+        assert facts(capsys, "signs.json#b#2")["name"] == "b#2"
+
+    def test_standard_input(self, capsys, monkeypatch):
+        def give(data):
+            monkeypatch.setattr(sys, "stdin", io.TextIOWrapper(io.BytesIO(data)))
+
+        give(json.dumps(HERD).encode())
+        assert facts(capsys, "-", "--frame", "1")["name"] == "images/b.jpg"
+        give(Path("corner.toml").read_bytes())
+        assert facts(capsys, "-")["eye"] == "(0, 1, 6)"
+        give(b"")
+        assert main(["camera", "-"]) == 2
+        assert capsys.readouterr().err.startswith("lucida: standard input: is empty;")
+
+
+class TestWriting:
+    def test_it_is_printed_without_o(self, capsys):
+        data = json.loads(told(capsys, "herd.json", "--to", "herd"))
+        assert [entry["name"] for entry in data["herd"]] == ["images/a.jpg", "images/b.jpg", "7"]
+        data = json.loads(told(capsys, "herd.json", "--to", "herd", "--image", "b.jpg"))
+        assert [entry["name"] for entry in data["herd"]] == ["images/b.jpg"]
+
+    def test_the_ending_says_the_format(self, capsys):
+        out = told(capsys, "herd.json#0", "-o", "a.toml")
+        assert out == "a.toml: view, 1 camera\n"
+        assert load_view("a.toml").camera.eye == (0, 1, 6)
+        assert told(capsys, "herd.json", "-o", "all.herd") == "all.herd: herd, 3 cameras\n"
+        assert told(capsys, "herd.json", "-o", "all.HERD", "--to", "herd")
+
+    def test_a_view_file_comes_back_to_the_bit(self, capsys):
+        assert told(capsys, "corner.toml", "--to", "view") == Path("corner.toml").read_text()
+
+    def test_a_folder_is_written_whole(self, capsys):
+        for _ in range(2):  # and over itself
+            assert told(capsys, "herd.json", "--to", "den", "-o", "d.1") == "d.1: den, 3 cameras\n"
+            assert sorted(os.listdir("d.1")) == ["cameras.txt", "images.txt"]
+        assert told(capsys, "herd.json", "--to", "den", "-o", "folder")
+        assert len(json.loads(Path("folder", "cameras.txt").read_text())["herd"]) == 3
+
+    def test_the_options_reach_the_format(self, capsys):
+        words = ("corner.toml", "--to", "herd", "--size", "30x20")
+        data = json.loads(told(capsys, *words, "--pixel-origin", "corner"))
+        assert (data["said"], data["herd"][0]["size"]) == (["corner", ""], [30, 20])
+        told(capsys, *words, "-o", "a.HERD")
+        assert json.loads(Path("a.HERD").read_text())["said"] == [None, ".herd"]
+
+    def test_a_size_of_another_shape_is_said(self, capsys):
+        assert main(["camera", "herd.json#0", "--to", "herd", "--size", "100x100"]) == 0
+        out, err = capsys.readouterr()
+        assert json.loads(out)["herd"][0]["size"] == [100, 100]
+        assert err == (
+            "lucida: --size: 100x100 has another shape than the camera's own 64x48: "
+            "its pixels are not as wide as high\n"
+        )
+        told(capsys, "herd.json#0", "--to", "herd", "--size", "640x480")
+
+
+WAYS = [(entry.name, ending) for entry in FORMATS for ending in entry.endings if entry.writes]
+
+
+@pytest.mark.parametrize(("name", "ending"), WAYS)
+class TestEveryFormat:
+    def test_what_is_written_is_found_and_is_the_same_camera(self, capsys, name, ending):
+        words = ("herd.json#0", "--to", name, "-o", f"out{ending}")
+        assert told(capsys, *words) == f"out{ending}: {name}, 1 camera\n"
+        if ending in (".json", ".gltf"):
+            assert json.loads(Path(f"out{ending}").read_text())
+        assert Path(f"out{ending}").is_dir() or (
+            (Path(f"out{ending}").read_bytes()[:4] == b"glTF") == (ending == ".glb")
+        )
+        if not format_named(name).reads:
+            assert main(["camera", f"out{ending}", "--from", name]) == 2
+            return
+        first = json.loads(told(capsys, "herd.json#0", "--json"))["cameras"][0]
+        words = () if ending == ".toml" else ("--size", "64x48")
+        again = json.loads(told(capsys, f"out{ending}", *words, "--json"))
+        assert again["format"] == name
+        for field in ("eye", "fov_deg", "u", "v", "w"):
+            assert np.allclose(again["cameras"][0][field], first[field], rtol=0, atol=1e-6), field
+
+    def test_what_cannot_be_held_is_one_line(self, capsys, name, ending):
+        save_view("skewed.toml", View(Camera(v=(0.5, 1, 0), w=(0.1, 0.2, -1))))
+        words = ["camera", "skewed.toml", "--to", name, "-o", f"out{ending}", "--size", "64x48"]
+        status = main(words)
+        out, err = capsys.readouterr()
+        assert Path(f"out{ending}").exists() == (status == 0)
+        assert (status, bool(out), err.count("\n")) in ((0, True, 0), (2, False, 1))
+
+
+class TestDistortion:
+    def test_it_is_refused(self, capsys):
+        assert main(["camera", "lens.json#0"]) == 2
+        err = capsys.readouterr().err
+        assert re.fullmatch(
+            r"lucida: lens\.json: a\.k1: -0\.2 is .* by 12\.3 pixels.*--ignore-distortion.*\n", err
+        )
+
+    def test_a_pinhole_beside_it_is_not(self, capsys):
+        assert facts(capsys, "lens.json#1")["name"] == "images/b.jpg"
+
+    def test_what_is_ignored_is_said(self, capsys):
+        said = "k1 = -0.2 (RADIAL) ignored: it moves a corner by 12.3 pixels"
+        assert facts(capsys, "lens.json#0", "--ignore-distortion")["distortion"] == said
+        assert main(["camera", "lens.json#0", "--ignore-distortion", "--to", "view"]) == 0
+        out, err = capsys.readouterr()
+        assert out.startswith("lucida = 1\n")
+        assert err == f"lucida: {said}\n"
+        data = json.loads(told(capsys, "lens.json", "--ignore-distortion", "--json"))
+        assert data["cameras"][0]["ignored"]["corner_px"] == 12.34
+        of_set = facts(capsys, "lens.json", "--ignore-distortion")["distortion"]
+        assert of_set == f"{said} in a, the most of 1 such cameras"
+
+
+MISTAKES = {
+    "none.json": "none.json: does not exist",
+    "none.json#1": "none.json: does not exist",
+    "hurd.json": "hurd.json: does not exist; did you mean 'herd.json'?",
+    "text.txt": "text.txt: is no camera that is known; say which with",
+    "folder": "folder: is no camera that is known",
+    "": "is no camera that is known",
+    "herd.json --from nosuch": "--from: 'nosuch' is unknown; give one of",
+    "herd.json --from den": "herd.json: format: den is only written",
+    "herd.json --from view": "herd.json: ",
+    "herd.json --to nosuch": "--to: 'nosuch' is unknown",
+    "herd.json --to hurd": "--to: 'hurd' is unknown; did you mean 'herd'?",
+    "herd.json --to den": "-o: is missing; den is a folder: give its name",
+    "herd.json --to view": "herd.json: holds 3 cameras; give a number from 0 to 2 or one of 'im",
+    "herd.json --to view -o a.json": "-o: 'a.json' does not end as a file of view does; give .toml",
+    "herd.json --to view -o a.toml": "herd.json: holds 3 cameras",
+    "herd.json -o a.nosuch": "--to: is missing: of the ending .nosuch are none; give one of",
+    "herd.json#0 -o no/a.toml": "no/a.toml: folder",
+    "herd.json#0 --to den -o no/den": "no/den: folder",
+    "herd.json#0 --to view -o folder": "-o: 'folder' does not end",
+    "herd.json#0 --to den -o text.txt": "text.txt: is a file; give the name of a folder",
+    "herd.json#0 --to den -o full": "full: holds other files, such as 'cameras.bin'",
+    "herd.json#0 --to den -o .": "-o: '.' is INPUT's own folder; give another name",
+    "corner.toml -o corner.toml": "-o: 'corner.toml' is INPUT itself; give another name",
+    "corner.toml -o ./folder/../corner.toml": "-o: './folder/../corner.toml' is INPUT itself",
+    "parallel.toml --to herd -o p.herd": "parallel.toml: projection: a herd has no 'parallel'",
+    "herd.json#3": "herd.json: holds no camera '3'; give a number from 0 to 2 or one of",
+    "herd.json#c.jpg": "herd.json: holds no camera 'c.jpg'",
+    "herd.json --image c.jpg": "herd.json: holds no camera 'c.jpg'",
+    "herd.json --frame 3": "herd.json: holds no camera 3; give a number from 0 to 2",
+    "herd.json#1 --frame 2": "--frame: is given beside #1; give one of the two",
+    "herd.json#1 --image 7": "--image: is given beside #1; give one of the two",
+    "corner.toml --frame 1": "corner.toml: holds no camera 1; give a number from 0 to 0",
+    "lens.json --to herd -o a.herd": "lens.json: a.k1: -0.2 is a lens's distortion",
+    "herd.json --json --to herd": "--json: is given beside --to or -o",
+    "herd.json --frame 1 --image a": "camera: argument --image: not allowed with argument --frame",
+    "herd.json --frame -1": "camera: argument --frame: '-1' is not a number of a camera",
+    "herd.json --frame x": "camera: argument --frame: 'x' is not a number of a camera",
+    "herd.json --size 0x3": "camera: argument --size: 0x3 has no pixels",
+    "herd.json --pixel-origin edge": "camera: argument --pixel-origin: invalid choice: 'edge'",
+}
+
+
+@pytest.mark.parametrize("words", MISTAKES)
+def test_a_mistake_is_one_line_and_nothing_is_written(capsys, words):
+    before = {path: path.stat().st_mtime_ns for path in Path().rglob("*")}
+    assert main(["camera", *(words.split(" ") if words else [""])]) == 2
+    out, err = capsys.readouterr()
+    assert out == ""
+    assert err.count("\n") == 1
+    assert re.match(r"lucida:? ", err)
+    assert re.sub(r"^lucida:? ", "", err).startswith(MISTAKES[words]), err
+    assert {path: path.stat().st_mtime_ns for path in Path().rglob("*")} == before
+
+
+@pytest.mark.parametrize("words", [["-o", "folder/a.toml"], ["--to", "den", "-o", "folder/den"]])
+def test_a_folder_that_cannot_be_written(capsys, monkeypatch, words):
+    monkeypatch.setattr(os, "access", lambda path, mode: not str(path).endswith("folder"))
+    assert main(["camera", "herd.json#0", *words]) == 2
+    err = capsys.readouterr().err
+    assert re.fullmatch(r"lucida: folder/.*: folder .*folder is not writable; .*\n", err)
+    assert not os.listdir("folder")
+
+
+def test_a_disk_that_is_full_leaves_nothing(capsys, monkeypatch):
+    def full(descriptor):
+        raise OSError(28, "No space left on device")
+
+    monkeypatch.setattr(os, "fsync", full)
+    assert main(["camera", "herd.json", "--to", "den", "-o", "den"]) == 2
+    assert "no space left" in capsys.readouterr().err
+    assert not Path("den").exists()
+
+
+class TestView:
+    """--view of the commands that draw."""
+
+    def draw(self, capsys, *words: str) -> tuple[np.ndarray, str]:
+        arguments = ["render", "spheres", "--renderer", "ray", "--channel", "depth", "-o", "d.npy"]
+        assert main([*arguments, *words]) == 0
+        return np.load("d.npy"), capsys.readouterr().err
+
+    def test_the_image_is_the_camera_s_own(self, capsys):
+        depth, err = self.draw(capsys, "--view", "herd.json#b.jpg")
+        assert (depth.shape, err) == ((48, 64), "")
+        told(capsys, "herd.json#1", "-o", "b.toml")
+        same, _ = self.draw(capsys, "--view", "b.toml", "--size", "64x48")
+        assert np.array_equal(depth, same)
+        assert np.isfinite(depth).any()
+
+    def test_another_size_and_another_shape(self, capsys):
+        depth, err = self.draw(capsys, "--view", "herd.json#1", "--size", "32x24")
+        assert (depth.shape, err) == ((24, 32), "")
+        depth, err = self.draw(capsys, "--view", "herd.json#1", "--size", "20x20")
+        assert depth.shape == (20, 20)
+        assert re.fullmatch("lucida: --size: 20x20 has another shape .* 64x48: .*\n", err)
+        _, err = self.draw(capsys, "--view", "herd.json#1", "--size", "20x20", "--fit")
+        assert err == ""
+        depth, err = self.draw(capsys, "--view", "corner.toml", "--size", "20x10")
+        assert (depth.shape, err) == ((10, 20), "")
+
+    def test_compare_and_pick_take_it_too(self, capsys, gl_backend):
+        words = ["--view", "herd.json#1", "--json"]
+        assert main(["compare", "spheres", *words, "--backend", gl_backend]) == 0
+        assert json.loads(capsys.readouterr().out)["size"] == [64, 48]
+        assert main(["pick", "spheres", "47", "63", *words]) == 0
+        assert json.loads(capsys.readouterr().out)["size"] == [64, 48]
+        assert main(["pick", "spheres", "48", "63", *words]) == 2
+        assert "outside an image of 64x48" in capsys.readouterr().err
+
+    def test_the_window_takes_it_too_in_its_shape(self, monkeypatch):
+        seen = {}
+        monkeypatch.setattr(viewer, "run_viewer", lambda *_, **named: seen.update(named) or 0)
+        assert main(["spheres", "--view", "herd.json#7"]) == 0
+        assert (seen["view"].camera.eye, seen["resolution"]) == ((0, 9, 1), (32, 48))
+        assert main(["spheres", "--view", "corner.toml"]) == 0
+        assert seen["resolution"] is None
+
+    @pytest.mark.parametrize(
+        ("own", "shown"),
+        [((640, 480), (640, 480)), ((6000, 4000), (1500, 1000)), ((1, 16384), (1, 16384))],
+    )
+    def test_a_photograph_is_shown_in_a_part_of_its_pixels(self, own, shown):
+        assert shown_size(own) == shown
+
+    def test_check_tries_a_small_image_of_its_shape(self, capsys):
+        Path("rays.py").write_text("def viewing_ray(i, j, width, height, camera): return 0, 0\n")
+        assert main(["check", "rays.py", "--task", "viewing-ray", "--view", "herd.json#7"]) == 2
+        assert "width=32, height=48" in capsys.readouterr().out
+
+    def test_distortion_is_ignored_only_when_asked_for(self, capsys):
+        words = ["pick", "spheres", "0", "0", "--view", "lens.json#0"]
+        assert main(words) == 2
+        out, err = capsys.readouterr()
+        assert out == ""
+        assert re.fullmatch(r"lucida: lens\.json: a\.k1: .*--ignore-distortion.*\n", err)
+        assert main([*words, "--ignore-distortion"]) == 0
+        said = "lucida: k1 = -0.2 (RADIAL) ignored: it moves a corner by 12.3 pixels\n"
+        assert capsys.readouterr().err == said
+
+    @pytest.mark.parametrize(
+        ("view", "said"),
+        [
+            ("none.json#1", "none.json: does not exist"),
+            ("herd.json", "herd.json: holds 3 cameras; give a number .*as in herd.json#0\n"),
+            ("herd.json#3", "herd.json: holds no camera '3'"),
+            ("text.txt", "text.txt: is no camera that is known"),
+        ],
+    )
+    @pytest.mark.parametrize("command", ["render", "pick", "check", "view"])
+    def test_a_mistake_is_one_line(self, capsys, command, view, said):
+        words = {
+            "render": ["render", "spheres", "-o", "a.png"],
+            "pick": ["pick", "spheres", "0", "0"],
+            "check": ["check", "--task", "viewing-ray", "rays.py"],
+            "view": ["spheres", "--screenshot", "a.png"],
+        }[command]
+        Path("rays.py").write_text("def viewing_ray(i, j, width, height): return None\n")
+        assert main([*words, "--view", view]) == 2
+        out, err = capsys.readouterr()
+        assert re.match(f"lucida: {said}", err)
+        assert (out, err.count("\n"), Path("a.png").exists()) == ("", 1, False)
