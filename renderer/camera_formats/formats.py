@@ -50,7 +50,12 @@ class Format:
 
 
 # In the order in which they are tried on a file.
-FORMATS = (Format("view", "Lucida's view file", (".toml",)),)
+FORMATS = (
+    Format("view", "Lucida's view file", (".toml",)),
+    Format("gltf", "cameras of a glTF file", (".gltf", ".glb")),
+    Format("mitsuba", "a sensor of Mitsuba 3", (".xml",)),
+    Format("pbrt", "a camera of pbrt-v4", (".pbrt",)),
+)
 
 
 def format_named(name: str) -> Format:
