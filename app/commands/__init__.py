@@ -3,6 +3,6 @@
 Without a command's name, `lucida` is app/commands/view.py: the window.
 """
 
-from app.commands import check, compare, doctor, lecture, pick, render, scenes, tasks
+from app.commands import check, compare, doctor, export, lecture, pick, render, scenes, tasks
 
-COMMANDS = (render, compare, pick, check, tasks, lecture, scenes, doctor)
+COMMANDS = (render, compare, pick, export, check, tasks, lecture, scenes, doctor)

@@ -53,7 +53,7 @@ class GltfCamera(msgspec.Struct):
 
 @dataclass(frozen=True)
 class FoundCamera:
-    """has_aspect: whether the viewport's aspect ratio is the file's own; else it is 1. straightened:
+    """has_aspect: whether the viewport has the file's own aspect ratio; else it is 1. straightened:
     what of its node's transform a camera has not, "" for nothing."""
 
     name: str
