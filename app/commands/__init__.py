@@ -3,6 +3,17 @@
 Without a command's name, `lucida` is app/commands/view.py: the window.
 """
 
-from app.commands import camera, check, compare, doctor, lecture, pick, render, scenes, tasks
+from app.commands import (
+    camera,
+    check,
+    compare,
+    doctor,
+    export,
+    lecture,
+    pick,
+    render,
+    scenes,
+    tasks,
+)
 
-COMMANDS = (render, compare, pick, camera, check, tasks, lecture, scenes, doctor)
+COMMANDS = (render, compare, pick, camera, export, check, tasks, lecture, scenes, doctor)

@@ -58,6 +58,9 @@ FORMATS = (
     Format("blender", "Blender's camera", (".py",)),
     Format("opengl", "OpenGL's view and projection matrices", (".txt",)),
     Format("opencv", "OpenCV's K, R and t, and ROS's camera_info", (".yml", ".json")),
+    Format("gltf", "cameras of a glTF file", (".gltf",)),
+    Format("mitsuba", "a sensor of Mitsuba 3", (".xml",)),
+    Format("pbrt", "a camera of pbrt-v4", (".pbrt",)),
 )
 
 

@@ -18,7 +18,7 @@ from renderer.camera_formats.given import Options
 from renderer.camera_formats.posed import PosedCamera
 from renderer.errors import LucidaError
 
-STRAIGHT = 1e-9  # a cosine below this moves no point of a picture by 1e-6 pixels
+STRAIGHT = 1e-6  # a cosine below this is float32's rounding: at right angles, and made so
 REMEDY = "orthonormalize it: Camera > Keep orthonormal, or camera.orthonormalized()"
 
 
@@ -26,19 +26,22 @@ def rigid(camera: Camera, target: str) -> Camera:
     """The camera with the same rays whose u, v and w are unit vectors at right angles.
 
     The lengths of u and v go to the viewport. So does, in perspective, what w leans: the image
-    plane then lies beside the eye's axis. near and far count along the new w. target: who asks,
+    plane then lies beside the eye's axis. near and far count along the new w. A parallel camera's
+    eye goes to the viewport's middle. target: who asks,
     for the error. Raises LucidaError for a left-handed basis, for u and v that are not at right
     angles, and for a parallel camera that looks askance on its image plane.
     """
     u, v, w = (np.asarray(vector) for vector in (camera.u, camera.v, camera.w))
     if camera.determinant < 0:
-        problem = f"{listed(w)} is left-handed with u and v, a mirror that {target} has not"
-        raise LucidaError("w", problem, "negate u, which mirrors the picture")
+        problem = f"{listed(u)} is left-handed with v and w, a mirror that {target} has not"
+        raise LucidaError("u", problem, "negate u, which mirrors the picture")
     width, height = float(np.linalg.norm(u)), float(np.linalg.norm(v))
     u, v = u / width, v / height
     if abs(u @ v) > STRAIGHT:
         problem = f"{listed(camera.v)} is not at right angles to u = {listed(camera.u)}"
         raise LucidaError("v", f"{problem}, which {target} cannot hold", REMEDY)
+    v = v - (u @ v) * u
+    v /= np.linalg.norm(v)
     back = np.cross(u, v)
     lean_x, lean_y, length = (float(w @ axis) for axis in (u, v, back))
     left, right, bottom, top = camera.viewport
@@ -51,7 +54,7 @@ def rigid(camera: Camera, target: str) -> Camera:
             )
             raise LucidaError("w", problem, REMEDY)
         x = y = 0.0
-    return replace(
+    straight = replace(
         camera,
         u=tuple(u.tolist()),
         v=tuple(v.tolist()),
@@ -61,6 +64,16 @@ def rigid(camera: Camera, target: str) -> Camera:
         near=None if camera.near is None else camera.near * length,
         far=None if camera.far is None else camera.far * length,
     )
+    return centred(straight) if camera.is_parallel else straight
+
+
+def centred(camera: Camera) -> Camera:
+    """A parallel camera with the eye in its viewport's middle: the same rays."""
+    left, right, bottom, top = camera.viewport
+    x, y = (left + right) / 2, (bottom + top) / 2
+    eye = np.asarray(camera.eye) + x * np.asarray(camera.u) + y * np.asarray(camera.v)
+    viewport = left - x, right - x, bottom - y, top - y
+    return replace(camera, eye=tuple(eye.tolist()), viewport=viewport)
 
 
 def sized(posed: PosedCamera, options: Options) -> tuple[Camera, Size | None]:

@@ -151,7 +151,7 @@ def _posed(table: Table, pose: Floats, options: Options) -> PosedCamera:
 
 def _axes(pose: Floats) -> Floats:
     """The columns u, v, w of a pose, of length 1. A camera's own scale is not seen, as three.js's
-    newer versions have it. Raises LucidaError for what is no turn: three.js's versions differ in it."""
+    newer versions have it. Raises LucidaError for what is no turn: its versions differ in it."""
     linear = pose[:3, :3]
     lengths = np.linalg.norm(linear, axis=0)
     if not (lengths > 1e-12).all():

@@ -1,8 +1,8 @@
 """glTF 2.0 files, .gltf and .glb: the tree checked here, the numbers decoded by trimesh.
 
 Owns the tree: which meshes are where, with which material, and whether every range it names lies
-inside the file. Knows nothing of files' containers or of meshes' repair. Textures, skins,
-animations and cameras are not read.
+inside the file. Knows nothing of files' containers or of meshes' repair. Textures, skins and
+animations are not read; cameras are gltf_cameras.py's.
 Source: Khronos, glTF 2.0 Specification.
 """
 
@@ -10,6 +10,7 @@ from __future__ import annotations
 
 import io
 from collections import Counter
+from collections.abc import Iterable
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -19,6 +20,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from renderer.errors import LucidaError
+from renderer.scene.gltf_cameras import camera_views
 from renderer.scene.gltf_file import (
     TRIANGLE_FAN,
     TRIANGLE_LIST,
@@ -31,6 +33,7 @@ from renderer.scene.gltf_file import (
     open_gltf,
     read_buffer,
 )
+from renderer.scene.gltf_nodes import PlacedNode, placed_nodes
 from renderer.scene.gltf_shared import (
     ATTRIBUTES,
     check_bytes_shared,
@@ -39,8 +42,8 @@ from renderer.scene.gltf_shared import (
     same_primitives,
 )
 from renderer.scene.guard import guarded
-from renderer.scene.limits import BINARY_MODEL_BYTES, NODE_DEPTH, OBJECTS
-from renderer.scene.model import Material
+from renderer.scene.limits import BINARY_MODEL_BYTES, OBJECTS
+from renderer.scene.model import Material, NamedView
 from renderer.scene.parts import Part, linear_colors
 from renderer.scene.reading import size_text
 
@@ -61,17 +64,19 @@ class Instance:
 
 @dataclass(frozen=True, eq=False)
 class GltfFile:
-    """instances, and the parts (mesh, primitive) that they show."""
+    """instances, the parts (mesh, primitive) that they show, and the views of its cameras."""
 
     instances: list[Instance]
     parts: dict[tuple[int, int], Part]
+    views: tuple[NamedView, ...]
 
 
 def read_gltf(path: Path) -> GltfFile:
     """The instances and parts of a .gltf or .glb file. Raises LucidaError naming the file."""
     try:
         tree, binary = open_gltf(path)
-        instances = _instances(tree)
+        nodes = list(placed_nodes(tree))
+        instances = _instances(tree, nodes)
         shown = [(entry.mesh, entry.primitive) for entry in instances]
         same = same_primitives(tree, shown)
         keys = sorted(set(same.values()))
@@ -106,40 +111,21 @@ def read_gltf(path: Path) -> GltfFile:
             fields.get("vertex_normals"),
             linear_colors(fields.get("vertex_colors"), linear=True),
         )
-    return GltfFile(instances, {key: parts[first] for key, first in same.items()})
+    shown_parts = {key: parts[first] for key, first in same.items()}
+    return GltfFile(instances, shown_parts, camera_views(tree, nodes))
 
 
 # The tree.
 
 
-def _instances(tree: Gltf) -> list[Instance]:
+def _instances(tree: Gltf, nodes: Iterable[PlacedNode]) -> list[Instance]:
     """Every triangle primitive at every node of the scene, depth first, in the file's order."""
-    if tree.scenes:
-        roots = entry_at(tree.scenes, tree.scene, "scene").nodes
-    else:
-        children = {child for node in tree.nodes for child in node.children}
-        roots = [number for number in range(len(tree.nodes)) if number not in children]
     instances: list[Instance] = []
-    seen: set[int] = set()
-    stack = [(number, np.eye(4), 0) for number in reversed(roots)]
-    while stack:
-        number, parent, depth = stack.pop()
-        field = f"nodes[{number}]"
-        node = entry_at(tree.nodes, number, "nodes")
-        if number in seen:
-            raise LucidaError(
-                field, "has two parents, or is its own ancestor", "give each node one parent"
-            )
-        seen.add(number)
-        if depth > NODE_DEPTH:
-            raise LucidaError(field, f"is deeper than {NODE_DEPTH} levels", "flatten the tree")
-        with np.errstate(all="ignore"):
-            matrix = parent @ _node_matrix(node, field)
-        if node.mesh is not None:
-            instances += _mesh_instances(tree, node, matrix, field)
+    for placed in nodes:
+        if placed.node.mesh is not None:
+            instances += _mesh_instances(tree, placed.node, placed.matrix, placed.field)
         if len(instances) > OBJECTS:
             raise LucidaError("nodes", f"make more than {OBJECTS} objects", "split the model")
-        stack += [(child, matrix, depth + 1) for child in reversed(node.children)]
     return instances
 
 
@@ -164,26 +150,6 @@ def _mesh_instances(
         name = node.name or mesh.name
         instances.append(Instance(node.mesh, number, name, matrix, material))
     return instances
-
-
-def _node_matrix(node: Node, field: str) -> NDArray[np.float64]:
-    """parent_from_node: `matrix` (column-major), or translation * rotation * scale."""
-    if node.matrix is not None:
-        if len(node.matrix) != 16:
-            raise LucidaError(f"{field}.matrix", "is not 16 numbers", "export it again")
-        matrix = np.array(node.matrix).reshape(4, 4).T
-        matrix[3] = 0, 0, 0, 1
-        return matrix
-    x, y, z, w = np.asarray(node.rotation) / (np.linalg.norm(node.rotation) or 1.0)
-    matrix = np.eye(4)
-    matrix[:3, :3] = [
-        [1 - 2 * (y * y + z * z), 2 * (x * y - z * w), 2 * (x * z + y * w)],
-        [2 * (x * y + z * w), 1 - 2 * (x * x + z * z), 2 * (y * z - x * w)],
-        [2 * (x * z - y * w), 2 * (y * z + x * w), 1 - 2 * (x * x + y * y)],
-    ]
-    matrix[:3, :3] *= node.scale
-    matrix[:3, 3] = node.translation
-    return matrix
 
 
 def _material(pbr: Pbr) -> Material:

@@ -82,6 +82,7 @@ class Node(msgspec.Struct, rename="camel"):
     translation: tuple[float, float, float] = (0.0, 0.0, 0.0)
     rotation: tuple[float, float, float, float] = (0.0, 0.0, 0.0, 1.0)
     scale: tuple[float, float, float] = (1.0, 1.0, 1.0)
+    camera: Any = None  # gltf_cameras.py looks at it: no model is refused for its cameras
 
 
 class GltfScene(msgspec.Struct, rename="camel"):
@@ -101,11 +102,16 @@ class Gltf(msgspec.Struct, rename="camel"):
     accessors: list[Accessor] = []
     buffer_views: list[BufferView] = []
     buffers: list[Buffer] = []
+    cameras: Any = None
 
 
 def open_gltf(path: Path) -> tuple[Gltf, bytes | None]:
     """The tree, and the binary chunk of a .glb file."""
-    data = read_file(path, BINARY_MODEL_BYTES)
+    return parse_gltf(read_file(path, BINARY_MODEL_BYTES), str(path))
+
+
+def parse_gltf(data: bytes, source: str) -> tuple[Gltf, bytes | None]:
+    """The same of a file's bytes. source: its name."""
     binary = None
     text: bytes | memoryview = data
     if data[:4] == b"glTF":
@@ -113,14 +119,11 @@ def open_gltf(path: Path) -> tuple[Gltf, bytes | None]:
         if len(text) > GLTF_JSON_BYTES:
             raise LucidaError("", f"has {size_text(len(text))} of JSON", "split the model")
     else:  # its buffers may be inside, as base64
-        check_bytes(len(data), TEXT_MODEL_BYTES, str(path))
+        check_bytes(len(data), TEXT_MODEL_BYTES, source)
     try:
         tree = msgspec.json.decode(text, type=Gltf)
     except msgspec.ValidationError as error:
-        reason, _, where = str(error).partition(" - at `$")
-        raise LucidaError(
-            where.strip("`."), reason[:1].lower() + reason[1:].replace("`", ""), "export it again"
-        ) from None
+        raise invalid(error) from None
     except (msgspec.DecodeError, RecursionError, UnicodeDecodeError) as error:
         raise damaged(f"is not glTF: {str(error)[:120]}") from None
     if tree.asset.version.split(".")[0] != "2":
@@ -203,6 +206,14 @@ def entry_at(entries: list[Any], number: int, field: str) -> Any:
             field, f"names entry {number}, counted from 0, of {len(entries)}", "export it again"
         )
     return entries[number]
+
+
+def invalid(error: msgspec.ValidationError) -> LucidaError:
+    """The error for a value of another type than glTF says."""
+    reason, _, where = str(error).partition(" - at `$")
+    return LucidaError(
+        where.strip("`."), reason[:1].lower() + reason[1:].replace("`", ""), "export it again"
+    )
 
 
 def damaged(problem: str) -> LucidaError:

@@ -220,6 +220,17 @@ class View:
         return self.camera.fitted(size) if self.fit else self.camera
 
 
+@dataclass(frozen=True)
+class NamedView:
+    """A view that a file has beside the one to begin with."""
+
+    name: str
+    view: View
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "name", _shown(self.name))
+
+
 @dataclass(frozen=True, eq=False)
 class Origin:
     """Where a scene came from, so that it can be written down again.
@@ -238,7 +249,7 @@ class Origin:
 @dataclass(frozen=True, eq=False)
 class Scene:
     """Objects in the order of their ids, lights, and a view to begin with. origin: None for a
-    scene that was made in Python."""
+    scene that was made in Python. views: others that its file has: a glTF file's cameras."""
 
     objects: tuple[SceneObject, ...]
     lights: tuple[PointLight | DirectionalLight, ...] = ()
@@ -247,6 +258,7 @@ class Scene:
     view: View = View(Camera.canonical(), fit=True)
     name: str = ""
     origin: Origin | None = None
+    views: tuple[NamedView, ...] = ()
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "objects", tuple(self.objects))

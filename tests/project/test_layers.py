@@ -34,6 +34,7 @@ FLOORS = (
     "renderer.images",
     "renderer.scene",
     "renderer.camera_formats",
+    "renderer.scene_export",
     "renderer.raster",
     "renderer.trace.compile",
     "renderer.trace.simd",

@@ -1,0 +1,54 @@
+"""`lucida export`: a scene and its camera for other renderers.
+
+Knows nothing of the targets' files (renderer/scene_export/).
+"""
+
+from __future__ import annotations
+
+import argparse
+
+from app.cameras.options import add_camera_options
+from app.commands import arguments as common
+from renderer.errors import one_line
+
+NAME = "export"
+
+DESCRIPTION = """\
+Write a scene, its materials, its lights and a camera for another renderer. What could not be
+carried over is listed, and stands in the file."""
+
+EPILOG = """\
+formats, by OUT's ending:
+  .xml    Mitsuba 3. Meshes are PLY files in the folder OUT_meshes beside it
+  .pbrt   pbrt-v4. The same
+  .glb    glTF 2.0, with KHR_lights_punctual and KHR_materials_specular
+
+examples:
+  lucida export spheres -o spheres.xml
+  lucida export bunny.obj -o bunny.pbrt --view corner.toml --size 640x480
+  lucida export still-life -o still-life.glb
+
+exit status: 0 written, 2 a mistake, or a camera that the format cannot hold; then nothing is
+written"""
+
+
+def configure(parser: argparse.ArgumentParser) -> None:
+    parser.description, parser.epilog = DESCRIPTION, EPILOG
+    parser.add_argument("scene", metavar="SCENE", help=common.SCENE_HELP)
+    parser.add_argument("-o", "--output", metavar="OUT", required=True, help="the file to write")
+    common.add_size_option(parser)
+    parser.add_argument("--view", metavar="VIEW.toml", help=common.VIEW_HELP)
+    add_camera_options(parser)
+
+
+def run(arguments: argparse.Namespace) -> int:
+    from renderer.scene_export import check_export_path, export_scene
+
+    check_export_path(arguments.output)
+    scene, camera = common.scene_and_camera(arguments)
+    left_out = export_scene(arguments.output, scene, camera, arguments.size)
+    lights = (len(scene.lights), "light")
+    print(f"{one_line(arguments.output)}: {common.counted((len(scene.objects), 'object'), lights)}")
+    for line in left_out:
+        print(f"  {line}")
+    return 0

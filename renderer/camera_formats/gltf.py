@@ -1,0 +1,134 @@
+"""The cameras of glTF files, .gltf and .glb, each at its node; and a .gltf of cameras alone.
+
+A glTF camera is centred and has no skew; it holds no size of an image.
+Source: Khronos, glTF 2.0 Specification, "Cameras".
+"""
+
+from __future__ import annotations
+
+import json
+import math
+from collections.abc import Sequence
+from dataclasses import replace
+from typing import Any
+
+import numpy as np
+
+from renderer.camera import Camera
+from renderer.camera_formats.given import Given, Options
+from renderer.camera_formats.posed import CameraSet, PosedCamera
+from renderer.camera_formats.rigid import rigid, sized
+from renderer.errors import LucidaError
+from renderer.scene.gltf_cameras import UNCLIPPED, gltf_camera
+from renderer.scene.gltf_file import parse_gltf
+from renderer.scene.gltf_nodes import placed_nodes
+from renderer.scene.limits import OBJECTS
+
+CENTRED = 1e-9  # of the viewport's size, by which its middle may miss
+# Where the camera clips nothing: of the viewport's distance, or of its height in parallel rays.
+NEAR, FAR = 1e-3, 1e3
+
+
+def recognises(given: Given) -> bool:
+    if given.data[:4] == b"glTF":
+        return True
+    tree = given.json
+    return isinstance(tree, dict) and "asset" in tree and ("cameras" in tree or "nodes" in tree)
+
+
+def read(given: Given, options: Options) -> CameraSet:
+    tree, _ = parse_gltf(given.data, given.name)
+    cameras: list[PosedCamera] = []
+    taken = ["y up, looking along -z", "znear and zfar clip"]
+    for placed in placed_nodes(tree):
+        if placed.node.camera is None:
+            continue
+        if len(cameras) == OBJECTS:
+            raise LucidaError("nodes", f"hold more than {OBJECTS} cameras", "split the file")
+        found = gltf_camera(tree, placed)
+        called = repr(found.name or len(cameras))
+        camera, fit = found.camera, not found.has_aspect
+        if fit and options.size is not None:
+            camera = _as_wide(camera, options.size[0] / options.size[1])
+        elif fit:
+            taken.append(
+                f"{called} has no aspectRatio: its yfov is that of an image wider than high"
+            )
+        if found.straightened:
+            taken.append(f"the node of {called} is {found.straightened}, its camera is not")
+        cameras.append(PosedCamera(camera, options.size, found.name, fit=fit))
+    return CameraSet("gltf", tuple(cameras), tuple(taken))
+
+
+def write(cameras: Sequence[PosedCamera], options: Options) -> dict[str, bytes]:
+    lenses, nodes = [], []
+    for number, posed in enumerate(cameras):
+        camera = rigid(sized(posed, options)[0], "gltf")
+        lenses.append(camera_table(camera, open_aspect=_is_open(posed, options)))
+        nodes.append({"name": posed.name, "camera": number, "matrix": node_matrix(camera)})
+        if not posed.name:
+            del nodes[-1]["name"]
+    tree = {
+        "asset": {"version": "2.0", "generator": "Lucida"},
+        "scene": 0,
+        "scenes": [{"nodes": list(range(len(nodes)))}],
+        "nodes": nodes,
+        "cameras": lenses,
+    }
+    return {"": (json.dumps(tree, indent=1, ensure_ascii=False) + "\n").encode()}
+
+
+def node_matrix(camera: Camera) -> list[float]:
+    """world_from_camera of a camera that is rigid, column by column, as glTF has matrices."""
+    matrix = np.eye(4)
+    matrix[:3, :3], matrix[:3, 3] = camera.basis, camera.eye
+    listed: list[float] = matrix.T.ravel().tolist()
+    return listed
+
+
+def camera_table(camera: Camera, open_aspect: bool = False) -> dict[str, Any]:
+    """An entry of a tree's cameras, for one that is rigid. open_aspect: as wide as the image.
+    Raises LucidaError for what is off the middle."""
+    left, right, bottom, top = camera.viewport
+    width, height = right - left, top - bottom
+    if abs(left + right) > CENTRED * width or abs(bottom + top) > CENTRED * height:
+        values = ", ".join(f"{edge:g}" for edge in camera.viewport)
+        raise LucidaError(
+            "viewport",
+            f"({values}) is off the middle, which gltf has not",
+            "centre it, or write opencv, colmap or pbrt",
+        )
+    reach = height if camera.is_parallel else camera.distance
+    clip = {
+        "znear": NEAR * reach if camera.near is None else camera.near,
+        "zfar": camera.far,
+    }
+    if camera.is_parallel:
+        clip["zfar"] = FAR * reach if camera.far is None else camera.far
+        table: dict[str, Any] = {
+            "type": "orthographic",
+            "orthographic": {"xmag": width / 2, "ymag": height / 2, **clip},
+        }
+    else:
+        fields: dict[str, Any] = {"yfov": 2 * math.atan2(height / 2, camera.distance), **clip}
+        if not open_aspect:
+            fields["aspectRatio"] = width / height
+        if camera.far is None:
+            del fields["zfar"]  # glTF's infinite projection
+        table = {"type": "perspective", "perspective": fields}
+    made = [name for name, given in (("znear", camera.near), ("zfar", camera.far)) if given is None]
+    if made:
+        table["extras"] = {UNCLIPPED: made}
+    return table
+
+
+def _is_open(posed: PosedCamera, options: Options) -> bool:
+    """Whether the file is to leave the aspect ratio to whoever draws it."""
+    left, right, bottom, top = posed.camera.viewport
+    return posed.fit and (posed.size or options.size) is None and right - left <= top - bottom
+
+
+def _as_wide(camera: Camera, aspect: float) -> Camera:
+    """The camera, whose viewport is square, in an image of this aspect ratio: yfov stays."""
+    _, _, bottom, top = camera.viewport
+    return replace(camera, viewport=(bottom * aspect, top * aspect, bottom, top))

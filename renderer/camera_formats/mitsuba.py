@@ -1,0 +1,122 @@
+"""A camera as a sensor of Mitsuba 3, in XML: alone, or for the scene that is written with it.
+
+Its camera looks along +z with y up and x to the left. `perspective` is rigid, with square pixels,
+and may be off the middle; `orthographic` takes any basis, in which the image is 2 wide.
+Only written. Source: Mitsuba 3's documentation, "Sensors".
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+
+import numpy as np
+
+from renderer.camera import Camera, Size
+from renderer.camera_formats.given import Options
+from renderer.camera_formats.posed import PosedCamera
+from renderer.camera_formats.rigid import centred, known_size, rigid, sized
+from renderer.errors import LucidaError
+
+SQUARE = 1e-6  # a pixel's width over its height, less 1, that is square up to rounding
+# Clip planes of cameras that have none: in viewport distances (parallel: its widths), or of the
+# distance of the scene's farthest point.
+NEAR, FAR = 1e-4, 1e6
+NEAR_OF_FARTHEST = 1e-5
+
+
+def write(cameras: Sequence[PosedCamera], options: Options) -> dict[str, bytes]:
+    lines = ['<?xml version="1.0" encoding="utf-8"?>', '<scene version="3.0.0">']
+    for posed in cameras:
+        camera, size = sized(posed, options)
+        lines += sensor_lines(camera, known_size(size, "mitsuba"))
+    return {"": "\n".join([*lines, "</scene>", ""]).encode()}
+
+
+def sensor_lines(camera: Camera, size: Size, farthest: float | None = None) -> list[str]:
+    """The sensor's XML, indented once. farthest: how far away the scene's last point is, in world
+    units, where that is known: for cameras that clip nothing. Raises LucidaError."""
+    kind, matrix, numbers = (
+        _orthographic(camera, size) if camera.is_parallel else _perspective(camera, size)
+    )
+    numbers |= _clip(camera, farthest)
+    width, height = size
+    return [
+        f'    <sensor type="{kind}">',
+        *(f'        <float name="{name}" value="{value!r}"/>' for name, value in numbers.items()),
+        *(['        <string name="fov_axis" value="x"/>'] if "fov" in numbers else []),
+        '        <transform name="to_world">',
+        f'            <matrix value="{values(matrix)}"/>',
+        "        </transform>",
+        '        <film type="hdrfilm">',
+        f'            <integer name="width" value="{width}"/>',
+        f'            <integer name="height" value="{height}"/>',
+        '            <rfilter type="box"/>',
+        "        </film>",
+        "    </sensor>",
+    ]
+
+
+def values(matrix: np.ndarray) -> str:
+    """A matrix's numbers, row by row, as Mitsuba's XML has them."""
+    return " ".join(map(repr, matrix.ravel().tolist()))
+
+
+Fields = tuple[str, np.ndarray, dict[str, float]]
+
+
+def _perspective(camera: Camera, size: Size) -> Fields:
+    camera = rigid(camera, "mitsuba")
+    left, right, bottom, top = camera.viewport
+    width, height = right - left, top - bottom
+    pixel = (width / size[0]) / (height / size[1])
+    if abs(pixel - 1) > SQUARE:
+        wanted = max(round(size[0] * height / width), 1)
+        raise LucidaError(
+            "viewport",
+            f"is {width:g} wide and {height:g} high in an image of {size[0]} x {size[1]}: pixels "
+            f"{pixel:g} times as wide as high, and mitsuba's are square",
+            f"give --size {size[0]}x{wanted} if that is its shape, or a view with fit = true",
+        )
+    numbers = {
+        "fov": math.degrees(2 * math.atan(width / 2 / camera.distance)),
+        # Of the image's width and height, towards the right and the lower edge.
+        "principal_point_offset_x": (left + right) / 2 / width,
+        "principal_point_offset_y": -(bottom + top) / 2 / height,
+    }
+    return "perspective", _to_world(camera, 1.0, 1.0), numbers
+
+
+def _orthographic(camera: Camera, size: Size) -> Fields:
+    camera = centred(camera)
+    _, right, _, top = camera.viewport
+    # The image is 2 wide, and as high as square pixels make it.
+    return "orthographic", _to_world(camera, right, top * size[0] / size[1]), {}
+
+
+def _to_world(camera: Camera, across: float, up: float) -> np.ndarray:
+    matrix = np.eye(4)
+    matrix[:3, 0] = -across * np.asarray(camera.u)
+    matrix[:3, 1] = up * np.asarray(camera.v)
+    matrix[:3, 2] = -np.asarray(camera.w) / np.linalg.norm(camera.w)
+    matrix[:3, 3] = camera.eye
+    return matrix
+
+
+def _clip(camera: Camera, farthest: float | None) -> dict[str, float]:
+    """Mitsuba always clips: where the camera does not, so near and so far that nothing is lost."""
+    unit = float(np.linalg.norm(camera.w))
+    left, right, _, _ = camera.viewport
+    reach = camera.distance * unit
+    if camera.is_parallel:
+        reach = (right - left) * float(np.linalg.norm(camera.u))
+    near, far = NEAR * reach, FAR * reach
+    if farthest is not None:
+        near, far = NEAR_OF_FARTHEST * farthest, 2 * farthest
+    if camera.far is not None:
+        far = camera.far * unit
+        near = min(near, far * NEAR_OF_FARTHEST)
+    if camera.near is not None:
+        near = camera.near * unit
+        far = far if camera.far is not None else max(far, near / NEAR_OF_FARTHEST)
+    return {"near_clip": near, "far_clip": far}

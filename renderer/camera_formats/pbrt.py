@@ -1,0 +1,61 @@
+"""A camera as pbrt-v4's scene files have it: film, transform, camera.
+
+Its camera looks along +z with x to the right and y up, in a space of any basis; the screen window
+is the viewport. So it holds every camera of ours but for clip planes.
+Only written. Source: pbrt-v4's documentation, "pbrt-v4 Input File Format".
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+
+import numpy as np
+
+from renderer.camera import Camera, Size
+from renderer.camera_formats.given import Options
+from renderer.camera_formats.posed import PosedCamera
+from renderer.camera_formats.rigid import known_size, sized
+from renderer.errors import LucidaError
+
+
+def write(cameras: Sequence[PosedCamera], options: Options) -> dict[str, bytes]:
+    if len(cameras) != 1:
+        problem = f"a scene of pbrt holds one camera, not {len(cameras)}"
+        raise LucidaError("", problem, "choose one with --frame or --image")
+    camera, size = sized(cameras[0], options)
+    lines = camera_lines(camera, known_size(size, "pbrt"))
+    return {"": ("\n".join(lines) + "\n").encode()}
+
+
+def camera_lines(camera: Camera, size: Size, picture: str = "lucida.exr") -> list[str]:
+    """The film and the camera, to stand before WorldBegin. picture: the file that pbrt is to
+    write. Raises LucidaError."""
+    for name in ("near", "far"):
+        if (value := getattr(camera, name)) is not None:
+            problem = f"{value:g} clips, and pbrt's cameras clip nothing"
+            raise LucidaError(name, problem, f"leave {name} out")
+    camera_from_world = np.eye(4)
+    basis = camera.basis * (1.0, 1.0, -1.0)
+    camera_from_world[:3, :3] = np.linalg.inv(basis)
+    camera_from_world[:3, 3] = -camera_from_world[:3, :3] @ np.asarray(camera.eye)
+    edges = np.array(camera.viewport)
+    if camera.is_parallel:
+        kind = '"orthographic"'
+    else:
+        kind = '"perspective" "float fov" [ 90 ]'  # the screen window lies at 1
+        edges = edges / camera.distance
+    return [
+        f'Film "rgb" "integer xresolution" [ {size[0]} ] "integer yresolution" [ {size[1]} ] '
+        f'"string filename" [ "{picture}" ]',
+        f"Transform [ {listed_by_columns(camera_from_world)} ]",
+        f'Camera {kind} "float screenwindow" [ {numbers(edges)} ]',
+    ]
+
+
+def listed_by_columns(matrix: np.ndarray) -> str:
+    """A matrix's numbers in pbrt's order."""
+    return numbers(matrix.T.ravel())
+
+
+def numbers(values: Iterable[float]) -> str:
+    return " ".join(repr(float(value)) for value in values)

@@ -1,0 +1,164 @@
+"""The cameras of a glTF tree, at their nodes.
+
+Owns what a glTF camera's numbers mean. A node's scale moves its cameras and does not change them:
+the format says that they have none.
+Source: Khronos, glTF 2.0 Specification, "Cameras".
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable
+from dataclasses import dataclass, replace
+from typing import Any
+
+import msgspec
+import numpy as np
+from numpy.typing import NDArray
+
+from renderer.camera import Camera
+from renderer.camera_checks import volume
+from renderer.errors import LucidaError
+from renderer.scene.gltf_file import Gltf, entry_at, invalid
+from renderer.scene.gltf_nodes import PlacedNode
+from renderer.scene.limits import OBJECTS
+from renderer.scene.model import NamedView, View
+
+# In a camera's extras: the names of clip planes that are written because the format needs a number.
+UNCLIPPED = "lucida_unclipped"
+SKEWED = 1e-5  # a cosine between the axes from which on a node's own skew is told
+
+
+class PerspectiveFields(msgspec.Struct):
+    yfov: float
+    znear: float
+    zfar: float | None = None
+    aspect_ratio: float | None = msgspec.field(default=None, name="aspectRatio")
+
+
+class OrthographicFields(msgspec.Struct):
+    xmag: float
+    ymag: float
+    znear: float
+    zfar: float
+
+
+class GltfCamera(msgspec.Struct):
+    type: str
+    name: str = ""
+    perspective: PerspectiveFields | None = None
+    orthographic: OrthographicFields | None = None
+    extras: Any = None
+
+
+@dataclass(frozen=True)
+class FoundCamera:
+    """has_aspect: whether the viewport has the file's own aspect ratio; else it is 1. straightened:
+    what of its node's transform a camera has not, "" for nothing."""
+
+    name: str
+    camera: Camera
+    has_aspect: bool
+    straightened: str
+
+
+def camera_views(tree: Gltf, nodes: Iterable[PlacedNode]) -> tuple[NamedView, ...]:
+    """The views of all cameras that are sound, each fitted to the image, whatever its shape: for a
+    model, which is not refused for its cameras."""
+    views: list[NamedView] = []
+    for placed in nodes:
+        if placed.node.camera is not None and len(views) < OBJECTS:
+            try:
+                found = gltf_camera(tree, placed)
+            except LucidaError:
+                continue
+            name = found.name or f"camera {len(views) + 1}"
+            views.append(NamedView(name, View(found.camera, fit=True)))
+    return tuple(views)
+
+
+def gltf_camera(tree: Gltf, placed: PlacedNode) -> FoundCamera:
+    """The camera of a node that has one. Raises LucidaError naming the field."""
+    number, cameras = placed.node.camera, tree.cameras
+    if not isinstance(number, int) or isinstance(number, bool) or number < 0:
+        problem = f"{number!r}"[:40] + " is not a camera's number"
+        raise LucidaError(f"{placed.field}.camera", problem, "export it again")
+    field = f"cameras[{number}]"
+    given = entry_at(cameras if isinstance(cameras, list) else [], number, f"{placed.field}.camera")
+    try:
+        fields = msgspec.convert(given, GltfCamera)
+    except msgspec.ValidationError as error:
+        raise invalid(error).within(field) from None
+    eye, (u, v, w), straightened = _pose(placed)
+    name = placed.node.name or fields.name
+    try:
+        lens, has_aspect = _lens(fields)
+        camera = Camera(eye=eye, u=u, v=v, w=w, **lens).orthonormalized()
+    except LucidaError as error:
+        raise error.within(field) from None
+    return FoundCamera(name, _unclipped(camera, fields.extras), has_aspect, straightened)
+
+
+def _lens(fields: GltfCamera) -> tuple[dict[str, Any], bool]:
+    """The camera's numbers but for its pose, and whether the aspect ratio is the file's."""
+    if fields.type == "perspective" and (seen := fields.perspective) is not None:
+        if not 0 < seen.yfov < math.pi:
+            problem = f"{seen.yfov:g} is not between 0 and pi"
+            raise LucidaError("perspective.yfov", problem, "give radians")
+        aspect = _positive("perspective.aspectRatio", seen.aspect_ratio)
+        half = (aspect or 1.0) / 2
+        lens: dict[str, Any] = {
+            "distance": 0.5 / math.tan(seen.yfov / 2),
+            "viewport": (-half, half, -0.5, 0.5),
+            "near": _positive("perspective.znear", seen.znear),
+            "far": _positive("perspective.zfar", seen.zfar),
+        }
+        return lens, aspect is not None
+    if fields.type == "orthographic" and (box := fields.orthographic) is not None:
+        x, y = _positive("orthographic.xmag", box.xmag), _positive("orthographic.ymag", box.ymag)
+        assert x is not None and y is not None
+        lens = {
+            "viewport": (-x, x, -y, y),
+            "projection": "parallel",
+            # 0 is the eye's own plane, where rays begin.
+            "near": _positive("orthographic.znear", box.znear or None),
+            "far": _positive("orthographic.zfar", box.zfar),
+        }
+        return lens, True
+    problem = f"{fields.type[:20]!r} is neither perspective nor orthographic, or its numbers lack"
+    raise LucidaError("type", problem, "export it again")
+
+
+def _positive(field: str, value: float | None) -> float | None:
+    if value is not None and not value > 0:
+        raise LucidaError(field, f"{value:g} is not above 0", "export it again")
+    return value
+
+
+def _unclipped(camera: Camera, extras: Any) -> Camera:
+    """Without the clip planes that were written only because the format needs them."""
+    names = extras.get(UNCLIPPED) if isinstance(extras, dict) else None
+    if not isinstance(names, list):
+        return camera
+    return replace(
+        camera,
+        near=None if "znear" in names else camera.near,
+        far=None if "zfar" in names else camera.far,
+    )
+
+
+def _pose(placed: PlacedNode) -> tuple[Any, NDArray[np.float64], str]:
+    """The eye, the directions u, v, w at unit length, right-handed, and what was left out for that:
+    the axes of a node that is scaled, mirrored or skewed are no camera's."""
+    linear = placed.matrix[:3, :3]
+    lengths = np.linalg.norm(linear, axis=0)
+    if not (np.isfinite(placed.matrix).all() and (lengths > 1e-12).all()):
+        problem = "is scaled to nothing, or beyond all numbers, and holds a camera"
+        raise LucidaError(placed.field, problem, "give it a scale other than 0")
+    axes = (linear / lengths).T
+    mirrored = volume(*axes) < 0
+    if mirrored:
+        axes[0] *= -1
+    skewed = np.abs(axes @ axes.T - np.eye(3)).max() > SKEWED
+    told = [word for word, is_so in (("mirrored", mirrored), ("skewed", skewed)) if is_so]
+    return placed.matrix[:3, 3].tolist(), axes, " and ".join(told)

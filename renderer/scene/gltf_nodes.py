@@ -1,0 +1,74 @@
+"""Where a glTF tree's nodes stand in the world.
+
+Knows nothing of what they hold.
+Source: Khronos, glTF 2.0 Specification.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from renderer.errors import LucidaError
+from renderer.scene.gltf_file import Gltf, Node, entry_at
+from renderer.scene.limits import NODE_DEPTH
+
+
+@dataclass(frozen=True, eq=False)
+class PlacedNode:
+    """matrix: float64 (4, 4), world_from_node. field: of the node, for errors."""
+
+    node: Node
+    matrix: NDArray[np.float64]
+    field: str
+
+
+def placed_nodes(tree: Gltf) -> Iterator[PlacedNode]:
+    """The nodes of the scene that hold something, depth first, in the file's order. Raises
+    LucidaError for what is no tree."""
+    if tree.scenes:
+        roots = entry_at(tree.scenes, tree.scene, "scene").nodes
+    else:
+        children = {child for node in tree.nodes for child in node.children}
+        roots = [number for number in range(len(tree.nodes)) if number not in children]
+    seen: set[int] = set()
+    stack = [(number, np.eye(4), 0) for number in reversed(roots)]
+    while stack:
+        number, parent, depth = stack.pop()
+        field = f"nodes[{number}]"
+        node = entry_at(tree.nodes, number, "nodes")
+        if number in seen:
+            raise LucidaError(
+                field, "has two parents, or is its own ancestor", "give each node one parent"
+            )
+        seen.add(number)
+        if depth > NODE_DEPTH:
+            raise LucidaError(field, f"is deeper than {NODE_DEPTH} levels", "flatten the tree")
+        with np.errstate(all="ignore"):
+            matrix = parent @ _node_matrix(node, field)
+        if node.mesh is not None or node.camera is not None:
+            yield PlacedNode(node, matrix, field)
+        stack += [(child, matrix, depth + 1) for child in reversed(node.children)]
+
+
+def _node_matrix(node: Node, field: str) -> NDArray[np.float64]:
+    """parent_from_node: `matrix` (column-major), or translation * rotation * scale."""
+    if node.matrix is not None:
+        if len(node.matrix) != 16:
+            raise LucidaError(f"{field}.matrix", "is not 16 numbers", "export it again")
+        matrix = np.array(node.matrix).reshape(4, 4).T
+        matrix[3] = 0, 0, 0, 1
+        return matrix
+    x, y, z, w = np.asarray(node.rotation) / (np.linalg.norm(node.rotation) or 1.0)
+    matrix = np.eye(4)
+    matrix[:3, :3] = [
+        [1 - 2 * (y * y + z * z), 2 * (x * y - z * w), 2 * (x * z + y * w)],
+        [2 * (x * y + z * w), 1 - 2 * (x * x + z * z), 2 * (y * z - x * w)],
+        [2 * (x * z - y * w), 2 * (y * z + x * w), 1 - 2 * (x * x + y * y)],
+    ]
+    matrix[:3, :3] *= node.scale
+    matrix[:3, 3] = node.translation
+    return matrix

@@ -1,0 +1,41 @@
+"""A checker on texture coordinates, for targets that have none in space.
+
+A solid checker's cells on a face that lies along two of the object's axes are squares of these two;
+which of the two colours comes first is the third's. Other faces have no such coordinates.
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+
+from renderer.scene.model import Checker
+from renderer.scene.normals import face_normals
+from renderer.scene_export.meshes import Triangles
+from renderer.shared_numbers import CELL_NUDGE
+
+ALONG = 1e-6  # a unit normal's length across its axis, up to which it lies along it
+
+
+def with_checker_uv(mesh: Triangles, checker: Checker) -> Triangles | None:
+    """The triangles with texture coordinates in which a checker's two cells make the unit: (0, 0)
+    to (1/2, 1/2) has the first colour. None where a face lies along no two axes."""
+    mesh = mesh.apart()
+    normals = face_normals(mesh.vertices, mesh.faces.astype(np.int64))
+    normals /= np.maximum(np.linalg.norm(normals, axis=1, keepdims=True), 1e-300)
+    axis = np.abs(normals).argmax(axis=1)
+    faces = np.arange(len(axis))
+    across = normals.copy()
+    across[faces, axis] = 0
+    if (np.abs(across) > ALONG).any():
+        return None
+    # The object's origin is in the middle of a cell; a face on a border takes the cell inside.
+    cells = mesh.vertices.reshape(-1, 3, 3).astype(float) / checker.size + 0.5
+    height = cells.mean(axis=1)[faces, axis] - CELL_NUDGE * normals[faces, axis]
+    others = np.array([[1, 2], [0, 2], [0, 1]])[axis]
+    uv = np.take_along_axis(cells, others[:, None, :].repeat(3, axis=1), axis=2)
+    uv[:, :, 0] += (np.floor(height) % 2)[:, None]
+    # The numbers stay small, whichever cells of an endless pattern they are.
+    uv -= 2 * np.floor(uv.min(axis=1, keepdims=True) / 2)
+    return replace(mesh, uv=(uv / 2).reshape(-1, 2).astype(np.float32))

@@ -1,0 +1,84 @@
+"""A scene into a file for other programs: which one, by the file's ending; written whole.
+
+Knows nothing of what the targets' files look like.
+"""
+
+from __future__ import annotations
+
+import contextlib
+from collections.abc import Callable, Iterator
+from pathlib import Path
+
+from renderer.atomic import atomic_write, check_writable
+from renderer.camera import Camera, Size
+from renderer.errors import LucidaError
+from renderer.scene.model import Scene
+from renderer.scene.reading import path_of
+from renderer.scene_export import gltf_scene, mitsuba_scene, pbrt_scene
+from renderer.scene_export.what import Exported, ExportSubject
+
+WRITERS: dict[str, Callable[[ExportSubject], Exported]] = {
+    ".xml": mitsuba_scene.write,
+    ".pbrt": pbrt_scene.write,
+    ".glb": gltf_scene.write,
+}
+ENDINGS = tuple(WRITERS)
+
+
+def check_export_path(path: str | Path) -> Path:
+    """The path; raises LucidaError where nothing can be written there, or of no known kind."""
+    target = path_of(path, "output")
+    if target.suffix.lower() not in WRITERS:
+        ending = target.suffix
+        problem = f"ends in {ending!r}" if ending else "has no ending"
+        raise LucidaError("", problem, f"give one of {' '.join(ENDINGS)}", str(path))
+    check_writable(target)
+    return target
+
+
+def export_scene(path: str | Path, scene: Scene, camera: Camera, size: Size) -> tuple[str, ...]:
+    """Writes a scene as a file of Mitsuba 3 (.xml), pbrt-v4 (.pbrt) or glTF (.glb), seen by a
+    camera in an image of `size`, (width, height).
+
+    Gives what could not be carried over, a line each. Meshes of .xml and .pbrt are PLY files in a
+    folder beside it, which are written first. Raises LucidaError for a camera that the target
+    cannot hold, and where nothing can be written; then nothing is.
+    """
+    target = check_export_path(path)
+    written = WRITERS[target.suffix.lower()](ExportSubject(scene, camera, size, target.stem))
+    with _undone_on_failure() as made:
+        for name, content in written.beside.items():
+            file = target.parent / name
+            _make_folder(file.parent, made)
+            is_new = not file.exists()
+            with atomic_write(file) as stream:
+                stream.write(content())
+            if is_new:
+                made.append(file)
+        with atomic_write(target) as stream:
+            stream.write(written.main)
+    return written.left_out
+
+
+def _make_folder(folder: Path, made: list[Path]) -> None:
+    if folder.is_dir():
+        return
+    try:
+        folder.mkdir()
+    except OSError as error:
+        problem = f"cannot be made: {(error.strerror or str(error)).lower()}"
+        raise LucidaError("", problem, "write elsewhere", str(folder)) from None
+    made.append(folder)
+
+
+@contextlib.contextmanager
+def _undone_on_failure() -> Iterator[list[Path]]:
+    """A list for what is made inside, which goes again where that ends with an exception."""
+    made: list[Path] = []
+    try:
+        yield made
+    except BaseException:
+        for path in reversed(made):
+            with contextlib.suppress(OSError):
+                path.rmdir() if path.is_dir() else path.unlink()
+        raise

@@ -1,0 +1,109 @@
+"""Materials and lights of physically based renderers that look like ours.
+
+Blinn and Phong's highlight, specular * (n . h)^p, becomes that of microfacets which is as wide and
+as bright in its middle: a roughness alpha with alpha^2 = 2 / (p + 2), whose highlight is
+F0 / (4 alpha^2) bright. Knows nothing of files.
+Source: Karis 2013, "Specular BRDF reference"; Walter et al. 2007, "Microfacet models".
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+
+from renderer.scene.flat import FlatScene
+from renderer.scene.model import Color, Material, PointLight, Scene
+from renderer.scene_export.what import LeftOut, called
+
+MOST_REFLECTED = 0.9  # of what meets a surface head on
+
+
+@dataclass(frozen=True)
+class Microfacets:
+    """alpha: the roughness, root mean square slope. f0: reflected head on, each 0 to 1."""
+
+    alpha: float
+    f0: Color
+
+    @property
+    def strongest(self) -> float:
+        return max(self.f0)
+
+    @property
+    def eta(self) -> float:
+        """The refractive index with the strongest colour's reflection."""
+        root = math.sqrt(self.strongest)
+        return (1 + root) / (1 - root)
+
+
+def microfacets(material: Material) -> Microfacets | None:
+    """What stands for the highlight; None for a material without one."""
+    if not any(material.specular):
+        return None
+    squared = 2 / (material.shininess + 2)
+    red, green, blue = (min(4 * squared * part, MOST_REFLECTED) for part in material.specular)
+    return Microfacets(math.sqrt(squared), (red, green, blue))
+
+
+def reflectance(color: Color, what: str, left: LeftOut) -> Color:
+    """A diffuse colour that reflects no more light than it gets."""
+    if max(color) > 1:
+        left.add(what, "its diffuse colour reflects more than all light; 1 was written")
+    red, green, blue = (min(part, 1.0) for part in color)
+    return red, green, blue
+
+
+def mean_of_checker(material: Material) -> Color:
+    """What a checker looks like from far away."""
+    if material.checker is None:
+        return material.diffuse
+    red, green, blue = (
+        (one + other) / 2
+        for one, other in zip(material.diffuse, material.checker.diffuse, strict=True)
+    )
+    return red, green, blue
+
+
+def light_strengths(scene: Scene, flat: FlatScene, left: LeftOut) -> list[Color]:
+    """Each light's strength in radiometric units: the irradiance of a directional one, the
+    intensity of a point, so that a diffuse surface is as bright as here; for a point, in the middle
+    of an object that is as far away as most are."""
+    middles = np.ones((len(scene.objects), 4))
+    middles[:, :3] = flat.object_bounds.mean(axis=1)
+    places = np.einsum("nij,nj->ni", flat.world_from_object, middles)[:, :3]
+    strengths = []
+    for number, light in enumerate(scene.lights):
+        factor = math.pi
+        if isinstance(light, PointLight):
+            distances = np.linalg.norm(places - np.asarray(light.position), axis=1)
+            away = float(np.median(distances)) if len(distances) else 1.0
+            factor *= away**2 or 1.0
+            left.add(
+                called("light", number, ""),
+                "its light falls off with the square of the distance there; it is as bright as "
+                f"here {away:.3g} units away",
+            )
+        red, green, blue = (factor * part for part in light.color)
+        strengths.append((red, green, blue))
+    return strengths
+
+
+def note_highlights(scene: Scene, left: LeftOut) -> None:
+    if any(any(entry.material.specular) for entry in scene.objects):
+        left.add(
+            "highlights",
+            "microfacets, as wide and as bright in the middle, stand for (n . h)^shininess",
+        )
+
+
+def note_surroundings(scene: Scene, left: LeftOut) -> None:
+    """For renderers whose light from all around is what is seen behind the scene."""
+    if any(scene.ambient):
+        left.add(
+            "ambient", "a constant light from all around, which surfaces also shade from each other"
+        )
+    if scene.background != scene.ambient:
+        behind = "the ambient light" if any(scene.ambient) else "black"
+        left.add("background", f"its colour would light the scene; {behind} is seen there")

@@ -1,0 +1,126 @@
+"""A scene as pbrt-v4 reads it, with meshes in PLY files.
+
+Source: pbrt-v4's documentation, "pbrt-v4 Input File Format".
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+
+import numpy as np
+
+from renderer.camera_formats.pbrt import camera_lines, listed_by_columns, numbers
+from renderer.scene.flat import FlatScene, flatten
+from renderer.scene.model import Color, DirectionalLight, Mesh, PointLight, SceneObject, Sphere
+from renderer.scene_export.beside import MeshFiles
+from renderer.scene_export.materials import (
+    light_strengths,
+    microfacets,
+    note_highlights,
+    note_surroundings,
+    reflectance,
+)
+from renderer.scene_export.what import Exported, ExportSubject, LeftOut, called
+
+SAMPLES = 64  # a pixel
+
+
+def write(subject: ExportSubject) -> Exported:
+    """Raises LucidaError for a camera that pbrt cannot hold."""
+    scene, left = subject.scene, LeftOut()
+    flat = flatten(scene)
+    camera = camera_lines(subject.camera, subject.size, _quotable(f"{subject.stem}.exr"))
+    files = MeshFiles(_quotable(subject.stem))
+    body: list[str] = []
+    for light, strength in zip(scene.lights, light_strengths(scene, flat, left), strict=True):
+        body.append(_light(light, strength))
+    if any(scene.ambient):
+        body.append(f'LightSource "infinite" "rgb L" [ {numbers(scene.ambient)} ]')
+    for number, entry in enumerate(scene.objects):
+        body += _object(number, entry, flat, files, left)
+    note_surroundings(scene, left)
+    note_highlights(scene, left)
+    told = ["Not as it is there:", *(f"  {line}" for line in left.lines)] if left.lines else []
+    lines = [
+        *(f"# {line}" for line in [f"{scene.name or 'A scene'}, written by Lucida", *told]),
+        *camera,
+        f'Sampler "independent" "integer pixelsamples" [ {SAMPLES} ]',
+        'PixelFilter "box"',
+        "# Light that comes straight from the lights, as there without mirrors.",
+        'Integrator "path" "integer maxdepth" [ 1 ]',
+        "WorldBegin",
+        *body,
+        "",
+    ]
+    return Exported("\n".join(lines).encode(), files.contents, left.lines)
+
+
+def _quotable(name: str) -> str:
+    """For a text in quotation marks, in which pbrt knows few escapes."""
+    return "".join("-" if sign in '"\\\n' else sign for sign in name)
+
+
+def _light(light: PointLight | DirectionalLight, strength: Color) -> str:
+    rgb = numbers(strength)
+    if isinstance(light, PointLight):
+        place = f'"point3 from" [ {numbers(light.position)} ]'
+        return f'LightSource "point" {place} "rgb I" [ {rgb} ]'
+    return (
+        f'LightSource "distant" "point3 from" [ 0 0 0 ] '
+        f'"point3 to" [ {numbers(light.direction)} ] "rgb L" [ {rgb} ]'
+    )
+
+
+def _object(
+    number: int, entry: SceneObject, flat: FlatScene, files: MeshFiles, left: LeftOut
+) -> list[str]:
+    shape, name = entry.shape, called("object", number, entry.name)
+    lines = ["AttributeBegin", *([f"    # {entry.name}"] if entry.name else [])]
+    lines += [f"    {line}" for line in _material(number, entry, name, flat, left)]
+    if isinstance(shape, Sphere):
+        place = np.eye(4)
+        place[:3, 3] = shape.center
+        kind = f'"sphere" "float radius" [ {shape.radius!r} ]'
+    else:
+        place = shape.transform
+        if shape.colors is not None:
+            left.add(f"vertex colours of {name}", "pbrt has none; their mean was written")
+        kind = f'"plymesh" "string filename" [ "{files.file_of(shape, entry.name)}" ]'
+    lines += [f"    Transform [ {listed_by_columns(place)} ]", f"    Shape {kind}", "AttributeEnd"]
+    return lines
+
+
+def _material(
+    number: int, entry: SceneObject, name: str, flat: FlatScene, left: LeftOut
+) -> list[str]:
+    material, shape = entry.material, entry.shape
+    tint: Iterable[float] = (1.0, 1.0, 1.0)
+    if isinstance(shape, Mesh) and shape.colors is not None:
+        tint = shape.colors.mean(axis=0).tolist()
+    diffuse = reflectance(_times(material.diffuse, tint), name, left)
+    colour, lines = f'"rgb reflectance" [ {numbers(diffuse)} ]', []
+    if material.checker is not None:
+        other = reflectance(_times(material.checker.diffuse, tint), name, left)
+        texture = f"checker-{number}"
+        world_from_cell = np.linalg.inv(np.vstack([flat.cells[number], (0, 0, 0, 1)]))
+        lines += [
+            f"Transform [ {listed_by_columns(world_from_cell)} ]",
+            f'Texture "{texture}" "spectrum" "checkerboard" "integer dimension" [ 3 ] '
+            f'"rgb tex1" [ {numbers(diffuse)} ] "rgb tex2" [ {numbers(other)} ]',
+        ]
+        colour = f'"texture reflectance" [ "{texture}" ]'
+    found = microfacets(material)
+    if found is None:
+        return [*lines, f'Material "diffuse" {colour}']
+    if max(found.f0) - min(found.f0) > 1e-3:
+        left.add(f"highlight of {name}", "pbrt's coats have no colour; its strongest was written")
+    return [
+        *lines,
+        f'Material "coateddiffuse" {colour} "float roughness" [ {found.alpha!r} ] '
+        f'"bool remaproughness" [ false ] "float eta" [ {found.eta!r} ]',
+    ]
+
+
+def _times(color: Color, tint: Iterable[float]) -> Color:
+    red, green, blue = (part * by for part, by in zip(color, tint, strict=True))
+    return red, green, blue

@@ -1,0 +1,55 @@
+"""`lucida export`: what it writes and says, and how it fails."""
+
+from __future__ import annotations
+
+import os
+from pathlib import Path
+
+import pytest
+
+from app.cli import main
+from renderer.scene import load_scene
+
+
+@pytest.fixture(autouse=True)
+def in_an_empty_folder(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+
+
+@pytest.mark.parametrize("ending", ["xml", "pbrt", "glb"])
+def test_a_scene_is_written_and_what_is_left_out_is_said(ending, capsys):
+    assert main(["export", "still-life", "-o", f"a.{ending}"]) == 0
+    told = capsys.readouterr()
+    first, *left_out = told.out.splitlines()
+    assert first == f"a.{ending}: 11 objects, 2 lights"
+    assert left_out and all(line.startswith("  ") for line in left_out)
+    assert not told.err
+    assert Path(f"a.{ending}").stat().st_size
+
+
+def test_an_old_file_is_replaced_as_by_render():
+    Path("a.glb").write_text("old")
+    assert main(["export", "spheres", "-o", "a.glb"]) == 0
+    assert len(load_scene("a.glb").objects) == 8
+
+
+def test_the_view_and_its_options_are_the_camera(capsys):
+    assert main(["export", "spheres", "-o", "a.pbrt", "--size", "64x32", "--eye", "1,2,9"]) == 0
+    text = Path("a.pbrt").read_text()
+    assert '"integer xresolution" [ 64 ] "integer yresolution" [ 32 ]' in text
+
+
+@pytest.mark.parametrize(
+    ("arguments", "told"),
+    [
+        (["-o", "a.obj"], "lucida: a.obj: ends in '.obj'; give one of .xml .pbrt .glb\n"),
+        (["-o", "no/a.xml"], "lucida: no/a.xml: folder "),
+        (["-o", "a.pbrt", "--near", "1"], "lucida: near: 1 clips, and pbrt's cameras clip nothing"),
+        (["-o", "a.glb", "--u=-1,0,0"], "lucida: "),
+    ],
+)
+def test_a_mistake_is_one_line_and_nothing_is_written(arguments, told, capsys):
+    assert main(["export", "spheres", *arguments]) == 2
+    error = capsys.readouterr().err
+    assert error.startswith(told) and error.count("\n") == 1
+    assert not os.listdir()

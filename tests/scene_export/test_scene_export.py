@@ -1,0 +1,258 @@
+"""Scenes written for other programs: what each file holds, and what it says it does not."""
+
+from __future__ import annotations
+
+import json
+import re
+from dataclasses import replace
+from pathlib import Path
+from xml.etree import ElementTree
+
+import numpy as np
+import pytest
+from scenes import crowd, placed
+
+from renderer.camera import Camera
+from renderer.camera_formats import read_cameras
+from renderer.errors import LucidaError
+from renderer.scene import BUILTIN_SCENES, Scene, load_scene, shapes
+from renderer.scene.model import Checker, DirectionalLight, Material, Mesh, SceneObject, Sphere
+from renderer.scene.readers import read_ply
+from renderer.scene_export import export_scene
+from renderer.scene_export.checkers import with_checker_uv
+from renderer.scene_export.meshes import triangles, unit_sphere
+from renderer.trace import Tracer
+
+SIZE = (96, 54)
+CAMERA = Camera.look_at((3, 2, 6), (0, 0, 0), fov_y_deg=40, aspect=SIZE[0] / SIZE[1])
+
+
+def exported(scene: Scene, path: Path, camera: Camera = CAMERA) -> tuple[str, ...]:
+    return export_scene(path, scene, camera, SIZE)
+
+
+def scene_of(*shapes_: object, **material: object) -> Scene:
+    return Scene(
+        tuple(SceneObject(s, Material(**material), f"o{i}") for i, s in enumerate(shapes_))
+    )
+
+
+def files_in(folder: Path) -> set[str]:
+    return {path.relative_to(folder).as_posix() for path in folder.rglob("*") if path.is_file()}
+
+
+# glTF, which is read back.
+
+
+@pytest.mark.parametrize("name", BUILTIN_SCENES)
+def test_a_glb_read_again_has_the_same_meshes_where_they_were(name: str, tmp_path: Path):
+    scene = load_scene(name)
+    camera = scene.view.for_size(SIZE)
+    exported(scene, tmp_path / "a.glb", camera)
+    again = load_scene(tmp_path / "a.glb")
+    assert [entry.name for entry in again.objects] == [entry.name for entry in scene.objects]
+    meshes = {n for n, entry in enumerate(scene.objects) if isinstance(entry.shape, Mesh)}
+    (posed,) = read_cameras(tmp_path / "a.glb").cameras
+    with Tracer(scene, threads=1) as tracer:
+        before = tracer.render(camera, SIZE, ("depth", "id"))
+        tracer.set_scene(again)
+        after = tracer.render(posed.camera, SIZE, ("depth", "id"))
+    # A sphere of many triangles may end a pixel earlier.
+    assert (before.id != after.id).mean() < 0.004
+    seen = (before.id == after.id) & np.isin(before.id, list(meshes))
+    ratio = posed.camera.distance / camera.distance
+    np.testing.assert_allclose(after.depth[seen] * ratio, before.depth[seen], rtol=1e-5)
+    for mine, other in zip(scene.objects, again.objects, strict=True):
+        color = mine.material.diffuse
+        if mine.material.checker is None:
+            assert other.material.diffuse == pytest.approx(color)
+
+
+def test_a_glb_holds_lights_camera_and_what_is_left_out(tmp_path: Path):
+    scene = crowd()
+    told = exported(scene, tmp_path / "a.glb")
+    data = (tmp_path / "a.glb").read_bytes()
+    tree = json.loads(data[20 : 20 + int.from_bytes(data[12:16], "little")])
+    assert tree["asset"]["extras"]["not_carried_over"] == list(told)
+    kinds = [light["type"] for light in tree["extensions"]["KHR_lights_punctual"]["lights"]]
+    assert kinds == ["point", "directional"]
+    shines = next(n for n in tree["nodes"] if n.get("name") == "light 1")["matrix"][8:11]
+    light = scene.lights[1]
+    assert isinstance(light, DirectionalLight)
+    wanted = -np.asarray(light.direction) / np.linalg.norm(light.direction)
+    np.testing.assert_allclose(shines, wanted, atol=1e-12)
+    assert int.from_bytes(data[8:12], "little") == len(data) and len(data) % 4 == 0
+    assert any(line.startswith("spheres: ") for line in told)
+    assert any(line.startswith("checker of object 0: ") for line in told)
+
+
+def test_trimesh_finds_a_glb_s_parts(tmp_path: Path):
+    trimesh = pytest.importorskip("trimesh")
+    scene = load_scene("still-life")
+    exported(scene, tmp_path / "a.glb", scene.view.for_size(SIZE))
+    found = trimesh.load(tmp_path / "a.glb", force="scene")
+    assert len(found.graph.nodes_geometry) == len(scene.objects)
+    assert found.has_camera
+
+
+def test_a_skewed_mesh_stays_where_it_is(tmp_path: Path):
+    skew = np.eye(4)
+    skew[0, 1], skew[:3, 3] = 0.5, (1, 2, 3)
+    for transform in (skew, skew @ np.diag([-1.0, 1, 1, 1])):
+        mesh = replace(shapes.torus(), transform=transform)
+        exported(scene_of(mesh), tmp_path / "a.glb")
+        (entry,) = load_scene(tmp_path / "a.glb").objects
+        assert isinstance(entry.shape, Mesh)
+        before, after = (
+            m.vertices[m.faces] @ m.transform[:3, :3].T + m.transform[:3, 3]
+            for m in (triangles_of(mesh), entry.shape)
+        )
+        turned = np.linalg.det(transform[:3, :3]) < 0
+        np.testing.assert_allclose(after, before[:, ::-1] if turned else before, atol=1e-5)
+
+
+def triangles_of(mesh: Mesh) -> Mesh:
+    found = triangles(mesh)
+    return replace(mesh, vertices=found.vertices, faces=found.faces, normals=found.normals)
+
+
+def test_an_empty_scene_can_be_written(tmp_path: Path):
+    for ending in ("glb", "xml", "pbrt"):
+        exported(Scene(()), tmp_path / f"a.{ending}")
+    assert files_in(tmp_path) == {"a.glb", "a.xml", "a.pbrt"}
+
+
+# Mitsuba and pbrt.
+
+
+def test_mitsuba_s_file_names_each_mesh_once(tmp_path: Path):
+    box = shapes.box()
+    scene = scene_of(placed(box, 0, 0, 0), placed(box, 2, 0, 0), Sphere())
+    exported(scene, tmp_path / "two.xml")
+    assert files_in(tmp_path) == {"two.xml", "two_meshes/0-o0.ply"}
+    root = ElementTree.parse(tmp_path / "two.xml").getroot()
+    kinds = [shape.get("type") for shape in root.findall("shape")]
+    assert kinds == ["ply", "ply", "sphere"]
+    (part,) = read_ply(tmp_path / "two_meshes/0-o0.ply")
+    np.testing.assert_array_equal(np.asarray(part.vertices, np.float32), box.vertices)
+
+
+def test_names_break_no_comment_and_no_quotation(tmp_path: Path):
+    odd = SceneObject(shapes.box(), Material(checker=Checker()), '--"<&> -- \\ name-')
+    for ending in ("xml", "pbrt"):
+        exported(Scene((odd,), name="-->"), tmp_path / f'a"b & c.{ending}')
+    ElementTree.parse(tmp_path / 'a"b & c.xml')
+    text = (tmp_path / 'a"b & c.pbrt').read_text()
+    for line in text.splitlines():
+        assert line.lstrip().startswith("#") or line.count('"') % 2 == 0
+    (named,) = re.findall(r'"string filename" \[ "(.*ply)" \]', text)
+    assert (tmp_path / named).is_file()
+
+
+def test_the_list_stands_in_the_files(tmp_path: Path):
+    for ending in ("xml", "pbrt"):
+        told = exported(crowd(), tmp_path / f"a.{ending}")
+        text = (tmp_path / f"a.{ending}").read_text()
+        assert told and all(line in text for line in told)
+
+
+def test_checkers_of_solids_are_pbrt_s_own_and_mitsuba_s_where_faces_are_flat(tmp_path: Path):
+    scene = scene_of(shapes.rectangle(4, 4), Sphere(), checker=Checker())
+    told = exported(scene, tmp_path / "a.xml")
+    assert [line for line in told if line.startswith("checker")] == [
+        next(line for line in told if line.startswith("checker of 'o1': mitsuba"))
+    ]
+    assert "checkerboard" in (tmp_path / "a.xml").read_text()
+    told = exported(scene, tmp_path / "a.pbrt")
+    assert not [line for line in told if line.startswith("checker")]
+    assert (tmp_path / "a.pbrt").read_text().count('"integer dimension" [ 3 ]') == 2
+
+
+def test_a_checker_s_coordinates_are_the_solid_checker_s_cells():
+    box = shapes.box((3, 2, 1))
+    for size in (0.37, 1.0):
+        found = with_checker_uv(triangles(box), Checker(size=size))
+        assert found is not None and found.uv is not None
+        rng = np.random.default_rng(1)
+        weights = rng.dirichlet((1, 1, 1), 200)
+        corners, uv = found.vertices.reshape(-1, 3, 3), found.uv.reshape(-1, 3, 2)
+        for face, coordinates in zip(corners, uv, strict=True):
+            normal = np.cross(face[1] - face[0], face[2] - face[0])
+            inside = weights @ face - 1e-3 * size * normal / np.linalg.norm(normal)
+            solid = np.floor(inside / size + 0.5).sum(axis=1) % 2
+            cells = weights @ coordinates % 1 > 0.5
+            clear = np.abs(weights @ face / size + 0.5 - np.round(weights @ face / size + 0.5))
+            sound = np.sort(clear, axis=1)[:, 1] > 1e-3
+            np.testing.assert_array_equal((cells[:, 0] != cells[:, 1])[sound], solid[sound] == 1)
+    assert with_checker_uv(triangles(shapes.cone()), Checker()) is None
+
+
+# Meshes.
+
+
+def test_flat_faces_among_smooth_ones_get_their_own_normals():
+    vertices = np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0], [1, 1, 0]], np.float32)
+    normals = np.array([[0, 0, 1], [0, 0.6, 0.8], [0, 0, 1], [0, 0, 0]], np.float32)
+    found = triangles(Mesh(vertices, np.array([[0, 1, 2], [1, 3, 2]]), normals))
+    assert found.normals is not None
+    np.testing.assert_array_equal(found.normals[:3], normals[:3])
+    np.testing.assert_allclose(found.normals[3:], [[0, 0, 1]] * 3)
+    turned = triangles(Mesh(vertices[:3], np.array([[2, 1, 0]]), normals[:3]))
+    np.testing.assert_array_equal(turned.faces, [[0, 1, 2]])
+
+
+def test_the_sphere_of_triangles_is_closed_and_faces_outward():
+    sphere = unit_sphere(8)
+    edges = np.sort(sphere.faces[:, [0, 1, 1, 2, 2, 0]].reshape(-1, 2), axis=1)
+    _, counts = np.unique(edges, axis=0, return_counts=True)
+    assert (counts == 2).all()
+    corners = sphere.vertices[sphere.faces]
+    outward = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+    assert (np.einsum("ij,ij->i", outward, corners.mean(axis=1)) > 0).all()
+
+
+# What cannot be written.
+
+
+@pytest.mark.parametrize(
+    ("ending", "change", "field"),
+    [
+        ("glb", {"viewport": (-0.5, 0.7, -0.5, 0.5)}, "viewport"),
+        ("glb", {"u": (-1.0, 0.0, 0.0)}, "u"),
+        ("xml", {"v": (0.1, 1.0, 0.0)}, "v"),
+        ("xml", {"viewport": (-0.5, 0.5, -0.5, 0.5)}, "viewport"),
+        ("pbrt", {"near": 0.1}, "near"),
+        ("pbrt", {"far": 5.0}, "far"),
+    ],
+)
+def test_a_camera_that_does_not_fit_leaves_nothing(ending, change, field, tmp_path: Path):
+    scene = load_scene("still-life")
+    with pytest.raises(LucidaError) as caught:
+        exported(scene, tmp_path / f"a.{ending}", replace(Camera.canonical(), **change))
+    assert caught.value.field == field and caught.value.remedy
+    assert not list(tmp_path.iterdir())
+
+
+def test_what_is_made_goes_again_where_the_end_fails(tmp_path: Path, monkeypatch):
+    scene = load_scene("still-life")
+
+    def broken(*_: object) -> bytes:
+        raise LucidaError("", "no room")
+
+    monkeypatch.setattr("renderer.scene_export.beside.ply_bytes", broken)
+    with pytest.raises(LucidaError):
+        exported(scene, tmp_path / "a.xml", scene.view.for_size(SIZE))
+    assert not list(tmp_path.iterdir())
+
+
+def test_other_endings_are_told(tmp_path: Path):
+    for name, told in (("a.obj", r"ends in '\.obj'; give one of \.xml"), ("a", "has no ending")):
+        with pytest.raises(LucidaError, match=told):
+            exported(Scene(()), tmp_path / name)
+
+
+def test_a_file_in_the_meshes_way_is_told(tmp_path: Path):
+    (tmp_path / "a_meshes").write_text("mine")
+    with pytest.raises(LucidaError, match="cannot be made: file exists"):
+        exported(scene_of(shapes.box()), tmp_path / "a.xml")
+    assert files_in(tmp_path) == {"a_meshes"}
