@@ -43,6 +43,7 @@ examples:
   lucida spheres --view corner.toml       a built-in scene, seen by another camera
   lucida spheres --eye=0,2,6              the scene's own camera, moved
   lucida rays.py                          your own viewing_ray, its picture beside the right one
+  lucida transforms.json                  the cameras of a data set, or of a COLMAP model's folder
   lucida --screenshot window.png          draw the window once, save it, leave
 
 With no display, lucida draws the window once, saves the picture and says where.
@@ -79,6 +80,7 @@ def window_size(text: str) -> tuple[int, int]:
 
 def run(arguments: argparse.Namespace) -> int:
     from app.commands.arguments import check_is_scene
+    from app.poses.reading import is_cameras, open_cameras
     from renderer.images import check_image_path
 
     screenshot = None
@@ -86,10 +88,12 @@ def run(arguments: argparse.Namespace) -> int:
         check_image_path(arguments.screenshot, (".png",))
         screenshot = Path(arguments.screenshot)
     any_camera = any(getattr(arguments, name) is not None for name in CAMERA_OPTIONS)
-    code = ""
+    code, cameras = "", None
     source: str | None = arguments.scene
     if source is not None and is_code(source):
         code, source = found_code(source), None
+    elif source is not None and is_cameras(source):
+        cameras, source = open_cameras(source), None
     elif source is not None:
         check_is_scene(source)
     from app.window.viewer import run_viewer  # after the quick mistakes: it loads the whole window
@@ -102,4 +106,5 @@ def run(arguments: argparse.Namespace) -> int:
         change=(lambda view: with_camera_options(arguments, view)) if any_camera else None,
         fresh=arguments.fresh,
         code=code,
+        cameras=cameras,
     )
