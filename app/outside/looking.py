@@ -1,8 +1,8 @@
 """How the outside view looks: which camera it looks with, how far there is to see, how wide lines
 are.
 
-Owns the camera that sees everything and those along the world's axes. Knows nothing of the mouse
-and of what is drawn.
+Owns the camera that sees everything and those along the world's axes, and whose ray is drawn. Knows
+nothing of the mouse and of how things are drawn.
 """
 
 from __future__ import annotations
@@ -16,6 +16,7 @@ from app.outside.extent import around, framed, outside_camera, way_of
 from app.outside.mouse import Scope
 from app.outside.options import OutsideOptions
 from app.outside.screen import NEAREST, OutsideScreen
+from app.state.options import Pixel
 from app.widgets import theme
 from app.widgets.theme import framebuffer_scale
 from renderer.camera import Camera
@@ -79,6 +80,17 @@ def widest_px(screen: OutsideScreen, corners: Floats) -> float:
 def margin_for(side: float, room: float) -> float:
     """A side of the view in that of what it must hold, with room on both ends."""
     return min(max(side / max(side - 2 * room, 1.0), 1.0), 1.6)
+
+
+def ray_pixel(host: Host) -> Pixel | None:
+    """The pixel whose ray is drawn: the marked one, else the one under the mouse."""
+    pixel = host.state.marked
+    if pixel is None and host.hovered is not None:
+        pixel = host.hovered[1]
+    width, height = host.renderers.size
+    if pixel is None or not (0 <= pixel[0] < height and 0 <= pixel[1] < width):
+        return None
+    return pixel
 
 
 def _points(host: Host, more: Floats) -> Floats:

@@ -37,6 +37,7 @@ from app.outside.looking import (
     camera_along,
     camera_for_all,
     nearest,
+    ray_pixel,
     scope_of,
     units_px,
     widest_px,
@@ -397,14 +398,3 @@ def _ground(state: AppState) -> theme.Rgb:
 def with_outside(state: AppState, options: OutsideOptions) -> AppState:
     """The state with other options of this view."""
     return state.with_options(outside=options)
-
-
-def ray_pixel(host: Host) -> Pixel | None:
-    """The pixel whose ray is drawn: the marked one, else the one under the mouse."""
-    pixel = host.state.marked
-    if pixel is None and host.hovered is not None:
-        pixel = host.hovered[1]
-    width, height = host.renderers.size
-    if pixel is None or not (0 <= pixel[0] < height and 0 <= pixel[1] < width):
-        return None
-    return pixel

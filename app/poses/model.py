@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from os.path import commonprefix
 from pathlib import Path
 
 import numpy as np
@@ -30,7 +31,7 @@ SEED = 7  # of the order in which points are drawn
 PLAIN = 150  # gray of points without colours
 NO_POINTS = (np.zeros((0, 3), np.float32), np.zeros((0, 3), np.uint8))
 # A frustum's length, in parts of how far the cameras reach: less where there are many.
-SHORTEST, LONGEST, FOR_ONE = 0.03, 0.15, 0.6
+SHORTEST, LONGEST, FOR_ONE = 0.03, 0.2, 0.9
 
 
 @dataclass(frozen=True, eq=False)
@@ -109,7 +110,7 @@ def pose_set(path: Path, found: CameraSet) -> PoseSet:
         path,
         found.format,
         found.cameras,
-        tuple(_name(posed, number) for number, posed in enumerate(found.cameras)),
+        _names(found.cameras),
         origins,
         ways,
         (points - (low + high) / 2).astype(np.float32),
@@ -134,8 +135,12 @@ def _corners(camera: Camera) -> tuple[Floats, Floats]:
     return origins, ways / np.linalg.norm(ways, axis=1).mean()
 
 
-def _name(posed: PosedCamera, number: int) -> str:
-    return posed.name or posed.image or str(number)
+def _names(cameras: Sequence[PosedCamera]) -> tuple[str, ...]:
+    """Without the folder that all of them are in; those without a name have their numbers."""
+    names = [posed.name or posed.image or str(n) for n, posed in enumerate(cameras)]
+    folder = commonprefix(names)
+    start = folder.rfind("/") + 1
+    return tuple(name[start:] for name in names)
 
 
 def _lens(cameras: Sequence[PosedCamera]) -> tuple[str, ...]:

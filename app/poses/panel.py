@@ -28,8 +28,8 @@ INVITATION = (
     " or a COLMAP model's folder, such as sparse/0. Each becomes a frustum in the outside view."
 )
 SHOWN_AFTER_S = 0.4
-BESIDE = 1.6  # width / height of the room from which the photograph stands beside the list
-PHOTO_PART = 0.55  # of the room's width beside the list
+BESIDE = 1.2  # width / height of the room from which the photograph stands beside the list
+PHOTO_PART = 0.52  # of the room's width beside the list
 BELOW_PART = 0.45  # of its height, below it
 
 

@@ -8,8 +8,6 @@ from numpy.typing import NDArray
 from app.outside.screen import OutsideScreen
 from app.poses.model import LINES, PoseSet, frusta
 
-Floats = NDArray[np.float64]
-
 REACH_PX = 7.0  # from a line, in units of symbols
 AS_NEAR_PX = 1.5  # of two frusta whose lines are as near, the one in front
 
