@@ -7,7 +7,6 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from os.path import commonprefix
 from pathlib import Path
 
 import numpy as np
@@ -138,8 +137,10 @@ def _corners(camera: Camera) -> tuple[Floats, Floats]:
 def _names(cameras: Sequence[PosedCamera]) -> tuple[str, ...]:
     """Without the folder that all of them are in; those without a name have their numbers."""
     names = [posed.name or posed.image or str(n) for n, posed in enumerate(cameras)]
-    folder = commonprefix(names)
-    start = folder.rfind("/") + 1
+    first, last = min(names), max(names)  # what these share, all do
+    pairs = enumerate(zip(first, last, strict=False))
+    shared = next((place for place, (one, other) in pairs if one != other), len(first))
+    start = first.rfind("/", 0, shared) + 1
     return tuple(name[start:] for name in names)
 
 
