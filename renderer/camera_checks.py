@@ -41,6 +41,8 @@ def cross(a: Sequence[float], b: Sequence[float]) -> Vector:
 def number(name: str, value: object) -> float:
     try:
         number = float(value)  # type: ignore[arg-type]
+    except OverflowError:  # a whole number of hundreds of digits
+        number = math.inf
     except (TypeError, ValueError):
         raise LucidaError(name, f"{value!r} is not a number", "give a finite number") from None
     if not math.isfinite(number):

@@ -16,13 +16,13 @@ from typing import Any, Literal, NamedTuple, get_args
 import numpy as np
 from numpy.typing import ArrayLike
 
-from renderer.camera_checks import Floats, listed
+from renderer.camera_checks import LARGEST, Floats, listed
 from renderer.errors import LucidaError
 
 PixelOrigin = Literal["center", "corner"]
 Axes = Literal["opencv", "opengl"]
 
-_OFFSET = {"center": 0.5, "corner": 0.0}  # from an integer to the corner of the image's first pixel
+_OFFSET = {"center": 0.5, "corner": 0.0}
 _FLIP = np.diag([1.0, -1.0, -1.0])  # between y down, z forward and y up, z back
 
 
@@ -34,6 +34,7 @@ class Intrinsics(NamedTuple):
     t: Floats
 
 
+@np.errstate(all="ignore")  # what overflows is no camera, which its own checks tell
 def camera_fields(
     K: ArrayLike,
     camera_from_world: ArrayLike,
@@ -48,7 +49,7 @@ def camera_fields(
     """
     k = matrix("K", K, (3, 3))
     pose = matrix("camera_from_world", camera_from_world, (3, 4), (4, 4))
-    offset = _offset(pixel_origin)
+    offset = pixel_offset(pixel_origin)
     if axes not in get_args(Axes):
         raise LucidaError(
             "axes", f"{axes!r} is unknown", f"give one of {', '.join(get_args(Axes))}"
@@ -86,7 +87,7 @@ def decomposed(pixel_to_direction: Floats, eye: ArrayLike, pixel_origin: str) ->
     K's diagonal is positive, but for K[0, 0] of a mirrored image.
     """
     from_corner = np.array(
-        [[1, 0, _offset(pixel_origin)], [0, 1, _offset(pixel_origin)], [0, 0, 1]]
+        [[1, 0, pixel_offset(pixel_origin)], [0, 1, pixel_offset(pixel_origin)], [0, 0, 1]]
     )
     m = np.linalg.inv(pixel_to_direction @ from_corner)
     # RQ by QR of the rows backwards: m = upper triangular times orthogonal.
@@ -99,6 +100,7 @@ def decomposed(pixel_to_direction: Floats, eye: ArrayLike, pixel_origin: str) ->
     return Intrinsics(k / k[2, 2], rotation, -rotation @ np.asarray(eye, float))
 
 
+@np.errstate(all="ignore")
 def as_camera_from_world(world_from_camera: ArrayLike) -> Floats:
     """The inverse of a pose, (4, 4). Raises LucidaError."""
     pose = np.eye(4)
@@ -114,18 +116,25 @@ def as_camera_from_world(world_from_camera: ArrayLike) -> Floats:
 def matrix(name: str, value: ArrayLike, *shapes: tuple[int, ...]) -> Floats:
     """A matrix of finite numbers, of one of these shapes. Raises LucidaError naming it."""
     try:
-        found: Floats = np.asarray(value, np.float64)
+        entries = np.asarray(value)
     except (TypeError, ValueError):
-        raise LucidaError(name, "is not a matrix of numbers", "give its rows") from None
+        entries = np.array("")
+    if entries.dtype.kind not in "iuf":  # nor texts that look like numbers
+        raise LucidaError(name, "is not a matrix of numbers", "give its rows")
+    found: Floats = entries.astype(np.float64)
     if found.shape not in shapes:
         wanted = " or ".join(" x ".join(map(str, shape)) for shape in shapes)
         raise LucidaError(name, f"has the shape {found.shape}", f"give {wanted} numbers")
     if not np.isfinite(found).all():
         raise LucidaError(name, "has a number that is not finite", "give finite numbers")
+    if (largest := float(np.abs(found).max(initial=0.0))) > LARGEST:
+        problem = f"has the number {largest:g}, which is too large"
+        raise LucidaError(name, problem, f"stay within {LARGEST:g}")
     return found
 
 
-def _offset(pixel_origin: str) -> float:
+def pixel_offset(pixel_origin: str) -> float:
+    """From an integer to the corner of the image's first pixel. Raises LucidaError."""
     if pixel_origin not in _OFFSET:
         raise LucidaError(
             "pixel_origin", f"{pixel_origin!r} is unknown", "give 'center' or 'corner'"

@@ -10,13 +10,13 @@ import ast
 import re
 import shlex
 from collections.abc import Callable
+from dataclasses import replace
 from typing import NoReturn
 
-import numpy as np
-
 from app.cameras.options import CAMERA_OPTIONS, add_camera_options, with_camera_options
-from app.cameras.text import FITTED
-from renderer.camera import Camera, Floats, Vector
+from renderer.camera import Camera
+from renderer.camera_formats import FORMATS, one_of, opengl, read_cameras
+from renderer.camera_formats.given import Given
 from renderer.errors import LucidaError
 from renderer.scene import view_from_toml
 from renderer.scene.model import View
@@ -27,34 +27,34 @@ SOURCE = "clipboard"
 MOST_CHARACTERS = 100_000
 
 _OPTION = re.compile(rf"--({'|'.join(CAMERA_OPTIONS)})\b")
-_VIEW_NAMES = ("camera_from_world", "view_matrix", "modelview", "view")
-_CLIP_NAMES = ("clip_from_camera", "projection_matrix", "projection")
-_NUMBER = re.compile(r"[-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?")
 
 
 def read_view(text: str, now: View) -> View:
     """The view in a text. now: the present one, for what the text leaves open.
 
-    A matrix leaves the distance open, which divides only the numbers of the viewport; a command
-    line, what it does not name. Raises LucidaError.
+    What others write leaves the distance open, which divides only the numbers of the viewport; a
+    command line, what it does not name. Raises LucidaError.
     """
     if len(text) > MOST_CHARACTERS:
         raise LucidaError(SOURCE, "holds no camera but a long text", "copy a camera first")
     try:
-        if _matrix_in(text, _VIEW_NAMES[0]) or _matrix_in(text, _CLIP_NAMES[0]):
-            return View(_from_matrices(text, now.camera), fit=False)
+        if opengl.has_matrices(text):
+            return _from_others(text, "opengl", now)
         if re.search(r"\bCamera\s*[.(]", text):
             return _from_python(text)
         if _OPTION.search(text):
             return _from_command_line(text, now)
         if "[camera]" in text:
             return _from_toml(text)
+        for entry in FORMATS:
+            if entry.reads and entry.module.recognises(_given(text)):
+                return _from_others(text, entry.name, now)
     except LucidaError as error:
         raise error.in_file(SOURCE) from None
     raise LucidaError(
         SOURCE,
         "holds no camera",
-        "copy a view file, a command line, Python or OpenGL matrices first",
+        "copy a view file, a command line, Python, matrices or K, R and t first",
     )
 
 
@@ -132,62 +132,17 @@ def _called(name: str, call: ast.Call) -> Camera:
         ) from None
 
 
-def _from_matrices(text: str, now: Camera) -> Camera:
-    view, clip = _matrix(text, _VIEW_NAMES), _matrix(text, _CLIP_NAMES)
-    if np.abs(view[3] - [0, 0, 0, 1]).max() > 1e-6 * max(1.0, float(np.abs(view).max())):
-        remedy = "transpose it" if not view[:3, 3].any() else "give a rigid or affine matrix"
-        raise LucidaError(_VIEW_NAMES[0], "is not affine, column by column", remedy)
-    try:
-        world_from_camera = np.linalg.inv(view)
-    except np.linalg.LinAlgError:
-        raise LucidaError(_VIEW_NAMES[0], "has no inverse", "give another") from None
-    u, v, w, eye = (_vector(column) for column in world_from_camera.T[:, :3])
-    distance = now.distance
-    parallel = np.allclose(clip[3], (0, 0, 0, 1))
-    if not (parallel or np.allclose(clip[3], (0, 0, -1, 0))):
-        problem = "is neither a perspective nor a parallel projection, column by column"
-        raise LucidaError(_CLIP_NAMES[0], problem, "transpose it, or give another")
-    with np.errstate(all="ignore"):
-        if parallel:
-            low, high = ((side - clip[[0, 1], 3]) / clip[[0, 1], [0, 1]] for side in (-1.0, 1.0))
-            near, far = (clip[2, 3] + 1) / clip[2, 2], (clip[2, 3] - 1) / clip[2, 2]
-        else:
-            low, high = (
-                (side + clip[[0, 1], 2]) * distance / clip[[0, 1], [0, 1]] for side in (-1.0, 1.0)
-            )
-            near, far = clip[2, 3] / (clip[2, 2] - 1), clip[2, 3] / (clip[2, 2] + 1)
-    fitted = FITTED in text
-    return Camera(
-        eye,
-        u,
-        v,
-        w,
-        distance,
-        (float(low[0]), float(high[0]), float(low[1]), float(high[1])),
-        "parallel" if parallel else "perspective",
-        None if fitted or not 0 < near < np.inf else float(near),
-        None if fitted or not 0 < far < np.inf else float(far),
-    )
+def _given(text: str) -> Given:
+    return Given("", text.encode("utf-8", "replace"))
 
 
-def _matrix_in(text: str, name: str) -> re.Match[str] | None:
-    """The name of a matrix that is given a value, up to where its numbers begin."""
-    return re.search(rf"\b{name}\b\s*(?:\[\s*\d*\s*\])?\s*[=:(]", text)
-
-
-def _matrix(text: str, names: tuple[str, ...]) -> Floats:
-    """The (4, 4) matrix of one of the names, from 16 numbers column by column."""
-    found = next((match for name in names if (match := _matrix_in(text, name))), None)
-    if found is None:
-        raise LucidaError(names[0], "is missing", "copy both matrices")
-    rest = re.split(r"=|;", text[found.end() :], maxsplit=1)[0]  # up to the next name
-    rest = re.sub(r"#[^\n]*|//[^\n]*|\b[A-Za-z_]\w*", " ", rest)
-    numbers = _NUMBER.findall(rest)[:16]
-    if len(numbers) < 16:
-        raise LucidaError(names[0], f"has {len(numbers)} numbers", "give 16, column by column")
-    return np.array([float(number) for number in numbers]).reshape(4, 4).T
-
-
-def _vector(values: Floats) -> Vector:
-    x, y, z = values.tolist()
-    return x, y, z
+def _from_others(text: str, format: str, now: View) -> View:
+    """A camera as others write it down. They leave the distance open: the present one stays."""
+    found = one_of(read_cameras(_given(text), format))
+    camera, distance = found.camera, now.camera.distance
+    left, right, bottom, top = camera.viewport
+    if not camera.is_parallel:
+        scale = distance / camera.distance
+        left, right, bottom, top = (scale * edge for edge in camera.viewport)
+    viewport = (left, right, bottom, top)
+    return View(replace(camera, distance=distance, viewport=viewport), found.fit)

@@ -12,14 +12,13 @@ from typing import Literal, get_args
 
 from app.cameras.presets import clip_around
 from renderer.camera import Camera, Floats
+from renderer.camera_formats import opengl
 from renderer.errors import one_line
 from renderer.scene import view_to_toml
 from renderer.scene.model import View
 
 Form = Literal["view file", "command line", "Python", "OpenGL matrices"]
 FORMS: tuple[Form, ...] = get_args(Form)
-
-FITTED = "fitted to the scene"  # what the reader knows near and far by that are not the camera's
 
 
 @dataclass(frozen=True)
@@ -41,7 +40,8 @@ def as_text(form: Form, subject: Subject) -> str:
         return command_line(subject.view, subject.source)
     if form == "Python":
         return python(subject.view)
-    return matrices(subject.shown, subject.bounds)
+    around = clip_around(subject.shown, subject.bounds)
+    return opengl.matrices(subject.shown, around, opengl.FITTED)
 
 
 def command_line(view: View, source: str) -> str:
@@ -78,28 +78,6 @@ def python(view: View) -> str:
     lines.append(")")
     if view.fit:
         lines += ["view = View(camera, fit=True)", "# view.for_size((width, height)): as drawn"]
-    return "\n".join(lines) + "\n"
-
-
-def matrices(shown: Camera, bounds: Floats) -> str:
-    """camera_from_world (OpenGL's view matrix) and clip_from_camera (its projection), for column
-    vectors, column by column."""
-    near, far = clip_around(shown, bounds)
-    told = f": {FITTED}" if shown.near is None and shown.far is None else ""
-    if shown.far is not None:
-        near, far = shown.near or min(near, shown.far / 1000), shown.far
-    elif shown.near is not None:
-        near, far = shown.near, max(far, 1000 * shown.near)
-    note = f"# near = {near!r}, far = {far!r}{told}"
-    tables = {
-        "camera_from_world": shown.camera_from_world,
-        "clip_from_camera": shown.clip_from_camera(near, far),
-    }
-    lines = ["# OpenGL matrices for column vectors, column-major: each line is a column", note]
-    for name, matrix in tables.items():
-        # + 0.0: no negative zeros
-        columns = [f"    {_numbers(column)}," for column in (matrix.T + 0.0).tolist()]
-        lines += [f"{name} = [", *columns, "]"]
     return "\n".join(lines) + "\n"
 
 

@@ -50,7 +50,12 @@ class Format:
 
 
 # In the order in which they are tried on a file.
-FORMATS = (Format("view", "Lucida's view file", (".toml",)),)
+FORMATS = (
+    Format("view", "Lucida's view file", (".toml",)),
+    Format("nerf", "NeRF's and nerfstudio's transforms.json", (".json",)),
+    Format("opengl", "OpenGL's view and projection matrices", (".txt",)),
+    Format("opencv", "OpenCV's K, R and t, and ROS's camera_info", (".yml", ".json")),
+)
 
 
 def format_named(name: str) -> Format:

@@ -19,11 +19,13 @@ LARGEST_BYTES = 1 << 28  # a COLMAP model of some ten thousand images
 @dataclass(frozen=True)
 class Options:
     """What the command's options say. pixel_origin: None for the format's own. size: for what has
-    none. ignore_distortion: whether a camera with a lens may be taken as a pinhole."""
+    none. ignore_distortion: whether a camera with a lens may be taken as a pinhole. ending: of the
+    file that is written, with its point, where the format has several."""
 
     pixel_origin: PixelOrigin | None = None
     size: Size | None = None
     ignore_distortion: bool = False
+    ending: str = ""
 
 
 @dataclass(frozen=True)

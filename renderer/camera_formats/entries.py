@@ -1,0 +1,99 @@
+"""What stands under a name in a file of others: numbers, sizes and poses, each checked."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from renderer.camera import Camera, Size
+from renderer.camera_checks import Floats, listed, number
+from renderer.camera_formats.given import Options
+from renderer.camera_formats.posed import PosedCamera
+from renderer.errors import LucidaError
+from renderer.frame import check_size
+from renderer.intrinsics import PixelOrigin, matrix
+
+# What `taken` says of the two pixel origins.
+ORIGIN_TOLD: dict[PixelOrigin, str] = {
+    "center": "whole numbers stand at the pixels' centres",
+    "corner": "whole numbers stand at the pixels' corners, centres at .5",
+}
+
+_LAST = (0.0, 0.0, 0.0, 1.0)  # row of an affine map
+_ROUNDED = 1e-4  # what a rotation in float32, or of four digits, may be off
+
+
+def number_of(name: str, value: object) -> float:
+    """A finite number; a text that looks like one is none. Raises LucidaError."""
+    if isinstance(value, bool) or not isinstance(value, int | float):
+        raise LucidaError(name, f"{value!r} is not a number", "give a finite number")
+    return number(name, value)
+
+
+def side_of(name: str, value: object) -> int:
+    """A width or a height: whole, also where it is written with a point. Raises LucidaError."""
+    side = number_of(name, value)
+    if side != int(side) or side < 1:
+        raise LucidaError(name, f"{side:g} is no count of pixels", "give a whole number above 0")
+    return int(side)
+
+
+def size_of(name: str, width: object, height: object) -> Size:
+    """Raises LucidaError."""
+    try:
+        return check_size((side_of(name, width), side_of(name, height)))
+    except LucidaError as error:
+        raise LucidaError(name, error.problem, error.remedy) from None
+
+
+def flat(name: str, value: ArrayLike, *counts: int) -> Floats:
+    """Numbers in a row, however they are nested; counts: how many there may be, any without.
+    Raises LucidaError."""
+    try:
+        entries = np.ravel(value)
+    except (TypeError, ValueError):
+        entries = np.array([""])
+    found = matrix(name, entries, entries.shape)
+    if counts and found.size not in counts:
+        wanted = " or ".join(map(str, counts))
+        raise LucidaError(name, f"has {found.size} numbers", f"give {wanted}")
+    return found
+
+
+def affine(name: str, value: ArrayLike) -> Floats:
+    """An affine map (4, 4) out of 3 x 4 or 4 x 4 numbers, row by row. Raises LucidaError."""
+    found = matrix(name, value, (3, 4), (4, 4), (12,), (16,)).reshape(-1, 4)
+    if len(found) == 3:
+        return np.vstack([found, _LAST])
+    if not np.allclose(found[3], _LAST, rtol=0, atol=1e-6):
+        problem = f"its last row {listed(found[3])} is not (0, 0, 0, 1)"
+        turned = np.allclose(found[:, 3], _LAST, rtol=0, atol=1e-6)
+        remedy = "is it transposed? give it row by row" if turned else "give an affine matrix"
+        raise LucidaError(name, problem, remedy)
+    return found
+
+
+def is_rotation(linear: Floats) -> bool:
+    """Whether (3, 3) is one, but for rounding: with any other, a camera is held as it is."""
+    return bool(
+        np.abs(linear @ linear.T - np.eye(3)).max() < _ROUNDED and np.linalg.det(linear) > 0
+    )
+
+
+def single(cameras: Sequence[PosedCamera], what: str) -> PosedCamera:
+    """The camera to write into a file that holds one. Raises LucidaError."""
+    if len(cameras) != 1:
+        problem = f"{what} holds one camera, not {len(cameras)}"
+        raise LucidaError("", problem, "choose one with --frame or --image")
+    return cameras[0]
+
+
+def sized(posed: PosedCamera, options: Options) -> tuple[Camera, Size]:
+    """A camera as it is for its image's size, which the format needs. Raises LucidaError."""
+    size = posed.size or options.size
+    if size is None:
+        raise LucidaError("size", "is missing: the camera has no image", "give --size WxH")
+    size = check_size(size)
+    return (posed.camera.fitted(size) if posed.fit else posed.camera), size

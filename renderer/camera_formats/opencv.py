@@ -1,0 +1,272 @@
+"""OpenCV's cameras: K, R and t in calibration files, ROS's camera_info, and as they are printed.
+
+Owns the names that people give them. The notations are storage.py's.
+Sources: OpenCV's documentation, "Camera calibration and 3D reconstruction"; ROS's CameraInfo.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Sequence
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from renderer.camera import Camera, Size
+from renderer.camera_checks import Floats
+from renderer.camera_formats import distortion
+from renderer.camera_formats.entries import (
+    ORIGIN_TOLD,
+    affine,
+    flat,
+    is_rotation,
+    number_of,
+    side_of,
+    single,
+    size_of,
+    sized,
+)
+from renderer.camera_formats.given import Given, Options
+from renderer.camera_formats.literals import NAME
+from renderer.camera_formats.posed import CameraSet, Distortion, PosedCamera
+from renderer.camera_formats.rotations import from_vector, to_vector
+from renderer.camera_formats.storage import Table, table_in, to_json, to_yaml
+from renderer.errors import LucidaError
+from renderer.intrinsics import as_camera_from_world, decomposed, pixel_offset
+
+# What a thing may be called, in small letters without signs.
+_K = ("cameramatrix", "k", "intrinsics", "intrinsic", "intrinsicmatrix", "mtx")
+_P = ("projectionmatrix", "p")
+_FOCAL = ("fx", "fy", "cx", "cy")
+_LENS = ("distortioncoefficients", "distortioncoeffs", "distcoeffs", "distortion", "dist", "d")
+_MODEL = ("distortionmodel", "fisheyemodel")
+_SIZE = ("imagesize", "size", "resolution")
+_WIDTH, _HEIGHT = ("imagewidth", "width", "w"), ("imageheight", "height", "h")
+_R, _RVEC = ("r", "rotation", "rotationmatrix"), ("rvec", "rodrigues", "rotationvector")
+_T = ("t", "tvec", "translation", "translationvector")
+_FROM_WORLD = (
+    *("extrinsics", "extrinsic", "extrinsicmatrix", "rt", "camerafromworld", "worldtocamera"),
+    *("world2cam", "w2c"),
+)
+_TO_WORLD = ("worldfromcamera", "cameratoworld", "cam2world", "c2w")
+_VIEWS = ("extrinsicparameters",)  # of a calibration's pictures: rvec and tvec, a row each
+
+_NAMED = re.compile(NAME + "[=:]", re.MULTILINE)
+_PINHOLES = ("", "0", "none", "plumbbob", "rationalpolynomial", "radtan", "opencv", "pinhole")
+_FISHEYES = ("1", "equidistant", "fisheye", "kannalabrandt", "kannalabrandt4")
+_AGREE = 1e-4  # of R and rvec, which a file may hold both
+
+
+class _Pose(NamedTuple):
+    """name: in the file, for errors."""
+
+    name: str
+    camera_from_world: Floats
+
+
+class _Names:
+    """What a table holds under any of several names."""
+
+    def __init__(self, table: Table) -> None:
+        self._values = {_plain(name): (name, value) for name, value in table.items()}
+
+    def __contains__(self, names: tuple[str, ...]) -> bool:
+        return any(name in self._values for name in names)
+
+    def get(self, names: tuple[str, ...]) -> tuple[str, Any] | None:
+        return next((self._values[name] for name in names if name in self._values), None)
+
+
+def recognises(given: Given) -> bool:
+    if isinstance(given.json, dict):
+        names = {_plain(name) for name in given.json}
+    elif given.is_text:
+        names = {_plain(name) for name in _NAMED.findall(given.text)}
+        if "<opencv_storage" in given.text:
+            return True
+    else:
+        return False
+    return not names.isdisjoint((*_K, *_P)) or names.issuperset(_FOCAL[:2])
+
+
+def read(given: Given, options: Options) -> CameraSet:
+    table = table_in(given)
+    names = _Names(table)
+    origin = options.pixel_origin or "center"
+    name, K, projected = _intrinsics(names)
+    size, size_told = _size(names, K, options, origin)
+    poses, told = ([projected], f"K, R and t out of {name}") if projected else _poses(names)
+    made = [_camera((name, K), pose, size, origin) for pose in poses]
+    lens = _lens(names, K, size, origin)
+    label = table.get("camera_name")
+    called = [pose.name for pose in poses] if len(poses) > 1 else [str(label or "")]
+    cameras = tuple(
+        PosedCamera(camera, size, name, distortion=lens)
+        for camera, name in zip(made, called, strict=True)
+    )
+    taken = [told, "axes x right, y down, z forward", ORIGIN_TOLD[origin], *size_told]
+    if not all(is_rotation(pose.camera_from_world[:3, :3]) for pose in poses):
+        taken.append("R is no rotation, and held as it is")
+    return CameraSet("opencv", cameras, tuple(taken))
+
+
+def write(cameras: Sequence[PosedCamera], options: Options) -> dict[str, bytes]:
+    camera, size = sized(single(cameras, "a file of OpenCV"), options)
+    origin = options.pixel_origin or "center"
+    K, R, t = camera.intrinsics(size, origin)
+    notes = [
+        "A world point p is seen at the pixel K (R p + t), divided by its third part:",
+        f"x to the right, y down, z forward; {ORIGIN_TOLD[origin]}.",
+    ]
+    table: Table = {
+        "image_width": size[0],
+        "image_height": size[1],
+        "camera_matrix": K,
+        "distortion_coefficients": np.zeros((5, 1)),
+        "R": R,
+        "t": t[:, None],
+        "rvec": to_vector(R)[:, None],
+    }
+    if options.ending == ".json":
+        return {"": to_json({"conventions": " ".join(notes)} | table).encode()}
+    return {"": to_yaml(table, notes).encode()}
+
+
+def _plain(name: str) -> str:
+    return re.sub(r"[^a-z0-9]", "", name.lower())
+
+
+def _intrinsics(names: _Names) -> tuple[str, Floats, _Pose | None]:
+    """The name of K, K itself, and the pose where both come out of a projection matrix."""
+    if found := names.get(_K):
+        name, value = found
+        numbers = flat(name, value, 9, 4)
+        if numbers.size == 4:
+            return name, _focal(*numbers), None
+        return name, numbers.reshape(3, 3), None
+    if _FOCAL[:1] in names:
+        values = []
+        for part in _FOCAL:
+            if (entry := names.get((part,))) is None:
+                raise LucidaError(part, "is missing", "give fx, fy, cx and cy")
+            values.append(number_of(*entry))
+        return "fx", _focal(*values), None
+    if found := names.get(_P):
+        name, value = found
+        P = flat(name, value, 12).reshape(3, 4)
+        with np.errstate(all="ignore"):
+            try:
+                inverse = np.linalg.inv(P[:, :3])
+            except np.linalg.LinAlgError:
+                raise LucidaError(name, "has no inverse", "give K [R | t]") from None
+            sign = np.sign(np.linalg.det(inverse))  # of P it means nothing
+            K, R, t = decomposed(sign * inverse, -inverse @ P[:, 3], "corner")
+        return name, K, _Pose(name, np.column_stack([R, t]))
+    raise LucidaError("camera_matrix", "is missing", "give it, K, or fx, fy, cx and cy")
+
+
+def _focal(fx: float, fy: float, cx: float, cy: float) -> Floats:
+    return np.array([[fx, 0, cx], [0, fy, cy], [0, 0, 1]])
+
+
+def _size(names: _Names, K: Floats, options: Options, origin: str) -> tuple[Size, tuple[str, ...]]:
+    """The image's size, and what is to be told where the file does not say it."""
+    if found := names.get(_SIZE):
+        name, value = found
+        width, height = flat(name, value, 2).tolist()
+        return size_of(name, width, height), ()
+    wide, high = names.get(_WIDTH), names.get(_HEIGHT)
+    if wide and high:
+        return size_of(wide[0], side_of(*wide), side_of(*high)), ()
+    if wide or high:
+        missing = "image_height" if wide else "image_width"
+        raise LucidaError(missing, "is missing", "give both, or neither and --size WxH")
+    if options.size:
+        return options.size, ()
+    with np.errstate(all="ignore"):
+        middle = 2 * (K[:2, 2] / K[2, 2] + pixel_offset(origin))
+    if not ((middle > 0.5) & (middle < 1e9)).all():
+        raise LucidaError("image_width", "is missing", "give the image's size, or --size WxH")
+    size = size_of("image_width", *(float(np.round(side)) for side in middle))
+    told = f"no image size is given: {size[0]} x {size[1]}, whose middle is the principal point"
+    return size, (told,)
+
+
+def _lens(names: _Names, K: Floats, size: Size, origin: str) -> Distortion | None:
+    name, value = names.get(_MODEL) or ("distortion_model", "")
+    model = _plain(str(value))
+    is_fisheye = model in _FISHEYES
+    if model not in (*_PINHOLES, *_FISHEYES):
+        remedy = "give plumb_bob, rational_polynomial or equidistant, or undistort the images first"
+        raise LucidaError(name, f"{value!r} is a lens that is not known", remedy)
+    found = names.get(_LENS)
+    numbers = flat(*found) if found else np.zeros(0)
+    counts = (4,) if is_fisheye else distortion.COUNTS
+    if numbers.size not in (0, *counts):
+        wanted = " or ".join(map(str, counts))
+        problem = f"has {numbers.size} numbers"
+        raise LucidaError(found[0] if found else "", problem, f"give {wanted}")
+    if is_fisheye:
+        numbers = numbers if numbers.size else np.zeros(4)
+        coefficients = dict(zip(distortion.FISHEYE_NAMES, numbers.tolist(), strict=True))
+        return distortion.lens("fisheye", coefficients, distortion.fisheye, K, size, origin)
+    coefficients = dict(zip(distortion.NAMES, numbers.tolist(), strict=False))
+    bend = distortion.radial_tangential
+    return distortion.lens("radial and tangential", coefficients, bend, K, size, origin)
+
+
+def _poses(names: _Names) -> tuple[list[_Pose], str]:
+    """The poses of a file, and in words where they come from."""
+    if found := names.get(_FROM_WORLD):
+        return [_Pose(found[0], affine(*found))], f"{found[0]} takes world points to the camera"
+    if found := names.get(_TO_WORLD):
+        pose = as_camera_from_world(affine(*found))
+        return [_Pose(found[0], pose)], f"{found[0]} takes the camera's points to the world"
+    if found := names.get(_VIEWS):
+        numbers = flat(*found)
+        if not numbers.size or numbers.size % 6:
+            problem = f"has {numbers.size} numbers"
+            raise LucidaError(found[0], problem, "give 6 a row: rvec and tvec")
+        rows = numbers.reshape(-1, 6)
+        poses = [_Pose(f"view {i}", _rigid(from_vector(r[:3]), r[3:])) for i, r in enumerate(rows)]
+        return poses, f"{found[0]}: rvec and tvec of each picture of the calibration"
+    moved, turned = names.get(_T), names.get(_R)
+    if _P in names and _K in names and not moved:  # ROS: R turns into the rectified image
+        return [_Pose("", np.eye(4))], "no pose: the camera stands at the origin, not rectified"
+    vector = names.get(_RVEC)
+    if not (moved or turned or vector):
+        return [_Pose("", np.eye(4))], "no pose: the camera stands at the origin"
+    R = np.eye(3)
+    if turned:
+        numbers = flat(*turned, 9, 3)
+        R = numbers.reshape(3, 3) if numbers.size == 9 else from_vector(numbers)
+    if vector:
+        other = from_vector(flat(*vector, 3))
+        if turned and np.abs(other - R).max() > _AGREE:
+            problem = f"is another rotation than {turned[0]}"
+            raise LucidaError(vector[0], problem, "give one of the two")
+        R = R if turned else other
+    t = flat(*moved, 3) if moved else np.zeros(3)
+    told = " and ".join(entry[0] for entry in (turned or vector, moved) if entry)
+    lacking = (
+        "" if moved and (turned or vector) else f"; no {'rotation' if moved else 'translation'}"
+    )
+    name = (turned or vector or moved or ("",))[0]
+    return [_Pose(name, _rigid(R, t))], f"{told} take world points to the camera{lacking}"
+
+
+def _rigid(R: Floats, t: Floats) -> Floats:
+    return np.vstack([np.column_stack([R, t]), [0, 0, 0, 1]])
+
+
+def _camera(intrinsics: tuple[str, Floats], pose: _Pose, size: Size, origin: str) -> Camera:
+    """Errors name what the file calls K and the pose."""
+    name, K = intrinsics
+    try:
+        return Camera.from_intrinsics(
+            K, size=size, camera_from_world=pose.camera_from_world, pixel_origin=origin
+        )
+    except LucidaError as error:
+        fields = {"K": name, "camera_from_world": pose.name}
+        field = fields.get(error.field, error.field)
+        raise LucidaError(field, error.problem, error.remedy) from None

@@ -1,0 +1,204 @@
+"""OpenGL's cameras: a view and a projection matrix, for column vectors, in either order.
+
+The depth range is OpenGL's, -1 to 1. Source: Khronos, "OpenGL 3.3 core", Coordinate
+transformations.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Sequence
+from typing import Any, Literal
+
+import numpy as np
+
+from renderer.camera import Camera
+from renderer.camera_checks import Floats, Vector, listed
+from renderer.camera_formats.entries import single, sized
+from renderer.camera_formats.given import Given, Options
+from renderer.camera_formats.posed import CameraSet, PosedCamera
+from renderer.errors import LucidaError
+from renderer.intrinsics import matrix
+
+Order = Literal["column by column", "row by row"]
+
+AROUND = (0.1, 100.0)  # near and far of a camera that has none, where there is no scene
+FITTED, CHOSEN = "fitted to the scene", "chosen freely"  # near and far that are not the camera's
+
+_OURS = ("camera_from_world", "clip_from_camera")
+_VIEW = ("camera_from_world", "view_matrix", "viewMatrix", "modelview", "modelViewMatrix", "view")
+_CLIP = ("clip_from_camera", "projection_matrix", "projectionMatrix", "projection")
+_NUMBER = re.compile(r"[-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?")
+_ORDERS: tuple[Order, Order] = ("column by column", "row by row")
+_EXACT = 1e-6  # of a matrix's largest number, what is 0
+
+
+def recognises(given: Given) -> bool:
+    if isinstance(given.json, dict):
+        found = [next((n for n in names if n in given.json), "") for names in (_VIEW, _CLIP)]
+        return all(found) and all(isinstance(given.json[name], list) for name in found)
+    return given.is_text and has_matrices(given.text)
+
+
+def has_matrices(text: str) -> bool:
+    """Whether a text gives both matrices a value, or one that has our name."""
+    if any(_named(text, (name,)) for name in _OURS):
+        return True
+    found = (_named(text, names) for names in (_VIEW, _CLIP))
+    return all(match and len(_numbers(text, match)) == 16 for match in found)
+
+
+def read(given: Given, options: Options) -> CameraSet:
+    if given.json is not None:
+        view, clip = _in_table(given.json, _VIEW), _in_table(given.json, _CLIP)
+        fitted = False
+    else:
+        view, clip = _in_text(given.text, _VIEW), _in_text(given.text, _CLIP)
+        fitted = FITTED in given.text or CHOSEN in given.text
+    names = (view[0], clip[0])
+    camera, taken = _camera(names, view[1], clip[1], fitted)
+    return CameraSet("opengl", (PosedCamera(camera, options.size),), taken)
+
+
+def write(cameras: Sequence[PosedCamera], options: Options) -> dict[str, bytes]:
+    posed = single(cameras, "a pair of matrices")
+    camera = sized(posed, options)[0] if posed.fit else posed.camera
+    return {"": matrices(camera, AROUND, CHOSEN).encode()}
+
+
+def matrices(camera: Camera, around: tuple[float, float], told: str) -> str:
+    """camera_from_world (OpenGL's view matrix) and clip_from_camera (its projection), for column
+    vectors, column by column. around: near and far for a camera that has none, and in words what
+    they are: FITTED or CHOSEN."""
+    near, far = around
+    note = f": {told}" if camera.near is None and camera.far is None else ""
+    if camera.far is not None:
+        near, far = camera.near or min(near, camera.far / 1000), camera.far
+    elif camera.near is not None:
+        near, far = camera.near, max(far, 1000 * camera.near)
+    tables = {
+        "camera_from_world": camera.camera_from_world,
+        "clip_from_camera": camera.clip_from_camera(near, far),
+    }
+    lines = [
+        "# OpenGL matrices for column vectors, column-major: each line is a column",
+        f"# near = {near!r}, far = {far!r}{note}",
+    ]
+    for name, table in tables.items():
+        # + 0.0: no negative zeros
+        columns = (", ".join(map(repr, column)) for column in (table.T + 0.0).tolist())
+        lines += [f"{name} = [", *(f"    {column}," for column in columns), "]"]
+    return "\n".join(lines) + "\n"
+
+
+def _named(text: str, names: tuple[str, ...]) -> re.Match[str] | None:
+    """The first of the names that is given a value, up to where its numbers begin."""
+    found = (re.search(rf"\b({n})\b\s*(?:\[\s*\d*\s*\]\s*)?[=:(]", text) for n in names)
+    return next((match for match in found if match), None)
+
+
+def _numbers(text: str, found: re.Match[str]) -> list[str]:
+    """Up to 16 after a name, up to the next one."""
+    rest = re.split(r"=|;", text[found.end() :], maxsplit=1)[0]
+    rest = re.sub(r"#[^\n]*|//[^\n]*|\b[A-Za-z_]\w*", " ", rest)
+    return _NUMBER.findall(rest)[:16]
+
+
+def _in_text(text: str, names: tuple[str, ...]) -> tuple[str, Floats]:
+    """The one of the names that is there, and its numbers, four a row as they are listed."""
+    found = _named(text, names)
+    if found is None:
+        raise LucidaError(names[0], "is missing", "copy both matrices")
+    name = found[1]
+    numbers = _numbers(text, found)
+    if len(numbers) < 16:
+        raise LucidaError(name, f"has {len(numbers)} numbers", "give 16")
+    return name, matrix(name, [float(number) for number in numbers], (16,)).reshape(4, 4)
+
+
+def _in_table(table: Any, names: tuple[str, ...]) -> tuple[str, Floats]:
+    found = next((name for name in names if name in table), None) if type(table) is dict else None
+    if found is None:
+        raise LucidaError(names[0], "is missing", "give both matrices")
+    return found, matrix(found, table[found], (4, 4), (16,)).reshape(4, 4)
+
+
+def _camera(
+    names: tuple[str, str], view: Floats, clip: Floats, fitted: bool
+) -> tuple[Camera, tuple[str, ...]]:
+    """The camera, and in words how the matrices were taken. fitted: whether near and far are
+    not the camera's."""
+    view_order, clip_order = _orders(names, view, clip)
+    taken = [f"{names[0]} {view_order}", f"{names[1]} {clip_order}"]
+    view = view.T if view_order == "column by column" else view
+    clip = clip.T if clip_order == "column by column" else clip
+    parallel = bool(np.allclose(clip[3], (0, 0, 0, 1)))
+    a, b = clip[0, 0], clip[1, 1]
+    if not (a and b):
+        problem = f"its first two rows are {listed(clip[0])} and {listed(clip[1])}"
+        raise LucidaError(names[1], problem, "give a projection that is not turned")
+    # What is beside the diagonal makes the basis skew; a negative scale mirrors it.
+    skew = np.eye(3)
+    skew[0], skew[1] = clip[0, :3] / abs(a), clip[1, :3] / abs(b)
+    if not parallel:
+        skew[:2, 2] = 0.0
+    to_camera = np.eye(4)
+    to_camera[:3, :3] = skew
+    try:
+        with np.errstate(all="ignore"):
+            world_from_camera = np.linalg.inv(to_camera @ view)
+    except np.linalg.LinAlgError:
+        raise LucidaError(names[0], "has no inverse", "give another") from None
+    middle = clip[:2, 3 if parallel else 2] * (1 if parallel else -1) / np.abs((a, b))
+    half = 1 / np.abs((a, b))
+    low, high = -half - middle, half - middle
+    near = far = None
+    if not clip[2, :2].any():
+        near, far = (None, None) if fitted else _clip_planes(clip, parallel)
+    else:
+        taken.append("the projection's oblique near plane is left out")
+    u, v, w, eye = (_vector(column) for column in world_from_camera.T[:, :3])
+    viewport = (float(low[0]), float(high[0]), float(low[1]), float(high[1]))
+    kind = "parallel" if parallel else "perspective"
+    return Camera(eye, u, v, w, 1.0, viewport, kind, near, far), tuple(taken)
+
+
+def _orders(names: tuple[str, str], view: Floats, clip: Floats) -> tuple[Order, Order]:
+    """In which order both are, by what their last rows must be. Where either would do, the other
+    matrix says it. Raises LucidaError."""
+    off = _EXACT * max(1.0, float(np.abs(view).max()))
+    views = [o for o in _ORDERS if np.abs(_last(view, o) - (0, 0, 0, 1)).max() <= off]
+    clips = [
+        order
+        for order in _ORDERS
+        if any(np.allclose(_last(clip, order), last) for last in ((0, 0, 0, 1), (0, 0, -1, 0)))
+    ]
+    if not views:
+        problem = "is not affine: neither its last row nor its last column is 0, 0, 0, 1"
+        raise LucidaError(names[0], problem, "give a rigid or affine matrix")
+    if not clips:
+        problem = "is no projection: its last row is neither 0, 0, -1, 0 nor 0, 0, 0, 1"
+        raise LucidaError(names[1], problem, "give OpenGL's, which looks along -z")
+    return (views if len(views) == 1 else clips)[0], (clips if len(clips) == 1 else views)[0]
+
+
+def _last(table: Floats, order: Order) -> Floats:
+    """The last row of what is listed in this order."""
+    return table[:, 3] if order == "column by column" else table[3]
+
+
+def _clip_planes(clip: Floats, parallel: bool) -> tuple[float | None, float | None]:
+    with np.errstate(all="ignore"):
+        if parallel:
+            near, far = (clip[2, 3] + 1) / clip[2, 2], (clip[2, 3] - 1) / clip[2, 2]
+        else:
+            near, far = clip[2, 3] / (clip[2, 2] - 1), clip[2, 3] / (clip[2, 2] + 1)
+    return (
+        float(near) if 0 < near < np.inf else None,
+        float(far) if 0 < far < np.inf else None,
+    )
+
+
+def _vector(values: Floats) -> Vector:
+    x, y, z = values.tolist()
+    return x, y, z

@@ -1,0 +1,178 @@
+"""Tables of named values: OpenCV's FileStorage (YAML, JSON, XML), ROS's YAML, and pasted text.
+
+Owns the notations, and hands on what stands under each name as plain Python: numbers, texts, lists
+and NumPy arrays. Knows nothing of cameras.
+"""
+
+from __future__ import annotations
+
+import json
+import re
+from typing import Any
+from xml.etree import ElementTree
+
+import numpy as np
+import yaml
+
+from renderer.camera_formats.given import Given
+from renderer.camera_formats.literals import values_in
+from renderer.errors import LucidaError
+from renderer.scene.reading import check_bytes
+
+Table = dict[str, Any]
+
+MOST_BYTES = 1 << 20  # a calibration of some thousand corners; YAML takes its time
+
+_DIRECTIVE = re.compile(r"\A%YAML[^\n]*\n?")  # OpenCV's "%YAML:1.0" is none
+_YAML = re.compile(r"^\s*(?:rows|data)\s*:", re.MULTILINE)
+_MATRIX = ("rows", "cols", "data")
+
+
+def table_in(given: Given) -> Table:
+    """The values of a file or a text, by their names. Raises LucidaError."""
+    check_bytes(len(given.data), MOST_BYTES, given.name)
+    text = given.text
+    if given.ending == ".json" or text.lstrip()[:1] == "{":
+        table = _from_json(text)
+    elif text.lstrip()[:1] == "<":
+        table = _from_xml(text)
+    elif given.ending in (".yml", ".yaml") or text[:5] == "%YAML" or _YAML.search(text):
+        table = _from_yaml(text)
+    else:
+        table = values_in(text)
+    if not isinstance(table, dict):
+        raise LucidaError("", "holds no names with values", "give e.g. camera_matrix: ...")
+    return {str(name): _value(str(name), value) for name, value in table.items()}
+
+
+def to_yaml(table: Table, comments: list[str]) -> str:
+    """FileStorage as cv2 writes it. table: numbers, texts and matrices (rows, columns)."""
+    lines = ["%YAML:1.0", "---", *(f"# {comment}" for comment in comments)]
+    for name, value in table.items():
+        if isinstance(value, np.ndarray):
+            numbers = ", ".join(f"{x:.16e}" for x in value.ravel().tolist())
+            rows, cols = value.shape
+            lines += [f"{name}: !!opencv-matrix", f"   rows: {rows}", f"   cols: {cols}"]
+            lines += ["   dt: d", f"   data: [ {numbers} ]"]
+        else:
+            lines.append(f"{name}: {json.dumps(value)}")
+    return "\n".join(lines) + "\n"
+
+
+def to_json(table: Table) -> str:
+    """FileStorage as cv2 reads it."""
+    return json.dumps({name: _as_json(value) for name, value in table.items()}, indent=4) + "\n"
+
+
+def _as_json(value: Any) -> Any:
+    if not isinstance(value, np.ndarray):
+        return value
+    rows, cols = value.shape
+    data = value.ravel().tolist()
+    return {"type_id": "opencv-matrix", "rows": rows, "cols": cols, "dt": "d", "data": data}
+
+
+def _value(name: str, value: Any) -> Any:
+    """A matrix of rows, columns and data becomes an array; all else stays as it is."""
+    if not (isinstance(value, dict) and value.keys() >= set(_MATRIX)):
+        return value
+    rows, cols, data = (value[key] for key in _MATRIX)
+    if not all(type(side) is int and side >= 0 for side in (rows, cols)):
+        raise LucidaError(name, f"has {rows!r} rows and {cols!r} columns", "give whole numbers")
+    try:
+        numbers = np.asarray(data)
+    except (TypeError, ValueError):
+        numbers = np.array("")
+    if numbers.dtype.kind not in "iuf":
+        raise LucidaError(f"{name}.data", "is not a list of numbers", "give numbers")
+    channels = numbers.size // max(rows * cols, 1)
+    if rows * cols * channels != numbers.size or (numbers.size == 0) != (rows * cols == 0):
+        problem = f"has {numbers.size} numbers for {rows} rows of {cols}"
+        raise LucidaError(f"{name}.data", problem, f"give {rows * cols}")
+    shape = (rows, cols) if channels <= 1 else (rows, cols, channels)
+    return numbers.astype(np.float64).reshape(shape)
+
+
+def _from_json(text: str) -> Any:
+    try:
+        return json.loads(text)
+    except json.JSONDecodeError as error:
+        where = f"line {error.lineno}, column {error.colno}"
+        reason = error.msg[:1].lower() + error.msg[1:]
+        raise LucidaError(where, reason, "correct the JSON there") from None
+    except RecursionError:
+        raise LucidaError("", "is nested too deeply", "write it with fewer brackets") from None
+    except ValueError:  # Python's own limit on the digits of a number
+        raise LucidaError("", "holds a number of too many digits", "shorten it") from None
+
+
+def _from_yaml(text: str) -> Any:
+    try:
+        documents = yaml.load_all(_DIRECTIVE.sub("\n", text), _Loader)
+        return next((document for document in documents if document is not None), None)
+    except yaml.MarkedYAMLError as error:
+        mark = error.problem_mark
+        where = f"line {mark.line + 1}, column {mark.column + 1}" if mark else ""
+        raise LucidaError(where, error.problem or "is no YAML", "correct the YAML there") from None
+    except yaml.YAMLError:
+        raise LucidaError("", "holds characters that YAML has not", "save it anew") from None
+    except RecursionError:
+        raise LucidaError("", "is nested too deeply", "write it with fewer brackets") from None
+    except (ValueError, OverflowError):  # a number or a date that there is not
+        raise LucidaError("", "holds a number that cannot be", "correct it") from None
+
+
+class _Loader(yaml.SafeLoader):
+    """Plain values alone. No value stands for another one, whose copies might have no end."""
+
+    def compose_node(self, parent: Any, index: Any) -> Any:
+        if self.check_event(yaml.AliasEvent):
+            mark = self.peek_event().start_mark
+            raise yaml.composer.ComposerError(None, None, "holds an alias (*)", mark)
+        return super().compose_node(parent, index)
+
+
+# 1e-05, which YAML 1.1 takes for a text.
+_Loader.add_implicit_resolver(
+    "tag:yaml.org,2002:float",
+    re.compile(r"[-+]?(?:\d+\.?\d*|\.\d+)[eE][-+]?\d+\Z"),
+    list("-+.0123456789"),
+)
+for _tag in ("opencv-matrix", "opencv-nd-matrix"):
+    _Loader.add_constructor(
+        f"tag:yaml.org,2002:{_tag}", lambda loader, node: loader.construct_mapping(node, deep=True)
+    )
+
+
+def _from_xml(text: str) -> Any:
+    if "<!" in re.sub(r"<!--.*?-->", "", text, flags=re.DOTALL):
+        raise LucidaError("", "holds a declaration (<!)", "give OpenCV's own XML")
+    try:
+        root = ElementTree.fromstring(text.encode())
+    except (ElementTree.ParseError, ValueError, LookupError) as error:
+        problem = f"is no XML: {error}"
+        raise LucidaError("", problem, "correct it there") from None
+    if root.tag != "opencv_storage":
+        problem = f"is XML of another kind: {root.tag}"
+        raise LucidaError("", problem, "give OpenCV's <opencv_storage>")
+    return {entry.tag: _of_element(entry) for entry in root}
+
+
+def _of_element(element: ElementTree.Element) -> Any:
+    parts = {part.tag: (part.text or "").split() for part in element}
+    if not parts:
+        words = [_word(word) for word in (element.text or "").split()]
+        return words[0] if len(words) == 1 else words
+    return {
+        name: [_word(word) for word in words] if name == "data" else _word(" ".join(words))
+        for name, words in parts.items()
+    }
+
+
+def _word(word: str) -> Any:
+    for kind in (int, float):
+        try:
+            return kind(word)
+        except ValueError:
+            continue
+    return word
