@@ -52,7 +52,10 @@ class Format:
 # In the order in which they are tried on a file.
 FORMATS = (
     Format("view", "Lucida's view file", (".toml",)),
+    Format("colmap", "COLMAP's model", ("",)),
     Format("nerf", "NeRF's and nerfstudio's transforms.json", (".json",)),
+    Format("three", "three.js's camera", (".json",)),
+    Format("blender", "Blender's camera", (".py", ".json")),
     Format("opengl", "OpenGL's view and projection matrices", (".txt",)),
     Format("opencv", "OpenCV's K, R and t, and ROS's camera_info", (".yml", ".json")),
 )

@@ -1,0 +1,194 @@
+"""What Blender makes of a camera's values: where it stands, and what it sees.
+
+Source: Blender, source/blender/blenkernel/intern/camera.cc, BKE_camera_params_compute_viewplane().
+"""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+import numpy as np
+
+from renderer.camera import Camera, Size
+from renderer.camera_checks import Floats, listed, number, numbers
+from renderer.camera_formats.blender_values import Values
+from renderer.camera_formats.given import Options
+from renderer.camera_formats.posed import PosedCamera
+from renderer.camera_formats.rigid import rotation_of
+from renderer.errors import LucidaError
+from renderer.frame import check_size
+from renderer.intrinsics import matrix
+
+# What a camera has in Blender until it is said otherwise. The clip planes are Blender's only where
+# they are given: else they are fitted to the scene.
+DEFAULTS: Values = {
+    "type": "PERSP",
+    "lens": 50.0,
+    "sensor_width": 36.0,
+    "sensor_height": 24.0,
+    "sensor_fit": "AUTO",
+    "shift_x": 0.0,
+    "shift_y": 0.0,
+    "ortho_scale": 6.0,
+    "resolution_x": 1920,
+    "resolution_y": 1080,
+    "resolution_percentage": 100,
+    "pixel_aspect_x": 1.0,
+    "pixel_aspect_y": 1.0,
+    "location": (0.0, 0.0, 0.0),
+}
+DEGREES = ("_degrees", "_deg")
+ANGLES = {"angle": "", "angle_x": "sensor_width", "angle_y": "sensor_height"}
+EULER = frozenset(f"rotation_euler{unit}" for unit in ("", *DEGREES))
+TURNS = EULER | {"matrix_world", "rotation_mode", "rotation_quaternion"}
+KNOWN = frozenset(DEFAULTS) | TURNS | {"clip_start", "clip_end"}
+KNOWN |= {f"{angle}{unit}" for angle in ANGLES for unit in ("", *DEGREES)}
+TYPES = {"PERSP": "perspective", "ORTHO": "parallel"}
+FITS = ("AUTO", "HORIZONTAL", "VERTICAL")
+_TURNS_OF_RADIANS = 4 * math.pi  # more of them were meant as degrees
+
+
+def posed(values: Values, options: Options) -> PosedCamera:
+    """The camera of a script's or a file's values. Raises LucidaError naming the value."""
+    pose = _pose(values)
+    lengths = np.linalg.norm(pose[:3, :3], axis=0)
+    if not (lengths > 1e-12).all():
+        problem = f"has columns of length {listed(lengths)}"
+        raise LucidaError("matrix_world", problem, "give a rotation")
+    u, v, w = (pose[:3, :3] / lengths).T.tolist()  # Blender takes a camera's scale out
+    kind = values.get("type", DEFAULTS["type"])
+    if kind not in TYPES:
+        raise LucidaError(
+            "type", f"{kind!r} is no {' or '.join(TYPES)}", "change the camera's type"
+        )
+    viewport, size = _viewport(values, options, kind)
+    near, far = (
+        None if values.get(name) is None else number(name, values[name])
+        for name in ("clip_start", "clip_end")
+    )
+    camera = Camera(
+        tuple(pose[:3, 3].tolist()), u, v, w, 1.0, viewport, TYPES[kind], near=near, far=far
+    )
+    name = values.get("name", "")
+    return PosedCamera(camera, size, name if isinstance(name, str) else "")
+
+
+def _viewport(
+    values: Values, options: Options, kind: str
+) -> tuple[tuple[float, float, float, float], Size]:
+    """At distance 1, and the image's size: BKE_camera_params_compute_viewplane(), which works in
+    pixels of a picture around (0, 0)."""
+    size = _size(values, options)
+    width, height = size
+    stretch = _positive(values, "pixel_aspect_y") / _positive(values, "pixel_aspect_x")
+    fit = values.get("sensor_fit", DEFAULTS["sensor_fit"])
+    if fit not in FITS:
+        raise LucidaError("sensor_fit", f"{fit!r} is unknown", f"give one of {', '.join(FITS)}")
+    horizontal = fit == "HORIZONTAL" or (fit == "AUTO" and width >= stretch * height)
+    side = width if horizontal else stretch * height
+    if kind == "ORTHO":
+        seen = _positive(values, "ortho_scale")
+    else:
+        sensor = _positive(values, "sensor_height" if fit == "VERTICAL" else "sensor_width")
+        seen = sensor / _lens(values, sensor)
+    pixel = seen / side
+    across, up = (
+        number(name, values.get(name, DEFAULTS[name])) * side for name in ("shift_x", "shift_y")
+    )
+    half_width, half_height = width / 2, stretch * height / 2
+    left, right = (across - half_width) * pixel, (across + half_width) * pixel
+    return (left, right, (up - half_height) * pixel, (up + half_height) * pixel), size
+
+
+def _size(values: Values, options: Options) -> Size:
+    names = ("resolution_x", "resolution_y")
+    if options.size is not None and not values.keys() & set(names):
+        return options.size
+    share = _positive(values, "resolution_percentage") / 100
+    sides = [_positive(values, name) for name in names]
+    for name, side in zip(names, sides, strict=True):
+        if not side.is_integer():
+            raise LucidaError(name, f"{side:g} is no whole number", "give pixels")
+    width, height = (int(side * share) for side in sides)
+    try:
+        return check_size((width, height))
+    except LucidaError as error:
+        raise LucidaError("resolution_x", error.problem, error.remedy) from None
+
+
+def _lens(values: Values, sensor: float) -> float:
+    """In millimetres, from lens or an angle; sensor: the side that `angle` spans."""
+    for angle, side in ANGLES.items():
+        field, value = _angles(values, angle)
+        if field:
+            if "lens" in values:
+                raise LucidaError(field, "is given beside lens", "give one of the two")
+            spanned = number(field, value)
+            if not 0 < spanned < math.pi:
+                problem = f"{spanned:g} radians are not between 0 and pi"
+                raise LucidaError(field, problem, f"give radians, or {angle}_degrees")
+            return (_positive(values, side) if side else sensor) / 2 / math.tan(spanned / 2)
+    return _positive(values, "lens")
+
+
+def _pose(values: Values) -> Floats:
+    """matrix_world, (4, 4)."""
+    if "matrix_world" in values:
+        pose = np.array(matrix("matrix_world", values["matrix_world"], (4, 4)))
+        if pose[3].tolist() != [0, 0, 0, 1]:
+            problem = f"its last row is {listed(pose[3])}, not (0, 0, 0, 1)"
+            raise LucidaError("matrix_world", problem, "give it row by row")
+        return pose
+    pose = np.eye(4)
+    pose[:3, 3] = numbers("location", values.get("location", DEFAULTS["location"]), 3)
+    field, angles = _angles(values, "rotation_euler")
+    order = values.get("rotation_mode", "" if field or "rotation_quaternion" not in values else "Q")
+    if isinstance(angles, dict):  # of Euler(angles, order)
+        angles, order = angles["angles"], angles["order"]
+    order = order or "XYZ"
+    if order in ("QUATERNION", "Q"):
+        quaternion = numbers("rotation_quaternion", values.get("rotation_quaternion"), 4)
+        try:
+            pose[:3, :3] = rotation_of(quaternion)
+        except LucidaError as error:
+            raise LucidaError("rotation_quaternion", error.problem, error.remedy) from None
+        return pose
+    if not isinstance(order, str) or sorted(order) != ["X", "Y", "Z"]:
+        problem = f"{order!r} is not XYZ in any order, or QUATERNION"
+        raise LucidaError("rotation_mode", problem, "give rotation_euler, or matrix_world")
+    turns = dict(zip("XYZ", numbers(field, angles, 3) if field else (0.0, 0.0, 0.0), strict=True))
+    if field and max(map(abs, turns.values())) > _TURNS_OF_RADIANS:
+        problem = f"{listed(turns.values())} radians are more than two turns"
+        raise LucidaError(field, problem, "write degrees as rotation_euler_degrees or radians()")
+    for axis in order:  # the first is the first to turn
+        pose[:3, :3] = _turn("XYZ".index(axis), turns[axis]) @ pose[:3, :3]
+    return pose
+
+
+def _angles(values: Values, name: str) -> tuple[str, Any]:
+    """The field of that name and its value in radians; "" where it is not given."""
+    for unit in DEGREES:
+        if (field := name + unit) in values:
+            value = values[field]
+            if isinstance(value, list | tuple):
+                return field, [math.radians(one) for one in numbers(field, value, len(value))]
+            return field, math.radians(number(field, value))
+    return (name, values[name]) if name in values else ("", None)
+
+
+def _turn(axis: int, angle: float) -> Floats:
+    """The rotation about one axis, by radians."""
+    one, other = (axis + 1) % 3, (axis + 2) % 3
+    turn = np.eye(3)
+    turn[one, one] = turn[other, other] = math.cos(angle)
+    turn[other, one] = math.sin(angle)
+    turn[one, other] = -math.sin(angle)
+    return turn
+
+
+def _positive(values: Values, name: str) -> float:
+    value = number(name, values.get(name, DEFAULTS[name]))
+    if not value > 0:
+        raise LucidaError(name, f"{value:g} is not above 0", f"give e.g. {DEFAULTS[name]}")
+    return value

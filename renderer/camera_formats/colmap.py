@@ -1,0 +1,171 @@
+"""COLMAP's models: a folder of cameras, images and points, as text or binary files.
+
+K is in pixels whose corner is the image's; a pose is camera from world, with y down and z forward.
+Files of rigs and frames, which newer versions write, say nothing that the images do not, and are
+left alone. Written are text files, PINHOLE, without points.
+Source: COLMAP's documentation, "Output Format".
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from pathlib import Path, PureWindowsPath
+from typing import TypeVar
+
+import numpy as np
+
+from renderer.camera import Camera, Size
+from renderer.camera_formats import colmap_binary, colmap_text
+from renderer.camera_formats.colmap_records import Cloud, Lenses, PosedImage, at
+from renderer.camera_formats.given import Given, Options
+from renderer.camera_formats.posed import CameraSet, PosedCamera
+from renderer.camera_formats.rigid import known_size, quaternion_of, rigid, rotation_of, sized
+from renderer.errors import LucidaError
+from renderer.scene.reading import read_file
+
+FILES = ("cameras", "images", "points3D")
+MORE_FILES = ("rigs", "frames")
+LARGEST_FILE_BYTES = 1 << 30
+BELOW = ("", "sparse/0", "sparse", "0")  # where a data set's folder has its model
+FOLDERS_UP = 3  # from the model to the folder that holds images/
+_Content = TypeVar("_Content")
+_READERS = {".bin": colmap_binary, ".txt": colmap_text}
+
+
+def recognises(given: Given) -> bool:
+    return _model(given) is not None
+
+
+def read(given: Given, options: Options) -> CameraSet:
+    model = _model(given)
+    if model is None:
+        problem = "has no cameras and images of COLMAP, .bin or .txt"
+        raise LucidaError("", problem, "give the folder of a model, such as sparse/0")
+    folder, kind = model
+    reader = _READERS[kind]
+    lenses: Lenses = _read(folder / f"cameras{kind}", reader.cameras)
+    images: list[PosedImage] = _read(folder / f"images{kind}", reader.images)
+    points = folder / f"points3D{kind}"
+    cloud: Cloud | None = _read(points, reader.points) if points.is_file() else None
+    distortions = {number: lens.distortion for number, lens in lenses.items()}
+    photographs = _photographs(folder)
+    origin = options.pixel_origin or "corner"
+    posed = []
+    for image in images:
+        try:
+            if image.camera not in lenses:
+                problem = f"{image.camera} is not in cameras{kind}"
+                raise LucidaError("CAMERA_ID", problem, "add the camera, or mend the number")
+            lens = lenses[image.camera]
+            pose = np.column_stack([rotation_of(image.quaternion), image.translation])
+            camera = Camera.from_intrinsics(
+                lens.matrix, size=lens.size, camera_from_world=pose, pixel_origin=origin
+            )
+        except LucidaError as error:
+            source = str(folder / f"images{kind}")
+            raise at(image.where, error).in_file(source) from None
+        photograph = _photograph(photographs, image.name)
+        distortion = distortions[image.camera]
+        posed.append(PosedCamera(camera, lens.size, image.name, photograph, distortion=distortion))
+    taken = (
+        f"the {kind} files in {folder}",
+        "camera from world, y down, z forward",
+        "integers at the pixels' " + ("corners" if origin == "corner" else "centres"),
+    )
+    return CameraSet("colmap", tuple(posed), taken, *(cloud or (None, None)))
+
+
+def write(cameras: Sequence[PosedCamera], options: Options) -> dict[str, bytes]:
+    lenses: dict[str, int] = {}  # numbers by the text of their line
+    lines, names = [], set()
+    for number, posed in enumerate(cameras, 1):
+        name = posed.name or f"image_{number:04}.png"
+        try:
+            if len(name.split()) != 1 or name in names or not name.isprintable():
+                fault = "is given twice" if name in names else "is no single word"
+                raise LucidaError("name", f"{name!r} {fault}", "give each camera a name of its own")
+            camera, size = sized(posed, options)
+            lens, pose = _lines_of(camera, known_size(size, "COLMAP"))
+        except LucidaError as error:
+            raise error.within(name) from None
+        names.add(name)
+        lens_number = lenses.setdefault(lens, len(lenses) + 1)
+        lines.append(f"{number} {pose} {lens_number} {name}\n\n")
+    lens_lines = [f"{number} {lens}\n" for lens, number in lenses.items()]
+    counts = f"# Number of cameras: {len(lenses)}\n", f"# Number of images: {len(lines)}\n"
+    texts = {
+        "cameras.txt": (_CAMERAS_HEAD, counts[0], *lens_lines),
+        "images.txt": (_IMAGES_HEAD, counts[1], *lines),
+        "points3D.txt": (_POINTS_HEAD,),
+    }
+    return {name: "".join(parts).encode() for name, parts in texts.items()}
+
+
+_CAMERAS_HEAD = """\
+# Camera list with one line of data per camera:
+#   CAMERA_ID, MODEL, WIDTH, HEIGHT, PARAMS[]
+"""
+_IMAGES_HEAD = """\
+# Image list with two lines of data per image:
+#   IMAGE_ID, QW, QX, QY, QZ, TX, TY, TZ, CAMERA_ID, NAME
+#   POINTS2D[] as (X, Y, POINT3D_ID)
+"""
+_POINTS_HEAD = """\
+# 3D point list with one line of data per point:
+#   POINT3D_ID, X, Y, Z, R, G, B, ERROR, TRACK[] as (IMAGE_ID, POINT2D_IDX)
+# Number of points: 0
+"""
+
+
+def _lines_of(camera: Camera, size: Size) -> tuple[str, str]:
+    """A camera's MODEL, WIDTH, HEIGHT, PARAMS[], and its QW, QX, QY, QZ, TX, TY, TZ."""
+    if camera.is_parallel:
+        problem = "'parallel' has no focal length, which COLMAP needs"
+        raise LucidaError("projection", problem, "give a perspective camera")
+    camera = rigid(camera, "COLMAP")
+    (left, right, bottom, top), (width, height) = camera.viewport, size
+    across, up = width / (right - left), height / (top - bottom)  # pixels a unit
+    params = across * camera.distance, up * camera.distance, -left * across, top * up
+    rotation = np.array([1.0, -1.0, -1.0])[:, None] * camera.basis.T
+    pose = [*quaternion_of(rotation), *(-rotation @ np.asarray(camera.eye)).tolist()]
+    lens = " ".join(["PINHOLE", str(width), str(height), *(f"{value:.15g}" for value in params)])
+    return lens, " ".join(map(repr, pose))
+
+
+def _model(given: Given) -> tuple[Path, str] | None:
+    """The folder of the model, and the ending of its files: that of the file which was given,
+    else binary files where there are both, as COLMAP chooses."""
+    if given.path is None:
+        return None
+    if not given.is_folder:
+        kind = given.ending
+        known = given.path.stem in FILES + MORE_FILES and kind in _READERS
+        folder = given.path.parent
+        return (folder, kind) if known and (folder / f"cameras{kind}").is_file() else None
+    for below in BELOW:
+        folder = given.path / below
+        for kind in _READERS:
+            if (folder / f"cameras{kind}").is_file() and (folder / f"images{kind}").is_file():
+                return folder, kind
+    return None
+
+
+def _read(path: Path, reader: Callable[[bytes], _Content]) -> _Content:
+    try:
+        return reader(read_file(path, LARGEST_FILE_BYTES))
+    except LucidaError as error:
+        raise error.in_file(str(path)) from None
+
+
+def _photographs(folder: Path) -> Path | None:
+    """The folder of the photographs: the nearest one that is named images."""
+    above = [folder, *folder.absolute().parents][: FOLDERS_UP + 1]
+    return next((up / "images" for up in above if (up / "images").is_dir()), None)
+
+
+def _photograph(photographs: Path | None, name: str) -> str:
+    """The path of a photograph; "" for a name that leads out of their folder."""
+    path = PureWindowsPath(name)  # which knows both slashes
+    if photographs is None or path.anchor or ".." in path.parts:
+        return ""
+    return str(photographs.joinpath(*path.parts))

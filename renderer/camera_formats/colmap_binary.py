@@ -1,0 +1,157 @@
+"""COLMAP's models as binary files: cameras.bin, images.bin and points3D.bin, read.
+
+Each function takes a file's bytes and raises LucidaError naming the entry. A count is held against
+what is left of the file before anything is made of it.
+Source: COLMAP's documentation, "Output Format", and its scripts/python/read_write_model.py.
+"""
+
+from __future__ import annotations
+
+from struct import Struct
+from typing import Any
+
+import numpy as np
+
+from renderer.camera_formats.colmap_lenses import MODELS, NAMES, lens
+from renderer.camera_formats.colmap_records import (
+    Cloud,
+    Lenses,
+    PosedImage,
+    add_lens,
+    at,
+    checked_image,
+)
+from renderer.errors import LucidaError
+
+_COUNT = Struct("<Q")
+_CAMERA = Struct("<IiQQ")  # id, model, width, height; then its parameters
+_IMAGE = Struct("<I4d3dI")  # id, quaternion, translation, camera; then name, count, points
+_POINT_2D_BYTES = 24
+_POINT = np.dtype(
+    [("id", "<u8"), ("xyz", "<f8", 3), ("rgb", "u1", 3), ("error", "<f8"), ("track", "<u8")]
+)
+_TRACK_BYTES = 8
+_AT_ONCE = 1 << 16  # points
+_LONGEST_NAME = 4096
+
+
+def cameras(data: bytes) -> Lenses:
+    found: Lenses = {}
+    file = _Bytes(data)
+    smallest = _CAMERA.size + 3 * 8
+    for entry in file.entries("camera", smallest):
+        try:
+            identity, model, width, height = file.take(_CAMERA)
+            if not 0 <= model < len(NAMES):
+                problem = f"{model} is unknown"
+                raise LucidaError("MODEL", problem, f"give 0 to {len(NAMES) - 1}")
+            count = len(MODELS[NAMES[model]].parameters)
+            values = list(file.take(Struct(f"<{count}d")))
+            add_lens(found, identity, lens(NAMES[model], width, height, values))
+        except LucidaError as error:
+            raise at(entry, error) from None
+    file.check_end()
+    return found
+
+
+def images(data: bytes) -> list[PosedImage]:
+    found = []
+    file = _Bytes(data)
+    for entry in file.entries("image", _IMAGE.size + 2 + _COUNT.size):
+        try:
+            _, *pose, camera = file.take(_IMAGE)
+            name = file.name()
+            (count,) = file.take(_COUNT)
+            file.skip(count * _POINT_2D_BYTES)
+        except LucidaError as error:
+            raise at(entry, error) from None
+        found.append(checked_image(entry, pose[:4], pose[4:], camera, name))
+    file.check_end()
+    return found
+
+
+def points(data: bytes) -> Cloud:
+    """Where each point begins is found one after another, as its track says; what stands there
+    is then taken many at once."""
+    file = _Bytes(data)
+    count = file.count("point", _POINT.itemsize)
+    starts = np.empty(count, np.int64)
+    length_at, size, unpack, end = (
+        _POINT.itemsize - 8,
+        _POINT.itemsize,
+        _COUNT.unpack_from,
+        len(data),
+    )
+    place = file.place
+    for index in range(count):
+        starts[index] = place
+        if place + size > end:
+            break
+        place += size + _TRACK_BYTES * unpack(data, place + length_at)[0]
+        if place > end:
+            break
+    else:
+        file.place = place
+        file.check_end()
+        return _gathered(data, starts)
+    problem = f"the file ends within it, at {end:,} bytes"
+    raise LucidaError(f"point {index + 1} of {count}", problem, "copy the file whole")
+
+
+def _gathered(data: bytes, starts: np.ndarray[Any, np.dtype[np.int64]]) -> Cloud:
+    cloud = Cloud(np.empty((len(starts), 3)), np.empty((len(starts), 3), np.uint8))
+    file = np.frombuffer(data, np.uint8)
+    for first in range(0, len(starts), _AT_ONCE):
+        part = slice(first, first + _AT_ONCE)
+        records = file[starts[part, None] + np.arange(_POINT.itemsize)].view(_POINT)[:, 0]
+        cloud.points[part], cloud.colors[part] = records["xyz"], records["rgb"]
+    wrong = np.flatnonzero(~np.isfinite(cloud.points).all(axis=1))
+    if len(wrong):
+        entry = f"point {wrong[0] + 1} of {len(starts)}"
+        raise LucidaError(f"{entry}: XYZ", "is not finite", "write it again with COLMAP")
+    return cloud
+
+
+class _Bytes:
+    """A file, and the place in it that is read next."""
+
+    def __init__(self, data: bytes) -> None:
+        self._data, self.place = data, 0
+
+    def count(self, what: str, smallest: int) -> int:
+        """How many follow. smallest: the bytes that each has at least."""
+        (count,) = self.take(_COUNT)
+        left = len(self._data) - self.place
+        if count * smallest > left:
+            problem = f"says {count:,} of them, {left:,} bytes hold {left // smallest:,} at most"
+            raise LucidaError(f"number of {what}s", problem, "copy the file whole")
+        return int(count)
+
+    def entries(self, what: str, smallest: int) -> list[str]:
+        count = self.count(what, smallest)
+        return [f"{what} {number} of {count}" for number in range(1, count + 1)]
+
+    def take(self, struct: Struct) -> tuple[Any, ...]:
+        place = self.place
+        self.skip(struct.size)
+        return struct.unpack_from(self._data, place)
+
+    def skip(self, size_bytes: int) -> None:
+        if self.place + size_bytes > len(self._data):
+            problem = f"the file ends within it, at {len(self._data):,} bytes"
+            raise LucidaError("", problem, "copy the file whole")
+        self.place += size_bytes
+
+    def name(self) -> str:
+        end = self._data.find(b"\0", self.place, self.place + _LONGEST_NAME)
+        if end < 0:
+            problem = f"does not end within {_LONGEST_NAME} bytes"
+            raise LucidaError("NAME", problem, "write it again with COLMAP")
+        name, self.place = self._data[self.place : end], end + 1
+        return name.decode("utf-8", "surrogateescape")
+
+    def check_end(self) -> None:
+        left = len(self._data) - self.place
+        if left:
+            problem = f"is followed by {left:,} bytes of no known meaning"
+            raise LucidaError("the last entry", problem, "write it again with COLMAP")

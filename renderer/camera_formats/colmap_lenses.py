@@ -1,0 +1,144 @@
+"""COLMAP's camera models: their parameters, and how far each is from a pinhole.
+
+Source: COLMAP's documentation, "Camera Models", and its src/colmap/sensor/models.h, whose
+numbers and names of models and orders of parameters these are.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+
+from renderer.camera import Size
+from renderer.camera_checks import Floats
+from renderer.camera_formats.posed import Distortion
+from renderer.errors import LucidaError
+
+
+@dataclass(frozen=True)
+class LensModel:
+    """parameters: their names, in the file's order; "f" is fx and fy. fisheye: whether the angle
+    to the axis takes its tangent's place before all else."""
+
+    parameters: tuple[str, ...]
+    fisheye: bool = False
+
+
+def _model(parameters: str, fisheye: bool = False) -> LensModel:
+    return LensModel(tuple(parameters.split()), fisheye)
+
+
+# A model's number in binary files is its place here.
+MODELS = {
+    "SIMPLE_PINHOLE": _model("f cx cy"),
+    "PINHOLE": _model("fx fy cx cy"),
+    "SIMPLE_RADIAL": _model("f cx cy k"),
+    "RADIAL": _model("f cx cy k1 k2"),
+    "OPENCV": _model("fx fy cx cy k1 k2 p1 p2"),
+    "OPENCV_FISHEYE": _model("fx fy cx cy k1 k2 k3 k4", fisheye=True),
+    "FULL_OPENCV": _model("fx fy cx cy k1 k2 p1 p2 k3 k4 k5 k6"),
+    "FOV": _model("fx fy cx cy omega"),
+    "SIMPLE_RADIAL_FISHEYE": _model("f cx cy k", fisheye=True),
+    "RADIAL_FISHEYE": _model("f cx cy k1 k2", fisheye=True),
+    "THIN_PRISM_FISHEYE": _model("fx fy cx cy k1 k2 p1 p2 k3 k4 sx1 sy1", fisheye=True),
+}
+NAMES = tuple(MODELS)
+MOST_PARAMETERS = max(len(model.parameters) for model in MODELS.values())
+_PINHOLE = {"f", "fx", "fy", "cx", "cy"}
+_LARGEST_SIZE = 1_000_000  # pixels a side
+
+
+@dataclass(frozen=True)
+class Lens:
+    """A line of cameras.txt, checked. parameters: by their names in the model."""
+
+    model: str
+    size: Size
+    parameters: dict[str, float]
+
+    @property
+    def matrix(self) -> Floats:
+        """K, (3, 3) in pixels."""
+        known = self.parameters
+        fx, fy = (known.get(name, known.get("f", 0.0)) for name in ("fx", "fy"))
+        return np.array([[fx, 0, known["cx"]], [0, fy, known["cy"]], [0, 0, 1]])
+
+    @property
+    def distortion(self) -> Distortion | None:
+        """What the lens does beside a pinhole; None where that is nothing. A fisheye's picture is
+        no pinhole's though its coefficients are 0."""
+        rest = {name: value for name, value in self.parameters.items() if name not in _PINHOLE}
+        if not any(rest.values()) and not MODELS[self.model].fisheye:
+            return None
+        (fx, _, cx), (_, fy, cy), _ = self.matrix
+        width, height = self.size
+        x, y = np.meshgrid(np.array([-cx, width - cx]) / fx, np.array([-cy, height - cy]) / fy)
+        moved_x, moved_y = distorted(self.model, rest, x, y)
+        moved = np.hypot(fx * (moved_x - x), fy * (moved_y - y))
+        return Distortion(self.model, rest, float(np.max(np.nan_to_num(moved, nan=np.inf))))
+
+
+def lens(model: str, width: int, height: int, values: list[float]) -> Lens:
+    """A camera of a COLMAP model. Raises LucidaError for what is none."""
+    if model not in MODELS:
+        raise LucidaError(
+            "MODEL",
+            f"{model!r} is unknown",
+            f"give one of {', '.join(NAMES)}; COLMAP's image_undistorter makes it a PINHOLE",
+        )
+    names = MODELS[model].parameters
+    if len(values) != len(names):
+        raise LucidaError(
+            "PARAMS",
+            f"{model} has {len(names)} parameters, not {len(values)}",
+            f"give {', '.join(names)}",
+        )
+    for name, side in (("WIDTH", width), ("HEIGHT", height)):
+        if not 0 < side <= _LARGEST_SIZE:
+            problem = f"{side} is not between 1 and {_LARGEST_SIZE}"
+            raise LucidaError(name, problem, "give the image's size in pixels")
+    for name, value in zip(names, values, strict=True):
+        if not math.isfinite(value):
+            raise LucidaError(name, f"{value} is not finite", "give a finite number")
+        if name in ("f", "fx", "fy") and not value > 0:
+            raise LucidaError(name, f"{value:g} is not above 0", "give it in pixels")
+    return Lens(model, (width, height), dict(zip(names, values, strict=True)))
+
+
+def distorted(
+    model: str, coefficients: dict[str, float], x: Floats, y: Floats
+) -> tuple[Floats, Floats]:
+    """Where the lens takes the point (x, y) at distance 1 to; arrays of any shape.
+
+    Each model is a part of one formula: radial, over a denominator, tangential (p1, p2) and
+    thin-prism (sx1, sy1) terms; a fisheye's are of the angle. FOV has one of its own.
+    """
+    known = coefficients.get
+    with np.errstate(all="ignore"):  # a polynomial far outside of the lens's picture
+        r = np.hypot(x, y)
+        if model == "FOV":
+            omega = coefficients["omega"]
+            scale = np.where(r > 0, np.arctan(2 * r * math.tan(omega / 2)) / (r * omega), 1.0)
+            return scale * x, scale * y
+        if MODELS[model].fisheye:
+            scale = np.where(r > 0, np.arctan(r) / r, 1.0)
+            x, y = scale * x, scale * y
+        r2 = x * x + y * y
+        k1, k2, k3, k4 = (
+            known("k1", known("k", 0.0)),
+            known("k2", 0),
+            known("k3", 0),
+            known("k4", 0),
+        )
+        radial = 1 + r2 * (k1 + r2 * (k2 + r2 * k3))
+        if "k5" in coefficients:  # FULL_OPENCV
+            radial = radial / (1 + r2 * (k4 + r2 * (known("k5", 0) + r2 * known("k6", 0))))
+        else:
+            radial = radial + k4 * r2**4
+        p1, p2 = known("p1", 0), known("p2", 0)
+        return (
+            x * radial + 2 * p1 * x * y + p2 * (r2 + 2 * x * x) + known("sx1", 0) * r2,
+            y * radial + 2 * p2 * x * y + p1 * (r2 + 2 * y * y) + known("sy1", 0) * r2,
+        )

@@ -1,0 +1,63 @@
+"""What the files of a COLMAP model hold, however they are written: cameras, images, points."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from renderer.camera_checks import listed
+from renderer.camera_formats.colmap_lenses import Lens
+from renderer.errors import LucidaError
+
+Lenses = dict[int, Lens]  # by their CAMERA_ID
+
+
+@dataclass(frozen=True)
+class PosedImage:
+    """where: in its file, for errors. quaternion (w, x, y, z) and translation: camera from world,
+    y down and z forward. camera: an id. name: the photograph's, from the folder of images."""
+
+    where: str
+    quaternion: list[float]
+    translation: list[float]
+    camera: int
+    name: str
+
+
+class Cloud(NamedTuple):
+    """Points float64 (n, 3) and their colours in sRGB, uint8 (n, 3)."""
+
+    points: NDArray[np.float64]
+    colors: NDArray[np.uint8]
+
+
+def checked_image(
+    where: str, quaternion: list[float], translation: list[float], camera: int, name: str
+) -> PosedImage:
+    """Raises LucidaError for what is no pose or no name."""
+    for field, values in (("QW QX QY QZ", quaternion), ("TX TY TZ", translation)):
+        if not np.isfinite(values).all():
+            raise LucidaError(f"{where}: {field}", f"{listed(values)} is not finite", "mend it")
+    if not np.linalg.norm(quaternion) > 1e-9:
+        problem = f"{listed(quaternion)} is no rotation"
+        raise LucidaError(f"{where}: QW QX QY QZ", problem, "give a quaternion of length 1")
+    if not name or "\0" in name:
+        problem = f"{name!r} is no name of a photograph"
+        raise LucidaError(f"{where}: NAME", problem, "give one")
+    return PosedImage(where, quaternion, translation, camera, name)
+
+
+def add_lens(lenses: Lenses, number: int, lens: Lens) -> None:
+    """Raises LucidaError for an id that was there."""
+    if number in lenses:
+        raise LucidaError("CAMERA_ID", f"{number} is given twice", "give each camera its own")
+    lenses[number] = lens
+
+
+def at(where: str, error: LucidaError) -> LucidaError:
+    """The error, with its line or entry before its field."""
+    field = f"{where}: {error.field}" if error.field else where
+    return LucidaError(field, error.problem, error.remedy)

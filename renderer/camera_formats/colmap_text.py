@@ -1,0 +1,156 @@
+"""COLMAP's models as text: cameras.txt, images.txt and points3D.txt, read.
+
+Each function takes a file's bytes and raises LucidaError naming line and field.
+Source: COLMAP's documentation, "Output Format".
+"""
+
+from __future__ import annotations
+
+import io
+from collections.abc import Callable, Iterator
+from typing import TypeVar
+
+import numpy as np
+
+from renderer.camera_formats.colmap_lenses import lens
+from renderer.camera_formats.colmap_records import (
+    Cloud,
+    Lenses,
+    PosedImage,
+    add_lens,
+    at,
+    checked_image,
+)
+from renderer.errors import LucidaError
+
+_Number = TypeVar("_Number", int, float)
+
+_CAMERA = ("CAMERA_ID", "MODEL", "WIDTH", "HEIGHT")
+_IMAGE = ("IMAGE_ID", "QW", "QX", "QY", "QZ", "TX", "TY", "TZ", "CAMERA_ID", "NAME")
+_POINT = ("POINT3D_ID", "X", "Y", "Z", "R", "G", "B", "ERROR")
+_SHORT_BYTES = 1000  # a line of which all words are counted
+
+
+def cameras(data: bytes) -> Lenses:
+    found: Lenses = {}
+    for number, line in _lines(data):
+        try:
+            words = _words(line, _CAMERA, -1)
+            identity, width, height = (
+                _number(int, _CAMERA[place], words[place]) for place in (0, 2, 3)
+            )
+            values = [_number(float, "PARAMS", word) for word in words[4:]]
+            add_lens(found, identity, lens(words[1], width, height, values))
+        except LucidaError as error:
+            raise at(f"line {number}", error) from None
+    return found
+
+
+def images(data: bytes) -> list[PosedImage]:
+    """Each image has two lines; the second, its points, may be empty and is not kept.
+
+    A comment's number of images is not held against them: COLMAP does not, either.
+    """
+    found = []
+    lines = _lines(data, blank=True)
+    for number, line in lines:
+        if not line:
+            continue
+        where = f"line {number}"
+        try:
+            words = _words(line, _IMAGE, len(_IMAGE) - 1)
+            _number(int, "IMAGE_ID", words[0])
+            pose = [
+                _number(float, field, word)
+                for field, word in zip(_IMAGE[1:8], words[1:8], strict=True)
+            ]
+            camera = _number(int, "CAMERA_ID", words[8])
+        except LucidaError as error:
+            raise at(where, error) from None
+        found.append(checked_image(where, pose[:4], pose[4:], camera, words[9]))
+        _check_points(*next(lines, (0, b"")))
+    return found
+
+
+def points(data: bytes) -> Cloud:
+    """The track of a point, of any length, is not looked at."""
+    if not any(True for _ in _lines(data)):
+        return Cloud(np.zeros((0, 3)), np.zeros((0, 3), np.uint8))
+    try:
+        # loadtxt() holds no more than a piece of the file as text.
+        table = np.loadtxt(io.BytesIO(data), np.float64, usecols=range(1, 8), ndmin=2)
+        colors = table[:, 3:6]
+        if np.isfinite(table[:, :6]).all() and ((colors >= 0) & (colors <= 255)).all():
+            return Cloud(table[:, :3].copy(), colors.astype(np.uint8))
+    except (ValueError, UnicodeError):
+        pass
+    raise _wrong_point(data)
+
+
+def _wrong_point(data: bytes) -> LucidaError:
+    """The first line that loadtxt() does not take, looked for one by one."""
+    for number, line in _lines(data):
+        try:
+            words = _words(line, _POINT, len(_POINT))
+            values = [
+                _number(float, field, word)
+                for field, word in zip(_POINT[1:], words[1:8], strict=True)
+            ]
+            for field, value in zip(_POINT[1:7], values[:6], strict=True):
+                if not np.isfinite(value):
+                    raise LucidaError(field, f"{value} is not finite", "give a finite number")
+                if field in ("R", "G", "B") and not 0 <= value <= 255:
+                    raise LucidaError(field, f"{value:g} is no colour", "give 0 to 255")
+        except LucidaError as error:
+            return at(f"line {number}", error)
+    return LucidaError("", "is no list of points", "write it again with COLMAP")
+
+
+def _check_points(number: int, line: bytes) -> None:
+    """Whether a line is X, Y, POINT3D_ID again and again, by its ends and, of a short one, its
+    count: one that forgot the empty line after each image has a pose here."""
+    if not line:
+        return
+    ends = line.split(None, 3)[:3] + line.rsplit(None, 3)[-3:]
+    try:
+        x, y, point, last_x, last_y, last_point = ends
+        for word in (x, y, last_x, last_y):
+            float(word)
+        whole = int(point) >= -1 and int(last_point) >= -1
+        if whole and (len(line) > _SHORT_BYTES or len(line.split()) % 3 == 0):
+            return
+    except ValueError:
+        pass
+    raise LucidaError(
+        f"line {number}",
+        "is not X Y POINT3D_ID again and again",
+        "give each image two lines, of which the second may be empty",
+    )
+
+
+def _lines(data: bytes, blank: bool = False) -> Iterator[tuple[int, bytes]]:
+    """Number and text of each line that is no comment; blank: also those that are empty."""
+    start = 3 if data.startswith(b"\xef\xbb\xbf") else 0
+    for number, line in enumerate(io.BytesIO(data[start:] if start else data), 1):
+        line = line.strip()
+        if (line or blank) and not line.startswith(b"#"):
+            yield number, line
+
+
+def _words(line: bytes, fields: tuple[str, ...], most_splits: int) -> list[str]:
+    try:
+        words = line.decode("utf-8").split(None, most_splits)
+    except UnicodeDecodeError:
+        raise LucidaError("", "is not text in UTF-8", "save the file as UTF-8 text") from None
+    if len(words) < len(fields):
+        problem = f"has {len(words)} of the parts {' '.join(fields)}"
+        raise LucidaError("", problem, "write the line whole")
+    return words
+
+
+def _number(kind: Callable[[str], _Number], field: str, word: str) -> _Number:
+    try:
+        return kind(word)
+    except ValueError:
+        what = "whole number" if kind is int else "number"
+        raise LucidaError(field, f"{word!r} is no {what}", "mend it") from None
