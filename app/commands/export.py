@@ -9,6 +9,7 @@ import argparse
 
 from app.cameras.options import add_camera_options
 from app.commands import arguments as common
+from app.commands.given_camera import add_view_option
 from renderer.errors import one_line
 
 NAME = "export"
@@ -37,7 +38,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("scene", metavar="SCENE", help=common.SCENE_HELP)
     parser.add_argument("-o", "--output", metavar="OUT", required=True, help="the file to write")
     common.add_size_option(parser)
-    parser.add_argument("--view", metavar="VIEW.toml", help=common.VIEW_HELP)
+    add_view_option(parser)
     add_camera_options(parser)
 
 

@@ -43,6 +43,7 @@ examples:
   lucida spheres --view corner.toml       a built-in scene, seen by another camera
   lucida spheres --eye=0,2,6              the scene's own camera, moved
   lucida rays.py                          your own viewing_ray, its picture beside the right one
+  lucida transforms.json                  the cameras of a data set, or of a COLMAP model's folder
   lucida --screenshot window.png          draw the window once, save it, leave
 
 With no display, lucida draws the window once, saves the picture and says where.
@@ -88,6 +89,7 @@ def shown_size(own: tuple[int, int]) -> tuple[int, int]:
 
 def run(arguments: argparse.Namespace) -> int:
     from app.commands.arguments import check_is_scene
+    from app.poses.reading import is_cameras, open_cameras
     from renderer.images import check_image_path
     from renderer.scene.model import View
 
@@ -96,24 +98,29 @@ def run(arguments: argparse.Namespace) -> int:
         check_image_path(arguments.screenshot, (".png",))
         screenshot = Path(arguments.screenshot)
     any_camera = any(getattr(arguments, name) is not None for name in CAMERA_OPTIONS)
-    code = ""
+    code, cameras, view = "", None, None
     source: str | None = arguments.scene
     if source is not None and is_code(source):
         code, source = found_code(source), None
+    elif source is not None and is_cameras(source):
+        found, source = open_cameras(source), None
+        cameras, view = (None, found) if isinstance(found, View) else (found, None)
     elif source is not None:
         check_is_scene(source)
     posed = viewed(arguments)
     if posed is not None:
         say_changes([posed])
+        view = View(posed.camera, posed.fit)
     from app.window.viewer import run_viewer  # after the quick mistakes: it loads the whole window
 
     return run_viewer(
         source,
         screenshot,
         size=arguments.size,
-        view=None if posed is None else View(posed.camera, posed.fit),
+        view=view,
         resolution=None if posed is None or posed.size is None else shown_size(posed.size),
         change=(lambda view: with_camera_options(arguments, view)) if any_camera else None,
         fresh=arguments.fresh,
         code=code,
+        cameras=cameras,
     )

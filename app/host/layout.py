@@ -26,6 +26,7 @@ CAMERA_WIDTH_EM = 19.5
 PRESENTATION = "Presentation"  # what presentation mode shows
 LECTURE = "Lecture"  # what a lecture shows, each step in its own way
 CODE = "Your code"
+OUTSIDE = "Outside view"
 SHOWN_TO_A_CLASS = (LECTURE, CODE)  # presentation mode changes their style only
 ARRANGING_FRAMES = 3  # until the dock spaces of a layout are there again
 RESTORING_FRAMES = 5  # at a start, until the layout of the session is there
@@ -73,7 +74,7 @@ LAYOUTS = (
         },
     ),
     Layout(
-        "Outside view",
+        OUTSIDE,
         (
             _CAMERA,
             (MAIN, INSTRUMENTS, imgui.Dir.right, 0.34),

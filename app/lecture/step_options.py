@@ -70,7 +70,7 @@ def with_files(changes: dict[str, Any], folder: Path) -> dict[str, Any]:
         found = {name: part[name] for name in files_of(kind) if part.get(name)}
         for name, file in found.items():
             path = (folder / file).absolute()
-            if not path.is_file():
+            if not path.exists():  # a set of cameras may be a folder
                 raise LucidaError(f"{where}.{name}", f"{file!r} does not exist", "check its name")
             found[name] = stored(str(path))
         changes[where] = part | found

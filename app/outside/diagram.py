@@ -31,7 +31,8 @@ from renderer.camera import Camera
 
 Floats = NDArray[np.float64]
 Role = Literal[
-    "u", "v", "w", "ray", "mark", "plane", "volume", "grid", "eye", "text", "extra", "other"
+    "u", "v", "w", "ray", "mark", "plane", "volume", "grid", "eye", "text", "extra", "other",
+    "pose",
 ]  # fmt: skip
 
 PALE = 0.42  # of what is hidden: the opacity of its dashes

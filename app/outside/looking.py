@@ -1,8 +1,8 @@
 """How the outside view looks: which camera it looks with, how far there is to see, how wide lines
 are.
 
-Owns the camera that sees everything and those along the world's axes. Knows nothing of the mouse
-and of what is drawn.
+Owns the camera that sees everything and those along the world's axes, and whose ray is drawn. Knows
+nothing of the mouse and of how things are drawn.
 """
 
 from __future__ import annotations
@@ -16,6 +16,7 @@ from app.outside.extent import around, framed, outside_camera, way_of
 from app.outside.mouse import Scope
 from app.outside.options import OutsideOptions
 from app.outside.screen import NEAREST, OutsideScreen
+from app.state.options import Pixel
 from app.widgets import theme
 from app.widgets.theme import framebuffer_scale
 from renderer.camera import Camera
@@ -23,32 +24,36 @@ from renderer.camera import Camera
 Floats = NDArray[np.float64]
 Size = tuple[int, int]
 
+NOTHING = np.zeros((0, 3))
 LETTER_PX = 26.0  # round what is framed, for letters
 ROOMY_PX = 330.0  # a smaller view has smaller symbols
 
 
-def scope_of(host: Host, size: Size, origin: ImVec2, extent: ImVec2) -> Scope:
-    """The camera that looks, for a picture of `size` that takes `extent` of the window."""
-    points = _points(host)
+def scope_of(
+    host: Host, size: Size, origin: ImVec2, extent: ImVec2, more: Floats = NOTHING
+) -> Scope:
+    """The camera that looks, for a picture of `size` that takes `extent` of the window. more:
+    points (n, 3) that are to be seen beside the scene."""
+    points = _points(host, more)
     center = (points.min(axis=0) + points.max(axis=0)) / 2
     reach = float(np.linalg.norm(points.max(axis=0) - points.min(axis=0))) / 2
-    camera = host.state.of(OutsideOptions).camera or camera_for_all(host, size, extent)
+    camera = host.state.of(OutsideOptions).camera or camera_for_all(host, size, extent, more)
     x, y, z = center.tolist()
     middle, reach = (x, y, z), max(reach, 1e-9)
     return Scope(camera, camera.fitted(size), origin, extent, middle, reach)
 
 
-def camera_for_all(host: Host, size: Size, extent: ImVec2) -> Camera:
+def camera_for_all(host: Host, size: Size, extent: ImVec2, more: Floats = NOTHING) -> Camera:
     """The one that sees everything."""
     home, room = host.state.scene.view.camera, theme.px(LETTER_PX)
     margin = margin_for(extent.x, room), margin_for(extent.y, room)
-    return outside_camera([_points(host)], home, size[0] / size[1], margin)
+    return outside_camera([_points(host, more)], home, size[0] / size[1], margin)
 
 
-def camera_along(host: Host, scope: Scope, axis: str) -> Camera:
+def camera_along(host: Host, scope: Scope, axis: str, more: Floats = NOTHING) -> Camera:
     """The one that looks along an axis of the world and sees everything."""
     aspect = scope.extent.x / max(scope.extent.y, 1.0)
-    return framed(_points(host), way_of(axis), aspect, scope.camera.projection)
+    return framed(_points(host, more), way_of(axis), aspect, scope.camera.projection)
 
 
 def nearest(camera: Camera, scope: Scope) -> float:
@@ -77,7 +82,20 @@ def margin_for(side: float, room: float) -> float:
     return min(max(side / max(side - 2 * room, 1.0), 1.0), 1.6)
 
 
-def _points(host: Host) -> Floats:
-    """Around what there is to see: the scene, the camera, and where the scene has put it."""
+def ray_pixel(host: Host) -> Pixel | None:
+    """The pixel whose ray is drawn: the marked one, else the one under the mouse."""
+    pixel = host.state.marked
+    if pixel is None and host.hovered is not None:
+        pixel = host.hovered[1]
+    width, height = host.renderers.size
+    if pixel is None or not (0 <= pixel[0] < height and 0 <= pixel[1] < width):
+        return None
+    return pixel
+
+
+def _points(host: Host, more: Floats) -> Floats:
+    """Around what there is to see: the scene, the camera, where the scene has put it, and more."""
     home = host.state.scene.view.for_size(host.renderers.size)
-    return around(host.focus.framed, home, host.renderers.camera(host.state))
+    return around(
+        np.concatenate([host.focus.framed, more]), home, host.renderers.camera(host.state)
+    )

@@ -10,7 +10,7 @@ from collections.abc import Iterable
 import numpy as np
 from imgui_bundle import ImVec4
 
-from app.outside.diagram import Role
+from app.outside.diagram import Role, Segments
 from app.outside.projected import Primitive, Shape, Strokes
 from app.outside.vector import Color, Paint
 from app.widgets import theme
@@ -37,6 +37,7 @@ FIXED: dict[Role, ImVec4] = {
     "text": theme.rgb("#eef1f4"),
     "extra": theme.rgb("#cc79a7"),  # the reddish purple of Okabe and Ito's palette
     "other": theme.rgb("#a98bff"),
+    "pose": theme.rgb("#dccba6"),
 }
 
 # On a light ground without a picture behind.
@@ -47,6 +48,7 @@ DARKER: dict[Role, ImVec4] = {
     "mark": theme.rgb("#8c7a00"),
     "text": theme.rgb("#16191c"),
     "other": theme.rgb("#6a3fd1"),
+    "pose": theme.rgb("#74602f"),
 }
 
 Rgba = tuple[float, float, float, float]
@@ -105,6 +107,11 @@ def layers(primitives: Iterable[Primitive], ground: theme.Rgb) -> list[Layer]:
         )
         for layer in sorted(shapes.keys() | strokes.keys())
     ]
+
+
+def line_color(item: Segments, ground: theme.Rgb) -> Rgba:
+    """What an item's lines are painted with, not linear, with their opacity."""
+    return _color(item.role, item.opacity, 0.0, ground)
 
 
 def _segments(part: Strokes, ground: theme.Rgb) -> np.ndarray:

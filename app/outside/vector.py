@@ -40,7 +40,7 @@ GROUPS: tuple[Group, ...] = (  # in the order in which they are drawn
 GROUP_OF: dict[Role, Group] = {
     **{"volume": "frustum", "plane": "image plane", "grid": "image plane", "ray": "rays"},
     **{"u": "basis", "v": "basis", "w": "basis", "eye": "eye", "mark": "marks"},
-    **{"text": "letters", "extra": "more", "other": "more"},
+    **{"text": "letters", "extra": "more", "other": "more", "pose": "more"},
 }
 LETTER_PX, STRONG_PX = 16.0, 24.0  # a label's and a vector's name, in units of symbols
 ROOM, STRONG_ROOM = 13.0, 7.0  # from a point to its text, likewise

@@ -7,7 +7,7 @@ handles and the legend have modules beside this one.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from functools import partial
 from typing import Any
@@ -15,6 +15,7 @@ from typing import Any
 import moderngl
 import numpy as np
 from imgui_bundle import ImVec2, imgui
+from numpy.typing import NDArray
 
 from app.cameras.travel import Ends
 from app.host.view import DockedView, Host
@@ -23,6 +24,8 @@ from app.images.renderers import look_of
 from app.images.request import ImageRequest
 from app.images.screen import available_px, is_at_the_bottom
 from app.images.shown import Picture
+from app.outside.cloud import Cloud
+from app.outside.cloud_layer import CloudLayer
 from app.outside.diagram import Item, RayEnd, diagram
 from app.outside.extent import end_parameter
 from app.outside.frustum import bundle_pixels, pixel_seen, plane_corners
@@ -30,9 +33,11 @@ from app.outside.gizmo import Gizmo
 from app.outside.ground import Ground
 from app.outside.hits import RayHits, RayQuery
 from app.outside.looking import (
+    NOTHING,
     camera_along,
     camera_for_all,
     nearest,
+    ray_pixel,
     scope_of,
     units_px,
     widest_px,
@@ -54,6 +59,8 @@ from renderer.frame import LARGEST_PIXELS, LARGEST_SIDE
 from renderer.raster.overlay import Overlay, plane_on_screen
 
 Size = tuple[int, int]
+Floats = NDArray[np.float64]
+Guest = Callable[[Host, Scope, bool], None]
 
 OUTSIDE = "Outside"
 SMALLEST_PX = 24  # a view that is smaller shows nothing
@@ -70,7 +77,11 @@ class _MadePicture:
 
 
 class OutsideView(DockedView):
-    """extra: lines of other instruments, by their names; set by show()."""
+    """extra: lines of other instruments, by their names; set by show(). cloud: points and lines by
+    the thousand, of one of them; None: there is none. guests: called in each frame inside the
+    view's window, by the names of the instruments, with the view as it was drawn and whether the
+    mouse is over its picture.
+    """
 
     name = OUTSIDE
     title = "Outside view"
@@ -84,6 +95,10 @@ class OutsideView(DockedView):
     def __init__(self) -> None:
         self._mouse, self._gizmo = Mouse(), Gizmo()
         self._overlay: Overlay | None = None
+        self._layer: CloudLayer | None = None
+        self.cloud: Cloud | None = None
+        self.guests: dict[str, Guest] = {}
+        self._over = False  # whether the mouse is over the picture
         self._hits: RayHits | None = None
         self.ground: Ground | None = None
         self._error = ""
@@ -94,6 +109,7 @@ class OutsideView(DockedView):
     @property
     def settled(self) -> bool:
         still = self.ground is None or self.ground.settled
+        still = still and (self._layer is None or self._layer.settled)
         return still and (self._hits is None or not self._hits.busy)
 
     @property
@@ -103,8 +119,14 @@ class OutsideView(DockedView):
 
     @property
     def extra(self) -> tuple[Item, ...]:
-        """What other instruments have added."""
-        return tuple(item for items in self._extra.values() for item in items)
+        """What other instruments have added, but for points."""
+        items = tuple(item for items in self._extra.values() for item in items)
+        return items if self.cloud is None else (self.cloud.lines, *items)
+
+    @property
+    def more(self) -> Floats:
+        """Points (n, 3) round what is to be seen beside the scene."""
+        return NOTHING if self.cloud is None else self.cloud.around
 
     @property
     def size_px(self) -> Size | None:
@@ -121,13 +143,15 @@ class OutsideView(DockedView):
 
     def begin(self, host: Host, context: moderngl.Context) -> None:
         self._overlay, self.ground = Overlay(context), Ground(context)
+        self._layer = CloudLayer(context)
         self._hits = RayHits(host.animate)
 
     def end(self) -> None:
         if self._hits is not None:
             self._hits.close()
-        if self._overlay is not None:
-            self._overlay.release()
+        for drawn in (self._overlay, self._layer):
+            if drawn is not None:
+                drawn.release()
 
     def cancel(self) -> None:
         self._mouse.cancel()
@@ -135,8 +159,9 @@ class OutsideView(DockedView):
 
     def unseen(self, host: Host) -> None:
         self._made = None
-        if self.ground is not None:
+        if self.ground is not None and self._layer is not None:
             self.ground.forget()
+            self._layer.forget()
 
     def flown(self, host: Host) -> Camera | None:
         return self.scope.camera if self.scope is not None else None
@@ -151,7 +176,9 @@ class OutsideView(DockedView):
         changed = state.of(OutsideOptions).camera != target.of(OutsideOptions).camera
         if scope is None or size is None or not changed or state.view != target.view:
             return None
-        end = target.of(OutsideOptions).camera or camera_for_all(host, size, scope.extent)
+        end = target.of(OutsideOptions).camera or camera_for_all(
+            host, size, scope.extent, self.more
+        )
         return Ends(scope.camera, end, size, lambda s: s.of(OutsideOptions).camera, self.with_flown)
 
     def object_under(self, host: Host) -> int | None:
@@ -192,6 +219,8 @@ class OutsideView(DockedView):
         labels(self._made.primitives, origin, scale, host.fonts, ground, presented)
         self._handles(host, scope)
         self._tools(host, scope)
+        for guest in list(self.guests.values()):
+            guest(host, scope, self._over)
         draw.pop_clip_rect()
 
     # What the mouse does.
@@ -199,6 +228,7 @@ class OutsideView(DockedView):
     def _follow_mouse(self, host: Host, size: Size, origin: ImVec2, extent: ImVec2) -> Scope:
         scope = self._scope(host, size, origin, extent)
         imgui.set_cursor_screen_pos(origin)
+        self._over = False
         if self._gizmo.over and host.state.of(OutsideOptions).gizmo != "none":
             imgui.dummy(extent)  # ImGuizmo takes no click where an item is under the mouse
             return scope
@@ -209,6 +239,7 @@ class OutsideView(DockedView):
             extent,
             buttons.mouse_button_left | buttons.mouse_button_right | buttons.mouse_button_middle,
         )
+        self._over = imgui.is_item_hovered() and not self._mouse.dragging
         was_dragging = self._mouse.dragging
         camera, gesture = self._mouse.follow(scope)
         state = host.state
@@ -227,7 +258,7 @@ class OutsideView(DockedView):
         return self._scope(host, size, origin, extent)
 
     def _scope(self, host: Host, size: Size, origin: ImVec2, extent: ImVec2) -> Scope:
-        self.scope = scope_of(host, size, origin, extent)
+        self.scope = scope_of(host, size, origin, extent, self.more)
         return self.scope
 
     def _pixel_under(self, host: Host, scope: Scope) -> Pixel | None:
@@ -266,7 +297,7 @@ class OutsideView(DockedView):
         elif clicked == "camera":
             options = replace(options, camera=host.renderers.camera(state))
         elif axis is not None:
-            options = replace(options, camera=camera_along(host, scope, axis))
+            options = replace(options, camera=camera_along(host, scope, axis, self.more))
         if options.camera != state.of(OutsideOptions).camera:
             host.travel(with_outside(state, options))
         elif options != state.of(OutsideOptions):
@@ -281,7 +312,7 @@ class OutsideView(DockedView):
         is_under: it is for the underlay."""
         both, state = host.renderers, host.state
         assert self._overlay is not None
-        assert self.ground is not None
+        assert self.ground is not None and self._layer is not None
         assert both.textures is not None
         inner, image_size = both.camera(state), both.size
         options = state.of(OutsideOptions)
@@ -295,18 +326,20 @@ class OutsideView(DockedView):
                 picture = both.textures.whole_raster(request, look_of(state.images))
             seen = ImageRequest(state.scene, camera, size)
             ground = self.ground.picture(seen, both.textures.rasterizer, self._overlay)
-            if not self.ground.settled:
-                host.animate()
             unit_px, symbol_px = units_px(scope.extent)
+            screen = OutsideScreen(camera, size, nearest(camera, scope), unit_px, symbol_px)
+            cloud = self._layer.picture(self.cloud, screen, _ground(state))
+            if not self.ground.settled or not self._layer.settled:
+                host.animate()
             key = (
                 state.scene, camera, size, inner, image_size, replace(options, camera=None),
                 marked, tuple(hits), drawn, state.images, unit_px, symbol_px, ground.number,
                 ground.smooth, is_under, theme.used(), tuple(self._extra.items()),
+                cloud is None or self._layer.number,
             )  # fmt: skip
             if self._made is not None and self._made.key == key:
                 return self._made.texture
             end = end_parameter(inner, host.focus.framed)
-            screen = OutsideScreen(camera, size, nearest(camera, scope), unit_px, symbol_px)
             parts = int(widest_px(screen, plane_corners(inner)) / (GRID_PX * unit_px))
             items = diagram(inner, image_size, options, end, hits, marked, parts)
             for extra in self._extra.values():
@@ -329,6 +362,7 @@ class OutsideView(DockedView):
                 number=(ground.number, ground.parts),
                 mean=ground.mean if ground.smooth else None,
                 upside_down=is_under,
+                cloud=cloud,
             )
         except (LucidaError, moderngl.Error) as error:
             self._made = None
@@ -364,14 +398,3 @@ def _ground(state: AppState) -> theme.Rgb:
 def with_outside(state: AppState, options: OutsideOptions) -> AppState:
     """The state with other options of this view."""
     return state.with_options(outside=options)
-
-
-def ray_pixel(host: Host) -> Pixel | None:
-    """The pixel whose ray is drawn: the marked one, else the one under the mouse."""
-    pixel = host.state.marked
-    if pixel is None and host.hovered is not None:
-        pixel = host.hovered[1]
-    width, height = host.renderers.size
-    if pixel is None or not (0 <= pixel[0] < height and 0 <= pixel[1] < width):
-        return None
-    return pixel

@@ -15,6 +15,7 @@ from pathlib import Path
 
 from imgui_bundle import portable_file_dialogs as dialogs
 
+from app.poses.reading import CAMERA_ENDINGS
 from app.storage.code_files import CODE_ENDING
 from app.storage.recent import RecentFiles
 from app.storage.scene_watch import SceneWatch
@@ -149,12 +150,11 @@ class Files:
             self._said.append(f"Loading {self._source} was cancelled.")
 
     def open_dialog(self) -> None:
-        endings = " ".join(f"*{ending}" for ending in SCENE_ENDINGS)
+        known = (*SCENE_ENDINGS, *CAMERA_ENDINGS)
+        endings = " ".join(f"*{ending}" for ending in known)
         self._ask(
-            FileQuestion(
-                "Open a scene, a view or a model", False, SCENE_ENDINGS, "", self.open_all
-            ),
-            ["Scenes, views and models", endings, "All files", "*"],
+            FileQuestion("Open a scene, a model or cameras", False, known, "", self.open_all),
+            ["Scenes, models, views and cameras", endings, "All files", "*"],
         )
 
     def open_lecture(self, source: str) -> None:

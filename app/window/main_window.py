@@ -27,6 +27,7 @@ from app.outside.view import OUTSIDE, OutsideView
 from app.pair.go_to_pixel import Going, going, pixel_box
 from app.pair.resolution import SizeEntry, asked, resolution_box
 from app.pair.view import RASTER
+from app.poses.view import PosesView
 from app.state.app_state import AppState, History
 from app.state.options import Pixel
 from app.storage.session_store import Keeper
@@ -156,6 +157,10 @@ class MainWindow:
         shown = self.transition.begin(self.state, state, self.focus, self.renderers.size, ends)
         if shown is state:
             self.change(state)
+        elif ends is None and state.options != self.state.options:
+            # The camera alone passes: the rest is there at once, in the same step.
+            there = replace(self.state, options=state.options)
+            self.history = self.history.change(there, self.transition.gesture)
         self.animate()
 
     def focus_object(self) -> None:
@@ -341,6 +346,9 @@ class MainWindow:
     def _take_opened(self, opened: Opened) -> None:
         if opened.code:
             self.open_code(opened.code)
+            self.animate()
+        if opened.poses is not None:
+            self.view(PosesView).open(self, opened.poses)
             self.animate()
         if opened.lecture is not None:  # whose steps have scenes of their own
             self.lecture.give(*opened.lecture)

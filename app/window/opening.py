@@ -1,4 +1,5 @@
-"""What sources hold that a user opens, drops or names: scenes, views, lectures, read and prepared.
+"""What sources hold that a user opens, drops or names: scenes, views, lectures, sets of cameras,
+read and prepared.
 
 Nothing here waits for a window: it runs in the threads that load.
 """
@@ -12,6 +13,8 @@ from pathlib import Path
 
 from app.lecture.model import Lecture
 from app.lecture.reading import is_lecture, load_lecture
+from app.poses.model import PoseSet
+from app.poses.reading import is_cameras, open_cameras
 from app.storage.code_files import found_code, is_code
 from renderer.errors import LucidaError, describe
 from renderer.raster import Prepared, prepare
@@ -33,7 +36,7 @@ class Opened:
     is_first: it takes the place of what the window has begun with, without a step of undo.
     replaces: the scene of which this is a newer version; None for another one. agreed: the files
     outside of its folder that a scene which came by itself may read; None where the user named it.
-    code: the absolute path of a Python file, which is there.
+    code: the absolute path of a Python file, which is there. poses: a set of cameras.
     """
 
     sources: tuple[str, ...] = ()
@@ -46,19 +49,20 @@ class Opened:
     replaces: Scene | None = None
     agreed: frozenset[Path] | None = None
     code: str = ""
+    poses: PoseSet | None = None
 
 
 def open_sources(
     sources: Sequence[str], dropped: bool = False, agreed: frozenset[Path] = frozenset()
 ) -> Opened:
     """Loads the first scene and the first view among sources; and the first lecture, the first
-    Python file.
+    Python file, the first set of cameras. A file with one camera is a view, whatever its format.
 
     dropped: scenes must not name files outside of their folder but those that are agreed to;
     lectures never. Raises LucidaError where there is but one and it cannot be read, OutsideError
     in any case.
     """
-    scene, view, lecture, code = None, None, None, ""
+    scene, view, lecture, code, poses = None, None, None, "", None
     good, problems = [], []
     for source in sources:
         try:
@@ -68,6 +72,12 @@ def open_sources(
                 view = view or load_view(source)
             elif source not in BUILTIN_SCENES and is_lecture(source):
                 lecture = lecture or (load_lecture(source, agreed), Path(source).absolute())
+            elif source not in BUILTIN_SCENES and is_cameras(source):
+                found = open_cameras(source)
+                if isinstance(found, View):
+                    view = view or found
+                else:
+                    poses = poses or found
             elif scene is None:
                 scene = _load_scene(source, agreed if dropped else None)
             else:
@@ -80,8 +90,9 @@ def open_sources(
     given = agreed if dropped else None
     prepared = _prepared(scene)
     return Opened(
-        tuple(good), scene, view, tuple(problems), lecture, prepared, agreed=given, code=code
-    )
+        tuple(good), scene, view, tuple(problems), lecture, prepared, agreed=given, code=code,
+        poses=poses,
+    )  # fmt: skip
 
 
 def _load_scene(source: str, agreed: frozenset[Path] | None) -> Scene:

@@ -17,6 +17,7 @@ from app.lecture.model import Lecture
 from app.lecture.session import LectureSession
 from app.lecture.states import state_of
 from app.lecture.step_options import own
+from app.poses.model import PoseSet
 from app.state.all_options import Options
 from app.state.app_state import AppState
 from app.storage.kept_lecture import KeptLecture
@@ -54,7 +55,7 @@ class Start:
     saves it. message: what the user is told about it. opened: a scene for the recent files. later:
     what takes the place of the state's scene as soon as it is read. lecture: the one that is gone
     on with. fresh: begin as on the first day, with no layout of a window before. code: the absolute
-    path of a student's Python file, which is run."""
+    path of a student's Python file, which is run. poses: a set of cameras, which is shown."""
 
     state: AppState
     session: Session | None = None
@@ -65,6 +66,7 @@ class Start:
     lecture: LectureSession | None = None
     fresh: bool = False
     code: str = ""
+    poses: PoseSet | None = None
 
 
 def begin_scene(

@@ -19,6 +19,8 @@ from imgui_bundle import hello_imgui, imgui, immapp
 from app.host import layout
 from app.host.view import DockedView
 from app.images.imaging import with_resolution
+from app.poses.model import PoseSet
+from app.poses.view import PosesView
 from app.state.app_state import AppState
 from app.storage.capture import free_path
 from app.storage.paths import is_unicode, stored
@@ -65,6 +67,7 @@ def run_viewer(
     change: Callable[[SceneView], SceneView] | None = None,
     fresh: bool = False,
     code: str = "",
+    cameras: PoseSet | None = None,
 ) -> int:
     """Opens the window on a scene and returns when it is closed; gives the exit status.
 
@@ -74,8 +77,8 @@ def run_viewer(
     return. With no display that is done in any case, into lucida.png, or lucida-2.png where there
     is one, and one line says so. size: the window's (width, height). view: in place of the scene's
     own. resolution: of both images, None for what fits the window. change: what else the command
-    line says about the view. code: the absolute path of a Python file, which is run. Raises
-    LucidaError.
+    line says about the view. code: the absolute path of a Python file, which is run. cameras: a set
+    of them, which is shown. Raises LucidaError.
     """
     goes_on = scene_source is None and view is None and change is None and screenshot is None
     if screenshot is not None:
@@ -93,6 +96,9 @@ def run_viewer(
     if code:
         opened = start.state.with_options(your_code={"file": stored(code), "task": ""})
         start = replace(start, state=opened, code=code)
+    if cameras is not None:
+        file = {"file": stored(str(cameras.path)), "pose": -1}
+        start = replace(start, state=start.state.with_options(poses=file), poses=cameras)
     run = WindowRun(platform, start.state, size or DEFAULT_SIZE, picture is not None, start=start)
     return run.to_the_end(picture, tell=screenshot is None)
 
@@ -193,6 +199,9 @@ class WindowRun:
         if start.code:
             self.window.open_code(start.code)
             self.window.files.recent.add(start.code)
+        if start.poses is not None:
+            self.window.view(PosesView).open(self.window, start.poses)
+            self.window.files.recent.add(str(start.poses.path))
 
     def _end(self) -> None:
         self._ended = self.params.app_shall_exit = True

@@ -15,6 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from renderer.camera import Camera
+from renderer.raster.cloud import PREMULTIPLIED, CloudPicture
 from renderer.raster.lines import BLENDING, Layer, LineRenderer
 from renderer.raster.programs import set_uniform
 from renderer.raster.resources import Owner, check, new_texture
@@ -25,6 +26,7 @@ Size = tuple[int, int]
 Rgba = tuple[float, float, float, float]
 FAR_PX = 1e6  # beyond every image
 BACK_LIGHT = 0.55  # of a picture that is seen from behind
+CLOUD_HIDDEN = 0.25  # light of a cloud where something is nearer
 _THINNEST = 1e-7  # an image plane seen more nearly edge on shows nothing of its picture
 
 
@@ -97,6 +99,8 @@ class Overlay:
         self._enlarge = self._owner.own(context.vertex_array(self._enlarging, []))
         self._placing = self._owner.own(link(context, "plane.vert", "plane.frag"))
         self._place = self._owner.own(context.vertex_array(self._placing, []))
+        self._clouding = self._owner.own(link(context, "screen.vert", "cloud.frag"))
+        self._lay_cloud = self._owner.own(context.vertex_array(self._clouding, []))
         self._showing = self._owner.own(link(context, "screen.vert", "scene.frag"))
         self._show = self._owner.own(context.vertex_array(self._showing, []))
         self._kept: Hashable = None  # what the scene as shown was made from
@@ -166,6 +170,7 @@ class Overlay:
         casing: Rgba = (0.03, 0.035, 0.04, 0.6),
         number: Hashable = None,
         upside_down: bool = False,
+        cloud: CloudPicture | None = None,
     ) -> moderngl.Texture:
         """The view as an 8-bit texture of `size`, drawn over by the next call.
 
@@ -173,7 +178,8 @@ class Overlay:
         gather(). plane, picture: what stands in the scene; the picture as it is to be seen (not
         linear). The plane alone hides nothing. unit_px: the size of dashes and edges. casing: the
         colour of lines' edges. number: another one whenever the scene's picture is another; None:
-        not known. upside_down: row 0 is the last one, as in a window's framebuffer.
+        not known. upside_down: row 0 is the last one, as in a window's framebuffer. cloud: of this
+        size, by the same camera; below the layers.
         """
         gl = self._gl
         texture, framebuffer = self._of_size("shown", size, "uint8")
@@ -195,7 +201,7 @@ class Overlay:
         try:
             gl.enable_only(moderngl.NOTHING)
             gl.wireframe = False
-            gl.clear_samplers(0, 3)
+            gl.clear_samplers(0, 5)
             shown = self._scene_shown(mean or scene.color, exposure_ev, number, upside_down)
             self._cover(shown, framebuffer, shared["half_size"])
             framebuffer.color_mask = True, True, True, False  # all of it stays opaque
@@ -210,6 +216,8 @@ class Overlay:
                 gl.enable_only(moderngl.BLEND)
                 gl.blend_func = BLENDING
                 self._place.render(moderngl.TRIANGLE_STRIP, vertices=4)
+            if cloud is not None:
+                self._lay(cloud, shared)
             self._lines.set(shared)
             self._lines.draw(layers, 7.0 * unit_px, 1.25 * unit_px, casing)
         finally:
@@ -217,6 +225,17 @@ class Overlay:
             gl.enable_only(moderngl.NOTHING)
             before.use()
         return texture
+
+    def _lay(self, cloud: CloudPicture, shared: dict[str, Any]) -> None:
+        """Draws a cloud's picture over what is there."""
+        cloud.color.use(3)
+        cloud.depth.use(4)
+        own = {"cloud": 3, "cloud_depth": 4, "s_of_depth": cloud.s_of_depth}
+        for name, value in (shared | own | {"hidden": CLOUD_HIDDEN, "window_depth": 0.5}).items():
+            set_uniform(self._clouding, name, value)
+        self._gl.enable_only(moderngl.BLEND)
+        self._gl.blend_func = PREMULTIPLIED
+        self._lay_cloud.render(moderngl.TRIANGLES, vertices=3)
 
     def _cover(
         self,

@@ -93,13 +93,14 @@ DRAW = {
     "camera_panel": "basis_numbers projection sections",
     "pair": "go_to_pixel image_mouse marks overlay pane pixelgrid resolution rulers toolbar",
     "compare": "composed differences",
-    "outside": "gizmo ground looking mouse paint tint tools vector_painting vector_view",
+    "outside": "cloud_layer gizmo ground looking mouse paint tint tools vector_painting vector_view",
     "probe": "histogram",
     "stepper": "listing numbers plan",
     "costs": "",
     "your_code": "",
     "laboratory": "array_view displays_view pictures schemes tables tools vector_view",
     "mistakes": "pages",
+    "poses": "",
     "lecture": "exercise foot slide typesetting",
 }
 ROLES = ("actions", "instrument", "panel", "view")

@@ -1,0 +1,22 @@
+"""The sets of cameras, as the window takes them."""
+
+from __future__ import annotations
+
+from app.host.instrument import Instrument
+from app.host.view import view_of
+from app.outside.view import OutsideView
+from app.poses.actions import CHOOSING
+from app.poses.view import PosesView
+
+SYNONYMS = {
+    "Poses": "cameras colmap nerf transforms.json reconstruction photographs data set frusta",
+    "Frame the set": "zoom extents poses cameras fit",
+}
+
+INSTRUMENT = Instrument(
+    lambda views: [PosesView(view_of(views, OutsideView))],
+    CHOOSING,
+    mouse=(("double-click a frustum in the outside view", "take that camera of the set"),),
+    heading="Poses, in the list or in the outside view",
+    synonyms=SYNONYMS,
+)

@@ -1,0 +1,218 @@
+"""A set of cameras: their names, frusta and points for the outside view, the way through them.
+
+Owns what is computed once a set. Pure: knows no window, and what is slow is called in a thread.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+
+from app.outside.cloud import Cloud, box_corners
+from app.outside.diagram import Segments
+from app.outside.extent import FROM_ABOVE, FROM_BEHIND, FROM_RIGHT
+from renderer.camera import Camera
+from renderer.camera_formats import CameraSet, PosedCamera, read_cameras
+from renderer.camera_formats.given import Options
+from renderer.scene.model import View
+
+Floats = NDArray[np.float64]
+
+LINES = 10  # a camera: four edges, four sides of its image, two for which way is up
+UP = 0.28  # the height of the mark for that, in parts of the image's
+INLIERS = (1.0, 99.0)  # percent of points between which a reconstruction is; the rest are strays
+LOOKED_AT = 50_000  # points, for that
+SEED = 7  # of the order in which points are drawn
+PLAIN = 150  # gray of points without colours
+NO_POINTS = (np.zeros((0, 3), np.float32), np.zeros((0, 3), np.uint8))
+# A frustum's length, in parts of how far the cameras reach: less where there are many.
+SHORTEST, LONGEST, FOR_ONE = 0.03, 0.2, 0.9
+
+
+@dataclass(frozen=True, eq=False)
+class PoseSet:
+    """path: of its file or folder. origins, ways: (n, 4, 3), where the rays through the image's
+    corners begin, and their directions, as long as one together: upper left, upper right, lower
+    right, lower left. points, colors: of a reconstruction, as Cloud has them. low, high: (3,), a
+    box round the cameras and most of the points. told: what is to be known about it, a phrase each.
+    """
+
+    path: Path
+    format: str
+    cameras: tuple[PosedCamera, ...]
+    names: tuple[str, ...]
+    origins: Floats
+    ways: Floats
+    points: NDArray[np.float32]
+    colors: NDArray[np.uint8]
+    low: Floats
+    high: Floats
+    told: tuple[str, ...]
+
+    @property
+    def origin(self) -> Floats:
+        """What positions in float32 are counted from."""
+        return (self.low + self.high) / 2
+
+    @property
+    def length(self) -> float:
+        """What fits the set: of a frustum, world units."""
+        eyes = self.origins.mean(axis=1)
+        reach = float(np.linalg.norm(np.ptp(eyes, axis=0))) / 2
+        reach = reach or float(np.linalg.norm(self.high - self.low)) / 2 or 1.0
+        return reach * min(max(FOR_ONE / len(eyes) ** 0.5, SHORTEST), LONGEST)
+
+    @property
+    def up(self) -> Floats:
+        """The way that is up in most of the images, a unit vector; (0, 1, 0) where they do not
+        agree: reconstructions stand on their heads often enough."""
+        ways = np.array([posed.camera.v for posed in self.cameras], float)
+        mean = (ways / np.linalg.norm(ways, axis=1, keepdims=True)).mean(axis=0)
+        size = float(np.linalg.norm(mean))
+        return mean / size if size > 0.3 else np.array([0.0, 1.0, 0.0])
+
+    def view(self, number: int) -> View:
+        """What is seen from a camera. Images of other proportions see more, never less."""
+        return View(self.cameras[number].camera, fit=True)
+
+
+def load_poses(path: Path) -> CameraSet:
+    """What a file or a folder holds; lenses are told, not refused: where a camera stands does not
+    depend on them. Raises LucidaError."""
+    return read_cameras(path, options=Options(ignore_distortion=True))
+
+
+def pose_set(path: Path, found: CameraSet) -> PoseSet:
+    """Some seconds for ten thousand cameras and millions of points."""
+    rays = [_corners(posed.camera) for posed in found.cameras]
+    origins = np.array([origin for origin, _ in rays], float)
+    ways = np.array([way for _, way in rays], float)
+    eyes = origins.mean(axis=1)
+    low, high = eyes.min(axis=0), eyes.max(axis=0)
+    points, colors = np.zeros((0, 3)), np.zeros((0, 3), np.uint8)
+    if found.points is not None:
+        points = np.asarray(found.points, float).reshape(-1, 3)
+        order = np.flatnonzero(np.isfinite(points).all(axis=1))
+        order = np.random.default_rng(SEED).permutation(order)
+        points = points[order]
+        colors = np.full((len(order), 3), PLAIN, np.uint8)
+        if found.point_colors is not None:
+            colors = np.asarray(found.point_colors, np.uint8)[order]
+    if len(points):
+        ends = np.percentile(points[:LOOKED_AT], INLIERS, axis=0)
+        low, high = np.minimum(low, ends[0]), np.maximum(high, ends[1])
+    return PoseSet(
+        path,
+        found.format,
+        found.cameras,
+        _names(found.cameras),
+        origins,
+        ways,
+        (points - (low + high) / 2).astype(np.float32),
+        colors,
+        low,
+        high,
+        (*found.taken, *_lens(found.cameras)),
+    )
+
+
+def _corners(camera: Camera) -> tuple[Floats, Floats]:
+    left, right, bottom, top = camera.viewport
+    x, y = np.array([left, right, right, left]), np.array([top, top, bottom, bottom])
+    across = x[:, None] * np.asarray(camera.u) + y[:, None] * np.asarray(camera.v)
+    back = np.asarray(camera.w)
+    if camera.is_parallel:
+        ways = np.tile(-back, (4, 1))
+        origins = np.asarray(camera.eye) + across
+    else:
+        ways = across - camera.distance * back
+        origins = np.tile(np.asarray(camera.eye), (4, 1))
+    return origins, ways / np.linalg.norm(ways, axis=1).mean()
+
+
+def _names(cameras: Sequence[PosedCamera]) -> tuple[str, ...]:
+    """Without the folder that all of them are in; those without a name have their numbers."""
+    names = [posed.name or posed.image or str(n) for n, posed in enumerate(cameras)]
+    first, last = min(names), max(names)  # what these share, all do
+    pairs = enumerate(zip(first, last, strict=False))
+    shared = next((place for place, (one, other) in pairs if one != other), len(first))
+    start = first.rfind("/", 0, shared) + 1
+    return tuple(name[start:] for name in names)
+
+
+def _lens(cameras: Sequence[PosedCamera]) -> tuple[str, ...]:
+    lenses = [posed.distortion for posed in cameras if posed.distortion is not None]
+    if not lenses:
+        return ()
+    worst = max(lenses, key=lambda lens: lens.corner_px)
+    return (
+        f"the lenses' distortion ({worst.model}) is left out: "
+        f"it moves a corner by up to {worst.corner_px:.3g} pixels",
+    )
+
+
+# In the outside view.
+
+
+def frusta(
+    poses: PoseSet, length: float, numbers: Sequence[int] | NDArray[np.int64] | slice = slice(None)
+) -> Floats:
+    """Lines (n * LINES, 2, 3) of these cameras. length: world units."""
+    origins = poses.origins[numbers]
+    ends = origins + length * poses.ways[numbers]
+    middle_top = (ends[:, 0] + ends[:, 1]) / 2
+    tip = middle_top + UP * (middle_top - (ends[:, 2] + ends[:, 3]) / 2)
+    nexts = np.roll(ends, -1, axis=1)
+    lines = np.concatenate(
+        [
+            np.stack([origins, ends], axis=2),
+            np.stack([ends, nexts], axis=2),
+            np.stack([ends[:, :2], np.stack([tip, tip], axis=1)], axis=2),
+        ],
+        axis=1,
+    )
+    return lines.reshape(-1, 2, 3)
+
+
+def cloud(poses: PoseSet, length: float, with_points: bool) -> Cloud:
+    """All of a set. length: of the frusta, in what fits the set."""
+    size = length * poses.length
+    lines = Segments("poses", "pose", frusta(poses, size), 1.3, 0.9)
+    points, colors = (poses.points, poses.colors) if with_points else NO_POINTS
+    around = box_corners(poses.low - size, poses.high + size)
+    return Cloud(lines, poses.origin, points, colors, around)
+
+
+def looked_from(up: Floats, back: Floats) -> Floats:
+    """The unit vector towards an eye that sees a set from the right of a camera, from behind it and
+    from above. up: of the set. back: of the camera."""
+    level = back - (back @ up) * up
+    if np.linalg.norm(level) < 0.05 * np.linalg.norm(back):
+        level = np.eye(3)[int(np.argmin(np.abs(up)))]
+        level = level - (level @ up) * up
+    level = level / np.linalg.norm(level)
+    way = FROM_RIGHT * np.cross(up, level) + FROM_ABOVE * up + FROM_BEHIND * level
+    return way / np.linalg.norm(way)
+
+
+# The list.
+
+
+def matching(names: Sequence[str], query: str) -> list[int]:
+    """The numbers of the names that hold all words of a query, whatever their case."""
+    words = query.lower().split()
+    return [n for n, name in enumerate(names) if all(word in name.lower() for word in words)]
+
+
+def walked(shown: Sequence[int], chosen: int, steps: int) -> int:
+    """The number so many steps on in what is shown, to its ends; -1 where nothing is. Where the
+    chosen one is not among it, the first is next."""
+    if not shown:
+        return -1
+    if chosen not in shown:
+        return shown[0] if steps >= 0 else shown[-1]
+    return shown[min(max(shown.index(chosen) + steps, 0), len(shown) - 1)]

@@ -1,0 +1,314 @@
+"""The view "Poses": a set of cameras, listed, seen in the outside view, taken one after another.
+
+Owns what is shown of the set elsewhere, and which camera the mouse is over. What a set is, is
+model.py's; how it looks here, panel.py's.
+"""
+
+from __future__ import annotations
+
+import time
+from pathlib import Path
+from typing import Any
+
+import moderngl
+import numpy as np
+from imgui_bundle import imgui
+
+from app.cameras.travel import DURATION_S
+from app.host import layout
+from app.host.action import Window
+from app.host.view import DockedView, Host
+from app.outside.diagram import Dot, Face, Item, Label, Role, Segments
+from app.outside.extent import framed
+from app.outside.looking import nearest
+from app.outside.mouse import Scope
+from app.outside.screen import OutsideScreen
+from app.outside.view import OutsideView
+from app.poses import panel
+from app.poses.model import PoseSet, cloud, frusta, looked_from, matching, walked
+from app.poses.options import PosesOptions
+from app.poses.panel import PhotoShown, PoseRows, PosesHead, PoseWish
+from app.poses.photographs import Photographs
+from app.poses.picking import picked
+from app.poses.reading import PosesReader
+from app.state.app_state import AppState
+from app.storage.paths import restored, stored
+from app.widgets import theme
+from app.widgets.theme import framebuffer_scale
+from app.widgets.uploads import Uploads
+from renderer.errors import one_line
+
+POSES = "Poses"
+PHOTO = "photograph"
+BEYOND = 1 << 30  # more steps than a set has cameras
+
+
+class PosesView(DockedView):
+    """poses: the set that is open; None: there is none, or it is being read."""
+
+    name = POSES
+    title = "Poses"
+
+    def __init__(self, outside: OutsideView) -> None:
+        self._outside = outside
+        self._given: PoseSet | None = None
+        self._reader: PosesReader | None = None
+        self._photographs: Photographs | None = None
+        self._uploads: Uploads | None = None
+        self.poses: PoseSet | None = None
+        self.hovered: int | None = None  # under the mouse in the outside view
+        self._pointed: Any = None  # what that was found for
+        self._query = ""
+        self._found: tuple[PoseSet, str, list[int]] | None = None
+        self._cloud: Any = None  # what the outside view's cloud was made from
+        self._shown: Any = None  # and its lines
+        self._uploaded: Any = None
+        self._scrolled: Any = None  # the chosen one that was brought into sight
+        self._seen = False
+        self._set_out_s = 0.0  # when the last passage began
+        self._asked: PoseWish = ""
+
+    def open(self, window: Window, poses: PoseSet) -> None:
+        """The user has opened a set."""
+        self.give(poses)
+        self._query = ""
+        path = stored(str(poses.path))
+        window.change(window.state.with_options(poses={"file": path, "pose": -1}))
+        window.shell.stage.show_in(POSES, layout.OUTSIDE)
+
+    def give(self, poses: PoseSet) -> None:
+        """A set that has been read already: nothing waits for it when the state names its file."""
+        self._given = poses
+        if self._reader is not None:
+            self._reader.give(poses)
+
+    def ask(self, wish: PoseWish) -> None:
+        """What a button or a key would ask for; for the next frame that the view is drawn in."""
+        self._asked = wish
+
+    @property
+    def settled(self) -> bool:
+        works = (self._reader, self._photographs)
+        return not self._seen or not any(work is not None and work.busy for work in works)
+
+    def begin(self, host: Host, context: moderngl.Context) -> None:
+        self._reader = PosesReader(host.animate)
+        if self._given is not None:
+            self._reader.give(self._given)
+        self._photographs = Photographs(host.animate)
+        self._uploads = Uploads(context)
+
+    def end(self) -> None:
+        for owned in (self._reader, self._photographs):
+            if owned is not None:
+                owned.close()
+        if self._uploads is not None:
+            self._uploads.release()
+
+    def unseen(self, host: Host) -> None:
+        self._seen = False
+        self._asked = ""
+        self._hide()
+
+    def draw(self, host: Host) -> None:
+        assert self._reader is not None and self._uploads is not None
+        self._uploads.begin_frame()
+        self._seen = True
+        path = restored(host.state.of(PosesOptions).file)
+        name = Path(path).name
+        poses = self._reader.of(path) if path else None
+        if poses is not self.poses:
+            self.poses = poses
+            self._forget_set()
+        wish: PoseWish
+        if not path:
+            wish = panel.invitation()
+        elif poses is not None:
+            wish = self._of_set(host, poses)
+        elif path in self._reader.problems:
+            wish = panel.failed(name, self._reader.problems[path])
+        else:
+            wish = panel.waiting(name, self._reader.time_s)
+            host.animate()
+        self._grant(host, self._asked or panel.keys() or wish)
+        self._asked = ""
+        if self.poses is None:
+            self._hide()
+
+    def _of_set(self, host: Host, poses: PoseSet) -> PoseWish:
+        assert self._photographs is not None
+        state = host.state
+        options = state.of(PosesOptions)
+        chosen = self.chosen(state)
+        told = PosesHead(
+            poses.path.name, str(poses.path), _counts(poses), poses.told, bool(len(poses.points))
+        )
+        wish, changes = panel.head(told, options, host.fonts)
+        if changes:
+            host.apply(state.with_options(poses=changes))
+        shown = self._matching(poses)
+        self._query = panel.search(self._query, len(shown), len(poses.names))
+        for_list, for_photo, beside = panel.rooms(chosen >= 0)
+        scroll = chosen != self._scrolled
+        clicked = panel.rows(PoseRows(poses.names, shown, chosen, scroll), for_list)
+        self._scrolled = chosen
+        if chosen >= 0:
+            if beside:
+                imgui.same_line()
+            panel.photograph(self._photo(poses, chosen), for_photo)
+        if clicked is not None:
+            self.take(host, clicked)
+        self._show_outside(host, poses)
+        return wish
+
+    def _forget_set(self) -> None:
+        assert self._photographs is not None
+        self._photographs.forget()
+        self._found = self._uploaded = self._scrolled = self._pointed = self.hovered = None
+
+    # The list.
+
+    def chosen(self, state: AppState) -> int:
+        """The number of the chosen camera; -1 where there is none."""
+        number = state.of(PosesOptions).pose
+        return number if self.poses is not None and number < len(self.poses.names) else -1
+
+    def _matching(self, poses: PoseSet) -> list[int]:
+        found = self._found
+        if found is None or found[:2] != (poses, self._query):
+            found = self._found = poses, self._query, matching(poses.names, self._query)
+        return found[2]
+
+    def take(self, host: Host, number: int) -> None:
+        """The window's camera becomes this one, by a passage; where another passage is under way,
+        as in walking quickly, at once."""
+        poses, now_s = self.poses, time.monotonic()
+        if poses is None or not 0 <= number < len(poses.names):
+            return
+        before = self.chosen(host.state)
+        target = host.state.with_options(poses={"pose": number}).with_view(poses.view(number))
+        if before >= 0 and now_s - self._set_out_s < DURATION_S:
+            there = poses.view(before)
+            if host.state.view != there:  # on the way to it, which is a step of its own
+                host.amend(host.state.with_view(there))
+                host.change(target)
+                return
+        self._set_out_s = now_s
+        host.travel(target)
+
+    def _grant(self, host: Host, wish: PoseWish) -> None:
+        assert self._reader is not None
+        poses = self.poses
+        if wish == "open":
+            host.files.open_dialog()
+        elif wish == "close":
+            self._reader.problems.clear()
+            host.change(host.state.with_options(poses={"file": "", "pose": -1}))
+        elif wish == "cancel":
+            self._reader.cancel()
+        elif wish == "frame" and poses is not None:
+            self.frame(host, poses)
+        elif wish and poses is not None:
+            steps = {"next": 1, "previous": -1, "first": -BEYOND, "last": BEYOND}[wish]
+            number = walked(self._matching(poses), self.chosen(host.state), steps)
+            if number >= 0 and number != self.chosen(host.state):
+                self.take(host, number)
+
+    def frame(self, host: Host, poses: PoseSet) -> None:
+        """The outside view sees all of the set, and no more."""
+        points = cloud(poses, host.state.of(PosesOptions).length, False).around
+        size = self._outside.size_px or (4, 3)
+        way = looked_from(poses.up, np.asarray(host.state.camera.w))
+        camera = framed(points, way, size[0] / size[1], up=poses.up)
+        host.travel(host.state.with_options(outside={"camera": camera}))
+
+    # The photograph.
+
+    def _photo(self, poses: PoseSet, number: int) -> PhotoShown:
+        assert self._photographs is not None and self._uploads is not None
+        found = self._photographs.of(poses, number)
+        if found is None:  # the last one stays meanwhile
+            return PhotoShown(self._uploads.get(PHOTO), "", "")
+        if found is not self._uploaded:
+            self._uploaded = found
+            self._uploads.drop(PHOTO)
+            if found.pixels is not None:
+                self._uploads.put(PHOTO, found.pixels)
+        name = one_line(found.path.name) if found.path is not None else ""
+        caption = f"{name}, {found.size[0]} x {found.size[1]}"
+        return PhotoShown(self._uploads.get(PHOTO), caption, found.problem)
+
+    # What the outside view shows.
+
+    def _hide(self) -> None:
+        if self._cloud is not None or self._shown is not None:
+            self._cloud = self._shown = self._pointed = self.hovered = None
+            self._outside.cloud = None
+            self._outside.show(POSES, ())
+            self._outside.guests.pop(POSES, None)
+
+    def _show_outside(self, host: Host, poses: PoseSet) -> None:
+        options = host.state.of(PosesOptions)
+        key = (poses, options.length, options.points)
+        if key != self._cloud:
+            self._cloud = key
+            self._outside.cloud = cloud(poses, options.length, options.points)
+            self._outside.guests[POSES] = self._in_outside_view
+        chosen = self.chosen(host.state)
+        hovered = -1 if self.hovered is None else self.hovered
+        shown = (poses, options.length, chosen, hovered)
+        if shown != self._shown:
+            self._shown = shown
+            size = options.length * poses.length
+            items = [] if hovered in (-1, chosen) else _frustum(poses, hovered, size, "mark")
+            items += _frustum(poses, chosen, size, "other") if chosen >= 0 else []
+            self._outside.show(POSES, items)
+
+    def _in_outside_view(self, host: Host, scope: Scope, over: bool) -> None:
+        """Inside its window: the camera under the mouse, and the keys."""
+        poses = self.poses
+        if poses is None:
+            return
+        wish = panel.keys()
+        if wish:
+            self._grant(host, wish)
+        hovered = self._under_mouse(host, poses, scope) if over else None
+        if hovered != self.hovered:
+            self.hovered = hovered
+            host.animate()
+        if hovered is None:
+            return
+        imgui.set_tooltip(one_line(poses.names[hovered]))
+        if imgui.is_mouse_double_clicked(imgui.MouseButton_.left):
+            self.take(host, hovered)
+
+    def _under_mouse(self, host: Host, poses: PoseSet, scope: Scope) -> int | None:
+        mouse, length = imgui.get_mouse_pos(), host.state.of(PosesOptions).length
+        key = (poses, (mouse.x, mouse.y), scope.shown, length)
+        if key == self._pointed:
+            return self.hovered
+        self._pointed = key
+        scale = framebuffer_scale()
+        size = max(round(scope.extent.x * scale), 1), max(round(scope.extent.y * scale), 1)
+        screen = OutsideScreen(scope.shown, size, nearest(scope.shown, scope), theme.px(1) * scale)
+        column, row = scope.part(mouse)
+        return picked(poses, length * poses.length, screen, (column * size[0], row * size[1]))
+
+
+def _counts(poses: PoseSet) -> str:
+    count, points = len(poses.names), len(poses.points)
+    words = f"{count:,} camera{'s' if count != 1 else ''}"
+    return f"{words}, {points:,} points" if points else words
+
+
+def _frustum(poses: PoseSet, number: int, size: float, role: Role) -> list[Item]:
+    """One of them, to be told from the others."""
+    lines = frusta(poses, size, [number])
+    ends = poses.origins[number] + size * poses.ways[number]
+    middle = poses.origins[number].mean(axis=0)
+    return [
+        Face(f"{role} pose", role, ends, 0.22),
+        Segments(f"{role} pose", role, lines, 2.6, hidden=0.7, layer=2),
+        Dot(f"{role} pose", role, middle, 3.5),
+        Label(f"{role} pose", role, one_line(poses.names[number]), ends[1], away=middle),
+    ]
