@@ -44,5 +44,6 @@ ROOMS: tuple[Room, ...] = (
     Room("app.laboratory", ("laboratory",)),
     Room("app.mistakes", ("mistakes",)),
     Room("app.your_code", ("your-code",)),
+    Room("app.detective", ("detective",)),
     Room("app.lecture"),
 )
