@@ -1,7 +1,7 @@
 """The numbers of a matrix in a text that somebody has copied, however it was printed.
 
-Owns which texts are taken: NumPy, PyTorch, Python, MATLAB, Julia, C, JSON, YAML, XML, LaTeX, or bare
-numbers. Pure; runs none of what it reads. What the numbers mean is readings.py's.
+Owns which texts are taken: NumPy, PyTorch, Python, MATLAB, Julia, C, JSON, YAML, XML, LaTeX, or
+bare numbers. Pure; runs none of what it reads. What the numbers mean is readings.py's.
 """
 
 from __future__ import annotations

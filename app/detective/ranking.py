@@ -1,9 +1,9 @@
 """How likely a reading is: what its camera sees of the scene, and how it stands. Pure.
 
 A camera that somebody has set sees its scene, from outside and not from afar, stands above the
-ground, and has the horizon level. Each of these counts so many points as WEIGHTS says, in full or in
-part; the reading with the most points comes first. What the pictures show decides; this only says in
-which order to look at them.
+ground, and has the horizon level. Each of these counts so many points as WEIGHTS says, in full or
+in part; the reading with the most points comes first. What the pictures show decides; this only
+says in which order to look at them.
 """
 
 from __future__ import annotations
@@ -13,7 +13,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from app.detective.readings import Convention, Reading, Up, order_name
+from app.detective.readings import OTHER, Convention, Reading, Up, order_name
 from renderer.camera import Floats, Size
 
 WEIGHTS = {"sees": 4.0, "aims": 2.0, "upright": 2.0, "level": 2.0, "above": 1.0, "usual": 0.5}
@@ -124,10 +124,9 @@ def _place(distance: float, radius: float, is_above: bool) -> str:
 
 def title(convention: Convention) -> str:
     """A few words that tell readings of one matrix apart."""
+    words: list[str] = [convention.way]
     if convention.axes:
-        words = [convention.way, f"{convention.axes} axes"]
-    else:
-        words = [convention.way]
+        words.append(f"{convention.axes} axes")
     if convention.columns:
         words.insert(1, "transposed")
     if convention.flipped:
@@ -143,7 +142,7 @@ def name(convention: Convention, up: Up) -> str:
     elif convention.way == "clip from world":
         words.append("y down in the image" if convention.flipped else "y up in the image")
     if convention.turned:
-        words.append(f"in a world with {'z' if up == 'y' else 'y'} up")
+        words.append(f"in a world with {OTHER[up]} up")
     return ", ".join(words)
 
 

@@ -44,6 +44,7 @@ TURNS: dict[Up, Floats] = {
     "z": np.array([[1.0, 0, 0], [0, 0, -1], [0, 1, 0]]),
 }
 OTHER: dict[Up, Up] = {"y": "z", "z": "y"}
+MIRRORED = "shows the scene mirrored"  # why a reading is left out
 LAST_ROW = 1e-5  # how far from 0 0 0 1, in parts of the largest number
 SKEW = 0.05  # of fx: that K may have, where it is not given but found
 PARALLEL_ROWS = 1e-3  # the sine of the angle between what should be parallel
@@ -167,7 +168,7 @@ def _add_poses(
         name = f"{way}, {order_name(columns)}, {axes} axes"
         pose = world_from_camera(affine, Convention(way, columns, axes, turned), around.up)
         if np.linalg.det(pose[:, :3]) < 0:
-            gathered.left_out[name] = "shows the scene mirrored"
+            gathered.left_out[name] = MIRRORED
             continue
         convention = Convention(way, columns, axes, turned)
         view, size = _posed(pose, given, around)

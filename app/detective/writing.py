@@ -7,7 +7,7 @@ from collections.abc import Iterable
 from app.cameras.text import python
 from app.detective.printed import Pasted
 from app.detective.ranking import name
-from app.detective.readings import AXES, TURNS, Convention, Reading, Up, as_rows, scale_of
+from app.detective.readings import AXES, OTHER, TURNS, Convention, Reading, Up, as_rows, scale_of
 from renderer.camera import Floats
 from renderer.intrinsics import PixelOrigin
 
@@ -33,7 +33,7 @@ def formula(convention: Convention, up: Up) -> str:
         for letter, sign, number in zip("uvw", signs, (1, 2, 3), strict=True)
     )
     of = m if convention.way == "camera-to-world" else f"the inverse of {m}"
-    turned = f" in the world with {'z' if up == 'y' else 'y'} up" if convention.turned else ""
+    turned = f" in the world with {OTHER[up]} up" if convention.turned else ""
     return f"eye = column 4, {axes} of {of}{turned}"
 
 
@@ -80,8 +80,8 @@ def _pose(reading: Reading, given: Pasted, up: Up, origin: PixelOrigin) -> list[
     if scale_of(affine) != 1.0:
         lines.append("C[:, :3] /= abs(np.linalg.det(C[:, :3])) ** (1 / 3)  # without its scale")
     if convention.turned:
-        rows = ", ".join(f"({_numbers(row)})" for row in TURNS[up])
-        lines.append(f"C = np.array([{rows}]) @ C  # from a world with {'z' if up == 'y' else 'y'} up")
+        rows = ", ".join(f"({', '.join(f'{one:g}' for one in row)})" for row in TURNS[up] + 0.0)
+        lines.append(f"C = np.array([{rows}]) @ C  # its world has {OTHER[up]} up")
     if given.K is not None:
         if convention.axes != "OpenGL":
             signs = ", ".join(map(str, AXES[convention.axes]))
