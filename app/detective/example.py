@@ -9,7 +9,7 @@ import numpy as np
 from app.detective.readings import AXES, TURNS, Convention, Up, Way
 from renderer.camera import Camera, Floats
 
-DIGITS = 10
+DECIMALS = 7  # a basis of them is orthonormal enough to stay so
 WAYS: tuple[Way, ...] = ("camera-to-world", "world-to-camera")
 PROGRAMS = ("OpenGL", "OpenCV", "PyTorch3D")  # those with a right-handed camera
 
@@ -28,15 +28,15 @@ def matrix_of(camera: Camera, convention: Convention, up: Up) -> Floats:
     pose[:3, 3] = camera.eye
     if convention.turned:
         pose[:3] = TURNS[up].T @ pose[:3]
-    pose = pose * (*AXES[convention.axes], 1)
+    pose *= (*AXES[convention.axes], 1)
     if convention.way == "world-to-camera":
-        pose = np.linalg.inv(pose)
+        pose = np.asarray(np.linalg.inv(pose), np.float64)
     return pose.T if convention.columns else pose
 
 
 def printed_matrix(matrix: Floats) -> str:
-    """A matrix as NumPy prints it, with all the digits that a camera needs."""
-    rows = [[f"{number + 0.0:.{DIGITS}g}" for number in row] for row in matrix]
+    """A matrix in rows of numbers."""
+    rows = [[f"{round(number, DECIMALS) + 0.0:.12g}" for number in row] for row in matrix.tolist()]
     wide = max(len(word) for row in rows for word in row)
     lines = ["[" + ", ".join(word.rjust(wide) for word in row) + "]" for row in rows]
     return "[" + ",\n ".join(lines) + "]\n"

@@ -20,7 +20,7 @@ from app.detective.readings import MIRRORED, OTHER
 from app.widgets import theme
 from app.widgets.checks import radio_button
 from app.widgets.lettering import lettering
-from app.widgets.picture_grid import GridPicture, picture_grid
+from app.widgets.picture_grid import GAP_EM, HEADING_EM, GridPicture, columns_for, picture_grid
 from app.widgets.rows import follow
 from app.widgets.theme import Fonts
 from renderer.intrinsics import PixelOrigin
@@ -40,6 +40,7 @@ FORMS = (
 BESIDE = 1.25  # width / height of the room from which the text stands beside the pictures
 TEXT_PART, TEXT_EM, MOST_TEXT_EM = 0.34, 19.0, 34.0  # of the width, that the text then has
 ABOVE_LINES = 5.5  # of the text, where it stands above
+LEAST_PICTURE_EM = 11.5  # a picture's width, from which its words can be read
 CODE_PART = 0.3  # of the height, for what stands below the pictures there
 ORIGINS: dict[PixelOrigin, tuple[str, str]] = {
     "center": ("centres", "integers stand at the pixels' centres: OpenCV, ROS"),
@@ -185,8 +186,7 @@ def _pictures(
         imgui.set_cursor_pos(ImVec2(theme.px(3), theme.px(3)))
         if shown.note:
             _paragraph(shown.note, theme.DIM)
-        room = imgui.get_content_region_avail()
-        room = ImVec2(room.x - theme.px(3), room.y - theme.px(4))
+        room = _grid_room(imgui.get_content_region_avail(), findings)
         up = findings.case.up
         chosen = findings.named(options.chosen)
         grid = []
@@ -209,6 +209,23 @@ def _pictures(
         return findings.shown[answer.number] if answer is not None else None
     imgui.end_child()
     return None
+
+
+def _grid_room(room: ImVec2, findings: Findings) -> ImVec2:
+    """The room for the pictures: higher than there is, and scrolled, where they would be too small
+    to read what stands above them."""
+    em, margin, count = imgui.get_font_size(), theme.px(3), len(findings.shown)
+    aspect = findings.case.size[0] / findings.case.size[1]
+    heading, gap = 2 * HEADING_EM * em, GAP_EM * em
+    wide = room.x - margin
+    _, width = columns_for(count, aspect, (wide, room.y - margin), heading, gap)
+    if width >= LEAST_PICTURE_EM * em:
+        return ImVec2(wide, room.y - margin)
+    wide -= imgui.get_style().scrollbar_size
+    columns = min(count, max(1, int((wide + gap) / (LEAST_PICTURE_EM * em + gap))))
+    high = (wide - gap * (columns - 1)) / columns / aspect + heading
+    rows = -(-count // columns)
+    return ImVec2(wide, rows * (high + gap) - gap)
 
 
 def _paragraph(text: str, color: ImVec4) -> None:

@@ -45,6 +45,8 @@ TURNS: dict[Up, Floats] = {
 }
 OTHER: dict[Up, Up] = {"y": "z", "z": "y"}
 MIRRORED = "shows the scene mirrored"  # why a reading is left out
+# From where integers stand to the first pixel's corner.
+OFFSET: dict[PixelOrigin, float] = {"center": 0.5, "corner": 0.0}
 LAST_ROW = 1e-5  # how far from 0 0 0 1, in parts of the largest number
 SKEW = 0.05  # of fx: that K may have, where it is not given but found
 PARALLEL_ROWS = 1e-3  # the sine of the angle between what should be parallel
@@ -193,7 +195,7 @@ def scale_of(pose: Floats) -> float:
 
 def _posed(pose: Floats, given: Pasted, around: Around) -> tuple[View, Size | None]:
     if given.K is not None:
-        size = size_for(given.K, given.size, around.images)
+        size = size_for(given.K, given.size, around)
         camera = Camera.from_intrinsics(
             given.K,
             world_from_camera=pose,
@@ -207,16 +209,17 @@ def _posed(pose: Floats, given: Pasted, around: Around) -> tuple[View, Size | No
     return View(replace(now.camera, eye=eye, u=u, v=v, w=w), now.fit), None
 
 
-def size_for(k: Floats, size: Size | None, images: Size) -> Size:
-    """The size of K's image: as it was given, else K has its principal point in the middle, else
-    it is the images'."""
+def size_for(k: Floats, size: Size | None, around: Around) -> Size:
+    """The size of K's image: as it was given, else the even one that has K's principal point
+    nearest to its middle, else the window's images'."""
     if size is not None:
         return size
-    guessed = round(2 * float(k[0, 2])), round(2 * float(k[1, 2]))
+    offset = OFFSET[around.pixel_origin]
+    width, height = (2 * round((2 * float(middle) + offset) / 2) for middle in k[:2, 2])
     try:
-        return check_size(guessed)
+        return check_size((width, height))
     except LucidaError:
-        return images
+        return around.images
 
 
 # Projections with a pose in them.
@@ -228,7 +231,7 @@ def _add_p(
     """P = K [R | t], which is known up to a factor. Raises LucidaError, LinAlgError."""
     eye = -np.linalg.solve(affine[:, :3], affine[:, 3])
     sign = np.sign(np.linalg.det(affine[:, :3]))
-    offset = 0.5 if around.pixel_origin == "center" else 0.0
+    offset = OFFSET[around.pixel_origin]
     shift = np.array([[1, 0, -offset], [0, 1, -offset], [0, 0, 1]])
     k, rotation, t = decomposed(
         np.linalg.inv(sign * affine[:, :3]) @ shift, eye, around.pixel_origin
@@ -237,7 +240,7 @@ def _add_p(
         raise LucidaError("K", f"would have a skew of {k[0, 1]:.3g}, fx = {k[0, 0]:.3g}", "")
     if not 0.1 < k[0, 0] / k[1, 1] < 10:
         raise LucidaError("K", f"would have fx = {k[0, 0]:.3g}, fy = {k[1, 1]:.3g}", "")
-    size = size_for(k, given.size, around.images)
+    size = size_for(k, given.size, around)
     for turned in (False, True):
         turn = TURNS[around.up] if turned else np.eye(3)
         camera = Camera.from_intrinsics(

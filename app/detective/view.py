@@ -6,7 +6,7 @@ readings.py's, in which order ranking.py's, how they look panel.py's.
 
 from __future__ import annotations
 
-from dataclasses import asdict
+from dataclasses import asdict, dataclass
 from typing import Any
 
 import moderngl
@@ -35,6 +35,14 @@ DETECTIVE = "Detective"
 CONTROLS_EM, ROWS_EM = 34.0, 20.0  # larger type gives way where the view is less wide, or high
 
 
+@dataclass(frozen=True, eq=False)
+class _Made:
+    """The pictures of the readings' cameras. of: what they were asked for by."""
+
+    of: Any
+    lights: tuple[Light, ...]
+
+
 class DetectiveView(DockedView):
     """findings: what is shown; None before the first."""
 
@@ -42,10 +50,9 @@ class DetectiveView(DockedView):
     title = "Detective"
 
     def __init__(self) -> None:
-        self._painter: RayPictures[tuple[Any, tuple[Light, ...]]] | None = None
+        self._painter: RayPictures[_Made] | None = None
         self._uploads: Uploads | None = None
         self._uploaded: Any = None
-        self._made: tuple[Any, tuple[Light, ...]] | None = None
         self._found_of: tuple[Case, Scene] | None = None
         self._asked: MatrixWish = ""
         self._examples = 0
@@ -92,7 +99,7 @@ class DetectiveView(DockedView):
             return
         self._painter.forget()
         self._seen, self._asked = False, ""
-        self._made, self._uploaded, self._found_of, self.findings = None, None, None, None
+        self._uploaded, self._found_of, self.findings = None, None, None
 
     def draw(self, host: Host) -> None:
         assert self._uploads is not None
@@ -148,16 +155,16 @@ class DetectiveView(DockedView):
             key,
             state.scene,
             host.renderers.live,
-            lambda painter: (key, model.pictures(painter, cameras, size, shadows)),
+            lambda painter: _Made(key, model.pictures(painter, cameras, size, shadows)),
         )
         error, note = self._painter.error, ""
         if error is not None:
             note = describe(error)
-        is_there = made is not None and made[0] == key
+        is_there = made is not None and made.of == key
         if made is not None and is_there and self._uploaded != (made, state.images.exposure_ev):
             self._uploaded = (made, state.images.exposure_ev)
             try:
-                for number, light in enumerate(made[1]):
+                for number, light in enumerate(made.lights):
                     self._uploads.put(f"{number}", to_srgb8(light, state.images.exposure_ev))
             except LucidaError as problem:  # no memory for the textures
                 note = describe(problem)

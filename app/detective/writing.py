@@ -21,12 +21,12 @@ WHO = {
 
 def formula(convention: Convention, up: Up) -> str:
     """What the matrix M does to a point, and where the camera's axes are in it."""
-    m = "Mᵀ" if convention.columns else "M"
+    m = "M transposed" if convention.columns else "M"
     if convention.way == "P = K [R | t]":
-        return f"pixel ~ {m} (x, y, z, 1)"
+        return f"pixel ~ P (x, y, z, 1), P = {m}"
     if convention.way == "clip from world":
         down = "; image y = -clip y" if convention.flipped else ""
-        return f"clip = {m} (x, y, z, 1){down}"
+        return f"clip = C (x, y, z, 1), C = {m}{down}"
     signs = AXES[convention.axes]
     axes = ", ".join(
         f"{letter} = {'-' if sign < 0 else ''}column {number}"
@@ -66,7 +66,7 @@ def _given(given: Pasted, convention: Convention) -> list[str]:
 def _pose(reading: Reading, given: Pasted, up: Up, origin: PixelOrigin) -> list[str]:
     convention = reading.convention
     is_inverse = convention.way == "world-to-camera"
-    affine = as_rows(given, convention.columns)
+    affine = as_rows(given, convention.columns)[:3]
     is_plain = not convention.turned and scale_of(affine) == 1.0
     last = f"    size={reading.size}, pixel_origin={origin!r},".replace("'", '"')
     if given.K is not None and is_plain and convention.axes in ("OpenGL", "OpenCV"):
@@ -74,7 +74,7 @@ def _pose(reading: Reading, given: Pasted, up: Up, origin: PixelOrigin) -> list[
         axes = convention.axes.lower()
         return ["camera = Camera.from_intrinsics(", f'    K, {pose}=M, axes="{axes}",', last, ")"]
     lines = []
-    if is_inverse and len(affine) == 3:
+    if is_inverse and given.numbers.size != 16:
         lines.append("M = np.vstack([M, (0, 0, 0, 1)])")
     lines.append(f"C = {'np.linalg.inv(M)' if is_inverse else 'M'}[:3]  # world_from_camera")
     if scale_of(affine) != 1.0:
