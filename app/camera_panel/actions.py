@@ -39,6 +39,7 @@ class Mover(Protocol):
     @property
     def renderers(self) -> Renderers: ...
     def travel(self, state: AppState) -> None: ...
+    def take(self, text: str) -> bool: ...
 
 
 def with_its_basis(state: AppState) -> AppState:
@@ -97,16 +98,22 @@ def copy(window: Mover, form: Form) -> None:
     window.files.say(f"The camera is in the clipboard: {form}.")
 
 
-def paste(window: Mover) -> None:
-    """The camera of the clipboard's text; a message says what to do where there is none."""
+def clipboard_text() -> str:
     try:
-        text = imgui.get_clipboard_text() or ""
+        return imgui.get_clipboard_text() or ""
     except RuntimeError:  # the system has no clipboard, or no text in it
-        text = ""
+        return ""
+
+
+def paste(window: Mover) -> None:
+    """The camera of the clipboard's text. What is none, a view may know what to do with; else a
+    message says what to do."""
+    text = clipboard_text()
     try:
         view = read_view(text, window.state.view)
     except LucidaError as error:
-        window.files.message = str(error)
+        if not window.take(text):
+            window.files.message = str(error)
         return
     window.travel(with_its_basis(window.state.with_view(view)))
     window.files.say(f"The camera is pasted from the {SOURCE}.")

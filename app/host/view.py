@@ -89,6 +89,10 @@ class Host(Protocol):
         """Makes a state the present one, as a step of its own, by a smooth passage of its camera,
         or of the one that looks in the outside view, where that is to be seen."""
 
+    def take(self, text: str) -> bool:
+        """A text was pasted that holds no camera: shows the view that knows what to do with it;
+        gives whether there is one."""
+
     def animate(self) -> None:
         """Asks for a next frame at full rate: something is moving by itself."""
 
@@ -135,6 +139,11 @@ class DockedView:
     def with_flown(self, state: AppState, camera: Camera) -> AppState:
         """The state with that camera moved."""
         return state
+
+    def takes(self, host: Host, text: str) -> bool:
+        """Whether the view knows what to do with a text that was pasted and holds no camera; it
+        has taken it then, and is shown."""
+        return False
 
     def object_under(self, host: Host) -> int | None:
         """The index of the scene's object under the mouse; None for the background, and where

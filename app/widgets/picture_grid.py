@@ -23,7 +23,8 @@ GAP_EM = 0.7
 @dataclass(frozen=True)
 class GridPicture:
     """name: ImGui's. title, caption: above it, the one in bold. texture: None while there is none.
-    frame: a colour round it; None: the usual line. pixel: one that is marked."""
+    frame: a colour round it; None: the usual line. pixel: one that is marked. line: a second one
+    above it. tip: under the mouse."""
 
     name: str
     title: str
@@ -31,6 +32,8 @@ class GridPicture:
     caption: str = ""
     frame: ImVec4 | None = None
     pixel: Pixel | None = None
+    line: str = ""
+    tip: str = ""
 
 
 @dataclass(frozen=True)
@@ -63,7 +66,8 @@ def picture_grid(
 ) -> GridAnswer | None:
     """Draws them within the room, from the cursor on. size: (width, height) of all of them."""
     em, scale = imgui.get_font_size(), framebuffer_scale()
-    heading, gap = HEADING_EM * em, GAP_EM * em
+    lines = 1 + any(picture.line for picture in pictures)
+    heading, gap = lines * HEADING_EM * em, GAP_EM * em
     columns, width = columns_for(len(pictures), size[0] / size[1], (room.x, room.y), heading, gap)
     unit = width * scale / size[0]  # framebuffer pixels of a picture's pixel
     unit = float(int(unit)) if unit >= 4 else unit  # then all are of one size
@@ -98,10 +102,15 @@ def _picture(
     if picture.caption and wide < extent.x:
         beside = ImVec2(at.x + wide + 0.3 * em, at.y)
         fitted_text(draw, beside, theme.u32(theme.DIM), picture.caption, extent.x - wide - 0.3 * em)
+    if picture.line:
+        below = ImVec2(at.x, at.y + HEADING_EM * em)
+        fitted_text(draw, below, theme.u32(theme.DIM), picture.line, extent.x)
     low = ImVec2(int(at.x * scale) / scale, int((at.y + heading) * scale) / scale)
     high = ImVec2(low.x + extent.x, low.y + extent.y)
     imgui.set_cursor_screen_pos(low)
     clicked = imgui.invisible_button(picture.name, ImVec2(max(extent.x, 1.0), max(extent.y, 1.0)))
+    if picture.tip:
+        imgui.set_item_tooltip(picture.tip)
     if picture.texture is not None:
         draw.add_image(imgui.ImTextureRef(picture.texture.glo), low, high)
     else:

@@ -163,6 +163,13 @@ class MainWindow:
             self.history = self.history.change(there, self.transition.gesture)
         self.animate()
 
+    def take(self, text: str) -> bool:
+        for view in self.views.values():
+            if view.takes(self, text):
+                self.shell.stage.show(view.name)
+                return True
+        return False
+
     def focus_object(self) -> None:
         """Frames the object under the mouse, in the view that the mouse is over; all of the
         scene where there is none."""

@@ -69,8 +69,9 @@ def write(cameras: Sequence[PosedCamera], options: Options) -> dict[str, bytes]:
             camera, size = sized(one, options)
             entry, its_render = _entry(camera, known_size(size, "Blender"))
             for key, value in its_render.items():
-                if not math.isclose(float(render.setdefault(key, value)), value, rel_tol=1e-9):
-                    problem = f"{value:g} differs from another camera's {render[key]:g}"
+                known: float = render.setdefault(key, value)
+                if not math.isclose(known, value, rel_tol=1e-9):
+                    problem = f"{value:g} differs from another camera's {known:g}"
                     remedy = "choose one camera: a Blender scene has one"
                     raise LucidaError(key, problem, remedy)
         except LucidaError as error:

@@ -27,6 +27,8 @@ class Window:
     state: AppState
     size: tuple[int, int] = (160, 90)
     said: list[str] = field(default_factory=list)
+    taken: list[str] = field(default_factory=list)  # texts that views were asked to take
+    takes: tuple[str, ...] = ()  # those that one does
     message: str = ""
 
     @property
@@ -49,6 +51,10 @@ class Window:
         self.state = state
 
     change = travel
+
+    def take(self, text: str) -> bool:
+        self.taken.append(text)
+        return text in self.takes
 
 
 @pytest.fixture

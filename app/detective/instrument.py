@@ -1,0 +1,15 @@
+"""The detective, as the window takes it."""
+
+from __future__ import annotations
+
+from app.detective.actions import QUESTIONS
+from app.detective.view import DetectiveView
+from app.host.instrument import Instrument
+
+SYNONYMS = {
+    "Detective": "matrix convention pose extrinsics opencv opengl blender transposed inverse",
+    "What is this matrix?": "detective clipboard paste pose convention extrinsics",
+    "A matrix to find out": "detective quiz example convention",
+}
+
+INSTRUMENT = Instrument(lambda views: [DetectiveView()], QUESTIONS, synonyms=SYNONYMS)

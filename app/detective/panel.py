@@ -1,0 +1,234 @@
+"""The detective's panel: the text, its readings' pictures, and how the chosen one is written down.
+
+Owns their look. Gets values and returns what was asked for.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from typing import Literal
+
+import moderngl
+from imgui_bundle import ImVec2, ImVec4, imgui
+
+from app.detective import ranking, writing
+from app.detective.model import Findings
+from app.detective.options import DetectiveOptions
+from app.detective.ranking import Ranked
+from app.detective.readings import MIRRORED, OTHER
+from app.widgets import theme
+from app.widgets.checks import radio_button
+from app.widgets.lettering import lettering
+from app.widgets.picture_grid import GAP_EM, HEADING_EM, GridPicture, columns_for, picture_grid
+from app.widgets.rows import follow
+from app.widgets.theme import Fonts
+from renderer.intrinsics import PixelOrigin
+
+MatrixWish = Literal["", "paste", "example", "copy"]
+
+INVITATION = (
+    "Somebody has given you a camera as a matrix, and not said what it means: does it take the"
+    " world to the camera or the camera to the world, does it stand by rows or by columns, which"
+    " way do its axes point? Copy it, and press Ctrl+V: each reading is drawn in the scene that is"
+    " open, the likeliest first. Click the picture that is right."
+)
+FORMS = (
+    "4 x 4 or 3 x 4, or R and t; K may stand beside, with the image's size. P = K [R | t], or"
+    " projection times view. As NumPy, Python, MATLAB, C, JSON and others print them."
+)
+BESIDE = 1.25  # width / height of the room from which the text stands beside the pictures
+TEXT_PART, TEXT_EM, MOST_TEXT_EM = 0.34, 19.0, 34.0  # of the width, that the text then has
+ABOVE_LINES = 5.5  # of the text, where it stands above
+LEAST_PICTURE_EM = 11.5  # a picture's width, from which its words can be read
+CODE_PART = 0.3  # of the height, for what stands below the pictures there
+ORIGINS: dict[PixelOrigin, tuple[str, str]] = {
+    "center": ("centres", "integers stand at the pixels' centres: OpenCV, ROS"),
+    "corner": ("corners", "integers stand at corners, centres at .5: COLMAP, NeRF, renderers"),
+}
+
+
+@dataclass(frozen=True)
+class Answer:
+    """options: as they were edited. chosen: the reading whose picture was clicked."""
+
+    options: DetectiveOptions
+    wish: MatrixWish = ""
+    chosen: Ranked | None = None
+
+
+@dataclass(frozen=True)
+class Shown:
+    """texture: of a reading's picture, by its number; None while it is not there. here: numbers of
+    those where the camera stands now. note: what is waited for, or went wrong."""
+
+    texture: Callable[[int], moderngl.Texture | None]
+    here: frozenset[int] = frozenset()
+    note: str = ""
+
+
+def panel(options: DetectiveOptions, findings: Findings, shown: Shown, fonts: Fonts) -> Answer:
+    """Everything, into the present window."""
+    wish, options = _controls(options, findings)
+    if not options.text:
+        _paragraph(INVITATION, theme.TEXT)
+        _paragraph(FORMS, theme.DIM)
+        return Answer(options, wish)
+    room, em = imgui.get_content_region_avail(), imgui.get_font_size()
+    if room.x > BESIDE * room.y:
+        width = min(max(TEXT_PART * room.x, TEXT_EM * em), MOST_TEXT_EM * em, 0.5 * room.x)
+        if imgui.begin_child("text", ImVec2(width, room.y)):
+            options = _text(options, 0.32 * room.y, fonts)
+            wish = _told(options, findings, fonts) or wish
+        imgui.end_child()
+        imgui.same_line()
+        chosen = _pictures(findings, shown, options, imgui.get_content_region_avail(), fonts)
+        return Answer(options, wish, chosen)
+    options = _text(options, min(ABOVE_LINES * em, 0.25 * room.y), fonts)
+    left = imgui.get_content_region_avail()
+    below = CODE_PART * room.y
+    if findings.given is None:
+        below = left.y
+    chosen = None
+    if findings.given is not None:
+        chosen = _pictures(findings, shown, options, ImVec2(left.x, left.y - below), fonts)
+    if imgui.begin_child("told", ImVec2(0, 0)):
+        wish = _told(options, findings, fonts) or wish
+    imgui.end_child()
+    return Answer(options, wish, chosen)
+
+
+def _controls(options: DetectiveOptions, findings: Findings) -> tuple[MatrixWish, DetectiveOptions]:
+    wish: MatrixWish = ""
+    if imgui.button("Paste"):
+        wish = "paste"
+    imgui.set_item_tooltip("the matrix that is in the clipboard (Ctrl+V)")
+    if _button("A matrix to find out"):
+        wish = "example"
+    imgui.set_item_tooltip(
+        "the present camera, as another program would print it: which program, which way?"
+    )
+    if options.text and findings.counts_pixels:
+        label = "integers at pixels'"
+        follow(imgui.calc_text_size(label).x)
+        imgui.align_text_to_frame_padding()
+        imgui.text_colored(theme.DIM, label)
+        for origin, (name, tip) in ORIGINS.items():
+            follow(imgui.calc_text_size(name).x + 1.5 * imgui.get_frame_height())
+            if radio_button(f"{name}##origin", options.pixel_origin == origin):
+                options = replace(options, pixel_origin=origin)
+            imgui.set_item_tooltip(tip)
+    return wish, options
+
+
+def _button(label: str) -> bool:
+    follow(imgui.calc_text_size(label).x + 2 * imgui.get_style().frame_padding.x)
+    return bool(imgui.button(label))
+
+
+def _text(options: DetectiveOptions, height: float, fonts: Fonts) -> DetectiveOptions:
+    """What was pasted, to be mended or added to."""
+    with lettering(fonts.mono, 0.9 * imgui.get_font_size()):
+        edited, text = imgui.input_text_multiline("##matrix", options.text, ImVec2(-1, height))
+    return replace(options, text=text, chosen="") if edited else options
+
+
+def _told(options: DetectiveOptions, findings: Findings, fonts: Fonts) -> MatrixWish:
+    """What is wrong with the text, or how the chosen reading is written down."""
+    wish: MatrixWish = ""
+    if findings.error:
+        _paragraph(findings.error, theme.ERROR)
+        return wish
+    assert findings.given is not None
+    chosen = findings.named(options.chosen)
+    if chosen is None:
+        _paragraph("Which picture is right? Click it, or go there with the arrow keys.", theme.TEXT)
+        _paragraph(_aside(findings), theme.DIM)
+        return wish
+    up, convention = findings.case.up, chosen.reading.convention
+    _paragraph(ranking.sentence(chosen, up), theme.TEXT)
+    if convention.axes:
+        _paragraph(writing.WHO[convention.axes], theme.DIM)
+    _paragraph(writing.formula(convention, up), theme.TEXT)
+    if imgui.button("Copy as Python"):
+        wish = "copy"
+    text = code_of(findings, chosen)
+    with lettering(fonts.mono, 0.85 * imgui.get_font_size()):
+        imgui.text_unformatted(text)
+    return wish
+
+
+def code_of(findings: Findings, one: Ranked) -> str:
+    assert findings.given is not None
+    case = findings.case
+    return writing.code(one.reading, findings.given, case.up, case.pixel_origin)
+
+
+def _aside(findings: Findings) -> str:
+    """How many readings there are beside those that are shown, and what cannot be."""
+    words = []
+    if findings.others:
+        words.append(f"{findings.others} readings that are less likely are not shown.")
+    words += [f"Not {name}: {reason}." for name, reason in findings.left_out if reason != MIRRORED]
+    mirrored = sum(reason == MIRRORED for _, reason in findings.left_out)
+    if mirrored:
+        words.append(f"{mirrored} readings would show the scene mirrored.")
+    return " ".join(words)
+
+
+def _pictures(
+    findings: Findings, shown: Shown, options: DetectiveOptions, room: ImVec2, fonts: Fonts
+) -> Ranked | None:
+    """The grid; gives the reading that was clicked."""
+    if findings.given is None:
+        return None
+    if imgui.begin_child("pictures", room):
+        imgui.set_cursor_pos(ImVec2(theme.px(3), theme.px(3)))
+        if shown.note:
+            _paragraph(shown.note, theme.DIM)
+        room = _grid_room(imgui.get_content_region_avail(), findings)
+        up = findings.case.up
+        chosen = findings.named(options.chosen)
+        grid = []
+        for number, one in enumerate(findings.shown):
+            frame: ImVec4 | None = theme.GOOD if one is chosen else None
+            here = " (the camera is here)" if number in shown.here else ""
+            turned = f", {OTHER[up]} up" * one.reading.convention.turned
+            grid.append(
+                GridPicture(
+                    f"reading {number}",
+                    f"{number + 1}  {ranking.title(one.reading.convention)}{turned}",
+                    shown.texture(number),
+                    frame=frame,
+                    line=one.told + here,
+                    tip=ranking.sentence(one, up),
+                )
+            )
+        answer = picture_grid(grid, findings.case.size, room, fonts)
+        imgui.end_child()
+        return findings.shown[answer.number] if answer is not None else None
+    imgui.end_child()
+    return None
+
+
+def _grid_room(room: ImVec2, findings: Findings) -> ImVec2:
+    """The room for the pictures: higher than there is, and scrolled, where they would be too small
+    to read what stands above them."""
+    em, margin, count = imgui.get_font_size(), theme.px(3), len(findings.shown)
+    aspect = findings.case.size[0] / findings.case.size[1]
+    heading, gap = 2 * HEADING_EM * em, GAP_EM * em
+    wide = room.x - margin
+    _, width = columns_for(count, aspect, (wide, room.y - margin), heading, gap)
+    if width >= LEAST_PICTURE_EM * em:
+        return ImVec2(wide, room.y - margin)
+    wide -= imgui.get_style().scrollbar_size
+    columns = min(count, max(1, int((wide + gap) / (LEAST_PICTURE_EM * em + gap))))
+    high = (wide - gap * (columns - 1)) / columns / aspect + heading
+    rows = -(-count // columns)
+    return ImVec2(wide, rows * (high + gap) - gap)
+
+
+def _paragraph(text: str, color: ImVec4) -> None:
+    imgui.push_text_wrap_pos(0.0)
+    imgui.text_colored(color, text)
+    imgui.pop_text_wrap_pos()
