@@ -8,7 +8,6 @@ space, hidden. HelloImGui keeps the user's changes of each layout, also between 
 
 from __future__ import annotations
 
-import math
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
 
@@ -28,10 +27,6 @@ LECTURE = "Lecture"  # what a lecture shows, each step in its own way
 CODE = "Your code"
 OUTSIDE = "Outside view"
 SHOWN_TO_A_CLASS = (LECTURE, CODE)  # presentation mode changes their style only
-ARRANGING_FRAMES = 3  # until the dock spaces of a layout are there again
-RESTORING_FRAMES = 5  # at a start, until the layout of the session is there
-ROUNDED_PX = 1.5  # that ImGui gives a dock space more or less than was asked for
-LEAST_ROOM_PX = 200.0  # for both images; in less, ImGui's smallest sizes decide
 
 Split = tuple[str, str, imgui.Dir, float]  # space, new space, where, its part of the room
 
@@ -209,7 +204,7 @@ def arrange(views: Iterable[DockedView], places: dict[str, str]) -> None:
     """Shows some of these views in other spaces of the present layout, and hides the rest.
 
     places: view to space. Takes effect in the next frame; what the user has moved stands again
-    where the layout puts it. How large the spaces are is Proportion's to keep.
+    where the layout puts it. How large the spaces are is proportion.py's.
     """
     layout = current()
     for view in views:
@@ -241,122 +236,6 @@ def whole() -> tuple[tuple[float, float], tuple[float, float]] | None:
     while parent := node.parent_node:
         node = parent
     return (node.pos.x, node.pos.y), (node.size.x, node.size.y)
-
-
-@dataclass
-class _Share:
-    """A space's part of what it was split off from. room: of that, when the part was last kept;
-    size: that it was given then, which ImGui rounds: a part that was taken from rounded sizes
-    would creep with each change; settling: frames until the new sizes are there; again: frames in
-    which they are made anew. known: whether the part is a session's, not the layout's."""
-
-    part: float = 0.5
-    known: bool = False
-    room: float = 0.0
-    size: float = 0.0
-    settling: int = 0
-    again: int = 0
-
-    def keep(self, node: imgui.internal.DockNode, parent: imgui.internal.DockNode, x: bool) -> None:
-        size, room = (node.size.x, parent.size.x) if x else (node.size.y, parent.size.y)
-        kept = (node.size_ref.x, parent.size_ref.x) if x else (node.size_ref.y, parent.size_ref.y)
-        if not self.room and not self.known and 0 < kept[0] < kept[1]:
-            self.part = kept[0] / kept[1]  # the layout's, or about what ImGui has saved
-        if room != self.room or self.again:
-            self.again = max(0, self.again - 1)
-            size = max(1.0, float(round(self.part * room)))  # ImGui saves whole numbers
-            new = (size, node.size.y) if x else (node.size.x, size)
-            imgui.internal.dock_builder_set_node_size(node.id_, new)
-            self.room, self.size, self.settling = room, size, 2
-        elif self.settling:
-            self.settling -= 1
-        elif room > LEAST_ROOM_PX and abs(size - self.size) > ROUNDED_PX:  # moved by the user
-            self.part, self.size = size / room, size
-
-
-class Proportion:
-    """Keeps the spaces' shares of the room when the window is resized, and the camera's panel as
-    wide as its numbers are.
-
-    ImGui would give all of the difference to one of them. The user's own division stays, also
-    when the views are arranged anew.
-    """
-
-    def __init__(self) -> None:
-        self._layout = ""
-        self._shares: dict[tuple[str, str], _Share] = {}  # by layout and space
-        self._em_px = 0.0
-        self._camera = (0.0, 0.0)  # its width when it was last seen; that in em, not rounded
-        self._arranged = 0
-        self._restoring = 0  # frames in which sizes that ImGui has saved are overruled
-
-    def parts(self) -> dict[str, float]:
-        """The spaces' shares, for a session. ImGui keeps sizes in whole pixels, of a room that may
-        be another one at the next start."""
-        return {"/".join(key): share.part for key, share in self._shares.items() if share.room}
-
-    def restore(self, parts: dict[str, float]) -> None:
-        """Takes a session's shares, before the first frame; what is no share is left out."""
-        for layout in LAYOUTS:
-            for _, space, _, _ in layout.splits:
-                part = parts.get(f"{layout.name}/{space}", 0.0)
-                if 0.0 < part < 1.0:
-                    self._shares[layout.name, space] = _Share(part, known=True)
-        self._restoring = RESTORING_FRAMES
-
-    def keep(self, arranged: int = 0) -> None:
-        """Call once a frame. arranged: another number when arrange() has been called since."""
-        layout = current()
-        anew = arranged != self._arranged or layout.name != self._layout or self._restoring > 0
-        self._arranged, self._layout = arranged, layout.name
-        self._restoring = max(0, self._restoring - 1)
-        if not imgui.is_mouse_down(imgui.MouseButton_.left):
-            self._widen_camera()
-        for whole, space, direction, _ in layout.splits:
-            # The camera's width is its numbers'. What is not beside MAIN, ImGui divides as it was.
-            if whole != MAIN or space == CAMERA_SPACE:
-                continue
-            across = direction in (imgui.Dir.left, imgui.Dir.right)
-            node = _side(node_of(space), imgui.internal.Axis.x if across else imgui.internal.Axis.y)
-            parent = node.parent_node if node is not None else None
-            if node is None or parent is None or min(*parent.size, *node.size) <= 0:
-                continue
-            share = self._shares.setdefault((layout.name, space), _Share())
-            if anew and share.room:
-                share.again = ARRANGING_FRAMES
-            share.keep(node, parent, across)
-
-    def _widen_camera(self) -> None:
-        """A window that was restored, or enlarged, may leave the panel less than it needs; its
-        width follows the type's size."""
-        node = node_of(CAMERA_SPACE)
-        parent = node.parent_node if node is not None else None
-        if node is None or parent is None or not (parent.size.x > 0 and node.size.y > 0):
-            return
-        em_px = imgui.get_font_size()
-        least = math.floor(camera_width_px(parent.size.x, em_px))
-        follows = em_px != self._em_px and self._em_px > 0  # the type's size has changed
-        if abs(node.size.x - self._camera[0]) > ROUNDED_PX:  # moved by the user
-            self._camera = node.size.x, node.size.x / (self._em_px or em_px)
-        width = self._camera[1] * em_px
-        self._em_px = em_px
-        short = node.size.x < (least - 1 if least == self._camera[0] else least)
-        if least >= 1 and (follows or short):
-            width = max(min(width, 0.5 * parent.size.x) if follows else 0.0, least)
-            imgui.internal.dock_builder_set_node_size(node.id_, (width, node.size.y))
-            self._camera = width, self._camera[1]
-
-
-def _side(
-    node: imgui.internal.DockNode | None, axis: imgui.internal.Axis
-) -> imgui.internal.DockNode | None:
-    """The node, or the one round it, that stands beside (x), or above or below (y), another."""
-    while node is not None:
-        parent = node.parent_node
-        if parent is None or parent.split_axis == axis:
-            return node
-        node = parent
-    return None
 
 
 def _docking(

@@ -14,7 +14,7 @@ from typing import Any, Generic, Protocol, TypeVar
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from app.images.scene_tracer import SceneTracer
+from app.images.scene_tracer import SceneTracer, UnwantedError, of_scene
 from app.widgets.background import Background
 from renderer.errors import LucidaError
 from renderer.scene.flat import FlatScene, flatten
@@ -22,7 +22,6 @@ from renderer.scene.model import Scene
 from renderer.shaded_rays import RayShading, shaded
 
 T = TypeVar("T")
-L = TypeVar("L")
 PATIENCE_S = 0.15  # pictures that are done sooner come, though newer ones are asked for: in motion
 
 
@@ -32,10 +31,6 @@ class TracerSource(Protocol):
     @property
     def preparing_s(self) -> float: ...
     def tracer_of(self, scene: Scene) -> Any | None: ...
-
-
-class UnwantedError(Exception):
-    """Something newer is asked for, or the tracer has gone on to another scene."""
 
 
 class RayPainter:
@@ -56,7 +51,7 @@ class RayPainter:
         def traced() -> NDArray[np.float32] | None:
             return shaded(self.tracer, self._flat, origins, directions, shading, self._is_wanted)
 
-        light = self._of_this_scene(traced)
+        light = of_scene(self.tracer, self._scene, traced)
         if light is None:
             raise UnwantedError
         return light
@@ -69,20 +64,7 @@ class RayPainter:
             t = self.tracer.closest_hits([origin], [direction], *shading.t_range)[0]
             return float(t[0])
 
-        return self._of_this_scene(traced)
-
-    def _of_this_scene(self, work: Callable[[], L]) -> L:
-        """Raises UnwantedError where the tracer has gone on meanwhile: what it hit there may be no
-        part of this scene at all."""
-        try:
-            found = work()
-        except Exception:
-            if self.tracer.scene is self._scene:
-                raise
-            raise UnwantedError from None
-        if self.tracer.scene is not self._scene:
-            raise UnwantedError
-        return found
+        return of_scene(self.tracer, self._scene, traced)
 
 
 @dataclass(frozen=True, eq=False)
@@ -152,9 +134,8 @@ class RayPictures(Generic[T]):
         if outcome is None or self._newest is None:
             return
         answer = outcome.value
-        if answer is None:
-            self.error = outcome.error
-        elif answer.value is not None:
+        assert answer is not None
+        if answer.value is not None:
             self._made = answer.value
         elif answer.question is self._newest:
             self.error = answer.error
@@ -178,6 +159,7 @@ class RayPictures(Generic[T]):
             return _Answer(question, make(painter))
         except UnwantedError:
             return _Answer(question)
-        except LucidaError as error:
-            is_gone = error.field == "tracer"  # the window has closed it meanwhile
+        except Exception as error:
+            # The window has closed the tracer meanwhile.
+            is_gone = isinstance(error, LucidaError) and error.field == "tracer"
             return _Answer(question, error=None if is_gone else error)

@@ -1,14 +1,43 @@
 """A Tracer for rays of one's own, in a thread: the window's while it has prepared the scene, else
-one that is made here.
+one that is made here. The window's may go on to another scene at any moment.
 
 Imports the tracer when it makes one: that loads the compiler.
 """
 
 from __future__ import annotations
 
-from typing import Any
+from collections.abc import Callable
+from typing import Any, TypeVar
 
 from renderer.scene.model import Scene
+
+T = TypeVar("T")
+
+
+class UnwantedError(Exception):
+    """Something newer is asked for, or the tracer has gone on to another scene."""
+
+
+def of_scene(tracer: Any, scene: Scene, work: Callable[[], T]) -> T:
+    """What work() finds with a tracer, all of it in this scene. Raises UnwantedError where the
+    tracer has gone on meanwhile, even if it has come back: what it hit there may be no part of this
+    scene at all."""
+    number = tracer.scenes
+
+    def is_same() -> bool:
+        return tracer.scene is scene and tracer.scenes == number
+
+    if not is_same():
+        raise UnwantedError
+    try:
+        found = work()
+    except Exception:
+        if is_same():
+            raise
+        raise UnwantedError from None
+    if not is_same():
+        raise UnwantedError
+    return found
 
 
 class SceneTracer:

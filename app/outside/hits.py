@@ -11,7 +11,7 @@ from typing import Any
 
 import numpy as np
 
-from app.images.scene_tracer import SceneTracer
+from app.images.scene_tracer import SceneTracer, UnwantedError, of_scene
 from app.state.options import Pixel
 from app.widgets.background import Background
 from renderer.camera import Camera
@@ -62,8 +62,8 @@ class RayHits:
         outcome = self._background.poll()
         if outcome is not None and outcome.value is not None:
             self._answer = outcome.value
-        elif outcome is not None and isinstance(outcome.error, LucidaError):
-            self._asked = None  # the tracer was closed meanwhile: ask the next one
+        elif outcome is not None and isinstance(outcome.error, (LucidaError, UnwantedError)):
+            self._asked = None  # the tracer was closed meanwhile, or has gone on: ask the next one
         if question != self._asked and question.pixels:
             self._asked = question
             self._background.submit(lambda: self._trace(question, tracer))
@@ -77,7 +77,8 @@ class RayHits:
         self._tracer.close()
 
     def _trace(self, question: RayQuery, tracer: Any | None) -> RayDepths:
-        return RayDepths(question, traced(question, self._tracer.of(question.scene, tracer)))
+        own = self._tracer.of(question.scene, tracer)
+        return RayDepths(question, of_scene(own, question.scene, lambda: traced(question, own)))
 
 
 def traced(question: RayQuery, tracer: Any) -> dict[Pixel, float]:

@@ -12,8 +12,8 @@ from pathlib import Path
 from imgui_bundle import hello_imgui, imgui
 
 from app import __version__
-from app.host import layout
 from app.host.action import Window
+from app.host.proportion import Proportion
 from app.host.stage import Stage
 from app.host.view import DockedView, Host
 from app.images.renderers import Renderers
@@ -53,7 +53,7 @@ class Shell:
         keeper: Keeper | None = None,
     ) -> None:
         self.stage: Stage = Stage(views)
-        self.proportion = layout.Proportion()
+        self.proportion = Proportion()
         self.palette: CommandPalette = CommandPalette()
         self.toasts = Toasts()
         self.captures = Captures(wake)

@@ -1,51 +1,42 @@
 """The view "Your code": a student's file, run on the window's camera while it is being written.
 
-Owns what is asked of the file's process and of the pictures' thread, which files may run, and what
-the outside view shows. What is asked is model.py's, how it looks panel.py's.
+Owns what is asked of the file's process, which files may run, and what the outside view shows. What
+is asked is model.py's, how it looks panel.py's; the pictures are code_pictures.py's.
 """
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, ClassVar
 
 import moderngl
-import numpy as np
-from imgui_bundle import ImVec2, imgui
-from numpy.typing import NDArray
+from imgui_bundle import imgui
 
 from app.checking.builtin import BUILTIN
 from app.checking.starter import starter
 from app.host import layout
 from app.host.action import Window
 from app.host.view import DockedView, Host
-from app.images.ray_pictures import RayPainter, RayPictures
-from app.outside.diagram import Item, Segments
 from app.outside.extent import end_parameter
-from app.outside.paint import role_color
-from app.outside.second_camera import GivenRay, SecondCamera, corner_rays, second_camera
 from app.outside.view import OutsideView
 from app.state.options import Pixel
 from app.storage.paths import restored, stored
 from app.widgets import theme
 from app.widgets.lettering import at_most
-from app.widgets.picture_grid import GridPicture, picture_grid
-from app.widgets.uploads import Uploads
 from app.your_code import panel
+from app.your_code.code_pictures import PicturesShown, marked_pixel
 from app.your_code.editor import open_in_editor
 from app.your_code.following import FileFollower
-from app.your_code.model import RAY, CodeRays, canvas_pixel
+from app.your_code.model import RAY
 from app.your_code.options import YourCodeOptions
+from app.your_code.outside_items import outside_items
 from app.your_code.panel import CodeHead, CodeWish
-from app.your_code.pictures import IMAGES, CodePictures, compared, image_pair
+from app.your_code.pictures import CodePictures
 from app.your_code.report import CodeQuestion, CodeReport
 from app.your_code.runs import CodeRuns
 from app.your_code.words import ToldLine, told_of
 from renderer.atomic import atomic_write
-from renderer.camera import Camera
-from renderer.errors import LucidaError, describe, one_line
-from renderer.shaded_rays import RayShading
+from renderer.errors import one_line
 
 YOUR_CODE = "Your-code"
 STARTER = "rays.py"
@@ -53,19 +44,8 @@ CONTROLS_EM = 30.0  # the view's width, at least, in the type of its controls
 READ_BYTES = 100_000  # of a file that is shown and not run
 
 
-@dataclass(frozen=True, eq=False)
-class _Painted:
-    """Linear light (H, W, 3) along the rays of an answer. t: where the marked pixel's given ray
-    ends."""
-
-    rays: CodeRays
-    given: NDArray[np.float32]
-    right: NDArray[np.float32]
-
-
 class YourCodeView(DockedView):
-    """runs: None before there is a context. pictures: the ones that are shown; None for none. told:
-    what stands beside them."""
+    """runs: None before there is a context. told: what stands beside the pictures."""
 
     name = YOUR_CODE
     title = "Your code"
@@ -75,16 +55,13 @@ class YourCodeView(DockedView):
         self._outside = outside
         self.runs: CodeRuns | None = None
         self._follower: FileFollower | None = None
-        self._painter: RayPictures[_Painted] | None = None
-        self._uploads: Uploads | None = None
+        self._pictures: PicturesShown | None = None
         self._agreed: set[str] = set()  # files that the user has opened in this window
         self._written: list[str] = []  # files to begin with that have been written
         self._source: tuple[str, str] = ("", "")  # of a file that is not run: its path, its text
-        self._uploaded: Any = None
         self._shown: Any = None  # what the outside view's lines were made from
-        self._seen = self._painting = False
+        self._seen = False
         self._asked: CodeWish = ""
-        self.pictures: CodePictures | None = None
         self.told: list[ToldLine] = []
         self._told_of: Any = None
 
@@ -92,6 +69,11 @@ class YourCodeView(DockedView):
     def report(self) -> CodeReport | None:
         """What is known of the file that is open; None before that."""
         return self.runs.report if self.runs is not None else None
+
+    @property
+    def pictures(self) -> CodePictures | None:
+        """The ones that are shown; None for none."""
+        return self._pictures.pictures if self._pictures is not None else None
 
     def open(self, window: Window, path: str) -> None:
         """The user has opened a file: it is run, now and whenever it is saved."""
@@ -110,41 +92,38 @@ class YourCodeView(DockedView):
 
     @property
     def settled(self) -> bool:
-        if not self._seen or self.runs is None or self._painter is None:
+        if not self._seen or self.runs is None or self._pictures is None:
             return True
-        return not (self.runs.busy or (self._painting and self._painter.busy))
+        return not (self.runs.busy or self._pictures.busy)
 
     def begin(self, host: Host, context: moderngl.Context) -> None:
         runs = self.runs = CodeRuns(host.animate)
         self._follower = FileFollower(host.animate, lambda: runs.busy, runs.tick)
-        self._painter = RayPictures("lucida-your-pictures", host.animate)
-        self._uploads = Uploads(context)
+        self._pictures = PicturesShown(host, context)
 
     def end(self) -> None:
         if self._follower is not None:
             self._follower.close()
         if self.runs is not None:
             self.runs.close()
-        if self._painter is not None:
-            self._painter.close()
-        if self._uploads is not None:
-            self._uploads.release()
+        if self._pictures is not None:
+            self._pictures.close()
 
     def unseen(self, host: Host) -> None:
         if not self._seen:
             return
-        assert self._follower is not None and self._painter is not None
+        assert self._follower is not None and self._pictures is not None
         self._seen = False
         self._follower.follow("")
         if self.runs is not None and self.runs.busy:
             self.runs.forget()  # nothing runs that nobody sees
-        self._painter.forget()
-        self.pictures, self._uploaded, self._shown = None, None, None
+        self._pictures.forget()
+        self._shown = None
         self._outside.show(YOUR_CODE, ())
 
     def draw(self, host: Host) -> None:
-        assert self._uploads is not None
-        self._uploads.begin_frame()
+        assert self._pictures is not None
+        self._pictures.begin_frame()
         self._seen = True
         host.renderers.need_size(host.state.images)
         usual = theme.TEXT_PX * imgui.get_style().font_scale_dpi
@@ -171,12 +150,13 @@ class YourCodeView(DockedView):
     def _rest(self) -> None:
         """Nothing runs, and nothing is shown of what did."""
         assert self.runs is not None and self._follower is not None
+        assert self._pictures is not None
         self._follower.forget()
-        self._painting = False
+        self._pictures.rest()
         self.runs.poll()
         if self.runs.report is not None:
             self.runs.forget()
-        self.pictures, self._uploaded, self.told, self._told_of = None, None, [], None
+        self.told, self._told_of = [], None
         if self._shown is not None:
             self._shown = None
             self._outside.show(YOUR_CODE, ())
@@ -190,6 +170,7 @@ class YourCodeView(DockedView):
 
     def _of_file(self, host: Host, path: str) -> CodeWish:
         assert self.runs is not None and self._follower is not None
+        assert self._pictures is not None
         runs, options = self.runs, host.state.of(YourCodeOptions)
         self._follower.follow(path)
         runs.poll()
@@ -209,16 +190,16 @@ class YourCodeView(DockedView):
         clicked = panel.tasks(report, report.chosen)
         if clicked is not None:
             host.apply(host.state.with_options(your_code={"task": clicked.name}))
-        self._follow_pictures(host, report)
-        marked = self._marked(host, report)
+        self._pictures.follow(host, report)
+        marked = marked_pixel(host, report)
         room = imgui.get_content_region_avail()
         for_pictures, for_words, beside = panel.rooms(room, self.pictures is not None)
         if self.pictures is not None:
-            self._draw_pictures(host, report, self.pictures, for_pictures, marked)
+            self._pictures.draw(host, report, for_pictures, marked)
             if beside:
                 imgui.same_line()
-        elif self._painting:
-            self._tell_waiting(host)
+        else:
+            self._pictures.tell_waiting(host)
         key = (report, marked, host.state.options.indexing)
         if key != self._told_of:
             self._told_of, self.told = key, told_of(*key)
@@ -226,107 +207,6 @@ class YourCodeView(DockedView):
         panel.words(self.told, for_words if beside else left, host.fonts)
         self._show_outside(host, report, marked)
         return wish
-
-    # The pictures.
-
-    def _follow_pictures(self, host: Host, report: CodeReport) -> None:
-        """The pictures of a report, or the last ones while these are on their way."""
-        assert self._painter is not None
-        rays, state = report.rays, host.state
-        self._painting = rays is not None and bool(rays.came.any())
-        if rays is None:
-            result = report.results.get(report.chosen.name) if report.chosen is not None else None
-            first = result.first if result is not None else None
-            key: Any = first
-            if key != self._uploaded:
-                self.pictures = None
-                if first is not None and report.chosen and report.chosen.kind in IMAGES:
-                    self.pictures = image_pair(first.case.right, first.answer)
-                self._upload(key)
-            return
-        if not self._painting:
-            self.pictures, self._uploaded = None, None
-            return
-        shading = RayShading(rays.camera.t_range)
-
-        def make(painter: RayPainter) -> _Painted:
-            given = painter.picture(rays.origins, rays.directions, shading)
-            right = painter.picture(rays.right_origins, rays.right_directions, shading)
-            return _Painted(rays, given, right)
-
-        made = self._painter.follow(rays, state.scene, host.renderers.live, make)
-        if made is None:
-            return
-        key = (made, state.images.exposure_ev)
-        if key != self._uploaded:
-            self.pictures = compared(
-                made.given, made.right, made.rays.came, made.rays.wrong, state.images.exposure_ev
-            )
-            self._upload(key)
-
-    def _tell_waiting(self, host: Host) -> None:
-        """Why there are no pictures, or not yet."""
-        assert self._painter is not None
-        error = self._painter.error
-        text = describe(error) if error is not None else host.renderers.preparing()
-        if not text:
-            return
-        imgui.push_text_wrap_pos(0.0)
-        imgui.text_colored(theme.ERROR if error is not None else theme.DIM, text)
-        imgui.pop_text_wrap_pos()
-
-    def _upload(self, key: Any) -> None:
-        assert self._uploads is not None
-        self._uploaded = key
-        if self.pictures is not None:
-            for name in ("given", "right", "difference"):
-                self._uploads.put_pixels(name, getattr(self.pictures, name))
-
-    def _draw_pictures(
-        self,
-        host: Host,
-        report: CodeReport,
-        pictures: CodePictures,
-        room: ImVec2,
-        marked: Pixel | None,
-    ) -> None:
-        assert self._uploads is not None
-        pixel = marked if report.rays is not None and pictures.size == report.rays.size else None
-        titles = {
-            "given": ("yours", "", role_color("other")),
-            "right": ("right", "", None),
-            "difference": ("difference", pictures.told, None),
-        }
-        grid = [
-            GridPicture(name, title, self._uploads.get(name), caption, frame, pixel)
-            for name, (title, caption, frame) in titles.items()
-        ]
-        try:
-            answer = picture_grid(grid, pictures.size, room, host.fonts)
-        except LucidaError as error:
-            imgui.text_colored(theme.ERROR, describe(error))
-            return
-        if answer is not None and report.rays is not None and pictures.size == report.rays.size:
-            again = host.state.marked is not None and answer.pixel == marked
-            self._mark(host, report.rays, answer.pixel, again)
-
-    def _mark(self, host: Host, rays: CodeRays, pixel: Pixel, again: bool) -> None:
-        """Marks a pixel in all views, or takes the mark away."""
-        found = canvas_pixel(pixel, rays.camera, rays.size, *self._images(host))
-        host.change(host.state.with_options(marked=None if again else found))
-
-    def _marked(self, host: Host, report: CodeReport) -> Pixel | None:
-        """The marked pixel, of the pictures; without one, the first wrong one."""
-        rays, marked = report.rays, host.state.marked
-        if rays is None:
-            return None
-        if marked is not None:
-            return canvas_pixel(marked, *self._images(host), rays.camera, rays.size)
-        wrong = np.argwhere(rays.wrong)
-        return (int(wrong[0, 0]), int(wrong[0, 1])) if len(wrong) else None
-
-    def _images(self, host: Host) -> tuple[Camera, tuple[int, int]]:
-        return host.renderers.camera(host.state), host.renderers.size
 
     # What the outside view shows.
 
@@ -394,26 +274,6 @@ class YourCodeView(DockedView):
         path = str(Path(self._written.pop()).absolute())
         self._agree(host, path)
         host.change(host.state.with_options(your_code={"file": stored(path), "task": ""}))
-
-
-def outside_items(rays: CodeRays, marked: Pixel | None, end: float, first: str) -> list[Item]:
-    """What the outside view shows of an answer. end: the ray parameter at which the scene ends.
-    first: what the first pixel is called."""
-    camera = rays.camera
-    middle = (rays.size[1] - 1) / 2, (rays.size[0] - 1) / 2
-    reach = end * float(np.linalg.norm(camera.ray(*middle, rays.size).direction))
-    items: list[Item] = []
-    if marked is not None:
-        way = np.stack([rays.right_origins[marked], end * rays.right_directions[marked]])
-        way[1] += way[0]
-        items.append(Segments("right ray", "ray", way[None], 2.5, layer=3))
-    if rays.wrong.any():
-        given = None
-        if marked is not None and rays.came[marked]:
-            given = GivenRay(rays.origins[marked], rays.directions[marked])
-        corners = corner_rays(rays.origins, rays.directions)
-        items += second_camera(SecondCamera(*corners, given, "yours", first), reach)
-    return items
 
 
 def source_text(path: str) -> str:

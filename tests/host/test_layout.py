@@ -8,7 +8,8 @@ import pytest
 from imgui_bundle import ImVec2, imgui
 
 from app.host import layout
-from app.host.layout import LECTURE, Proportion
+from app.host.layout import LECTURE
+from app.host.proportion import Proportion
 
 SPACE = "RightSpace"
 FRAMES = 20  # for a share to take a new room up

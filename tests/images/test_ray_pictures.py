@@ -10,7 +10,8 @@ import numpy as np
 import pytest
 from waiting import wait_for
 
-from app.images.ray_pictures import RayPictures, UnwantedError
+from app.images.ray_pictures import RayPictures
+from app.images.scene_tracer import UnwantedError
 from renderer.errors import LucidaError
 from renderer.scene.model import Scene, SceneObject, Sphere
 from renderer.shaded_rays import RayShading
@@ -25,6 +26,7 @@ class Hitless:
 
     scene: Scene
     gone: bool = False
+    scenes: int = 1
 
     def closest_hits(self, origins, directions, t_min=0.0, t_max=0.0):
         if self.gone:
@@ -163,6 +165,45 @@ def test_hits_of_the_scene_that_the_tracer_has_gone_on_to_are_no_error(pictures,
         return len(calls) > 1
 
     wait_for(again)
+
+
+@pytest.mark.parametrize("asks", ["picture", "hit", "error"])
+def test_a_tracer_that_has_come_back_from_another_scene_is_asked_again(pictures, asks) -> None:
+    """Half of such a picture would be of the other scene."""
+
+    class ComesBack(Hitless):
+        def closest_hits(self, origins, directions, t_min=0.0, t_max=0.0):
+            self.scenes += 2 * (not calls[1:])
+            if asks == "error" and not calls[1:]:
+                raise IndexError("of the other scene's objects")
+            return super().closest_hits(origins, directions, t_min, t_max)
+
+    asked, calls = Source({id(OTHER): ComesBack(OTHER)}), []
+
+    def make(painter):
+        calls.append(painter)
+        if asks == "hit":
+            return painter.hit(ORIGINS[0, 0], DIRECTIONS[0, 0], RayShading())
+        return along(painter)
+
+    wait_for(lambda: pictures.follow("key", OTHER, asked, make) is not None)
+    assert len(calls) == 2 and pictures.error is None
+
+
+def test_what_went_wrong_with_an_older_picture_is_not_told_of_the_newest(pictures) -> None:
+    asked, begun, go = source(OTHER), threading.Event(), threading.Event()
+
+    def fail(painter):
+        begun.set()
+        assert go.wait(30)
+        raise ValueError("of the older one")
+
+    pictures.follow("older", OTHER, asked, fail)
+    assert begun.wait(30)
+    pictures.follow("newest", OTHER, asked, lambda painter: "newest")
+    go.set()
+    wait_for(lambda: pictures.follow("newest", OTHER, asked, along) == "newest")
+    assert pictures.error is None
 
 
 def test_the_window_s_tracer_is_waited_for_while_it_prepares(pictures) -> None:

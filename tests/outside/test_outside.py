@@ -9,6 +9,7 @@ from dataclasses import replace
 from typing import Any
 
 import numpy as np
+import pytest
 from hypothesis import assume, given
 from hypothesis import strategies as st
 from looked_at import LOOKING, SIZE, cameras, looking_cameras, vectors
@@ -134,9 +135,10 @@ class TestHandles:
 class FakeTracer:
     """Answers when it is let to."""
 
-    def __init__(self) -> None:
+    def __init__(self, scene: Scene) -> None:
         self.go = threading.Event()
         self.asked: list[int] = []
+        self.scene, self.scenes = scene, 1
 
     def closest_hits(
         self, origins: np.ndarray, directions: np.ndarray, t_min: float, t_max: float
@@ -147,9 +149,9 @@ class FakeTracer:
 
 
 def test_rays_are_asked_for_without_waiting() -> None:
-    came, tracer = threading.Event(), FakeTracer()
+    came, tracer = threading.Event(), FakeTracer(Scene(()))
     hits = RayHits(came.set)
-    question = RayQuery(Scene(()), Camera.canonical(), SIZE, ((1, 2), (3, 4)))
+    question = RayQuery(tracer.scene, Camera.canonical(), SIZE, ((1, 2), (3, 4)))
     assert hits.ask(question, tracer) == {(1, 2): None, (3, 4): None}
     assert hits.busy
     tracer.go.set()
@@ -164,6 +166,31 @@ def test_rays_are_asked_for_without_waiting() -> None:
     assert hits.ask(moved, tracer) == {(3, 4): 7.0, (5, 6): 7.0}
     other = replace(question, scene=Scene(()))
     assert hits.ask(other, tracer) == {(1, 2): None, (3, 4): None}
+    hits.close()
+
+
+@pytest.mark.parametrize("comes_back", [False, True])
+def test_rays_that_another_scene_may_have_stopped_are_asked_for_again(comes_back: bool) -> None:
+    """The window's tracer goes on to another scene while it is asked."""
+
+    class GoesOn(FakeTracer):
+        def closest_hits(self, *given: Any) -> tuple[np.ndarray, np.ndarray]:
+            self.scenes += 1 + comes_back
+            self.scene = self.scene if comes_back else Scene(())
+            return super().closest_hits(*given)
+
+    came, scene = threading.Event(), Scene(())
+    gone, good = GoesOn(scene), FakeTracer(scene)
+    gone.go.set()
+    good.go.set()
+    hits = RayHits(came.set)
+    question = RayQuery(scene, Camera.canonical(), SIZE, ((1, 2),))
+    assert hits.ask(question, gone) == {(1, 2): None}
+    assert came.wait(30)
+    came.clear()
+    assert hits.ask(question, good) == {(1, 2): None}
+    assert came.wait(30)
+    assert hits.ask(question, good) == {(1, 2): 7.0}
     hits.close()
 
 

@@ -98,7 +98,7 @@ DRAW = {
     "probe": "histogram",
     "stepper": "listing numbers plan",
     "costs": "",
-    "your_code": "",
+    "your_code": "code_pictures",
     "laboratory": "array_view displays_view pictures schemes tables tools vector_view",
     "mistakes": "pages",
     "poses": "",

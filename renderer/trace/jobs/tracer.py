@@ -56,7 +56,7 @@ class Tracer:
         mirror_depth: int = 0,
     ) -> None:
         _check_method(method, shadows, mirror_depth)
-        self._scene = check_scene(scene)
+        self._scene, self._scenes = check_scene(scene), 1
         self.threads = check_threads(threads)
         self.method = method
         self.shadows, self.mirror_depth = bool(shadows), mirror_depth
@@ -69,6 +69,11 @@ class Tracer:
         """What the next image shows."""
         return self._scene
 
+    @property
+    def scenes(self) -> int:
+        """How many it has been given: another number, and what lies between may be of both."""
+        return self._scenes
+
     def set_scene(self, scene: Scene) -> None:
         """Changes what the images started from now on show.
 
@@ -76,7 +81,9 @@ class Tracer:
         only that is prepared anew: milliseconds. Meshes are the same if their arrays are, as after
         dataclasses.replace(mesh, transform=...).
         """
-        self._scene = check_scene(scene)
+        scene = check_scene(scene)
+        self._scenes += 1  # before: who finds the number unchanged has met no other scene
+        self._scene = scene
 
     def render(
         self,

@@ -1,0 +1,166 @@
+"""The pictures of an answer on the screen: the given one, the right one, their difference.
+
+Owns the thread that makes them, their textures, and the pixel that is clicked. What they are is
+pictures.py's.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+import moderngl
+import numpy as np
+from imgui_bundle import ImVec2, imgui
+from numpy.typing import NDArray
+
+from app.host.view import Host
+from app.images.ray_pictures import RayPainter, RayPictures
+from app.outside.paint import role_color
+from app.state.options import Pixel
+from app.widgets import theme
+from app.widgets.picture_grid import GridPicture, picture_grid
+from app.widgets.uploads import Uploads
+from app.your_code.model import CodeRays, canvas_pixel
+from app.your_code.pictures import IMAGES, CodePictures, compared, image_pair
+from app.your_code.report import CodeReport
+from renderer.camera import Camera
+from renderer.errors import LucidaError, describe
+from renderer.shaded_rays import RayShading
+
+
+@dataclass(frozen=True, eq=False)
+class _Painted:
+    """Linear light (H, W, 3) along the rays of an answer."""
+
+    rays: CodeRays
+    given: NDArray[np.float32]
+    right: NDArray[np.float32]
+
+
+class PicturesShown:
+    """Of a report, follow()ed once a frame. pictures: the ones that are shown; None for none."""
+
+    def __init__(self, host: Host, context: moderngl.Context) -> None:
+        self._painter: RayPictures[_Painted] = RayPictures("lucida-your-pictures", host.animate)
+        self._uploads = Uploads(context)
+        self._uploaded: Any = None
+        self._painting = False
+        self.pictures: CodePictures | None = None
+
+    @property
+    def busy(self) -> bool:
+        return self._painting and self._painter.busy
+
+    def begin_frame(self) -> None:
+        self._uploads.begin_frame()
+
+    def rest(self) -> None:
+        """Nothing is shown."""
+        self._painting = False
+        self.pictures, self._uploaded = None, None
+
+    def forget(self) -> None:
+        """Nobody looks: what is on its way is dropped."""
+        self._painter.forget()
+        self.pictures, self._uploaded = None, None
+
+    def close(self) -> None:
+        self._painter.close()
+        self._uploads.release()
+
+    def follow(self, host: Host, report: CodeReport) -> None:
+        """The pictures of a report, or the last ones while these are on their way."""
+        rays, state = report.rays, host.state
+        self._painting = rays is not None and bool(rays.came.any())
+        if rays is None:
+            result = report.results.get(report.chosen.name) if report.chosen is not None else None
+            first = result.first if result is not None else None
+            key: Any = first
+            if key != self._uploaded:
+                self.pictures = None
+                if first is not None and report.chosen and report.chosen.kind in IMAGES:
+                    self.pictures = image_pair(first.case.right, first.answer)
+                self._upload(key)
+            return
+        if not self._painting:
+            self.pictures, self._uploaded = None, None
+            return
+        shading = RayShading(rays.camera.t_range)
+
+        def make(painter: RayPainter) -> _Painted:
+            given = painter.picture(rays.origins, rays.directions, shading)
+            right = painter.picture(rays.right_origins, rays.right_directions, shading)
+            return _Painted(rays, given, right)
+
+        made = self._painter.follow(rays, state.scene, host.renderers.live, make)
+        if made is None:
+            return
+        key = (made, state.images.exposure_ev)
+        if key != self._uploaded:
+            self.pictures = compared(
+                made.given, made.right, made.rays.came, made.rays.wrong, state.images.exposure_ev
+            )
+            self._upload(key)
+
+    def _upload(self, key: Any) -> None:
+        self._uploaded = key
+        if self.pictures is not None:
+            for name in ("given", "right", "difference"):
+                self._uploads.put_pixels(name, getattr(self.pictures, name))
+
+    def tell_waiting(self, host: Host) -> None:
+        """Why there are no pictures, or not yet."""
+        error = self._painter.error
+        text = describe(error) if error is not None else host.renderers.preparing()
+        if not text or not self._painting:
+            return
+        imgui.push_text_wrap_pos(0.0)
+        imgui.text_colored(theme.ERROR if error is not None else theme.DIM, text)
+        imgui.pop_text_wrap_pos()
+
+    def draw(self, host: Host, report: CodeReport, room: ImVec2, marked: Pixel | None) -> None:
+        """Those there are; a click marks a pixel in all views. marked: see marked_pixel()."""
+        pictures, rays = self.pictures, report.rays
+        assert pictures is not None
+        are_of_rays = rays is not None and pictures.size == rays.size
+        titles = {
+            "given": ("yours", "", role_color("other")),
+            "right": ("right", "", None),
+            "difference": ("difference", pictures.told, None),
+        }
+        grid = [
+            GridPicture(
+                name,
+                title,
+                self._uploads.get(name),
+                caption,
+                frame,
+                marked if are_of_rays else None,
+            )
+            for name, (title, caption, frame) in titles.items()
+        ]
+        try:
+            answer = picture_grid(grid, pictures.size, room, host.fonts)
+        except LucidaError as error:
+            imgui.text_colored(theme.ERROR, describe(error))
+            return
+        if answer is not None and rays is not None and are_of_rays:
+            again = host.state.marked is not None and answer.pixel == marked
+            found = canvas_pixel(answer.pixel, rays.camera, rays.size, *_images(host))
+            host.change(host.state.with_options(marked=None if again else found))
+
+
+def marked_pixel(host: Host, report: CodeReport) -> Pixel | None:
+    """The marked pixel, of the pictures; without one, the first wrong one."""
+    rays, marked = report.rays, host.state.marked
+    if rays is None:
+        return None
+    if marked is not None:
+        return canvas_pixel(marked, *_images(host), rays.camera, rays.size)
+    wrong = np.argwhere(rays.wrong)
+    return (int(wrong[0, 0]), int(wrong[0, 1])) if len(wrong) else None
+
+
+def _images(host: Host) -> tuple[Camera, tuple[int, int]]:
+    return host.renderers.camera(host.state), host.renderers.size
