@@ -7,6 +7,7 @@ from typing import Any
 
 import numpy as np
 from imgui_bundle import imgui
+from maximised import Maximised
 from window_driver import ATTEMPTS, PATIENT_S, Driver, Key
 
 from app.laboratory import disk, kinds
@@ -16,34 +17,12 @@ from app.laboratory.view import LABORATORY, LaboratoryView
 from app.lecture.reading import BUILTIN, load_lecture
 from renderer.images import to_srgb8
 
-
-def _view(d: Driver) -> LaboratoryView:
-    view = d.window.views[LABORATORY]
-    assert isinstance(view, LaboratoryView)
-    return view
-
-
-def _open(d: Driver, **options: object) -> LaboratoryView:
-    d.window.shell.stage.show(LABORATORY)
-    d.window.shell.stage.maximise(LABORATORY)
-    d.window.change(d.window.state.with_options(laboratory=options))
-    d.settle()
-    return _view(d)
-
-
-def _close(d: Driver) -> None:
-    d.window.shell.stage.maximise()
-    d.window.shell.stage.show(LABORATORY, False)
-    d.settle()
-
-
-def _item(name: str) -> str:
-    return f"//{LABORATORY} maximised/{name}"
+ALONE = Maximised(LaboratoryView, "laboratory")
 
 
 def _on_screen(d: Driver, number: int) -> np.ndarray:
     """The pixels of a panel's picture in the window."""
-    box = d.ctx.item_info(_item(f"panel {number}")).rect_full
+    box = d.ctx.item_info(ALONE.item(f"panel {number}")).rect_full
     left, top, right, bottom = (round(x) for x in (box.min.x, box.min.y, box.max.x, box.max.y))
     return d.picture()[top:bottom, left:right]
 
@@ -64,9 +43,9 @@ def _differing(d: Driver, view: LaboratoryView) -> list[tuple[int, float]]:
 
 
 def drive_every_page_shows_its_pictures(d: Driver) -> None:
-    view = _open(d)
+    view = ALONE.open(d)
     for page, title in PAGE_TITLES.items():
-        d.ctx.item_click(_item(f"{title}##page"))
+        d.ctx.item_click(ALONE.item(f"{title}##page"))
         d.settle()
         assert d.window.state.options.laboratory.page == page
         d.ctx.mouse_teleport_to_pos((3, 3))
@@ -79,11 +58,11 @@ def drive_every_page_shows_its_pictures(d: Driver) -> None:
             print(f"attempt {attempt}, {page}: panels and equal parts {differing}")
             d.settle()
         assert not differing, (page, differing)
-    _close(d)
+    ALONE.close(d)
 
 
 def drive_the_kinds_are_of_the_image_that_is_seen(d: Driver) -> None:
-    view = _open(d, page="kinds")
+    view = ALONE.open(d, page="kinds")
     titles = [panel.title for panel in view.made]
     assert titles == [kind.title for kind in kinds.KINDS]
     color = view.source.color  # type: ignore[union-attr]
@@ -101,11 +80,11 @@ def drive_the_kinds_are_of_the_image_that_is_seen(d: Driver) -> None:
     d.window.change(moved)
     d.settle()
     assert (view.made[2].picture != before).any()
-    _close(d)
+    ALONE.close(d)
 
 
 def drive_the_page_is_left_before_the_sizes_are_known(d: Driver) -> None:
-    view = _open(d, page="bitmaps")
+    view = ALONE.open(d, page="bitmaps")
     began, may_end = threading.Event(), threading.Event()
     sizes = disk.sizes
 
@@ -126,25 +105,25 @@ def drive_the_page_is_left_before_the_sizes_are_known(d: Driver) -> None:
         may_end.set()
     d.until(lambda: view.settled)
     assert len(view.sizes) == 9
-    _close(d)
+    ALONE.close(d)
 
 
 def drive_a_window_that_is_too_low_is_scrolled(d: Driver) -> None:
     d.window.shell.stage.show(LABORATORY)  # below the two images
     d.window.change(d.window.state.with_options(laboratory={"page": "kinds"}))
     d.settle()
-    heights = [panel.picture.shape[0] for panel in _view(d).made]
+    heights = [panel.picture.shape[0] for panel in d.window.view(LaboratoryView).made]
     assert min(heights) >= 40, heights  # not squeezed between titles that cover each other
-    _close(d)
+    ALONE.close(d)
 
 
 def drive_exposure_after_storage(d: Driver) -> None:
     bright = d.window.state.with_options(images={"exposure_ev": 2.0})
     d.window.change(bright)
-    view = _open(d, page="exposure")
+    view = ALONE.open(d, page="exposure")
     kept, floats = (panel.picture.copy() for panel in view.made)
     np.testing.assert_array_equal(kept, floats)
-    d.ctx.item_input_value(_item("exposure after storage##after"), -2.0)
+    d.ctx.item_input_value(ALONE.item("exposure after storage##after"), -2.0)
     d.settle()
     assert d.window.state.options.laboratory.after_ev == -2.0
     kept, floats = (panel.picture for panel in view.made)
@@ -154,68 +133,68 @@ def drive_exposure_after_storage(d: Driver) -> None:
     assert white.any()
     assert len(np.unique(kept[white], axis=0)) == 1
     assert len(np.unique(floats[white], axis=0)) > 5
-    _close(d)
+    ALONE.close(d)
 
 
 def drive_projectors_move_apart(d: Driver) -> None:
-    view = _open(d, page="projectors", apart=0.0)
+    view = ALONE.open(d, page="projectors", apart=0.0)
     aligned = view.made[0].picture.shape
-    d.ctx.item_input_value(_item("apart##apart"), 0.3)
+    d.ctx.item_input_value(ALONE.item("apart##apart"), 0.3)
     d.settle()
     wall = view.made[0].picture
     assert wall.shape[0] > aligned[0] and wall.shape[1] > aligned[1]
     assert wall[0, wall.shape[1] // 2, 0] > 0 and wall[0, wall.shape[1] // 2, 1:].max() == 0
-    _close(d)
+    ALONE.close(d)
 
 
 def drive_a_click_chooses_the_pixel_of_the_array(d: Driver) -> None:
     d.window.change(d.window.state.with_options(images={"resolution": (32, 24)}))
-    view = _open(d, page="array")
-    box = d.ctx.item_info(_item("panel 0")).rect_full
+    view = ALONE.open(d, page="array")
+    box = d.ctx.item_info(ALONE.item("panel 0")).rect_full
     unit = view.made[0].magnification
     assert unit >= 4
     d.ctx.mouse_move_to_pos((box.min.x + 10.5 * unit, box.min.y + 7.5 * unit))
     d.ctx.mouse_click(0)
     d.settle()
     assert d.window.state.marked == (7, 10)
-    d.ctx.item_click(_item("cell 0 0"))
+    d.ctx.item_click(ALONE.item("cell 0 0"))
     d.settle()
     assert d.window.state.marked != (7, 10)
-    _close(d)
+    ALONE.close(d)
 
 
 def drive_the_array_in_other_languages_and_orders(d: Driver) -> None:
     d.window.change(d.window.state.with_options(images={"resolution": (32, 24)}, marked=(7, 10)))
-    _open(d, page="array")
+    ALONE.open(d, page="array")
     for language, first in (
         ("Python", "import numpy"),
         ("Julia", "using Colors"),
         ("C", "#include"),
     ):
-        d.ctx.item_click(_item(f"{language}##language"))
+        d.ctx.item_click(ALONE.item(f"{language}##language"))
         d.settle()
-        d.ctx.item_click(_item("Copy"))
+        d.ctx.item_click(ALONE.item("Copy"))
         d.ctx.yield_()
         assert imgui.get_clipboard_text().startswith(first)
     assert d.window.state.options.language == "c"
     assert "(i - 1) * W + (j - 1)" in imgui.get_clipboard_text()
     d.window.change(d.window.state.with_options(laboratory={"order": "column"}, one_based=False))
     d.settle()
-    d.ctx.item_click(_item("Copy"))
+    d.ctx.item_click(ALONE.item("Copy"))
     d.ctx.yield_()
     assert "(j * H + i)" in imgui.get_clipboard_text()
-    d.ctx.item_click(_item("byte 0"))  # a pixel before it in memory: the same column
+    d.ctx.item_click(ALONE.item("byte 0"))  # a pixel before it in memory: the same column
     d.settle()
     row, column = d.window.state.marked or (0, 0)
     assert column == 10 and row < 7
     d.window.undo()
     assert d.window.state.marked == (7, 10)
-    _close(d)
+    ALONE.close(d)
 
 
 def drive_a_display_plays_stops_and_is_stepped(d: Driver) -> None:
     d.window.change(d.window.state.with_options(images={"resolution": (32, 24)}))
-    view = _open(d, page="displays", display="dlp", phase=0.25, cycle_s=1.0)
+    view = ALONE.open(d, page="displays", display="dlp", phase=0.25, cycle_s=1.0)
     past = len(d.window.history.past)
     asked: list[None] = []
     animate = d.window.animate
@@ -224,12 +203,12 @@ def drive_a_display_plays_stops_and_is_stepped(d: Driver) -> None:
         d.ctx.yield_(5)
         assert not asked  # at rest no frame is asked for
         still = view.made[0].picture
-        d.ctx.item_click(_item("###play"))
+        d.ctx.item_click(ALONE.item("###play"))
         assert d.window.state.options.laboratory.playing
         seen: list[np.ndarray] = []
         d.until(lambda: _collected(seen, view.made[0].picture) > 4)
         assert asked and not view.settled
-        d.ctx.item_click(_item("###play"))
+        d.ctx.item_click(ALONE.item("###play"))
         d.settle()
         options = d.window.state.options.laboratory
         assert not options.playing and options.phase != 0.25
@@ -240,7 +219,7 @@ def drive_a_display_plays_stops_and_is_stepped(d: Driver) -> None:
         d.settle()
         np.testing.assert_array_equal(view.made[0].picture, still)
         past += 1  # by change()
-        d.ctx.item_click(_item("Step"))
+        d.ctx.item_click(ALONE.item("Step"))
         d.settle()
         assert d.window.state.options.laboratory.phase == 13 / 48
         d.ctx.key_press(Key.left_arrow)
@@ -259,7 +238,7 @@ def drive_a_display_plays_stops_and_is_stepped(d: Driver) -> None:
     finally:
         del d.window.animate
     d.window.change(d.window.state.with_options(laboratory={"playing": False}))
-    _close(d)
+    ALONE.close(d)
 
 
 def _collected(seen: list[np.ndarray], picture: np.ndarray) -> int:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 
 import numpy as np
+from maximised import Maximised
 from window_driver import Driver, Key, changed
 
 from app.lecture.reading import BUILTIN, load_lecture
@@ -14,45 +15,17 @@ from app.mistakes.options import MistakesOptions
 from app.mistakes.view import MISTAKES, MistakesView
 from app.outside.view import OUTSIDE, OutsideView
 
+ALONE = Maximised(MistakesView, "mistakes")
 SHIFT = int(Key.mod_shift)
-
-
-def _view(d: Driver) -> MistakesView:
-    view = d.window.views[MISTAKES]
-    assert isinstance(view, MistakesView)
-    return view
-
-
-def _outside(d: Driver) -> OutsideView:
-    view = d.window.views[OUTSIDE]
-    assert isinstance(view, OutsideView)
-    return view
 
 
 def _options(d: Driver) -> MistakesOptions:
     return d.window.state.of(MistakesOptions)
 
 
-def _open(d: Driver, **options: object) -> MistakesView:
-    d.window.shell.stage.show(MISTAKES)
-    d.window.shell.stage.maximise(MISTAKES)
-    d.window.change(d.window.state.with_options(mistakes=options))
-    d.settle()
-    return _view(d)
-
-
-def _close(d: Driver) -> None:
-    d.window.shell.stage.maximise()
-    d.window.shell.stage.show(MISTAKES, False)
-    d.settle()
-
-
 def _item(name: str) -> str:
-    return f"//{MISTAKES} maximised/**/{name}"
-
-
-def _control(name: str) -> str:
-    return f"//{MISTAKES} maximised/{name}"
+    """In any of the view's parts."""
+    return ALONE.item(f"**/{name}")
 
 
 def _on_screen(d: Driver, name: str, size: tuple[int, int]) -> np.ndarray:
@@ -79,7 +52,7 @@ def _choose(d: Driver, line: str, mistake: str) -> None:
 
 
 def drive_lines_are_made_wrong_and_right_again(d: Driver) -> None:
-    view = _open(d, columns=32)
+    view = ALONE.open(d, columns=32)
     assert _options(d).chosen == ("rows count upwards",)
     made = view.made
     assert made is not None and made.compared is not None
@@ -97,12 +70,12 @@ def drive_lines_are_made_wrong_and_right_again(d: Driver) -> None:
     assert _options(d).chosen == ()
     made = view.made
     assert made is not None and not made.mistakes
-    _close(d)
+    ALONE.close(d)
     assert view.made is None
 
 
 def drive_pictures_follow_the_camera(d: Driver) -> None:
-    view = _open(d, columns=32)
+    view = ALONE.open(d, columns=32)
     before = view.made
     assert before is not None and before.compared is not None
     camera = d.window.state.camera
@@ -119,11 +92,11 @@ def drive_pictures_follow_the_camera(d: Driver) -> None:
     assert last is not None and last.now.camera.is_parallel and last.mistakes
     _choose(d, "origin", "no eye")
     assert "no eye" in _options(d).chosen
-    _close(d)
+    ALONE.close(d)
 
 
 def drive_a_click_marks_a_pixel_in_all_views(d: Driver) -> None:
-    view = _open(d, columns=16)
+    view = ALONE.open(d, columns=16)
     d.ctx.item_click(_item("wrong"))
     d.settle()
     assert d.window.state.marked is not None
@@ -132,7 +105,7 @@ def drive_a_click_marks_a_pixel_in_all_views(d: Driver) -> None:
     d.ctx.item_click(_item("wrong"))
     d.settle()
     assert d.window.state.marked is None
-    _close(d)
+    ALONE.close(d)
 
 
 def drive_the_outside_view_shows_the_wrong_camera(d: Driver) -> None:
@@ -141,24 +114,24 @@ def drive_the_outside_view_shows_the_wrong_camera(d: Driver) -> None:
     d.window.shell.stage.show(MISTAKES)
     d.window.change(d.window.state.with_options(marked=(100, 100)))
     d.settle()
-    view = _view(d)
-    names = {item.name for item in _outside(d).extra}
+    view = d.window.view(MistakesView)
+    names = {item.name for item in d.window.view(OutsideView).extra}
     assert view.made is not None and {"second edges", "second ray"} <= names
     _ = d.picture()
     d.window.change(d.window.state.with_options(mistakes={"chosen": ()}))
     d.settle()
-    assert not _outside(d).extra
+    assert not d.window.view(OutsideView).extra
     d.window.change(d.window.state.with_options(mistakes={"chosen": ("no eye",)}))
     d.settle()
-    assert _outside(d).extra
+    assert d.window.view(OutsideView).extra
     d.window.shell.stage.show(MISTAKES, False)
     d.settle()
-    assert not _outside(d).extra  # who is not seen shows nothing
+    assert not d.window.view(OutsideView).extra  # who is not seen shows nothing
 
 
 def drive_a_line_is_asked_for(d: Driver) -> None:
-    view = _open(d, columns=32)
-    d.ctx.item_click(_control("which line?##mode"))
+    view = ALONE.open(d, columns=32)
+    d.ctx.item_click(ALONE.item("which line?##mode"))
     d.settle()
     assert _options(d).mode == "which-line"
     made = view.made
@@ -191,17 +164,17 @@ def drive_a_line_is_asked_for(d: Driver) -> None:
     d.ctx.key_press(int(Key._3))
     d.settle()
     assert _options(d).answer == made.question.names[2] and _options(d).score[1] == 2
-    _close(d)
+    ALONE.close(d)
 
 
 def drive_a_picture_is_asked_for(d: Driver) -> None:
-    view = _open(d, columns=32, mode="which-picture", asked="rows count upwards")
+    view = ALONE.open(d, columns=32, mode="which-picture", asked="rows count upwards")
     made = view.made
     assert made is not None and made.question is not None
     asked = made.question
     for number, light in enumerate(asked.pictures):
         assert _is_shown(d, f"picture {number}", light, made.now.size)
-    assert not _outside(d).extra
+    assert not d.window.view(OutsideView).extra
     d.ctx.key_press(int(Key.r))
     d.settle()
     assert _options(d).revealed and _options(d).score == (0, 0)
@@ -211,21 +184,21 @@ def drive_a_picture_is_asked_for(d: Driver) -> None:
     d.ctx.item_click(_item(f"picture {(asked.right_at + 1) % 4}"))
     d.settle()
     assert _options(d).revealed and _options(d).score == (0, 1)
-    d.ctx.item_click(_control("next question"))
+    d.ctx.item_click(ALONE.item("next question"))
     d.settle()
     assert _options(d).asked == "" and not _options(d).revealed
-    _close(d)
+    ALONE.close(d)
 
 
 def drive_a_camera_that_cannot_tell_is_told_of(d: Driver) -> None:
-    view = _open(d, columns=32, mode="which-line", asked="normalised")
+    view = ALONE.open(d, columns=32, mode="which-line", asked="normalised")
     made = view.made
     assert made is not None and made.question is not None and not made.question.names
     _ = d.picture()
     d.ctx.key_press(SHIFT | int(Key._1))
     d.settle()
     assert _options(d).answer == "" and _options(d).score == (0, 0)
-    _close(d)
+    ALONE.close(d)
 
 
 def drive_the_lecture_asks(d: Driver) -> None:
@@ -233,7 +206,7 @@ def drive_the_lecture_asks(d: Driver) -> None:
     titles = [step.title for step in lecture.steps]
     d.window.lecture.give(lecture, BUILTIN, titles.index("Exercise: what if?"))
     d.settle()
-    made = _view(d).made
+    made = d.window.view(MistakesView).made
     assert made is not None and made.question is not None
     asked = made.question
     assert asked.names[asked.right_at] == "rows count upwards"

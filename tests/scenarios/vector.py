@@ -6,6 +6,7 @@ import xml.etree.ElementTree as ElementTree
 from pathlib import Path
 
 import numpy as np
+from maximised import Maximised
 from window_driver import Driver, Key
 
 from app.laboratory.options import LaboratoryOptions
@@ -16,24 +17,13 @@ from app.outside.svg import svg
 from app.state.bounds import range_of
 
 LARGEST_ZOOM = range_of(LaboratoryOptions, "zoom")[1]
+ALONE = Maximised(LaboratoryView, "laboratory")
 SPACE = "{http://www.w3.org/2000/svg}"
 
 
 def _page(d: Driver) -> LaboratoryView:
-    d.window.shell.stage.show(LABORATORY)
-    if not d.window.shell.stage.maximised:
-        d.window.shell.stage.maximise(LABORATORY)
-    d.window.change(d.window.state.with_options(laboratory={"page": "vector"}, marked=(60, 90)))
-    d.settle()
-    view = d.window.views[LABORATORY]
-    assert isinstance(view, LaboratoryView)
-    return view
-
-
-def _close(d: Driver) -> None:
-    d.window.shell.stage.maximise()
-    d.window.shell.stage.show(LABORATORY, False)
-    d.settle()
+    d.window.change(d.window.state.with_options(marked=(60, 90)))
+    return ALONE.open(d, page="vector")
 
 
 def _made(view: LaboratoryView) -> Both:
@@ -41,12 +31,8 @@ def _made(view: LaboratoryView) -> Both:
     return view.vector.made
 
 
-def _item(name: str) -> str:
-    return f"//{LABORATORY} maximised/{name}"
-
-
 def _box(d: Driver, number: int) -> tuple[int, int, int, int]:
-    box = d.ctx.item_info(_item(f"pane {number}")).rect_full
+    box = d.ctx.item_info(ALONE.item(f"pane {number}")).rect_full
     left, top, right, bottom = (round(x) for x in (box.min.x, box.min.y, box.max.x, box.max.y))
     return left, top, right, bottom
 
@@ -75,7 +61,7 @@ def drive_one_stays_sharp_and_the_other_does_not(d: Driver) -> None:
     assert made.svg_bytes == len(svg(made.drawing).encode())
     shades = []
     for zoom in (1.0, 8.0, LARGEST_ZOOM):
-        d.ctx.item_input_value(_item("zoom##zoom"), zoom)
+        d.ctx.item_input_value(ALONE.item("zoom##zoom"), zoom)
         d.settle()
         options = d.window.state.options.laboratory
         assert options.zoom == zoom
@@ -105,7 +91,7 @@ def drive_one_stays_sharp_and_the_other_does_not(d: Driver) -> None:
     columns = [int(part.any(axis=0).sum()) for part in across]
     assert columns[0] <= width / PIXEL_PX / LARGEST_ZOOM + 2, columns
     assert columns[1] > 20, columns
-    _close(d)
+    ALONE.close(d)
 
 
 def drive_the_mouse_magnifies_and_moves_both(d: Driver) -> None:
@@ -133,7 +119,7 @@ def drive_the_mouse_magnifies_and_moves_both(d: Driver) -> None:
     assert len(window.history.past) <= before + 4  # no step for each frame
     window.undo()
     assert window.state.options.laboratory.zoom_center[0] > 0.5 / options.zoom
-    _close(d)
+    ALONE.close(d)
 
 
 def drive_the_drawing_follows_the_camera_and_the_switches(d: Driver) -> None:
@@ -150,7 +136,7 @@ def drive_the_drawing_follows_the_camera_and_the_switches(d: Driver) -> None:
     d.window.change(d.window.state.with_camera(d.window.state.camera.shifted(0, 9, (100, 100))))
     d.settle()
     assert _made(view) is not second
-    _close(d)
+    ALONE.close(d)
 
 
 def _store(d: Driver, path: Path) -> ElementTree.Element:
@@ -185,11 +171,11 @@ def drive_the_diagram_is_exported_as_it_is_seen(d: Driver) -> None:
     assert {part.get("data-name") for part in outlines} <= names
     # From the laboratory's button too: what is drawn there, which has no pixels.
     _page(d)
-    d.ctx.item_click(_item("Export as SVG..."))
+    d.ctx.item_click(ALONE.item("Export as SVG..."))
     again = _store(d, d.folder / "second")
     assert again.get("viewBox")
     assert not list(again.iter(f"{SPACE}image"))
-    _close(d)
+    ALONE.close(d)
     d.ctx.menu_click("//##MainMenuBar/File/Picture/Export diagram as SVG without the live image...")
     third = _store(d, d.folder / "third")
     assert not list(third.iter(f"{SPACE}image"))

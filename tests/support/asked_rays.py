@@ -1,4 +1,5 @@
-"""Cameras of all kinds, made up from a seed, and all pixels of small images of them."""
+"""Cameras of all kinds, made up from a seed; all pixels of small images of them; tasks that ask for
+their rays."""
 
 from __future__ import annotations
 
@@ -8,9 +9,25 @@ from dataclasses import replace
 import numpy as np
 
 from app.checking.mistakes.ray_trial import RayCase
+from app.checking.mistakes.rays import WORDS, RayTask
 from renderer.camera import Camera
+from renderer.pixels import Indexing
 
 KINDS = ("orthonormal", "off-axis", "skewed", "left-handed")
+PIXEL = {"i", "j", "width", "height"}
+TASKS = {
+    "perspective": RayTask(),
+    "parallel": RayTask("parallel"),
+    "from 1": RayTask(indexing=Indexing.LECTURE),
+    "parallel, from 1, rows from the bottom": RayTask("parallel", Indexing.LECTURE, False),
+    "from a target": RayTask(words=WORDS - {"u", "v", "w"} | {"target", "up"}),
+    "matrix": RayTask(words=WORDS - {"u", "v", "w"} | {"camera_to_world"}),
+    "inverse matrix": RayTask("parallel", words=WORDS - {"u", "v", "w"} | {"world_to_camera"}),
+    "field of view": RayTask(words=frozenset(PIXEL | {"eye", "target", "up", "fov_y", "aspect"})),
+    "in [0, 1]": RayTask(words=WORDS - {"i", "j"} | {"x01", "y01"}, from_top=False),
+    "in [-1, 1]": RayTask(words=WORDS - {"i", "j"} | {"x11", "y11"}),
+    "in pixels": RayTask(words=WORDS - {"i", "j"} | {"x_pixel", "y_pixel"}),
+}
 
 
 def made_camera(random: np.random.Generator, kind: str, projection: str = "perspective") -> Camera:
@@ -50,3 +67,21 @@ def made_cases(
             RayCase(camera, (width, height), (i, j)) for i in range(height) for j in range(width)
         ]
     return cases
+
+
+def asked_cases(task: RayTask, count: int, seed: int = 2) -> list[RayCase]:
+    """Cameras that can be told in the task's words."""
+    has_angle = "fov_y" in task.words
+    kinds = ("orthonormal",) if has_angle or "target" in task.words else KINDS
+    made = []
+    for case in made_cases(seed, count, task.projection, kinds):
+        camera = case.camera
+        if has_angle:
+            high = camera.viewport[3]
+            wide = high * case.size[0] / case.size[1]
+            camera = replace(camera, viewport=(-wide, wide, -high, high))
+        back, up = np.asarray(camera.w), np.asarray(camera.v)
+        target = tuple((np.asarray(camera.eye) - 2.5 * back).tolist())
+        tilted = tuple((1.5 * up + 0.4 * back).tolist())
+        made.append(replace(case, camera=camera, target=target, up=tilted))
+    return made

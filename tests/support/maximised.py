@@ -1,0 +1,36 @@
+"""A view that covers all others while it is driven: for several topics of drives."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Generic
+
+from window_driver import Driver
+
+from app.host.view import AView
+
+
+@dataclass(frozen=True)
+class Maximised(Generic[AView]):
+    """kind: the view's class. options: what its options are called in the state."""
+
+    kind: type[AView]
+    options: str
+
+    def open(self, d: Driver, **options: object) -> AView:
+        """Shows the view, alone, with these options."""
+        stage = d.window.shell.stage
+        stage.show(self.kind.name)
+        if not stage.maximised:
+            stage.maximise(self.kind.name)
+        d.window.change(d.window.state.with_options(**{self.options: options}))
+        d.settle()
+        return d.window.view(self.kind)
+
+    def close(self, d: Driver) -> None:
+        d.window.shell.stage.maximise()
+        d.window.shell.stage.show(self.kind.name, False)
+        d.settle()
+
+    def item(self, name: str) -> str:
+        return f"//{self.kind.name} maximised/{name}"
