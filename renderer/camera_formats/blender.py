@@ -69,7 +69,7 @@ def write(cameras: Sequence[PosedCamera], options: Options) -> dict[str, bytes]:
             camera, size = sized(one, options)
             entry, its_render = _entry(camera, known_size(size, "Blender"))
             for key, value in its_render.items():
-                known: float = render.setdefault(key, value)
+                known = float(render.setdefault(key, value) or 0.0)
                 if not math.isclose(known, value, rel_tol=1e-9):
                     problem = f"{value:g} differs from another camera's {known:g}"
                     remedy = "choose one camera: a Blender scene has one"
