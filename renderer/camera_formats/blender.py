@@ -63,7 +63,7 @@ def read(given: Given, options: Options) -> CameraSet:
 
 def write(cameras: Sequence[PosedCamera], options: Options) -> dict[str, bytes]:
     entries: list[Values] = []
-    render: Values = {}
+    render: dict[str, float] = {}
     for one in cameras:
         try:
             camera, size = sized(one, options)
@@ -110,7 +110,7 @@ for key, value in RENDER.items():
 '''
 
 
-def _entry(camera: Camera, size: Size) -> tuple[Values, Values]:
+def _entry(camera: Camera, size: Size) -> tuple[Values, dict[str, float]]:
     """A camera's values, and those of the scene's rendering: sensor_fit HORIZONTAL, so that the
     width alone says how much is seen, and all shifts are in widths."""
     camera = rigid(camera, "Blender")
