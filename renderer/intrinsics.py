@@ -115,7 +115,7 @@ def matrix(name: str, value: ArrayLike, *shapes: tuple[int, ...]) -> Floats:
     """A matrix of finite numbers, of one of these shapes. Raises LucidaError naming it."""
     try:
         found: Floats = np.asarray(value, np.float64)
-    except (TypeError, ValueError):
+    except (TypeError, ValueError, OverflowError):
         raise LucidaError(name, "is not a matrix of numbers", "give its rows") from None
     if found.shape not in shapes:
         wanted = " or ".join(" x ".join(map(str, shape)) for shape in shapes)

@@ -61,7 +61,7 @@ def posed(values: Values, options: Options) -> PosedCamera:
         raise LucidaError("matrix_world", problem, "give a rotation")
     u, v, w = (pose[:3, :3] / lengths).T.tolist()  # Blender takes a camera's scale out
     kind = values.get("type", DEFAULTS["type"])
-    if kind not in TYPES:
+    if not isinstance(kind, str) or kind not in TYPES:
         raise LucidaError(
             "type", f"{kind!r} is no {' or '.join(TYPES)}", "change the camera's type"
         )
@@ -152,7 +152,7 @@ def _pose(values: Values) -> Floats:
     field, angles = _angles(values, "rotation_euler")
     order = values.get("rotation_mode", "" if field or "rotation_quaternion" not in values else "Q")
     if isinstance(angles, dict):  # of Euler(angles, order)
-        angles, order = angles["angles"], angles["order"]
+        order, angles = angles.get("order"), angles.get("angles")
     order = order or "XYZ"
     if order in ("QUATERNION", "Q"):
         quaternion = numbers("rotation_quaternion", values.get("rotation_quaternion"), 4)

@@ -224,6 +224,10 @@ def changed(**fields):
         (changed(sensor_fit="BOTH"), "sensor_fit: 'BOTH' is unknown; give one of AUTO, "),
         (changed(type="PANO"), "type: 'PANO' is no PERSP or ORTHO; "),
         (changed(type="ORTHO", ortho_scale=-1), "ortho_scale: -1 is not above 0; "),
+        (changed(type=["PERSP"]), "type: ['PERSP'] is no PERSP or ORTHO; "),
+        (changed(lens=10**400), "lens: 1000"),
+        (changed(matrix_world=[[10**400] * 4] * 4), "matrix_world: is not a matrix of numbers; "),
+        (changed(rotation_euler={"x": 1}), "rotation_euler: None is not 3 numbers; "),
         (changed(location=[1, 2]), "location: [1, 2] is not 3 numbers; "),
         (
             changed(rotation_euler=[63.6, 0, 46.7]),

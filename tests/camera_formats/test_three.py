@@ -169,6 +169,7 @@ VIEW = {"enabled": True, "fullWidth": 0, "fullHeight": 2, "width": 1, "height": 
         (changed(fov=180), "object.fov: 180 is not below 180; "),
         (changed(fov=0), "object.fov: 0 is not above 0; "),
         (changed(fov="wide"), "object.fov: 'wide' is not a number; "),
+        (changed(fov=10**400), "object.fov: 1000"),
         (changed(zoom=0), "object.zoom: 0 is not above 0; "),
         (changed(aspect=-1), "object.aspect: -1 is not above 0; "),
         (changed(near=0), "object.near: 0 is not above 0; "),
