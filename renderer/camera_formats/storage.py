@@ -21,7 +21,7 @@ from renderer.scene.reading import check_bytes
 
 Table = dict[str, Any]
 
-MOST_BYTES = 1 << 20  # a calibration of some thousand corners; YAML takes its time
+MOST_BYTES = 1 << 19  # a calibration of some thousand corners; YAML takes its time
 
 _DIRECTIVE = re.compile(r"\A%YAML[^\n]*\n?")  # OpenCV's "%YAML:1.0" is none
 _YAML = re.compile(r"^\s*(?:rows|data)\s*:", re.MULTILINE)

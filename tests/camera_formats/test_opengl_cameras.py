@@ -9,7 +9,7 @@ import pytest
 from any_cameras import any_camera, assert_same_pixels, pasted, posed
 
 from renderer.camera import Camera
-from renderer.camera_formats import written
+from renderer.camera_formats import PosedCamera, written
 from renderer.camera_formats.given import Options
 from renderer.errors import LucidaError
 
@@ -96,8 +96,6 @@ def test_an_oblique_near_plane_is_told() -> None:
 
 
 def test_of_a_fitted_camera_the_matrices_are_of_its_image() -> None:
-    from renderer.camera_formats import PosedCamera
-
     text = written([PosedCamera(CAMERA, (100, 300), fit=True)], "opengl")[""].decode()
     assert_same_pixels(CAMERA.fitted((100, 300)), pasted(text).cameras[0].camera, (100, 300))
     with pytest.raises(LucidaError, match="size: is missing"):
@@ -122,6 +120,8 @@ def changed(place: tuple[int, int], number: object, clip: bool = False) -> str:
         (changed((0, 0), 1e308), "view: has the number"),
         (changed((3, 2), 1, clip=True), "projection: is no projection"),
         (changed((0, 0), 0, clip=True), "projection: its first two rows"),
+        (changed((0, 0), 1e-320, clip=True), "viewport: -?inf is not finite"),
+        ("view = 1" + " " * 2_000_000, "is too large"),
         (json.dumps({"view": [1, 2], "projection": CLIP.tolist()}), "view: has the shape"),
         (json.dumps({"view": VIEW.tolist()}), "clip_from_camera: is missing"),
         (json.dumps({"view": None, "projection": "p"}), "view: is not a matrix"),
