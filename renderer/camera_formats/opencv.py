@@ -30,7 +30,7 @@ from renderer.camera_formats.given import Given, Options
 from renderer.camera_formats.literals import NAME
 from renderer.camera_formats.posed import CameraSet, Distortion, PosedCamera
 from renderer.camera_formats.rotations import from_vector, to_vector
-from renderer.camera_formats.storage import Table, table_in, to_json, to_yaml
+from renderer.camera_formats.storage import MOST_BYTES, Table, table_in, to_json, to_yaml
 from renderer.errors import LucidaError
 from renderer.intrinsics import as_camera_from_world, decomposed, pixel_offset
 
@@ -78,6 +78,8 @@ class _Names:
 
 
 def recognises(given: Given) -> bool:
+    if len(given.data) > MOST_BYTES:
+        return False
     if isinstance(given.json, dict):
         names = {_plain(name) for name in given.json}
     elif given.is_text:
