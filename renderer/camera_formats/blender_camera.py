@@ -45,6 +45,9 @@ TURNS = EULER | {"matrix_world", "rotation_mode", "rotation_quaternion"}
 KNOWN = frozenset(DEFAULTS) | TURNS | {"clip_start", "clip_end"}
 KNOWN |= {f"{angle}{unit}" for angle in ANGLES for unit in ("", *DEGREES)}
 TYPES = {"PERSP": "perspective", "ORTHO": "parallel"}
+# What the parts of a camera are called in Blender.
+FIELDS = dict.fromkeys("uvw", "matrix_world")
+FIELDS |= {"near": "clip_start", "far": "clip_end", "viewport": "lens"}
 FITS = ("AUTO", "HORIZONTAL", "VERTICAL")
 _TURNS_OF_RADIANS = 4 * math.pi  # more of them were meant as degrees
 
@@ -67,9 +70,12 @@ def posed(values: Values, options: Options) -> PosedCamera:
         None if values.get(name) is None else number(name, values[name])
         for name in ("clip_start", "clip_end")
     )
-    camera = Camera(
-        tuple(pose[:3, 3].tolist()), u, v, w, 1.0, viewport, TYPES[kind], near=near, far=far
-    )
+    eye = tuple(pose[:3, 3].tolist())
+    try:
+        camera = Camera(eye, u, v, w, 1.0, viewport, TYPES[kind], near=near, far=far)
+    except LucidaError as error:
+        field = FIELDS.get(error.field, error.field)
+        raise LucidaError(field, error.problem, error.remedy) from None
     name = values.get("name", "")
     return PosedCamera(camera, size, name if isinstance(name, str) else "")
 

@@ -45,7 +45,6 @@ MODELS = {
     "THIN_PRISM_FISHEYE": _model("fx fy cx cy k1 k2 p1 p2 k3 k4 sx1 sy1", fisheye=True),
 }
 NAMES = tuple(MODELS)
-MOST_PARAMETERS = max(len(model.parameters) for model in MODELS.values())
 _PINHOLE = {"f", "fx", "fy", "cx", "cy"}
 _LARGEST_SIZE = 1_000_000  # pixels a side
 

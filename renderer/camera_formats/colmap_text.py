@@ -7,6 +7,7 @@ Source: COLMAP's documentation, "Output Format".
 from __future__ import annotations
 
 import io
+from codecs import BOM_UTF8
 from collections.abc import Callable, Iterator
 from typing import TypeVar
 
@@ -78,7 +79,7 @@ def points(data: bytes) -> Cloud:
         return Cloud(np.zeros((0, 3)), np.zeros((0, 3), np.uint8))
     try:
         # loadtxt() holds no more than a piece of the file as text.
-        table = np.loadtxt(io.BytesIO(data), np.float64, usecols=range(1, 8), ndmin=2)
+        table = np.loadtxt(_file(data), np.float64, usecols=range(1, 8), ndmin=2)
         colors = table[:, 3:6]
         if np.isfinite(table[:, :6]).all() and ((colors >= 0) & (colors <= 255)).all():
             return Cloud(table[:, :3].copy(), colors.astype(np.uint8))
@@ -128,10 +129,16 @@ def _check_points(number: int, line: bytes) -> None:
     )
 
 
+def _file(data: bytes) -> io.BytesIO:
+    """Its lines, without a byte order mark."""
+    file = io.BytesIO(data)
+    file.seek(len(BOM_UTF8) if data.startswith(BOM_UTF8) else 0)
+    return file
+
+
 def _lines(data: bytes, blank: bool = False) -> Iterator[tuple[int, bytes]]:
     """Number and text of each line that is no comment; blank: also those that are empty."""
-    start = 3 if data.startswith(b"\xef\xbb\xbf") else 0
-    for number, line in enumerate(io.BytesIO(data[start:] if start else data), 1):
+    for number, line in enumerate(_file(data), 1):
         line = line.strip()
         if (line or blank) and not line.startswith(b"#"):
             yield number, line
