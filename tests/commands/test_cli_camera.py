@@ -147,6 +147,9 @@ class TestChoice:
         assert facts(capsys, "-", "--frame", "1")["name"] == "images/b.jpg"
         give(Path("corner.toml").read_bytes())
         assert facts(capsys, "-")["eye"] == "(0, 1, 6)"
+        give(json.dumps(HERD).encode())
+        assert main(["pick", "spheres", "47", "63", "--view=-#b.jpg"]) == 0
+        assert "of 64x48" in capsys.readouterr().out
         give(b"")
         assert main(["camera", "-"]) == 2
         assert capsys.readouterr().err.startswith("lucida: standard input: is empty;")
