@@ -30,7 +30,10 @@ LARGEST_FILE_BYTES = 1 << 30
 BELOW = ("", "sparse/0", "sparse", "0")  # where a data set's folder has its model
 FOLDERS_UP = 3  # from the model to the folder that holds images/
 _Content = TypeVar("_Content")
-_READERS = {".bin": colmap_binary, ".txt": colmap_text}
+_READERS = {
+    ".bin": (colmap_binary.cameras, colmap_binary.images, colmap_binary.points),
+    ".txt": (colmap_text.cameras, colmap_text.images, colmap_text.points),
+}
 
 
 def recognises(given: Given) -> bool:
@@ -43,11 +46,11 @@ def read(given: Given, options: Options) -> CameraSet:
         problem = "has no cameras and images of COLMAP, .bin or .txt"
         raise LucidaError("", problem, "give the folder of a model, such as sparse/0")
     folder, kind = model
-    reader = _READERS[kind]
-    lenses: Lenses = _read(folder / f"cameras{kind}", reader.cameras)
-    images: list[PosedImage] = _read(folder / f"images{kind}", reader.images)
+    read_lenses, read_images, read_points = _READERS[kind]
+    lenses: Lenses = _read(folder / f"cameras{kind}", read_lenses)
+    images: list[PosedImage] = _read(folder / f"images{kind}", read_images)
     points = folder / f"points3D{kind}"
-    cloud: Cloud | None = _read(points, reader.points) if isfile(points) else None
+    cloud: Cloud | None = _read(points, read_points) if isfile(points) else None
     distortions = {number: lens.distortion for number, lens in lenses.items()}
     photographs = _photographs(folder)
     origin = options.pixel_origin or "corner"

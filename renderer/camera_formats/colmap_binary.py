@@ -2,7 +2,7 @@
 
 Each function takes a file's bytes and raises LucidaError naming the entry. A count is held against
 what is left of the file before anything is made of it.
-Source: COLMAP's documentation, "Output Format", and its scripts/python/read_write_model.py.
+Source: COLMAP's documentation, "Output Format".
 """
 
 from __future__ import annotations

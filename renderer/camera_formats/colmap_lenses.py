@@ -50,7 +50,7 @@ _LARGEST_SIZE = 1_000_000  # pixels a side
 
 
 @dataclass(frozen=True)
-class Lens:
+class ColmapLens:
     """A line of cameras.txt, checked. parameters: by their names in the model."""
 
     model: str
@@ -79,7 +79,7 @@ class Lens:
         return Distortion(self.model, rest, float(np.max(np.nan_to_num(moved, nan=np.inf))))
 
 
-def lens(model: str, width: int, height: int, values: list[float]) -> Lens:
+def lens(model: str, width: int, height: int, values: list[float]) -> ColmapLens:
     """A camera of a COLMAP model. Raises LucidaError for what is none."""
     if model not in MODELS:
         raise LucidaError(
@@ -103,7 +103,7 @@ def lens(model: str, width: int, height: int, values: list[float]) -> Lens:
             raise LucidaError(name, f"{value} is not finite", "give a finite number")
         if name in ("f", "fx", "fy") and not value > 0:
             raise LucidaError(name, f"{value:g} is not above 0", "give it in pixels")
-    return Lens(model, (width, height), dict(zip(names, values, strict=True)))
+    return ColmapLens(model, (width, height), dict(zip(names, values, strict=True)))
 
 
 def distorted(

@@ -9,10 +9,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from renderer.camera_checks import listed
-from renderer.camera_formats.colmap_lenses import Lens
+from renderer.camera_formats.colmap_lenses import ColmapLens
 from renderer.errors import LucidaError
 
-Lenses = dict[int, Lens]  # by their CAMERA_ID
+Lenses = dict[int, ColmapLens]  # by their CAMERA_ID
 
 
 @dataclass(frozen=True)
@@ -50,7 +50,7 @@ def checked_image(
     return PosedImage(where, quaternion, translation, camera, name)
 
 
-def add_lens(lenses: Lenses, number: int, lens: Lens) -> None:
+def add_lens(lenses: Lenses, number: int, lens: ColmapLens) -> None:
     """Raises LucidaError for an id that was there."""
     if number in lenses:
         raise LucidaError("CAMERA_ID", f"{number} is given twice", "give each camera its own")

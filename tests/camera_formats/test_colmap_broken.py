@@ -139,8 +139,9 @@ def test_broken_binary(tmp_path, name, change, expected):
 
 
 def test_every_truncation_of_a_binary_model_is_an_error(tmp_path):
+    binary_model(tmp_path)
     for name, data in BINARY.items():
         for length in range(len(data)):
-            binary_model(tmp_path)
             (tmp_path / name).write_bytes(data[:length])
-            said(tmp_path)
+            assert said(tmp_path).startswith(name)
+        (tmp_path / name).write_bytes(data)
