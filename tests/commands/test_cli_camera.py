@@ -311,6 +311,21 @@ def test_a_mistake_is_one_line_and_nothing_is_written(capsys, words):
     assert {path: path.stat().st_mtime_ns for path in Path().rglob("*")} == before
 
 
+def test_a_part_of_a_folder_that_is_read_is_not_written_over(capsys):
+    Path("shots/sparse").mkdir(parents=True)
+    told(capsys, "herd.json#0", "--to", "colmap", "-o", "shots/sparse/0")
+    before = Path("shots/sparse/0/images.txt").read_bytes()
+    for words in (
+        ["colmap", "-o", "shots/sparse/0"],
+        ["opengl", "-o", "shots/sparse/0/images.txt"],
+    ):
+        assert main(["camera", "shots", "--pixel-origin", "center", "--to", *words]) == 2
+        err = capsys.readouterr().err
+        assert err == f"lucida: -o: {words[-1]!r} is a part of INPUT; give another name\n"
+    assert Path("shots/sparse/0/images.txt").read_bytes() == before
+    told(capsys, "shots", "--to", "nerf", "-o", "shots/transforms.json")
+
+
 @pytest.mark.parametrize("words", [["-o", "folder/a.toml"], ["--to", "den", "-o", "folder/den"]])
 def test_a_folder_that_cannot_be_written(capsys, monkeypatch, words):
     monkeypatch.setattr(os, "access", lambda path, mode: not str(path).endswith("folder"))
