@@ -63,6 +63,15 @@ def numbers(name: str, value: object, count: int) -> tuple[float, ...]:
     return tuple(number(name, item) for item in items)
 
 
+def positive(name: str, value: object, example: object) -> float:
+    """A number from SMALLEST on. example: for the remedy."""
+    found = number(name, value)
+    if not found >= SMALLEST:
+        limit = "0" if found <= 0 else f"{SMALLEST:g}"
+        raise LucidaError(name, f"{found:g} is not above {limit}", f"give e.g. {example}")
+    return found
+
+
 def listed(vector: Iterable[float]) -> str:
     return "(" + ", ".join(f"{x:g}" for x in vector) + ")"
 

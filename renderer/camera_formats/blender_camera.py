@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 
 from renderer.camera import Camera, Size
-from renderer.camera_checks import Floats, listed, number, numbers
+from renderer.camera_checks import Floats, listed, number, numbers, positive
 from renderer.camera_formats.blender_values import Values
 from renderer.camera_formats.given import Options
 from renderer.camera_formats.posed import PosedCamera
@@ -142,6 +142,7 @@ def _pose(values: Values) -> Floats:
     """matrix_world, (4, 4)."""
     if "matrix_world" in values:
         pose = np.array(matrix("matrix_world", values["matrix_world"], (4, 4)))
+        numbers("matrix_world", pose.ravel(), 16)  # none is too large
         if pose[3].tolist() != [0, 0, 0, 1]:
             problem = f"its last row is {listed(pose[3])}, not (0, 0, 0, 1)"
             raise LucidaError("matrix_world", problem, "give it row by row")
@@ -194,7 +195,4 @@ def _turn(axis: int, angle: float) -> Floats:
 
 
 def _positive(values: Values, name: str) -> float:
-    value = number(name, values.get(name, DEFAULTS[name]))
-    if not value > 0:
-        raise LucidaError(name, f"{value:g} is not above 0", f"give e.g. {DEFAULTS[name]}")
-    return value
+    return positive(name, values.get(name, DEFAULTS[name]), DEFAULTS[name])

@@ -13,6 +13,7 @@ from typing import TypeVar
 
 import numpy as np
 
+from renderer.camera_checks import LARGEST, number
 from renderer.camera_formats.colmap_lenses import lens
 from renderer.camera_formats.colmap_records import (
     Cloud,
@@ -34,7 +35,7 @@ _SHORT_BYTES = 1000  # a line of which all words are counted
 
 def cameras(data: bytes) -> Lenses:
     found: Lenses = {}
-    for number, line in _lines(data):
+    for count, line in _lines(data):
         try:
             words = _words(line, _CAMERA, -1)
             identity, width, height = (
@@ -43,7 +44,7 @@ def cameras(data: bytes) -> Lenses:
             values = [_number(float, "PARAMS", word) for word in words[4:]]
             add_lens(found, identity, lens(words[1], width, height, values))
         except LucidaError as error:
-            raise at(f"line {number}", error) from None
+            raise at(f"line {count}", error) from None
     return found
 
 
@@ -54,10 +55,10 @@ def images(data: bytes) -> list[PosedImage]:
     """
     found = []
     lines = _lines(data, blank=True)
-    for number, line in lines:
+    for count, line in lines:
         if not line:
             continue
-        where = f"line {number}"
+        where = f"line {count}"
         try:
             words = _words(line, _IMAGE, len(_IMAGE) - 1)
             _number(int, "IMAGE_ID", words[0])
@@ -81,7 +82,7 @@ def points(data: bytes) -> Cloud:
         # loadtxt() holds no more than a piece of the file as text.
         table = np.loadtxt(_file(data), np.float64, usecols=range(1, 8), ndmin=2)
         colors = table[:, 3:6]
-        if np.isfinite(table[:, :6]).all() and ((colors >= 0) & (colors <= 255)).all():
+        if (np.abs(table[:, :3]) <= LARGEST).all() and ((colors >= 0) & (colors <= 255)).all():
             return Cloud(table[:, :3].copy(), colors.astype(np.uint8))
     except (ValueError, UnicodeError):
         pass
@@ -90,7 +91,7 @@ def points(data: bytes) -> Cloud:
 
 def _wrong_point(data: bytes) -> LucidaError:
     """The first line that loadtxt() does not take, looked for one by one."""
-    for number, line in _lines(data):
+    for count, line in _lines(data):
         try:
             words = _words(line, _POINT, len(_POINT))
             values = [
@@ -98,16 +99,15 @@ def _wrong_point(data: bytes) -> LucidaError:
                 for field, word in zip(_POINT[1:], words[1:8], strict=True)
             ]
             for field, value in zip(_POINT[1:7], values[:6], strict=True):
-                if not np.isfinite(value):
-                    raise LucidaError(field, f"{value} is not finite", "give a finite number")
+                number(field, value)
                 if field in ("R", "G", "B") and not 0 <= value <= 255:
                     raise LucidaError(field, f"{value:g} is no colour", "give 0 to 255")
         except LucidaError as error:
-            return at(f"line {number}", error)
+            return at(f"line {count}", error)
     return LucidaError("", "is no list of points", "write it again with COLMAP")
 
 
-def _check_points(number: int, line: bytes) -> None:
+def _check_points(count: int, line: bytes) -> None:
     """Whether a line is X, Y, POINT3D_ID again and again, by its ends and, of a short one, its
     count: one that forgot the empty line after each image has a pose here."""
     if not line:
@@ -123,7 +123,7 @@ def _check_points(number: int, line: bytes) -> None:
     except ValueError:
         pass
     raise LucidaError(
-        f"line {number}",
+        f"line {count}",
         "is not X Y POINT3D_ID again and again",
         "give each image two lines, of which the second may be empty",
     )
@@ -138,10 +138,10 @@ def _file(data: bytes) -> io.BytesIO:
 
 def _lines(data: bytes, blank: bool = False) -> Iterator[tuple[int, bytes]]:
     """Number and text of each line that is no comment; blank: also those that are empty."""
-    for number, line in enumerate(_file(data), 1):
+    for count, line in enumerate(_file(data), 1):
         line = line.strip()
         if (line or blank) and not line.startswith(b"#"):
-            yield number, line
+            yield count, line
 
 
 def _words(line: bytes, fields: tuple[str, ...], most_splits: int) -> list[str]:

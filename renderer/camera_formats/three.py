@@ -17,7 +17,7 @@ from uuid import NAMESPACE_URL, uuid5
 import numpy as np
 
 from renderer.camera import Camera, Size
-from renderer.camera_checks import Floats, listed, number, numbers
+from renderer.camera_checks import LARGEST, Floats, listed, number, numbers, positive
 from renderer.camera_formats.given import Given, Options
 from renderer.camera_formats.posed import CameraSet, PosedCamera
 from renderer.camera_formats.rigid import pose_of, rigid, rotation_of, sized
@@ -87,7 +87,11 @@ def _objects(root: Table) -> Iterator[tuple[str, Table, Floats]]:
         if not isinstance(table, dict):
             raise LucidaError(field, "is no object", "give what .toJSON() returns")
         try:
-            pose = parent @ _matrix(table)
+            with np.errstate(all="ignore"):
+                pose = parent @ _matrix(table)
+            if not np.abs(pose).max() <= LARGEST:
+                problem = "leads beyond what can be drawn, with those above it"
+                raise LucidaError("matrix", problem, f"stay within {LARGEST:g}")
             children = table.get("children", [])
             if not isinstance(children, list):
                 raise LucidaError("children", "is no list", "give a list of objects")
@@ -227,10 +231,7 @@ def _clip(table: Table, name: str) -> float | None:
 
 
 def _positive(table: Table, name: str, default: float) -> float:
-    value = number(name, table.get(name, default))
-    if not value > 0:
-        raise LucidaError(name, f"{value:g} is not above 0", f"give e.g. {default:g}")
-    return value
+    return positive(name, table.get(name, default), f"{default:g}")
 
 
 def _table(camera: Camera, size: Size | None, name: str) -> Table:

@@ -249,6 +249,14 @@ def changed(**fields):
             changed(matrix_world=[[0] * 4] * 3 + [[0, 0, 0, 1]]),
             "matrix_world: has columns of lengt",
         ),
+        (
+            changed(matrix_world=np.diag([1e200, 1, 1, 1]).tolist()),
+            "matrix_world: 1e+200 is too la",
+        ),
+        (
+            changed(pixel_aspect_y=1e-300, sensor_fit="VERTICAL"),
+            "pixel_aspect_y: 1e-300 is not abo",
+        ),
         (changed(resolution_x=0), "resolution_x: 0 is not above 0; "),
         (changed(resolution_x=10.5), "resolution_x: 10.5 is no whole number; "),
         (changed(resolution_x=1e9), "resolution_x: "),

@@ -196,6 +196,10 @@ VIEW = {"enabled": True, "fullWidth": 0, "fullHeight": 2, "width": 1, "height": 
             "object.children[0].quaternion: (0, 0, 0, 0)",
         ),
         (changed(children=[{"rotation": [0, 0, 0]}]), "object.children[0].rotation: are angles "),
+        (
+            changed(children=[{"scale": [1e9] * 3, "children": [{"scale": [1e9] * 3}]}]),
+            "object.children[0].children[0].matrix: leads beyond what can be drawn, with those ",
+        ),
         (changed(type="Mesh"), "holds no camera (three); "),
         (json.dumps(ORTHOGRAPHIC | {"left": 3}), "object.viewport: "),
         ("[1, 2]", "object: is no object of three.js; "),
