@@ -58,7 +58,7 @@ def ignored_text(cameras: Sequence[PosedCamera]) -> str:
     if len(cameras) == 1:
         return told
     which = f" in {camera.name}" if camera.name else ""
-    return f"{told}{which}, the most of {len(lenses)} such cameras"
+    return told + which + (f", the most of {len(lenses)} cameras" if len(lenses) > 1 else "")
 
 
 def _of_all(found: CameraSet) -> list[Fact]:

@@ -203,13 +203,19 @@ def _written(
 
 
 def _check_is_another(output: str, source: Given) -> None:
-    """Raises LucidaError where OUT is INPUT, or the folder that it lies in."""
+    """Raises LucidaError where OUT is INPUT, the folder that it lies in, or something in it."""
     if source.path is None:
         return
+    what = ""
     if _is_same(source.path, output):
-        raise LucidaError("-o", f"{output!r} is INPUT itself", "give another name")
-    if _is_same(source.path.parent, output):
-        raise LucidaError("-o", f"{output!r} is INPUT's own folder", "give another name")
+        what = "INPUT itself"
+    elif _is_same(source.path.parent, output):
+        what = "INPUT's own folder"
+    elif source.is_folder and os.path.lexists(output):
+        above = Path(os.path.abspath(output)).parents
+        what = "a part of INPUT" if any(_is_same(source.path, str(one)) for one in above) else ""
+    if what:
+        raise LucidaError("-o", f"{output!r} is {what}", "give another name")
 
 
 def _is_same(path: Path, other: str) -> bool:

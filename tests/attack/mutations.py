@@ -43,11 +43,13 @@ MODULES: dict[str, tuple[str, ...]] = {
     "renderer/shaded_rays.py": ("shaded_rays",),
     "renderer/pixels.py": ("pixels", "go_to_pixel"),
     "renderer/slivers.py": ("slivers",),
+    "renderer/camera_formats/chosen.py": ("cli_camera",),
     "app/state/bounds.py": ("bounds", "state"),
     "app/state/app_state.py": ("state", "bounds"),
     "app/state/all_options.py": ("state", "bounds"),
     "app/cameras/animation.py": ("animation", "animation_path", "travel"),
     "app/cameras/basis.py": ("basis", "state"),
+    "app/cameras/described.py": ("described",),
     "app/cameras/editing.py": (
         "basis",
         "camera_actions",

@@ -1,0 +1,222 @@
+"""What is said of a file of cameras: each quantity, in the lecture's words and as data."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from app.cameras.described import as_data, as_text, facts, ignored_text
+from renderer import Camera
+from renderer.camera_formats import CameraSet, Distortion, PosedCamera
+
+PLAIN = Camera(viewport=(-2 / 3, 2 / 3, -0.5, 0.5))
+SIZE = (64, 48)
+
+
+def told(camera: Camera, size: tuple[int, int] | None = SIZE, **named) -> dict[str, str]:
+    posed = PosedCamera(camera, size, **named)
+    return dict(facts(CameraSet("view", (posed,)), posed))
+
+
+def of_set(*cameras: PosedCamera, **named) -> dict[str, str]:
+    return dict(facts(CameraSet("view", cameras, **named)))
+
+
+def lens(corner_px: float = 12.34, **coefficients: float) -> Distortion:
+    return Distortion("RADIAL", coefficients or {"k1": -0.2}, corner_px)
+
+
+class TestOne:
+    def test_every_quantity_of_a_plain_camera(self):
+        across = 2 * math.degrees(math.atan(2 / 3))
+        up = 2 * math.degrees(math.atan(0.5))
+        assert told(PLAIN) == {
+            "format": "view: Lucida's view file",
+            "image": "64x48",
+            "projection": "perspective",
+            "eye": "(0, 0, 0)",
+            "u, right": "(1, 0, 0)",
+            "v, up": "(0, 1, 0)",
+            "w, back": "(0, 0, 1)",
+            "basis": "orthonormal, right-handed",
+            "d": "1 from the eye to the viewport, along -w",
+            "viewport": "left -0.6666667, right 0.6666667, bottom -0.5, top 0.5",
+            "field of view": f"{across:.7g} across, {up:.7g} up and down, in degrees",
+            "focal lengths": "fx 48, fy 48, in pixels",
+            "principal point": "(32, 24) from the corner of the image's first pixel",
+            "": "(31.5, 23.5) from that pixel's centre",
+            "pixels": "square",
+        }
+
+    def test_names_and_conventions_come_first(self):
+        posed = PosedCamera(PLAIN, SIZE, "left\n7", "images/left.png")
+        found = facts(CameraSet("view", (posed,), ("y up", "rows")), posed)
+        assert [tuple(fact) for fact in found[:5]] == [
+            ("format", "view: Lucida's view file"),
+            ("taken", "y up"),
+            ("", "rows"),
+            ("name", "left 7"),
+            ("photograph", "images/left.png"),
+        ]
+        assert "photograph" not in told(PLAIN, name="a.png", image="a.png")
+
+    def test_without_a_size_there_are_no_pixels(self):
+        found = told(PLAIN, None)
+        assert found["image"] == "of any size"
+        assert found["in pixels"].endswith("--size WxH says the rest")
+        assert {"focal lengths", "principal point", "pixels"}.isdisjoint(found)
+
+    def test_a_parallel_camera_has_widths_for_angles(self):
+        camera = Camera(u=(2, 0, 0), v=(0, 3, 0), projection="parallel", near=0.5, far=9.0)
+        found = told(camera, (60, 40))
+        assert found["seen"] == "2 wide, 3 high, in world units"
+        assert (found["near"], found["far"]) == ("0.5 along -w", "9 along -w")
+        assert {"field of view", "focal lengths", "principal point"}.isdisjoint(found)
+        assert found["pixels"] == "not square: 0.4444444 as wide as high"
+
+    @pytest.mark.parametrize(
+        ("fields", "said"),
+        [
+            ({"u": (-1, 0, 0)}, "orthonormal, left-handed: the picture is mirrored"),
+            ({"v": (0, 2, 0)}, "orthogonal, |v| = 2, right-handed"),
+            ({"v": (1, 1, 0)}, "skewed, u and v at 45 degrees, |v| = 1.414214, right-handed"),
+            ({"w": (0, 1, -1)}, "skewed, v and w at 45 degrees, |w| = 1.414214, left-handed: the "
+             "picture is mirrored"),
+            ({"u": (1.000001, 0, 0)}, "orthonormal within 2e-06, right-handed"),
+        ],
+    )  # fmt: skip
+    def test_a_basis_says_what_it_is(self, fields, said):
+        assert told(Camera(**fields))["basis"] == said
+
+    @pytest.mark.parametrize(
+        ("viewport", "off_axis"),
+        [
+            ((-0.5, 0.5, -0.4, 0.4), False),
+            ((-0.5, 0.6, -0.4, 0.4), True),
+            ((-0.6, 0.5, -0.4, 0.4), True),
+            ((-0.5, 0.5, -0.4, 0.3), True),
+            ((-0.5, 0.5 + 1e-12, -0.4, 0.4 - 1e-12), False),
+            ((-5e6, 5e6 + 1e-3, -4e6, 4e6 - 1e-3), False),
+        ],
+    )
+    def test_off_axis(self, viewport, off_axis):
+        assert told(Camera(viewport=viewport))["viewport"].endswith(" (off-axis)") == off_axis
+
+    def test_a_fitted_viewport_is_that_of_the_size(self):
+        found = told(Camera(), None, fit=True)
+        assert found["viewport"] == (
+            "left -0.5, right 0.5, bottom -0.5, top 0.5; widened to each image's shape"
+        )
+        found = told(Camera(), (200, 100), fit=True)
+        assert found["viewport"] == "left -1, right 1, bottom -0.5, top 0.5"
+        assert found["focal lengths"] == "fx 100, fy 100, in pixels"
+
+    def test_skew_and_pixels_that_are_not_square(self):
+        found = told(Camera(v=(0.5, 1, 0)), (100, 100))
+        camera = Camera(v=(0.5, 1, 0))
+        assert found["skew"] == f"{camera.intrinsics((100, 100)).K[0, 1]:.7g}, in pixels"
+        assert told(Camera(), (100, 50))["pixels"] == "not square: 0.5 as wide as high"
+        assert "skew" not in told(PLAIN)
+        assert "skew" not in told(Camera(v=(1e-12, 1, 0)), (10_000, 10))  # rounding
+
+    def test_what_products_leave_is_no_number(self):
+        assert told(replace(PLAIN, eye=(-1e-15, 2, -0.0)))["eye"] == "(0, 2, 0)"
+        assert told(replace(PLAIN, eye=(1e-13, 2, 0)))["eye"] == "(1e-13, 2, 0)"
+
+
+class TestLens:
+    def test_it_says_what_is_ignored(self):
+        said = "k1 = -0.2 (RADIAL) ignored: it moves a corner by 12.3 pixels"
+        assert told(PLAIN, distortion=lens())["distortion"] == said
+        assert ignored_text([PosedCamera(PLAIN)]) == ""
+        two = lens(0.5, k1=0.1, p1=0.0, k2=0.02)
+        said = "k1 = 0.1, k2 = 0.02 (RADIAL) ignored: they move a corner by 0.5 pixels"
+        assert ignored_text([PosedCamera(PLAIN, distortion=two)]) == said
+
+    def test_of_several_the_worst_is_told(self):
+        cameras = [
+            PosedCamera(PLAIN, name="a", distortion=lens(1.0)),
+            PosedCamera(PLAIN, name="b", distortion=lens(3.0)),
+            PosedCamera(PLAIN, name="c"),
+        ]
+        said = "k1 = -0.2 (RADIAL) ignored: it moves a corner by 3 pixels in b"
+        assert of_set(*cameras)["distortion"] == f"{said}, the most of 2 cameras"
+        assert of_set(*cameras[1:])["distortion"] == said
+        unnamed = [replace(camera, name="") for camera in cameras]
+        assert "3 pixels, the most of 2" in ignored_text(unnamed)
+        assert "distortion" not in of_set(cameras[2], cameras[2])
+
+
+class TestSet:
+    def test_all_together(self):
+        eyes = ((0, 1, 6), (6, -1, 0))
+        cameras = [
+            PosedCamera(replace(PLAIN, eye=eye), SIZE, f"{i}.png") for i, eye in enumerate(eyes)
+        ]
+        points = np.zeros((5, 3))
+        assert of_set(*cameras, taken=("y up",), points=points) == {
+            "format": "view: Lucida's view file",
+            "taken": "y up",
+            "cameras": "2: 0.png, 1.png",
+            "images": "64x48",
+            "projection": "perspective",
+            "eyes": "from (0, -1, 0) to (6, 1, 6)",
+            "points": "5 of a reconstruction",
+        }
+        assert "points" not in of_set(*cameras, points=np.zeros((0, 3)))
+
+    def test_names_and_sizes_are_told_up_to_three(self):
+        sizes = [(1, 1), (2, 1), (2, 1), (3, 1), None]
+        cameras = [PosedCamera(PLAIN, size, str(n)) for n, size in enumerate(sizes)]
+        assert of_set(*cameras[:3])["cameras"] == "3: 0, 1, 2"
+        assert of_set(*cameras[:4])["cameras"] == "4: 0, 1, 2, ..."
+        assert of_set(*cameras[:4])["images"] == "2x1 (2), 1x1 (1), 3x1 (1)"
+        assert of_set(*cameras)["images"] == "2x1 (2), 1x1 (1), 3x1 (1), ..."
+        assert of_set(PosedCamera(PLAIN), PosedCamera(PLAIN))["cameras"] == "2"
+
+
+def test_text_has_two_columns():
+    text = as_text(facts(CameraSet("view", (PosedCamera(PLAIN),) * 2)))
+    assert text.splitlines()[:2] == ["format      view: Lucida's view file", "cameras     2"]
+
+
+class TestData:
+    def test_a_camera_as_values(self):
+        camera = replace(PLAIN, near=0.5)
+        posed = PosedCamera(camera, SIZE, "a", "a.png", distortion=lens())
+        data = as_data(CameraSet("view", (posed, posed), ("y up",), np.zeros((2, 3))), posed)
+        assert (data["format"], data["taken"], data["points"]) == ("view", ["y up"], 2)
+        (found,) = data["cameras"]
+        K, R, t = camera.intrinsics(SIZE)
+        assert found.pop("fov_deg") == [camera.fov_x_deg, camera.fov_y_deg]
+        assert found == {
+            "name": "a",
+            "image": "a.png",
+            "size": [64, 48],
+            "eye": [0, 0, 0],
+            "u": [1, 0, 0],
+            "v": [0, 1, 0],
+            "w": [0, 0, 1],
+            "distance": 1,
+            "viewport": list(PLAIN.viewport),
+            "fit": False,
+            "projection": "perspective",
+            "near": 0.5,
+            "far": None,
+            "basis": "orthonormal, right-handed",
+            "K": K.tolist(),
+            "R": R.tolist(),
+            "t": t.tolist(),
+            "ignored": {"model": "RADIAL", "corner_px": 12.34, "k1": -0.2},
+        }
+
+    def test_what_there_is_not_is_none(self):
+        parallel = PosedCamera(Camera(projection="parallel"), SIZE)
+        data = as_data(CameraSet("view", (PosedCamera(PLAIN), parallel)))
+        first, second = data["cameras"]
+        assert data["points"] == 0
+        assert [first[name] for name in ("size", "K", "R", "t", "ignored")] == [None] * 5
+        assert [second[name] for name in ("fov_deg", "K", "R", "t", "ignored")] == [None] * 5
