@@ -24,7 +24,7 @@ from renderer.scene_export.materials import (
     reflectance,
 )
 from renderer.scene_export.meshes import Triangles, triangles, unit_sphere
-from renderer.scene_export.what import Exported, LeftOut, ExportSubject, called
+from renderer.scene_export.what import Exported, ExportSubject, LeftOut, called
 
 DIELECTRIC = 0.04  # what a glTF material without metal reflects head on
 SKEWED = 1e-6  # a cosine from which on a transform is no rotation and scale

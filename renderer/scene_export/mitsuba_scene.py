@@ -31,7 +31,7 @@ from renderer.scene_export.materials import (
 )
 from renderer.scene_export.meshes import triangles
 from renderer.scene_export.places import farthest
-from renderer.scene_export.what import Exported, LeftOut, ExportSubject, called
+from renderer.scene_export.what import Exported, ExportSubject, LeftOut, called
 
 SAMPLES = 64  # a pixel
 

@@ -20,7 +20,7 @@ from renderer.scene_export.materials import (
     note_surroundings,
     reflectance,
 )
-from renderer.scene_export.what import Exported, LeftOut, ExportSubject, called
+from renderer.scene_export.what import Exported, ExportSubject, LeftOut, called
 
 SAMPLES = 64  # a pixel
 
