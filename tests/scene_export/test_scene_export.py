@@ -187,6 +187,21 @@ def test_a_checker_s_coordinates_are_the_solid_checker_s_cells():
     assert with_checker_uv(triangles(shapes.cone()), Checker()) is None
 
 
+def test_vertex_colours_are_mitsuba_s_of_a_kind_that_takes_them(tmp_path: Path):
+    exported(crowd(), tmp_path / "a.xml")
+    root = ElementTree.parse(tmp_path / "a.xml").getroot()
+    kinds = [e.get("type") for e in root.findall("shape/bsdf/bsdf")]
+    assert kinds == ["principled", "diffuse", "roughplastic", "roughplastic", "diffuse"]
+    data = (tmp_path / "a_meshes/0.ply").read_bytes()
+    head, _, rest = data.partition(b"end_header\n")
+    assert b"property float r\nproperty float g\nproperty float b\n" in head
+    rows = np.frombuffer(rest[: 120 * 24], "<f4").reshape(120, 6)
+    mesh, material = crowd().objects[0].shape, crowd().objects[0].material
+    assert isinstance(mesh, Mesh) and mesh.colors is not None and material.checker is not None
+    mean = (np.array(material.diffuse) + material.checker.diffuse) / 2
+    np.testing.assert_allclose(rows[:, 3:], mesh.colors * mean, rtol=1e-5)
+
+
 # Meshes.
 
 
