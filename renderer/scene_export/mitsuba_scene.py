@@ -32,7 +32,7 @@ from renderer.scene_export.materials import (
     reflectance,
 )
 from renderer.scene_export.meshes import triangles
-from renderer.scene_export.places import farthest
+from renderer.scene_export.places import farthest, note_far
 from renderer.scene_export.what import Exported, ExportSubject, LeftOut, called
 
 SAMPLES = 64  # a pixel
@@ -61,6 +61,7 @@ def write(subject: ExportSubject) -> Exported:
         ambient = _rgb("radiance", scene.ambient)
         body.append(f'    <emitter type="constant">{ambient}</emitter>')
     note_surroundings(scene, left)
+    note_far(flat.bounds, left)
     note_highlights(scene, left)
     lines = [
         '<?xml version="1.0" encoding="utf-8"?>',
