@@ -23,7 +23,9 @@ from app.images.renderers import Renderers
 from app.state.app_state import AppState, is_orthonormal
 from renderer.camera import Camera
 from renderer.errors import LucidaError
+from renderer.scene.model import View
 
+SCENE_VIEW = "Scene's view"
 SQUARE = (1, 1)  # an image before the first layout
 
 
@@ -54,6 +56,11 @@ def switch_projection(window: Mover) -> None:
 
 def go_home(window: Mover) -> None:
     window.travel(window.state.with_view(window.state.scene.view))
+
+
+def go_to_view(window: Mover, view: View) -> None:
+    """Passes to a view that the scene's file has: a step of undo."""
+    window.travel(with_its_basis(window.state.with_view(view)))
 
 
 def go_to_canonical(window: Mover) -> None:
@@ -169,7 +176,7 @@ CAMERA = (
     ),
     Action(
         "Camera",
-        "Scene's view",
+        SCENE_VIEW,
         go_home,
         "Home, H",
         (int(Key.home), int(Key.h)),

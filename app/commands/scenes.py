@@ -22,7 +22,8 @@ def configure(parser: argparse.ArgumentParser) -> None:
 
     parser.description = (
         "List the built-in scenes, the default one first; or say what is in one scene,\n"
-        "and which model files it names: one outside of its folder is told as such."
+        "which model files it names (one outside of its folder is told as such),\n"
+        "and which cameras its models have."
     )
     parser.epilog = EPILOG
     parser.add_argument("scene", nargs="?", metavar="SCENE", help=SCENE_HELP)
@@ -57,4 +58,8 @@ def described(scene: Scene) -> list[str]:
         assert scene.origin is not None
         where = ", outside of its folder" if outside([file], scene.origin.folder) else ""
         lines.append(f"  reads {one_line(str(file))}{where}")
+    for named in scene.views:
+        x, y, z = named.view.camera.eye
+        seen = f"{named.view.camera.projection} from ({x:.3g}, {y:.3g}, {z:.3g})"
+        lines.append(f"  camera {one_line(named.name)!r}: {seen}")
     return lines

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from imgui_bundle import ImVec2, imgui
 
+from app.camera_panel.actions import SCENE_VIEW, go_to_view
 from app.host import layout
 from app.host.action import Action, Window
 from app.state.app_state import History
@@ -60,6 +61,8 @@ def _actions(menu: str, window: Window, history: History) -> None:
                 _recent(window)
             elif action.name == "Redo":
                 _history(window, history)
+            elif action.name == SCENE_VIEW:
+                _file_views(window)
             continue
         parent, _, rest = action.menu.partition("/")
         if parent != menu or rest in drawn:
@@ -112,6 +115,17 @@ def _recent(window: Window) -> None:
     if imgui.menu_item("Clear the list", "", False)[0]:
         recent.clear()
     imgui.end_menu()
+
+
+def _file_views(window: Window) -> None:
+    """The cameras that the scene's file has beside the view to begin with."""
+    views = window.state.scene.views
+    if imgui.begin_menu("From the file", bool(views)):
+        for number, named in enumerate(views):
+            shown = window.state.view == named.view
+            if imgui.menu_item(f"{named.name}###view{number}", "", shown)[0]:
+                go_to_view(window, named.view)
+        imgui.end_menu()
 
 
 def _short(text: str, most: int = 40) -> str:

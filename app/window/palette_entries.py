@@ -8,11 +8,12 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
+from app.camera_panel.actions import go_to_view
 from app.host.action import Action, Window
 from app.window.action_table import ACTIONS
 from app.window.palette_search import Entry
 from app.window.synonyms import SYNONYMS
-from renderer.scene import BUILTIN_SCENES
+from renderer.scene import BUILTIN_SCENES, View
 
 
 def entries(window: Window) -> list[Entry]:
@@ -22,6 +23,7 @@ def entries(window: Window) -> list[Entry]:
         *_views(window),
         *_scenes(window),
         *_recent(window),
+        *_file_views(window),
         *_bookmarks(window),
     ]
 
@@ -77,6 +79,18 @@ def _recent(window: Window) -> list[Entry]:
         )
         for recent in window.files.recent.entries
     ]
+
+
+def _file_views(window: Window) -> list[Entry]:
+    """The cameras of the scene's file."""
+    return [
+        Entry(f"Camera: {named.name}", "Camera > From the file", _to_view(window, named.view))
+        for named in window.state.scene.views
+    ]
+
+
+def _to_view(window: Window, view: View) -> Callable[[], None]:
+    return lambda: go_to_view(window, view)
 
 
 def _open(window: Window, source: str) -> Callable[[], None]:

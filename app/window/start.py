@@ -26,8 +26,7 @@ from app.storage.session_store import Found, Keeper, take_place
 from app.window.opening import Opened, opened_scene
 from renderer.errors import LucidaError, describe
 from renderer.scene import BUILTIN_SCENES, Scene, View, load_scene
-from renderer.scene.model import SceneObject
-from renderer.scene.models import read_by, read_model
+from renderer.scene.models import ModelFile, read_by, read_model
 from renderer.scene.subprocess_reader import is_large
 
 ChangeView = Callable[[View], View]
@@ -192,7 +191,7 @@ class _LargeModelError(Exception):
 def _soon(source: str) -> Scene | None:
     """A scene; None where it has a large model, which takes long. Raises LucidaError."""
 
-    def read(path: Path) -> tuple[SceneObject, ...]:
+    def read(path: Path) -> ModelFile:
         if is_large(path):
             raise _LargeModelError
         return read_model(path)

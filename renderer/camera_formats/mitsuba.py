@@ -36,9 +36,12 @@ def write(cameras: Sequence[PosedCamera], options: Options) -> dict[str, bytes]:
 def sensor_lines(camera: Camera, size: Size, farthest: float | None = None) -> list[str]:
     """The sensor's XML, indented once. farthest: how far away the scene's last point is, in world
     units, where that is known: for cameras that clip nothing. Raises LucidaError."""
-    kind, matrix, numbers = (
-        _orthographic(camera, size) if camera.is_parallel else _perspective(camera, size)
-    )
+    if camera.is_parallel:
+        camera = centred(camera)
+        kind, matrix, numbers = _orthographic(camera, size)
+    else:
+        camera = rigid(camera, "mitsuba")
+        kind, matrix, numbers = _perspective(camera, size)
     numbers |= _clip(camera, farthest)
     width, height = size
     return [
@@ -66,7 +69,6 @@ Fields = tuple[str, np.ndarray, dict[str, float]]
 
 
 def _perspective(camera: Camera, size: Size) -> Fields:
-    camera = rigid(camera, "mitsuba")
     left, right, bottom, top = camera.viewport
     width, height = right - left, top - bottom
     pixel = (width / size[0]) / (height / size[1])
@@ -88,7 +90,6 @@ def _perspective(camera: Camera, size: Size) -> Fields:
 
 
 def _orthographic(camera: Camera, size: Size) -> Fields:
-    camera = centred(camera)
     _, right, _, top = camera.viewport
     # The image is 2 wide, and as high as square pixels make it.
     return "orthographic", _to_world(camera, right, top * size[0] / size[1]), {}

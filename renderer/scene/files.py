@@ -23,19 +23,21 @@ from renderer.scene.limits import (
     SEGMENTS,
     TOML_BYTES,
     TRIANGLES,
+    VIEWS,
 )
 from renderer.scene.model import (
     Checker,
     DirectionalLight,
     Material,
     Mesh,
+    NamedView,
     Origin,
     PointLight,
     Scene,
     SceneObject,
     Sphere,
 )
-from renderer.scene.models import load_model
+from renderer.scene.models import ModelFile, load_model
 from renderer.scene.outside import check_inside
 from renderer.scene.reading import decode_text, read_file, suggestion
 from renderer.scene.schema import (
@@ -56,10 +58,10 @@ from renderer.scene.schema import (
     TorusTable,
 )
 from renderer.scene.tables import parse_toml, to_struct
-from renderer.scene.views import view_from_table
+from renderer.scene.views import transformed_view, view_from_table
 
 Materials = dict[str, Material]
-Models = dict[Path, tuple[SceneObject, ...]]
+Models = dict[Path, ModelFile]
 
 
 def read_scene_file(path: Path) -> Scene:
@@ -89,7 +91,7 @@ def _scene(tables: SceneFile, folder: Path, name: str) -> Scene:
     materials = {
         key: _material(table, f"materials.{key}") for key, table in tables.materials.items()
     }
-    objects = _objects(tables.objects, materials, folder)
+    objects, views = _objects(tables.objects, materials, folder)
     lights: tuple[PointLight | DirectionalLight, ...] = framing.LIGHTS
     if tables.lights is not None:
         _check_count("lights", len(tables.lights), LIGHTS)
@@ -105,12 +107,18 @@ def _scene(tables: SceneFile, folder: Path, name: str) -> Scene:
         view = framing.framing_view(objects)
     else:
         view = view_from_table(tables.camera)
-    return Scene(tuple(objects), lights, ambient, background, view, tables.name or name)
+    return Scene(
+        tuple(objects), lights, ambient, background, view, tables.name or name, views=tuple(views)
+    )
 
 
-def _objects(tables: list[Any], materials: Materials, folder: Path) -> list[SceneObject]:
+def _objects(
+    tables: list[Any], materials: Materials, folder: Path
+) -> tuple[list[SceneObject], list[NamedView]]:
+    """The scene's objects, and the views of its models' own cameras."""
     _check_count("objects", len(tables), OBJECTS)
     objects: list[SceneObject] = []
+    views: list[NamedView] = []
     models: Models = {}
     entries: list[SphereTable | MeshTable] = [
         to_struct(table, AnyObject, f"objects[{number}]") for number, table in enumerate(tables)
@@ -125,7 +133,7 @@ def _objects(tables: list[Any], materials: Materials, folder: Path) -> list[Scen
         with _under(f"objects[{number}]"):
             if isinstance(entry, ModelTable):
                 again = folder / entry.file in models
-                parts = _model(entry.file, folder, models)
+                parts = _model(entry.file, folder, models).objects
                 count = sum(len(p.shape.faces) for p in parts if isinstance(p.shape, Mesh))
                 made, stored = made + again * count, stored + (not again) * count
         _check_made(made)
@@ -133,7 +141,18 @@ def _objects(tables: list[Any], materials: Materials, folder: Path) -> list[Scen
         with _under(f"objects[{number}]"):
             objects += _parts(entry, materials, folder, models)
         _check_count("objects", len(objects), OBJECTS)
-    return objects
+        if isinstance(entry, ModelTable):
+            views += _views(entry, models[folder / entry.file].views)
+    return objects, views[:VIEWS]
+
+
+def _views(table: ModelTable, views: tuple[NamedView, ...]) -> Iterator[NamedView]:
+    """A model's cameras where the model was put: they see of it what they saw."""
+    matrix = shapes.placement(table.translate, table.rotate_deg, table.scale)
+    for named in views:
+        with contextlib.suppress(LucidaError):  # too far away for a camera
+            name = f"{table.name}/{named.name}" if table.name else named.name
+            yield NamedView(name, transformed_view(named.view, matrix))
 
 
 def _made_triangles(table: SphereTable | MeshTable) -> int:
@@ -180,7 +199,7 @@ def _parts(
         mesh = shapes.transformed(_mesh(table), matrix)
         return [SceneObject(mesh, material or Material(), table.name)]
     parts = []
-    for part in _model(table.file, folder, models):
+    for part in _model(table.file, folder, models).objects:
         assert isinstance(part.shape, Mesh)
         name = f"{table.name}/{part.name}" if table.name and part.name else table.name or part.name
         mesh = shapes.transformed(part.shape, matrix)
@@ -209,8 +228,8 @@ def _mesh(table: MeshTable) -> Mesh:
     raise AssertionError(f"no mesh for {table!r}")
 
 
-def _model(file: str, folder: Path, models: Models) -> tuple[SceneObject, ...]:
-    """A model's parts; each file is read once a scene."""
+def _model(file: str, folder: Path, models: Models) -> ModelFile:
+    """A model's parts and views; each file is read once a scene."""
     path = folder / file
     if path not in models:
         try:

@@ -21,7 +21,7 @@ from renderer.camera_checks import volume
 from renderer.errors import LucidaError
 from renderer.scene.gltf_file import Gltf, entry_at, invalid
 from renderer.scene.gltf_nodes import PlacedNode
-from renderer.scene.limits import OBJECTS
+from renderer.scene.limits import VIEWS
 from renderer.scene.model import NamedView, View
 
 # In a camera's extras: the names of clip planes that are written because the format needs a number.
@@ -67,7 +67,7 @@ def camera_views(tree: Gltf, nodes: Iterable[PlacedNode]) -> tuple[NamedView, ..
     model, which is not refused for its cameras."""
     views: list[NamedView] = []
     for placed in nodes:
-        if placed.node.camera is not None and len(views) < OBJECTS:
+        if placed.node.camera is not None and len(views) < VIEWS:
             try:
                 found = gltf_camera(tree, placed)
             except LucidaError:

@@ -15,6 +15,7 @@ MATERIAL_BYTES = 4 << 20  # of the .mtl file of an .obj file
 
 OBJECTS = 10_000  # of a scene, after the parts of its models are counted apart
 LIGHTS = 64
+VIEWS = 1000  # of a scene, which its models bring
 TRIANGLES = 20_000_000  # of a scene, instances counted as often as they appear
 MADE_TRIANGLES = 5_000_000  # of them, what a few bytes make: shapes, and copies of models' parts
 SHARED_VERTICES = 1 << 30  # of a glTF file, counted as often as its primitives name them

@@ -9,7 +9,7 @@ from __future__ import annotations
 import contextlib
 from collections.abc import Callable, Iterator
 from contextvars import ContextVar
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 import numpy as np
@@ -18,16 +18,25 @@ from renderer.errors import LucidaError
 from renderer.scene import framing
 from renderer.scene.cancelling import check_cancelled
 from renderer.scene.limits import OBJECTS, TRIANGLES
-from renderer.scene.model import Material, Mesh, Scene, SceneObject
+from renderer.scene.model import Material, Mesh, NamedView, Scene, SceneObject
 from renderer.scene.parts import Part, build_mesh
 
 MODEL_ENDINGS = (".obj", ".ply", ".stl", ".off", ".glb", ".gltf")
 
-Reader = Callable[[Path], tuple[SceneObject, ...]]
+
+@dataclass(frozen=True, eq=False)
+class ModelFile:
+    """views: the cameras that the file has beside its objects; glTF alone has any."""
+
+    objects: tuple[SceneObject, ...]
+    views: tuple[NamedView, ...] = ()
 
 
-def load_model(path: str | Path) -> tuple[SceneObject, ...]:
-    """The objects of a model file, as read_model() gives them; see read_by()."""
+Reader = Callable[[Path], ModelFile]
+
+
+def load_model(path: str | Path) -> ModelFile:
+    """The objects and views of a model file, as read_model() gives them; see read_by()."""
     return _reader.get()(Path(path))
 
 
@@ -42,8 +51,8 @@ def read_by(reader: Reader) -> Iterator[None]:
         _reader.reset(token)
 
 
-def read_model(path: Path) -> tuple[SceneObject, ...]:
-    """The objects of a model file, one for each of its geometries (glTF: each instance).
+def read_model(path: Path) -> ModelFile:
+    """A model file's views and its objects, one for each of its geometries (glTF: each instance).
 
     Units and axes are the file's own. Materials: the file's base colours; textures are not read.
     Vertex colours are read as sRGB, except in glTF, where they are linear. Raises LucidaError
@@ -54,7 +63,11 @@ def read_model(path: Path) -> tuple[SceneObject, ...]:
         what = "is a scene file" if ending == ".toml" else f"ends in {ending!r}"
         raise LucidaError("", what, f"give one of {' '.join(MODEL_ENDINGS)}", str(path))
     try:
-        objects = _gltf_objects(path) if ending in (".glb", ".gltf") else _objects(path, ending)
+        views: tuple[NamedView, ...] = ()
+        if ending in (".glb", ".gltf"):
+            objects, views = _gltf_content(path)
+        else:
+            objects = _objects(path, ending)
         if not objects:
             raise LucidaError("", "holds no triangle with an area", "give a model with a surface")
         triangles = sum(len(e.shape.faces) for e in objects if isinstance(e.shape, Mesh))
@@ -70,26 +83,28 @@ def read_model(path: Path) -> tuple[SceneObject, ...]:
         raise LucidaError(
             "", "does not fit into memory", "give a smaller model", str(path)
         ) from None
-    return tuple(objects)
+    return ModelFile(tuple(objects), views)
 
 
 _reader: ContextVar[Reader] = ContextVar("reader of models", default=read_model)
 
 
 def model_scene(path: str | Path) -> Scene:
-    """A scene of one model file, with the default lights, in front of a camera that sees it all."""
-    objects = load_model(path)
+    """A scene of one model file, with the default lights, in front of a camera that sees it all:
+    a camera of the file's own is among its views."""
+    model = load_model(path)
     try:
-        view = framing.framing_view(objects)
+        view = framing.framing_view(model.objects)
     except LucidaError as error:
         raise error.in_file(str(path)) from None
     return Scene(
-        objects,
+        model.objects,
         framing.LIGHTS,
         framing.AMBIENT,
         framing.BACKGROUND,
         view,
         Path(path).stem,
+        views=model.views,
     )
 
 
@@ -114,7 +129,7 @@ def _objects(path: Path, ending: str) -> list[SceneObject]:
     return objects
 
 
-def _gltf_objects(path: Path) -> list[SceneObject]:
+def _gltf_content(path: Path) -> tuple[list[SceneObject], tuple[NamedView, ...]]:
     from renderer.scene.gltf import read_gltf
 
     file = read_gltf(path)
@@ -137,7 +152,7 @@ def _gltf_objects(path: Path) -> list[SceneObject]:
         except LucidaError as error:
             raise error.within(f"node {name!r}"[:80]) from None
         objects.append(SceneObject(placed, material, name))
-    return objects
+    return objects, file.views
 
 
 def _is_flat(matrix: np.ndarray) -> bool:

@@ -18,8 +18,7 @@ from pathlib import Path
 
 from renderer.child import end_child, end_with_parent, interpreter, start_child
 from renderer.errors import LucidaError
-from renderer.scene.model import SceneObject
-from renderer.scene.models import read_model
+from renderer.scene.models import ModelFile, read_model
 from renderer.scene.noting import note, note_all, noting
 from renderer.scene.packing import read_value, write_value
 
@@ -49,16 +48,16 @@ class ModelReader:
         self.process: subprocess.Popen[bytes] | None = None
         self._cancelled = False
 
-    def read(self, path: Path) -> tuple[SceneObject, ...]:
+    def read(self, path: Path) -> ModelFile:
         """As read_model(). Raises CancelledError once cancel() was called, else LucidaError."""
         note(path)
         python = interpreter() if is_large(path) else None
         process = self._start(python, path) if python is not None else None
-        objects = self._receive(process, path) if process is not None else None
-        if objects is None:
-            objects = read_model(path)
+        model = self._receive(process, path) if process is not None else None
+        if model is None:
+            model = read_model(path)
         self.check()
-        return objects
+        return model
 
     def cancel(self) -> None:
         """Kills the process that reads, if there is one; a model that is read in this process is
@@ -80,9 +79,7 @@ class ModelReader:
                 self.process = start_child(python, __name__, str(path), output=True)
             return self.process
 
-    def _receive(
-        self, process: subprocess.Popen[bytes], path: Path
-    ) -> tuple[SceneObject, ...] | None:
+    def _receive(self, process: subprocess.Popen[bytes], path: Path) -> ModelFile | None:
         """What the process found, or raises what it raised; None where it has not begun."""
         assert process.stdout is not None
         begun, answer = False, None
@@ -113,8 +110,8 @@ class ModelReader:
                 "give a smaller model, or close other programs: memory may have run out",
                 str(path),
             )
-        objects: tuple[SceneObject, ...] = answer
-        return objects
+        model: ModelFile = answer
+        return model
 
 
 def is_large(path: Path) -> bool:
@@ -134,7 +131,7 @@ def is_large(path: Path) -> bool:
 
 
 def main(path: str) -> None:
-    """What the process does: it answers with the objects, or with the exception; and with the files
+    """What the process does: it answers with the model, or with the exception; and with the files
     that it has looked for."""
     answers = os.fdopen(os.dup(1), "wb")
     os.dup2(2, 1)  # whatever a library prints is no part of the answer
@@ -144,7 +141,7 @@ def main(path: str) -> None:
     _go_first()
     answers.write(_HELLO)
     answers.flush()
-    answer: tuple[SceneObject, ...] | Exception
+    answer: ModelFile | Exception
     with noting() as noted:
         try:
             answer = read_model(Path(path))

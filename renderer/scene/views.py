@@ -11,7 +11,7 @@ from pathlib import Path
 from typing import Any
 
 from renderer.atomic import atomic_write
-from renderer.camera import Camera
+from renderer.camera import Camera, Floats
 from renderer.errors import LucidaError
 from renderer.scene.limits import TOML_BYTES
 from renderer.scene.model import View
@@ -78,6 +78,16 @@ def view_from_toml(text: str, source: str = "") -> View:
             raise error.within("camera") from None
     except LucidaError as error:
         raise error.in_file(source) from None
+
+
+def transformed_view(view: View, matrix: Floats) -> View:
+    """The view that sees, of what was moved by an affine `matrix` (4, 4), what it saw of it before.
+    Raises LucidaError where that is no camera."""
+    linear = matrix[:3, :3]
+    eye = linear @ view.camera.eye + matrix[:3, 3]
+    u, v, w = (linear @ view.camera.basis).T.tolist()
+    camera = replace(view.camera, eye=tuple(eye.tolist()), u=tuple(u), v=tuple(v), w=tuple(w))
+    return replace(view, camera=camera)
 
 
 def looks_at(table: dict[str, Any]) -> bool:

@@ -45,7 +45,8 @@ def export_scene(path: str | Path, scene: Scene, camera: Camera, size: Size) -> 
     cannot hold, and where nothing can be written; then nothing is.
     """
     target = check_export_path(path)
-    written = WRITERS[target.suffix.lower()](ExportSubject(scene, camera, size, target.stem))
+    stem = target.stem.encode("utf-8", "replace").decode()  # it is named inside the files
+    written = WRITERS[target.suffix.lower()](ExportSubject(scene, camera, size, stem))
     with _undone_on_failure() as made:
         for name, content in written.beside.items():
             file = target.parent / name

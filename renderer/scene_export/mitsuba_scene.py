@@ -5,6 +5,7 @@ Source: Mitsuba 3's documentation, "Plugin reference".
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterable
 from xml.sax.saxutils import quoteattr
 
@@ -22,6 +23,7 @@ from renderer.scene.model import (
 from renderer.scene_export.beside import MeshFiles
 from renderer.scene_export.checkers import with_checker_uv
 from renderer.scene_export.materials import (
+    Microfacets,
     light_strengths,
     mean_of_checker,
     microfacets,
@@ -30,7 +32,7 @@ from renderer.scene_export.materials import (
     reflectance,
 )
 from renderer.scene_export.meshes import triangles
-from renderer.scene_export.places import farthest
+from renderer.scene_export.places import farthest, note_far
 from renderer.scene_export.what import Exported, ExportSubject, LeftOut, called
 
 SAMPLES = 64  # a pixel
@@ -59,6 +61,7 @@ def write(subject: ExportSubject) -> Exported:
         ambient = _rgb("radiance", scene.ambient)
         body.append(f'    <emitter type="constant">{ambient}</emitter>')
     note_surroundings(scene, left)
+    note_far(flat.bounds, left)
     note_highlights(scene, left)
     lines = [
         '<?xml version="1.0" encoding="utf-8"?>',
@@ -86,8 +89,9 @@ def _sayable(line: str) -> str:
 
 def _object(number: int, entry: SceneObject, files: MeshFiles, left: LeftOut) -> list[str]:
     shape, material, name = entry.shape, entry.material, called("object", number, entry.name)
+    of_vertices = isinstance(shape, Mesh) and shape.colors is not None
     made = None
-    if material.checker is not None and isinstance(shape, Mesh) and shape.colors is None:
+    if material.checker is not None and isinstance(shape, Mesh) and not of_vertices:
         made = with_checker_uv(triangles(shape), material.checker)
     if material.checker is not None and made is None:
         left.add(
@@ -98,7 +102,7 @@ def _object(number: int, entry: SceneObject, files: MeshFiles, left: LeftOut) ->
     diffuse = reflectance(mean_of_checker(material), name, left)
     if made is not None:
         diffuse_lines = _checkerboard(material, name, left)
-    elif isinstance(shape, Mesh) and shape.colors is not None:
+    elif of_vertices:
         diffuse_lines = [
             '<texture type="mesh_attribute" name="NAME">'
             '<string name="name" value="vertex_color"/></texture>'
@@ -115,30 +119,41 @@ def _object(number: int, entry: SceneObject, files: MeshFiles, left: LeftOut) ->
         lines.append(f'<transform name="to_world">{place}</transform>')
         if shape.normals is None:
             lines.append('<boolean name="face_normals" value="true"/>')
+    found = microfacets(material)
+    if found is not None and of_vertices and max(found.f0) - min(found.f0) > 1e-3:
+        left.add(
+            f"highlight of {name}", "it has no colour over vertices' own; its strongest was written"
+        )
+    bsdf = _bsdf(found, diffuse_lines, of_vertices)
     return [
         *([f"    <!-- {_sayable(entry.name)} -->"] if entry.name else []),
         f'    <shape type="{kind}" id="object-{number}">',
-        *(f"        {line}" for line in [*lines, *_bsdf(material, diffuse_lines)]),
+        *(f"        {line}" for line in [*lines, *bsdf]),
         "    </shape>",
     ]
 
 
-def _bsdf(material: Material, diffuse: list[str]) -> list[str]:
-    found = microfacets(material)
+def _bsdf(found: Microfacets | None, diffuse: list[str], of_vertices: bool) -> list[str]:
+    """A material's XML. diffuse: its colour's, with NAME for the parameter's name. of_vertices: it
+    is the vertices' own, which roughplastic does not take: it wants its colours' mean."""
     if found is None:
-        kind, inner = "diffuse", [line.replace("NAME", "reflectance") for line in diffuse]
+        kind, name, inner = "diffuse", "reflectance", []
+    elif of_vertices:
+        kind, name = "principled", "base_color"
+        inner = [
+            f'<float name="roughness" value="{math.sqrt(found.alpha)!r}"/>',
+            f'<float name="eta" value="{found.eta!r}"/>',
+        ]
     else:
-        kind, inner = (
-            "roughplastic",
-            [line.replace("NAME", "diffuse_reflectance") for line in diffuse],
-        )
-        inner += [
+        kind, name = "roughplastic", "diffuse_reflectance"
+        inner = [
             '<string name="distribution" value="ggx"/>',
             f'<float name="alpha" value="{found.alpha!r}"/>',
             f'<float name="int_ior" value="{found.eta!r}"/>',
             '<float name="ext_ior" value="1.0"/>',
             _rgb("specular_reflectance", [part / found.strongest for part in found.f0]),
         ]
+    inner = [line.replace("NAME", name) for line in diffuse] + inner
     return [
         '<bsdf type="twosided">',
         f'    <bsdf type="{kind}">',

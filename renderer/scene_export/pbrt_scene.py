@@ -20,6 +20,7 @@ from renderer.scene_export.materials import (
     note_surroundings,
     reflectance,
 )
+from renderer.scene_export.places import note_far
 from renderer.scene_export.what import Exported, ExportSubject, LeftOut, called
 
 SAMPLES = 64  # a pixel
@@ -39,6 +40,7 @@ def write(subject: ExportSubject) -> Exported:
     for number, entry in enumerate(scene.objects):
         body += _object(number, entry, flat, files, left)
     note_surroundings(scene, left)
+    note_far(flat.bounds, left)
     note_highlights(scene, left)
     told = ["Not as it is there:", *(f"  {line}" for line in left.lines)] if left.lines else []
     lines = [

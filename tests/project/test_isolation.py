@@ -139,7 +139,7 @@ def test_a_notebook_has_the_current_folder_in_its_path_and_its_processes_have_no
         "from renderer.scene import subprocess_reader as apart\n"
         "apart.read_model = None\n"  # not in this process
         "sys.path.insert(0, '')\n"
-        "print(len(apart.ModelReader().read(Path('models/large.obj'))))\n"
+        "print(len(apart.ModelReader().read(Path('models/large.obj')).objects))\n"
         "print(doctor.check('tracer').works)\n",
     )
     assert told == "1\nTrue\n"

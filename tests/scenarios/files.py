@@ -11,7 +11,10 @@ from imgui_bundle import ImVec2, imgui
 from window_driver import PATIENT_S, Driver, Key, changed
 
 from app.window import loading
+from app.window.palette_entries import entries
+from renderer.camera import Camera
 from renderer.scene import load_scene, save_view
+from renderer.scene_export import export_scene
 
 CTRL, SHIFT = int(Key.mod_ctrl), int(Key.mod_shift)
 
@@ -54,6 +57,33 @@ def drive_files_are_opened_and_broken_ones_told(d: Driver) -> None:
     d.ctx.key_press(int(Key.mod_ctrl) | int(Key.z), 2)
     d.settle()
     assert window.state == d.start
+
+
+def drive_a_model_s_own_cameras_are_chosen_and_undone(d: Driver) -> None:
+    window, start = d.window, d.window.state
+    scene = load_scene("spheres")
+    camera = Camera.look_at((0, 2, 12), (0, 1, 0), fov_y_deg=20)
+    export_scene(d.folder / "seen.glb", scene, camera, (64, 64))
+    window.open(str(d.folder / "seen.glb"))
+    d.until(lambda: window.state.scene.name == "seen")
+    opened = window.state
+    assert opened.view == opened.scene.view  # framed, whatever cameras there are
+    (named,) = opened.scene.views
+    d.ctx.menu_click("//##MainMenuBar/Camera/From the file/###view0")
+    d.until(lambda: window.state.view == named.view)
+    assert window.state.camera.eye == (0, 2, 12)
+    d.picture()
+    window.undo()
+    d.settle()
+    assert window.state == opened
+    (entry,) = (entry for entry in entries(window) if entry.name == "Camera: camera")
+    entry.run()
+    d.until(lambda: window.state.view == named.view)
+    window.undo()
+    window.undo()
+    d.settle()
+    assert window.state == start
+    assert not [entry for entry in entries(window) if entry.name.startswith("Camera: ")]
 
 
 def drive_a_failing_tracer_is_told_and_survived(d: Driver) -> None:

@@ -138,3 +138,65 @@ def test_gltf_modes(mode: int, faces: int, tmp_path: Path) -> None:
 def test_a_model_s_scene_flattens(tmp_path: Path) -> None:
     flat = flatten(load_gltf(gltf(), tmp_path))
     np.testing.assert_array_equal(flat.bounds, [[0, 0, 0], [1, 1, 0]])
+
+
+# Cameras, which become views.
+
+LENS = {"type": "perspective", "perspective": {"yfov": 0.5, "znear": 0.1}}
+
+
+def with_cameras(*cameras: object, **changes: object) -> dict:
+    """The tree with a node for each camera behind the mesh's."""
+    nodes = [{"mesh": 0, "name": "node"}]
+    nodes += [{"camera": n, "translation": [0, 0, 5 + n]} for n in range(len(cameras))]
+    numbers = list(range(len(nodes)))
+    return gltf(nodes=nodes, scenes=[{"nodes": numbers}], cameras=list(cameras)) | changes
+
+
+def test_gltf_cameras_are_the_scene_s_views(tmp_path: Path) -> None:
+    scene = load_gltf(with_cameras(LENS | {"name": "near"}, LENS), tmp_path)
+    assert [named.name for named in scene.views] == ["near", "camera 2"]
+    first, second = (named.view for named in scene.views)
+    assert first.fit and second.fit
+    assert (first.camera.eye, second.camera.eye) == ((0, 0, 5), (0, 0, 6))
+    # What is seen first has the model in the picture all the same.
+    assert scene.view == load_gltf(gltf(), tmp_path).view
+    assert not load_scene("spheres").views
+
+
+@pytest.mark.parametrize(
+    "changes",
+    [
+        {"cameras": "none"},
+        {"cameras": [{"type": "perspective", "perspective": {"yfov": "wide", "znear": 1}}]},
+        {"cameras": [[]]},
+        {"nodes": [{"mesh": 0, "camera": -1}]},
+        {"nodes": [{"mesh": 0, "camera": {}}]},
+        {"nodes": [{"mesh": 0}, {"camera": 0, "scale": [0, 0, 0]}]},
+        {"nodes": [{"mesh": 0}, {"camera": 0, "translation": [1e300, 0, 0]}]},
+    ],
+)
+def test_a_model_is_not_refused_for_its_cameras(changes: dict, tmp_path: Path) -> None:
+    scene = load_gltf(with_cameras(LENS, scenes=[]) | changes, tmp_path)
+    assert len(scene.objects) == 1 and not scene.views
+
+
+def test_a_model_in_a_scene_file_brings_its_cameras_where_it_is_put(tmp_path: Path) -> None:
+    load_gltf(with_cameras(LENS | {"name": "near"}), tmp_path)
+    text = (
+        '[[objects]]\ntype = "model"\nfile = "t.gltf"\nname = "one"\n'
+        "translate = [1, 2, 3]\nrotate_deg = [10, 20, 30]\nscale = [2, 1, 1]\n"
+    )
+    scene = load_scene(write(tmp_path / "s.toml", text))
+    (named,) = scene.views
+    assert named.name == "one/near"
+    alone = load_scene(tmp_path / "t.gltf")
+    size = (40, 30)
+    (before,), (after,) = alone.objects, scene.objects
+    meshes = [mesh_of(entry) for entry in (before, after)]
+    points = [m.vertices @ m.transform[:3, :3].T + m.transform[:3, 3] for m in meshes]
+    seen, still = (
+        view.for_size(size).project(p, size)
+        for view, p in zip((alone.views[0].view, named.view), points, strict=True)
+    )
+    np.testing.assert_allclose(still, seen, atol=1e-9)

@@ -35,7 +35,7 @@ def mesh_of(entry: SceneObject) -> Mesh:
 
 
 def load_one(path: Path) -> Mesh:
-    (entry,) = load_model(path)
+    (entry,) = load_model(path).objects
     return mesh_of(entry)
 
 
@@ -103,7 +103,7 @@ def test_obj_objects_and_materials_become_scene_objects_in_order(tmp_path: Path)
         "mtllib m.mtl\n" + TRIANGLE + "v 0 0 1\no first\nusemtl red\nf 1 2 3\n"
         "o second\nusemtl wild\nf 1 2 4\no third\nusemtl none\nf 1 3 4\n"
     )
-    first, second, third = load_model(write(tmp_path / "t.obj", text))
+    first, second, third = load_model(write(tmp_path / "t.obj", text)).objects
     assert [e.name.split("_")[0] for e in (first, second, third)] == ["first", "second", "third"]
     assert first.material.diffuse == (0.8, 0.1, 0.1)
     assert first.material.specular == (0.5, 0.5, 0.5)
@@ -136,7 +136,7 @@ def test_obj_dialects(text: str, tmp_path: Path) -> None:
 
 def test_obj_with_more_groups_than_objects_is_one_object(tmp_path: Path) -> None:
     text = TRIANGLE + "".join(f"v {k} 0 1\no {k}\nf 1 2 {k + 4}\n" for k in range(10_001))
-    (entry,) = load_model(write(tmp_path / "t.obj", text))
+    (entry,) = load_model(write(tmp_path / "t.obj", text)).objects
     assert len(mesh_of(entry).faces) == 10_001
 
 
@@ -163,7 +163,7 @@ def test_ply_colours_are_srgb(where: str, tmp_path: Path) -> None:
     on_vertex, on_face = (" 255 128 0", "") if where == "vertex" else ("", " 255 128 0")
     rows = "".join(f"{row}{on_vertex}\n" for row in ("0 0 0", "1 0 0", "0 1 0"))
     path = write(tmp_path / "t.ply", f"{header}{rows}3 0 1 2{on_face}\n")
-    (entry,) = load_model(path)
+    (entry,) = load_model(path).objects
     colors = mesh_of(entry).colors
     np.testing.assert_allclose(colors, [[1, HALF, 0]] * 3, atol=1e-6)
     assert entry.material.diffuse == (1, 1, 1)
@@ -227,7 +227,7 @@ def test_text_stl_of_several_solids(tmp_path: Path) -> None:
         f"solid {name}\n{FACET.format(z=z)}endsolid {name}\n"
         for z, name in enumerate(["left", "left", ""])
     )
-    objects = load_model(write(tmp_path / "t.stl", text))
+    objects = load_model(write(tmp_path / "t.stl", text)).objects
     assert [entry.name for entry in objects] == ["left", "left", "t"]
     assert [mesh_of(entry).vertices[0, 2] for entry in objects] == [0, 1, 2]
 

@@ -16,6 +16,7 @@ import pytest
 
 from app.window.files import Files
 from app.window.opening import Opened
+from renderer.camera import Camera
 from renderer.errors import LucidaError
 from renderer.scene import load_scene
 from renderer.scene import subprocess_reader as apart
@@ -23,6 +24,7 @@ from renderer.scene.model import Mesh, SceneObject
 from renderer.scene.models import read_by, read_model
 from renderer.scene.packing import read_value, write_value
 from renderer.scene.subprocess_reader import CancelledError, ModelReader, is_large
+from renderer.scene_export import export_scene
 
 PATIENT_S = 120.0
 ROOT = Path(__file__).parents[2]
@@ -112,7 +114,7 @@ def test_a_model_read_apart_is_the_same_model(tmp_path: Path, not_here: None):
     text = "mtllib m.mtl\no one\nusemtl red\n" + TRIANGLE + "o two\nv 0 0 5\nf 1 2 4\n"
     written(tmp_path / "m.mtl", "newmtl red\nKd 1 0 0\n")
     path = written(tmp_path / "two parts.obj", text)
-    here, there = read_model(path), ModelReader().read(path)
+    here, there = read_model(path).objects, ModelReader().read(path).objects
     assert [(e.name, e.material) for e in here] == [(e.name, e.material) for e in there]
     assert len(here) == 2
     for mine, other in zip(map(mesh_of, here), map(mesh_of, there), strict=True):
@@ -132,9 +134,16 @@ def test_instances_still_share_their_arrays(tmp_path: Path, not_here: None):
             )
         )  # fmt: skip
     path = written(tmp_path / "three.glb", scene.export(file_type="glb"))
-    meshes = [mesh_of(entry) for entry in ModelReader().read(path)]
+    meshes = [mesh_of(entry) for entry in ModelReader().read(path).objects]
     shared = {id(mesh.vertices) for mesh in meshes}
-    assert len(shared) == len({id(mesh_of(e).vertices) for e in read_model(path)})
+    assert len(shared) == len({id(mesh_of(e).vertices) for e in read_model(path).objects})
+
+
+def test_a_model_read_apart_brings_its_views(tmp_path: Path, not_here: None):
+    scene, camera = load_scene("spheres"), Camera.canonical()
+    export_scene(tmp_path / "a.glb", scene, camera, (32, 32))
+    (named,) = ModelReader().read(tmp_path / "a.glb").views
+    assert (named.name, named.view.camera.eye) == ("camera", (0, 0, 0))
 
 
 def test_models_inside_scene_files_are_read_apart_too(tmp_path: Path, not_here: None):
@@ -204,14 +213,14 @@ def test_without_an_interpreter_models_are_read_here(
 
     path = written(tmp_path / "a.obj", TRIANGLE)
     monkeypatch.setattr(apart, "start_child", no_child)
-    assert len(ModelReader().read(path)) == 1
+    assert len(ModelReader().read(path).objects) == 1
     monkeypatch.setattr(apart, "interpreter", lambda: None)
-    assert len(ModelReader().read(path)) == 1
+    assert len(ModelReader().read(path).objects) == 1
 
 
 def test_a_process_that_cannot_begin_is_not_missed(tmp_path: Path, child):
     child("raise SystemExit(1)\n")
-    assert len(ModelReader().read(written(tmp_path / "a.obj", TRIANGLE))) == 1
+    assert len(ModelReader().read(written(tmp_path / "a.obj", TRIANGLE)).objects) == 1
 
 
 def test_only_large_files_are_worth_a_process(tmp_path: Path, monkeypatch: pytest.MonkeyPatch):

@@ -89,7 +89,7 @@ def world_corners(mesh: Mesh) -> np.ndarray:
 
 @pytest.mark.parametrize("name", FILES)
 def test_every_text_and_every_double_keeps_its_digits(name: str, tmp_path: Path) -> None:
-    (entry,) = load_model(written(tmp_path, name))
+    (entry,) = load_model(written(tmp_path, name)).objects
     mesh = mesh_of(entry)
     assert np.abs(mesh.vertices).max() < 2
     want = world_corners(Mesh(TORUS.vertices, TORUS.faces, transform=mesh.transform))
@@ -182,7 +182,7 @@ def test_nodes_of_gltf_may_be_far(tmp_path: Path) -> None:
         "buffers": [{"uri": "a.bin", "byteLength": indices + points}],
     }
     (tmp_path / "a.gltf").write_text(json.dumps(tree))
-    (entry,) = load_model(tmp_path / "a.gltf")
+    (entry,) = load_model(tmp_path / "a.gltf").objects
     mesh = mesh_of(entry)
     np.testing.assert_array_equal(mesh.transform[:3, 3], AT)
     np.testing.assert_allclose(mesh.vertices.max(axis=0), TORUS.vertices.max(axis=0), atol=2e-4)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import re
+import sys
 from dataclasses import replace
 from pathlib import Path
 from xml.etree import ElementTree
@@ -66,6 +67,23 @@ def test_a_glb_read_again_has_the_same_meshes_where_they_were(name: str, tmp_pat
         color = mine.material.diffuse
         if mine.material.checker is None:
             assert other.material.diffuse == pytest.approx(color)
+
+
+def test_a_flat_checker_is_a_picture_in_a_glb(tmp_path: Path):
+    trimesh = pytest.importorskip("trimesh")
+    colors = (0.6, 0.2, 0.0), (0.1, 0.3, 0.0)
+    checker = Checker(colors[1], 0.5)
+    told = exported(scene_of(shapes.box(), diffuse=colors[0], checker=checker), tmp_path / "a.glb")
+    assert not [line for line in told if line.startswith("checker")]
+    (box,) = trimesh.load(tmp_path / "a.glb", force="scene").geometry.values()
+    material = box.visual.material
+    pixels = np.asarray(material.baseColorTexture.convert("RGB")) / 255.0
+    linear = np.where(pixels < 0.04045, pixels / 12.92, ((pixels + 0.055) / 1.055) ** 2.4)
+    factor = [0.6, 0.3, 0.0]
+    np.testing.assert_allclose(linear[0, 0] * factor, colors[0], atol=0.003)
+    np.testing.assert_allclose(linear[0, 1] * factor, colors[1], atol=0.003)
+    np.testing.assert_array_equal(pixels[::-1, ::-1], pixels)
+    assert box.visual.uv.shape == (36, 2)
 
 
 def test_a_glb_holds_lights_camera_and_what_is_left_out(tmp_path: Path):
@@ -185,6 +203,37 @@ def test_a_checker_s_coordinates_are_the_solid_checker_s_cells():
             sound = np.sort(clear, axis=1)[:, 1] > 1e-3
             np.testing.assert_array_equal((cells[:, 0] != cells[:, 1])[sound], solid[sound] == 1)
     assert with_checker_uv(triangles(shapes.cone()), Checker()) is None
+
+
+def test_vertex_colours_are_mitsuba_s_of_a_kind_that_takes_them(tmp_path: Path):
+    exported(crowd(), tmp_path / "a.xml")
+    root = ElementTree.parse(tmp_path / "a.xml").getroot()
+    kinds = [e.get("type") for e in root.findall("shape/bsdf/bsdf")]
+    assert kinds == ["principled", "diffuse", "roughplastic", "roughplastic", "diffuse"]
+    data = (tmp_path / "a_meshes/0.ply").read_bytes()
+    head, _, rest = data.partition(b"end_header\n")
+    assert b"property float r\nproperty float g\nproperty float b\n" in head
+    rows = np.frombuffer(rest[: 120 * 24], "<f4").reshape(120, 6)
+    mesh, material = crowd().objects[0].shape, crowd().objects[0].material
+    assert isinstance(mesh, Mesh) and mesh.colors is not None and material.checker is not None
+    mean = (np.array(material.diffuse) + material.checker.diffuse) / 2
+    np.testing.assert_allclose(rows[:, 3:], mesh.colors * mean, rtol=1e-5)
+
+
+def test_a_place_where_float32_is_seen_is_told(tmp_path: Path):
+    for x, is_told in ((1e6, True), (3.0, False)):
+        told = exported(scene_of(placed(shapes.box(), x, 0, 0)), tmp_path / "a.xml")
+        assert (
+            "place: points 1e+06 units from the origin are 0.062 apart there" in told
+        ) == is_told
+
+
+@pytest.mark.skipif(sys.platform != "linux", reason="other systems refuse such names")
+def test_a_name_that_is_no_text(tmp_path: Path):
+    for ending in ("xml", "pbrt", "glb"):
+        exported(scene_of(shapes.box()), tmp_path / f"\udcff\n.{ending}")
+    named = ElementTree.parse(tmp_path / "\udcff\n.xml").find("shape/string")
+    assert named is not None and (tmp_path / (named.get("value") or "")).is_file()
 
 
 # Meshes.

@@ -1,0 +1,130 @@
+"""A glTF tree while it is made, with its binary chunk; and both as a .glb file.
+
+Knows nothing of scenes. Source: Khronos, glTF 2.0 Specification.
+"""
+
+from __future__ import annotations
+
+import json
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from renderer.scene_export.meshes import Triangles
+
+FLOAT, UNSIGNED_INT = 5126, 5125
+VERTICES, INDICES = 34962, 34963  # what a buffer view is for
+SQUARES = {"magFilter": 9728, "minFilter": 9728, "wrapS": 10497, "wrapT": 10497}
+
+
+def glb_bytes(tree: dict[str, Any], binary: bytes) -> bytes:
+    text = json.dumps(tree, ensure_ascii=False, separators=(",", ":")).encode()
+    text += b" " * (-len(text) % 4)
+    chunks = [(b"JSON", text), *([(b"BIN\0", binary)] if binary else [])]
+    length = 12 + sum(8 + len(data) for _, data in chunks)
+    parts = [b"glTF", (2).to_bytes(4, "little"), length.to_bytes(4, "little")]
+    for kind, data in chunks:
+        parts += [len(data).to_bytes(4, "little"), kind, data]
+    return b"".join(parts)
+
+
+class GlbTree:
+    """The parts of the tree that nodes share, and the binary chunk."""
+
+    def __init__(self) -> None:
+        self._chunk: list[bytes] = []
+        self._bytes = 0
+        self._views: list[dict[str, int]] = []
+        self._accessors: list[dict[str, Any]] = []
+        self._meshes: list[dict[str, Any]] = []
+        self._materials: list[dict[str, Any]] = []
+        self._images: list[dict[str, Any]] = []
+        self._known: dict[Any, Any] = {}
+        self.is_specular = False
+
+    def primitive(self, key: tuple[object, ...], found: Triangles) -> dict[str, Any]:
+        """Attributes and indices of triangles. key: of these arrays."""
+        if key not in self._known:
+            attributes = {"POSITION": self._vectors(found.vertices, bounds=True)}
+            if found.normals is not None:
+                attributes["NORMAL"] = self._vectors(found.normals)
+            if found.colors is not None:
+                attributes["COLOR_0"] = self._vectors(found.colors)
+            if found.uv is not None:
+                uv = found.uv.astype("<f4")
+                attributes["TEXCOORD_0"] = self._accessor(uv, "VEC2", FLOAT, VERTICES)
+            indices = self._accessor(
+                found.faces.astype("<u4").reshape(-1), "SCALAR", UNSIGNED_INT, INDICES
+            )
+            self._known[key] = {"attributes": attributes, "indices": indices}
+        primitive: dict[str, Any] = dict(self._known[key])
+        return primitive
+
+    def mesh(self, primitive: dict[str, Any], material: int, name: str) -> int:
+        primitive["material"] = material
+        self._meshes.append({"primitives": [primitive]} | ({"name": name} if name else {}))
+        return len(self._meshes) - 1
+
+    def material(self, table: dict[str, Any]) -> int:
+        key = json.dumps(table)
+        if key not in self._known:
+            self._known[key] = len(self._materials)
+            self._materials.append(table)
+            self.is_specular |= "extensions" in table
+        number: int = self._known[key]
+        return number
+
+    def texture(self, png: bytes) -> int:
+        """A picture whose pixels stay squares, however large they are."""
+        if png not in self._known:
+            self._known[png] = len(self._images)
+            padded = png + b"\0" * (-len(png) % 4)
+            view = {"buffer": 0, "byteOffset": self._bytes, "byteLength": len(png)}
+            self._append(padded, view)
+            self._images.append({"bufferView": len(self._views) - 1, "mimeType": "image/png"})
+        number: int = self._known[png]
+        return number
+
+    def tables(self) -> dict[str, Any]:
+        """What is not empty: glTF allows no empty lists."""
+        lists = {
+            "meshes": self._meshes,
+            "materials": self._materials,
+            "textures": [{"source": n, "sampler": 0} for n in range(len(self._images))],
+            "images": self._images,
+            "samplers": [SQUARES] if self._images else [],
+            "accessors": self._accessors,
+            "bufferViews": self._views,
+            "buffers": [{"byteLength": self._bytes}] if self._bytes else [],
+        }
+        return {name: entries for name, entries in lists.items() if entries}
+
+    def chunk(self) -> bytes:
+        return b"".join(self._chunk)
+
+    def _append(self, data: bytes, view: dict[str, int]) -> None:
+        self._views.append(view)
+        self._chunk.append(data)
+        self._bytes += len(data)
+
+    def _vectors(self, values: NDArray[np.float32], bounds: bool = False) -> int:
+        number = self._accessor(values.astype("<f4"), "VEC3", FLOAT, VERTICES)
+        if bounds:
+            limits = {"min": values.min(axis=0).tolist(), "max": values.max(axis=0).tolist()}
+            self._accessors[number] |= limits
+        return number
+
+    def _accessor(self, values: NDArray[Any], type: str, component: int, target: int) -> int:
+        data = values.tobytes()  # of four bytes each: what follows stays aligned
+        view = {"buffer": 0, "byteOffset": self._bytes, "byteLength": len(data), "target": target}
+        self._append(data, view)
+        self._accessors.append(
+            {
+                "bufferView": len(self._views) - 1,
+                "componentType": component,
+                "count": len(values),
+                "type": type,
+            }
+        )
+        return len(self._accessors) - 1
