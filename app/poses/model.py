@@ -17,7 +17,9 @@ from app.outside.diagram import Segments
 from app.outside.extent import FROM_ABOVE, FROM_BEHIND, FROM_RIGHT
 from renderer.camera import Camera
 from renderer.camera_formats import CameraSet, PosedCamera, read_cameras
-from renderer.camera_formats.given import Options
+from renderer.camera_formats.formats import recognised
+from renderer.camera_formats.given import Options, given
+from renderer.errors import LucidaError
 from renderer.scene.model import View
 
 Floats = NDArray[np.float64]
@@ -75,6 +77,17 @@ class PoseSet:
         size = float(np.linalg.norm(mean))
         return mean / size if size > 0.3 else np.array([0.0, 1.0, 0.0])
 
+    @property
+    def folder(self) -> Path:
+        """What relative paths in it begin at."""
+        return self.path if self.path.is_dir() else self.path.parent
+
+    @property
+    def title(self) -> str:
+        """The file's name; a folder's with that of its own, for many are called 0."""
+        path = self.path
+        return f"{path.parent.name}/{path.name}" if not path.suffix else path.name
+
     def view(self, number: int) -> View:
         """What is seen from a camera. Images of other proportions see more, never less."""
         return View(self.cameras[number].camera, fit=True)
@@ -83,7 +96,14 @@ class PoseSet:
 def load_poses(path: Path) -> CameraSet:
     """What a file or a folder holds; lenses are told, not refused: where a camera stands does not
     depend on them. Raises LucidaError."""
-    return read_cameras(path, options=Options(ignore_distortion=True))
+    found = given(path)
+    try:
+        recognised(found)
+    except LucidaError:
+        problem = "is a folder without cameras" if found.is_folder else "holds no known camera"
+        remedy = "give a transforms.json, the folder of a COLMAP model, or a file of one camera"
+        raise LucidaError("", problem, remedy, str(path)) from None
+    return read_cameras(found, options=Options(ignore_distortion=True))
 
 
 def pose_set(path: Path, found: CameraSet) -> PoseSet:

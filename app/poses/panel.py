@@ -181,9 +181,14 @@ def rows(told: PoseRows, room: ImVec2) -> int | None:
         while clipper.step():
             for row in range(clipper.display_start, clipper.display_end):
                 number = told.shown[row]
-                label = f"{one_line(told.names[number])}###{number}"
-                if imgui.selectable(label, number == told.chosen)[0]:
+                label, on = f"{one_line(told.names[number])}###{number}", number == told.chosen
+                if on:  # not to be taken for the one under the mouse
+                    imgui.push_style_color(imgui.Col_.header, theme.ACCENT)
+                    imgui.push_style_color(imgui.Col_.text, theme.rgb("#ffffff"))
+                if imgui.selectable(label, on)[0]:
                     clicked = number
+                if on:
+                    imgui.pop_style_color(2)
         if not told.shown:
             imgui.text_colored(theme.DIM, "no name has that in it")
     imgui.end_child()

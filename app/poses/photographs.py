@@ -18,7 +18,6 @@ from app.poses.model import PoseSet
 from app.widgets.background import Background
 from renderer.errors import one_line
 
-ENDINGS = (".png", ".jpg", ".jpeg", ".JPG", ".PNG")  # of a photograph that is named without one
 SIDE_PX = 800  # a picture's longer side, at most
 KEPT = 24  # pictures: at most 50 MB
 
@@ -52,12 +51,12 @@ class Photographs:
     def of(self, poses: PoseSet, number: int) -> Photograph | None:
         """The photograph of a camera; None while it is being read."""
         outcome = self._work.poll()
-        if outcome is not None:
-            self._asked = None
-            if outcome.value is not None:
-                self._kept[outcome.value[0]] = outcome.value[1]
-                while len(self._kept) > KEPT:
-                    self._kept.popitem(last=False)
+        if outcome is not None and outcome.value is not None:
+            read, photograph = outcome.value
+            self._kept[read] = photograph
+            self._asked = None if read == self._asked else self._asked
+            while len(self._kept) > KEPT:
+                self._kept.popitem(last=False)
         key = poses, number
         found = self._kept.get(key)
         if found is not None:
@@ -75,41 +74,25 @@ class Photographs:
         self._work.close()
 
 
-def photo_of(poses: PoseSet, number: int) -> Path | None:
-    """The photograph of a camera, where it is there. Looks at the disk: for a thread."""
-    for place in photo_places(poses, number):
-        try:
-            if place.is_file():
-                return place
-        except (OSError, ValueError):
-            continue
-    return None
-
-
-def photo_places(poses: PoseSet, number: int) -> list[Path]:
-    """Where the photograph of a camera may be, the likeliest first; none where it has none."""
+def photo_path(poses: PoseSet, number: int) -> Path | None:
+    """Where the photograph of a camera is to be; None where the file names none."""
     image = poses.cameras[number].image
-    if not image:
-        return []
-    base = poses.path if poses.path.is_dir() else poses.path.parent
-    # Data sets keep sparse/0 beside images.
-    folders = [base, base / "images", base.parent / "images", base.parent.parent / "images"]
-    named = [folder / image for folder in folders]  # an absolute one stays what it is
-    if not named[0].suffix:
-        named += [place.with_name(place.name + ending) for place in named for ending in ENDINGS]
-    return list(dict.fromkeys(named))
+    return poses.folder / image if image else None  # an absolute one stays what it is
 
 
 def read_photograph(poses: PoseSet, number: int) -> Photograph:
     """A small picture of it, or in words why there is none. No file makes it raise."""
     from PIL import Image
 
-    image = poses.cameras[number].image
-    if not image:
-        return Photograph(problem="the file names no photograph")
-    path = photo_of(poses, number)
-    if path is None:
-        return Photograph(problem=f"{one_line(image)} is not there")
+    path, name = photo_path(poses, number), poses.cameras[number].name
+    if path is None and not name:
+        return Photograph(problem="The file names no photograph.")
+    try:
+        is_there = path is not None and path.is_file()  # a pipe might never end
+    except (OSError, ValueError):
+        is_there = False
+    if path is None or not is_there:
+        return Photograph(problem=f"{one_line(_shown(poses, path, name))} is not there.")
     try:
         with Image.open(path) as opened:
             size = opened.size
@@ -117,5 +100,13 @@ def read_photograph(poses: PoseSet, number: int) -> Photograph:
             opened.thumbnail((SIDE_PX, SIDE_PX))
             pixels = np.asarray(opened.convert("RGB"))
     except (OSError, ValueError, SyntaxError, MemoryError, Image.DecompressionBombError):
-        return Photograph(path, problem=f"{one_line(path.name)} is no picture that can be read")
+        return Photograph(path, problem=f"{one_line(path.name)} is no picture that can be read.")
     return Photograph(path, pixels, size)
+
+
+def _shown(poses: PoseSet, path: Path | None, name: str) -> str:
+    """A path as short as it is clear."""
+    if path is None:
+        return name
+    inside = path.is_relative_to(poses.folder)
+    return str(path.relative_to(poses.folder) if inside else Path(*path.parts[-2:]))

@@ -141,7 +141,7 @@ class PosesView(DockedView):
         options = state.of(PosesOptions)
         chosen = self.chosen(state)
         told = PosesHead(
-            poses.path.name, str(poses.path), _counts(poses), poses.told, bool(len(poses.points))
+            poses.title, str(poses.path), _counts(poses), poses.told, bool(len(poses.points))
         )
         wish, changes = panel.head(told, options, host.fonts)
         if changes:
@@ -235,7 +235,7 @@ class PosesView(DockedView):
             if found.pixels is not None:
                 self._uploads.put(PHOTO, found.pixels)
         name = one_line(found.path.name) if found.path is not None else ""
-        caption = f"{name}, {found.size[0]} x {found.size[1]}"
+        caption = f"{found.size[0]} x {found.size[1]}, {name}"
         return PhotoShown(self._uploads.get(PHOTO), caption, found.problem)
 
     # What the outside view shows.
@@ -261,7 +261,8 @@ class PosesView(DockedView):
             self._shown = shown
             size = options.length * poses.length
             items = [] if hovered in (-1, chosen) else _frustum(poses, hovered, size, "mark")
-            items += _frustum(poses, chosen, size, "other") if chosen >= 0 else []
+            if chosen >= 0:
+                items += [*_frustum(poses, chosen, size, "other"), _label(poses, chosen, size)]
             self._outside.show(POSES, items)
 
     def _in_outside_view(self, host: Host, scope: Scope, over: bool) -> None:
@@ -305,10 +306,15 @@ def _frustum(poses: PoseSet, number: int, size: float, role: Role) -> list[Item]
     """One of them, to be told from the others."""
     lines = frusta(poses, size, [number])
     ends = poses.origins[number] + size * poses.ways[number]
-    middle = poses.origins[number].mean(axis=0)
     return [
         Face(f"{role} pose", role, ends, 0.22),
         Segments(f"{role} pose", role, lines, 2.6, hidden=0.7, layer=2),
-        Dot(f"{role} pose", role, middle, 3.5),
-        Label(f"{role} pose", role, one_line(poses.names[number]), ends[1], away=middle),
+        Dot(f"{role} pose", role, poses.origins[number].mean(axis=0), 3.5),
     ]
+
+
+def _label(poses: PoseSet, number: int, size: float) -> Label:
+    """Its name, beyond the corner of its image."""
+    corner, eye = poses.origins[number] + size * poses.ways[number], poses.origins[number]
+    name = one_line(poses.names[number])
+    return Label("other pose", "other", name, corner[1], away=eye.mean(axis=0))

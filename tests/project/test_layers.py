@@ -92,7 +92,8 @@ DRAW = {
     "camera_panel": "basis_numbers projection sections",
     "pair": "go_to_pixel image_mouse marks overlay pane pixelgrid resolution rulers toolbar",
     "compare": "composed differences",
-    "outside": "cloud_layer gizmo ground looking mouse paint tint tools vector_painting vector_view",
+    "outside": "cloud_layer gizmo ground looking mouse paint tint tools "
+    "vector_painting vector_view",
     "probe": "histogram",
     "stepper": "listing numbers plan",
     "costs": "",
