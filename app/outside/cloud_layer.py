@@ -159,7 +159,7 @@ class CloudLayer:
 def _look(cloud: Cloud, screen: OutsideScreen, ink: Rgba) -> CloudLook:
     matrix = screen_from_world(screen.camera, screen.size)
     matrix[:, 3] += matrix[:, :3] @ cloud.origin
-    middle = cloud.around.mean(axis=0) - cloud.origin
+    middle = cloud.middle - cloud.origin
     away = float(matrix[2, :3] @ middle + matrix[2, 3])
     reach = max(cloud.reach * float(np.linalg.norm(matrix[2, :3])), NEAREST * abs(away))
     near = max(away - 1.1 * reach, NEAREST * reach)

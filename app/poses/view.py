@@ -57,7 +57,7 @@ class PosesView(DockedView):
         self._uploads: Uploads | None = None
         self.poses: PoseSet | None = None
         self.hovered: int | None = None  # under the mouse in the outside view
-        self._pointed: Any = None  # what that was found for
+        self._pointed: tuple[Any, int | None] = (None, None)  # what was found last, and for what
         self._query = ""
         self._found: tuple[PoseSet, str, list[int]] | None = None
         self._cloud: Any = None  # what the outside view's cloud was made from
@@ -164,7 +164,8 @@ class PosesView(DockedView):
     def _forget_set(self) -> None:
         assert self._photographs is not None
         self._photographs.forget()
-        self._found = self._uploaded = self._scrolled = self._pointed = self.hovered = None
+        self._found = self._uploaded = self._scrolled = self.hovered = None
+        self._pointed = (None, None)
 
     # The list.
 
@@ -216,7 +217,8 @@ class PosesView(DockedView):
 
     def frame(self, host: Host, poses: PoseSet) -> None:
         """The outside view sees all of the set, and no more."""
-        points = cloud(poses, host.state.of(PosesOptions).length, False).around
+        options = host.state.of(PosesOptions)
+        points = cloud(poses, options.length, options.points).around
         size = self._outside.size_px or (4, 3)
         way = looked_from(poses.up, np.asarray(host.state.camera.w))
         camera = framed(points, way, size[0] / size[1], up=poses.up)
@@ -242,7 +244,7 @@ class PosesView(DockedView):
 
     def _hide(self) -> None:
         if self._cloud is not None or self._shown is not None:
-            self._cloud = self._shown = self._pointed = self.hovered = None
+            self._cloud = self._shown = self.hovered = None
             self._outside.cloud = None
             self._outside.show(POSES, ())
             self._outside.guests.pop(POSES, None)
@@ -286,14 +288,15 @@ class PosesView(DockedView):
     def _under_mouse(self, host: Host, poses: PoseSet, scope: Scope) -> int | None:
         mouse, length = imgui.get_mouse_pos(), host.state.of(PosesOptions).length
         key = (poses, (mouse.x, mouse.y), scope.shown, length)
-        if key == self._pointed:
-            return self.hovered
-        self._pointed = key
+        if key == self._pointed[0]:
+            return self._pointed[1]
         scale = framebuffer_scale()
         size = max(round(scope.extent.x * scale), 1), max(round(scope.extent.y * scale), 1)
         screen = OutsideScreen(scope.shown, size, nearest(scope.shown, scope), theme.px(1) * scale)
         column, row = scope.part(mouse)
-        return picked(poses, length * poses.length, screen, (column * size[0], row * size[1]))
+        at = column * size[0], row * size[1]
+        self._pointed = key, picked(poses, length * poses.length, screen, at)
+        return self._pointed[1]
 
 
 def _counts(poses: PoseSet) -> str:

@@ -12,7 +12,7 @@ import pytest
 from numpy.typing import NDArray
 
 from app.outside import cloud_layer
-from app.outside.cloud import Cloud, box_corners
+from app.outside.cloud import Cloud
 from app.outside.cloud_layer import CloudLayer
 from app.outside.diagram import Segments
 from app.outside.frustum import plane_corners
@@ -46,7 +46,7 @@ def a_cloud(
     places = np.asarray(points, float).reshape(-1, 3)
     origin = np.array([0.25, -0.5, 0.125])
     colors = np.broadcast_to(np.array(color, np.uint8), (len(places), 3))
-    around = box_corners(np.full(3, -reach), np.full(3, reach))
+    around = np.array([np.full(3, -reach), np.full(3, reach)])
     item = Segments("poses", "pose", np.asarray(lines, float), 3.0)
     return Cloud(item, origin, (places - origin).astype(np.float32), colors, around)
 

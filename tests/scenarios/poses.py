@@ -61,7 +61,7 @@ def colmap(d: Driver, points: int) -> Path:
     for name, data in written(ring(COUNT), "colmap").items():
         (folder / name).write_bytes(data)
     places = np.random.default_rng(1).uniform(-1, 1, (points, 3))
-    lines = [f"{k} {x} {y} {z} 250 40 40 0.1 1 2\n" for k, (x, y, z) in enumerate(places)]
+    lines = [f"{k} {x} {y} {z} 250 20 250 0.1 1 2\n" for k, (x, y, z) in enumerate(places)]
     (folder / "points3D.txt").write_text("".join(lines))
     return folder
 
@@ -277,25 +277,26 @@ def drive_points_are_drawn_and_can_be_left_out(d: Driver) -> None:
     d.ctx.mouse_teleport_to_pos((3, 700))
     d.settle()
 
-    def red() -> int:
+    def magenta() -> int:
         shown = d.picture().astype(int)
         left, top, right, bottom = (round(e) for e in d.window.shell.stage.rects["Outside"])
         cut = shown[top:bottom, left:right]
-        return int(((cut[..., 0] > 150) & (cut[..., 1] < 90) & (cut[..., 2] < 90)).sum())
+        return int(((cut[..., 0] > 150) & (cut[..., 1] < 60) & (cut[..., 2] > 150)).sum())
 
-    assert red() > 1000
+    assert magenta() > 1000
     d.ctx.item_click(f"{WINDOW}/points")
     d.ctx.mouse_teleport_to_pos((3, 700))
     d.settle()
-    assert red() < 100 and not d.window.state.options.poses.points
+    assert magenta() < 100 and not d.window.state.options.poses.points
     d.window.undo()
     d.settle()
-    assert red() > 1000
+    assert magenta() > 1000
     leave(d)
 
 
 def drive_nothing_is_drawn_anew_while_nothing_changes(d: Driver) -> None:
     opened(d, transforms(d, 300))
+    d.ctx.item_click(f"{WINDOW}/###frame")
     d.ctx.item_click(f"{WINDOW}/**/###1")
     d.ctx.mouse_teleport_to_pos((3, 700))
     d.settle()
