@@ -141,6 +141,11 @@ def head(
         imgui.set_item_tooltip("the reconstruction's points")
         if changed:
             changes["points"] = points
+        follow(imgui.calc_text_size("on photographs").x + 1.5 * imgui.get_frame_height())
+        changed, on_photographs = checkbox("on photographs", options.reprojected)
+        imgui.set_item_tooltip("the points as each camera sees them: they lie on what they are of")
+        if changed:
+            changes["reprojected"] = on_photographs
     return wish, changes
 
 

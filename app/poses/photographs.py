@@ -1,4 +1,4 @@
-"""The photographs of a set's cameras: where they are, and small pictures of them, read in a thread.
+"""The photographs of a set's cameras: where they are, and small pictures of them, made in a thread.
 
 Owns the thread, and the last pictures, which are as small as a panel shows them. Knows nothing of
 how they are shown.
@@ -8,25 +8,28 @@ from __future__ import annotations
 
 from collections import OrderedDict
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 import numpy as np
 from numpy.typing import NDArray
 
 from app.poses.model import PoseSet
+from app.poses.reprojected import bare, with_points
 from app.widgets.background import Background
 from renderer.errors import one_line
 
 SIDE_PX = 800  # a picture's longer side, at most
 KEPT = 24  # pictures: at most 50 MB
 
+PhotoKey = tuple[PoseSet, int, bool]
+
 
 @dataclass(frozen=True, eq=False)
 class Photograph:
     """path: where it is; None: it is not there. pixels: uint8 (height, width, 3), row 0 at the
-    top; None where there is nothing to show, of which problem says why. size: the file's own,
-    (width, height)."""
+    top; None where there is nothing to show. problem: why there is no photograph; pixels are the
+    points alone then. size: the file's own, (width, height)."""
 
     path: Path | None = None
     pixels: NDArray[np.uint8] | None = None
@@ -38,18 +41,17 @@ class Photographs:
     """wake: called from the thread when one has been read."""
 
     def __init__(self, wake: Callable[[], None]) -> None:
-        self._work: Background[tuple[tuple[PoseSet, int], Photograph]] = Background(
-            "lucida-photographs", wake
-        )
-        self._kept: OrderedDict[tuple[PoseSet, int], Photograph] = OrderedDict()
-        self._asked: tuple[PoseSet, int] | None = None
+        self._work: Background[tuple[PhotoKey, Photograph]] = Background("lucida-photographs", wake)
+        self._kept: OrderedDict[PhotoKey, Photograph] = OrderedDict()
+        self._asked: PhotoKey | None = None
 
     @property
     def busy(self) -> bool:
         return self._work.busy
 
-    def of(self, poses: PoseSet, number: int) -> Photograph | None:
-        """The photograph of a camera; None while it is being read."""
+    def of(self, poses: PoseSet, number: int, dotted: bool = False) -> Photograph | None:
+        """The photograph of a camera; None while it is being read. dotted: with the set's points,
+        where it has some."""
         outcome = self._work.poll()
         if outcome is not None and outcome.value is not None:
             read, photograph = outcome.value
@@ -57,13 +59,13 @@ class Photographs:
             self._asked = None if read == self._asked else self._asked
             while len(self._kept) > KEPT:
                 self._kept.popitem(last=False)
-        key = poses, number
+        key = poses, number, dotted
         found = self._kept.get(key)
         if found is not None:
             self._kept.move_to_end(key)
         elif self._asked != key:
             self._asked = key
-            self._work.submit(lambda: (key, read_photograph(poses, number)))
+            self._work.submit(lambda: (key, pictured(*key)))
         return found
 
     def forget(self) -> None:
@@ -78,6 +80,15 @@ def photo_path(poses: PoseSet, number: int) -> Path | None:
     """Where the photograph of a camera is to be; None where the file names none."""
     image = poses.cameras[number].image
     return poses.folder / image if image else None  # an absolute one stays what it is
+
+
+def pictured(poses: PoseSet, number: int, dotted: bool) -> Photograph:
+    """A camera's photograph; where there is none, the set's points as the camera sees them."""
+    found = read_photograph(poses, number)
+    if not len(poses.points) or not (dotted or found.pixels is None):
+        return found
+    pixels = bare(poses, number, SIDE_PX) if found.pixels is None else found.pixels
+    return replace(found, pixels=with_points(poses, number, pixels))
 
 
 def read_photograph(poses: PoseSet, number: int) -> Photograph:

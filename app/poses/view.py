@@ -155,7 +155,7 @@ class PosesView(DockedView):
         if chosen >= 0:
             if beside:
                 imgui.same_line()
-            panel.photograph(self._photo(poses, chosen), for_photo)
+            panel.photograph(self._photo(host, poses, chosen), for_photo)
         if clicked is not None:
             self.take(host, clicked)
         self._show_outside(host, poses)
@@ -226,9 +226,10 @@ class PosesView(DockedView):
 
     # The photograph.
 
-    def _photo(self, poses: PoseSet, number: int) -> PhotoShown:
+    def _photo(self, host: Host, poses: PoseSet, number: int) -> PhotoShown:
         assert self._photographs is not None and self._uploads is not None
-        found = self._photographs.of(poses, number)
+        dotted = host.state.of(PosesOptions).reprojected
+        found = self._photographs.of(poses, number, dotted)
         if found is None:  # the last one stays meanwhile
             return PhotoShown(self._uploads.get(PHOTO), "", "")
         if found is not self._uploaded:
@@ -236,8 +237,9 @@ class PosesView(DockedView):
             self._uploads.drop(PHOTO)
             if found.pixels is not None:
                 self._uploads.put(PHOTO, found.pixels)
-        name = one_line(found.path.name) if found.path is not None else ""
-        caption = f"{found.size[0]} x {found.size[1]}, {name}"
+        caption = f"{found.problem} The points as it would see them."
+        if found.path is not None and not found.problem:
+            caption = f"{found.size[0]} x {found.size[1]}, {one_line(found.path.name)}"
         return PhotoShown(self._uploads.get(PHOTO), caption, found.problem)
 
     # What the outside view shows.
