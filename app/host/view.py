@@ -89,6 +89,10 @@ class Host(Protocol):
         """Makes a state the present one, as a step of its own, by a smooth passage of its camera,
         or of the one that looks in the outside view, where that is to be seen."""
 
+    @property
+    def travelling(self) -> bool:
+        """Whether such a passage is under way."""
+
     def animate(self) -> None:
         """Asks for a next frame at full rate: something is moving by itself."""
 

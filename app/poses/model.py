@@ -38,7 +38,7 @@ DIRECTIONS = np.stack(
 )
 NO_POINTS = (np.zeros((0, 3), np.float32), np.zeros((0, 3), np.uint8))
 # A frustum's length, in parts of how far the cameras reach: less where there are many.
-SHORTEST, LONGEST, FOR_ONE = 0.03, 0.2, 0.9
+SHORTEST, LONGEST, FOR_ONE = 0.03, 0.15, 0.7
 
 
 @dataclass(frozen=True, eq=False)

@@ -205,15 +205,15 @@ def photograph(shown: PhotoShown, room: ImVec2) -> None:
     if imgui.begin_child("photograph", room):
         if shown.texture is not None:
             width, height = shown.texture.size
-            space = ImVec2(room.x, max(room.y - imgui.get_text_line_height_with_spacing(), 1.0))
+            lines = imgui.calc_text_size(shown.caption, False, room.x).y
+            space = ImVec2(room.x, max(room.y - lines - imgui.get_style().item_spacing.y, 1.0))
             scale = min(space.x / width, space.y / height)
             scale = min(scale, 2.0 / framebuffer_scale())
             extent = ImVec2(max(scale * width, 1.0), max(scale * height, 1.0))
             imgui.image(imgui.ImTextureRef(shown.texture.glo), extent)
-            words = fitting_words(shown.caption, room.x)
-            imgui.text_colored(theme.DIM, words)
-            if words != shown.caption:
-                imgui.set_item_tooltip(shown.caption)
+            imgui.push_text_wrap_pos(0.0)
+            imgui.text_colored(theme.DIM, shown.caption)
+            imgui.pop_text_wrap_pos()
         elif shown.problem:
             imgui.push_text_wrap_pos(0.0)
             imgui.text_colored(theme.DIM, shown.problem)

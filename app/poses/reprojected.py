@@ -11,6 +11,7 @@ from app.poses.model import PoseSet
 
 Bytes = NDArray[np.uint8]
 BARE = (40, 44, 49)  # where there is no photograph
+MANY = (4, 20)  # pixels of the picture a point: where there are as many, points are larger
 DARKER = 0.45  # a photograph's light under points
 
 
@@ -26,7 +27,7 @@ def with_points(poses: PoseSet, number: int, pixels: Bytes) -> Bytes:
         seen = (t > 0) & (np.abs(row - height / 2) < height) & (np.abs(column - width / 2) < width)
     rows, columns = np.round(row[seen]).astype(int), np.round(column[seen]).astype(int)
     order = np.argsort(-t[seen], kind="stable")  # the farthest first
-    side = 2 if len(order) < width * height / 4 else 1  # of a point, pixels
+    side = 1 + sum(len(order) < width * height / many for many in MANY)  # of a point, pixels
     for down in range(side):
         for right in range(side):
             i, j = rows[order] + down, columns[order] + right

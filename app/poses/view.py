@@ -6,7 +6,6 @@ model.py's; how it looks here, panel.py's.
 
 from __future__ import annotations
 
-import time
 from pathlib import Path
 from typing import Any
 
@@ -14,7 +13,6 @@ import moderngl
 import numpy as np
 from imgui_bundle import imgui
 
-from app.cameras.travel import DURATION_S
 from app.host import layout
 from app.host.action import Window
 from app.host.view import DockedView, Host
@@ -44,7 +42,8 @@ BEYOND = 1 << 30  # more steps than a set has cameras
 
 
 class PosesView(DockedView):
-    """poses: the set that is open; None: there is none, or it is being read."""
+    """poses: the set that is open; None: there is none, or it is being read. problem: why it could
+    not be read. hovered: the number of the one under the mouse in the outside view."""
 
     name = POSES
     title = "Poses"
@@ -56,7 +55,8 @@ class PosesView(DockedView):
         self._photographs: Photographs | None = None
         self._uploads: Uploads | None = None
         self.poses: PoseSet | None = None
-        self.hovered: int | None = None  # under the mouse in the outside view
+        self.problem = ""
+        self.hovered: int | None = None
         self._pointed: tuple[Any, int | None] = (None, None)  # what was found last, and for what
         self._query = ""
         self._found: tuple[PoseSet, str, list[int]] | None = None
@@ -65,7 +65,6 @@ class PosesView(DockedView):
         self._uploaded: Any = None
         self._scrolled: Any = None  # the chosen one that was brought into sight
         self._seen = False
-        self._set_out_s = 0.0  # when the last passage began
         self._asked: PoseWish = ""
 
     def open(self, window: Window, poses: PoseSet) -> None:
@@ -120,13 +119,14 @@ class PosesView(DockedView):
         if poses is not self.poses:
             self.poses = poses
             self._forget_set()
+        self.problem = self._reader.problems.get(path, "")
         wish: PoseWish
         if not path:
             wish = panel.invitation()
         elif poses is not None:
             wish = self._of_set(host, poses)
-        elif path in self._reader.problems:
-            wish = panel.failed(name, self._reader.problems[path])
+        elif self.problem:
+            wish = panel.failed(name, self.problem)
         else:
             wish = panel.waiting(name, self._reader.time_s)
             host.animate()
@@ -183,19 +183,16 @@ class PosesView(DockedView):
     def take(self, host: Host, number: int) -> None:
         """The window's camera becomes this one, by a passage; where another passage is under way,
         as in walking quickly, at once."""
-        poses, now_s = self.poses, time.monotonic()
+        poses = self.poses
         if poses is None or not 0 <= number < len(poses.names):
             return
         before = self.chosen(host.state)
         target = host.state.with_options(poses={"pose": number}).with_view(poses.view(number))
-        if before >= 0 and now_s - self._set_out_s < DURATION_S:
-            there = poses.view(before)
-            if host.state.view != there:  # on the way to it, which is a step of its own
-                host.amend(host.state.with_view(there))
-                host.change(target)
-                return
-        self._set_out_s = now_s
-        host.travel(target)
+        if before >= 0 and host.travelling:  # to that one, which is a step of its own
+            host.amend(host.state.with_view(poses.view(before)))
+            host.change(target)
+        else:
+            host.travel(target)
 
     def _grant(self, host: Host, wish: PoseWish) -> None:
         assert self._reader is not None

@@ -163,6 +163,10 @@ class MainWindow:
             self.history = self.history.change(there, self.transition.gesture)
         self.animate()
 
+    @property
+    def travelling(self) -> bool:
+        return self.transition.under_way
+
     def focus_object(self) -> None:
         """Frames the object under the mouse, in the view that the mouse is over; all of the
         scene where there is none."""

@@ -33,7 +33,7 @@ def test_points_are_where_the_camera_projects_them(projection: str) -> None:
     for number, point in enumerate(points):
         row, column, _ = camera.project(np.array(point), (80, 60))
         assert (picture[round(float(row)), round(float(column))] == number + 1).all()
-    assert (picture > 0).any(axis=2).sum() == 3 * 4
+    assert (picture > 0).any(axis=2).sum() == 3 * 9
 
 
 def test_the_nearest_is_over_the_others_in_any_order() -> None:
@@ -54,7 +54,7 @@ def test_what_is_behind_or_beside_is_not_there() -> None:
 
 
 def test_points_at_the_edge_stay_inside() -> None:
-    x, y = 0.399 * 4, 0.299 * 4
+    x, y = 0.3951 * 4, 0.2951 * 4
     corners = [(x, y, 0.0), (-x, y, 0.0), (x, -y, 0.0), (-x, -y, 0.0)]
     picture = with_points(a_model(corners), 0, np.zeros((60, 80, 3), np.uint8))
     assert {int(picture[i, j, 0]) for i in (0, -1) for j in (0, -1)} == {1, 2, 3, 4}

@@ -175,7 +175,6 @@ def drive_a_passage_is_one_step_with_the_choice(d: Driver) -> None:
         d.window.undo()
         d.ctx.yield_(2)
         assert d.window.state == start
-        view(d)._set_out_s = -1e9
         view(d).take(d.window, 4)
         d.ctx.yield_(2)
         time_s += 10.0
@@ -302,13 +301,13 @@ def drive_nothing_is_drawn_anew_while_nothing_changes(d: Driver) -> None:
     d.settle()
     d.ctx.yield_(3)
     outside = outside_view(d)
-    before, number = outside.primitives, outside._layer.number
+    before, number = outside.primitives, outside.layer.number
     d.ctx.yield_(20)
-    assert outside.primitives is before and outside._layer.number == number
+    assert outside.primitives is before and outside.layer.number == number
     # The set stays as it is drawn while its camera moves, and another one is chosen.
     d.press(DOWN)
     d.settle()
-    assert outside.primitives is not before and outside._layer.number == number
+    assert outside.primitives is not before and outside.layer.number == number
     leave(d)
 
 
@@ -318,7 +317,7 @@ def drive_what_cannot_be_read_is_told_in_the_view(d: Driver) -> None:
     assert poses.names
     away = d.folder / "away.json"
     d.window.change(d.window.state.with_options(poses={"file": str(away), "pose": -1}))
-    d.until(lambda: view(d).poses is None and str(away) in view(d)._reader.problems)
+    d.until(lambda: view(d).poses is None and str(away) in view(d).problem)
     d.settle()
     d.picture()
     assert outside_view(d).cloud is None
