@@ -93,6 +93,10 @@ class Host(Protocol):
         """A text was pasted that holds no camera: shows the view that knows what to do with it;
         gives whether there is one."""
 
+    @property
+    def travelling(self) -> bool:
+        """Whether such a passage is under way."""
+
     def animate(self) -> None:
         """Asks for a next frame at full rate: something is moving by itself."""
 

@@ -124,6 +124,7 @@ class CloudLayer:
     def _begin(self, cloud: Cloud, screen: OutsideScreen, ink: Rgba) -> CloudPicture:
         picture = self._renderer.begin(screen.size, _look(cloud, screen, ink))
         self._points = self._parts = 0
+        self._add_points(cloud, FRAME_S / 2)  # before lines, whose edges are seen through
         lines = len(cloud.lines.segments)
         if lines <= self._pace["wide"].many(FRAME_S / 2):
             with self._pace["wide"].timed(lines):
@@ -134,7 +135,6 @@ class CloudLayer:
             thin = min(self._pace["thin"].many(FRAME_S / 2), lines)
             with self._pace["thin"].timed(thin):
                 self._renderer.add_thin_lines(thin)
-        self._add_points(cloud, FRAME_S / 2)
         return picture
 
     def _refine(self, cloud: Cloud) -> None:
@@ -159,9 +159,9 @@ class CloudLayer:
 def _look(cloud: Cloud, screen: OutsideScreen, ink: Rgba) -> CloudLook:
     matrix = screen_from_world(screen.camera, screen.size)
     matrix[:, 3] += matrix[:, :3] @ cloud.origin
-    middle = cloud.around.mean(axis=0) - cloud.origin
+    middle = cloud.middle - cloud.origin
     away = float(matrix[2, :3] @ middle + matrix[2, 3])
-    reach = cloud.reach * float(np.linalg.norm(matrix[2, :3]))
+    reach = max(cloud.reach * float(np.linalg.norm(matrix[2, :3])), NEAREST * abs(away))
     near = max(away - 1.1 * reach, NEAREST * reach)
     unit_px = screen.unit_px
     point_px = POINT_PX * unit_px * (1.5 if len(cloud.points) < FEW else 1.0)

@@ -95,7 +95,7 @@ class OutsideView(DockedView):
     def __init__(self) -> None:
         self._mouse, self._gizmo = Mouse(), Gizmo()
         self._overlay: Overlay | None = None
-        self._layer: CloudLayer | None = None
+        self.layer: CloudLayer | None = None  # the cloud's picture
         self.cloud: Cloud | None = None
         self.guests: dict[str, Guest] = {}
         self._over = False  # whether the mouse is over the picture
@@ -109,7 +109,7 @@ class OutsideView(DockedView):
     @property
     def settled(self) -> bool:
         still = self.ground is None or self.ground.settled
-        still = still and (self._layer is None or self._layer.settled)
+        still = still and (self.layer is None or self.layer.settled)
         return still and (self._hits is None or not self._hits.busy)
 
     @property
@@ -143,13 +143,13 @@ class OutsideView(DockedView):
 
     def begin(self, host: Host, context: moderngl.Context) -> None:
         self._overlay, self.ground = Overlay(context), Ground(context)
-        self._layer = CloudLayer(context)
+        self.layer = CloudLayer(context)
         self._hits = RayHits(host.animate)
 
     def end(self) -> None:
         if self._hits is not None:
             self._hits.close()
-        for drawn in (self._overlay, self._layer):
+        for drawn in (self._overlay, self.layer):
             if drawn is not None:
                 drawn.release()
 
@@ -159,9 +159,9 @@ class OutsideView(DockedView):
 
     def unseen(self, host: Host) -> None:
         self._made = None
-        if self.ground is not None and self._layer is not None:
+        if self.ground is not None and self.layer is not None:
             self.ground.forget()
-            self._layer.forget()
+            self.layer.forget()
 
     def flown(self, host: Host) -> Camera | None:
         return self.scope.camera if self.scope is not None else None
@@ -312,7 +312,7 @@ class OutsideView(DockedView):
         is_under: it is for the underlay."""
         both, state = host.renderers, host.state
         assert self._overlay is not None
-        assert self.ground is not None and self._layer is not None
+        assert self.ground is not None and self.layer is not None
         assert both.textures is not None
         inner, image_size = both.camera(state), both.size
         options = state.of(OutsideOptions)
@@ -328,14 +328,14 @@ class OutsideView(DockedView):
             ground = self.ground.picture(seen, both.textures.rasterizer, self._overlay)
             unit_px, symbol_px = units_px(scope.extent)
             screen = OutsideScreen(camera, size, nearest(camera, scope), unit_px, symbol_px)
-            cloud = self._layer.picture(self.cloud, screen, _ground(state))
-            if not self.ground.settled or not self._layer.settled:
+            cloud = self.layer.picture(self.cloud, screen, _ground(state))
+            if not self.ground.settled or not self.layer.settled:
                 host.animate()
             key = (
                 state.scene, camera, size, inner, image_size, replace(options, camera=None),
                 marked, tuple(hits), drawn, state.images, unit_px, symbol_px, ground.number,
                 ground.smooth, is_under, theme.used(), tuple(self._extra.items()),
-                cloud is None or self._layer.number,
+                cloud is None or self.layer.number,
             )  # fmt: skip
             if self._made is not None and self._made.key == key:
                 return self._made.texture

@@ -12,12 +12,12 @@ from app.poses.view import POSES, PosesView
 
 MENU = "Camera/Poses"
 WISHES: tuple[tuple[PoseWish, str, str], ...] = (
-    ("next", "Next pose", "Down or Right"),
-    ("previous", "Previous pose", "Up or Left"),
-    ("first", "First pose", "Home"),
-    ("last", "Last pose", "End"),
-    ("frame", "Frame the set", ""),
-    ("close", "Close the set", ""),
+    ("next", "Poses: next", "Down or Right"),
+    ("previous", "Poses: previous", "Up or Left"),
+    ("first", "Poses: first", "Home"),
+    ("last", "Poses: last", "End"),
+    ("frame", "Poses: frame the set", ""),
+    ("close", "Poses: close the set", ""),
 )
 
 

@@ -10,7 +10,7 @@ from app.poses.view import PosesView
 
 SYNONYMS = {
     "Poses": "cameras colmap nerf transforms.json reconstruction photographs data set frusta",
-    "Frame the set": "zoom extents poses cameras fit",
+    "Poses: frame the set": "zoom extents poses cameras fit",
 }
 
 INSTRUMENT = Instrument(

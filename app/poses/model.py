@@ -12,12 +12,14 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from app.outside.cloud import Cloud, box_corners
+from app.outside.cloud import Cloud
 from app.outside.diagram import Segments
 from app.outside.extent import FROM_ABOVE, FROM_BEHIND, FROM_RIGHT
 from renderer.camera import Camera
 from renderer.camera_formats import CameraSet, PosedCamera, read_cameras
-from renderer.camera_formats.given import Options
+from renderer.camera_formats.formats import recognised
+from renderer.camera_formats.given import Options, given
+from renderer.errors import LucidaError
 from renderer.scene.model import View
 
 Floats = NDArray[np.float64]
@@ -28,9 +30,15 @@ INLIERS = (1.0, 99.0)  # percent of points between which a reconstruction is; th
 LOOKED_AT = 50_000  # points, for that
 SEED = 7  # of the order in which points are drawn
 PLAIN = 150  # gray of points without colours
+_HEIGHT = np.linspace(-0.99, 0.99, 96)
+_TURN = np.pi * (1 + 5**0.5) * np.arange(96)
+# Evenly spread unit vectors (96, 3). Source: the spherical Fibonacci lattice.
+DIRECTIONS = np.stack(
+    [np.cos(_TURN) * (1 - _HEIGHT**2) ** 0.5, _HEIGHT, np.sin(_TURN) * (1 - _HEIGHT**2) ** 0.5], 1
+)
 NO_POINTS = (np.zeros((0, 3), np.float32), np.zeros((0, 3), np.uint8))
 # A frustum's length, in parts of how far the cameras reach: less where there are many.
-SHORTEST, LONGEST, FOR_ONE = 0.03, 0.2, 0.9
+SHORTEST, LONGEST, FOR_ONE = 0.03, 0.15, 0.7
 
 
 @dataclass(frozen=True, eq=False)
@@ -38,7 +46,8 @@ class PoseSet:
     """path: of its file or folder. origins, ways: (n, 4, 3), where the rays through the image's
     corners begin, and their directions, as long as one together: upper left, upper right, lower
     right, lower left. points, colors: of a reconstruction, as Cloud has them. low, high: (3,), a
-    box round the cameras and most of the points. told: what is to be known about it, a phrase each.
+    box round the cameras and most of the points. hull: some of the latter (k, 3) round the others.
+    told: what is to be known about it, a phrase each.
     """
 
     path: Path
@@ -51,6 +60,7 @@ class PoseSet:
     colors: NDArray[np.uint8]
     low: Floats
     high: Floats
+    hull: Floats
     told: tuple[str, ...]
 
     @property
@@ -75,6 +85,17 @@ class PoseSet:
         size = float(np.linalg.norm(mean))
         return mean / size if size > 0.3 else np.array([0.0, 1.0, 0.0])
 
+    @property
+    def folder(self) -> Path:
+        """What relative paths in it begin at."""
+        return self.path if self.path.is_dir() else self.path.parent
+
+    @property
+    def title(self) -> str:
+        """The file's name; a folder's with that of its own, for many are called 0."""
+        path = self.path
+        return f"{path.parent.name}/{path.name}" if not path.suffix else path.name
+
     def view(self, number: int) -> View:
         """What is seen from a camera. Images of other proportions see more, never less."""
         return View(self.cameras[number].camera, fit=True)
@@ -83,7 +104,14 @@ class PoseSet:
 def load_poses(path: Path) -> CameraSet:
     """What a file or a folder holds; lenses are told, not refused: where a camera stands does not
     depend on them. Raises LucidaError."""
-    return read_cameras(path, options=Options(ignore_distortion=True))
+    found = given(path)
+    try:
+        recognised(found)
+    except LucidaError:
+        problem = "is a folder without cameras" if found.is_folder else "holds no known camera"
+        remedy = "give a transforms.json, the folder of a COLMAP model, or a file of one camera"
+        raise LucidaError("", problem, remedy, str(path)) from None
+    return read_cameras(found, options=Options(ignore_distortion=True))
 
 
 def pose_set(path: Path, found: CameraSet) -> PoseSet:
@@ -102,8 +130,10 @@ def pose_set(path: Path, found: CameraSet) -> PoseSet:
         colors = np.full((len(order), 3), PLAIN, np.uint8)
         if found.point_colors is not None:
             colors = np.asarray(found.point_colors, np.uint8)[order]
-    if len(points):
-        ends = np.percentile(points[:LOOKED_AT], INLIERS, axis=0)
+    most = points[:LOOKED_AT]
+    if len(most):
+        ends = np.percentile(most, INLIERS, axis=0)
+        most = most[((most >= ends[0]) & (most <= ends[1])).all(axis=1)]
         low, high = np.minimum(low, ends[0]), np.maximum(high, ends[1])
     return PoseSet(
         path,
@@ -116,8 +146,17 @@ def pose_set(path: Path, found: CameraSet) -> PoseSet:
         colors,
         low,
         high,
+        outermost(most),
         (*found.taken, *_lens(found.cameras)),
     )
+
+
+def outermost(points: Floats) -> Floats:
+    """The points (n, 3) that are farthest out, each in one of many directions: about as large as
+    all of them, from everywhere."""
+    if not len(points):
+        return points
+    return points[np.unique(np.argmax(points @ DIRECTIONS.T, axis=0))]
 
 
 def _corners(camera: Camera) -> tuple[Floats, Floats]:
@@ -183,7 +222,9 @@ def cloud(poses: PoseSet, length: float, with_points: bool) -> Cloud:
     size = length * poses.length
     lines = Segments("poses", "pose", frusta(poses, size), 1.3, 0.9)
     points, colors = (poses.points, poses.colors) if with_points else NO_POINTS
-    around = box_corners(poses.low - size, poses.high + size)
+    ends = poses.origins + size * poses.ways
+    eyes = outermost(np.concatenate([poses.origins, ends], axis=1).reshape(-1, 3))
+    around = np.concatenate([eyes, poses.hull]) if with_points else eyes
     return Cloud(lines, poses.origin, points, colors, around)
 
 

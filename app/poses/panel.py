@@ -141,6 +141,11 @@ def head(
         imgui.set_item_tooltip("the reconstruction's points")
         if changed:
             changes["points"] = points
+        follow(imgui.calc_text_size("on photographs").x + 1.5 * imgui.get_frame_height())
+        changed, on_photographs = checkbox("on photographs", options.reprojected)
+        imgui.set_item_tooltip("the points as each camera sees them: they lie on what they are of")
+        if changed:
+            changes["reprojected"] = on_photographs
     return wish, changes
 
 
@@ -181,9 +186,14 @@ def rows(told: PoseRows, room: ImVec2) -> int | None:
         while clipper.step():
             for row in range(clipper.display_start, clipper.display_end):
                 number = told.shown[row]
-                label = f"{one_line(told.names[number])}###{number}"
-                if imgui.selectable(label, number == told.chosen)[0]:
+                label, on = f"{one_line(told.names[number])}###{number}", number == told.chosen
+                if on:  # not to be taken for the one under the mouse
+                    imgui.push_style_color(imgui.Col_.header, theme.ACCENT)
+                    imgui.push_style_color(imgui.Col_.text, theme.rgb("#ffffff"))
+                if imgui.selectable(label, on)[0]:
                     clicked = number
+                if on:
+                    imgui.pop_style_color(2)
         if not told.shown:
             imgui.text_colored(theme.DIM, "no name has that in it")
     imgui.end_child()
@@ -195,15 +205,15 @@ def photograph(shown: PhotoShown, room: ImVec2) -> None:
     if imgui.begin_child("photograph", room):
         if shown.texture is not None:
             width, height = shown.texture.size
-            space = ImVec2(room.x, max(room.y - imgui.get_text_line_height_with_spacing(), 1.0))
+            lines = imgui.calc_text_size(shown.caption, False, room.x).y
+            space = ImVec2(room.x, max(room.y - lines - imgui.get_style().item_spacing.y, 1.0))
             scale = min(space.x / width, space.y / height)
             scale = min(scale, 2.0 / framebuffer_scale())
             extent = ImVec2(max(scale * width, 1.0), max(scale * height, 1.0))
             imgui.image(imgui.ImTextureRef(shown.texture.glo), extent)
-            words = fitting_words(shown.caption, room.x)
-            imgui.text_colored(theme.DIM, words)
-            if words != shown.caption:
-                imgui.set_item_tooltip(shown.caption)
+            imgui.push_text_wrap_pos(0.0)
+            imgui.text_colored(theme.DIM, shown.caption)
+            imgui.pop_text_wrap_pos()
         elif shown.problem:
             imgui.push_text_wrap_pos(0.0)
             imgui.text_colored(theme.DIM, shown.problem)

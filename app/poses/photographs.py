@@ -1,4 +1,4 @@
-"""The photographs of a set's cameras: where they are, and small pictures of them, read in a thread.
+"""The photographs of a set's cameras: where they are, and small pictures of them, made in a thread.
 
 Owns the thread, and the last pictures, which are as small as a panel shows them. Knows nothing of
 how they are shown.
@@ -8,26 +8,28 @@ from __future__ import annotations
 
 from collections import OrderedDict
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 import numpy as np
 from numpy.typing import NDArray
 
 from app.poses.model import PoseSet
+from app.poses.reprojected import bare, with_points
 from app.widgets.background import Background
 from renderer.errors import one_line
 
-ENDINGS = (".png", ".jpg", ".jpeg", ".JPG", ".PNG")  # of a photograph that is named without one
 SIDE_PX = 800  # a picture's longer side, at most
 KEPT = 24  # pictures: at most 50 MB
+
+PhotoKey = tuple[PoseSet, int, bool]
 
 
 @dataclass(frozen=True, eq=False)
 class Photograph:
     """path: where it is; None: it is not there. pixels: uint8 (height, width, 3), row 0 at the
-    top; None where there is nothing to show, of which problem says why. size: the file's own,
-    (width, height)."""
+    top; None where there is nothing to show. problem: why there is no photograph; pixels are the
+    points alone then. size: the file's own, (width, height)."""
 
     path: Path | None = None
     pixels: NDArray[np.uint8] | None = None
@@ -39,32 +41,31 @@ class Photographs:
     """wake: called from the thread when one has been read."""
 
     def __init__(self, wake: Callable[[], None]) -> None:
-        self._work: Background[tuple[tuple[PoseSet, int], Photograph]] = Background(
-            "lucida-photographs", wake
-        )
-        self._kept: OrderedDict[tuple[PoseSet, int], Photograph] = OrderedDict()
-        self._asked: tuple[PoseSet, int] | None = None
+        self._work: Background[tuple[PhotoKey, Photograph]] = Background("lucida-photographs", wake)
+        self._kept: OrderedDict[PhotoKey, Photograph] = OrderedDict()
+        self._asked: PhotoKey | None = None
 
     @property
     def busy(self) -> bool:
         return self._work.busy
 
-    def of(self, poses: PoseSet, number: int) -> Photograph | None:
-        """The photograph of a camera; None while it is being read."""
+    def of(self, poses: PoseSet, number: int, dotted: bool = False) -> Photograph | None:
+        """The photograph of a camera; None while it is being read. dotted: with the set's points,
+        where it has some."""
         outcome = self._work.poll()
-        if outcome is not None:
-            self._asked = None
-            if outcome.value is not None:
-                self._kept[outcome.value[0]] = outcome.value[1]
-                while len(self._kept) > KEPT:
-                    self._kept.popitem(last=False)
-        key = poses, number
+        if outcome is not None and outcome.value is not None:
+            read, photograph = outcome.value
+            self._kept[read] = photograph
+            self._asked = None if read == self._asked else self._asked
+            while len(self._kept) > KEPT:
+                self._kept.popitem(last=False)
+        key = poses, number, dotted
         found = self._kept.get(key)
         if found is not None:
             self._kept.move_to_end(key)
         elif self._asked != key:
             self._asked = key
-            self._work.submit(lambda: (key, read_photograph(poses, number)))
+            self._work.submit(lambda: (key, pictured(*key)))
         return found
 
     def forget(self) -> None:
@@ -75,41 +76,34 @@ class Photographs:
         self._work.close()
 
 
-def photo_of(poses: PoseSet, number: int) -> Path | None:
-    """The photograph of a camera, where it is there. Looks at the disk: for a thread."""
-    for place in photo_places(poses, number):
-        try:
-            if place.is_file():
-                return place
-        except (OSError, ValueError):
-            continue
-    return None
-
-
-def photo_places(poses: PoseSet, number: int) -> list[Path]:
-    """Where the photograph of a camera may be, the likeliest first; none where it has none."""
+def photo_path(poses: PoseSet, number: int) -> Path | None:
+    """Where the photograph of a camera is to be; None where the file names none."""
     image = poses.cameras[number].image
-    if not image:
-        return []
-    base = poses.path if poses.path.is_dir() else poses.path.parent
-    # Data sets keep sparse/0 beside images.
-    folders = [base, base / "images", base.parent / "images", base.parent.parent / "images"]
-    named = [folder / image for folder in folders]  # an absolute one stays what it is
-    if not named[0].suffix:
-        named += [place.with_name(place.name + ending) for place in named for ending in ENDINGS]
-    return list(dict.fromkeys(named))
+    return poses.folder / image if image else None  # an absolute one stays what it is
+
+
+def pictured(poses: PoseSet, number: int, dotted: bool) -> Photograph:
+    """A camera's photograph; where there is none, the set's points as the camera sees them."""
+    found = read_photograph(poses, number)
+    if not len(poses.points) or not (dotted or found.pixels is None):
+        return found
+    pixels = bare(poses, number, SIDE_PX) if found.pixels is None else found.pixels
+    return replace(found, pixels=with_points(poses, number, pixels))
 
 
 def read_photograph(poses: PoseSet, number: int) -> Photograph:
     """A small picture of it, or in words why there is none. No file makes it raise."""
     from PIL import Image
 
-    image = poses.cameras[number].image
-    if not image:
-        return Photograph(problem="the file names no photograph")
-    path = photo_of(poses, number)
-    if path is None:
-        return Photograph(problem=f"{one_line(image)} is not there")
+    path, name = photo_path(poses, number), poses.cameras[number].name
+    if path is None and not name:
+        return Photograph(problem="The file names no photograph.")
+    try:
+        is_there = path is not None and path.is_file()  # a pipe might never end
+    except (OSError, ValueError):
+        is_there = False
+    if path is None or not is_there:
+        return Photograph(problem=f"{one_line(_shown(poses, path, name))} is not there.")
     try:
         with Image.open(path) as opened:
             size = opened.size
@@ -117,5 +111,13 @@ def read_photograph(poses: PoseSet, number: int) -> Photograph:
             opened.thumbnail((SIDE_PX, SIDE_PX))
             pixels = np.asarray(opened.convert("RGB"))
     except (OSError, ValueError, SyntaxError, MemoryError, Image.DecompressionBombError):
-        return Photograph(path, problem=f"{one_line(path.name)} is no picture that can be read")
+        return Photograph(path, problem=f"{one_line(path.name)} is no picture that can be read.")
     return Photograph(path, pixels, size)
+
+
+def _shown(poses: PoseSet, path: Path | None, name: str) -> str:
+    """A path as short as it is clear."""
+    if path is None:
+        return name
+    inside = path.is_relative_to(poses.folder)
+    return str(path.relative_to(poses.folder) if inside else Path(*path.parts[-2:]))

@@ -19,7 +19,6 @@ from renderer.scene.model import View
 
 KEPT = 2
 CAMERA_ENDINGS = (".json", ".yml", ".yaml", ".txt", ".bin")  # of files that hold no scene
-COLMAP = ("cameras", "images", "points3D", "frames", "rigs")  # files of one model: their folder
 
 
 @dataclass(frozen=True)
@@ -101,8 +100,6 @@ def is_cameras(source: str) -> bool:
 def open_cameras(source: str) -> PoseSet | View:
     """A set of cameras; or a view, where there is but one. Raises LucidaError."""
     path = Path(source).absolute()
-    if path.suffix.lower() in (".txt", ".bin") and path.stem in COLMAP:
-        path = path.parent
     found = load_poses(path)
     check_cancelled()
     if len(found.cameras) == 1 and found.points is None:

@@ -6,7 +6,6 @@ model.py's; how it looks here, panel.py's.
 
 from __future__ import annotations
 
-import time
 from pathlib import Path
 from typing import Any
 
@@ -14,7 +13,6 @@ import moderngl
 import numpy as np
 from imgui_bundle import imgui
 
-from app.cameras.travel import DURATION_S
 from app.host import layout
 from app.host.action import Window
 from app.host.view import DockedView, Host
@@ -44,7 +42,8 @@ BEYOND = 1 << 30  # more steps than a set has cameras
 
 
 class PosesView(DockedView):
-    """poses: the set that is open; None: there is none, or it is being read."""
+    """poses: the set that is open; None: there is none, or it is being read. problem: why it could
+    not be read. hovered: the number of the one under the mouse in the outside view."""
 
     name = POSES
     title = "Poses"
@@ -56,8 +55,9 @@ class PosesView(DockedView):
         self._photographs: Photographs | None = None
         self._uploads: Uploads | None = None
         self.poses: PoseSet | None = None
-        self.hovered: int | None = None  # under the mouse in the outside view
-        self._pointed: Any = None  # what that was found for
+        self.problem = ""
+        self.hovered: int | None = None
+        self._pointed: tuple[Any, int | None] = (None, None)  # what was found last, and for what
         self._query = ""
         self._found: tuple[PoseSet, str, list[int]] | None = None
         self._cloud: Any = None  # what the outside view's cloud was made from
@@ -65,7 +65,6 @@ class PosesView(DockedView):
         self._uploaded: Any = None
         self._scrolled: Any = None  # the chosen one that was brought into sight
         self._seen = False
-        self._set_out_s = 0.0  # when the last passage began
         self._asked: PoseWish = ""
 
     def open(self, window: Window, poses: PoseSet) -> None:
@@ -120,13 +119,14 @@ class PosesView(DockedView):
         if poses is not self.poses:
             self.poses = poses
             self._forget_set()
+        self.problem = self._reader.problems.get(path, "")
         wish: PoseWish
         if not path:
             wish = panel.invitation()
         elif poses is not None:
             wish = self._of_set(host, poses)
-        elif path in self._reader.problems:
-            wish = panel.failed(name, self._reader.problems[path])
+        elif self.problem:
+            wish = panel.failed(name, self.problem)
         else:
             wish = panel.waiting(name, self._reader.time_s)
             host.animate()
@@ -141,7 +141,7 @@ class PosesView(DockedView):
         options = state.of(PosesOptions)
         chosen = self.chosen(state)
         told = PosesHead(
-            poses.path.name, str(poses.path), _counts(poses), poses.told, bool(len(poses.points))
+            poses.title, str(poses.path), _counts(poses), poses.told, bool(len(poses.points))
         )
         wish, changes = panel.head(told, options, host.fonts)
         if changes:
@@ -155,7 +155,7 @@ class PosesView(DockedView):
         if chosen >= 0:
             if beside:
                 imgui.same_line()
-            panel.photograph(self._photo(poses, chosen), for_photo)
+            panel.photograph(self._photo(host, poses, chosen), for_photo)
         if clicked is not None:
             self.take(host, clicked)
         self._show_outside(host, poses)
@@ -164,7 +164,8 @@ class PosesView(DockedView):
     def _forget_set(self) -> None:
         assert self._photographs is not None
         self._photographs.forget()
-        self._found = self._uploaded = self._scrolled = self._pointed = self.hovered = None
+        self._found = self._uploaded = self._scrolled = self.hovered = None
+        self._pointed = (None, None)
 
     # The list.
 
@@ -182,19 +183,16 @@ class PosesView(DockedView):
     def take(self, host: Host, number: int) -> None:
         """The window's camera becomes this one, by a passage; where another passage is under way,
         as in walking quickly, at once."""
-        poses, now_s = self.poses, time.monotonic()
+        poses = self.poses
         if poses is None or not 0 <= number < len(poses.names):
             return
         before = self.chosen(host.state)
         target = host.state.with_options(poses={"pose": number}).with_view(poses.view(number))
-        if before >= 0 and now_s - self._set_out_s < DURATION_S:
-            there = poses.view(before)
-            if host.state.view != there:  # on the way to it, which is a step of its own
-                host.amend(host.state.with_view(there))
-                host.change(target)
-                return
-        self._set_out_s = now_s
-        host.travel(target)
+        if before >= 0 and host.travelling:  # to that one, which is a step of its own
+            host.amend(host.state.with_view(poses.view(before)))
+            host.change(target)
+        else:
+            host.travel(target)
 
     def _grant(self, host: Host, wish: PoseWish) -> None:
         assert self._reader is not None
@@ -216,7 +214,8 @@ class PosesView(DockedView):
 
     def frame(self, host: Host, poses: PoseSet) -> None:
         """The outside view sees all of the set, and no more."""
-        points = cloud(poses, host.state.of(PosesOptions).length, False).around
+        options = host.state.of(PosesOptions)
+        points = cloud(poses, options.length, options.points).around
         size = self._outside.size_px or (4, 3)
         way = looked_from(poses.up, np.asarray(host.state.camera.w))
         camera = framed(points, way, size[0] / size[1], up=poses.up)
@@ -224,9 +223,10 @@ class PosesView(DockedView):
 
     # The photograph.
 
-    def _photo(self, poses: PoseSet, number: int) -> PhotoShown:
+    def _photo(self, host: Host, poses: PoseSet, number: int) -> PhotoShown:
         assert self._photographs is not None and self._uploads is not None
-        found = self._photographs.of(poses, number)
+        dotted = host.state.of(PosesOptions).reprojected
+        found = self._photographs.of(poses, number, dotted)
         if found is None:  # the last one stays meanwhile
             return PhotoShown(self._uploads.get(PHOTO), "", "")
         if found is not self._uploaded:
@@ -234,15 +234,16 @@ class PosesView(DockedView):
             self._uploads.drop(PHOTO)
             if found.pixels is not None:
                 self._uploads.put(PHOTO, found.pixels)
-        name = one_line(found.path.name) if found.path is not None else ""
-        caption = f"{name}, {found.size[0]} x {found.size[1]}"
+        caption = f"{found.problem} The points as it would see them."
+        if found.path is not None and not found.problem:
+            caption = f"{found.size[0]} x {found.size[1]}, {one_line(found.path.name)}"
         return PhotoShown(self._uploads.get(PHOTO), caption, found.problem)
 
     # What the outside view shows.
 
     def _hide(self) -> None:
         if self._cloud is not None or self._shown is not None:
-            self._cloud = self._shown = self._pointed = self.hovered = None
+            self._cloud = self._shown = self.hovered = None
             self._outside.cloud = None
             self._outside.show(POSES, ())
             self._outside.guests.pop(POSES, None)
@@ -261,7 +262,8 @@ class PosesView(DockedView):
             self._shown = shown
             size = options.length * poses.length
             items = [] if hovered in (-1, chosen) else _frustum(poses, hovered, size, "mark")
-            items += _frustum(poses, chosen, size, "other") if chosen >= 0 else []
+            if chosen >= 0:
+                items += [*_frustum(poses, chosen, size, "other"), _label(poses, chosen, size)]
             self._outside.show(POSES, items)
 
     def _in_outside_view(self, host: Host, scope: Scope, over: bool) -> None:
@@ -285,14 +287,15 @@ class PosesView(DockedView):
     def _under_mouse(self, host: Host, poses: PoseSet, scope: Scope) -> int | None:
         mouse, length = imgui.get_mouse_pos(), host.state.of(PosesOptions).length
         key = (poses, (mouse.x, mouse.y), scope.shown, length)
-        if key == self._pointed:
-            return self.hovered
-        self._pointed = key
+        if key == self._pointed[0]:
+            return self._pointed[1]
         scale = framebuffer_scale()
         size = max(round(scope.extent.x * scale), 1), max(round(scope.extent.y * scale), 1)
         screen = OutsideScreen(scope.shown, size, nearest(scope.shown, scope), theme.px(1) * scale)
         column, row = scope.part(mouse)
-        return picked(poses, length * poses.length, screen, (column * size[0], row * size[1]))
+        at = column * size[0], row * size[1]
+        self._pointed = key, picked(poses, length * poses.length, screen, at)
+        return self._pointed[1]
 
 
 def _counts(poses: PoseSet) -> str:
@@ -305,10 +308,15 @@ def _frustum(poses: PoseSet, number: int, size: float, role: Role) -> list[Item]
     """One of them, to be told from the others."""
     lines = frusta(poses, size, [number])
     ends = poses.origins[number] + size * poses.ways[number]
-    middle = poses.origins[number].mean(axis=0)
     return [
         Face(f"{role} pose", role, ends, 0.22),
         Segments(f"{role} pose", role, lines, 2.6, hidden=0.7, layer=2),
-        Dot(f"{role} pose", role, middle, 3.5),
-        Label(f"{role} pose", role, one_line(poses.names[number]), ends[1], away=middle),
+        Dot(f"{role} pose", role, poses.origins[number].mean(axis=0), 3.5),
     ]
+
+
+def _label(poses: PoseSet, number: int, size: float) -> Label:
+    """Its name, beyond the corner of its image."""
+    corner, eye = poses.origins[number] + size * poses.ways[number], poses.origins[number]
+    name = one_line(poses.names[number])
+    return Label("other pose", "other", name, corner[1], away=eye.mean(axis=0))

@@ -170,6 +170,10 @@ class MainWindow:
                 return True
         return False
 
+    @property
+    def travelling(self) -> bool:
+        return self.transition.under_way
+
     def focus_object(self) -> None:
         """Frames the object under the mouse, in the view that the mouse is over; all of the
         scene where there is none."""

@@ -1,0 +1,180 @@
+"""Files of cameras: known by their names, opened as a set or as a view; their mistakes."""
+
+from __future__ import annotations
+
+import threading
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+from sets_of_cameras import SIZE, a_set, colmap, ring, transforms
+from waiting import wait_for
+
+from app import cli
+from app.lecture.reading import load_lecture
+from app.poses.model import PoseSet
+from app.poses.options import PosesOptions
+from app.poses.reading import PosesReader, is_cameras, open_cameras
+from app.state.app_state import AppState
+from app.storage.paths import stored
+from app.storage.session import Arrangement, from_bytes, session_of, to_bytes
+from app.window.opening import open_sources
+from renderer.camera_formats import written
+from renderer.errors import LucidaError
+from renderer.scene import View, load_scene
+
+
+def test_a_transforms_json_is_a_set(tmp_path: Path) -> None:
+    poses = open_cameras(str(transforms(tmp_path / "transforms.json")))
+    assert isinstance(poses, PoseSet)
+    assert poses.format == "nerf" and len(poses.cameras) == 5
+    assert poses.names == ("000.png", "001.png", "002.png", "003.png", "004.png")
+    for posed, wanted in zip(poses.cameras, ring(5), strict=True):
+        assert np.allclose(posed.camera.basis, wanted.camera.basis)
+        assert np.allclose(posed.camera.eye, wanted.camera.eye)
+
+
+@pytest.mark.parametrize("given", ["", "sparse/0", "sparse/0/images.txt"])
+def test_a_colmap_model_is_a_set_with_its_points(tmp_path: Path, given: str) -> None:
+    colmap(tmp_path / "sparse" / "0")
+    poses = open_cameras(str(tmp_path / given))
+    assert isinstance(poses, PoseSet)
+    assert poses.format == "colmap" and len(poses.points) == 50
+    assert (poses.colors == (200, 100, 50)).all()
+    assert np.abs(poses.points + poses.origin).max() < 0.6
+
+
+@pytest.mark.parametrize(("name", "ending"), [("opencv", "yml"), ("nerf", "json")])
+def test_a_file_with_one_camera_is_a_view(tmp_path: Path, name: str, ending: str) -> None:
+    path = tmp_path / f"camera.{ending}"
+    camera = ring(1)[0]
+    path.write_bytes(written([replace(camera, image="")], name)[""])
+    view = open_cameras(str(path))
+    assert isinstance(view, View) and view.fit
+    assert np.allclose(view.camera.eye, camera.camera.eye)
+    opened = open_sources(["spheres", str(path)])
+    assert opened.view == view and opened.poses is None
+    assert opened.scene is not None
+
+
+def test_the_window_opens_a_set_over_the_scene(tmp_path: Path) -> None:
+    first = transforms(tmp_path / "transforms.json")
+    second = colmap(tmp_path / "sparse" / "0")
+    opened = open_sources([str(first), str(second)], dropped=True)
+    assert opened.poses is not None and opened.poses.path == first
+    assert opened.scene is None and opened.view is None
+    assert opened.sources == (str(first), str(second))
+
+
+def test_what_is_a_scene_stays_one(tmp_path: Path) -> None:
+    assert not is_cameras("spheres")
+    for ending in (".toml", ".obj", ".ply", ".glb", ".gltf", ".py"):
+        assert not is_cameras(str(tmp_path / f"x{ending}"))
+    assert is_cameras("Transforms.JSON") and is_cameras(str(tmp_path))
+    assert not is_cameras("x\0y")
+
+
+@pytest.mark.parametrize(
+    ("name", "text", "problem"),
+    [
+        ("transforms.json", "{", "holds no known camera; give a transforms.json"),
+        ("transforms.json", '{"frames": []}', "frames: is empty"),
+        ("transforms.json", '{"frames": [{"w": 4, "h": 3}]}', "frames[0].transform_matrix"),
+        ("notes.txt", "milk, bread", "holds no known camera"),
+    ],
+)
+def test_a_broken_file_is_one_line(tmp_path: Path, name: str, text: str, problem: str) -> None:
+    path = tmp_path / name
+    path.write_text(text)
+    with pytest.raises(LucidaError) as caught:
+        open_cameras(str(path))
+    assert str(caught.value).startswith(str(path)) and problem in str(caught.value)
+    assert "\n" not in str(caught.value) and "--" not in str(caught.value)
+
+
+def test_a_folder_without_cameras_and_no_file_at_all_are_told(tmp_path: Path) -> None:
+    with pytest.raises(LucidaError, match="is a folder without cameras; give a transforms"):
+        open_cameras(str(tmp_path))
+    with pytest.raises(LucidaError, match="does not exist"):
+        open_cameras(str(tmp_path / "transforms.json"))
+
+
+def test_on_the_command_line_a_mistake_is_one_line(tmp_path: Path, capsys) -> None:
+    (tmp_path / "transforms.json").write_text('{"frames": []}')
+    for path in (tmp_path / "transforms.json", tmp_path / "away.json", tmp_path):
+        assert cli.main([str(path)]) == 2
+        error = capsys.readouterr().err
+        assert error.count("\n") == 1 and str(path) in error
+
+
+def test_a_set_is_read_in_a_thread_and_the_last_ones_are_kept(tmp_path: Path) -> None:
+    woken = threading.Event()
+    reader = PosesReader(woken.set)
+    try:
+        paths = [str(transforms(tmp_path / f"{k}.json", k + 2)) for k in range(3)]
+        assert reader.of(paths[0]) is None and reader.busy
+        for k, path in enumerate(paths):
+            wait_for(lambda path=path: reader.of(path) is not None)
+            found = reader.of(path)
+            assert found is not None and len(found.names) == k + 2
+        assert woken.is_set() and not reader.busy and reader.time_s == 0.0
+        assert reader.of(paths[1]) is not None  # at once, for undo
+        assert reader.of(paths[0]) is None  # forgotten: it is read again
+        broken = tmp_path / "broken.json"
+        broken.write_text("{")
+        assert reader.of(str(broken)) is None
+        wait_for(lambda: reader.of(str(broken)) is None and str(broken) in reader.problems)
+        assert "holds no known camera" in reader.problems[str(broken)]
+        assert not reader.busy
+        mended = a_set(3, str(broken))
+        reader.give(mended)
+        assert reader.of(str(broken)) is mended and not reader.problems
+    finally:
+        reader.close()
+
+
+def test_reading_that_was_cancelled_is_told_and_can_be_asked_for_again(tmp_path: Path) -> None:
+    path = str(transforms(tmp_path / "transforms.json"))
+    reader = PosesReader(lambda: None)
+    try:
+        reader.cancel()  # nothing is read: nothing happens
+        assert not reader.problems
+        assert reader.of(path) is None
+        reader.cancel()
+        assert not reader.busy and "was cancelled" in reader.problems[path]
+        assert reader.of(path) is None and not reader.busy
+        reader.problems.clear()
+        wait_for(lambda: reader.of(path) is not None)
+    finally:
+        reader.close()
+
+
+def test_a_session_keeps_the_set_and_the_chosen_one() -> None:
+    state = AppState.for_scene(load_scene("spheres"))
+    chosen = {"file": stored("/data/sparse/0"), "pose": 7, "length": 2.5, "points": False}
+    state = state.with_options(poses=chosen)
+    kept = from_bytes(to_bytes(session_of(state, Arrangement()))).options.of(PosesOptions)
+    assert kept == PosesOptions("/data/sparse/0", 7, 2.5, False)
+
+
+@pytest.mark.parametrize("name", ["transforms.json", "sparse/0"])
+def test_a_lecture_names_a_set_beside_itself(tmp_path: Path, name: str) -> None:
+    transforms(tmp_path / "transforms.json")
+    colmap(tmp_path / "sparse" / "0")
+    path = tmp_path / "lecture.toml"
+    path.write_text(
+        'title = "Poses"\n[[steps]]\ntitle = "a set"\nviews = ["poses", "outside"]\n'
+        f'options.poses.file = "{name}"\noptions.poses.pose = 2\n'
+    )
+    (step,) = load_lecture(path).steps
+    assert step.options["poses"] == {"file": stored(str(tmp_path / name)), "pose": 2}
+    path.write_text(path.read_text().replace(name, "away.json"))
+    with pytest.raises(LucidaError, match=r"'away\.json' does not exist"):
+        load_lecture(path)
+
+
+def test_images_of_other_proportions_see_no_less() -> None:
+    poses = a_set(2)
+    wide = poses.view(0).for_size((2 * SIZE[0], SIZE[1]))
+    assert wide.viewport[0] == pytest.approx(2 * poses.cameras[0].camera.viewport[0])

@@ -1,0 +1,360 @@
+"""Sets of cameras: opened, listed, walked, pointed at, framed, kept, left."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+import numpy as np
+from imgui_bundle import hello_imgui, imgui
+from outside_window import place, scope, strokes
+from outside_window import view as outside_view
+from PIL import Image
+from window_driver import RAY, Driver, Key, changed
+
+from app.host import layout
+from app.poses.model import PoseSet, frusta
+from app.poses.photographs import photo_path
+from app.poses.view import POSES, PosesView
+from app.storage.paths import restored
+from renderer.camera import Camera
+from renderer.camera_formats import PosedCamera, written
+
+WINDOW = f"//###{POSES}"
+COUNT = 12
+DOWN, UP, HOME, END = (int(key) for key in (Key.down_arrow, Key.up_arrow, Key.home, Key.end))
+
+
+def view(d: Driver) -> PosesView:
+    found = d.window.views[POSES]
+    assert isinstance(found, PosesView)
+    return found
+
+
+def ring(count: int, reach: float = 5.0) -> list[PosedCamera]:
+    posed = []
+    for k in range(count):
+        angle = 2 * np.pi * k / count
+        eye = (reach * np.cos(angle), 0.5 * reach, reach * np.sin(angle))
+        camera = Camera.look_at(eye, (0, 0.5, 0), fov_y_deg=45.0, aspect=4 / 3)
+        posed.append(PosedCamera(camera, (80, 60), f"{k:03}.png"))
+    return posed
+
+
+def transforms(d: Driver, count: int = COUNT) -> Path:
+    """With photographs of all but the last one."""
+    folder = d.folder / f"set{count}"
+    (folder / "images").mkdir(parents=True, exist_ok=True)
+    table = json.loads(written(ring(count), "nerf")[""])
+    for k, frame in enumerate(table["frames"]):
+        frame["file_path"] = f"./images/{k:03}.png"
+        if k < min(count, COUNT) - 1:
+            Image.new("RGB", (80, 60), (20 * k, 90, 160)).save(folder / "images" / f"{k:03}.png")
+    path = folder / "transforms.json"
+    path.write_text(json.dumps(table))
+    return path
+
+
+def colmap(d: Driver, points: int) -> Path:
+    folder = d.folder / f"model{points}" / "sparse" / "0"
+    folder.mkdir(parents=True, exist_ok=True)
+    for name, data in written(ring(COUNT), "colmap").items():
+        (folder / name).write_bytes(data)
+    places = np.random.default_rng(1).uniform(-1, 1, (points, 3))
+    lines = [f"{k} {x} {y} {z} 250 20 250 0.1 1 2\n" for k, (x, y, z) in enumerate(places)]
+    (folder / "points3D.txt").write_text("".join(lines))
+    return folder
+
+
+def opened(d: Driver, path: Path) -> PoseSet:
+    d.drop([str(path)])
+    d.until(lambda: restored(d.window.state.options.poses.file) == str(path))
+    d.until(lambda: POSES in d.window.shell.stage.rects and view(d).poses is not None)
+    d.until(lambda: view(d).poses.path == path)
+    d.settle()
+    found = view(d).poses
+    assert found is not None
+    return found
+
+
+def leave(d: Driver) -> None:
+    d.window.shell.stage.show(POSES, False)
+    d.ctx.yield_(3)
+    hello_imgui.switch_layout(layout.LAYOUTS[0].name)
+    d.ctx.yield_(5)
+
+
+def chosen(d: Driver) -> int:
+    return d.window.state.options.poses.pose
+
+
+def stands_at(d: Driver, poses: PoseSet, number: int) -> bool:
+    return d.window.state.view == poses.view(number)
+
+
+def drive_without_a_set_it_says_how_to_open_one(d: Driver) -> None:
+    d.window.shell.stage.show_in(POSES, layout.OUTSIDE)
+    d.until(lambda: POSES in d.window.shell.stage.rects)
+    d.ctx.yield_(5)
+    d.picture()
+    d.ctx.item_click(f"{WINDOW}/Open cameras...")
+    d.ctx.yield_(3)
+    dialog = d.window.files.dialog
+    assert dialog.is_open and ".json" in dialog.question.endings
+    dialog.cancel()
+    d.ctx.yield_(2)
+    leave(d)
+
+
+def drive_a_set_that_was_dropped_is_listed_and_seen_from_outside(d: Driver) -> None:
+    camera = d.window.state.camera
+    poses = opened(d, transforms(d))
+    assert d.window.state.camera == camera  # nothing is taken yet
+    assert d.window.state.scene is d.start.scene
+    outside = outside_view(d)
+    assert outside.cloud is not None and len(outside.extra) == 1
+    shown = d.picture()
+    # Each frustum is to be seen: without the set, something else is where its lines are.
+    d.ctx.item_click(f"{WINDOW}/###close")
+    d.until(lambda: outside.cloud is None)
+    d.settle()
+    bare = d.picture()
+    left, top, right, bottom = (round(edge) for edge in d.window.shell.stage.rects["Outside"])
+    cut = (slice(top, bottom), slice(left, right))
+    assert changed(bare[cut].astype(int), shown[cut].astype(int)) > 0.005
+    assert view(d).poses is None and d.window.state.options.poses.file == ""
+    d.window.undo()
+    d.until(lambda: view(d).poses is poses)  # at once, it is kept
+    leave(d)
+
+
+def drive_a_click_takes_a_camera_and_undo_gives_the_last_one_back(d: Driver) -> None:
+    poses = opened(d, transforms(d))
+    before, steps = d.window.state, len(d.window.history.past)
+    d.ctx.item_click(f"{WINDOW}/**/###3")
+    d.settle()
+    assert chosen(d) == 3 and stands_at(d, poses, 3)
+    assert len(d.window.history.past) == steps + 1
+    photograph = photo_path(poses, 3)
+    assert photograph is not None and photograph.name == "003.png"
+    (lines,) = strokes(d, "other pose")[:1]
+    assert len(lines.points)
+    d.picture()
+    d.window.undo()
+    d.ctx.yield_(2)
+    assert d.window.state.view == before.view and chosen(d) == -1
+    assert not strokes(d, "other pose")
+    d.window.redo()
+    d.ctx.yield_(2)
+    assert chosen(d) == 3 and stands_at(d, poses, 3)
+    leave(d)
+
+
+def drive_a_passage_is_one_step_with_the_choice(d: Driver) -> None:
+    poses = opened(d, transforms(d))
+    steps = len(d.window.history.past)
+    start = d.window.state
+    transition = d.window.transition
+    transition.instant, clock = False, transition.now_s
+    time_s = 100.0
+    transition.now_s = lambda: time_s
+    try:
+        view(d).take(d.window, 5)
+        d.ctx.yield_(2)
+        assert chosen(d) == 5 and d.window.state.view == start.view
+        time_s += 0.2
+        d.ctx.yield_(2)
+        assert not stands_at(d, poses, 5) and d.window.state.view != start.view
+        view(d).take(d.window, 6)  # before it is there: at once, and the first is a step of its own
+        d.ctx.yield_(2)
+        assert chosen(d) == 6 and stands_at(d, poses, 6)
+        assert len(d.window.history.past) == steps + 2
+        d.window.undo()
+        d.ctx.yield_(2)
+        assert chosen(d) == 5 and stands_at(d, poses, 5)
+        d.window.undo()
+        d.ctx.yield_(2)
+        assert d.window.state == start
+        view(d).take(d.window, 4)
+        d.ctx.yield_(2)
+        time_s += 10.0
+        d.ctx.yield_(3)
+        assert chosen(d) == 4 and stands_at(d, poses, 4)
+        assert len(d.window.history.past) == steps + 1
+    finally:
+        transition.now_s, transition.instant = clock, True
+    leave(d)
+
+
+def drive_the_arrows_walk_in_the_list_and_in_the_outside_view(d: Driver) -> None:
+    poses = opened(d, transforms(d))
+    d.ctx.item_click(f"{WINDOW}/**/###3")
+    d.ctx.yield_(2)
+    for key, wanted in ((DOWN, 4), (DOWN, 5), (UP, 4), (END, COUNT - 1), (DOWN, COUNT - 1),
+                        (HOME, 0), (UP, 0)):  # fmt: skip
+        d.press(key)
+        assert chosen(d) == wanted and stands_at(d, poses, wanted), (key, wanted)
+    at = scope(d)
+    d.ctx.mouse_teleport_to_pos((at.origin.x + 12, at.origin.y + 0.5 * at.extent.y))
+    d.ctx.yield_(2)
+    d.ctx.mouse_click(0)
+    d.ctx.yield_(3)
+    for key, wanted in ((int(Key.right_arrow), 1), (DOWN, 2), (int(Key.left_arrow), 1), (END, 11)):
+        d.press(key)
+        assert chosen(d) == wanted and stands_at(d, poses, wanted), (key, wanted)
+    # Over an image, they move the mark.
+    d.window.change(d.window.state.with_options(marked=(5, 5)))
+    d.window.shell.stage.show(RAY)
+    d.ctx.yield_(5)
+    leave(d)
+
+
+def drive_a_search_narrows_the_list_and_the_walk(d: Driver) -> None:
+    opened(d, transforms(d))
+    d.ctx.item_click(f"{WINDOW}/##search")
+    d.ctx.key_chars("01")
+    d.ctx.yield_(3)
+    d.ctx.item_click(f"{WINDOW}/**/###10")
+    d.ctx.yield_(2)
+    assert chosen(d) == 10
+    d.press(HOME)
+    assert chosen(d) == 1
+    d.press(DOWN)
+    assert chosen(d) == 10  # 001, 010, 011
+    d.ctx.item_click(f"{WINDOW}/##search")
+    d.ctx.key_chars_replace("nothing")
+    d.ctx.yield_(3)
+    d.picture()
+    leave(d)
+
+
+def drive_a_frustum_under_the_mouse_is_told_and_a_double_click_takes_it(d: Driver) -> None:
+    poses = opened(d, transforms(d))
+    d.window.change(d.window.state.with_options(outside={"image": False, "grid": False}))
+    d.ctx.yield_(3)
+    lines = frusta(poses, poses.length).reshape(COUNT, -1, 2, 3)
+    for number in (2, 7):
+        spot = lines[number, 9].mean(axis=0)  # of the mark for up
+        d.ctx.mouse_teleport_to_pos(place(d, spot))
+        d.ctx.yield_(3)
+        assert view(d).hovered == number
+        assert strokes(d, "mark pose")
+        d.stay = True
+        d.picture()
+        d.ctx.mouse_double_click(imgui.MouseButton_.left)
+        d.ctx.yield_(3)
+        assert chosen(d) == number and stands_at(d, poses, number)
+    d.ctx.mouse_teleport_to_pos((3, 700))
+    d.ctx.yield_(3)
+    assert view(d).hovered is None and not strokes(d, "mark pose")
+    leave(d)
+
+
+def drive_the_set_is_framed(d: Driver) -> None:
+    poses = opened(d, transforms(d))
+    before = d.window.state.options.outside.camera
+    d.ctx.item_click(f"{WINDOW}/###frame")
+    d.settle()
+    camera = d.window.state.options.outside.camera
+    assert camera is not None and camera != before
+    at = scope(d)
+    for eye in poses.origins.mean(axis=1):
+        x, y = place(d, eye)
+        assert at.origin.x < x < at.origin.x + at.extent.x
+        assert at.origin.y < y < at.origin.y + at.extent.y
+    d.picture()
+    d.window.undo()
+    assert d.window.state.options.outside.camera == before
+    leave(d)
+
+
+def drive_points_are_drawn_and_can_be_left_out(d: Driver) -> None:
+    poses = opened(d, colmap(d, 3000))
+    assert len(poses.points) == 3000
+    d.ctx.item_click(f"{WINDOW}/###frame")
+    d.settle()
+    d.ctx.mouse_teleport_to_pos((3, 700))
+    d.settle()
+
+    def magenta() -> int:
+        shown = d.picture().astype(int)
+        left, top, right, bottom = (round(e) for e in d.window.shell.stage.rects["Outside"])
+        cut = shown[top:bottom, left:right]
+        return int(((cut[..., 0] > 150) & (cut[..., 1] < 60) & (cut[..., 2] > 150)).sum())
+
+    assert magenta() > 1000
+    d.ctx.item_click(f"{WINDOW}/points")
+    d.ctx.mouse_teleport_to_pos((3, 700))
+    d.settle()
+    assert magenta() < 100 and not d.window.state.options.poses.points
+    d.window.undo()
+    d.settle()
+    assert magenta() > 1000
+    leave(d)
+
+
+def drive_nothing_is_drawn_anew_while_nothing_changes(d: Driver) -> None:
+    opened(d, transforms(d, 300))
+    d.ctx.item_click(f"{WINDOW}/###frame")
+    d.ctx.item_click(f"{WINDOW}/**/###1")
+    d.ctx.mouse_teleport_to_pos((3, 700))
+    d.settle()
+    d.ctx.yield_(3)
+    outside = outside_view(d)
+    before, number = outside.primitives, outside.layer.number
+    d.ctx.yield_(20)
+    assert outside.primitives is before and outside.layer.number == number
+    # The set stays as it is drawn while its camera moves, and another one is chosen.
+    d.press(DOWN)
+    d.settle()
+    assert outside.primitives is not before and outside.layer.number == number
+    leave(d)
+
+
+def drive_what_cannot_be_read_is_told_in_the_view(d: Driver) -> None:
+    path = transforms(d)
+    poses = opened(d, path)
+    assert poses.names
+    away = d.folder / "away.json"
+    d.window.change(d.window.state.with_options(poses={"file": str(away), "pose": -1}))
+    d.until(lambda: view(d).poses is None and str(away) in view(d).problem)
+    d.settle()
+    d.picture()
+    assert outside_view(d).cloud is None
+    d.window.undo()
+    d.until(lambda: view(d).poses is poses)
+    broken = d.folder / "broken.json"
+    broken.write_text("{")
+    d.drop([str(broken)])
+    d.until(lambda: "holds no known camera" in d.window.files.message)
+    assert view(d).poses is poses  # the old one stays
+    d.window.files.message = ""
+    leave(d)
+
+
+def drive_nothing_of_a_set_is_seen_where_its_view_is_not(d: Driver) -> None:
+    opened(d, transforms(d))
+    outside = outside_view(d)
+    d.window.shell.stage.show(POSES, False)
+    d.until(lambda: outside.cloud is None)
+    assert not outside.extra and not outside.guests
+    d.window.shell.stage.show(POSES)
+    d.until(lambda: outside.cloud is not None)
+    leave(d)
+
+
+def drive_a_lecture_shows_a_set(d: Driver) -> None:
+    transforms(d)
+    path = d.folder / "poses.toml"
+    path.write_text(
+        'title = "Poses"\n[[steps]]\ntitle = "a set"\nviews = ["poses", "outside"]\n'
+        f'options.poses.file = "set{COUNT}/transforms.json"\noptions.poses.pose = 2\n'
+    )
+    d.window.files.open_lecture(str(path))
+    d.until(lambda: chosen(d) == 2)
+    d.until(lambda: POSES in d.window.shell.stage.rects and view(d).poses is not None)
+    d.settle()
+    d.picture()
+    d.window.lecture.leave(d.window)
+    d.ctx.yield_(5)
+    d.settle()
