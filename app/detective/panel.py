@@ -16,7 +16,7 @@ from app.detective import ranking, writing
 from app.detective.model import Findings
 from app.detective.options import DetectiveOptions
 from app.detective.ranking import Ranked
-from app.detective.readings import MIRRORED, OTHER
+from app.detective.readings import MIRRORED
 from app.widgets import theme
 from app.widgets.checks import radio_button
 from app.widgets.lettering import lettering
@@ -189,15 +189,15 @@ def _pictures(
         room = _grid_room(imgui.get_content_region_avail(), findings)
         up = findings.case.up
         chosen = findings.named(options.chosen)
+        is_mixed = len({one.reading.convention.columns for one in findings.shown}) > 1
         grid = []
         for number, one in enumerate(findings.shown):
             frame: ImVec4 | None = theme.GOOD if one is chosen else None
             here = " (the camera is here)" if number in shown.here else ""
-            turned = f", {OTHER[up]} up" * one.reading.convention.turned
             grid.append(
                 GridPicture(
                     f"reading {number}",
-                    f"{number + 1}  {ranking.title(one.reading.convention)}{turned}",
+                    f"{number + 1}  {ranking.title(one.reading.convention, up, is_mixed)}",
                     shown.texture(number),
                     frame=frame,
                     line=one.told + here,
