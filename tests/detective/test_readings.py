@@ -33,6 +33,7 @@ POSES = [
     Convention(way, columns, axes, turned)
     for way, columns, axes, turned in product(WAYS, (False, True), AXES, (False, True))
 ]
+BY_ROWS = [one for one in POSES if one.axes in example.PROGRAMS and not one.columns]
 RIGHT_HANDED = [convention for convention in POSES if convention.axes in example.PROGRAMS]
 
 
@@ -73,7 +74,7 @@ def names(reading):
 @pytest.mark.parametrize("convention", POSES, ids=lambda c: ranking.name(c, "y"))
 @pytest.mark.parametrize("up", ["y", "z"])
 def test_a_pose_is_among_its_readings(convention, up):
-    for camera, _ in cameras(8):
+    for camera, _ in cameras(3):
         matrix = example.matrix_of(camera, convention, up)
         texts = [repr(matrix.tolist())]
         texts += [] if convention.columns else [repr(matrix[:3].tolist())]
@@ -114,7 +115,7 @@ def test_half_a_pixel_is_between_centres_and_corners():
 @pytest.mark.parametrize("turned", [False, True])
 @pytest.mark.parametrize("times", [1.0, -3.5])
 def test_p_is_taken_apart(turned, times):
-    for camera, viewport in cameras(12, 3):
+    for camera, viewport in cameras(5, 3):
         wanted = Camera(camera.eye, camera.u, camera.v, camera.w, 1.3, viewport)
         k, rotation, t = wanted.intrinsics(SIZE)
         turn = TURNS["y"] if turned else np.eye(3)  # into the matrix's own world
@@ -129,7 +130,7 @@ def test_p_is_taken_apart(turned, times):
 @pytest.mark.parametrize("far", [40.0, np.inf])
 @pytest.mark.parametrize("program", ["OpenGL", "Direct3D", "Vulkan"])
 def test_projection_times_view_is_taken_apart(program, far):
-    for camera, viewport in cameras(12, 4):
+    for camera, viewport in cameras(5, 4):
         wanted = Camera(camera.eye, camera.u, camera.v, camera.w, 1.3, viewport)
         clip = wanted.clip_from_camera(0.1, min(far, 1e9))
         if program == "Direct3D":  # depth from 0 to 1
@@ -146,7 +147,7 @@ def test_projection_times_view_is_taken_apart(program, far):
 
 
 def test_a_parallel_projection_times_view():
-    for camera, viewport in cameras(12, 5):
+    for camera, viewport in cameras(5, 5):
         wanted = Camera(camera.eye, camera.u, camera.v, camera.w, 1, viewport, "parallel")
         matrix = wanted.clip_from_camera(-5.0, 40.0) @ wanted.camera_from_world
         for text in (repr(matrix.tolist()), repr(matrix.T.tolist())):
@@ -275,7 +276,7 @@ def test_the_true_reading_comes_first(scene):
     subject = Subject(ranking.sample(scene_focus(loaded).framed), up_of(loaded.view))
     chance = np.random.default_rng(11)
     first = count = 0
-    for _ in range(12):
+    for _ in range(8):
         fov = chance.uniform(25, 70)
         height, turn = np.radians(chance.uniform((-5, -180), (75, 180)))
         way = (np.cos(height) * np.sin(turn), np.sin(height), np.cos(height) * np.cos(turn))
@@ -283,7 +284,7 @@ def test_the_true_reading_comes_first(scene):
         eye = subject.middle + far * np.array(way)
         target = subject.middle + 0.3 * subject.radius * chance.uniform(-1, 1, 3)
         camera = Camera.look_at(eye, target, fov_y_deg=fov, aspect=4 / 3)
-        for convention in RIGHT_HANDED:
+        for convention in BY_ROWS:
             matrix = example.matrix_of(camera, convention, subject.up)
             found = readings(pasted(repr(matrix.tolist())), around(camera, subject.up)).found
             best = ranked(found, subject, SIZE)[0]
@@ -295,7 +296,7 @@ def test_the_true_reading_comes_first(scene):
 def test_an_example_is_found_out():
     loaded = load_scene("still-life")
     subject = Subject(ranking.sample(scene_focus(loaded).framed), "y")
-    drawn = {example.drawn(seed) for seed in range(40)}
+    drawn = {example.drawn(seed) for seed in range(24)}
     assert len(drawn) > 10
     for convention in drawn:
         text = example.printed_matrix(example.matrix_of(loaded.view.camera, convention, "y"))
