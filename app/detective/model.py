@@ -26,7 +26,7 @@ from renderer.shaded_rays import RayShading
 Light = NDArray[np.float32]
 
 MOST_SHOWN = 8  # readings with a picture
-COLUMNS = 200  # of a picture
+COLUMNS = 240  # of a picture
 
 
 @dataclass(frozen=True)

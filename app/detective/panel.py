@@ -16,7 +16,7 @@ from app.detective import ranking, writing
 from app.detective.model import Findings
 from app.detective.options import DetectiveOptions
 from app.detective.ranking import Ranked
-from app.detective.readings import MIRRORED, OTHER
+from app.detective.readings import MIRRORED
 from app.widgets import theme
 from app.widgets.checks import radio_button
 from app.widgets.lettering import lettering
@@ -25,6 +25,7 @@ from app.widgets.rows import follow
 from app.widgets.theme import Fonts
 from renderer.intrinsics import PixelOrigin
 
+Picked = tuple[Ranked | None, int | None]
 MatrixWish = Literal["", "paste", "example", "copy"]
 
 INVITATION = (
@@ -50,21 +51,25 @@ ORIGINS: dict[PixelOrigin, tuple[str, str]] = {
 
 @dataclass(frozen=True)
 class Answer:
-    """options: as they were edited. chosen: the reading whose picture was clicked."""
+    """options: as they were edited. chosen: the reading whose picture was clicked, or where Enter
+    was pressed. at: as Shown's, after the arrow keys."""
 
     options: DetectiveOptions
     wish: MatrixWish = ""
     chosen: Ranked | None = None
+    at: int | None = None
 
 
 @dataclass(frozen=True)
 class Shown:
     """texture: of a reading's picture, by its number; None while it is not there. here: numbers of
-    those where the camera stands now. note: what is waited for, or went wrong."""
+    those where the camera stands now. note: what is waited for, or went wrong. at: the number of
+    the one that the keyboard is at; None: it is not among them."""
 
     texture: Callable[[int], moderngl.Texture | None]
     here: frozenset[int] = frozenset()
     note: str = ""
+    at: int | None = None
 
 
 def panel(options: DetectiveOptions, findings: Findings, shown: Shown, fonts: Fonts) -> Answer:
@@ -83,19 +88,19 @@ def panel(options: DetectiveOptions, findings: Findings, shown: Shown, fonts: Fo
         imgui.end_child()
         imgui.same_line()
         chosen = _pictures(findings, shown, options, imgui.get_content_region_avail(), fonts)
-        return Answer(options, wish, chosen)
+        return Answer(options, wish, *chosen)
     options = _text(options, min(ABOVE_LINES * em, 0.25 * room.y), fonts)
     left = imgui.get_content_region_avail()
     below = CODE_PART * room.y
     if findings.given is None:
         below = left.y
-    chosen = None
+    chosen: Picked = (None, None)
     if findings.given is not None:
         chosen = _pictures(findings, shown, options, ImVec2(left.x, left.y - below), fonts)
     if imgui.begin_child("told", ImVec2(0, 0)):
         wish = _told(options, findings, fonts) or wish
     imgui.end_child()
-    return Answer(options, wish, chosen)
+    return Answer(options, wish, *chosen)
 
 
 def _controls(options: DetectiveOptions, findings: Findings) -> tuple[MatrixWish, DetectiveOptions]:
@@ -178,54 +183,86 @@ def _aside(findings: Findings) -> str:
 
 def _pictures(
     findings: Findings, shown: Shown, options: DetectiveOptions, room: ImVec2, fonts: Fonts
-) -> Ranked | None:
-    """The grid; gives the reading that was clicked."""
+) -> Picked:
+    """The grid; gives the reading that was chosen, and the number that the keyboard is at."""
     if findings.given is None:
-        return None
+        return None, None
+    chosen, at = None, shown.at
     if imgui.begin_child("pictures", room):
         imgui.set_cursor_pos(ImVec2(theme.px(3), theme.px(3)))
         if shown.note:
             _paragraph(shown.note, theme.DIM)
-        room = _grid_room(imgui.get_content_region_avail(), findings)
-        up = findings.case.up
-        chosen = findings.named(options.chosen)
-        grid = []
-        for number, one in enumerate(findings.shown):
-            frame: ImVec4 | None = theme.GOOD if one is chosen else None
-            here = " (the camera is here)" if number in shown.here else ""
-            turned = f", {OTHER[up]} up" * one.reading.convention.turned
-            grid.append(
-                GridPicture(
-                    f"reading {number}",
-                    f"{number + 1}  {ranking.title(one.reading.convention)}{turned}",
-                    shown.texture(number),
-                    frame=frame,
-                    line=one.told + here,
-                    tip=ranking.sentence(one, up),
-                )
-            )
-        answer = picture_grid(grid, findings.case.size, room, fonts)
-        imgui.end_child()
-        return findings.shown[answer.number] if answer is not None else None
+        room, columns = _grid_room(imgui.get_content_region_avail(), findings)
+        at, is_entered = _keys(shown.at, columns, len(findings.shown))
+        grid = _grid(findings, shown, options, at)
+        scroll_to = at if at != shown.at else None
+        answer = picture_grid(grid, findings.case.size, room, fonts, scroll_to)
+        if answer is not None:
+            at = answer.number
+        if answer is not None or is_entered:
+            chosen = findings.shown[at or 0]
     imgui.end_child()
-    return None
+    return chosen, at
 
 
-def _grid_room(room: ImVec2, findings: Findings) -> ImVec2:
-    """The room for the pictures: higher than there is, and scrolled, where they would be too small
+def _grid(
+    findings: Findings, shown: Shown, options: DetectiveOptions, at: int | None
+) -> list[GridPicture]:
+    up, chosen = findings.case.up, findings.named(options.chosen)
+    is_mixed = len({one.reading.convention.columns for one in findings.shown}) > 1
+    grid = []
+    for number, one in enumerate(findings.shown):
+        frame = theme.ACCENT if number == at else theme.GOOD if one is chosen else None
+        here = " (the camera is here)" if number in shown.here else ""
+        title = ranking.title(one.reading.convention, up, is_mixed)
+        grid.append(
+            GridPicture(
+                f"reading {number}",
+                f"{number + 1}  {title}",
+                shown.texture(number),
+                frame=frame,
+                line=one.told + here,
+                tip=ranking.sentence(one, up),
+            )
+        )
+    return grid
+
+
+def _keys(at: int | None, columns: int, count: int) -> tuple[int | None, bool]:
+    """Where the keyboard is after the arrow keys, and whether Enter was pressed there."""
+    key, route = imgui.Key, int(imgui.InputFlags_.route_focused)
+    repeated = route | int(imgui.InputFlags_.repeat)
+    steps = (
+        (key.left_arrow, -1),
+        (key.right_arrow, 1),
+        (key.up_arrow, -columns),
+        (key.down_arrow, columns),
+    )
+    for arrow, step in steps:
+        if imgui.shortcut(int(arrow), repeated):
+            to = 0 if at is None else at + step
+            at = to if 0 <= to < count else at
+    if at is None or at >= count:
+        return None, False
+    entered = [imgui.shortcut(int(one), route) for one in (key.enter, key.keypad_enter)]
+    return at, any(entered)
+
+
+def _grid_room(room: ImVec2, findings: Findings) -> tuple[ImVec2, int]:
+    """The room for the pictures, and how many stand in a row: higher than there is, and scrolled, where they would be too small
     to read what stands above them."""
     em, margin, count = imgui.get_font_size(), theme.px(3), len(findings.shown)
     aspect = findings.case.size[0] / findings.case.size[1]
     heading, gap = 2 * HEADING_EM * em, GAP_EM * em
     wide = room.x - margin
-    _, width = columns_for(count, aspect, (wide, room.y - margin), heading, gap)
+    columns, width = columns_for(count, aspect, (wide, room.y - margin), heading, gap)
     if width >= LEAST_PICTURE_EM * em:
-        return ImVec2(wide, room.y - margin)
+        return ImVec2(wide, room.y - margin), columns
     wide -= imgui.get_style().scrollbar_size
     columns = min(count, max(1, int((wide + gap) / (LEAST_PICTURE_EM * em + gap))))
     high = (wide - gap * (columns - 1)) / columns / aspect + heading
     rows = -(-count // columns)
-    return ImVec2(wide, rows * (high + gap) - gap)
+    return ImVec2(wide, rows * (high + gap) - gap), columns
 
 
 def _paragraph(text: str, color: ImVec4) -> None:

@@ -122,16 +122,13 @@ def _place(distance: float, radius: float, is_above: bool) -> str:
 # In words.
 
 
-def title(convention: Convention) -> str:
-    """A few words that tell readings of one matrix apart."""
-    words: list[str] = [convention.way]
-    if convention.axes:
-        words.append(f"{convention.axes} axes")
-    if convention.columns:
-        words.insert(1, "transposed")
-    if convention.flipped:
-        words.append("y down")
-    return ", ".join(words)
+def title(convention: Convention, up: Up, is_mixed: bool) -> str:
+    """A few words that tell readings of one matrix apart. is_mixed: some are by rows, others by
+    columns."""
+    words: list[str] = [convention.way, convention.axes]
+    words += [order_name(convention.columns)] * is_mixed
+    words += [f"{OTHER[up]} up"] * convention.turned + ["y down"] * convention.flipped
+    return ", ".join(word for word in words if word)
 
 
 def name(convention: Convention, up: Up) -> str:

@@ -104,11 +104,14 @@ class _Gathered:
 
 def up_of(view: View) -> Up:
     """Which axis is up in a scene, by the camera that it came with: that has it upwards in its
-    picture, and no part of it sideways."""
+    picture, and the horizon level."""
     camera = view.camera
     u, v = np.asarray(camera.u), np.asarray(camera.v)
     u, v = u / np.linalg.norm(u), v / np.linalg.norm(v)
-    return "z" if v[2] - abs(u[2]) > v[1] - abs(u[1]) + LAST_ROW else "y"
+    level = [abs(float(u[axis])) < LAST_ROW for axis in (1, 2)]
+    if level[0] != level[1]:
+        return "y" if level[0] else "z"
+    return "z" if v[2] > v[1] else "y"
 
 
 def order_name(columns: bool) -> str:

@@ -57,6 +57,7 @@ class DetectiveView(DockedView):
         self._asked: MatrixWish = ""
         self._examples = 0
         self._example: Camera | None = None  # that the text is the matrix of
+        self._at: int | None = None  # the picture that the keyboard is at
         self._seen = False
         self.findings: Findings | None = None
 
@@ -80,7 +81,7 @@ class DetectiveView(DockedView):
 
     def paste(self, host: Host, text: str) -> None:
         """A text to look at, whatever is in it."""
-        self._example = None
+        self._example, self._at = None, 0
         changes = {"text": text[:MOST_CHARACTERS].strip(), "chosen": ""}
         host.change(host.state.with_options(detective=changes))
 
@@ -115,6 +116,7 @@ class DetectiveView(DockedView):
         options = host.state.of(DetectiveOptions)
         findings = self._look(host)
         answer = panel(options, findings, self._shown(host, findings), host.fonts)
+        self._at = answer.at
         if answer.options != options:
             host.apply(host.state.with_options(detective=asdict(answer.options)))
         if answer.chosen is not None:
@@ -176,7 +178,11 @@ class DetectiveView(DockedView):
             if model.is_here(one, state.view, size)
         )
         uploads = self._uploads
-        return Shown(lambda number: uploads.get(f"{number}") if is_there else None, here, note)
+
+        def texture(number: int) -> moderngl.Texture | None:
+            return uploads.get(f"{number}") if is_there else None
+
+        return Shown(texture, here, note, self._at)
 
     # What was asked for.
 

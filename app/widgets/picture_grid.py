@@ -13,7 +13,7 @@ from imgui_bundle import ImVec2, ImVec4, imgui
 
 from app.state.options import Pixel
 from app.widgets import theme
-from app.widgets.lettering import fitted_text, lettering
+from app.widgets.lettering import LEAST_FITTED, fitted_text, fitting_words, lettering
 from app.widgets.theme import Fonts, framebuffer_scale
 
 HEADING_EM = 1.3
@@ -62,9 +62,14 @@ def columns_for(
 
 
 def picture_grid(
-    pictures: Sequence[GridPicture], size: tuple[int, int], room: ImVec2, fonts: Fonts
+    pictures: Sequence[GridPicture],
+    size: tuple[int, int],
+    room: ImVec2,
+    fonts: Fonts,
+    scroll_to: int | None = None,
 ) -> GridAnswer | None:
-    """Draws them within the room, from the cursor on. size: (width, height) of all of them."""
+    """Draws them within the room, from the cursor on. size: (width, height) of all of them.
+    scroll_to: the number of the one that is to be brought into sight."""
     em, scale = imgui.get_font_size(), framebuffer_scale()
     lines = 1 + any(picture.line for picture in pictures)
     heading, gap = lines * HEADING_EM * em, GAP_EM * em
@@ -73,12 +78,18 @@ def picture_grid(
     unit = float(int(unit)) if unit >= 4 else unit  # then all are of one size
     extent = ImVec2(unit * size[0] / scale, unit * size[1] / scale)
     corner, answer = imgui.get_cursor_screen_pos(), None
+    with lettering(fonts.bold, em):
+        title_em = _common_em([picture.title for picture in pictures], extent.x)
+    line_em = _common_em([picture.line for picture in pictures], extent.x)
     for number, picture in enumerate(pictures):
         row, column = divmod(number, columns)
         at = ImVec2(
             corner.x + column * (extent.x + gap), corner.y + row * (extent.y + heading + gap)
         )
-        pixel = _picture(picture, size, at, extent, heading, fonts)
+        _words(picture, at, extent.x, (title_em, line_em), fonts)
+        pixel = _picture(picture, size, at, extent, heading)
+        if number == scroll_to:
+            imgui.set_scroll_here_y()
         answer = answer if pixel is None else GridAnswer(number, pixel)
     rows = -(-len(pictures) // columns)
     imgui.set_cursor_screen_pos(corner)
@@ -86,25 +97,34 @@ def picture_grid(
     return answer
 
 
-def _picture(
-    picture: GridPicture,
-    size: tuple[int, int],
-    at: ImVec2,
-    extent: ImVec2,
-    heading: float,
-    fonts: Fonts,
-) -> Pixel | None:
-    """Gives the pixel that was clicked."""
-    draw, scale, em = imgui.get_window_draw_list(), framebuffer_scale(), imgui.get_font_size()
-    with lettering(fonts.bold, em):
+def _common_em(texts: Sequence[str], width: float) -> float:
+    """The size of type at which all of them have room, unless that is too small."""
+    widest = max(imgui.calc_text_size(text).x for text in texts)
+    return imgui.get_font_size() * max(LEAST_FITTED, min(1.0, width / max(widest, 1.0)))
+
+
+def _words(
+    picture: GridPicture, at: ImVec2, width: float, sizes: tuple[float, float], fonts: Fonts
+) -> None:
+    """What stands above a picture. sizes: of the title's type, and the line's."""
+    draw, em = imgui.get_window_draw_list(), imgui.get_font_size()
+    with lettering(fonts.bold, sizes[0]):
         wide = imgui.calc_text_size(picture.title + " ").x if picture.title else 0.0
-        fitted_text(draw, at, theme.u32(theme.TEXT), picture.title, extent.x)
-    if picture.caption and wide < extent.x:
+        draw.add_text(at, theme.u32(theme.TEXT), fitting_words(picture.title, width))
+    if picture.caption and wide < width:
         beside = ImVec2(at.x + wide + 0.3 * em, at.y)
-        fitted_text(draw, beside, theme.u32(theme.DIM), picture.caption, extent.x - wide - 0.3 * em)
+        fitted_text(draw, beside, theme.u32(theme.DIM), picture.caption, width - wide - 0.3 * em)
     if picture.line:
         below = ImVec2(at.x, at.y + HEADING_EM * em)
-        fitted_text(draw, below, theme.u32(theme.DIM), picture.line, extent.x)
+        with lettering(fonts.text, sizes[1]):
+            draw.add_text(below, theme.u32(theme.DIM), fitting_words(picture.line, width))
+
+
+def _picture(
+    picture: GridPicture, size: tuple[int, int], at: ImVec2, extent: ImVec2, heading: float
+) -> Pixel | None:
+    """Gives the pixel that was clicked."""
+    draw, scale = imgui.get_window_draw_list(), framebuffer_scale()
     low = ImVec2(int(at.x * scale) / scale, int((at.y + heading) * scale) / scale)
     high = ImVec2(low.x + extent.x, low.y + extent.y)
     imgui.set_cursor_screen_pos(low)
