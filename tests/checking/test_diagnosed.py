@@ -55,6 +55,65 @@ def diagnosis_of(task, answers):
     return judged(task, cases, Run(tuple(answers(cases)))).diagnosis
 
 
+BOTH_LOOPS = """
+import numpy as np
+def render(scene, camera, width, height):
+    image = np.empty((height, width, 3))
+    image[:] = scene.background
+    e, u, v, w = (np.array(camera[name]) for name in ("eye", "u", "v", "w"))
+    for i in range(height):
+        for j in range(width):
+            x = camera.left + (j + HALF) / width * (camera.right - camera.left)
+            y = camera.top - (i + HALF) / height * (camera.top - camera.bottom)
+            o, d = e, x * u + y * v - camera.distance * w
+            if camera.projection == "parallel":
+                o, d = e + x * u + y * v, -w
+            best = np.inf
+            for one in scene.objects:
+                if one.type == "sphere":
+                    p = o - np.array(one.center)
+                    h, a = p @ d, d @ d
+                    D = h * h - a * (p @ p - one.radius**2)
+                    if D < 0:
+                        continue
+                    t = (-h - D**0.5) / a
+                else:
+                    corner = np.array(one.a)
+                    edges = corner - one.b, corner - one.c, d
+                    beta, gamma, t = np.linalg.solve(np.stack(edges, axis=1), corner - o)
+                    if min(beta, gamma, 1 - beta - gamma) < 0:
+                        continue
+                if 0 < t < best:
+                    best = KEPT
+                    image[i, j] = one.color
+    return IMAGE
+"""
+
+
+@pytest.mark.parametrize(
+    ("half", "kept", "image", "names"),
+    [
+        ("0", "np.inf", "image", {"the corner, not the centre", "the last object wins"}),
+        ("0.5", "t", "image[::-1, :, ::-1]", {"upside down", "blue and red exchanged"}),
+        ("0.5", "np.inf", "255 * image[:, ::-1]", None),
+    ],
+)
+def test_two_mistakes_in_both_loops(tmp_path, half, kept, image, names):
+    path = tmp_path / "loops.py"
+    source = BOTH_LOOPS.replace("HALF", half).replace("KEPT", kept).replace("IMAGE", image)
+    path.write_text(source, "utf-8")
+    with FileStudent(path) as student:
+        told = checked(student, TASKS["render"]).diagnosis
+    assert told is not None
+    found = [{one.name for one in both} for both in told.candidates]
+    assert names in found if names else not found  # three at once are not looked for
+
+
+def test_offsets_that_are_all_infinite_are_no_misses():
+    told = diagnosis_of(TASKS["memory-offset"], lambda cases: [float("inf")] * len(cases))
+    assert told.sentences == ("All your answers are inf, whatever is asked.",)
+
+
 def test_answers_that_are_all_misses():
     for name in ("hit-sphere", "hit-triangle", "closest-hit"):
         told = diagnosis_of(TASKS[name], lambda cases: [None] * len(cases))

@@ -160,3 +160,17 @@ def test_one_call_for_all_pixels():
     _, problems = KIND.given(task, cases, [values[0][1], *values[1:]])
     assert "shape" in problems[0] and "pixels" in problems[0]
     assert KIND.given(task, cases, [None, *values[1:]])[1][0].startswith("returned None")
+
+
+@pytest.mark.parametrize("part", ["origin", "direction"])
+def test_one_part_of_a_ray_in_camera_space(part):
+    """What is not asked for is right, in whatever space the other is told."""
+    asked = replace(TASK.conventions, space="camera", returns=(part,))
+    task = replace(TASK, conventions=asked, count=20)
+    cases = KIND.cases(task)
+    made = np.zeros((len(cases), 3))
+    if part == "direction":
+        points = [(*case.camera.image_point(*case.pixel, case.size), case) for case in cases]
+        made = np.array([(x, y, -case.camera.distance) for x, y, case in points])
+    assert not wrong(cases, made, task).any()
+    assert wrong(cases, made + np.array([0.5, 0.25, 0.125]), task).all()

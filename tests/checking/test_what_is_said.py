@@ -1,7 +1,8 @@
-"""What is told of wrong rays: in sentences, by name, as another camera, or what of them is right."""
+"""What is told of wrong rays: by name, as another camera, or what of them is right."""
 
 from __future__ import annotations
 
+import math
 from dataclasses import replace
 
 import numpy as np
@@ -111,6 +112,30 @@ class TestWhatIsSaid:
         assert np.abs(fitted.origin - rays.origin).max() < 1e-9
         turned = np.cross(fitted.direction, rays.direction)
         assert np.abs(turned).max() < 1e-9
+
+    def test_the_tangent_of_degrees(self):
+        """From the viewport's top: where the tangent is below 0, both axes are turned round."""
+
+        def made(case):
+            camera = case.camera
+            left, right, bottom, top = camera.viewport
+            half = math.tan(math.degrees(math.atan2(top, camera.distance)))
+            wide = half * (right - left) / (top - bottom)
+            i, j = case.pixel
+            x = (2 * (j + 0.5) / case.size[0] - 1) * wide
+            y = (1 - 2 * (i + 0.5) / case.size[1]) * half
+            return camera.eye, camera.basis @ (x, y, -1)
+
+        said = self.diagnosed(made)
+        assert said.differences[0] == (
+            "your viewport is as large as if an angle in degrees were in radians"
+        )
+        assert not any("u points" in one or "v points" in one for one in said.differences)
+        tangents = [
+            math.tan(math.degrees(math.atan2(case.camera.viewport[3], case.camera.distance)))
+            for case in made_cases(5, 6)
+        ]
+        assert min(tangents) < 0 < max(tangents)
 
     def test_the_eye_at_the_target(self):
         task = TASKS["from a target"]

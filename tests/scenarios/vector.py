@@ -11,7 +11,7 @@ from window_driver import Driver, Key
 
 from app.laboratory.options import LaboratoryOptions
 from app.laboratory.vector_view import PIXEL_PX, Both
-from app.laboratory.view import LABORATORY, LaboratoryView
+from app.laboratory.view import LaboratoryView
 from app.outside.bitmap import magnified
 from app.outside.svg import svg
 from app.state.bounds import range_of

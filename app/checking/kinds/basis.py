@@ -63,15 +63,14 @@ class BasisKind(CheckKind):
         self, task: CheckTask, cases: Sequence[CheckCase], values: Sequence[Any]
     ) -> tuple[Floats, dict[int, str]]:
         returns = task.conventions.returns
-        blank = [[np.nan] * 3] * len(returns)
         wanted = f"{', '.join(returns)}, three numbers each"
-        found, problems = each(values, lambda value: vectors(value, returns), blank, wanted)
-        parts = np.array(found, float).reshape(-1, len(returns), 3)
-        given = np.full((len(cases), 3, 3), np.nan)
-        given[: len(parts)] = self.right(cases)[: len(parts)]  # what is not asked for
+        parts, problems = each(
+            values, lambda value: vectors(value, returns), (len(returns), 3), wanted, len(cases)
+        )
+        given = self.right(cases)  # what is not asked for
         for place, name in enumerate(returns):
             which, sign = PARTS[name]
-            given[: len(parts), which] = sign * parts[:, place]
+            given[:, which] = sign * parts[:, place]
         return given, problems
 
     def right(self, cases: Sequence[CheckCase]) -> Floats:

@@ -38,7 +38,7 @@ Values = dict[str, Any]
 
 
 class HitKind(CheckKind):
-    """What a sphere and a triangle have in common."""
+    """What a sphere and a triangle have in common. shape: its type, and what it is made of."""
 
     answer = "a number t, or None"
     shape: ClassVar[tuple[str, ...]]
@@ -66,11 +66,7 @@ class HitKind(CheckKind):
     def given(
         self, task: CheckTask, cases: Sequence[CheckCase], values: Sequence[Any]
     ) -> tuple[Floats, dict[int, str]]:
-        found, problems = each(values, parameter, np.nan, self.answer)
-        return np.array(found + [np.nan] * (len(cases) - len(found)), float), problems
-
-    def right(self, cases: Sequence[CheckCase]) -> Floats:
-        return np.array([case.right for case in cases], float)
+        return each(values, parameter, (), self.answer, len(cases))
 
     def wrong(self, task: CheckTask, cases: Sequence[CheckCase], given: Floats) -> Flags:
         near = np.array([case.tolerance for case in cases], float)
@@ -149,7 +145,7 @@ class TriangleHitKind(HitKind):
                 return values
 
 
-class ClosestHitKind(CheckKind):
+class ClosestHitKind(HitKind):
     name = "closest-hit"
     function = "closest_hit"
     words: ClassVar[Mapping[str, str]] = {
@@ -161,11 +157,6 @@ class ClosestHitKind(CheckKind):
     return_words: ClassVar[Mapping[str, str]] = {"object": "its number", "t": "the ray parameter"}
     returns = ("object", "t")
     answer = "the object's number and t, or None"
-
-    def cases(self, task: CheckTask) -> list[CheckCase]:
-        random = generator(task)
-        made = [*self._simple(), *(self._made_up(random, n) for n in range(task.count))]
-        return [self._case(task, values) for values in made]
 
     def _case(self, task: CheckTask, values: Values) -> CheckCase:
         ray = {name: values[name] for name in ("origin", "direction")}
@@ -226,12 +217,7 @@ class ClosestHitKind(CheckKind):
             which, parameter = number(object_number), number(t)
             return None if which is None or parameter is None else [which - base, parameter]
 
-        found, problems = each(values, read, [np.nan, np.nan], self.answer)
-        missing = [[np.nan, np.nan]] * (len(cases) - len(found))
-        return np.array(found + missing, float).reshape(-1, 2), problems
-
-    def right(self, cases: Sequence[CheckCase]) -> Floats:
-        return np.array([case.right for case in cases], float).reshape(-1, 2)
+        return each(values, read, (2,), self.answer, len(cases))
 
     def wrong(self, task: CheckTask, cases: Sequence[CheckCase], given: Floats) -> Flags:
         near = np.array([case.tolerance for case in cases], float)

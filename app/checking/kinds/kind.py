@@ -13,6 +13,7 @@ from app.checking.calls import Call
 from app.checking.kinds.values import shown
 from app.checking.tasks import CheckCase, CheckTask
 
+Floats = NDArray[np.float64]
 Flags = NDArray[np.bool_]
 
 # Rounding errors that a right answer in float32 may have: 64 of 2^-24, each relative to the largest
@@ -48,9 +49,9 @@ class CheckKind(ABC):
         """The answers in the kind's own form, as `right`; and what is wrong with the form of
         those that are none, by the number of the case."""
 
-    @abstractmethod
     def right(self, cases: Sequence[CheckCase]) -> Any:
         """The right answers in the kind's own form, of all cases together."""
+        return np.array([case.right for case in cases], float)
 
     @abstractmethod
     def wrong(self, task: CheckTask, cases: Sequence[CheckCase], given: Any) -> Flags:
@@ -73,16 +74,20 @@ def named(task: CheckTask, values: Mapping[str, Any]) -> tuple[tuple[str, Any], 
 
 
 def each(
-    values: Sequence[Any], read: Callable[[Any], Any], blank: Any, wanted: str
-) -> tuple[list[Any], dict[int, str]]:
-    """What `read` makes of each value, or `blank` and a message where that is None."""
-
-    found: list[Any] = []
+    values: Sequence[Any],
+    read: Callable[[Any], Any],
+    shape: tuple[int, ...],
+    wanted: str,
+    count: int,
+) -> tuple[Floats, dict[int, str]]:
+    """What `read` makes of each value, (count, *shape): NaN with a message where that is None, and
+    NaN where there are fewer values."""
+    found = np.full((count, *shape), np.nan)
     problems: dict[int, str] = {}
     for number, value in enumerate(values):
         answer = read(value)
         if answer is None:
             problems[number] = f"returned {shown(value)}, not {wanted}"
-            answer = blank
-        found.append(answer)
+        else:
+            found[number] = answer
     return found, problems

@@ -71,25 +71,21 @@ class ViewingRayKind(CheckKind):
         self, task: CheckTask, cases: Sequence[CheckCase], values: Sequence[Any]
     ) -> tuple[Floats, dict[int, str]]:
         returns = task.conventions.returns
-        blank = [[np.nan] * 3] * len(returns)
-        problems: dict[int, str]
         if task.vectorised:
             rays, problems = _vectorised_rays(task, cases, values)
         else:
-            found, problems = each(
-                values, lambda value: vectors(value, returns), blank, self.answer
+            shape = (len(returns), 3)
+            rays, problems = each(
+                values, lambda value: vectors(value, returns), shape, self.answer, len(cases)
             )
-            rays = np.array(found, float).reshape(-1, len(returns), 3)
+        places = [("origin", "direction").index(name) for name in returns]
         given = np.full((len(cases), 2, 3), np.nan)
-        count = len(rays)
-        for place, name in enumerate(("origin", "direction")):
-            if name in returns:
-                given[:count, place] = rays[:, returns.index(name)]
-            else:
-                given[:count, place] = self.right(cases)[:count, place]
+        given[:, places] = rays
         if task.conventions.space == "camera":
             for first, last in _images(cases):
                 given[first:last] = _to_world(task.conventions, cases[first], given[first:last])
+        for place in {0, 1} - set(places):  # what is not asked for
+            given[:, place] = self.right(cases)[:, place]
         return given, problems
 
     def right(self, cases: Sequence[CheckCase]) -> Floats:

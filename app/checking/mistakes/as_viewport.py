@@ -79,7 +79,7 @@ def _viewports(fit: Fit, edges: list[float], close: float) -> Iterator[Differenc
         ("wide", edges[0], edges[1], left, right, fit.size[0], ("left", "right")),
         ("high", edges[2], edges[3], bottom, top, fit.size[1], ("down", "up")),
     )
-    shifts, sizes = [], []
+    shifts, sizes, senses = [], [], []
     for how, low, high, low_asked, high_asked, count, names in axes:
         extent = high_asked - low_asked
         if is_close((low, high), (high_asked, low_asked), close, extent):
@@ -88,7 +88,7 @@ def _viewports(fit: Fit, edges: list[float], close: float) -> Iterator[Differenc
             continue
         if high < low:
             saying = OPPOSITE["u" if how == "wide" else "v"]
-            yield Difference(f"{how} sense", (saying,), saying)
+            senses.append(Difference(f"{how} sense", (saying,), saying))
             low, high = high, low
         factor = (high - low) / extent
         if abs(factor - 1) > close:
@@ -99,7 +99,11 @@ def _viewports(fit: Fit, edges: list[float], close: float) -> Iterator[Differenc
             central = abs(low + high) <= close * extent
             shifts.append((pixels, names[pixels > 0], names, central, (low, high)))
     if len(sizes) == 2 and is_close(sizes[0][1], sizes[1][1], close):
-        sizes = [("large", sizes[0][1], *sizes[0][2:])]
+        factor = sizes[0][1]
+        if len(senses) == 2 and any(causes(fit, -factor, close)):
+            factor, senses = -factor, []  # the tangent of an angle that is too large
+        sizes = [("large", factor, *sizes[0][2:])]
+    yield from senses
     for how, factor, found, asked in sizes:
         numbers = f"your viewport is {text(np.array(found))} {how}, not {text(np.array(asked))}"
         numbers = ", ".join([numbers, *causes(fit, factor, close)])

@@ -208,8 +208,7 @@ def _of_matrix(is_parallel: bool, matrix: str, distance: str, axes: Axes) -> lis
         ("matrix transposed", f"times_point(transposed({to_world}), {at})",
          f"times_vector(transposed({to_world}), {to})", turned),
         ("a point, not a direction", "", f"times_point({to_world}, {to})",
-         "A direction's fourth number is 0: that moved it, as a point, by the eye." if matrix
-         else POINT),
+         "A direction's fourth number is 0: that moved it, as a point, by the eye."),
         ("the origin as a direction", f"times_vector({to_world}, {at})", "",
          "A point's fourth number is 1: that did not move it to the eye."),
         ("along +w", "", f"times_vector({to_world}, {forwards})",

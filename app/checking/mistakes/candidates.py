@@ -46,7 +46,7 @@ def candidates(program: Program, trial: Trial, wrong: NDArray[np.bool_]) -> tupl
     few = np.array(sorted(_spread(np.flatnonzero(wrong)) | _spread(everything)))
     singles: list[Mistakes] = [(mistake,) for mistake in program.mistakes]
     loosely: tuple[Mistakes, ...] = ()
-    for tried in (singles, list(program.pairs()) if program.has_pairs else []):
+    for tried in (singles, list(program.pairs())):
         near = tried
         for cases in (few, everything):
             near = _chosen(near, _worst(program, trial, near, cases)[0] <= LOOSE)

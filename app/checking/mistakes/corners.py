@@ -5,13 +5,13 @@ from __future__ import annotations
 
 from collections.abc import Set
 
+from app.checking.mistakes.bodies import POINT
 from app.checking.mistakes.program import CodeLine, Mistake, Program
 from renderer.pixels import Indexing
 
 PART = "Any camera"
 GRID = frozenset({"eye", "pixel00", "delta_u", "delta_v"})
 EDGES = frozenset({"eye", "bottom_left", "horizontal", "vertical"})
-POINT = "That is the point on the image plane. The direction leads to it from the eye: subtract e."
 
 
 def has_corners(words: Set[str]) -> bool:

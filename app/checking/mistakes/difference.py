@@ -72,10 +72,14 @@ def is_close(a: ArrayLike, b: ArrayLike, relative: float, least: float = 0.0) ->
 
 
 def causes(fit: Fit, factor: float, close: float) -> Iterator[str]:
-    """What is done to an angle of view that makes the viewport larger by this factor."""
+    """What is done to an angle of view, from the viewport's half or from its edge, that makes the
+    viewport larger by this factor; below 0, it is turned by half a turn as well."""
     left, right, bottom, top = fit.asked.viewport
-    for half in dict.fromkeys(((top - bottom) / 2, (right - left) / 2)):
-        angle = math.atan2(half, fit.asked.distance)  # of the half
+    high, wide, d = (top - bottom) / 2, (right - left) / 2, fit.asked.distance
+    for half, edge in dict.fromkeys(((high, high), (wide, wide), (high, top), (wide, right))):
+        if edge <= 0:
+            continue
+        angle = math.atan2(edge, d)
         made = {
             "an angle in radians were in degrees": math.tan(math.radians(angle)),
             "an angle in degrees were in radians": math.tan(math.degrees(angle)),
@@ -85,8 +89,8 @@ def causes(fit: Fit, factor: float, close: float) -> Iterator[str]:
             "the tangent were upside down": 1 / math.tan(angle),
         }
         for cause, wrong in made.items():
-            wanted = wrong / math.tan(angle)
-            if wanted > 0 and abs(wanted - 1) > close and abs(factor - wanted) <= close * wanted:
+            wanted = wrong * d / half
+            if abs(wanted - 1) > close and abs(factor - wanted) <= close * abs(wanted):
                 yield f"as if {cause}"
 
 

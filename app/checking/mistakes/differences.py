@@ -48,9 +48,13 @@ def _common(told: Sequence[Told | None]) -> tuple[int, tuple[str, ...]]:
 
 
 def _least(ways: Sequence[Told]) -> Told | None:
-    """Of one camera told with several lengths of its directions: what needs fewest words."""
+    """Of one camera told with several lengths of its directions: what needs fewest words; of those
+    that need as many, what has a cause."""
     return min(
         ways,
-        key=lambda told: sum(1 if one.sayings else NUMBERS_WEIGH for one in told),
+        key=lambda told: (
+            sum(1 if one.sayings else NUMBERS_WEIGH for one in told),
+            not any("as if" in saying for one in told for saying in one.sayings),
+        ),
         default=None,
     )

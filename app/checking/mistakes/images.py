@@ -18,11 +18,13 @@ def _one(name: str, key: str, code: str, hint: str, part: str) -> Mistake:
 
 def flipped(name: str, part: str) -> tuple[Mistake, ...]:
     """A whole image the wrong way round: name, in the line `answer`."""
-    return (
-        _one("upside down", "answer", f"answer = {name}[::-1]",
-             "Row 0 is the top row: the image is upside down.", part),
-        _one("mirrored", "answer", f"answer = {name}[:, ::-1]",
-             "Column 0 is the left one: the image is mirrored.", part),
+    return tuple(
+        Mistake(called, (("answer", f"answer = {name}{turned}"),), hint, part,
+                swaps=((f"= {name}", f"= {name}{turned}"), (f"* {name}", f"* {name}{turned}")))
+        for called, turned, hint in (
+            ("upside down", "[::-1]", "Row 0 is the top row: the image is upside down."),
+            ("mirrored", "[:, ::-1]", "Column 0 is the left one: the image is mirrored."),
+        )
     )  # fmt: skip
 
 
@@ -149,6 +151,8 @@ def offset_program(base: int, column_major: bool, stride: int) -> Program:
                "A row before it is W pixels, not one."),
         pixels("row and column multiplied", f"{row} * {column}",
                "i whole rows of W pixels, and j pixels of its own row: i W + j."),
+        pixels("the column added to the width", f"{row} * (width + {column})",
+               "Multiply first: i rows of W pixels, and j more: i W + j, not i (W + j)."),
         pixels("one row too many", f"({row} + 1) * width + {column}",
                f"Rows count from {base}: before the first one lies nothing."),
         pixels("one pixel too many", f"{right} + 1",

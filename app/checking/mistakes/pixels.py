@@ -41,6 +41,7 @@ def pixel_mistakes(
         made += _whole_numbers(indexing, from_top)
     made.append(_without_edges(across, down, from_top))
     made += _viewports(across, down, from_top)
+    made += [] if unit else [_in_pixels(indexing, from_top)]
     if "left" in words:
         made += _symmetric(across, down, from_top)
         made += [] if unit else _square_pixels(indexing, from_top)
@@ -232,6 +233,18 @@ def _viewports(across: str, down: str, from_top: bool) -> list[Mistake]:
             "Any camera",
         ),
     ]
+
+
+def _in_pixels(indexing: Indexing, from_top: bool) -> Mistake:
+    row, middle = f"(i {indexing.offset})", "height / 2"
+    y = f"{middle} - {row}" if from_top else f"{row} - {middle}"
+    return Mistake(
+        "pixels for the viewport",
+        (("x", f"x = (j {indexing.offset}) - width / 2"), ("y", f"y = {y}")),
+        "Those are pixels from the image's middle: a pixel is (r - l) / W wide and (t - b) / H "
+        "high, and the viewport begins at l and t.",
+        PART,
+    )
 
 
 def _symmetric(across: str, down: str, from_top: bool) -> list[Mistake]:

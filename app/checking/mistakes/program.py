@@ -70,13 +70,13 @@ class ShownLine:
 
 @dataclass(frozen=True, eq=False)
 class Program:
-    """lines, and the mistakes that are made in them. results: the names of what it makes.
-    has_pairs: whether two mistakes at once are looked for: not where a run takes long."""
+    """lines, and the mistakes that are made in them. results: the names of what it makes. paired:
+    lines of which one must be wrong where two mistakes at once are looked for; empty: any."""
 
     lines: tuple[CodeLine, ...]
     mistakes: Mistakes
     results: tuple[str, ...]
-    has_pairs: bool = True
+    paired: frozenset[str] = frozenset()
 
     def text(self, mistakes: Sequence[Mistake] = ()) -> tuple[ShownLine, ...]:
         """All lines, in their order, with what is written instead. Of mistakes that cannot be
@@ -105,6 +105,8 @@ class Program:
     def pairs(self) -> Iterator[tuple[Mistake, Mistake]]:
         """Any two mistakes that can be made together."""
         for first, second in combinations(self.mistakes, 2):
+            if self.paired and not self.paired & (first.keys | second.keys):
+                continue
             if self.can_combine(first, second):
                 yield first, second
 

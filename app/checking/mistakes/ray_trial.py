@@ -108,7 +108,8 @@ class RayTrial:
         return np.array([run_rays(program, known, one) for one in tried]).swapaxes(1, 2)
 
     def apart(self, rays: Floats, made: Floats, cases: Numbers) -> Floats:
-        """How far rays are from these, relative to the largest number on the way: (..., cases)."""
+        """How far rays are from these, relative to the largest number on the way: (..., cases).
+        Where neither has numbers, not at all: what divides by zero there is the same."""
         with np.errstate(all="ignore"):
             origins, directions = made[..., 0, :], made[..., 1, :]
             length = np.linalg.norm(directions, axis=-1)
@@ -123,4 +124,6 @@ class RayTrial:
             turned = np.where(no_way, np.maximum(own, length), turned)
             if self.lengths == "exact":
                 turned = np.maximum(turned, np.abs(own - length))
-            return np.asarray(np.maximum(np.linalg.norm(moved, axis=-1), turned) / scale)
+            apart = np.maximum(np.linalg.norm(moved, axis=-1), turned) / scale
+        numbers = [np.isfinite(one).all(axis=(-2, -1)) for one in (rays, made)]
+        return np.where(numbers[0] | numbers[1], apart, 0.0)

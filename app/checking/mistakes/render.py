@@ -22,7 +22,7 @@ LINES = (
     CodeLine("t", "    t = hit(origin, direction, shape)"),
     CodeLine("if", "    closer = t < best"),
     CodeLine("color", "    image[closer] = shape['color']"),
-    CodeLine("keep", "    best[closer] = t[closer]"),
+    CodeLine("keep", "    best = where(closer, t, best)"),
     CodeLine("answer", "answer = image"),
 )
 
@@ -87,7 +87,8 @@ MISTAKES = (
 def render_program(task: RayTask) -> Program:
     rays = ray_program(task)
     mistakes = (*MISTAKES, *(one for one in rays.mistakes if one.name != "normalised"))
-    return Program((*rays.lines, *LINES), mistakes, ("answer",), has_pairs=False)
+    loops = frozenset(line.key for line in LINES)  # two in a ray's lines: viewing_ray tells them
+    return Program((*rays.lines, *LINES), mistakes, ("answer",), loops)
 
 
 def render_values(
@@ -102,16 +103,23 @@ def render_values(
     if not task.from_top:
         i = i[::-1]
     known = ray_values(camera, i, j, size, task)
-    on_image = {name: _on_image(function, size) for name, function in SHAPES.items()}
-    return known | on_image | {
+    return known | {name: _remembered(function) for name, function in SHAPES.items()} | {
         "objects": objects, "background": background,
         "far_away": _far_away, "plain": _plain,
     }  # fmt: skip
 
 
-def _on_image(function: Callable[..., Any], size: Size) -> Callable[..., Any]:
-    """Of each pixel, also where its rays are all the same."""
-    return lambda *ray: np.broadcast_to(function(*ray), size[::-1])
+def _remembered(function: Callable[..., Any]) -> Callable[..., Any]:
+    """Many mistakes leave the rays as they are: each object is asked once for the same rays."""
+    answers: dict[tuple[bytes, bytes, int], Any] = {}
+
+    def asked(origin: Any, direction: Any, shape: Mapping[str, Any]) -> Any:
+        key = np.asarray(origin).tobytes(), np.asarray(direction).tobytes(), id(shape)
+        if key not in answers:
+            answers[key] = function(origin, direction, shape)
+        return answers[key]
+
+    return asked
 
 
 def _far_away(width: float, height: float) -> Any:

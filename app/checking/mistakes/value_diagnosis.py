@@ -38,13 +38,16 @@ class ValueTrial:
     def errors(
         self, program: Program, tried: Sequence[Mistakes], cases: Numbers
     ) -> tuple[Floats, Floats]:
-        given, right = np.empty((2, len(tried), len(cases)))
+        """Of each, up to the first case that it does not explain: a run of an image takes long."""
+        given, right = np.full((2, len(tried), len(cases)), np.inf)
         for row, mistakes in enumerate(tried):
             for column, number in enumerate(cases):
                 case = self.cases[number]
                 made = _made(program, case, mistakes)
                 given[row, column] = _apart(case, case.given, made)
                 right[row, column] = _apart(case, case.right, made)
+                if given[row, column] > LOOSE:
+                    break
         return given, right
 
 
@@ -118,7 +121,7 @@ def _constant(cases: Sequence[ValueCase]) -> str:
     numbers = np.concatenate(answers) if answers else np.zeros(0)
     if len(cases) < 3 or len(answers) < len(cases) or not (numbers == numbers[0]).all():
         return ""
-    if np.isinf(numbers[0]):
+    if np.isinf(numbers[0]) and any(np.isinf(case.right).any() for case in cases):
         return "You never find a hit."
     return f"All your answers are {numbers[0]:.4g}, whatever is asked."
 

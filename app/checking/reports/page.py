@@ -31,7 +31,8 @@ STYLE = """
 body { margin: 0 auto; max-width: 60rem; padding: 1.5rem; background: var(--paper);
   color: var(--ink); font: 1rem/1.5 system-ui, sans-serif; }
 h1 { font-size: 1.5rem; margin: 0 0 .25rem; overflow-wrap: anywhere; }
-h2 { font-size: 1.2rem; margin: 0; } h3 { font-size: 1rem; margin: 1rem 0 .25rem; }
+h2 { display: flex; flex-wrap: wrap; align-items: baseline; gap: 0 .75rem; font-size: 1.2rem;
+  margin: 0; } h3 { font-size: 1rem; margin: 1rem 0 .25rem; }
 p { margin: .25rem 0; }
 .dim { color: var(--dim); }
 section { margin: 1.5rem 0 0; padding: 1rem 1.25rem; border: 1px solid var(--line);
@@ -39,12 +40,14 @@ section { margin: 1.5rem 0 0; padding: 1rem 1.25rem; border: 1px solid var(--lin
 section.right { border-left-color: var(--right); }
 section.wrong { border-left-color: var(--wrong); }
 section.failed { border-left-color: var(--failed); }
-.verdict { margin-left: .5rem; } .right .verdict { color: var(--right); }
+.right .verdict { color: var(--right); }
 .wrong .verdict { color: var(--wrong); } .failed .verdict { color: var(--failed); }
-.points { float: right; font-weight: normal; font-size: 1rem; color: var(--dim); }
+.points { margin-left: auto; font-weight: normal; font-size: 1rem; color: var(--dim); }
 pre, code { font: .9rem/1.45 ui-monospace, monospace; }
 pre { background: var(--shade); padding: .6rem .8rem; border-radius: .3rem; margin: .25rem 0;
   white-space: pre-wrap; overflow-wrap: anywhere; }
+.printed { max-height: 20rem; overflow: auto; }
+@media (max-width: 40rem) { body { padding: 1rem .75rem; } section { padding: .75rem .9rem; } }
 .told { margin: .5rem 0; padding-left: 1.2rem; } .told li:first-child { font-weight: 600; }
 .pictures { display: flex; flex-wrap: wrap; gap: 1rem; margin-top: .75rem; }
 figure { margin: 0; flex: 1 1 14rem; max-width: 22rem; }
@@ -60,10 +63,12 @@ img { width: 100%; image-rendering: pixelated; border: 1px solid var(--line); di
 .sketch .given.head, .sketch circle.given { fill: var(--wrong); stroke-dasharray: none; }
 .key { display: inline-block; width: 1.6rem; border-top: 3px solid var(--right);
   vertical-align: middle; } .key.given { border-top: 3px dashed var(--wrong); }
-@media print { body { max-width: none; padding: 0; font-size: 11pt; }
-  section { break-inside: avoid; }
-  :root { --paper: #ffffff; --ink: #000000; --dim: #444444; --line: #999999; --shade: #ffffff; }
-  pre { border: 1px solid var(--line); } * { print-color-adjust: exact; } }
+@media print { :root { color-scheme: light; --paper: #ffffff; --ink: #000000; --dim: #444444;
+  --line: #999999; --shade: #ffffff; --right: #1a7f37; --wrong: #c4232b; --failed: #9a6700; }
+  body { max-width: none; padding: 0; font-size: 11pt; } pre { border: 1px solid var(--line); }
+  .printed { max-height: none; } .sketch { max-height: 14rem; } figure { flex-basis: 9rem; }
+  h2, h3, h2 + p { break-after: avoid; } li, svg, .pictures { break-inside: avoid; }
+  * { print-color-adjust: exact; } }
 """
 
 
@@ -118,7 +123,7 @@ def _section(result: TaskResult, pictures: Pictured | None) -> str:
         if pictures is not None:
             parts.append(_pictures(pictures))
     if say.output:
-        parts.append(_pre("Printed", [say.output]))
+        parts.append(_pre("Printed", [say.output], "printed"))
     return f'<section class="{verdict}">\n{"".join(parts)}</section>\n'
 
 
@@ -129,8 +134,8 @@ def _untried(task: CheckTask, reason: str) -> str:
 
 def _head(task: CheckTask, verdict: str, points: str) -> str:
     return (
-        f'<h2>{_text(task.name)} <span class="verdict">{verdict}</span>'
-        f'<span class="points">{points}</span></h2>\n'
+        f'<h2><span>{_text(task.name)}</span> <span class="verdict">{verdict}</span>'
+        f' <span class="points">{points}</span></h2>\n'
         f'<p class="dim"><code>{_text(signature(task))}</code></p>\n'
     )
 
@@ -171,12 +176,13 @@ def _data(image: NDArray[np.uint8]) -> str:
     return f"data:image/png;base64,{content}"
 
 
-def _pre(title: str, lines: Iterable[str]) -> str:
+def _pre(title: str, lines: Iterable[str], name: str = "") -> str:
     text = "\n".join(lines)
     if not text:
         return ""
     head = f"<h3>{title}</h3>\n" if title else ""
-    return f"{head}<pre>{_text(text)}</pre>\n"
+    opened = f'<pre class="{name}" tabindex="0">' if name else "<pre>"  # what is scrolled, by keys
+    return f"{head}{opened}{_text(text)}</pre>\n"
 
 
 def _coded(sentence: str) -> str:

@@ -1,9 +1,9 @@
 """A program that runs what a student wrote: started, fed, watched, and ended with all it started.
 
 Each has a session of its own and, in its environment, a name that what it starts inherits. On Linux
-whatever bears that name is ended with it, also what has left the session; elsewhere its session,
-on Windows its tree. It ends too where this process is killed: its keeper sees to that, which waits
-for what this process never sends.
+whatever bears that name or holds its output is ended with it, also what has left the session;
+elsewhere its session, on Windows its tree. It ends too where this process is killed: its keeper
+sees to that, which waits for what this process never sends.
 """
 
 from __future__ import annotations
@@ -82,6 +82,7 @@ class StudentProgram:
         pipes = (self._process.stdin, self._process.stdout, self._process.stderr)
         self._input, answers, printed = pipes
         assert self._input and answers and printed
+        self._pipes = {f"pipe:[{os.fstat(pipe.fileno()).st_ino}]" for pipe in (answers, printed)}
         self.output = CapturedOutput(printed, output, self.mark.encode())
         self._chunks: queue.SimpleQueue[bytes] = queue.SimpleQueue()
         self._requests: queue.SimpleQueue[bytes | None] = queue.SimpleQueue()
@@ -200,9 +201,11 @@ class StudentProgram:
             # What forks and ends, again and again, is seldom there when one looks: as long as
             # somebody holds the pipe of the output, there is one.
             end, others = time.monotonic() + _CHASE, set[str]()
+            self._kill_holders()
             while self._kill_bearers(others) or not self.output.wait_for_end(0.0):
                 if time.monotonic() > end:
                     break
+                self._kill_holders()
 
     def _kill_bearers(self, others: set[str]) -> bool:
         """others: processes that were looked at, which this adds to: the next look is quick."""
@@ -217,6 +220,17 @@ class StudentProgram:
             except OSError:
                 others.add(process)
         return found
+
+    def _kill_holders(self) -> None:
+        """Those that have left the session and lost the name, and still hold what it answers or
+        prints through. Copies of this process that are about to become a program hold it too."""
+        own = Path("/proc/self/cmdline").read_bytes()
+        for process in filter(str.isdigit, os.listdir("/proc")):
+            with contextlib.suppress(OSError):
+                files = Path(f"/proc/{process}/fd").iterdir()
+                held = {os.readlink(file) for file in files}
+                if held & self._pipes and Path(f"/proc/{process}/cmdline").read_bytes() != own:
+                    os.kill(int(process), signal.SIGKILL)
 
     def _read(self, pipe: IO[bytes]) -> None:
         with pipe:

@@ -20,6 +20,7 @@ import queue
 import tokenize
 import traceback
 import types
+import warnings
 from collections.abc import Mapping
 from io import BytesIO, TextIOWrapper
 
@@ -130,10 +131,16 @@ class StudentFile:
         for name in sys.modules.keys() - _AT_START:
             if name.partition(".")[0] in own:
                 del sys.modules[name]  # the student has a module of that name
+        warnings.formatwarning = self._warning
         code = compile(self._source, self._path, "exec", dont_inherit=True)
         self._keep_lines()
         sys.modules[self._module.__name__] = self._module
         exec(code, self._module.__dict__)
+
+    def _warning(self, message, category, filename, lineno, line=None):
+        """As Python tells it, but for paths; a line of ours is the call of the student's code."""
+        where = "" if filename == __file__ else f"{self._short(filename)}:{lineno}: "
+        return f"{where}{category.__name__}: {message}\n"
 
     def _keep_lines(self):
         """For tracebacks, as they are now: the file may be saved or deleted meanwhile."""
@@ -259,6 +266,9 @@ def printable(line):
 
 def no_answer(answer):
     """What it was instead of a value that JSON has."""
+    if isinstance(answer, types.CoroutineType):
+        answer.close()  # else Python warns that nobody waits for it, at a line of ours
+        return "a coroutine: write def, not async def"
     try:
         text = " ".join(repr(answer).split())
     except BaseException:

@@ -53,43 +53,56 @@ def test_the_right_lines_are_right(task: CheckTask) -> None:
     assert (trial.apart(trial.right, made[0], np.arange(len(cases))) < 1e-13).all()
 
 
-# They show where a viewport is not symmetric, or its pixels are not square: not where a task has a
-# field of view, but words for which the table has only the camera's own lines.
-OF_OTHER_VIEWPORTS = (
-    "as far to the left as to the right",
-    "the viewport's middle at 0",
-    "rows as far apart as columns",
-    "columns as far apart as rows",
-)
+SYMMETRIC = {"as far to the left as to the right", "the viewport's middle at 0"}
+SQUARE_PIXELS = {"rows as far apart as columns", "columns as far apart as rows"}
+SQUARE_IMAGES = {
+    "width and height exchanged",
+    "both divided by the width",
+    "both divided by the height",
+    "the aspect ratio upside down",
+    "no aspect ratio",
+    "the angle scaled, not its tangent",
+    "the angle of the other side",
+}
 
 
-def has_plain_viewport(case: RayCase) -> bool:
-    left, right, bottom, top = case.camera.viewport
-    width, height = case.size
-    return (left, bottom) == (-right, -top) and math.isclose(right * height, top * width)
+def unseen(cases: list[RayCase]) -> set[str]:
+    """The mistakes that no ray shows: those of a length that does not count, and those of what all
+    cameras of the task are by its words."""
+    names = {"normalised"}
+    edges = [(case.camera.viewport, case.size) for case in cases]
+    if all((x[0], x[2]) == (-x[1], -x[3]) for x, _ in edges):
+        names |= SYMMETRIC
+    if all(math.isclose((x[1] - x[0]) * high, (x[3] - x[2]) * wide) for x, (wide, high) in edges):
+        names |= SQUARE_PIXELS
+    if all(width == height for _, (width, height) in edges):
+        names |= SQUARE_IMAGES
+    return names
 
 
 @pytest.mark.parametrize("task", TASKS)
 def test_every_mistake_is_known_by_name(task: CheckTask) -> None:
+    """And with it only what gives the same rays."""
     cases, asked = cases_of(task)
     program = ray_program(asked)
     everything = np.arange(len(cases))
-    for mistake in program.mistakes:
-        given = RayTrial(cases, np.zeros((len(cases), 2, 3)), asked).made(
-            program, [(mistake,)], everything
-        )[0]
+    plain = RayTrial(cases, np.zeros((len(cases), 2, 3)), asked)
+    rays = {
+        mistakes: plain.made(program, [mistakes], everything)[0]
+        for mistakes in ((mistake,) for mistake in program.mistakes)
+    }
+    unnamed = set()
+    for (mistake,), given in rays.items():
         trial = RayTrial(cases, given, asked)
-        apart = trial.apart(trial.right, given, everything)
-        wrong = ~(apart < 1e-9)
-        if not wrong.any():  # of directions of any length: those that differ in it
-            is_square = task.size is not None and task.size[0] == task.size[1]
-            is_plain = mistake.name in OF_OTHER_VIEWPORTS and all(map(has_plain_viewport, cases))
-            assert mistake.name == "normalised" or is_square or is_plain, mistake.name
-            continue
-        if not np.isfinite(given).all():
+        wrong = ~(trial.apart(trial.right, given, everything) < 1e-9)
+        if not wrong.any():
+            unnamed.add(mistake.name)
             continue
         found = candidates(program, trial, wrong)
         assert (mistake,) in found, mistake.name
+        for others in found:
+            assert (trial.apart(given, rays[others], everything) < 1e-9).all(), (mistake, others)
+    assert unnamed == unseen(cases) & {mistake.name for mistake in program.mistakes}
 
 
 def test_only_the_words_that_are_given_are_used() -> None:

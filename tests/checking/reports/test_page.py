@@ -17,7 +17,7 @@ from app.checking.builtin import BUILTIN
 from app.checking.checked import TaskResult, WrongCase, checked
 from app.checking.conventions import Conventions
 from app.checking.mistakes.diagnosis import Diagnosis
-from app.checking.reports.page import page
+from app.checking.reports.page import STYLE, page
 from app.checking.reports.picture import NO_RAY, difference, picture
 from app.checking.reports.pictured import Pictured, pictured
 from app.checking.reports.sketch import sketch
@@ -100,6 +100,17 @@ def test_the_page_stands_alone_and_the_students_text_is_text(tried) -> None:
     assert "<script>alert('printed')</script> \\x1b[31mred\\x00 & \\u202e" in parsed.text
     assert SENTENCE in parsed.text and "<b>" not in text
     assert all(sign.isprintable() or sign == "\n" for sign in text)
+
+
+def test_on_paper_it_has_the_light_colours_whatever_the_readers_theme() -> None:
+    themes = [
+        dict(re.findall(r"(--[a-z]+): (#[0-9a-f]{6})", rule))
+        for rule in re.findall(r":root \{[^}]*\}", STYLE)
+    ]
+    light, dark, paper = themes
+    assert light.keys() == dark.keys() == paper.keys()
+    for name in ("--paper", "--right", "--wrong", "--failed"):
+        assert paper[name] == light[name] != dark[name]
 
 
 def test_pictures_are_what_was_given_what_is_right_and_where_they_differ(tried) -> None:

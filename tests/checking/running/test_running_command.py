@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 import json
+import secrets
 import shutil
 import subprocess
 import sys
 import threading
 
 import pytest
-from students import CAMERA, bearers, called
+from students import CAMERA, bearers, called, command_lines
 from waiting import wait_for
 
 from app.checking.calls import Failure, Limits
@@ -172,6 +173,20 @@ def test_what_a_program_starts_ends_with_it(program, nothing_left):
     run = program(source + "print(sys.stdin.read(), end='')").call(CALLS)
     assert run.failure is None
     wait_for(lambda: not bearers(nothing_left))
+
+
+@pytest.mark.skipif(not sys.platform.startswith("linux"), reason="looks into /proc")
+@pytest.mark.parametrize("closed", ["stdin", "stdout", "stderr"])
+def test_what_has_left_session_and_name_ends_with_it_while_it_holds_a_pipe(program, closed):
+    """As a daemon, but for what it writes to."""
+    seconds = f"1{secrets.randbelow(10**9):09}"
+    started = f"['sleep', '{seconds}'], env={{}}, start_new_session=True"
+    one = program(
+        f"import subprocess\nsubprocess.Popen({started}, {closed}=subprocess.DEVNULL)\n"
+        "for line in sys.stdin: print(5, flush=True)"
+    )
+    assert one.call(CALLS[:2]).values == (5, 5)
+    wait_for(lambda: not command_lines(seconds))
 
 
 def test_a_stop_from_another_thread(program, tmp_path):

@@ -120,7 +120,30 @@ def test_what_is_no_value_is_told(student):
 
 def test_an_async_function_answers_nothing(answer):
     failure = answer("async def f():\n    return 1\n")
-    assert "of type coroutine" in failure.text
+    assert "f returned a coroutine: write def, not async def" in failure.text
+
+
+def test_warnings_have_no_path(student):
+    """Neither that of the student's folder, nor one of ours."""
+    run = student("""
+        import warnings
+        import numpy as np
+        async def late():
+            return 1
+        def f():
+            warnings.warn("mine", stacklevel=1)
+            warnings.warn("the caller's", stacklevel=2)
+            late()
+            return float(np.divide(1.0, np.zeros(1))[0])
+    """).call([called("f")])
+    assert run.output.splitlines() == [
+        "rays.py:7: UserWarning: mine",
+        "UserWarning: the caller's",
+        "rays.py:9: RuntimeWarning: coroutine 'late' was never awaited",
+        "rays.py:10: RuntimeWarning: divide by zero encountered in divide",
+    ]
+    late = student("async def f():\n    return 1\n", "late.py").call([called("f")])
+    assert late.output == ""
 
 
 def test_what_an_answers_own_code_raises_is_the_students(answer):
