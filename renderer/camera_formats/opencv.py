@@ -115,7 +115,7 @@ def read(given: Given, options: Options) -> CameraSet:
 def write(cameras: Sequence[PosedCamera], options: Options) -> dict[str, bytes]:
     camera, size = sized(single(cameras, "a file of OpenCV"), options)
     origin = options.pixel_origin or "center"
-    K, R, t = camera.intrinsics(size, origin)
+    K, R, t = (part + 0.0 for part in camera.intrinsics(size, origin))  # no negative zeros
     notes = [
         "A world point p is seen at the pixel K (R p + t), divided by its third part:",
         f"x to the right, y down, z forward; {ORIGIN_TOLD[origin]}.",
