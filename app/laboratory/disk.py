@@ -19,7 +19,7 @@ from renderer.images import check_image_path, encode_array
 
 
 @dataclass(frozen=True)
-class Format:
+class DiskFormat:
     """A file format for a kind. note: how it keeps the numbers."""
 
     kind: Kind
@@ -32,15 +32,15 @@ class Format:
 
 
 FORMATS = (
-    Format(BITMAP, ".pbm", "as they are, 8 pixels a byte"),
-    Format(BITMAP, ".png", "compressed, lossless"),
-    Format(GRAY, ".pgm", "as they are"),
-    Format(GRAY, ".png", "compressed, lossless"),
-    Format(COLOR, ".ppm", "as they are"),
-    Format(COLOR, ".png", "compressed, lossless"),
-    Format(HALF, ".exr", "compressed, lossless"),
-    Format(FLOAT, ".pfm", "as they are"),
-    Format(FLOAT, ".exr", "compressed, lossless"),
+    DiskFormat(BITMAP, ".pbm", "as they are, 8 pixels a byte"),
+    DiskFormat(BITMAP, ".png", "compressed, lossless"),
+    DiskFormat(GRAY, ".pgm", "as they are"),
+    DiskFormat(GRAY, ".png", "compressed, lossless"),
+    DiskFormat(COLOR, ".ppm", "as they are"),
+    DiskFormat(COLOR, ".png", "compressed, lossless"),
+    DiskFormat(HALF, ".exr", "compressed, lossless"),
+    DiskFormat(FLOAT, ".pfm", "as they are"),
+    DiskFormat(FLOAT, ".exr", "compressed, lossless"),
 )
 
 
@@ -48,12 +48,12 @@ FORMATS = (
 class DiskRow:
     """A line of the table. storage_bytes: of the pixels in memory. file_bytes: of the file."""
 
-    format: Format
+    format: DiskFormat
     storage_bytes: int
     file_bytes: int
 
 
-def encoded(array: NDArray, format: Format) -> bytes:
+def encoded(array: NDArray, format: DiskFormat) -> bytes:
     """The file of a stored array; array: as stored.Stored has it for the format's kind."""
     return encode_array(np.ascontiguousarray(array), format.ending)
 

@@ -20,7 +20,7 @@ BARS = ("#e5484d", "#46a758", "#4f8ff7")  # red, green and blue, as light as tex
 
 def sizes_table(
     size: tuple[int, int], entries: tuple[disk.DiskRow, ...], fonts: Fonts
-) -> disk.Format | None:
+) -> disk.DiskFormat | None:
     """A line a kind: bits, bytes of the lecture's megapixel and of this image, and of its files.
 
     Gives the format whose button was pressed.

@@ -343,7 +343,7 @@ class LaboratoryView(DockedView):
             return LANES_EM * imgui.get_font_size()
         return 7.6 * imgui.get_text_line_height_with_spacing() if page == "kinds" else 0.0
 
-    def _export(self, host: Host, format: disk.Format) -> None:
+    def _export(self, host: Host, format: disk.DiskFormat) -> None:
         """Asks where, and writes the image that is shown there, as it is stored."""
         assert self.source is not None
         color, options = self.source.color, host.state.of(LaboratoryOptions)

@@ -35,7 +35,7 @@ from app.lecture.schema import (
 from app.lecture.step_options import files_named, options_from_table, with_files
 from app.lecture.under import under
 from app.lecture.written import formulas_written, pieces_written
-from app.state.all_options import Options
+from app.state.all_options import AllOptions
 from renderer.errors import LucidaError
 from renderer.frame import check_size
 from renderer.pixels import Indexing
@@ -222,7 +222,7 @@ class _LectureReader:
         """The step's options; pixels are counted as the lecture says, in all of its steps."""
         options = with_files(options_from_table(tables), self._folder)
         one_based = self._indexing is Indexing.LECTURE
-        if one_based != Options().one_based:
+        if one_based != AllOptions().one_based:
             options = {"one_based": one_based} | options
         if options.get("one_based", one_based) != one_based:
             raise LucidaError(

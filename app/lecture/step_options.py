@@ -15,7 +15,7 @@ from typing import Any, get_args, get_type_hints
 import msgspec
 
 from app.lecture.under import under
-from app.state.all_options import Options
+from app.state.all_options import AllOptions
 from app.state.bounds import check, files_of
 from app.storage.paths import stored
 from renderer.camera import Camera
@@ -29,30 +29,30 @@ _types = lru_cache(get_type_hints)  # which takes long
 OWN = ("preferences", "bookmarks")  # the user's own, which no step changes
 ELSEWHERE = (*OWN, "marked", "highlight")  # what has a field of its own in a step
 
-NAMES = tuple(entry.name for entry in fields(Options) if entry.name not in ELSEWHERE)
+NAMES = tuple(entry.name for entry in fields(AllOptions) if entry.name not in ELSEWHERE)
 
 
-def own(options: Options) -> Options:
+def own(options: AllOptions) -> AllOptions:
     """What is the user's own, the rest as on the first day."""
-    return replace(Options(), **{name: getattr(options, name) for name in (*OWN, "language")})
+    return replace(AllOptions(), **{name: getattr(options, name) for name in (*OWN, "language")})
 
 
 def options_from_table(tables: dict[str, Any]) -> dict[str, Any]:
     """The changes as AppState.with_options() takes them. Raises LucidaError."""
-    types = _types(Options)
+    types = _types(AllOptions)
     changes: dict[str, Any] = {}
     for name, value in tables.items():
         if name not in NAMES:
             raise LucidaError(name, "is unknown", suggestion(name, NAMES))
         kind = types[name]
         if not is_dataclass(kind):
-            changes[name] = getattr(to_struct({name: value}, _struct(Options)), name)
+            changes[name] = getattr(to_struct({name: value}, _struct(AllOptions)), name)
         elif not isinstance(value, dict):
             raise LucidaError(name, "is not a table", f"give e.g. {name}.{fields(kind)[0].name}")
         else:
             with under(name):
                 changes[name] = _part(kind, value)
-    check(Options, changes)
+    check(AllOptions, changes)
     return changes
 
 
@@ -79,7 +79,7 @@ def with_files(changes: dict[str, Any], folder: Path) -> dict[str, Any]:
 
 def _with_files(tables: dict[str, Any]) -> Iterator[tuple[type, str, dict[str, Any]]]:
     """The parts of options that name files: their class, their name, what they hold."""
-    types = _types(Options)
+    types = _types(AllOptions)
     for name, part in tables.items():
         kind = types.get(name)
         if isinstance(kind, type) and is_dataclass(kind) and isinstance(part, dict):

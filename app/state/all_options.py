@@ -34,7 +34,7 @@ def _with_kinds(cls: type) -> type:
 
 
 @_with_kinds
-class Options(SharedOptions):
+class AllOptions(SharedOptions):
     """Session and lecture files have the instruments' beside the shared ones: `stepper.canvas`."""
 
     def of(self, kind: type[T]) -> T:

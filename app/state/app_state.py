@@ -10,7 +10,7 @@ from collections.abc import Hashable
 from dataclasses import dataclass, field, replace
 from typing import Any, TypeVar
 
-from app.state.all_options import Options
+from app.state.all_options import AllOptions
 from app.state.bounds import clamped
 from app.state.options import ImageOptions, Pixel, Preferences
 from renderer.camera import Camera
@@ -33,7 +33,7 @@ class AppState:
     scene: Scene
     view: View
     keep_orthonormal: bool
-    options: Options = field(default_factory=Options)
+    options: AllOptions = field(default_factory=AllOptions)
     step: tuple[str, int] | None = None
 
     @classmethod
@@ -69,7 +69,7 @@ class AppState:
         return self.options.of(kind)
 
     def with_options(self, **changes: Any) -> AppState:
-        """The state with other options: fields of Options, or of one of its parts by its name,
+        """The state with other options: fields of AllOptions, or of one of its parts by its name,
         as in with_options(images={"exposure_ev": 1.0}, shadows=True). What a key or a field asks
         for beyond an option's bounds comes to the nearest bound."""
         changes = {

@@ -11,7 +11,7 @@ from dataclasses import dataclass, field
 
 import msgspec
 
-from app.state.all_options import Options
+from app.state.all_options import AllOptions
 from app.state.app_state import AppState
 from app.state.bounds import check
 from app.storage.kept_lecture import KeptLecture
@@ -52,7 +52,7 @@ class Session:
     scene: str
     view: View
     keep_orthonormal: bool = True
-    options: Options = field(default_factory=Options)
+    options: AllOptions = field(default_factory=AllOptions)
     arrangement: Arrangement = field(default_factory=Arrangement)
     lecture: KeptLecture | None = None
 

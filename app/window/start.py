@@ -18,7 +18,7 @@ from app.lecture.session import LectureSession
 from app.lecture.states import state_of
 from app.lecture.step_options import own
 from app.poses.model import PoseSet
-from app.state.all_options import Options
+from app.state.all_options import AllOptions
 from app.state.app_state import AppState
 from app.storage.kept_lecture import KeptLecture
 from app.storage.session import Session
@@ -126,24 +126,24 @@ def begin_lecture(lecture: Lecture, number: int = 0, folder: Path | None = None)
     return Start(first_state(lecture, number, options), keeper=keeper, message=message)
 
 
-def _in_place(fresh: bool, folder: Path | None) -> tuple[Options, Keeper | None, str]:
+def _in_place(fresh: bool, folder: Path | None) -> tuple[AllOptions, Keeper | None, str]:
     """A place for another session, and what to take from the one that was there: its options, and
     what the user is told about it."""
     place = take_place(folder)
     if place is None:
-        return Options(), None, ""
+        return AllOptions(), None, ""
     found = Found() if fresh else place.load()
-    options = found.session.options if found.session is not None else Options()
+    options = found.session.options if found.session is not None else AllOptions()
     return options, Keeper(place, hello_imgui.request_refresh), found.message
 
 
-def first_state(lecture: Lecture, number: int = 0, options: Options | None = None) -> AppState:
+def first_state(lecture: Lecture, number: int = 0, options: AllOptions | None = None) -> AppState:
     """What a lecture begins with: the step's state, to be seen from the last row. options: the
     user's."""
     step = lecture.steps[number]
     seen = replace(
         AppState.for_scene(step.scene, step.view),
-        options=options or Options(),
+        options=options or AllOptions(),
         step=(lecture.source, number),
     )
     seen = seen.with_options(preferences={"presentation": True, "reduced_motion": False})

@@ -20,7 +20,7 @@ from window_driver import SIZE, Driver, Key
 
 from app.host import layout
 from app.pair.view import RASTER, RAY
-from app.state.all_options import Options
+from app.state.all_options import AllOptions
 from app.state.bounds import check
 from app.storage.session import from_bytes, session_of, to_bytes
 from app.window.action_table import ACTIONS
@@ -258,7 +258,7 @@ class Attack:
 
     def _check(self) -> None:
         state, stage = self.window.state, self.window.shell.stage
-        check(Options, state.options)
+        check(AllOptions, state.options)
         kept = from_bytes(to_bytes(session_of(state, stage.arrangement())))
         assert (kept.view, kept.options) == (state.view, state.options), "no session can hold this"
         assert not stage.failures, stage.failures

@@ -11,7 +11,7 @@ from app.lecture.exercises import ChoiceExercise, RayExercise
 from app.lecture.reading import BUILTIN, lecture_from_toml, load_lecture
 from app.lecture.states import state_of
 from app.lecture.step_options import ELSEWHERE
-from app.state.all_options import Options
+from app.state.all_options import AllOptions
 from app.state.app_state import AppState
 from renderer.camera import Camera
 from renderer.errors import LucidaError
@@ -95,7 +95,7 @@ class TestReading:
 
     def test_every_option_is_known_to_a_step(self):
         lines = [line for line in FILE.splitlines() if not line.startswith("options.")]
-        for name in {entry.name for entry in fields(Options)} - set(ELSEWHERE):
+        for name in {entry.name for entry in fields(AllOptions)} - set(ELSEWHERE):
             broken = "\n".join([*lines[:20], f"options.{name} = []", *lines[20:]])
             with pytest.raises(LucidaError, match=rf"x\.toml:21: steps\[0\]\.options\.{name}: "):
                 read(broken)

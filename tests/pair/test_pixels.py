@@ -9,7 +9,7 @@ import pytest
 
 from app.cli import main
 from app.pair.actions import COUNTING
-from app.state.all_options import Options
+from app.state.all_options import AllOptions
 from app.window.action_table import ACTIONS
 from renderer.pixels import Indexing
 
@@ -29,8 +29,8 @@ def test_pixels_are_counted_as_chosen():
 
 
 def test_the_window_has_one_setting_for_all():
-    assert Options().indexing is Indexing.LECTURE
-    assert Options(one_based=False).indexing is Indexing.ARRAY
+    assert AllOptions().indexing is Indexing.LECTURE
+    assert AllOptions(one_based=False).indexing is Indexing.ARRAY
     assert [action.name for action in ACTIONS if action.menu == COUNTING] == [
         "Pixels from 1 (lecture)",
         "Pixels from 0 (arrays)",

@@ -15,7 +15,7 @@ from app.laboratory.options import LaboratoryOptions
 from app.lecture.step_options import options_from_table
 from app.outside.options import OutsideOptions
 from app.probe.options import ProbeOptions
-from app.state.all_options import Options
+from app.state.all_options import AllOptions
 from app.state.app_state import AppState
 from app.state.bounds import Accepted, AtMost, Range, check, clamped, range_of, whole_range_of
 from app.state.options import Bookmark, ImageOptions, Preferences
@@ -80,21 +80,21 @@ def _numbers(hint: Any, bounded: bool, path: str) -> Any:
 
 
 def test_every_number_among_the_options_has_a_bound():
-    found = dict(_numbers(Options, False, "options"))
+    found = dict(_numbers(AllOptions, False, "options"))
     assert len(found) > 15
     assert [path for path, bounded in found.items() if not bounded] == []
 
 
 def test_every_list_among_the_options_has_a_length():
-    for kind in (Options, ProbeOptions):
+    for kind in (AllOptions, ProbeOptions):
         for name, hint in get_type_hints(kind, include_extras=True).items():
             if Ellipsis in get_args(hint) or Ellipsis in get_args(get_args(hint)[:1] or None):
                 assert any(isinstance(m, AtMost) for m in hint.__metadata__), name
 
 
 def test_the_defaults_are_within_their_bounds():
-    check(Options, Options())
-    assert clamped(Options()) == Options()
+    check(AllOptions, AllOptions())
+    assert clamped(AllOptions()) == AllOptions()
 
 
 @pytest.mark.parametrize(("part", "field", "value", "entry", "told"), WRONG)
@@ -127,7 +127,7 @@ def test_what_a_key_or_a_field_asks_for_comes_within_bounds(state, part, field, 
     if isinstance(value, list):
         value = tuple(tuple(v) if isinstance(v, list) else v for v in value)
     changed = state.with_options(**{part: {field: value}})
-    check(Options, changed.options)
+    check(AllOptions, changed.options)
     read = from_bytes(to_bytes(session_of(changed, Arrangement())))
     assert read.options == changed.options
 
@@ -163,7 +163,7 @@ def test_what_is_within_bounds_is_the_same_value(state):
 def test_bookmarks_have_a_key(state):
     for number in (0, 10):
         with pytest.raises(LucidaError, match=r"bookmarks\[0\].number: .* give 1 to 9"):
-            check(Options, Options(bookmarks=(Bookmark(number, "", state.view),)))
+            check(AllOptions, AllOptions(bookmarks=(Bookmark(number, "", state.view),)))
 
 
 def test_sliders_take_their_limits_from_the_fields():

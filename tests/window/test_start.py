@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 
 from app.cli import main
-from app.state.all_options import Options
+from app.state.all_options import AllOptions
 from app.storage.session import Arrangement, session_of
 from app.storage.session_store import Keeper, take_place
 from app.window import start
@@ -130,4 +130,4 @@ def test_fresh_takes_nothing_for_a_named_scene(tmp_path):
     assert begun.keeper is not None
     begun.keeper.close(None)
     assert begun.fresh  # the window's layout, too
-    assert begun.state.options == Options()
+    assert begun.state.options == AllOptions()
