@@ -18,9 +18,10 @@ from renderer.camera import Camera, Size
 from renderer.camera_checks import listed
 from renderer.camera_formats.blender_camera import DEFAULTS, KNOWN, TURNS, posed
 from renderer.camera_formats.blender_values import Found, Values, script, tables
+from renderer.camera_formats.entries import in_image
 from renderer.camera_formats.given import Given, Options
 from renderer.camera_formats.posed import CameraSet, PosedCamera
-from renderer.camera_formats.rigid import known_size, pose_of, rigid, sized
+from renderer.camera_formats.rigid import pose_of, rigid
 from renderer.errors import LucidaError
 from renderer.scene.reading import check_bytes
 
@@ -76,8 +77,8 @@ def write(cameras: Sequence[PosedCamera], options: Options) -> dict[str, bytes]:
     render: dict[str, float] = {}
     for one in cameras:
         try:
-            camera, size = sized(one, options)
-            entry, its_render = _entry(camera, known_size(size, "Blender"))
+            camera, size = in_image(one, options, "Blender")
+            entry, its_render = _entry(camera, size)
             for key, value in its_render.items():
                 known = float(render.setdefault(key, value) or 0.0)
                 if not math.isclose(known, value, rel_tol=1e-9):

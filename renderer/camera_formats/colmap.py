@@ -18,9 +18,10 @@ import numpy as np
 from renderer.camera import Camera, Size
 from renderer.camera_formats import colmap_binary, colmap_text
 from renderer.camera_formats.colmap_records import Cloud, Lenses, PosedImage, at
+from renderer.camera_formats.entries import in_image
 from renderer.camera_formats.given import Given, Options
 from renderer.camera_formats.posed import CameraSet, PosedCamera
-from renderer.camera_formats.rigid import known_size, quaternion_of, rigid, rotation_of, sized
+from renderer.camera_formats.rigid import quaternion_of, rigid, rotation_of
 from renderer.errors import LucidaError
 from renderer.scene.reading import read_file
 
@@ -88,8 +89,8 @@ def write(cameras: Sequence[PosedCamera], options: Options) -> dict[str, bytes]:
             if len(name.split()) != 1 or name in names or not name.isprintable():
                 fault = "is given twice" if name in names else "is no single word"
                 raise LucidaError("name", f"{name!r} {fault}", "give each camera a name of its own")
-            camera, size = sized(posed, options)
-            lens, pose = _lines_of(camera, known_size(size, "COLMAP"))
+            camera, size = in_image(posed, options, "COLMAP")
+            lens, pose = _lines_of(camera, size)
         except LucidaError as error:
             raise error.within(name) from None
         names.add(name)

@@ -90,10 +90,17 @@ def single(cameras: Sequence[PosedCamera], what: str) -> PosedCamera:
     return cameras[0]
 
 
-def sized(posed: PosedCamera, options: Options) -> tuple[Camera, Size]:
-    """A camera as it is for its image's size, which the format needs. Raises LucidaError."""
+def sized(posed: PosedCamera, options: Options) -> tuple[Camera, Size | None]:
+    """The camera for the size of its image, and that size: its own, or the one that was asked
+    for; None where neither is known."""
     size = posed.size or options.size
+    camera = posed.camera.fitted(size) if posed.fit and size is not None else posed.camera
+    return camera, size
+
+
+def in_image(posed: PosedCamera, options: Options, target: str) -> tuple[Camera, Size]:
+    """The same, for a format that needs a size. Raises LucidaError."""
+    camera, size = sized(posed, options)
     if size is None:
-        raise LucidaError("size", "is missing: the camera has no image", "give --size WxH")
-    size = check_size(size)
-    return (posed.camera.fitted(size) if posed.fit else posed.camera), size
+        raise LucidaError("size", f"is not known, and {target} needs one", "give --size WxH")
+    return camera, check_size(size)

@@ -15,9 +15,10 @@ from typing import Any
 import numpy as np
 
 from renderer.camera import Camera
+from renderer.camera_formats.entries import sized
 from renderer.camera_formats.given import Given, Options
 from renderer.camera_formats.posed import CameraSet, PosedCamera
-from renderer.camera_formats.rigid import rigid, sized
+from renderer.camera_formats.rigid import rigid
 from renderer.errors import LucidaError
 from renderer.scene.gltf_cameras import UNCLIPPED, gltf_camera
 from renderer.scene.gltf_file import parse_gltf

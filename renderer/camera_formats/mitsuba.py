@@ -13,9 +13,10 @@ from collections.abc import Sequence
 import numpy as np
 
 from renderer.camera import Camera, Size
+from renderer.camera_formats.entries import in_image
 from renderer.camera_formats.given import Options
 from renderer.camera_formats.posed import PosedCamera
-from renderer.camera_formats.rigid import centred, known_size, rigid, sized
+from renderer.camera_formats.rigid import centred, rigid
 from renderer.errors import LucidaError
 
 SQUARE = 1e-6  # a pixel's width over its height, less 1, that is square up to rounding
@@ -28,8 +29,8 @@ NEAR_OF_FARTHEST = 1e-5
 def write(cameras: Sequence[PosedCamera], options: Options) -> dict[str, bytes]:
     lines = ['<?xml version="1.0" encoding="utf-8"?>', '<scene version="3.0.0">']
     for posed in cameras:
-        camera, size = sized(posed, options)
-        lines += sensor_lines(camera, known_size(size, "mitsuba"))
+        camera, size = in_image(posed, options, "mitsuba")
+        lines += sensor_lines(camera, size)
     return {"": "\n".join([*lines, "</scene>", ""]).encode()}
 
 

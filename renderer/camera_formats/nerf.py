@@ -22,10 +22,10 @@ from renderer.camera_formats import distortion
 from renderer.camera_formats.entries import (
     ORIGIN_TOLD,
     affine,
+    in_image,
     is_rotation,
     number_of,
     size_of,
-    sized,
 )
 from renderer.camera_formats.given import Given, Options
 from renderer.camera_formats.posed import CameraSet, Distortion, PosedCamera
@@ -227,7 +227,7 @@ def _lens(table: Table, K: Floats, size: Size, origin: str) -> Distortion | None
 
 
 def _frame(posed: PosedCamera, index: int, options: Options, origin: str) -> dict[str, Any]:
-    camera, size = sized(posed, options)
+    camera, size = in_image(posed, options, "NeRF")
     K, R, _ = camera.intrinsics(size, origin)
     if abs(K[0, 1]) > _SKEW * abs(K[0, 0]):
         problem = f"u and v are not at right angles in the image: K's skew is {K[0, 1]:g}"

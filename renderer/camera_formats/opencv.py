@@ -19,12 +19,12 @@ from renderer.camera_formats.entries import (
     ORIGIN_TOLD,
     affine,
     flat,
+    in_image,
     is_rotation,
     number_of,
     side_of,
     single,
     size_of,
-    sized,
 )
 from renderer.camera_formats.given import Given, Options
 from renderer.camera_formats.literals import NAME
@@ -113,7 +113,7 @@ def read(given: Given, options: Options) -> CameraSet:
 
 
 def write(cameras: Sequence[PosedCamera], options: Options) -> dict[str, bytes]:
-    camera, size = sized(single(cameras, "a file of OpenCV"), options)
+    camera, size = in_image(single(cameras, "a file of OpenCV"), options, "OpenCV")
     origin = options.pixel_origin or "center"
     K, R, t = (part + 0.0 for part in camera.intrinsics(size, origin))  # no negative zeros
     notes = [

@@ -14,7 +14,7 @@ import numpy as np
 
 from renderer.camera import Camera
 from renderer.camera_checks import Floats, Vector, listed
-from renderer.camera_formats.entries import single, sized
+from renderer.camera_formats.entries import in_image, single
 from renderer.camera_formats.given import Given, Options
 from renderer.camera_formats.posed import CameraSet, PosedCamera
 from renderer.errors import LucidaError
@@ -66,7 +66,7 @@ def read(given: Given, options: Options) -> CameraSet:
 
 def write(cameras: Sequence[PosedCamera], options: Options) -> dict[str, bytes]:
     posed = single(cameras, "a pair of matrices")
-    camera = sized(posed, options)[0] if posed.fit else posed.camera
+    camera = in_image(posed, options, "OpenGL")[0] if posed.fit else posed.camera
     return {"": matrices(camera, AROUND, CHOSEN).encode()}
 
 

@@ -12,9 +12,9 @@ from collections.abc import Iterable, Sequence
 import numpy as np
 
 from renderer.camera import Camera, Size
+from renderer.camera_formats.entries import in_image
 from renderer.camera_formats.given import Options
 from renderer.camera_formats.posed import PosedCamera
-from renderer.camera_formats.rigid import known_size, sized
 from renderer.errors import LucidaError
 
 
@@ -22,8 +22,8 @@ def write(cameras: Sequence[PosedCamera], options: Options) -> dict[str, bytes]:
     if len(cameras) != 1:
         problem = f"a scene of pbrt holds one camera, not {len(cameras)}"
         raise LucidaError("", problem, "choose one with --frame or --image")
-    camera, size = sized(cameras[0], options)
-    lines = camera_lines(camera, known_size(size, "pbrt"))
+    camera, size = in_image(cameras[0], options, "pbrt")
+    lines = camera_lines(camera, size)
     return {"": ("\n".join(lines) + "\n").encode()}
 
 

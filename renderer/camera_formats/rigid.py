@@ -13,10 +13,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from renderer.camera import Camera, Size
+from renderer.camera import Camera
 from renderer.camera_checks import Floats, listed
-from renderer.camera_formats.given import Options
-from renderer.camera_formats.posed import PosedCamera
 from renderer.errors import LucidaError
 
 STRAIGHT = 1e-6  # a cosine below this is float32's rounding: at right angles, and made so
@@ -75,21 +73,6 @@ def centred(camera: Camera) -> Camera:
     eye = np.asarray(camera.eye) + x * np.asarray(camera.u) + y * np.asarray(camera.v)
     viewport = left - x, right - x, bottom - y, top - y
     return replace(camera, eye=tuple(eye.tolist()), viewport=viewport)
-
-
-def sized(posed: PosedCamera, options: Options) -> tuple[Camera, Size | None]:
-    """The camera for the size of its image, and that size: its own, or the one that was asked
-    for; None where neither is known."""
-    size = posed.size or options.size
-    camera = posed.camera.fitted(size) if posed.fit and size is not None else posed.camera
-    return camera, size
-
-
-def known_size(size: Size | None, target: str) -> Size:
-    """Raises LucidaError where the format needs one and none is known."""
-    if size is None:
-        raise LucidaError("size", f"is not known, and {target} needs one", "give --size WxH")
-    return size
 
 
 def pose_of(camera: Camera) -> Floats:

@@ -18,9 +18,10 @@ import numpy as np
 
 from renderer.camera import Camera, Size
 from renderer.camera_checks import LARGEST, Floats, listed, number, numbers, positive
+from renderer.camera_formats.entries import sized
 from renderer.camera_formats.given import Given, Options
 from renderer.camera_formats.posed import CameraSet, PosedCamera
-from renderer.camera_formats.rigid import pose_of, rigid, rotation_of, sized
+from renderer.camera_formats.rigid import pose_of, rigid, rotation_of
 from renderer.errors import LucidaError
 
 PERSPECTIVE, PARALLEL = "PerspectiveCamera", "OrthographicCamera"

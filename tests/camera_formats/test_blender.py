@@ -196,7 +196,7 @@ def test_what_is_written_runs_as_python_and_nothing_that_is_read_does(tmp_path):
     ("posed", "said"),
     [
         (SKEWED, "skewed.v: (0.5, 1, 0) is not at right angles to u = (1, 0, 0), which Blender"),
-        (MIRRORED, "mirrored.w: (0, 0, 1) is left-handed with u and v, a mirror that Blender has"),
+        (MIRRORED, "mirrored.u: (-1, 0, 0) is left-handed with v and w, a mirror that Blender has"),
         (ASKANCE, "askance.w: (0.2, 0, 1) is not at right angles to u and v, which Blender"),
         (PosedCamera(Camera()), "size: is not known, and Blender needs one; give --size WxH"),
         (
@@ -255,7 +255,7 @@ def changed(**fields):
         ),
         (
             changed(matrix_world=np.diag([1e200, 1, 1, 1]).tolist()),
-            "matrix_world: 1e+200 is too la",
+            "matrix_world: has the number 1e+200, which is too la",
         ),
         (
             changed(pixel_aspect_y=1e-300, sensor_fit="VERTICAL"),

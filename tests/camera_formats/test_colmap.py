@@ -195,7 +195,7 @@ def test_the_size_that_was_asked_for_fits_a_camera_that_has_none():
     ("cameras", "said"),
     [
         ([SKEWED], "skewed.v: (0.5, 1, 0) is not at right angles"),
-        ([MIRRORED], "mirrored.w: "),
+        ([MIRRORED], "mirrored.u: "),
         ([ASKANCE], "askance.projection: 'parallel' has no focal length, which COLMAP needs; "),
         ([PosedCamera(Camera(), None, "a")], "a.size: is not known, and COLMAP needs one; give --"),
         ([PosedCamera(Camera(), (4, 4), "a b")], "a b.name: 'a b' is no single word; give each "),

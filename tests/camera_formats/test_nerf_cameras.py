@@ -165,7 +165,7 @@ def test_what_frames_share_is_written_once() -> None:
 def test_what_transforms_cannot_hold(camera: Camera, told: str) -> None:
     with pytest.raises(LucidaError, match=told):
         written([posed(Camera(), (4, 4)), posed(camera, (4, 4), "a.png")], "nerf")
-    with pytest.raises(LucidaError, match="size: is missing"):
+    with pytest.raises(LucidaError, match="size: is not known"):
         written([PosedCamera(Camera(), fit=True)], "nerf")
 
 
@@ -206,7 +206,7 @@ def turned(row: int, column: int, number: object) -> list:
         (first({"fl_x": True}), "fl_x: True is not a number"),
         (first({"fl_x": 1e308}), "fl_x: 1e"),
         (first({"w": 0}), "w: 0 is no count"),
-        (first({"w": 10**400}), "w: inf is not finite"),
+        (first({"w": 10**400}), "w: 1000"),
         (first({"h": None}), "w|h: None is not a number"),
         (first({"k1": "x"}), "k1: 'x' is not a number"),
         (

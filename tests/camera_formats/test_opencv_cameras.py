@@ -357,7 +357,7 @@ def test_what_a_file_of_opencv_cannot_hold() -> None:
     camera = Camera()
     for cameras, told in (
         ([posed(camera, (4, 4))] * 2, "holds one camera, not 2; choose one"),
-        ([posed(camera, None)], "size: is missing"),
+        ([posed(camera, None)], "size: is not known"),
         ([posed(Camera(projection="parallel"), (4, 4))], "projection: 'parallel'"),
     ):
         with pytest.raises(LucidaError, match=told):

@@ -98,7 +98,7 @@ def test_an_oblique_near_plane_is_told() -> None:
 def test_of_a_fitted_camera_the_matrices_are_of_its_image() -> None:
     text = written([PosedCamera(CAMERA, (100, 300), fit=True)], "opengl")[""].decode()
     assert_same_pixels(CAMERA.fitted((100, 300)), pasted(text).cameras[0].camera, (100, 300))
-    with pytest.raises(LucidaError, match="size: is missing"):
+    with pytest.raises(LucidaError, match="size: is not known"):
         written([PosedCamera(CAMERA, fit=True)], "opengl")
     with pytest.raises(LucidaError, match="holds one camera, not 2"):
         written([posed(CAMERA, None)] * 2, "opengl")

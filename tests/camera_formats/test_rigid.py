@@ -33,7 +33,7 @@ def test_a_rigid_camera_has_the_same_rays(projection):
     ("posed", "said"),
     [
         (SKEWED, "v: (0.5, 1, 0) is not at right angles to u = (1, 0, 0), which it cannot hold; "),
-        (MIRRORED, "w: (0, 0, 1) is left-handed with u and v, a mirror that it has not; negate u"),
+        (MIRRORED, "u: (-1, 0, 0) is left-handed with v and w, a mirror that it has not; negate u"),
         (ASKANCE, "w: (0.2, 0, 1) is not at right angles to u and v, which it cannot hold in "),
     ],
 )
