@@ -155,7 +155,7 @@ def test_several_cameras_are_children_of_one_group():
 
 @pytest.mark.parametrize("posed", [SKEWED, MIRRORED, ASKANCE])
 def test_what_three_cannot_hold_is_not_written(posed):
-    with pytest.raises(LucidaError, match=rf"^{posed.name}\.[uv]: .* three\.js "):
+    with pytest.raises(LucidaError, match=rf"^{posed.name}\.[uvw]: .* three\.js "):
         written([posed], "three")
 
 
