@@ -60,12 +60,12 @@ def read(given: Given, options: Options) -> CameraSet:
     size, taken = _size_for_all(table, frames, folder, options)
     cameras = []
     for i, frame in enumerate(frames):
+        if not isinstance(frame, dict):
+            raise LucidaError(f"frames[{i}]", "is no JSON object", "give a transform_matrix")
         try:
-            if not isinstance(frame, dict):
-                raise LucidaError("", "is no JSON object", "give a transform_matrix")
             cameras.append(_camera({**table, **frame}, size, folder, options))
         except LucidaError as error:
-            inside = error.field in frame or error.field in ("", "transform_matrix")
+            inside = error.field in ("transform_matrix", *frame)
             raise error.within(f"frames[{i}]") if inside else error from None
     origin = options.pixel_origin or "corner"
     told = ["transform_matrix takes the camera's points to the world"]

@@ -30,7 +30,7 @@ from renderer.camera_formats.given import Given, Options
 from renderer.camera_formats.literals import NAME
 from renderer.camera_formats.posed import CameraSet, Distortion, PosedCamera
 from renderer.camera_formats.rotations import from_vector, to_vector
-from renderer.camera_formats.storage import Table, table_in, to_json, to_yaml
+from renderer.camera_formats.storage import MOST_BYTES, Table, table_in, to_json, to_yaml
 from renderer.errors import LucidaError
 from renderer.intrinsics import as_camera_from_world, decomposed, pixel_offset
 
@@ -78,6 +78,8 @@ class _Names:
 
 
 def recognises(given: Given) -> bool:
+    if len(given.data) > MOST_BYTES:
+        return False
     if isinstance(given.json, dict):
         names = {_plain(name) for name in given.json}
     elif given.is_text:
@@ -113,7 +115,7 @@ def read(given: Given, options: Options) -> CameraSet:
 def write(cameras: Sequence[PosedCamera], options: Options) -> dict[str, bytes]:
     camera, size = sized(single(cameras, "a file of OpenCV"), options)
     origin = options.pixel_origin or "center"
-    K, R, t = camera.intrinsics(size, origin)
+    K, R, t = (part + 0.0 for part in camera.intrinsics(size, origin))  # no negative zeros
     notes = [
         "A world point p is seen at the pixel K (R p + t), divided by its third part:",
         f"x to the right, y down, z forward; {ORIGIN_TOLD[origin]}.",

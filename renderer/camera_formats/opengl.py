@@ -19,8 +19,11 @@ from renderer.camera_formats.given import Given, Options
 from renderer.camera_formats.posed import CameraSet, PosedCamera
 from renderer.errors import LucidaError
 from renderer.intrinsics import matrix
+from renderer.scene.reading import check_bytes
 
 Order = Literal["column by column", "row by row"]
+
+MOST_BYTES = 1 << 20
 
 AROUND = (0.1, 100.0)  # near and far of a camera that has none, where there is no scene
 FITTED, CHOSEN = "fitted to the scene", "chosen freely"  # near and far that are not the camera's
@@ -37,7 +40,7 @@ def recognises(given: Given) -> bool:
     if isinstance(given.json, dict):
         found = [next((n for n in names if n in given.json), "") for names in (_VIEW, _CLIP)]
         return all(found) and all(isinstance(given.json[name], list) for name in found)
-    return given.is_text and has_matrices(given.text)
+    return len(given.data) <= MOST_BYTES and given.is_text and has_matrices(given.text)
 
 
 def has_matrices(text: str) -> bool:
@@ -49,6 +52,7 @@ def has_matrices(text: str) -> bool:
 
 
 def read(given: Given, options: Options) -> CameraSet:
+    check_bytes(len(given.data), MOST_BYTES, given.name)
     if given.json is not None:
         view, clip = _in_table(given.json, _VIEW), _in_table(given.json, _CLIP)
         fitted = False
@@ -123,6 +127,7 @@ def _in_table(table: Any, names: tuple[str, ...]) -> tuple[str, Floats]:
     return found, matrix(found, table[found], (4, 4), (16,)).reshape(4, 4)
 
 
+@np.errstate(all="ignore")  # what overflows is no camera, which its own checks tell
 def _camera(
     names: tuple[str, str], view: Floats, clip: Floats, fitted: bool
 ) -> tuple[Camera, tuple[str, ...]]:
@@ -145,8 +150,7 @@ def _camera(
     to_camera = np.eye(4)
     to_camera[:3, :3] = skew
     try:
-        with np.errstate(all="ignore"):
-            world_from_camera = np.linalg.inv(to_camera @ view)
+        world_from_camera = np.linalg.inv(to_camera @ view)
     except np.linalg.LinAlgError:
         raise LucidaError(names[0], "has no inverse", "give another") from None
     middle = clip[:2, 3 if parallel else 2] * (1 if parallel else -1) / np.abs((a, b))
@@ -188,11 +192,10 @@ def _last(table: Floats, order: Order) -> Floats:
 
 
 def _clip_planes(clip: Floats, parallel: bool) -> tuple[float | None, float | None]:
-    with np.errstate(all="ignore"):
-        if parallel:
-            near, far = (clip[2, 3] + 1) / clip[2, 2], (clip[2, 3] - 1) / clip[2, 2]
-        else:
-            near, far = clip[2, 3] / (clip[2, 2] - 1), clip[2, 3] / (clip[2, 2] + 1)
+    if parallel:
+        near, far = (clip[2, 3] + 1) / clip[2, 2], (clip[2, 3] - 1) / clip[2, 2]
+    else:
+        near, far = clip[2, 3] / (clip[2, 2] - 1), clip[2, 3] / (clip[2, 2] + 1)
     return (
         float(near) if 0 < near < np.inf else None,
         float(far) if 0 < far < np.inf else None,

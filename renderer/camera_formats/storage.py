@@ -21,10 +21,11 @@ from renderer.scene.reading import check_bytes
 
 Table = dict[str, Any]
 
-MOST_BYTES = 1 << 20  # a calibration of some thousand corners; YAML takes its time
+MOST_BYTES = 1 << 19  # a calibration of some thousand corners; YAML takes its time
 
 _DIRECTIVE = re.compile(r"\A%YAML[^\n]*\n?")  # OpenCV's "%YAML:1.0" is none
 _YAML = re.compile(r"^\s*(?:rows|data)\s*:", re.MULTILINE)
+_PYTHON = re.compile(r"\s*\{\s*'")  # a dictionary as it prints
 _MATRIX = ("rows", "cols", "data")
 
 
@@ -32,7 +33,7 @@ def table_in(given: Given) -> Table:
     """The values of a file or a text, by their names. Raises LucidaError."""
     check_bytes(len(given.data), MOST_BYTES, given.name)
     text = given.text
-    if given.ending == ".json" or text.lstrip()[:1] == "{":
+    if given.ending == ".json" or (text.lstrip()[:1] == "{" and not _PYTHON.match(text)):
         table = _from_json(text)
     elif text.lstrip()[:1] == "<":
         table = _from_xml(text)
@@ -108,7 +109,7 @@ def _from_json(text: str) -> Any:
 
 def _from_yaml(text: str) -> Any:
     try:
-        documents = yaml.load_all(_DIRECTIVE.sub("\n", text), _Loader)
+        documents = yaml.load_all(_DIRECTIVE.sub("\n", text), _PlainYaml)
         return next((document for document in documents if document is not None), None)
     except yaml.MarkedYAMLError as error:
         mark = error.problem_mark
@@ -122,7 +123,7 @@ def _from_yaml(text: str) -> Any:
         raise LucidaError("", "holds a number that cannot be", "correct it") from None
 
 
-class _Loader(yaml.SafeLoader):
+class _PlainYaml(yaml.SafeLoader):
     """Plain values alone. No value stands for another one, whose copies might have no end."""
 
     def compose_node(self, parent: Any, index: Any) -> Any:
@@ -133,13 +134,13 @@ class _Loader(yaml.SafeLoader):
 
 
 # 1e-05, which YAML 1.1 takes for a text.
-_Loader.add_implicit_resolver(
+_PlainYaml.add_implicit_resolver(
     "tag:yaml.org,2002:float",
     re.compile(r"[-+]?(?:\d+\.?\d*|\.\d+)[eE][-+]?\d+\Z"),
     list("-+.0123456789"),
 )
 for _tag in ("opencv-matrix", "opencv-nd-matrix"):
-    _Loader.add_constructor(
+    _PlainYaml.add_constructor(
         f"tag:yaml.org,2002:{_tag}", lambda loader, node: loader.construct_mapping(node, deep=True)
     )
 

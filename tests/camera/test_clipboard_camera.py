@@ -128,24 +128,24 @@ def test_a_view_in_python_is_fitted_where_it_says_so(text: str, fit: bool) -> No
             "clip_from_camera: is missing",
         ),
         (
-            "camera_from_world = 1 0 0 4  0 1 0 5  0 0 1 6  0 0 0 1\nclip_from_camera = "
+            "camera_from_world = 1 0 0 4  0 1 0 5  0 0 1 6  7 8 9 1\nclip_from_camera = "
             + "1 " * 16,
-            "column by column; transpose",
+            "neither its last row nor its last column",
         ),
         (
-            "camera_from_world = 0 0 0 0  0 0 0 0  0 0 0 0  0 0 0 1\nclip_from_camera = "
-            + "1 " * 16,
+            "camera_from_world = 0 0 0 0  0 0 0 0  0 0 0 0  0 0 0 1\n"
+            "clip_from_camera = 1 0 0 0  0 1 0 0  0 0 1 0  0 0 0 1",
             "no inverse",
         ),
         (
             "camera_from_world = 1 0 0 0  0 1 0 0  0 0 1 0  0 0 0 1\nclip_from_camera = "
             + "1 " * 16,
-            "neither a perspective nor a parallel",
+            "clip_from_camera: is no projection",
         ),
         (
             "camera_from_world = 1 0 0 0  0 1 0 0  0 0 1 0  0 0 0 1\n"
             "clip_from_camera = 0 0 0 0  0 0 0 0  0 0 0 -1  0 0 0 0",
-            "viewport",
+            "clip_from_camera: its first two rows",
         ),
     ],
 )

@@ -116,7 +116,7 @@ def test_a_matrix_is_affine_to_a_millionth_of_its_largest_number(
     scale: float, off: float, is_read: bool
 ) -> None:
     text = (
-        f"camera_from_world = {scale} 0 0 {off}  0 {scale} 0 0  0 0 {scale} 0  0 0 0 1\n"
+        f"camera_from_world = {scale} 0 0 {off}  0 {scale} 0 0  0 0 {scale} 0  1 1 1 1\n"
         "clip_from_camera = 1 0 0 0  0 1 0 0  0 0 -1 0  0 0 0 1"
     )
     if is_read:
@@ -146,3 +146,41 @@ def test_of_parallel_matrices_clip_planes_in_front_of_the_eye_count(
     )
     camera = read_view(text, NOW).camera
     assert (camera.near, camera.far) == (near, far)
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "K = [[800. 0. 320.]\n [0. 800. 240.]\n [0. 0. 1.]]\nt = [0, 0, 4]\nsize = (640, 480)",
+        '{"w": 640, "h": 480, "fl_x": 800, "cx": 320.5, "cy": 240.5, "frames": [{'
+        '"transform_matrix": [[1, 0, 0, 0], [0, -1, 0, 0], [0, 0, -1, -4], [0, 0, 0, 1]]}]}',
+        '{"view": [[1, 0, 0, 0], [0, -1, 0, 0], [0, 0, -1, -4], [0, 0, 0, 1]], "projection": '
+        "[[2.5, 0, -0.0015625, 0], [0, 3.33333333333, 0.00208333333, 0], [0, 0, -1.01, -0.2], "
+        "[0, 0, -1, 0]]}",
+    ],
+)
+def test_what_others_write_is_pasted_at_the_present_distance(text: str) -> None:
+    view = read_view(text, NOW)
+    assert (view.camera.distance, view.fit) == (NOW.camera.distance, False)
+    back = Camera.from_intrinsics(
+        [[800, 0, 320], [0, 800, 240], [0, 0, 1]],
+        size=(640, 480),
+        camera_from_world=np.column_stack([np.eye(3), (0, 0, 4)]),
+    )
+    points = np.array([[0.1, 0.2, 0.3], [-1, 1, 2]])
+    for one, two in zip(
+        view.camera.project(points, (640, 480))[:2],
+        back.project(points, (640, 480))[:2],
+        strict=True,
+    ):
+        assert one == pytest.approx(two, abs=1e-6)
+
+
+def test_of_what_others_write_a_lens_and_several_cameras_are_told() -> None:
+    frame = '{"transform_matrix": [[1, 0, 0, 0], [0, 1, 0, 0], [0, 0, 1, 0], [0, 0, 0, 1]]}'
+    for text, told in (
+        (f'{{"camera_angle_x": 1, "frames": [{frame}, {frame}]}}', "clipboard: holds 2 cameras"),
+        ('{"K": [9, 9, 5, 5], "D": [0.5, 0, 0, 0]}', "clipboard: k1: 0.5 is a lens's distortion"),
+    ):
+        with pytest.raises(LucidaError, match=told):
+            read_view(text, NOW)

@@ -1,0 +1,229 @@
+"""transforms.json: as the synthetic scenes, instant-ngp and nerfstudio print it, there and back."""
+
+from __future__ import annotations
+
+import json
+import math
+from pathlib import Path
+
+import numpy as np
+import pytest
+from any_cameras import any_camera, assert_same_pixels, pasted, posed
+from PIL import Image
+
+from renderer.camera import Camera
+from renderer.camera_formats import PosedCamera, one_of, read_cameras, written
+from renderer.camera_formats.given import Options
+from renderer.errors import LucidaError
+
+POSE = [
+    [-0.9999021887779236, 0.004192245192825794, -0.013345719315111637, -0.05379832163453102],
+    [-0.013988681137561798, -0.2996590733528137, 0.95394366979599, 3.845470428466797],
+    [-4.656612873077393e-10, 0.9540371894836426, 0.29968830943107605, 1.2080823183059692],
+    [0.0, 0.0, 0.0, 1.0],
+]
+# The first frame of a synthetic scene.
+SYNTHETIC = {
+    "camera_angle_x": 0.6911112070083618,
+    "frames": [
+        {"file_path": "./train/r_0", "rotation": 0.012566370614359171, "transform_matrix": POSE}
+    ],
+}
+STUDIO = {
+    "camera_model": "OPENCV",
+    "fl_x": 1072.0,
+    "fl_y": 1068.0,
+    "cx": 1504.0,
+    "cy": 1000.0,
+    "w": 3008,
+    "h": 2000,
+    "k1": 0.0312,
+    "k2": 0.0051,
+    "p1": 0.0006,
+    "p2": 0.0001,
+    "applied_transform": [[0, 1, 0, 0], [1, 0, 0, 0], [0, 0, -1, 0]],
+    "frames": [
+        {"file_path": "images/frame_00001.jpeg", "transform_matrix": POSE},
+        {"file_path": "images/frame_00002.jpeg", "transform_matrix": POSE, "fl_x": 900.0, "w": 640},
+    ],
+}
+SHARP = STUDIO | {"k1": 0, "k2": 0.0, "p1": 0, "p2": 0}
+
+
+def first(change: dict, **frame: object) -> str:
+    return json.dumps(SHARP | {"frames": [STUDIO["frames"][0] | frame]} | change)
+
+
+def test_a_synthetic_scene_sees_what_its_formula_says(tmp_path: Path) -> None:
+    """The pixel (i, j) looks along ((j - W/2) / f, -(i - H/2) / f, -1), turned; pixel corners."""
+    (tmp_path / "train").mkdir()
+    Image.new("RGB", (800, 600)).save(tmp_path / "train" / "r_0.png")
+    path = tmp_path / "transforms_train.json"
+    path.write_text(json.dumps(SYNTHETIC))
+    found = read_cameras(path)
+    camera = one_of(found, "r_0")
+    assert (found.format, camera.size, camera.name) == ("nerf", (800, 600), "train/r_0")
+    assert Path(camera.image) == tmp_path / "train" / "r_0.png"
+    assert any("the size of" in phrase for phrase in found.taken)
+    focal = 0.5 * 800 / math.tan(0.5 * SYNTHETIC["camera_angle_x"])
+    i, j = np.random.default_rng(1).uniform(0, 600, (2, 50))
+    local = np.stack([(j - 400) / focal, -(i - 300) / focal, -np.ones(50)])
+    points = (np.array(POSE)[:3, :3] @ local).T + np.array(POSE)[:3, 3]
+    seen = camera.camera.project(points, (800, 600))
+    assert seen.column == pytest.approx(j - 0.5, abs=1e-6)
+    assert seen.row == pytest.approx(i - 0.5, abs=1e-6)
+    half = read_cameras(path, options=Options(pixel_origin="center")).cameras[0].camera
+    assert half.project(points, (800, 600)).column == pytest.approx(j, abs=1e-6)
+
+
+def test_without_an_image_the_size_is_open_and_said_to_be() -> None:
+    found = pasted(json.dumps(SYNTHETIC))
+    (camera,) = found.cameras
+    assert (camera.size, camera.fit) == (None, False)
+    half = math.tan(SYNTHETIC["camera_angle_x"] / 2)
+    assert camera.camera.viewport == pytest.approx((-half, half, -half, half))
+    assert "no w and h, nor an image: a square one is taken" in found.taken
+    told = pasted(json.dumps(SYNTHETIC), options=Options(size=(800, 800)))
+    assert told.cameras[0].size == (800, 800)
+    assert_same_pixels(camera.camera, told.cameras[0].camera, (800, 800))
+
+
+def test_an_image_that_is_none_leaves_the_size_open(tmp_path: Path) -> None:
+    (tmp_path / "train").mkdir()
+    (tmp_path / "train" / "r_0.png").write_bytes(b"no image")
+    (tmp_path / "transforms.json").write_text(json.dumps(SYNTHETIC))
+    assert read_cameras(tmp_path / "transforms.json").cameras[0].size is None
+
+
+def test_nerfstudio_s_frames_have_intrinsics_of_their_own() -> None:
+    with pytest.raises(
+        LucidaError, match=r"frame_00001.jpeg.k1: 0.0312 is a lens's distortion \(O"
+    ):
+        pasted(json.dumps(STUDIO))
+    found = pasted(json.dumps(STUDIO), options=Options(ignore_distortion=True))
+    one, two = found.cameras
+    assert one.distortion is not None and one.distortion.corner_px > 100
+    assert (one.size, two.size) == ((3008, 2000), (640, 2000))
+    K = two.camera.intrinsics(two.size, "corner").K
+    assert (K[0, 0], K[1, 1], K[0, 2]) == pytest.approx((900, 1068, 1504))
+    assert any("applied_transform is not undone" in phrase for phrase in found.taken)
+    assert "axes x right, y up, looking along -z (OpenGL)" in found.taken
+
+
+def test_four_radial_terms_and_a_fisheye() -> None:
+    change = {"k3": 0.1, "k4": -0.02, "w": 2000, "h": 2000, "cx": 1000, "cy": 1000, "fl_y": 1072}
+    options = Options(ignore_distortion=True)
+    lens = pasted(first(change), options=options).cameras[0].distortion
+    assert lens is not None
+    r = math.sqrt(2) * 1000 / 1072
+    assert lens.corner_px == pytest.approx(1072 * r * (0.1 * r**6 - 0.02 * r**8))
+    for fisheye in ({"camera_model": "OPENCV_FISHEYE"}, {"is_fisheye": True}):
+        found = pasted(first(change | fisheye | {"k3": 0, "k4": 0}), options=options)
+        lens = found.cameras[0].distortion
+        assert lens is not None
+        assert lens.corner_px == pytest.approx(1072 * (r - math.atan(r)))
+
+
+def test_what_is_written_comes_back() -> None:
+    random = np.random.default_rng(1)
+    for origin in ("center", "corner"):
+        options = Options(pixel_origin=origin)
+        cameras = [posed(*any_camera(random), f"{i}.png") for i in range(60)]
+        found = pasted(written(cameras, "nerf", options)[""].decode(), options=options)
+        assert found.format == "nerf"
+        for one, other in zip(cameras, found.cameras, strict=True):
+            assert (one.name, one.size) == (other.name, other.size)
+            assert_same_pixels(one.camera, other.camera, one.size)
+
+
+def test_what_is_read_is_written_as_it_was() -> None:
+    table = json.loads(first({}))
+    again = json.loads(written(pasted(json.dumps(table)).cameras, "nerf")[""])
+    for name in ("fl_x", "fl_y", "cx", "cy", "w", "h"):
+        assert again[name] == pytest.approx(table[name], rel=1e-6)  # the pose is float32's
+    assert again["frames"][0]["transform_matrix"] == pytest.approx(np.array(POSE), abs=1e-6)
+    assert again["frames"][0]["file_path"] == "images/frame_00001.jpeg"
+    assert again["camera_angle_x"] == pytest.approx(2 * math.atan(1504 / 1072), rel=1e-6)
+
+
+def test_what_frames_share_is_written_once() -> None:
+    camera, size = any_camera(np.random.default_rng(4))
+    table = json.loads(written([posed(camera, size)] * 3, "nerf")[""])
+    assert "fl_x" in table and set(table["frames"][0]) == {"file_path", "transform_matrix"}
+    assert table["frames"][2]["file_path"] == "frame_00002"
+    assert json.loads(written([], "nerf")[""])["frames"] == []
+
+
+@pytest.mark.parametrize(
+    ("camera", "told"),
+    [
+        (Camera(projection="parallel"), "a.png.projection: 'parallel'"),
+        (Camera(u=(1, 0.1, 0)), "a.png.v: .*skew"),
+        (Camera(u=(-1, 0, 0)), "a.png.u: the basis is left-handed"),
+    ],
+)
+def test_what_transforms_cannot_hold(camera: Camera, told: str) -> None:
+    with pytest.raises(LucidaError, match=told):
+        written([posed(Camera(), (4, 4)), posed(camera, (4, 4), "a.png")], "nerf")
+    with pytest.raises(LucidaError, match="size: is missing"):
+        written([PosedCamera(Camera(), fit=True)], "nerf")
+
+
+def test_a_scaled_pose_is_held_and_told() -> None:
+    pose = np.diag([2.0, 2.0, 2.0, 1.0]).tolist()
+    found = pasted(first({}, transform_matrix=pose))
+    assert found.cameras[0].camera.u == pytest.approx((2, 0, 0))
+    assert "transform_matrix is no rotation, and held as it is" in found.taken
+
+
+def turned(row: int, column: int, number: object) -> list:
+    pose = [list(line) for line in POSE]
+    pose[row][column] = number
+    return pose
+
+
+@pytest.mark.parametrize(
+    ("text", "told"),
+    [
+        (json.dumps({"frames": []}), "frames: is empty"),
+        (json.dumps({"camera_angle_x": 1}), "frames: is missing"),
+        (json.dumps({"frames": {"a": 1}}), "frames: is no list"),
+        (json.dumps({"frames": [3]}), r"frames\[0\]: is no JSON object"),
+        (json.dumps({"frames": [{}]}), r"frames\[0\].transform_matrix: is missing"),
+        ("[" * 100_000, "is no JSON object"),
+        (first({}, transform_matrix=POSE[:2]), r"frames\[0\].transform_matrix: has the shape"),
+        (first({}, transform_matrix=np.transpose(POSE).tolist()), "is it transposed"),
+        (first({}, transform_matrix=turned(0, 0, "1")), "is not a matrix of numbers"),
+        (first({}, transform_matrix=turned(0, 0, math.nan)), "is not finite"),
+        (first({}, transform_matrix=turned(0, 0, 1e308)), "too large"),
+        (first({}, transform_matrix=np.diag([1, 1, 0, 1]).tolist()), "no inverse"),
+        (first({}, transform_matrix="eye"), "is not a matrix of numbers"),
+        (first({}, file_path=3), r"frames\[0\].file_path: 3 is no text"),
+        (first({}, rolling_shutter=[0, 1, 0]), "rolling_shutter: the rows"),
+        (first({}, rolling_shutter=["a"]), "rolling_shutter: 'a' is not a number"),
+        (first({"fl_x": "1072"}), "fl_x: '1072' is not a number"),
+        (first({"fl_x": 0}), "fl_x: its focal lengths"),
+        (first({"fl_x": True}), "fl_x: True is not a number"),
+        (first({"fl_x": 1e308}), "fl_x: 1e"),
+        (first({"w": 0}), "w: 0 is no count"),
+        (first({"w": 10**400}), "w: inf is not finite"),
+        (first({"h": None}), "w|h: None is not a number"),
+        (first({"k1": "x"}), "k1: 'x' is not a number"),
+        (
+            first({"camera_model": "EQUIRECTANGULAR"}),
+            "camera_model: 'EQUIRECTANGULAR' is no pinhole",
+        ),
+        (first({"camera_model": ["OPENCV"]}), "camera_model: .* is no pinhole"),
+        (json.dumps({"frames": [{"transform_matrix": POSE}]}), "w: is missing"),
+        (json.dumps({"w": 3, "frames": [{"transform_matrix": POSE}]}), "h: is missing"),
+        (json.dumps({"w": 3, "h": 2, "frames": [{"transform_matrix": POSE}]}), "fl_x: is missing"),
+        (json.dumps(SYNTHETIC | {"camera_angle_x": 3.2}), "camera_angle_x: 3.2 is not between"),
+        (json.dumps(SYNTHETIC | {"camera_angle_x": 40}), "camera_angle_x: 40 is not between"),
+        (json.dumps(SYNTHETIC | {"k1": 0.1}), "w: is missing beside a distortion"),
+    ],
+    ids=lambda value: value[:40],
+)
+def test_what_is_broken_is_told_in_one_line(text: str, told: str) -> None:
+    with pytest.raises(LucidaError, match=told) as caught:
+        pasted(text, "nerf")
+    assert "\n" not in str(caught.value)

@@ -1,0 +1,140 @@
+"""OpenGL's matrices: in either order, as text and as JSON, and what they can hold."""
+
+from __future__ import annotations
+
+import json
+
+import numpy as np
+import pytest
+from any_cameras import any_camera, assert_same_pixels, pasted, posed
+
+from renderer.camera import Camera
+from renderer.camera_formats import PosedCamera, written
+from renderer.camera_formats.given import Options
+from renderer.errors import LucidaError
+
+SIZE = (640, 480)
+CAMERA = Camera.look_at((1, 2, 3), (0, 0, 0), fov_y_deg=40, aspect=4 / 3)
+VIEW, CLIP = CAMERA.camera_from_world, CAMERA.clip_from_camera(0.5, 20)
+
+
+def listed(view: np.ndarray, clip: np.ndarray, by_rows: bool) -> str:
+    tables = {"view": view, "projection": clip}
+    return json.dumps({n: (m if by_rows else m.T).tolist() for n, m in tables.items()})
+
+
+@pytest.mark.parametrize("projection", ["perspective", "parallel"])
+def test_what_is_written_comes_back(projection: str) -> None:
+    random = np.random.default_rng(1)
+    for _ in range(100):
+        camera, size = any_camera(random, skewed=True, projection=projection)
+        text = written([posed(camera, None)], "opengl")[""].decode()
+        found = pasted(text, options=Options(size=size))
+        assert (found.format, found.cameras[0].size) == ("opengl", size)
+        back = found.cameras[0].camera
+        assert (back.near, back.far) == (None, None)
+        assert_same_pixels(camera, back, size)
+
+
+@pytest.mark.parametrize("projection", ["perspective", "parallel"])
+@pytest.mark.parametrize("by_rows", [True, False])
+def test_either_order_is_found_out(by_rows: bool, projection: str) -> None:
+    random = np.random.default_rng(2)
+    order = "row by row" if by_rows else "column by column"
+    for _ in range(100):
+        camera, size = any_camera(random, projection=projection)
+        if _ % 2:  # at the origin only the projection tells
+            camera = Camera((0, 0, 0), camera.u, camera.v, camera.w, 1, camera.viewport, projection)
+        text = listed(camera.camera_from_world, camera.clip_from_camera(0.5, 20), by_rows)
+        found = pasted(text)
+        assert found.format == "opengl"
+        assert found.taken == (f"view {order}", f"projection {order}")
+        back = found.cameras[0].camera
+        assert (back.near, back.far) == pytest.approx((0.5, 20))
+        assert_same_pixels(camera, back, size)
+
+
+def test_each_matrix_may_have_its_own_order() -> None:
+    table = {"view_matrix": VIEW.ravel().tolist(), "projectionMatrix": CLIP.T.tolist()}
+    found = pasted(json.dumps(table))
+    assert found.taken == ("view_matrix row by row", "projectionMatrix column by column")
+    assert_same_pixels(CAMERA, found.cameras[0].camera, SIZE)
+
+
+def test_a_view_at_the_origin_without_a_translation_is_column_by_column() -> None:
+    view, clip = np.eye(4), np.diag([1.0, 1.0, -1.0, 1.0])
+    view[:3, :3] = [[0, 1, 0], [0, 0, 1], [1, 0, 0]]
+    found = pasted(listed(view, clip, by_rows=False))
+    assert found.taken == ("view column by column", "projection column by column")
+    assert found.cameras[0].camera.u == (0, 1, 0)
+
+
+def test_a_projection_beside_its_diagonal_makes_the_basis_skew_or_mirrored() -> None:
+    random = np.random.default_rng(3)
+    for parallel in (False, True):
+        for _ in range(50):
+            clip = CLIP.copy()
+            if parallel:
+                clip[3] = (0, 0, 0, 1)
+                clip[:2, 2:] = random.normal(size=(2, 2))
+            clip[0, 1], clip[1, 0] = random.normal(size=2)
+            clip[:2] *= random.choice([-1, 1], (2, 1))
+            camera = pasted(listed(VIEW, clip, by_rows=True)).cameras[0].camera
+            points = np.column_stack([random.normal(size=(9, 3)) * 0.3, np.ones(9)])
+            x, y, _, w = clip @ VIEW @ points.T
+            seen = camera.project(points[:, :3], SIZE)
+            assert seen.column == pytest.approx((x / w + 1) * 320 - 0.5)
+            assert seen.row == pytest.approx((1 - y / w) * 240 - 0.5)
+
+
+def test_an_oblique_near_plane_is_told() -> None:
+    clip = CLIP.copy()
+    clip[2, :2] = 0.1, 0.2
+    found = pasted(listed(VIEW, clip, by_rows=True))
+    assert found.taken[-1] == "the projection's oblique near plane is left out"
+    assert found.cameras[0].camera.near is None
+
+
+def test_of_a_fitted_camera_the_matrices_are_of_its_image() -> None:
+    text = written([PosedCamera(CAMERA, (100, 300), fit=True)], "opengl")[""].decode()
+    assert_same_pixels(CAMERA.fitted((100, 300)), pasted(text).cameras[0].camera, (100, 300))
+    with pytest.raises(LucidaError, match="size: is missing"):
+        written([PosedCamera(CAMERA, fit=True)], "opengl")
+    with pytest.raises(LucidaError, match="holds one camera, not 2"):
+        written([posed(CAMERA, None)] * 2, "opengl")
+
+
+def changed(place: tuple[int, int], number: object, clip: bool = False) -> str:
+    tables = {"view": VIEW.tolist(), "projection": CLIP.tolist()}
+    tables["projection" if clip else "view"][place[0]][place[1]] = number
+    return json.dumps(tables)
+
+
+@pytest.mark.parametrize(
+    ("text", "told"),
+    [
+        (changed((3, 0), 0.5), "view: is not affine"),
+        (changed((3, 3), 0), "view: is not affine"),
+        (changed((0, 0), "1"), "view: is not a matrix of numbers"),
+        (changed((0, 0), float("nan")), "view: has a number that is not finite"),
+        (changed((0, 0), 1e308), "view: has the number"),
+        (changed((3, 2), 1, clip=True), "projection: is no projection"),
+        (changed((0, 0), 0, clip=True), "projection: its first two rows"),
+        (changed((0, 0), 1e-320, clip=True), "viewport: -?inf is not finite"),
+        ("view = 1" + " " * 2_000_000, "is too large"),
+        (json.dumps({"view": [1, 2], "projection": CLIP.tolist()}), "view: has the shape"),
+        (json.dumps({"view": VIEW.tolist()}), "clip_from_camera: is missing"),
+        (json.dumps({"view": None, "projection": "p"}), "view: is not a matrix"),
+        (
+            json.dumps({"view": np.diag([1, 1, 0, 1]).tolist(), "projection": CLIP.tolist()}),
+            "inverse",
+        ),
+        ("[1, 2]", "camera_from_world: is missing"),
+        ("view = 1 2 3", "view: has 3 numbers; give 16"),
+        ("dear all", "camera_from_world: is missing"),
+    ],
+)
+def test_what_is_broken_is_told_in_one_line(text: str, told: str) -> None:
+    with pytest.raises(LucidaError, match=told) as caught:
+        pasted(text, "opengl")
+    assert "\n" not in str(caught.value)
