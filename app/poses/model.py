@@ -46,7 +46,8 @@ class PoseSet:
     """path: of its file or folder. origins, ways: (n, 4, 3), where the rays through the image's
     corners begin, and their directions, as long as one together: upper left, upper right, lower
     right, lower left. points, colors: of a reconstruction, as Cloud has them. low, high: (3,), a
-    box round the cameras and most of the points. hull: some of the latter (k, 3) round the others.
+    box round the cameras and most of the points. hull: some of the latter (k, 3) round the others;
+    outer: the numbers of the cameras round the others.
     told: what is to be known about it, a phrase each.
     """
 
@@ -61,6 +62,7 @@ class PoseSet:
     low: Floats
     high: Floats
     hull: Floats
+    outer: NDArray[np.int64]
     told: tuple[str, ...]
 
     @property
@@ -146,17 +148,18 @@ def pose_set(path: Path, found: CameraSet) -> PoseSet:
         colors,
         low,
         high,
-        outermost(most),
+        most[outermost(most)],
+        outermost(eyes),
         (*found.taken, *_lens(found.cameras)),
     )
 
 
-def outermost(points: Floats) -> Floats:
-    """The points (n, 3) that are farthest out, each in one of many directions: about as large as
-    all of them, from everywhere."""
+def outermost(points: Floats) -> NDArray[np.int64]:
+    """Which of the points (n, 3) are farthest out, each in one of many directions: together they
+    are about as large as all, from everywhere."""
     if not len(points):
-        return points
-    return points[np.unique(np.argmax(points @ DIRECTIONS.T, axis=0))]
+        return np.zeros(0, np.int64)
+    return np.unique(np.argmax(points @ DIRECTIONS.T, axis=0))
 
 
 def _corners(camera: Camera) -> tuple[Floats, Floats]:
@@ -222,9 +225,11 @@ def cloud(poses: PoseSet, length: float, with_points: bool) -> Cloud:
     size = length * poses.length
     lines = Segments("poses", "pose", frusta(poses, size), 1.3, 0.9)
     points, colors = (poses.points, poses.colors) if with_points else NO_POINTS
-    ends = poses.origins + size * poses.ways
-    eyes = outermost(np.concatenate([poses.origins, ends], axis=1).reshape(-1, 3))
-    around = np.concatenate([eyes, poses.hull]) if with_points else eyes
+    origins = poses.origins[poses.outer]
+    ends = origins + size * poses.ways[poses.outer]
+    around = np.concatenate([origins, ends]).reshape(-1, 3)
+    if with_points:
+        around = np.concatenate([around, poses.hull])
     return Cloud(lines, poses.origin, points, colors, around)
 
 

@@ -47,7 +47,7 @@ class PosesHead:
 @dataclass(frozen=True)
 class PoseRows:
     """names: of all cameras. shown: the numbers of those that the search has found. chosen: a
-    number, -1 for none. scroll: whether it is to be brought into sight."""
+    number, -1 for none. scroll: whether it is to be brought into sight; without it, the first."""
 
     names: Sequence[str]
     shown: Sequence[int]
@@ -176,7 +176,9 @@ def rows(told: PoseRows, room: ImVec2) -> int | None:
     clicked = None
     if imgui.begin_child("list", room, imgui.ChildFlags_.borders):
         height = imgui.get_text_line_height_with_spacing()
-        if told.scroll and told.chosen in told.shown:
+        if told.scroll and told.chosen not in told.shown:
+            imgui.set_scroll_y(0.0)
+        elif told.scroll:
             top = height * told.shown.index(told.chosen)
             seen, tall = imgui.get_scroll_y(), imgui.get_window_height()
             if not seen <= top <= seen + tall - 3 * height:
