@@ -72,6 +72,15 @@ class Shown:
     at: int | None = None
 
 
+@dataclass(frozen=True)
+class _Pressed:
+    """Arrow keys, and Enter."""
+
+    across: int = 0
+    down: int = 0
+    enter: bool = False
+
+
 def panel(options: DetectiveOptions, findings: Findings, shown: Shown, fonts: Fonts) -> Answer:
     """Everything, into the present window."""
     wish, options = _controls(options, findings)
@@ -79,7 +88,9 @@ def panel(options: DetectiveOptions, findings: Findings, shown: Shown, fonts: Fo
         _paragraph(INVITATION, theme.TEXT)
         _paragraph(FORMS, theme.DIM)
         return Answer(options, wish)
+    pressed = _keys(shown.at is not None)
     room, em = imgui.get_content_region_avail(), imgui.get_font_size()
+    chosen: Picked = (None, None)
     if room.x > BESIDE * room.y:
         width = min(max(TEXT_PART * room.x, TEXT_EM * em), MOST_TEXT_EM * em, 0.5 * room.x)
         if imgui.begin_child("text", ImVec2(width, room.y)):
@@ -87,16 +98,17 @@ def panel(options: DetectiveOptions, findings: Findings, shown: Shown, fonts: Fo
             wish = _told(options, findings, fonts) or wish
         imgui.end_child()
         imgui.same_line()
-        chosen = _pictures(findings, shown, options, imgui.get_content_region_avail(), fonts)
+        chosen = _pictures(
+            findings, shown, options, imgui.get_content_region_avail(), fonts, pressed
+        )
         return Answer(options, wish, *chosen)
     options = _text(options, min(ABOVE_LINES * em, 0.25 * room.y), fonts)
     left = imgui.get_content_region_avail()
     below = CODE_PART * room.y
     if findings.given is None:
         below = left.y
-    chosen: Picked = (None, None)
     if findings.given is not None:
-        chosen = _pictures(findings, shown, options, ImVec2(left.x, left.y - below), fonts)
+        chosen = _pictures(findings, shown, options, ImVec2(left.x, left.y - below), fonts, pressed)
     if imgui.begin_child("told", ImVec2(0, 0)):
         wish = _told(options, findings, fonts) or wish
     imgui.end_child()
@@ -182,7 +194,12 @@ def _aside(findings: Findings) -> str:
 
 
 def _pictures(
-    findings: Findings, shown: Shown, options: DetectiveOptions, room: ImVec2, fonts: Fonts
+    findings: Findings,
+    shown: Shown,
+    options: DetectiveOptions,
+    room: ImVec2,
+    fonts: Fonts,
+    pressed: _Pressed,
 ) -> Picked:
     """The grid; gives the reading that was chosen, and the number that the keyboard is at."""
     if findings.given is None:
@@ -193,7 +210,7 @@ def _pictures(
         if shown.note:
             _paragraph(shown.note, theme.DIM)
         room, columns = _grid_room(imgui.get_content_region_avail(), findings)
-        at, is_entered = _keys(shown.at, columns, len(findings.shown))
+        at, is_entered = _moved(shown.at, pressed, columns, len(findings.shown))
         grid = _grid(findings, shown, options, at)
         scroll_to = at if at != shown.at else None
         answer = picture_grid(grid, findings.case.size, room, fonts, scroll_to)
@@ -228,29 +245,33 @@ def _grid(
     return grid
 
 
-def _keys(at: int | None, columns: int, count: int) -> tuple[int | None, bool]:
-    """Where the keyboard is after the arrow keys, and whether Enter was pressed there."""
+def _keys(at: bool) -> _Pressed:
+    """In the view's own window, whichever of its parts has the keyboard. at: it is among the
+    pictures: Enter is theirs."""
     key, route = imgui.Key, int(imgui.InputFlags_.route_focused)
     repeated = route | int(imgui.InputFlags_.repeat)
-    steps = (
-        (key.left_arrow, -1),
-        (key.right_arrow, 1),
-        (key.up_arrow, -columns),
-        (key.down_arrow, columns),
+    left, right, up, down = (
+        imgui.shortcut(int(arrow), repeated)
+        for arrow in (key.left_arrow, key.right_arrow, key.up_arrow, key.down_arrow)
     )
-    for arrow, step in steps:
-        if imgui.shortcut(int(arrow), repeated):
-            to = 0 if at is None else at + step
-            at = to if 0 <= to < count else at
+    enter = [imgui.shortcut(int(one), route) for one in (key.enter, key.keypad_enter)] if at else []
+    return _Pressed(right - left, down - up, any(enter))
+
+
+def _moved(at: int | None, pressed: _Pressed, columns: int, count: int) -> tuple[int | None, bool]:
+    """Where the keyboard is after the arrow keys, and whether Enter was pressed there."""
+    step = pressed.across + columns * pressed.down
+    if step:
+        to = 0 if at is None else at + step
+        at = to if 0 <= to < count else at
     if at is None or at >= count:
         return None, False
-    entered = [imgui.shortcut(int(one), route) for one in (key.enter, key.keypad_enter)]
-    return at, any(entered)
+    return at, pressed.enter
 
 
 def _grid_room(room: ImVec2, findings: Findings) -> tuple[ImVec2, int]:
-    """The room for the pictures, and how many stand in a row: higher than there is, and scrolled, where they would be too small
-    to read what stands above them."""
+    """The room for the pictures, and how many stand in a row. It is higher than there is, and
+    scrolled, where they would be too small to read what stands above them."""
     em, margin, count = imgui.get_font_size(), theme.px(3), len(findings.shown)
     aspect = findings.case.size[0] / findings.case.size[1]
     heading, gap = 2 * HEADING_EM * em, GAP_EM * em

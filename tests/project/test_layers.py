@@ -99,6 +99,7 @@ DRAW = {
     "your_code": "",
     "laboratory": "array_view displays_view pictures schemes tables tools vector_view",
     "mistakes": "pages",
+    "detective": "",
     "lecture": "exercise foot slide typesetting",
 }
 ROLES = ("actions", "instrument", "panel", "view")
