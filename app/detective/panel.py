@@ -40,6 +40,7 @@ FORMS = (
 )
 BESIDE = 1.25  # width / height of the room from which the text stands beside the pictures
 TEXT_PART, TEXT_EM, MOST_TEXT_EM = 0.34, 19.0, 34.0  # of the width, that the text then has
+LEAST_LETTERS = 0.65  # of the type's size: smaller the matrix is not written to be seen as a whole
 ABOVE_LINES = 5.5  # of the text, where it stands above
 LEAST_PICTURE_EM = 11.5  # a picture's width, from which its words can be read
 CODE_PART = 0.3  # of the height, for what stands below the pictures there
@@ -98,17 +99,14 @@ def panel(options: DetectiveOptions, findings: Findings, shown: Shown, fonts: Fo
             wish = _told(options, findings, fonts) or wish
         imgui.end_child()
         imgui.same_line()
-        chosen = _pictures(
-            findings, shown, options, imgui.get_content_region_avail(), fonts, pressed
-        )
+        room = imgui.get_content_region_avail()
+        chosen = _pictures(findings, shown, options, room, fonts, pressed)
         return Answer(options, wish, *chosen)
     options = _text(options, min(ABOVE_LINES * em, 0.25 * room.y), fonts)
     left = imgui.get_content_region_avail()
-    below = CODE_PART * room.y
-    if findings.given is None:
-        below = left.y
     if findings.given is not None:
-        chosen = _pictures(findings, shown, options, ImVec2(left.x, left.y - below), fonts, pressed)
+        room = ImVec2(left.x, left.y - CODE_PART * room.y)
+        chosen = _pictures(findings, shown, options, room, fonts, pressed)
     if imgui.begin_child("told", ImVec2(0, 0)):
         wish = _told(options, findings, fonts) or wish
     imgui.end_child()
@@ -144,8 +142,12 @@ def _button(label: str) -> bool:
 
 
 def _text(options: DetectiveOptions, height: float, fonts: Fonts) -> DetectiveOptions:
-    """What was pasted, to be mended or added to."""
-    with lettering(fonts.mono, 0.9 * imgui.get_font_size()):
+    """What was pasted, to be mended or added to; no higher than it needs."""
+    lines, em = options.text.split("\n"), imgui.get_font_size()
+    width = imgui.get_content_region_avail().x - 1.5 * em
+    size = max(LEAST_LETTERS * em, min(0.9 * em, 2 * width / (max(map(len, lines)) + 1)))
+    height = min(height, 1.15 * size * max(len(lines) + 2, 5))
+    with lettering(fonts.mono, size):
         edited, text = imgui.input_text_multiline("##matrix", options.text, ImVec2(-1, height))
     return replace(options, text=text, chosen="") if edited else options
 
@@ -229,16 +231,16 @@ def _grid(
     is_mixed = len({one.reading.convention.columns for one in findings.shown}) > 1
     grid = []
     for number, one in enumerate(findings.shown):
-        frame = theme.ACCENT if number == at else theme.GOOD if one is chosen else None
-        here = " (the camera is here)" if number in shown.here else ""
+        frame = theme.GOOD if one is chosen else theme.ACCENT if number == at else None
+        here = " (here)" if number in shown.here else ""
         title = ranking.title(one.reading.convention, up, is_mixed)
         grid.append(
             GridPicture(
                 f"reading {number}",
-                f"{number + 1}  {title}",
+                f"{number + 1}  {title}{here}",
                 shown.texture(number),
                 frame=frame,
-                line=one.told + here,
+                line=one.told.replace(" of the scene", ""),
                 tip=ranking.sentence(one, up),
             )
         )

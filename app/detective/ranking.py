@@ -2,8 +2,8 @@
 
 A camera that somebody has set sees its scene, from outside and not from afar, stands above the
 ground, and has the horizon level. Each of these counts so many points as WEIGHTS says, in full or
-in part; the reading with the most points comes first. What the pictures show decides; this only
-says in which order to look at them.
+in part; but one that sees nothing has none for how it stands. The reading with the most points
+comes first. What the pictures show decides; this only says in which order to look at them.
 """
 
 from __future__ import annotations
@@ -87,12 +87,13 @@ def _ranked(reading: Reading, subject: Subject, size: Size) -> Ranked:
         place = _place(distance, subject.radius, bool(above))
     convention = reading.convention
     is_usual = convention.axes in USUAL_AXES and not convention.turned
+    stands = float(sees > 0 or not len(subject.points))
     parts = {
         "sees": sees,
         "aims": aims**4,
-        "upright": float(upward > 0) * min(1.0, 0.5 + abs(upward)),
-        "level": 1.0 - min(1.0, abs(tilt) / 0.5),
-        "above": above,
+        "upright": stands * float(upward > 0) * min(1.0, 0.5 + abs(upward)),
+        "level": stands * (1.0 - min(1.0, abs(tilt) / 0.5)),
+        "above": stands * above,
         "usual": float(is_usual),
     }
     told = f"sees {_seen(sees)}, {_stands(tilt, upward)}{place}" if len(subject.points) else ""
