@@ -51,9 +51,9 @@ ORIGINS: dict[PixelOrigin, tuple[str, str]] = {
 
 
 @dataclass(frozen=True)
-class Answer:
+class DetectiveAnswer:
     """options: as they were edited. chosen: the reading whose picture was clicked, or where Enter
-    was pressed. at: as Shown's, after the arrow keys."""
+    was pressed. at: as in ReadingsShown, after the arrow keys."""
 
     options: DetectiveOptions
     wish: MatrixWish = ""
@@ -62,7 +62,7 @@ class Answer:
 
 
 @dataclass(frozen=True)
-class Shown:
+class ReadingsShown:
     """texture: of a reading's picture, by its number; None while it is not there. here: numbers of
     those where the camera stands now. note: what is waited for, or went wrong. at: the number of
     the one that the keyboard is at; None: it is not among them."""
@@ -82,13 +82,15 @@ class _Pressed:
     enter: bool = False
 
 
-def panel(options: DetectiveOptions, findings: Findings, shown: Shown, fonts: Fonts) -> Answer:
+def panel(
+    options: DetectiveOptions, findings: Findings, shown: ReadingsShown, fonts: Fonts
+) -> DetectiveAnswer:
     """Everything, into the present window."""
     wish, options = _controls(options, findings)
     if not options.text:
         _paragraph(INVITATION, theme.TEXT)
         _paragraph(FORMS, theme.DIM)
-        return Answer(options, wish)
+        return DetectiveAnswer(options, wish)
     pressed = _keys(shown.at is not None)
     room, em = imgui.get_content_region_avail(), imgui.get_font_size()
     chosen: Picked = (None, None)
@@ -101,7 +103,7 @@ def panel(options: DetectiveOptions, findings: Findings, shown: Shown, fonts: Fo
         imgui.same_line()
         room = imgui.get_content_region_avail()
         chosen = _pictures(findings, shown, options, room, fonts, pressed)
-        return Answer(options, wish, *chosen)
+        return DetectiveAnswer(options, wish, *chosen)
     options = _text(options, min(ABOVE_LINES * em, 0.25 * room.y), fonts)
     left = imgui.get_content_region_avail()
     if findings.given is not None:
@@ -110,7 +112,7 @@ def panel(options: DetectiveOptions, findings: Findings, shown: Shown, fonts: Fo
     if imgui.begin_child("told", ImVec2(0, 0)):
         wish = _told(options, findings, fonts) or wish
     imgui.end_child()
-    return Answer(options, wish, *chosen)
+    return DetectiveAnswer(options, wish, *chosen)
 
 
 def _controls(options: DetectiveOptions, findings: Findings) -> tuple[MatrixWish, DetectiveOptions]:
@@ -197,7 +199,7 @@ def _aside(findings: Findings) -> str:
 
 def _pictures(
     findings: Findings,
-    shown: Shown,
+    shown: ReadingsShown,
     options: DetectiveOptions,
     room: ImVec2,
     fonts: Fonts,
@@ -225,7 +227,7 @@ def _pictures(
 
 
 def _grid(
-    findings: Findings, shown: Shown, options: DetectiveOptions, at: int | None
+    findings: Findings, shown: ReadingsShown, options: DetectiveOptions, at: int | None
 ) -> list[GridPicture]:
     up, chosen = findings.case.up, findings.named(options.chosen)
     is_mixed = len({one.reading.convention.columns for one in findings.shown}) > 1
