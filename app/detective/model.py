@@ -13,8 +13,8 @@ from app.cameras.focus import Focus
 from app.detective import ranking
 from app.detective.options import DetectiveOptions
 from app.detective.printed import Pasted, pasted
-from app.detective.ranking import Ranked, Subject
-from app.detective.readings import Around, Up, is_same, readings, up_of
+from app.detective.ranking import Ranked, SceneSeen
+from app.detective.readings import ReadAs, Up, is_same, readings, up_of
 from app.images.ray_pictures import RayPainter
 from app.state.app_state import AppState
 from renderer.camera import Camera, Size
@@ -30,7 +30,7 @@ COLUMNS = 240  # of a picture
 
 
 @dataclass(frozen=True)
-class Case:
+class MatrixCase:
     """What the readings depend on. here: the present view, standing at the origin: readings take
     from it what a matrix does not say."""
 
@@ -46,7 +46,7 @@ class Findings:
     """given: None where error says why there is no matrix. shown: the best readings. others: how
     many there are beside them. left_out: what cannot be, with the reason."""
 
-    case: Case
+    case: MatrixCase
     given: Pasted | None = None
     error: str = ""
     shown: tuple[Ranked, ...] = ()
@@ -65,14 +65,14 @@ class Findings:
         return next(found, None)
 
 
-def case_of(state: AppState, images: Size) -> Case:
+def case_of(state: AppState, images: Size) -> MatrixCase:
     """images: the size of the window's own."""
     options = state.of(DetectiveOptions)
     images = images if min(images) else (4, 3)
     rows = max(1, min(2 * COLUMNS, round(COLUMNS * images[1] / images[0])))
     origin = Camera.canonical()
     here = replace(state.camera, eye=origin.eye, u=origin.u, v=origin.v, w=origin.w)
-    return Case(
+    return MatrixCase(
         options.text,
         options.pixel_origin,
         View(here, state.view.fit),
@@ -81,11 +81,11 @@ def case_of(state: AppState, images: Size) -> Case:
     )
 
 
-def found_in(case: Case, focus: Focus) -> Findings:
+def found_in(case: MatrixCase, focus: Focus) -> Findings:
     """The readings of the case's text. focus: of the scene."""
     try:
         given = pasted(case.text)
-        around = Around(case.here, case.up, case.pixel_origin, case.size)
+        around = ReadAs(case.here, case.up, case.pixel_origin, case.size)
         every = readings(given, around)
     except LucidaError as error:
         problem = f"{error.field}: {error.problem}" if error.field else f"The text {error.problem}"
@@ -94,7 +94,7 @@ def found_in(case: Case, focus: Focus) -> Findings:
     if not every.found:
         reasons = "; ".join(f"{name}: {reason}" for name, reason in every.left_out)
         return Findings(case, error=f"No camera: {reasons}.", left_out=every.left_out)
-    subject = Subject(ranking.sample(focus.framed), case.up)
+    subject = SceneSeen(ranking.sample(focus.framed), case.up)
     order = ranking.ranked(every.found, subject, case.size)
     shown = tuple(order[:MOST_SHOWN])
     return Findings(case, given, "", shown, len(order) - len(shown), every.left_out)

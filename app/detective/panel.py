@@ -40,6 +40,7 @@ FORMS = (
 )
 BESIDE = 1.25  # width / height of the room from which the text stands beside the pictures
 TEXT_PART, TEXT_EM, MOST_TEXT_EM = 0.34, 19.0, 34.0  # of the width, that the text then has
+LEAST_LETTERS = 0.65  # of the type's size: smaller the matrix is not written to be seen as a whole
 ABOVE_LINES = 5.5  # of the text, where it stands above
 LEAST_PICTURE_EM = 11.5  # a picture's width, from which its words can be read
 CODE_PART = 0.3  # of the height, for what stands below the pictures there
@@ -50,9 +51,9 @@ ORIGINS: dict[PixelOrigin, tuple[str, str]] = {
 
 
 @dataclass(frozen=True)
-class Answer:
+class DetectiveAnswer:
     """options: as they were edited. chosen: the reading whose picture was clicked, or where Enter
-    was pressed. at: as Shown's, after the arrow keys."""
+    was pressed. at: as in ReadingsShown, after the arrow keys."""
 
     options: DetectiveOptions
     wish: MatrixWish = ""
@@ -61,7 +62,7 @@ class Answer:
 
 
 @dataclass(frozen=True)
-class Shown:
+class ReadingsShown:
     """texture: of a reading's picture, by its number; None while it is not there. here: numbers of
     those where the camera stands now. note: what is waited for, or went wrong. at: the number of
     the one that the keyboard is at; None: it is not among them."""
@@ -72,14 +73,27 @@ class Shown:
     at: int | None = None
 
 
-def panel(options: DetectiveOptions, findings: Findings, shown: Shown, fonts: Fonts) -> Answer:
+@dataclass(frozen=True)
+class _Pressed:
+    """Arrow keys, and Enter."""
+
+    across: int = 0
+    down: int = 0
+    enter: bool = False
+
+
+def panel(
+    options: DetectiveOptions, findings: Findings, shown: ReadingsShown, fonts: Fonts
+) -> DetectiveAnswer:
     """Everything, into the present window."""
     wish, options = _controls(options, findings)
     if not options.text:
         _paragraph(INVITATION, theme.TEXT)
         _paragraph(FORMS, theme.DIM)
-        return Answer(options, wish)
+        return DetectiveAnswer(options, wish)
+    pressed = _keys(shown.at is not None)
     room, em = imgui.get_content_region_avail(), imgui.get_font_size()
+    chosen: Picked = (None, None)
     if room.x > BESIDE * room.y:
         width = min(max(TEXT_PART * room.x, TEXT_EM * em), MOST_TEXT_EM * em, 0.5 * room.x)
         if imgui.begin_child("text", ImVec2(width, room.y)):
@@ -87,20 +101,18 @@ def panel(options: DetectiveOptions, findings: Findings, shown: Shown, fonts: Fo
             wish = _told(options, findings, fonts) or wish
         imgui.end_child()
         imgui.same_line()
-        chosen = _pictures(findings, shown, options, imgui.get_content_region_avail(), fonts)
-        return Answer(options, wish, *chosen)
+        room = imgui.get_content_region_avail()
+        chosen = _pictures(findings, shown, options, room, fonts, pressed)
+        return DetectiveAnswer(options, wish, *chosen)
     options = _text(options, min(ABOVE_LINES * em, 0.25 * room.y), fonts)
     left = imgui.get_content_region_avail()
-    below = CODE_PART * room.y
-    if findings.given is None:
-        below = left.y
-    chosen: Picked = (None, None)
     if findings.given is not None:
-        chosen = _pictures(findings, shown, options, ImVec2(left.x, left.y - below), fonts)
+        room = ImVec2(left.x, left.y - CODE_PART * room.y)
+        chosen = _pictures(findings, shown, options, room, fonts, pressed)
     if imgui.begin_child("told", ImVec2(0, 0)):
         wish = _told(options, findings, fonts) or wish
     imgui.end_child()
-    return Answer(options, wish, *chosen)
+    return DetectiveAnswer(options, wish, *chosen)
 
 
 def _controls(options: DetectiveOptions, findings: Findings) -> tuple[MatrixWish, DetectiveOptions]:
@@ -132,8 +144,12 @@ def _button(label: str) -> bool:
 
 
 def _text(options: DetectiveOptions, height: float, fonts: Fonts) -> DetectiveOptions:
-    """What was pasted, to be mended or added to."""
-    with lettering(fonts.mono, 0.9 * imgui.get_font_size()):
+    """What was pasted, to be mended or added to; no higher than it needs."""
+    lines, em = options.text.split("\n"), imgui.get_font_size()
+    width = imgui.get_content_region_avail().x - 1.5 * em
+    size = max(LEAST_LETTERS * em, min(0.9 * em, 2 * width / (max(map(len, lines)) + 1)))
+    height = min(height, 1.15 * size * max(len(lines) + 2, 5))
+    with lettering(fonts.mono, size):
         edited, text = imgui.input_text_multiline("##matrix", options.text, ImVec2(-1, height))
     return replace(options, text=text, chosen="") if edited else options
 
@@ -182,7 +198,12 @@ def _aside(findings: Findings) -> str:
 
 
 def _pictures(
-    findings: Findings, shown: Shown, options: DetectiveOptions, room: ImVec2, fonts: Fonts
+    findings: Findings,
+    shown: ReadingsShown,
+    options: DetectiveOptions,
+    room: ImVec2,
+    fonts: Fonts,
+    pressed: _Pressed,
 ) -> Picked:
     """The grid; gives the reading that was chosen, and the number that the keyboard is at."""
     if findings.given is None:
@@ -193,7 +214,7 @@ def _pictures(
         if shown.note:
             _paragraph(shown.note, theme.DIM)
         room, columns = _grid_room(imgui.get_content_region_avail(), findings)
-        at, is_entered = _keys(shown.at, columns, len(findings.shown))
+        at, is_entered = _moved(shown.at, pressed, columns, len(findings.shown))
         grid = _grid(findings, shown, options, at)
         scroll_to = at if at != shown.at else None
         answer = picture_grid(grid, findings.case.size, room, fonts, scroll_to)
@@ -206,51 +227,55 @@ def _pictures(
 
 
 def _grid(
-    findings: Findings, shown: Shown, options: DetectiveOptions, at: int | None
+    findings: Findings, shown: ReadingsShown, options: DetectiveOptions, at: int | None
 ) -> list[GridPicture]:
     up, chosen = findings.case.up, findings.named(options.chosen)
     is_mixed = len({one.reading.convention.columns for one in findings.shown}) > 1
     grid = []
     for number, one in enumerate(findings.shown):
-        frame = theme.ACCENT if number == at else theme.GOOD if one is chosen else None
-        here = " (the camera is here)" if number in shown.here else ""
+        frame = theme.GOOD if one is chosen else theme.ACCENT if number == at else None
+        here = " (here)" if number in shown.here else ""
         title = ranking.title(one.reading.convention, up, is_mixed)
         grid.append(
             GridPicture(
                 f"reading {number}",
-                f"{number + 1}  {title}",
+                f"{number + 1}  {title}{here}",
                 shown.texture(number),
                 frame=frame,
-                line=one.told + here,
+                line=one.told.replace(" of the scene", ""),
                 tip=ranking.sentence(one, up),
             )
         )
     return grid
 
 
-def _keys(at: int | None, columns: int, count: int) -> tuple[int | None, bool]:
-    """Where the keyboard is after the arrow keys, and whether Enter was pressed there."""
+def _keys(at: bool) -> _Pressed:
+    """In the view's own window, whichever of its parts has the keyboard. at: it is among the
+    pictures: Enter is theirs."""
     key, route = imgui.Key, int(imgui.InputFlags_.route_focused)
     repeated = route | int(imgui.InputFlags_.repeat)
-    steps = (
-        (key.left_arrow, -1),
-        (key.right_arrow, 1),
-        (key.up_arrow, -columns),
-        (key.down_arrow, columns),
+    left, right, up, down = (
+        imgui.shortcut(int(arrow), repeated)
+        for arrow in (key.left_arrow, key.right_arrow, key.up_arrow, key.down_arrow)
     )
-    for arrow, step in steps:
-        if imgui.shortcut(int(arrow), repeated):
-            to = 0 if at is None else at + step
-            at = to if 0 <= to < count else at
+    enter = [imgui.shortcut(int(one), route) for one in (key.enter, key.keypad_enter)] if at else []
+    return _Pressed(right - left, down - up, any(enter))
+
+
+def _moved(at: int | None, pressed: _Pressed, columns: int, count: int) -> tuple[int | None, bool]:
+    """Where the keyboard is after the arrow keys, and whether Enter was pressed there."""
+    step = pressed.across + columns * pressed.down
+    if step:
+        to = 0 if at is None else at + step
+        at = to if 0 <= to < count else at
     if at is None or at >= count:
         return None, False
-    entered = [imgui.shortcut(int(one), route) for one in (key.enter, key.keypad_enter)]
-    return at, any(entered)
+    return at, pressed.enter
 
 
 def _grid_room(room: ImVec2, findings: Findings) -> tuple[ImVec2, int]:
-    """The room for the pictures, and how many stand in a row: higher than there is, and scrolled, where they would be too small
-    to read what stands above them."""
+    """The room for the pictures, and how many stand in a row. It is higher than there is, and
+    scrolled, where they would be too small to read what stands above them."""
     em, margin, count = imgui.get_font_size(), theme.px(3), len(findings.shown)
     aspect = findings.case.size[0] / findings.case.size[1]
     heading, gap = 2 * HEADING_EM * em, GAP_EM * em

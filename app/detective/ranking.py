@@ -2,8 +2,8 @@
 
 A camera that somebody has set sees its scene, from outside and not from afar, stands above the
 ground, and has the horizon level. Each of these counts so many points as WEIGHTS says, in full or
-in part; the reading with the most points comes first. What the pictures show decides; this only
-says in which order to look at them.
+in part; but one that sees nothing has none for how it stands. The reading with the most points
+comes first. What the pictures show decides; this only says in which order to look at them.
 """
 
 from __future__ import annotations
@@ -13,7 +13,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from app.detective.readings import OTHER, Convention, Reading, Up, order_name
+from app.detective.readings import OTHER, Convention, MatrixReading, Up, order_name
 from renderer.camera import Floats, Size
 
 WEIGHTS = {"sees": 4.0, "aims": 2.0, "upright": 2.0, "level": 2.0, "above": 1.0, "usual": 0.5}
@@ -24,7 +24,7 @@ LEVEL = 0.35  # the sine of a horizon's tilt up to which one is called upright
 
 
 @dataclass(frozen=True, eq=False)
-class Subject:
+class SceneSeen:
     """What is looked for. points: (n, 3) of the scene. up: which axis is."""
 
     points: Floats
@@ -44,7 +44,7 @@ class Subject:
 class Ranked:
     """sees: which part of the scene, 0 to 1. parts: of each weight, 0 to 1."""
 
-    reading: Reading
+    reading: MatrixReading
     sees: float
     parts: dict[str, float]
     told: str
@@ -60,13 +60,13 @@ def sample(points: Floats) -> Floats:
     return points[::step]
 
 
-def ranked(found: Sequence[Reading], subject: Subject, size: Size) -> list[Ranked]:
+def ranked(found: Sequence[MatrixReading], subject: SceneSeen, size: Size) -> list[Ranked]:
     """The readings, best first. size: of the image that they are shown in."""
     every = [_ranked(reading, subject, size) for reading in found]
     return sorted(every, key=lambda one: -one.score)
 
 
-def _ranked(reading: Reading, subject: Subject, size: Size) -> Ranked:
+def _ranked(reading: MatrixReading, subject: SceneSeen, size: Size) -> Ranked:
     camera = reading.view.for_size(reading.size or size)
     eye, axis = np.asarray(camera.eye), AXIS[subject.up]
     u, v, w = (np.asarray(one) / np.linalg.norm(one) for one in (camera.u, camera.v, camera.w))
@@ -87,12 +87,13 @@ def _ranked(reading: Reading, subject: Subject, size: Size) -> Ranked:
         place = _place(distance, subject.radius, bool(above))
     convention = reading.convention
     is_usual = convention.axes in USUAL_AXES and not convention.turned
+    stands = float(sees > 0 or not len(subject.points))
     parts = {
         "sees": sees,
         "aims": aims**4,
-        "upright": float(upward > 0) * min(1.0, 0.5 + abs(upward)),
-        "level": 1.0 - min(1.0, abs(tilt) / 0.5),
-        "above": above,
+        "upright": stands * float(upward > 0) * min(1.0, 0.5 + abs(upward)),
+        "level": stands * (1.0 - min(1.0, abs(tilt) / 0.5)),
+        "above": stands * above,
         "usual": float(is_usual),
     }
     told = f"sees {_seen(sees)}, {_stands(tilt, upward)}{place}" if len(subject.points) else ""

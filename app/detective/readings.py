@@ -67,7 +67,7 @@ class Convention:
 
 
 @dataclass(frozen=True, eq=False)
-class Reading:
+class MatrixReading:
     """view: the camera, and whether its viewport is fitted to the image. also: other conventions
     that make the very same camera. size: of the image whose pixels K counts, or None."""
 
@@ -81,12 +81,12 @@ class Reading:
 class Readings:
     """left_out: what is impossible, with the reason, a line each."""
 
-    found: tuple[Reading, ...]
+    found: tuple[MatrixReading, ...]
     left_out: tuple[tuple[str, str], ...] = ()
 
 
 @dataclass(frozen=True)
-class Around:
+class ReadAs:
     """What readings depend on beside the matrix. now: the present view, for what the matrix does
     not say. up: of the scene. images: the size of the window's images."""
 
@@ -98,7 +98,7 @@ class Around:
 
 @dataclass
 class _Gathered:
-    found: list[Reading] = field(default_factory=list)
+    found: list[MatrixReading] = field(default_factory=list)
     left_out: dict[str, str] = field(default_factory=dict)
 
 
@@ -118,7 +118,7 @@ def order_name(columns: bool) -> str:
     return "by columns" if columns else "by rows"
 
 
-def readings(given: Pasted, around: Around) -> Readings:
+def readings(given: Pasted, around: ReadAs) -> Readings:
     """All readings of a matrix; those that make the same camera are one. None where there is none
     that is possible: left_out says why."""
     gathered = _Gathered()
@@ -130,7 +130,7 @@ def readings(given: Pasted, around: Around) -> Readings:
     return Readings(merged(gathered.found), tuple(gathered.left_out.items()))
 
 
-def _read(given: Pasted, columns: bool, around: Around, gathered: _Gathered) -> Iterator[str]:
+def _read(given: Pasted, columns: bool, around: ReadAs, gathered: _Gathered) -> Iterator[str]:
     """Adds the readings in an order; gives why there are none."""
     matrix = as_rows(given, columns)
     affine, rest = matrix[:3], matrix[3:]
@@ -166,7 +166,7 @@ def as_rows(given: Pasted, columns: bool) -> Floats:
 
 
 def _add_poses(
-    affine: Floats, given: Pasted, columns: bool, around: Around, gathered: _Gathered
+    affine: Floats, given: Pasted, columns: bool, around: ReadAs, gathered: _Gathered
 ) -> None:
     ways: tuple[Way, ...] = ("camera-to-world", "world-to-camera")
     for way, turned, axes in product(ways, (False, True), AXES):
@@ -177,7 +177,7 @@ def _add_poses(
             continue
         convention = Convention(way, columns, axes, turned)
         view, size = _posed(pose, given, around)
-        gathered.found.append(Reading(convention, view, size=size))
+        gathered.found.append(MatrixReading(convention, view, size=size))
 
 
 def world_from_camera(affine: Floats, convention: Convention, up: Up) -> Floats:
@@ -196,7 +196,7 @@ def scale_of(pose: Floats) -> float:
     return scale if abs(scale - 1) > LAST_ROW * 100 else 1.0
 
 
-def _posed(pose: Floats, given: Pasted, around: Around) -> tuple[View, Size | None]:
+def _posed(pose: Floats, given: Pasted, around: ReadAs) -> tuple[View, Size | None]:
     if given.K is not None:
         size = size_for(given.K, given.size, around)
         camera = Camera.from_intrinsics(
@@ -212,7 +212,7 @@ def _posed(pose: Floats, given: Pasted, around: Around) -> tuple[View, Size | No
     return View(replace(now.camera, eye=eye, u=u, v=v, w=w), now.fit), None
 
 
-def size_for(k: Floats, size: Size | None, around: Around) -> Size:
+def size_for(k: Floats, size: Size | None, around: ReadAs) -> Size:
     """The size of K's image: as it was given, else the even one that has K's principal point
     nearest to its middle, else the window's images'."""
     if size is not None:
@@ -229,7 +229,7 @@ def size_for(k: Floats, size: Size | None, around: Around) -> Size:
 
 
 def _add_p(
-    affine: Floats, given: Pasted, columns: bool, around: Around, gathered: _Gathered
+    affine: Floats, given: Pasted, columns: bool, around: ReadAs, gathered: _Gathered
 ) -> None:
     """P = K [R | t], which is known up to a factor. Raises LucidaError, LinAlgError."""
     eye = -np.linalg.solve(affine[:, :3], affine[:, 3])
@@ -253,10 +253,10 @@ def _add_p(
             pixel_origin=around.pixel_origin,
         )
         convention = Convention("P = K [R | t]", columns, turned=turned)
-        gathered.found.append(Reading(convention, View(camera, fit=True), size=size))
+        gathered.found.append(MatrixReading(convention, View(camera, fit=True), size=size))
 
 
-def _add_product(matrix: Floats, columns: bool, around: Around, gathered: _Gathered) -> None:
+def _add_product(matrix: Floats, columns: bool, around: ReadAs, gathered: _Gathered) -> None:
     """clip_from_world, in perspective. Raises LucidaError, LinAlgError."""
     rows = matrix[[0, 1, 3], :3]
     depth = np.cross(matrix[2, :3], matrix[3, :3])
@@ -281,7 +281,7 @@ def _add_product(matrix: Floats, columns: bool, around: Around, gathered: _Gathe
             pixel_origin="corner",
         )
         convention = Convention("clip from world", columns, "", turned, flipped)
-        gathered.found.append(Reading(convention, View(camera, fit=True)))
+        gathered.found.append(MatrixReading(convention, View(camera, fit=True)))
 
 
 def _is_square(linear: Floats) -> bool:
@@ -290,7 +290,7 @@ def _is_square(linear: Floats) -> bool:
     return bool(lengths.min() > 0) and is_rotation(linear / np.maximum(lengths, 1e-300))
 
 
-def _add_parallel(matrix: Floats, columns: bool, around: Around, gathered: _Gathered) -> None:
+def _add_parallel(matrix: Floats, columns: bool, around: ReadAs, gathered: _Gathered) -> None:
     """clip_from_world of parallel rays, which start where clip space does."""
     across, up, along, middle = np.linalg.inv(matrix)[:3].T
     flipped = bool(np.linalg.det([across, up, -along]) < 0)
@@ -302,12 +302,12 @@ def _add_parallel(matrix: Floats, columns: bool, around: Around, gathered: _Gath
         viewport = (-half[0], half[0], -half[1], half[1])
         camera = Camera(eye, u, v, w, viewport=viewport, projection="parallel")
         convention = Convention("clip from world", columns, "", turned, flipped)
-        gathered.found.append(Reading(convention, View(camera, fit=True)))
+        gathered.found.append(MatrixReading(convention, View(camera, fit=True)))
 
 
-def merged(found: Sequence[Reading]) -> tuple[Reading, ...]:
+def merged(found: Sequence[MatrixReading]) -> tuple[MatrixReading, ...]:
     """The readings, of those that make the same camera one: the first, with the others' names."""
-    kept: list[Reading] = []
+    kept: list[MatrixReading] = []
     for reading in found:
         for number, other in enumerate(kept):
             if is_same(reading.view.camera, other.view.camera):

@@ -15,9 +15,9 @@ from imgui_bundle import imgui
 from app.camera_panel.actions import clipboard_text, with_its_basis
 from app.cameras.focus import Focus
 from app.detective import example, model, ranking
-from app.detective.model import Case, Findings, Light
+from app.detective.model import Findings, Light, MatrixCase
 from app.detective.options import MOST_CHARACTERS, DetectiveOptions
-from app.detective.panel import MatrixWish, Shown, code_of, panel
+from app.detective.panel import MatrixWish, ReadingsShown, code_of, panel
 from app.detective.printed import pasted
 from app.detective.ranking import Ranked
 from app.detective.readings import up_of
@@ -53,7 +53,7 @@ class DetectiveView(DockedView):
         self._painter: RayPictures[_Made] | None = None
         self._uploads: Uploads | None = None
         self._uploaded: Any = None
-        self._found_of: tuple[Case, Scene] | None = None
+        self._found_of: tuple[MatrixCase, Scene] | None = None
         self._asked: MatrixWish = ""
         self._examples = 0
         self._example: Camera | None = None  # that the text is the matrix of
@@ -143,12 +143,12 @@ class DetectiveView(DockedView):
             self.findings = model.found_in(case, focus)
         return self.findings
 
-    def _shown(self, host: Host, findings: Findings) -> Shown:
+    def _shown(self, host: Host, findings: Findings) -> ReadingsShown:
         """The pictures of the readings; the last ones do not stand in for others."""
         assert self._painter is not None and self._uploads is not None
         if not findings.shown:
             self._painter.forget()
-            return Shown(lambda number: None)
+            return ReadingsShown(lambda number: None)
         state, size = host.state, findings.case.size
         cameras = tuple(one.reading.view.for_size(size) for one in findings.shown)
         shadows = state.options.shadows
@@ -182,7 +182,7 @@ class DetectiveView(DockedView):
         def texture(number: int) -> moderngl.Texture | None:
             return uploads.get(f"{number}") if is_there else None
 
-        return Shown(texture, here, note, self._at)
+        return ReadingsShown(texture, here, note, self._at)
 
     # What was asked for.
 

@@ -7,7 +7,16 @@ from collections.abc import Iterable
 from app.cameras.text import python
 from app.detective.printed import Pasted
 from app.detective.ranking import name
-from app.detective.readings import AXES, OTHER, TURNS, Convention, Reading, Up, as_rows, scale_of
+from app.detective.readings import (
+    AXES,
+    OTHER,
+    TURNS,
+    Convention,
+    MatrixReading,
+    Up,
+    as_rows,
+    scale_of,
+)
 from renderer.camera import Floats
 from renderer.intrinsics import PixelOrigin
 
@@ -37,7 +46,7 @@ def formula(convention: Convention, up: Up) -> str:
     return f"eye = column 4, {axes} of {of}{turned}"
 
 
-def code(reading: Reading, given: Pasted, up: Up, origin: PixelOrigin) -> str:
+def code(reading: MatrixReading, given: Pasted, up: Up, origin: PixelOrigin) -> str:
     """Python that makes the reading's camera from the matrix."""
     convention = reading.convention
     head = [f"# {name(convention, up)}"]
@@ -63,7 +72,7 @@ def _given(given: Pasted, convention: Convention) -> list[str]:
     return [*lines, *_array("M", given.numbers.reshape(-1, 4))]
 
 
-def _pose(reading: Reading, given: Pasted, up: Up, origin: PixelOrigin) -> list[str]:
+def _pose(reading: MatrixReading, given: Pasted, up: Up, origin: PixelOrigin) -> list[str]:
     convention = reading.convention
     is_inverse = convention.way == "world-to-camera"
     affine = as_rows(given, convention.columns)[:3]
@@ -103,7 +112,7 @@ def _pose(reading: Reading, given: Pasted, up: Up, origin: PixelOrigin) -> list[
     return [*lines, "    " + ", ".join([f'projection="{camera.projection}"', *clip]), ")"]
 
 
-def _taken_apart(reading: Reading, origin: PixelOrigin) -> list[str]:
+def _taken_apart(reading: MatrixReading, origin: PixelOrigin) -> list[str]:
     """P as the K, R and t that it is the product of."""
     assert reading.size is not None
     k, rotation, t = reading.view.camera.intrinsics(reading.size, origin)

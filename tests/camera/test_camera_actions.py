@@ -139,6 +139,18 @@ def test_copy_and_paste(window: Window, clipboard: list[str]) -> None:
     assert clipboard[0].startswith("lucida render spheres -o ")
 
 
+def test_a_text_that_a_view_takes_is_no_error(window: Window, clipboard: list[str]) -> None:
+    start = window.state
+    window.takes = ("1 0 0 0",)
+    clipboard[0] = "1 0 0 0"
+    run(window, "Paste camera")
+    assert window.taken == ["1 0 0 0"]
+    assert window.message == "" and not window.said and window.state == start
+    run(window, "Copy camera")
+    run(window, "Paste camera")
+    assert len(window.taken) == 1  # a camera is nobody's but the camera's
+
+
 def test_a_clipboard_without_a_camera_is_told_and_changes_nothing(
     window: Window, clipboard: list[str]
 ) -> None:

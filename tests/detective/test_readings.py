@@ -10,13 +10,13 @@ import pytest
 from app.cameras.focus import scene_focus
 from app.detective import example, ranking
 from app.detective.printed import Pasted, pasted
-from app.detective.ranking import Subject, ranked
+from app.detective.ranking import SceneSeen, ranked
 from app.detective.readings import (
     AXES,
     MIRRORED,
     TURNS,
-    Around,
     Convention,
+    ReadAs,
     is_same,
     readings,
     up_of,
@@ -49,7 +49,7 @@ def cameras(count, seed=1):
 
 def around(camera, up="y", pixel_origin="center"):
     lens = Camera(distance=camera.distance, viewport=camera.viewport, projection=camera.projection)
-    return Around(View(lens, fit=False), up, pixel_origin, SIZE)
+    return ReadAs(View(lens, fit=False), up, pixel_origin, SIZE)
 
 
 def apart(a, b, size=SIZE):
@@ -253,7 +253,7 @@ def test_what_is_written_down_makes_the_camera(scene, text):
             }[text]
         )
         for up in ("y", "z"):
-            for reading in readings(given, Around(shown, up, "corner", SIZE)).found:
+            for reading in readings(given, ReadAs(shown, up, "corner", SIZE)).found:
                 made: dict[str, object] = {}
                 exec(code(reading, given, up, "corner"), made)  # as who copies it would
                 camera_made = made["camera"]
@@ -273,7 +273,7 @@ def test_which_axis_is_up():
 def test_the_true_reading_comes_first(scene):
     """Of cameras that somebody could have set: round the scene, above the ground, looking at it."""
     loaded = load_scene(scene)
-    subject = Subject(ranking.sample(scene_focus(loaded).framed), up_of(loaded.view))
+    subject = SceneSeen(ranking.sample(scene_focus(loaded).framed), up_of(loaded.view))
     chance = np.random.default_rng(11)
     first = count = 0
     for _ in range(8):
@@ -295,7 +295,7 @@ def test_the_true_reading_comes_first(scene):
 
 def test_an_example_is_found_out():
     loaded = load_scene("still-life")
-    subject = Subject(ranking.sample(scene_focus(loaded).framed), "y")
+    subject = SceneSeen(ranking.sample(scene_focus(loaded).framed), "y")
     drawn = {example.drawn(seed) for seed in range(24)}
     assert len(drawn) > 10
     for convention in drawn:

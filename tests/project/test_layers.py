@@ -102,6 +102,7 @@ DRAW = {
     "laboratory": "array_view displays_view pictures schemes tables tools vector_view",
     "mistakes": "pages",
     "poses": "",
+    "detective": "",
     "lecture": "exercise foot slide typesetting",
 }
 ROLES = ("actions", "instrument", "panel", "view")
