@@ -20,7 +20,7 @@ from app.mistakes.options import MistakesOptions
 from app.mistakes.question import LETTERS, QuizQuestion
 from app.state.options import Pixel
 from app.widgets import theme
-from app.widgets.lettering import hall_px
+from app.widgets.lettering import fitting_px, hall_px
 from app.widgets.picture_grid import GridPicture, picture_grid
 from app.widgets.theme import Fonts
 from app.widgets.uploads import Uploads
@@ -30,7 +30,6 @@ TEXT_PART = 0.55  # of the view's height, at most, for all but the pictures
 LOW = 0.6  # of its width: a lower view has the pictures beside the text
 WIDE_PART, COLUMN_PART = 0.45, 0.64  # of its width that the text then has, at least and at most
 GAP_EM = 0.8  # between both
-SMALLER = 0.94  # each size of type that is tried is that part of the one before
 ANSWER_MARGIN, CARET_MARGIN = 5, 3  # letters before a choice's code; behind a line's
 AS_WRITTEN = "as written"  # the wrong picture, and its camera in the outside view
 
@@ -309,12 +308,8 @@ def _pictures_room(page: Page, text: Division) -> ImVec2:
 
 
 def _fitting(text: Division, height: Callable[[float], float]) -> float:
-    """The size of type at which a text has room; never below the window's."""
-    least = imgui.get_font_size()
-    size = hall_px(text.width, LETTERS_A_LINE)
-    while size > least and height(size) > text.height:
-        size = max(least, SMALLER * size)
-    return size
+    """The size of type at which a text has room."""
+    return fitting_px(hall_px(text.width, LETTERS_A_LINE), text.height, height)
 
 
 def _code_px(width: float, size: float, longest: int) -> float:

@@ -13,10 +13,12 @@ from imgui_bundle import ImVec2, ImVec4, imgui
 
 from app.state.options import Pixel
 from app.widgets import theme
-from app.widgets.lettering import fitted_text, lettering
+from app.widgets.lettering import LEAST_FITTED, fitted_text, lettering
 from app.widgets.theme import Fonts, framebuffer_scale
 
 HEADING_EM = 1.3
+LINE_EM = 1.15  # more for each line of a caption that has no room beside its title
+MOST_LINES = 4
 GAP_EM = 0.7
 
 
@@ -62,12 +64,12 @@ def picture_grid(
     pictures: Sequence[GridPicture], size: tuple[int, int], room: ImVec2, fonts: Fonts
 ) -> GridAnswer | None:
     """Draws them within the room, from the cursor on. size: (width, height) of all of them."""
-    em, scale = imgui.get_font_size(), framebuffer_scale()
-    heading, gap = HEADING_EM * em, GAP_EM * em
-    columns, width = columns_for(len(pictures), size[0] / size[1], (room.x, room.y), heading, gap)
-    unit = width * scale / size[0]  # framebuffer pixels of a picture's pixel
-    unit = float(int(unit)) if unit >= 4 else unit  # then all are of one size
-    extent = ImVec2(unit * size[0] / scale, unit * size[1] / scale)
+    em, gap = imgui.get_font_size(), GAP_EM * imgui.get_font_size()
+    for lines in (*range(1, MOST_LINES + 1), 1):  # of the headings; one where none has room
+        heading = (HEADING_EM + (lines - 1) * LINE_EM) * em
+        columns, extent = _extent(len(pictures), size, room, heading, gap)
+        if all(_lines(picture, extent.x, fonts) <= lines for picture in pictures):
+            break
     corner, answer = imgui.get_cursor_screen_pos(), None
     for number, picture in enumerate(pictures):
         row, column = divmod(number, columns)
@@ -82,6 +84,40 @@ def picture_grid(
     return answer
 
 
+def _extent(
+    count: int, size: tuple[int, int], room: ImVec2, heading: float, gap: float
+) -> tuple[int, ImVec2]:
+    """How many stand in a row, and how large each is."""
+    scale = framebuffer_scale()
+    columns, width = columns_for(count, size[0] / size[1], (room.x, room.y), heading, gap)
+    unit = width * scale / size[0]  # framebuffer pixels of a picture's pixel
+    unit = float(int(unit)) if unit >= 4 else unit  # then all are of one size
+    return columns, ImVec2(unit * size[0] / scale, unit * size[1] / scale)
+
+
+def _lines(picture: GridPicture, width: float, fonts: Fonts) -> int:
+    """How many lines its heading has: one where its caption has room beside the title, which it may
+    be made smaller for; else the caption stands below."""
+    if not picture.caption:
+        return 1
+    left = width - _title_px(picture, fonts)
+    if left > 0 and LEAST_FITTED * imgui.calc_text_size(picture.caption).x <= left:
+        return 1
+    if max(imgui.calc_text_size(word).x for word in picture.caption.split()) > width:
+        return MOST_LINES + 1
+    below = imgui.calc_text_size(picture.caption, wrap_width=max(width, 1.0)).y
+    return 1 + round(below / imgui.get_text_line_height())
+
+
+def _title_px(picture: GridPicture, fonts: Fonts) -> float:
+    """What the title takes of the line, with what stands between it and the caption."""
+    if not picture.title:
+        return 0.0
+    em = imgui.get_font_size()
+    with lettering(fonts.bold, em):
+        return float(imgui.calc_text_size(picture.title + " ").x) + 0.3 * em
+
+
 def _picture(
     picture: GridPicture,
     size: tuple[int, int],
@@ -93,11 +129,16 @@ def _picture(
     """Gives the pixel that was clicked."""
     draw, scale, em = imgui.get_window_draw_list(), framebuffer_scale(), imgui.get_font_size()
     with lettering(fonts.bold, em):
-        wide = imgui.calc_text_size(picture.title + " ").x if picture.title else 0.0
         fitted_text(draw, at, theme.u32(theme.TEXT), picture.title, extent.x)
-    if picture.caption and wide < extent.x:
-        beside = ImVec2(at.x + wide + 0.3 * em, at.y)
-        fitted_text(draw, beside, theme.u32(theme.DIM), picture.caption, extent.x - wide - 0.3 * em)
+    wide, below = _title_px(picture, fonts), ImVec2(at.x, at.y + LINE_EM * em)
+    if picture.caption and heading > HEADING_EM * em and _lines(picture, extent.x, fonts) > 1:
+        imgui.set_cursor_screen_pos(below)
+        imgui.push_text_wrap_pos(imgui.get_cursor_pos_x() + extent.x)
+        imgui.text_colored(theme.DIM, picture.caption)
+        imgui.pop_text_wrap_pos()
+    elif picture.caption and wide < extent.x:
+        beside = ImVec2(at.x + wide, at.y)
+        fitted_text(draw, beside, theme.u32(theme.DIM), picture.caption, extent.x - wide)
     low = ImVec2(int(at.x * scale) / scale, int((at.y + heading) * scale) / scale)
     high = ImVec2(low.x + extent.x, low.y + extent.y)
     imgui.set_cursor_screen_pos(low)

@@ -342,6 +342,9 @@ class MainWindow:
         if opened.code:
             self.open_code(opened.code)
             self.animate()
+        if opened.tasks:
+            self.view(YourCodeView).open_tasks(self, opened.tasks)
+            self.animate()
         if opened.lecture is not None:  # whose steps have scenes of their own
             self.lecture.give(*opened.lecture)
             self.animate()

@@ -10,9 +10,10 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
+from app.checking.task_file import load_tasks
 from app.lecture.model import Lecture
 from app.lecture.reading import is_lecture, load_lecture
-from app.storage.code_files import found_code, is_code
+from app.storage.code_files import found_code, is_code, is_tasks
 from renderer.errors import LucidaError, describe
 from renderer.raster import Prepared, prepare
 from renderer.scene import BUILTIN_SCENES, Scene, View, load_scene, load_view
@@ -33,7 +34,8 @@ class Opened:
     is_first: it takes the place of what the window has begun with, without a step of undo.
     replaces: the scene of which this is a newer version; None for another one. agreed: the files
     outside of its folder that a scene which came by itself may read; None where the user named it.
-    code: the absolute path of a Python file, which is there.
+    code: the absolute path of a Python file, which is there. tasks: that of a course's tasks, which
+    can be read.
     """
 
     sources: tuple[str, ...] = ()
@@ -46,24 +48,27 @@ class Opened:
     replaces: Scene | None = None
     agreed: frozenset[Path] | None = None
     code: str = ""
+    tasks: str = ""
 
 
 def open_sources(
     sources: Sequence[str], dropped: bool = False, agreed: frozenset[Path] = frozenset()
 ) -> Opened:
     """Loads the first scene and the first view among sources; and the first lecture, the first
-    Python file.
+    Python file, the first file of tasks.
 
     dropped: scenes must not name files outside of their folder but those that are agreed to;
     lectures never. Raises LucidaError where there is but one and it cannot be read, OutsideError
     in any case.
     """
-    scene, view, lecture, code = None, None, None, ""
+    scene, view, lecture, code, tasks = None, None, None, "", ""
     good, problems = [], []
     for source in sources:
         try:
             if source not in BUILTIN_SCENES and is_code(source):
                 code = code or found_code(source)
+            elif source not in BUILTIN_SCENES and is_tasks(source):
+                tasks = tasks or open_tasks(source).tasks
             elif source not in BUILTIN_SCENES and _is_view(Path(source)):
                 view = view or load_view(source)
             elif source not in BUILTIN_SCENES and is_lecture(source):
@@ -80,8 +85,9 @@ def open_sources(
     given = agreed if dropped else None
     prepared = _prepared(scene)
     return Opened(
-        tuple(good), scene, view, tuple(problems), lecture, prepared, agreed=given, code=code
-    )
+        tuple(good), scene, view, tuple(problems), lecture, prepared,
+        agreed=given, code=code, tasks=tasks,
+    )  # fmt: skip
 
 
 def _load_scene(source: str, agreed: frozenset[Path] | None) -> Scene:
@@ -113,6 +119,12 @@ def open_lecture(source: str, agreed: frozenset[Path] = frozenset()) -> Opened:
     """Loads a file as a lecture, whatever it looks like. agreed: files outside of its folder that
     it may read. Raises LucidaError."""
     return Opened((source,), lecture=(load_lecture(source, agreed), Path(source).absolute()))
+
+
+def open_tasks(source: str) -> Opened:
+    """Reads a file as a course's tasks. Raises LucidaError."""
+    load_tasks(source)
+    return Opened((source,), tasks=str(Path(source).absolute()))
 
 
 def _is_view(path: Path) -> bool:
