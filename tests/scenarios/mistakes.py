@@ -13,6 +13,7 @@ from app.mistakes import question as quiz
 from app.mistakes.options import MistakesOptions
 from app.mistakes.view import MISTAKES, MistakesView
 from app.outside.view import OUTSIDE, OutsideView
+from app.widgets import lettering
 
 SHIFT = int(Key.mod_shift)
 
@@ -214,6 +215,31 @@ def drive_a_picture_is_asked_for(d: Driver) -> None:
     d.ctx.item_click(_control("next question"))
     d.settle()
     assert _options(d).asked == "" and not _options(d).revealed
+    _close(d)
+
+
+def drive_captions_are_whole_in_large_type(d: Driver) -> None:
+    cut: list[str] = []
+    fitting_words = lettering.fitting_words
+
+    def fitted(text: str, width_px: float) -> str:
+        shown = fitting_words(text, width_px)
+        cut.extend([text] * (shown != text))
+        return shown
+
+    view = _open(d, columns=32, chosen=("normalised",))
+    lettering.fitting_words = fitted  # type: ignore[assignment]
+    try:
+        for scale in (1.0, 2.0, 3.0):
+            d.window.change(d.window.state.with_options(preferences={"font_scale": scale}))
+            d.settle()
+            assert view.made is not None and view.made.mistakes
+            cut.clear()
+            d.picture()
+            assert not cut, scale
+    finally:
+        lettering.fitting_words = fitting_words  # type: ignore[assignment]
+        d.window.change(d.window.state.with_options(preferences={"font_scale": 1.0}))
     _close(d)
 
 
