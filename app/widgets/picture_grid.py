@@ -17,8 +17,9 @@ from app.widgets.lettering import LEAST_FITTED, fitted_text, lettering
 from app.widgets.theme import Fonts, framebuffer_scale
 
 HEADING_EM = 1.3
-LINE_EM = 1.15  # more for each line of a caption that has no room beside its title
-MOST_LINES = 4
+BELOW_EM = 0.75  # the type of a caption that has no room beside its title
+LINE_EM = 0.9  # more for each of its lines
+MOST_LINES = 7
 GAP_EM = 0.7
 
 
@@ -103,10 +104,11 @@ def _lines(picture: GridPicture, width: float, fonts: Fonts) -> int:
     left = width - _title_px(picture, fonts)
     if left > 0 and LEAST_FITTED * imgui.calc_text_size(picture.caption).x <= left:
         return 1
-    if max(imgui.calc_text_size(word).x for word in picture.caption.split()) > width:
-        return MOST_LINES + 1
-    below = imgui.calc_text_size(picture.caption, wrap_width=max(width, 1.0)).y
-    return 1 + round(below / imgui.get_text_line_height())
+    with lettering(None, BELOW_EM * imgui.get_font_size()):
+        if max(imgui.calc_text_size(word).x for word in picture.caption.split()) > width:
+            return MOST_LINES + 1
+        below = imgui.calc_text_size(picture.caption, wrap_width=max(width, 1.0)).y
+        return 1 + round(below / imgui.get_text_line_height())
 
 
 def _title_px(picture: GridPicture, fonts: Fonts) -> float:
@@ -130,12 +132,13 @@ def _picture(
     draw, scale, em = imgui.get_window_draw_list(), framebuffer_scale(), imgui.get_font_size()
     with lettering(fonts.bold, em):
         fitted_text(draw, at, theme.u32(theme.TEXT), picture.title, extent.x)
-    wide, below = _title_px(picture, fonts), ImVec2(at.x, at.y + LINE_EM * em)
+    wide, below = _title_px(picture, fonts), ImVec2(at.x, at.y + 1.15 * em)
     if picture.caption and heading > HEADING_EM * em and _lines(picture, extent.x, fonts) > 1:
         imgui.set_cursor_screen_pos(below)
-        imgui.push_text_wrap_pos(imgui.get_cursor_pos_x() + extent.x)
-        imgui.text_colored(theme.DIM, picture.caption)
-        imgui.pop_text_wrap_pos()
+        with lettering(None, BELOW_EM * em):
+            imgui.push_text_wrap_pos(imgui.get_cursor_pos_x() + extent.x)
+            imgui.text_colored(theme.DIM, picture.caption)
+            imgui.pop_text_wrap_pos()
     elif picture.caption and wide < extent.x:
         beside = ImVec2(at.x + wide, at.y)
         fitted_text(draw, beside, theme.u32(theme.DIM), picture.caption, extent.x - wide)
