@@ -20,6 +20,7 @@ HEADING_EM = 1.3
 BELOW_EM = 0.75  # the type of a caption that has no room beside its title
 LINE_EM = 0.9  # more for each of its lines
 MOST_LINES = 7
+LEAST_PART = 0.6  # of their width that captions may leave to pictures; else these go before words
 GAP_EM = 0.7
 
 
@@ -66,10 +67,14 @@ def picture_grid(
 ) -> GridAnswer | None:
     """Draws them within the room, from the cursor on. size: (width, height) of all of them."""
     em, gap = imgui.get_font_size(), GAP_EM * imgui.get_font_size()
+    alone = 0.0  # how wide they are below headings of one line
     for lines in (*range(1, MOST_LINES + 1), 1):  # of the headings; one where none has room
         heading = (HEADING_EM + (lines - 1) * LINE_EM) * em
         columns, extent = _extent(len(pictures), size, room, heading, gap)
-        if all(_lines(picture, extent.x, fonts) <= lines for picture in pictures):
+        alone = alone or extent.x
+        if extent.x >= LEAST_PART * alone and all(
+            _lines(picture, extent.x, fonts) <= lines for picture in pictures
+        ):
             break
     corner, answer = imgui.get_cursor_screen_pos(), None
     for number, picture in enumerate(pictures):

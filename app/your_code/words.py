@@ -11,7 +11,7 @@ import numpy as np
 from app.checking.checked import TaskResult
 from app.checking.kinds.values import text_of
 from app.checking.mistakes.diagnosis import Diagnosis
-from app.checking.reports.told import told
+from app.checking.reports.told import told, visible
 from app.checking.tasks import CheckTask
 from app.state.options import Pixel
 from app.your_code.model import BASIS, CodeRays, is_of_camera
@@ -171,4 +171,4 @@ def _of_output(report: CodeReport) -> Iterator[ToldLine]:
             if more > 0
             else "printed:",
         )
-        yield from (ToldLine("code", line.expandtabs(4)) for line in printed[-OUTPUT_LINES:])
+        yield from (ToldLine("code", visible(line).expandtabs(4)) for line in printed[-OUTPUT_LINES:])
