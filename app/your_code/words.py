@@ -171,4 +171,6 @@ def _of_output(report: CodeReport) -> Iterator[ToldLine]:
             if more > 0
             else "printed:",
         )
-        yield from (ToldLine("code", visible(line).expandtabs(4)) for line in printed[-OUTPUT_LINES:])
+        yield from (
+            ToldLine("code", visible(line).expandtabs(4)) for line in printed[-OUTPUT_LINES:]
+        )
