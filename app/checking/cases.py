@@ -56,10 +56,7 @@ def shots(task: CheckTask) -> Iterator[Shot]:
     random = generator(task)
     conventions = task.conventions
     for view in task.views:
-        shot = shot_of(view, task.size or VIEW_SIZE)
-        if conventions.mirrored and shot.camera.determinant > 0:
-            shot = replace(shot, camera=_mirrored(shot.camera))
-        yield shot
+        yield shot_of(view, task.size or VIEW_SIZE, conventions)
     if not task.count:
         return
     kinds = [kind for kind in task.cameras if kind in camera_kinds(conventions)]
@@ -84,9 +81,12 @@ def _made_up(
     return Shot(camera, size, target, up)
 
 
-def shot_of(view: View, size: Size) -> Shot:
-    """A view at a size; its target and its up are those of an orthonormal camera."""
+def shot_of(view: View, size: Size, conventions: Conventions) -> Shot:
+    """A view at a size, as a course has it; its target and its up are those of an orthonormal
+    camera."""
     camera = view.for_size(size)
+    if conventions.mirrored and camera.determinant > 0:
+        camera = _mirrored(camera)
     eye, v, w = (np.asarray(part) for part in (camera.eye, camera.v, camera.w))
     return Shot(camera, size, _vector(eye - 2.0 * w), _vector(v))
 

@@ -7,7 +7,7 @@ the ones here hold wherever the keyboard is.
 from __future__ import annotations
 
 from app.host.action import SHIFT, Action, Key, Window
-from app.mistakes import model
+from app.mistakes import model, question
 from app.mistakes.options import MistakesOptions, Mode
 from app.mistakes.panel import Wish
 from app.mistakes.view import MISTAKES, MistakesView
@@ -22,7 +22,7 @@ MODES: dict[Mode, str] = {
 
 def _show(window: Window, mode: Mode) -> None:
     window.shell.stage.show(MISTAKES)
-    changes = {"mode": mode, "names": (), "answer": "", "revealed": False}
+    changes = question.switched_to(window.state.of(MistakesOptions), mode)
     window.change(window.state.with_options(mistakes=changes))
 
 

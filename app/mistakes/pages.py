@@ -20,7 +20,7 @@ from app.mistakes.options import MistakesOptions
 from app.mistakes.question import LETTERS, QuizQuestion
 from app.state.options import Pixel
 from app.widgets import theme
-from app.widgets.lettering import hall_px
+from app.widgets.lettering import fitting_px, hall_px
 from app.widgets.picture_grid import GridPicture, picture_grid
 from app.widgets.theme import Fonts
 from app.widgets.uploads import Uploads
@@ -30,8 +30,11 @@ TEXT_PART = 0.55  # of the view's height, at most, for all but the pictures
 LOW = 0.6  # of its width: a lower view has the pictures beside the text
 WIDE_PART, COLUMN_PART = 0.45, 0.64  # of its width that the text then has, at least and at most
 GAP_EM = 0.8  # between both
-SMALLER = 0.94  # each size of type that is tried is that part of the one before
 ANSWER_MARGIN, CARET_MARGIN = 5, 3  # letters before a choice's code; behind a line's
+TITLES = {
+    "which-line": "Which line made the second picture?",
+    "which-picture": "Which picture does the wrong line make?",
+}
 AS_WRITTEN = "as written"  # the wrong picture, and its camera in the outside view
 
 
@@ -165,18 +168,19 @@ def quiz(page: Page, made: Made | None, options: MistakesOptions) -> int | None:
         panel.paragraph(asked.problem, page.room.x, size, theme.TEXT, page.fonts)
         return None
     told = (asked.problem,) if asked.problem else ()
+    # First of all, and in place of the question: in a low view the rest may have to be scrolled.
+    first = TITLES[options.mode]
     if options.revealed:
-        told = (_reason(made.now.program, asked, options), *told)
+        first = _reason(made.now.program, asked, options)
     if options.mode == "which-line":
-        return _which_line(page, made, asked, options, told)
-    return _which_picture(page, made, asked, options, told)
+        return _which_line(page, made, asked, options, (first, *told))
+    return _which_picture(page, made, asked, options, (first, *told))
 
 
 def _which_line(
     page: Page, made: Made, asked: QuizQuestion, options: MistakesOptions, told: tuple[str, ...]
 ) -> int | None:
     fonts = page.fonts
-    title = "Which line made the second picture?"
     choices = [
         panel.Choice(_code(made.now.program, name), _verdict(asked, options, number))
         for number, name in enumerate(asked.names)
@@ -187,12 +191,11 @@ def _which_line(
 
     def height(size: float) -> float:
         code = panel.choices_px(choices, _code_px(width, size, longest))
-        return code + panel.paragraphs_px((title, *told), width, size, fonts)
+        return code + panel.paragraphs_px(told, width, size, fonts)
 
     size = _fitting(text, height)
-    panel.paragraph(title, width, size, theme.TEXT, fonts)
-    clicked = panel.choose_line(choices, width, _code_px(width, size, longest), fonts)
     _say(page, told, options, width, size)
+    clicked = panel.choose_line(choices, width, _code_px(width, size, longest), fonts)
     _take_question(page, made, asked)
     wrong = page.textures.get(f"picture {asked.right_at}")
     shown = [
@@ -207,7 +210,6 @@ def _which_picture(
     page: Page, made: Made, asked: QuizQuestion, options: MistakesOptions, told: tuple[str, ...]
 ) -> int | None:
     fonts, program = page.fonts, made.now.program
-    title = "Which picture does the wrong line make?"
     mistakes = model.named(program, (asked.names[asked.right_at],))
     keys = mistakes[0].keys
     lines = tuple(line for line in program.lines if line.key in keys)
@@ -218,13 +220,12 @@ def _which_picture(
 
     def height(size: float) -> float:
         code = rows * panel.LINE * _code_px(width, size, longest + CARET_MARGIN)
-        return code + panel.paragraphs_px((title, *told), width, size, fonts)
+        return code + panel.paragraphs_px(told, width, size, fonts)
 
     size = _fitting(text, height)
-    panel.paragraph(title, width, size, theme.TEXT, fonts)
+    _say(page, told, options, width, size)
     code_px = _code_px(width, size, longest + CARET_MARGIN)
     panel.program_lines(part, mistakes, code_px, width, fonts, can_change=False)
-    _say(page, told, options, width, size)
     _take_question(page, made, asked)
     shown = [GridPicture("right", "right line", page.textures.get("right"))]
     for number, name in enumerate(asked.names):
@@ -309,12 +310,8 @@ def _pictures_room(page: Page, text: Division) -> ImVec2:
 
 
 def _fitting(text: Division, height: Callable[[float], float]) -> float:
-    """The size of type at which a text has room; never below the window's."""
-    least = imgui.get_font_size()
-    size = hall_px(text.width, LETTERS_A_LINE)
-    while size > least and height(size) > text.height:
-        size = max(least, SMALLER * size)
-    return size
+    """The size of type at which a text has room."""
+    return fitting_px(hall_px(text.width, LETTERS_A_LINE), text.height, height)
 
 
 def _code_px(width: float, size: float, longest: int) -> float:

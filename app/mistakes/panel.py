@@ -15,10 +15,11 @@ from imgui_bundle import ImVec2, ImVec4, imgui
 from app.checking.mistakes.program import Mistake, Mistakes, Program
 from app.mistakes import model
 from app.mistakes.options import COLUMNS, MistakesOptions, Mode
-from app.mistakes.question import LETTERS
+from app.mistakes.question import LETTERS, switched_to
 from app.outside.paint import role_color
 from app.widgets import theme
 from app.widgets.checks import checkbox, radio_button
+from app.widgets.coded_text import coded_px, coded_text
 from app.widgets.lettering import lettering
 from app.widgets.rows import follow
 from app.widgets.theme import Fonts
@@ -58,7 +59,7 @@ def controls(
         if number:
             follow(imgui.calc_text_size(name).x + 1.5 * imgui.get_frame_height())
         if radio_button(f"{name}##mode", options.mode == mode) and options.mode != mode:
-            options = replace(options, mode=mode, names=(), answer="", revealed=False)
+            options = replace(options, **switched_to(options, mode))  # type: ignore[arg-type]
         imgui.set_item_tooltip(tip)
     options = _columns(options, columns)
     if options.mode == "laboratory":
@@ -223,16 +224,14 @@ def _popup(
 
 def paragraph(text: str, width: float, size_px: float, color: ImVec4, fonts: Fonts) -> None:
     with lettering(fonts.text, size_px):
-        imgui.push_text_wrap_pos(imgui.get_cursor_pos_x() + width)
-        imgui.text_colored(color, text)
-        imgui.pop_text_wrap_pos()
+        coded_text(text, width, color, fonts)
 
 
 def paragraphs_px(texts: Sequence[str], width: float, size_px: float, fonts: Fonts) -> float:
     """The height of paragraphs one below another."""
     gap = imgui.get_style().item_spacing.y
     with lettering(fonts.text, size_px):
-        return sum(imgui.calc_text_size(text, wrap_width=width).y + gap for text in texts)
+        return sum(coded_px(text, width, fonts) + gap for text in texts)
 
 
 # The quiz.

@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 from app.checking.mistakes.program import Mistake, Program
 from app.images.ray_pictures import RayPainter
 from app.mistakes.model import Bytes, Light, Situation, rays_of, shown
-from app.mistakes.options import MistakesOptions
+from app.mistakes.options import MistakesOptions, Mode
 
 CHOICES = 4
 LETTERS = "ABCD"
@@ -169,3 +169,11 @@ def next_question(options: MistakesOptions, step: int = 1) -> dict[str, object]:
     """Another one, drawn anew; after a step's own question any mistake may be asked for."""
     seed = (options.seed + step) % 1_000_000
     return {"seed": seed, "asked": "", "names": (), "answer": "", "revealed": False}
+
+
+def switched_to(options: MistakesOptions, mode: Mode) -> dict[str, object]:
+    """The options in another mode. A quiz that was seen is followed by a new question: each page
+    of the quiz shows what the other one asks for."""
+    left_quiz = options.mode not in ("laboratory", mode)
+    anew = next_question(options) if left_quiz else {"names": (), "answer": "", "revealed": False}
+    return {**anew, "mode": mode}

@@ -47,7 +47,7 @@ class MistakesView(DockedView):
         self._shown: Any = None  # what the outside view's lines were made from
         self._stands: tuple[Any, tuple[str, ...]] = (None, ())  # a question's key, and its names
         self._asked: list[panel.Wish | int | None] = []  # by keys and clicks, for the next frame
-        self._seen = False
+        self._seen = self._told = False
         self.made: Made | None = None
 
     def ask(self, wish: panel.Wish | int) -> None:
@@ -107,7 +107,11 @@ class MistakesView(DockedView):
             width = imgui.get_content_region_avail().x
             panel.paragraph(error, width, imgui.get_font_size(), theme.ERROR, host.fonts)
         room = imgui.get_content_region_avail()
+        is_told = host.state.of(MistakesOptions).revealed
         if imgui.begin_child("page", room):
+            if is_told and not self._told:
+                imgui.set_scroll_y(0.0)  # where the reason stands
+            self._told = is_told
             width = imgui.get_content_region_avail().x
             height = max(room.y, LEAST_EM * imgui.get_font_size())
             exposure_ev = host.state.images.exposure_ev

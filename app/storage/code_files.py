@@ -1,4 +1,4 @@
-"""Which files are a student's programs, and whether one is there."""
+"""Which files are a student's programs, and whether one is there; which are a course's tasks."""
 
 from __future__ import annotations
 
@@ -6,7 +6,8 @@ from pathlib import Path
 
 from renderer.errors import LucidaError
 
-CODE_ENDING = ".py"
+CODE_ENDING, TASKS_ENDING = ".py", ".toml"
+SNIFFED_BYTES = 1 << 16
 
 
 def is_code(source: str) -> bool:
@@ -26,3 +27,15 @@ def found_code(source: str) -> str:
     if not found:
         raise LucidaError("", "does not exist", "check its name", source)
     return str(path)
+
+
+def is_tasks(source: str) -> bool:
+    """Whether a name is that of a file of tasks, by what is in it: a table [[tasks]]."""
+    if not source.lower().endswith(TASKS_ENDING):
+        return False
+    try:
+        with Path(source).open("rb") as file:
+            lines = file.read(SNIFFED_BYTES).splitlines()
+    except (OSError, ValueError):
+        return False
+    return any(line.replace(b" ", b"").startswith(b"[[tasks]]") for line in lines)

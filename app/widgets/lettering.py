@@ -7,11 +7,12 @@ written.
 from __future__ import annotations
 
 import contextlib
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 
 from imgui_bundle import ImVec2, imgui
 
 LEAST_FITTED = 0.7  # of the type of a line that is made smaller to have room
+SMALLER = 0.94  # each size of type that is tried is that part of the one before
 SMALLEST_PX = 1.0  # what has no room in its window may ask for less than nothing
 
 
@@ -66,6 +67,16 @@ def fitting_words(text: str, width_px: float) -> str:
         words.pop()
         shown = " ".join(words) + " ..."
     return shown
+
+
+def fitting_px(most_px: float, room_px: float, height: Callable[[float], float]) -> float:
+    """The largest size of type, of those tried from most_px down, at which text of height(size) has
+    room; never below the window's."""
+    least = imgui.get_font_size()
+    size = most_px
+    while size > least and height(size) > room_px:
+        size = max(least, SMALLER * size)
+    return size
 
 
 def hall_px(width_px: float, letters: float) -> float:

@@ -17,14 +17,18 @@ from app.widgets.lettering import LEAST_FITTED, fitted_text, fitting_words, lett
 from app.widgets.theme import Fonts, framebuffer_scale
 
 HEADING_EM = 1.3
+BELOW_EM = 0.75  # the type of a caption that has no room beside its title
+LINE_EM = 0.9  # more for each of its lines
+MOST_LINES = 7
+LEAST_PART = 0.6  # of their width that captions may leave to pictures; else these go before words
 GAP_EM = 0.7
 
 
 @dataclass(frozen=True)
 class GridPicture:
     """name: ImGui's. title, caption: above it, the one in bold. texture: None while there is none.
-    frame: a colour round it; None: the usual line. pixel: one that is marked. line: a second one
-    above it. tip: under the mouse."""
+    frame: a colour round it; None: the usual line. pixel: one that is marked. line: in place of a
+    caption, a second line of its own; then all of the grid have one. tip: under the mouse."""
 
     name: str
     title: str
@@ -70,23 +74,25 @@ def picture_grid(
 ) -> GridAnswer | None:
     """Draws them within the room, from the cursor on. size: (width, height) of all of them.
     scroll_to: the number of the one that is to be brought into sight."""
-    em, scale = imgui.get_font_size(), framebuffer_scale()
-    lines = 1 + any(picture.line for picture in pictures)
-    heading, gap = lines * HEADING_EM * em, GAP_EM * em
-    columns, width = columns_for(len(pictures), size[0] / size[1], (room.x, room.y), heading, gap)
-    unit = width * scale / size[0]  # framebuffer pixels of a picture's pixel
-    unit = float(int(unit)) if unit >= 4 else unit  # then all are of one size
-    extent = ImVec2(unit * size[0] / scale, unit * size[1] / scale)
-    corner, answer = imgui.get_cursor_screen_pos(), None
+    em, gap = imgui.get_font_size(), GAP_EM * imgui.get_font_size()
+    if any(picture.line for picture in pictures):
+        heading = 2 * HEADING_EM * em
+        columns, extent = _extent(len(pictures), size, room, heading, gap)
+    else:
+        heading, columns, extent = _below_captions(pictures, size, room, fonts)
     with lettering(fonts.bold, em):
         title_em = _common_em([picture.title for picture in pictures], extent.x)
     line_em = _common_em([picture.line for picture in pictures], extent.x)
+    corner, answer = imgui.get_cursor_screen_pos(), None
     for number, picture in enumerate(pictures):
         row, column = divmod(number, columns)
         at = ImVec2(
             corner.x + column * (extent.x + gap), corner.y + row * (extent.y + heading + gap)
         )
-        _words(picture, at, extent.x, (title_em, line_em), fonts)
+        if picture.line:
+            _two_lines(picture, at, extent.x, (title_em, line_em), fonts)
+        else:
+            _title_and_caption(picture, at, extent.x, heading, fonts)
         pixel = _picture(picture, size, at, extent, heading)
         if number == scroll_to:
             imgui.set_scroll_here_y()
@@ -97,27 +103,92 @@ def picture_grid(
     return answer
 
 
+def _below_captions(
+    pictures: Sequence[GridPicture], size: tuple[int, int], room: ImVec2, fonts: Fonts
+) -> tuple[float, int, ImVec2]:
+    """How high headings are that hold their captions; how many stand in a row, how large each."""
+    em, gap = imgui.get_font_size(), GAP_EM * imgui.get_font_size()
+    alone = 0.0  # how wide they are below headings of one line
+    for lines in (*range(1, MOST_LINES + 1), 1):  # of the headings; one where none has room
+        heading = (HEADING_EM + (lines - 1) * LINE_EM) * em
+        columns, extent = _extent(len(pictures), size, room, heading, gap)
+        alone = alone or extent.x
+        if extent.x >= LEAST_PART * alone and all(
+            _lines(picture, extent.x, fonts) <= lines for picture in pictures
+        ):
+            break
+    return heading, columns, extent
+
+
+def _extent(
+    count: int, size: tuple[int, int], room: ImVec2, heading: float, gap: float
+) -> tuple[int, ImVec2]:
+    """How many stand in a row, and how large each is."""
+    scale = framebuffer_scale()
+    columns, width = columns_for(count, size[0] / size[1], (room.x, room.y), heading, gap)
+    unit = width * scale / size[0]  # framebuffer pixels of a picture's pixel
+    unit = float(int(unit)) if unit >= 4 else unit  # then all are of one size
+    return columns, ImVec2(unit * size[0] / scale, unit * size[1] / scale)
+
+
+def _lines(picture: GridPicture, width: float, fonts: Fonts) -> int:
+    """How many lines its heading has: one where its caption has room beside the title, which it may
+    be made smaller for; else the caption stands below."""
+    if not picture.caption:
+        return 1
+    left = width - _title_px(picture, fonts)
+    if left > 0 and LEAST_FITTED * imgui.calc_text_size(picture.caption).x <= left:
+        return 1
+    with lettering(None, BELOW_EM * imgui.get_font_size()):
+        if max(imgui.calc_text_size(word).x for word in picture.caption.split()) > width:
+            return MOST_LINES + 1
+        below = imgui.calc_text_size(picture.caption, wrap_width=max(width, 1.0)).y
+        return 1 + round(below / imgui.get_text_line_height())
+
+
+def _title_px(picture: GridPicture, fonts: Fonts) -> float:
+    """What the title takes of the line, with what stands between it and the caption."""
+    if not picture.title:
+        return 0.0
+    em = imgui.get_font_size()
+    with lettering(fonts.bold, em):
+        return float(imgui.calc_text_size(picture.title + " ").x) + 0.3 * em
+
+
 def _common_em(texts: Sequence[str], width: float) -> float:
     """The size of type at which all of them have room, unless that is too small."""
     widest = max(imgui.calc_text_size(text).x for text in texts)
     return imgui.get_font_size() * max(LEAST_FITTED, min(1.0, width / max(widest, 1.0)))
 
 
-def _words(
+def _two_lines(
     picture: GridPicture, at: ImVec2, width: float, sizes: tuple[float, float], fonts: Fonts
 ) -> None:
-    """What stands above a picture. sizes: of the title's type, and the line's."""
+    """Title and line. sizes: of their type."""
     draw, em = imgui.get_window_draw_list(), imgui.get_font_size()
     with lettering(fonts.bold, sizes[0]):
-        wide = imgui.calc_text_size(picture.title + " ").x if picture.title else 0.0
         draw.add_text(at, theme.u32(theme.TEXT), fitting_words(picture.title, width))
-    if picture.caption and wide < width:
-        beside = ImVec2(at.x + wide + 0.3 * em, at.y)
-        fitted_text(draw, beside, theme.u32(theme.DIM), picture.caption, width - wide - 0.3 * em)
-    if picture.line:
-        below = ImVec2(at.x, at.y + HEADING_EM * em)
-        with lettering(fonts.text, sizes[1]):
-            draw.add_text(below, theme.u32(theme.DIM), fitting_words(picture.line, width))
+    below = ImVec2(at.x, at.y + HEADING_EM * em)
+    with lettering(fonts.text, sizes[1]):
+        draw.add_text(below, theme.u32(theme.DIM), fitting_words(picture.line, width))
+
+
+def _title_and_caption(
+    picture: GridPicture, at: ImVec2, width: float, heading: float, fonts: Fonts
+) -> None:
+    draw, em = imgui.get_window_draw_list(), imgui.get_font_size()
+    with lettering(fonts.bold, em):
+        fitted_text(draw, at, theme.u32(theme.TEXT), picture.title, width)
+    wide, below = _title_px(picture, fonts), ImVec2(at.x, at.y + 1.15 * em)
+    if picture.caption and heading > HEADING_EM * em and _lines(picture, width, fonts) > 1:
+        imgui.set_cursor_screen_pos(below)
+        with lettering(None, BELOW_EM * em):
+            imgui.push_text_wrap_pos(imgui.get_cursor_pos_x() + width)
+            imgui.text_colored(theme.DIM, picture.caption)
+            imgui.pop_text_wrap_pos()
+    elif picture.caption and wide < width:
+        beside = ImVec2(at.x + wide, at.y)
+        fitted_text(draw, beside, theme.u32(theme.DIM), picture.caption, width - wide)
 
 
 def _picture(

@@ -16,12 +16,12 @@ from pathlib import Path
 from imgui_bundle import portable_file_dialogs as dialogs
 
 from app.poses.reading import CAMERA_ENDINGS
-from app.storage.code_files import CODE_ENDING
+from app.storage.code_files import CODE_ENDING, TASKS_ENDING
 from app.storage.recent import RecentFiles
 from app.storage.scene_watch import SceneWatch
 from app.widgets.background import Background
 from app.widgets.dialog import FileDialog, FileQuestion
-from app.window.opening import Opened, open_lecture, open_sources, reread
+from app.window.opening import Opened, open_lecture, open_sources, open_tasks, reread
 from renderer.errors import describe, one_line
 from renderer.scene import (
     BUILTIN_SCENES,
@@ -174,6 +174,16 @@ class Files:
             FileQuestion("Open Python code", False, (CODE_ENDING,), "", self.open_all),
             ["Python files", f"*{CODE_ENDING}"],
         )
+
+    def open_tasks_dialog(self) -> None:
+        self._ask(
+            FileQuestion("Open a course's tasks", False, (TASKS_ENDING,), "", self.open_tasks),
+            ["Tasks", f"*{TASKS_ENDING}"],
+        )
+
+    def open_tasks(self, paths: list[str]) -> None:
+        """Loads a file as tasks, whatever it looks like."""
+        self._load(paths[0], lambda _: open_tasks(paths[0]))
 
     def save_view_dialog(self, view: View) -> None:
         def store(path: str) -> str:

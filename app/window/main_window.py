@@ -361,6 +361,9 @@ class MainWindow:
         if opened.poses is not None:
             self.view(PosesView).open(self, opened.poses)
             self.animate()
+        if opened.tasks:
+            self.view(YourCodeView).open_tasks(self, opened.tasks)
+            self.animate()
         if opened.lecture is not None:  # whose steps have scenes of their own
             self.lecture.give(*opened.lecture)
             self.animate()

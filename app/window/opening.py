@@ -11,11 +11,12 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
+from app.checking.task_file import load_tasks
 from app.lecture.model import Lecture
 from app.lecture.reading import is_lecture, load_lecture
 from app.poses.model import PoseSet
 from app.poses.reading import is_cameras, open_cameras
-from app.storage.code_files import found_code, is_code
+from app.storage.code_files import found_code, is_code, is_tasks
 from renderer.errors import LucidaError, describe
 from renderer.raster import Prepared, prepare
 from renderer.scene import BUILTIN_SCENES, Scene, View, load_scene, load_view
@@ -36,7 +37,8 @@ class Opened:
     is_first: it takes the place of what the window has begun with, without a step of undo.
     replaces: the scene of which this is a newer version; None for another one. agreed: the files
     outside of its folder that a scene which came by itself may read; None where the user named it.
-    code: the absolute path of a Python file, which is there. poses: a set of cameras.
+    code: the absolute path of a Python file, which is there. poses: a set of cameras. tasks: the
+    path of a course's tasks, which can be read.
     """
 
     sources: tuple[str, ...] = ()
@@ -50,24 +52,28 @@ class Opened:
     agreed: frozenset[Path] | None = None
     code: str = ""
     poses: PoseSet | None = None
+    tasks: str = ""
 
 
 def open_sources(
     sources: Sequence[str], dropped: bool = False, agreed: frozenset[Path] = frozenset()
 ) -> Opened:
     """Loads the first scene and the first view among sources; and the first lecture, the first
-    Python file, the first set of cameras. A file with one camera is a view, whatever its format.
+    Python file, the first set of cameras, the first file of tasks. A file with one camera is a
+    view, whatever its format.
 
     dropped: scenes must not name files outside of their folder but those that are agreed to;
     lectures never. Raises LucidaError where there is but one and it cannot be read, OutsideError
     in any case.
     """
-    scene, view, lecture, code, poses = None, None, None, "", None
+    scene, view, lecture, code, poses, tasks = None, None, None, "", None, ""
     good, problems = [], []
     for source in sources:
         try:
             if source not in BUILTIN_SCENES and is_code(source):
                 code = code or found_code(source)
+            elif source not in BUILTIN_SCENES and is_tasks(source):
+                tasks = tasks or open_tasks(source).tasks
             elif source not in BUILTIN_SCENES and _is_view(Path(source)):
                 view = view or load_view(source)
             elif source not in BUILTIN_SCENES and is_lecture(source):
@@ -91,7 +97,7 @@ def open_sources(
     prepared = _prepared(scene)
     return Opened(
         tuple(good), scene, view, tuple(problems), lecture, prepared, agreed=given, code=code,
-        poses=poses,
+        poses=poses, tasks=tasks,
     )  # fmt: skip
 
 
@@ -124,6 +130,12 @@ def open_lecture(source: str, agreed: frozenset[Path] = frozenset()) -> Opened:
     """Loads a file as a lecture, whatever it looks like. agreed: files outside of its folder that
     it may read. Raises LucidaError."""
     return Opened((source,), lecture=(load_lecture(source, agreed), Path(source).absolute()))
+
+
+def open_tasks(source: str) -> Opened:
+    """Reads a file as a course's tasks. Raises LucidaError."""
+    load_tasks(source)
+    return Opened((source,), tasks=str(Path(source).absolute()))
 
 
 def _is_view(path: Path) -> bool:

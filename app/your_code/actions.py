@@ -23,6 +23,13 @@ def _has_file(window: Window) -> bool:
 YOURS = (
     Action(MENU, "Open Python code...", lambda window: _ask("open", window)),
     Action(MENU, "Write code to begin with...", lambda window: _ask("starter", window)),
+    Action(MENU, "Open a course's tasks...", lambda window: _ask("tasks", window)),
+    Action(
+        MENU,
+        "Built-in tasks",
+        lambda window: _ask("built-in", window),
+        can=lambda window: bool(window.state.of(YourCodeOptions).tasks),
+    ),
     Action(
         MENU, "Run your code", lambda window: _ask("run", window), can=_has_file, separated=True
     ),

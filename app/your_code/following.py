@@ -1,6 +1,6 @@
-"""Whether the file has been saved, looked at while nobody draws: the user is in an editor.
+"""Whether a file has been saved, looked at while nobody draws: the user is in an editor.
 
-Owns a thread that looks at the file now and then, and says so by waking the window.
+Owns a thread that looks at it now and then, and says so by waking the window.
 """
 
 from __future__ import annotations
@@ -14,11 +14,12 @@ from app.storage.watching import FilesWatch
 from renderer.scene.noting import stamp
 
 LOOK_S = 0.1
+AWAY_LOOKS = 3
 
 
 class FileFollower:
-    """wake: called when the file was saved, and at each look while is_busy(). version: of the file,
-    another one each time that it was saved.
+    """wake: called when a file was saved, and at each look while is_busy(). version: of the files,
+    another one each time that one was saved. is_away: whether one has not been there for a while.
 
     tick: called in the thread at each look.
     """
@@ -28,27 +29,30 @@ class FileFollower:
     ) -> None:
         self._wake, self._is_busy, self._tick = wake, is_busy, tick
         self._watch: FilesWatch | None = None
-        self._path = ""
+        self._paths: tuple[str, ...] = ()
+        self._missed = 0  # looks that have not found one, one after another
         self._looking, self._closed = threading.Event(), threading.Event()
         self._thread = threading.Thread(target=self._run, name="lucida-follow", daemon=True)
         self._thread.start()
         self.version = 0
+        self.is_away = False
 
-    def follow(self, path: str) -> None:
-        """Looks at this file from now on; "" for none. Not while nobody sees what came of it."""
-        if path != self._path and path:
-            self._watch = FilesWatch({Path(path): stamp(Path(path))})
-            self._path = path
+    def follow(self, *paths: str) -> None:
+        """Looks at these files from now on."""
+        if paths != self._paths:
+            self._watch = FilesWatch({Path(path): stamp(Path(path)) for path in paths})
+            self._paths = paths
             self.version += 1
-        if path:
-            self._looking.set()
-        else:
-            self._looking.clear()
+        self._looking.set()
+
+    def rest(self) -> None:
+        """Nobody sees what came of them: looks when they are followed again."""
+        self._looking.clear()
 
     def forget(self) -> None:
         """Another version is followed next, whatever it is."""
         self._looking.clear()
-        self._watch, self._path = None, ""
+        self._watch, self._paths = None, ()
 
     def again(self) -> None:
         """As if the file had been saved."""
@@ -62,9 +66,19 @@ class FileFollower:
     def _run(self) -> None:
         while self._looking.wait() and not self._closed.wait(LOOK_S):
             self._tick()
+            self._note_missing()
             watch = self._watch
             if watch is not None and watch.changed(time.monotonic()):
                 self.version += 1
                 self._wake()
             elif self._is_busy():
                 self._wake()
+
+    def _note_missing(self) -> None:
+        """An editor may take a file away for a moment, when it puts another in its place."""
+        missing = any(stamp(Path(path)) is None for path in self._paths)
+        self._missed = self._missed + 1 if missing else 0
+        is_away = self._missed > AWAY_LOOKS
+        if is_away != self.is_away:
+            self.is_away = is_away
+            self._wake()

@@ -12,6 +12,7 @@ SYNONYMS = {
     "Your code": "python program student check homework viewing_ray",
     "Open Python code...": "student program .py your code",
     "Write code to begin with...": "starter template python",
+    "Open a course's tasks...": "homework assignment exercise toml check your code",
     "Run your code": "check python again reload",
     "Stop your code": "endless loop kill",
 }

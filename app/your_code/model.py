@@ -13,22 +13,25 @@ import numpy as np
 from numpy.typing import NDArray
 
 from app.checking.builtin import BUILTIN
-from app.checking.calls import Failure, Run
-from app.checking.cases import shot_of
+from app.checking.calls import Failure, Limits, Run
+from app.checking.cases import check_views, shot_of
 from app.checking.checked import TaskResult, judged
 from app.checking.diagnosed import diagnosis
 from app.checking.kinds import KINDS
 from app.checking.kinds.basis import case_of
 from app.checking.kinds.viewing_ray import cases_of
 from app.checking.mistakes.diagnosis import Diagnosis
+from app.checking.task_file import TaskSet, load_tasks
 from app.checking.tasks import CheckCase, CheckTask
 from renderer.camera import Camera, Size
+from renderer.errors import LucidaError
 from renderer.scene.model import View
 
 Floats = NDArray[np.float64]
 
 RAY, BASIS = "viewing-ray", "basis"  # the kinds of functions that make pictures of a camera
 EXACT = 1e-9
+LIMITS = Limits(seconds=10.0)  # of the built-in tasks
 
 
 @dataclass(frozen=True, eq=False)
@@ -37,6 +40,7 @@ class CodeRays:
 
     origins, directions: (H, W, 3), NaN where nothing came; right_origins, right_directions
     likewise. wrong: bool (H, W), of what came. result: in the words of a check, without diagnosis.
+    camera: the mirror image of the window's, where the course's coordinates are left-handed.
     seconds: that the calls took. cases, given: what was asked and answered, in the kind's own form.
     """
 
@@ -61,14 +65,22 @@ class CodeRays:
         return came
 
 
-def tasks_of(functions: frozenset[str] | None) -> list[CheckTask]:
-    """The built-in tasks whose functions a file has, in the lecture's order."""
-    return [task for task in BUILTIN if functions is None or task.function in functions]
+def asked_of(path: str) -> TaskSet:
+    """The tasks in a course's file, "" for the built-in ones. Raises LucidaError."""
+    return load_tasks(path) if path else TaskSet("", BUILTIN, LIMITS)
+
+
+def tasks_of(
+    functions: frozenset[str] | None, asked: Sequence[CheckTask] = BUILTIN
+) -> list[CheckTask]:
+    """The tasks whose functions a file has, in their order."""
+    return [task for task in asked if functions is None or task.function in functions]
 
 
 def is_of_camera(task: CheckTask) -> bool:
-    """Whether what it asks for makes a picture of the window's camera."""
-    return task.kind in (RAY, BASIS)
+    """Whether what it asks for makes a picture of the window's camera, which the course lets the
+    student see: it shows what is wrong, and where."""
+    return task.kind in (RAY, BASIS) and task.feedback in ("first-wrong", "diagnosis")
 
 
 def chosen_of(tasks: Sequence[CheckTask], name: str) -> CheckTask | None:
@@ -79,11 +91,11 @@ def chosen_of(tasks: Sequence[CheckTask], name: str) -> CheckTask | None:
     return next(wished, None) or next(pictured, None) or next(iter(tasks), None)
 
 
-def for_camera(task: CheckTask, camera: Camera) -> CheckTask:
-    """The task of the same function for this camera's projection."""
+def for_camera(task: CheckTask, camera: Camera, asked: Sequence[CheckTask] = BUILTIN) -> CheckTask:
+    """The task of the same function for this camera's projection, where one of those asked is."""
     fitting = (
         one
-        for one in BUILTIN
+        for one in asked
         if one.kind == task.kind == RAY
         and one.function == task.function
         and camera.projection in one.projections
@@ -91,9 +103,29 @@ def for_camera(task: CheckTask, camera: Camera) -> CheckTask:
     return next(fitting, task)
 
 
+def why_not_asked(task: CheckTask, camera: Camera, size: Size) -> str:
+    """Why a task cannot be asked of a camera, in words; empty where it can."""
+    if task.kind != RAY:
+        return ""
+    if camera.projection not in task.projections:
+        other = "parallel" if "parallel" in task.projections else "perspective"
+        return f"{task.name} is for {other} projection: P switches to it."
+    view = View(camera, fit=False)
+    try:
+        check_views(replace(task, views=(view,), size=size))
+    except LucidaError as error:
+        return (
+            f"{task.name} is not asked of this camera: it {error.problem}. Make it orthonormal, "
+            "with a symmetric viewport, pixels square."
+        )
+    if task.conventions.needs_rigid and camera.determinant < 0:
+        return f"{task.name} is not asked of this camera: it is left-handed. Turn u round."
+    return ""
+
+
 def cases_for(task: CheckTask, camera: Camera, size: Size) -> list[CheckCase]:
     """What is asked: the ray of each pixel, or the basis, once. camera: as it is for that size."""
-    shot = shot_of(View(camera, fit=False), size)
+    shot = shot_of(View(camera, fit=False), size, task.conventions)
     if task.kind == RAY:
         return cases_of(task, shot)
     return [case_of(task, camera.eye, shot.target, shot.up)]
@@ -123,7 +155,7 @@ def rays_of(
     shape = (height, width, 3)
     return CodeRays(
         task,
-        camera,
+        cases[0].camera or camera,
         size,
         rays[:, 0].reshape(shape),
         rays[:, 1].reshape(shape),
@@ -160,10 +192,11 @@ def canvas_pixel(
     pixel: tuple[int, int], of: Camera, size: Size, to: Camera, to_size: Size
 ) -> tuple[int, int]:
     """The pixel of another image of the same view, nearest to a pixel's centre; the cameras differ
-    in their viewports. Both (row, column), from 0."""
+    in their viewports, or one is the other's mirror image. Both (row, column), from 0."""
     left, right, bottom, top = of.viewport
     x = left + (pixel[1] + 0.5) / size[0] * (right - left)
     y = top - (pixel[0] + 0.5) / size[1] * (top - bottom)
+    x = -x if np.dot(of.u, to.u) < 0 else x
     left, right, bottom, top = to.viewport
     row = int((top - y) / (top - bottom) * to_size[1] - EXACT)
     column = int((x - left) / (right - left) * to_size[0] - EXACT)

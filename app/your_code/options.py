@@ -1,4 +1,4 @@
-"""Which file is run, for which function, on how many pixels."""
+"""Which file is run, for which of whose tasks, on how many pixels."""
 
 from __future__ import annotations
 
@@ -11,11 +11,13 @@ from app.state.bounds import AtMost, Beside, Range
 @dataclass(frozen=True)
 class YourCodeOptions:
     """The view "Your code". file: an absolute path, as app.storage.paths.stored() writes it, "" for
-    none; in a lecture one beside the lecture's file. task: the name of the one that is looked at;
-    "" for the first whose function the file has. canvas: (width, height) of the pictures.
+    none; in a lecture one beside the lecture's file. tasks: that of a course's tasks, "" for the
+    built-in ones. task: the name of the one that is looked at; "" for the first whose function the
+    file has. canvas: (width, height) of the pictures.
     """
 
     file: Annotated[str, Beside((".py",))] = ""
+    tasks: Annotated[str, Beside((".toml",))] = ""
     task: Annotated[str, AtMost(64)] = ""
     canvas: tuple[Annotated[int, Range(1, 64)], Annotated[int, Range(1, 48)]] = (32, 24)
 

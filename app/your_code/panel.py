@@ -15,7 +15,8 @@ from imgui_bundle import ImVec2, ImVec4, imgui
 from app.checking.tasks import CheckTask
 from app.stepper.panel import CANVASES
 from app.widgets import theme
-from app.widgets.lettering import lettering
+from app.widgets.coded_text import coded_px, coded_text
+from app.widgets.lettering import fitting_px, hall_px, lettering
 from app.widgets.rows import follow
 from app.widgets.theme import Fonts
 from app.your_code.report import CodeReport
@@ -23,11 +24,15 @@ from app.your_code.words import ToldLine, ToldRole, verdict_of
 from renderer.camera import Size
 from renderer.errors import one_line
 
-CodeWish = Literal["", "open", "starter", "run", "stop", "edit"]
+CodeWish = Literal["", "open", "starter", "run", "stop", "edit", "tasks", "built-in"]
 RUNNING_S = 0.3  # a run that takes longer shows how far it is
 BESIDE = 2.0  # width / height of the room from which words stand beside the pictures
 WORDS_EM = 24.0  # the least width of the words there
 TEXT_PART = 0.42  # of the height, for the words below the pictures
+LETTERS_A_LINE = 58.0  # of the words, where there is room for large ones
+VERDICT = 1.25  # its size, in that of the other words
+VERDICT_LONGEST = 70  # letters: what is longer is no verdict, but why there is none
+VERDICT_PART, VERDICT_LETTERS = 1 / 34, 20  # and at least, of the window's height, of its own width
 CODE_LETTERS = 24  # a line of code is made smaller until so many fit, and then is broken
 
 INVITATION = (
@@ -35,6 +40,7 @@ INVITATION = (
     " here, again whenever you save it, and shows your picture beside the right one."
 )
 SIGNATURE = "def viewing_ray(i, j, width, height, camera):\n    ...\n    return origin, direction"
+AWAY = "moved or deleted"
 TRUST = (
     "It has not been run: you have not opened it yourself. It would run in a process of its own,"
     " with your rights. Read it first."
@@ -45,7 +51,8 @@ TRUST = (
 class CodeHead:
     """What stands above. name, folder: of the file. running_s: how long it has been running; 0
     where it is not. progress: how much of the picture is there, 0 to 1. may_run: whether the user
-    has opened it."""
+    has opened it. tasks: the name of the file of tasks, "" for the built-in ones. is_away: whether
+    one of both files is not there any more."""
 
     name: str
     folder: str
@@ -53,10 +60,12 @@ class CodeHead:
     running_s: float = 0.0
     progress: float = 0.0
     may_run: bool = True
+    tasks: str = ""
+    is_away: bool = False
 
 
-def invitation(fonts: Fonts) -> CodeWish:
-    """Where no file is open."""
+def invitation(tasks: str, fonts: Fonts) -> CodeWish:
+    """Where no file is open. tasks: see CodeHead."""
     imgui.push_text_wrap_pos(0.0)
     imgui.text(INVITATION)
     imgui.pop_text_wrap_pos()
@@ -71,6 +80,7 @@ def invitation(fonts: Fonts) -> CodeWish:
     follow(imgui.calc_text_size("Open a Python file...").x + 2 * imgui.get_style().frame_padding.x)
     if imgui.button("Open a Python file..."):
         wish = "open"
+    wish = _tasks(tasks) or wish
     imgui.push_text_wrap_pos(0.0)
     imgui.text_colored(theme.DIM, "Or drop one on the window, or: lucida rays.py")
     imgui.pop_text_wrap_pos()
@@ -97,12 +107,17 @@ def head(told: CodeHead, report: CodeReport | None, fonts: Fonts) -> tuple[CodeW
         if imgui.button(f"{shown}###{name}"):
             wish = name  # type: ignore[assignment]
         imgui.set_item_tooltip(tooltip)
+    wish = _tasks(told.tasks) or wish
     canvas = _canvas(told.canvas) if told.may_run else told.canvas
     if running:
         width = 9 * imgui.get_font_size()
         follow(width)
         part = told.progress if told.progress > 0 else -0.5 * told.running_s
         imgui.progress_bar(part, ImVec2(width, 0), f"{told.running_s:.0f} s")
+    elif told.is_away:
+        follow(imgui.calc_text_size(AWAY).x)
+        imgui.align_text_to_frame_padding()
+        imgui.text_colored(theme.ERROR, AWAY)
     elif report is not None and report.at:
         at = time.strftime("%H:%M:%S", time.localtime(report.at))
         text = f"ran at {at}, {report.seconds:.2g} s" if report.seconds else f"ran at {at}"
@@ -110,6 +125,23 @@ def head(told: CodeHead, report: CodeReport | None, fonts: Fonts) -> tuple[CodeW
         imgui.align_text_to_frame_padding()
         imgui.text_colored(theme.DIM, text)
     return wish, canvas
+
+
+def _tasks(name: str) -> CodeWish:
+    """Whose tasks are asked; gives what was chosen of others."""
+    wish: CodeWish = ""
+    shown = f"Tasks: {one_line(name)}" if name else "Tasks"
+    follow(_button_width(shown))
+    if imgui.button(f"{shown}###tasks"):
+        imgui.open_popup("tasks")
+    imgui.set_item_tooltip("what is asked for: the built-in tasks, or those of a course")
+    if imgui.begin_popup("tasks"):
+        if imgui.menu_item("built-in tasks", "", not name)[0] and name:
+            wish = "built-in"
+        if imgui.menu_item("a course's file (TOML)...", "", bool(name))[0]:
+            wish = "tasks"
+        imgui.end_popup()
+    return wish
 
 
 def tasks(report: CodeReport, chosen: CheckTask | None) -> CheckTask | None:
@@ -148,18 +180,50 @@ def rooms(room: ImVec2, has_pictures: bool) -> tuple[ImVec2, ImVec2, bool]:
 
 
 def words(lines: Sequence[ToldLine], room: ImVec2, fonts: Fonts) -> None:
-    """What is told, scrolled where it has no room."""
+    """What is told, as large as it has room, the verdict above all; scrolled where it has none."""
     if imgui.begin_child("told", room):
-        em = imgui.get_font_size()
-        width = imgui.get_content_region_avail().x
-        for line in lines:
-            is_code = line.role == "code"
-            size = min(em, 2 * width / CODE_LETTERS) if is_code else em
-            with lettering(fonts.mono if is_code else fonts.text, size):
-                imgui.push_text_wrap_pos(0.0)
-                imgui.text_colored(_color(line.role), line.text)
-                imgui.pop_text_wrap_pos()
+        left = imgui.get_content_region_avail()
+        size = fitting_px(
+            hall_px(left.x, LETTERS_A_LINE), left.y, lambda px: _words_px(lines, left, px, fonts)
+        )
+        for number, line in enumerate(lines):
+            with lettering(*_lettering(line, number, left.x, size, fonts)):
+                if line.role == "code":
+                    imgui.push_text_wrap_pos(0.0)
+                    imgui.text_colored(_color(line.role), line.text)
+                    imgui.pop_text_wrap_pos()
+                else:
+                    coded_text(line.text, left.x, _color(line.role), fonts)
     imgui.end_child()
+
+
+def _lettering(
+    line: ToldLine, number: int, width: float, size: float, fonts: Fonts
+) -> tuple[imgui.ImFont | None, float]:
+    """The font and the size of a line, where the words are of this size."""
+    if line.role == "code":
+        return fonts.mono, min(size, 2 * width / CODE_LETTERS)
+    is_verdict = number == 0 and line.role in ("good", "bad")
+    if is_verdict and len(line.text) <= VERDICT_LONGEST:  # the last row is to read it
+        least = VERDICT_PART * imgui.get_main_viewport().size.y
+        return fonts.bold, max(min(least, 2 * width / VERDICT_LETTERS), VERDICT * size)
+    return fonts.text, size
+
+
+def _words_px(lines: Sequence[ToldLine], room: ImVec2, size: float, fonts: Fonts) -> float:
+    """The height of the words, or of the first of them that have no room."""
+    gap, total = imgui.get_style().item_spacing.y, 0.0
+    for number, line in enumerate(lines):
+        with lettering(*_lettering(line, number, room.x, size, fonts)):
+            is_code = line.role == "code"
+            total += gap + (
+                float(imgui.calc_text_size(line.text, wrap_width=room.x).y)
+                if is_code
+                else coded_px(line.text, room.x, fonts)
+            )
+        if total > room.y:
+            break
+    return total
 
 
 def unrun(text: str, room: ImVec2, fonts: Fonts) -> bool:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 
+from app.checking.builtin import BUILTIN
 from app.checking.calls import Failure
 from app.checking.checked import TaskResult
 from app.checking.mistakes.diagnosis import Diagnosis
@@ -17,19 +18,21 @@ ENDLESS = ("time", "memory", "ended")  # what a file is not run after by itself,
 
 @dataclass(frozen=True)
 class CodeQuestion:
-    """path: of the file. version: another number, another content. task: the chosen one's name.
-    camera: for the canvas; size: of that."""
+    """path: of the file. version: another number, another content, of this file or of the tasks'.
+    task: the chosen one's name. camera: for the canvas; size: of that. tasks: the file that they
+    are in, "" for the built-in ones."""
 
     path: str
     version: int
     task: str
     camera: Camera
     size: Size
+    tasks: str = ""
 
     @property
-    def of(self) -> tuple[str, int]:
+    def of(self) -> tuple[str, str, int]:
         """The content that it is asked about."""
-        return self.path, self.version
+        return self.path, self.tasks, self.version
 
 
 @dataclass(frozen=True, eq=False)
@@ -39,7 +42,8 @@ class CodeReport:
     tried, by name. diagnosis: why the rays are wrong; None while that is not known. failure: why
     the file answers nothing at all. output: what it printed.
 
-    seconds: that the newest run took. at: when it ended, seconds since 1970.
+    seconds: that the newest run took. at: when it ended, seconds since 1970. asked: all tasks.
+    not_asked: why there are no rays, where that is the camera's doing.
     """
 
     question: CodeQuestion
@@ -52,6 +56,8 @@ class CodeReport:
     output: str = ""
     seconds: float = 0.0
     at: float = 0.0
+    asked: tuple[CheckTask, ...] = BUILTIN
+    not_asked: str = ""
 
     @property
     def halted(self) -> bool:

@@ -21,10 +21,12 @@ from app.checking.calls import Call, Failure, Limits, Run
 from app.checking.checked import TaskResult, checked, failed
 from app.checking.kinds import KINDS
 from app.checking.running.file import FileStudent, NotRunnableError
+from app.checking.task_file import TaskSet
 from app.checking.tasks import CheckTask
 from app.widgets.background import Background
 from app.your_code.model import (
     CodeRays,
+    asked_of,
     cases_for,
     chosen_of,
     diagnosis_of,
@@ -32,11 +34,11 @@ from app.your_code.model import (
     is_of_camera,
     rays_of,
     tasks_of,
+    why_not_asked,
 )
 from app.your_code.report import CodeQuestion, CodeReport
 from renderer.errors import LucidaError, describe
 
-LIMITS = Limits(seconds=10.0)
 OVERTAKEN_S = 0.3  # what has run for so long, and is not wanted any more, is ended
 REST_S = 0.25  # the camera rests; a file whose run took longer is not run before
 CLOSING_S = 2.0
@@ -54,8 +56,8 @@ class CodeStudent(Protocol):
     def close(self) -> None: ...
 
 
-def file_student(path: Path) -> CodeStudent:
-    return FileStudent(path, LIMITS)
+def file_student(path: Path, limits: Limits) -> CodeStudent:
+    return FileStudent(path, limits)
 
 
 class CodeRuns:
@@ -65,13 +67,13 @@ class CodeRuns:
     """
 
     def __init__(
-        self, wake: Callable[[], None], make: Callable[[Path], CodeStudent] = file_student
+        self, wake: Callable[[], None], make: Callable[[Path, Limits], CodeStudent] = file_student
     ) -> None:
         self._wake, self._make = wake, make
         self._pictures: Background[None] = Background("lucida-your-code", wake)
         self._checks: Background[None] = Background("lucida-your-checks", wake)
         self._lock = threading.Lock()  # of the student, and of the report
-        self._student: tuple[tuple[str, int], CodeStudent] | None = None
+        self._student: tuple[tuple[str, str, int], CodeStudent] | None = None
         self._newest: CodeQuestion | None = None
         self._asked = threading.Event()  # something newer, or the end
         self._calls = 0  # that are being made for a picture
@@ -80,6 +82,7 @@ class CodeRuns:
         self._run: tuple[CodeQuestion, float] | None = None  # what for, since when
         self._stopped = self._closed = False  # by the user; for good
         self._kept: OrderedDict[CodeQuestion, CodeRays] = OrderedDict()  # of one version
+        self._tasks: tuple[tuple[str, str, int], TaskSet] | None = None  # of one version
         self.report: CodeReport | None = None
 
     def follow(self, question: CodeQuestion | None) -> None:
@@ -205,14 +208,20 @@ class CodeRuns:
             self.report = replace(report, **changes)
         self._wake()
 
-    def _student_of(self, question: CodeQuestion) -> CodeStudent:
+    def _asked_of(self, question: CodeQuestion) -> TaskSet:
+        """The tasks, read once a version."""
+        if self._tasks is None or self._tasks[0] != question.of:
+            self._tasks = question.of, asked_of(question.tasks)
+        return self._tasks[1]
+
+    def _student_of(self, question: CodeQuestion, limits: Limits) -> CodeStudent:
         """The file's process, or a new one for another version."""
         with self._lock:
             if self._student is not None and self._student[0] == question.of:
                 return self._student[1]
             old, self._student = self._student, None
             if not self._closed and self._is_wanted(question):
-                self._student = question.of, self._make(Path(question.path))
+                self._student = question.of, self._make(Path(question.path), limits)
             made = self._student
         if old is not None:
             old[1].close()
@@ -247,7 +256,8 @@ class CodeRuns:
     ) -> tuple[CodeReport, CodeStudent | None]:
         """What the file answers for the camera, and who may be asked more."""
         try:
-            student = self._student_of(question)
+            asked = self._asked_of(question)
+            student = self._student_of(question, asked.limits)
             functions = student.functions()
         except NotRunnableError as error:
             report = CodeReport(question, failure=error.failure, output=error.output)
@@ -255,13 +265,24 @@ class CodeRuns:
         except LucidaError as error:
             failure = Failure("missing", describe(error))
             return _timed(CodeReport(question, failure=failure), begin), None
-        tasks = tasks_of(functions)
+        tasks = tasks_of(functions, asked.tasks)
         chosen = chosen_of(tasks, question.task)
         results = before.results if before is not None else {}
-        report = CodeReport(question, tuple(tasks), chosen, results=results, at=time.time())
+        report = CodeReport(
+            question,
+            tuple(tasks),
+            chosen,
+            results=results,
+            at=time.time(),
+            asked=asked.tasks,
+        )
         if chosen is None or not is_of_camera(chosen):
             return report, student
-        rays = self._rays(question, for_camera(chosen, question.camera), student)
+        task = for_camera(chosen, question.camera, asked.tasks)
+        problem = why_not_asked(task, question.camera, question.size)
+        if problem:
+            return replace(report, not_asked=problem), student
+        rays = self._rays(question, task, student)
         output, diagnosis = rays.result.output, None
         if before is not None and before.rays is rays:
             diagnosis = before.diagnosis
@@ -302,7 +323,9 @@ class CodeRuns:
                     results[task.name] = result
                     self._add(question, results=dict(results))
         rays = report.rays
-        if rays is not None and rays.result.status == "wrong" and report.diagnosis is None:
+        if rays is None or report.diagnosis is not None or rays.task.feedback != "diagnosis":
+            return
+        if rays.result.status == "wrong":
             self._add(question, diagnosis=diagnosis_of(rays))
 
 

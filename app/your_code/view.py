@@ -12,7 +12,6 @@ from typing import Any, ClassVar
 import moderngl
 from imgui_bundle import imgui
 
-from app.checking.builtin import BUILTIN
 from app.checking.starter import starter
 from app.host import layout
 from app.host.action import Window
@@ -27,7 +26,7 @@ from app.your_code import panel
 from app.your_code.code_pictures import PicturesShown, marked_pixel
 from app.your_code.editor import open_in_editor
 from app.your_code.following import FileFollower
-from app.your_code.model import RAY
+from app.your_code.model import RAY, asked_of
 from app.your_code.options import YourCodeOptions
 from app.your_code.outside_items import outside_items
 from app.your_code.panel import CodeHead, CodeWish
@@ -86,6 +85,11 @@ class YourCodeView(DockedView):
             self._follower.again()
         window.shell.stage.show_in(YOUR_CODE, layout.CODE)
 
+    def open_tasks(self, window: Window, path: str) -> None:
+        """The user has opened a course's file of tasks; "" for the built-in ones."""
+        window.change(window.state.with_options(your_code={"tasks": stored(path), "task": ""}))
+        window.shell.stage.show_in(YOUR_CODE, layout.CODE)
+
     def ask(self, wish: CodeWish) -> None:
         """What a button would do; for the next frame."""
         self._asked = wish
@@ -114,7 +118,7 @@ class YourCodeView(DockedView):
             return
         assert self._follower is not None and self._pictures is not None
         self._seen = False
-        self._follower.follow("")
+        self._follower.rest()
         if self.runs is not None and self.runs.busy:
             self.runs.forget()  # nothing runs that nobody sees
         self._pictures.forget()
@@ -138,7 +142,8 @@ class YourCodeView(DockedView):
         wish: CodeWish
         if not path:
             self._rest()
-            wish = panel.invitation(host.fonts)
+            tasks = restored(host.state.of(YourCodeOptions).tasks)
+            wish = panel.invitation(Path(tasks).name, host.fonts)
         elif not self._may_run(host, path):
             self._rest()
             wish = self._untrusted(host, path)
@@ -172,15 +177,26 @@ class YourCodeView(DockedView):
         assert self.runs is not None and self._follower is not None
         assert self._pictures is not None
         runs, options = self.runs, host.state.of(YourCodeOptions)
-        self._follower.follow(path)
+        tasks = restored(options.tasks)
+        self._follower.follow(*(one for one in (path, tasks) if one))
         runs.poll()
         camera = host.state.view.for_size(options.canvas)
         runs.follow(
-            CodeQuestion(path, self._follower.version, options.task, camera, options.canvas)
+            CodeQuestion(path, self._follower.version, options.task, camera, options.canvas, tasks)
         )
-        report = runs.report if runs.report and runs.report.question.path == path else None
+        report = runs.report
+        if report is not None and (report.question.path, report.question.tasks) != (path, tasks):
+            report = None
         file = Path(path)
-        told = CodeHead(file.name, str(file.parent), options.canvas, runs.running_s, runs.progress)
+        told = CodeHead(
+            file.name,
+            str(file.parent),
+            options.canvas,
+            runs.running_s,
+            runs.progress,
+            tasks=Path(tasks).name,
+            is_away=self._follower.is_away,
+        )
         wish, canvas = panel.head(told, report, host.fonts)
         if canvas != options.canvas:
             host.apply(host.state.with_options(your_code={"canvas": canvas}))
@@ -251,8 +267,12 @@ class YourCodeView(DockedView):
         if wish == "open":
             host.files.open_code_dialog()
         elif wish == "starter":
+            tasks = host.state.of(YourCodeOptions).tasks
             host.files.save_as_dialog(
-                "Write a file to begin with", STARTER, ("Python files", ".py"), self.write_starter
+                "Write a file to begin with",
+                STARTER,
+                ("Python files", ".py"),
+                lambda path: self.write_starter(path, tasks),
             )
         elif wish == "edit" and path and not open_in_editor(path):
             host.files.message = f"No editor was found. The file is {one_line(path)}."
@@ -262,11 +282,18 @@ class YourCodeView(DockedView):
             host.animate()
         elif wish == "stop":
             self.runs.stop()
+        elif wish == "tasks":
+            host.files.open_tasks_dialog()
+        elif wish == "built-in":
+            host.change(host.state.with_options(your_code={"tasks": "", "task": ""}))
 
-    def write_starter(self, path: str) -> str:
-        """In a thread: the file to begin with."""
+    def write_starter(self, path: str, tasks: str = "") -> str:
+        """In a thread: the file to begin with. tasks: whose functions it is to have, as in the
+        options. Raises LucidaError."""
+        asked = asked_of(restored(tasks)).tasks
+        wanted = asked if tasks else [task for task in asked if task.kind == RAY]
         with atomic_write(Path(path)) as file:
-            file.write(starter([task for task in BUILTIN if task.kind == RAY]).encode())
+            file.write(starter(wanted).encode())
         self._written.append(path)
         return one_line(f"Wrote {path}.")
 

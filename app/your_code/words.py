@@ -8,14 +8,13 @@ from typing import Literal
 
 import numpy as np
 
-from app.checking.builtin import BUILTIN
 from app.checking.checked import TaskResult
 from app.checking.kinds.values import text_of
 from app.checking.mistakes.diagnosis import Diagnosis
-from app.checking.reports.told import told
+from app.checking.reports.told import told, visible
 from app.checking.tasks import CheckTask
 from app.state.options import Pixel
-from app.your_code.model import BASIS, CodeRays, for_camera, is_of_camera
+from app.your_code.model import BASIS, CodeRays, is_of_camera
 from app.your_code.report import CodeReport
 from renderer.pixels import Indexing
 
@@ -38,12 +37,12 @@ def told_of(report: CodeReport, pixel: Pixel | None, indexing: Indexing) -> list
 
 
 def verdict_of(report: CodeReport, task: CheckTask) -> str:
-    """right, wrong, failed, "empty" where the function has nothing in it yet, or "" while it is not
-    known."""
+    """right, wrong, failed, "empty" where the function has nothing in it yet, "tried" where the
+    course keeps it back, or "" while it is not known."""
     result = report.results.get(task.name)
     if result is None:
         return ""
-    return "empty" if _is_empty(result) else result.status
+    return "empty" if _is_empty(result) else told(result).verdict or "tried"
 
 
 def _is_empty(result: TaskResult) -> bool:
@@ -58,16 +57,18 @@ def _of_file(report: CodeReport) -> Iterator[ToldLine]:
         yield ToldLine("bad", report.failure.text)
         yield from (ToldLine("code", line) for line in report.failure.traceback)
     elif report.chosen is None:
-        names = ", ".join(dict.fromkeys(task.function for task in BUILTIN))
+        names = ", ".join(dict.fromkeys(task.function for task in report.asked))
         yield ToldLine("bad", f"The file has none of the functions that are asked for: {names}.")
 
 
 def _of_task(report: CodeReport, pixel: Pixel | None, indexing: Indexing) -> Iterator[ToldLine]:
     chosen, rays = report.chosen, report.rays
     assert chosen is not None
+    if report.not_asked:
+        yield ToldLine("dim", report.not_asked)
     if rays is not None:
         yield from _of_rays(report, rays)
-        if for_camera(chosen, rays.camera) != chosen:
+        if rays.task != chosen:
             other = "parallel" if "parallel" in chosen.projections else "perspective"
             yield ToldLine("dim", f"{chosen.name} is for {other} projection: P switches to it.")
         if pixel is not None and bool(rays.came[pixel]):
@@ -86,7 +87,7 @@ def _of_task(report: CodeReport, pixel: Pixel | None, indexing: Indexing) -> Ite
         if rays is not None:
             yield ToldLine("bad", "But not for every camera:")
         yield from _of_result(result)
-    elif result.status == "right":
+    elif told(result).verdict == "right":
         yield ToldLine("good", f"{chosen.name}: right with {result.cases} cases of other cameras.")
 
 
@@ -142,6 +143,9 @@ def _of_pixel(rays: CodeRays, pixel: Pixel, indexing: Indexing) -> Iterator[Told
 
 def _of_result(result: TaskResult) -> Iterator[ToldLine]:
     say = told(result)
+    if say.verdict is None:
+        yield ToldLine("text", f"{result.task.name} was tried. The course tells no more of it.")
+        return
     if result.status == "right":
         yield ToldLine("good", f"{result.task.name}: right in all of {result.cases} cases.")
         return
@@ -167,4 +171,6 @@ def _of_output(report: CodeReport) -> Iterator[ToldLine]:
             if more > 0
             else "printed:",
         )
-        yield from (ToldLine("code", line.expandtabs(4)) for line in printed[-OUTPUT_LINES:])
+        yield from (
+            ToldLine("code", visible(line).expandtabs(4)) for line in printed[-OUTPUT_LINES:]
+        )

@@ -166,3 +166,18 @@ def test_a_lecture_s_options_are_checked() -> None:
     for bad in ({"mode": "exam"}, {"columns": 17}, {"chosen": ["a", "b", "c"]}, {"seed": -1}):
         with pytest.raises(LucidaError, match=f"mistakes.{next(iter(bad))}"):
             options_from_table({"mistakes": bad})
+
+
+def test_the_other_quiz_does_not_ask_what_the_first_has_shown() -> None:
+    options = MistakesOptions(mode="laboratory", seed=7, asked="no eye")
+    first = replace(options, **quiz.switched_to(options, "which-line"))
+    assert (first.mode, first.seed, first.asked) == ("which-line", 7, "no eye")
+    answered = replace(first, **quiz.answered(first, ("a", "b", "c", "d"), 0))
+    other = replace(answered, **quiz.switched_to(answered, "which-picture"))
+    assert (other.mode, other.seed, other.asked) == ("which-picture", 8, "")
+    assert (other.names, other.answer, other.revealed) == ((), "", False)
+    assert other.score == answered.score
+    back = replace(other, **quiz.switched_to(other, "laboratory"))
+    again = replace(back, **quiz.switched_to(back, "which-picture"))
+    assert again.seed == 9
+    assert replace(again, **quiz.switched_to(again, "which-picture")) == again

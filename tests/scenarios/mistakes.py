@@ -3,17 +3,20 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from typing import Any
 
 import numpy as np
+from imgui_bundle import imgui
 from maximised import Maximised
 from window_driver import Driver, Key, changed
 
 from app.lecture.reading import BUILTIN, load_lecture
-from app.mistakes import model
+from app.mistakes import model, panel
 from app.mistakes import question as quiz
 from app.mistakes.options import MistakesOptions
 from app.mistakes.view import MISTAKES, MistakesView
 from app.outside.view import OUTSIDE, OutsideView
+from app.widgets import lettering
 
 ALONE = Maximised(MistakesView, "mistakes")
 SHIFT = int(Key.mod_shift)
@@ -187,6 +190,61 @@ def drive_a_picture_is_asked_for(d: Driver) -> None:
     d.ctx.item_click(ALONE.item("next question"))
     d.settle()
     assert _options(d).asked == "" and not _options(d).revealed
+    ALONE.close(d)
+
+
+def drive_the_reason_is_in_sight_in_a_low_view(d: Driver) -> None:
+    """The answers may have to be scrolled there, in large type."""
+    drawn: dict[str, float] = {}
+    coded_text = panel.coded_text
+
+    def told(text: str, *arguments: Any) -> None:
+        at, low = imgui.get_cursor_screen_pos().y, imgui.get_window_pos().y
+        drawn[text] = at if low <= at < low + 0.5 * imgui.get_window_size().y else -1.0
+        coded_text(text, *arguments)
+
+    view = ALONE.open(d, columns=32, mode="which-line")
+    d.window.change(d.window.state.with_options(preferences={"font_scale": 3.0}))
+    d.settle()
+    assert view.made is not None and view.made.question is not None
+    answer = _item(f"choice {quiz.LETTERS[3]}")
+    d.ctx.scroll_to_item_y(answer)
+    panel.coded_text = told  # type: ignore[assignment]
+    try:
+        d.ctx.item_click(answer)
+        d.settle()
+        drawn.clear()
+        d.picture()
+        reasons = [at for text, at in drawn.items() if text.startswith(("Right: ", "Not D"))]
+        assert len(reasons) == 1 and reasons[0] >= 0, drawn
+    finally:
+        panel.coded_text = coded_text
+        d.window.change(d.window.state.with_options(preferences={"font_scale": 1.0}))
+    ALONE.close(d)
+
+
+def drive_captions_are_whole_in_large_type(d: Driver) -> None:
+    cut: list[str] = []
+    fitting_words = lettering.fitting_words
+
+    def fitted(text: str, width_px: float) -> str:
+        shown = fitting_words(text, width_px)
+        cut.extend([text] * (shown != text))
+        return shown
+
+    view = ALONE.open(d, columns=32, chosen=("normalised",))
+    lettering.fitting_words = fitted  # type: ignore[assignment]
+    try:
+        for scale in (1.0, 2.0, 3.0):
+            d.window.change(d.window.state.with_options(preferences={"font_scale": scale}))
+            d.settle()
+            assert view.made is not None and view.made.mistakes
+            cut.clear()
+            d.picture()
+            assert not cut, (scale, set(cut), imgui.get_io().display_size)
+    finally:
+        lettering.fitting_words = fitting_words  # type: ignore[assignment]
+        d.window.change(d.window.state.with_options(preferences={"font_scale": 1.0}))
     ALONE.close(d)
 
 

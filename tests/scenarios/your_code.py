@@ -5,10 +5,11 @@ from __future__ import annotations
 import os
 import time
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
-from imgui_bundle import hello_imgui
+from imgui_bundle import hello_imgui, imgui
 from window_driver import Driver, Key
 
 from app.checking.calls import Limits
@@ -16,7 +17,7 @@ from app.host import layout
 from app.host.view import view_of
 from app.outside.view import OutsideView
 from app.storage.paths import stored
-from app.your_code import runs as runs_module
+from app.your_code import model, panel
 from app.your_code.view import YOUR_CODE, YourCodeView
 
 WINDOW = f"//###{YOUR_CODE}"
@@ -31,6 +32,15 @@ def viewing_ray(i, j, width, height, camera):
     return camera.eye, [x * a + y * b - d * c for a, b, c in zip(camera.u, camera.v, camera.w)]
 """
 CORNER = RIGHT.replace("(j + 0.5)", "j")
+TASKS = """
+lucida = 1
+[conventions]
+pixels_from = 1
+[[tasks]]
+kind = "viewing-ray"
+name = "counting"
+projection = "both"
+"""
 BASIS = """\
 import numpy as np
 
@@ -212,7 +222,7 @@ def drive_the_newest_camera_wins_while_it_runs(d: Driver) -> None:
 
 
 def drive_nothing_runs_that_nobody_sees(d: Driver) -> None:
-    usual, runs_module.LIMITS = runs_module.LIMITS, Limits(seconds=10_000.0)  # not by itself
+    usual, model.LIMITS = model.LIMITS, Limits(seconds=10_000.0)  # not by itself
     opened(d, RIGHT.replace("    x =", "    while i == 3:\n        pass\n    x =", 1))
     runs = view(d).runs
     assert runs is not None
@@ -222,7 +232,7 @@ def drive_nothing_runs_that_nobody_sees(d: Driver) -> None:
     hello_imgui.switch_layout(layout.LAYOUTS[0].name)
     d.until(lambda: YOUR_CODE not in d.window.shell.stage.rects)
     d.until(lambda: not (children() & processes))
-    runs_module.LIMITS = usual
+    model.LIMITS = usual
     write(d, RIGHT)
     d.window.shell.stage.show_in(YOUR_CODE, layout.CODE)
     until_told(d, "Every ray is right.")
@@ -266,6 +276,58 @@ def drive_images_are_pictures_and_other_functions_words(d: Driver) -> None:
     until_told(d, "memory_offset is wrong.", "printed", "asked 0")
     assert view(d).pictures is None
     d.picture()
+    leave(d)
+
+
+def drive_a_course_s_tasks_are_asked(d: Driver) -> None:
+    course = d.folder / "hw2.toml"
+    course.write_text(TASKS)
+    opened(d, RIGHT.replace("(j + 0.5)", "(j - 0.5)").replace("(i + 0.5)", "(i - 0.5)"))
+    until_told(d, "768 of 768 rays are wrong.")  # by the built-in tasks: they count from 0
+    d.drop([str(course)])
+    d.until(lambda: d.window.state.options.your_code.tasks == stored(str(course)))
+    until_told(d, "Every ray is right.", "counting: right with")
+    d.picture()
+    course.write_text(TASKS.replace("pixels_from = 1", ""))  # saved: asked anew
+    until_told(d, "768 of 768 rays are wrong.")
+    course.write_text("lucida = 1\n")
+    until_told(d, "hw2.toml", "tasks")
+    d.ctx.item_click(f"{WINDOW}/###tasks")
+    d.ctx.yield_(3)
+    d.ctx.item_click("//$FOCUSED/built-in tasks")
+    d.until(lambda: d.window.state.options.your_code.tasks == "")
+    until_told(d, "768 of 768 rays are wrong.")
+    leave(d)
+
+
+def drive_the_verdict_is_read_from_afar(d: Driver) -> None:
+    """In presentation mode, and in large type: the verdict is 1/36 of the window's height at least,
+    and larger than the other words."""
+    sizes: dict[str, float] = {}
+    coded_text = panel.coded_text
+
+    def drawn(text: str, *arguments: Any) -> None:
+        sizes[text] = imgui.get_font_size()
+        coded_text(text, *arguments)
+
+    opened(d, CORNER)
+    until_told(d, "768 of 768 rays are wrong.", "half a pixel")
+    d.until(lambda: view(d).pictures is not None)
+    panel.coded_text = drawn  # type: ignore[assignment]
+    try:
+        for scale in (1.0, 1.5, 2.0, 3.0):
+            wished = {"font_scale": scale, "presentation": True}
+            d.window.change(d.window.state.with_options(preferences=wished))
+            d.settle()
+            sizes.clear()
+            d.picture()
+            verdict = sizes.pop("768 of 768 rays are wrong.")
+            assert verdict >= imgui.get_main_viewport().size.y / 36, scale
+            assert sizes and verdict > 1.2 * max(sizes.values()), scale
+    finally:
+        panel.coded_text = coded_text
+        wished = {"font_scale": 1.0, "presentation": False}
+        d.window.change(d.window.state.with_options(preferences=wished))
     leave(d)
 
 

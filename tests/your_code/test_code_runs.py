@@ -12,7 +12,7 @@ import pytest
 from right_code import right_ray
 from waiting import wait_for
 
-from app.checking.calls import Call, Failure, Run
+from app.checking.calls import Call, Failure, Limits, Run
 from app.checking.running.file import NotRunnableError
 from app.your_code import runs as runs_module
 from app.your_code.report import CodeQuestion
@@ -74,7 +74,7 @@ class Desk:
         self.prepare = lambda student: None
         self.runs = CodeRuns(lambda: None, self._make)
 
-    def _make(self, path: Path) -> FakeStudent:
+    def _make(self, path: Path, limits: Limits) -> FakeStudent:
         student = FakeStudent(path)
         self.prepare(student)
         self.made.append(student)

@@ -34,7 +34,7 @@ def test_a_saved_file_is_another_version_and_wakes_the_window(tmp_path: Path):
         assert follower.version == first + 3
         follower.follow(str(tmp_path / "other.py"))
         assert follower.version == first + 4
-        follower.follow("")
+        follower.rest()
         follower.follow(str(tmp_path / "other.py"))
         assert follower.version == first + 4  # it was only out of sight
         follower.forget()
@@ -59,10 +59,33 @@ def test_it_wakes_while_something_runs_and_not_otherwise(tmp_path: Path):
         follower.close()
 
 
+def test_one_of_several_files_is_saved_or_away(tmp_path: Path):
+    code, tasks = tmp_path / "rays.py", tmp_path / "hw2.toml"
+    code.write_text("one")
+    tasks.write_text("one")
+    follower = FileFollower(lambda: None, lambda: False, lambda: None)
+    try:
+        follower.follow(str(code), str(tasks))
+        first = follower.version
+        assert not follower.is_away
+        tasks.write_text("another")
+        wait_for(lambda: follower.version == first + 1)
+        code.unlink()
+        wait_for(lambda: follower.is_away)
+        assert follower.version == first + 1
+        code.write_text("back")
+        wait_for(lambda: not follower.is_away)
+        wait_for(lambda: follower.version == first + 2)
+        follower.follow(str(code))
+        assert follower.version == first + 3
+    finally:
+        follower.close()
+
+
 def test_nothing_is_looked_at_while_nobody_sees_it(tmp_path: Path):
     ticks: list[int] = []
     follower = FileFollower(lambda: None, lambda: True, lambda: ticks.append(1))
-    follower.follow("")
+    follower.rest()
     follower.close()
     assert not ticks
 

@@ -120,3 +120,34 @@ def test_what_is_in_a_file_that_is_not_run(tmp_path: Path):
     assert source_text(str(file)).endswith("#\n...")
     assert len(source_text(str(file))) == 100_004
     assert "cannot be read" in source_text(str(tmp_path / "away.py"))
+
+
+def tasks_in(folder: Path, text: str = 'lucida = 1\n[[tasks]]\nkind = "basis"\n') -> Path:
+    file = folder / "hw2.toml"
+    file.write_text(text)
+    return file
+
+
+def test_a_file_of_tasks_is_known_by_what_is_in_it(tmp_path: Path):
+    file = tasks_in(tmp_path)
+    opened = open_sources([str(file)], dropped=True)
+    assert opened.tasks == str(file) and opened.scene is None and not opened.code
+    with pytest.raises(LucidaError, match=r"hw2\.toml:3: .*kind"):
+        open_sources([str(tasks_in(tmp_path, 'lucida = 1\n[[ tasks ]]\nkind = "no"\n'))])
+    code = tmp_path / "rays.py"
+    code.write_text("")
+    both = open_sources([str(code), str(tasks_in(tmp_path))], dropped=True)
+    assert (both.code, both.tasks) == (str(code), str(file))
+
+
+def test_tasks_stand_in_a_session_and_in_a_lecture(tmp_path: Path):
+    file = tasks_in(tmp_path)
+    state = AppState.for_scene(load_scene("still-life")).with_options(
+        your_code={"tasks": stored(str(file))}
+    )
+    kept = from_bytes(to_bytes(session_of(state, Arrangement()))).options.of(YourCodeOptions)
+    assert kept.tasks == stored(str(file))
+    step = lecture(tmp_path, 'options.your_code.tasks = "hw2.toml"').steps[0]
+    assert step.options["your_code"]["tasks"] == str(file)
+    with pytest.raises(LucidaError, match=r"your_code\.tasks"):
+        lecture(tmp_path, 'options.your_code.tasks = "hw2.json"')

@@ -143,3 +143,8 @@ def test_of_much_that_was_printed_the_end():
     assert f"printed, the last {OUTPUT_LINES} of 100 lines:" in found
     assert found[-1] == "line    99"
     assert len([text for text in found if text.startswith("line")]) == OUTPUT_LINES
+
+
+def test_what_was_printed_is_shown_as_it_can_be_seen() -> None:
+    found = texts(report(output="\x1b[31mred\x1b[0m\ta\0b"))
+    assert "\\x1b[31mred\\x1b[0m" in found[-1] and found[-1].endswith("a\\x00b")

@@ -189,14 +189,19 @@ class FileStudent:
         assert self._program
         self._program.send(_request(calls))
         self._lines = self._program.lines(end, self.limits.memory_mb + _PYTHON_MB)
+        begin = answered = time.monotonic()
         try:
             for call, line in zip(calls, self._lines, strict=False):
                 values.append(self._answer(call, line, len(values)))
+                answered = time.monotonic()
         except (ProgramOverError, *_GARBLED) as error:
             number = len(values)
             place = f"in call {number + 1} of {len(calls)}: {told_call(calls[number])}"
             if isinstance(error, ProgramOverError):
-                failure = self._over(error, place, "is there a loop that does not end?", number)
+                waited = time.monotonic() - answered
+                failure = self._over(
+                    error, place, endless(number, answered - begin, waited), number
+                )
             else:
                 failure = Failure("ended", f"{self._name}: {_WROTE_BETWEEN} {place}", call=number)
             self._printed = self._taken_output()
@@ -271,6 +276,14 @@ class FileStudent:
         text = {"stopped": "was stopped", "length": "answered too much"}.get(why, "")
         text = text or f"its process {told_status(over.status)}"
         return Failure("ended", f"{self._name}: {text} {place}", call=number)
+
+
+def endless(number: int, answering_s: float, waited_s: float) -> str:
+    """What a time limit has been too short for. number: of the calls that were answered, and how
+    long that took; waited_s: for the next one."""
+    if number and answering_s > waited_s:
+        return f"each call takes {answering_s / number:.2g} s"
+    return "is there a loop that does not end?"
 
 
 def _request(calls: Sequence[Call]) -> bytes:

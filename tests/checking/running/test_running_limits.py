@@ -17,7 +17,7 @@ from students import bearers, called
 from waiting import wait_for
 
 from app.checking.calls import Failure, Limits, Run
-from app.checking.running.file import FileStudent
+from app.checking.running.file import FileStudent, endless
 
 F = called("f")
 LINUX = pytest.mark.skipif(not sys.platform.startswith("linux"), reason="Linux says who lives")
@@ -60,6 +60,11 @@ def test_a_call_that_never_ends(hasty, body):
         call=0,
     )
     assert len(run.output) < 700
+
+
+def test_calls_that_are_only_slow_are_no_loop():
+    assert endless(19, 9.5, 0.4) == "each call takes 0.5 s"
+    assert endless(19, 0.4, 9.5) == endless(0, 0.0, 10.0) == "is there a loop that does not end?"
 
 
 def test_a_file_that_never_ends_while_it_is_imported(student):

@@ -1,0 +1,112 @@
+"""Words with code in them, between backticks as in a source text: set in letters of one width.
+
+Owns the breaking into lines and the code's look. Knows nothing of what is said.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+
+from imgui_bundle import ImVec2, ImVec4, imgui
+
+from app.widgets import theme
+from app.widgets.lettering import lettering
+from app.widgets.theme import Fonts
+
+TICK = "`"
+Measure = Callable[[str, bool], float]  # the width of words, and whether they are code
+
+
+@dataclass(frozen=True)
+class CodedWord:
+    """x: from the line's beginning. row: from 0."""
+
+    text: str
+    is_code: bool
+    x: float
+    row: int
+
+
+def is_coded(text: str) -> bool:
+    """Whether there is code in it; a tick without its other is none."""
+    return text.count(TICK) > 0 and text.count(TICK) % 2 == 0
+
+
+def placed(text: str, width: float, measure: Measure) -> list[CodedWord]:
+    """Where the words stand, in lines of this width; what is wider alone is broken. Words of one
+    line and one kind are one."""
+    words: list[CodedWord] = []
+    x, row, space = 0.0, 0, measure(" ", False)
+    gap = False  # whether the next word may begin a line: a space comes before it
+    for number, part in enumerate(text.split(TICK)):
+        is_code = number % 2 == 1
+        for k, word in enumerate(part.split(" ")):
+            gap = gap or k > 0
+            for piece, is_rest in _pieces(word, is_code, width, measure):
+                last = words[-1] if words else None
+                start = x + (space if gap and x > 0 else 0.0)
+                wide = measure(piece, is_code)
+                if is_rest or (last is not None and gap and start + wide > width):
+                    start, row = 0.0, row + 1
+                elif last is not None and k > 0 and (last.row, last.is_code) == (row, is_code):
+                    piece = f"{words.pop().text} {piece}"
+                    start, wide = last.x, measure(piece, is_code)
+                words.append(CodedWord(piece, is_code, start, row))
+                x, gap = start + wide, False
+    return words
+
+
+def _pieces(word: str, is_code: bool, width: float, measure: Measure) -> Iterator[tuple[str, bool]]:
+    """The word, or parts of it that have room in a line; and whether it is not the first."""
+    is_rest = False
+    while word:
+        most = len(word)
+        while most > 1 and measure(word[:most], is_code) > width:
+            most -= 1
+        yield word[:most], is_rest
+        word, is_rest = word[most:], True
+
+
+def coded_px(text: str, width: float, fonts: Fonts) -> float:
+    """The height of coded_text(), in the present font and size."""
+    if not is_coded(text):
+        return float(imgui.calc_text_size(text, wrap_width=width).y)
+    rows = placed(text, width, _measure(fonts))
+    return (1 + (rows[-1].row if rows else 0)) * imgui.get_text_line_height()
+
+
+def coded_text(text: str, width: float, color: ImVec4, fonts: Fonts) -> None:
+    """Draws it at the cursor, in the present font and size, in lines of this width."""
+    if not is_coded(text):
+        imgui.push_text_wrap_pos(imgui.get_cursor_pos_x() + width)
+        imgui.text_colored(color, text)
+        imgui.pop_text_wrap_pos()
+        return
+    draw, corner = imgui.get_window_draw_list(), imgui.get_cursor_screen_pos()
+    line = imgui.get_text_line_height()
+    pad = 0.12 * line
+    words = placed(text, width, _measure(fonts))
+    for word in words:
+        at = ImVec2(corner.x + word.x, corner.y + word.row * line)
+        if not word.is_code:
+            draw.add_text(at, theme.u32(color), word.text)
+            continue
+        with lettering(fonts.mono, imgui.get_font_size()):
+            far = ImVec2(at.x + imgui.calc_text_size(word.text).x + pad, at.y + line)
+            draw.add_rect_filled(ImVec2(at.x - pad, at.y), far, theme.u32(theme.FRAME), pad)
+            draw.add_text(at, theme.u32(color), word.text)
+    rows = 1 + (words[-1].row if words else 0)
+    imgui.dummy(ImVec2(width, rows * line))
+
+
+def _measure(fonts: Fonts) -> Measure:
+    size = imgui.get_font_size()
+
+    def measure(word: str, is_code: bool) -> float:
+        if not is_code:
+            return float(imgui.calc_text_size(word).x)
+        with lettering(fonts.mono, size):
+            return float(imgui.calc_text_size(word).x)
+
+    return measure
