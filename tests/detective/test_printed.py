@@ -127,6 +127,7 @@ def test_a_rotation_and_a_translation(text):
         ("\n".join(ROWS).replace("12", "24/2"), "'/2'"),
         ("\n".join(ROWS).replace("12", "- 12"), "'-'"),
         ("\n".join(ROWS).replace("12", "12i"), "'12i'"),
+        ("\n".join(ROWS) + " * 2", "'*'"),
         ("[[1. 0. ... 0. 0.]\n ...\n [0. 0. 0. 1.]]", "leaves numbers out"),
         (f"{M.tolist()}\n{M.tolist()}", "holds 2 matrices"),
         (str(R.tolist()), "a rotation without a place"),
