@@ -52,6 +52,8 @@ _TO_WORLD = ("worldfromcamera", "cameratoworld", "cam2world", "c2w")
 _VIEWS = ("extrinsicparameters",)  # of a calibration's pictures: rvec and tvec, a row each
 
 _NAMED = re.compile(NAME + "[=:]", re.MULTILINE)
+# A matrix without a name, in a text that was pasted: whose meaning nobody has said.
+_NAMELESS = re.compile(r"(?:\A|[^\s=:,\[({][ \t]*\n)\s*(?:[A-Za-z_][\w.]*\()?[\[({]\s*[\[({]")
 _PINHOLES = ("", "0", "none", "plumbbob", "rationalpolynomial", "radtan", "opencv", "pinhole")
 _FISHEYES = ("1", "equidistant", "fisheye", "kannalabrandt", "kannalabrandt4")
 _AGREE = 1e-4  # of R and rvec, which a file may hold both
@@ -86,6 +88,8 @@ def recognises(given: Given) -> bool:
         names = {_plain(name) for name in _NAMED.findall(given.text)}
         if "<opencv_storage" in given.text:
             return True
+        if given.path is None and _NAMELESS.search(given.text):
+            return False
     else:
         return False
     return not names.isdisjoint((*_K, *_P)) or names.issuperset(_FOCAL[:2])
