@@ -45,6 +45,8 @@ def number(name: str, value: object) -> float:
         number = math.inf
     except (TypeError, ValueError):
         raise LucidaError(name, f"{value!r} is not a number", "give a finite number") from None
+    except OverflowError:  # an integer of hundreds of digits
+        raise LucidaError(name, f"{value} is too large", f"stay within {LARGEST:g}") from None
     if not math.isfinite(number):
         raise LucidaError(name, f"{number} is not finite", "give a finite number")
     if abs(number) > LARGEST:
@@ -61,6 +63,15 @@ def numbers(name: str, value: object, count: int) -> tuple[float, ...]:
     if isinstance(value, str) or len(items) != count:
         raise LucidaError(name, f"{value!r} is not {count} numbers", f"give {count} numbers")
     return tuple(number(name, item) for item in items)
+
+
+def positive(name: str, value: object, example: object) -> float:
+    """A number from SMALLEST on. example: for the remedy."""
+    found = number(name, value)
+    if not found >= SMALLEST:
+        limit = "0" if found <= 0 else f"{SMALLEST:g}"
+        raise LucidaError(name, f"{found:g} is not above {limit}", f"give e.g. {example}")
+    return found
 
 
 def listed(vector: Iterable[float]) -> str:

@@ -117,7 +117,7 @@ def matrix(name: str, value: ArrayLike, *shapes: tuple[int, ...]) -> Floats:
     """A matrix of finite numbers, of one of these shapes. Raises LucidaError naming it."""
     try:
         entries = np.asarray(value)
-    except (TypeError, ValueError):
+    except (TypeError, ValueError, OverflowError):
         entries = np.array("")
     if entries.dtype.kind not in "iuf":  # nor texts that look like numbers
         raise LucidaError(name, "is not a matrix of numbers", "give its rows")

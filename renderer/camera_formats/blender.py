@@ -27,7 +27,7 @@ from renderer.scene.reading import check_bytes
 LARGEST_SCRIPT_BYTES = 1 << 24
 MOST_PIXEL_ASPECT = 200  # Blender's own bounds
 LEAST_LENS = 1.0
-_HINTS = re.compile(r"\b(bpy|matrix_world|rotation_euler|sensor_width|ortho_scale)\b")
+_HINTS = re.compile(r"\b(bpy|matrix_world|rotation_euler|sensor_width|ortho_scale|resolution_x)\b")
 AXES = "the world as it is: z is up where Blender's scene has it so"
 
 
@@ -41,7 +41,7 @@ def read(given: Given, options: Options) -> CameraSet:
     else:
         check_bytes(len(given.data), LARGEST_SCRIPT_BYTES, given.name)
         found = script(given.text, KNOWN)
-    cameras, defaults = [], set(DEFAULTS)
+    cameras, left_out = [], dict[str, None]()
     for index, (values, lines) in enumerate(found):
         try:
             if not values.keys() & (TURNS | {"location"}):
@@ -53,17 +53,27 @@ def read(given: Given, options: Options) -> CameraSet:
                 field = f"line {line}: {error.field}"
                 raise LucidaError(field, error.problem, error.remedy) from None
             raise error.within(f"cameras[{index}]") if len(found) > 1 else error from None
-        defaults -= values.keys()
+        left_out |= dict.fromkeys(_left_out(values, options))
     taken = ["camera to world, y up, -z forward", AXES]
-    if defaults:
-        told = ", ".join(f"{name} {value}" for name, value in DEFAULTS.items() if name in defaults)
+    if left_out:
+        told = ", ".join(f"{name} {DEFAULTS[name]}" for name in left_out)
         taken.append(f"what is not given is Blender's own: {told}")
     return CameraSet("blender", tuple(cameras), tuple(taken))
 
 
+def _left_out(values: Values, options: Options) -> list[str]:
+    """What a camera lacks that says how much it sees."""
+    names = ["ortho_scale"] if values.get("type") == "ORTHO" else ["lens", "sensor_width"]
+    if any(name.startswith("angle") for name in values):
+        names.remove("lens")
+    if options.size is None:
+        names += ["resolution_x", "resolution_y"]
+    return [name for name in names if name not in values]
+
+
 def write(cameras: Sequence[PosedCamera], options: Options) -> dict[str, bytes]:
     entries: list[Values] = []
-    render: Values = {}
+    render: dict[str, float] = {}
     for one in cameras:
         try:
             camera, size = sized(one, options)
@@ -110,7 +120,7 @@ for key, value in RENDER.items():
 '''
 
 
-def _entry(camera: Camera, size: Size) -> tuple[Values, Values]:
+def _entry(camera: Camera, size: Size) -> tuple[Values, dict[str, float]]:
     """A camera's values, and those of the scene's rendering: sensor_fit HORIZONTAL, so that the
     width alone says how much is seen, and all shifts are in widths."""
     camera = rigid(camera, "Blender")

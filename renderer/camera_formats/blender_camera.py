@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 
 from renderer.camera import Camera, Size
-from renderer.camera_checks import Floats, listed, number, numbers
+from renderer.camera_checks import Floats, listed, number, numbers, positive
 from renderer.camera_formats.blender_values import Values
 from renderer.camera_formats.given import Options
 from renderer.camera_formats.posed import PosedCamera
@@ -45,6 +45,9 @@ TURNS = EULER | {"matrix_world", "rotation_mode", "rotation_quaternion"}
 KNOWN = frozenset(DEFAULTS) | TURNS | {"clip_start", "clip_end"}
 KNOWN |= {f"{angle}{unit}" for angle in ANGLES for unit in ("", *DEGREES)}
 TYPES = {"PERSP": "perspective", "ORTHO": "parallel"}
+# What the parts of a camera are called in Blender.
+FIELDS = dict.fromkeys("uvw", "matrix_world")
+FIELDS |= {"near": "clip_start", "far": "clip_end", "viewport": "lens"}
 FITS = ("AUTO", "HORIZONTAL", "VERTICAL")
 _TURNS_OF_RADIANS = 4 * math.pi  # more of them were meant as degrees
 
@@ -58,7 +61,7 @@ def posed(values: Values, options: Options) -> PosedCamera:
         raise LucidaError("matrix_world", problem, "give a rotation")
     u, v, w = (pose[:3, :3] / lengths).T.tolist()  # Blender takes a camera's scale out
     kind = values.get("type", DEFAULTS["type"])
-    if kind not in TYPES:
+    if not isinstance(kind, str) or kind not in TYPES:
         raise LucidaError(
             "type", f"{kind!r} is no {' or '.join(TYPES)}", "change the camera's type"
         )
@@ -67,9 +70,12 @@ def posed(values: Values, options: Options) -> PosedCamera:
         None if values.get(name) is None else number(name, values[name])
         for name in ("clip_start", "clip_end")
     )
-    camera = Camera(
-        tuple(pose[:3, 3].tolist()), u, v, w, 1.0, viewport, TYPES[kind], near=near, far=far
-    )
+    eye = tuple(pose[:3, 3].tolist())
+    try:
+        camera = Camera(eye, u, v, w, 1.0, viewport, TYPES[kind], near=near, far=far)
+    except LucidaError as error:
+        field = FIELDS.get(error.field, error.field)
+        raise LucidaError(field, error.problem, error.remedy) from None
     name = values.get("name", "")
     return PosedCamera(camera, size, name if isinstance(name, str) else "")
 
@@ -136,6 +142,7 @@ def _pose(values: Values) -> Floats:
     """matrix_world, (4, 4)."""
     if "matrix_world" in values:
         pose = np.array(matrix("matrix_world", values["matrix_world"], (4, 4)))
+        numbers("matrix_world", pose.ravel(), 16)  # none is too large
         if pose[3].tolist() != [0, 0, 0, 1]:
             problem = f"its last row is {listed(pose[3])}, not (0, 0, 0, 1)"
             raise LucidaError("matrix_world", problem, "give it row by row")
@@ -145,7 +152,7 @@ def _pose(values: Values) -> Floats:
     field, angles = _angles(values, "rotation_euler")
     order = values.get("rotation_mode", "" if field or "rotation_quaternion" not in values else "Q")
     if isinstance(angles, dict):  # of Euler(angles, order)
-        angles, order = angles["angles"], angles["order"]
+        order, angles = angles.get("order"), angles.get("angles")
     order = order or "XYZ"
     if order in ("QUATERNION", "Q"):
         quaternion = numbers("rotation_quaternion", values.get("rotation_quaternion"), 4)
@@ -188,7 +195,4 @@ def _turn(axis: int, angle: float) -> Floats:
 
 
 def _positive(values: Values, name: str) -> float:
-    value = number(name, values.get(name, DEFAULTS[name]))
-    if not value > 0:
-        raise LucidaError(name, f"{value:g} is not above 0", f"give e.g. {DEFAULTS[name]}")
-    return value
+    return positive(name, values.get(name, DEFAULTS[name]), DEFAULTS[name])

@@ -9,6 +9,7 @@ Source: COLMAP's documentation, "Output Format".
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from os.path import isdir, isfile  # unlike Path's methods, they never raise
 from pathlib import Path, PureWindowsPath
 from typing import TypeVar
 
@@ -29,7 +30,10 @@ LARGEST_FILE_BYTES = 1 << 30
 BELOW = ("", "sparse/0", "sparse", "0")  # where a data set's folder has its model
 FOLDERS_UP = 3  # from the model to the folder that holds images/
 _Content = TypeVar("_Content")
-_READERS = {".bin": colmap_binary, ".txt": colmap_text}
+_READERS = {
+    ".bin": (colmap_binary.cameras, colmap_binary.images, colmap_binary.points),
+    ".txt": (colmap_text.cameras, colmap_text.images, colmap_text.points),
+}
 
 
 def recognises(given: Given) -> bool:
@@ -42,11 +46,11 @@ def read(given: Given, options: Options) -> CameraSet:
         problem = "has no cameras and images of COLMAP, .bin or .txt"
         raise LucidaError("", problem, "give the folder of a model, such as sparse/0")
     folder, kind = model
-    reader = _READERS[kind]
-    lenses: Lenses = _read(folder / f"cameras{kind}", reader.cameras)
-    images: list[PosedImage] = _read(folder / f"images{kind}", reader.images)
+    read_lenses, read_images, read_points = _READERS[kind]
+    lenses: Lenses = _read(folder / f"cameras{kind}", read_lenses)
+    images: list[PosedImage] = _read(folder / f"images{kind}", read_images)
     points = folder / f"points3D{kind}"
-    cloud: Cloud | None = _read(points, reader.points) if points.is_file() else None
+    cloud: Cloud | None = _read(points, read_points) if isfile(points) else None
     distortions = {number: lens.distortion for number, lens in lenses.items()}
     photographs = _photographs(folder)
     origin = options.pixel_origin or "corner"
@@ -141,11 +145,11 @@ def _model(given: Given) -> tuple[Path, str] | None:
         kind = given.ending
         known = given.path.stem in FILES + MORE_FILES and kind in _READERS
         folder = given.path.parent
-        return (folder, kind) if known and (folder / f"cameras{kind}").is_file() else None
+        return (folder, kind) if known and isfile(folder / f"cameras{kind}") else None
     for below in BELOW:
         folder = given.path / below
         for kind in _READERS:
-            if (folder / f"cameras{kind}").is_file() and (folder / f"images{kind}").is_file():
+            if all(isfile(folder / f"{name}{kind}") for name in ("cameras", "images")):
                 return folder, kind
     return None
 
@@ -160,7 +164,7 @@ def _read(path: Path, reader: Callable[[bytes], _Content]) -> _Content:
 def _photographs(folder: Path) -> Path | None:
     """The folder of the photographs: the nearest one that is named images."""
     above = [folder, *folder.absolute().parents][: FOLDERS_UP + 1]
-    return next((up / "images" for up in above if (up / "images").is_dir()), None)
+    return next((up / "images" for up in above if isdir(up / "images")), None)
 
 
 def _photograph(photographs: Path | None, name: str) -> str:

@@ -2,7 +2,7 @@
 
 Each function takes a file's bytes and raises LucidaError naming the entry. A count is held against
 what is left of the file before anything is made of it.
-Source: COLMAP's documentation, "Output Format", and its scripts/python/read_write_model.py.
+Source: COLMAP's documentation, "Output Format".
 """
 
 from __future__ import annotations
@@ -12,6 +12,7 @@ from typing import Any
 
 import numpy as np
 
+from renderer.camera_checks import LARGEST
 from renderer.camera_formats.colmap_lenses import MODELS, NAMES, lens
 from renderer.camera_formats.colmap_records import (
     Cloud,
@@ -105,10 +106,11 @@ def _gathered(data: bytes, starts: np.ndarray[Any, np.dtype[np.int64]]) -> Cloud
         part = slice(first, first + _AT_ONCE)
         records = file[starts[part, None] + np.arange(_POINT.itemsize)].view(_POINT)[:, 0]
         cloud.points[part], cloud.colors[part] = records["xyz"], records["rgb"]
-    wrong = np.flatnonzero(~np.isfinite(cloud.points).all(axis=1))
+    wrong = np.flatnonzero(~(np.abs(cloud.points) <= LARGEST).all(axis=1))
     if len(wrong):
         entry = f"point {wrong[0] + 1} of {len(starts)}"
-        raise LucidaError(f"{entry}: XYZ", "is not finite", "write it again with COLMAP")
+        problem = f"is not within {LARGEST:g}"
+        raise LucidaError(f"{entry}: XYZ", problem, "write it again with COLMAP")
     return cloud
 
 

@@ -12,7 +12,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from renderer.camera import Size
-from renderer.camera_checks import Floats
+from renderer.camera_checks import Floats, number, positive
 from renderer.camera_formats.posed import Distortion
 from renderer.errors import LucidaError
 
@@ -45,13 +45,12 @@ MODELS = {
     "THIN_PRISM_FISHEYE": _model("fx fy cx cy k1 k2 p1 p2 k3 k4 sx1 sy1", fisheye=True),
 }
 NAMES = tuple(MODELS)
-MOST_PARAMETERS = max(len(model.parameters) for model in MODELS.values())
 _PINHOLE = {"f", "fx", "fy", "cx", "cy"}
 _LARGEST_SIZE = 1_000_000  # pixels a side
 
 
 @dataclass(frozen=True)
-class Lens:
+class ColmapLens:
     """A line of cameras.txt, checked. parameters: by their names in the model."""
 
     model: str
@@ -75,12 +74,13 @@ class Lens:
         (fx, _, cx), (_, fy, cy), _ = self.matrix
         width, height = self.size
         x, y = np.meshgrid(np.array([-cx, width - cx]) / fx, np.array([-cy, height - cy]) / fy)
-        moved_x, moved_y = distorted(self.model, rest, x, y)
-        moved = np.hypot(fx * (moved_x - x), fy * (moved_y - y))
+        with np.errstate(all="ignore"):  # polynomials far outside of the lens's picture
+            moved_x, moved_y = distorted(self.model, rest, x, y)
+            moved = np.hypot(fx * (moved_x - x), fy * (moved_y - y))
         return Distortion(self.model, rest, float(np.max(np.nan_to_num(moved, nan=np.inf))))
 
 
-def lens(model: str, width: int, height: int, values: list[float]) -> Lens:
+def lens(model: str, width: int, height: int, values: list[float]) -> ColmapLens:
     """A camera of a COLMAP model. Raises LucidaError for what is none."""
     if model not in MODELS:
         raise LucidaError(
@@ -100,11 +100,11 @@ def lens(model: str, width: int, height: int, values: list[float]) -> Lens:
             problem = f"{side} is not between 1 and {_LARGEST_SIZE}"
             raise LucidaError(name, problem, "give the image's size in pixels")
     for name, value in zip(names, values, strict=True):
-        if not math.isfinite(value):
-            raise LucidaError(name, f"{value} is not finite", "give a finite number")
-        if name in ("f", "fx", "fy") and not value > 0:
-            raise LucidaError(name, f"{value:g} is not above 0", "give it in pixels")
-    return Lens(model, (width, height), dict(zip(names, values, strict=True)))
+        if name in ("f", "fx", "fy"):
+            positive(name, value, "1000, in pixels")
+        else:
+            number(name, value)
+    return ColmapLens(model, (width, height), dict(zip(names, values, strict=True)))
 
 
 def distorted(
@@ -116,29 +116,28 @@ def distorted(
     thin-prism (sx1, sy1) terms; a fisheye's are of the angle. FOV has one of its own.
     """
     known = coefficients.get
-    with np.errstate(all="ignore"):  # a polynomial far outside of the lens's picture
-        r = np.hypot(x, y)
-        if model == "FOV":
-            omega = coefficients["omega"]
-            scale = np.where(r > 0, np.arctan(2 * r * math.tan(omega / 2)) / (r * omega), 1.0)
-            return scale * x, scale * y
-        if MODELS[model].fisheye:
-            scale = np.where(r > 0, np.arctan(r) / r, 1.0)
-            x, y = scale * x, scale * y
-        r2 = x * x + y * y
-        k1, k2, k3, k4 = (
-            known("k1", known("k", 0.0)),
-            known("k2", 0),
-            known("k3", 0),
-            known("k4", 0),
-        )
-        radial = 1 + r2 * (k1 + r2 * (k2 + r2 * k3))
-        if "k5" in coefficients:  # FULL_OPENCV
-            radial = radial / (1 + r2 * (k4 + r2 * (known("k5", 0) + r2 * known("k6", 0))))
-        else:
-            radial = radial + k4 * r2**4
-        p1, p2 = known("p1", 0), known("p2", 0)
-        return (
-            x * radial + 2 * p1 * x * y + p2 * (r2 + 2 * x * x) + known("sx1", 0) * r2,
-            y * radial + 2 * p2 * x * y + p1 * (r2 + 2 * y * y) + known("sy1", 0) * r2,
-        )
+    r = np.hypot(x, y)
+    if model == "FOV":
+        omega = coefficients["omega"]
+        scale = np.where(r > 0, np.arctan(2 * r * math.tan(omega / 2)) / (r * omega), 1.0)
+        return scale * x, scale * y
+    if MODELS[model].fisheye:
+        scale = np.where(r > 0, np.arctan(r) / r, 1.0)
+        x, y = scale * x, scale * y
+    r2 = x * x + y * y
+    k1, k2, k3, k4 = (
+        known("k1", known("k", 0.0)),
+        known("k2", 0),
+        known("k3", 0),
+        known("k4", 0),
+    )
+    radial = 1 + r2 * (k1 + r2 * (k2 + r2 * k3))
+    if "k5" in coefficients:  # FULL_OPENCV
+        radial = radial / (1 + r2 * (k4 + r2 * (known("k5", 0) + r2 * known("k6", 0))))
+    else:
+        radial = radial + k4 * r2**4
+    p1, p2 = known("p1", 0), known("p2", 0)
+    return (
+        x * radial + 2 * p1 * x * y + p2 * (r2 + 2 * x * x) + known("sx1", 0) * r2,
+        y * radial + 2 * p2 * x * y + p1 * (r2 + 2 * y * y) + known("sy1", 0) * r2,
+    )

@@ -2,17 +2,21 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
-from renderer.camera_checks import listed
-from renderer.camera_formats.colmap_lenses import Lens
+from renderer.camera_checks import listed, number
+from renderer.camera_formats.colmap_lenses import ColmapLens
 from renderer.errors import LucidaError
 
-Lenses = dict[int, Lens]  # by their CAMERA_ID
+_QUATERNION = ("QW", "QX", "QY", "QZ")
+_TRANSLATION = ("TX", "TY", "TZ")
+
+Lenses = dict[int, ColmapLens]  # by their CAMERA_ID
 
 
 @dataclass(frozen=True)
@@ -38,10 +42,10 @@ def checked_image(
     where: str, quaternion: list[float], translation: list[float], camera: int, name: str
 ) -> PosedImage:
     """Raises LucidaError for what is no pose or no name."""
-    for field, values in (("QW QX QY QZ", quaternion), ("TX TY TZ", translation)):
-        if not np.isfinite(values).all():
-            raise LucidaError(f"{where}: {field}", f"{listed(values)} is not finite", "mend it")
-    if not np.linalg.norm(quaternion) > 1e-9:
+    for names, values in ((_QUATERNION, quaternion), (_TRANSLATION, translation)):
+        for field, value in zip(names, values, strict=True):
+            number(f"{where}: {field}", value)
+    if not math.hypot(*quaternion) > 1e-9:
         problem = f"{listed(quaternion)} is no rotation"
         raise LucidaError(f"{where}: QW QX QY QZ", problem, "give a quaternion of length 1")
     if not name or "\0" in name:
@@ -50,7 +54,7 @@ def checked_image(
     return PosedImage(where, quaternion, translation, camera, name)
 
 
-def add_lens(lenses: Lenses, number: int, lens: Lens) -> None:
+def add_lens(lenses: Lenses, number: int, lens: ColmapLens) -> None:
     """Raises LucidaError for an id that was there."""
     if number in lenses:
         raise LucidaError("CAMERA_ID", f"{number} is given twice", "give each camera its own")

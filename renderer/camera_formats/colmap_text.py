@@ -7,11 +7,13 @@ Source: COLMAP's documentation, "Output Format".
 from __future__ import annotations
 
 import io
+from codecs import BOM_UTF8
 from collections.abc import Callable, Iterator
 from typing import TypeVar
 
 import numpy as np
 
+from renderer.camera_checks import LARGEST, number
 from renderer.camera_formats.colmap_lenses import lens
 from renderer.camera_formats.colmap_records import (
     Cloud,
@@ -33,7 +35,7 @@ _SHORT_BYTES = 1000  # a line of which all words are counted
 
 def cameras(data: bytes) -> Lenses:
     found: Lenses = {}
-    for number, line in _lines(data):
+    for count, line in _lines(data):
         try:
             words = _words(line, _CAMERA, -1)
             identity, width, height = (
@@ -42,7 +44,7 @@ def cameras(data: bytes) -> Lenses:
             values = [_number(float, "PARAMS", word) for word in words[4:]]
             add_lens(found, identity, lens(words[1], width, height, values))
         except LucidaError as error:
-            raise at(f"line {number}", error) from None
+            raise at(f"line {count}", error) from None
     return found
 
 
@@ -53,10 +55,10 @@ def images(data: bytes) -> list[PosedImage]:
     """
     found = []
     lines = _lines(data, blank=True)
-    for number, line in lines:
+    for count, line in lines:
         if not line:
             continue
-        where = f"line {number}"
+        where = f"line {count}"
         try:
             words = _words(line, _IMAGE, len(_IMAGE) - 1)
             _number(int, "IMAGE_ID", words[0])
@@ -78,9 +80,9 @@ def points(data: bytes) -> Cloud:
         return Cloud(np.zeros((0, 3)), np.zeros((0, 3), np.uint8))
     try:
         # loadtxt() holds no more than a piece of the file as text.
-        table = np.loadtxt(io.BytesIO(data), np.float64, usecols=range(1, 8), ndmin=2)
+        table = np.loadtxt(_file(data), np.float64, usecols=range(1, 8), ndmin=2)
         colors = table[:, 3:6]
-        if np.isfinite(table[:, :6]).all() and ((colors >= 0) & (colors <= 255)).all():
+        if (np.abs(table[:, :3]) <= LARGEST).all() and ((colors >= 0) & (colors <= 255)).all():
             return Cloud(table[:, :3].copy(), colors.astype(np.uint8))
     except (ValueError, UnicodeError):
         pass
@@ -89,7 +91,7 @@ def points(data: bytes) -> Cloud:
 
 def _wrong_point(data: bytes) -> LucidaError:
     """The first line that loadtxt() does not take, looked for one by one."""
-    for number, line in _lines(data):
+    for count, line in _lines(data):
         try:
             words = _words(line, _POINT, len(_POINT))
             values = [
@@ -97,16 +99,15 @@ def _wrong_point(data: bytes) -> LucidaError:
                 for field, word in zip(_POINT[1:], words[1:8], strict=True)
             ]
             for field, value in zip(_POINT[1:7], values[:6], strict=True):
-                if not np.isfinite(value):
-                    raise LucidaError(field, f"{value} is not finite", "give a finite number")
+                number(field, value)
                 if field in ("R", "G", "B") and not 0 <= value <= 255:
                     raise LucidaError(field, f"{value:g} is no colour", "give 0 to 255")
         except LucidaError as error:
-            return at(f"line {number}", error)
+            return at(f"line {count}", error)
     return LucidaError("", "is no list of points", "write it again with COLMAP")
 
 
-def _check_points(number: int, line: bytes) -> None:
+def _check_points(count: int, line: bytes) -> None:
     """Whether a line is X, Y, POINT3D_ID again and again, by its ends and, of a short one, its
     count: one that forgot the empty line after each image has a pose here."""
     if not line:
@@ -122,19 +123,25 @@ def _check_points(number: int, line: bytes) -> None:
     except ValueError:
         pass
     raise LucidaError(
-        f"line {number}",
+        f"line {count}",
         "is not X Y POINT3D_ID again and again",
         "give each image two lines, of which the second may be empty",
     )
 
 
+def _file(data: bytes) -> io.BytesIO:
+    """Its lines, without a byte order mark."""
+    file = io.BytesIO(data)
+    file.seek(len(BOM_UTF8) if data.startswith(BOM_UTF8) else 0)
+    return file
+
+
 def _lines(data: bytes, blank: bool = False) -> Iterator[tuple[int, bytes]]:
     """Number and text of each line that is no comment; blank: also those that are empty."""
-    start = 3 if data.startswith(b"\xef\xbb\xbf") else 0
-    for number, line in enumerate(io.BytesIO(data[start:] if start else data), 1):
+    for count, line in enumerate(_file(data), 1):
         line = line.strip()
         if (line or blank) and not line.startswith(b"#"):
-            yield number, line
+            yield count, line
 
 
 def _words(line: bytes, fields: tuple[str, ...], most_splits: int) -> list[str]:

@@ -5,6 +5,7 @@ Owns what of u, v and w such a pose can hold, and what the viewport holds instea
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from dataclasses import replace
 from typing import Any
@@ -87,7 +88,7 @@ def pose_of(camera: Camera) -> Floats:
 
 def rotation_of(quaternion: Sequence[float]) -> Floats:
     """The rotation matrix of a quaternion (w, x, y, z) of any length. Raises LucidaError for 0."""
-    length = float(np.linalg.norm(quaternion))
+    length = math.hypot(*quaternion)
     if not length > 1e-9:
         problem = f"{listed(quaternion)} is no rotation"
         raise LucidaError("quaternion", problem, "give w, x, y, z of length 1")

@@ -17,7 +17,7 @@ from uuid import NAMESPACE_URL, uuid5
 import numpy as np
 
 from renderer.camera import Camera, Size
-from renderer.camera_checks import Floats, listed, number, numbers
+from renderer.camera_checks import LARGEST, Floats, listed, number, numbers, positive
 from renderer.camera_formats.given import Given, Options
 from renderer.camera_formats.posed import CameraSet, PosedCamera
 from renderer.camera_formats.rigid import pose_of, rigid, rotation_of, sized
@@ -54,17 +54,18 @@ def read(given: Given, options: Options) -> CameraSet:
 
 def write(cameras: Sequence[PosedCamera], options: Options) -> dict[str, bytes]:
     tables = []
-    for index, posed in enumerate(cameras):
+    for posed in cameras:
         camera, size = sized(posed, options)
         try:
-            tables.append(_table(camera, size, posed.name, index))
+            tables.append(_table(camera, size, posed.name))
         except LucidaError as error:
             raise error.within(posed.name) if posed.name else error from None
     if len(tables) == 1:
         root = tables[0]
     else:
-        root = {"uuid": _uuid(len(tables)), "type": "Group", "name": "cameras", "layers": 1}
+        root = {"type": "Group", "name": "cameras", "layers": 1}
         root |= {"matrix": np.eye(4).ravel().tolist(), "children": tables}
+    root = {"uuid": _uuid(root)} | root
     metadata = {"version": 4.6, "type": "Object", "generator": "Lucida"}
     return {"": (json.dumps({"metadata": metadata, "object": root}, indent=1) + "\n").encode()}
 
@@ -86,7 +87,11 @@ def _objects(root: Table) -> Iterator[tuple[str, Table, Floats]]:
         if not isinstance(table, dict):
             raise LucidaError(field, "is no object", "give what .toJSON() returns")
         try:
-            pose = parent @ _matrix(table)
+            with np.errstate(all="ignore"):
+                pose = parent @ _matrix(table)
+            if not np.abs(pose).max() <= LARGEST:
+                problem = "leads beyond what can be drawn, with those above it"
+                raise LucidaError("matrix", problem, f"stay within {LARGEST:g}")
             children = table.get("children", [])
             if not isinstance(children, list):
                 raise LucidaError("children", "is no list", "give a list of objects")
@@ -150,8 +155,8 @@ def _posed(table: Table, pose: Floats, options: Options) -> PosedCamera:
 
 
 def _axes(pose: Floats) -> Floats:
-    """The columns u, v, w of a pose, of length 1. A camera's own scale is not seen, as three.js's
-    newer versions have it. Raises LucidaError for what is no turn: three.js's versions differ in it."""
+    """The columns u, v, w of a pose, of length 1: a camera's own scale is not seen, as newer
+    versions of three.js have it. Raises LucidaError for what is no turn: versions differ in it."""
     linear = pose[:3, :3]
     lengths = np.linalg.norm(linear, axis=0)
     if not (lengths > 1e-12).all():
@@ -226,18 +231,14 @@ def _clip(table: Table, name: str) -> float | None:
 
 
 def _positive(table: Table, name: str, default: float) -> float:
-    value = number(name, table.get(name, default))
-    if not value > 0:
-        raise LucidaError(name, f"{value:g} is not above 0", f"give e.g. {default:g}")
-    return value
+    return positive(name, table.get(name, default), f"{default:g}")
 
 
-def _table(camera: Camera, size: Size | None, name: str, index: int) -> Table:
+def _table(camera: Camera, size: Size | None, name: str) -> Table:
     """The object of a camera. Its view, off-axis or not, is as large as the image."""
     camera = rigid(camera, "three.js")
     left, right, bottom, top = camera.viewport
     table: Table = {
-        "uuid": _uuid(index),
         "type": PARALLEL if camera.is_parallel else PERSPECTIVE,
         "name": name,
         "layers": 1,
@@ -259,9 +260,9 @@ def _table(camera: Camera, size: Size | None, name: str, index: int) -> Table:
         view["offsetY"] = -(top + bottom) / 2 / (top - bottom) * height
     if size is not None or view["offsetX"] or view["offsetY"]:
         table["view"] = view
-    return table
+    return table | {"uuid": _uuid(table)}
 
 
-def _uuid(index: int) -> str:
-    """The same camera has the same one each time."""
-    return str(uuid5(NAMESPACE_URL, f"lucida camera {index}")).upper()
+def _uuid(table: Table) -> str:
+    """The same for the same camera, so that a file written twice is the same file."""
+    return str(uuid5(NAMESPACE_URL, json.dumps(table)))

@@ -1,0 +1,56 @@
+"""What a pose by rotation and place can hold of a camera."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from format_cameras import ASKANCE, MIRRORED, SKEWED, straight_camera
+
+from renderer.camera_formats.rigid import quaternion_of, rigid, rotation_of
+from renderer.errors import LucidaError
+
+
+@pytest.mark.parametrize("projection", ["perspective", "parallel"])
+def test_a_rigid_camera_has_the_same_rays(projection):
+    random = np.random.default_rng(1)
+    for _ in range(300):
+        camera = replace(straight_camera(random, projection), near=0.5, far=7.0)
+        found = rigid(camera, "it")
+        assert np.allclose(found.basis.T @ found.basis, np.eye(3), atol=1e-12)
+        assert found.determinant > 0
+        one, other = camera.rays((5, 4)), found.rays((5, 4))
+        assert np.allclose(one.origin, other.origin, atol=1e-12)
+        unit = 1.0 if projection == "perspective" else np.linalg.norm(camera.w)
+        assert np.allclose(one.direction, other.direction * unit, atol=1e-12)
+        # The clip planes are the same planes.
+        ends = np.multiply(camera.t_range, unit)
+        assert np.allclose(ends, found.t_range, rtol=1e-12)
+
+
+@pytest.mark.parametrize(
+    ("posed", "said"),
+    [
+        (SKEWED, "v: (0.5, 1, 0) is not at right angles to u = (1, 0, 0), which it cannot hold; "),
+        (MIRRORED, "w: (0, 0, 1) is left-handed with u and v, a mirror that it has not; negate u"),
+        (ASKANCE, "w: (0.2, 0, 1) is not at right angles to u and v, which it cannot hold in "),
+    ],
+)
+def test_what_no_rotation_holds(posed, said):
+    with pytest.raises(LucidaError) as raised:
+        rigid(posed.camera, "it")
+    assert str(raised.value).startswith(said)
+
+
+def test_quaternions_there_and_back():
+    random = np.random.default_rng(2)
+    given = [*random.normal(size=(200, 4)), *np.eye(4), *(np.eye(4) + 1e-9)]
+    for quaternion in given:
+        rotation = rotation_of(quaternion)
+        assert np.allclose(rotation @ rotation.T, np.eye(3)) and np.linalg.det(rotation) > 0
+        unit = quaternion / np.linalg.norm(quaternion)
+        found = np.array(quaternion_of(rotation))
+        assert min(np.abs(found - unit).max(), np.abs(found + unit).max()) < 1e-12
+    quarter = rotation_of([1, 0, 0, 1])  # about z: x becomes y
+    assert np.allclose(quarter @ [1, 0, 0], [0, 1, 0])
