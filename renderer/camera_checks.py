@@ -42,11 +42,9 @@ def number(name: str, value: object) -> float:
     try:
         number = float(value)  # type: ignore[arg-type]
     except OverflowError:  # a whole number of hundreds of digits
-        number = math.inf
+        raise LucidaError(name, f"{value} is too large", f"stay within {LARGEST:g}") from None
     except (TypeError, ValueError):
         raise LucidaError(name, f"{value!r} is not a number", "give a finite number") from None
-    except OverflowError:  # an integer of hundreds of digits
-        raise LucidaError(name, f"{value} is too large", f"stay within {LARGEST:g}") from None
     if not math.isfinite(number):
         raise LucidaError(name, f"{number} is not finite", "give a finite number")
     if abs(number) > LARGEST:
