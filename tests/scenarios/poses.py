@@ -10,7 +10,7 @@ from imgui_bundle import hello_imgui, imgui
 from outside_window import place, scope, strokes
 from outside_window import view as outside_view
 from PIL import Image
-from window_driver import RAY, Driver, Key, changed
+from window_driver import RASTER, Driver, Key, changed
 
 from app.host import layout
 from app.poses.model import PoseSet, frusta
@@ -202,10 +202,12 @@ def drive_the_arrows_walk_in_the_list_and_in_the_outside_view(d: Driver) -> None
     for key, wanted in ((int(Key.right_arrow), 1), (DOWN, 2), (int(Key.left_arrow), 1), (END, 11)):
         d.press(key)
         assert chosen(d) == wanted and stands_at(d, poses, wanted), (key, wanted)
-    # Over an image, they move the mark.
+    # Where the mouse rests on an image, they move the mark.
     d.window.change(d.window.state.with_options(marked=(5, 5)))
-    d.window.shell.stage.show(RAY)
-    d.ctx.yield_(5)
+    d.ctx.mouse_teleport_to_pos(d.point(RASTER, 0.5, 0.5))
+    d.ctx.yield_(2)
+    d.press(DOWN)
+    assert d.window.state.marked == (6, 5) and chosen(d) == 11
     leave(d)
 
 
