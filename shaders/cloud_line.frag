@@ -15,7 +15,7 @@ out vec4 color;
 void main() {
     vec2 along = ends.zw - ends.xy;
     float size = length(along);
-    vec2 unit = size > 1e-6 ? along / size : vec2(1.0, 0.0);
+    vec2 unit = size > 0.01 ? along / size : vec2(1.0, 0.0);
     vec2 from_start = position - ends.xy;
     float away = length(from_start - clamp(dot(from_start, unit), 0.0, size) * unit);
     float line = ink.a * clamp(0.5 * width + 0.5 - away, 0.0, 1.0);

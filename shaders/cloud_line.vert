@@ -35,7 +35,7 @@ void main() {
     vec2 to = on_screen(last);
     vec2 along = to - from;
     float size = length(along);
-    along = size > 1e-6 ? along / size : vec2(1.0, 0.0);
+    along = size > 0.01 ? along / size : vec2(1.0, 0.0);
     vec2 across = vec2(-along.y, along.x);
     float reach = 0.5 * width + edge + 1.0;
     vec2 side = vec2(gl_VertexID & 1, gl_VertexID >> 1) * 2.0 - 1.0;

@@ -17,7 +17,7 @@ import numpy as np
 
 from renderer.camera import Camera, Size
 from renderer.camera_formats import colmap_binary, colmap_text
-from renderer.camera_formats.colmap_records import Cloud, Lenses, PosedImage, at
+from renderer.camera_formats.colmap_records import PointRecords, Lenses, PosedImage, at
 from renderer.camera_formats.entries import in_image
 from renderer.camera_formats.given import Given, Options
 from renderer.camera_formats.posed import CameraSet, PosedCamera
@@ -51,7 +51,7 @@ def read(given: Given, options: Options) -> CameraSet:
     lenses: Lenses = _read(folder / f"cameras{kind}", read_lenses)
     images: list[PosedImage] = _read(folder / f"images{kind}", read_images)
     points = folder / f"points3D{kind}"
-    cloud: Cloud | None = _read(points, read_points) if isfile(points) else None
+    cloud: PointRecords | None = _read(points, read_points) if isfile(points) else None
     distortions = {number: lens.distortion for number, lens in lenses.items()}
     photographs = _photographs(folder)
     origin = options.pixel_origin or "corner"

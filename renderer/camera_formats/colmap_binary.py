@@ -15,7 +15,7 @@ import numpy as np
 from renderer.camera_checks import LARGEST
 from renderer.camera_formats.colmap_lenses import MODELS, NAMES, lens
 from renderer.camera_formats.colmap_records import (
-    Cloud,
+    PointRecords,
     Lenses,
     PosedImage,
     add_lens,
@@ -71,7 +71,7 @@ def images(data: bytes) -> list[PosedImage]:
     return found
 
 
-def points(data: bytes) -> Cloud:
+def points(data: bytes) -> PointRecords:
     """Where each point begins is found one after another, as its track says; what stands there
     is then taken many at once."""
     file = _Bytes(data)
@@ -99,8 +99,8 @@ def points(data: bytes) -> Cloud:
     raise LucidaError(f"point {index + 1} of {count}", problem, "copy the file whole")
 
 
-def _gathered(data: bytes, starts: np.ndarray[Any, np.dtype[np.int64]]) -> Cloud:
-    cloud = Cloud(np.empty((len(starts), 3)), np.empty((len(starts), 3), np.uint8))
+def _gathered(data: bytes, starts: np.ndarray[Any, np.dtype[np.int64]]) -> PointRecords:
+    cloud = PointRecords(np.empty((len(starts), 3)), np.empty((len(starts), 3), np.uint8))
     file = np.frombuffer(data, np.uint8)
     for first in range(0, len(starts), _AT_ONCE):
         part = slice(first, first + _AT_ONCE)

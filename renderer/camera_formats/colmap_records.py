@@ -31,7 +31,7 @@ class PosedImage:
     name: str
 
 
-class Cloud(NamedTuple):
+class PointRecords(NamedTuple):
     """Points float64 (n, 3) and their colours in sRGB, uint8 (n, 3)."""
 
     points: NDArray[np.float64]

@@ -16,7 +16,7 @@ import numpy as np
 from renderer.camera_checks import LARGEST, number
 from renderer.camera_formats.colmap_lenses import lens
 from renderer.camera_formats.colmap_records import (
-    Cloud,
+    PointRecords,
     Lenses,
     PosedImage,
     add_lens,
@@ -74,16 +74,16 @@ def images(data: bytes) -> list[PosedImage]:
     return found
 
 
-def points(data: bytes) -> Cloud:
+def points(data: bytes) -> PointRecords:
     """The track of a point, of any length, is not looked at."""
     if not any(True for _ in _lines(data)):
-        return Cloud(np.zeros((0, 3)), np.zeros((0, 3), np.uint8))
+        return PointRecords(np.zeros((0, 3)), np.zeros((0, 3), np.uint8))
     try:
         # loadtxt() holds no more than a piece of the file as text.
         table = np.loadtxt(_file(data), np.float64, usecols=range(1, 8), ndmin=2)
         colors = table[:, 3:6]
         if (np.abs(table[:, :3]) <= LARGEST).all() and ((colors >= 0) & (colors <= 255)).all():
-            return Cloud(table[:, :3].copy(), colors.astype(np.uint8))
+            return PointRecords(table[:, :3].copy(), colors.astype(np.uint8))
     except (ValueError, UnicodeError):
         pass
     raise _wrong_point(data)

@@ -36,7 +36,10 @@ SAMPLE = 12  # of each module, where nothing else is asked for
 
 # Which tests hold which module. Those that take long hold it too, but in no reasonable time.
 MODULES: dict[str, tuple[str, ...]] = {
-    "renderer/camera.py": ("camera", "edges"),
+    "renderer/camera.py": ("camera", "intrinsics", "edges"),
+    "renderer/camera_checks.py": ("camera", "edges"),
+    "renderer/intrinsics.py": ("intrinsics",),
+    "renderer/camera_formats/opengl.py": ("opengl_cameras", "clipboard_matrices"),
     "renderer/compare.py": ("compare", "compare_report", "comparing", "nothing_hit"),
     "renderer/edges.py": ("edges", "edges_rounding", "slivers", "compare", "compare_report"),
     "renderer/difference.py": ("difference", "comparing", "compare", "compare_report", "bounds"),
