@@ -17,7 +17,7 @@ import numpy as np
 
 from renderer.camera import Camera, Size
 from renderer.camera_formats import colmap_binary, colmap_text
-from renderer.camera_formats.colmap_records import PointRecords, Lenses, PosedImage, at
+from renderer.camera_formats.colmap_records import Lenses, PointRecords, PosedImage, at
 from renderer.camera_formats.entries import in_image
 from renderer.camera_formats.given import Given, Options
 from renderer.camera_formats.posed import CameraSet, PosedCamera

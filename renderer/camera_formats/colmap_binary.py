@@ -15,8 +15,8 @@ import numpy as np
 from renderer.camera_checks import LARGEST
 from renderer.camera_formats.colmap_lenses import MODELS, NAMES, lens
 from renderer.camera_formats.colmap_records import (
-    PointRecords,
     Lenses,
+    PointRecords,
     PosedImage,
     add_lens,
     at,

@@ -16,8 +16,8 @@ import numpy as np
 from renderer.camera_checks import LARGEST, number
 from renderer.camera_formats.colmap_lenses import lens
 from renderer.camera_formats.colmap_records import (
-    PointRecords,
     Lenses,
+    PointRecords,
     PosedImage,
     add_lens,
     at,

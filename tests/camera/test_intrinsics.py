@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 from renderer.camera import Camera
+from renderer.camera_checks import LARGEST
 from renderer.errors import LucidaError
 
 K = [[800.0, 0.0, 320.0], [0.0, 810.0, 240.0], [0.0, 0.0, 1.0]]
@@ -99,6 +100,32 @@ def test_half_a_pixel_lies_between_the_two_origins():
 def test_what_is_no_camera_is_told(given, told):
     with pytest.raises(LucidaError, match=told):
         Camera.from_intrinsics(**{"K": K, "size": SIZE} | given)
+
+
+@pytest.mark.parametrize("place", [(1, 0), (2, 0), (2, 1)])
+def test_below_the_diagonal_k_holds_nothing(place):
+    wrong = np.array(K)
+    wrong[place] = 1e-3
+    with pytest.raises(LucidaError, match="K: its rows"):
+        Camera.from_intrinsics(wrong, size=SIZE)
+
+
+def test_k_may_have_any_scale():
+    camera = Camera.from_intrinsics(2 * np.array(K), size=SIZE)
+    assert camera.viewport == Camera.from_intrinsics(K, size=SIZE).viewport
+
+
+def test_a_pose_of_three_rows_is_one_of_four():
+    pose = np.column_stack([np.eye(3), (1.0, 2.0, 3.0)])
+    for given in (pose, np.vstack([pose, (0, 0, 0, 1)])):
+        assert Camera.from_intrinsics(K, size=SIZE, world_from_camera=given).eye == (1, 2, 3)
+
+
+def test_numbers_are_bounded():
+    wrong = np.array(K)
+    wrong[0, 0] = 2 * LARGEST
+    with pytest.raises(LucidaError, match="K: has the number 2e\\+12, which is too large"):
+        Camera.from_intrinsics(wrong, size=SIZE)
 
 
 def test_a_parallel_camera_has_no_intrinsics():
