@@ -27,6 +27,7 @@ from app.outside.view import OUTSIDE, OutsideView
 from app.pair.go_to_pixel import Going, going, pixel_box
 from app.pair.resolution import SizeEntry, asked, resolution_box
 from app.pair.view import RASTER
+from app.photograph.model import with_photograph
 from app.poses.view import PosesView
 from app.state.app_state import AppState, History
 from app.state.options import Pixel
@@ -360,6 +361,10 @@ class MainWindow:
             self.animate()
         if opened.poses is not None:
             self.view(PosesView).open(self, opened.poses)
+            self.animate()
+        if opened.photograph:
+            self.change(with_photograph(self.state, opened.photograph, shown=True, follows=False))
+            self.files.say("The photograph is laid over the images: Image > Photograph.")
             self.animate()
         if opened.lecture is not None:  # whose steps have scenes of their own
             self.lecture.give(*opened.lecture)

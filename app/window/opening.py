@@ -13,6 +13,7 @@ from pathlib import Path
 
 from app.lecture.model import Lecture
 from app.lecture.reading import is_lecture, load_lecture
+from app.photograph.reading import found_photograph, is_photograph
 from app.poses.model import PoseSet
 from app.poses.reading import is_cameras, open_cameras
 from app.storage.code_files import found_code, is_code
@@ -37,6 +38,7 @@ class Opened:
     replaces: the scene of which this is a newer version; None for another one. agreed: the files
     outside of its folder that a scene which came by itself may read; None where the user named it.
     code: the absolute path of a Python file, which is there. poses: a set of cameras.
+    photograph: the absolute path of one, which can be read.
     """
 
     sources: tuple[str, ...] = ()
@@ -50,24 +52,28 @@ class Opened:
     agreed: frozenset[Path] | None = None
     code: str = ""
     poses: PoseSet | None = None
+    photograph: str = ""
 
 
 def open_sources(
     sources: Sequence[str], dropped: bool = False, agreed: frozenset[Path] = frozenset()
 ) -> Opened:
     """Loads the first scene and the first view among sources; and the first lecture, the first
-    Python file, the first set of cameras. A file with one camera is a view, whatever its format.
+    Python file, the first set of cameras, the first photograph. A file with one camera is a view,
+    whatever its format.
 
     dropped: scenes must not name files outside of their folder but those that are agreed to;
     lectures never. Raises LucidaError where there is but one and it cannot be read, OutsideError
     in any case.
     """
-    scene, view, lecture, code, poses = None, None, None, "", None
+    scene, view, lecture, code, poses, photograph = None, None, None, "", None, ""
     good, problems = [], []
     for source in sources:
         try:
             if source not in BUILTIN_SCENES and is_code(source):
                 code = code or found_code(source)
+            elif source not in BUILTIN_SCENES and is_photograph(source):
+                photograph = photograph or found_photograph(source)
             elif source not in BUILTIN_SCENES and _is_view(Path(source)):
                 view = view or load_view(source)
             elif source not in BUILTIN_SCENES and is_lecture(source):
@@ -91,7 +97,7 @@ def open_sources(
     prepared = _prepared(scene)
     return Opened(
         tuple(good), scene, view, tuple(problems), lecture, prepared, agreed=given, code=code,
-        poses=poses,
+        poses=poses, photograph=photograph,
     )  # fmt: skip
 
 
