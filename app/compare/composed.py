@@ -91,6 +91,29 @@ class Composed:
             component=COMPONENTS[mapping.component] if channel == "color" else -1,
             gain=mapping.gain / FULL_SCALE[channel],
             has_sign=mapping.signed and not is_id,
+            displayed=False,
+        )
+
+    def displayed_difference(
+        self, left: moderngl.Texture, right: moderngl.Texture, key: Hashable, mapping: Mapping
+    ) -> moderngl.Texture:
+        """Likewise of two pictures, RGBA8 of one size, as they are on the screen. key: what they
+        hold."""
+        return self._difference.draw(
+            left.size,
+            key,
+            {
+                "raster": left,
+                "ray": right,
+                "raster_object": self._no_ids,
+                "ray_object": self._no_ids,
+                "colors": self._maps[mapping.signed],
+            },
+            channel=CHANNELS.index("color"),
+            component=-1,
+            gain=mapping.gain / FULL_SCALE["color"],
+            has_sign=mapping.signed,
+            displayed=True,
         )
 
     def compose(

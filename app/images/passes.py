@@ -92,7 +92,7 @@ class Pass:
 
     def picture(self) -> Picture:
         """What was drawn last, as a window takes it."""
-        return Picture(*self._target.made())
+        return Picture(*self._target.made(), self._drawn)
 
     def forget(self) -> None:
         """The next draw() draws, whatever its inputs."""

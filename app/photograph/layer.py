@@ -98,7 +98,7 @@ class PhotographLayer:
         """The photograph in place of a picture of all of an image, which is left where the
         photograph is not, or is transparent: there, nothing differs."""
         laid = Laid(self._parts(both, state))
-        return self._laid(both, ("instead", ""), picture, placement, False, laid, False)
+        return self._laid(both, ("in its place", ""), picture, placement, False, laid, False)
 
     def end(self) -> None:
         if self._work is not None:
