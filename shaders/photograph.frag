@@ -9,14 +9,16 @@ uniform vec2 extent;           // of the target
 uniform vec4 shown;            // left, top, right, bottom of the target, in parts of the image
 uniform vec4 covered;          // of the photograph, likewise
 uniform float opacity;
-uniform float level;           // of the photograph's smaller versions; 0 or less: its pixels
+uniform vec2 pixels;           // of the image, across and down
+uniform float level;           // of the photograph's smaller versions, from 0
+uniform bool exact;            // the photograph's pixels are the image's
 uniform bool behind;
 uniform bool upside_down;      // the target's first row is the lowest
 
 out vec4 color;
 
 vec4 of_photograph(vec2 place) {
-    if (level > 0.0) return textureLod(photograph, place, level);
+    if (!exact) return textureLod(photograph, place, level);
     ivec2 size = textureSize(photograph, 0);
     return texelFetch(photograph, min(ivec2(place * vec2(size)), size - 1), 0);
 }
@@ -31,6 +33,7 @@ void main() {
     vec2 part = gl_FragCoord.xy / extent;
     if (upside_down) part.y = 1.0 - part.y;
     vec2 at = mix(shown.xy, shown.zw, part);
+    if (level == 0.0) at = (floor(at * pixels) + 0.5) / pixels;  // enlarged, pixels stay squares
     vec2 place = (at - covered.xy) / (covered.zw - covered.xy);
     bool inside = all(greaterThanEqual(place, vec2(0.0))) && all(lessThan(place, vec2(1.0)));
     if (inside && !(behind && is_hit(at))) {

@@ -154,9 +154,11 @@ class CompareView(ImageView):
         left, right, divider, muted = raster.texture, None, 0, False
         try:
             if photographed:
-                first = raster
+                first: Picture | None = raster
                 if comparing.sides(state)[0] == "ray":
-                    first = textures.ray_in(None, look, COMPARED, own_size=True) or raster
+                    first = textures.ray_in(None, look, COMPARED, own_size=True)
+                if first is None:
+                    return None
                 left, right, divider, muted, key = self._with_photograph(both, state, first)
             elif options.mode in ("absolute", "signed"):
                 drawn = textures.raster.full(request)

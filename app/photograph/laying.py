@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 from app.images.passes import Pass
 from app.images.placement import Placement
 from app.images.shown import Picture
-from app.photograph.model import Parts
+from app.photograph.model import WHOLE, Parts
 from renderer.raster.resources import Owner, new_texture
 
 
@@ -81,7 +81,8 @@ class Laying:
         made = self._passes.get(name)
         if made is None:
             made = self._passes[name] = Pass(self._gl, "photograph.frag")
-        size = picture.texture.size
+        size, at_whole = picture.texture.size, laid.covered == WHOLE
+        smaller = level(self.texture.size, placement, size, laid.covered)
         made.draw(
             size,
             (picture.made, self._number, objects and laid.behind and objects.key),
@@ -94,7 +95,9 @@ class Laying:
             shown=placement.visible_parts,
             covered=laid.covered,
             opacity=laid.opacity,
-            level=level(self.texture.size, placement, size, laid.covered),
+            pixels=(float(placement.size[0]), float(placement.size[1])),
+            exact=smaller == 0.0 and at_whole and self.texture.size == placement.size,
+            level=smaller,
             behind=laid.behind,
             upside_down=under,
         )
