@@ -5,7 +5,7 @@ Owns their targets. Knows nothing of what is in the pictures.
 
 from __future__ import annotations
 
-from collections.abc import Hashable
+from collections.abc import Hashable, Mapping
 from typing import Any
 
 import moderngl
@@ -50,9 +50,14 @@ class Pass:
     count: how often it was done.
     """
 
-    def __init__(self, context: moderngl.Context, fragment: str) -> None:
+    def __init__(
+        self,
+        context: moderngl.Context,
+        fragment: str,
+        constants: Mapping[str, bool] | None = None,
+    ) -> None:
         self._gl = context
-        self._program = link(context, "screen.vert", fragment)
+        self._program = link(context, "screen.vert", fragment, constants or {})
         self._screen = context.vertex_array(self._program, [])
         self._target = ByteTarget(context)
         self._drawn: Hashable = None

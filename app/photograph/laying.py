@@ -46,7 +46,7 @@ class Laying:
         self._gl = context
         self._owner = Owner()
         self._none = self._owner.own(new_texture(context, (1, 1), 1, np.int32))
-        self._passes: dict[Hashable, Pass] = {}
+        self._passes: dict[Hashable, tuple[tuple[bool, bool], Pass]] = {}
         self._number = 0
         self.texture: moderngl.Texture | None = None
 
@@ -78,11 +78,10 @@ class Laying:
         next of that name. under: the picture is for the underlay."""
         if self.texture is None or (laid.behind and objects is None):
             return picture
-        made = self._passes.get(name)
-        if made is None:
-            made = self._passes[name] = Pass(self._gl, "photograph.frag")
         size, at_whole = picture.texture.size, laid.covered == WHOLE
         smaller = level(self.texture.size, placement, size, laid.covered)
+        exact = smaller == 0.0 and at_whole and self.texture.size == placement.size
+        made = self._pass(name, exact, laid.behind)
         made.draw(
             size,
             (picture.made, self._number, objects and laid.behind and objects.key),
@@ -96,16 +95,24 @@ class Laying:
             covered=laid.covered,
             opacity=laid.opacity,
             pixels=(float(placement.size[0]), float(placement.size[1])),
-            exact=smaller == 0.0 and at_whole and self.texture.size == placement.size,
             level=smaller,
-            behind=laid.behind,
             upside_down=under,
         )
         return made.picture()
 
+    def _pass(self, name: Hashable, exact: bool, behind: bool) -> Pass:
+        """The one of that name; another where the shader is another."""
+        kind = exact, behind
+        if name in self._passes and self._passes[name][0] != kind:
+            self._passes.pop(name)[1].release()
+        if name not in self._passes:
+            constants = {"EXACT": exact, "BEHIND": behind}
+            self._passes[name] = kind, Pass(self._gl, "photograph.frag", constants)
+        return self._passes[name][1]
+
     def release(self) -> None:
         self.take(None)
-        for made in self._passes.values():
+        for _, made in self._passes.values():
             made.release()
         self._passes.clear()
         self._owner.release()
