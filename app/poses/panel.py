@@ -29,7 +29,7 @@ INVITATION = (
     "Open the cameras of a data set or of a reconstruction: a transforms.json (NeRF, nerfstudio),"
     " or a COLMAP model's folder, such as sparse/0. Each becomes a frustum in the outside view."
 )
-LAY = "lay over the images"
+LAY = "on the images"
 LAY_TOLD = "each pose's photograph over both images, as they are walked (Image > Photograph)"
 SHOWN_AFTER_S = 0.4
 BESIDE = 1.2  # width / height of the room from which the photograph stands beside the list

@@ -246,7 +246,7 @@ def drive_it_follows_a_set_of_poses(d: Driver) -> None:
     assert poses is not None
     view.take(d.window, 0)
     d.settle()
-    d.ctx.item_click(f"//###{POSES}/**/lay over the images")
+    d.ctx.item_click(f"//###{POSES}/**/on the images")
     d.settle()
     d.picture()
     file = d.window.state.options.photograph
