@@ -43,8 +43,9 @@ NARROW_CELL = 4.0  # a hovered pixel that large gets a frame in the image under 
 @dataclass
 class Linked:
     """What the two images share. photograph: that is laid over them. walked_frame: the last one in
-    which a key has moved the mark. size, steady_frames: of the images, and how often they were drawn at that size. pins: gives the
-    pixels that are marked with numbers, in a state; set by whoever keeps them."""
+    which a key has moved the mark. size, steady_frames: of the images, and how often they were
+    drawn at that size. pins: gives the pixels that are marked with numbers, in a state; set by
+    whoever keeps them."""
 
     photograph: PhotographLayer = field(default_factory=PhotographLayer)
     grab: Grab | None = None
