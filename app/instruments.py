@@ -35,6 +35,7 @@ class Room:
 
 ROOMS: tuple[Room, ...] = (
     Room("app.camera_panel"),
+    Room("app.photograph"),
     Room("app.pair", ("raster", "ray")),
     Room("app.compare", ("compare",)),
     Room("app.outside", ("outside",)),

@@ -5,8 +5,9 @@ from __future__ import annotations
 from collections.abc import Callable
 
 from app.compare import comparing
-from app.compare.options import CompareMode, CompareOptions
+from app.compare.options import CompareMode, CompareOptions, Pair
 from app.host.action import SHIFT, Action, Key, Window, changing
+from app.photograph.actions import is_open
 from app.state.app_state import AppState
 from renderer.compare import Comparison
 
@@ -53,8 +54,23 @@ def _divider(step: float) -> Callable[[AppState], AppState]:
     return lambda state: comparing.with_divider(state, state.of(CompareOptions).divider + step)
 
 
+def _pair(pair: Pair, name: str) -> Action:
+    def run(window: Window) -> None:
+        window.change(comparing.with_pair(window.state, pair))
+        window.shell.stage.show("Compare")
+
+    return Action(
+        "View/Compare",
+        name.capitalize().replace("|", "against"),
+        run,
+        is_on=lambda state: state.of(CompareOptions).pair == pair,
+        can=lambda window: pair == "raster-ray" or is_open(window),
+    )
+
+
 COMPARING = (
     *(_comparing(number, mode, name) for number, (mode, name, _) in enumerate(comparing.MODES)),
+    *(_pair(pair, name) for pair, name in comparing.PAIRS),
     Action(
         "View/Compare",
         "The other image (hold the key)",

@@ -8,18 +8,16 @@ from __future__ import annotations
 
 from collections.abc import Hashable
 from dataclasses import dataclass
-from typing import Any
 
 import moderngl
 import numpy as np
 from numpy.typing import NDArray
 
+from app.images.passes import Pass, Same
 from renderer.compare import AGREE, LABEL_COLORS, SHADING
 from renderer.difference import ABSOLUTE_COLORS, CHANNELS, FULL_SCALE, SIGNED_COLORS
 from renderer.frame import Frame
-from renderer.raster.programs import set_uniform
 from renderer.raster.resources import Owner, new_texture
-from renderer.raster.sources import link
 from renderer.raster.targets import Textures
 
 RIM = 250  # a label: the dark border of a mark
@@ -36,85 +34,6 @@ class Mapping:
     component: str = "rgb"
     gain: float = 1.0
     signed: bool = False
-
-
-class ByteTarget:
-    """A texture of 8 bits to draw into, of the size that was asked for last."""
-
-    def __init__(self, context: moderngl.Context) -> None:
-        self._gl = context
-        self._made: tuple[moderngl.Texture, moderngl.Framebuffer] | None = None
-
-    def of_size(self, size: tuple[int, int]) -> tuple[moderngl.Texture, moderngl.Framebuffer]:
-        """Raises LucidaError where there is no memory."""
-        if self._made is None or self._made[0].size != size:
-            self.release()
-            texture = new_texture(self._gl, size, 4, "uint8")
-            self._made = texture, self._gl.framebuffer([texture])
-        return self._made
-
-    def release(self) -> None:
-        if self._made is not None:
-            texture, framebuffer = self._made
-            self._made = None
-            framebuffer.release()
-            texture.release()
-
-
-class Pass:
-    """A fragment shader over a whole picture, done again only where its inputs have changed.
-
-    count: how often it was done.
-    """
-
-    def __init__(self, context: moderngl.Context, fragment: str) -> None:
-        self._gl = context
-        self._program = link(context, "screen.vert", fragment)
-        self._screen = context.vertex_array(self._program, [])
-        self._target = ByteTarget(context)
-        self._drawn: Hashable = None
-        self.count = 0
-
-    def draw(
-        self,
-        size: tuple[int, int],
-        key: Hashable,
-        textures: dict[str, moderngl.Texture],
-        **uniforms: Any,
-    ) -> moderngl.Texture:
-        """key: what the textures hold, besides their names; the uniforms are compared here."""
-        made = (size, key, tuple((n, t.glo) for n, t in textures.items()), *uniforms.items())
-        texture, framebuffer = self._target.of_size(size)
-        if made == self._drawn:
-            return texture
-        gl = self._gl
-        before = gl.detect_framebuffer()
-        try:
-            gl.enable_only(moderngl.NOTHING)
-            gl.wireframe = False
-            gl.clear_samplers(0, len(textures))
-            framebuffer.use()
-            for unit, (name, source) in enumerate(textures.items()):
-                source.use(unit)
-                set_uniform(self._program, name, unit)
-            set_uniform(self._program, "window_depth", 0.5)
-            for name, value in uniforms.items():
-                set_uniform(self._program, name, value)
-            self._screen.render(moderngl.TRIANGLES, vertices=3)
-        finally:
-            before.use()
-        self._drawn = made
-        self.count += 1
-        return texture
-
-    def forget(self) -> None:
-        """The next draw() draws, whatever its inputs."""
-        self._drawn = None
-
-    def release(self) -> None:
-        self._target.release()
-        self._screen.release()
-        self._program.release()
 
 
 class Composed:
@@ -160,7 +79,7 @@ class Composed:
         first = raster.color if channel == "color" else raster.surface
         return self._difference.draw(
             ray.size,
-            (drawn, _Same(ray)),
+            (drawn, Same(ray)),
             {
                 "raster": first,
                 "ray": first if is_id else self._of_ray(channel),
@@ -172,6 +91,29 @@ class Composed:
             component=COMPONENTS[mapping.component] if channel == "color" else -1,
             gain=mapping.gain / FULL_SCALE[channel],
             has_sign=mapping.signed and not is_id,
+            displayed=False,
+        )
+
+    def displayed_difference(
+        self, left: moderngl.Texture, right: moderngl.Texture, key: Hashable, mapping: Mapping
+    ) -> moderngl.Texture:
+        """Likewise of two pictures, RGBA8 of one size, as they are on the screen. key: what they
+        hold."""
+        return self._difference.draw(
+            left.size,
+            key,
+            {
+                "raster": left,
+                "ray": right,
+                "raster_object": self._no_ids,
+                "ray_object": self._no_ids,
+                "colors": self._maps[mapping.signed],
+            },
+            channel=CHANNELS.index("color"),
+            component=-1,
+            gain=mapping.gain / FULL_SCALE["color"],
+            has_sign=mapping.signed,
+            displayed=True,
         )
 
     def compose(
@@ -194,7 +136,7 @@ class Composed:
         marks = self._upload_marks(labels, enlarged)
         return self._compose.draw(
             size,
-            (key, _Same(labels), enlarged),
+            (key, Same(labels), enlarged),
             {
                 "left": left,
                 "right": right or left,
@@ -255,19 +197,6 @@ class Composed:
             self._marked = labels, enlarged
             self._compose.forget()
         return self._marks
-
-
-class _Same:
-    """An object as a part of a key: equal to itself only, and kept while the key is."""
-
-    def __init__(self, thing: object) -> None:
-        self._thing = thing
-
-    def __eq__(self, other: object) -> bool:
-        return isinstance(other, _Same) and other._thing is self._thing
-
-    def __hash__(self) -> int:
-        return id(self._thing)
 
 
 def marks(labels: NDArray[np.uint8]) -> NDArray[np.uint8]:

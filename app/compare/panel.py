@@ -12,8 +12,9 @@ from dataclasses import dataclass, replace
 from imgui_bundle import ImVec2, ImVec4, imgui
 
 from app.compare import comparing
-from app.compare.comparing import LABELS, MODES, ColorScale
+from app.compare.comparing import LABELS, MODES, PAIRS, ColorScale
 from app.compare.options import CompareOptions
+from app.photograph.options import PhotographOptions
 from app.state.app_state import AppState
 from app.state.bounds import range_of
 from app.state.options import Pixel
@@ -63,20 +64,25 @@ def toolbar(state: AppState) -> AppState:
     """Modes, gain and the switch of the causes, in as many lines as they need."""
     options = state.of(CompareOptions)
     flow = Flow()
-    for mode, name, told in MODES:
+    for mode, name, _ in MODES:
         flow.next(_button_width(name))
         if _choice(name, options.mode == mode):
             state = comparing.with_mode(state, mode)
-        imgui.set_item_tooltip(told)
-    flow.next(_check_width("causes"))
-    changed, on = checkbox("causes", options.causes)
-    if changed:
-        state = state.with_options(compare={"causes": on})
-    imgui.set_item_tooltip("Mark the pixels that differ, in the colours of their causes.")
+        imgui.set_item_tooltip(comparing.mode_told(mode, state))
+    if state.of(PhotographOptions).file:
+        state = _pairs(flow, state)
+    photographed = comparing.has_photograph(state)
+    if not photographed:
+        flow.next(_check_width("causes"))
+        changed, on = checkbox("causes", options.causes)
+        if changed:
+            state = state.with_options(compare={"causes": on})
+        imgui.set_item_tooltip("Mark the pixels that differ, in the colours of their causes.")
     width = 9 * imgui.get_font_size()
     flow.next(width)
     imgui.set_next_item_width(width)
-    has_gain = options.mode in ("absolute", "signed") and state.images.channel != "id"
+    is_object = state.images.channel == "id" and not photographed
+    has_gain = options.mode in ("absolute", "signed") and not is_object
     imgui.begin_disabled(not has_gain)
     changed, gain = slider_float(
         "##gain",
@@ -92,6 +98,21 @@ def toolbar(state: AppState) -> AppState:
     return state
 
 
+def _pairs(flow: Flow, state: AppState) -> AppState:
+    """What is compared, where a photograph is open."""
+    now = dict(PAIRS)[state.of(CompareOptions).pair]
+    width = max(map(_button_width, dict(PAIRS).values())) + imgui.get_frame_height()
+    flow.next(width)
+    imgui.set_next_item_width(width)
+    if imgui.begin_combo("##pair", now):
+        for pair, name in PAIRS:
+            if imgui.selectable(name, name == now)[0]:
+                state = comparing.with_pair(state, pair)
+        imgui.end_combo()
+    imgui.set_item_tooltip("What is compared: both images, or one of them and the photograph.")
+    return state
+
+
 @dataclass(frozen=True)
 class Footer:
     """The lines below the image that have room, those of the counts and of the errors by number.
@@ -103,11 +124,14 @@ class Footer:
     height: float
 
 
-def footer_plan(available: float, fonts: theme.Fonts) -> Footer:
+def footer_plan(available: float, fonts: theme.Fonts, counted: bool) -> Footer:
     """What has room in a view of that height: the headline and the scale always, then the counts,
-    the errors, the values of a pixel. Depends on sizes alone, so that nothing jumps."""
+    the errors, the values of a pixel. counted: whether there are causes and errors. Depends on
+    nothing that comes by itself, so that nothing jumps."""
     line, row = imgui.get_text_line_height_with_spacing(), imgui.get_frame_height_with_spacing()
     height = imgui.get_style().item_spacing.y + line + _scale_height()
+    if not counted:
+        return Footer(0, 0, False, height)
     room = (1 - IMAGE_LEAST) * available - height
     counts = lines([_count_width(cause.name) for cause in LABELS])
     counts = counts if counts * row <= room else 0
@@ -175,11 +199,13 @@ def lines(widths: list[float]) -> int:
 def _scale_row(state: AppState, draw_map: DrawMap) -> AppState:
     """The colour bar; in the other modes what takes its place, of the same height."""
     top = imgui.get_cursor_pos_y()
-    options = state.of(CompareOptions)
+    options, photographed = state.of(CompareOptions), comparing.has_photograph(state)
+    first, second = comparing.sides(state)
     if options.mode in ("absolute", "signed"):
         signed = options.mode == "signed"
-        scale = comparing.scale(state.images.channel, options.gain, signed)
-        scale = replace(scale, title=scale.title + comparing.measured_at(state.images))
+        scale = comparing.scale(state.images.channel, options.gain, signed, (first, second))
+        at = " as shown" if photographed else comparing.measured_at(state.images)
+        scale = replace(scale, title=scale.title + at)
         _color_bar(scale, signed, draw_map)
     elif options.mode == "wipe":
         imgui.set_next_item_width(-1)
@@ -187,10 +213,10 @@ def _scale_row(state: AppState, draw_map: DrawMap) -> AppState:
         if changed:
             state = comparing.with_divider(state, percent / 100)
         imgui.set_item_tooltip("Where the divider stands. It can be dragged in the image, too.")
-        text = f"raster left of {100 * options.divider:.0f} %, ray right of it"
+        text = f"{first} left of {100 * options.divider:.0f} %, {second} right of it"
         imgui.text(fitting_words(text, imgui.get_content_region_avail().x))
     else:
-        for flipped, name in ((False, "raster"), (True, "ray")):
+        for flipped, name in ((False, first), (True, second)):
             if flipped:
                 imgui.same_line()
             if _choice(f"show {name}", options.flipped == flipped):

@@ -8,6 +8,7 @@ pictures are made, composed.py's; what the mouse does over an image, the same as
 from __future__ import annotations
 
 from collections.abc import Hashable
+from dataclasses import replace
 
 import moderngl
 import numpy as np
@@ -16,6 +17,7 @@ from numpy.typing import NDArray
 
 from app.compare import comparing, panel
 from app.compare.actions import FLIP_KEY
+from app.compare.against_photograph import AgainstPhotograph
 from app.compare.composed import Composed, Mapping
 from app.compare.differences import draw_differences
 from app.compare.options import CompareOptions
@@ -37,6 +39,8 @@ NAME = "Compare"
 GRIP_EM = 0.6  # half the width in which the divider can be taken
 LARGE_PX = 6.0  # pixels that large are marked without enlarging them
 COMPARED = "compared"  # the two images, as they are looked at; see ShownImage.picture
+# left, right, the divider's column, whether muted, and what the two hold: see Composed.compose().
+Composing = tuple[moderngl.Texture, moderngl.Texture | None, int, bool, Hashable]
 AS_IT_IS = Look(transfer="linear")  # of pictures that have gone through the display transform
 
 
@@ -52,6 +56,7 @@ class CompareView(ImageView):
         self._shown: ShownImage | None = None
         self._version = -1  # of the composed picture that is shown
         self._error: Exception | None = None
+        self._against = AgainstPhotograph(linked.photograph)
         self._held: float | None = None  # where in the divider the mouse took it
         self.screen: Screen | None = None  # where the image is
 
@@ -73,7 +78,8 @@ class CompareView(ImageView):
             super()._strip(host)
         host.apply(panel.toolbar(host.state))
         available = imgui.get_content_region_avail()
-        plan = panel.footer_plan(available.y, host.fonts)
+        counted = not comparing.has_photograph(host.state)
+        plan = panel.footer_plan(available.y, host.fonts, counted)
         size = ImVec2(available.x, max(1.0, available.y - plan.height))
         imgui.begin_child("image", size, 0, self.flags | imgui.WindowFlags_.no_background)
         self._image(host)
@@ -115,11 +121,14 @@ class CompareView(ImageView):
         if mode == "wipe":
             self._draw_divider(host, screen)
         elif mode == "flip":
-            _label(host, screen, "Ray" if self._flipped(host.state) else "Raster", right=False)
+            name = comparing.sides(host.state)[self._flipped(host.state)]
+            _label(host, screen, name.capitalize(), right=False)
 
     def _on_pixels(self, host: Host, screen: Screen) -> None:
         verdict = host.renderers.verdict(host.state)
         if host.state.of(CompareOptions).mode not in ("absolute", "signed") or verdict is None:
+            return
+        if comparing.has_photograph(host.state):
             return
         if host.state.images.grid and not waiting(host.renderers, host.state):
             draw_differences(screen, host.state, verdict.comparison, host.fonts)
@@ -136,14 +145,22 @@ class CompareView(ImageView):
             both.request(state),
         )
         assert request is not None
+        photographed, image = comparing.has_photograph(state), both.ray_image
+        look = replace(look, component="rgb") if photographed else look
         raster = textures.raster_in(whole(both.size), request, look, COMPARED, own_size=True)
         if raster is None:
             return None
-        image = both.ray_image
         key: Hashable = (textures.raster.image, both.size, look, image)
         left, right, divider, muted = raster.texture, None, 0, False
         try:
-            if options.mode in ("absolute", "signed"):
+            if photographed:
+                first: Picture | None = raster
+                if comparing.sides(state)[0] == "ray":
+                    first = textures.ray_in(None, look, COMPARED, own_size=True)
+                if first is None:
+                    return None
+                left, right, divider, muted, key = self._with_photograph(both, state, first)
+            elif options.mode in ("absolute", "signed"):
                 drawn = textures.raster.full(request)
                 muted = drawn is None or image is None or waiting(both, state) != ""
                 if drawn is not None and image is not None and not muted:
@@ -158,12 +175,10 @@ class CompareView(ImageView):
             else:
                 ray = textures.ray_in(None, look, COMPARED, own_size=True)
                 right = ray.texture if ray is not None else None
-                if options.mode == "wipe":
-                    divider = _column(options.divider, both.size)
-                else:
-                    divider = 0 if self._flipped(state) else both.size[0]
+                divider = self._first_of_second(both, state)
             verdict = both.verdict(state)
-            labels = verdict.comparison.labels if verdict and options.causes else None
+            has_labels = options.causes and not photographed
+            labels = verdict.comparison.labels if verdict and has_labels else None
             enlarged = min(placement.unit) < LARGE_PX
             picture = composed.compose(
                 both.size, key, left, right, divider, muted, labels, enlarged
@@ -179,6 +194,31 @@ class CompareView(ImageView):
             return None
         return seen
 
+    def _with_photograph(self, both: Renderers, state: AppState, first: Picture) -> Composing:
+        """What compose() makes of an image's picture and the photograph."""
+        options, image = state.of(CompareOptions), first.texture
+        seen = self._against.pictures(both, state, first, whole(both.size))
+        if options.mode not in ("absolute", "signed"):
+            divider = self._first_of_second(both, state)
+            if seen is None:
+                return image, None, divider, False, first.made
+            return image, seen.photograph.texture, divider, False, seen.key
+        if seen is None or image.size != both.size:  # coarse
+            return image, None, 0, True, first.made
+        assert self._composed is not None
+        mapping = Mapping(gain=options.gain, signed=options.mode == "signed")
+        difference = self._composed.displayed_difference(
+            image, seen.photograph.texture, seen.key, mapping
+        )
+        return difference, None, 0, False, (seen.key, mapping)
+
+    def _first_of_second(self, both: Renderers, state: AppState) -> int:
+        """The first column that shows the second of the two images."""
+        options = state.of(CompareOptions)
+        if options.mode == "wipe":
+            return _column(options.divider, both.size)
+        return 0 if self._flipped(state) else both.size[0]
+
     def _flipped(self, state: AppState) -> bool:
         """Whether flip shows the ray image now."""
         io = imgui.get_io()
@@ -191,6 +231,10 @@ class CompareView(ImageView):
         """What the pixels that are seen hold: of the image that each of them is taken from."""
         raster = both.raster_values(state, channel, region)
         ray = both.ray_values(state, channel, region)
+        if comparing.has_photograph(state):  # of which none are told
+            if self._first_of_second(both, state) < both.size[0]:
+                return None
+            return ray if comparing.sides(state)[0] == "ray" else raster
         if state.of(CompareOptions).mode == "flip":
             return ray if self._flipped(state) else raster
         if raster is None or ray is None:
@@ -231,8 +275,9 @@ class CompareView(ImageView):
         x = self._divider_x(host.state, screen, host.renderers.size)
         draw = imgui.get_window_draw_list()
         em = imgui.get_font_size()
-        _label(host, screen, "Raster", right=False, end=x)
-        _label(host, screen, "Ray", right=True, end=x)
+        first, second = comparing.sides(host.state)
+        _label(host, screen, first.capitalize(), right=False, end=x)
+        _label(host, screen, second.capitalize(), right=True, end=x)
         if not low.x <= x <= high.x:
             return
         black, white = theme.u32(theme.rgb("#000000", 0.75)), theme.u32(theme.rgb("#ffffff"))
@@ -261,6 +306,10 @@ class CompareView(ImageView):
         pixel = host.hovered[1] if host.hovered else state.marked
         if error is not None:
             return panel.CompareReport(describe(error), theme.ERROR)
+        if comparing.has_photograph(state):
+            at_rest = not (imgui.is_any_item_active() or host.travelling)
+            text, bad = self._against.headline(comparing.sides(state), at_rest)
+            return panel.CompareReport(text, theme.ERROR if bad else theme.TEXT)
         if waits or verdict is None:
             return panel.CompareReport(waits or "Comparing ...", theme.DIM)
         comparison = verdict.comparison

@@ -93,6 +93,10 @@ class ImageTextures:
             return None
         return picture
 
+    def raster_seen(self) -> RasterImage | None:
+        """The raster image, where a view shows it: otherwise it may be of long ago."""
+        return self.raster.image if self._raster_frame >= self._frame - 1 else None
+
     def take_ray(self, image: RayImage) -> None:
         """The traced image to show from now on."""
         self._ray.take(image)

@@ -94,11 +94,22 @@ def draw_hint(draw: imgui.ImDrawList, screen: Screen, hint: str) -> None:
     _boxed(draw, screen, hint, theme.u32(TEXT))
 
 
-def _boxed(draw: imgui.ImDrawList, screen: Screen, text: str, color: int) -> None:
+def draw_told(draw: imgui.ImDrawList, screen: Screen, text: str, is_error: bool) -> None:
+    """What is to be said of a photograph, at the image's upper edge."""
+    color = theme.rgb("#ff8a65") if is_error else TEXT
+    draw.push_clip_rect(*screen.pane, True)
+    _boxed(draw, screen, text, theme.u32(color), at_the_top=True)
+    draw.pop_clip_rect()
+
+
+def _boxed(
+    draw: imgui.ImDrawList, screen: Screen, text: str, color: int, at_the_top: bool = False
+) -> None:
     origin, far = screen.visible
     wrap = max(60.0, (far.x - origin.x) * 0.8)
     size = imgui.calc_text_size(text, wrap_width=wrap)
-    at = ImVec2((origin.x + far.x - size.x) / 2, (origin.y + far.y - size.y) / 2)
+    top = origin.y + 16 if at_the_top else (origin.y + far.y - size.y) / 2
+    at = ImVec2((origin.x + far.x - size.x) / 2, top)
     low, high = ImVec2(at.x - 12, at.y - 8), ImVec2(at.x + size.x + 12, at.y + size.y + 8)
     draw.add_rect_filled(low, high, theme.u32(theme.rgb("#0c0d0f", 0.85)), 4.0)
     draw.add_text(imgui.get_font(), imgui.get_font_size(), at, color, text, wrap_width=wrap)

@@ -23,6 +23,8 @@ from app.images.imaging import (
     with_resolution,
 )
 from app.images.placement import magnification_text
+from app.photograph.options import PhotographOptions
+from app.photograph.panel import entries
 from app.state.app_state import AppState
 from app.state.options import MAGNIFICATIONS, PIXEL_SIZES, RESOLUTIONS
 from app.widgets import theme
@@ -34,10 +36,12 @@ ARROW = 0.9  # the room of the triangle, in the font's size
 
 @dataclass(frozen=True)
 class Strip:
-    """What the strip must know. name: of the view. ask_resolution: opens the box to type one."""
+    """What the strip must know. name: of the view. ask_resolution: opens the box to type one.
+    photo_size: of the photograph that is open, (0, 0) where that is not known."""
 
     name: str
     ask_resolution: Callable[[], None]
+    photo_size: tuple[int, int] = (0, 0)
 
 
 def image_strip(strip: Strip, state: AppState) -> AppState:
@@ -51,6 +55,8 @@ def image_strip(strip: Strip, state: AppState) -> AppState:
     imgui.get_window_draw_list().add_rect_filled(start, far, theme.u32(theme.PANEL))
     for place, (name, label, tooltip, menu) in enumerate(_PARTS):
         text = label(state)
+        if not text:
+            continue
         width = _width(text)
         if width > room:
             break
@@ -180,6 +186,17 @@ def _component(strip: Strip, state: AppState) -> AppState:
     return state
 
 
+def _photograph(strip: Strip, state: AppState) -> AppState:
+    return entries(state, strip.photo_size)
+
+
+def _photograph_text(state: AppState) -> str:
+    options = state.of(PhotographOptions)
+    if not options.file:
+        return ""
+    return f"Photo {100 * options.opacity:.0f} %" if options.shown else "Photo off"
+
+
 def _magnification_text(state: AppState) -> str:
     factor = state.images.magnification
     return "Fit" if factor is None else magnification_text(factor)
@@ -191,6 +208,12 @@ _PARTS = (
         lambda state: CHANNELS[state.images.channel][0],
         "What both images show: colour, depth, normal or object (Alt+1 to Alt+4).",
         _channel,
+    ),
+    (
+        "photograph",
+        _photograph_text,
+        "The photograph that is laid over the images: how opaque, where (Alt+P: on and off).",
+        _photograph,
     ),
     (
         "resolution",

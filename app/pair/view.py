@@ -8,20 +8,27 @@ from __future__ import annotations
 
 import time
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
+from typing import ClassVar
 
+import moderngl
 from imgui_bundle import ImVec2, imgui
 
 from app.host.view import DockedView, Host
 from app.images.marking import Anchor, followed
 from app.images.placement import Placement, shown_pixel
 from app.images.screen import Screen, available_px, is_at_the_bottom
+from app.images.shown import Picture
 from app.pair.image_mouse import Grab, Lens, Seen, Zoom
 from app.pair.marks import walked
+from app.pair.overlay import draw_told
 from app.pair.pane import Drawn, Pane, image_pane
 from app.pair.pixelgrid import Values
 from app.pair.rulers import ruler_sizes
 from app.pair.toolbar import Strip, image_strip
+from app.photograph.layer import PhotographLayer
+from app.photograph.model import path_of
+from app.photograph.options import PhotographOptions
 from app.state.app_state import AppState
 from app.state.options import Pixel
 from renderer.camera import Camera
@@ -35,10 +42,12 @@ NARROW_CELL = 4.0  # a hovered pixel that large gets a frame in the image under 
 
 @dataclass
 class Linked:
-    """What the two images share. walked_frame: the last one in which a key has moved the mark.
-    size, steady_frames: of the images, and how often they were drawn at that size. pins: gives the
-    pixels that are marked with numbers, in a state; set by whoever keeps them."""
+    """What the two images share. photograph: that is laid over them. walked_frame: the last one in
+    which a key has moved the mark. size, steady_frames: of the images, and how often they were
+    drawn at that size. pins: gives the pixels that are marked with numbers, in a state; set by
+    whoever keeps them."""
 
+    photograph: PhotographLayer = field(default_factory=PhotographLayer)
     grab: Grab | None = None
     zoom: Zoom | None = None
     lens: Lens | None = None
@@ -63,6 +72,10 @@ class ImageView(DockedView):
 
     def __init__(self, linked: Linked) -> None:
         self.linked = linked
+
+    @property
+    def settled(self) -> bool:
+        return not self.linked.photograph.busy
 
     def unseen(self, host: Host) -> None:
         host.renderers.forget_pane(self.name)
@@ -172,7 +185,9 @@ class ImageView(DockedView):
 
     def _strip(self, host: Host) -> None:
         if not host.state.preferences.presentation:
-            host.apply(image_strip(Strip(self.name, host.ask_resolution), host.state))
+            size = self.linked.photograph.file_size
+            strip = Strip(self.name, host.ask_resolution, size)
+            host.apply(image_strip(strip, host.state))
 
     def _hovered(self, host: Host, placement: Placement) -> tuple[int, int] | None:
         """The pixel to frame: in the other image always, in this one where it can be seen."""
@@ -218,25 +233,61 @@ class ImageView(DockedView):
         return (kind, shared.gesture_number)
 
 
-class RasterView(ImageView):
+class PhotographedView(ImageView):
+    """One of the two images, with the photograph where one is open."""
+
+    is_ray: ClassVar[bool]
+
+    def _laid(self, host: Host, picture: Drawn) -> Drawn:
+        layer, options = self.linked.photograph, host.state.of(PhotographOptions)
+        if options.file and not options.shown:
+            return picture
+        if not layer.follow(host.renderers, host.state):
+            return picture
+
+        def laid(state: AppState, placement: Placement, under: bool, name: str) -> Picture | None:
+            made = picture(state, placement, under, name)
+            of = self.name, name
+            return layer.over(host.renderers, state, of, made, placement, under, self.is_ray)
+
+        return laid
+
+    def _over_image(self, host: Host, screen: Screen) -> None:
+        layer = self.linked.photograph
+        told = layer.problem or layer.note
+        if told and path_of(host.state) and host.state.of(PhotographOptions).shown:
+            draw_told(imgui.get_window_draw_list(), screen, told, bool(layer.problem))
+
+
+class RasterView(PhotographedView):
     name = RASTER
     title = "Raster  object order"
+    is_ray = False
+
+    def begin(self, host: Host, context: moderngl.Context) -> None:
+        self.linked.photograph.begin(host.animate, context)
+
+    def end(self) -> None:
+        self.linked.photograph.end()
 
     def draw(self, host: Host) -> None:
         both = host.renderers
-        self._pane(host, both.raster_picture, both.raster_values, both.raster_error)
+        picture = self._laid(host, both.raster_picture)
+        self._pane(host, picture, both.raster_values, both.raster_error)
 
 
-class RayView(ImageView):
+class RayView(PhotographedView):
     name = RAY
     title = "Ray  image order"
+    is_ray = True
 
     def draw(self, host: Host) -> None:
         both, image = host.renderers, host.renderers.ray_image
         refining = image is not None and image.factor > 1
         progress = both.live.progress if refining else 1.0
         note = both.preparing()
-        self._pane(host, both.ray_picture, both.ray_values, both.ray_error, note, progress)
+        picture = self._laid(host, both.ray_picture)
+        self._pane(host, picture, both.ray_values, both.ray_error, note, progress)
         both.trace(host.state)
 
 

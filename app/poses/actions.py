@@ -17,6 +17,7 @@ WISHES: tuple[tuple[PoseWish, str, str], ...] = (
     ("first", "Poses: first", "Home"),
     ("last", "Poses: last", "End"),
     ("frame", "Poses: frame the set", ""),
+    ("lay", "Poses: lay the photographs over the images", ""),
     ("close", "Poses: close the set", ""),
 )
 

@@ -22,11 +22,15 @@ from app.widgets.sliders import slider_float
 from app.widgets.theme import Fonts, framebuffer_scale
 from renderer.errors import one_line
 
-PoseWish = Literal["", "open", "close", "frame", "cancel", "next", "previous", "first", "last"]
+PoseWish = Literal[
+    "", "open", "close", "frame", "cancel", "next", "previous", "first", "last", "lay"
+]
 INVITATION = (
     "Open the cameras of a data set or of a reconstruction: a transforms.json (NeRF, nerfstudio),"
     " or a COLMAP model's folder, such as sparse/0. Each becomes a frustum in the outside view."
 )
+LAY = "on the images"
+LAY_TOLD = "each pose's photograph over both images, as they are walked (Image > Photograph)"
 SHOWN_AFTER_S = 0.4
 BESIDE = 1.2  # width / height of the room from which the photograph stands beside the list
 PHOTO_PART = 0.52  # of the room's width beside the list
@@ -57,11 +61,13 @@ class PoseRows:
 
 @dataclass(frozen=True)
 class PhotoShown:
-    """texture: None while there is none. caption: below it. problem: why there is none."""
+    """texture: None while there is none. caption: below it. problem: why there is none. laid:
+    whether it is laid over the images; None: it cannot be."""
 
     texture: moderngl.Texture | None
     caption: str
     problem: str
+    laid: bool | None = None
 
 
 def invitation() -> PoseWish:
@@ -202,9 +208,15 @@ def rows(told: PoseRows, room: ImVec2) -> int | None:
     return clicked
 
 
-def photograph(shown: PhotoShown, room: ImVec2) -> None:
+def photograph(shown: PhotoShown, room: ImVec2) -> PoseWish:
     """The picture as large as it fits, its proportions kept; or why there is none."""
+    wish: PoseWish = ""
     if imgui.begin_child("photograph", room):
+        if shown.laid is not None:
+            if checkbox(LAY, shown.laid)[0]:
+                wish = "lay"
+            imgui.set_item_tooltip(LAY_TOLD)
+            room = imgui.get_content_region_avail()
         if shown.texture is not None:
             width, height = shown.texture.size
             lines = imgui.calc_text_size(shown.caption, False, room.x).y
@@ -221,6 +233,7 @@ def photograph(shown: PhotoShown, room: ImVec2) -> None:
             imgui.text_colored(theme.DIM, shown.problem)
             imgui.pop_text_wrap_pos()
     imgui.end_child()
+    return wish
 
 
 def keys() -> PoseWish:

@@ -22,11 +22,13 @@ from app.outside.looking import nearest
 from app.outside.mouse import Scope
 from app.outside.screen import OutsideScreen
 from app.outside.view import OutsideView
+from app.photograph.model import closed, with_photograph
+from app.photograph.options import PhotographOptions
 from app.poses import panel
 from app.poses.model import PoseSet, cloud, frusta, looked_from, matching, walked
 from app.poses.options import PosesOptions
 from app.poses.panel import PhotoShown, PoseRows, PosesHead, PoseWish
-from app.poses.photographs import Photographs
+from app.poses.photographs import Photographs, photo_path
 from app.poses.picking import picked
 from app.poses.reading import PosesReader
 from app.state.app_state import AppState
@@ -155,7 +157,8 @@ class PosesView(DockedView):
         if chosen >= 0:
             if beside:
                 imgui.same_line()
-            panel.photograph(self._photo(host, poses, chosen), for_photo)
+            photo = self._photo(host, poses, chosen)
+            wish = panel.photograph(photo, for_photo) or wish
         if clicked is not None:
             self.take(host, clicked)
         self._show_outside(host, poses)
@@ -188,6 +191,8 @@ class PosesView(DockedView):
             return
         before = self.chosen(host.state)
         target = host.state.with_options(poses={"pose": number}).with_view(poses.view(number))
+        if target.of(PhotographOptions).follows:
+            target = _photographed(target, poses, number)
         if before >= 0 and host.travelling:  # to that one, which is a step of its own
             host.amend(host.state.with_view(poses.view(before)))
             host.change(target)
@@ -206,6 +211,8 @@ class PosesView(DockedView):
             self._reader.cancel()
         elif wish == "frame" and poses is not None:
             self.frame(host, poses)
+        elif wish == "lay" and poses is not None:
+            self.lay(host, poses)
         elif wish and poses is not None:
             steps = {"next": 1, "previous": -1, "first": -BEYOND, "last": BEYOND}[wish]
             number = walked(self._matching(poses), self.chosen(host.state), steps)
@@ -223,12 +230,23 @@ class PosesView(DockedView):
 
     # The photograph.
 
+    def lay(self, host: Host, poses: PoseSet) -> None:
+        """The chosen one's photograph over the images, and then that of each which is taken; or
+        no more."""
+        state, chosen = host.state, self.chosen(host.state)
+        if state.of(PhotographOptions).follows:
+            host.change(closed(state))
+        elif chosen >= 0:
+            laid = state.with_options(photograph={"follows": True, "shown": True})
+            host.change(_photographed(laid, poses, chosen))
+
     def _photo(self, host: Host, poses: PoseSet, number: int) -> PhotoShown:
         assert self._photographs is not None and self._uploads is not None
         dotted = host.state.of(PosesOptions).reprojected
+        follows = host.state.of(PhotographOptions).follows
         found = self._photographs.of(poses, number, dotted)
         if found is None:  # the last one stays meanwhile
-            return PhotoShown(self._uploads.get(PHOTO), "", "")
+            return PhotoShown(self._uploads.get(PHOTO), "", "", True if follows else None)
         if found is not self._uploaded:
             self._uploaded = found
             self._uploads.drop(PHOTO)
@@ -237,7 +255,8 @@ class PosesView(DockedView):
         caption = f"{found.problem} The points as it would see them."
         if found.path is not None and not found.problem:
             caption = f"{found.size[0]} x {found.size[1]}, {one_line(found.path.name)}"
-        return PhotoShown(self._uploads.get(PHOTO), caption, found.problem)
+        laid = follows if follows or found.path is not None else None
+        return PhotoShown(self._uploads.get(PHOTO), caption, found.problem, laid)
 
     # What the outside view shows.
 
@@ -296,6 +315,12 @@ class PosesView(DockedView):
         at = column * size[0], row * size[1]
         self._pointed = key, picked(poses, length * poses.length, screen, at)
         return self._pointed[1]
+
+
+def _photographed(state: AppState, poses: PoseSet, number: int) -> AppState:
+    """The state with a camera's photograph over the images; none where the file names none."""
+    path = photo_path(poses, number)
+    return with_photograph(state, str(path.absolute()) if path is not None else None)
 
 
 def _counts(poses: PoseSet) -> str:

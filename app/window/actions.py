@@ -77,6 +77,7 @@ def _store(number: int) -> Action:
 
 FILE = (
     Action("File", "Open...", lambda w: w.files.open_dialog(), "Ctrl+O", (CTRL | int(Key.o),)),
+    Action("File", "Open photograph...", lambda w: w.files.open_photograph_dialog()),
     Action(
         "File",
         "Save view...",

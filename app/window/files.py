@@ -15,6 +15,7 @@ from pathlib import Path
 
 from imgui_bundle import portable_file_dialogs as dialogs
 
+from app.photograph.reading import PHOTO_ENDINGS
 from app.poses.reading import CAMERA_ENDINGS
 from app.storage.code_files import CODE_ENDING, TASKS_ENDING
 from app.storage.recent import RecentFiles
@@ -104,7 +105,7 @@ class Files:
 
     def open(self, source: str) -> None:
         """Loads a built-in scene, a scene file, a model, a view or a lecture in the background, or
-        finds a Python file."""
+        finds a Python file or a photograph."""
         self.open_all([source])
 
     def open_all(self, sources: Sequence[str], dropped: bool = False) -> None:
@@ -184,6 +185,13 @@ class Files:
     def open_tasks(self, paths: list[str]) -> None:
         """Loads a file as tasks, whatever it looks like."""
         self._load(paths[0], lambda _: open_tasks(paths[0]))
+
+    def open_photograph_dialog(self) -> None:
+        endings = " ".join(f"*{ending}" for ending in PHOTO_ENDINGS)
+        self._ask(
+            FileQuestion("Open a photograph", False, PHOTO_ENDINGS, "", self.open_all),
+            ["Photographs", endings],
+        )
 
     def save_view_dialog(self, view: View) -> None:
         def store(path: str) -> str:

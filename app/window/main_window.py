@@ -27,6 +27,7 @@ from app.outside.view import OUTSIDE, OutsideView
 from app.pair.go_to_pixel import Going, going, pixel_box
 from app.pair.resolution import SizeEntry, asked, resolution_box
 from app.pair.view import RASTER
+from app.photograph.model import with_photograph
 from app.poses.view import PosesView
 from app.state.app_state import AppState, History
 from app.state.options import Pixel
@@ -363,6 +364,10 @@ class MainWindow:
             self.animate()
         if opened.tasks:
             self.view(YourCodeView).open_tasks(self, opened.tasks)
+            self.animate()
+        if opened.photograph:
+            self.change(with_photograph(self.state, opened.photograph, shown=True, follows=False))
+            self.files.say("The photograph is laid over the images: Image > Photograph.")
             self.animate()
         if opened.lecture is not None:  # whose steps have scenes of their own
             self.lecture.give(*opened.lecture)

@@ -14,6 +14,7 @@ from pathlib import Path
 from app.checking.task_file import load_tasks
 from app.lecture.model import Lecture
 from app.lecture.reading import is_lecture, load_lecture
+from app.photograph.reading import found_photograph, is_photograph
 from app.poses.model import PoseSet
 from app.poses.reading import is_cameras, open_cameras
 from app.storage.code_files import found_code, is_code, is_tasks
@@ -38,7 +39,8 @@ class Opened:
     replaces: the scene of which this is a newer version; None for another one. agreed: the files
     outside of its folder that a scene which came by itself may read; None where the user named it.
     code: the absolute path of a Python file, which is there. poses: a set of cameras. tasks: the
-    path of a course's tasks, which can be read.
+    path of a course's tasks, which can be read. photograph: the absolute path of one, which can be
+    read.
     """
 
     sources: tuple[str, ...] = ()
@@ -53,20 +55,21 @@ class Opened:
     code: str = ""
     poses: PoseSet | None = None
     tasks: str = ""
+    photograph: str = ""
 
 
 def open_sources(
     sources: Sequence[str], dropped: bool = False, agreed: frozenset[Path] = frozenset()
 ) -> Opened:
     """Loads the first scene and the first view among sources; and the first lecture, the first
-    Python file, the first set of cameras, the first file of tasks. A file with one camera is a
-    view, whatever its format.
+    Python file, the first set of cameras, the first file of tasks, the first photograph. A file
+    with one camera is a view, whatever its format.
 
     dropped: scenes must not name files outside of their folder but those that are agreed to;
     lectures never. Raises LucidaError where there is but one and it cannot be read, OutsideError
     in any case.
     """
-    scene, view, lecture, code, poses, tasks = None, None, None, "", None, ""
+    scene, view, lecture, code, poses, tasks, photograph = None, None, None, "", None, "", ""
     good, problems = [], []
     for source in sources:
         try:
@@ -74,6 +77,8 @@ def open_sources(
                 code = code or found_code(source)
             elif source not in BUILTIN_SCENES and is_tasks(source):
                 tasks = tasks or open_tasks(source).tasks
+            elif source not in BUILTIN_SCENES and is_photograph(source):
+                photograph = photograph or found_photograph(source)
             elif source not in BUILTIN_SCENES and _is_view(Path(source)):
                 view = view or load_view(source)
             elif source not in BUILTIN_SCENES and is_lecture(source):
@@ -97,7 +102,7 @@ def open_sources(
     prepared = _prepared(scene)
     return Opened(
         tuple(good), scene, view, tuple(problems), lecture, prepared, agreed=given, code=code,
-        poses=poses, tasks=tasks,
+        poses=poses, tasks=tasks, photograph=photograph,
     )  # fmt: skip
 
 

@@ -10,6 +10,7 @@ from app.window.instruments import INSTRUMENTS
 
 OWN = {
     "Open...": "load import model mesh",
+    "Open photograph...": "background image picture overlay backdrop load png jpg",
     "Save view...": "export camera",
     "Save scene...": "export",
     "Save a picture of the window": "screenshot capture image png",

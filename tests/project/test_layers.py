@@ -91,8 +91,9 @@ GRAPHICS = ("glfw", "imgui_bundle", "moderngl")
 PURE = ("app/state", "app/explaining", "app/checking", "app/cameras")
 DRAW = {
     "camera_panel": "basis_numbers projection sections",
+    "photograph": "layer laying",
     "pair": "go_to_pixel image_mouse marks overlay pane pixelgrid resolution rulers toolbar",
-    "compare": "composed differences",
+    "compare": "against_photograph composed differences",
     "outside": "cloud_layer gizmo ground looking mouse paint tint tools "
     "vector_painting vector_view",
     "probe": "histogram",

@@ -1,0 +1,87 @@
+"""One of the images against the photograph: what stands on the photograph's side, their difference
+in numbers, and when there is none.
+
+Both are compared as they are on the screen, in display values: a photograph's exposure is not
+known, and the image's can be brought to it.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Hashable
+from dataclasses import dataclass
+
+import moderngl
+import numpy as np
+
+from app.images.placement import Placement
+from app.images.renderers import Renderers
+from app.images.shown import Picture
+from app.photograph.layer import PhotographLayer
+from app.state.app_state import AppState
+
+ROWS = 64  # of the pictures, that are subtracted at a time
+
+
+@dataclass(frozen=True)
+class Against:
+    """image, photograph: pictures of one size. key: what they hold."""
+
+    image: Picture
+    photograph: Picture
+    key: Hashable
+
+
+class AgainstPhotograph:
+    """problem: why there is no photograph, or what is to be known of it."""
+
+    def __init__(self, layer: PhotographLayer) -> None:
+        self._layer = layer
+        self._numbers: tuple[Hashable, tuple[float, int]] | None = None
+        self._seen: Against | None = None
+
+    def pictures(
+        self, both: Renderers, state: AppState, image: Picture, placement: Placement
+    ) -> Against | None:
+        """An image's picture and what the photograph shows of the same; None while there is none.
+        placement: all of the image."""
+        self._seen = None
+        if not self._layer.follow(both, state):
+            return None
+        photograph = self._layer.instead(both, state, image, placement)
+        if photograph is image:
+            return None
+        self._seen = Against(image, photograph, (image.made, photograph.made))
+        return self._seen
+
+    def headline(self, names: tuple[str, str], at_rest: bool) -> tuple[str, bool]:
+        """How far the two differ, in a line; and whether that is an error. at_rest: nothing is
+        moved: only then is it measured anew."""
+        if self._layer.problem:
+            return self._layer.problem, True
+        seen = self._seen
+        if seen is None:
+            return "The photograph is being read: no difference yet", False
+        if at_rest and (self._numbers is None or self._numbers[0] != seen.key):
+            self._numbers = seen.key, differing(seen.image.texture, seen.photograph.texture)
+        told = f"{names[0].capitalize()} image against photograph, as shown"
+        if self._numbers is not None and self._numbers[0] == seen.key:
+            rms, largest = self._numbers[1]
+            told = f"{told}: RMS {rms:.2f}/255, max {largest}/255"
+        return f"{told}. {self._layer.note}" if self._layer.note else told, False
+
+
+def differing(first: moderngl.Texture, second: moderngl.Texture) -> tuple[float, int]:
+    """The RMS and the largest difference of two pictures of one size, in 255ths, over the three
+    colours."""
+    width, height = first.size
+    a, b = (
+        np.frombuffer(texture.read(), np.uint8).reshape(height, width, 4)
+        for texture in (first, second)
+    )
+    squares, largest = 0.0, 0
+    for top in range(0, height, ROWS):
+        rows = slice(top, top + ROWS)
+        difference = a[rows, :, :3].astype(np.int32) - b[rows, :, :3]
+        squares += float(np.square(difference).sum())
+        largest = max(largest, int(np.abs(difference).max()))
+    return float(np.sqrt(squares / (3 * width * height))), largest

@@ -1,0 +1,64 @@
+"""The actions of the photograph over the images: shown, laid over or behind, as opaque, closed."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+from app.host.action import ALT, Action, Key, Window, changing
+from app.photograph.model import closed
+from app.photograph.options import Lay, PhotographOptions
+from app.state.app_state import AppState
+
+MENU = "Image/Photograph"
+STEP = 0.1
+
+
+def is_open(window: Window) -> bool:
+    """Whether there is a photograph for the images."""
+    return bool(window.state.of(PhotographOptions).file)
+
+
+def _switched(state: AppState) -> AppState:
+    shown = not state.of(PhotographOptions).shown
+    return state.with_options(photograph={"shown": shown})
+
+
+def _laid(lay: Lay) -> Callable[[AppState], AppState]:
+    return lambda state: state.with_options(photograph={"lay": lay, "shown": True})
+
+
+def _stronger(step: float) -> Callable[[AppState], AppState]:
+    def change(state: AppState) -> AppState:
+        opacity = round(state.of(PhotographOptions).opacity + step, 6)
+        return state.with_options(photograph={"opacity": opacity})
+
+    return change
+
+
+def _lay(name: str, lay: Lay) -> Action:
+    return Action(
+        MENU,
+        name,
+        changing(_laid(lay)),
+        is_on=lambda state: state.of(PhotographOptions).lay == lay,
+        can=is_open,
+        separated=lay == "over",
+    )
+
+
+PHOTOGRAPH = (
+    Action(
+        MENU,
+        "Photograph on the images",
+        changing(_switched),
+        "Alt+P",
+        (ALT | int(Key.p),),
+        is_on=lambda state: state.of(PhotographOptions).shown,
+        can=is_open,
+    ),
+    _lay("Photograph over the images", "over"),
+    _lay("Photograph where nothing is hit", "behind"),
+    Action(MENU, "Photograph more opaque", changing(_stronger(STEP)), can=is_open),
+    Action(MENU, "Photograph less opaque", changing(_stronger(-STEP)), can=is_open),
+    Action(MENU, "Close the photograph", changing(closed), can=is_open, separated=True),
+)

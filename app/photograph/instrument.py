@@ -1,0 +1,17 @@
+"""The photograph, as the window takes it: it has no view of its own, the images show it."""
+
+from __future__ import annotations
+
+from app.host.instrument import Instrument
+from app.photograph.actions import PHOTOGRAPH
+
+SYNONYMS = {
+    "Photograph on the images": "overlay background hide show toggle",
+    "Photograph over the images": "overlay blend",
+    "Photograph where nothing is hit": "background backdrop behind",
+    "Photograph more opaque": "opacity alpha blend",
+    "Photograph less opaque": "opacity alpha transparent blend",
+    "Close the photograph": "remove background overlay",
+}
+
+INSTRUMENT = Instrument(lambda views: [], PHOTOGRAPH, synonyms=SYNONYMS)

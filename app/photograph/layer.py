@@ -1,0 +1,180 @@
+"""The photograph that is open, for whichever view shows it: read in a thread, held once.
+
+Owns the thread, the last photograph, and why there is none. Costs nothing before one is asked for.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import Path
+
+import moderngl
+
+from app.images.placement import Placement
+from app.images.progressive_ray import RayImage
+from app.images.renderers import Renderers
+from app.images.shown import Picture
+from app.photograph.laying import Laid, Laying, Objects
+from app.photograph.model import Parts, covered, note, path_of, pixels_of
+from app.photograph.options import PhotographOptions
+from app.photograph.reading import DecodedPhotograph, Size, decoded
+from app.state.app_state import AppState
+from app.widgets.background import Background
+from renderer.errors import LucidaError, describe
+from renderer.raster.display import upload
+
+Asked = tuple[Path, Size]  # the file, and as how many pixels it is seen
+Answer = tuple[Asked, DecodedPhotograph | str]  # the photograph, or why there is none
+
+
+class PhotographLayer:
+    """problem: why there is no photograph, one line. note: what is to be said of it. file_size: the
+    photograph's own (width, height); (0, 0): not known."""
+
+    def __init__(self) -> None:
+        self._wake: Callable[[], None] = lambda: None
+        self._gl: moderngl.Context | None = None
+        self._work: Background[Answer] | None = None
+        self._laying: Laying | None = None
+        self._asked: Asked | None = None
+        self._path: Path | None = None  # of what is on the GPU
+        self._objects: tuple[RayImage, moderngl.Texture] | None = None
+        self.problem = ""
+        self.note = ""
+        self.file_size: Size = (0, 0)
+
+    def begin(self, wake: Callable[[], None], context: moderngl.Context) -> None:
+        """wake: called from the thread when a photograph is there."""
+        self._wake, self._gl = wake, context
+
+    @property
+    def busy(self) -> bool:
+        """Whether a photograph is being read that a view has asked for."""
+        return self._work is not None and self._work.busy
+
+    def follow(self, both: Renderers, state: AppState) -> bool:
+        """Each frame in which a view would show it: gives whether there is a photograph to show."""
+        path = path_of(state)
+        if path is None or self._gl is None or not min(both.size):
+            self._forget()
+            return False
+        parts = covered(state.camera, both.camera(state))
+        asked = path, pixels_of(parts, both.size)
+        if self._work is None:
+            self._work = Background("lucida-photograph", self._wake)
+            self._laying = Laying(self._gl)
+        outcome = self._work.poll()
+        if outcome is not None and outcome.value is not None:
+            self._take(*outcome.value)
+        if asked != self._asked:
+            self._asked, self.problem = asked, ""
+            self._work.submit(lambda: _answer(asked))
+        if self._path != path:
+            return False
+        self.note = note(path.name, self.file_size, asked[1])
+        return True
+
+    def over(
+        self,
+        both: Renderers,
+        state: AppState,
+        name: tuple[str, str],
+        picture: Picture | None,
+        placement: Placement,
+        under: bool,
+        ray: bool,
+    ) -> Picture | None:
+        """A picture of one of the images with the photograph as the state says. name: of the view,
+        and of its picture. ray: of the ray image. See follow(), which comes first."""
+        options = state.of(PhotographOptions)
+        if picture is None or not options.shown or not options.opacity:
+            return picture
+        laid = Laid(self._parts(both, state), options.opacity, options.lay == "behind")
+        return self._laid(both, name, picture, placement, under, laid, ray)
+
+    def instead(
+        self, both: Renderers, state: AppState, picture: Picture, placement: Placement
+    ) -> Picture:
+        """The photograph in place of a picture of all of an image, which is left where the
+        photograph is not, or is transparent: there, nothing differs."""
+        laid = Laid(self._parts(both, state))
+        return self._laid(both, ("in its place", ""), picture, placement, False, laid, False)
+
+    def end(self) -> None:
+        if self._work is not None:
+            self._work.close()
+        self._forget()
+        if self._laying is not None:
+            self._laying.release()
+        self._laying = self._gl = None
+
+    def _laid(
+        self,
+        both: Renderers,
+        name: tuple[str, str],
+        picture: Picture,
+        placement: Placement,
+        under: bool,
+        laid: Laid,
+        ray: bool,
+    ) -> Picture:
+        assert self._laying is not None
+        try:
+            objects = self._seen(both, ray) if laid.behind else None
+            return self._laying.laid(name, picture, placement, under, laid, objects)
+        except (LucidaError, moderngl.Error) as error:  # told in the view, which goes on
+            self.problem = describe(error)
+            return picture
+
+    def _parts(self, both: Renderers, state: AppState) -> Parts:
+        return covered(state.camera, both.camera(state))
+
+    def _take(self, asked: Asked, answer: DecodedPhotograph | str) -> None:
+        assert self._laying is not None
+        if self._asked is None or asked[0] != self._asked[0]:
+            return  # another one is wanted meanwhile
+        self._path, self.problem = None, ""
+        if isinstance(answer, str):
+            self.problem = answer
+            self._laying.take(None)
+            return
+        try:
+            self._laying.take(answer.pixels)
+        except LucidaError as error:
+            self.problem = describe(error)
+            return
+        self._path, self.file_size = asked[0], answer.size
+
+    def _seen(self, both: Renderers, ray: bool) -> Objects | None:
+        """What the pixels of an image show. While the camera moves, the ray image has but its
+        colours: then it is the raster image's, where that is to be seen too."""
+        image = both.ray_image
+        if ray and image is not None and image.frame.id is not None:
+            assert self._gl is not None
+            if self._objects is None or self._objects[0] is not image:
+                old = self._objects[1] if self._objects is not None else None
+                self._objects = None
+                self._objects = image, upload(self._gl, image.frame.id, old)
+            return Objects(self._objects[1], image)
+        raster = both.textures.raster_seen() if both.textures is not None else None
+        return Objects(raster.textures.object, raster) if raster is not None else None
+
+    def _forget(self) -> None:
+        """There is none: its memory is free."""
+        if self._asked is None:
+            return
+        self._asked = self._path = None
+        self.problem = self.note = ""
+        self.file_size = (0, 0)
+        if self._laying is not None:
+            self._laying.take(None)
+        if self._objects is not None:
+            self._objects[1].release()
+            self._objects = None
+
+
+def _answer(asked: Asked) -> Answer:
+    try:
+        return asked, decoded(*asked)
+    except LucidaError as error:
+        return asked, describe(error)

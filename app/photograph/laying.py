@@ -1,0 +1,128 @@
+"""A photograph over or behind a picture of an image, made on the GPU.
+
+Owns the shader's targets, one for each picture, done again only where something has changed. What
+comes out is for the eye alone: the images, and what is read from them, stay what they are.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Hashable
+from dataclasses import dataclass
+
+import moderngl
+import numpy as np
+from numpy.typing import NDArray
+
+from app.images.passes import Pass
+from app.images.placement import Placement
+from app.images.shown import Picture
+from app.photograph.model import WHOLE, Parts
+from renderer.raster.resources import Owner, new_texture
+
+
+@dataclass(frozen=True)
+class Laid:
+    """How a photograph is laid. covered: what it is of the image. opacity: from 0 to 1. behind:
+    only where nothing is hit."""
+
+    covered: Parts
+    opacity: float = 1.0
+    behind: bool = False
+
+
+@dataclass(frozen=True)
+class Objects:
+    """Which object each pixel of an image shows, int32, row 0 at the top. key: what it is of."""
+
+    texture: moderngl.Texture
+    key: Hashable
+
+
+class Laying:
+    """In a context, which must be current in every call. Raises LucidaError."""
+
+    def __init__(self, context: moderngl.Context) -> None:
+        self._gl = context
+        self._owner = Owner()
+        self._none = self._owner.own(new_texture(context, (1, 1), 1, np.int32))
+        self._passes: dict[Hashable, tuple[tuple[bool, bool], Pass]] = {}
+        self._number = 0
+        self.texture: moderngl.Texture | None = None
+
+    def take(self, pixels: NDArray[np.uint8] | None) -> None:
+        """A photograph, uint8 (height, width, 4), in place of the last one; None: there is none."""
+        if self.texture is not None:
+            self.texture.release()
+            self.texture = None
+        if pixels is not None:
+            height, width = pixels.shape[:2]
+            texture = new_texture(self._gl, (width, height), 4, np.uint8)
+            texture.write(np.ascontiguousarray(pixels))
+            texture.build_mipmaps()
+            texture.filter = moderngl.LINEAR_MIPMAP_LINEAR, moderngl.LINEAR
+            self.texture = texture
+            self._number += 1
+
+    def laid(
+        self,
+        name: Hashable,
+        picture: Picture,
+        placement: Placement,
+        under: bool,
+        laid: Laid,
+        objects: Objects | None = None,
+    ) -> Picture:
+        """A picture of an image, which stands in a window as `placement` says, with the photograph.
+        Behind it needs the objects; without them nothing is laid. name: each is drawn over by the
+        next of that name. under: the picture is for the underlay."""
+        if self.texture is None or (laid.behind and objects is None):
+            return picture
+        size, at_whole = picture.texture.size, laid.covered == WHOLE
+        smaller = level(self.texture.size, placement, size, laid.covered)
+        exact = smaller == 0.0 and at_whole and self.texture.size == placement.size
+        made = self._pass(name, exact, laid.behind)
+        made.draw(
+            size,
+            (picture.made, self._number, objects and laid.behind and objects.key),
+            {
+                "picture": picture.texture,
+                "photograph": self.texture,
+                "objects": objects.texture if objects is not None and laid.behind else self._none,
+            },
+            extent=(float(size[0]), float(size[1])),
+            shown=placement.visible_parts,
+            covered=laid.covered,
+            opacity=laid.opacity,
+            pixels=(float(placement.size[0]), float(placement.size[1])),
+            level=smaller,
+            upside_down=under,
+        )
+        return made.picture()
+
+    def _pass(self, name: Hashable, exact: bool, behind: bool) -> Pass:
+        """The one of that name; another where the shader is another."""
+        kind = exact, behind
+        if name in self._passes and self._passes[name][0] != kind:
+            self._passes.pop(name)[1].release()
+        if name not in self._passes:
+            constants = {"EXACT": exact, "BEHIND": behind}
+            self._passes[name] = kind, Pass(self._gl, "photograph.frag", constants)
+        return self._passes[name][1]
+
+    def release(self) -> None:
+        self.take(None)
+        for _, made in self._passes.values():
+            made.release()
+        self._passes.clear()
+        self._owner.release()
+
+
+def level(photo: tuple[int, int], placement: Placement, size: tuple[int, int], at: Parts) -> float:
+    """How often the photograph is halved where a target of `size` pixels shows it smaller than it
+    is; 0: its own pixels are seen."""
+    left, top, right, bottom = placement.visible_parts
+    across = photo[0] * (right - left) / (size[0] * (at[2] - at[0]))
+    down = photo[1] * (bottom - top) / (size[1] * (at[3] - at[1]))
+    times = max(across, down)
+    return math.log2(times) if times > 1.01 else 0.0

@@ -1,0 +1,130 @@
+"""Files of photographs: known by their names, read as they are to be seen, no larger than needed.
+
+A photograph is display values (sRGB), upright, as its EXIF orientation says. What is transparent
+in it is kept: there, the image is to be seen.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import NDArray
+
+from renderer.errors import LucidaError
+from renderer.frame import LARGEST_PIXELS
+
+if TYPE_CHECKING:
+    from PIL.Image import Image as Picture
+
+PHOTO_ENDINGS = (".jpg", ".jpeg", ".png", ".webp", ".tif", ".tiff")
+ORIENTATION = 0x0112  # of EXIF
+TURNS = {  # by orientation: what makes it upright
+    2: "FLIP_LEFT_RIGHT",
+    3: "ROTATE_180",
+    4: "FLIP_TOP_BOTTOM",
+    5: "TRANSPOSE",
+    6: "ROTATE_270",
+    7: "TRANSVERSE",
+    8: "ROTATE_90",
+}
+LYING = ("TRANSPOSE", "ROTATE_270", "TRANSVERSE", "ROTATE_90")  # rows become columns
+UNREADABLE = "is no picture that can be read"
+REMEDY = "give a JPEG, PNG, WebP or TIFF file"
+
+Size = tuple[int, int]  # (width, height)
+
+
+@dataclass(frozen=True, eq=False)
+class DecodedPhotograph:
+    """pixels: uint8 (height, width, 4), row 0 at the top; red, green and blue are display values
+    times alpha. size: the file's own, upright."""
+
+    pixels: NDArray[np.uint8]
+    size: Size
+
+
+def is_photograph(source: str) -> bool:
+    """Whether a name is that of a picture, never of a scene."""
+    return source.lower().endswith(PHOTO_ENDINGS)
+
+
+def found_photograph(source: str) -> str:
+    """The absolute path of a picture that can be read. Raises LucidaError."""
+    path = Path(source).absolute()
+    decoded(path, (16, 16))
+    return str(path)
+
+
+def decoded(path: Path, wanted: Size) -> DecodedPhotograph:
+    """A file's picture in as many pixels as wanted, (width, height), or as it has where those are
+    fewer: each is the mean of what it covers. Raises LucidaError."""
+    from PIL import Image
+
+    _check_is_there(path)
+    try:
+        with Image.open(path) as opened:
+            return _decoded(opened, wanted)
+    except LucidaError as error:
+        raise LucidaError("", error.problem, error.remedy, str(path)) from None
+    except MemoryError:
+        problem = "needs more memory than there is"
+        raise LucidaError("", problem, "give a smaller picture", str(path)) from None
+    except Image.DecompressionBombError:
+        raise _too_large(str(path)) from None
+    except Exception:  # a decoder's: they raise anything where a file is broken
+        raise LucidaError("", UNREADABLE, REMEDY, str(path)) from None
+
+
+def _decoded(opened: Picture, wanted: Size) -> DecodedPhotograph:
+    from PIL import Image
+
+    turn, own = TURNS.get(opened.getexif().get(ORIENTATION, 1)), opened.size
+    lying = turn in LYING
+    wanted = (wanted[1], wanted[0]) if lying else wanted
+    opened.draft("RGB", wanted)  # of a JPEG, no more is decoded than needed
+    if opened.width * opened.height > LARGEST_PIXELS:
+        raise _too_large()
+    size = min(wanted[0], own[0]), min(wanted[1], own[1])
+    picture = _eight_bits(opened)
+    if picture.size != size:
+        picture = picture.resize(size, Image.Resampling.BOX)
+    if turn is not None:
+        picture = picture.transpose(Image.Transpose[turn])
+    pixels = np.array(picture.convert("RGBA"))
+    alpha = pixels[..., 3:]
+    if alpha.min(initial=255) < 255:
+        product = pixels[..., :3] * alpha.astype(np.uint16)
+        pixels[..., :3] = (product + 127) // 255
+    return DecodedPhotograph(pixels, (own[1], own[0]) if lying else own)
+
+
+def _eight_bits(opened: Picture) -> Picture:
+    """The picture in 8 bits a channel, with alpha where it has some."""
+    from PIL import Image
+
+    if opened.mode.startswith("I"):  # 16 bits of gray, whatever they are kept in
+        gray = np.clip(np.asarray(opened).astype(np.int64) >> 8, 0, 255)
+        return Image.fromarray(gray.astype(np.uint8))
+    if opened.mode == "F":
+        raise LucidaError("", "has numbers without a largest one for pixels", REMEDY)
+    has_alpha = "transparency" in opened.info or opened.mode in ("RGBA", "LA", "PA", "RGBa", "La")
+    return opened.convert("RGBA" if has_alpha else "RGB")
+
+
+def _check_is_there(path: Path) -> None:
+    try:
+        is_file, is_folder = path.is_file(), path.is_dir()  # a pipe might never end
+    except (OSError, ValueError):
+        is_file = is_folder = False
+    if is_folder:
+        raise LucidaError("", "is a folder", "give a picture", str(path))
+    if not is_file:
+        raise LucidaError("", "is not there", "open another photograph", str(path))
+
+
+def _too_large(path: str = "") -> LucidaError:
+    most = f"{LARGEST_PIXELS // 1_000_000} million"
+    return LucidaError("", f"has more than {most} pixels", "give a smaller picture", path)

@@ -1,0 +1,68 @@
+"""How a photograph comes into the window: named, dropped, in a lecture, in a session."""
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+from PIL import Image
+
+from app.lecture.reading import load_lecture
+from app.photograph.model import with_photograph
+from app.photograph.options import PhotographOptions
+from app.state.app_state import AppState
+from app.storage.session import Arrangement, from_bytes, session_of, to_bytes
+from app.window.opening import open_sources
+from renderer.errors import LucidaError
+from renderer.scene import load_scene
+
+STEP = 'title = "Photographs"\n[[steps]]\ntitle = "one"\nviews = ["raster", "ray"]\n'
+
+
+@pytest.fixture
+def photo(tmp_path):
+    path = tmp_path / "photo.PNG"
+    Image.fromarray(np.full((3, 4, 3), 7, np.uint8)).save(path)
+    return path
+
+
+def test_a_picture_is_opened_as_a_photograph(photo):
+    for dropped in (False, True):
+        opened = open_sources([str(photo)], dropped)
+        assert opened.photograph == str(photo) and opened.sources == (str(photo),)
+        assert opened.scene is None and opened.view is None
+
+
+def test_a_scene_and_a_photograph_are_opened_together(photo):
+    opened = open_sources(["still-life", str(photo)], dropped=True)
+    assert opened.scene is not None and opened.photograph == str(photo)
+
+
+def test_what_is_no_picture_opens_nothing_but_the_others(photo, tmp_path):
+    bad = tmp_path / "bad.jpg"
+    bad.write_text("no picture")
+    with pytest.raises(LucidaError, match="is no picture that can be read"):
+        open_sources([str(bad)])
+    opened = open_sources([str(bad), str(photo)])
+    assert opened.photograph == str(photo) and "bad.jpg" in opened.problems[0]
+
+
+def test_a_lecture_names_one_beside_itself(photo):
+    file = photo.parent / "lecture.toml"
+    file.write_text(STEP + f'options.photograph.file = "{photo.name}"\n')
+    options = load_lecture(file).steps[0].options["photograph"]
+    assert Path(options["file"]) == photo
+    file.write_text(STEP + "options.photograph.opacity = 2\n")
+    with pytest.raises(LucidaError, match="opacity"):
+        load_lecture(file)
+
+
+def test_a_session_keeps_it(photo):
+    state = with_photograph(
+        AppState.for_scene(load_scene("still-life")),
+        str(photo) + "\udcff",
+        lay="behind",
+        opacity=0.25,
+        follows=True,
+    )
+    kept = from_bytes(to_bytes(session_of(state, Arrangement())))
+    assert kept.options.of(PhotographOptions) == state.of(PhotographOptions)

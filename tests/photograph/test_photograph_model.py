@@ -1,0 +1,69 @@
+"""Where a photograph stands in the images, and what is said of it."""
+
+from dataclasses import replace
+from pathlib import Path
+
+import pytest
+
+from app.photograph.model import (
+    WHOLE,
+    closed,
+    covered,
+    note,
+    path_of,
+    pixels_of,
+    with_photograph,
+)
+from app.photograph.options import PhotographOptions
+from app.state.app_state import AppState
+from renderer import load_scene
+from renderer.camera import Camera
+
+CAMERA = replace(Camera.canonical(), viewport=(-1.0, 3.0, -2.0, 1.0))
+
+
+def test_where_the_viewport_is_the_image_s_it_fills_the_image():
+    assert covered(CAMERA, CAMERA) == WHOLE
+    assert pixels_of(WHOLE, (640, 480)) == (640, 480)
+
+
+@pytest.mark.parametrize("size", [(800, 300), (300, 800), (400, 300)])
+def test_in_a_fitted_view_it_keeps_its_proportions(size):
+    left, top, right, bottom = covered(CAMERA, CAMERA.fitted(size))
+    assert (left + right) / 2 == pytest.approx(0.5) and (top + bottom) / 2 == pytest.approx(0.5)
+    assert (right - left) * size[0] / ((bottom - top) * size[1]) == pytest.approx(4 / 3)
+    assert min(left, top) == pytest.approx(0) and max(right, bottom) == pytest.approx(1)
+    seen = (300, 225) if size == (300, 800) else (400, 300)
+    assert pixels_of((left, top, right, bottom), size) == seen
+
+
+def test_another_viewport_s_upper_edge_is_above():
+    drawn = replace(CAMERA, viewport=(-1.0, 3.0, -2.0, 2.0))
+    assert covered(CAMERA, drawn) == (0.0, 0.25, 1.0, 1.0)
+
+
+def test_it_has_a_pixel_at_least():
+    assert pixels_of((0.5, 0.5, 0.5001, 0.5001), (10, 10)) == (1, 1)
+
+
+@pytest.mark.parametrize(
+    ("own", "seen", "told"),
+    [
+        ((4000, 3000), (400, 300), False),
+        ((4000, 3000), (401, 300), False),  # rounded
+        ((4000, 3000), (390, 300), True),
+        ((1920, 1080), (640, 480), True),
+        ((640, 480), (480, 640), True),
+    ],
+)
+def test_that_it_is_stretched_is_told(own, seen, told):
+    assert bool(note("a.png", own, seen)) == told
+
+
+def test_a_photograph_comes_into_the_state_and_goes():
+    state = AppState.for_scene(load_scene("still-life"))
+    assert path_of(state) is None
+    shown = with_photograph(state, "/a/b\udcff.png", follows=True)
+    assert path_of(shown) == Path("/a/b\udcff.png")
+    assert shown.of(PhotographOptions).follows
+    assert closed(shown).of(PhotographOptions) == state.of(PhotographOptions)

@@ -1,0 +1,283 @@
+"""A photograph over the images: opened, laid over and behind, followed, compared with, closed."""
+
+from __future__ import annotations
+
+import json
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+from imgui_bundle import hello_imgui
+from PIL import Image
+from window_driver import RASTER, SIZE, Driver, Key
+
+from app.compare.view import CompareView
+from app.host import layout
+from app.images.imaging import with_resolution
+from app.pair.view import RasterView
+from app.photograph.layer import PhotographLayer
+from app.photograph.model import closed
+from app.poses.photographs import photo_path
+from app.poses.view import POSES, PosesView
+from app.state.app_state import AppState
+from app.storage.paths import restored
+from renderer.camera import Camera
+from renderer.camera_formats import PosedCamera, written
+
+
+def layer(d: Driver) -> PhotographLayer:
+    found = d.window.views[RASTER]
+    assert isinstance(found, RasterView)
+    return found.linked.photograph
+
+
+def laid(d: Driver, **changes: object) -> AppState:
+    return d.window.state.with_options(photograph=changes)
+
+
+def saved(d: Driver, pixels: np.ndarray, name: str = "photo.png") -> Path:
+    path = d.folder / name
+    Image.fromarray(pixels).save(path)
+    return path
+
+
+def noise(d: Driver) -> np.ndarray:
+    """As many pixels as the images have, each of another colour."""
+    width, height = d.window.renderers.size
+    return np.random.default_rng(1).integers(0, 256, (height, width, 3), dtype=np.uint8)
+
+
+def opened(d: Driver, path: Path) -> None:
+    d.drop([str(path)])
+    d.until(lambda: restored(d.window.state.options.photograph.file) == str(path))
+    d.ctx.yield_(2)
+    d.window.shell.toasts.clear()  # one of them is in an image's place
+    d.settle()
+
+
+def drive_a_photograph_that_was_dropped_is_laid_over_both_images(d: Driver) -> None:
+    d.window.change(d.window.state.with_fit(False))
+    d.settle()
+    bare, pixels = d.images(), noise(d)
+    camera = d.window.state.camera
+    opened(d, saved(d, pixels))
+    assert d.window.state.camera == camera and d.window.state.scene is d.start.scene
+    for before, after in zip(bare, d.images(), strict=True):
+        assert before.shape == pixels.shape
+        assert np.abs(after - (before + pixels.astype(int)) / 2).max() <= 1
+    verdict = d.window.renderers.verdict(d.window.state)
+    assert verdict is not None and not verdict.comparison.unexplained
+    d.window.change(laid(d, opacity=1.0))
+    d.settle()
+    for after in d.images():
+        assert np.array_equal(after, pixels)
+    d.window.change(laid(d, shown=False))
+    d.settle()
+    for before, after in zip(bare, d.images(), strict=True):
+        assert np.array_equal(after, before)
+
+
+def drive_behind_the_images_it_is_seen_where_nothing_is_hit(d: Driver) -> None:
+    d.window.change(d.window.state.with_fit(False))
+    d.settle()
+    bare, pixels = d.images(), noise(d)
+    opened(d, saved(d, pixels))
+    d.window.change(laid(d, opacity=1.0, lay="behind"))
+    d.settle()
+    ray = d.window.renderers.ray_image
+    assert ray is not None
+    missed = ray.frame.channel("id") < 0
+    assert 0.05 < missed.mean() < 0.95
+    for before, after in zip(bare, d.images(), strict=True):
+        wrong = (after != np.where(missed[..., None], pixels, before)).any(axis=2)
+        assert wrong.mean() < 0.001  # at the outlines, where the two images may differ
+
+
+def drive_in_a_fitted_view_it_fills_the_camera_s_own_viewport(d: Driver) -> None:
+    state = d.window.state
+    d.window.change(state.with_camera(replace(state.camera, viewport=(-0.4, 0.4, -0.1, 0.1))))
+    d.window.change(d.window.state.with_fit(True))
+    d.settle()
+    bare = d.images()
+    height = d.window.renderers.size[1]
+    drawn = d.window.renderers.camera(d.window.state).viewport
+    assert drawn[:2] == (-0.4, 0.4) and drawn[3] > 0.2  # the window is no wider than high
+    opened(d, saved(d, np.full((50, 200, 3), (0, 255, 0), np.uint8)))
+    d.window.change(laid(d, opacity=1.0))
+    d.settle()
+    assert layer(d).note == ""
+    half = 0.1 / (drawn[3] - drawn[2]) * height
+    for before, after in zip(bare, d.images(), strict=True):
+        green = (after == (0, 255, 0)).all(axis=2)
+        rows = np.flatnonzero(green.all(axis=1))
+        assert abs(rows[0] - (height / 2 - half)) <= 1
+        assert abs(rows[-1] + 1 - (height / 2 + half)) <= 1
+        assert np.array_equal(after[: rows[0] - 1], before[: rows[0] - 1])
+    opened(d, saved(d, np.zeros((200, 200, 3), np.uint8), "square.png"))
+    assert "200 x 200, is stretched to the viewport's" in layer(d).note
+    d.picture()
+
+
+def drive_magnified_its_pixels_are_the_image_s(d: Driver) -> None:
+    d.window.change(d.window.state.with_fit(False))
+    d.settle()
+    pixels = noise(d)
+    opened(d, saved(d, pixels))
+    images = {"magnification": 8.0, "center": (0.5, 0.5), "grid": False}
+    d.window.change(laid(d, opacity=1.0).with_options(images=images))
+    d.settle()
+    placement = d.window.renderers.placement(d.window.state)
+    assert placement is not None
+    top, left, bottom, right = placement.visible_pixels
+    for after in d.images():
+        across, down = after.shape[1] // 2, after.shape[0] // 2
+        seen = after[down - 32 : down + 32, across - 32 : across + 32]
+        assert len(np.unique(seen.reshape(-1, 3), axis=0)) <= 81  # squares of 8
+        shown = {tuple(pixel) for pixel in seen.reshape(-1, 3).tolist()}
+        there = {tuple(p) for p in pixels[top:bottom, left:right].reshape(-1, 3).tolist()}
+        assert shown <= there
+
+
+def drive_it_is_switched_with_a_key_undone_and_closed(d: Driver) -> None:
+    steps = len(d.window.history.past)
+    opened(d, saved(d, np.full((30, 40, 3), 200, np.uint8)))
+    assert len(d.window.history.past) == steps + 1
+    d.press(int(Key.mod_alt) | int(Key.p))
+    assert not d.window.state.options.photograph.shown
+    d.press(int(Key.mod_alt) | int(Key.p))
+    assert d.window.state.options.photograph.shown
+    d.window.change(closed(d.window.state))
+    d.settle()
+    assert layer(d).file_size == (0, 0)  # it is not held any more
+    d.window.undo()
+    d.settle()
+    assert layer(d).file_size == (40, 30)
+    d.ctx.item_click("//Raster/**/##photograph")
+    d.ctx.yield_(3)
+    d.picture()
+    d.ctx.item_click("//$FOCUSED/Where nothing is hit")
+    d.settle()
+    assert d.window.state.options.photograph.lay == "behind"
+    d.ctx.item_click("//Raster/**/##photograph")
+    d.ctx.yield_(3)
+    d.ctx.item_click("//$FOCUSED/Images of its size, 40 x 30")
+    d.settle()
+    assert d.window.renderers.size == (40, 30)
+
+
+def drive_what_cannot_be_read_is_told_and_nothing_is_lost(d: Driver) -> None:
+    path = saved(d, np.full((30, 40, 3), 200, np.uint8))
+    opened(d, path)
+    before = d.window.state
+    for name, data in (("broken.png", path.read_bytes()[:60]), ("text.jpg", b"no picture")):
+        (d.folder / name).write_bytes(data)
+        d.drop([str(d.folder / name)])
+        d.until(lambda name=name: name in d.window.files.message)  # type: ignore[misc]
+        assert "is no picture that can be read" in d.window.files.message
+        assert "\n" not in d.window.files.message and d.window.state is before
+        d.window.files.message = ""
+    d.window.change(laid(d, file=str(d.folder / "gone.png")))
+    d.settle()
+    assert "gone.png: is not there" in layer(d).problem
+    d.picture()
+    d.window.undo()
+    d.settle()
+    assert layer(d).problem == ""
+
+
+def drive_an_image_is_compared_with_it(d: Driver) -> None:
+    d.window.change(d.window.state.with_fit(False))
+    d.settle()
+    _, right = d.images()
+    path = saved(d, right.astype(np.uint8))
+    opened(d, path)
+    d.window.change(laid(d, shown=False))
+    hello_imgui.switch_layout("Compare")
+    d.ctx.yield_(5)
+    size = right.shape[1], right.shape[0]
+    state = with_resolution(d.window.state, size)
+    view = d.window.views["Compare"]
+    assert isinstance(view, CompareView)
+    for pair in ("ray-photograph", "raster-photograph"):
+        changes = {"pair": pair, "mode": "absolute", "gain": 1.0}
+        d.window.change(state.with_options(compare=changes))
+        d.settle()
+        told = view._told(d.window)
+        assert "image against photograph, as shown: RMS 0." in told.headline, told.headline
+    half_a_pixel = d.window.state.camera.shifted(0, 0.5, size)
+    d.window.change(d.window.state.with_camera(half_a_pixel))
+    d.settle()
+    told = view._told(d.window).headline
+    assert float(told.split("RMS ")[1].split("/")[0]) > 1.0, told
+    for mode in ("signed", "wipe", "flip"):
+        d.window.change(d.window.state.with_options(compare={"mode": mode}))
+        d.settle()
+        d.picture()
+    d.window.change(closed(d.window.state))  # both images again
+    d.settle()
+    assert "photograph" not in view._told(d.window).headline
+    hello_imgui.switch_layout(layout.LAYOUTS[0].name)
+    d.ctx.yield_(5)
+
+
+def data_set(d: Driver) -> Path:
+    """Three cameras, with a photograph of each but the last."""
+    folder = d.folder / "set"
+    folder.mkdir(exist_ok=True)
+    eyes = ((0, 2, 5), (3, 2, 4), (5, 2, 0))
+    cameras = [Camera.look_at(eye, (0, 0, 0), fov_y_deg=45.0, aspect=4 / 3) for eye in eyes]
+    posed = [PosedCamera(camera, (80, 60), f"{k}.png") for k, camera in enumerate(cameras)]
+    table = json.loads(written(posed, "nerf")[""])
+    for k, frame in enumerate(table["frames"]):
+        frame["file_path"] = f"./{k}.png"
+        if k < 2:
+            Image.new("RGB", (80, 60), (90 * k, 90, 160)).save(folder / f"{k}.png")
+    path = folder / "transforms.json"
+    path.write_text(json.dumps(table))
+    return path
+
+
+def drive_it_follows_a_set_of_poses(d: Driver) -> None:
+    path = data_set(d)
+    view = d.window.view(PosesView)
+    d.drop([str(path)])
+    d.until(lambda: POSES in d.window.shell.stage.rects and view.poses is not None)
+    poses = view.poses
+    assert poses is not None
+    view.take(d.window, 0)
+    d.settle()
+    d.ctx.item_click(f"//###{POSES}/**/on the images")
+    d.settle()
+    d.picture()
+    file = d.window.state.options.photograph
+    assert restored(file.file) == str(photo_path(poses, 0)) and file.follows
+    view.take(d.window, 1)
+    d.settle()
+    assert restored(d.window.state.options.photograph.file) == str(photo_path(poses, 1))
+    assert layer(d).file_size == (80, 60) and not layer(d).problem
+    view.take(d.window, 2)  # its file is not there
+    d.settle()
+    assert "2.png: is not there" in layer(d).problem
+    d.picture()
+    d.window.undo()
+    d.settle()
+    assert restored(d.window.state.options.photograph.file) == str(photo_path(poses, 1))
+    assert not layer(d).problem
+    view.lay(d.window, poses)
+    assert d.window.state.options.photograph.file == ""
+    assert not d.window.state.options.photograph.follows
+    d.window.shell.stage.show(POSES, False)
+    d.ctx.yield_(3)
+    hello_imgui.switch_layout(layout.LAYOUTS[0].name)
+    d.ctx.yield_(5)
+
+
+def drive_nothing_is_drawn_anew_while_nothing_changes(d: Driver) -> None:
+    opened(d, saved(d, noise(d)))
+    laying = layer(d)._laying
+    assert laying is not None
+    d.ctx.mouse_teleport_to_pos((3, SIZE[1] - 3))
+    d.settle()
+    counts = {name: made.count for name, (_, made) in laying._passes.items()}
+    d.ctx.yield_(20)
+    assert counts and {name: made.count for name, (_, made) in laying._passes.items()} == counts
