@@ -1,0 +1,12 @@
+"""Conformance: the formats of cameras, held against the programs that they are of. `make conformance`.
+
+    measured      how far apart the pixels were, and how far they may be
+    cameras       random cameras and points, and the pixels that our camera says
+    formats       a module each: what the real program says, of our files and of its own
+    float32       bounds for programs that compute in single precision
+    run           each format in a process of its own; what cannot be imported is left out
+    report        the tables
+
+A module of formats has check(job: Job) -> Checked; it raises PeerMissing where the real program is
+not there. The tests of this package (tests/project/test_conformance.py) need none of them.
+"""
