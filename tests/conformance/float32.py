@@ -19,24 +19,35 @@ from renderer.camera_formats.rigid import rigid
 
 UNIT = 2.0**-24  # of a float32: half of what lies between 1 and the next number
 
-# Roundings on the longest way from what is stored to a pixel, by the step.
-Roundings = Mapping[str, int]
+Roundings = Mapping[str, int]  # on the longest way, by the step
 
 
-def point_bounds(camera: Camera, size: Size, points: Floats, roundings: Roundings) -> Floats:
-    """Of each point's pixel, in x and y; (n, 2). camera: one that `rigid` holds."""
-    straight = rigid(camera, "the bound")
-    offset = points - np.asarray(straight.eye)
-    x, y, back = (offset @ straight.basis).T
-    # What is added up to a coordinate in the camera's space.
-    stored = np.linalg.norm(points, axis=1) + np.linalg.norm(straight.eye)
-    left, right, bottom, top = straight.viewport
+def point_bounds(
+    camera: Camera, size: Size, points: Floats, in_space: Roundings, in_picture: Roundings
+) -> Floats:
+    """Of each point's pixel, in x and y; (n, 2).
+
+    in_space: what is done to the point, the eye and the axes. in_picture: what is done in the plane
+    of the picture, to its edges among others. In perspective the camera is one that `rigid` holds.
+    """
+    camera = camera if camera.is_parallel else rigid(camera, "the bound")
+    left, right, bottom, top = camera.viewport
     edges = np.array([abs(left) + abs(right), abs(bottom) + abs(top)])
-    across = np.abs(np.stack([x, y], axis=-1))
-    moved = np.repeat(stored[:, None], 2, axis=1)
-    if not straight.is_parallel:
-        scale = straight.distance / -back[:, None]
-        across = across * scale
-        moved = moved * scale * (1 + across / straight.distance)
+    inverse = np.linalg.inv(camera.basis)
+    x, y, z = inverse @ (points - np.asarray(camera.eye)).T
+    across = np.abs(np.column_stack([x, y]))
+    # What is added up to a place in the camera's space; a change of it by 1 changes x, y, z by so
+    # much at most.
+    stored = np.linalg.norm(points, axis=1) + np.linalg.norm(camera.eye)
+    change_x, change_y, change_z = np.linalg.norm(inverse, axis=1)
+    moved = stored[:, None] * (change_x, change_y)
+    if camera.is_parallel:  # formats move the eye into the viewport's middle
+        lengths = np.linalg.norm([camera.u, camera.v], axis=1)
+        moved += (edges @ lengths) * np.array([change_x, change_y])
+    else:
+        ahead = -z[:, None] / camera.distance
+        across = across / ahead
+        moved = (moved + across * stored[:, None] * change_z / camera.distance) / ahead
     pixels = np.array(size) / (right - left, top - bottom)
-    return sum(roundings.values()) * UNIT * pixels * (moved + across + edges)
+    space, picture = (sum(roundings.values()) for roundings in (in_space, in_picture))
+    return UNIT * pixels * (space * moved + picture * (across + edges))
