@@ -48,16 +48,7 @@ def prepare(folder: Path, requirements: Path, packages: Path | None = None) -> d
 
     packages: a package.json, for the peers that run under node.
     """
-    runtime = sysconfig.get_path("purelib")
-    made_from = f"{sys.version}\n{runtime}\n"
-    stamp = folder / "made-from"
-    if not stamp.exists() or stamp.read_text() != made_from:
-        say(f"making {folder.name}")
-        venv.create(folder, clear=True, with_pip=True)
-        own = Path(ask(folder, "import sysconfig; print(sysconfig.get_path('purelib'))"))
-        # Behind the environment's own packages on the path, which therefore come first.
-        (own / "lucida-runtime.pth").write_text(runtime + "\n")
-        stamp.write_text(made_from)
+    _made(folder)
     failed = {}
     for line in wanted(requirements.read_text()):
         why = _install(folder, line)
@@ -69,6 +60,20 @@ def prepare(folder: Path, requirements: Path, packages: Path | None = None) -> d
             if why:
                 failed[f"{name}@{version}"] = why
     return failed
+
+
+def _made(folder: Path) -> None:
+    """An empty environment that sees Lucida's packages, unless it is there."""
+    runtime = sysconfig.get_path("purelib")
+    made_from = f"{sys.version}\n{runtime}\n"
+    stamp = folder / "made-from"
+    if not stamp.exists() or stamp.read_text() != made_from:
+        say(f"making {folder.name}")
+        venv.create(folder, clear=True, with_pip=True)
+        own = Path(ask(folder, "import sysconfig; print(sysconfig.get_path('purelib'))"))
+        # Behind the environment's own packages on the path, which therefore come first.
+        (own / "lucida-runtime.pth").write_text(runtime + "\n")
+        stamp.write_text(made_from)
 
 
 def wanted(requirements: str) -> list[str]:

@@ -1,4 +1,4 @@
-"""python -m tests.conformance: holds the formats of cameras against the programs that they are of."""
+"""python -m tests.conformance: holds the formats of cameras against the real programs."""
 
 from __future__ import annotations
 
@@ -10,7 +10,6 @@ from renderer.atomic import atomic_write
 from renderer.camera_formats import FORMATS
 from renderer.errors import LucidaError
 from tests.conformance import report
-from tests.conformance.cameras import POINTS
 from tests.conformance.run import outcomes
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -69,16 +68,8 @@ def _chosen(only: str | None) -> list[str]:
 
 
 def _document(found: list[report.Outcome], count: int) -> None:
-    intro = (
-        f"`make conformance` made this table: in each direction (our file read by the real program, "
-        f"its own file read by us) at least {count} random cameras, off-axis and of any aspect "
-        f"ratio, skewed and parallel where the format has that, and {POINTS} points each. An error "
-        f"is how far apart, in pixels of images of up to 3000 x 3000, the two see the same point. "
-        f"Where the program computes in float32, the bound is float32's own for that point: its "
-        f"roundings, counted (tests/conformance/float32.py)."
-    )
     for path, block in (
-        (ROOT / "docs" / "cameras.md", report.page(found, intro)),
+        (ROOT / "docs" / "cameras.md", report.page(found, count)),
         (ROOT / "README.md", report.readme(found)),
     ):
         text = report.between_marks(path.read_text(encoding="utf-8"), block, path.name)

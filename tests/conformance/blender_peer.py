@@ -168,7 +168,9 @@ def render_pictures(count, numbers):
         render = scene.render
         render.resolution_x = 100 if number % 2 else numbers.randint(40, 200)
         render.resolution_y = numbers.randint(40, 200)
-        render.resolution_percentage = (29, 57, 58)[number] if number < 3 else numbers.randint(10, 100)
+        render.resolution_percentage = (
+            (29, 57, 58)[number] if number < 3 else numbers.randint(10, 100)
+        )
         bpy.ops.render.render(write_still=True)
         picture = bpy.data.images.load(str(path))
         size = list(picture.size)

@@ -119,6 +119,12 @@ def from_clip(clip_from_world: Floats, points: Floats, size: Size) -> Floats:
     return np.stack([(x + 1) / 2 * size[0], (1 - y) / 2 * size[1]], axis=-1)
 
 
+def points_ahead(random: np.random.Generator) -> Floats:
+    """(POINTS, 3), in computer vision's camera space: z forward."""
+    x, y = random.uniform(-1, 1, (2, POINTS))
+    return np.column_stack([x, y, random.uniform(2, 4, POINTS)])
+
+
 def rotation(random: np.random.Generator) -> Floats:
     turned, _ = np.linalg.qr(random.normal(size=(3, 3)))
     turned[:, 0] *= np.linalg.det(turned)

@@ -37,7 +37,8 @@ class Job:
 @dataclass(frozen=True)
 class Measured:
     """worst: the largest error; bound: what was allowed there. share: the largest part that an
-    error was of its own bound. unit: "px", or what else was compared."""
+    error was of its own bound. unit: "px", or what else was compared. beside: whether it is told
+    beside the table of pixels."""
 
     what: str
     cameras: int
@@ -45,6 +46,7 @@ class Measured:
     bound: float
     share: float
     unit: str = "px"
+    beside: bool = False
 
     @property
     def met(self) -> bool:
@@ -61,18 +63,26 @@ class Checked:
 
 
 def measured(
-    what: str, errors: ArrayLike, bounds: ArrayLike = EXACT_PX, *, cameras: int, unit: str = "px"
+    what: str,
+    errors: ArrayLike,
+    bounds: ArrayLike = EXACT_PX,
+    *,
+    cameras: int,
+    unit: str = "px",
+    beside: bool = False,
 ) -> Measured:
     """errors, bounds: of the same shape, or one bound for all. Without errors nothing is met."""
+    beside = beside or unit != "px"
     found, allowed = (
         np.ravel(part) for part in np.broadcast_arrays(np.abs(np.asarray(errors, float)), bounds)
     )
     if not found.size or not np.isfinite(found).all():
-        return Measured(what, cameras, math.nan, math.nan, math.nan, unit)
+        return Measured(what, cameras, math.nan, math.nan, math.nan, unit, beside)
     with np.errstate(all="ignore"):
         shares = np.where(found == 0, 0.0, found / allowed)
     at = int(found.argmax())
-    return Measured(what, cameras, float(found[at]), float(allowed[at]), float(shares.max()), unit)
+    worst, bound = float(found[at]), float(allowed[at])
+    return Measured(what, cameras, worst, bound, float(shares.max()), unit, beside)
 
 
 def needed(module: str) -> ModuleType:

@@ -11,6 +11,7 @@ from dataclasses import dataclass
 
 from renderer.camera_formats import format_named
 from renderer.errors import LucidaError
+from tests.conformance.cameras import MOST_SIDE, POINTS
 from tests.conformance.measured import Checked, Measured
 
 BEGIN, END = "<!-- conformance:begin -->", "<!-- conformance:end -->"
@@ -28,6 +29,14 @@ WHAT = {
     "pbrt": "a camera of pbrt-v4, .pbrt",
 }
 HEADER = ("format", "reads", "writes", "checked against", "cameras", "worst error", "bound")
+
+
+INTRO = """\
+`make conformance` made this table. In each direction (our file read by the real program, its own
+read by us) it takes at least {count} random cameras, off-axis and of any aspect ratio, skewed and
+parallel where the format has that, and {points} points each. An error is how far apart the two see
+a point, in pixels of images whose sides are up to {side}. Blender and Mitsuba compute in float32:
+there the bound is that point's own, its roundings counted (`tests/conformance/float32.py`)."""
 
 
 @dataclass(frozen=True)
@@ -50,12 +59,15 @@ class Outcome:
     def row(self) -> tuple[str, ...]:
         """Under HEADER: the worst of the pixels, and all cameras that were checked."""
         entry = format_named(self.format)
-        cells = (f"`{self.format}`", *("yes" if has else "-" for has in (entry.reads, entry.writes)))
+        cells = (
+            f"`{self.format}`",
+            *("yes" if has else "-" for has in (entry.reads, entry.writes)),
+        )
         if self.checked is None:
             return (*cells, f"not checked here: {self.problem}", "-", "-", "-")
-        of_pixels = [part for part in self.checked.measured if part.unit == "px"]
+        of_pixels = [part for part in self.checked.measured if not part.beside]
         worst = max(of_pixels, key=lambda part: part.share if math.isfinite(part.share) else 1e99)
-        count = f"{sum(part.cameras for part in of_pixels):,}".replace(",", " ")
+        count = str(sum(part.cameras for part in of_pixels))
         return (*cells, self.checked.peer, count, quantity(worst.worst, "px"), bound(worst))
 
 
@@ -83,8 +95,9 @@ def text(outcome: Outcome) -> str:
     return "\n".join(lines)
 
 
-def page(outcomes: Sequence[Outcome], intro: str) -> str:
-    """For docs/cameras.md: the formats, then what else was compared."""
+def page(outcomes: Sequence[Outcome], count: int) -> str:
+    """For docs/cameras.md: the formats, then what else was compared. count: cameras a check."""
+    intro = INTRO.format(count=count, points=POINTS, side=MOST_SIDE)
     header = (HEADER[0], "what", *HEADER[1:])
     rows = [(row[0], WHAT[o.format], *row[1:]) for o in outcomes for row in [o.row]]
     others = [
@@ -93,7 +106,7 @@ def page(outcomes: Sequence[Outcome], intro: str) -> str:
         for o in outcomes
         if o.checked is not None
         for part in o.checked.measured
-        if part.unit != "px"
+        if part.beside
     ]
     beside = ["", "Compared beside the pixels:", "", *others] if others else []
     return "\n".join([*pipes(header, rows), "", intro, *beside])

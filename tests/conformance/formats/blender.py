@@ -1,4 +1,4 @@
-"""Blender: bpy runs our scripts and makes cameras of its own; world_to_camera_view() says the pixels.
+"""Blender: bpy runs our scripts and makes cameras of its own; world_to_camera_view() says where.
 
 Blender's numbers are float32. world_to_camera_view() takes the picture's shape from the resolution
 without resolution_percentage; what is rendered has whole pixels, fractions cut off. So a picture of

@@ -8,7 +8,7 @@ import numpy as np
 
 from renderer.camera_formats import Options, read_cameras, written
 from renderer.camera_formats.colmap_lenses import MODELS
-from tests.conformance.cameras import POINTS, any_size, cases, pixels, straight
+from tests.conformance.cameras import any_size, cases, pixels, points_ahead, straight
 from tests.conformance.measured import Checked, Job, Measured, measured, needed
 
 FOCAL = {"f", "fx", "fy"}
@@ -56,7 +56,7 @@ def _theirs(pycolmap: Any, job: Job, kind: str) -> Measured:
         found = [pycolmap.Point2D(random.uniform(0, 100, 2)) for _ in range(number % 4)]
         image.points2D = pycolmap.Point2DList(found)
         model.add_image_with_trivial_frame(image, pose)
-        ahead = random.uniform(-1, 1, (POINTS, 3)) + (0, 0, 3)
+        ahead = points_ahead(random)
         seen = np.array([camera.img_from_cam(point) for point in ahead])
         expected[name] = np.array([pose.inverse() * point for point in ahead]), seen
     folder = job.folder / kind
@@ -85,8 +85,8 @@ def _lenses(pycolmap: Any, job: Job) -> Measured:
         corners = np.array([(x, y) for x in (0, size[0]) for y in (0, size[1])], float)
         K = camera.calibration_matrix()
         ahead = np.column_stack([(corners - K[:2, 2]) / np.diag(K)[:2], np.ones(4)])
-        moved = [np.hypot(*(camera.img_from_cam(p) - c)) for p, c in zip(ahead, corners)]
-        expected[image.name] = max(moved)
+        moved = [camera.img_from_cam(point) for point in ahead] - corners
+        expected[image.name] = np.hypot(*moved.T).max()
     folder = job.folder / "lenses"
     folder.mkdir()
     model.write_binary(str(folder))
@@ -95,7 +95,7 @@ def _lenses(pycolmap: Any, job: Job) -> Measured:
         (c.distortion.corner_px if c.distortion else np.nan) - expected[c.name] for c in found
     ]
     what = f"a corner moved by a lens, {len(bent)} models"
-    return measured(what, errors, cameras=len(found), unit="px of a lens")
+    return measured(what, errors, cameras=len(found), beside=True)
 
 
 def _camera(

@@ -53,7 +53,10 @@ def _theirs(job: Job) -> Measured:
         full = {"w": width, "h": height, "fl_x": focal, "fl_y": focal}
         full |= {"cx": width / 2, "cy": height / 2}
         if number % 3:
-            full |= {"cx": width * random.uniform(0.3, 0.7), "cy": height * random.uniform(0.3, 0.7)}
+            full |= {
+                "cx": width * random.uniform(0.3, 0.7),
+                "cy": height * random.uniform(0.3, 0.7),
+            }
             full["fl_y"] = focal * random.uniform(0.7, 1.4)
             told = dict(full)
         else:
