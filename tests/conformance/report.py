@@ -72,10 +72,10 @@ class Outcome:
 
 
 def quantity(value: float, unit: str) -> str:
-    """Two digits: 3.1e-11 px, 0.0042 px."""
+    """Two digits: 3.1e-11 px, 1e-6 px, 0.0042 px."""
     if not math.isfinite(value):
         return "no number"
-    return f"{value:.2g} {unit}" if value else f"0 {unit}"
+    return f"{value:.2g} {unit}".replace("e-0", "e-")
 
 
 def bound(part: Measured) -> str:

@@ -80,7 +80,6 @@ function makeCamera(number, random) {
 }
 
 function answered(question) {
-  if (question.do === "version") return THREE.REVISION;
   if (question.do === "read") return question.cameras.map(readCamera);
   const random = randomNumbers(question.seed);
   return Array.from({ length: question.count }, (_, number) => makeCamera(number, random));

@@ -212,7 +212,7 @@ class TestRun:
 class TestReport:
     def test_a_row(self):
         row = outcome(2.5e-9).row
-        assert row == ("`opencv`", "yes", "yes", "a program 1.0", "1000", "2.5e-09 px", "1e-06 px")
+        assert row == ("`opencv`", "yes", "yes", "a program 1.0", "1000", "2.5e-9 px", "1e-6 px")
         assert outcome(0.0, "pbrt").row[1:3] == ("-", "yes")
 
     def test_the_row_is_of_the_check_nearest_to_its_bound(self):
@@ -297,7 +297,7 @@ class TestCommand:
         pages = [tmp_path / "README.md", tmp_path / "docs" / "cameras.md"]
         pages[1].parent.mkdir()
         for page in pages:
-            page.write_text(f"# Title\n{report.BEGIN}\nold\n{report.END}\nrest\n")
+            page.write_text(f"# Title\n{report.BEGIN}\nas it was\n{report.END}\nrest\n")
         found = [outcome(worst, name) for name in NAMES]
         monkeypatch.setattr(command, "ROOT", tmp_path)
         monkeypatch.setattr(command, "outcomes", lambda names, count: found)
@@ -305,5 +305,5 @@ class TestCommand:
         for page in pages:
             text = page.read_text()
             assert text.startswith("# Title\n") and text.endswith("\nrest\n")
-            assert ("old" in text) == bool(status)
+            assert ("as it was" in text) == bool(status)
             assert ("`pbrt`" in text) == (not status)

@@ -50,6 +50,7 @@ OF_A_HIT = {
 SCENES = ("still-life", "spheres", "primitives")  # columns are too thin for pictures so small
 CAMERAS = 8  # a scene
 SIZE = (96, 54)
+FAR_AS_EYES = 5.0  # the random cameras' spread
 
 
 def check(job: Job) -> Checked:
@@ -72,8 +73,8 @@ def _rays(mitsuba: Any, job: Job) -> Measured:
         where, points = random.uniform(0, 1, (POINTS, 2)), []
         for place in where.tolist():
             ray, _ = sensor.sample_ray(0.0, 0.5, place, [0.5, 0.5])
-            unit = 1.0 if camera.is_parallel else camera.distance
-            distance = unit * np.linalg.norm(camera.w) * random.uniform(NEAREST, FARTHEST)
+            # About as far away as the eye is from the origin: nearer, the eye's rounding is all.
+            distance = FAR_AS_EYES * random.uniform(NEAREST, FARTHEST)
             points.append(np.array(ray.o, float) + distance * np.array(ray.d, float))
         errors.append(pixels(camera, np.array(points), size) - where * size)
         bounds.append(point_bounds(camera, size, np.array(points), IN_SPACE, IN_PICTURE))

@@ -18,7 +18,8 @@ SCRIPT = Path(__file__).parents[1] / "three_peer.mjs"
 
 
 def check(job: Job) -> Checked:
-    version = _ask(job, {"do": "version"})
+    package = _installed(job) / "package.json"
+    version = json.loads(package.read_text())["version"]
     return Checked(
         f"three.js {version} under node: `ObjectLoader`, `toJSON`, `project`",
         (_ours(job), _theirs(job)),
@@ -53,12 +54,17 @@ def _theirs(job: Job) -> Measured:
     return measured("its JSON, nested and off-axis, read by us", errors, cameras=job.cameras)
 
 
+def _installed(job: Job) -> Path:
+    folder = job.home / "node_modules" / "three"
+    if not folder.is_dir():
+        raise PeerMissing("npm could not install three")
+    return folder
+
+
 def _ask(job: Job, question: dict[str, Any]) -> Any:
     node = shutil.which("node")
     if node is None:
         raise PeerMissing("node is not there")
-    if not (job.home / "node_modules" / "three").is_dir():
-        raise PeerMissing("npm could not install three")
     asked, answer = job.folder / "asked.json", job.folder / "answer.json"
     asked.write_text(json.dumps(question))
     command = [node, str(SCRIPT), str(job.home), str(asked), str(answer)]
