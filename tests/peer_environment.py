@@ -8,6 +8,8 @@ out; the next run tries again. Owns these folders. Needs the standard library on
 
 from __future__ import annotations
 
+import json
+import shutil
 import subprocess
 import sys
 import sysconfig
@@ -18,6 +20,9 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parents[1]
 NAMES = ("bench", "conformance")
 CONSTRAINTS = "constraints.txt"
+# Peers that want another NumPy than Lucida does: each lies in a folder of its own, which only its
+# own process has on its path.
+APART = ("bpy",)
 
 
 def folder_of(name: str) -> Path:
@@ -28,8 +33,37 @@ def requirements_of(name: str) -> Path:
     return ROOT / f"requirements-{name}.txt"
 
 
-def prepare(folder: Path, requirements: Path) -> dict[str, str]:
-    """Makes the environment complete. Gives what could not be installed, and why."""
+def packages_of(name: str) -> Path:
+    """What npm is to install; not every environment has such a file."""
+    return ROOT / "tests" / name / "package.json"
+
+
+def apart(folder: Path, name: str) -> Path:
+    """Where one of APART lies."""
+    return folder / "apart" / name
+
+
+def prepare(folder: Path, requirements: Path, packages: Path | None = None) -> dict[str, str]:
+    """Makes the environment complete. Gives what could not be installed, and why.
+
+    packages: a package.json, for the peers that run under node.
+    """
+    _made(folder)
+    failed = {}
+    for line in wanted(requirements.read_text()):
+        why = _install(folder, line)
+        if why:
+            failed[line] = why
+    if packages is not None and packages.exists():
+        for name, version in json.loads(packages.read_text())["dependencies"].items():
+            why = _install_for_node(folder, name, version)
+            if why:
+                failed[f"{name}@{version}"] = why
+    return failed
+
+
+def _made(folder: Path) -> None:
+    """An empty environment that sees Lucida's packages, unless it is there."""
     runtime = sysconfig.get_path("purelib")
     made_from = f"{sys.version}\n{runtime}\n"
     stamp = folder / "made-from"
@@ -40,12 +74,6 @@ def prepare(folder: Path, requirements: Path) -> dict[str, str]:
         # Behind the environment's own packages on the path, which therefore come first.
         (own / "lucida-runtime.pth").write_text(runtime + "\n")
         stamp.write_text(made_from)
-    failed = {}
-    for line in wanted(requirements.read_text()):
-        why = _install(folder, line)
-        if why:
-            failed[line] = why
-    return failed
 
 
 def wanted(requirements: str) -> list[str]:
@@ -66,16 +94,21 @@ def say(text: str) -> None:
 
 def _install(folder: Path, requirement: str) -> str:
     """Installs one package, if it is not there; gives why that failed, or ""."""
-    stamp = folder / f"installed-{requirement.partition('==')[0]}"
+    name = requirement.partition("==")[0]
+    stamp = folder / f"installed-{name}"
     if stamp.exists() and stamp.read_text() == requirement:
         return ""
     say(f"installing {requirement}")
-    # Lucida is to be measured with the packages that it runs with, whatever a peer would like.
-    constraints = folder / CONSTRAINTS
-    constraints.write_text("".join(f"{line}\n" for line in _installed()))
     command = [str(python_of(folder)), "-m", "pip", "install", "--quiet"]
     command += ["--disable-pip-version-check", "--retries", "1"]
-    command += ["--constraint", str(constraints), requirement]
+    if name in APART:
+        shutil.rmtree(apart(folder, name), ignore_errors=True)
+        command += ["--target", str(apart(folder, name)), requirement]
+    else:
+        # Lucida is to be held against with the packages that it runs with, whatever a peer likes.
+        constraints = folder / CONSTRAINTS
+        constraints.write_text("".join(f"{line}\n" for line in _installed()))
+        command += ["--constraint", str(constraints), requirement]
     done = subprocess.run(command, capture_output=True, text=True)
     if done.returncode:
         lines = [line for line in done.stderr.splitlines() if line.strip()]
@@ -83,6 +116,22 @@ def _install(folder: Path, requirement: str) -> str:
         return (errors or lines or ["pip failed"])[-1].removeprefix("ERROR: ")
     stamp.write_text(requirement)
     return ""
+
+
+def _install_for_node(folder: Path, name: str, version: str) -> str:
+    """Installs one package of node's into the environment; gives why that failed, or ""."""
+    stamp = folder / "node_modules" / name / "package.json"
+    if stamp.exists() and json.loads(stamp.read_text())["version"] == version:
+        return ""
+    npm = shutil.which("npm")
+    if npm is None or shutil.which("node") is None:
+        return "node and npm are not there"
+    say(f"installing {name}@{version}")
+    command = [npm, "install", "--prefix", str(folder), "--no-save", "--no-package-lock"]
+    command += ["--ignore-scripts", "--no-audit", "--no-fund", f"{name}@{version}"]
+    done = subprocess.run(command, capture_output=True, text=True)
+    lines = [line for line in done.stderr.splitlines() if line.strip()]
+    return (lines or ["npm failed"])[-1] if done.returncode else ""
 
 
 def _installed() -> list[str]:
@@ -99,7 +148,8 @@ def ask(folder: Path, code: str) -> str:
 
 def main(name: str) -> int:
     """Always 0: what is run goes on with whatever could be installed."""
-    for requirement, why in prepare(folder_of(name), requirements_of(name)).items():
+    parts = folder_of(name), requirements_of(name), packages_of(name)
+    for requirement, why in prepare(*parts).items():
         say(f"{requirement} is left out: {why}")
     return 0
 

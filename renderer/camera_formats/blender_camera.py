@@ -111,12 +111,14 @@ def _size(values: Values, options: Options) -> Size:
     names = ("resolution_x", "resolution_y")
     if options.size is not None and not values.keys() & set(names):
         return options.size
-    share = _positive(values, "resolution_percentage") / 100
+    percentage = _positive(values, "resolution_percentage")
     sides = [_positive(values, name) for name in names]
     for name, side in zip(names, sides, strict=True):
         if not side.is_integer():
             raise LucidaError(name, f"{side:g} is no whole number", "give pixels")
-    width, height = (int(side * share) for side in sides)
+    # Fractions cut off, as BKE_render_resolution() does, which divides whole numbers: 100 pixels
+    # at 29 % are 29, and 100 times 0.29 is less.
+    width, height = (int(side * percentage / 100) for side in sides)
     try:
         return check_size((width, height))
     except LucidaError as error:

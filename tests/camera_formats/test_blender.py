@@ -139,6 +139,14 @@ def test_a_percentage_is_of_the_resolution():
     assert posed.size == (69, 50)
 
 
+@pytest.mark.parametrize(("side", "percentage"), [(100, 29), (100, 57), (100, 58), (50, 58)])
+def test_a_percentage_that_gives_whole_pixels_loses_none(side, percentage):
+    """100 * 0.29 is 28.999999999999996."""
+    values = {"location": [0, 0, 0], "resolution_x": side, "resolution_y": side, "lens": 50}
+    (posed,) = pasted(json.dumps(values | {"resolution_percentage": percentage})).cameras
+    assert posed.size == (side * percentage // 100,) * 2
+
+
 @pytest.mark.parametrize("projection", ["perspective", "parallel"])
 def test_random_cameras_come_back(projection):
     random = np.random.default_rng(5)

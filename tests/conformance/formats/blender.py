@@ -1,0 +1,125 @@
+"""Blender: bpy runs our scripts and makes cameras of its own; world_to_camera_view() says where.
+
+Blender's numbers are float32. world_to_camera_view() takes the picture's shape from the resolution
+without resolution_percentage; what is rendered has whole pixels, fractions cut off. So a picture of
+less than 100 % is held against the render's own projection, calc_matrix_camera() at the size that
+it renders, and the sizes against pictures that were rendered.
+"""
+
+from __future__ import annotations
+
+import json
+import os
+import subprocess
+import sys
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from renderer.camera_formats import PosedCamera
+from renderer.errors import LucidaError
+from tests.conformance.cameras import Case, cases, only, pixels, read, straight
+from tests.conformance.float32 import point_bounds
+from tests.conformance.measured import Checked, Job, Measured, PeerMissing, measured
+from tests.peer_environment import apart
+
+SCRIPT = Path(__file__).parents[1] / "blender_peer.py"
+RENDERED = 20  # pictures
+
+# Roundings through world_to_camera_view(): bpy_extras, mathutils and camera.cc.
+IN_SPACE = {
+    "the point, and a matrix or a location, stored": 2,
+    "a matrix out of angles: a sine, a cosine, three products and a sum": 6,
+    "its columns' lengths: three squares, two sums, a root, a division": 7,
+    "its inverse: cofactors and the determinant of products and sums, a division": 12,
+    "times the point: four products and three sums": 7,
+}
+IN_PICTURE = {
+    "lens, sensor, shift and the pixels' shape, stored": 5,
+    "the frame: sensor by lens, by the picture's side, times its half, moved": 8,
+    "the frame as far away as the point: two divisions": 2,
+}
+
+
+def check(job: Job) -> Checked:
+    version = _ask(job, {"do": "version"})
+    return Checked(
+        f"bpy {version}: `world_to_camera_view`, `calc_matrix_camera`, rendered sizes",
+        (_ours(job), *_theirs(job), _rendered(job)),
+    )
+
+
+def _ours(job: Job) -> Measured:
+    made, files = [], []
+    # Some have pixels that are too far from square for Blender, which our writer says.
+    for case in cases(Job(2 * job.cameras, job.seed, job.folder, job.home), straight, True):
+        try:
+            files.append(case.file("blender").decode())
+        except LucidaError:
+            continue
+        made.append(case)
+        if len(made) == job.cameras:
+            break
+    given = [
+        {"script": file, "size": case.size, "points": case.points.tolist()}
+        for file, case in zip(files, made, strict=True)
+    ]
+    seen = _ask(job, {"do": "read", "cameras": given})
+    errors = [np.array(one) - case.pixels for one, case in zip(seen, made, strict=True)]
+    bounds = [_bounds(case) for case in made]
+    return measured("our scripts, run by bpy", errors, bounds, cameras=len(made))
+
+
+def _bounds(case: Case) -> np.ndarray:
+    return point_bounds(case.camera, case.size, case.points, IN_SPACE, IN_PICTURE)
+
+
+def _theirs(job: Job) -> list[Measured]:
+    """Pictures of 100 %, and smaller ones."""
+    wholes: list[tuple[np.ndarray, np.ndarray]] = []
+    shares: list[tuple[np.ndarray, np.ndarray]] = []
+    for made in _ask(job, {"do": "write", "count": 2 * job.cameras, "seed": job.seed}):
+        posed = only(read(made["text"].encode(), "blender"))
+        if posed.size != tuple(made["size"]):
+            raise AssertionError(f"renders {made['size']}, and {posed.size} was read")
+        points = np.array(made["points"])
+        error = pixels(posed.camera, points, posed.size) - made["pixels"]
+        bound = _bounds(Case(PosedCamera(posed.camera, posed.size), points, error))
+        (shares if made["is_share"] else wholes).append((error, bound))
+    return [
+        measured(what, *zip(*found, strict=True), cameras=len(found))
+        for what, found in (
+            ("its values, read by us", wholes),
+            ("its values with a resolution_percentage, read by us", shares),
+        )
+    ]
+
+
+def _rendered(job: Job) -> Measured:
+    """The sizes of pictures that it renders."""
+    errors = []
+    for made in _ask(job, {"do": "render", "count": RENDERED, "seed": job.seed}):
+        posed = only(read(json.dumps(made["values"]).encode(), "blender"))
+        assert posed.size is not None
+        errors.append(np.subtract(posed.size, made["size"]))
+    what = "size of a rendered picture"
+    return measured(what, errors, 0.0, cameras=RENDERED, unit="pixels of a side")
+
+
+def _ask(job: Job, question: dict[str, Any]) -> Any:
+    home = apart(job.home, "bpy")
+    if not (home / "bpy").is_dir():
+        raise PeerMissing("pip could not install bpy")
+    asked, answer = job.folder / "asked.json", job.folder / "answer.json"
+    asked.write_text(json.dumps(question))
+    # Its own NumPy, not Lucida's.
+    environment = {**os.environ, "PYTHONPATH": str(home)}
+    command = [sys.executable, "-P", str(SCRIPT), str(asked), str(answer)]
+    done = subprocess.run(command, capture_output=True, text=True, env=environment)
+    if done.returncode:
+        lines = done.stderr.strip().splitlines()
+        if lines and lines[-1].startswith("ImportError"):
+            raise PeerMissing(lines[-1])  # of the system's libraries
+        raise RuntimeError(f"bpy: {done.stderr.strip()}")
+    return json.loads(answer.read_text())

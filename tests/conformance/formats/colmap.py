@@ -1,0 +1,116 @@
+"""COLMAP: pycolmap reads and writes models, text and binary, and says the pixels."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from renderer.camera_formats import Options, read_cameras, written
+from renderer.camera_formats.colmap_lenses import MODELS
+from tests.conformance.cameras import any_size, cases, pixels, points_ahead, straight
+from tests.conformance.measured import Checked, Job, Measured, measured, needed
+
+FOCAL = {"f", "fx", "fy"}
+
+
+def check(job: Job) -> Checked:
+    pycolmap = needed("pycolmap")
+    theirs = [_theirs(pycolmap, job, kind) for kind in ("text", "binary")]
+    return Checked(
+        f"pycolmap {pycolmap.__version__}: `Reconstruction`, `img_from_cam`",
+        (_ours(pycolmap, job), *theirs, _lenses(pycolmap, job)),
+    )
+
+
+def _ours(pycolmap: Any, job: Job) -> Measured:
+    made = list(cases(job, straight))
+    for name, data in written([case.posed for case in made], "colmap").items():
+        (job.folder / name).write_bytes(data)
+    model = pycolmap.Reconstruction(str(job.folder))
+    images = {image.name: image for image in model.images.values()}
+    errors = []
+    for case in made:
+        image = images[case.posed.name]
+        camera = model.cameras[image.camera_id]
+        if (camera.width, camera.height) != case.size:
+            raise AssertionError(f"pycolmap reads the size {camera.width} x {camera.height}")
+        pose = image.cam_from_world()
+        errors.append([camera.img_from_cam(pose * point) for point in case.points] - case.pixels)
+    return measured("our model, read by pycolmap", errors, cameras=job.cameras)
+
+
+def _theirs(pycolmap: Any, job: Job, kind: str) -> Measured:
+    random, model = job.random, pycolmap.Reconstruction()
+    expected = {}
+    for number in range(1, job.cameras + 1):
+        size = any_size(random)
+        model_name = ("PINHOLE", "SIMPLE_PINHOLE")[number % 2]
+        camera = _camera(pycolmap, random, model_name, size, number)
+        model.add_camera_with_trivial_rig(camera)
+        turn = random.normal(size=4)
+        turn = pycolmap.Rotation3d(turn / np.linalg.norm(turn))
+        pose = pycolmap.Rigid3d(turn, 3 * random.normal(size=3))
+        name = f"folder/image {number}.jpg" if kind == "binary" else f"folder/{number}.jpg"
+        image = pycolmap.Image(name=name, camera_id=number, image_id=number)
+        found = [pycolmap.Point2D(random.uniform(0, 100, 2)) for _ in range(number % 4)]
+        image.points2D = pycolmap.Point2DList(found)
+        model.add_image_with_trivial_frame(image, pose)
+        ahead = points_ahead(random)
+        seen = np.array([camera.img_from_cam(point) for point in ahead])
+        expected[name] = np.array([pose.inverse() * point for point in ahead]), seen
+    folder = job.folder / kind
+    folder.mkdir()
+    write = model.write_text if kind == "text" else model.write_binary
+    write(str(folder))
+    errors = []
+    for posed in read_cameras(folder).cameras:
+        points, seen = expected.pop(posed.name)
+        errors.append(pixels(posed.camera, points, posed.size) - seen)
+    if expected:
+        raise AssertionError(f"{len(expected)} images are missing")
+    return measured(f"its model as {kind}, read by us", errors, cameras=job.cameras)
+
+
+def _lenses(pycolmap: Any, job: Job) -> Measured:
+    """How far each of its models moves the image's farthest corner."""
+    random, model, expected = job.random, pycolmap.Reconstruction(), {}
+    bent = [name for name in MODELS if "PINHOLE" not in name]
+    for number in range(1, job.cameras + 1):
+        size = any_size(random)
+        camera = _camera(pycolmap, random, bent[number % len(bent)], size, number)
+        model.add_camera_with_trivial_rig(camera)
+        image = pycolmap.Image(name=f"{number}.jpg", camera_id=number, image_id=number)
+        model.add_image_with_trivial_frame(image, pycolmap.Rigid3d())
+        corners = np.array([(x, y) for x in (0, size[0]) for y in (0, size[1])], float)
+        K = camera.calibration_matrix()
+        ahead = np.column_stack([(corners - K[:2, 2]) / np.diag(K)[:2], np.ones(4)])
+        moved = [camera.img_from_cam(point) for point in ahead] - corners
+        expected[image.name] = np.hypot(*moved.T).max()
+    folder = job.folder / "lenses"
+    folder.mkdir()
+    model.write_binary(str(folder))
+    found = read_cameras(folder, options=Options(ignore_distortion=True)).cameras
+    errors = [
+        (c.distortion.corner_px if c.distortion else np.nan) - expected[c.name] for c in found
+    ]
+    what = f"a corner moved by a lens, {len(bent)} models"
+    return measured(what, errors, cameras=len(found), beside=True)
+
+
+def _camera(
+    pycolmap: Any, random: np.random.Generator, model: str, size: tuple[int, int], number: int
+) -> Any:
+    """A camera of any of its models."""
+    values = []
+    for name in MODELS[model].parameters:
+        if name in FOCAL:
+            values.append(max(size) * random.uniform(0.8, 3))
+        elif name in ("cx", "cy"):
+            values.append(size[name == "cy"] * random.uniform(0.3, 0.7))
+        elif name == "omega":
+            values.append(random.uniform(0.2, 1.2))
+        else:
+            values.append(random.uniform(-0.02, 0.02))
+    width, height = size
+    return pycolmap.Camera(model=model, width=width, height=height, params=values, camera_id=number)

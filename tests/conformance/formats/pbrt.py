@@ -1,0 +1,65 @@
+"""pbrt-v4: its grammar and its camera's formulas, for no program of it is to be had here.
+
+Source: pbrt-v4's documentation, "pbrt-v4 Input File Format", Cameras and Transformations: Transform
+has a matrix column after column; the camera looks along +z with y up; a perspective picture lies at
+z = 1 where fov is 90 degrees, and screenwindow is its edges.
+"""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+
+from renderer.camera_checks import Floats
+from renderer.scene import load_scene
+from renderer.scene_export import export_scene
+from tests.conformance.cameras import cases, skewed
+from tests.conformance.measured import Checked, Job, Measured, measured
+from tests.conformance.pbrt_grammar import Directive, PbrtError, parse
+
+SCENES = ("still-life", "columns", "spheres", "primitives")
+
+
+def check(job: Job) -> Checked:
+    peer = "pbrt-v4's grammar and formulas, written in the check: no program"
+    return Checked(peer, (_cameras(job), _scenes(job)))
+
+
+def _cameras(job: Job) -> Measured:
+    errors = []
+    for case in cases(job, skewed, parallel=True):
+        film, transform, camera = parse(case.file("pbrt").decode())
+        errors.append(seen(film, transform, camera, case.points) - case.pixels)
+    return measured("our cameras, by its formulas", errors, cameras=job.cameras)
+
+
+def _scenes(job: Job) -> Measured:
+    """Whole scenes, that is lights, materials, textures and shapes: what its grammar refuses."""
+    refused = []
+    for name in SCENES:
+        scene = load_scene(name)
+        path = job.folder / f"{name}.pbrt"
+        assert scene.view is not None
+        export_scene(path, scene, scene.view.for_size((64, 36)), (64, 36))
+        found = parse(path.read_text())
+        shapes = sum(part.name == "Shape" for part in found)
+        refused.append(shapes - len(scene.objects))
+    told = "objects missing"
+    return measured("exported scenes, by its grammar", refused, 0.0, cameras=len(SCENES), unit=told)
+
+
+def seen(film: Directive, transform: Directive, camera: Directive, points: Floats) -> Floats:
+    """The pixels of points, (n, 2), from the left upper corner."""
+    if (film.name, transform.name, camera.name) != ("Film", "Transform", "Camera"):
+        raise PbrtError("not a film, a transform and a camera, in this order")
+    camera_from_world = np.reshape(transform.numbers, (4, 4)).T
+    x, y, z, _ = camera_from_world @ np.column_stack([points, np.ones(len(points))]).T
+    if camera.kind == "perspective":
+        scale = z * math.tan(math.radians(float(camera.parameters["fov"][0])) / 2)
+        x, y = x / scale, y / scale
+    left, right, bottom, top = map(float, camera.parameters["screenwindow"])
+    width, height = (float(film.parameters[f"{side}resolution"][0]) for side in "xy")
+    return np.column_stack(
+        [(x - left) / (right - left) * width, (top - y) / (top - bottom) * height]
+    )
