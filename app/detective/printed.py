@@ -47,6 +47,7 @@ _TOKEN = re.compile(
 )
 # Of a name: that it is given a value, be it an array of a declared length, or one of its elements.
 _GIVEN = re.compile(r"\s*(?:\[\s*\d*\s*\]\s*)*(?:=|:)(?![=:])")
+_ELEMENT = re.compile(r"([a-z]?)[0-4][0-4]")
 _LENGTHS = re.compile(r"\s*(?:\[\s*\d*\s*\])+")
 # What has numbers that are none of the matrix's: R's names of rows and columns, reshape(4, 4).
 _MARGINS = re.compile(r"\[\s*\d+\s*,\s*\]|\[\s*,\s*\d+\s*\]|\breshape\s*\([^()]*\)")
@@ -177,7 +178,10 @@ def _blocks(text: str) -> list[_Block]:
 
 
 def _begin(blocks: list[_Block], name: str) -> None:
-    """What follows is a name's; the elements of one array are its own, one after another."""
+    """What follows is a name's; the elements of one array are its own, one after another, also
+    those that have a name each: m00, m01, or _11, _12."""
+    if element := _ELEMENT.fullmatch(name):
+        name = element[1] or "_"
     if name and name == blocks[-1].name and len(blocks[-1].numbers) < 16:
         blocks[-1].end_line()
     else:

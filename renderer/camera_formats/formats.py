@@ -21,7 +21,7 @@ from importlib import import_module
 from pathlib import Path
 from types import ModuleType
 
-from renderer.camera_formats.given import Given, Options, given
+from renderer.camera_formats.given import Given, Options, from_json, given
 from renderer.camera_formats.posed import CameraSet, PosedCamera
 from renderer.errors import LucidaError
 from renderer.scene.reading import suggestion
@@ -63,6 +63,8 @@ FORMATS = (
     Format("pbrt", "a camera of pbrt-v4", (".pbrt",)),
 )
 
+_TEXTS = (".json", ".yml", ".yaml", ".xml", ".toml", ".txt", ".py")
+
 
 def format_named(name: str) -> Format:
     """Raises LucidaError for a name that no format has."""
@@ -99,6 +101,10 @@ def recognised(found: Given) -> Format:
     for entry in FORMATS:
         if entry.reads and entry.module.recognises(found):
             return entry
+    if found.ending in _TEXTS and found.data:
+        text = found.text  # or what is wrong with it
+        if found.ending == ".json":
+            from_json(text)
     names = ", ".join(entry.name for entry in FORMATS if entry.reads)
     raise LucidaError(
         "", "is no camera that is known", f"say which with `lucida camera --from`: {names}"

@@ -55,8 +55,8 @@ class Given:
     def json(self) -> Any:
         """What a JSON file holds; None where it is none."""
         try:
-            return json.loads(self.text) if self.is_text else None
-        except (ValueError, RecursionError):
+            return from_json(self.text) if self.is_text else None
+        except LucidaError:
             return None
 
     @property
@@ -66,6 +66,20 @@ class Given:
     @property
     def is_folder(self) -> bool:
         return self.path is not None and self.path.is_dir()
+
+
+def from_json(text: str) -> Any:
+    """Raises LucidaError that says where it is none."""
+    try:
+        return json.loads(text)
+    except json.JSONDecodeError as error:
+        where = f"line {error.lineno}, column {error.colno}"
+        reason = error.msg[:1].lower() + error.msg[1:]
+        raise LucidaError(where, reason, "correct the JSON there") from None
+    except RecursionError:
+        raise LucidaError("", "is nested too deeply", "write it with fewer brackets") from None
+    except ValueError:  # Python's own limit on the digits of a number
+        raise LucidaError("", "holds a number of too many digits", "shorten it") from None
 
 
 def given(source: str | Path) -> Given:

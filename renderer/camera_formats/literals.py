@@ -13,7 +13,7 @@ from renderer.errors import LucidaError
 
 DEEPEST = 8  # brackets within each other
 
-NAME = r"""(?:^|;|\{|,)[ \t]*["']?([A-Za-z_][\w.]{0,60})["']?[ \t]*"""
+NAME = r"""(?:^|;|\{|,)[ \t]*["']?([A-Za-z_](?: ?[\w.]){0,60})["']?[ \t]*"""
 _NAME = re.compile(NAME + r"(?:=(?!=)|:)\s*", re.MULTILINE)
 _CALL = re.compile(r"[A-Za-z_][\w.]*\s*\(\s*")  # np.array(, torch.tensor(
 _NUMBER = r"[-+]?(?:(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?|nan\b|inf\b)"

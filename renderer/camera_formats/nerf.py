@@ -34,10 +34,13 @@ from renderer.errors import LucidaError
 Table = Mapping[str, Any]
 
 _PINHOLES = ("", "PERSPECTIVE", "PINHOLE", "SIMPLE_PINHOLE")
+# What instant-ngp calls lenses that are none, and poses of other axes.
+_OTHER_LENSES = ("latlong", "equirectangular", "orthographic")
 _BROWN = ("SIMPLE_RADIAL", "RADIAL", "OPENCV")
 _FISHEYES = ("OPENCV_FISHEYE", "FISHEYE", "RADIAL_FISHEYE", "SIMPLE_RADIAL_FISHEYE")
 _COEFFICIENTS = ("k1", "k2", "k3", "k4", "p1", "p2")
 _SHARED = 1e-12  # of a number, what two frames' may differ by and be written once
+_DISAGREES = 0.01  # of the focal length: files are written with few digits
 _SKEW = 1e-9  # of the focal length, what is rounding
 
 _Y_UP = np.diag([1.0, -1.0, -1.0])
@@ -72,6 +75,8 @@ def read(given: Given, options: Options) -> CameraSet:
     told += ["axes x right, y up, looking along -z (OpenGL)", ORIGIN_TOLD[origin]]
     if not all(is_rotation(camera.camera.basis) for camera in cameras):
         told.append("transform_matrix is no rotation, and held as it is")
+    if any(_disagree({**table, **frame}) for frame in frames):
+        told.append("fl_x is taken: camera_angle_x is another angle than fl_x and w make")
     if "applied_transform" in table:
         told.append("applied_transform is not undone: the poses stand as they are in the file")
     return CameraSet("nerf", tuple(cameras), (*told, *taken))
@@ -145,6 +150,7 @@ def _camera(table: Table, size: Size | None, folder: Path | None, options: Optio
     if any(number_of("rolling_shutter", x) for x in _listed(table, "rolling_shutter")):
         problem = "the rows of an image are taken from different places"
         raise LucidaError("rolling_shutter", problem, "give a pose for each image")
+    _check_pinhole(table)
     if "w" in table or "h" in table:
         for name in "wh":
             if name not in table:
@@ -165,6 +171,28 @@ def _camera(table: Table, size: Size | None, folder: Path | None, options: Optio
         field = fields.get(error.field, error.field)
         raise LucidaError(field, error.problem, error.remedy) from None
     return PosedCamera(camera, size, name, image, distortion=_lens(table, K, size, origin))
+
+
+def _check_pinhole(table: Table) -> None:
+    """Raises LucidaError for the lenses and axes that instant-ngp has beside camera_model."""
+    for name in _OTHER_LENSES:
+        if table.get(name):
+            raise LucidaError(name, "is no pinhole", "give images of a pinhole camera")
+    for name in table:
+        if name.startswith("ftheta_p"):
+            raise LucidaError(name, "is an f-theta lens's", "give images of a pinhole camera")
+    if table.get("from_mitsuba"):
+        problem = "turns the axes of the poses"
+        raise LucidaError("from_mitsuba", problem, "give poses with y up, looking along -z")
+
+
+def _disagree(table: Table) -> bool:
+    """Whether the two ways to say the focal length are there and differ by a percent."""
+    angle = table.get("camera_angle_x")
+    if not isinstance(angle, float) or not 0 < angle < math.pi or not {"fl_x", "w"} <= table.keys():
+        return False
+    fx = table["w"] / 2 / math.tan(angle / 2)
+    return not math.isclose(fx, table["fl_x"], rel_tol=_DISAGREES)
 
 
 def _listed(table: Table, name: str) -> Sequence[Any]:

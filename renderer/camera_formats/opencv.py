@@ -8,13 +8,12 @@ from __future__ import annotations
 
 import re
 from collections.abc import Sequence
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
 from renderer.camera import Camera, Size
 from renderer.camera_checks import Floats
-from renderer.camera_formats import distortion
 from renderer.camera_formats.entries import (
     ORIGIN_TOLD,
     affine,
@@ -28,7 +27,8 @@ from renderer.camera_formats.entries import (
 )
 from renderer.camera_formats.given import Given, Options
 from renderer.camera_formats.literals import NAME
-from renderer.camera_formats.posed import CameraSet, Distortion, PosedCamera
+from renderer.camera_formats.opencv_lens import Names, lens_of, plain
+from renderer.camera_formats.posed import CameraSet, PosedCamera
 from renderer.camera_formats.rotations import from_vector, to_vector
 from renderer.camera_formats.storage import MOST_BYTES, Table, table_in, to_json, to_yaml
 from renderer.errors import LucidaError
@@ -37,9 +37,7 @@ from renderer.intrinsics import as_camera_from_world, decomposed, pixel_offset
 # What a thing may be called, in small letters without signs.
 _K = ("cameramatrix", "k", "intrinsics", "intrinsic", "intrinsicmatrix", "mtx")
 _P = ("projectionmatrix", "p")
-_FOCAL = ("fx", "fy", "cx", "cy")
-_LENS = ("distortioncoefficients", "distortioncoeffs", "distcoeffs", "distortion", "dist", "d")
-_MODEL = ("distortionmodel", "fisheyemodel")
+_FOCAL, _SKEW = ("fx", "fy", "cx", "cy"), ("skew",)
 _SIZE = ("imagesize", "size", "resolution")
 _WIDTH, _HEIGHT = ("imagewidth", "width", "w"), ("imageheight", "height", "h")
 _R, _RVEC = ("r", "rotation", "rotationmatrix"), ("rvec", "rodrigues", "rotationvector")
@@ -54,8 +52,6 @@ _VIEWS = ("extrinsicparameters",)  # of a calibration's pictures: rvec and tvec,
 _NAMED = re.compile(NAME + "[=:]", re.MULTILINE)
 # A matrix without a name, in a text that was pasted: whose meaning nobody has said.
 _NAMELESS = re.compile(r"(?:\A|[^\s=:,\[({][ \t]*\n)\s*(?:[A-Za-z_][\w.]*\()?[\[({]\s*[\[({]")
-_PINHOLES = ("", "0", "none", "plumbbob", "rationalpolynomial", "radtan", "opencv", "pinhole")
-_FISHEYES = ("1", "equidistant", "fisheye", "kannalabrandt", "kannalabrandt4")
 _AGREE = 1e-4  # of R and rvec, which a file may hold both
 
 
@@ -66,26 +62,13 @@ class _Pose(NamedTuple):
     camera_from_world: Floats
 
 
-class _Names:
-    """What a table holds under any of several names."""
-
-    def __init__(self, table: Table) -> None:
-        self._values = {_plain(name): (name, value) for name, value in table.items()}
-
-    def __contains__(self, names: tuple[str, ...]) -> bool:
-        return any(name in self._values for name in names)
-
-    def get(self, names: tuple[str, ...]) -> tuple[str, Any] | None:
-        return next((self._values[name] for name in names if name in self._values), None)
-
-
 def recognises(given: Given) -> bool:
     if len(given.data) > MOST_BYTES:
-        return False
+        return given.ending in (".yml", ".yaml")  # read() says how large one may be
     if isinstance(given.json, dict):
-        names = {_plain(name) for name in given.json}
+        names = {plain(name) for name in given.json}
     elif given.is_text:
-        names = {_plain(name) for name in _NAMED.findall(given.text)}
+        names = {plain(name) for name in _NAMED.findall(given.text)}
         if "<opencv_storage" in given.text:
             return True
         if given.path is None and _NAMELESS.search(given.text):
@@ -97,13 +80,13 @@ def recognises(given: Given) -> bool:
 
 def read(given: Given, options: Options) -> CameraSet:
     table = table_in(given)
-    names = _Names(table)
+    names = Names(table)
     origin = options.pixel_origin or "center"
     name, K, projected = _intrinsics(names)
     size, size_told = _size(names, K, options, origin)
     poses, told = ([projected], f"K, R and t out of {name}") if projected else _poses(names)
     made = [_camera((name, K), pose, size, origin) for pose in poses]
-    lens = _lens(names, K, size, origin)
+    lens = lens_of(names, K, size, origin)
     label = table.get("camera_name")
     called = [pose.name for pose in poses] if len(poses) > 1 else [str(label or "")]
     cameras = tuple(
@@ -138,11 +121,7 @@ def write(cameras: Sequence[PosedCamera], options: Options) -> dict[str, bytes]:
     return {"": to_yaml(table, notes).encode()}
 
 
-def _plain(name: str) -> str:
-    return re.sub(r"[^a-z0-9]", "", name.lower())
-
-
-def _intrinsics(names: _Names) -> tuple[str, Floats, _Pose | None]:
+def _intrinsics(names: Names) -> tuple[str, Floats, _Pose | None]:
     """The name of K, K itself, and the pose where both come out of a projection matrix."""
     if found := names.get(_K):
         name, value = found
@@ -156,7 +135,10 @@ def _intrinsics(names: _Names) -> tuple[str, Floats, _Pose | None]:
             if (entry := names.get((part,))) is None:
                 raise LucidaError(part, "is missing", "give fx, fy, cx and cy")
             values.append(number_of(*entry))
-        return "fx", _focal(*values), None
+        K = _focal(*values)
+        if skew := names.get(_SKEW):
+            K[0, 1] = number_of(*skew)
+        return "fx", K, None
     if found := names.get(_P):
         name, value = found
         P = flat(name, value, 12).reshape(3, 4)
@@ -172,10 +154,10 @@ def _intrinsics(names: _Names) -> tuple[str, Floats, _Pose | None]:
 
 
 def _focal(fx: float, fy: float, cx: float, cy: float) -> Floats:
-    return np.array([[fx, 0, cx], [0, fy, cy], [0, 0, 1]])
+    return np.array([[fx, 0.0, cx], [0, fy, cy], [0, 0, 1]])
 
 
-def _size(names: _Names, K: Floats, options: Options, origin: str) -> tuple[Size, tuple[str, ...]]:
+def _size(names: Names, K: Floats, options: Options, origin: str) -> tuple[Size, tuple[str, ...]]:
     """The image's size, and what is to be told where the file does not say it."""
     if found := names.get(_SIZE):
         name, value = found
@@ -198,30 +180,7 @@ def _size(names: _Names, K: Floats, options: Options, origin: str) -> tuple[Size
     return size, (told,)
 
 
-def _lens(names: _Names, K: Floats, size: Size, origin: str) -> Distortion | None:
-    name, value = names.get(_MODEL) or ("distortion_model", "")
-    model = _plain(str(value))
-    is_fisheye = model in _FISHEYES
-    if model not in (*_PINHOLES, *_FISHEYES):
-        remedy = "give plumb_bob, rational_polynomial or equidistant, or undistort the images first"
-        raise LucidaError(name, f"{value!r} is a lens that is not known", remedy)
-    found = names.get(_LENS)
-    numbers = flat(*found) if found else np.zeros(0)
-    counts = (4,) if is_fisheye else distortion.COUNTS
-    if numbers.size not in (0, *counts):
-        wanted = " or ".join(map(str, counts))
-        problem = f"has {numbers.size} numbers"
-        raise LucidaError(found[0] if found else "", problem, f"give {wanted}")
-    if is_fisheye:
-        numbers = numbers if numbers.size else np.zeros(4)
-        coefficients = dict(zip(distortion.FISHEYE_NAMES, numbers.tolist(), strict=True))
-        return distortion.lens("fisheye", coefficients, distortion.fisheye, K, size, origin)
-    coefficients = dict(zip(distortion.NAMES, numbers.tolist(), strict=False))
-    bend = distortion.radial_tangential
-    return distortion.lens("radial and tangential", coefficients, bend, K, size, origin)
-
-
-def _poses(names: _Names) -> tuple[list[_Pose], str]:
+def _poses(names: Names) -> tuple[list[_Pose], str]:
     """The poses of a file, and in words where they come from."""
     if found := names.get(_FROM_WORLD):
         return [_Pose(found[0], affine(*found))], f"{found[0]} takes world points to the camera"

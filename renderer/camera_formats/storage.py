@@ -14,7 +14,7 @@ from xml.etree import ElementTree
 import numpy as np
 import yaml
 
-from renderer.camera_formats.given import Given
+from renderer.camera_formats.given import Given, from_json
 from renderer.camera_formats.literals import values_in
 from renderer.errors import LucidaError
 from renderer.scene.reading import check_bytes
@@ -24,7 +24,10 @@ Table = dict[str, Any]
 MOST_BYTES = 1 << 19  # a calibration of some thousand corners; YAML takes its time
 
 _DIRECTIVE = re.compile(r"\A%YAML[^\n]*\n?")  # OpenCV's "%YAML:1.0" is none
-_YAML = re.compile(r"^\s*(?:rows|data)\s*:", re.MULTILINE)
+# What only YAML has: a matrix by its parts, or names and numbers on lines below a name.
+_YAML = re.compile(
+    r"^\s*(?:rows|data)\s*:|^\w+:[ \t]*\r?\n(?:[ \t]+\w+:|[ \t]*-[ \t])", re.MULTILINE
+)
 _PYTHON = re.compile(r"\s*\{\s*'")  # a dictionary as it prints
 _MATRIX = ("rows", "cols", "data")
 
@@ -34,7 +37,7 @@ def table_in(given: Given) -> Table:
     check_bytes(len(given.data), MOST_BYTES, given.name)
     text = given.text
     if given.ending == ".json" or (text.lstrip()[:1] == "{" and not _PYTHON.match(text)):
-        table = _from_json(text)
+        table = from_json(text)
     elif text.lstrip()[:1] == "<":
         table = _from_xml(text)
     elif given.ending in (".yml", ".yaml") or text[:5] == "%YAML" or _YAML.search(text):
@@ -92,19 +95,6 @@ def _value(name: str, value: Any) -> Any:
         raise LucidaError(f"{name}.data", problem, f"give {rows * cols}")
     shape = (rows, cols) if channels <= 1 else (rows, cols, channels)
     return numbers.astype(np.float64).reshape(shape)
-
-
-def _from_json(text: str) -> Any:
-    try:
-        return json.loads(text)
-    except json.JSONDecodeError as error:
-        where = f"line {error.lineno}, column {error.colno}"
-        reason = error.msg[:1].lower() + error.msg[1:]
-        raise LucidaError(where, reason, "correct the JSON there") from None
-    except RecursionError:
-        raise LucidaError("", "is nested too deeply", "write it with fewer brackets") from None
-    except ValueError:  # Python's own limit on the digits of a number
-        raise LucidaError("", "holds a number of too many digits", "shorten it") from None
 
 
 def _from_yaml(text: str) -> Any:

@@ -51,6 +51,10 @@ FORMS = {
         for i in range(4)
         for j in range(4)
     ),
+    "Unity's JSON": json.dumps({f"e{i}{j}": float(M[i, j]) for i in range(4) for j in range(4)}),
+    "Direct3D, one by one": " ".join(
+        f"_{i + 1}{j + 1}: {float(M[i, j])}" for i in range(4) for j in range(4)
+    ),
     "GLSL": "mat4(" + ", ".join(map(str, M.ravel().tolist())) + ")",
     "JSON": json.dumps({"file_path": "r_12", "rotation": 0.3, "transform_matrix": M.tolist()}),
     "YAML": "pose:\n  rows: 4\n  cols: 4\n  dt: d\n  data: [" + ", ".join(map(str, M.flat)) + "]",

@@ -1,0 +1,107 @@
+"""The lens of a calibration file, under any of the names that people give its coefficients.
+
+A lens is never dropped in silence: what sounds like one and is not known is an error.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+from typing import Any
+
+import numpy as np
+
+from renderer.camera import Size
+from renderer.camera_checks import Floats
+from renderer.camera_formats import distortion
+from renderer.camera_formats.entries import flat
+from renderer.camera_formats.posed import Distortion
+from renderer.camera_formats.storage import Table
+from renderer.errors import LucidaError
+
+# In small letters without signs.
+_VECTOR = (
+    *("distortioncoefficients", "distortioncoefficient", "distortioncoeffs", "distortioncoeff"),
+    *("distortioncoefs", "distortionparameters", "distortionparams", "distortionvector"),
+    *("distcoeffs", "distcoeff", "distcoefs", "distcoef", "distortion", "dist", "d"),
+)
+_MODEL = ("distortionmodel", "fisheyemodel")
+_PINHOLES = (
+    *("", "0", "none", "plumbbob", "rationalpolynomial", "radtan", "radialtangential"),
+    *("opencv", "pinhole"),
+)
+_FISHEYES = ("1", "equidistant", "fisheye", "kannalabrandt", "kannalabrandt4")
+_SOUNDS_LIKE_ONE = re.compile(r"dist(?!anc)|.*(?<!un)distort")
+
+
+class Names:
+    """What a table holds under any of several names."""
+
+    def __init__(self, table: Table) -> None:
+        self._values = {plain(name): (name, value) for name, value in table.items()}
+
+    def __contains__(self, names: tuple[str, ...]) -> bool:
+        return any(name in self._values for name in names)
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self._values)
+
+    def get(self, names: tuple[str, ...]) -> tuple[str, Any] | None:
+        return next((self._values[name] for name in names if name in self._values), None)
+
+
+def plain(name: str) -> str:
+    return re.sub(r"[^a-z0-9]", "", name.lower())
+
+
+def lens_of(names: Names, K: Floats, size: Size, origin: str) -> Distortion | None:
+    """None for a pinhole. Raises LucidaError."""
+    name, value = names.get(_MODEL) or ("distortion_model", "")
+    model = plain(str(value))
+    is_fisheye = model in _FISHEYES
+    if model not in (*_PINHOLES, *_FISHEYES):
+        remedy = "give plumb_bob, rational_polynomial or equidistant, or undistort the images first"
+        raise LucidaError(name, f"{value!r} is a lens that is not known", remedy)
+    _check_known(names)
+    known = distortion.FISHEYE_NAMES if is_fisheye else distortion.NAMES
+    if found := names.get(_VECTOR):
+        coefficients = _of_vector(*found, known, (4,) if is_fisheye else distortion.COUNTS)
+    else:
+        coefficients = _one_by_one(names, known)
+    if is_fisheye:
+        coefficients = dict.fromkeys(known, 0.0) | coefficients
+        return distortion.lens("fisheye", coefficients, distortion.fisheye, K, size, origin)
+    bend = distortion.radial_tangential
+    return distortion.lens("radial and tangential", coefficients, bend, K, size, origin)
+
+
+def _of_vector(
+    name: str, value: Any, known: tuple[str, ...], counts: tuple[int, ...]
+) -> dict[str, float]:
+    numbers = flat(name, value)
+    if numbers.size not in (0, *counts):
+        wanted = " or ".join(map(str, counts))
+        raise LucidaError(name, f"has {numbers.size} numbers", f"give {wanted}")
+    return dict(zip(known, numbers.tolist(), strict=False))
+
+
+def _one_by_one(names: Names, known: tuple[str, ...]) -> dict[str, float]:
+    """Coefficients with a name each; a matrix of that name (K1, P1) is another camera's."""
+    found = {}
+    for coefficient in known:
+        entry = names.get((plain(coefficient),))
+        if entry is not None and np.size(entry[1]) == 1:
+            found[coefficient] = float(flat(*entry)[0])
+    return found
+
+
+def _check_known(names: Names) -> None:
+    for name in names:
+        if name in (*_VECTOR, *_MODEL) or not _SOUNDS_LIKE_ONE.match(name):
+            continue
+        own_name, value = names.get((name,)) or (name, None)
+        numbers = np.ravel(value) if isinstance(value, list | np.ndarray | int | float) else ()
+        if any(type(number) is not bool and number for number in numbers):
+            problem = "sounds like a lens's distortion, and is no name that is known"
+            remedy = "call it distortion_coefficients: k1, k2, p1, p2, k3"
+            raise LucidaError(own_name, problem, remedy)
