@@ -186,6 +186,7 @@ class LectureView(DockedView):
         if not self._arranged and layout.current().name == layout.LECTURE:
             self._arrange(self.session.step)
             self._arranged = True
+            imgui.set_nav_cursor_visible(False)  # with its tooltip it was on what has gone
             host.animate()
         self._follow_file(host, self.session)
 

@@ -152,7 +152,8 @@ def program_lines(
             if imgui.is_item_hovered() or imgui.is_item_focused() or imgui.is_popup_open(popup):
                 far = ImVec2(corner.x + width, corner.y + extent.y)
                 draw.add_rect_filled(corner, far, theme.u32(theme.FRAME_HOVERED), theme.px(3))
-            imgui.set_item_tooltip(f"what may be wrong in the line of {line.key}: click")
+            if not mistakes:  # then the line below is what is to be read
+                imgui.set_item_tooltip(f"what may be wrong in the line of {line.key}: click")
         else:
             imgui.dummy(extent)
         wrong = wrong_color()

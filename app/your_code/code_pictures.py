@@ -52,6 +52,11 @@ class PicturesShown:
     def busy(self) -> bool:
         return self._painting and self._painter.busy
 
+    @property
+    def expected(self) -> bool:
+        """Whether there are pictures, or will be: they keep their room."""
+        return self.pictures is not None or (self._painting and self._painter.error is None)
+
     def begin_frame(self) -> None:
         self._uploads.begin_frame()
 
@@ -109,15 +114,19 @@ class PicturesShown:
             for name in ("given", "right", "difference"):
                 self._uploads.put_pixels(name, getattr(self.pictures, name))
 
-    def tell_waiting(self, host: Host) -> None:
-        """Why there are no pictures, or not yet."""
+    def tell_waiting(self, host: Host, room: ImVec2) -> None:
+        """Why there are no pictures, or not yet: in their room, where they are expected."""
+        if not self._painting:
+            return
         error = self._painter.error
         text = describe(error) if error is not None else host.renderers.preparing()
-        if not text or not self._painting:
-            return
+        if self.expected:
+            imgui.begin_child("waiting", room)
         imgui.push_text_wrap_pos(0.0)
         imgui.text_colored(theme.ERROR if error is not None else theme.DIM, text)
         imgui.pop_text_wrap_pos()
+        if self.expected:
+            imgui.end_child()
 
     def draw(self, host: Host, report: CodeReport, room: ImVec2, marked: Pixel | None) -> None:
         """Those there are; a click marks a pixel in all views. marked: see marked_pixel()."""

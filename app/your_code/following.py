@@ -30,6 +30,7 @@ class FileFollower:
         self._wake, self._is_busy, self._tick = wake, is_busy, tick
         self._watch: FilesWatch | None = None
         self._paths: tuple[str, ...] = ()
+        self._others: tuple[str, ...] = ()
         self._missed = 0  # looks that have not found one, one after another
         self._looking, self._closed = threading.Event(), threading.Event()
         self._thread = threading.Thread(target=self._run, name="lucida-follow", daemon=True)
@@ -41,9 +42,16 @@ class FileFollower:
         """Looks at these files from now on."""
         if paths != self._paths:
             self._watch = FilesWatch({Path(path): stamp(Path(path)) for path in paths})
-            self._paths = paths
+            self._paths, self._others = paths, ()
             self.version += 1
         self._looking.set()
+
+    def follow_too(self, paths: tuple[str, ...]) -> None:
+        """These others beside them, which the newest version has been found to need."""
+        if self._watch is not None and paths != self._others:
+            files = (Path(path) for path in (*self._paths, *paths))
+            self._watch.follow({file: stamp(file) for file in files})
+            self._others = paths
 
     def rest(self) -> None:
         """Nobody sees what came of them: looks when they are followed again."""
@@ -52,7 +60,7 @@ class FileFollower:
     def forget(self) -> None:
         """Another version is followed next, whatever it is."""
         self._looking.clear()
-        self._watch, self._paths = None, ()
+        self._watch, self._paths, self._others = None, (), ()
 
     def again(self) -> None:
         """As if the file had been saved."""

@@ -13,7 +13,7 @@ from app.checking.tasks import CheckTask
 from app.your_code.model import CodeRays
 from renderer.camera import Camera, Size
 
-ENDLESS = ("time", "memory", "ended")  # what a file is not run after by itself, until it is saved
+ENDLESS = ("time", "memory", "ended")  # after these, a file is not run for another camera
 
 
 @dataclass(frozen=True)
@@ -33,6 +33,10 @@ class CodeQuestion:
     def of(self) -> tuple[str, str, int]:
         """The content that it is asked about."""
         return self.path, self.tasks, self.version
+
+    def differs_in_camera(self, other: CodeQuestion) -> bool:
+        """Whether it is the other one, but for the camera."""
+        return (self.of, self.task, self.size) == (other.of, other.task, other.size)
 
 
 @dataclass(frozen=True, eq=False)

@@ -50,6 +50,8 @@ class CodeStudent(Protocol):
 
     @property
     def answered(self) -> int: ...
+    @property
+    def files(self) -> tuple[str, ...]: ...
     def functions(self) -> frozenset[str] | None: ...
     def call(self, calls: Sequence[Call]) -> Run: ...
     def stop(self) -> None: ...
@@ -63,7 +65,8 @@ def file_student(path: Path, limits: Limits) -> CodeStudent:
 class CodeRuns:
     """wake: called from the threads when there is news. make: what answers for a file.
 
-    report: the newest; None before the first. Methods are for the window's thread, but for tick().
+    report: the newest; None before the first. files: the modules beside the file that it has
+    imported, or has failed to, when it was last read. Methods are for the window's thread, but for tick().
     """
 
     def __init__(
@@ -84,14 +87,16 @@ class CodeRuns:
         self._kept: OrderedDict[CodeQuestion, CodeRays] = OrderedDict()  # of one version
         self._tasks: tuple[tuple[str, str, int], TaskSet] | None = None  # of one version
         self.report: CodeReport | None = None
+        self.files: tuple[str, ...] = ()
 
     def follow(self, question: CodeQuestion | None) -> None:
         """Once a frame: what is to be known; None for nothing. A file that has run endlessly is not
-        run again until it is another version."""
+        run again for another camera, only for what the user asks for here: another version, task,
+        or size."""
         report = self.report
         if question is None or question == self._newest or self._closed:
             return
-        if report is not None and report.halted and report.question.of == question.of:
+        if report is not None and report.halted and question.differs_in_camera(report.question):
             return
         self._newest = question
         self._asked.set()
@@ -258,7 +263,10 @@ class CodeRuns:
         try:
             asked = self._asked_of(question)
             student = self._student_of(question, asked.limits)
-            functions = student.functions()
+            try:
+                functions = student.functions()
+            finally:
+                self.files = student.files
         except NotRunnableError as error:
             report = CodeReport(question, failure=error.failure, output=error.output)
             return _timed(report, begin), None

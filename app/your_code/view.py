@@ -179,6 +179,7 @@ class YourCodeView(DockedView):
         runs, options = self.runs, host.state.of(YourCodeOptions)
         tasks = restored(options.tasks)
         self._follower.follow(*(one for one in (path, tasks) if one))
+        self._follower.follow_too(runs.files)
         runs.poll()
         camera = host.state.view.for_size(options.canvas)
         runs.follow(
@@ -209,13 +210,13 @@ class YourCodeView(DockedView):
         self._pictures.follow(host, report)
         marked = marked_pixel(host, report)
         room = imgui.get_content_region_avail()
-        for_pictures, for_words, beside = panel.rooms(room, self.pictures is not None)
+        for_pictures, for_words, beside = panel.rooms(room, self._pictures.expected)
         if self.pictures is not None:
             self._pictures.draw(host, report, for_pictures, marked)
-            if beside:
-                imgui.same_line()
         else:
-            self._pictures.tell_waiting(host)
+            self._pictures.tell_waiting(host, for_pictures)
+        if beside:
+            imgui.same_line()
         key = (report, marked, host.state.options.indexing)
         if key != self._told_of:
             self._told_of, self.told = key, told_of(*key)

@@ -19,6 +19,7 @@ from app.your_code.report import CodeReport
 from renderer.pixels import Indexing
 
 ToldRole = Literal["good", "bad", "text", "code", "dim"]
+HALTED = "It is not run again by itself"
 OUTPUT_LINES = 40  # of what a file has printed, the last ones
 
 
@@ -56,6 +57,8 @@ def _of_file(report: CodeReport) -> Iterator[ToldLine]:
     if report.failure is not None:
         yield ToldLine("bad", report.failure.text)
         yield from (ToldLine("code", line) for line in report.failure.traceback)
+        if report.halted:
+            yield ToldLine("dim", f"{HALTED}: save the file, or press Run.")
     elif report.chosen is None:
         names = ", ".join(dict.fromkeys(task.function for task in report.asked))
         yield ToldLine("bad", f"The file has none of the functions that are asked for: {names}.")
@@ -100,6 +103,8 @@ def _of_rays(report: CodeReport, rays: CodeRays) -> Iterator[ToldLine]:
         yield from (
             ToldLine("code" if k else "bad", line) for k, line in enumerate(told(result).lines)
         )
+        if report.halted:
+            yield ToldLine("dim", f"{HALTED}: choose fewer pixels, save the file, or press Run.")
     elif result.status == "right":
         what = "basis" if rays.task.kind == BASIS else "ray"
         yield ToldLine(

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 import time
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -174,6 +175,19 @@ def drive_a_wrong_file_is_told_by_name_and_again_when_it_is_saved(d: Driver) -> 
     assert not any(item.name.startswith("second") for item in outside.extra)
 
 
+def drive_a_module_beside_the_file_is_followed(d: Driver) -> None:
+    write(d, RIGHT, "viewing.py")
+    opened(d, "from viewing import viewing_ray\n", "uses.py")
+    until_told(d, "Every ray is right.")
+    write(d, CORNER, "viewing.py")
+    until_told(d, "768 of 768 rays are wrong.")
+    write(d, "def viewing_ray(\n", "viewing.py")
+    until_told(d, "viewing.py, line 1", "SyntaxError")
+    write(d, RIGHT, "viewing.py")
+    until_told(d, "Every ray is right.")
+    leave(d)
+
+
 def drive_an_endless_loop_holds_no_frame_up_and_is_stopped(d: Driver) -> None:
     opened(d, RIGHT.replace("    x =", "    while i == 3:\n        pass\n    x =", 1))
     runs = view(d).runs
@@ -188,17 +202,21 @@ def drive_an_endless_loop_holds_no_frame_up_and_is_stopped(d: Driver) -> None:
     processes = children()
     assert processes
     view(d).ask("stop")
-    until_told(d, "was stopped")
+    until_told(d, "was stopped", "not run again by itself: choose fewer pixels")
     d.until(lambda: not runs.busy)
     d.until(lambda: not (children() & processes))
     d.picture()
     version = view(d).report.question.version
-    d.window.change(d.window.state.with_options(your_code={"canvas": (16, 12)}))
+    camera = d.window.state.camera
+    d.window.change(d.window.state.with_camera(replace(camera, distance=2.0 * camera.distance)))
     d.ctx.yield_(10)
     assert not runs.busy  # not by itself
     assert view(d).report.question.version == version
+    d.window.change(d.window.state.with_options(your_code={"canvas": (4, 3)}))
+    until_told(d, "Every ray is right.")  # it has no fourth row
     write(d, RIGHT)
     until_told(d, "Every ray is right.")
+    assert view(d).report.question.version > version
     leave(d)
 
 
@@ -333,6 +351,8 @@ def drive_the_verdict_is_read_from_afar(d: Driver) -> None:
 
 def drive_a_file_that_a_lecture_names_is_not_run_unasked(d: Driver) -> None:
     ran = d.folder / "ran"
+    ran.unlink(missing_ok=True)
+    d.window.files.recent.clear()  # it was opened where the folder has been used before
     write(d, f"open({str(ran)!r}, 'w').close()\n{RIGHT}", "theirs.py")
     lecture = d.folder / "lecture.toml"
     lecture.write_text(

@@ -29,6 +29,7 @@ class FakeStudent:
 
     def __init__(self, path: Path) -> None:
         self.path = path
+        self.files = ("vectors.py",)
         self.names = frozenset(("viewing_ray",))
         self.gate: threading.Event | None = None  # a run waits for it
         self.error: Exception | None = None
@@ -117,6 +118,7 @@ def test_the_camera_s_rays_come_first_then_the_tasks(desk):
     assert report.at > 0
     (student,) = desk.made
     assert student.path == Path("rays.py")
+    assert desk.runs.files == ("vectors.py",)
     assert len(student.runs[0]) == 12  # pixels of the canvas
     assert len(student.runs) == 3
 
@@ -211,6 +213,22 @@ def test_what_was_stopped_is_not_run_again_by_itself(desk):
     assert len(desk.made[0].runs) == 1
     desk.prepare = lambda student: None
     assert desk.told(replace(QUESTION, version=2)).rays.result.status == "right"
+
+
+@pytest.mark.parametrize("wish", [{"size": (2, 1)}, {"task": "viewing-ray-parallel"}])
+def test_fewer_pixels_or_another_task_run_a_file_that_took_too_long(desk, wish):
+    def call(calls):
+        if len(calls) > 2:
+            return Run((), "", Failure("time", "the time limit is over", call=0))
+        return Run(tuple(right_ray(dict(one.arguments)) for one in calls), "")
+
+    desk.prepare = lambda student: setattr(student, "call", call)
+    assert desk.told(QUESTION).halted
+    assert desk.told(OTHER).question == QUESTION  # not for another camera
+    wished = replace(QUESTION, **wish)
+    report = desk.told(wished)
+    assert report.question == wished
+    assert report.halted is ("size" not in wish)
 
 
 def test_tasks_of_a_function_that_runs_endlessly_are_not_tried(desk):

@@ -44,6 +44,27 @@ def test_a_saved_file_is_another_version_and_wakes_the_window(tmp_path: Path):
         follower.close()
 
 
+def test_a_module_that_it_needs_is_looked_at_too(tmp_path: Path):
+    file, module, later = (tmp_path / name for name in ("rays.py", "vectors.py", "later.py"))
+    file.write_text("one")
+    module.write_text("one")
+    follower = FileFollower(lambda: None, lambda: False, lambda: None)
+    try:
+        follower.follow(str(file))
+        follower.follow_too((str(module), str(later)))
+        assert follower.version == 1  # it has been run with them
+        module.write_text("two, saved")
+        wait_for(lambda: follower.version == 2)
+        later.write_text("was looked for in vain")
+        wait_for(lambda: follower.version == 3)
+        later.unlink()
+        file.write_text("two, saved")
+        wait_for(lambda: follower.version == 4)
+        assert not follower.is_away
+    finally:
+        follower.close()
+
+
 def test_it_wakes_while_something_runs_and_not_otherwise(tmp_path: Path):
     woken, busy = threading.Event(), threading.Event()
     ticked = threading.Semaphore(0)

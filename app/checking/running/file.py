@@ -54,6 +54,7 @@ class FileStudent:
         self._lines: Iterator[bytes] = iter(())
         self._runs = 0
         self._functions: dict[str, list[str]] = {}
+        self.files: tuple[str, ...] = ()  # the modules beside it that it has imported
         self._failed: Failure | None = None  # for good
         self._closed = threading.Event()
         self._printed = ""
@@ -137,9 +138,10 @@ class FileStudent:
             return self._import_failed(self._over(over, "while the file is imported", _MAIN), over)
         self._runs = 1
         try:
-            if line[:1] == b"f":
-                return self._import_failed(self._failure(json.loads(line[1:]), None))
             told = json.loads(line[1:])
+            self.files = tuple(path for path in told["files"] if "\0" not in path)
+            if line[:1] == b"f":
+                return self._import_failed(self._failure(told, None))
             self._functions = {kind: [*told[kind]] for kind in ("functions", "own")}
         except _GARBLED:
             return self._import_failed(Failure("ended", f"{self._name}: {_WROTE_BETWEEN}"))

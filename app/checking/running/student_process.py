@@ -28,6 +28,7 @@ _LONGEST_LINE = 300
 _FULL_TRACEBACKS = 3  # failures of a run that are told with all their lines
 _LEAST_RECURSION = 500  # of sys.setrecursionlimit, for what is done here
 _MEMORY_STATUS = 86  # exit status: no memory was left to say so
+_MOST_FILES = 32  # of the student's other modules that are told
 _FIRST_LINES, _LAST_LINES = 16, 24  # of a long traceback
 _PLAIN = (list, tuple)
 _NAMED_PARTS = (("origin", "direction"), ("u", "v", "w"), ("x", "y", "z", "w"), ("x", "y", "z"))
@@ -42,7 +43,7 @@ def main():
         student.load()
         kind, told = "i", student.names()
     except BaseException as error:
-        kind, told = "f", student.failure(error, loading=True)
+        kind, told = "f", {**student.failure(error, loading=True), "files": student.files(error)}
     channel.send(kind, _encode(told), mark=student.mark)
     while True:
         student.answer(channel, channel.next())
@@ -149,7 +150,8 @@ class StudentFile:
         linecache.cache[self._path] = (len(text), None, text.splitlines(True), self._path)
 
     def names(self):
-        """functions: all that can be called. own: those that the file defines itself."""
+        """functions: all that can be called. own: those that the file defines itself. files: see
+        files()."""
         found = {
             name: value
             for name, value in self._module.__dict__.items()
@@ -160,7 +162,28 @@ class StudentFile:
             for name, value in found.items()
             if getattr(value, "__module__", None) == self._module.__name__
         ]
-        return {"functions": [*found], "own": own}
+        return {"functions": [*found], "own": own, "files": self.files()}
+
+    def files(self, error=None):
+        """Paths of the student's other modules that have been imported, and of those that the error
+        kept from that."""
+        found = []
+        for module in [*sys.modules.values()]:
+            with contextlib.suppress(Exception):  # whatever the student's code has put there
+                found.append(module.__file__)
+        step = error.__traceback__ if error else None
+        while step is not None:
+            found.append(step.tb_frame.f_code.co_filename)
+            step = step.tb_next
+        if isinstance(error, SyntaxError):
+            found.append(error.filename)
+        if isinstance(error, ImportError) and error.name:
+            found.append(os.path.join(self._folder, *error.name.split(".")) + ".py")
+        return [path for path in dict.fromkeys(found) if self._is_own(path)][:_MOST_FILES]
+
+    def _is_own(self, path):
+        is_inside = isinstance(path, str) and path.startswith(self._folder + os.sep)
+        return is_inside and "site-packages" not in path and path != self._path
 
     def answer(self, channel, request):
         """request: shared, (name, value, whether as an array) of values that are no plain numbers;

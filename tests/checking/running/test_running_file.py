@@ -333,3 +333,23 @@ def test_the_arguments_of_a_call_are_told_in_a_line(student):
     assert "), ...), text='xxx" in told
     assert told.endswith("xxx', ...)")
     assert len(told) < 400
+
+
+def test_the_modules_beside_it_are_known_also_those_that_fail(student, tmp_path):
+    (tmp_path / "vectors.py").write_text("import sums, json\n")
+    (tmp_path / "sums.py").write_text("total = 0\n")
+    one = student("import numpy, vectors\ndef f(): return 1\n")
+    one.functions()
+    assert names_of(one) == {"vectors.py", "sums.py"}
+    for broken in ("total = ", "total = 1 / 0", "import absent"):
+        (tmp_path / "sums.py").write_text(broken)
+        one = student("import vectors\ndef f(): return 1\n")
+        with pytest.raises(NotRunnableError):
+            one.functions()
+        found = names_of(one)
+        assert found >= {"vectors.py", "sums.py"}
+        assert ("absent.py" in found) is ("absent" in broken)
+
+
+def names_of(one: FileStudent) -> set[str]:
+    return {os.path.basename(path) for path in one.files}
