@@ -11,9 +11,10 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
 
+from app.cameras.taken import TakenCamera, told_of
 from app.poses.model import PoseSet, load_poses, pose_set
 from app.widgets.background import Background
-from renderer.errors import LucidaError, describe
+from renderer.errors import LucidaError, describe, one_line
 from renderer.scene.cancelling import check_cancelled
 from renderer.scene.model import View
 
@@ -97,13 +98,15 @@ def is_cameras(source: str) -> bool:
         return False
 
 
-def open_cameras(source: str) -> PoseSet | View:
-    """A set of cameras; or a view, where there is but one. Raises LucidaError."""
+def open_cameras(source: str) -> PoseSet | TakenCamera:
+    """A set of cameras; or the one that there is, with its lens. Raises LucidaError."""
     path = Path(source).absolute()
     found = load_poses(path)
     check_cancelled()
     if len(found.cameras) == 1 and found.points is None:
-        return View(found.cameras[0].camera, fit=True)
+        posed = found.cameras[0]
+        said = f"The camera is {path.name}'s: {told_of(found)}."
+        return TakenCamera(View(posed.camera, fit=True), one_line(said), posed, path.name)
     return pose_set(path, found)
 
 

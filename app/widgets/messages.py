@@ -53,6 +53,50 @@ def message_box(message: Message) -> str:
     return chosen
 
 
+@dataclass(frozen=True)
+class Listing:
+    """Lines to read, under a title."""
+
+    title: str
+    lines: tuple[str, ...]
+
+
+def listing_box(listing: Listing) -> bool:
+    """Draws the lines in the middle of the window, to be scrolled and copied; gives whether the box
+    stays."""
+    viewport = imgui.get_main_viewport()
+    em, line = imgui.get_font_size(), imgui.get_text_line_height_with_spacing()
+    size = ImVec2(min(52 * em, 0.86 * viewport.work_size.x), 0)
+    center = viewport.get_center()
+    imgui.set_next_window_pos(center, imgui.Cond_.appearing, ImVec2(0.5, 0.5))
+    imgui.set_next_window_size(size, imgui.Cond_.appearing)
+    flags = imgui.WindowFlags_
+    imgui.push_style_color(imgui.Col_.window_bg, theme.POPUP)
+    imgui.begin(
+        "##listing",
+        None,
+        flags.no_title_bar | flags.no_docking | flags.no_saved_settings | flags.no_collapse,
+    )
+    imgui.pop_style_color()
+    imgui.push_text_wrap_pos(0.0)
+    imgui.text(listing.title)
+    height = min((2 * len(listing.lines) + 1) * line, 0.5 * viewport.work_size.y)
+    imgui.begin_child("##lines", ImVec2(0, height), imgui.ChildFlags_.borders)
+    imgui.push_text_wrap_pos(0.0)
+    for text in listing.lines:
+        imgui.bullet()
+        imgui.text(text)
+    imgui.pop_text_wrap_pos()
+    imgui.end_child()
+    imgui.pop_text_wrap_pos()
+    if imgui.button("Copy"):
+        imgui.set_clipboard_text("\n".join((listing.title, *listing.lines)))
+    imgui.same_line()
+    stays = not imgui.button("Close")
+    imgui.end()
+    return stays
+
+
 def failure_note(title: str, error: Exception) -> bool:
     """What stands in a view that could not be drawn; gives whether to try again."""
     place, room = imgui.get_cursor_pos(), imgui.get_content_region_avail()

@@ -11,6 +11,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
+from app.cameras.taken import TakenCamera
 from app.lecture.model import Lecture
 from app.lecture.reading import is_lecture, load_lecture
 from app.poses.model import PoseSet
@@ -36,7 +37,8 @@ class Opened:
     is_first: it takes the place of what the window has begun with, without a step of undo.
     replaces: the scene of which this is a newer version; None for another one. agreed: the files
     outside of its folder that a scene which came by itself may read; None where the user named it.
-    code: the absolute path of a Python file, which is there. poses: a set of cameras.
+    code: the absolute path of a Python file, which is there. poses: a set of cameras. taken: the camera
+    of another format, which is the view unless it has a lens: then it is to be asked for.
     """
 
     sources: tuple[str, ...] = ()
@@ -50,6 +52,7 @@ class Opened:
     agreed: frozenset[Path] | None = None
     code: str = ""
     poses: PoseSet | None = None
+    taken: TakenCamera | None = None
 
 
 def open_sources(
@@ -62,7 +65,7 @@ def open_sources(
     lectures never. Raises LucidaError where there is but one and it cannot be read, OutsideError
     in any case.
     """
-    scene, view, lecture, code, poses = None, None, None, "", None
+    scene, view, lecture, code, poses, taken = None, None, None, "", None, None
     good, problems = [], []
     for source in sources:
         try:
@@ -74,10 +77,10 @@ def open_sources(
                 lecture = lecture or (load_lecture(source, agreed), Path(source).absolute())
             elif source not in BUILTIN_SCENES and is_cameras(source):
                 found = open_cameras(source)
-                if isinstance(found, View):
-                    view = view or found
-                else:
+                if isinstance(found, PoseSet):
                     poses = poses or found
+                else:
+                    taken = taken or found
             elif scene is None:
                 scene = _load_scene(source, agreed if dropped else None)
             else:
@@ -87,11 +90,13 @@ def open_sources(
             if len(sources) == 1 or isinstance(error, OutsideError):
                 raise
             problems.append(describe(error))
+    if taken is not None and not taken.has_lens:
+        view = view or taken.view
     given = agreed if dropped else None
     prepared = _prepared(scene)
     return Opened(
         tuple(good), scene, view, tuple(problems), lecture, prepared, agreed=given, code=code,
-        poses=poses,
+        poses=poses, taken=taken,
     )  # fmt: skip
 
 
