@@ -74,8 +74,8 @@ class LookAt:
 
 @dataclass(frozen=True)
 class Sections:
-    """Entered, but not yet done. pixel_origin: of K, R and t. frames: drawn so far. chosen: the sections that are open since the
-    user has opened or shut one; None: those that had room."""
+    """Entered, but not yet done. pixel_origin: of K, R and t. frames: drawn so far. chosen: the
+    sections that are open since the user has opened or shut one; None: those that had room."""
 
     look: LookAt = LookAt()
     pixel_origin: PixelOrigin = "center"
@@ -190,11 +190,13 @@ def copy_section() -> Asked:
     """All forms, and paste."""
     asked = Asked()
     own = [form for form in FORMS if form not in FORMATS_OF]
+    room, spacing = imgui.get_content_region_avail().x, imgui.get_style().item_spacing.x
     for forms, columns in ((own, 2), (list(FORMATS_OF), 3)):
+        width = (room - (columns - 1) * spacing) / columns
         for number, form in enumerate(forms):
             if number % columns:
                 imgui.same_line()
-            if imgui.button(form_name(form), (_column_px(columns), 0)):
+            if imgui.button(form_name(form), (width, 0)):
                 asked = Asked(copy=form)
             imgui.set_item_tooltip(f"Copy the camera. {FORM_NOTES[form]}")
     imgui.same_line()
@@ -202,13 +204,6 @@ def copy_section() -> Asked:
         asked = Asked(paste=True)
     imgui.set_item_tooltip(PASTE_NOTE)
     return asked
-
-
-def _column_px(columns: int) -> float:
-    """The width of each of so many buttons in a line."""
-    left, right = imgui.get_window_content_region_min().x, imgui.get_window_content_region_max().x
-    spacing = imgui.get_style().item_spacing.x
-    return (right - left - (columns - 1) * spacing) / columns
 
 
 def words_section(

@@ -50,7 +50,8 @@ class Files:
     """wake: called from another thread when something has been loaded.
 
     message: what went wrong; said: what was done, for poll_said(). question: what the user is to
-    agree to. folder: where the list of recent files is kept; None: nowhere. native: whether the system's dialogs may be used.
+    agree to. folder: where the list of recent files is kept; None: nowhere. native: whether the
+    system's dialogs may be used.
     """
 
     def __init__(

@@ -2,8 +2,7 @@
 
 Owns the present state and everything that lives as long as the window: the views, the renderers,
 the threads, the history. Views are given the state through host/view.py's Host and ask for a new
-one; here it is kept, and the renderers are told. Knows nothing of how the window was made
-(viewer.py), nor of what a view shows.
+one; here it is kept, and the renderers are told. How the window is made is viewer.py's.
 """
 
 from __future__ import annotations
@@ -342,8 +341,8 @@ class MainWindow:
     def _is_typing(self) -> bool:
         """Whether a box has the keyboard: its digits are no bookmarks, also before the field that
         Tab has gone to takes them."""
-        boxes = filter(None, (self.asking_size, self.asking_pixel))
-        return any(box.focused for box in boxes)
+        boxes = (self.asking_size, self.asking_pixel)
+        return any(box.focused for box in boxes if box is not None)
 
     def _go_to(self, pixel: Pixel) -> None:
         """Marks a pixel, and brings it into sight where the images are magnified."""

@@ -37,8 +37,8 @@ class Opened:
     is_first: it takes the place of what the window has begun with, without a step of undo.
     replaces: the scene of which this is a newer version; None for another one. agreed: the files
     outside of its folder that a scene which came by itself may read; None where the user named it.
-    code: the absolute path of a Python file, which is there. poses: a set of cameras. taken: the camera
-    of another format, which is the view unless it has a lens: then it is to be asked for.
+    code: the absolute path of a Python file, which is there. poses: a set of cameras. taken: the
+    camera of another format, which is the view unless it has a lens: then that is to be asked.
     """
 
     sources: tuple[str, ...] = ()

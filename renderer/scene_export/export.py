@@ -43,8 +43,8 @@ def export_scene(path: str | Path, scene: Scene, camera: Camera, size: Size) -> 
 
     Gives what could not be carried over, a line each. Meshes of .xml and .pbrt are PLY files in a
     folder beside it, which are written first. Raises LucidaError for a camera that the target
-    cannot hold, and where nothing can be written; then nothing is, nor where nobody waits for it any
-    more (renderer/scene/cancelling.py).
+    cannot hold, and where nothing can be written; then nothing is. Leaves
+    it where nobody waits any more (renderer/scene/cancelling.py).
     """
     target = check_export_path(path)
     stem = target.stem.encode("utf-8", "replace").decode()  # it is named inside the files

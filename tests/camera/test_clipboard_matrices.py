@@ -175,13 +175,3 @@ def test_what_others_write_is_pasted_at_the_present_distance(text: str) -> None:
         strict=True,
     ):
         assert one == pytest.approx(two, abs=1e-6)
-
-
-def test_of_what_others_write_a_lens_and_several_cameras_are_told() -> None:
-    frame = '{"transform_matrix": [[1, 0, 0, 0], [0, 1, 0, 0], [0, 0, 1, 0], [0, 0, 0, 1]]}'
-    for text, told in (
-        (f'{{"camera_angle_x": 1, "frames": [{frame}, {frame}]}}', "clipboard: holds 2 cameras"),
-        ('{"K": [9, 9, 5, 5], "D": [0.5, 0, 0, 0]}', "clipboard: k1: 0.5 is a lens's distortion"),
-    ):
-        with pytest.raises(LucidaError, match=told):
-            read_view(text, NOW)

@@ -12,6 +12,7 @@ from sets_of_cameras import SIZE, a_set, colmap, ring, transforms
 from waiting import wait_for
 
 from app import cli
+from app.cameras.taken import TakenCamera
 from app.lecture.reading import load_lecture
 from app.poses.model import PoseSet
 from app.poses.options import PosesOptions
@@ -22,7 +23,7 @@ from app.storage.session import Arrangement, from_bytes, session_of, to_bytes
 from app.window.opening import open_sources
 from renderer.camera_formats import written
 from renderer.errors import LucidaError
-from renderer.scene import View, load_scene
+from renderer.scene import load_scene
 
 
 def test_a_transforms_json_is_a_set(tmp_path: Path) -> None:
@@ -50,8 +51,11 @@ def test_a_file_with_one_camera_is_a_view(tmp_path: Path, name: str, ending: str
     path = tmp_path / f"camera.{ending}"
     camera = ring(1)[0]
     path.write_bytes(written([replace(camera, image="")], name)[""])
-    view = open_cameras(str(path))
-    assert isinstance(view, View) and view.fit
+    found = open_cameras(str(path))
+    assert isinstance(found, TakenCamera) and not found.has_lens
+    assert found.said.startswith(f"The camera is {path.name}'s: ")
+    view = found.view
+    assert view.fit
     assert np.allclose(view.camera.eye, camera.camera.eye)
     opened = open_sources(["spheres", str(path)])
     assert opened.view == view and opened.poses is None
