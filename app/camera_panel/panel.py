@@ -221,14 +221,14 @@ def _sections(
         look, wanted = look_section(sections.look, state, around.focus, around.fonts.mono)
         sections = replace(sections, look=look)
         asked.append(wanted)
-    if is_open("In other words", math.inf):
-        origin, wanted = words_section(
-            around.shown, around.size, sections.pixel_origin, around.fonts
-        )
-        sections = replace(sections, pixel_origin=origin)
-        asked.append(wanted)
     if is_open("Copy and paste", OTHERS_OPEN_EM):
         asked.append(copy_section())
+        if is_open("In other words", math.inf):
+            origin, wanted = words_section(
+                around.shown, around.size, sections.pixel_origin, around.fonts
+            )
+            sections = replace(sections, pixel_origin=origin)
+            asked.append(wanted)
     chosen = tuple(opened) if any_toggled else sections.chosen
     sections = replace(sections, frames=sections.frames + 1, chosen=chosen)
     return state, sections, next((one for one in asked if one != NOTHING), NOTHING)

@@ -1,4 +1,5 @@
-"""The camera panel's sections below its numbers: presets, look at, in other words, copy and paste.
+"""The camera panel's sections below its numbers: presets, look at, copy and paste, in other
+words.
 
 Owns their widgets and words. Gives what was asked for; the view does it (camera_panel/view.py).
 """

@@ -14,7 +14,7 @@ from dataclasses import replace
 from typing import NoReturn
 
 from app.cameras.options import CAMERA_OPTIONS, add_camera_options, with_camera_options
-from app.cameras.taken import TakenCamera, told_of
+from app.cameras.taken import TakenCamera, is_fitted, told_of
 from renderer.camera import Camera
 from renderer.camera_formats import FORMATS, PosedCamera, one_of, opengl, read_cameras
 from renderer.camera_formats.given import Given, Options
@@ -161,5 +161,5 @@ def _from_others(text: str, format: str, now: View) -> TakenCamera:
         scale = distance / camera.distance
         left, right, bottom, top = (scale * edge for edge in camera.viewport)
     viewport = (left, right, bottom, top)
-    view = View(replace(camera, distance=distance, viewport=viewport), found.fit)
+    view = View(replace(camera, distance=distance, viewport=viewport), is_fitted(found))
     return TakenCamera(view, _said(told_of(every)), found, SOURCE)

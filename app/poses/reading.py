@@ -11,7 +11,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
 
-from app.cameras.taken import TakenCamera, told_of
+from app.cameras.taken import TakenCamera, is_fitted, told_of
 from app.poses.model import PoseSet, load_poses, pose_set
 from app.widgets.background import Background
 from renderer.errors import LucidaError, describe, one_line
@@ -106,7 +106,7 @@ def open_cameras(source: str) -> PoseSet | TakenCamera:
     if len(found.cameras) == 1 and found.points is None:
         posed = found.cameras[0]
         said = f"The camera is {path.name}'s: {told_of(found)}."
-        return TakenCamera(View(posed.camera, fit=True), one_line(said), posed, path.name)
+        return TakenCamera(View(posed.camera, is_fitted(posed)), one_line(said), posed, path.name)
     return pose_set(path, found)
 
 

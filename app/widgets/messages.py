@@ -65,23 +65,24 @@ def listing_box(listing: Listing) -> bool:
     """Draws the lines in the middle of the window, to be scrolled and copied; gives whether the box
     stays."""
     viewport = imgui.get_main_viewport()
-    em, line = imgui.get_font_size(), imgui.get_text_line_height_with_spacing()
-    size = ImVec2(min(52 * em, 0.86 * viewport.work_size.x), 0)
+    width = min(52 * imgui.get_font_size(), 0.86 * viewport.work_size.x)
     center = viewport.get_center()
-    imgui.set_next_window_pos(center, imgui.Cond_.appearing, ImVec2(0.5, 0.5))
-    imgui.set_next_window_size(size, imgui.Cond_.appearing)
+    imgui.set_next_window_pos(center, imgui.Cond_.always, ImVec2(0.5, 0.5))
+    imgui.set_next_window_size(ImVec2(width, 0))
     flags = imgui.WindowFlags_
     imgui.push_style_color(imgui.Col_.window_bg, theme.POPUP)
     imgui.begin(
         "##listing",
         None,
-        flags.no_title_bar | flags.no_docking | flags.no_saved_settings | flags.no_collapse,
+        flags.no_decoration | flags.no_docking | flags.no_saved_settings | flags.no_move,
     )
     imgui.pop_style_color()
     imgui.push_text_wrap_pos(0.0)
     imgui.text(listing.title)
-    height = min((2 * len(listing.lines) + 1) * line, 0.5 * viewport.work_size.y)
-    imgui.begin_child("##lines", ImVec2(0, height), imgui.ChildFlags_.borders)
+    highest = ImVec2(width, 0.5 * viewport.work_size.y)
+    imgui.set_next_window_size_constraints(ImVec2(0, 0), highest)
+    child = imgui.ChildFlags_
+    imgui.begin_child("##lines", ImVec2(0, 0), child.borders | child.auto_resize_y)
     imgui.push_text_wrap_pos(0.0)
     for text in listing.lines:
         imgui.bullet()

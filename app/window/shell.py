@@ -157,7 +157,11 @@ class Shell:
             self.toasts.add(*done)
         exported = self.exports.poll()
         if exported is not None:
-            self.toasts.add(*exported)
+            text, good = exported
+            if good:
+                self.toasts.add(text)
+            else:
+                self.files.message = text
 
     def draw(self, window: Window, boxed: bool = False) -> None:
         """Once a frame: what lies over the views. boxed: a box was open that Escape closes."""

@@ -73,6 +73,19 @@ def test_the_conventions_that_were_taken_are_said() -> None:
     assert read_copied("--eye=0,0,5", NOW).said.endswith("clipboard: a command line.")
 
 
+def test_a_camera_of_square_pixels_is_seen_unstretched_and_another_as_it_is() -> None:
+    square = (
+        "image_width = 640\nimage_height = 480\nK = [[700, 0, 319.5], [0, {fy}, 239.5], [0, 0, 1]]"
+    )
+    fitted = read_copied(square.format(fy=700), NOW)
+    assert fitted.view.fit and "square" not in fitted.said
+    exact = read_copied(square.format(fy=707), NOW)
+    assert not exact.view.fit
+    assert "its pixels are not square: seen as they are at 640x480" in exact.said
+    K = exact.view.for_size((640, 480)).intrinsics((640, 480)).K
+    assert np.allclose(K, [[700, 0, 319.5], [0, 707, 239.5], [0, 0, 1]])
+
+
 def test_a_lens_is_asked_about_with_what_it_moves() -> None:
     copied = read_copied(LENS, NOW)
     assert copied.has_lens

@@ -26,12 +26,13 @@ AIMED = Camera.look_at((3, 2, 5), (0, 0.5, 0), fov_y_deg=40, aspect=SIZE[0] / SI
 LENS = '{"image_width": 20, "image_height": 16, "K": [9, 9, 10, 8], "D": [0.5, 0, 0, 0]}'
 
 
-def only_section(d: Driver, name: str) -> None:
-    for other in ("Copy and paste", "In other words", "Look at", "Presets"):
+def only_sections(d: Driver, *names: str) -> None:
+    for other in ("Copy and paste", "Look at", "Presets"):
         d.ctx.item_close(f"{PANEL}/{other}")
-    if name:
-        d.ctx.item_open(f"{PANEL}/{name}")
     d.ctx.yield_(2)
+    for wanted in names:
+        d.ctx.item_open(f"{PANEL}/{wanted}")
+        d.ctx.yield_(2)
 
 
 def said(d: Driver) -> str:
@@ -61,7 +62,7 @@ def same_camera(one: Camera, other: Camera, size: tuple[int, int] = SIZE) -> boo
 
 
 def drive_every_format_is_copied_in_panel_and_menu(d: Driver) -> None:
-    only_section(d, "Copy and paste")
+    only_sections(d, "Copy and paste")
     shown, size = d.window.renderers.camera(d.window.state), d.window.renderers.size
     for number, form in enumerate(FORMATS_OF):
         imgui.set_clipboard_text("")
@@ -80,7 +81,7 @@ def drive_every_format_is_copied_in_panel_and_menu(d: Driver) -> None:
         assert same_camera(d.window.renderers.camera(d.window.state), shown, size), form
         assert "pasted from the clipboard: " in said(d)
     d.picture()
-    only_section(d, "")
+    only_sections(d)
 
 
 def drive_what_a_format_cannot_hold_is_told_and_nothing_copied(d: Driver) -> None:
@@ -225,7 +226,7 @@ def drive_a_long_export_is_cancelled(d: Driver) -> None:
 
 
 def drive_k_r_and_t_are_read_switched_and_copied(d: Driver) -> None:
-    only_section(d, "In other words")
+    only_sections(d, "Copy and paste", "In other words")
     shown, size = d.window.renderers.camera(d.window.state), d.window.renderers.size
     view = d.window.views["Camera"]
     assert view.entered.pixel_origin == "center"
@@ -246,4 +247,4 @@ def drive_k_r_and_t_are_read_switched_and_copied(d: Driver) -> None:
     d.ctx.yield_(2)
     assert not d.ctx.item_exists(f"{PANEL}/Copy K, R, t")
     d.picture()
-    only_section(d, "")
+    only_sections(d)
