@@ -45,9 +45,9 @@ def _save_dialog(window: Window, entry: Format) -> None:
         return one_line(f"Saved the camera as {path} ({entry.name}).")
 
     name = f"camera{entry.endings[0]}"
-    window.files.save_as_dialog(
-        f"Save the camera: {entry.what}", name, (entry.what, *entry.endings), store
-    )
+    kinds = " or ".join(entry.endings) or "a new folder"
+    title = f"Save the camera: {entry.what} ({kinds})"
+    window.files.save_as_dialog(title, name, (entry.what, *entry.endings), store)
 
 
 # A view file is the action "Save view...", which keeps whether it is fitted.

@@ -38,6 +38,9 @@ from renderer.errors import LucidaError, describe
 from renderer.scene_export import ENDINGS
 
 
+EXPORTED = "Mitsuba .xml, pbrt .pbrt, glTF .glb"
+
+
 class Shell:
     """One for a window. keeper: what saves the session; None where none is kept.
 
@@ -108,9 +111,9 @@ class Shell:
         camera, size = both.camera(state), image_size(host)
         name = file_name(state.scene.name) + ENDINGS[0]
         self.files.ask_name(
-            "Export the scene and its camera",
+            f"Export the scene and its camera: {EXPORTED}",
             name,
-            ("Mitsuba (.xml), pbrt (.pbrt), glTF (.glb)", *ENDINGS),
+            (EXPORTED, *ENDINGS),
             lambda path: self.exports.begin(path, state.scene, camera, size),
         )
 
