@@ -34,6 +34,12 @@ FORMATS_OF: dict[Form, str] = {
     "Mitsuba": "mitsuba",
     "pbrt": "pbrt",
 }
+# What people call the formats, by their names.
+CALLED = {
+    **{name: str(form) for form, name in FORMATS_OF.items()},
+    "colmap": "COLMAP",
+    "opengl": "OpenGL matrices",
+}
 
 
 @dataclass(frozen=True)

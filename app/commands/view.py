@@ -101,7 +101,7 @@ def run(arguments: argparse.Namespace) -> int:
     any_camera = any(getattr(arguments, name) is not None for name in CAMERA_OPTIONS)
     code, cameras, view = "", None, None
     source: str | None = arguments.scene
-    if source is not None and is_code(source):
+    if source is not None and is_code(source) and not is_cameras(source):
         code, source = found_code(source), None
     elif source is not None and is_cameras(source):
         found = open_cameras(source)

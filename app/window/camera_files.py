@@ -11,6 +11,7 @@ from collections.abc import Callable
 from pathlib import Path
 
 from app.camera_panel.actions import image_size
+from app.cameras.text import CALLED
 from app.host.action import Action, Window
 from renderer.camera_formats import FORMATS, Options, PosedCamera, written
 from renderer.camera_formats.formats import Format
@@ -21,8 +22,11 @@ MENU = "File/Save camera as"
 
 
 def _action(entry: Format) -> Action:
-    what = entry.what[0].upper() + entry.what[1:]
-    return Action(MENU, f"{what}...", _saving(entry))
+    return Action(MENU, f"{CALLED[entry.name]} ({_kinds(entry)})...", _saving(entry))
+
+
+def _kinds(entry: Format) -> str:
+    return ", ".join(entry.endings) if entry.endings[0] else "a folder"
 
 
 def _saving(entry: Format) -> Callable[[Window], None]:
@@ -36,17 +40,16 @@ def _save_dialog(window: Window, entry: Format) -> None:
     try:
         written([posed], entry.name)
     except LucidaError as error:
-        window.files.message = f"The camera cannot be saved as {entry.name}. {error}"
+        window.files.message = f"The camera cannot be saved as {CALLED[entry.name]}. {error}"
         return
 
     def store(path: str) -> str:
         options = Options(ending=Path(path).suffix.lower())
         save_files(Path(path), written([posed], entry.name, options))
-        return one_line(f"Saved the camera as {path} ({entry.name}).")
+        return one_line(f"Saved the camera as {path} ({CALLED[entry.name]}).")
 
     name = f"camera{entry.endings[0]}"
-    kinds = " or ".join(entry.endings) or "a new folder"
-    title = f"Save the camera: {entry.what} ({kinds})"
+    title = f"Save the camera: {entry.what} ({_kinds(entry)})"
     window.files.save_as_dialog(title, name, (entry.what, *entry.endings), store)
 
 

@@ -69,7 +69,7 @@ def open_sources(
     good, problems = [], []
     for source in sources:
         try:
-            if source not in BUILTIN_SCENES and is_code(source):
+            if source not in BUILTIN_SCENES and is_code(source) and not is_cameras(source):
                 code = code or found_code(source)
             elif source not in BUILTIN_SCENES and _is_view(Path(source)):
                 view = view or load_view(source)

@@ -182,3 +182,36 @@ def test_images_of_other_proportions_see_no_less() -> None:
     poses = a_set(2)
     wide = poses.view(0).for_size((2 * SIZE[0], SIZE[1]))
     assert wide.viewport[0] == pytest.approx(2 * poses.cameras[0].camera.viewport[0])
+
+
+@pytest.mark.parametrize(
+    ("name", "text", "is_camera"),
+    [
+        ("a.py", "import bpy\nbpy.data.cameras.new('a')", True),
+        ("a.py", "  from bpy import data", True),
+        ("a.py", "resolution_x = 3  # bpy", False),
+        ("a.py", "import numpy", False),
+        ("a.gltf", '{"asset": {}, "cameras": [{}]}', True),
+        ("a.gltf", '{"asset": {}, "cameras": [{}], "meshes": [{}]}', False),
+        ("a.gltf", '{"asset": {}, "cameras": [], "nodes": []}', False),
+        ("a.gltf", "[1", False),
+        ("a.glb", "import bpy", False),
+        ("a.py", "import bpy" + " " * (1 << 20), False),
+    ],
+)
+def test_what_ends_as_programs_and_models_do_is_looked_into(
+    tmp_path: Path, name: str, text: str, is_camera: bool
+) -> None:
+    path = tmp_path / name
+    assert not is_cameras(str(path))
+    path.write_text(text)
+    assert is_cameras(str(path)) is is_camera
+
+
+def test_one_image_of_a_model_without_points_is_a_view(tmp_path: Path) -> None:
+    camera = ring(1)[0]
+    for file, data in written([camera], "colmap").items():
+        (tmp_path / file).write_bytes(data)
+    found = open_cameras(str(tmp_path))
+    assert isinstance(found, TakenCamera)
+    assert np.allclose(found.view.camera.eye, camera.camera.eye)

@@ -95,9 +95,9 @@ def drive_what_a_format_cannot_hold_is_told_and_nothing_copied(d: Driver) -> Non
     assert imgui.get_clipboard_text() == "as before"
     d.picture()
     answer(d, "Close")
-    d.ctx.menu_click("//##MainMenuBar/File/Save camera as/COLMAP's model...")
+    d.ctx.menu_click("//##MainMenuBar/File/Save camera as/COLMAP (a folder)...")
     d.ctx.yield_(2)
-    assert "cannot be saved as colmap" in d.window.files.message
+    assert "cannot be saved as COLMAP" in d.window.files.message
     assert not d.window.files.dialog.is_open
     answer(d, "Close")
 
@@ -137,12 +137,21 @@ def drive_a_dropped_camera_is_taken_and_its_lens_asked_about(d: Driver) -> None:
     answer(d, WITHOUT)
     assert d.window.state.camera.eye == (0, 0, 0)
     assert said(d).startswith("The camera is bent.json's: ")
+    # What ends as programs and models do: a script for Blender, a glTF file of a camera alone.
+    for form, ending in (("blender", "py"), ("gltf", "gltf")):
+        path = d.folder / f"alone.{ending}"
+        path.write_bytes(written([PosedCamera(AIMED, SIZE)], form)[""])
+        d.window.change(d.start)
+        d.drop([str(path)])
+        d.until(lambda: same_camera(d.window.state.camera, AIMED))
+        d.ctx.yield_(3)
+        assert said(d).startswith(f"The camera is alone.{ending}'s: ")
+    d.window.change(d.start)
     # A folder of COLMAP with one image, and no points.
     folder = d.folder / "one"
     folder.mkdir()
     for name, data in written([PosedCamera(AIMED, SIZE)], "colmap").items():
         (folder / name).write_bytes(data)
-    (folder / "points3D.txt").unlink()
     d.drop([str(folder)])
     d.until(lambda: same_camera(d.window.state.camera, AIMED))
     d.ctx.yield_(3)
@@ -152,9 +161,9 @@ def drive_a_dropped_camera_is_taken_and_its_lens_asked_about(d: Driver) -> None:
 def drive_the_camera_is_saved_in_every_format(d: Driver) -> None:
     shown, size = d.window.renderers.camera(d.window.state), d.window.renderers.size
     saved = {
-        "OpenCV's K, R and t, and ROS's camera_info...": d.folder / "saved.json",
-        "COLMAP's model...": d.folder / "model",
-        "A camera of pbrt-v4...": d.folder / "saved.pbrt",
+        "OpenCV (.yml, .json)...": d.folder / "saved.json",
+        "COLMAP (a folder)...": d.folder / "model",
+        "pbrt (.pbrt)...": d.folder / "saved.pbrt",
     }
     for name, path in saved.items():
         save_as(d, f"Save camera as/{name}", path)
