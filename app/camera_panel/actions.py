@@ -12,21 +12,24 @@ from typing import Protocol
 
 from imgui_bundle import imgui
 
+from app.camera_panel.sections import form_name
 from app.cameras.focus import Focus
 from app.cameras.navigation import switched_projection
 from app.cameras.presets import PRESETS, Preset, framed, preset_view
-from app.cameras.reader import SOURCE, read_view
-from app.cameras.text import FORMS, Form, Subject, as_text
+from app.cameras.reader import read_copied
+from app.cameras.taken import TakenCamera, lens_question
+from app.cameras.text import FORMATS_OF, FORMS, Form, Subject, as_text
 from app.host.action import CTRL, SHIFT, Action, Key, Window, changing
 from app.host.view import Filing
 from app.images.renderers import Renderers
 from app.state.app_state import AppState, is_orthonormal
-from renderer.camera import Camera
+from renderer.camera import Camera, Size
 from renderer.errors import LucidaError
 from renderer.scene.model import View
 
 SCENE_VIEW = "Scene's view"
 SQUARE = (1, 1)  # an image before the first layout
+WITHOUT = "Open without the distortion"
 
 
 class Mover(Protocol):
@@ -73,7 +76,7 @@ def go_to_preset(window: Mover, preset: Preset, perspective: bool | None = None)
     state, focus = window.state, window.focus
     if perspective is None:
         perspective = state.options.presets_in_perspective
-    width, height = window.renderers.size if min(window.renderers.size) else SQUARE
+    width, height = image_size(window)
     try:
         view = preset_view(
             preset, state.view, focus.framed, focus.bounds, width / height, perspective
@@ -94,13 +97,24 @@ def frame_scene(window: Mover) -> None:
     window.travel(window.state.with_camera(camera))
 
 
+def image_size(window: Mover) -> Size:
+    """(width, height) of the images that are shown."""
+    return window.renderers.size if min(window.renderers.size) else SQUARE
+
+
 def copy(window: Mover, form: Form) -> None:
-    """The camera as text into the clipboard."""
+    """The camera as text into the clipboard; what the form cannot hold is told, and none of it is
+    copied."""
     state = window.state
     origin = state.scene.origin
     source = (origin.source if origin is not None else "") or "SCENE"
     shown = window.renderers.camera(state)
-    text = as_text(form, Subject(state.view, shown, source, window.focus.bounds))
+    subject = Subject(state.view, shown, source, window.focus.bounds, image_size(window))
+    try:
+        text = as_text(form, subject)
+    except LucidaError as error:
+        window.files.message = f"Nothing was copied as {form}. {error}"
+        return
     imgui.set_clipboard_text(text)
     window.files.say(f"The camera is in the clipboard: {form}.")
 
@@ -117,17 +131,34 @@ def paste(window: Mover) -> None:
     message says what to do."""
     text = clipboard_text()
     try:
-        view = read_view(text, window.state.view)
+        copied = read_copied(text, window.state.view)
     except LucidaError as error:
         if not window.take(text):
             window.files.message = str(error)
         return
-    window.travel(with_its_basis(window.state.with_view(view)))
-    window.files.say(f"The camera is pasted from the {SOURCE}.")
+    if copied.has_lens:
+        offer_without_lens(window, copied)
+    else:
+        _take(window, copied)
+
+
+def offer_without_lens(window: Mover, camera: TakenCamera) -> None:
+    """Asks whether a camera is to be taken without its lens's distortion."""
+    window.files.ask(lens_question(camera), WITHOUT, lambda: _take(window, camera))
+
+
+def _take(window: Mover, camera: TakenCamera) -> None:
+    window.travel(with_its_basis(window.state.with_view(camera.view)))
+    window.files.say(camera.said)
 
 
 def _copying(form: Form) -> Callable[[Window], None]:
     return lambda window: copy(window, form)
+
+
+def _copying_as(form: Form) -> Action:
+    is_first = form == next(iter(FORMATS_OF))
+    return Action("Edit/Copy camera as", form_name(form), _copying(form), separated=is_first)
 
 
 def _to_preset(preset: Preset) -> Action:
@@ -224,6 +255,6 @@ EDIT = (
         (CTRL | SHIFT | int(Key.c),),
         separated=True,
     ),
-    *(Action("Edit/Copy camera as", form[0].upper() + form[1:], _copying(form)) for form in FORMS),
+    *(_copying_as(form) for form in FORMS),
     Action("Edit", "Paste camera", paste, "Ctrl+V", (CTRL | int(Key.v),)),
 )

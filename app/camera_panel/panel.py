@@ -6,6 +6,7 @@ sections.py what stands below. Gets a state and a draft and returns new ones.
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass, replace
 
 from imgui_bundle import imgui
@@ -20,6 +21,7 @@ from app.camera_panel.sections import (
     header,
     look_section,
     presets_section,
+    words_section,
 )
 from app.cameras.basis import measures
 from app.cameras.editing import BASIS, Draft
@@ -221,6 +223,12 @@ def _sections(
         asked.append(wanted)
     if is_open("Copy and paste", OTHERS_OPEN_EM):
         asked.append(copy_section())
+        if is_open("In other words", math.inf):
+            origin, wanted = words_section(
+                around.shown, around.size, sections.pixel_origin, around.fonts
+            )
+            sections = replace(sections, pixel_origin=origin)
+            asked.append(wanted)
     chosen = tuple(opened) if any_toggled else sections.chosen
     sections = replace(sections, frames=sections.frames + 1, chosen=chosen)
     return state, sections, next((one for one in asked if one != NOTHING), NOTHING)

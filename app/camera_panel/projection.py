@@ -18,7 +18,7 @@ from app.widgets import rows, theme
 from app.widgets.checks import checkbox
 from app.widgets.fields import Scale, number_field, short_number
 from app.widgets.highlight import pointed
-from renderer.camera import Camera, Vector
+from renderer.camera import Camera, Size, Vector
 from renderer.errors import LucidaError
 
 VIEWPORT = (
@@ -55,10 +55,11 @@ LEAST_FOV_DEG, MOST_FOV_DEG = 0.5, 175.0  # where dragging ends
 @dataclass(frozen=True)
 class PanelContext:
     """What the panel must know beside the state. shown: the camera that the images are drawn
-    with. dolly: the world point that the dolly zoom keeps."""
+    with; size: of those. dolly: the world point that the dolly zoom keeps."""
 
     fonts: theme.Fonts
     shown: Camera
+    size: Size
     focus: Focus
     dolly: Vector
 

@@ -1,4 +1,5 @@
-"""The camera panel's sections below its numbers: presets, look at, copy and paste.
+"""The camera panel's sections below its numbers: presets, look at, copy and paste, in other
+words.
 
 Owns their widgets and words. Gives what was asked for; the view does it (camera_panel/view.py).
 """
@@ -10,14 +11,16 @@ from dataclasses import dataclass, replace
 from imgui_bundle import imgui
 
 from app.cameras.focus import Focus
+from app.cameras.other_words import TOLD, other_words
 from app.cameras.presets import PRESETS, Preset, look_at
-from app.cameras.text import FORMS, Form
+from app.cameras.text import FORMATS_OF, FORMS, Form
 from app.state.app_state import AppState
 from app.widgets import pending, rows, theme
-from app.widgets.checks import checkbox
+from app.widgets.checks import checkbox, radio_button
 from app.widgets.fields import Scale, number_field
-from renderer.camera import Camera, Vector
+from renderer.camera import Camera, Size, Vector
 from renderer.errors import LucidaError
+from renderer.intrinsics import PixelOrigin
 from renderer.scene.model import View
 
 FORM_NOTES: dict[Form, str] = {
@@ -25,8 +28,22 @@ FORM_NOTES: dict[Form, str] = {
     "command line": "lucida render ..., for a terminal.",
     "Python": "Runs as it is.",
     "OpenGL matrices": "camera_from_world and clip_from_camera as drawn, column by column.",
+    "OpenCV": "A calibration file (.yml) with K, R and t, for images of the size that is shown.",
+    "NeRF": "A transforms.json with this one frame.",
+    "Blender": "A Python script, to be run in Blender's text editor.",
+    "three.js": "JSON for ObjectLoader.",
+    "glTF": "A .gltf file with the camera alone.",
+    "Mitsuba": "A sensor of Mitsuba 3, for a scene's XML.",
+    "pbrt": "LookAt, Camera and Film of pbrt-v4, for a scene's file.",
 }
-PASTE_NOTE = "Reads any of the four from the clipboard (Ctrl+V)."
+PASTE_NOTE = """\
+Reads a camera from the clipboard (Ctrl+V): any of these but Mitsuba and pbrt, whoever wrote it.
+What it was taken for, and by which conventions, is told."""
+ORIGINS: tuple[tuple[str, PixelOrigin], ...] = (("centres", "center"), ("corners", "corner"))
+ORIGIN_NOTES: dict[PixelOrigin, str] = {
+    "center": "The first pixel's centre is (0, 0), as in OpenCV.",
+    "corner": "The image's corner is (0, 0), the first pixel's centre (0.5, 0.5), as in COLMAP.",
+}
 LOOK_FIELDS = (
     ("eye", "Where the camera is."),
     ("target", "What it looks at: in the middle of an on-axis image."),
@@ -58,21 +75,24 @@ class LookAt:
 
 @dataclass(frozen=True)
 class Sections:
-    """Entered, but not yet done. frames: drawn so far. chosen: the sections that are open since the
-    user has opened or shut one; None: those that had room."""
+    """Entered, but not yet done. pixel_origin: of K, R and t. frames: drawn so far. chosen: the
+    sections that are open since the user has opened or shut one; None: those that had room."""
 
     look: LookAt = LookAt()
+    pixel_origin: PixelOrigin = "center"
     frames: int = 0
     chosen: tuple[str, ...] | None = None
 
 
 @dataclass(frozen=True)
 class Asked:
-    """What was clicked, if anything: a preset, a view to pass to, a form to copy, paste."""
+    """What was clicked, if anything: a preset, a view to pass to, a form to copy, the camera's
+    other words to copy, paste."""
 
     preset: Preset | None = None
     view: View | None = None
     copy: Form | None = None
+    words: str = ""
     paste: bool = False
 
 
@@ -168,20 +188,59 @@ def look_section(
 
 
 def copy_section() -> Asked:
-    """The four forms, and paste."""
+    """All forms, and paste."""
     asked = Asked()
-    spacing = imgui.get_style().item_spacing.x
-    width = (imgui.get_content_region_avail().x - spacing) / 2
-    for number, form in enumerate(FORMS):
-        if number % 2:
-            imgui.same_line()
-        if imgui.button(f"{form[0].upper()}{form[1:]}", (width, 0)):
-            asked = Asked(copy=form)
-        imgui.set_item_tooltip(f"Copy the camera. {FORM_NOTES[form]}")
-    if imgui.button("Paste", (width, 0)):
+    own = [form for form in FORMS if form not in FORMATS_OF]
+    room, spacing = imgui.get_content_region_avail().x, imgui.get_style().item_spacing.x
+    for forms, columns in ((own, 2), (list(FORMATS_OF), 3)):
+        width = (room - (columns - 1) * spacing) / columns
+        for number, form in enumerate(forms):
+            if number % columns:
+                imgui.same_line()
+            if imgui.button(form_name(form), (width, 0)):
+                asked = Asked(copy=form)
+            imgui.set_item_tooltip(f"Copy the camera. {FORM_NOTES[form]}")
+    imgui.same_line()
+    if imgui.button("Paste", (-1, 0)):
         asked = Asked(paste=True)
     imgui.set_item_tooltip(PASTE_NOTE)
     return asked
+
+
+def words_section(
+    shown: Camera, size: Size, origin: PixelOrigin, fonts: theme.Fonts
+) -> tuple[PixelOrigin, Asked]:
+    """K, R and t of the image that is shown. shown: the camera as drawn."""
+    try:
+        words = other_words(shown, size, origin)
+    except LucidaError as error:
+        imgui.push_text_wrap_pos(0.0)
+        imgui.text_colored(theme.DIM, f"No K, R and t: the projection {error.problem}.")
+        imgui.pop_text_wrap_pos()
+        return origin, Asked()
+    imgui.push_font(fonts.mono, 0.0)
+    imgui.text("\n".join(words.read))
+    imgui.pop_font()
+    imgui.set_item_tooltip(
+        f"{TOLD},\nin images of {size[0]} x {size[1]} pixels; x to the right, y down, z forward."
+    )
+    imgui.align_text_to_frame_padding()
+    imgui.text_colored(theme.DIM, "whole numbers at pixels'")
+    for name, wanted in ORIGINS:
+        if radio_button(name, origin == wanted):
+            origin = wanted
+        imgui.set_item_tooltip(ORIGIN_NOTES[wanted])
+        imgui.same_line()
+    asked = Asked()
+    if imgui.button("Copy K, R, t", (-1, 0)):
+        asked = Asked(words=words.copied)
+    imgui.set_item_tooltip("All digits, as Python reads them and as Paste does.")
+    return origin, asked
+
+
+def form_name(form: Form) -> str:
+    """As it stands on a button or in a menu."""
+    return form[0].upper() + form[1:] if form not in FORMATS_OF else form
 
 
 def canonical(view: View) -> View:

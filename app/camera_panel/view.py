@@ -7,6 +7,7 @@ to a preset, copying, pasting. The panel itself is camera_panel/panel.py.
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 
 from imgui_bundle import imgui
 
@@ -46,7 +47,7 @@ class CameraView(DockedView):
         return self.entered.chosen
 
     def open_sections(self, names: tuple[str, ...]) -> None:
-        self.entered = Sections(self.entered.look, chosen=names)
+        self.entered = replace(self.entered, frames=0, chosen=names)
 
     @property
     def has_pending(self) -> bool:
@@ -67,7 +68,8 @@ class CameraView(DockedView):
         if self.dolly_point is None or not imgui.is_any_item_active():
             self.dolly_point = self._focus_point(host, state)
         shown = host.renderers.camera(state)
-        around = PanelContext(host.fonts, shown, host.focus, self.dolly_point)
+        size = camera_actions.image_size(host)
+        around = PanelContext(host.fonts, shown, size, host.focus, self.dolly_point)
         panel = PanelOutcome(self.draft or Draft.of(state.camera), self.entered)
         state, panel = camera_panel(state, panel, around)
         self.draft, self.entered = panel.draft, panel.sections
@@ -84,6 +86,9 @@ class CameraView(DockedView):
             host.travel(camera_actions.with_its_basis(host.state.with_view(asked.view)))
         elif asked.copy is not None:
             camera_actions.copy(host, asked.copy)
+        elif asked.words:
+            imgui.set_clipboard_text(asked.words)
+            host.files.say("K, R and t are in the clipboard.")
         elif asked.paste:
             camera_actions.paste(host)
 

@@ -16,6 +16,7 @@ import numpy as np
 from app.cameras.basis import measures
 from renderer.camera import Camera, Size
 from renderer.camera_formats import CameraSet, PosedCamera, format_named
+from renderer.camera_formats.posed import Distortion
 from renderer.errors import one_line
 from renderer.scene.model import View
 
@@ -51,7 +52,7 @@ def ignored_text(cameras: Sequence[PosedCamera]) -> str:
     if not lenses:
         return ""
     lens, camera = max(lenses, key=lambda entry: entry[0].corner_px)
-    numbers = [f"{name} = {value:g}" for name, value in lens.coefficients.items() if value]
+    numbers = lens_numbers(lens)
     it_moves = "they move" if len(numbers) > 1 else "it moves"
     told = f"{', '.join(numbers)} ({lens.model}) ignored: {it_moves} a corner by "
     told += f"{lens.corner_px:.3g} pixels"
@@ -59,6 +60,11 @@ def ignored_text(cameras: Sequence[PosedCamera]) -> str:
         return told
     which = f" in {camera.name}" if camera.name else ""
     return told + which + (f", the most of {len(lenses)} cameras" if len(lenses) > 1 else "")
+
+
+def lens_numbers(lens: Distortion) -> list[str]:
+    """The coefficients that do something, `name = value` each."""
+    return [f"{name} = {value:g}" for name, value in lens.coefficients.items() if value]
 
 
 def _of_all(found: CameraSet) -> list[Fact]:

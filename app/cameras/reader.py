@@ -14,9 +14,10 @@ from dataclasses import replace
 from typing import NoReturn
 
 from app.cameras.options import CAMERA_OPTIONS, add_camera_options, with_camera_options
+from app.cameras.taken import TakenCamera, is_fitted, told_of
 from renderer.camera import Camera
-from renderer.camera_formats import FORMATS, one_of, opengl, read_cameras
-from renderer.camera_formats.given import Given
+from renderer.camera_formats import FORMATS, PosedCamera, one_of, opengl, read_cameras
+from renderer.camera_formats.given import Given, Options
 from renderer.errors import LucidaError
 from renderer.scene import view_from_toml
 from renderer.scene.model import View
@@ -29,23 +30,25 @@ MOST_CHARACTERS = 100_000
 _OPTION = re.compile(rf"--({'|'.join(CAMERA_OPTIONS)})\b")
 
 
-def read_view(text: str, now: View) -> View:
-    """The view in a text. now: the present one, for what the text leaves open.
+def read_copied(text: str, now: View) -> TakenCamera:
+    """The camera in a text, with its lens if it has one. now: the present view, for what the text
+    leaves open.
 
     What others write leaves the distance open, which divides only the numbers of the viewport; a
     command line, what it does not name. Raises LucidaError.
     """
     if len(text) > MOST_CHARACTERS:
-        raise LucidaError(SOURCE, "holds no camera but a long text", "copy a camera first")
+        remedy = "copy a camera first; a set of cameras is opened as a file"
+        raise LucidaError(SOURCE, "holds no camera but a long text", remedy)
     try:
         if opengl.has_matrices(text):
             return _from_others(text, "opengl", now)
         if re.search(r"\bCamera\s*[.(]", text):
-            return _from_python(text)
+            return _own(_from_python(text), "Python")
         if _OPTION.search(text):
-            return _from_command_line(text, now)
+            return _own(_from_command_line(text, now), "a command line")
         if "[camera]" in text:
-            return _from_toml(text)
+            return _own(_from_toml(text), "a view file")
         for entry in FORMATS:
             if entry.reads and entry.module.recognises(_given(text)):
                 return _from_others(text, entry.name, now)
@@ -56,6 +59,15 @@ def read_view(text: str, now: View) -> View:
         "holds no camera",
         "copy a view file, a command line, Python, matrices or K, R and t first",
     )
+
+
+def _own(view: View, told: str) -> TakenCamera:
+    posed = PosedCamera(view.camera, fit=view.fit)
+    return TakenCamera(view, _said(told), posed, SOURCE)
+
+
+def _said(told: str) -> str:
+    return f"The camera is pasted from the {SOURCE}: {told}."
 
 
 def _from_toml(text: str) -> View:
@@ -136,13 +148,18 @@ def _given(text: str) -> Given:
     return Given("", text.encode("utf-8", "replace"))
 
 
-def _from_others(text: str, format: str, now: View) -> View:
+def _from_others(text: str, format: str, now: View) -> TakenCamera:
     """A camera as others write it down. They leave the distance open: the present one stays."""
-    found = one_of(read_cameras(_given(text), format))
+    every = read_cameras(_given(text), format, Options(ignore_distortion=True))
+    if (count := len(every.cameras)) > 1:
+        remedy = "save the text as a file and open that: all of them are shown"
+        raise LucidaError("", f"holds {count} cameras", remedy)
+    found = one_of(every)
     camera, distance = found.camera, now.camera.distance
     left, right, bottom, top = camera.viewport
     if not camera.is_parallel:
         scale = distance / camera.distance
         left, right, bottom, top = (scale * edge for edge in camera.viewport)
     viewport = (left, right, bottom, top)
-    return View(replace(camera, distance=distance, viewport=viewport), found.fit)
+    view = View(replace(camera, distance=distance, viewport=viewport), is_fitted(found))
+    return TakenCamera(view, _said(told_of(every)), found, SOURCE)

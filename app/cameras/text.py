@@ -1,6 +1,8 @@
-"""A camera as text to copy: a view file, a command line, Python, OpenGL matrices.
+"""A camera as text to copy: a view file, a command line, Python, OpenGL matrices; and every other
+format of one text file.
 
-Owns the forms, of which each is read back by reader.py. Knows nothing of clipboards.
+Owns the forms; reader.py reads them back, but for those that are only written. Knows nothing of
+clipboards.
 """
 
 from __future__ import annotations
@@ -11,35 +13,59 @@ from dataclasses import dataclass
 from typing import Literal, get_args
 
 from app.cameras.presets import clip_around
-from renderer.camera import Camera, Floats
-from renderer.camera_formats import opengl
+from renderer.camera import Camera, Floats, Size
+from renderer.camera_formats import PosedCamera, opengl, written
 from renderer.errors import one_line
 from renderer.scene import view_to_toml
 from renderer.scene.model import View
 
-Form = Literal["view file", "command line", "Python", "OpenGL matrices"]
+Form = Literal[
+    "view file", "command line", "Python", "OpenGL matrices", "OpenCV", "NeRF",
+    "Blender", "three.js", "glTF", "Mitsuba", "pbrt",
+]  # fmt: skip
 FORMS: tuple[Form, ...] = get_args(Form)
+# Those of other programs, by the format's name.
+FORMATS_OF: dict[Form, str] = {
+    "OpenCV": "opencv",
+    "NeRF": "nerf",
+    "Blender": "blender",
+    "three.js": "three",
+    "glTF": "gltf",
+    "Mitsuba": "mitsuba",
+    "pbrt": "pbrt",
+}
+# What people call the formats, by their names.
+CALLED = {
+    **{name: str(form) for form, name in FORMATS_OF.items()},
+    "colmap": "COLMAP",
+    "opengl": "OpenGL matrices",
+}
 
 
 @dataclass(frozen=True)
 class Subject:
     """What is written down. source: the scene, as the command line takes it. shown: the camera as
-    drawn, whose viewport is fitted to the image. bounds: (n, 3) round the scene."""
+    drawn, whose viewport is fitted to the image; size: of that, (width, height). bounds: (n, 3)
+    round the scene."""
 
     view: View
     shown: Camera
     source: str
     bounds: Floats
+    size: Size
 
 
 def as_text(form: Form, subject: Subject) -> str:
-    """The camera in one of the forms."""
+    """The camera in one of the forms. Raises LucidaError for what the form cannot hold."""
     if form == "view file":
         return view_to_toml(subject.view)
     if form == "command line":
         return command_line(subject.view, subject.source)
     if form == "Python":
         return python(subject.view)
+    if form in FORMATS_OF:
+        posed = PosedCamera(subject.shown, subject.size)
+        return written([posed], FORMATS_OF[form])[""].decode()
     around = clip_around(subject.shown, subject.bounds)
     return opengl.matrices(subject.shown, around, opengl.FITTED)
 

@@ -6,7 +6,6 @@ Knows nothing of the formats themselves (renderer/camera_formats/). Light to imp
 from __future__ import annotations
 
 import argparse
-import contextlib
 import json
 import os
 import sys
@@ -84,6 +83,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
 
 def run(arguments: argparse.Namespace) -> int:
     from renderer.camera_formats import Options, read_chosen
+    from renderer.camera_formats.saving import save_files
 
     # The quick mistakes first.
     target = _target(arguments)
@@ -111,7 +111,7 @@ def run(arguments: argparse.Namespace) -> int:
     if arguments.output is None:
         sys.stdout.write(files[""].decode())
     else:
-        _write(Path(arguments.output), files)
+        save_files(Path(arguments.output), files)
         told = common.counted((len(own), "camera"))
         print(f"{one_line(arguments.output)}: {target.name}, {told}")
     say_changes(own, arguments.size)
@@ -223,46 +223,6 @@ def _is_same(path: Path, other: str) -> bool:
         return os.path.samefile(path, other)
     except (OSError, ValueError):  # there is none, or no name of one
         return False
-
-
-def _write(path: Path, files: dict[str, bytes]) -> None:
-    """A file (under "") or a folder of files, whole or not at all. Raises LucidaError."""
-    from renderer.atomic import atomic_write
-
-    if "" in files:
-        with atomic_write(path) as file:
-            file.write(files[""])
-        return
-    is_new = not os.path.lexists(path)
-    _check_folder(path, is_new, files)
-    try:
-        if is_new:
-            path.mkdir()
-        with contextlib.ExitStack() as stack:  # the files get their names when all are written
-            for name, data in files.items():
-                stack.enter_context(atomic_write(path / name)).write(data)
-    except BaseException:
-        if is_new:
-            with contextlib.suppress(OSError):
-                for name in files:
-                    (path / name).unlink(missing_ok=True)
-                path.rmdir()
-        raise
-
-
-def _check_folder(path: Path, is_new: bool, files: dict[str, bytes]) -> None:
-    """Raises LucidaError where a folder cannot be made, or is another's."""
-    from renderer.atomic import check_writable
-
-    try:
-        if not is_new and not path.is_dir():
-            raise LucidaError("", "is a file", "give the name of a folder")
-        check_writable(path if is_new else path / next(iter(files)))
-        if not is_new and (others := sorted(set(os.listdir(path)) - files.keys())):
-            problem = f"holds other files, such as {others[0]!r}"
-            raise LucidaError("", problem, "give a folder of its own")
-    except LucidaError as error:
-        raise error.in_file(str(path)) from None
 
 
 def _whole(text: str) -> int:

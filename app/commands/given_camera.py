@@ -64,6 +64,17 @@ def source_of(file: str) -> Given:
     return Given(name, data)
 
 
+def check_lens(posed: PosedCamera, source: str, arguments: argparse.Namespace) -> None:
+    """Raises LucidaError, naming the source: a lens is never dropped in silence."""
+    from renderer.camera_formats import Options
+    from renderer.camera_formats.formats import check_distortion
+
+    try:
+        check_distortion([posed], Options(ignore_distortion=arguments.ignore_distortion))
+    except LucidaError as error:
+        raise error.in_file(source) from None
+
+
 def say_changes(cameras: Sequence[PosedCamera], size: Size | None = None) -> None:
     """A line each on standard error: a lens that is left out, and what that moves; and an image of
     another shape than the camera's own, where the viewport stands. size: of that image."""

@@ -12,7 +12,7 @@ from pathlib import Path
 from app import __version__
 from app.cameras.options import CAMERA_OPTIONS, add_camera_options, with_camera_options
 from app.commands.arguments import SCENE_HELP, size
-from app.commands.given_camera import add_view_option, say_changes, viewed
+from app.commands.given_camera import add_view_option, check_lens, say_changes, viewed
 from app.storage.code_files import found_code, is_code
 
 NAME = "view"
@@ -89,6 +89,7 @@ def shown_size(own: tuple[int, int]) -> tuple[int, int]:
 
 def run(arguments: argparse.Namespace) -> int:
     from app.commands.arguments import check_is_scene
+    from app.poses.model import PoseSet
     from app.poses.reading import is_cameras, open_cameras
     from renderer.images import check_image_path
     from renderer.scene.model import View
@@ -100,11 +101,17 @@ def run(arguments: argparse.Namespace) -> int:
     any_camera = any(getattr(arguments, name) is not None for name in CAMERA_OPTIONS)
     code, cameras, view = "", None, None
     source: str | None = arguments.scene
-    if source is not None and is_code(source):
+    if source is not None and is_code(source) and not is_cameras(source):
         code, source = found_code(source), None
     elif source is not None and is_cameras(source):
-        found, source = open_cameras(source), None
-        cameras, view = (None, found) if isinstance(found, View) else (found, None)
+        found = open_cameras(source)
+        if isinstance(found, PoseSet):
+            cameras = found
+        else:
+            check_lens(found.posed, source, arguments)
+            say_changes([found.posed])
+            view = found.view
+        source = None
     elif source is not None:
         check_is_scene(source)
     posed = viewed(arguments)

@@ -38,10 +38,14 @@ class Filing(Protocol):
     def save_view_dialog(self, view: SceneView) -> None: ...
     def save_scene_dialog(self, scene: Scene, view: SceneView) -> None: ...
     def save_as_dialog(
-        self, title: str, name: str, kind: tuple[str, str], store: Callable[[str], str]
+        self, title: str, name: str, kind: tuple[str, ...], store: Callable[[str], str]
     ) -> None:
         """Asks where something is to go, and stores it there in the background. kind: in words, and
-        the ending. store: does it, and says what it did."""
+        the endings, of which the first is added to a name without one. store: does it, and says
+        what it did."""
+
+    def ask(self, text: str, answer: str, then: Callable[[], None]) -> None:
+        """Asks something that stands on one button, beside Cancel. then: does it, after a yes."""
 
     def say(self, text: str) -> None:
         """Something was done: tells it in passing."""

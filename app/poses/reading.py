@@ -6,19 +6,24 @@ Owns the thread, and the last sets, so that undo finds them at once.
 
 from __future__ import annotations
 
+import re
 import time
 from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
 
+from app.cameras.taken import TakenCamera, is_fitted, told_of
 from app.poses.model import PoseSet, load_poses, pose_set
 from app.widgets.background import Background
-from renderer.errors import LucidaError, describe
+from renderer.camera_formats.given import Given, given
+from renderer.errors import LucidaError, describe, one_line
 from renderer.scene.cancelling import check_cancelled
 from renderer.scene.model import View
 
 KEPT = 2
-CAMERA_ENDINGS = (".json", ".yml", ".yaml", ".txt", ".bin")  # of files that hold no scene
+# Of files that hold no scene.
+CAMERA_ENDINGS = (".json", ".yml", ".yaml", ".txt", ".bin", ".xml")
+_LARGEST_LOOKED_AT = 1 << 20  # bytes of a script, or of a model's table: without meshes it is small
 
 
 @dataclass(frozen=True)
@@ -90,20 +95,38 @@ class PosesReader:
 
 
 def is_cameras(source: str) -> bool:
-    """Whether a name is that of a file of cameras, or of a folder, never of a scene."""
+    """Whether a name is that of a file of cameras, or of a folder, never of a scene. What ends as
+    programs and models do is looked into: a script for Blender, a glTF file without a mesh."""
+    path = Path(source)
     try:
-        return source.lower().endswith(CAMERA_ENDINGS) or Path(source).is_dir()
-    except (OSError, ValueError):
+        if source.lower().endswith(CAMERA_ENDINGS) or path.is_dir():
+            return True
+        looks = {".py": _is_for_blender, ".gltf": _has_no_mesh}.get(path.suffix.lower())
+        return (
+            looks is not None and path.stat().st_size <= _LARGEST_LOOKED_AT and looks(given(path))
+        )
+    except (OSError, ValueError):  # LucidaError is a ValueError: there is no such file
         return False
 
 
-def open_cameras(source: str) -> PoseSet | View:
-    """A set of cameras; or a view, where there is but one. Raises LucidaError."""
+def _is_for_blender(script: Given) -> bool:
+    return script.is_text and re.search(r"^\s*(import|from)\s+bpy\b", script.text, re.M) is not None
+
+
+def _has_no_mesh(model: Given) -> bool:
+    tree = model.json
+    return isinstance(tree, dict) and bool(tree.get("cameras")) and not tree.get("meshes")
+
+
+def open_cameras(source: str) -> PoseSet | TakenCamera:
+    """A set of cameras; or the one that there is, with its lens. Raises LucidaError."""
     path = Path(source).absolute()
     found = load_poses(path)
     check_cancelled()
-    if len(found.cameras) == 1 and found.points is None:
-        return View(found.cameras[0].camera, fit=True)
+    if len(found.cameras) == 1 and (found.points is None or not len(found.points)):
+        posed = found.cameras[0]
+        said = f"The camera is {path.name}'s: {told_of(found)}."
+        return TakenCamera(View(posed.camera, is_fitted(posed)), one_line(said), posed, path.name)
     return pose_set(path, found)
 
 

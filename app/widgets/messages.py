@@ -53,6 +53,51 @@ def message_box(message: Message) -> str:
     return chosen
 
 
+@dataclass(frozen=True)
+class Listing:
+    """Lines to read, under a title."""
+
+    title: str
+    lines: tuple[str, ...]
+
+
+def listing_box(listing: Listing) -> bool:
+    """Draws the lines in the middle of the window, to be scrolled and copied; gives whether the box
+    stays."""
+    viewport = imgui.get_main_viewport()
+    width = min(52 * imgui.get_font_size(), 0.86 * viewport.work_size.x)
+    center = viewport.get_center()
+    imgui.set_next_window_pos(center, imgui.Cond_.always, ImVec2(0.5, 0.5))
+    imgui.set_next_window_size(ImVec2(width, 0))
+    flags = imgui.WindowFlags_
+    imgui.push_style_color(imgui.Col_.window_bg, theme.POPUP)
+    imgui.begin(
+        "##listing",
+        None,
+        flags.no_decoration | flags.no_docking | flags.no_saved_settings | flags.no_move,
+    )
+    imgui.pop_style_color()
+    imgui.push_text_wrap_pos(0.0)
+    imgui.text(listing.title)
+    highest = ImVec2(width, 0.5 * viewport.work_size.y)
+    imgui.set_next_window_size_constraints(ImVec2(0, 0), highest)
+    child = imgui.ChildFlags_
+    imgui.begin_child("##lines", ImVec2(0, 0), child.borders | child.auto_resize_y)
+    imgui.push_text_wrap_pos(0.0)
+    for text in listing.lines:
+        imgui.bullet()
+        imgui.text(text)
+    imgui.pop_text_wrap_pos()
+    imgui.end_child()
+    imgui.pop_text_wrap_pos()
+    if imgui.button("Copy"):
+        imgui.set_clipboard_text("\n".join((listing.title, *listing.lines)))
+    imgui.same_line()
+    stays = not imgui.button("Close")
+    imgui.end()
+    return stays
+
+
 def failure_note(title: str, error: Exception) -> bool:
     """What stands in a view that could not be drawn; gives whether to try again."""
     place, room = imgui.get_cursor_pos(), imgui.get_content_region_avail()

@@ -13,6 +13,7 @@ from app.state.app_state import AppState
 from app.state.bounds import range_of
 from app.state.options import Preferences
 from app.window import bookmarks
+from app.window.camera_files import CAMERA_FILES
 
 SMALLEST_SCALE, LARGEST_SCALE = range_of(Preferences, "font_scale")
 FONT_SCALES = (SMALLEST_SCALE, 0.9, 1.0, 1.25, 1.5, 1.75, 2.0, 2.5, LARGEST_SCALE)
@@ -86,6 +87,7 @@ FILE = (
         (CTRL | int(Key.s),),
         separated=True,
     ),
+    *CAMERA_FILES,
     Action(
         "File",
         "Save scene...",
@@ -93,6 +95,7 @@ FILE = (
         "Ctrl+Shift+S",
         (CTRL | SHIFT | int(Key.s),),
     ),
+    Action("File", "Export...", lambda w: w.shell.export_as(w), "Ctrl+E", (CTRL | int(Key.e),)),
     Action(
         "File/Picture",
         "Save a picture of the window",

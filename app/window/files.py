@@ -10,7 +10,6 @@ import shutil
 import sys
 import time
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
 from pathlib import Path
 
 from imgui_bundle import portable_file_dialogs as dialogs
@@ -23,6 +22,7 @@ from app.storage.scene_watch import SceneWatch
 from app.widgets.background import Background
 from app.widgets.dialog import FileDialog, FileQuestion
 from app.window.opening import Opened, open_lecture, open_sources, open_tasks, reread
+from app.window.questions import Question, outside_question
 from renderer.errors import describe, one_line
 from renderer.scene import (
     BUILTIN_SCENES,
@@ -44,24 +44,15 @@ Paths = Callable[[list[str]], None]
 Load = Callable[[frozenset[Path]], "Opened"]  # given what the user has agreed to
 
 
-@dataclass(frozen=True)
-class Outside:
-    """A question to the user: whether what names files outside of its folder is to be opened.
-
-    name: of what does. files: those. again: opens it, with the user's consent.
-    """
-
-    name: str
-    files: tuple[Path, ...]
-    again: Callable[[], None]
+OPEN = "Open anyway"
 
 
 class Files:
     """wake: called from another thread when something has been loaded.
 
-    message: what went wrong; said: what was done, for poll_said(). outside: what the user is to
-    agree to. folder: where the list of
-    recent files is kept; None: nowhere. native: whether the system's dialogs may be used.
+    message: what went wrong; said: what was done, for poll_said(). question: what the user is to
+    agree to. folder: where the list of recent files is kept; None: nowhere. native: whether the
+    system's dialogs may be used.
     """
 
     def __init__(
@@ -84,7 +75,7 @@ class Files:
         self.dialog = FileDialog(wake)
         self.recent = RecentFiles(folder, wake)
         self.message = ""
-        self.outside: Outside | None = None
+        self.question: Question | None = None
         self._said: list[str] = []
 
     @property
@@ -209,8 +200,8 @@ class Files:
             self.recent.add(str(Path(path).absolute()))
             return one_line(f"Saved the scene as {path}.")
 
-        name = "".join(c if c.isalnum() or c in " -_" else "-" for c in scene.name) or "scene"
-        self.save_as_dialog("Save the scene", f"{name}.toml", ("Scene files", ".toml"), store)
+        name = f"{file_name(scene.name)}.toml"
+        self.save_as_dialog("Save the scene", name, ("Scene files", ".toml"), store)
 
     def save_picture_dialog(self, name: str, chosen: Callable[[Path], None]) -> None:
         """Asks where a picture is to go."""
@@ -280,6 +271,11 @@ class Files:
         said, self._said = self._said, []
         return said
 
+    def ask(self, text: str, answer: str, then: Callable[[], None]) -> None:
+        """Asks something that stands on one button, beside Cancel. then: does it, after a yes."""
+        self.question = Question(text, answer, then)
+        self._wake()
+
     def say(self, text: str) -> None:
         """Something else was done, which poll_said() tells."""
         self._said.append(text)
@@ -295,7 +291,7 @@ class Files:
 
     def _load(self, source: str, load: Load, agreed: frozenset[Path] = frozenset()) -> None:
         self.cancel()  # the newest wins, and does not wait for what takes long
-        self.message, self.outside, self._is_first = "", None, False
+        self.message, self.question, self._is_first = "", None, False
         self._again = lambda more: self._load(source, load, agreed | more)
         self._source = one_line(Path(source).name)
         self._began_s = time.monotonic()
@@ -310,7 +306,7 @@ class Files:
     def _ask_outside(self, error: OutsideError, again: Callable[[frozenset[Path]], None]) -> None:
         files = error.files
         name = one_line(Path(error.source).name)
-        self.outside = Outside(name, files, lambda: again(frozenset(files)))
+        self.ask(outside_question(name, files), OPEN, lambda: again(frozenset(files)))
 
     def _note(self, opened: Opened) -> None:
         if opened.scene is not None and opened.scene.origin is not None:
@@ -322,23 +318,34 @@ class Files:
         for source in reversed(opened.sources):
             if source not in BUILTIN_SCENES:
                 self.recent.add(str(Path(source).absolute()))
+        if opened.taken is not None and not opened.taken.has_lens:
+            self.say(opened.taken.said)
         self.message = "\n".join(opened.problems)
 
     def save_as_dialog(
-        self, title: str, name: str, kind: tuple[str, str], store: Callable[[str], str]
+        self, title: str, name: str, kind: tuple[str, ...], store: Callable[[str], str]
     ) -> None:
         """Asks where something is to go, and stores it there in the background.
 
-        kind: in words, and the ending. store: does it, and says what it did.
+        kind: as ask_name() has it. store: does it, and says what it did.
         """
-        words, ending = kind
+        self.ask_name(title, name, kind, lambda path: self._saving.submit(lambda: store(path)))
+
+    def ask_name(
+        self, title: str, name: str, kind: tuple[str, ...], named: Callable[[str], None]
+    ) -> None:
+        """Asks for a name to save under. kind: in words, and the endings, of which the first is
+        added to a name without one; "" for a folder. named: called with the path."""
+        words, *endings = kind
 
         def chosen(paths: list[str]) -> None:
-            path = paths[0] if paths[0].lower().endswith(ending) else paths[0] + ending
+            path = paths[0]
+            path = path if path.lower().endswith(tuple(endings)) else path + endings[0]
             self.message = ""
-            self._saving.submit(lambda: store(path))
+            named(path)
 
-        self._ask(FileQuestion(title, True, (ending,), name, chosen), [words, f"*{ending}"])
+        question = FileQuestion(title, True, tuple(endings), name, chosen)
+        self._ask(question, [words, " ".join(f"*{ending}" for ending in endings)])
 
     def _ask(self, question: FileQuestion, filters: list[str]) -> None:
         if self._asking is not None or self.dialog.is_open:
@@ -351,6 +358,11 @@ class Files:
         else:
             several = dialogs.opt.multiselect
             self._asking = dialogs.open_file(question.title, "", filters, several), question.chosen
+
+
+def file_name(scene: str) -> str:
+    """What a file of a scene of that name is called, without an ending."""
+    return "".join(c if c.isalnum() or c in " -_" else "-" for c in scene) or "scene"
 
 
 def has_dialogs() -> bool:

@@ -1,4 +1,4 @@
-"""What is being loaded, for how long, and a button to leave it.
+"""What is being loaded or exported, for how long, and a button to leave it.
 
 Owns its place and look.
 """
@@ -13,8 +13,9 @@ SHOWN_AFTER_S = 0.4
 NAME = "##loading"
 
 
-def loading_box(name: str, time_s: float) -> bool:
-    """Draws the box; gives whether the loading is to be cancelled. Quick loads show nothing."""
+def loading_box(what: str, time_s: float) -> bool:
+    """Draws the box; gives whether it is to be cancelled. What is quick shows nothing. what: is
+    being done."""
     if time_s < SHOWN_AFTER_S:
         return False
     em = imgui.get_font_size()
@@ -35,7 +36,7 @@ def loading_box(name: str, time_s: float) -> bool:
         | flags.no_focus_on_appearing,
     )
     imgui.push_text_wrap_pos(0.0)
-    imgui.text(f"Loading {name} ...")
+    imgui.text(f"{what} ...")
     imgui.pop_text_wrap_pos()
     # How long it takes is not known: the bar moves, and the time is told.
     imgui.progress_bar(-0.5 * time_s, ImVec2(-8 * em, 0), f"{time_s:.0f} s")

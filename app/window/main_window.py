@@ -2,8 +2,7 @@
 
 Owns the present state and everything that lives as long as the window: the views, the renderers,
 the threads, the history. Views are given the state through host/view.py's Host and ask for a new
-one; here it is kept, and the renderers are told. Knows nothing of how the window was made
-(viewer.py), nor of what a view shows.
+one; here it is kept, and the renderers are told. How the window is made is viewer.py's.
 """
 
 from __future__ import annotations
@@ -15,6 +14,7 @@ from pathlib import Path
 import moderngl
 from imgui_bundle import hello_imgui, imgui
 
+from app.camera_panel.actions import offer_without_lens
 from app.cameras.focus import Focus, object_corners, scene_focus
 from app.cameras.presets import framed
 from app.cameras.travel import CameraTransition
@@ -343,7 +343,7 @@ class MainWindow:
         """Whether a box has the keyboard: its digits are no bookmarks, also before the field that
         Tab has gone to takes them."""
         boxes = (self.asking_size, self.asking_pixel)
-        return any(box is not None and box.focused for box in boxes)
+        return any(box.focused for box in boxes if box is not None)
 
     def _go_to(self, pixel: Pixel) -> None:
         """Marks a pixel, and brings it into sight where the images are magnified."""
@@ -356,22 +356,18 @@ class MainWindow:
             view.cancel()
 
     def _take_opened(self, opened: Opened) -> None:
+        self.animate()
         if opened.code:
             self.open_code(opened.code)
-            self.animate()
         if opened.poses is not None:
             self.view(PosesView).open(self, opened.poses)
-            self.animate()
         if opened.tasks:
             self.view(YourCodeView).open_tasks(self, opened.tasks)
-            self.animate()
         if opened.photograph:
             self.change(with_photograph(self.state, opened.photograph, shown=True, follows=False))
             self.files.say("The photograph is laid over the images: Image > Photograph.")
-            self.animate()
         if opened.lecture is not None:  # whose steps have scenes of their own
             self.lecture.give(*opened.lecture)
-            self.animate()
         elif opened.scene is not None:
             if opened.replaces not in (None, self.state.scene):
                 return  # another one is shown meanwhile
@@ -388,6 +384,8 @@ class MainWindow:
                 self.change(state)
         elif opened.view is not None:
             self.change(self.state.with_view(opened.view))
+        if opened.taken is not None and opened.taken.has_lens:
+            offer_without_lens(self, opened.taken)
 
     def take_newer(self, old: Scene, new: Scene) -> None:
         """A newer version of the shown scene, as a step of its own: with its own camera, unless

@@ -10,7 +10,9 @@ import contextlib
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 
+from app.cameras.taken import TakenCamera
 from app.checking.task_file import load_tasks
 from app.lecture.model import Lecture
 from app.lecture.reading import is_lecture, load_lecture
@@ -40,7 +42,8 @@ class Opened:
     outside of its folder that a scene which came by itself may read; None where the user named it.
     code: the absolute path of a Python file, which is there. poses: a set of cameras. tasks: the
     path of a course's tasks, which can be read. photograph: the absolute path of one, which can be
-    read.
+    read. taken: the camera of another format, which is the view unless it has a lens: then that is
+    to be asked.
     """
 
     sources: tuple[str, ...] = ()
@@ -56,6 +59,7 @@ class Opened:
     poses: PoseSet | None = None
     tasks: str = ""
     photograph: str = ""
+    taken: TakenCamera | None = None
 
 
 def open_sources(
@@ -69,41 +73,57 @@ def open_sources(
     lectures never. Raises LucidaError where there is but one and it cannot be read, OutsideError
     in any case.
     """
-    scene, view, lecture, code, poses, tasks, photograph = None, None, None, "", None, "", ""
+    found: dict[str, Any] = {}  # Opened's fields
     good, problems = [], []
     for source in sources:
+        if "scene" in found and _kind(source) == "scene":
+            continue  # one scene at a time
         try:
-            if source not in BUILTIN_SCENES and is_code(source):
-                code = code or found_code(source)
-            elif source not in BUILTIN_SCENES and is_tasks(source):
-                tasks = tasks or open_tasks(source).tasks
-            elif source not in BUILTIN_SCENES and is_photograph(source):
-                photograph = photograph or found_photograph(source)
-            elif source not in BUILTIN_SCENES and _is_view(Path(source)):
-                view = view or load_view(source)
-            elif source not in BUILTIN_SCENES and is_lecture(source):
-                lecture = lecture or (load_lecture(source, agreed), Path(source).absolute())
-            elif source not in BUILTIN_SCENES and is_cameras(source):
-                found = open_cameras(source)
-                if isinstance(found, View):
-                    view = view or found
-                else:
-                    poses = poses or found
-            elif scene is None:
-                scene = _load_scene(source, agreed if dropped else None)
-            else:
-                continue  # one scene at a time
+            found = _held(source, dropped, agreed) | found
             good.append(source)
         except LucidaError as error:
             if len(sources) == 1 or isinstance(error, OutsideError):
                 raise
             problems.append(describe(error))
-    given = agreed if dropped else None
-    prepared = _prepared(scene)
-    return Opened(
-        tuple(good), scene, view, tuple(problems), lecture, prepared, agreed=given, code=code,
-        poses=poses, tasks=tasks, photograph=photograph,
-    )  # fmt: skip
+    taken = found.get("taken")
+    if taken is not None and not taken.has_lens:
+        found.setdefault("view", taken.view)
+    found |= {"prepared": _prepared(found.get("scene")), "agreed": agreed if dropped else None}
+    return Opened(tuple(good), problems=tuple(problems), **found)
+
+
+def _kind(source: str) -> str:
+    """What a source looks like, by its name and its first lines."""
+    if source in BUILTIN_SCENES:
+        return "scene"
+    kinds = {
+        "tasks": is_tasks,
+        "photograph": is_photograph,
+        "view": _is_view,
+        "lecture": is_lecture,
+        "cameras": is_cameras,
+        "code": is_code,
+    }
+    return next((kind for kind, is_it in kinds.items() if is_it(source)), "scene")
+
+
+def _held(source: str, dropped: bool, agreed: frozenset[Path]) -> dict[str, Any]:
+    """What a source holds, as a field of Opened. Raises LucidaError."""
+    kind = _kind(source)
+    if kind == "tasks":
+        return {"tasks": open_tasks(source).tasks}
+    if kind == "photograph":
+        return {"photograph": found_photograph(source)}
+    if kind == "view":
+        return {"view": load_view(source)}
+    if kind == "lecture":
+        return {"lecture": (load_lecture(source, agreed), Path(source).absolute())}
+    if kind == "cameras":
+        cameras = open_cameras(source)
+        return {"poses" if isinstance(cameras, PoseSet) else "taken": cameras}
+    if kind == "code":
+        return {"code": found_code(source)}
+    return {"scene": _load_scene(source, agreed if dropped else None)}
 
 
 def _load_scene(source: str, agreed: frozenset[Path] | None) -> Scene:
@@ -143,7 +163,8 @@ def open_tasks(source: str) -> Opened:
     return Opened((source,), tasks=str(Path(source).absolute()))
 
 
-def _is_view(path: Path) -> bool:
+def _is_view(source: str) -> bool:
+    path = Path(source)
     if path.suffix.lower() != ".toml":
         return False
     try:

@@ -12,6 +12,7 @@ from pathlib import Path
 from imgui_bundle import hello_imgui, imgui
 
 from app import __version__
+from app.camera_panel.actions import image_size
 from app.host.action import Window
 from app.host.proportion import Proportion
 from app.host.stage import Stage
@@ -22,20 +23,21 @@ from app.state.app_state import AppState
 from app.storage.capture import Captures, Rect
 from app.storage.session import Session, session_of
 from app.storage.session_store import Keeper
-from app.widgets.messages import Message, message_box
+from app.widgets.messages import Message, listing_box, message_box
 from app.widgets.surface import Target
 from app.widgets.theme import Fonts
 from app.widgets.toasts import Toasts
-from app.window.files import Files, Outside
+from app.window.exporting import Exports
+from app.window.files import Files, file_name
 from app.window.loading import loading_box
 from app.window.palette import CommandPalette
 from app.window.palette_entries import entries
 from app.window.platform import toggle_full_screen
 from app.window.shortcut_sheet import help_sheet
-from renderer.errors import LucidaError, describe, one_line
-from renderer.scene.outside import LISTED
+from renderer.errors import LucidaError, describe
+from renderer.scene_export import ENDINGS
 
-OPEN = "Open anyway"
+EXPORTED = "Mitsuba .xml, pbrt .pbrt, glTF .glb"
 
 
 class Shell:
@@ -57,6 +59,7 @@ class Shell:
         self.palette: CommandPalette = CommandPalette()
         self.toasts = Toasts()
         self.captures = Captures(wake)
+        self.exports = Exports(wake)
         self.files = files
         self.help = False
         self._fonts = fonts
@@ -69,7 +72,7 @@ class Shell:
     @property
     def busy(self) -> bool:
         """Whether something is under way that will be told."""
-        return self.captures.busy
+        return self.captures.busy or self.exports.busy
 
     # What actions ask for.
 
@@ -98,22 +101,41 @@ class Shell:
         name = f"lucida {what.lower()}".strip().replace(" ", "-") + ".png"
         self.files.save_picture_dialog(name, lambda path: self._picture_to(what, path))
 
+    def export_as(self, host: Host) -> None:
+        """The scene and its camera for other renderers, into a file that the user names."""
+        state, both = host.state, host.renderers
+        if self.exports.busy:
+            self.toasts.add(f"{self.exports.name} is still being written.", good=False)
+            return
+        camera, size = both.camera(state), image_size(host)
+        name = file_name(state.scene.name) + ENDINGS[0]
+        self.files.ask_name(
+            f"Export the scene and its camera: {EXPORTED}",
+            name,
+            (EXPORTED, *ENDINGS),
+            lambda path: self.exports.begin(path, state.scene, camera, size),
+        )
+
     def escape(self, window: Window) -> None:
         """Ends the nearest thing: what lies on top, what takes long, the mark, what is large."""
         if self.palette.open:
             self.palette.open = False
         elif self.files.dialog.is_open:
             self.files.dialog.cancel()
-        elif self.files.outside is not None:
-            self.files.outside = None
+        elif self.files.question is not None:
+            self.files.question = None
         elif self.files.message:
             self.files.message = ""
         elif self._told(window.renderers):
             self._failure = window.renderers.failure
+        elif self.exports.listing is not None:
+            self.exports.listing = None
         elif self.help:
             self.help = False
         elif self.files.loading:
             self.files.cancel()
+        elif self.exports.busy:
+            self.exports.cancel()
         elif window.state.marked is not None:
             window.change(window.state.with_options(marked=None))
         elif self.stage.maximised:
@@ -135,6 +157,13 @@ class Shell:
         done = self.captures.poll()
         if done is not None:
             self.toasts.add(*done)
+        exported = self.exports.poll()
+        if exported is not None:
+            text, good = exported
+            if good:
+                self.toasts.add(text)
+            else:
+                self.files.message = text
 
     def draw(self, window: Window, boxed: bool = False) -> None:
         """Once a frame: what lies over the views. boxed: a box was open that Escape closes."""
@@ -146,12 +175,24 @@ class Shell:
         if self.help:
             self.help = help_sheet(self._fonts, __version__)
         self.files.dialog.draw()
-        if self.files.loading and loading_box(self.files.loading, self.files.loading_s):
-            self.files.cancel()
+        self._waiting()
         self._messages(window)
         self.palette.draw(lambda: entries(window), self._fonts)
         self.toasts.draw()
         self._hide_cursor(boxed or self.palette.open or self.files.dialog.is_open)
+
+    def _waiting(self) -> None:
+        """What takes long, one thing at a time, and what came of it."""
+        exports = self.exports
+        if self.files.loading:
+            if loading_box(f"Loading {self.files.loading}", self.files.loading_s):
+                self.files.cancel()
+        elif exports.name:
+            hello_imgui.request_refresh()
+            if loading_box(f"Exporting {exports.name}", exports.time_s):
+                exports.cancel()
+        if exports.listing is not None and not listing_box(exports.listing):
+            exports.listing = None
 
     def _hide_cursor(self, asks: bool) -> None:
         """What was typed into is gone: the keyboard's cursor, and the tooltip that it brings, would
@@ -172,6 +213,7 @@ class Shell:
     def end(self, window: Window) -> None:
         """Once, at the end."""
         self.captures.close()
+        self.exports.close()
         if self._keeper is not None:
             self._keeper.close(self._session(window))
 
@@ -188,12 +230,13 @@ class Shell:
         if self._keeper is not None and self._keeper.message:
             self.toasts.add(self._keeper.message, good=False)
             self._keeper.message = ""
-        if self.files.outside is not None:
-            answer = message_box(Message(outside_question(self.files.outside), (OPEN, "Cancel")))
-            if answer == OPEN:
-                self.files.outside.again()
-            elif answer:
-                self.files.outside = None
+        question = self.files.question
+        if question is not None:
+            answer = message_box(Message(question.text, (question.answer, "Cancel")))
+            if answer:
+                self.files.question = None
+            if answer == question.answer:
+                question.then()
             return
         if self.files.message:
             if message_box(Message(self.files.message)) == "Close":
@@ -254,13 +297,6 @@ class Shell:
         ending = path if path.suffix.lower() == ".png" else Path(f"{path}.png")
         self.captures.ask(self._rect(view) if view in self.stage.rects else None, ending)
         hello_imgui.request_refresh()
-
-
-def outside_question(outside: Outside) -> str:
-    """What the user is asked about files outside of a folder."""
-    named = [f"    {one_line(str(file))}" for file in outside.files]
-    more = [f"    and {len(named) - LISTED} more"] if len(named) > LISTED else []
-    return "\n".join([f"{outside.name} names files outside of its folder:", *named[:LISTED], *more])
 
 
 def _same(failure: Exception, other: Exception | None) -> bool:

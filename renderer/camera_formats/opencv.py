@@ -32,7 +32,7 @@ from renderer.camera_formats.posed import CameraSet, PosedCamera
 from renderer.camera_formats.rotations import from_vector, to_vector
 from renderer.camera_formats.storage import MOST_BYTES, Table, table_in, to_json, to_yaml
 from renderer.errors import LucidaError
-from renderer.intrinsics import as_camera_from_world, decomposed, pixel_offset
+from renderer.intrinsics import PixelOrigin, as_camera_from_world, decomposed, pixel_offset
 
 # What a thing may be called, in small letters without signs.
 _K = ("cameramatrix", "k", "intrinsics", "intrinsic", "intrinsicmatrix", "mtx")
@@ -81,7 +81,7 @@ def recognises(given: Given) -> bool:
 def read(given: Given, options: Options) -> CameraSet:
     table = table_in(given)
     names = Names(table)
-    origin = options.pixel_origin or "center"
+    origin = options.pixel_origin or _origin_told(given)
     name, K, projected = _intrinsics(names)
     size, size_told = _size(names, K, options, origin)
     poses, told = ([projected], f"K, R and t out of {name}") if projected else _poses(names)
@@ -119,6 +119,11 @@ def write(cameras: Sequence[PosedCamera], options: Options) -> dict[str, bytes]:
     if options.ending == ".json":
         return {"": to_json({"conventions": " ".join(notes)} | table).encode()}
     return {"": to_yaml(table, notes).encode()}
+
+
+def _origin_told(given: Given) -> PixelOrigin:
+    """What a file says that was written here; else OpenCV's own."""
+    return "corner" if ORIGIN_TOLD["corner"] in given.text else "center"
 
 
 def _intrinsics(names: Names) -> tuple[str, Floats, _Pose | None]:

@@ -12,6 +12,7 @@ from pathlib import Path
 from renderer.atomic import atomic_write, check_writable
 from renderer.camera import Camera, Size
 from renderer.errors import LucidaError
+from renderer.scene.cancelling import check_cancelled
 from renderer.scene.model import Scene
 from renderer.scene.reading import path_of
 from renderer.scene_export import gltf_scene, mitsuba_scene, pbrt_scene
@@ -42,13 +43,15 @@ def export_scene(path: str | Path, scene: Scene, camera: Camera, size: Size) -> 
 
     Gives what could not be carried over, a line each. Meshes of .xml and .pbrt are PLY files in a
     folder beside it, which are written first. Raises LucidaError for a camera that the target
-    cannot hold, and where nothing can be written; then nothing is.
+    cannot hold, and where nothing can be written; then nothing is. Leaves
+    it where nobody waits any more (renderer/scene/cancelling.py).
     """
     target = check_export_path(path)
     stem = target.stem.encode("utf-8", "replace").decode()  # it is named inside the files
     written = WRITERS[target.suffix.lower()](ExportSubject(scene, camera, size, stem))
     with _undone_on_failure() as made:
         for name, content in written.beside.items():
+            check_cancelled()
             file = target.parent / name
             _make_folder(file.parent, made)
             is_new = not file.exists()
@@ -56,6 +59,7 @@ def export_scene(path: str | Path, scene: Scene, camera: Camera, size: Size) -> 
                 stream.write(content())
             if is_new:
                 made.append(file)
+        check_cancelled()
         with atomic_write(target) as stream:
             stream.write(written.main)
     return written.left_out

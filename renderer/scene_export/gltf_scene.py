@@ -16,6 +16,7 @@ from PIL import Image
 from renderer.camera_formats.gltf import camera_table, node_matrix
 from renderer.camera_formats.rigid import rigid
 from renderer.images.display import to_srgb8
+from renderer.scene.cancelling import check_cancelled
 from renderer.scene.flat import flatten
 from renderer.scene.model import Color, DirectionalLight, Material, Mesh, PointLight, Sphere
 from renderer.scene_export.checkers import with_checker_uv
@@ -73,6 +74,7 @@ def write(subject: ExportSubject) -> Exported:
 
 
 def _object_node(made: GlbTree, number: int, entry: Any, left: LeftOut) -> dict[str, Any]:
+    check_cancelled()
     shape, name = entry.shape, called("object", number, entry.name)
     found = None if isinstance(shape, Sphere) else triangles(shape)
     checkered = None

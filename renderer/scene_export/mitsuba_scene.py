@@ -10,6 +10,7 @@ from collections.abc import Iterable
 from xml.sax.saxutils import quoteattr
 
 from renderer.camera_formats.mitsuba import sensor_lines, values
+from renderer.scene.cancelling import check_cancelled
 from renderer.scene.flat import flatten
 from renderer.scene.model import (
     Color,
@@ -54,6 +55,7 @@ def write(subject: ExportSubject) -> Exported:
         *sensor,
     ]
     for number, entry in enumerate(scene.objects):
+        check_cancelled()
         body += _object(number, entry, files, left)
     for light, strength in zip(scene.lights, light_strengths(scene, flat, left), strict=True):
         body += _light(light, strength)

@@ -10,6 +10,7 @@ from collections.abc import Iterable
 import numpy as np
 
 from renderer.camera_formats.pbrt import camera_lines, listed_by_columns, numbers
+from renderer.scene.cancelling import check_cancelled
 from renderer.scene.flat import FlatScene, flatten
 from renderer.scene.model import Color, DirectionalLight, Mesh, PointLight, SceneObject, Sphere
 from renderer.scene_export.beside import MeshFiles
@@ -38,6 +39,7 @@ def write(subject: ExportSubject) -> Exported:
     if any(scene.ambient):
         body.append(f'LightSource "infinite" "rgb L" [ {numbers(scene.ambient)} ]')
     for number, entry in enumerate(scene.objects):
+        check_cancelled()
         body += _object(number, entry, flat, files, left)
     note_surroundings(scene, left)
     note_far(flat.bounds, left)

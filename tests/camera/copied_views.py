@@ -6,6 +6,7 @@ import numpy as np
 from hypothesis import assume
 from hypothesis import strategies as st
 
+from app.cameras.reader import read_copied
 from app.cameras.text import Subject
 from renderer.camera import Camera
 from renderer.camera_checks import volume
@@ -16,6 +17,11 @@ NOW = View(Camera(eye=(9, 9, 9), distance=2.5, near=0.25), fit=True)
 BOUNDS = np.array([[x, y, z] for x in (-2, 2) for y in (-1, 2) for z in (-3, 2)], float)
 numbers = st.floats(-3, 3)
 vectors = st.tuples(numbers, numbers, numbers)
+
+
+def read_view(text: str, now: View) -> View:
+    """The view of a text's camera."""
+    return read_copied(text, now).view
 
 
 @st.composite
@@ -38,4 +44,4 @@ def views(draw: st.DrawFn) -> View:
 
 
 def subject(view: View) -> Subject:
-    return Subject(view, view.for_size(SIZE), "still-life", BOUNDS)
+    return Subject(view, view.for_size(SIZE), "still-life", BOUNDS, SIZE)

@@ -7,9 +7,8 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from copied_views import NOW, subject
+from copied_views import NOW, read_view, subject
 
-from app.cameras.reader import read_view
 from app.cameras.text import as_text, command_line
 from app.cli import main
 from app.commands import view as view_command

@@ -12,6 +12,7 @@ from sets_of_cameras import SIZE, a_set, colmap, ring, transforms
 from waiting import wait_for
 
 from app import cli
+from app.cameras.taken import TakenCamera
 from app.lecture.reading import load_lecture
 from app.poses.model import PoseSet
 from app.poses.options import PosesOptions
@@ -22,7 +23,7 @@ from app.storage.session import Arrangement, from_bytes, session_of, to_bytes
 from app.window.opening import open_sources
 from renderer.camera_formats import written
 from renderer.errors import LucidaError
-from renderer.scene import View, load_scene
+from renderer.scene import load_scene
 
 
 def test_a_transforms_json_is_a_set(tmp_path: Path) -> None:
@@ -50,8 +51,11 @@ def test_a_file_with_one_camera_is_a_view(tmp_path: Path, name: str, ending: str
     path = tmp_path / f"camera.{ending}"
     camera = ring(1)[0]
     path.write_bytes(written([replace(camera, image="")], name)[""])
-    view = open_cameras(str(path))
-    assert isinstance(view, View) and view.fit
+    found = open_cameras(str(path))
+    assert isinstance(found, TakenCamera) and not found.has_lens
+    assert found.said.startswith(f"The camera is {path.name}'s: ")
+    view = found.view
+    assert view.fit
     assert np.allclose(view.camera.eye, camera.camera.eye)
     opened = open_sources(["spheres", str(path)])
     assert opened.view == view and opened.poses is None
@@ -178,3 +182,36 @@ def test_images_of_other_proportions_see_no_less() -> None:
     poses = a_set(2)
     wide = poses.view(0).for_size((2 * SIZE[0], SIZE[1]))
     assert wide.viewport[0] == pytest.approx(2 * poses.cameras[0].camera.viewport[0])
+
+
+@pytest.mark.parametrize(
+    ("name", "text", "is_camera"),
+    [
+        ("a.py", "import bpy\nbpy.data.cameras.new('a')", True),
+        ("a.py", "  from bpy import data", True),
+        ("a.py", "resolution_x = 3  # bpy", False),
+        ("a.py", "import numpy", False),
+        ("a.gltf", '{"asset": {}, "cameras": [{}]}', True),
+        ("a.gltf", '{"asset": {}, "cameras": [{}], "meshes": [{}]}', False),
+        ("a.gltf", '{"asset": {}, "cameras": [], "nodes": []}', False),
+        ("a.gltf", "[1", False),
+        ("a.glb", "import bpy", False),
+        ("a.py", "import bpy" + " " * (1 << 20), False),
+    ],
+)
+def test_what_ends_as_programs_and_models_do_is_looked_into(
+    tmp_path: Path, name: str, text: str, is_camera: bool
+) -> None:
+    path = tmp_path / name
+    assert not is_cameras(str(path))
+    path.write_text(text)
+    assert is_cameras(str(path)) is is_camera
+
+
+def test_one_image_of_a_model_without_points_is_a_view(tmp_path: Path) -> None:
+    camera = ring(1)[0]
+    for file, data in written([camera], "colmap").items():
+        (tmp_path / file).write_bytes(data)
+    found = open_cameras(str(tmp_path))
+    assert isinstance(found, TakenCamera)
+    assert np.allclose(found.view.camera.eye, camera.camera.eye)

@@ -164,13 +164,13 @@ def drive_a_dropped_scene_asks_before_it_reads_elsewhere(d: Driver) -> None:
     scene.write_text("[[objects]]\ntype = 'model'\nfile = '../out.obj'\n")
     for answer in ("Cancel", "Open anyway"):
         d.drop([str(scene)])
-        d.until(lambda: window.files.outside is not None)
+        d.until(lambda: window.files.question is not None)
         assert window.state == d.start
         d.ctx.yield_(3)
         d.picture()
         d.ctx.item_click(f"//##message/{answer}")
         d.ctx.yield_(2)
-        assert window.files.outside is None
+        assert window.files.question is None
     d.until(lambda: window.state.scene.name == "asks")
     d.agreeing_images()
 

@@ -12,10 +12,10 @@ from waiting import wait_for
 
 from app.cli import main
 from app.lecture.reading import load_lecture
-from app.window.files import Files, Outside
+from app.window.files import Files
 from app.window.main_window import title
 from app.window.opening import open_sources
-from app.window.shell import outside_question
+from app.window.questions import outside_question
 from renderer.errors import LucidaError
 from renderer.scene import load_scene
 from renderer.scene.outside import OutsideError, kept_inside, outside, outside_files
@@ -109,15 +109,15 @@ def test_loops_of_links_and_names_that_are_none_are_told_by_reading(folder: Path
 def test_the_window_asks_and_opens_what_was_agreed_to(folder: Path) -> None:
     files = Files(lambda: None)
     files.open_all([str(scene_file(folder, "../m.obj"))], dropped=True)
-    wait_for(lambda: files.poll() is not None or files.outside is not None)
-    asked = files.outside
+    wait_for(lambda: files.poll() is not None or files.question is not None)
+    asked = files.question
     assert asked is not None
     assert not files.message
-    assert outside_question(asked) == (
+    assert asked.text == (
         f"scene.toml names files outside of its folder:\n    {folder.parent / 'm.obj'}"
     )
-    asked.again()
-    assert files.outside is None
+    asked.then()
+    assert files.question is None
     opened = None
     while opened is None:
         opened = files.poll()
@@ -126,9 +126,9 @@ def test_the_window_asks_and_opens_what_was_agreed_to(folder: Path) -> None:
 
 
 def test_a_question_about_many_files_has_an_end() -> None:
-    many = Outside("s.toml", tuple(Path(f"/{n}") for n in range(1000)), lambda: None)
-    assert len(outside_question(many).splitlines()) == 10
-    assert outside_question(many).endswith("and 992 more")
+    told = outside_question("s.toml", [Path(f"/{n}") for n in range(1000)])
+    assert len(told.splitlines()) == 10
+    assert told.endswith("and 992 more")
 
 
 # Lectures.

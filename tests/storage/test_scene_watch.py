@@ -20,6 +20,7 @@ from app.window import opening
 from app.window.files import Files
 from app.window.main_window import MainWindow
 from app.window.opening import Opened
+from app.window.questions import outside_question
 from renderer.scene import Scene, load_scene, subprocess_reader
 from renderer.scene.models import read_by
 
@@ -245,9 +246,10 @@ def test_a_dropped_scene_that_now_names_a_file_elsewhere_is_asked_about(
     follow(files, scene)
     path.write_text(BALL + MODEL.replace("m.obj", "../out.obj"))
     assert follow(files, scene) is None
-    assert files.outside is not None
-    assert files.outside.files == (path.parent.parent / "out.obj",)
-    files.outside.again()
+    assert files.question is not None
+    outside = [path.parent.parent / "out.obj"]
+    assert files.question.text == outside_question(path.name, outside)
+    files.question.then()
     opened = loaded(files)
     assert opened.scene is not None
     assert opened.agreed == frozenset([path.parent.parent / "out.obj"])
@@ -277,10 +279,10 @@ def test_each_question_about_files_elsewhere_opens_what_it_asked_about(
         files.follow(shown)
     files.open_all([str(other)], dropped=True)
     for name in (path.name, other.name):
-        while files.outside is None or files.outside.name != name:
+        while files.question is None or not files.question.text.startswith(name):
             files.poll()
         gate.set()
-    files.outside.again()
+    files.question.then()
     assert loaded(files).sources == (str(other),)
 
 

@@ -1,0 +1,67 @@
+"""A camera from elsewhere, pasted or opened: the view that it becomes, what it was taken for, and
+what is asked before its lens is left out.
+
+Pure; owns the words. Knows nothing of formats but their names.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+from app.cameras.described import lens_numbers
+from renderer.camera_formats import CameraSet, PosedCamera, format_named
+from renderer.errors import one_line
+from renderer.scene.model import View
+
+_SQUARE = 1e-6  # of a pixel's sides, how far they may differ
+
+
+@dataclass(frozen=True)
+class TakenCamera:
+    """view: what it becomes. said: what it was taken for, and by which conventions, a sentence.
+    posed: as its source has it, with the lens. source: the file's name, or the clipboard."""
+
+    view: View
+    said: str
+    posed: PosedCamera
+    source: str
+
+    @property
+    def has_lens(self) -> bool:
+        return self.posed.distortion is not None
+
+
+def told_of(found: CameraSet) -> str:
+    """The format in words, and each convention that was taken; of one camera, why it is seen
+    stretched."""
+    told = list(found.taken)
+    posed = found.cameras[0]
+    if posed.size is not None and not is_fitted(posed):
+        told.append(
+            f"its pixels are not square: seen as they are at {posed.size[0]}x{posed.size[1]}"
+        )
+    what = format_named(found.format).what
+    return one_line(f"{what}: {'; '.join(told)}" if told else what)
+
+
+def is_fitted(posed: PosedCamera) -> bool:
+    """Whether images of other shapes may show more than the camera's own: not where its pixels are
+    not square, for then its own would not be as it is."""
+    if posed.size is None:
+        return posed.fit
+    left, right, bottom, top = posed.camera.viewport
+    wide = (right - left) / posed.size[0] * math.hypot(*posed.camera.u)
+    high = (top - bottom) / posed.size[1] * math.hypot(*posed.camera.v)
+    return abs(wide / high - 1) <= _SQUARE
+
+
+def lens_question(camera: TakenCamera) -> str:
+    """What the user is asked before a lens is left out."""
+    lens = camera.posed.distortion
+    assert lens is not None
+    numbers = one_line(f"{camera.source}: {', '.join(lens_numbers(lens))} ({lens.model})")
+    return (
+        f"{numbers}: this lens moves a corner by {lens.corner_px:.3g} pixels.\n"
+        "A pinhole has no distortion. Undistort the images first, or open the camera without it."
+    )

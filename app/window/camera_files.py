@@ -1,0 +1,57 @@
+"""The camera as it is shown into a file of any format: the actions of the menu File, Save camera
+as.
+
+Owns their names. A format is an action, since several have the same ending. The formats are
+renderer/camera_formats/'s.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import Path
+
+from app.camera_panel.actions import image_size
+from app.cameras.text import CALLED
+from app.host.action import Action, Window
+from renderer.camera_formats import FORMATS, Options, PosedCamera, written
+from renderer.camera_formats.formats import Format
+from renderer.camera_formats.saving import save_files
+from renderer.errors import LucidaError, one_line
+
+MENU = "File/Save camera as"
+
+
+def _action(entry: Format) -> Action:
+    return Action(MENU, f"{CALLED[entry.name]} ({_kinds(entry)})...", _saving(entry))
+
+
+def _kinds(entry: Format) -> str:
+    return ", ".join(entry.endings) if entry.endings[0] else "a folder"
+
+
+def _saving(entry: Format) -> Callable[[Window], None]:
+    return lambda window: _save_dialog(window, entry)
+
+
+def _save_dialog(window: Window, entry: Format) -> None:
+    """Asks where the camera is to go. What the format cannot hold is told before."""
+    state = window.state
+    posed = PosedCamera(window.renderers.camera(state), image_size(window))
+    try:
+        written([posed], entry.name)
+    except LucidaError as error:
+        window.files.message = f"The camera cannot be saved as {CALLED[entry.name]}. {error}"
+        return
+
+    def store(path: str) -> str:
+        options = Options(ending=Path(path).suffix.lower())
+        save_files(Path(path), written([posed], entry.name, options))
+        return one_line(f"Saved the camera as {path} ({CALLED[entry.name]}).")
+
+    name = f"camera{entry.endings[0]}"
+    title = f"Save the camera: {entry.what} ({_kinds(entry)})"
+    window.files.save_as_dialog(title, name, (entry.what, *entry.endings), store)
+
+
+# A view file is the action "Save view...", which keeps whether it is fitted.
+CAMERA_FILES = tuple(_action(entry) for entry in FORMATS if entry.writes and entry.name != "view")

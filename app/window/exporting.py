@@ -1,0 +1,88 @@
+"""A scene and its camera on their way into a file for other renderers: in a thread, told while it
+takes, left when asked, with the list of what could not be carried over.
+
+Owns the thread. Which files there are is renderer/scene_export/'s.
+"""
+
+from __future__ import annotations
+
+import threading
+import time
+from collections.abc import Callable
+from pathlib import Path
+
+from app.widgets.background import Background
+from app.widgets.messages import Listing
+from renderer.camera import Camera, Size
+from renderer.errors import describe, one_line
+from renderer.scene.cancelling import cancelled_by
+from renderer.scene.model import Scene
+from renderer.scene.subprocess_reader import CancelledError
+from renderer.scene_export import export_scene
+
+Lines = tuple[str, ...]
+NOT_CARRIED = "Not as it is there:"
+
+
+class Exports:
+    """wake: called from the thread when a file is written. listing: what could not be carried over,
+    as long as it is to be seen."""
+
+    def __init__(self, wake: Callable[[], None]) -> None:
+        self._work: Background[Lines] = Background("lucida-export", wake)
+        self._given_up = threading.Event()
+        self._path = Path()
+        self._began_s = 0.0
+        self.listing: Listing | None = None
+
+    @property
+    def busy(self) -> bool:
+        return self._work.busy
+
+    @property
+    def name(self) -> str:
+        """Of the file that is being written; empty while none is."""
+        return one_line(self._path.name) if self._work.busy else ""
+
+    @property
+    def time_s(self) -> float:
+        """For how long."""
+        return time.monotonic() - self._began_s if self._work.busy else 0.0
+
+    def begin(self, path: str, scene: Scene, camera: Camera, size: Size) -> None:
+        """Writes a file, whose ending says for whom. size: (width, height) of the image. Call while
+        none is being written."""
+        self._given_up = given_up = threading.Event()
+        self._path, self._began_s, self.listing = Path(path), time.monotonic(), None
+
+        def check() -> None:
+            if given_up.is_set():
+                raise CancelledError
+
+        def write() -> Lines:
+            with cancelled_by(check):
+                return export_scene(path, scene, camera, size)
+
+        self._work.submit(write)
+
+    def cancel(self) -> None:
+        """Between two of its parts the writing ends; what was made of it is taken away."""
+        self._given_up.set()
+
+    def poll(self) -> tuple[str, bool] | None:
+        """What is to be said of the file since the last call, and whether it is good news."""
+        outcome = self._work.poll()
+        if outcome is None:
+            return None
+        name = one_line(self._path.name)
+        if isinstance(outcome.error, CancelledError):
+            return f"Exporting {name} was cancelled: nothing was written.", True
+        if outcome.error is not None:
+            return describe(outcome.error), False
+        if outcome.value:
+            self.listing = Listing(f"Exported {name}. {NOT_CARRIED}", outcome.value)
+        return one_line(f"Exported the scene and its camera as {self._path}."), True
+
+    def close(self) -> None:
+        self.cancel()
+        self._work.close(5.0)

@@ -1,0 +1,29 @@
+"""What the window asks before it does something: one thing, which stands on a button beside Cancel.
+
+Knows nothing of how it is drawn.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+from renderer.errors import one_line
+from renderer.scene.outside import LISTED
+
+
+@dataclass(frozen=True)
+class Question:
+    """answer: the words on the button. then: does it."""
+
+    text: str
+    answer: str
+    then: Callable[[], None]
+
+
+def outside_question(name: str, files: Sequence[Path]) -> str:
+    """What the user is asked about files outside of a folder. name: of what names them."""
+    named = [f"    {one_line(str(file))}" for file in files]
+    more = [f"    and {len(named) - LISTED} more"] if len(named) > LISTED else []
+    return "\n".join([f"{name} names files outside of its folder:", *named[:LISTED], *more])

@@ -1,0 +1,50 @@
+"""The files of a format onto the disk: whole or not at all.
+
+Knows nothing of formats: formats.written() makes what is written here.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import os
+from collections.abc import Mapping
+from pathlib import Path
+
+from renderer.atomic import atomic_write, check_writable
+from renderer.errors import LucidaError
+
+
+def save_files(path: Path, files: Mapping[str, bytes]) -> None:
+    """A file (under "") or a folder of files, by their names. Raises LucidaError."""
+    if "" in files:
+        with atomic_write(path) as file:
+            file.write(files[""])
+        return
+    is_new = not os.path.lexists(path)
+    _check_folder(path, is_new, files)
+    try:
+        if is_new:
+            path.mkdir()
+        with contextlib.ExitStack() as stack:  # the files get their names when all are written
+            for name, data in files.items():
+                stack.enter_context(atomic_write(path / name)).write(data)
+    except BaseException:
+        if is_new:
+            with contextlib.suppress(OSError):
+                for name in files:
+                    (path / name).unlink(missing_ok=True)
+                path.rmdir()
+        raise
+
+
+def _check_folder(path: Path, is_new: bool, files: Mapping[str, bytes]) -> None:
+    """Raises LucidaError where a folder cannot be made, or is another's."""
+    try:
+        if not is_new and not path.is_dir():
+            raise LucidaError("", "is a file", "give the name of a folder")
+        check_writable(path if is_new else path / next(iter(files)))
+        if not is_new and (others := sorted(set(os.listdir(path)) - files.keys())):
+            problem = f"holds other files, such as {others[0]!r}"
+            raise LucidaError("", problem, "give a folder of its own")
+    except LucidaError as error:
+        raise error.in_file(str(path)) from None

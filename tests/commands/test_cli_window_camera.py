@@ -1,0 +1,47 @@
+"""`lucida FILE` with one camera of another program: its lens is never dropped in silence."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from app.cli import main
+from app.window import viewer
+from renderer.scene.model import View
+
+LENS = {"image_width": 20, "image_height": 16, "K": [9, 9, 10, 8], "D": [0.5, 0, 0, 0]}
+
+
+@pytest.fixture
+def begun(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> list[dict[str, Any]]:
+    """What the window would have begun with."""
+    monkeypatch.chdir(tmp_path)
+    found: list[dict[str, Any]] = []
+    monkeypatch.setattr(viewer, "run_viewer", lambda *_, **named: found.append(named) or 0)
+    Path("lens.json").write_text(json.dumps(LENS))
+    Path("plain.json").write_text(json.dumps({**LENS, "D": [0, 0, 0, 0]}))
+    return found
+
+
+def test_a_camera_with_a_lens_is_refused(begun: list[Any], capsys: pytest.CaptureFixture) -> None:
+    assert main(["lens.json"]) == 2
+    told = capsys.readouterr().err
+    assert told.startswith("lucida: lens.json: k1: 0.5 is a lens's distortion")
+    assert "--ignore-distortion" in told and told.count("\n") == 1
+    assert not begun
+
+
+def test_what_is_ignored_is_said(begun: list[Any], capsys: pytest.CaptureFixture) -> None:
+    assert main(["lens.json", "--ignore-distortion"]) == 0
+    assert "k1 = 0.5 (radial and tangential) ignored" in capsys.readouterr().err
+    assert isinstance(begun[0]["view"], View)
+    assert begun[0]["cameras"] is None
+
+
+def test_a_pinhole_is_the_view(begun: list[Any], capsys: pytest.CaptureFixture) -> None:
+    assert main(["plain.json"]) == 0
+    assert not capsys.readouterr().err
+    assert begun[0]["view"].camera.eye == (0, 0, 0)

@@ -1,0 +1,259 @@
+"""Cameras of other programs in the window: copied, pasted, dropped, saved; scenes exported; K, R
+and t in the panel."""
+
+from __future__ import annotations
+
+import threading
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from imgui_bundle import imgui
+from window_driver import PATIENT_S, Driver, Key
+
+from app.camera_panel.actions import WITHOUT
+from app.cameras.text import FORMATS_OF
+from app.window import exporting
+from renderer.camera import Camera
+from renderer.camera_formats import PosedCamera, read_cameras, written
+from renderer.scene import load_scene
+from renderer.scene.cancelling import check_cancelled
+
+CTRL = int(Key.mod_ctrl)
+PANEL = "//Camera"
+SIZE = (64, 48)
+AIMED = Camera.look_at((3, 2, 5), (0, 0.5, 0), fov_y_deg=40, aspect=SIZE[0] / SIZE[1])
+LENS = '{"image_width": 20, "image_height": 16, "K": [9, 9, 10, 8], "D": [0.5, 0, 0, 0]}'
+
+
+def only_sections(d: Driver, *names: str) -> None:
+    for other in ("Copy and paste", "Look at", "Presets"):
+        d.ctx.item_close(f"{PANEL}/{other}")
+    d.ctx.yield_(2)
+    for wanted in names:
+        d.ctx.item_open(f"{PANEL}/{wanted}")
+        d.ctx.yield_(2)
+
+
+def said(d: Driver) -> str:
+    texts = d.window.shell.toasts.texts
+    return texts[-1] if texts else ""
+
+
+def answer(d: Driver, words: str) -> None:
+    d.ctx.item_click(f"//##message/{words}")
+    d.ctx.yield_(3)
+
+
+def save_as(d: Driver, action: str, path: Path) -> None:
+    """Through the menu and the window's own dialog, until the file is there."""
+    d.ctx.menu_click(f"//##MainMenuBar/File/{action}")
+    d.ctx.yield_(2)
+    assert d.window.files.dialog.is_open
+    d.ctx.key_chars_replace_enter(str(path))
+    d.until(lambda: path.exists() and not d.window.files.busy)
+    d.ctx.yield_(3)
+
+
+def same_camera(one: Camera, other: Camera, size: tuple[int, int] = SIZE) -> bool:
+    points = np.random.default_rng(1).uniform(-1, 1, (9, 3))
+    seen, wanted = one.project(points, size), other.project(points, size)
+    return np.allclose(seen.row, wanted.row) and np.allclose(seen.column, wanted.column)
+
+
+def drive_every_format_is_copied_in_panel_and_menu(d: Driver) -> None:
+    only_sections(d, "Copy and paste")
+    shown, size = d.window.renderers.camera(d.window.state), d.window.renderers.size
+    for number, form in enumerate(FORMATS_OF):
+        imgui.set_clipboard_text("")
+        if number % 2:
+            d.ctx.menu_click(f"//##MainMenuBar/Edit/Copy camera as/{form}")
+        else:
+            d.ctx.item_click(f"{PANEL}/{form}")
+        d.ctx.yield_(2)
+        assert len(imgui.get_clipboard_text()) > 100, form
+        assert said(d).endswith(f"{form}.")
+        if form in ("Mitsuba", "pbrt"):
+            continue
+        d.ctx.menu_click("//##MainMenuBar/Camera/Canonical camera")
+        d.ctx.item_click(f"{PANEL}/Paste")
+        d.ctx.yield_(2)
+        assert same_camera(d.window.renderers.camera(d.window.state), shown, size), form
+        assert "pasted from the clipboard: " in said(d)
+    d.picture()
+    only_sections(d)
+
+
+def drive_what_a_format_cannot_hold_is_told_and_nothing_copied(d: Driver) -> None:
+    imgui.set_clipboard_text("as before")
+    d.press(int(Key.p))
+    assert d.window.state.camera.is_parallel
+    d.ctx.menu_click("//##MainMenuBar/Edit/Copy camera as/OpenCV")
+    d.ctx.yield_(2)
+    message = d.window.files.message
+    assert "Nothing was copied as OpenCV. " in message and "\n" not in message
+    assert imgui.get_clipboard_text() == "as before"
+    d.picture()
+    answer(d, "Close")
+    d.ctx.menu_click("//##MainMenuBar/File/Save camera as/COLMAP (a folder)...")
+    d.ctx.yield_(2)
+    assert "cannot be saved as COLMAP" in d.window.files.message
+    assert not d.window.files.dialog.is_open
+    answer(d, "Close")
+
+
+def drive_a_pasted_lens_is_asked_about(d: Driver) -> None:
+    imgui.set_clipboard_text(LENS)
+    for words in ("Cancel", WITHOUT):
+        d.press(CTRL | int(Key.v))
+        assert d.window.files.question is not None
+        assert "moves a corner by" in d.window.files.question.text
+        assert d.window.state == d.start
+        d.picture()
+        answer(d, words)
+        assert d.window.files.question is None
+    assert d.window.state.camera.eye == (0, 0, 0)
+    assert len(d.window.history.past) == 1
+    d.press(CTRL | int(Key.v))
+    d.press(int(Key.escape))
+    assert d.window.files.question is None
+
+
+def drive_a_dropped_camera_is_taken_and_its_lens_asked_about(d: Driver) -> None:
+    plain, bent = d.folder / "plain.yml", d.folder / "bent.json"
+    plain.write_bytes(written([PosedCamera(AIMED, SIZE)], "opencv")[""])
+    bent.write_text(LENS)
+    d.drop([str(plain)])
+    d.until(lambda: d.window.state.camera != d.start.camera)
+    d.ctx.yield_(3)
+    assert same_camera(d.window.state.camera, AIMED)
+    assert said(d).startswith("The camera is plain.yml's: OpenCV's K, R and t")
+    assert d.window.files.question is None
+    before = d.window.state
+    d.drop([str(bent)])
+    d.until(lambda: d.window.files.question is not None)
+    assert d.window.state == before
+    d.ctx.yield_(3)
+    answer(d, WITHOUT)
+    assert d.window.state.camera.eye == (0, 0, 0)
+    assert said(d).startswith("The camera is bent.json's: ")
+    # What ends as programs and models do: a script for Blender, a glTF file of a camera alone.
+    for form, ending in (("blender", "py"), ("gltf", "gltf")):
+        path = d.folder / f"alone.{ending}"
+        path.write_bytes(written([PosedCamera(AIMED, SIZE)], form)[""])
+        d.window.change(d.start)
+        d.drop([str(path)])
+        d.until(lambda: same_camera(d.window.state.camera, AIMED))
+        d.ctx.yield_(3)
+        assert said(d).startswith(f"The camera is alone.{ending}'s: ")
+    d.window.change(d.start)
+    # A folder of COLMAP with one image, and no points.
+    folder = d.folder / "one"
+    folder.mkdir()
+    for name, data in written([PosedCamera(AIMED, SIZE)], "colmap").items():
+        (folder / name).write_bytes(data)
+    d.drop([str(folder)])
+    d.until(lambda: same_camera(d.window.state.camera, AIMED))
+    d.ctx.yield_(3)
+    assert "COLMAP" in said(d)
+
+
+def drive_the_camera_is_saved_in_every_format(d: Driver) -> None:
+    shown, size = d.window.renderers.camera(d.window.state), d.window.renderers.size
+    saved = {
+        "OpenCV (.yml, .json)...": d.folder / "saved.json",
+        "COLMAP (a folder)...": d.folder / "model",
+        "pbrt (.pbrt)...": d.folder / "saved.pbrt",
+    }
+    for name, path in saved.items():
+        save_as(d, f"Save camera as/{name}", path)
+        d.until(lambda path=path: str(path) in said(d))  # type: ignore[misc]
+        assert not d.window.files.message
+    for path in (d.folder / "saved.json", d.folder / "model"):
+        posed = read_cameras(path).cameras[0]
+        assert posed.size == size
+        assert same_camera(posed.camera, shown, size)
+    assert (d.folder / "saved.pbrt").read_text().count("Camera") == 1
+
+
+def drive_a_scene_is_exported_and_what_is_left_out_is_listed(d: Driver) -> None:
+    path = d.folder / "out.glb"
+    d.press(CTRL | int(Key.e))
+    assert d.window.files.dialog.is_open
+    d.ctx.key_chars_replace_enter(str(path))
+    exports = d.window.shell.exports
+    d.until(lambda: exports.listing is not None)
+    d.ctx.yield_(3)
+    d.picture()
+    assert len(load_scene(path).objects) == len(d.window.state.scene.objects)
+    listing = exports.listing
+    assert listing is not None and listing.lines
+    d.ctx.item_click("//##listing/Copy")
+    d.ctx.yield_(2)
+    assert imgui.get_clipboard_text().splitlines() == [listing.title, *listing.lines]
+    d.ctx.item_click("//##listing/Close")
+    d.ctx.yield_(2)
+    assert exports.listing is None
+    assert str(path) in said(d)
+    for ending in ("xml", "pbrt"):
+        save_as(d, "Export...", d.folder / f"out.{ending}")
+        d.until(lambda: exports.listing is not None)
+        d.press(int(Key.escape))
+        assert exports.listing is None
+
+
+def drive_a_long_export_is_cancelled(d: Driver) -> None:
+    export, begun, gate = exporting.export_scene, threading.Event(), threading.Event()
+
+    def slow(*arguments: Any) -> tuple[str, ...]:
+        begun.set()
+        gate.wait(PATIENT_S)
+        check_cancelled()
+        return export(*arguments)
+
+    exporting.export_scene = slow
+    try:
+        path = d.folder / "never.glb"
+        d.press(CTRL | int(Key.e))
+        d.ctx.key_chars_replace_enter(str(path))
+        d.until(begun.is_set)
+        d.until(lambda: d.window.shell.exports.time_s > 0.5)
+        d.ctx.yield_(3)
+        d.picture()
+        d.press(CTRL | int(Key.e))  # one at a time
+        assert not d.window.files.dialog.is_open
+        assert "still being written" in said(d)
+        d.press(int(Key.escape))
+        gate.set()
+        d.until(lambda: not d.window.shell.exports.busy)
+        d.ctx.yield_(2)
+        assert "never.glb was cancelled" in said(d)
+        assert not path.exists()
+    finally:
+        gate.set()
+        exporting.export_scene = export
+
+
+def drive_k_r_and_t_are_read_switched_and_copied(d: Driver) -> None:
+    only_sections(d, "Copy and paste", "In other words")
+    shown, size = d.window.renderers.camera(d.window.state), d.window.renderers.size
+    view = d.window.views["Camera"]
+    assert view.entered.pixel_origin == "center"
+    for origin, button in (("corner", "corners"), ("center", "centres")):
+        d.ctx.item_click(f"{PANEL}/{button}")
+        d.ctx.yield_(2)
+        assert view.entered.pixel_origin == origin
+        d.ctx.item_click(f"{PANEL}/Copy K, R, t")
+        d.ctx.yield_(2)
+        names: dict[str, Any] = {}
+        exec(imgui.get_clipboard_text(), names)
+        assert np.allclose(names["K"], shown.intrinsics(size, origin).K, atol=1e-9)
+        d.ctx.menu_click("//##MainMenuBar/Camera/Canonical camera")
+        d.press(CTRL | int(Key.v))
+        assert same_camera(d.window.renderers.camera(d.window.state), shown, size)
+    d.picture()
+    d.press(int(Key.p))
+    d.ctx.yield_(2)
+    assert not d.ctx.item_exists(f"{PANEL}/Copy K, R, t")
+    d.picture()
+    only_sections(d)
