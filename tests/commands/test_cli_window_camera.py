@@ -10,6 +10,8 @@ import pytest
 
 from app.cli import main
 from app.window import viewer
+from renderer.camera import Camera
+from renderer.camera_formats import PosedCamera, written
 from renderer.scene.model import View
 
 LENS = {"image_width": 20, "image_height": 16, "K": [9, 9, 10, 8], "D": [0.5, 0, 0, 0]}
@@ -45,3 +47,11 @@ def test_a_pinhole_is_the_view(begun: list[Any], capsys: pytest.CaptureFixture) 
     assert main(["plain.json"]) == 0
     assert not capsys.readouterr().err
     assert begun[0]["view"].camera.eye == (0, 0, 0)
+
+
+def test_a_script_for_blender_is_a_camera_and_no_program(begun: list[Any]) -> None:
+    camera = Camera((1, 2, 3))
+    Path("camera.py").write_bytes(written([PosedCamera(camera, (64, 48))], "blender")[""])
+    assert main(["camera.py"]) == 0
+    assert begun[0]["code"] == ""
+    assert begun[0]["view"].camera.eye == pytest.approx((1, 2, 3))

@@ -17,8 +17,10 @@ from renderer.camera import Camera
 from renderer.camera_formats import read_cameras
 from renderer.errors import LucidaError
 from renderer.scene import BUILTIN_SCENES, Scene, load_scene, shapes
+from renderer.scene.cancelling import cancelled_by
 from renderer.scene.model import Checker, DirectionalLight, Material, Mesh, SceneObject, Sphere
 from renderer.scene.readers import read_ply
+from renderer.scene.subprocess_reader import CancelledError
 from renderer.scene_export import export_scene
 from renderer.scene_export.checkers import with_checker_uv
 from renderer.scene_export.meshes import triangles, unit_sphere
@@ -305,3 +307,29 @@ def test_a_file_in_the_meshes_way_is_told(tmp_path: Path):
     with pytest.raises(LucidaError, match="cannot be made: file exists"):
         exported(scene_of(shapes.box()), tmp_path / "a.xml")
     assert files_in(tmp_path) == {"a_meshes"}
+
+
+class GivenUp:
+    """Asks of an export, as who no longer waits at one of them. asked: how many there were."""
+
+    def __init__(self, at: int) -> None:
+        self.at, self.asked = at, 0
+
+    def check(self) -> None:
+        self.asked += 1
+        if self.asked == self.at:
+            raise CancelledError
+
+
+@pytest.mark.parametrize("ending", ["xml", "pbrt", "glb"])
+def test_an_export_that_nobody_waits_for_leaves_nothing(tmp_path: Path, ending: str):
+    scene, path = load_scene("still-life"), tmp_path / f"a.{ending}"
+    whole = GivenUp(at=0)
+    with cancelled_by(whole.check):
+        exported(scene, tmp_path / f"whole.{ending}")
+    assert whole.asked > len(scene.objects)  # each of them, and what is written
+    before = files_in(tmp_path)
+    for at in range(1, whole.asked + 1):
+        with pytest.raises(CancelledError), cancelled_by(GivenUp(at).check):
+            exported(scene, path)
+        assert files_in(tmp_path) == before, at
