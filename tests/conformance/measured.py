@@ -86,9 +86,8 @@ def measured(
 
 
 def needed(module: str) -> ModuleType:
-    """Raises PeerMissing where it cannot be imported."""
+    """Raises PeerMissing where it cannot be imported; what else fails there is a fault."""
     try:
         return import_module(module)
-    except Exception as error:  # a broken installation raises anything
-        lines = str(error).split("\n")
-        raise PeerMissing(lines[0] or type(error).__name__) from None
+    except ImportError as error:  # also of the system's libraries that it needs
+        raise PeerMissing(str(error).split("\n")[0]) from None
