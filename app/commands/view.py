@@ -90,6 +90,7 @@ def shown_size(own: tuple[int, int]) -> tuple[int, int]:
 def run(arguments: argparse.Namespace) -> int:
     from app.commands.arguments import check_is_scene
     from app.poses.reading import is_cameras, open_cameras
+    from renderer.camera_formats import PosedCamera
     from renderer.images import check_image_path
     from renderer.scene.model import View
 
@@ -103,8 +104,12 @@ def run(arguments: argparse.Namespace) -> int:
     if source is not None and is_code(source):
         code, source = found_code(source), None
     elif source is not None and is_cameras(source):
-        found, source = open_cameras(source), None
-        cameras, view = (None, found) if isinstance(found, View) else (found, None)
+        found, source = open_cameras(source, arguments.ignore_distortion), None
+        if isinstance(found, PosedCamera):
+            say_changes([found])
+            view = View(found.camera, fit=True)
+        else:
+            cameras = found
     elif source is not None:
         check_is_scene(source)
     posed = viewed(arguments)

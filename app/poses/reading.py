@@ -13,9 +13,11 @@ from pathlib import Path
 
 from app.poses.model import PoseSet, load_poses, pose_set
 from app.widgets.background import Background
+from renderer.camera_formats import PosedCamera
+from renderer.camera_formats.formats import check_distortion
+from renderer.camera_formats.given import Options
 from renderer.errors import LucidaError, describe
 from renderer.scene.cancelling import check_cancelled
-from renderer.scene.model import View
 
 KEPT = 2
 CAMERA_ENDINGS = (".json", ".yml", ".yaml", ".txt", ".bin")  # of files that hold no scene
@@ -97,13 +99,18 @@ def is_cameras(source: str) -> bool:
         return False
 
 
-def open_cameras(source: str) -> PoseSet | View:
-    """A set of cameras; or a view, where there is but one. Raises LucidaError."""
+def open_cameras(source: str, ignore_distortion: bool = False) -> PoseSet | PosedCamera:
+    """A set of cameras; or the one, where there is but one, whose lens is refused: a set tells its
+    lenses, and a view has no place for that. Raises LucidaError."""
     path = Path(source).absolute()
     found = load_poses(path)
     check_cancelled()
     if len(found.cameras) == 1 and found.points is None:
-        return View(found.cameras[0].camera, fit=True)
+        try:
+            check_distortion(found.cameras, Options(ignore_distortion=ignore_distortion))
+        except LucidaError as error:
+            raise error.in_file(source) from None
+        return found.cameras[0]
     return pose_set(path, found)
 
 

@@ -17,6 +17,7 @@ from app.lecture.reading import is_lecture, load_lecture
 from app.poses.model import PoseSet
 from app.poses.reading import is_cameras, open_cameras
 from app.storage.code_files import found_code, is_code, is_tasks
+from renderer.camera_formats import PosedCamera
 from renderer.errors import LucidaError, describe
 from renderer.raster import Prepared, prepare
 from renderer.scene import BUILTIN_SCENES, Scene, View, load_scene, load_view
@@ -80,8 +81,8 @@ def open_sources(
                 lecture = lecture or (load_lecture(source, agreed), Path(source).absolute())
             elif source not in BUILTIN_SCENES and is_cameras(source):
                 found = open_cameras(source)
-                if isinstance(found, View):
-                    view = view or found
+                if isinstance(found, PosedCamera):
+                    view = view or View(found.camera, fit=True)
                 else:
                     poses = poses or found
             elif scene is None:

@@ -20,7 +20,7 @@ from app.state.app_state import AppState
 from app.storage.paths import stored
 from app.storage.session import Arrangement, from_bytes, session_of, to_bytes
 from app.window.opening import open_sources
-from renderer.camera_formats import written
+from renderer.camera_formats import PosedCamera, written
 from renderer.errors import LucidaError
 from renderer.scene import View, load_scene
 
@@ -50,11 +50,11 @@ def test_a_file_with_one_camera_is_a_view(tmp_path: Path, name: str, ending: str
     path = tmp_path / f"camera.{ending}"
     camera = ring(1)[0]
     path.write_bytes(written([replace(camera, image="")], name)[""])
-    view = open_cameras(str(path))
-    assert isinstance(view, View) and view.fit
-    assert np.allclose(view.camera.eye, camera.camera.eye)
+    posed = open_cameras(str(path))
+    assert isinstance(posed, PosedCamera)
+    assert np.allclose(posed.camera.eye, camera.camera.eye)
     opened = open_sources(["spheres", str(path)])
-    assert opened.view == view and opened.poses is None
+    assert opened.view == View(posed.camera, fit=True) and opened.poses is None
     assert opened.scene is not None
 
 
@@ -78,7 +78,8 @@ def test_what_is_a_scene_stays_one(tmp_path: Path) -> None:
 @pytest.mark.parametrize(
     ("name", "text", "problem"),
     [
-        ("transforms.json", "{", "holds no known camera; give a transforms.json"),
+        ("transforms.json", "{}", "holds no known camera; give a transforms.json"),
+        ("transforms.json", "{", "line 1, column 2: expecting property name"),
         ("transforms.json", '{"frames": []}', "frames: is empty"),
         ("transforms.json", '{"frames": [{"w": 4, "h": 3}]}', "frames[0].transform_matrix"),
         ("notes.txt", "milk, bread", "holds no known camera"),
@@ -125,7 +126,7 @@ def test_a_set_is_read_in_a_thread_and_the_last_ones_are_kept(tmp_path: Path) ->
         broken.write_text("{")
         assert reader.of(str(broken)) is None
         wait_for(lambda: reader.of(str(broken)) is None and str(broken) in reader.problems)
-        assert "holds no known camera" in reader.problems[str(broken)]
+        assert "line 1, column 2: expecting property" in reader.problems[str(broken)]
         assert not reader.busy
         mended = a_set(3, str(broken))
         reader.give(mended)
@@ -178,3 +179,20 @@ def test_images_of_other_proportions_see_no_less() -> None:
     poses = a_set(2)
     wide = poses.view(0).for_size((2 * SIZE[0], SIZE[1]))
     assert wide.viewport[0] == pytest.approx(2 * poses.cameras[0].camera.viewport[0])
+
+
+def test_the_lens_of_a_single_camera_is_not_dropped_in_silence(tmp_path: Path) -> None:
+    path = tmp_path / "camera.yml"
+    path.write_text("fx: 500\nfy: 500\ncx: 320\ncy: 240\nwidth: 640\nheight: 480\nk1: 0.2\n")
+    for opening in (open_cameras, lambda source: open_sources([source])):
+        with pytest.raises(LucidaError, match=r"camera\.yml: k1: 0\.2 is a lens's distortion"):
+            opening(str(path))
+    posed = open_cameras(str(path), ignore_distortion=True)
+    assert isinstance(posed, PosedCamera) and posed.distortion is not None
+
+
+def test_a_broken_file_of_cameras_says_where_it_is_broken(tmp_path: Path) -> None:
+    path = tmp_path / "transforms.json"
+    path.write_text('{"frames": [}')
+    with pytest.raises(LucidaError, match=r"transforms\.json: line 1, column 13: expecting value"):
+        open_cameras(str(path))
