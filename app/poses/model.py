@@ -12,12 +12,13 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
+from app.cameras.taken import is_fitted
 from app.outside.cloud import Cloud
 from app.outside.diagram import Segments
 from app.outside.extent import FROM_ABOVE, FROM_BEHIND, FROM_RIGHT
 from renderer.camera import Camera
 from renderer.camera_formats import CameraSet, PosedCamera, read_cameras
-from renderer.camera_formats.formats import recognised
+from renderer.camera_formats.formats import UNKNOWN, recognised
 from renderer.camera_formats.given import Options, given
 from renderer.errors import LucidaError
 from renderer.scene.model import View
@@ -100,7 +101,8 @@ class PoseSet:
 
     def view(self, number: int) -> View:
         """What is seen from a camera. Images of other proportions see more, never less."""
-        return View(self.cameras[number].camera, fit=True)
+        posed = self.cameras[number]
+        return View(posed.camera, is_fitted(posed))
 
 
 def load_poses(path: Path) -> CameraSet:
@@ -109,7 +111,9 @@ def load_poses(path: Path) -> CameraSet:
     found = given(path)
     try:
         recognised(found)
-    except LucidaError:
+    except LucidaError as error:
+        if error.problem != UNKNOWN:  # it is no JSON, or no text
+            raise error if error.source else error.in_file(str(path)) from None
         problem = "is a folder without cameras" if found.is_folder else "holds no known camera"
         remedy = "give a transforms.json, the folder of a COLMAP model, or a file of one camera"
         raise LucidaError("", problem, remedy, str(path)) from None

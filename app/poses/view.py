@@ -326,7 +326,9 @@ def _photographed(state: AppState, poses: PoseSet, number: int) -> AppState:
 def _counts(poses: PoseSet) -> str:
     count, points = len(poses.names), len(poses.points)
     words = f"{count:,} camera{'s' if count != 1 else ''}"
-    return f"{words}, {points:,} points" if points else words
+    words += f", {points:,} points" if points else ""
+    lens = any(posed.distortion is not None for posed in poses.cameras)
+    return f"{words}, lenses left out" if lens else words
 
 
 def _frustum(poses: PoseSet, number: int, size: float, role: Role) -> list[Item]:

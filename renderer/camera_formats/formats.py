@@ -63,6 +63,7 @@ FORMATS = (
     Format("pbrt", "a camera of pbrt-v4", (".pbrt",)),
 )
 
+UNKNOWN = "is no camera that is known"
 _TEXTS = (".json", ".yml", ".yaml", ".xml", ".toml", ".txt", ".py")
 
 
@@ -106,9 +107,7 @@ def recognised(found: Given) -> Format:
         if found.ending == ".json":
             from_json(text)
     names = ", ".join(entry.name for entry in FORMATS if entry.reads)
-    raise LucidaError(
-        "", "is no camera that is known", f"say which with `lucida camera --from`: {names}"
-    )
+    raise LucidaError("", UNKNOWN, f"say which with `lucida camera --from`: {names}")
 
 
 def written(

@@ -82,7 +82,8 @@ def test_what_is_a_scene_stays_one(tmp_path: Path) -> None:
 @pytest.mark.parametrize(
     ("name", "text", "problem"),
     [
-        ("transforms.json", "{", "holds no known camera; give a transforms.json"),
+        ("transforms.json", "{}", "holds no known camera; give a transforms.json"),
+        ("transforms.json", "{", "line 1, column 2: expecting property name"),
         ("transforms.json", '{"frames": []}', "frames: is empty"),
         ("transforms.json", '{"frames": [{"w": 4, "h": 3}]}', "frames[0].transform_matrix"),
         ("notes.txt", "milk, bread", "holds no known camera"),
@@ -129,7 +130,7 @@ def test_a_set_is_read_in_a_thread_and_the_last_ones_are_kept(tmp_path: Path) ->
         broken.write_text("{")
         assert reader.of(str(broken)) is None
         wait_for(lambda: reader.of(str(broken)) is None and str(broken) in reader.problems)
-        assert "holds no known camera" in reader.problems[str(broken)]
+        assert "line 1, column 2: expecting property" in reader.problems[str(broken)]
         assert not reader.busy
         mended = a_set(3, str(broken))
         reader.give(mended)
@@ -215,3 +216,10 @@ def test_one_image_of_a_model_without_points_is_a_view(tmp_path: Path) -> None:
     found = open_cameras(str(tmp_path))
     assert isinstance(found, TakenCamera)
     assert np.allclose(found.view.camera.eye, camera.camera.eye)
+
+
+def test_a_broken_file_of_cameras_says_where_it_is_broken(tmp_path: Path) -> None:
+    path = tmp_path / "transforms.json"
+    path.write_text('{"frames": [}')
+    with pytest.raises(LucidaError, match=r"transforms\.json: line 1, column 13: expecting value"):
+        open_cameras(str(path))

@@ -328,7 +328,7 @@ def drive_what_cannot_be_read_is_told_in_the_view(d: Driver) -> None:
     broken = d.folder / "broken.json"
     broken.write_text("{")
     d.drop([str(broken)])
-    d.until(lambda: "holds no known camera" in d.window.files.message)
+    d.until(lambda: "line 1, column 2" in d.window.files.message)
     assert view(d).poses is poses  # the old one stays
     d.window.files.message = ""
     leave(d)
