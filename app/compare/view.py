@@ -56,7 +56,7 @@ class CompareView(ImageView):
         self._shown: ShownImage | None = None
         self._version = -1  # of the composed picture that is shown
         self._error: Exception | None = None
-        self._against = AgainstPhotograph(linked.photograph)
+        self.against = AgainstPhotograph(linked.photograph)
         self._held: float | None = None  # where in the divider the mouse took it
         self.screen: Screen | None = None  # where the image is
 
@@ -197,7 +197,7 @@ class CompareView(ImageView):
     def _with_photograph(self, both: Renderers, state: AppState, first: Picture) -> Composing:
         """What compose() makes of an image's picture and the photograph."""
         options, image = state.of(CompareOptions), first.texture
-        seen = self._against.pictures(both, state, first, whole(both.size))
+        seen = self.against.pictures(both, state, first, whole(both.size))
         if options.mode not in ("absolute", "signed"):
             divider = self._first_of_second(both, state)
             if seen is None:
@@ -308,7 +308,7 @@ class CompareView(ImageView):
             return panel.CompareReport(describe(error), theme.ERROR)
         if comparing.has_photograph(state):
             at_rest = not (imgui.is_any_item_active() or host.travelling)
-            text, bad = self._against.headline(comparing.sides(state), at_rest)
+            text, bad = self.against.headline(comparing.sides(state), at_rest)
             return panel.CompareReport(text, theme.ERROR if bad else theme.TEXT)
         if waits or verdict is None:
             return panel.CompareReport(waits or "Comparing ...", theme.DIM)

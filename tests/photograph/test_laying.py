@@ -110,17 +110,18 @@ def test_of_a_magnified_image_what_is_seen_is_laid(gl, laying, upload):
 def test_it_is_drawn_again_where_something_has_changed(gl, laying, upload):
     laying.take(noise())
     picture = pictured(gl, upload, noise())
-    one = laying.laid("a", picture, whole(SIZE), False, Laid(WHOLE, 0.5))
-    before = shown(one)
-    assert laying._passes["a"][1].count == 1
-    laying.laid("a", picture, whole(SIZE), False, Laid(WHOLE, 0.5))
-    assert laying._passes["a"][1].count == 1
+
+    def laid(opacity=0.5):
+        return laying.laid("a", picture, whole(SIZE), False, Laid(WHOLE, opacity))
+
+    before, drawn = shown(laid()), laid().made
+    assert laid().made is drawn  # which is another one each time
+    assert laid(0.25).made is not drawn
+    drawn = laid().made
     laying.take(noise())  # another photograph
-    assert not np.array_equal(
-        shown(laying.laid("a", picture, whole(SIZE), False, Laid(WHOLE, 0.5))), before
-    )
+    assert laid().made is not drawn and not np.array_equal(shown(laid()), before)
     laying.take(None)
-    assert laying.laid("a", picture, whole(SIZE), False, Laid(WHOLE)) is picture
+    assert laid() is picture
 
 
 def test_where_it_is_seen_smaller_the_mean_is_seen(gl, laying, upload):

@@ -5,15 +5,18 @@ from __future__ import annotations
 import json
 from dataclasses import replace
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 from imgui_bundle import hello_imgui
 from PIL import Image
 from window_driver import RASTER, SIZE, Driver, Key
 
+from app.compare import comparing
 from app.compare.view import CompareView
 from app.host import layout
 from app.images.imaging import with_resolution
+from app.images.renderers import Renderers
 from app.pair.view import RasterView
 from app.photograph.layer import PhotographLayer
 from app.photograph.model import closed
@@ -202,12 +205,12 @@ def drive_an_image_is_compared_with_it(d: Driver) -> None:
         changes = {"pair": pair, "mode": "absolute", "gain": 1.0}
         d.window.change(state.with_options(compare=changes))
         d.settle()
-        told = view._told(d.window)
-        assert "image against photograph, as shown: RMS 0." in told.headline, told.headline
+        told, is_error = view.against.headline(comparing.sides(d.window.state), at_rest=True)
+        assert "image against photograph, as shown: RMS 0." in told and not is_error, told
     half_a_pixel = d.window.state.camera.shifted(0, 0.5, size)
     d.window.change(d.window.state.with_camera(half_a_pixel))
     d.settle()
-    told = view._told(d.window).headline
+    told, _ = view.against.headline(comparing.sides(d.window.state), at_rest=True)
     assert float(told.split("RMS ")[1].split("/")[0]) > 1.0, told
     for mode in ("signed", "wipe", "flip"):
         d.window.change(d.window.state.with_options(compare={"mode": mode}))
@@ -215,7 +218,8 @@ def drive_an_image_is_compared_with_it(d: Driver) -> None:
         d.picture()
     d.window.change(closed(d.window.state))  # both images again
     d.settle()
-    assert "photograph" not in view._told(d.window).headline
+    assert comparing.sides(d.window.state) == ("raster", "ray")
+    d.picture()
     hello_imgui.switch_layout(layout.LAYOUTS[0].name)
     d.ctx.yield_(5)
 
@@ -274,10 +278,21 @@ def drive_it_follows_a_set_of_poses(d: Driver) -> None:
 
 def drive_nothing_is_drawn_anew_while_nothing_changes(d: Driver) -> None:
     opened(d, saved(d, noise(d)))
-    laying = layer(d)._laying
-    assert laying is not None
     d.ctx.mouse_teleport_to_pos((3, SIZE[1] - 3))
     d.settle()
-    counts = {name: made.count for name, (_, made) in laying._passes.items()}
-    d.ctx.yield_(20)
-    assert counts and {name: made.count for name, (_, made) in laying._passes.items()} == counts
+    made: dict[object, list[object]] = {}
+    of, over = layer(d), layer(d).over
+
+    def seen(both: Renderers, state: AppState, name: tuple[str, str], *rest: Any) -> Any:
+        picture = over(both, state, name, *rest)
+        made.setdefault(name, []).append(picture and picture.made)
+        return picture
+
+    of.over = seen  # type: ignore[method-assign]
+    try:
+        d.ctx.yield_(20)
+    finally:
+        of.over = over  # type: ignore[method-assign]
+    assert len(made) == 2
+    for pictures in made.values():  # each drawing has another one
+        assert len(pictures) > 10 and all(one is pictures[0] for one in pictures)
