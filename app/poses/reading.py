@@ -18,6 +18,7 @@ from app.widgets.background import Background
 from renderer.camera_formats.given import Given, given
 from renderer.errors import LucidaError, describe, one_line
 from renderer.scene.cancelling import check_cancelled
+from renderer.scene.model import View
 
 KEPT = 2
 # Of files that hold no scene.
