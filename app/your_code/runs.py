@@ -66,7 +66,8 @@ class CodeRuns:
     """wake: called from the threads when there is news. make: what answers for a file.
 
     report: the newest; None before the first. files: the modules beside the file that it has
-    imported, or has failed to, when it was last read. Methods are for the window's thread, but for tick().
+    imported, or has failed to, when it was last read. Methods are for the window's thread, but for
+    tick().
     """
 
     def __init__(
