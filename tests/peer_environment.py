@@ -48,7 +48,7 @@ def prepare(folder: Path, requirements: Path, packages: Path | None = None) -> d
 
     packages: a package.json, for the peers that run under node.
     """
-    _made(folder)
+    made(folder)
     failed = {}
     for line in wanted(requirements.read_text()):
         why = _install(folder, line)
@@ -62,7 +62,7 @@ def prepare(folder: Path, requirements: Path, packages: Path | None = None) -> d
     return failed
 
 
-def _made(folder: Path) -> None:
+def made(folder: Path) -> None:
     """An empty environment that sees Lucida's packages, unless it is there."""
     runtime = sysconfig.get_path("purelib")
     made_from = f"{sys.version}\n{runtime}\n"

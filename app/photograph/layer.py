@@ -14,7 +14,7 @@ from app.images.placement import Placement
 from app.images.progressive_ray import RayImage
 from app.images.renderers import Renderers
 from app.images.shown import Picture
-from app.photograph.laying import Laid, Laying, Objects
+from app.photograph.laying import LaidPhotograph, Laying, Objects
 from app.photograph.model import Parts, covered, note, path_of, pixels_of
 from app.photograph.options import PhotographOptions
 from app.photograph.reading import DecodedPhotograph, Size, decoded
@@ -89,7 +89,7 @@ class PhotographLayer:
         options = state.of(PhotographOptions)
         if picture is None or not options.shown or not options.opacity:
             return picture
-        laid = Laid(self._parts(both, state), options.opacity, options.lay == "behind")
+        laid = LaidPhotograph(self._parts(both, state), options.opacity, options.lay == "behind")
         return self._laid(both, name, picture, placement, under, laid, ray)
 
     def instead(
@@ -97,7 +97,7 @@ class PhotographLayer:
     ) -> Picture:
         """The photograph in place of a picture of all of an image, which is left where the
         photograph is not, or is transparent: there, nothing differs."""
-        laid = Laid(self._parts(both, state))
+        laid = LaidPhotograph(self._parts(both, state))
         return self._laid(both, ("in its place", ""), picture, placement, False, laid, False)
 
     def end(self) -> None:
@@ -115,7 +115,7 @@ class PhotographLayer:
         picture: Picture,
         placement: Placement,
         under: bool,
-        laid: Laid,
+        laid: LaidPhotograph,
         ray: bool,
     ) -> Picture:
         assert self._laying is not None

@@ -22,7 +22,7 @@ from renderer.raster.resources import Owner, new_texture
 
 
 @dataclass(frozen=True)
-class Laid:
+class LaidPhotograph:
     """How a photograph is laid. covered: what it is of the image. opacity: from 0 to 1. behind:
     only where nothing is hit."""
 
@@ -70,7 +70,7 @@ class Laying:
         picture: Picture,
         placement: Placement,
         under: bool,
-        laid: Laid,
+        laid: LaidPhotograph,
         objects: Objects | None = None,
     ) -> Picture:
         """A picture of an image, which stands in a window as `placement` says, with the photograph.

@@ -54,14 +54,14 @@ def message_box(message: Message) -> str:
 
 
 @dataclass(frozen=True)
-class Listing:
+class TextListing:
     """Lines to read, under a title."""
 
     title: str
     lines: tuple[str, ...]
 
 
-def listing_box(listing: Listing) -> bool:
+def listing_box(listing: TextListing) -> bool:
     """Draws the lines in the middle of the window, to be scrolled and copied; gives whether the box
     stays."""
     viewport = imgui.get_main_viewport()

@@ -12,7 +12,7 @@ from collections.abc import Callable
 from pathlib import Path
 
 from app.widgets.background import Background
-from app.widgets.messages import Listing
+from app.widgets.messages import TextListing
 from renderer.camera import Camera, Size
 from renderer.errors import describe, one_line
 from renderer.scene.cancelling import cancelled_by
@@ -33,7 +33,7 @@ class Exports:
         self._given_up = threading.Event()
         self._path = Path()
         self._began_s = 0.0
-        self.listing: Listing | None = None
+        self.listing: TextListing | None = None
 
     @property
     def busy(self) -> bool:
@@ -80,7 +80,7 @@ class Exports:
         if outcome.error is not None:
             return describe(outcome.error), False
         if outcome.value:
-            self.listing = Listing(f"Exported {name}. {NOT_CARRIED}", outcome.value)
+            self.listing = TextListing(f"Exported {name}. {NOT_CARRIED}", outcome.value)
         return one_line(f"Exported the scene and its camera as {self._path}."), True
 
     def close(self) -> None:

@@ -22,7 +22,7 @@ from app.storage.scene_watch import SceneWatch
 from app.widgets.background import Background
 from app.widgets.dialog import FileDialog, FileQuestion
 from app.window.opening import Opened, open_lecture, open_sources, open_tasks, reread
-from app.window.questions import Question, outside_question
+from app.window.questions import WindowQuestion, outside_question
 from renderer.errors import describe, one_line
 from renderer.scene import (
     BUILTIN_SCENES,
@@ -75,7 +75,7 @@ class Files:
         self.dialog = FileDialog(wake)
         self.recent = RecentFiles(folder, wake)
         self.message = ""
-        self.question: Question | None = None
+        self.question: WindowQuestion | None = None
         self._said: list[str] = []
 
     @property
@@ -273,7 +273,7 @@ class Files:
 
     def ask(self, text: str, answer: str, then: Callable[[], None]) -> None:
         """Asks something that stands on one button, beside Cancel. then: does it, after a yes."""
-        self.question = Question(text, answer, then)
+        self.question = WindowQuestion(text, answer, then)
         self._wake()
 
     def say(self, text: str) -> None:

@@ -42,10 +42,10 @@ from app.window.opening import Opened
 from app.window.platform import on_drop, set_title
 from app.window.shell import Shell
 from app.window.status import Status, is_good_news, status_line, told
+from app.window.title import title
 from app.your_code.view import YourCodeView
 from renderer.errors import LucidaError
 from renderer.scene import Scene
-from renderer.scene.outside import outside_files
 
 
 class MainWindow:
@@ -398,9 +398,3 @@ class MainWindow:
     def _dropped(self, paths: list[str]) -> None:
         self.files.open_all(paths, dropped=True)
         hello_imgui.request_refresh()
-
-
-def title(scene: Scene) -> str:
-    """The window's title. It tells, once, where the scene's models are, if not beside it."""
-    elsewhere = " (with models from outside its folder)" if outside_files(scene) else ""
-    return f"Lucida: {scene.name}{elsewhere}" if scene.name else f"Lucida{elsewhere}"

@@ -14,7 +14,7 @@ from renderer.scene.outside import LISTED
 
 
 @dataclass(frozen=True)
-class Question:
+class WindowQuestion:
     """answer: the words on the button. then: does it."""
 
     text: str

@@ -31,7 +31,7 @@ from app.widgets import theme
 from app.widgets.focusing import Focusing
 from app.widgets.surface import Target
 from app.window.canvas import WindowCanvas
-from app.window.main_window import MainWindow, title
+from app.window.main_window import MainWindow
 from app.window.platform import (
     Keys,
     Platform,
@@ -43,6 +43,7 @@ from app.window.platform import (
 )
 from app.window.signals import ended_by_signals
 from app.window.start import Start, begin_scene, begin_session, kept
+from app.window.title import title
 from renderer import compile_note
 from renderer.atomic import atomic_write, check_writable
 from renderer.errors import LucidaError

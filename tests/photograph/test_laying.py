@@ -5,7 +5,7 @@ import pytest
 
 from app.images.placement import Placement
 from app.images.shown import Picture, whole
-from app.photograph.laying import Laid, Laying, Objects, level
+from app.photograph.laying import LaidPhotograph, Laying, Objects, level
 from app.photograph.model import WHOLE
 from renderer.raster.resources import Owner, new_texture
 
@@ -54,7 +54,9 @@ def shown(picture):
 def test_the_mean_is_of_display_values(gl, laying, upload, opacity):
     image, photo = noise(), noise()
     laying.take(photo)
-    made = laying.laid("a", pictured(gl, upload, image), whole(SIZE), False, Laid(WHOLE, opacity))
+    made = laying.laid(
+        "a", pictured(gl, upload, image), whole(SIZE), False, LaidPhotograph(WHOLE, opacity)
+    )
     wanted = (1 - opacity) * image.astype(float) + opacity * photo
     assert np.abs(shown(made)[..., :3] - wanted[..., :3]).max() <= 0.51
     if opacity == 1.0:
@@ -64,7 +66,7 @@ def test_the_mean_is_of_display_values(gl, laying, upload, opacity):
 def test_a_picture_for_the_underlay_has_it_upside_down(gl, laying, upload):
     photo = noise()
     laying.take(photo)
-    made = laying.laid("a", pictured(gl, upload, noise()), whole(SIZE), True, Laid(WHOLE))
+    made = laying.laid("a", pictured(gl, upload, noise()), whole(SIZE), True, LaidPhotograph(WHOLE))
     assert np.array_equal(shown(made), photo[::-1])
 
 
@@ -73,7 +75,7 @@ def test_behind_it_is_seen_where_nothing_is_hit(gl, laying, upload):
     ids = RNG.integers(-1, 2, SIZE[::-1]).astype(np.int32)
     laying.take(photo)
     picture = pictured(gl, upload, image)
-    laid = Laid(WHOLE, behind=True)
+    laid = LaidPhotograph(WHOLE, behind=True)
     made = laying.laid("a", picture, whole(SIZE), False, laid, Objects(upload(ids), 1))
     assert np.array_equal(shown(made), np.where(ids[..., None] < 0, photo, image))
     assert laying.laid("a", picture, whole(SIZE), False, laid) is picture  # not known what is hit
@@ -84,14 +86,14 @@ def test_what_is_transparent_shows_the_image(gl, laying, upload):
     clear = RNG.random(SIZE[::-1]) < 0.5
     photo[clear] = 0
     laying.take(photo)
-    made = laying.laid("a", pictured(gl, upload, image), whole(SIZE), False, Laid(WHOLE))
+    made = laying.laid("a", pictured(gl, upload, image), whole(SIZE), False, LaidPhotograph(WHOLE))
     assert np.array_equal(shown(made), np.where(clear[..., None], image, photo))
 
 
 def test_it_covers_its_part_of_the_image(gl, laying, upload):
     image, photo = noise((12, 8)), noise((6, 4))
     laying.take(photo)
-    laid = Laid((0.25, 0.25, 0.75, 0.75))
+    laid = LaidPhotograph((0.25, 0.25, 0.75, 0.75))
     made = laying.laid("a", pictured(gl, upload, image), whole((12, 8)), False, laid)
     wanted = image.copy()
     wanted[2:6, 3:9] = photo
@@ -103,7 +105,9 @@ def test_of_a_magnified_image_what_is_seen_is_laid(gl, laying, upload):
     photo = noise()
     laying.take(photo)
     placement = Placement(SIZE, (9, 6), 2.0, (-4, -2), (26, 14))
-    made = laying.laid("a", pictured(gl, upload, noise((9, 6))), placement, False, Laid(WHOLE))
+    made = laying.laid(
+        "a", pictured(gl, upload, noise((9, 6))), placement, False, LaidPhotograph(WHOLE)
+    )
     assert np.array_equal(shown(made), photo.repeat(2, 0).repeat(2, 1)[2:8, 4:13])
 
 
@@ -112,7 +116,7 @@ def test_it_is_drawn_again_where_something_has_changed(gl, laying, upload):
     picture = pictured(gl, upload, noise())
 
     def laid(opacity=0.5):
-        return laying.laid("a", picture, whole(SIZE), False, Laid(WHOLE, opacity))
+        return laying.laid("a", picture, whole(SIZE), False, LaidPhotograph(WHOLE, opacity))
 
     before, drawn = shown(laid()), laid().made
     assert laid().made is drawn  # which is another one each time
@@ -131,5 +135,7 @@ def test_where_it_is_seen_smaller_the_mean_is_seen(gl, laying, upload):
     laying.take(photo)
     placement = Placement((16, 16), (4, 4), 0.25, (0, 0), (4, 4))
     assert level((16, 16), placement, (4, 4), WHOLE) == pytest.approx(2.0)
-    made = laying.laid("a", pictured(gl, upload, noise((4, 4))), placement, False, Laid(WHOLE))
+    made = laying.laid(
+        "a", pictured(gl, upload, noise((4, 4))), placement, False, LaidPhotograph(WHOLE)
+    )
     assert np.abs(shown(made)[..., :3].astype(int) - 64).max() <= 2

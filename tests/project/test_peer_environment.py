@@ -54,7 +54,7 @@ class TestEnvironment:
     def test_one_that_wants_another_numpy_lies_apart(self, tmp_path, monkeypatch):
         commands: list[list[str]] = []
         (tmp_path / "env").mkdir()
-        monkeypatch.setattr(peer_environment, "_made", lambda folder: None)
+        monkeypatch.setattr(peer_environment, "made", lambda folder: None)
         monkeypatch.setattr(peer_environment.subprocess, "run", _noting(commands))
         requirements = tmp_path / "requirements.txt"
         requirements.write_text("bpy==1\nother==1\n")
@@ -69,7 +69,7 @@ class TestEnvironment:
         commands: list[list[str]] = []
         folder = tmp_path / "env"
         folder.mkdir()
-        monkeypatch.setattr(peer_environment, "_made", lambda folder: None)
+        monkeypatch.setattr(peer_environment, "made", lambda folder: None)
         monkeypatch.setattr(peer_environment.subprocess, "run", _noting(commands))
         found = "/somewhere/npm" if there else None
         monkeypatch.setattr(peer_environment.shutil, "which", lambda name: found)

@@ -13,9 +13,9 @@ from waiting import wait_for
 from app.cli import main
 from app.lecture.reading import load_lecture
 from app.window.files import Files
-from app.window.main_window import title
 from app.window.opening import open_sources
 from app.window.questions import outside_question
+from app.window.title import title
 from renderer.errors import LucidaError
 from renderer.scene import load_scene
 from renderer.scene.outside import OutsideError, kept_inside, outside, outside_files
