@@ -16,7 +16,6 @@ SYNONYMS = {
 INSTRUMENT = Instrument(
     lambda views: [PosesView(view_of(views, OutsideView))],
     CHOOSING,
-    mouse=(("double-click a frustum in the outside view", "take that camera of the set"),),
-    heading="Poses, in the list or in the outside view",
+    keyboard=(("arrows in Poses", "another camera; Home, End"),),
     synonyms=SYNONYMS,
 )

@@ -21,7 +21,7 @@ from app.window.instruments import INSTRUMENTS
 COLUMN_EM = 20.5
 MOST_COLUMNS = 4
 SMALLER = (1.0, 0.95, 0.9, 0.85, 0.82)  # type, in parts of the window's, until all is seen at once
-ROW_PAD = 0.06  # above and below a row, in parts of its type
+ROW_PAD = 0.03  # above and below a row, in parts of its type
 OWN_PART = 8  # a submenu of so many keys has a heading of its own
 NARROW_EM = 18.0  # a column of less has what a key does below the key
 KEYS = 0.36  # the keys' part of a column
