@@ -188,6 +188,7 @@ class Meter:
         self._history: deque[tuple[float, float]] = deque(maxlen=WATCHED)
         self._stop = threading.Event()
         self._thread: threading.Thread | None = None
+        self._releasing: threading.Thread | None = None  # it has nothing to do any more
         self._closed = False
 
     @property
@@ -265,9 +266,10 @@ class Meter:
         with self._lock:
             self._uncounted, self._wanted, self._watched, self._closed = [], [], (), True
             self._stop.set()
-            thread = self._thread
-        if thread is not None:
-            thread.join(timeout_s)
+            threads = [self._thread, self._releasing]
+        for thread in threads:
+            if thread is not None:
+                thread.join(timeout_s)
 
     def _run(self) -> None:
         bench = _Bench(self._make, self._counter)
@@ -293,7 +295,7 @@ class Meter:
                 return partial(self._measure, self._wanted[0], bench)
             if self._watched:
                 return partial(self._watch_once, self._watched, bench)
-            self._thread = None
+            self._thread, self._releasing = None, self._thread
             return None
 
     def _count(self, image: Image, bench: _Bench) -> None:

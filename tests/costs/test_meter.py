@@ -254,3 +254,18 @@ def test_the_meter_survives_whoever_listens_and_whatever_is_released(caplog) -> 
     assert not meter.busy
     assert "was not told of a sample" in caplog.text
     assert "was not released" in caplog.text
+
+
+def test_closing_waits_until_the_renderers_are_released() -> None:
+    done, released = threading.Event(), []
+
+    class Slow(Fake):
+        def release(self) -> None:
+            time.sleep(0.1)
+            released.append(self)
+
+    meter = Meter(lambda: meter.waiting == 0 and done.set(), lambda _: Slow(0, 1e-9), FakeCounter)
+    meter.ask(cases((100,), (1200,)))
+    assert done.wait(60)
+    meter.close()
+    assert len(released) == 2
