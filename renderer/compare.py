@@ -253,7 +253,9 @@ def compare_frames(
         labels=labels,
         raster=raster,
         ray=ray,
-        nothing_hit=why_nothing_is_hit(flat, camera) if hits_nothing(raster, ray) else "",
+        nothing_hit=why_nothing_is_hit(flat, camera, size).text
+        if hits_nothing(raster, ray)
+        else "",
     )
 
 

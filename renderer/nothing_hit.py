@@ -5,13 +5,34 @@ Pure. Asked only where nothing is hit, so that it may look at every triangle.
 
 from __future__ import annotations
 
+from typing import NamedTuple
+
 import numpy as np
 from numpy.typing import NDArray
 
-from renderer.camera import Camera
+from renderer.camera import Camera, Size
 from renderer.frame import Frame
 from renderer.scene.flat import FlatScene
 from renderer.scene.positions import world_vertices
+
+
+class Reason(NamedTuple):
+    """Why there is nothing to be seen. cause: a word for programs, which decides on what helps.
+    text: the same in a few words for people."""
+
+    cause: str
+    text: str
+
+
+class _Extents(NamedTuple):
+    """Of each object, (n,): the smallest and largest ray parameter, that is the depth along -w, in
+    units of the distance (perspective) or of w (parallel); and what it covers on the image plane,
+    lowest and highest, (n, 2): infinite where it reaches from behind the eye to before it."""
+
+    near: NDArray[np.float64]
+    far: NDArray[np.float64]
+    low: NDArray[np.float64]
+    high: NDArray[np.float64]
 
 
 def hits_nothing(*frames: Frame) -> bool:
@@ -19,21 +40,33 @@ def hits_nothing(*frames: Frame) -> bool:
     return all(not (frame.channel("id") >= 0).any() for frame in frames)
 
 
-def why_nothing_is_hit(flat: FlatScene, camera: Camera) -> str:
-    """The reason, in a few words, for an image of this camera in which nothing is hit."""
-    low, high = _parameters(flat, camera)
+def why_nothing_is_hit(flat: FlatScene, camera: Camera, size: Size | None = None) -> Reason:
+    """The reason for an image of this camera in which nothing is hit.
+
+    Causes: "empty", "behind" the eye, cut off by near and far ("clip"), beside the picture
+    ("beside"), or beside it because the viewport is off the axis ("viewport"), all "small" than a
+    pixel of an image of this size, or else "missed".
+    """
+    objects = _extents(flat, camera)
     near, far = camera.t_range
-    behind, count = int(np.count_nonzero(high <= 0)), len(high)
+    behind, count = int(np.count_nonzero(objects.far <= 0)), len(objects.far)
     if not count:
-        return "the scene has no objects"
+        return Reason("empty", "the scene has no objects")
     if behind == count:
-        return "everything is behind the eye"
-    if not (high > near).any():
-        return f"everything is behind the eye or nearer than near = {camera.near:g}"
-    if not (low < far).any():
-        return f"everything is farther than far = {camera.far:g}"
+        return Reason("behind", "everything is behind the eye")
+    if not (objects.far > near).any():
+        text = f"everything is behind the eye or nearer than near = {camera.near:g}"
+        return Reason("clip", text)
+    if not (objects.near < far).any():
+        return Reason("clip", f"everything is farther than far = {camera.far:g}")
     some = f"; {behind} of {count} are behind the eye" if behind else ""
-    return f"no viewing ray meets an object{some}"
+    there = (objects.far > max(near, 0.0)) & (objects.near < far)
+    aside = _why_beside(camera, objects.low[there], objects.high[there])
+    if aside is not None:
+        return Reason(aside.cause, aside.text + some)
+    if size is not None and (small := _why_too_small(camera, size, objects, there)):
+        return Reason("small", small)
+    return Reason("missed", f"no viewing ray meets an object{some}")
 
 
 def middle_of(flat: FlatScene) -> tuple[float, float, float]:
@@ -42,17 +75,96 @@ def middle_of(flat: FlatScene) -> tuple[float, float, float]:
     return x, y, z
 
 
-def _parameters(flat: FlatScene, camera: Camera) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """The smallest and the largest ray parameter of each object: the depth along -w, in units of
-    the distance (perspective) or of w (parallel)."""
+def _why_beside(
+    camera: Camera, low: NDArray[np.float64], high: NDArray[np.float64]
+) -> Reason | None:
+    """Where no object reaches into the viewport: whether the viewport is to blame."""
+    left, right, bottom, top = camera.viewport
+    if _meets((left, bottom), (right, top), low, high).any():
+        return None
+    half = (right - left) / 2, (top - bottom) / 2
+    x, y = (left + right) / 2, (bottom + top) / 2
+    off_axis = abs(x) > half[0] or abs(y) > half[1]
+    if off_axis and _meets((-half[0], -half[1]), half, low, high).any():
+        return Reason("viewport", f"the viewport is off the view's axis, {_listed(camera)}")
+    sides = {
+        "left": (high[:, 0] < left).all(),
+        "right": (low[:, 0] > right).all(),
+        "below": (high[:, 1] < bottom).all(),
+        "above": (low[:, 1] > top).all(),
+    }
+    where = " and ".join(side for side, is_there in sides.items() if is_there)
+    return Reason("beside", f"everything is outside of the picture{where and f': {where}'}")
+
+
+def _why_too_small(camera: Camera, size: Size, objects: _Extents, there: NDArray[np.bool_]) -> str:
+    """How large the largest object in view is, if that is less than a pixel; else nothing."""
+    left, right, bottom, top = camera.viewport
+    seen = there & _meets((left, bottom), (right, top), objects.low, objects.high)
+    pixel = (right - left) / size[0], (top - bottom) / size[1]
+    extent = (objects.high[seen] - objects.low[seen]) / pixel
+    if not (extent < 1).all(axis=1).all():
+        return ""
+    width, height = extent[extent.max(axis=1).argmax()]
+    return f"everything is smaller than a pixel: {width:.2g} x {height:.2g}"
+
+
+def _meets(
+    low: tuple[float, float],
+    high: tuple[float, float],
+    lows: NDArray[np.float64],
+    highs: NDArray[np.float64],
+) -> NDArray[np.bool_]:
+    """Which rectangles have a point in common with one."""
+    apart = np.any(lows > high, axis=1) | np.any(highs < low, axis=1)
+    return np.asarray(~apart)
+
+
+def _listed(camera: Camera) -> str:
+    left, right, bottom, top = camera.viewport
+    return f"x from {left:.4g} to {right:.4g}, y from {bottom:.4g} to {top:.4g}"
+
+
+def _extents(flat: FlatScene, camera: Camera) -> _Extents:
     unit = 1.0 if camera.is_parallel else camera.distance
-    back = -camera.camera_from_world[2] / unit
-    low, high = np.full((2, len(flat.object_sphere)), np.inf)
-    corners = (world_vertices(flat) @ back[:3] + back[3])[flat.faces]
-    np.minimum.at(low, flat.face_object, corners.min(axis=1))
-    np.minimum.at(high, flat.face_object, -corners.max(axis=1))
-    centers = flat.spheres[:, :3] @ back[:3] + back[3]
-    reach = flat.spheres[:, 3] * np.linalg.norm(back[:3])
-    low[flat.sphere_object] = centers - reach
-    high[flat.sphere_object] = -centers - reach
-    return low, -high
+    count = len(flat.object_sphere)
+    near, far = np.full(count, np.inf), np.full(count, -np.inf)
+    low, high = np.full((count, 2), np.inf), np.full((count, 2), -np.inf)
+    matrix = camera.camera_from_world
+    corners = (world_vertices(flat) @ matrix[:3, :3].T + matrix[:3, 3])[flat.faces]
+    _take(near, far, low, high, flat.face_object, corners, camera)
+    if len(flat.spheres):
+        # The corners of a box around each sphere in the camera's space, where it is an ellipsoid.
+        center = flat.spheres[:, :3] @ matrix[:3, :3].T + matrix[:3, 3]
+        reach = flat.spheres[:, 3:] * np.linalg.norm(matrix[:3, :3], axis=1)
+        signs = np.stack(np.meshgrid((-1, 1), (-1, 1), (-1, 1)), -1).reshape(-1, 3)
+        boxes = center[:, None] + signs * reach[:, None]
+        _take(near, far, low, high, flat.sphere_object, boxes, camera)
+    return _Extents(near / unit, far / unit, low, high)
+
+
+def _take(
+    near: NDArray[np.float64],
+    far: NDArray[np.float64],
+    low: NDArray[np.float64],
+    high: NDArray[np.float64],
+    owner: NDArray[np.int32],
+    points: NDArray[np.float64],
+    camera: Camera,
+) -> None:
+    """Adds things of some points each, (n, k, 3) in camera space, to their objects' extents."""
+    depth = -points[..., 2]
+    np.minimum.at(near, owner, depth.min(axis=1))
+    np.maximum.at(far, owner, depth.max(axis=1))
+    plane = points[..., :2]
+    if not camera.is_parallel:
+        with np.errstate(divide="ignore", invalid="ignore"):
+            plane = plane * (camera.distance / depth)[..., None]
+    lows, highs = plane.min(axis=1), plane.max(axis=1)
+    if not camera.is_parallel:
+        crossing = depth.min(axis=1) <= 0
+        ahead = crossing & (depth.max(axis=1) > 0)
+        lows[crossing], highs[crossing] = np.inf, -np.inf
+        lows[ahead], highs[ahead] = -np.inf, np.inf
+    np.minimum.at(low, owner, lows)
+    np.maximum.at(high, owner, highs)

@@ -169,7 +169,7 @@ def say_nothing_is_hit(scene: Scene, camera: Camera) -> None:
     flat = flatten(scene)
     aim = ",".join(f"{part:.4g}" for part in middle_of(flat))
     remedy = f"; --target={aim} looks at the middle of the scene" if scene.objects else ""
-    why = why_nothing_is_hit(flat, camera)
+    why = why_nothing_is_hit(flat, camera).text
     print(f"lucida: nothing is hit: {why}{remedy}", file=sys.stderr)
 
 

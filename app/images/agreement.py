@@ -17,6 +17,7 @@ from renderer.scene.flat import FlatScene, flatten
 from renderer.scene.model import Scene
 
 if TYPE_CHECKING:
+    from renderer.black import Darkness
     from renderer.compare import Comparison
 
 
@@ -25,13 +26,14 @@ class Verdict:
     """text: for the status line. unexplained: pixels that differ for no good reason.
 
     comparison: counts, errors and a label a pixel, also where shadows and mirrors, which only rays
-    find, make the images differ.
+    find, make the images differ. darkness: of the ray image, and why.
     """
 
     request: ImageRequest
     text: str
     unexplained: int
     comparison: Comparison
+    darkness: Darkness
 
 
 class Agreement:
@@ -75,15 +77,17 @@ class Agreement:
         self._comparing.close()
 
     def _compare(self, request: ImageRequest, raster: Frame, ray: Frame) -> Verdict:
+        from renderer.black import darkness
         from renderer.compare import compare_frames
 
         if self._flat is None or self._flat[0] is not request.scene:
             self._flat = (request.scene, flatten(request.scene))
+        flat, camera = self._flat[1], request.camera
         comparison = compare_frames(
-            self._flat[1], request.camera, request.size, raster, ray, effects=request.has_effects
+            flat, camera, request.size, raster, ray, effects=request.has_effects
         )
+        dark = darkness(request.scene, flat, camera, ray, request.shadows)
+        text, unexplained = comparison.summary_short(), comparison.unexplained
         if request.has_effects and not comparison.nothing_hit:
-            return Verdict(
-                request, "not compared: only rays find shadows and mirrors", 0, comparison
-            )
-        return Verdict(request, comparison.summary_short(), comparison.unexplained, comparison)
+            text, unexplained = "not compared: only rays find shadows and mirrors", 0
+        return Verdict(request, text, unexplained, comparison, dark)

@@ -28,6 +28,7 @@ from app.widgets.background import lower_priority
 from renderer import compile_note
 from renderer.camera import Camera
 from renderer.frame import LARGEST_PIXELS, LARGEST_SIDE, Frame
+from renderer.nothing_hit import Reason
 from renderer.raster import Look
 from renderer.scene.model import View
 
@@ -245,10 +246,16 @@ class Renderers:
         """Whether the images of this state agree; None until that is known."""
         return self.agreement.verdict_on(self.request(state))
 
-    def nothing_hit(self, state: AppState) -> str:
-        """Why neither image of this state shows anything; empty where it does, or is not known."""
+    def why_black(self, state: AppState) -> Reason | None:
+        """Why the images of this state show nothing, or only black; None where they do show
+        something, or it is not known."""
         verdict = self.verdict(state)
-        return verdict.comparison.nothing_hit if verdict is not None else ""
+        if verdict is None:
+            return None
+        if state.images.channel != "color":
+            return verdict.darkness.reason if verdict.comparison.nothing_hit else None
+        images = state.images
+        return verdict.darkness.shown(images.exposure_ev, images.transfer == "linear")
 
     @property
     def raster_factor(self) -> int:

@@ -89,11 +89,6 @@ def draw_note(draw: imgui.ImDrawList, screen: Screen, note: str, is_error: bool)
     _boxed(draw, screen, note, theme.u32(theme.rgb("#ff8a65") if is_error else TEXT))
 
 
-def draw_hint(draw: imgui.ImDrawList, screen: Screen, hint: str) -> None:
-    """The same over an image that is as it should be."""
-    _boxed(draw, screen, hint, theme.u32(TEXT))
-
-
 def draw_told(draw: imgui.ImDrawList, screen: Screen, text: str, is_error: bool) -> None:
     """What is to be said of a photograph, at the image's upper edge."""
     color = theme.rgb("#ff8a65") if is_error else TEXT

@@ -16,9 +16,10 @@ from app.images.screen import Box, Screen
 from app.images.shown import Picture
 from app.images.textures import PANE
 from app.images.underlay import Underlay
+from app.pair.dark_note import DarkNote, draw_dark_note
 from app.pair.image_mouse import Grab, Lens, Seen, Zoom, drag, magnify, wheel
 from app.pair.marks import claim_keys, draw_hovered, draw_marked, draw_pin
-from app.pair.overlay import draw_corner, draw_hint, draw_legend, draw_note
+from app.pair.overlay import draw_corner, draw_legend, draw_note
 from app.pair.pixelgrid import Values, draw_pixel_grid
 from app.pair.rulers import draw_rulers
 from app.state.app_state import AppState
@@ -37,8 +38,8 @@ class Pane:
     underlay: where it can be put, having nothing under it; None: ImGui draws it. values: of some
     pixels, likewise; None: they are not written.
 
-    note: text over the image, which is darkened: it is not of now. hint: text over an image as it
-    is. progress: of the image under way, 1 for none. hovered: the pixel
+    note: text over the image, which is darkened: it is not of now. dark: why an image as it should
+    be is black. progress: of the image under way, 1 for none. hovered: the pixel
     under the mouse, to be marked here. pins: pixels to be marked with their numbers. depths: that
     are shown white and darkest. legend: whether the channel's colours are explained. on_pixels:
     draws on the image, below everything else.
@@ -51,7 +52,7 @@ class Pane:
     fonts: theme.Fonts
     note: str = ""
     is_error: bool = False
-    hint: str = ""
+    dark: DarkNote | None = None
     progress: float = 1.0
     legend: bool = True
     hovered: Pixel | None = None
@@ -153,8 +154,8 @@ def _draw(pane: Pane, state: AppState, screen: Screen, room: Box, grab: Grab | N
         draw_corner(draw, screen, state, lambda size: _map(pane, state, screen, size))
     if pane.note:
         draw_note(draw, screen, pane.note, pane.is_error)
-    elif pane.hint:
-        draw_hint(draw, screen, pane.hint)
+    elif pane.dark is not None:
+        draw_dark_note(draw, pane.dark, screen)
     draw.pop_clip_rect()
 
 

@@ -14,11 +14,13 @@ from typing import ClassVar
 import moderngl
 from imgui_bundle import ImVec2, imgui
 
+from app.cameras.remedies import helped, remedy_for
 from app.host.view import DockedView, Host
 from app.images.marking import Anchor, followed
 from app.images.placement import Placement, shown_pixel
 from app.images.screen import Screen, available_px, is_at_the_bottom
 from app.images.shown import Picture
+from app.pair.dark_note import DarkNote, note_button
 from app.pair.image_mouse import Grab, Lens, Seen, Zoom
 from app.pair.marks import walked
 from app.pair.overlay import draw_told
@@ -32,7 +34,7 @@ from app.photograph.options import PhotographOptions
 from app.state.app_state import AppState
 from app.state.options import Pixel
 from renderer.camera import Camera
-from renderer.errors import describe
+from renderer.errors import LucidaError, describe
 
 RASTER, RAY = "Raster", "Ray"
 PAUSE_S = 0.5  # turns of the wheel, or keys, closer together are one step of undo
@@ -136,6 +138,10 @@ class ImageView(DockedView):
         corner = imgui.get_cursor_screen_pos()
         self._before_image(host, Screen.here(placed(host.state)))
         imgui.set_cursor_screen_pos(corner)
+        dark = (
+            self._why_black(host, Screen.here(placed(host.state))) if not (error or note) else None
+        )
+        imgui.set_cursor_screen_pos(corner)
         state = host.state
         seen = Seen(
             name=self.name,
@@ -153,7 +159,7 @@ class ImageView(DockedView):
             fonts=host.fonts,
             note=describe(error) if error else note,
             is_error=error is not None,
-            hint=_hint(both.nothing_hit(state)),
+            dark=dark,
             progress=progress,
             legend=legend,
             hovered=self._hovered(host, placed(state)),
@@ -182,6 +188,20 @@ class ImageView(DockedView):
 
     def _over_image(self, host: Host, screen: Screen) -> None:
         """For what is drawn over the image."""
+
+    def _why_black(self, host: Host, screen: Screen) -> DarkNote | None:
+        """What a black image says of itself. Its button, where there is one, helps."""
+        both, state = host.renderers, host.state
+        reason, verdict = both.why_black(state), both.verdict(state)
+        if reason is None or verdict is None:
+            return None
+        note = DarkNote(reason.text, remedy_for(reason))
+        if note_button(note, screen):
+            try:
+                host.travel(helped(state, reason, verdict.darkness, host.focus))
+            except LucidaError as problem:
+                host.files.message = str(problem)
+        return note
 
     def _strip(self, host: Host) -> None:
         if not host.state.preferences.presentation:
@@ -289,8 +309,3 @@ class RayView(PhotographedView):
         picture = self._laid(host, both.ray_picture)
         self._pane(host, picture, both.ray_values, both.ray_error, note, progress)
         both.trace(host.state)
-
-
-def _hint(nothing_hit: str) -> str:
-    """What an image that shows nothing says."""
-    return f"nothing is hit: {nothing_hit}\nHome: back to the scene's view" if nothing_hit else ""

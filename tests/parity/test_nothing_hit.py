@@ -28,30 +28,59 @@ BEHIND = ["--eye", "0,1,-30"]  # the scenes' cameras look along -z
         (Camera(eye=(0, 0, -6.5)), "everything is behind the eye"),
         (Camera(near=6.5), "everything is behind the eye or nearer than near = 6.5"),
         (Camera(far=3.9), "everything is farther than far = 3.9"),
-        (Camera(eye=(90, 0, 0)), "no viewing ray meets an object"),
+        (Camera(eye=(90, 0, 0)), "everything is outside of the picture: left"),
         (
             Camera(eye=(90, 0, 0), w=(0, 0, 2), distance=2, far=2.5),
-            "no viewing ray meets an object",
+            "everything is outside of the picture: left",
         ),
         (Camera(eye=(90, 0, 0), w=(0, 0, 2), far=1.9), "everything is farther than far = 1.9"),
     ],
 )
 def test_the_reason(flat, projection, camera, why):
-    assert why_nothing_is_hit(flat, replace(camera, projection=projection)) == why
+    assert why_nothing_is_hit(flat, replace(camera, projection=projection)).text == why
 
 
 def test_a_ball_that_reaches_in_front_of_the_eye_is_not_behind_it():
-    assert why_nothing_is_hit(BALL, Camera(eye=(90, 0, -5.5))) == "no viewing ray meets an object"
+    assert why_nothing_is_hit(BALL, Camera(eye=(90, 0, -5.5))).cause != "behind"
 
 
 def test_some_objects_are_counted():
     flat = flatten(Scene(tuple(SceneObject(Sphere((90, 0, z), 1.0)) for z in (-5, 5, 8))))
-    told = "no viewing ray meets an object; 2 of 3 are behind the eye"
-    assert why_nothing_is_hit(flat, Camera()) == told
+    told = "everything is outside of the picture: right; 2 of 3 are behind the eye"
+    assert why_nothing_is_hit(flat, Camera()).text == told
+
+
+@pytest.mark.parametrize("projection", ["perspective", "parallel"])
+def test_a_viewport_off_the_axis_is_to_blame_where_one_on_it_would_see(projection):
+    camera = Camera(viewport=(7, 8, -0.5, 0.5), projection=projection)
+    reason = why_nothing_is_hit(BALL, camera)
+    assert reason.cause == "viewport"
+    assert "x from 7 to 8" in reason.text
+    assert why_nothing_is_hit(BALL, replace(camera, eye=(90, 40, 0))).cause == "beside"
+
+
+@pytest.mark.parametrize("projection", ["perspective", "parallel"])
+def test_what_is_smaller_than_a_pixel_is_told_with_its_size(projection):
+    flat = flatten(Scene((SceneObject(Sphere((0, 0, -5), 0.001)),)))
+    camera = Camera(projection=projection)
+    reason = why_nothing_is_hit(flat, camera, (8, 6))
+    assert reason.cause == "small"
+    pixels = 0.002 * 8 / (1 if camera.is_parallel else 5)
+    assert f"pixel: {pixels:.2g} x" in reason.text
+    assert why_nothing_is_hit(flat, camera, (80_000, 60_000)).cause == "missed"
+
+
+def test_what_reaches_from_behind_the_eye_may_be_anywhere():
+    """Its outline in the image is not that of its corners."""
+    plain = Mesh([(-9, -1, 9), (9, -1, 9), (0, -1, -9)], [[0, 1, 2]])
+    camera = Camera(viewport=(-0.5, 0.5, 3, 4))
+    assert (
+        why_nothing_is_hit(flatten(Scene((SceneObject(plain),))), camera, (8, 6)).cause == "missed"
+    )
 
 
 def test_an_empty_scene():
-    assert why_nothing_is_hit(flatten(Scene(())), Camera()) == "the scene has no objects"
+    assert why_nothing_is_hit(flatten(Scene(())), Camera()).text == "the scene has no objects"
 
 
 def test_the_middle_is_of_the_bounds():
@@ -109,4 +138,4 @@ def test_an_object_far_away_is_judged_where_it_stands():
     moved = np.eye(4)
     moved[:3, 3] = (0, 0, 1e6)
     flat = flatten(Scene((SceneObject(replace(mesh, transform=moved)),)))
-    assert why_nothing_is_hit(flat, Camera()) == "everything is behind the eye"
+    assert why_nothing_is_hit(flat, Camera()).text == "everything is behind the eye"

@@ -49,6 +49,7 @@ FLOORS = (
     "renderer.shaded_rays",
     "renderer.pure_python",
     "renderer.nothing_hit",
+    "renderer.black",
     "renderer.difference",
     "renderer.slivers",
     "renderer.edges",
@@ -92,7 +93,7 @@ PURE = ("app/state", "app/explaining", "app/checking", "app/cameras")
 DRAW = {
     "camera_panel": "basis_numbers projection sections",
     "photograph": "layer laying",
-    "pair": "go_to_pixel image_mouse marks overlay pane pixelgrid resolution rulers toolbar",
+    "pair": "dark_note go_to_pixel image_mouse marks overlay pane pixelgrid resolution rulers toolbar",
     "compare": "against_photograph composed differences",
     "outside": "cloud_layer gizmo ground looking mouse paint tint tools "
     "vector_painting vector_view",

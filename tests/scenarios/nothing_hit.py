@@ -6,6 +6,7 @@ from dataclasses import replace
 
 from window_driver import RASTER, RAY, Driver
 
+from app.cameras.remedies import CUT_NOTHING, LOOK
 from app.window.status import is_good_news, told
 
 WHY = "everything is behind the eye"
@@ -18,7 +19,9 @@ def drive_an_empty_image_says_why(d: Driver) -> None:
     away = replace(window.state.camera, w=(-x, -y, -z), eye=eye)
     window.change(window.state.with_camera(away))
     d.settle()
-    assert window.renderers.nothing_hit(window.state) == WHY
+    reason = window.renderers.why_black(window.state)
+    assert reason is not None
+    assert reason.text == WHY
     verdict = window.renderers.verdict(window.state)
     assert told(verdict, None) == f"nothing is hit: {WHY}"
     assert is_good_news(verdict, None, effects=False) is None
@@ -29,5 +32,25 @@ def drive_an_empty_image_says_why(d: Driver) -> None:
         assert image[: height // 4, width // 4 : width // 2].std(axis=(0, 1)).max() == 0
     window.undo()
     d.settle()
-    assert window.renderers.nothing_hit(window.state) == ""
+    assert window.renderers.why_black(window.state) is None
     assert {RASTER, RAY} <= set(window.shell.stage.rects)
+
+
+def drive_a_black_image_has_a_button_that_helps(d: Driver) -> None:
+    window = d.window
+    before = window.state
+    x, y, z = before.camera.w
+    turned_away = replace(before.camera, w=(-x, -y, -z))
+    cut_off = replace(before.camera, far=1e-3)
+    for view, camera, remedy in ((RASTER, turned_away, LOOK), (RAY, cut_off, CUT_NOTHING)):
+        window.change(before.with_camera(camera))
+        d.settle()
+        assert window.renderers.why_black(window.state) is not None
+        d.ctx.item_click(f"//###{view}/{remedy}")
+        d.settle()
+        assert window.renderers.why_black(window.state) is None
+        window.undo()
+        d.settle()
+        assert window.state.camera == camera
+    window.change(before)
+    d.settle()
