@@ -7,11 +7,14 @@ nothing of model files beyond that they become objects.
 from __future__ import annotations
 
 import contextlib
-from collections.abc import Iterator
+import itertools
+import os
+from collections.abc import Hashable, Iterator, Sequence
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
+from renderer.camera import Camera
 from renderer.errors import LucidaError
 from renderer.scene import framing, shapes
 from renderer.scene.cancelling import check_cancelled
@@ -20,7 +23,6 @@ from renderer.scene.limits import (
     LIGHTS,
     MADE_TRIANGLES,
     OBJECTS,
-    SEGMENTS,
     TOML_BYTES,
     TRIANGLES,
     VIEWS,
@@ -28,46 +30,55 @@ from renderer.scene.limits import (
 from renderer.scene.model import (
     Checker,
     DirectionalLight,
+    Entry,
+    Keys,
     Material,
     Mesh,
     NamedView,
     Origin,
     PointLight,
+    SavedFile,
     Scene,
     SceneObject,
     Sphere,
+    View,
 )
 from renderer.scene.models import ModelFile, load_model
 from renderer.scene.outside import check_inside
+from renderer.scene.procedural import made_triangles, mesh_of, shape_of
 from renderer.scene.reading import decode_text, read_file, suggestion
 from renderer.scene.schema import (
     AnyLight,
     AnyObject,
-    BoxTable,
-    ConeTable,
-    CylinderTable,
     DirectionalLightTable,
-    DiskTable,
     MaterialTable,
     MeshTable,
     ModelTable,
     PointLightTable,
-    RectangleTable,
     SceneFile,
     SphereTable,
-    TorusTable,
 )
 from renderer.scene.tables import parse_toml, to_struct
 from renderer.scene.views import transformed_view, view_from_table
 
 Materials = dict[str, Material]
-Models = dict[Path, ModelFile]
+Models = dict[str, ModelFile]  # by absolute path
+
+_keys = itertools.count(1)
+
+
+def new_keys(count: int) -> tuple[int, ...]:
+    """Keys that no other object or light has in this process."""
+    return tuple(itertools.islice(_keys, count))
 
 
 def read_scene_file(path: Path) -> Scene:
     """The scene in a file. Raises LucidaError naming the file, the field and the remedy."""
-    text = decode_text(read_file(path, TOML_BYTES), str(path))
-    return scene_from_toml(text, path.parent, str(path), path.stem)
+    data = read_file(path, TOML_BYTES)
+    scene = scene_from_toml(decode_text(data, str(path)), path.parent, str(path), path.stem)
+    assert scene.origin is not None
+    scene.origin.saved.text = data.decode()  # with its byte order mark
+    return scene
 
 
 def scene_from_toml(text: str, folder: Path, source: str = "", name: str = "") -> Scene:
@@ -76,26 +87,49 @@ def scene_from_toml(text: str, folder: Path, source: str = "", name: str = "") -
     name: the scene's, where the file gives none.
     """
     try:
-        return scene_from_tables(parse_toml(text), folder, name)
+        scene = scene_from_tables(parse_toml(text), folder, name)
     except LucidaError as error:
         raise error.in_file(source) from None
+    assert scene.origin is not None
+    scene.origin.saved.text = text
+    return scene
 
 
 def scene_from_tables(tables: dict[str, Any], folder: Path, name: str = "") -> Scene:
     """The scene in tables as a scene file has them: for scenes inside other files."""
-    scene = _scene(to_struct(tables, SceneFile), folder, name)
-    return replace(scene, origin=Origin("", tables, folder))
+    keys = _keys_of(tables, "objects", ()), _keys_of(tables, "lights", framing.LIGHTS)
+    return _scene(Origin("", tables, folder), keys, name, SavedFile(None, "", tables, keys))
 
 
-def _scene(tables: SceneFile, folder: Path, name: str) -> Scene:
+def _keys_of(tables: dict[str, Any], kind: str, default: Sequence[Any]) -> tuple[int, ...]:
+    entries = tables.get(kind, default)
+    return new_keys(len(entries)) if isinstance(entries, list | tuple) else ()
+
+
+def changed_scene(scene: Scene, tables: dict[str, Any], keys: Keys) -> Scene:
+    """The scene of other tables in the place of its own. keys: of their objects and lights, in
+    order. What has kept its key and its table is the same objects; what was only moved, the same
+    arrays; a model that the scene has is not read again. Raises LucidaError."""
+    assert scene.origin is not None
+    changed = _scene(replace(scene.origin, tables=tables), keys, scene.name, scene.origin.saved)
+    return replace(changed, view=scene.view) if "camera" not in tables else changed
+
+
+def _scene(origin: Origin, keys: Keys, name: str, saved: SavedFile) -> Scene:
+    """origin: of the scene whose entries are known, with the tables of the new one."""
+    assert origin.tables is not None
+    tables: SceneFile = to_struct(origin.tables, SceneFile)
     materials = {
         key: _material(table, f"materials.{key}") for key, table in tables.materials.items()
     }
-    objects, views = _objects(tables.objects, materials, folder)
+    entries = _entries(tables.objects, keys[0], materials, origin)
+    objects = [made for entry in entries for made in entry.objects]
+    views = [view for entry in entries if entry.views for view in _views(entry)]
     lights: tuple[PointLight | DirectionalLight, ...] = framing.LIGHTS
     if tables.lights is not None:
         _check_count("lights", len(tables.lights), LIGHTS)
-        lights = tuple(_light(table, f"lights[{i}]") for i, table in enumerate(tables.lights))
+        found = [_light(table, f"lights[{i}]") for i, table in enumerate(tables.lights)]
+        lights = tuple(light for light in found if light is not None)
     ambient, background = (
         default if value is None else parse_color(field, value)
         for field, value, default in (
@@ -103,79 +137,112 @@ def _scene(tables: SceneFile, folder: Path, name: str) -> Scene:
             ("background", tables.background, framing.BACKGROUND),
         )
     )
-    if tables.camera is None:
-        view = framing.framing_view(objects)
-    else:
+    if tables.camera is not None:
         view = view_from_table(tables.camera)
+    elif origin.entries:
+        view = View(Camera.canonical())  # the changed scene keeps its own
+    else:
+        view = framing.framing_view([entry for entry in objects if not entry.hidden])
     return Scene(
-        tuple(objects), lights, ambient, background, view, tables.name or name, views=tuple(views)
+        tuple(objects),
+        lights,
+        ambient,
+        background,
+        view,
+        tables.name or name,
+        replace(origin, entries=entries, light_keys=keys[1], saved=saved),
+        tuple(views[:VIEWS]),
     )
 
 
-def _objects(
-    tables: list[Any], materials: Materials, folder: Path
-) -> tuple[list[SceneObject], list[NamedView]]:
-    """The scene's objects, and the views of its models' own cameras."""
+def _entries(
+    tables: list[Any], keys: tuple[int, ...], materials: Materials, origin: Origin
+) -> tuple[Entry, ...]:
+    """The objects of a scene, from tables; what the origin's entries have already is taken."""
     _check_count("objects", len(tables), OBJECTS)
-    objects: list[SceneObject] = []
-    views: list[NamedView] = []
-    models: Models = {}
-    entries: list[SphereTable | MeshTable] = [
-        to_struct(table, AnyObject, f"objects[{number}]") for number, table in enumerate(tables)
+    folder, old = origin.folder, {entry.key: entry for entry in origin.entries}
+    known = [
+        was if (was := old.get(key)) is not None and was.table is table else None
+        for key, table in zip(keys, tables, strict=True)
     ]
-    check_inside(folder / entry.file for entry in entries if isinstance(entry, ModelTable))
+    fields: list[SphereTable | MeshTable] = [
+        to_struct(table, AnyObject, f"objects[{number}]") if was is None else was.fields
+        for number, (table, was) in enumerate(zip(tables, known, strict=True))
+    ]
+    check_inside(folder / entry.file for entry in fields if isinstance(entry, ModelTable))
     # Counted before they are built: a few lines can make more than memory holds.
-    made = sum(map(_made_triangles, entries))
+    made = sum(map(made_triangles, fields))
     _check_made(made)
     stored = 0
-    for number, entry in enumerate(entries):
+    models: Models = {}
+    parts = _Parts(folder, origin.entries)
+    entries: list[Entry] = []
+    objects = 0
+    for number, entry in enumerate(fields):
         check_cancelled()
         with _under(f"objects[{number}]"):
             if isinstance(entry, ModelTable):
-                again = folder / entry.file in models
-                parts = _model(entry.file, folder, models).objects
-                count = sum(len(p.shape.faces) for p in parts if isinstance(p.shape, Mesh))
+                path = parts.path(entry.file)
+                again = path in models
+                models[path] = parts.model(entry.file)
+                count = _triangles(models[path].objects)
                 made, stored = made + again * count, stored + (not again) * count
         _check_made(made)
         _check_count("objects", stored + made, TRIANGLES, "triangles")
         with _under(f"objects[{number}]"):
-            objects += _parts(entry, materials, folder, models)
-        _check_count("objects", len(objects), OBJECTS)
-        if isinstance(entry, ModelTable):
-            views += _views(entry, models[folder / entry.file].views)
-    return objects, views[:VIEWS]
+            material = _material_of(entry.material, materials)
+            was = known[number]
+            if was is None or was.material != material:
+                was = _entry(keys[number], tables[number], entry, material, parts, old)
+        entries.append(was)
+        objects += len(was.objects)
+        _check_count("objects", objects, OBJECTS)
+    return tuple(entries)
 
 
-def _views(table: ModelTable, views: tuple[NamedView, ...]) -> Iterator[NamedView]:
+def _triangles(objects: tuple[SceneObject, ...]) -> int:
+    return sum(len(part.shape.faces) for part in objects if isinstance(part.shape, Mesh))
+
+
+class _Parts:
+    """Shapes before they are put where they are: each is built once, each model read once. entries:
+    those of the scene before, which has some."""
+
+    def __init__(self, folder: Path, entries: tuple[Entry, ...]) -> None:
+        self._folder = folder
+        self._models: Models = {}
+        self._meshes: dict[Hashable, tuple[SceneObject, ...]] = {}
+        for entry in entries:
+            if isinstance(entry.fields, ModelTable):
+                path = self.path(entry.fields.file)
+                self._models.setdefault(path, ModelFile(entry.made, entry.views))
+            elif entry.made:
+                self._meshes.setdefault(shape_of(entry.fields), entry.made)
+
+    def path(self, file: str) -> str:
+        return os.path.abspath(self._folder / file)
+
+    def model(self, file: str) -> ModelFile:
+        path = self.path(file)
+        if path not in self._models:
+            self._models[path] = _model(self._folder / file)
+        return self._models[path]
+
+    def mesh(self, table: MeshTable) -> tuple[SceneObject, ...]:
+        shape = shape_of(table)
+        if shape not in self._meshes:
+            self._meshes[shape] = (SceneObject(mesh_of(table)),)
+        return self._meshes[shape]
+
+
+def _views(entry: Entry) -> Iterator[NamedView]:
     """A model's cameras where the model was put: they see of it what they saw."""
+    table = entry.fields
     matrix = shapes.placement(table.translate, table.rotate_deg, table.scale)
-    for named in views:
+    for named in entry.views:
         with contextlib.suppress(LucidaError):  # too far away for a camera
             name = f"{table.name}/{named.name}" if table.name else named.name
             yield NamedView(name, transformed_view(named.view, matrix))
-
-
-def _made_triangles(table: SphereTable | MeshTable) -> int:
-    """How many triangles a shape is made of; 0 for a sphere, which has none, and for a model."""
-    match table:
-        case BoxTable():
-            return 12
-        case RectangleTable():
-            return 2
-        case DiskTable():
-            return _bounded(table.segments)
-        case CylinderTable():
-            return 4 * _bounded(table.segments)
-        case ConeTable():
-            return 2 * _bounded(table.segments)
-        case TorusTable():
-            return 2 * _bounded(table.segments) * _bounded(table.sides)
-    return 0
-
-
-def _bounded(count: int) -> int:
-    """A number of segments as far as it is legal; the shape refuses others."""
-    return min(max(count, 0), SEGMENTS)
 
 
 def _check_made(triangles: int) -> None:
@@ -187,57 +254,56 @@ def _check_made(triangles: int) -> None:
         )
 
 
-def _parts(
-    table: SphereTable | MeshTable, materials: Materials, folder: Path, models: Models
-) -> list[SceneObject]:
-    """The scene's objects for one table: one, or as many as a model has parts."""
-    material = _material_of(table.material, materials)
-    if isinstance(table, SphereTable):
-        return [SceneObject(Sphere(table.center, table.radius), material or Material(), table.name)]
-    matrix = shapes.placement(table.translate, table.rotate_deg, table.scale)
-    if not isinstance(table, ModelTable):
-        mesh = shapes.transformed(_mesh(table), matrix)
-        return [SceneObject(mesh, material or Material(), table.name)]
-    parts = []
-    for part in _model(table.file, folder, models).objects:
-        assert isinstance(part.shape, Mesh)
-        name = f"{table.name}/{part.name}" if table.name and part.name else table.name or part.name
-        mesh = shapes.transformed(part.shape, matrix)
-        parts.append(SceneObject(mesh, material or part.material, name))
-    if table.name and len(parts) == 1:
-        parts = [SceneObject(parts[0].shape, parts[0].material, table.name)]
-    return parts
+def _entry(
+    key: int,
+    table: dict[str, Any],
+    fields: SphereTable | MeshTable,
+    material: Material | None,
+    parts: _Parts,
+    old: dict[int, Entry],
+) -> Entry:
+    """What one table becomes: one object, or as many as a model has parts. old: the entries of the
+    scene before; shapes that stay where they are, stay what they are."""
+    hidden = fields.hidden
+    if isinstance(fields, SphereTable):
+        sphere = Sphere(fields.center, fields.radius)
+        alone = SceneObject(sphere, material or Material(), fields.name, hidden)
+        return Entry(key, table, fields, material, (), (alone,))
+    views: tuple[NamedView, ...] = ()
+    if isinstance(fields, ModelTable):
+        model = parts.model(fields.file)
+        made, views = model.objects, model.views
+    else:
+        made = parts.mesh(fields)
+    was = old.get(key)
+    if was is not None and was.made is made and _place(was.fields) == _place(fields):
+        placed = [entry.shape for entry in was.objects]
+    else:
+        matrix = shapes.placement(*_place(fields))
+        placed = [
+            shapes.transformed(part.shape, matrix) for part in made if isinstance(part.shape, Mesh)
+        ]
+    objects = []
+    for part, shape in zip(made, placed, strict=True):
+        name = fields.name
+        if len(made) > 1 or not name:
+            name = f"{name}/{part.name}" if name and part.name else name or part.name
+        own = part.material if isinstance(fields, ModelTable) else Material()
+        objects.append(SceneObject(shape, material or own, name, hidden))
+    return Entry(key, table, fields, material, made, tuple(objects), views)
 
 
-def _mesh(table: MeshTable) -> Mesh:
-    match table:
-        case BoxTable():
-            return shapes.box(table.size)
-        case RectangleTable():
-            return shapes.rectangle(table.width, table.depth)
-        case DiskTable():
-            return shapes.disk(table.radius, table.segments)
-        case CylinderTable():
-            return shapes.cylinder(table.radius, table.height, table.segments, table.smooth)
-        case ConeTable():
-            return shapes.cone(table.radius, table.height, table.segments, table.smooth)
-        case TorusTable():
-            return shapes.torus(
-                table.radius, table.tube_radius, table.segments, table.sides, table.smooth
-            )
-    raise AssertionError(f"no mesh for {table!r}")
+def _place(table: MeshTable) -> tuple[Any, ...]:
+    return table.translate, table.rotate_deg, table.scale
 
 
-def _model(file: str, folder: Path, models: Models) -> ModelFile:
-    """A model's parts and views; each file is read once a scene."""
-    path = folder / file
-    if path not in models:
-        try:
-            models[path] = load_model(path)
-        except LucidaError as error:
-            where = ": ".join(part for part in (str(path), error.field) if part)
-            raise LucidaError("file", f"{where}: {error.problem}", error.remedy) from None
-    return models[path]
+def _model(path: Path) -> ModelFile:
+    """A model's parts and views."""
+    try:
+        return load_model(path)
+    except LucidaError as error:
+        where = ": ".join(part for part in (str(path), error.field) if part)
+        raise LucidaError("file", f"{where}: {error.problem}", error.remedy) from None
 
 
 def _material_of(value: str | MaterialTable | None, materials: Materials) -> Material | None:
@@ -271,13 +337,17 @@ def _built_material(table: MaterialTable) -> Material:
     )
 
 
-def _light(table: Any, field: str) -> PointLight | DirectionalLight:
+def _light(table: Any, field: str) -> PointLight | DirectionalLight | None:
+    """None for one that is hidden."""
     fields: PointLightTable | DirectionalLightTable = to_struct(table, AnyLight, field)
     with _under(field):
         rgb = parse_color("color", fields.color)
+        light: PointLight | DirectionalLight
         if isinstance(fields, PointLightTable):
-            return PointLight(fields.position, rgb)
-        return DirectionalLight(fields.direction, rgb)
+            light = PointLight(fields.position, rgb)
+        else:
+            light = DirectionalLight(fields.direction, rgb)
+        return None if fields.hidden else light
 
 
 @contextlib.contextmanager

@@ -65,6 +65,8 @@ def load_scene(source: str | Path) -> Scene:
 
 def _from(source: str, scene: Scene, files: Noted) -> Scene:
     origin = replace(scene.origin or Origin(""), source=source, files=files)
+    if origin.tables is not None and source not in BUILTIN_SCENES:
+        origin.saved.path = Path(source)
     return replace(scene, origin=origin)
 
 

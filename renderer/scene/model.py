@@ -6,6 +6,7 @@ World space is right-handed with y up; colours are linear light.
 
 from __future__ import annotations
 
+import copy
 import math
 from collections.abc import Iterable
 from dataclasses import dataclass, field
@@ -25,6 +26,8 @@ Floats32 = NDArray[np.float32]
 
 BRIGHTEST = 1e6
 LONGEST_NAME = 200  # letters
+
+Keys = tuple[tuple[int, ...], tuple[int, ...]]  # of a scene's objects, and of its lights
 
 
 def vector(name: str, value: Iterable[float]) -> tuple[float, float, float]:
@@ -183,14 +186,25 @@ class Mesh:
                 if not np.isfinite(value).all():
                     raise LucidaError(name, "holds NaN or infinity", "repair the mesh")
                 object.__setattr__(self, name, value)
-        transform = _array("transform", self.transform, np.float64, (4, 4))
-        if not ((np.abs(transform) <= LARGEST).all() and (transform[3] == (0, 0, 0, 1)).all()):
-            raise LucidaError("transform", "is too large, or not affine", "scale it down")
-        linear = transform[:3, :3]
-        lengths = np.linalg.norm(linear, axis=0)
-        if not ((lengths > 1e-12).all() and abs(volume(*(linear / lengths).T)) > 1e-9):
-            raise LucidaError("transform", "is not invertible", "give scales other than 0")
-        object.__setattr__(self, "transform", transform)
+        object.__setattr__(self, "transform", _checked_transform(self.transform))
+
+    def placed(self, transform: ArrayLike) -> Mesh:
+        """The same triangles with another transform: the same arrays, which are not checked again.
+        Raises LucidaError."""
+        mesh = copy.copy(self)
+        object.__setattr__(mesh, "transform", _checked_transform(transform))
+        return mesh
+
+
+def _checked_transform(value: ArrayLike) -> NDArray[np.float64]:
+    transform = _array("transform", value, np.float64, (4, 4))
+    if not ((np.abs(transform) <= LARGEST).all() and (transform[3] == (0, 0, 0, 1)).all()):
+        raise LucidaError("transform", "is too large, or not affine", "scale it down")
+    linear = transform[:3, :3]
+    lengths = np.linalg.norm(linear, axis=0)
+    if not ((lengths > 1e-12).all() and abs(volume(*(linear / lengths).T)) > 1e-9):
+        raise LucidaError("transform", "is not invertible", "give scales other than 0")
+    return transform
 
 
 Shape = Sphere | Mesh
@@ -198,11 +212,13 @@ Shape = Sphere | Mesh
 
 @dataclass(frozen=True, eq=False)
 class SceneObject:
-    """One entry of the `id` channel: a named shape with a material."""
+    """One entry of the `id` channel: a named shape with a material. hidden: neither renderer draws
+    it, and it keeps its id."""
 
     shape: Shape
     material: Material = Material()
     name: str = ""
+    hidden: bool = False
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "name", _shown(self.name))
@@ -232,18 +248,68 @@ class NamedView:
 
 
 @dataclass(frozen=True, eq=False)
+class Entry:
+    """One of the [[objects]] of a scene file, and what it became; nothing of it is ever written to.
+
+    key: a number that no other entry has in this process: it stays, whatever is edited. table: as
+    in the file, and fields, the same as a structure of schema.py. material: the one that it names
+    or gives, None for neither. made: its shapes as they were built or read, before they were put
+    where they are; none for a sphere. objects: the scene's, in their order; a model has one for
+    each of its parts. views: the model's own cameras.
+    """
+
+    key: int
+    table: dict[str, Any]
+    fields: Any
+    material: Material | None
+    made: tuple[SceneObject, ...]
+    objects: tuple[SceneObject, ...]
+    views: tuple[NamedView, ...] = ()
+
+
+class SavedFile:
+    """What a scene's file held when this program has read or written it last.
+
+    One for all the versions that editing makes of a scene, whichever undo brings back: when one of
+    them is saved, all know it. Therefore it is the one thing here that changes; only saving changes
+    it, and one window's thread at a time. path: None while there is no such file. text: the file's
+    own, with which another one is written; "" for none. tables: what is in it, None for nothing
+    yet; keys: of its objects and of its lights, in their order there.
+    """
+
+    def __init__(
+        self,
+        path: Path | None = None,
+        text: str = "",
+        tables: dict[str, Any] | None = None,
+        keys: Keys = ((), ()),
+    ) -> None:
+        self.path, self.text, self.tables, self.keys = path, text, tables, keys
+
+
+@dataclass(frozen=True, eq=False)
 class Origin:
     """Where a scene came from, so that it can be written down again.
 
     source: what load_scene takes, a built-in scene's name or an absolute path; "" for neither.
-    tables: of its scene file, as read; None for a model alone. folder: where its paths begin.
-    files: all that it was read from, as they were then; none of what is built in.
+    tables: of its scene file, as read or edited, never written to; None for a model alone. folder:
+    where its paths begin. files: all that it was read from, as they were then; none of what is
+    built in. entries: one for each of the tables' objects. light_keys: one for each of their
+    lights, as Entry.key. saved: the file itself.
     """
 
     source: str
     tables: dict[str, Any] | None = None
     folder: Path = Path()
     files: Noted = field(default_factory=dict)
+    entries: tuple[Entry, ...] = ()
+    light_keys: tuple[int, ...] = ()
+    saved: SavedFile = field(default_factory=SavedFile)
+
+    @property
+    def keys(self) -> Keys:
+        """Of the objects and of the lights."""
+        return tuple(entry.key for entry in self.entries), self.light_keys
 
 
 @dataclass(frozen=True, eq=False)
@@ -259,6 +325,11 @@ class Scene:
     name: str = ""
     origin: Origin | None = None
     views: tuple[NamedView, ...] = ()
+
+    @property
+    def visible(self) -> tuple[tuple[int, SceneObject], ...]:
+        """The objects that are not hidden, each with its id."""
+        return tuple((k, entry) for k, entry in enumerate(self.objects) if not entry.hidden)
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "objects", tuple(self.objects))

@@ -1,4 +1,4 @@
-"""The line of each field in a TOML text: what errors name beside the field's path.
+"""Where each field stands in a TOML text: the line that errors name, and the letters of its value.
 
 Knows TOML's outer form only: it is given texts that tomllib has read without complaint.
 """
@@ -8,6 +8,7 @@ from __future__ import annotations
 import itertools
 import re
 from bisect import bisect_left
+from typing import NamedTuple
 
 from renderer.errors import LucidaError
 
@@ -27,10 +28,34 @@ _STRING = re.compile(
 )
 
 
+class Span(NamedTuple):
+    """Offsets: of the beginning of a field's key (of an array's element: its value), and of its
+    value, and one past it. is_inner: it is in brackets, and in no line of its own."""
+
+    start: int
+    value: int
+    end: int
+    is_inner: bool
+
+
+class Header(NamedTuple):
+    """[path] or [[path]]: offsets of its first letter, and one past it. first: the number of spans
+    before it."""
+
+    path: Path
+    start: int
+    end: int
+    first: int
+
+
 class Places:
-    """Where the fields of a TOML text are."""
+    """Where the fields of a TOML text are. spans: of all keys with a value and of the elements of
+    arrays, in the text's order. headers: of tables and of elements of arrays of tables."""
 
     def __init__(self, text: str) -> None:
+        self.spans: dict[Path, Span] = {}
+        self.headers: list[Header] = []
+        self._depth = 0
         self._text = text
         self._at = 0
         self._breaks = [match.start() for match in re.finditer("\n", text)]
@@ -67,6 +92,7 @@ class Places:
                 self._pair(table)
                 continue
             self._place(table, start)
+            self.headers.append(Header(table, start, self._at, len(self.spans)))
 
     def _pair(self, table: Path) -> None:
         start = self._at
@@ -76,6 +102,14 @@ class Places:
         self._value(path, start)
 
     def _value(self, path: Path, start: int) -> None:
+        begin, depth = self._at, self._depth
+        self._depth += 1
+        self._content(path, start)
+        self._depth = depth
+        end = begin + len(self._text[begin : self._at].rstrip())
+        self.spans[path] = Span(start, begin, end, depth > 0)
+
+    def _content(self, path: Path, start: int) -> None:
         first = self._text[self._at : self._at + 1]
         if first == "[":
             self._place(path, start)

@@ -7,17 +7,19 @@ in Python, from its parts. Knows nothing of how files are read.
 
 from __future__ import annotations
 
-import copy
-import json
+import contextlib
 import os
 from pathlib import Path
 from typing import Any
 
 from renderer.atomic import atomic_write
 from renderer.errors import LucidaError
+from renderer.scene import framing
 from renderer.scene.load import BUILTIN_SCENES
-from renderer.scene.model import Material, Origin, PointLight, Scene, SceneObject, Sphere, View
+from renderer.scene.model import DirectionalLight, Material, Origin, PointLight, Scene, SceneObject, Sphere, View
+from renderer.scene.rewriting import rewritten
 from renderer.scene.tables import VERSION
+from renderer.scene.toml_writing import toml_text
 from renderer.scene.views import view_table
 
 
@@ -28,30 +30,50 @@ def save_scene(path: str | Path, scene: Scene, view: View | None = None) -> None
     paths, relative to the new file where they lie below its folder. Raises LucidaError naming
     the file, or the object that the format cannot hold.
     """
-    folder = Path(path).absolute().parent
-    text = _toml({"lucida": VERSION, **scene_tables(scene, folder, view)})
+    text = scene_text(scene, Path(path).absolute(), view)
     with atomic_write(path) as file:
         file.write(text.encode())
 
 
+def scene_text(scene: Scene, path: Path, view: View | None = None) -> str:
+    """The text of a scene file at `path`, which is absolute: as its author wrote it where nothing
+    has changed. Raises LucidaError."""
+    tables, origin = file_tables(scene, path, view), scene.origin
+    if origin is None or origin.saved.tables is None or not origin.saved.text:
+        return toml_text({"lucida": VERSION, **tables})
+    return rewritten(origin.saved.text, origin.saved.tables, origin.saved.keys, tables, origin.keys)
+
+
+def file_tables(scene: Scene, path: Path, view: View | None = None) -> dict[str, Any]:
+    """As scene_tables(), for a file at `path`: without what it would have of itself."""
+    tables, folder = scene_tables(scene, path.parent, view), path.parent
+    given = scene.origin.tables if scene.origin is not None else None
+    if given is None:
+        return tables
+    if "name" not in given and scene.name == path.stem:
+        del tables["name"]
+    if "camera" not in given and view in (None, scene.view):
+        with contextlib.suppress(LucidaError):
+            if framing.framing_view([entry for _, entry in scene.visible]) == scene.view:
+                del tables["camera"]
+    return tables
+
+
 def scene_tables(scene: Scene, folder: Path, view: View | None = None) -> dict[str, Any]:
-    """A scene as the tables of a scene file in `folder`. Raises LucidaError."""
+    """A scene as the tables of a scene file in `folder`. view: what its camera is to be, where it
+    is another than the scene's own. Raises LucidaError."""
     origin = scene.origin
     if origin is not None and origin.tables is not None:
-        tables = copy.deepcopy(origin.tables)
-        for entry in tables.get("objects", []):
-            if isinstance(entry.get("file"), str):
-                entry["file"] = _path(origin.folder / entry["file"], folder)
-        tables.setdefault("name", scene.name)
+        tables = {"name": scene.name, **relocated(origin.tables, origin.folder, folder)}
     else:
         tables = {
             "name": scene.name,
             "ambient": list(scene.ambient),
             "background": list(scene.background),
             "objects": _objects(scene, origin, folder),
-            "lights": [_light(light) for light in scene.lights],
+            "lights": [light_table(light) for light in scene.lights],
         }
-    if view is not None or "camera" not in tables:
+    if "camera" not in tables or view not in (None, scene.view):
         tables["camera"] = view_table(scene.view if view is None else view)
     order = ("name", "ambient", "background", "camera", "materials", "lights", "objects")
     return {key: tables[key] for key in order if key in tables}
@@ -59,7 +81,7 @@ def scene_tables(scene: Scene, folder: Path, view: View | None = None) -> dict[s
 
 def _objects(scene: Scene, origin: Origin | None, folder: Path) -> list[dict[str, Any]]:
     if origin is not None and origin.source and origin.source not in BUILTIN_SCENES:
-        return [{"type": "model", "file": _path(Path(origin.source), folder)}]
+        return [{"type": "model", "file": path_text(Path(origin.source), folder)}]
     return [_object(number, entry) for number, entry in enumerate(scene.objects)]
 
 
@@ -72,10 +94,11 @@ def _object(number: int, entry: SceneObject) -> dict[str, Any]:
         )
     table: dict[str, Any] = {"type": "sphere", "name": entry.name}
     table |= {"center": list(entry.shape.center), "radius": entry.shape.radius}
-    return table | {"material": _material(entry.material)}
+    return table | {"material": material_table(entry.material)}
 
 
-def _material(material: Material) -> dict[str, Any]:
+def material_table(material: Material) -> dict[str, Any]:
+    """A material as a table in which nothing is left to a default."""
     table: dict[str, Any] = {
         "diffuse": list(material.diffuse),
         "specular": list(material.specular),
@@ -86,61 +109,50 @@ def _material(material: Material) -> dict[str, Any]:
     return table
 
 
-def _light(light: Any) -> dict[str, Any]:
+def light_table(light: PointLight | DirectionalLight) -> dict[str, Any]:
+    """A light as one of [[lights]]."""
     color = {"color": list(light.color)}
     if isinstance(light, PointLight):
         return {"type": "point", "position": list(light.position), **color}
     return {"type": "directional", "direction": list(light.direction), **color}
 
 
-def _path(file: Path, folder: Path) -> str:
-    """A model's path for a scene file in `folder`: relative if the model lies below it."""
+def relocated(tables: dict[str, Any], old: Path, new: Path | None) -> dict[str, Any]:
+    """A scene file's tables, with the paths in them from another folder, or absolute for None.
+    Paths that are the same there stay as they are written."""
+
+    if new == old:
+        return tables
+
+    def path(table: Any, field: str) -> Any:
+        if not isinstance(table, dict) or not isinstance(name := table.get(field), str):
+            return table
+        return {**table, field: path_text(old / name, new)}
+
+    def objects(table: Any) -> Any:
+        table = path(table, "file")
+        if isinstance(table, dict) and isinstance(given := table.get("material"), dict):
+            moved = path(given, "texture")
+            return table if moved is given else {**table, "material": moved}
+        return table
+
+    found = dict(tables)
+    if isinstance(entries := tables.get("objects"), list):
+        found["objects"] = [objects(entry) for entry in entries]
+    if isinstance(materials := tables.get("materials"), dict):
+        found["materials"] = {name: path(table, "texture") for name, table in materials.items()}
+    return found
+
+
+def path_text(file: Path, folder: Path | None) -> str:
+    """A model's path for a scene file in `folder`: relative if the model lies below it; absolute
+    for None."""
     file = Path(os.path.abspath(file))
-    name = file.relative_to(folder).as_posix() if file.is_relative_to(folder) else str(file)
+    is_below = folder is not None and file.is_relative_to(folder)
+    name = file.relative_to(folder).as_posix() if is_below and folder else str(file)
     try:
         name.encode()
     except UnicodeEncodeError:
         problem = f"the model's name is not UTF-8, as scene files are: {name}"
         raise LucidaError("", problem, "rename the model") from None
     return name
-
-
-def _toml(tables: dict[str, Any]) -> str:
-    """The text of a scene file: a table a section, everything inside it in one line."""
-    lines = [f"{key} = {_value(v)}" for key, v in tables.items() if _is_plain(key, v)]
-    for key, value in tables.items():
-        if key == "camera":
-            lines += ["", "[camera]", *_entries(value)]
-        elif key == "materials":
-            for name, material in value.items():
-                lines += ["", f"[materials.{_key(name)}]", *_entries(material)]
-        elif key in ("lights", "objects") and value:
-            for entry in value:
-                lines += ["", f"[[{key}]]", *_entries(entry)]
-    return "\n".join(lines) + "\n"
-
-
-def _is_plain(key: str, value: Any) -> bool:
-    return key not in ("camera", "materials", "lights", "objects") or value == []
-
-
-def _entries(table: dict[str, Any]) -> list[str]:
-    return [f"{name} = {_value(value)}" for name, value in table.items()]
-
-
-def _value(value: Any) -> str:
-    """A value in TOML 1.0. Numbers are written so that they are read back exactly."""
-    if isinstance(value, str):
-        # JSON's strings are TOML's, but for one character that TOML wants escaped.
-        return json.dumps(value, ensure_ascii=False).replace("\x7f", "\\u007f")
-    if isinstance(value, bool):
-        return "true" if value else "false"
-    if isinstance(value, int | float):
-        return repr(value)
-    if isinstance(value, dict):
-        return "{ " + ", ".join(f"{_key(k)} = {_value(v)}" for k, v in value.items()) + " }"
-    return "[" + ", ".join(map(_value, value)) + "]"
-
-
-def _key(name: str) -> str:
-    return name if name.isidentifier() and name.isascii() else _value(name)

@@ -83,10 +83,15 @@ class MaterialTable(StrictTable):
 
 
 class ObjectTable(StrictTable, tag_field="type"):
-    """What all [[objects]] have. material: a name from [materials], or a table."""
+    """What all [[objects]] have. material: a name from [materials], or a table.
+
+    hidden: neither renderer draws it. locked: the window's mouse leaves it alone.
+    """
 
     name: str = ""
     material: str | MaterialTable | None = None
+    hidden: bool = False
+    locked: bool = False
 
 
 class SphereTable(ObjectTable, tag="sphere"):
@@ -173,18 +178,25 @@ AnyObject = (
 )
 
 
-class PointLightTable(StrictTable, tag_field="type", tag="point"):
+class LightTable(StrictTable, tag_field="type"):
+    """What all [[lights]] have. hidden: it is off. locked: as of objects."""
+
+    name: str = ""
+    color: ColorValue = (1.0, 1.0, 1.0)
+    hidden: bool = False
+    locked: bool = False
+
+
+class PointLightTable(LightTable, tag="point", kw_only=True):
     """Shines from `position`, equally far and near."""
 
     position: Numbers3
-    color: ColorValue = (1.0, 1.0, 1.0)
 
 
-class DirectionalLightTable(StrictTable, tag_field="type", tag="directional"):
+class DirectionalLightTable(LightTable, tag="directional", kw_only=True):
     """Shines along `direction`, from infinitely far."""
 
     direction: Numbers3
-    color: ColorValue = (1.0, 1.0, 1.0)
 
 
 AnyLight = PointLightTable | DirectionalLightTable

@@ -10,7 +10,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable
-from dataclasses import replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -154,7 +153,7 @@ def placement(
 
 def transformed(mesh: Mesh, matrix: Floats) -> Mesh:
     """The mesh moved by `matrix` (4, 4) in world space."""
-    return replace(mesh, transform=matrix @ mesh.transform)
+    return mesh.placed(matrix @ mesh.transform)
 
 
 def translate(mesh: Mesh, offset: Iterable[float]) -> Mesh:

@@ -33,6 +33,7 @@ FLOORS = (
     "renderer.samples",
     "renderer.images",
     "renderer.scene",
+    "renderer.scene_editing",
     "renderer.camera_formats",
     "renderer.scene_export",
     "renderer.raster",

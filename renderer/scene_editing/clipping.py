@@ -1,0 +1,102 @@
+"""Objects and lights as text, to copy and paste: TOML as it stands in scene files.
+
+Also between two windows, and out of a scene file or a mail: what comes in is checked as a file is.
+"""
+
+from __future__ import annotations
+
+import copy
+from collections.abc import Sequence
+from typing import Any
+
+from renderer.errors import LucidaError
+from renderer.scene.limits import TOML_BYTES
+from renderer.scene.model import Scene
+from renderer.scene.saving import relocated
+from renderer.scene.tables import parse_toml
+from renderer.scene.toml_writing import toml_text
+from renderer.scene_editing.changing import (
+    Item,
+    Table,
+    as_tables,
+    find,
+    listed,
+    origin_of,
+    with_tables,
+)
+from renderer.scene_editing.objects import add, named_anew
+
+KINDS = ("materials", "objects", "lights")
+
+
+def copy_text(scene: Scene, items: Sequence[Item]) -> str:
+    """Items as TOML, with the shared materials that they name. Files are named by absolute paths:
+    they are found wherever the text is pasted."""
+    scene = as_tables(scene)
+    origin, tables = origin_of(scene)
+    found: dict[str, Any] = {"materials": {}, "objects": [], "lights": []}
+    for kind, number in sorted((find(scene, item) for item in items), reverse=True):
+        table = listed(scene, kind)[number]
+        found[kind].insert(0, table)
+        if isinstance(name := table.get("material"), str):
+            found["materials"][name] = tables["materials"][name]
+    return toml_text(relocated(found, origin.folder, None))
+
+
+def paste_text(scene: Scene, text: str) -> tuple[Scene, tuple[Item, ...]]:
+    """The scene with the objects and lights of a text, after its own; and these items.
+
+    Materials come along: one that the scene has under the same name is used where it is the same,
+    and otherwise the pasted one gets another name. So do objects and lights. Raises LucidaError
+    where the text is not TOML, holds anything else, or nothing.
+    """
+    scene = as_tables(scene)
+    if len(text) > TOML_BYTES:
+        raise LucidaError("", f"the text has {len(text)} characters", "paste less at once")
+    tables = parse_toml(text)
+    _check(tables)
+    origin, own = origin_of(scene)
+    tables = relocated(tables, origin.folder, origin.folder)
+    names, materials = _materials(own.get("materials", {}), tables.get("materials", {}))
+    objects = []
+    for table in tables.get("objects", []):
+        given = table.get("material")
+        is_pasted = isinstance(given, str) and given in names
+        objects.append({**table, "material": names[given]} if is_pasted else table)
+    found = [*objects, *tables.get("lights", [])]
+    if materials != own.get("materials", {}):
+        scene = with_tables(scene, {**own, "materials": materials})
+    return add(scene, *named_anew(scene, found))
+
+
+def _check(tables: Table) -> None:
+    """That the outer form is right; what is inside is checked when the scene is built."""
+    for name in tables:
+        if name not in KINDS:
+            remedy = f"paste {', '.join(KINDS[:2])} and {KINDS[2]}"
+            raise LucidaError(name, "cannot be pasted into a scene", remedy)
+    for kind in KINDS[1:]:
+        entries = tables.get(kind, [])
+        if not isinstance(entries, list) or not all(isinstance(e, dict) for e in entries):
+            raise LucidaError(kind, "is not a list of tables", f"write [[{kind}]]")
+        for number, entry in enumerate(entries):
+            is_light = entry.get("type") in ("point", "directional")
+            if is_light != (kind == "lights"):
+                where = f"{kind}[{number}].type"
+                raise LucidaError(where, f"{entry.get('type')!r} is not one", "correct it")
+    if not isinstance(tables.get("materials", {}), dict):
+        raise LucidaError("materials", "is not a table", "write [materials.NAME]")
+    if not any(tables.get(kind) for kind in KINDS[1:]):
+        raise LucidaError("", "the text holds no objects and no lights", "copy some first")
+
+
+def _materials(own: Table, pasted: Table) -> tuple[dict[str, str], Table]:
+    """What pasted names become, and all materials."""
+    names: dict[str, str] = {}
+    found = dict(own)
+    for name, table in pasted.items():
+        new, number = name, 2
+        while new in found and found[new] != table:
+            new, number = f"{name} {number}", number + 1
+        names[name], found[new] = new, copy.deepcopy(table)
+    return names, found

@@ -1,0 +1,111 @@
+"""A scene and its file: what is not saved yet, and saving it without losing anything.
+
+Owns the question whether the file is still what was read. Knows nothing of dialogs.
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from pathlib import Path
+from typing import Any
+
+from renderer.atomic import atomic_write
+from renderer.errors import LucidaError
+from renderer.scene.files import changed_scene
+from renderer.scene.limits import TOML_BYTES
+from renderer.scene.load import BUILTIN_SCENES
+from renderer.scene.model import SavedFile, Scene, View
+from renderer.scene.noting import stamp
+from renderer.scene.reading import read_file
+from renderer.scene.saving import file_tables, relocated, scene_text
+from renderer.scene_editing.changing import as_tables, origin_of
+
+
+class ChangedOnDiskError(LucidaError):
+    """Somebody else has written the file since it was read; nothing was written."""
+
+
+def is_unsaved(scene: Scene) -> bool:
+    """Whether the scene differs from its file, as that was last read or saved; for a built-in one
+    from what it was, and for a model alone from the model."""
+    origin = scene.origin
+    if origin is None or origin.tables is None:
+        return False
+    saved, tables = origin.saved, origin.tables
+    if tables is saved.tables:
+        return False
+    if saved.tables is None:
+        return True
+    if saved.path is not None and saved.path.parent != origin.folder:
+        tables = relocated(tables, origin.folder, saved.path.parent)
+    optional = [key for key in ("name", "camera") if (key in tables) != (key in saved.tables)]
+    return _without(tables, optional) != _without(saved.tables, optional)
+
+
+def file_of(scene: Scene) -> Path | None:
+    """Where saving writes without asking; None for a scene that has no file of its own yet."""
+    return scene.origin.saved.path if scene.origin is not None else None
+
+
+def suggested_file(scene: Scene) -> Path:
+    """What to propose when asking where to save: the scene's own file; beside a model; or a name
+    in no folder."""
+    own = file_of(as_tables(scene))
+    if own is not None:
+        return own
+    source = scene.origin.source if scene.origin is not None else ""
+    if source and source not in BUILTIN_SCENES:
+        return Path(source).with_suffix(".toml")
+    name = "".join(c if c.isalnum() or c in " -_" else "-" for c in scene.name) or "scene"
+    return Path(f"{name}.toml")
+
+
+def save(
+    scene: Scene, path: Path | None = None, view: View | None = None, force: bool = False
+) -> Scene:
+    """Writes the scene, whole or not at all, and gives it as that file's: the same objects.
+
+    path: None for its own file. What its author wrote stays as it is where nothing has changed.
+    view: what the file's camera is to be; None for the scene's own. force: also where somebody else
+    has written the scene's own file since it was read; otherwise that raises ChangedOnDiskError.
+    Raises LucidaError naming the file; nothing is lost then.
+    """
+    scene = as_tables(scene)
+    target = path or file_of(scene)
+    if target is None:
+        raise LucidaError("", "the scene has no file yet", "choose where to save it")
+    target = target.absolute()
+    origin, _ = origin_of(scene)
+    saved = origin.saved
+    if target == saved.path and not force:
+        _check_unchanged(target, saved)
+    text, tables = scene_text(scene, target, view), file_tables(scene, target, view)
+    if len(text.encode()) > TOML_BYTES:
+        raise LucidaError("", "would be too large to be read again", "delete objects", str(target))
+    with atomic_write(target) as file:
+        file.write(text.encode())
+    files = {**origin.files, target: stamp(target)}
+    moved = replace(origin, source=str(target), folder=target.parent, files=files)
+    found = changed_scene(replace(scene, origin=moved), tables, origin.keys)
+    saved.path, saved.text, saved.tables, saved.keys = target, text, tables, origin.keys
+    return found if view is None else replace(found, view=view)
+
+
+def _check_unchanged(path: Path, saved: SavedFile) -> None:
+    try:
+        now = read_file(path, TOML_BYTES).decode("utf-8", "surrogateescape")
+    except LucidaError:
+        if path.exists():
+            raise
+        return  # it is gone: saving brings it back
+    if now != saved.text:
+        raise ChangedOnDiskError(
+            "",
+            "was changed by another program since it was read",
+            "save under another name, or overwrite it",
+            str(path),
+        )
+
+
+def _without(tables: dict[str, Any], keys: list[str]) -> dict[str, Any]:
+    return {key: value for key, value in tables.items() if key not in keys}

@@ -1,0 +1,214 @@
+"""Items moved, turned and scaled by a matrix, as handles give it; kept in the file's own numbers.
+
+Owns the way from a matrix to translate, rotate_deg and scale, and to a sphere's and a light's
+numbers. What these cannot hold (a shear; a sphere that would become an ellipsoid) is refused.
+"""
+
+from __future__ import annotations
+
+import itertools
+import math
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from renderer.errors import LucidaError
+from renderer.scene.boxes import extent, world_boxes
+from renderer.scene.model import Scene, Sphere
+from renderer.scene.schema import DirectionalLightTable, MeshTable, PointLightTable, SphereTable
+from renderer.scene.shapes import placement
+from renderer.scene_editing.changing import (
+    Item,
+    Kind,
+    Table,
+    as_tables,
+    entry_of,
+    fields_of,
+    find,
+    listed,
+    plain,
+    with_listed,
+)
+
+Floats = NDArray[np.float64]
+
+TOLERANCE = 1e-6  # of lengths and cosines: below it, a shear is rounding
+DIGITS = 12  # that are written: what is beyond them is rounding
+
+
+def matrix_of(scene: Scene, item: Item) -> Floats:
+    """world_from_item (4, 4), as handles take it: where an object's own space is; a sphere's is
+    scaled by its radius, a point light's is at its position; a directional light's has its z axis
+    against the direction, and no place."""
+    fields = fields_of(scene, item)
+    if isinstance(fields, SphereTable):
+        return placement(fields.center, scale=fields.radius)
+    if isinstance(fields, MeshTable):
+        return placement(fields.translate, fields.rotate_deg, fields.scale)
+    if isinstance(fields, PointLightTable):
+        return placement(fields.position)
+    assert isinstance(fields, DirectionalLightTable)
+    z = -np.asarray(fields.direction) / np.linalg.norm(fields.direction)
+    x = np.cross((0.0, 1.0, 0.0) if abs(z[1]) < 0.9 else (1.0, 0.0, 0.0), z)
+    x /= np.linalg.norm(x)
+    matrix = np.eye(4)
+    matrix[:3, :3] = np.column_stack([x, np.cross(z, x), z])
+    return matrix
+
+
+def bounds_of(scene: Scene, items: Sequence[Item]) -> Floats | None:
+    """The lowest and highest corner (2, 3) around objects and point lights in the world; None where
+    nothing has a place."""
+    scene = as_tables(scene)
+    boxes: list[tuple[Any, Any]] = []
+    for item in items:
+        kind, _ = find(scene, item)
+        if kind == "lights":
+            fields = fields_of(scene, item)
+            if isinstance(fields, PointLightTable):
+                boxes.append((fields.position, fields.position))
+            continue
+        for entry in entry_of(scene, item).objects:
+            if isinstance(entry.shape, Sphere):
+                center, radius = np.asarray(entry.shape.center), entry.shape.radius
+                boxes.append((center - radius, center + radius))
+            else:
+                own = np.array(extent(entry.shape.vertices), float)
+                low, high = world_boxes(entry.shape.transform[None], own[None])
+                boxes.append((low[0], high[0]))
+    if not boxes:
+        return None
+    return np.array([np.min([b[0] for b in boxes], 0), np.max([b[1] for b in boxes], 0)])
+
+
+def transform(scene: Scene, items: Sequence[Item], matrix: ArrayLike) -> Scene:
+    """The scene with some items moved by an affine matrix (4, 4) in the world, after what they are
+    moved by already: their new matrix is matrix @ matrix_of(). During a drag, give the scene of its
+    beginning and the matrix of the whole drag. Raises LucidaError for what an item cannot do."""
+    moved = np.asarray(matrix, float)
+    if moved.shape != (4, 4) or not np.isfinite(moved).all():
+        raise LucidaError("matrix", "is not 4 x 4 finite numbers", "give an affine matrix")
+    scene = as_tables(scene)
+    changed: dict[Kind, list[Any]] = {}
+    for item in items:
+        kind, number = find(scene, item)
+        tables = changed.setdefault(kind, list(listed(scene, kind)))
+        fields = fields_of(scene, item)
+        try:
+            tables[number] = {**tables[number], **_moved(fields, moved)}
+        except LucidaError as error:
+            raise error.within(f"{kind}[{number}]") from None
+    return with_listed(scene, changed)
+
+
+def place_at(scene: Scene, item: Item, matrix: ArrayLike) -> Scene:
+    """The scene with an item where a matrix (4, 4) puts it: what matrix_of() will give."""
+    now = matrix_of(scene, item)
+    return transform(scene, [item], np.asarray(matrix, float) @ np.linalg.inv(now))
+
+
+def _moved(fields: Any, matrix: Floats) -> Table:
+    """What changes in the item's table."""
+    linear = matrix[:3, :3]
+
+    def point(value: Sequence[float]) -> list[float]:
+        return _numbers(linear @ value + matrix[:3, 3], value)
+
+    if isinstance(fields, PointLightTable):
+        return {"position": point(fields.position)}
+    if isinstance(fields, DirectionalLightTable):
+        turned = linear @ fields.direction
+        length = np.linalg.norm(turned)
+        if not length > 0:
+            raise LucidaError("scale", "flattens the light's direction", "turn it only")
+        turned *= np.linalg.norm(fields.direction) / length  # scaling turns a light at most
+        return {"direction": _numbers(turned, fields.direction)}
+    if isinstance(fields, SphereTable):
+        factor = math.cbrt(abs(np.linalg.det(linear)))
+        if not np.abs(linear.T @ linear - factor**2 * np.eye(3)).max() <= TOLERANCE * factor**2:
+            raise LucidaError(
+                "scale", "would make an ellipsoid of a sphere", "scale a sphere by one factor"
+            )
+        radius = _number(factor * fields.radius, fields.radius)
+        return {"center": point(fields.center)} | (
+            {"radius": radius} if radius != fields.radius else {}
+        )
+    if np.array_equal(linear, np.eye(3)):
+        return {"translate": point(fields.translate)}
+    now = placement(fields.translate, fields.rotate_deg, fields.scale)
+    angles, factors = decomposed(linear @ now[:3, :3], fields.rotate_deg, fields.scale)
+    was = (fields.scale,) * 3 if isinstance(fields.scale, int | float) else fields.scale
+    scales = _numbers(factors, was)
+    is_one = isinstance(fields.scale, int | float) and scales == [scales[0]] * 3
+    found = {
+        "translate": point(fields.translate),
+        "rotate_deg": _numbers(angles, fields.rotate_deg),
+        "scale": scales[0] if is_one else scales,
+    }
+    return {name: value for name, value in found.items() if not _same(value, getattr(fields, name))}
+
+
+def decomposed(
+    linear: Floats, rotate_deg: Sequence[float], scale: float | Sequence[float]
+) -> tuple[Floats, Floats]:
+    """(rotate_deg, scale) of a matrix (3, 3), each (3,): of all that give it, the nearest to those
+    that are given. Raises LucidaError for a shear, and for what is flat."""
+    lengths = np.linalg.norm(linear, axis=0)
+    if not (lengths > 1e-12).all():
+        raise LucidaError("scale", "flattens the object", "give factors other than 0")
+    unit = linear / lengths
+    if np.abs(unit.T @ unit - np.eye(3)).max() > TOLERANCE:
+        raise LucidaError(
+            "scale",
+            "would shear the object, which a scene file cannot hold",
+            "scale along the object's own axes, or by one factor",
+        )
+    before = placement((0, 0, 0), rotate_deg)[:3, :3]
+    signs_before = np.sign(np.broadcast_to(np.asarray(scale, float), 3))
+    best: tuple[float, Floats, Floats] | None = None
+    for signs in itertools.product((1.0, -1.0), repeat=3):
+        rotation = unit * signs
+        if np.linalg.det(rotation) < 0:
+            continue
+        kept = float(np.sum(rotation * before)) + 1e-3 * float(signs @ signs_before)
+        if best is None or kept > best[0] + 1e-9:
+            best = kept, rotation, lengths * signs
+    assert best is not None  # of eight patterns of signs, four are rotations
+    return _angles(best[1], np.asarray(rotate_deg, float)), best[2]
+
+
+def _angles(rotation: Floats, near: Floats) -> Floats:
+    """Angles about x, then y, then z, in degrees, nearest to `near`."""
+    cosine = math.hypot(rotation[0, 0], rotation[1, 0])
+    y = math.atan2(-rotation[2, 0], cosine)
+    if cosine < 1e-9:  # x and z turn about the same axis: z stays what it is
+        z = math.radians(near[2])
+        about_z = placement((0, 0, 0), (0, 0, near[2]))[:3, :3]
+        rest = about_z.T @ rotation  # Ry Rx
+        x = math.atan2(-rest[1, 2], rest[1, 1])
+        choices = [(x, y, z)]
+    else:
+        x = math.atan2(rotation[2, 1], rotation[2, 2])
+        z = math.atan2(rotation[1, 0], rotation[0, 0])
+        choices = [(x, y, z), (x + math.pi, math.pi - y, z + math.pi)]
+    found = [np.degrees(choice) for choice in choices]
+    found = [angles + 360 * np.round((near - angles) / 360) for angles in found]
+    return min(found, key=lambda angles: float(np.abs(angles - near).sum()))
+
+
+def _numbers(values: ArrayLike, before: Sequence[float]) -> list[float]:
+    found = np.asarray(values, float).tolist()
+    return [_number(value, was) for value, was in zip(found, before, strict=True)]
+
+
+def _number(value: float, before: float) -> float:
+    """A number as it is written: what it was, where only rounding is between them."""
+    if abs(value - before) <= 1e-12 * max(abs(before), 1.0):
+        return before
+    return float(f"{value:.{DIGITS}g}") + 0.0
+
+
+def _same(value: Any, before: Any) -> bool:
+    return bool(value == plain(before))

@@ -1,0 +1,187 @@
+"""Objects and lights that come, go, and change their order and their names.
+
+Knows nothing of how they are chosen.
+"""
+
+from __future__ import annotations
+
+import copy
+import re
+from collections.abc import Iterable, Sequence
+from typing import Any
+
+from renderer.errors import LucidaError
+from renderer.scene.files import new_keys
+from renderer.scene.model import Scene
+from renderer.scene_editing.changing import (
+    Item,
+    Kind,
+    Table,
+    as_tables,
+    find,
+    listed,
+    origin_of,
+    set_field,
+    with_listed,
+)
+
+SHAPES = ("sphere", "box", "rectangle", "disk", "cylinder", "cone", "torus")
+LIGHTS = ("point", "directional")
+
+
+def new_table(
+    scene: Scene, kind: str, at: Sequence[float] = (0.0, 0.0, 0.0), size: float = 1.0
+) -> Table:
+    """What to add for one of SHAPES, about `size` across and centred on `at`, or one of LIGHTS,
+    with a name that the scene does not have. A directional light shines from `at` to the origin."""
+    half = size / 2
+    x, y, z = map(float, at)
+    own: dict[str, Table] = {
+        "sphere": {"radius": half},
+        "box": {"size": size},
+        "rectangle": {"width": size, "depth": size},
+        "disk": {"radius": half},
+        "cylinder": {"radius": half, "height": size},
+        "cone": {"radius": half, "height": size},
+        "torus": {"radius": 0.7 * half, "tube_radius": 0.3 * half},
+        "point": {"position": [x, y, z], "color": [0.8, 0.8, 0.8]},
+        "directional": {
+            "direction": [-x, -y, -z] if any(at) else [0.5, -0.8, -0.6],
+            "color": [0.8, 0.8, 0.8],
+        },
+    }
+    if kind not in own:
+        choices = ", ".join(own)
+        raise LucidaError("type", f"{kind!r} is unknown", f"give one of {choices}")
+    label = f"{kind} light" if kind in LIGHTS else kind
+    table = {"type": kind, "name": unused_name(scene, label), **own[kind]}
+    if kind in SHAPES:
+        table["center" if kind == "sphere" else "translate"] = [x, y, z]
+    return table
+
+
+def model_table(scene: Scene, file: str, at: Sequence[float] = (0.0, 0.0, 0.0)) -> Table:
+    """What to add for a model file: its absolute path, or one from the scene's folder. Whoever has
+    read it already adds it inside read_by(), with what was read."""
+    stem = re.split(r"[/\\]", file)[-1].rsplit(".", 1)[0]
+    name = unused_name(scene, stem)
+    return {"type": "model", "name": name, "file": file, "translate": list(map(float, at))}
+
+
+def add(scene: Scene, *tables: Table) -> tuple[Scene, tuple[Item, ...]]:
+    """The scene with more objects and lights, after its own; and these items. A light's table is
+    one of a type of LIGHTS. Raises LucidaError."""
+    scene = as_tables(scene)
+    keys = new_keys(len(tables))
+    changed: dict[Kind, list[Any]] = {}
+    all_keys = dict(zip(("objects", "lights"), map(list, origin_of(scene)[0].keys), strict=True))
+    for key, table in zip(keys, tables, strict=True):
+        kind: Kind = "lights" if table.get("type") in LIGHTS else "objects"
+        changed.setdefault(kind, list(listed(scene, kind))).append(table)
+        all_keys[kind].append(key)
+    found = with_listed(scene, changed, (tuple(all_keys["objects"]), tuple(all_keys["lights"])))
+    return found, keys
+
+
+def delete(scene: Scene, items: Iterable[Item]) -> Scene:
+    """The scene without some of its items. Shared materials stay."""
+    scene, gone = as_tables(scene), set(items)
+    for item in gone:
+        find(scene, item)
+    keys = origin_of(scene)[0].keys
+    return _arranged(scene, *([key for key in kind if key not in gone] for kind in keys))
+
+
+def duplicate(
+    scene: Scene, items: Sequence[Item], by: Sequence[float] = (0.0, 0.0, 0.0)
+) -> tuple[Scene, tuple[Item, ...]]:
+    """The scene with copies of items after all others, moved by `by`; and the copies. They have the
+    same arrays, and names of their own."""
+    from renderer.scene.shapes import placement
+    from renderer.scene_editing.moving import transform
+
+    scene = as_tables(scene)
+    tables = [copy.deepcopy(listed(scene, kind)[k]) for kind, k in (find(scene, i) for i in items)]
+    found, copies = add(scene, *named_anew(scene, tables))
+    return (transform(found, copies, placement(by)) if any(by) else found), copies
+
+
+def reorder(scene: Scene, items: Iterable[Item], before: Item | None) -> Scene:
+    """The scene with some items, in the order that they have, put before another one of their
+    kind; None: after all. Objects get their ids by it; lights and objects stay apart."""
+    scene, moved = as_tables(scene), set(items)
+    arranged = []
+    for keys in origin_of(scene)[0].keys:
+        mine = [key for key in keys if key in moved]
+        if not mine:
+            arranged.append(list(keys))
+            continue
+        if before is not None and before not in keys:
+            raise LucidaError("", "objects and lights are lists of their own", "drop it there")
+        rest = [key for key in keys if key not in moved]
+        # In front of the first one that stays, from that place on.
+        start = len(keys) if before is None else keys.index(before)
+        after = next((key for key in keys[start:] if key not in moved), None)
+        at = len(rest) if after is None else rest.index(after)
+        arranged.append([*rest[:at], *mine, *rest[at:]])
+    return _arranged(scene, *arranged)
+
+
+def rename(scene: Scene, item: Item, name: str) -> Scene:
+    """The scene with another name for an item; "" for none."""
+    return set_field(scene, [item], "name", name or None)
+
+
+def hide(scene: Scene, items: Sequence[Item], hidden: bool = True) -> Scene:
+    """The scene with some items hidden, or shown: neither renderer draws them, ids stay."""
+    return set_field(scene, items, "hidden", True if hidden else None)
+
+
+def lock(scene: Scene, items: Sequence[Item], locked: bool = True) -> Scene:
+    """The scene with some items locked, or free: the window heeds it, the functions here do not."""
+    return set_field(scene, items, "locked", True if locked else None)
+
+
+def named_anew(scene: Scene, tables: Sequence[Table]) -> list[Table]:
+    """The tables, with other names where the scene has theirs."""
+    taken = _names(scene)
+    found = []
+    for table in tables:
+        name = table.get("name")
+        if name and isinstance(name, str):
+            table = {**table, "name": _unused(name, taken)}
+            taken.add(table["name"])
+        found.append(table)
+    return found
+
+
+def unused_name(scene: Scene, name: str) -> str:
+    """The name, or with a number after it, which no item of the scene has."""
+    return _unused(name, _names(scene))
+
+
+def _names(scene: Scene) -> set[str]:
+    scene = as_tables(scene)
+    kinds: tuple[Kind, Kind] = ("objects", "lights")
+    return {table.get("name", "") for kind in kinds for table in listed(scene, kind)}
+
+
+def _unused(name: str, taken: set[str]) -> str:
+    if name not in taken:
+        return name
+    stem = re.sub(r" \d+$", "", name)
+    number = 2
+    while f"{stem} {number}" in taken:
+        number += 1
+    return f"{stem} {number}"
+
+
+def _arranged(scene: Scene, objects: list[Item], lights: list[Item]) -> Scene:
+    """The scene with its items in another order, or some of them."""
+    changed: dict[Kind, list[Any]] = {}
+    kinds: tuple[Kind, Kind] = ("objects", "lights")
+    for kind, now, was in zip(kinds, (objects, lights), origin_of(scene)[0].keys, strict=True):
+        if tuple(now) != was:
+            table = dict(zip(was, listed(scene, kind), strict=True))
+            changed[kind] = [table[key] for key in now]
+    return with_listed(scene, changed, (tuple(objects), tuple(lights))) if changed else scene
