@@ -8,7 +8,7 @@ from __future__ import annotations
 from typing import NamedTuple
 
 from renderer.raster.setup import SceneSetup, scene_setup
-from renderer.scene.flat import FlatScene, flatten
+from renderer.scene.flat import FlatScene, flatten, same_places
 from renderer.scene.model import Scene, check_scene
 
 
@@ -19,7 +19,13 @@ class Prepared(NamedTuple):
     setup: SceneSetup
 
 
-def prepare(scene: Scene) -> Prepared:
-    """For Rasterizer(), or set_scene(). Raises LucidaError (see flatten)."""
-    flat = flatten(check_scene(scene))
-    return Prepared(flat, scene_setup(flat))
+def prepare(scene: Scene, known: tuple[Scene, Prepared] | None = None) -> Prepared:
+    """For Rasterizer(), or set_scene(). known: a scene that was prepared before; what the two have
+    in common is taken from it. Raises LucidaError (see flatten)."""
+    check_scene(scene)
+    if known is None:
+        flat = flatten(scene)
+        return Prepared(flat, scene_setup(flat))
+    old, prepared = known
+    flat = flatten(scene, (old, prepared.flat))
+    return Prepared(flat, scene_setup(flat, prepared, same_places(scene, old)))

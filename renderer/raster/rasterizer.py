@@ -25,6 +25,7 @@ from renderer.raster.resources import Owner, check
 from renderer.raster.scene_data import SceneData
 from renderer.raster.targets import Region, Targets, Textures
 from renderer.samples import Progress, check_samples, supersampled
+from renderer.scene.flat import same_places
 from renderer.scene.model import Scene
 
 DEFAULT_CHANNELS = ("color", "depth", "normal", "id")
@@ -45,6 +46,7 @@ class Rasterizer:
         self, scene: Scene, backend: str = "auto", context: moderngl.Context | None = None
     ) -> None:
         prepared = prepare(scene)
+        self._known = scene, prepared
         self._platform = open_platform(backend, context)
         self._owner = Owner()
         self._data: SceneData | None = None
@@ -74,14 +76,19 @@ class Rasterizer:
         return self._platform.current()
 
     def set_scene(self, scene: Scene, prepared: Prepared | None = None) -> None:
-        """Draws another scene from now on; if that fails, the old one stays. prepared: the scene as
-        prepare() has made it, elsewhere: for a large one that takes seconds."""
-        prepared = prepared or prepare(scene)
+        """Draws another scene from now on; if that fails, the old one stays. What the two have in
+        common, the same arrays of Python's meshes, is not uploaded again where nothing else came or
+        went. prepared: the scene as prepare() has made it, elsewhere: for a large one that takes
+        seconds."""
+        prepared = prepared or prepare(scene, self._known)
         with self.current() as gl:
-            data, old = SceneData(gl, self._programs, prepared), self._data
-            self._data = data
-            if old is not None:
-                old.release()
+            old = self._data
+            same = same_places(scene, self._known[0])
+            if old is None or not old.follows(self._programs, prepared, same):
+                self._data = SceneData(gl, self._programs, prepared)
+                if old is not None:
+                    old.release()
+            self._known = scene, prepared
 
     def draw(self, camera: Camera, size: tuple[int, int], place: str = "") -> Textures:
         """The image on the GPU, without reading it back. size: (width, height).

@@ -6,6 +6,8 @@ targets. The numbers come from setup.py; shaders/ says what is done with them.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 import moderngl
 import numpy as np
 
@@ -15,6 +17,7 @@ from renderer.raster.programs import Programs, set_uniform
 from renderer.raster.resources import Owner, check
 from renderer.raster.setup import (
     CAMERA_BLOCK,
+    ImageSpace,
     camera_block,
     image_space,
     light_rows,
@@ -38,6 +41,9 @@ class SceneData:
         self._context = context
         self._flat, self._setup = scene
         self._last: tuple[Camera, tuple[int, int]] | None = None
+        # Whose rows the triangles have, but for those that moved.
+        self._camera: tuple[Camera, tuple[int, int]] | None = None
+        self._moved: list[tuple[int, int]] = []  # triangles that have no rows for that camera yet
         self._owner = Owner()
         try:
             self._build_tables()
@@ -46,6 +52,31 @@ class SceneData:
         except BaseException:
             self.release()
             raise
+
+    def follows(self, programs: Programs, scene: Prepared, same: Sequence[int]) -> bool:
+        """Becomes another scene, where that has the same arrays, and only places, materials and
+        lights differ; False where it does not. same: of scene_setup(). Uploads what has moved."""
+        flat, old = scene.flat, self._flat
+        layout = "vertices", "colors", "faces", "object_sphere"
+        if any(getattr(flat, name) is not getattr(old, name) for name in layout):
+            return False
+        if len(flat.lights) != len(old.lights) or scene.setup.middle is not self._setup.middle:
+            return False
+        moved = [number for number, was in enumerate(same) if was != number]
+        if flat.normals is not old.normals:
+            vertices = self._tables["vertices"]
+            texels = vertices.texels[: vertices.count].reshape(len(flat.vertices), 3, -1)
+            for number in moved:
+                first, count = flat.object_vertices[number]
+                texels[first : first + count, 1] = flat.normals[first : first + count]
+                vertices.write_part(3 * first, 3 * (first + count))
+        for number in moved:
+            first, count = map(int, flat.object_faces[number])
+            self._moved.append((first, first + count))
+        self._flat, self._setup = scene
+        self._camera, self._last = self._last or self._camera, None
+        self._choose_programs(programs)
+        return True
 
     def _build_tables(self) -> None:
         flat = self._flat
@@ -72,21 +103,35 @@ class SceneData:
         self._block = own(context.buffer(reserve=CAMERA_BLOCK.itemsize))
         self._clear = own(context.vertex_array(programs.clear, []))
         self._background = own(context.vertex_array(programs.background, []))
-        self._shade: moderngl.VertexArray | None = None
-        if len(flat.materials):
-            self._shade = own(context.vertex_array(programs.shade(flat), []))
         self._spheres = own(context.vertex_array(programs.spheres, []))
-        self._triangles: moderngl.VertexArray | None = None
+        self._content: list[tuple[moderngl.Buffer, str, str]] = []
         if len(flat.faces):
             vertices = own(context.buffer(flat.vertices))
             objects = own(context.buffer(self._setup.vertex_object))
-            content = [(vertices, "3f4", "vertex"), (objects, "1i4", "object")]
-            indices = own(context.buffer(flat.faces))
-            self._triangles = own(
-                context.vertex_array(
-                    programs.triangles(flat), content, indices, index_element_size=4
+            self._content = [(vertices, "3f4", "vertex"), (objects, "1i4", "object")]
+            self._indices = own(context.buffer(flat.faces))
+        self._shade: moderngl.VertexArray | None = None
+        self._triangles: moderngl.VertexArray | None = None
+        self._arrays: dict[moderngl.Program, moderngl.VertexArray] = {}
+        self._choose_programs(programs)
+
+    def _choose_programs(self, programs: Programs) -> None:
+        """Those for what the scene has; they may be others once something was turned."""
+        context, flat, own = self._context, self._flat, self._owner.own
+        if len(flat.materials):
+            program = programs.shade(flat)
+            if program not in self._arrays:
+                self._arrays[program] = own(context.vertex_array(program, []))
+            self._shade = self._arrays[program]
+        if len(flat.faces):
+            program = programs.triangles(flat)
+            if program not in self._arrays:
+                self._arrays[program] = own(
+                    context.vertex_array(
+                        program, self._content, self._indices, index_element_size=4
+                    )
                 )
-            )
+            self._triangles = self._arrays[program]
 
     def release(self) -> None:
         self._owner.release()
@@ -111,7 +156,7 @@ class SceneData:
         """Fills the tables that depend on the camera, unless they are this camera's already."""
         if self._last == (camera, size):
             return
-        self._last = None
+        self._last, before = None, self._camera
         flat, tables = self._flat, self._tables
         space = image_space(camera, size, flat)
         objects = object_rows(flat, self._setup, space)
@@ -119,12 +164,20 @@ class SceneData:
         tables["objects"].write(objects)
         tables["lights"].write(light_rows(flat, space))
         if len(flat.faces):
-            rows = tables["triangle_rows"].texels[: len(flat.faces), :3]
-            triangle_rows(self._setup, space, camera.is_parallel, rows)
-            tables["triangle_rows"].write()
+            self._write_rows(camera, space, all_of_them=before != (camera, size))
         if len(flat.spheres):
             tables["spheres"].write(sphere_rows(flat, space, objects))
-        self._last = camera, size
+        self._last = self._camera = camera, size
+
+    def _write_rows(self, camera: Camera, space: ImageSpace, all_of_them: bool) -> None:
+        """The triangles' rows: those that have moved, or all for another camera."""
+        table, total = self._tables["triangle_rows"], len(self._flat.faces)
+        parts = [(0, total)] if all_of_them else self._moved
+        for first, last in parts:
+            rows = table.texels[:total, :3]
+            triangle_rows(self._setup, space, camera.is_parallel, rows, first, last)
+            table.write_part(first, last)
+        self._moved = []
 
     def see(self, first: int = 0, count: int | None = None) -> bool:
         """First pass: the nearest primitive of each pixel, into the bound framebuffer.

@@ -17,6 +17,7 @@ three coefficients are composed here, where N.(a - eye) may cancel without harm.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import NamedTuple
 
 import numpy as np
@@ -24,7 +25,7 @@ from numpy.typing import NDArray
 
 from renderer.camera import NEAREST, Camera, Floats
 from renderer.scene.flat import FlatScene
-from renderer.scene.positions import lights_from, near_point, world_vertices
+from renderer.scene.positions import lights_from, near_point, object_vertices
 from renderer.shared_numbers import (
     OBJECT_TEXELS,
     ROW_ANCHOR,
@@ -105,14 +106,34 @@ class ImageSpace(NamedTuple):
         return image
 
 
-def scene_setup(flat: FlatScene) -> SceneSetup:
-    """Planes of triangles, the objects' inverses and the vertices' objects."""
+def scene_setup(
+    flat: FlatScene,
+    known: tuple[FlatScene, SceneSetup] | None = None,
+    same: Sequence[int] = (),
+) -> SceneSetup:
+    """Planes of triangles, the objects' inverses and the vertices' objects.
+
+    known: of a scene before; same: for each object the one there of the same triangles at the same
+    place, or -1: its planes are taken from there."""
     middle = flat.bounds.mean(axis=0)
-    vertices = world_vertices(flat, middle)
+    if known is not None:
+        # Whatever stays within the scene does as well: the planes are float64.
+        was = known[1].middle
+        if ((flat.bounds[0] <= was) & (was <= flat.bounds[1])).all():
+            middle = was
+        else:
+            known = None
     planes = np.empty((len(flat.faces), 4))
-    for first, count in flat.object_faces:
+    for number, (first, count) in enumerate(flat.object_faces):
         mine = slice(first, first + count)
-        a, b, c = (vertices[flat.faces[mine, k]] for k in range(3))
+        old = same[number] if known is not None else -1
+        if known is not None and old >= 0:
+            start = known[0].object_faces[old, 0]
+            planes[mine] = known[1].planes[start : start + count]
+            continue
+        vertices = object_vertices(flat, number, middle)
+        start = flat.object_vertices[number, 0]
+        a, b, c = (vertices[flat.faces[mine, k] - start] for k in range(3))
         planes[mine, :3] = np.cross(b - a, c - a)
         planes[mine, 3] = -np.einsum("ij,ij->i", planes[mine, :3], a)
     numbers = np.arange(len(flat.materials), dtype=np.int32)
@@ -140,7 +161,8 @@ def image_space(camera: Camera, size: tuple[int, int], flat: FlatScene) -> Image
     from_eye = np.einsum("nij,nj->ni", matrix[:, :3, :3], bounds.mean(axis=1))
     middle = (from_eye + (matrix[:, :3, 3] - eye)) @ t_row[:3]
     half = np.einsum("ni,ni->n", np.abs(t_row[:3] @ matrix[:, :3, :3]), bounds[:, 1] - bounds[:, 0])
-    fitted = _fitted(middle - half / 2, middle + half / 2)
+    is_seen = (flat.object_faces[:, 1] > 0) | (flat.object_sphere >= 0)
+    fitted = _fitted(middle - half / 2, middle + half / 2, is_seen)
     clip_near, clip_far = (1.0, 2.0) if not camera.is_parallel else fitted.box
     clip_from_camera = camera.clip_from_camera(clip_near * unit, clip_far * unit)
     clip = clip_from_camera @ camera_from_eye / unit
@@ -188,8 +210,11 @@ def camera_block(
     return block
 
 
-def triangle_rows(setup: SceneSetup, space: ImageSpace, is_parallel: bool, out: NDArray) -> None:
-    """Coefficients (c0, c1, c2) of each triangle, into out, float32 (m, 3).
+def triangle_rows(
+    setup: SceneSetup, space: ImageSpace, is_parallel: bool, out: NDArray, first: int, last: int
+) -> None:
+    """Coefficients (c0, c1, c2) of the triangles from first up to last, into their rows of out,
+    float32 (m, 3).
 
     t (parallel) or 1/t (perspective) of the ray of pixel (x, y) is c0 * x + c1 * y + c2. A triangle
     that is seen edge on, or is none, gets (0, 0, -1): it lies behind the eye.
@@ -198,9 +223,10 @@ def triangle_rows(setup: SceneSetup, space: ImageSpace, is_parallel: bool, out: 
     basis[:3, 0], basis[:3, 1], basis[:3, 2] = space.step_x, space.step_y, space.direction
     basis[:, 3] = *(space.eye - setup.middle + space.across), 1.0
     columns, divisor = ((0, 1, 3), 2) if is_parallel else ((0, 1, 2), 3)
-    for start in range(0, len(setup.planes), BLOCK):
-        products = setup.planes[start : start + BLOCK] @ basis
-        rows = out[start : start + BLOCK]
+    for start in range(first, last, BLOCK):
+        end = min(start + BLOCK, last)
+        products = setup.planes[start:end] @ basis
+        rows = out[start:end]
         with np.errstate(all="ignore"):
             scale = -products[:, divisor]
             for k, column in enumerate(columns):
@@ -261,17 +287,17 @@ class _Fitted(NamedTuple):
     box: tuple[float, float]
 
 
-def _fitted(t_min: Floats, t_max: Floats) -> _Fitted:
+def _fitted(t_min: Floats, t_max: Floats, is_seen: NDArray[np.bool_]) -> _Fitted:
     """As ray parameters: near planes of objects (perspective), near and far of all (parallel),
     t_low and t_high; generously around what is to be seen, so that clipping by them never shows.
 
-    t_min, t_max: the objects' (objects,).
+    t_min, t_max: the objects' (objects,). is_seen: False for those that are hidden.
     """
-    ahead = t_max > 0
+    ahead = (t_max > 0) & is_seen
     if not ahead.any():
         return _Fitted(np.ones(len(t_max)), TINY, 2 * TINY, (1.0, 2.0))
     least = np.where(ahead, np.maximum(NEAREST * t_max, TINY), 1.0)
-    lowest, highest = float(t_min.min()), float(t_max.max())
+    lowest, highest = float(t_min[is_seen].min()), float(t_max[is_seen].max())
     span = max(highest - lowest, 1e-3 * max(abs(lowest), abs(highest)), TINY)
     return _Fitted(
         near=np.maximum(t_min / 2, least),

@@ -42,6 +42,13 @@ class Table:
         self.texture = new_texture(context, (TABLE_WIDTH, rows), components, array.dtype)
         self.write(array)
 
+    def write_part(self, first: int, last: int) -> None:
+        """Uploads what the caller has put into some of `texels`."""
+        low, high = first // TABLE_WIDTH, -(-last // TABLE_WIDTH)
+        if low < high:
+            rows = self.texels[low * TABLE_WIDTH : high * TABLE_WIDTH]
+            self.texture.write(rows, viewport=(0, low, TABLE_WIDTH, high - low))
+
     def write(self, array: NDArray[Any] | None = None) -> None:
         """Uploads the array; None: what the caller has put into `texels`."""
         if array is not None:

@@ -28,6 +28,7 @@ from renderer.scene.model import (
     Mesh,
     PointLight,
     Scene,
+    SceneObject,
     Shape,
     Sphere,
 )
@@ -41,7 +42,8 @@ DIFFUSE_SHININESS, SPECULAR_CHECKERED, CHECKER_DIFFUSE = range(3)
 
 
 class FlatScene(NamedTuple):
-    """Arrays in C order, read-only; any of them may have length 0.
+    """Arrays in C order, read-only; any of them may have length 0. A hidden object has its rows by
+    number, and no vertices, faces or sphere.
 
     vertices (n, 3): float32, in the space of their object
     normals (n, 3; 0: flat), colors (n, 3): float32, world space, linear light
@@ -88,18 +90,20 @@ def flatten(scene: Scene, known: tuple[Scene, FlatScene] | None = None) -> FlatS
     """The scene's arrays. Raises LucidaError where a transformed mesh leaves float32's range.
 
     known: a scene that was flattened before, and its arrays; what the two scenes have in common
-    (the same arrays of Python's meshes, at the same place) is taken from them.
+    (the same arrays of Python's meshes, wherever they stand) is taken from them.
     """
-    kept = _kept(scene, known[0]) if known else 0
-    is_same = known is not None and kept == len(scene.objects) == len(known[0].objects)
-    layout = _same_layout(known[1]) if known and is_same else _new_layout(scene)
+    old = _Known(*known) if known else None
+    is_same = old is not None and old.arrays == _layout_of(scene)
+    layout = _same_layout(old.flat) if old is not None and is_same else _new_layout(scene)
     world_from_object = _world_from_object(scene)
-    object_bounds = _object_bounds(scene, known, kept)
+    object_bounds = _object_bounds(scene, old)
     low, high = _checked_boxes(scene, world_from_object, object_bounds)
-    spheres = [(*s.center, s.radius) for s in _shapes(scene) if isinstance(s, Sphere)]
+    seen = [entry.shape for _, entry in scene.visible]
+    spheres = [(*s.center, s.radius) for s in seen if isinstance(s, Sphere)]
+    is_seen = [not entry.hidden for entry in scene.objects]
     flat = FlatScene(
         **layout._asdict(),
-        normals=_normals(scene, known, kept),
+        normals=_normals(scene, old, is_same),
         spheres=np.array(spheres, np.float64).reshape(-1, 4),
         object_bounds=object_bounds,
         world_from_object=world_from_object,
@@ -108,11 +112,27 @@ def flatten(scene: Scene, known: tuple[Scene, FlatScene] | None = None) -> FlatS
         lights=_light_rows(scene),
         ambient=np.array(scene.ambient, np.float32),
         background=np.array(scene.background, np.float32),
-        bounds=np.stack([low.min(0), high.max(0)]) if len(low) else np.zeros((2, 3)),
+        bounds=np.stack([low[is_seen].min(0), high[is_seen].max(0)]) if seen else np.zeros((2, 3)),
     )
     for array in flat:
         array.setflags(write=False)
     return flat
+
+
+def same_places(scene: Scene, old: Scene) -> list[int]:
+    """For each object of a scene one of the old scene with the same arrays at the same place, both
+    of them seen; -1 where there is none."""
+    known = {
+        (_arrays(entry.shape), entry.shape.transform.tobytes()): number
+        for number, entry in old.visible
+        if isinstance(entry.shape, Mesh)
+    }
+    return [
+        -1
+        if entry.hidden or not isinstance(entry.shape, Mesh)
+        else known.get((_arrays(entry.shape), entry.shape.transform.tobytes()), -1)
+        for entry in scene.objects
+    ]
 
 
 class _Layout(NamedTuple):
@@ -133,17 +153,16 @@ def _same_layout(flat: FlatScene) -> _Layout:
 
 
 def _new_layout(scene: Scene) -> _Layout:
-    shapes = _shapes(scene)
-    meshes = [shape for shape in shapes if isinstance(shape, Mesh)]
-    counts = [_room(shape) for shape in shapes]
+    meshes = [entry.shape for _, entry in scene.visible if isinstance(entry.shape, Mesh)]
+    counts = [_room(entry) for entry in scene.objects]
     object_vertices, object_faces = (
         _ranges([count[kind] for count in counts]) for kind in range(2)
     )
-    spheres = np.array([isinstance(shape, Sphere) for shape in shapes], bool)
+    spheres = np.array([isinstance(e.shape, Sphere) and not e.hidden for e in scene.objects], bool)
     colors = [np.ones_like(m.vertices) if m.colors is None else m.colors for m in meshes]
-    firsts = object_vertices[~spheres, 0]
+    firsts = object_vertices[object_faces[:, 1] > 0, 0]
     faces = [m.faces + k if k else m.faces for m, k in zip(meshes, firsts, strict=True)]
-    numbers = np.arange(len(shapes), dtype=np.int32)
+    numbers = np.arange(len(scene.objects), dtype=np.int32)
     return _Layout(
         vertices=_stack([mesh.vertices for mesh in meshes], np.float32),
         colors=_stack(colors, np.float32),
@@ -160,24 +179,42 @@ def _shapes(scene: Scene) -> list[Shape]:
     return [entry.shape for entry in scene.objects]
 
 
-def _kept(scene: Scene, old: Scene) -> int:
-    """How many of the first objects have the arrays that they had before, wherever they stand."""
-    for number, pair in enumerate(zip(_shapes(scene), _shapes(old), strict=False)):
-        if _arrays(pair[0]) != _arrays(pair[1]):
-            return number
-    return min(len(scene.objects), len(old.objects))
+class _Known:
+    """A scene that was flattened before. arrays: see _layout_of. of_arrays: an object of each mesh
+    that is seen there; turned: of each mesh in each turn."""
+
+    def __init__(self, scene: Scene, flat: FlatScene) -> None:
+        self.flat, self.arrays = flat, _layout_of(scene)
+        meshes = [(arrays, k) for k, arrays in enumerate(self.arrays) if len(arrays) > 1]
+        self.of_arrays = dict(meshes)
+        self.turned = {(a, flat.world_from_object[k, :3, :3].tobytes()): k for a, k in meshes}
+
+    def normals(self, mesh: Mesh) -> F32 | None:
+        """Of a mesh in its turn, in the world; None where there was none such."""
+        number = self.turned.get((_arrays(mesh), mesh.transform[:3, :3].tobytes()))
+        if number is None:
+            return None
+        first, count = self.flat.object_vertices[number]
+        return self.flat.normals[first : first + count]
+
+
+def _layout_of(scene: Scene) -> list[tuple[int, ...]]:
+    """Which arrays each object is made of: one number for a sphere, none for what is hidden."""
+    return [() if entry.hidden else _arrays(entry.shape) for entry in scene.objects]
 
 
 def _arrays(shape: Shape) -> tuple[int, ...]:
-    """Which arrays a shape is made of; nothing, for a sphere."""
     if isinstance(shape, Sphere):
-        return ()
+        return (0,)
     return id(shape.vertices), id(shape.faces), id(shape.normals), id(shape.colors)
 
 
-def _room(shape: Shape) -> tuple[int, int]:
-    """How many vertices and faces a shape takes."""
-    return (len(shape.vertices), len(shape.faces)) if isinstance(shape, Mesh) else (0, 0)
+def _room(entry: SceneObject) -> tuple[int, int]:
+    """How many vertices and faces an object takes."""
+    shape = entry.shape
+    if entry.hidden or not isinstance(shape, Mesh):
+        return 0, 0
+    return len(shape.vertices), len(shape.faces)
 
 
 def _ranges(counts: list[int]) -> I32:
@@ -202,13 +239,14 @@ def _world_from_object(scene: Scene) -> F64:
     return matrices
 
 
-def _object_bounds(scene: Scene, known: tuple[Scene, FlatScene] | None, kept: int) -> F64:
+def _object_bounds(scene: Scene, old: _Known | None) -> F64:
     bounds = np.empty((len(scene.objects), 2, 3))
     for number, shape in enumerate(_shapes(scene)):
+        known = old.of_arrays.get(_arrays(shape)) if old is not None else None
         if isinstance(shape, Sphere):
             bounds[number, 0], bounds[number, 1] = -shape.radius, shape.radius
-        elif known and number < kept:
-            bounds[number] = known[1].object_bounds[number]
+        elif old is not None and known is not None:
+            bounds[number] = old.flat.object_bounds[known]
         else:
             bounds[number] = extent(shape.vertices)
     return bounds
@@ -227,22 +265,17 @@ def _checked_boxes(scene: Scene, world_from_object: F64, object_bounds: F64) -> 
     return low, high
 
 
-def _normals(scene: Scene, known: tuple[Scene, FlatScene] | None, kept: int) -> F32:
+def _normals(scene: Scene, old: _Known | None, is_same: bool) -> F32:
     """World normals; those of meshes that were not turned since are taken from what is known."""
-    parts: list[F32] = []
-    is_new = known is None or kept < max(len(scene.objects), len(known[0].objects))
-    for number, shape in enumerate(_shapes(scene)):
-        if isinstance(shape, Sphere):
-            continue
-        if known and number < kept:
-            first, count = known[1].object_vertices[number]
-            old = known[1].world_from_object[number]
-            if np.array_equal(old[:3, :3], shape.transform[:3, :3]):
-                parts.append(known[1].normals[first : first + count])
-                continue
-        is_new = True
-        parts.append(_world_normals(shape))
-    return _stack(parts, np.float32) if known is None or is_new else known[1].normals
+    meshes = [entry.shape for _, entry in scene.visible if isinstance(entry.shape, Mesh)]
+    known = [old.normals(mesh) if old is not None else None for mesh in meshes]
+    if old is not None and is_same and all(part is not None for part in known):
+        return old.flat.normals
+    parts = [
+        _world_normals(mesh) if part is None else part
+        for mesh, part in zip(meshes, known, strict=True)
+    ]
+    return _stack(parts, np.float32)
 
 
 def _world_normals(mesh: Mesh) -> F32:

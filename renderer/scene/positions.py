@@ -18,13 +18,19 @@ F64 = NDArray[np.float64]
 def world_vertices(flat: FlatScene, origin: ArrayLike = (0.0, 0.0, 0.0)) -> F64:
     """All vertices in the world, relative to `origin`: float64 (n, 3)."""
     world = np.empty((len(flat.vertices), 3))
-    for matrix, (first, count) in zip(flat.world_from_object, flat.object_vertices, strict=True):
-        mine = slice(first, first + count)
-        # Column by column: a product of matrices may round equal vertices differently, and tear
-        # a mesh open where it has several at one place.
-        x, y, z = np.hsplit(flat.vertices[mine], 3)
-        turned = x * matrix[:3, 0] + y * matrix[:3, 1] + z * matrix[:3, 2]
-        world[mine] = turned + (matrix[:3, 3] - origin)
+    for number, (first, count) in enumerate(flat.object_vertices):
+        world[first : first + count] = object_vertices(flat, number, origin)
+    return world
+
+
+def object_vertices(flat: FlatScene, number: int, origin: ArrayLike = (0.0, 0.0, 0.0)) -> F64:
+    """Those of one object."""
+    matrix, (first, count) = flat.world_from_object[number], flat.object_vertices[number]
+    # Column by column: a product of matrices may round equal vertices differently, and tear a mesh
+    # open where it has several at one place.
+    x, y, z = np.hsplit(flat.vertices[first : first + count], 3)
+    turned = x * matrix[:3, 0] + y * matrix[:3, 1] + z * matrix[:3, 2]
+    world: F64 = turned + (matrix[:3, 3] - origin)
     return world
 
 

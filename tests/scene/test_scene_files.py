@@ -241,7 +241,7 @@ def test_the_triangles_of_a_scene_are_counted_before_all_are_made(monkeypatch) -
     monkeypatch.setattr("renderer.scene.files.TRIANGLES", 30)
     monkeypatch.setattr("renderer.scene.shapes.box", None)
     with pytest.raises(LucidaError, match=r"objects: holds 12000 triangles; give at most 30"):
-        scene(f"objects = [{','.join(f"{{type = 'box', size = {k}}}" for k in range(1, 1001))}]")
+        scene("objects = [" + "{type = 'box'}," * 1000 + "]")
 
 
 HEAVY = {
@@ -289,8 +289,9 @@ def test_reading_a_scene_is_left_between_its_objects(monkeypatch) -> None:
 
     box = shapes.box
     monkeypatch.setattr(shapes, "box", lambda size: built.append(size) or box(size))
+    boxes = ",".join(f"{{type = 'box', size = {size}}}" for size in range(1, 1001))
     with pytest.raises(KeyboardInterrupt), cancelled_by(check):
-        scene(f"objects = [{','.join(f"{{type = 'box', size = {k}}}" for k in range(1, 1001))}]")
+        scene(f"objects = [{boxes}]")
     assert len(built) == 3
 
 

@@ -148,6 +148,12 @@ class Instances:
                 trees[key] = self._trees.get(key) or tree_of_mesh(
                     mesh.vertices, mesh.faces, self._team
                 )
+        for entry in scene.objects:  # hidden ones keep theirs for when they are shown
+            if entry.hidden and isinstance(entry.shape, Mesh):
+                key = _key(entry.shape)
+                if key in self._trees and key not in trees:
+                    meshes.append(entry.shape)
+                    trees[key] = self._trees[key]
         # Only now, as building may be given up. Meshes are kept alive: their arrays' identities
         # are the keys.
         self._trees, self._meshes = trees, meshes
@@ -179,7 +185,7 @@ class Instances:
         """The instances, the spheres and the tree over them."""
         objects = [
             (number, entry.shape)
-            for number, entry in enumerate(scene.objects)
+            for number, entry in scene.visible
             if isinstance(entry.shape, Mesh)
         ]
         meshes = [mesh for _, mesh in objects]
@@ -235,7 +241,7 @@ def _concatenated(parts: list[np.ndarray], dtype: type) -> np.ndarray:
 
 
 def _meshes(scene: Scene) -> list[Mesh]:
-    return [entry.shape for entry in scene.objects if isinstance(entry.shape, Mesh)]
+    return [entry.shape for _, entry in scene.visible if isinstance(entry.shape, Mesh)]
 
 
 def _key(mesh: Mesh) -> tuple[int, int]:
