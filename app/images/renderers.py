@@ -14,6 +14,7 @@ import moderngl
 from numpy.typing import NDArray
 
 from app.images.agreement import Agreement, Verdict
+from app.images.picking import object_on_ray
 from app.images.placement import Placement, common_pane, own_size, place
 from app.images.progressive_ray import AnyTracer, LiveTrace, RayImage
 from app.images.readback import Region
@@ -297,6 +298,16 @@ class Renderers:
         frame = self._frame_with(state, pixel)
         depth = float(frame.channel("depth")[pixel]) if frame is not None else math.inf
         return depth if math.isfinite(depth) else None
+
+    def object_at(self, state: AppState, pixel: tuple[int, int]) -> int | None:
+        """The number of the object seen at (row, column); None for the background. Where no
+        finished image tells it, the scene is asked."""
+        frame = self._frame_with(state, pixel)
+        if frame is None:
+            ray = self.camera(state).ray(*pixel, self.size)
+            return object_on_ray(state.scene, ray.origin, ray.direction)
+        number = int(frame.channel("id")[pixel])
+        return number if number >= 0 else None
 
     def seen_at(self, state: AppState, pixel: tuple[int, int]) -> str:
         """The object at (row, column) in words; empty where it is not known."""

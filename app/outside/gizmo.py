@@ -10,7 +10,7 @@ from typing import Literal
 
 import numpy as np
 from imgui_bundle import ImVec2, imgui, imguizmo
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
 from app.outside.mouse import Scope
 from app.outside.tint import handle_colors, hide_text, recolor
@@ -82,8 +82,8 @@ class Gizmo:
             frame = rotation_between(self._drag.camera, camera) @ frame
         placed = np.eye(4)
         placed[:3, :3], placed[:3, 3] = frame, camera.eye
-        matrix = _matrix16(placed)
-        gizmo.begin_frame()
+        matrix = matrix16(placed)
+        begin_handles()
         gizmo.set_orthographic(scope.shown.is_parallel)
         gizmo.set_drawlist()
         gizmo.set_rect(scope.origin.x, scope.origin.y, scope.extent.x, scope.extent.y)
@@ -91,10 +91,10 @@ class Gizmo:
         gizmo.allow_axis_flip(False)
         operation = gizmo.OPERATION.translate if kind == "move" else gizmo.OPERATION.rotate
         mode = gizmo.MODE.local  # its x, y and z are then u, v and w
-        _widen()
+        widen()
         draw = imgui.get_window_draw_list()
         first = draw.vtx_buffer.size()
-        moved = gizmo.manipulate(_matrix16(view), _matrix16(projection), operation, mode, matrix)
+        moved = gizmo.manipulate(matrix16(view), matrix16(projection), operation, mode, matrix)
         recolor(draw, first, handle_colors(ground))
         hide_text(draw, first)
         using = gizmo.is_using()
@@ -108,7 +108,8 @@ class Gizmo:
         if moved:
             result = np.asarray(matrix.values, float).reshape(4, 4).T
             camera = self._moved(camera, result, kind, orthonormal)
-        _write(motion(self._drag.camera, camera), projection @ view, camera, scope, fonts)
+        text = motion(self._drag.camera, camera)
+        write(text, projection @ view, camera.eye, scope.origin, scope.extent, fonts)
         return camera
 
     def _moved(self, camera: Camera, result: Floats, kind: str, orthonormal: bool) -> Camera:
@@ -144,16 +145,22 @@ def motion(before: Camera, after: Camera) -> str:
     return "  ".join(parts)
 
 
-def _write(
-    text: str, clip_from_world: Floats, camera: Camera, scope: Scope, fonts: theme.Fonts
+def write(
+    text: str,
+    clip_from_world: Floats,
+    point: ArrayLike,
+    origin: ImVec2,
+    extent: ImVec2,
+    fonts: theme.Fonts,
 ) -> None:
-    """Beside the eye, on a ground of its own. The font is the one that has Greek letters."""
-    x, y, _, w = clip_from_world @ np.append(camera.eye, 1.0)
+    """Beside what is moved, at a point of the world, on a ground of its own; origin, extent: of the
+    view. The font is the one that has Greek letters."""
+    x, y, _, w = clip_from_world @ np.append(point, 1.0)
     if not text or not w > 0:
         return
     at = ImVec2(
-        scope.origin.x + (x / w + 1) / 2 * scope.extent.x + theme.px(TEXT_AT),
-        scope.origin.y + (1 - y / w) / 2 * scope.extent.y + theme.px(TEXT_AT),
+        origin.x + (x / w + 1) / 2 * extent.x + theme.px(TEXT_AT),
+        origin.y + (1 - y / w) / 2 * extent.y + theme.px(TEXT_AT),
     )
     imgui.push_font(fonts.bold, 0.0)
     size, pad = imgui.calc_text_size(text), theme.px(5)
@@ -199,7 +206,18 @@ def nearest_rotation(matrix: Floats) -> Floats:
     return rotation
 
 
-def _widen() -> None:
+_begun = -1
+
+
+def begin_handles() -> None:
+    """Before handles are drawn, however many there are in a frame."""
+    global _begun
+    if _begun != imgui.get_frame_count():
+        _begun = imgui.get_frame_count()
+        gizmo.begin_frame()
+
+
+def widen() -> None:
     """Lines as wide as others that teach."""
     style = gizmo.get_style()
     style.translation_line_thickness = theme.line_px(WIDTH)
@@ -208,7 +226,7 @@ def _widen() -> None:
     style.center_circle_size = theme.px(ARROW)
 
 
-def _matrix16(matrix: Floats) -> imguizmo.im_guizmo.Matrix16:
+def matrix16(matrix: Floats) -> imguizmo.im_guizmo.Matrix16:
     """Column by column, as OpenGL has it."""
     return gizmo.Matrix16(matrix.T.ravel().tolist())
 

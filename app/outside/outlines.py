@@ -16,6 +16,7 @@ from numpy.typing import NDArray
 
 from app.outside.diagram import polyline
 from app.outside.screen import OutsideScreen
+from renderer.camera import Camera
 from renderer.scene.model import Mesh, Scene, Sphere
 
 Floats = NDArray[np.float64]
@@ -159,7 +160,7 @@ def sphere_outline(sphere: Sphere, screen: OutsideScreen) -> Ellipse | Edges | N
     Source: Hartley and Zisserman, Multiple View Geometry, 8.3: C* = P Q* P^T, Q* the sphere's dual
     quadric; here about its own centre, diag(r^2, r^2, r^2, -1).
     """
-    ring = _contour(sphere, screen)
+    ring = contour(sphere, screen.camera)
     if ring is None:
         return None
     points, depth, numbers = screen.segments(polyline(ring, closed=True))
@@ -190,9 +191,9 @@ def sphere_outline(sphere: Sphere, screen: OutsideScreen) -> Ellipse | Edges | N
     return Ellipse((x, y), (math.sqrt(squares[1]), math.sqrt(squares[0])), tilt, plane)
 
 
-def _contour(sphere: Sphere, screen: OutsideScreen) -> Floats | None:
+def contour(sphere: Sphere, camera: Camera) -> Floats | None:
     """The circle (CORNERS, 3) on a sphere where it is seen edge on; None from inside."""
-    center, camera = np.asarray(sphere.center, float), screen.camera
+    center = np.asarray(sphere.center, float)
     radius = sphere.radius
     if camera.is_parallel:
         way, back = np.asarray(camera.w, float), 0.0

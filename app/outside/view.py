@@ -18,6 +18,7 @@ from imgui_bundle import ImVec2, imgui
 from numpy.typing import NDArray
 
 from app.cameras.travel import Ends
+from app.host.guest import Click, Guest, Shown
 from app.host.view import DockedView, Host
 from app.images.picking import object_on_ray
 from app.images.renderers import look_of
@@ -60,7 +61,7 @@ from renderer.raster.overlay import Overlay, plane_on_screen
 
 Size = tuple[int, int]
 Floats = NDArray[np.float64]
-Guest = Callable[[Host, Scope, bool], None]
+Lines = Callable[[Host, Scope, bool], None]
 
 OUTSIDE = "Outside"
 SMALLEST_PX = 24  # a view that is smaller shows nothing
@@ -80,7 +81,7 @@ class OutsideView(DockedView):
     """extra: lines of other instruments, by their names; set by show(). cloud: points and lines by
     the thousand, of one of them; None: there is none. guests: called in each frame inside the
     view's window, by the names of the instruments, with the view as it was drawn and whether the
-    mouse is over its picture.
+    mouse is over its picture. guest: see app/host/guest.py; set by itself.
     """
 
     name = OUTSIDE
@@ -97,7 +98,9 @@ class OutsideView(DockedView):
         self._overlay: Overlay | None = None
         self.layer: CloudLayer | None = None  # the cloud's picture
         self.cloud: Cloud | None = None
-        self.guests: dict[str, Guest] = {}
+        self.guests: dict[str, Lines] = {}
+        self.guest: Guest | None = None
+        self._took_double = False  # whose release is no click
         self._over = False  # whether the mouse is over the picture
         self._hits: RayHits | None = None
         self.ground: Ground | None = None
@@ -219,8 +222,10 @@ class OutsideView(DockedView):
         labels(self._made.primitives, origin, scale, host.fonts, ground, presented)
         self._handles(host, scope)
         self._tools(host, scope)
-        for guest in list(self.guests.values()):
-            guest(host, scope, self._over)
+        for lines in list(self.guests.values()):
+            lines(host, scope, self._over)
+        if self.guest is not None:
+            self.guest.draw(host, _shown(scope), self._over)
         draw.pop_clip_rect()
 
     # What the mouse does.
@@ -229,7 +234,8 @@ class OutsideView(DockedView):
         scope = self._scope(host, size, origin, extent)
         imgui.set_cursor_screen_pos(origin)
         self._over = False
-        if self._gizmo.over and host.state.of(OutsideOptions).gizmo != "none":
+        holds = self.guest is not None and self.guest.holds(self.name)
+        if holds or (self._gizmo.over and host.state.of(OutsideOptions).gizmo != "none"):
             imgui.dummy(extent)  # ImGuizmo takes no click where an item is under the mouse
             return scope
         buttons = imgui.ButtonFlags_
@@ -246,6 +252,8 @@ class OutsideView(DockedView):
         if camera != scope.camera:
             state = state.with_options(outside={"camera": camera})
             host.apply(state, gesture)
+        if self._click_of_guest(host, scope):
+            return self._scope(host, size, origin, extent)
         pixel = None
         if imgui.is_item_hovered() or self._mouse.clicked():
             pixel = self._pixel_under(host, scope)
@@ -256,6 +264,24 @@ class OutsideView(DockedView):
             elif not was_dragging:
                 host.hover(self.name, pixel)
         return self._scope(host, size, origin, extent)
+
+    def _click_of_guest(self, host: Host, scope: Scope) -> bool:
+        """Gives the guest a click that it wants; whether there was one."""
+        left = imgui.MouseButton_.left
+        double = imgui.is_item_activated() and imgui.is_mouse_double_clicked(left)
+        clicked = self._mouse.clicked()
+        if clicked and self._took_double:
+            self._took_double = False
+            return True
+        if self.guest is None or not (double or clicked):
+            return False
+        if not self.guest.wants(host, double):
+            return False
+        io = imgui.get_io()
+        click = Click(self.object_under(host), double, io.key_shift or io.key_ctrl)
+        self.guest.click(host, _shown(scope), click)
+        self._took_double = double
+        return True
 
     def _scope(self, host: Host, size: Size, origin: ImVec2, extent: ImVec2) -> Scope:
         self.scope = scope_of(host, size, origin, extent, self.more)
@@ -388,6 +414,10 @@ class OutsideView(DockedView):
             return None, hits
         seen = both.depth_at(state, pixel)
         return RayEnd(pixel, known[pixel] if seen is None else seen), hits
+
+
+def _shown(scope: Scope) -> Shown:
+    return Shown(OUTSIDE, scope.shown, scope.origin, scope.extent)
 
 
 def _ground(state: AppState) -> theme.Rgb:

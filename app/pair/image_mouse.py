@@ -41,7 +41,8 @@ class Seen:
     """What the mouse must know of an image. name: of its view.
 
     shown, size: camera and (width, height) of the full image. center, reach: the scene's, see
-    focus.py. depth_at: the ray parameter seen at a pixel, None where that is not known.
+    focus.py. depth_at: the ray parameter seen at a pixel, None where that is not known. click: of a
+    pixel, and whether it is the second of two: whether somebody else takes it.
     """
 
     name: str
@@ -50,6 +51,7 @@ class Seen:
     center: Vector
     reach: float
     depth_at: Callable[[Pixel], float | None]
+    click: Callable[[Pixel, bool], bool] | None = None
 
 
 @dataclass(frozen=True)
@@ -74,6 +76,7 @@ class Grab:
     parameter: float
     latest: Camera
     moved: bool = False
+    taken: bool = False  # the click is somebody else's
 
 
 @dataclass(frozen=True)
@@ -100,12 +103,19 @@ def drag(
     """Follows the mouse while it holds the current item, and a moment longer: a click."""
     mouse = imgui.get_io().mouse_pos
     if imgui.is_item_activated():
-        return state, _begin(seen, state, _kind(), mouse, screen)
+        grab = _begin(seen, state, _kind(), mouse, screen)
+        double = imgui.is_mouse_double_clicked(imgui.MouseButton_.left)
+        taken = double and seen.click is not None and seen.click(grab.pixel, True)
+        return state, replace(grab, taken=taken)
     if grab is None or grab.pane != seen.name:
         return state, grab
     if not imgui.is_item_active():
-        clicked = not grab.moved and grab.kind == "orbit"
-        return (_marked(state, grab.pixel) if clicked else state), None
+        left = grab.kind in ("orbit", "slide") or imgui.get_io().key_shift
+        if grab.moved or grab.taken or not left:
+            return state, None
+        if seen.click is not None and seen.click(grab.pixel, False):
+            return state, None
+        return (_marked(state, grab.pixel) if grab.kind == "orbit" else state), None
     if not grab.moved:
         if math.dist(grab.start, (mouse.x, mouse.y)) < STILL_PX:
             return state, grab

@@ -42,7 +42,7 @@ class Pane:
     be is black. progress: of the image under way, 1 for none. hovered: the pixel
     under the mouse, to be marked here. pins: pixels to be marked with their numbers. depths: that
     are shown white and darkest. legend: whether the channel's colours are explained. on_pixels:
-    draws on the image, below everything else.
+    draws on the image, below everything else. held: the mouse is on something of another's.
     """
 
     seen: Seen
@@ -59,6 +59,7 @@ class Pane:
     pins: Sequence[Pixel] = ()
     depths: tuple[float, float] | None = None
     on_pixels: Callable[[Screen], None] | None = None
+    held: bool = False
 
 
 @dataclass(frozen=True)
@@ -94,6 +95,10 @@ def image_pane(
     low, high = screen.visible
     imgui.set_cursor_screen_pos(low)
     buttons = imgui.ButtonFlags_
+    if pane.held and grab is None:
+        imgui.dummy(ImVec2(high.x - low.x, high.y - low.y))
+        _draw(pane, state, screen, room, grab)
+        return PaneResult(state, grab, None, None)
     imgui.invisible_button(
         f"image##{seen.name}",
         ImVec2(high.x - low.x, high.y - low.y),

@@ -9,12 +9,14 @@ from __future__ import annotations
 import time
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
+from functools import partial
 from typing import ClassVar
 
 import moderngl
 from imgui_bundle import ImVec2, imgui
 
 from app.cameras.remedies import helped, remedy_for
+from app.host.guest import Click, Guest, Shown
 from app.host.view import DockedView, Host
 from app.images.marking import Anchor, followed
 from app.images.placement import Placement, shown_pixel
@@ -47,7 +49,7 @@ class Linked:
     """What the two images share. photograph: that is laid over them. walked_frame: the last one in
     which a key has moved the mark. size, steady_frames: of the images, and how often they were
     drawn at that size. pins: gives the pixels that are marked with numbers, in a state; set by
-    whoever keeps them."""
+    whoever keeps them. guest: see app/host/guest.py; set by itself."""
 
     photograph: PhotographLayer = field(default_factory=PhotographLayer)
     grab: Grab | None = None
@@ -60,6 +62,7 @@ class Linked:
     size: tuple[int, int] = (0, 0)
     steady_frames: int = 0
     pins: Callable[[AppState], Sequence[Pixel]] = lambda state: ()
+    guest: Guest | None = None
 
 
 class ImageView(DockedView):
@@ -106,12 +109,7 @@ class ImageView(DockedView):
     def object_under(self, host: Host) -> int | None:
         if host.hovered is None or host.hovered[0] != self.name:
             return None
-        row, column = host.hovered[1]
-        frame = host.renderers.agreement.frame_of(host.renderers.request(host.state))
-        if frame is None or row >= frame.size[1] or column >= frame.size[0]:
-            return None
-        number = int(frame.channel("id")[row, column])
-        return number if number >= 0 else None
+        return host.renderers.object_at(host.state, host.hovered[1])
 
     def _pane(
         self,
@@ -143,6 +141,7 @@ class ImageView(DockedView):
         )
         imgui.set_cursor_screen_pos(corner)
         state = host.state
+        clicks: list[tuple[Pixel, bool]] = []
         seen = Seen(
             name=self.name,
             shown=both.camera(state),
@@ -150,6 +149,7 @@ class ImageView(DockedView):
             center=host.focus.center,
             reach=host.focus.reach,
             depth_at=lambda pixel: both.depth_at(state, pixel),
+            click=partial(self._for_guest, host, clicks),
         )
         pane = Pane(
             seen=seen,
@@ -166,6 +166,7 @@ class ImageView(DockedView):
             pins=shared.pins(state),
             depths=both.depths() if state.images.channel == "depth" else None,
             on_pixels=lambda screen: self._on_pixels(host, screen),
+            held=shared.guest is not None and shared.guest.holds(self.name),
         )
         result = image_pane(pane, state, placed, shared.grab, shared.zoom, shared.lens)
         shared.grab, shared.zoom = result.grab, result.zoom or shared.zoom
@@ -178,7 +179,42 @@ class ImageView(DockedView):
         if result.keyed:
             self._walk(host, placed(host.state))
         imgui.set_cursor_screen_pos(corner)
-        self._over_image(host, Screen.here(placed(host.state)))
+        screen = Screen.here(placed(host.state))
+        self._over_image(host, screen)
+        if shared.guest is not None:
+            self._with_guest(host, shared.guest, screen, clicks, result.hovered is not None)
+
+    def _for_guest(
+        self, host: Host, clicks: list[tuple[Pixel, bool]], pixel: Pixel, double: bool
+    ) -> bool:
+        """Keeps a click until the image is drawn, if it is for the guest."""
+        guest = self.linked.guest
+        if guest is None or not guest.wants(host, double):
+            return False
+        clicks.append((pixel, double))
+        return True
+
+    def _with_guest(
+        self,
+        host: Host,
+        guest: Guest,
+        screen: Screen,
+        clicks: list[tuple[Pixel, bool]],
+        over: bool,
+    ) -> None:
+        """What the guest draws over the image, and the clicks that it has wanted."""
+        width, height = host.renderers.size
+        low, high = screen.point(0, 0), screen.point(height, width)
+        extent = ImVec2(high.x - low.x, high.y - low.y)
+        shown = Shown(self.name, host.renderers.camera(host.state), low, extent)
+        io = imgui.get_io()
+        for pixel, double in clicks:
+            number = host.renderers.object_at(host.state, pixel)
+            guest.click(host, shown, Click(number, double, io.key_shift or io.key_ctrl))
+        draw = imgui.get_window_draw_list()
+        draw.push_clip_rect(*screen.pane, True)
+        guest.draw(host, shown, over)
+        draw.pop_clip_rect()
 
     def _before_image(self, host: Host, screen: Screen) -> None:
         """For items that take the mouse before the image does."""

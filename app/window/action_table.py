@@ -12,7 +12,7 @@ from app.host.action import CTRL, SHIFT, Action, Key, Window, changing
 from app.window.actions import BOOKMARKS, FILE, HELP, LOOK
 from app.window.instruments import INSTRUMENTS
 
-MENUS = ("File", "Edit", "Camera", "Image", "View", "Lecture", "Help")
+MENUS = ("File", "Edit", "Scene", "Camera", "Image", "View", "Lecture", "Help")
 
 UNDO = (
     Action(
@@ -70,6 +70,7 @@ ACTIONS = (
     *_take("File"),
     *UNDO,
     *_take("Edit"),
+    *_take("Scene"),
     *_take("Camera"),
     *BOOKMARKS,
     *LOOK,

@@ -19,6 +19,7 @@ from app.host.stage import Stage
 from app.host.view import DockedView, Host
 from app.images.renderers import Renderers
 from app.lecture.view import LectureView
+from app.objects.choosing import choose, chosen
 from app.state.app_state import AppState
 from app.storage.capture import Captures, Rect
 from app.storage.session import Session, session_of
@@ -136,6 +137,8 @@ class Shell:
             self.files.cancel()
         elif self.exports.busy:
             self.exports.cancel()
+        elif chosen(window.state):
+            window.amend(choose(window.state, ()))
         elif window.state.marked is not None:
             window.change(window.state.with_options(marked=None))
         elif self.stage.maximised:

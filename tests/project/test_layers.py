@@ -98,6 +98,7 @@ DRAW = {
     "compare": "against_photograph composed differences",
     "outside": "cloud_layer gizmo ground looking mouse paint tint tools "
     "vector_painting vector_view",
+    "objects": "handles in_views",
     "probe": "histogram",
     "stepper": "listing numbers plan",
     "costs": "",

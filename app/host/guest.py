@@ -1,0 +1,53 @@
+"""A guest: what another instrument draws over the 3D views, and does there with the mouse.
+
+The views know no guest by its name; who makes one gives it to them.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Protocol
+
+from imgui_bundle import ImVec2
+
+from renderer.camera import Camera
+
+if TYPE_CHECKING:
+    from app.host.view import Host
+
+
+@dataclass(frozen=True)
+class Shown:
+    """What a view shows. name: of the view. camera: as it is drawn. origin, extent: where the whole
+    of its image is on the screen, in ImGui's units; it may be larger than the view."""
+
+    name: str
+    camera: Camera
+    origin: ImVec2
+    extent: ImVec2
+
+
+@dataclass(frozen=True)
+class Click:
+    """number: of the object under the mouse in the id image; None for the background. double: the
+    second of two. more: with Shift or Ctrl."""
+
+    number: int | None
+    double: bool
+    more: bool
+
+
+class Guest(Protocol):
+    """All of it is called in the window's thread, in each frame of a view."""
+
+    def holds(self, view: str) -> bool:
+        """Whether the mouse is on something of the guest's in a view, which then leaves it alone."""
+
+    def wants(self, host: Host, double: bool) -> bool:
+        """Whether a click in a view is for the guest, not for the view."""
+
+    def click(self, host: Host, shown: Shown, click: Click) -> None:
+        """A click that it wanted."""
+
+    def draw(self, host: Host, shown: Shown, over: bool) -> None:
+        """Draws into the view's ImGui window. over: whether the mouse is over the view's picture."""

@@ -1,0 +1,211 @@
+"""Handles in the 3D views that move, turn and scale what is chosen (ImGuizmo).
+
+Owns the drag of a handle: what it has moved is the scene at its beginning by one matrix, so that a
+drag of many frames rounds no more than one. Knows nothing of undo.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+from imgui_bundle import imgui
+
+from app.host.guest import Shown
+from app.objects.options import Handle, ObjectsOptions
+from app.outside.gizmo import begin_handles, gizmo, gl_matrices, matrix16, widen, write
+from app.widgets import theme
+from renderer.camera import Vector
+from renderer.errors import LucidaError
+from renderer.scene.model import Scene
+from renderer.scene.schema import DirectionalLightTable, PointLightTable, SphereTable
+from renderer.scene_editing.changing import Item, fields_of
+from renderer.scene_editing.moving import Floats, bounds_of, matrix_of, place_at, transform
+
+LENGTH = 0.16  # of the view: the handles' length in clip space
+STEPS_PER_REACH = 40.0  # of a snapping move, about: a round number of units
+TURN_STEP_DEG, SCALE_STEP = 15.0, 0.1
+
+
+@dataclass(frozen=True)
+class _Drag:
+    """view: in which it began. scene, frame: at its beginning; matrix: the handle's now."""
+
+    view: str
+    items: tuple[Item, ...]
+    scene: Scene
+    frame: Floats
+    matrix: Floats
+    number: int
+
+
+class Handles:
+    """One for all views. problem: why what is held does not follow; empty where it does."""
+
+    def __init__(self) -> None:
+        self.problem = ""
+        self._over: set[str] = set()
+        self._drag: _Drag | None = None
+        self._count = 0
+
+    @property
+    def gesture(self) -> tuple[str, int]:
+        """What the changes of one drag have in common, for undo."""
+        return ("objects' handles", self._count)
+
+    @property
+    def dragging(self) -> bool:
+        return self._drag is not None
+
+    def holds(self, view: str) -> bool:
+        """Whether the mouse is over a handle in a view, or drags one there."""
+        return view in self._over
+
+    def cancel(self) -> None:
+        """Ends a drag; what it has done stays."""
+        self._drag, self.problem = None, ""
+        self._over.clear()
+
+    def forget(self, view: str) -> None:
+        """There are no handles in a view now."""
+        self._over.discard(view)
+        if self._drag is not None and self._drag.view == view:
+            self._drag, self.problem = None, ""
+
+    def draw(
+        self,
+        shown: Shown,
+        scene: Scene,
+        items: tuple[Item, ...],
+        options: ObjectsOptions,
+        center: Vector,
+        reach: float,
+        fonts: theme.Fonts,
+    ) -> Scene:
+        """Draws the handles of some items into the current window, and gives the scene as they have
+        moved it. center, reach: of the scene: a direction's handles are there, having no place."""
+        drag = self._drag if self._drag is not None and self._drag.view == shown.name else None
+        if drag is not None and drag.items != items:
+            self.forget(shown.name)
+            drag = None
+        operation = operation_of(scene, items, options.handle)
+        frame = drag.matrix if drag is not None else frame_of(scene, items, center)
+        matrices = gl_matrices(shown.camera, frame[:3, 3], reach) if operation else None
+        if matrices is None or operation is None:
+            self.forget(shown.name)
+            return scene
+        view, projection = matrices
+        matrix = matrix16(frame)
+        begin_handles()
+        gizmo.set_orthographic(shown.camera.is_parallel)
+        gizmo.set_drawlist()
+        gizmo.set_rect(shown.origin.x, shown.origin.y, shown.extent.x, shown.extent.y)
+        gizmo.set_gizmo_size_clip_space(LENGTH)
+        gizmo.allow_axis_flip(False)
+        widen()
+        along = gizmo.MODE.world if options.along == "world" else gizmo.MODE.local
+        step = _step(options, reach)
+        gizmo.push_id(shown.name)
+        moved = gizmo.manipulate(
+            matrix16(view), matrix16(projection), operation, along, matrix, snap=step
+        )
+        using = gizmo.is_using()
+        over = using or gizmo.is_over()
+        gizmo.pop_id()
+        (self._over.add if over else self._over.discard)(shown.name)
+        if not using:
+            if drag is not None:
+                self.forget(shown.name)
+            return scene
+        if drag is None:
+            self._count += 1
+            drag = self._drag = _Drag(shown.name, items, scene, frame, frame, self._count)
+        if moved:
+            result = np.asarray(matrix.values, float).reshape(4, 4).T
+            scene = self._moved(drag, scene, result)
+        text = self.problem or motion(options.handle, drag.frame, self._drag.matrix)
+        place = self._drag.matrix[:3, 3]
+        write(text, projection @ view, place, shown.origin, shown.extent, fonts)
+        return scene
+
+    def _moved(self, drag: _Drag, scene: Scene, result: Floats) -> Scene:
+        if not np.isfinite(result).all() or abs(np.linalg.det(result[:3, :3])) < 1e-30:
+            return scene
+        try:
+            found = moved_by(drag.scene, drag.items, drag.frame, result)
+        except LucidaError as error:  # the last good one stays
+            self.problem = error.problem
+            return scene
+        self.problem = ""
+        self._drag = replace(drag, matrix=result)
+        return found
+
+
+def frame_of(scene: Scene, items: tuple[Item, ...], center: Vector) -> Floats:
+    """Where handles stand, (4, 4): an item's own space, or the middle of several."""
+    if len(items) == 1:
+        frame = matrix_of(scene, items[0])
+        if isinstance(fields_of(scene, items[0]), DirectionalLightTable):
+            frame[:3, 3] = center
+        return frame
+    frame = np.eye(4)
+    bounds = bounds_of(scene, items)
+    frame[:3, 3] = center if bounds is None else bounds.mean(axis=0)
+    return frame
+
+
+def operation_of(scene: Scene, items: tuple[Item, ...], handle: Handle) -> object | None:
+    """What ImGuizmo is to offer; None where there is nothing to move in that way."""
+    if not items or handle == "none":
+        return None
+    kinds = {type(fields_of(scene, item)) for item in items}
+    if handle == "move":
+        return None if kinds == {DirectionalLightTable} else gizmo.OPERATION.translate
+    if handle == "turn":
+        placed = {SphereTable, PointLightTable}
+        return None if len(items) == 1 and kinds <= placed else gizmo.OPERATION.rotate
+    if kinds <= {DirectionalLightTable, PointLightTable}:
+        return None
+    alone = len(items) == 1 and SphereTable not in kinds
+    # ImGuizmo scales along the object's own axes; several objects only as a whole.
+    return gizmo.OPERATION.scale if alone else gizmo.OPERATION.scaleu
+
+
+def moved_by(scene: Scene, items: tuple[Item, ...], frame: Floats, now: Floats) -> Scene:
+    """The scene with items moved as a handle's frame has been. Raises LucidaError."""
+    if len(items) == 1:
+        return place_at(scene, items[0], now)
+    return transform(scene, items, now @ np.linalg.inv(frame))
+
+
+def motion(handle: Handle, before: Floats, after: Floats) -> str:
+    """What a handle has done, in numbers."""
+    if handle == "move":
+        offset = after[:3, 3] - before[:3, 3]
+        least = 1e-4 * float(np.abs(offset).max())
+        parts = [f"Δ{n} {x:.4g}" for n, x in zip("xyz", offset, strict=True) if abs(x) > least]
+        return "  ".join(parts)
+    sizes = [np.linalg.norm(matrix[:3, :3], axis=0) for matrix in (before, after)]
+    if handle == "scale":
+        ratios = sizes[1] / sizes[0]
+        same = np.ptp(ratios) < 1e-4 * ratios.max()
+        shown = ratios[:1] if same else ratios
+        return "× " + "  ".join(f"{ratio:.3g}" for ratio in shown)
+    turn = (after[:3, :3] / sizes[1]) @ (before[:3, :3] / sizes[0]).T
+    angle = np.degrees(np.arccos(np.clip((np.trace(turn) - 1) / 2, -1, 1)))
+    return f"{angle:.1f}°"
+
+
+def snap_step(reach: float) -> float:
+    """The step of a move that snaps: 1, 2 or 5 times a power of ten, a small part of the scene."""
+    wanted = max(reach, 1e-9) / STEPS_PER_REACH
+    power = 10.0 ** np.floor(np.log10(wanted))
+    return float(next(k * power for k in (1, 2, 5, 10) if k * power >= wanted))
+
+
+def _step(options: ObjectsOptions, reach: float) -> object | None:
+    """Ctrl is the other way round while it is held."""
+    if options.snaps == imgui.get_io().key_ctrl:
+        return None
+    steps = {"move": snap_step(reach), "turn": TURN_STEP_DEG, "scale": SCALE_STEP}
+    return gizmo.Matrix3([steps[options.handle]] * 3)

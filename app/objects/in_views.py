@@ -1,0 +1,174 @@
+"""The chosen in the 3D views: their outlines, their handles, lights to click on; what a click does.
+
+One guest for the two images, the comparison and the outside view (app/host/guest.py).
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import Any
+
+import numpy as np
+from imgui_bundle import ImVec2, imgui
+
+from app.host.guest import Click, Shown
+from app.host.view import Host
+from app.objects.choosing import choose, choose_also, chosen, numbers_of, picked, rows_of, walked
+from app.objects.handles import Handles
+from app.objects.options import ObjectsOptions
+from app.objects.silhouette import Floats, outline_of
+from app.outside.screen import OutsideScreen
+from app.outside.view import OUTSIDE
+from app.state.app_state import AppState
+from app.widgets import theme
+from renderer.scene_editing.changing import Item
+from renderer.scene_editing.moving import bounds_of
+
+CHOSEN = theme.rgb("#ffa23a")
+CASING = theme.rgb("#0c0d0f", 0.7)
+WIDTH = 1.6  # of an outline, at 100 %
+LIGHT_PX, NEAR_PX = 7.0, 14.0  # at 100 %: a light's disc, and from where a click is on it
+
+
+class InViews:
+    """handles: of all views."""
+
+    def __init__(self) -> None:
+        self.handles = Handles()
+        self._outlines: tuple[Any, dict[str, Floats]] = (None, {})
+
+    # What the views ask, see app/host/guest.py.
+
+    def holds(self, view: str) -> bool:
+        return self.handles.holds(view)
+
+    def wants(self, host: Host, double: bool) -> bool:
+        return double or host.state.of(ObjectsOptions).selects
+
+    def click(self, host: Host, shown: Shown, click: Click) -> None:
+        light = self._light_under(host, shown)
+        if light is None:
+            host.amend(picked(host.state, click.number, click.more))
+        elif click.more:
+            host.amend(choose_also(host.state, light))
+        else:
+            host.amend(choose(host.state, (light,)))
+
+    def draw(self, host: Host, shown: Shown, over: bool) -> None:
+        state = host.state
+        items = chosen(state)
+        if not items and not state.of(ObjectsOptions).selects:
+            self.handles.forget(shown.name)
+            return
+        if over:
+            self._walk(host)
+        self._draw_outlines(host, shown)
+        if shown.name == OUTSIDE:
+            self._draw_lights(host, shown)
+        free = movable(state, items)
+        options = state.of(ObjectsOptions)
+        focus = host.focus
+        scene = self.handles.draw(
+            shown, state.scene, free, options, focus.center, focus.reach, host.fonts
+        )
+        if scene is not state.scene:
+            host.apply(replace(host.state, scene=scene), self.handles.gesture)
+        if self.handles.dragging:
+            host.animate()
+
+    def _walk(self, host: Host) -> None:
+        """Tab goes from object to object, not on to another widget."""
+        imgui.internal.set_key_owner(imgui.Key.tab, imgui.get_id("objects' tab"))
+        if imgui.is_key_pressed(imgui.Key.tab):
+            host.amend(walked(host.state, -1 if imgui.get_io().key_shift else 1))
+
+    # What is drawn.
+
+    def _draw_outlines(self, host: Host, shown: Shown) -> None:
+        draw = imgui.get_window_draw_list()
+        points = self._outline(host.state, shown)
+        at = np.array([shown.origin.x, shown.origin.y])
+        extent = np.array([shown.extent.x, shown.extent.y])
+        places = (at + points * extent).reshape(-1, 4).tolist()
+        for color, width in ((CASING, 2.2 * WIDTH), (CHOSEN, WIDTH)):
+            packed, thick = theme.u32(color), theme.px(width)
+            for x0, y0, x1, y1 in places:
+                draw.add_line(ImVec2(x0, y0), ImVec2(x1, y1), packed, thick)
+
+    def _outline(self, state: AppState, shown: Shown) -> Floats:
+        """Of all that is chosen, (n, 2, 2), in parts of the view; kept while nothing changes."""
+        key = (state.scene, state.of(ObjectsOptions).chosen)
+        if self._outlines[0] != key:
+            self._outlines = key, {}
+        kept = self._outlines[1]
+        place = f"{shown.name} {shown.camera}"
+        if place not in kept:
+            for old in [name for name in kept if name.startswith(f"{shown.name} ")]:
+                del kept[old]
+            kept[place] = _projected(state, shown)
+        return kept[place]
+
+    def _draw_lights(self, host: Host, shown: Shown) -> None:
+        draw, items = imgui.get_window_draw_list(), chosen(host.state)
+        for item, at in lights_in(host.state, shown).items():
+            color = CHOSEN if item in items else theme.rgb("#ffe9a8")
+            radius = theme.px(LIGHT_PX)
+            draw.add_circle_filled(at, radius, theme.u32(CASING))
+            draw.add_circle_filled(at, 0.62 * radius, theme.u32(color))
+            for k in range(8):
+                x, y = np.cos(k * np.pi / 4), np.sin(k * np.pi / 4)
+                draw.add_line(
+                    ImVec2(at.x + 0.95 * radius * x, at.y + 0.95 * radius * y),
+                    ImVec2(at.x + 1.5 * radius * x, at.y + 1.5 * radius * y),
+                    theme.u32(color),
+                    theme.px(1.5),
+                )
+
+    def _light_under(self, host: Host, shown: Shown) -> Item | None:
+        if shown.name != OUTSIDE:
+            return None
+        mouse = imgui.get_io().mouse_pos
+        near = {
+            item: np.hypot(at.x - mouse.x, at.y - mouse.y)
+            for item, at in lights_in(host.state, shown).items()
+        }
+        item = min(near, key=near.__getitem__, default=None)
+        return item if item is not None and near[item] < theme.px(NEAR_PX) else None
+
+
+def movable(state: AppState, items: tuple[Item, ...]) -> tuple[Item, ...]:
+    """Those of the items that are not locked."""
+    locked = {row.item for row in rows_of(state.scene) if row.locked}
+    return tuple(item for item in items if item not in locked)
+
+
+def lights_in(state: AppState, shown: Shown) -> dict[Item, ImVec2]:
+    """Where the scene's point lights are on the screen, of those that are to be seen."""
+    found: dict[Item, ImVec2] = {}
+    for row in rows_of(state.scene):
+        if not row.is_light or row.item is None or row.hidden or row.kind != "point":
+            continue
+        bounds = bounds_of(state.scene, [row.item])
+        if bounds is None:
+            continue
+        seen = shown.camera.project(bounds[0], (1, 1))
+        if seen.parameter > 0:
+            x, y = float(seen.column) + 0.5, float(seen.row) + 0.5
+            at = ImVec2(shown.origin.x + x * shown.extent.x, shown.origin.y + y * shown.extent.y)
+            found[row.item] = at
+    return found
+
+
+def _projected(state: AppState, shown: Shown) -> Floats:
+    size = max(round(shown.extent.x), 1), max(round(shown.extent.y), 1)
+    screen = OutsideScreen(shown.camera, size)
+    objects = state.scene.objects
+    segments = [
+        outline_of(objects[number], shown.camera)
+        for number in numbers_of(state)
+        if not objects[number].hidden
+    ]
+    if not segments:
+        return np.zeros((0, 2, 2))
+    points, _, _ = screen.segments(np.concatenate(segments))
+    return points / np.asarray(size, float)

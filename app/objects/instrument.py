@@ -1,0 +1,35 @@
+"""The scene's objects, as the window takes them."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from app.host.instrument import Instrument
+from app.host.view import DockedView, view_of
+from app.objects.actions import CHOOSING
+from app.objects.in_views import InViews
+from app.outside.view import OutsideView
+from app.pair.view import RasterView
+
+SYNONYMS = {
+    "Clicks choose objects": "select pick tool",
+    "Objects: move": "gizmo translate",
+    "Objects: turn": "gizmo rotate",
+    "Objects: scale": "gizmo size",
+    "Along the object's own axes": "local world space",
+    "In steps": "snap grid",
+}
+MOUSE = (
+    ("double-click an object", "choose it; click, where V is on"),
+    ("Shift+click an object", "choose it too, or no more; likewise"),
+)
+
+
+def _make(views: Sequence[DockedView]) -> list[DockedView]:
+    guest = InViews()
+    view_of(views, RasterView).linked.guest = guest
+    view_of(views, OutsideView).guest = guest
+    return []
+
+
+INSTRUMENT = Instrument(_make, CHOOSING, MOUSE, synonyms=SYNONYMS)

@@ -1,0 +1,31 @@
+"""What is chosen of the scene, and how it is handled."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Annotated, Literal
+
+from app.state.bounds import AtMost, Range
+
+MOST_CHOSEN = 1000
+Key = Annotated[int, Range(0, 2**53)]
+Handle = Literal["none", "move", "turn", "scale"]
+
+
+@dataclass(frozen=True)
+class ObjectsOptions:
+    """chosen: objects and lights by their keys (renderer/scene_editing/), the last chosen last.
+
+    selects: whether a click in a view chooses what is under it, instead of marking a pixel. handle:
+    what the chosen have in the views. along: the handles' axes, the world's or the object's own.
+    snaps: handles go in steps.
+    """
+
+    chosen: Annotated[tuple[Key, ...], AtMost(MOST_CHOSEN)] = ()
+    selects: bool = False
+    handle: Handle = "move"
+    along: Literal["world", "object"] = "world"
+    snaps: bool = False
+
+
+OPTIONS = ObjectsOptions
