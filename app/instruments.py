@@ -39,7 +39,7 @@ ROOMS: tuple[Room, ...] = (
     Room("app.pair", ("raster", "ray")),
     Room("app.compare", ("compare",)),
     Room("app.outside", ("outside",)),
-    Room("app.objects"),
+    Room("app.objects", ("objects", "inspector")),
     Room("app.probe", ("probe",)),
     Room("app.stepper", ("stepper",)),
     Room("app.costs", ("costs",)),

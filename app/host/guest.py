@@ -41,7 +41,7 @@ class Guest(Protocol):
     """All of it is called in the window's thread, in each frame of a view."""
 
     def holds(self, view: str) -> bool:
-        """Whether the mouse is on something of the guest's in a view, which then leaves it alone."""
+        """Whether the mouse is on something of the guest's: the view leaves it alone then."""
 
     def wants(self, host: Host, double: bool) -> bool:
         """Whether a click in a view is for the guest, not for the view."""
@@ -50,4 +50,4 @@ class Guest(Protocol):
         """A click that it wanted."""
 
     def draw(self, host: Host, shown: Shown, over: bool) -> None:
-        """Draws into the view's ImGui window. over: whether the mouse is over the view's picture."""
+        """Draws into the view's ImGui window. over: whether the mouse is over its picture."""

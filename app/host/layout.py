@@ -25,6 +25,7 @@ CAMERA_WIDTH_EM = 19.5
 PRESENTATION = "Presentation"  # what presentation mode shows
 LECTURE = "Lecture"  # what a lecture shows, each step in its own way
 CODE = "Your code"
+SCENE = "Scene"
 OUTSIDE = "Outside view"
 SHOWN_TO_A_CLASS = (LECTURE, CODE)  # presentation mode changes their style only
 
@@ -140,6 +141,16 @@ LAYOUTS = (
             (RIGHT_SPACE, INSTRUMENTS, imgui.Dir.down, 0.5),
         ),
         {"Outside": RIGHT_SPACE, "Ray": INSTRUMENTS, "Raster": INSTRUMENTS},
+    ),
+    Layout(
+        SCENE,
+        (
+            _CAMERA,
+            (CAMERA_SPACE, INSTRUMENTS, imgui.Dir.down, 0.6),
+            (MAIN, LOWER_SPACE, imgui.Dir.down, 0.5),
+            (MAIN, RIGHT_SPACE, imgui.Dir.right, 0.5),
+        ),
+        {"Raster": MAIN, "Ray": RIGHT_SPACE, "Outside": LOWER_SPACE},
     ),
 )
 

@@ -2,9 +2,18 @@
 
 from __future__ import annotations
 
-from app.host.action import SHIFT, Action, Key, changing
+from collections.abc import Callable
+
+from imgui_bundle import imgui
+
+from app.cameras.focus import Focus
+from app.host.action import CTRL, SHIFT, Action, Key, Window, changing
+from app.objects import editing
+from app.objects.choosing import chosen, everything
 from app.objects.options import Handle, ObjectsOptions
 from app.state.app_state import AppState
+from renderer.errors import LucidaError
+from renderer.scene_editing import objects
 
 MENU, HANDLES = "Scene", "Scene/Handles"
 _HANDLES: tuple[tuple[Handle, str, str, Key], ...] = (
@@ -42,6 +51,67 @@ def _along(state: AppState) -> AppState:
 def _snaps(state: AppState) -> AppState:
     return state.with_options(objects={"snaps": not state.of(ObjectsOptions).snaps})
 
+
+def _editing(change: Callable[[AppState, Focus], AppState]) -> Callable[[Window], None]:
+    """What runs an edit as a step of its own, or tells why it is not possible."""
+
+    def run(window: Window) -> None:
+        try:
+            window.change(change(window.state, window.focus))
+        except LucidaError as error:
+            window.files.message = str(error)
+
+    return run
+
+
+def _has_chosen(window: Window) -> bool:
+    return bool(chosen(window.state))
+
+
+def _copy(window: Window) -> None:
+    imgui.set_clipboard_text(editing.copied(window.state))
+    window.files.say("The chosen objects are in the clipboard, as in a scene file.")
+
+
+def _adding(kind: str) -> Action:
+    name = f"Add {kind} light" if kind in objects.LIGHTS else f"Add {kind}"
+    return Action(
+        "Scene/Add",
+        name,
+        _editing(lambda state, focus: editing.added(state, kind, focus)),
+        separated=kind == objects.LIGHTS[0],
+    )
+
+
+SCENE = (
+    *(_adding(kind) for kind in (*objects.SHAPES, *objects.LIGHTS)),
+    Action(
+        MENU,
+        "Duplicate",
+        _editing(editing.duplicated),
+        "Ctrl+D",
+        (CTRL | int(Key.d),),
+        can=_has_chosen,
+        separated=True,
+    ),
+    Action(
+        MENU,
+        "Delete",
+        _editing(lambda state, focus: editing.deleted(state)),
+        "Delete",
+        (int(Key.delete),),
+        can=_has_chosen,
+    ),
+    Action(MENU, "Copy objects", _copy, "Ctrl+C", (CTRL | int(Key.c),), can=_has_chosen),
+    Action(
+        MENU,
+        "Choose all",
+        lambda window: window.amend(everything(window.state)),
+        "Ctrl+A",
+        (CTRL | int(Key.a),),
+        separated=True,
+    ),
+)
 
 CHOOSING = (
     Action(

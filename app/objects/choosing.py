@@ -70,6 +70,12 @@ def walked(state: AppState, step: int) -> AppState:
     return choose(state, (items[(at + step) % len(items)],))
 
 
+def everything(state: AppState) -> AppState:
+    """The state with all chosen that is neither hidden nor locked."""
+    rows = [row for row in rows_of(state.scene) if not (row.hidden or row.locked)]
+    return choose(state, [row.item for row in rows if row.item is not None])
+
+
 _rows: tuple[Scene, tuple[OutlineRow, ...]] | None = None
 
 

@@ -9,7 +9,7 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 
 import numpy as np
-from imgui_bundle import imgui
+from imgui_bundle import imgui, imguizmo
 
 from app.host.guest import Shown
 from app.objects.options import Handle, ObjectsOptions
@@ -21,6 +21,8 @@ from renderer.scene.model import Scene
 from renderer.scene.schema import DirectionalLightTable, PointLightTable, SphereTable
 from renderer.scene_editing.changing import Item, fields_of
 from renderer.scene_editing.moving import Floats, bounds_of, matrix_of, place_at, transform
+
+Operation = imguizmo.im_guizmo.OPERATION
 
 LENGTH = 0.16  # of the view: the handles' length in clip space
 STEPS_PER_REACH = 40.0  # of a snapping move, about: a round number of units
@@ -119,26 +121,26 @@ class Handles:
             return scene
         if drag is None:
             self._count += 1
-            drag = self._drag = _Drag(shown.name, items, scene, frame, frame, self._count)
+            drag = _Drag(shown.name, items, scene, frame, frame, self._count)
         if moved:
             result = np.asarray(matrix.values, float).reshape(4, 4).T
-            scene = self._moved(drag, scene, result)
-        text = self.problem or motion(options.handle, drag.frame, self._drag.matrix)
-        place = self._drag.matrix[:3, 3]
+            scene, drag = self._moved(drag, scene, result)
+        self._drag = drag
+        text = self.problem or motion(options.handle, drag.frame, drag.matrix)
+        place = drag.matrix[:3, 3]
         write(text, projection @ view, place, shown.origin, shown.extent, fonts)
         return scene
 
-    def _moved(self, drag: _Drag, scene: Scene, result: Floats) -> Scene:
+    def _moved(self, drag: _Drag, scene: Scene, result: Floats) -> tuple[Scene, _Drag]:
         if not np.isfinite(result).all() or abs(np.linalg.det(result[:3, :3])) < 1e-30:
-            return scene
+            return scene, drag
         try:
             found = moved_by(drag.scene, drag.items, drag.frame, result)
         except LucidaError as error:  # the last good one stays
             self.problem = error.problem
-            return scene
+            return scene, drag
         self.problem = ""
-        self._drag = replace(drag, matrix=result)
-        return found
+        return found, replace(drag, matrix=result)
 
 
 def frame_of(scene: Scene, items: tuple[Item, ...], center: Vector) -> Floats:
@@ -154,17 +156,18 @@ def frame_of(scene: Scene, items: tuple[Item, ...], center: Vector) -> Floats:
     return frame
 
 
-def operation_of(scene: Scene, items: tuple[Item, ...], handle: Handle) -> object | None:
+def operation_of(scene: Scene, items: tuple[Item, ...], handle: Handle) -> Operation | None:
     """What ImGuizmo is to offer; None where there is nothing to move in that way."""
     if not items or handle == "none":
         return None
-    kinds = {type(fields_of(scene, item)) for item in items}
+    kinds: set[type] = {type(fields_of(scene, item)) for item in items}
+    directions: set[type] = {DirectionalLightTable}
     if handle == "move":
-        return None if kinds == {DirectionalLightTable} else gizmo.OPERATION.translate
+        return None if kinds == directions else gizmo.OPERATION.translate
     if handle == "turn":
-        placed = {SphereTable, PointLightTable}
+        placed: set[type] = {SphereTable, PointLightTable}
         return None if len(items) == 1 and kinds <= placed else gizmo.OPERATION.rotate
-    if kinds <= {DirectionalLightTable, PointLightTable}:
+    if kinds <= directions | {PointLightTable}:  # they have no size
         return None
     alone = len(items) == 1 and SphereTable not in kinds
     # ImGuizmo scales along the object's own axes; several objects only as a whole.
@@ -190,7 +193,7 @@ def motion(handle: Handle, before: Floats, after: Floats) -> str:
         ratios = sizes[1] / sizes[0]
         same = np.ptp(ratios) < 1e-4 * ratios.max()
         shown = ratios[:1] if same else ratios
-        return "× " + "  ".join(f"{ratio:.3g}" for ratio in shown)
+        return "times " + "  ".join(f"{ratio:.3g}" for ratio in shown)
     turn = (after[:3, :3] / sizes[1]) @ (before[:3, :3] / sizes[0]).T
     angle = np.degrees(np.arccos(np.clip((np.trace(turn) - 1) / 2, -1, 1)))
     return f"{angle:.1f}°"
@@ -203,7 +206,7 @@ def snap_step(reach: float) -> float:
     return float(next(k * power for k in (1, 2, 5, 10) if k * power >= wanted))
 
 
-def _step(options: ObjectsOptions, reach: float) -> object | None:
+def _step(options: ObjectsOptions, reach: float) -> imguizmo.im_guizmo.Matrix3 | None:
     """Ctrl is the other way round while it is held."""
     if options.snaps == imgui.get_io().key_ctrl:
         return None

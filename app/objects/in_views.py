@@ -14,6 +14,7 @@ from imgui_bundle import ImVec2, imgui
 from app.host.guest import Click, Shown
 from app.host.view import Host
 from app.objects.choosing import choose, choose_also, chosen, numbers_of, picked, rows_of, walked
+from app.objects.editing import unlocked
 from app.objects.handles import Handles
 from app.objects.options import ObjectsOptions
 from app.objects.silhouette import Floats, outline_of
@@ -65,7 +66,7 @@ class InViews:
         self._draw_outlines(host, shown)
         if shown.name == OUTSIDE:
             self._draw_lights(host, shown)
-        free = movable(state, items)
+        free = unlocked(state)
         options = state.of(ObjectsOptions)
         focus = host.focus
         scene = self.handles.draw(
@@ -134,12 +135,6 @@ class InViews:
         }
         item = min(near, key=near.__getitem__, default=None)
         return item if item is not None and near[item] < theme.px(NEAR_PX) else None
-
-
-def movable(state: AppState, items: tuple[Item, ...]) -> tuple[Item, ...]:
-    """Those of the items that are not locked."""
-    locked = {row.item for row in rows_of(state.scene) if row.locked}
-    return tuple(item for item in items if item not in locked)
 
 
 def lights_in(state: AppState, shown: Shown) -> dict[Item, ImVec2]:

@@ -6,8 +6,9 @@ from collections.abc import Sequence
 
 from app.host.instrument import Instrument
 from app.host.view import DockedView, view_of
-from app.objects.actions import CHOOSING
+from app.objects.actions import CHOOSING, SCENE
 from app.objects.in_views import InViews
+from app.objects.view import InspectorView, ObjectsView
 from app.outside.view import OutsideView
 from app.pair.view import RasterView
 
@@ -18,6 +19,10 @@ SYNONYMS = {
     "Objects: scale": "gizmo size",
     "Along the object's own axes": "local world space",
     "In steps": "snap grid",
+    "Objects": "outliner tree hierarchy layers",
+    "Inspector": "properties material transform light",
+    "Delete": "remove",
+    "Duplicate": "copy clone",
 }
 MOUSE = (
     ("double-click an object", "choose it; click, where V is on"),
@@ -29,7 +34,7 @@ def _make(views: Sequence[DockedView]) -> list[DockedView]:
     guest = InViews()
     view_of(views, RasterView).linked.guest = guest
     view_of(views, OutsideView).guest = guest
-    return []
+    return [ObjectsView(), InspectorView()]
 
 
-INSTRUMENT = Instrument(_make, CHOOSING, MOUSE, synonyms=SYNONYMS)
+INSTRUMENT = Instrument(_make, (*SCENE, *CHOOSING), MOUSE, synonyms=SYNONYMS)

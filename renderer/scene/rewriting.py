@@ -396,16 +396,12 @@ def _rising(numbers: list[int]) -> list[int]:
 
 
 def _equal(one: Any, other: Any) -> bool:
-    return (
-        type(one) is type(other)
-        and bool(one == other)
-        or (
-            isinstance(one, int | float)
-            and isinstance(other, int | float)
-            and not isinstance(one, bool)
-            and not isinstance(other, bool)
-            and one == other
-        )
+    return (type(one) is type(other) and bool(one == other)) or (
+        isinstance(one, int | float)
+        and isinstance(other, int | float)
+        and not isinstance(one, bool)
+        and not isinstance(other, bool)
+        and one == other
     )
 
 

@@ -18,8 +18,7 @@ import numpy as np
 
 from renderer.errors import LucidaError
 from renderer.scene.files import changed_scene, new_keys
-from renderer.scene.model import Entry, Keys, Mesh, Origin, SavedFile, Scene
-from renderer.scene.model import SceneObject
+from renderer.scene.model import Entry, Keys, Mesh, Origin, SavedFile, Scene, SceneObject
 from renderer.scene.noting import noting, stamp
 from renderer.scene.saving import light_table, scene_tables
 from renderer.scene.schema import AnyLight, LightTable, MeshTable, ModelTable, SphereTable

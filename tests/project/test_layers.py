@@ -94,11 +94,12 @@ PURE = ("app/state", "app/explaining", "app/checking", "app/cameras")
 DRAW = {
     "camera_panel": "basis_numbers projection sections",
     "photograph": "layer laying",
-    "pair": "dark_note go_to_pixel image_mouse marks overlay pane pixelgrid resolution rulers toolbar",
+    "pair": "dark_note go_to_pixel image_mouse marks overlay pane pixelgrid resolution rulers "
+    "toolbar",
     "compare": "against_photograph composed differences",
     "outside": "cloud_layer gizmo ground looking mouse paint tint tools "
     "vector_painting vector_view",
-    "objects": "handles in_views",
+    "objects": "handles icons in_views inspector material_fields outliner value_fields",
     "probe": "histogram",
     "stepper": "listing numbers plan",
     "costs": "",

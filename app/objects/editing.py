@@ -1,0 +1,104 @@
+"""What a lecturer does to the scene: each takes a state and gives another one.
+
+Pure. The scene is changed by renderer/scene_editing/; here what is chosen follows. Raises
+LucidaError where the scene cannot be changed so; the old state stays.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+
+from app.cameras.focus import Focus
+from app.objects.choosing import choose, chosen, rows_of
+from app.state.app_state import AppState
+from renderer.scene.model import Scene
+from renderer.scene_editing import clipping, objects
+from renderer.scene_editing.changing import Item
+from renderer.scene_editing.outline import OutlineRow
+
+ADDED_PART = 0.35  # of the scene's middle distance: how large a new object is
+LIGHT_AT = (0.6, 1.0, 0.8)  # of the reach, from the middle: where a new light is
+
+
+def with_scene(state: AppState, scene: Scene, items: Sequence[Item] | None = None) -> AppState:
+    """The state with an edited scene, seen as before. items: what is chosen from now on."""
+    changed = replace(state, scene=scene)
+    return changed if items is None else choose(changed, items)
+
+
+def added(state: AppState, kind: str, focus: Focus) -> AppState:
+    """A new object in the middle of the scene, or a new light above it; it is chosen."""
+    at = list(focus.center)
+    if kind in objects.LIGHTS:
+        at = [c + p * focus.reach for c, p in zip(focus.center, LIGHT_AT, strict=True)]
+    table = objects.new_table(state.scene, kind, at, rounded(ADDED_PART * focus.reach))
+    return with_scene(state, *objects.add(state.scene, table))
+
+
+def rounded(length: float) -> float:
+    """One digit of it: a size that is easy to read."""
+    return float(f"{length:.1g}")
+
+
+def deleted(state: AppState) -> AppState:
+    """Without what is chosen; what is locked stays."""
+    items = unlocked(state)
+    return with_scene(state, objects.delete(state.scene, items), ()) if items else state
+
+
+def duplicated(state: AppState, focus: Focus) -> AppState:
+    """With a copy of what is chosen beside it, which is chosen then."""
+    items = chosen(state)
+    if not items:
+        return state
+    by = (rounded(0.1 * focus.reach), 0.0, 0.0)
+    return with_scene(state, *objects.duplicate(state.scene, items, by))
+
+
+def copied(state: AppState) -> str:
+    """What is chosen as text, as it stands in scene files."""
+    return clipping.copy_text(state.scene, chosen(state))
+
+
+def pasted(state: AppState, text: str) -> AppState:
+    """With the objects and lights of such a text, which are chosen then."""
+    return with_scene(state, *clipping.paste_text(state.scene, text))
+
+
+def is_scene_text(text: str) -> bool:
+    """Whether a text is meant to be objects or lights of a scene file."""
+    return "[[objects]]" in text or "[[lights]]" in text
+
+
+def reordered(state: AppState, item: Item, before: Item | None) -> AppState:
+    """With what is chosen, if the item is, or else with the item alone, put before another one."""
+    items = chosen(state) if item in chosen(state) else (item,)
+    return with_scene(state, objects.reorder(state.scene, items, before))
+
+
+def unlocked(state: AppState) -> tuple[Item, ...]:
+    """What is chosen, without what is locked."""
+    locked = {row.item for row in rows_of(state.scene) if row.locked}
+    return tuple(item for item in chosen(state) if item not in locked)
+
+
+def found_in(rows: Sequence[OutlineRow], words: str) -> list[OutlineRow]:
+    """The rows in which all of some words stand: in a name, a kind, a material, a part's name."""
+    wanted = words.lower().split()
+    found = []
+    for row in rows:
+        texts = (row.shown, row.kind, row.material, row.file, *(part.name for part in row.parts))
+        text = " ".join(texts).lower()
+        if all(word in text for word in wanted):
+            found.append(row)
+    return found
+
+
+def reached(rows: Sequence[OutlineRow], first: Item | None, last: Item) -> tuple[Item, ...]:
+    """The items from one row to another, both included: Shift and a click in the list."""
+    items = [row.item for row in rows if row.item is not None]
+    if first not in items or last not in items:
+        return (last,)
+    start, end = items.index(first), items.index(last)
+    return tuple(items[start : end + 1] if start <= end else items[end : start + 1][::-1])

@@ -1,0 +1,286 @@
+"""What is chosen, in numbers: its name, shape, place, material; a light's; else the scene's own.
+
+Owns the layout, and which field of the file a line is. Gets a state and returns another. Numbers
+that the scene does not take are told, and the last good ones stay.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, replace
+from typing import Any
+
+import msgspec
+from imgui_bundle import imgui
+
+from app.cameras.focus import Focus
+from app.objects.choosing import chosen, rows_of
+from app.objects.editing import with_scene
+from app.objects.icons import icon
+from app.objects.material_fields import material_lines
+from app.objects.value_fields import color_line, light_lines, number_line, vector_line, whole_line
+from app.state.app_state import AppState
+from app.widgets import rows, theme
+from app.widgets.checks import checkbox
+from app.widgets.fields import Scale
+from renderer.errors import LucidaError
+from renderer.scene.colors import parse_color
+from renderer.scene.model import Scene
+from renderer.scene.schema import (
+    DirectionalLightTable,
+    LightTable,
+    MeshTable,
+    ModelTable,
+    ObjectTable,
+    PointLightTable,
+    SphereTable,
+)
+from renderer.scene_editing import objects
+from renderer.scene_editing.changing import Item, fields_of, set_field, set_scene_field
+from renderer.scene_editing.outline import OutlineRow
+
+COMMON = {*ObjectTable.__struct_fields__, *LightTable.__struct_fields__}
+PLACED = {"translate", "rotate_deg", "scale", "center", "position", "direction", "file"}
+NOTHING = "Choose an object: double-click it in a view, or click it in the list."
+TOLD = {
+    "radius": "from the middle to the surface, in world units",
+    "tube_radius": "of the tube around the ring",
+    "segments": "parts around",
+    "sides": "parts around the tube",
+    "smooth": "normals between its faces, as of a curved surface",
+    "size": "the sides along x, y and z",
+    "translate": "where it stands: added last",
+    "rotate_deg": "degrees about the world's x, then y, then z axis",
+    "scale": "factors along its own axes: first of all",
+    "center": "where it stands",
+    "position": "where the light is",
+    "direction": "where the light goes, from the light to the scene",
+}
+
+
+@dataclass(frozen=True)
+class Inspector:
+    """for_all: whether a shared material is changed for all that have it. problem: why the last
+    number was not taken."""
+
+    for_all: bool = True
+    problem: str = ""
+
+
+Edit = Callable[[Scene], Scene]
+
+
+@dataclass(frozen=True)
+class Around:
+    """What the panel must know beside the state."""
+
+    fonts: theme.Fonts
+    focus: Focus
+
+    def along(self, axis: int) -> Scale:
+        """Of a place in the world: around 0, unless the scene is far from there."""
+        middle, reach = self.focus.center[axis], self.focus.reach
+        middle = middle if abs(middle) > reach else 0.0
+        return Scale(middle - reach, middle + reach)
+
+    @property
+    def lengths(self) -> Scale:
+        reach = self.focus.reach
+        return Scale(1e-3 * reach, 10 * reach, logarithmic=True)
+
+
+def inspector_panel(
+    inspector: Inspector, state: AppState, around: Around
+) -> tuple[Inspector, AppState]:
+    """Draws the panel into the current window."""
+    em, style = imgui.get_font_size(), imgui.get_style()
+    imgui.push_style_var(imgui.StyleVar_.item_spacing, (style.item_spacing.x, 0.25 * em))
+    try:
+        return _panel(inspector, state, around)
+    finally:
+        imgui.pop_style_var()
+
+
+def _panel(inspector: Inspector, state: AppState, around: Around) -> tuple[Inspector, AppState]:
+    items = chosen(state)
+    edits: list[Edit] = []
+    if not items:
+        imgui.push_text_wrap_pos(0.0)
+        imgui.text_disabled(NOTHING)
+        imgui.pop_text_wrap_pos()
+        rows.line()
+        edits += _scene_lines(state.scene, around)
+    else:
+        listed = [row for row in rows_of(state.scene) if row.item in items]
+        row = next(row for row in listed if row.item == items[-1])
+        edits += _head(row, items, around)
+        fields = fields_of(state.scene, items[-1])
+        if len(items) == 1:
+            if isinstance(fields, LightTable):
+                edits += _light_lines(items[-1], fields, around)
+            else:
+                edits += _shape_lines(items[-1], fields, around)
+                edits += _place_lines(items[-1], fields, around)
+        of_objects = tuple(row.item for row in listed if not row.is_light and row.item is not None)
+        if of_objects:
+            for_all, more = material_lines(state.scene, of_objects, inspector.for_all, around.fonts)
+            inspector = replace(inspector, for_all=for_all)
+            edits += more
+    for edit in edits:
+        try:
+            state = with_scene(state, edit(state.scene))
+            inspector = replace(inspector, problem="")
+        except LucidaError as error:
+            inspector = replace(inspector, problem=str(error))
+    if inspector.problem:
+        imgui.push_text_wrap_pos(0.0)
+        imgui.text_colored(theme.ERROR, inspector.problem)
+        imgui.pop_text_wrap_pos()
+    return inspector, state
+
+
+def _head(row: OutlineRow, items: Sequence[Item], around: Around) -> list[Edit]:
+    edits: list[Edit] = []
+    icon(row.kind, theme.TEXT)
+    imgui.same_line(0, 0.3 * imgui.get_font_size())
+    if len(items) > 1:
+        imgui.align_text_to_frame_padding()
+        imgui.text(f"{len(items)} chosen; the last: {row.shown}")
+    else:
+        imgui.set_next_item_width(-1)
+        changed, name = imgui.input_text_with_hint("##name", row.shown, row.name)
+        imgui.set_item_tooltip("its name")
+        if changed:
+            edits.append(lambda scene: objects.rename(scene, items[0], name))
+    kind = f"{row.kind} light" if row.is_light else row.kind
+    triangles = f", {row.triangles:,} triangles" if row.triangles else ""
+    imgui.text_disabled(f"{kind}{triangles}")
+    if row.file:
+        imgui.same_line()
+        imgui.text_disabled(row.file)
+    changed, hidden = checkbox("hidden", row.hidden)
+    imgui.set_item_tooltip("neither renderer draws it" if not row.is_light else "it is off")
+    if changed:
+        edits.append(lambda scene: objects.hide(scene, items, hidden))
+    imgui.same_line()
+    changed, locked = checkbox("locked", row.locked)
+    imgui.set_item_tooltip("clicks and handles leave it alone")
+    if changed:
+        edits.append(lambda scene: objects.lock(scene, items, locked))
+    return edits
+
+
+def _shape_lines(item: Item, fields: Any, around: Around) -> list[Edit]:
+    """The lines of what a kind of shape has of its own."""
+    if isinstance(fields, ModelTable):
+        return []
+    rows.line()
+    edits: list[Edit] = []
+    defaults = {field.name: field.default for field in msgspec.structs.fields(type(fields))}
+    for name in type(fields).__struct_fields__:
+        if name in COMMON | PLACED:
+            continue
+        value, label = getattr(fields, name), name.replace("_", " ")
+        new = _value_line(label, value, TOLD.get(name, label), defaults[name], around)
+        if new is not None:
+            edits.append(_setting([item], name, new))
+    return edits
+
+
+def _value_line(label: str, value: Any, tooltip: str, default: Any, around: Around) -> Any:
+    fonts = around.fonts
+    if isinstance(value, bool):
+        changed, on = checkbox(label, value)
+        imgui.set_item_tooltip(tooltip)
+        return on if changed else None
+    if isinstance(value, int) and not isinstance(default, float):
+        scale = Scale(3, 256, logarithmic=True, least=3, most=1000)
+        return whole_line(label, value, scale, tooltip, fonts, default)
+    if isinstance(value, int | float):
+        return number_line(label, value, around.lengths, tooltip, fonts, default)
+    reset = (default,) * 3 if isinstance(default, int | float) else default
+    return vector_line(label, value, [around.lengths] * 3, tooltip, fonts, reset)
+
+
+def _place_lines(item: Item, fields: SphereTable | MeshTable, around: Around) -> list[Edit]:
+    """Where it stands, with a button that takes it back."""
+    rows.line()
+    edits: list[Edit] = []
+
+    def add(name: str, value: Any) -> None:
+        if value is not None:
+            edits.append(_setting([item], name, value))
+
+    fonts, axes = around.fonts, [around.along(axis) for axis in range(3)]
+    if isinstance(fields, SphereTable):
+        add("center", vector_line("centre", fields.center, axes, TOLD["center"], fonts, (0, 0, 0)))
+        return edits
+    place = fields.translate, fields.rotate_deg, fields.scale
+    add("translate", vector_line("move", place[0], axes, TOLD["translate"], fonts, (0, 0, 0)))
+    turns = [Scale(-180, 180)] * 3
+    add("rotate_deg", vector_line("turn", place[1], turns, TOLD["rotate_deg"], fonts, (0, 0, 0)))
+    factors = Scale(0.05, 20, logarithmic=True)
+    if isinstance(place[2], int | float):
+        add("scale", number_line("scale", place[2], factors, TOLD["scale"], fonts, 1.0))
+    else:
+        scales = [factors if part > 0 else Scale(-20, 20) for part in place[2]]
+        add("scale", vector_line("scale", place[2], scales, TOLD["scale"], fonts, (1, 1, 1)))
+    one = isinstance(place[2], int | float)
+    changed, one = checkbox("one factor", one)
+    imgui.set_item_tooltip("the same along all axes")
+    if changed:
+        if isinstance(place[2], int | float):
+            add("scale", [place[2]] * 3)
+        else:
+            add("scale", max(place[2], key=abs))
+    imgui.same_line()
+    if imgui.small_button("Reset"):
+        for name in ("translate", "rotate_deg", "scale"):
+            edits.append(_setting([item], name, None))
+    imgui.set_item_tooltip("not moved, not turned, not scaled")
+    return edits
+
+
+def _light_lines(item: Item, fields: LightTable, around: Around) -> list[Edit]:
+    rows.line()
+    edits: list[Edit] = []
+    fonts = around.fonts
+    if isinstance(fields, PointLightTable):
+        axes = [around.along(axis) for axis in range(3)]
+        told = TOLD["position"]
+        name, new = "position", vector_line("place", fields.position, axes, told, fonts, (0, 0, 0))
+    else:
+        assert isinstance(fields, DirectionalLightTable)
+        axes, told = [Scale(-1, 1)] * 3, TOLD["direction"]
+        name, new = "direction", vector_line("way", fields.direction, axes, told, fonts, (0, -1, 0))
+    if new is not None:
+        edits.append(_setting([item], name, new))
+    color = light_lines(parse_color("color", fields.color), "of the light", fonts)
+    if color is not None:
+        edits.append(_setting([item], "color", color))
+    return edits
+
+
+def _scene_lines(scene: Scene, around: Around) -> list[Edit]:
+    """Of the scene itself."""
+    edits: list[Edit] = []
+    imgui.set_next_item_width(-1)
+    changed, name = imgui.input_text_with_hint("##scene name", "name of the scene", scene.name)
+    if changed:
+        edits.append(_setting_scene("name", name))
+    for field, label, told in (
+        ("background", "sky", "what is seen where no object is"),
+        ("ambient", "ambient", "light that comes from everywhere: each surface reflects it"),
+    ):
+        new = color_line(label, getattr(scene, field), told, around.fonts)
+        if new is not None:
+            edits.append(_setting_scene(field, new))
+    return edits
+
+
+def _setting(items: Sequence[Item], field: str, value: Any) -> Edit:
+    return lambda scene: set_field(scene, items, field, value)
+
+
+def _setting_scene(field: str, value: Any) -> Edit:
+    return lambda scene: set_scene_field(scene, field, value)

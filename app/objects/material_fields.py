@@ -1,0 +1,107 @@
+"""The lines of the inspector for what objects are made of.
+
+Owns their layout. A material that several objects share is changed for all of them, or for what is
+chosen alone: the user says which.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from typing import Any
+
+from imgui_bundle import imgui
+
+from app.objects.value_fields import color_line, number_line
+from app.widgets import rows, theme
+from app.widgets.checks import checkbox
+from app.widgets.fields import Scale
+from renderer.scene.model import Checker, Scene
+from renderer.scene_editing import materials
+from renderer.scene_editing.changing import Item
+from renderer.scene_editing.materials import MaterialUse, material_of, set_material
+
+OWN, OF_MODEL = "its own", "the model's own"
+SHININESS = Scale(1, 1000, logarithmic=True, least=1, most=1000)
+CELLS = Scale(1e-2, 100, logarithmic=True)
+
+Edit = Callable[[Scene], Scene]
+
+
+def material_lines(
+    scene: Scene, items: Sequence[Item], for_all: bool, fonts: theme.Fonts
+) -> tuple[bool, list[Edit]]:
+    """Draws the lines for the last of the items, into the current window. Gives for_all anew."""
+    rows.line()
+    use = material_of(scene, items[-1])
+    edits = _which(scene, items, use, fonts)
+    others = [item for item in use.users if item not in items]
+    if use.name and others:
+        count = len(use.users)
+        _, for_all = checkbox(f"for all {count} that have it", for_all)
+        imgui.set_item_tooltip("else what is chosen gets a material of its own")
+    all_of_them = for_all or not others
+
+    def put(field: str, value: Any) -> None:
+        edits.append(lambda scene: set_material(scene, items, field, value, all_of_them))
+
+    def add(field: str, value: Any) -> None:
+        if value is not None:
+            put(field, value)
+
+    made = use.material
+    add("diffuse", color_line("diffuse", made.diffuse, "reflected to all sides", fonts))
+    told = "of the highlight; what mirrors reflect"
+    add("specular", color_line("specular", made.specular, told, fonts))
+    told = "the highlight's exponent: the larger, the smaller the highlight"
+    add("shininess", number_line("shininess", made.shininess, SHININESS, told, fonts, 50.0))
+    _checker_lines(made.checker, put, fonts)
+    return for_all, edits
+
+
+def _which(scene: Scene, items: Sequence[Item], use: MaterialUse, fonts: theme.Fonts) -> list[Edit]:
+    """Which material: one of its own, or one that has a name."""
+    edits: list[Edit] = []
+    width = rows.row("material", "", "a name that several objects can share, or its own", fonts)
+    imgui.set_next_item_width(width)
+    own = OF_MODEL if use.is_models else OWN
+    if imgui.begin_combo("##material", use.name or own):
+        for name in materials.material_names(scene):
+            if imgui.selectable(name, name == use.name)[0] and name != use.name:
+                edits.append(_using(items, name))
+        imgui.separator()
+        if imgui.selectable("Its own", False)[0]:
+            edits.append(lambda scene: materials.own_material(scene, items))
+        if not use.name and imgui.selectable("Share it under a name", False)[0]:
+            name = _free_name(scene)
+            edits.append(lambda scene: materials.share_material(scene, items[-1], name))
+        imgui.end_combo()
+    return edits
+
+
+def _checker_lines(
+    checker: Checker | None, put: Callable[[str, Any], None], fonts: theme.Fonts
+) -> None:
+    changed, on = checkbox("checker", checker is not None)
+    imgui.set_item_tooltip("every other cell of a pattern of cubes takes another colour")
+    if changed:
+        default = Checker()
+        new = {"diffuse": list(default.diffuse), "size": default.size}
+        put("checker", new if on else None)
+    elif checker is not None:
+        color = color_line("cells", checker.diffuse, "of every other cell", fonts)
+        if color is not None:
+            put("checker.diffuse", color)
+        size = number_line("size", checker.size, CELLS, "a cell's side", fonts, 1.0)
+        if size is not None:
+            put("checker.size", size)
+
+
+def _free_name(scene: Scene) -> str:
+    taken, number = set(materials.material_names(scene)), 1
+    while f"material {number}" in taken:
+        number += 1
+    return f"material {number}"
+
+
+def _using(items: Sequence[Item], name: str) -> Edit:
+    return lambda scene: materials.use_material(scene, items, name)

@@ -1,0 +1,101 @@
+"""Fields for the values of scene files: numbers, three of them, colours; each a line of a panel.
+
+Owns their look and bounds. Knows nothing of scenes.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+from imgui_bundle import imgui
+
+from app.widgets import rows, theme
+from app.widgets.fields import Scale, number_field
+from renderer.images.display import encode_srgb, from_srgb
+from renderer.scene.model import BRIGHTEST, Color
+
+AXES = ("x", "y", "z")
+DIGITS = 6  # of a colour's part
+
+
+def number_line(
+    label: str, value: float, scale: Scale, tooltip: str, fonts: theme.Fonts, reset: float
+) -> float | None:
+    """A label and one number; the new one, None where it did not change."""
+    width = rows.row(label, "", tooltip, fonts)
+    changed, new = number_field(
+        label, float(value), width, scale, theme.PLAIN, fonts.mono, tooltip, reset=reset
+    )
+    return new if changed else None
+
+
+def whole_line(
+    label: str, value: int, scale: Scale, tooltip: str, fonts: theme.Fonts, reset: int
+) -> int | None:
+    """The same for a whole number."""
+    new = number_line(label, value, scale, tooltip, fonts, reset)
+    return None if new is None or round(new) == value else round(new)
+
+
+def vector_line(
+    label: str,
+    value: Sequence[float],
+    scales: Sequence[Scale],
+    tooltip: str,
+    fonts: theme.Fonts,
+    reset: Sequence[float],
+) -> list[float] | None:
+    """A label and three numbers."""
+    thirds = rows.Thirds()
+    rows.label(label, "", theme.TEXT, fonts, tooltip)
+    found = [float(part) for part in value]
+    changed = False
+    for axis, letter in enumerate(AXES):
+        thirds.go(axis)
+        hit, found[axis] = number_field(
+            f"{label}.{letter}",
+            found[axis],
+            thirds.field_px,
+            scales[axis],
+            theme.PLAIN,
+            fonts.mono,
+            f"{tooltip}: {letter}",
+            reset=float(reset[axis]),
+        )
+        changed |= hit
+    return found if changed else None
+
+
+def color_line(label: str, value: Color, tooltip: str, fonts: theme.Fonts) -> list[float] | None:
+    """A label, and a colour that is picked as the screen shows it; its linear values beside it."""
+    width = rows.row(label, "", tooltip, fonts)
+    shown = encode_srgb(np.asarray(value, np.float32)).tolist()
+    linear = ", ".join(f"{part:.3g}" for part in value)
+    kinds = imgui.ColorEditFlags_
+    flags = kinds.display_rgb | kinds.uint8 | kinds.input_rgb | kinds.picker_hue_wheel
+    imgui.set_next_item_width(width)
+    imgui.push_font(fonts.mono, 0.0)
+    changed, picked = imgui.color_edit3(f"##{label}", shown, int(flags))
+    imgui.pop_font()
+    imgui.set_item_tooltip(f"{tooltip}\nlinear light: {linear}")
+    if not changed:
+        return None
+    return [float(f"{part:.{DIGITS}g}") for part in from_srgb(np.array(picked[:3])).tolist()]
+
+
+def light_lines(value: Color, tooltip: str, fonts: theme.Fonts) -> list[float] | None:
+    """A light's colour: its hue at full strength, and its intensity."""
+    strength = max(value)
+    hue = tuple(part / strength for part in value) if strength > 0 else (1.0, 1.0, 1.0)
+    picked = color_line("colour", hue, tooltip, fonts)  # type: ignore[arg-type]
+    if picked is not None:
+        top = max(picked)
+        factor = (strength or 1.0) / top if top > 0 else 0.0
+        return [float(f"{part * factor:.{DIGITS}g}") for part in picked]
+    scale = Scale(0.0, 2.0, least=0.0, most=BRIGHTEST)
+    new = number_line("intensity", strength, scale, "of its strongest part", fonts, 1.0)
+    if new is None:
+        return None
+    new = min(max(new, 0.0), BRIGHTEST)
+    return [float(f"{part * new:.{DIGITS}g}") for part in hue]

@@ -1,0 +1,81 @@
+"""The list of the scene's objects, and what is chosen in numbers: two views that can be docked.
+
+Owns what they keep beside the state. What is drawn is outliner.py's and inspector.py's.
+"""
+
+from __future__ import annotations
+
+from typing import ClassVar
+
+from app.cameras.focus import object_corners
+from app.cameras.presets import framed
+from app.host import layout
+from app.host.view import DockedView, Host
+from app.objects import editing
+from app.objects.inspector import Around, Inspector, inspector_panel
+from app.objects.outliner import Outliner, outliner_panel
+from renderer.errors import LucidaError
+from renderer.scene_editing.changing import Item, ids_of
+
+OBJECTS, INSPECTOR = "Objects", "Inspector"
+
+
+class ObjectsView(DockedView):
+    name = OBJECTS
+    title = OBJECTS
+    places: ClassVar = {layout.SCENE: layout.CAMERA_SPACE}
+
+    def __init__(self) -> None:
+        self.outliner = Outliner()
+
+    def takes(self, host: Host, text: str) -> bool:
+        if not editing.is_scene_text(text):
+            return False
+        try:
+            host.change(editing.pasted(host.state, text))
+        except LucidaError as error:
+            host.files.message = f"Nothing was pasted. {error}"
+        return True
+
+    def draw(self, host: Host) -> None:
+        listed = outliner_panel(self.outliner, host.state, host.focus)
+        self.outliner = listed.outliner
+        if listed.problem:
+            host.files.message = listed.problem
+        if listed.changed is not None:
+            host.change(listed.changed)
+        if listed.chosen is not None:
+            host.amend(listed.chosen)
+        if listed.framed is not None:
+            frame_item(host, listed.framed)
+        if listed.model:
+            host.files.open_dialog()
+
+
+class InspectorView(DockedView):
+    name = INSPECTOR
+    title = INSPECTOR
+    places: ClassVar = {layout.SCENE: layout.INSTRUMENTS}
+
+    def __init__(self) -> None:
+        self.inspector = Inspector()
+
+    def draw(self, host: Host) -> None:
+        around = Around(host.fonts, host.focus)
+        self.inspector, state = inspector_panel(self.inspector, host.state, around)
+        host.apply(state)
+
+
+def frame_item(host: Host, item: Item) -> None:
+    """The camera goes to where an object fills the picture."""
+    numbers = ids_of(host.state.scene, item)
+    corners = [object_corners(host.state.scene.objects[number]) for number in numbers]
+    if not corners:
+        return
+    points = [point for box in corners for point in box]
+    try:
+        camera = framed(host.state.camera, points, host.focus.bounds)
+    except LucidaError as error:
+        host.files.message = str(error)
+        return
+    host.travel(host.state.with_camera(camera))
