@@ -43,7 +43,7 @@ def middle_of(flat: FlatScene) -> tuple[float, float, float]:
 
 
 def _parameters(flat: FlatScene, camera: Camera) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """The smallest and the largest ray parameter of each object: the depth along -w, in units of
+    """The smallest and the largest ray parameter of each object that is not hidden: the depth along -w, in units of
     the distance (perspective) or of w (parallel)."""
     unit = 1.0 if camera.is_parallel else camera.distance
     back = -camera.camera_from_world[2] / unit
@@ -55,4 +55,5 @@ def _parameters(flat: FlatScene, camera: Camera) -> tuple[NDArray[np.float64], N
     reach = flat.spheres[:, 3] * np.linalg.norm(back[:3])
     low[flat.sphere_object] = centers - reach
     high[flat.sphere_object] = -centers - reach
-    return low, -high
+    seen = np.isfinite(low)  # the others are hidden
+    return low[seen], -high[seen]

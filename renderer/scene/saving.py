@@ -16,7 +16,16 @@ from renderer.atomic import atomic_write
 from renderer.errors import LucidaError
 from renderer.scene import framing
 from renderer.scene.load import BUILTIN_SCENES
-from renderer.scene.model import DirectionalLight, Material, Origin, PointLight, Scene, SceneObject, Sphere, View
+from renderer.scene.model import (
+    DirectionalLight,
+    Material,
+    Origin,
+    PointLight,
+    Scene,
+    SceneObject,
+    Sphere,
+    View,
+)
 from renderer.scene.rewriting import rewritten
 from renderer.scene.tables import VERSION
 from renderer.scene.toml_writing import toml_text

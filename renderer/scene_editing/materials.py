@@ -15,7 +15,6 @@ from renderer.scene.model import Material, Scene
 from renderer.scene.saving import material_table
 from renderer.scene_editing.changing import (
     Item,
-    Kind,
     Table,
     as_tables,
     entry_of,
