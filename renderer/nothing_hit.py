@@ -43,8 +43,8 @@ def middle_of(flat: FlatScene) -> tuple[float, float, float]:
 
 
 def _parameters(flat: FlatScene, camera: Camera) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """The smallest and the largest ray parameter of each object that is not hidden: the depth along -w, in units of
-    the distance (perspective) or of w (parallel)."""
+    """The smallest and the largest ray parameter of each object that is not hidden: the depth along
+    -w, in units of the distance (perspective) or of w (parallel)."""
     unit = 1.0 if camera.is_parallel else camera.distance
     back = -camera.camera_from_world[2] / unit
     low, high = np.full((2, len(flat.object_sphere)), np.inf)
