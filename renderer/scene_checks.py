@@ -72,10 +72,10 @@ def mesh_facts(mesh: Mesh) -> MeshFacts:
     joined = merge_positions(mesh.vertices)
     faces = joined[mesh.faces]
     normals = face_normals(mesh.vertices, faces)
-    sides = [
-        mesh.vertices[faces[:, k]].astype(float) - mesh.vertices[faces[:, k - 1]] for k in range(3)
-    ]
-    longest = np.max([np.einsum("ij,ij->i", side, side) for side in sides], axis=0)
+    longest = np.zeros(len(faces))
+    for k in range(3):
+        side = mesh.vertices[faces[:, k]].astype(float) - mesh.vertices[faces[:, k - 1]]
+        longest = np.maximum(longest, np.einsum("ij,ij->i", side, side))
     flat = np.linalg.norm(normals, axis=1) <= _NO_AREA * longest
     a, b, c = np.sort(faces, axis=1).T
     order = np.lexsort((c, b, a))
@@ -88,9 +88,10 @@ def mesh_facts(mesh: Mesh) -> MeshFacts:
     keys = low * np.int64(len(mesh.vertices)) + high
     order = np.argsort(keys)
     keys, along = keys[order], (starts < ends)[order]
-    first = np.flatnonzero(np.concatenate([[True], keys[1:] != keys[:-1]])) if len(keys) else []
-    count = np.diff([*first, len(keys)]) if len(keys) else np.zeros(0, int)
-    forward = np.add.reduceat(along.astype(np.int64), first) if len(keys) else count
+    new = np.concatenate([[True], keys[1:] != keys[:-1]]) if len(keys) else np.zeros(0, bool)
+    first = np.flatnonzero(new)
+    count = np.diff(np.append(first, len(keys)))
+    forward = np.add.reduceat(along.astype(np.int64), first) if len(first) else count
     torn = int(np.count_nonzero((count == 2) & (forward != 1)))
     opened = int(np.count_nonzero(count == 1))
     crowded = int(np.count_nonzero(count > 2))
@@ -146,9 +147,8 @@ def _told(fact: MeshFacts, number: int, is_surface: bool) -> list[Oddity]:
         faces = _counted(fact.repeated_faces, "face repeats", "faces repeat")
         texts.append(("repeated-faces", f"{faces} another one's corners"))
     if fact.flat_faces:
-        texts.append(
-            ("flat-faces", f"{_counted(fact.flat_faces, 'face has', 'faces have')} no area")
-        )
+        faces = _counted(fact.flat_faces, "face has", "faces have")
+        texts.append(("flat-faces", f"{faces} no area"))
     if fact.against:
         faces = _counted(fact.against, "face", "faces")
         texts.append(("normals-against", f"vertex normals point against the turn of {faces}"))
@@ -194,7 +194,7 @@ def _lights_inside(scene: Scene, facts: dict[int, MeshFacts]) -> list[Oddity]:
         for k, entry in scene.visible:
             shape = entry.shape
             if isinstance(shape, Sphere):
-                inside = np.linalg.norm(point - shape.center) < shape.radius
+                inside = bool(np.linalg.norm(point - shape.center) < shape.radius)
             else:
                 inside = facts[k].is_closed and _is_inside(shape, point)
             if inside:

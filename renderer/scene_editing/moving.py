@@ -79,7 +79,7 @@ def bounds_of(scene: Scene, items: Sequence[Item]) -> Floats | None:
 
 
 def object_box(shape: Shape) -> Floats:
-    """The lowest and highest corner (2, 3) of a sphere, or around a mesh's own box, in the world."""
+    """The lowest and highest corner (2, 3) of a sphere, or around a mesh's box, in the world."""
     if isinstance(shape, Sphere):
         center = np.asarray(shape.center)
         return np.array([center - shape.radius, center + shape.radius])
