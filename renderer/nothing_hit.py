@@ -25,9 +25,10 @@ class Reason(NamedTuple):
 
 
 class _Extents(NamedTuple):
-    """Of each object, (n,): the smallest and largest ray parameter, that is the depth along -w, in
-    units of the distance (perspective) or of w (parallel); and what it covers on the image plane,
-    lowest and highest, (n, 2): infinite where it reaches from behind the eye to before it."""
+    """Of each object that is not hidden, (n,): the smallest and largest ray parameter, that is the
+    depth along -w, in units of the distance (perspective) or of w (parallel); and what it covers on
+    the image plane, lowest and highest, (n, 2): infinite where it reaches from behind the eye to
+    before it."""
 
     near: NDArray[np.float64]
     far: NDArray[np.float64]
@@ -51,7 +52,8 @@ def why_nothing_is_hit(flat: FlatScene, camera: Camera, size: Size | None = None
     near, far = camera.t_range
     behind, count = int(np.count_nonzero(objects.far <= 0)), len(objects.far)
     if not count:
-        return Reason("empty", "the scene has no objects")
+        hidden = len(flat.object_sphere) > 0
+        return Reason("empty", "all objects are hidden" if hidden else "the scene has no objects")
     if behind == count:
         return Reason("behind", "everything is behind the eye")
     if not (objects.far > near).any():
@@ -140,7 +142,8 @@ def _extents(flat: FlatScene, camera: Camera) -> _Extents:
         signs = np.stack(np.meshgrid((-1, 1), (-1, 1), (-1, 1)), -1).reshape(-1, 3)
         boxes = center[:, None] + signs * reach[:, None]
         _take(near, far, low, high, flat.sphere_object, boxes, camera)
-    return _Extents(near / unit, far / unit, low, high)
+    seen = np.isfinite(near)  # the others are hidden
+    return _Extents(near[seen] / unit, far[seen] / unit, low[seen], high[seen])
 
 
 def _take(

@@ -40,10 +40,11 @@ class Focus:
 
 def scene_focus(scene: Scene) -> Focus:
     """The median of the objects' centres, and half again the scene's own eye or extent."""
-    if not scene.objects:
+    seen = [entry for _, entry in scene.visible]
+    if not seen:
         return Focus()
-    corners = [object_corners(entry) for entry in scene.objects]
-    balls = [_ball(entry, box) for entry, box in zip(scene.objects, corners, strict=True)]
+    corners = [object_corners(entry) for entry in seen]
+    balls = [_ball(entry, box) for entry, box in zip(seen, corners, strict=True)]
     center = np.median([middle for middle, _ in balls], axis=0)
     extents = [float(np.linalg.norm(middle - center)) + radius for middle, radius in balls]
     eye = np.abs(np.asarray(scene.view.camera.eye) - center).max()

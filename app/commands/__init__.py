@@ -12,8 +12,9 @@ from app.commands import (
     lecture,
     pick,
     render,
+    scene,
     scenes,
     tasks,
 )
 
-COMMANDS = (render, compare, pick, camera, export, check, tasks, lecture, scenes, doctor)
+COMMANDS = (render, compare, pick, camera, export, check, tasks, lecture, scene, scenes, doctor)

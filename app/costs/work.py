@@ -75,5 +75,5 @@ class Counter:
         if self._prepared is None or self._prepared[0] is not scene:
             self._prepared = scene, counting.counting_tree(scene)
         ray = counting.trace_counts(self._prepared[1], camera, size)
-        set_up = sum(len(e.shape.faces) for e in scene.objects if isinstance(e.shape, Mesh))
+        set_up = sum(len(e.shape.faces) for _, e in scene.visible if isinstance(e.shape, Mesh))
         return Work(set_up, size[0] * size[1], set_up, tested, ray.rays, ray.nodes, ray.tests)

@@ -18,7 +18,6 @@ from app.state.options import Pixel
 from app.storage.recent import RecentFiles
 from app.widgets.theme import Fonts
 from renderer.camera import Camera
-from renderer.scene import Scene
 from renderer.scene import View as SceneView
 
 
@@ -36,7 +35,6 @@ class Filing(Protocol):
     def open_tasks_dialog(self) -> None: ...
     def open_photograph_dialog(self) -> None: ...
     def save_view_dialog(self, view: SceneView) -> None: ...
-    def save_scene_dialog(self, scene: Scene, view: SceneView) -> None: ...
     def save_as_dialog(
         self, title: str, name: str, kind: tuple[str, ...], store: Callable[[str], str]
     ) -> None:
@@ -44,8 +42,15 @@ class Filing(Protocol):
         the endings, of which the first is added to a name without one. store: does it, and says
         what it did."""
 
-    def ask(self, text: str, answer: str, then: Callable[[], None]) -> None:
-        """Asks something that stands on one button, beside Cancel. then: does it, after a yes."""
+    def ask(
+        self,
+        text: str,
+        answer: str,
+        then: Callable[[], None],
+        other: tuple[str, Callable[[], None]] | None = None,
+    ) -> None:
+        """Asks something that stands on one button, beside Cancel. then: does it, after a yes.
+        other: what can be done instead, and does it."""
 
     def say(self, text: str) -> None:
         """Something was done: tells it in passing."""

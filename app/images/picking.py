@@ -26,7 +26,7 @@ def nearest_hit(scene: Scene, origin: Floats, direction: Floats) -> tuple[float,
     """The smallest t > 0 at which r(t) = origin + t direction meets an object, and its index;
     infinity and None for nothing. Both sides of triangles count."""
     nearest, number = math.inf, None
-    for k, entry in enumerate(scene.objects):
+    for k, entry in scene.visible:
         shape = entry.shape
         meet = _sphere if isinstance(shape, Sphere) else _mesh
         t = meet(shape, origin, direction)  # type: ignore[arg-type]
@@ -39,7 +39,7 @@ def is_quick(scene: Scene) -> bool:
     """Whether nearest_hit() takes no more than a small part of a frame."""
     if len(scene.objects) > MOST_OBJECTS:
         return False
-    meshes = (entry.shape for entry in scene.objects if isinstance(entry.shape, Mesh))
+    meshes = (entry.shape for _, entry in scene.visible if isinstance(entry.shape, Mesh))
     return sum(len(mesh.faces) for mesh in meshes) <= MOST_TRIANGLES
 
 

@@ -74,7 +74,7 @@ def outlines(scene: Scene, screen: OutsideScreen) -> tuple[list[Outline], list[s
     found: list[Outline] = []
     left_out: list[str] = []
     triangles = 0
-    for number, entry in enumerate(scene.objects):
+    for number, entry in scene.visible:
         name, shape = entry.name or f"object {number}", entry.shape
         if isinstance(shape, Sphere):
             form: Edges | Ellipse | None = sphere_outline(shape, screen)

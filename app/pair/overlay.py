@@ -42,10 +42,10 @@ def draw_legend(
     elif channel == "normal":
         _words(draw, screen, [("normal", TEXT), *((n, theme.rgb(c)) for n, c in NORMAL)], fonts)
     elif channel == "id":
-        objects = state.scene.objects[:MOST_NAMES]
-        words = [(entry.name or f"object {k}", _palette(k)) for k, entry in enumerate(objects)]
-        if len(state.scene.objects) > MOST_NAMES:
-            words.append((f"and {len(state.scene.objects) - MOST_NAMES} more", DIM))
+        objects = state.scene.visible
+        words = [(entry.name or f"object {k}", _palette(k)) for k, entry in objects[:MOST_NAMES]]
+        if len(objects) > MOST_NAMES:
+            words.append((f"and {len(objects) - MOST_NAMES} more", DIM))
         _column(draw, screen, words)
 
 

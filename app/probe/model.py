@@ -124,7 +124,7 @@ class Probe:
                 "sphere" if isinstance(entry.shape, Sphere) else "mesh",
                 tuple(by_object.get(number, ())),
             )
-            for number, entry in enumerate(self.scene.objects)
+            for number, entry in self.scene.visible
         ]
         return tuple(sorted(meetings, key=_place))
 

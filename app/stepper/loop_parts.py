@@ -65,7 +65,7 @@ class Model:
         self.index = Index(flatten(scene)) if index is None else index
         self.flat: FlatScene = self.index.flat
         self.background: Color = _three(self.flat.background)
-        self.objects = tuple(self._object(number) for number in range(len(scene.objects)))
+        self.objects = tuple(self._object(number) for number, _ in scene.visible)
 
     def _object(self, number: int) -> Object:
         flat, sphere = self.flat, int(self.flat.object_sphere[number])

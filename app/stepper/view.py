@@ -112,7 +112,7 @@ class StepperView(DockedView):
         self._seen = True
         options = host.state.of(StepperOptions)
         scene = host.state.scene
-        has_triangles = any(not isinstance(one.shape, Sphere) for one in scene.objects)
+        has_triangles = any(not isinstance(one.shape, Sphere) for _, one in scene.visible)
         changed, wish = panel.controls(options, self.playing, has_triangles)
         language = panel.language(host.state.options.language)
         host.apply(host.state.with_options(language=language))
@@ -296,7 +296,7 @@ def _items(pair: Pair, run: Recording, moment: Moment, end: float) -> list[Item]
         sides = np.stack([points, np.roll(points, -1, axis=0)], axis=1)
         items.append(Segments(f"{name} triangle", "ray", sides, 2.5, layer=3))
     elif moment.object is not None:
-        thing = run.model.objects[moment.object]
+        thing = next(o for o in run.model.objects if o.number == moment.object)
         items.append(Segments(f"{name} object", "extra", _box(thing.low, thing.high), 1.8, layer=2))
     if moment.box is not None and moment.box[0] and moment.box[1]:
         items.append(_plane_box(pair.camera, pair.size, moment.box))

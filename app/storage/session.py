@@ -15,12 +15,13 @@ from app.state.all_options import AllOptions
 from app.state.app_state import AppState
 from app.state.bounds import check
 from app.storage.kept_lecture import KeptLecture
+from app.storage.kept_scene import KeptScene, kept_scene
 from app.storage.paths import restored, stored
 from renderer.errors import LucidaError
-from renderer.scene import BUILTIN_SCENES, Scene, View
+from renderer.scene import BUILTIN_SCENES, Scene, View, load_scene
 
 VERSION = 1  # of the format: the key `lucida_session`
-LARGEST_BYTES = 4 << 20
+LARGEST_BYTES = 20 << 20  # an edited scene is in it twice, as it is and as its file is
 
 
 class NewerVersionError(LucidaError):
@@ -47,7 +48,8 @@ class Arrangement:
 @dataclass(frozen=True)
 class Session:
     """A session file. scene: what load_scene takes, as paths.stored() writes it. lecture: the one
-    that was given, or None. The rest as in AppState."""
+    that was given, or None. edited: the scene, where it is not what load_scene gives. The rest as
+    in AppState."""
 
     scene: str
     view: View
@@ -55,11 +57,16 @@ class Session:
     options: AllOptions = field(default_factory=AllOptions)
     arrangement: Arrangement = field(default_factory=Arrangement)
     lecture: KeptLecture | None = None
+    edited: KeptScene | None = None
 
     @property
     def source(self) -> str:
         """What load_scene takes."""
         return restored(self.scene)
+
+    def load_scene(self) -> Scene:
+        """The scene as it was left. Raises LucidaError."""
+        return load_scene(self.source) if self.edited is None else self.edited.scene()
 
     def state(self, scene: Scene) -> AppState:
         """The state that was kept, in the scene that was loaded for it."""
@@ -70,8 +77,10 @@ def session_of(
     state: AppState, arrangement: Arrangement, lecture: KeptLecture | None = None
 ) -> Session:
     """What to keep of a state. A scene from no file is not kept: the first built-in one is."""
-    source = stored(source_of(state.scene))
-    return Session(source, state.view, state.keep_orthonormal, state.options, arrangement, lecture)
+    source, edited = stored(source_of(state.scene)), kept_scene(state.scene)
+    return Session(
+        source, state.view, state.keep_orthonormal, state.options, arrangement, lecture, edited
+    )
 
 
 def source_of(scene: Scene) -> str:

@@ -8,7 +8,7 @@ from __future__ import annotations
 from typing import Literal
 
 from app.host import layout
-from app.host.action import CTRL, SHIFT, Action, Key, changing
+from app.host.action import ALT, CTRL, SHIFT, Action, Key, changing
 from app.state.app_state import AppState
 from app.state.bounds import range_of
 from app.state.options import Preferences
@@ -81,20 +81,29 @@ FILE = (
     Action("File", "Open photograph...", lambda w: w.files.open_photograph_dialog()),
     Action(
         "File",
-        "Save view...",
-        lambda w: w.files.save_view_dialog(w.state.view),
+        "Save scene",
+        lambda w: w.save_scene(),
         "Ctrl+S",
         (CTRL | int(Key.s),),
         separated=True,
     ),
-    *CAMERA_FILES,
     Action(
         "File",
-        "Save scene...",
-        lambda w: w.files.save_scene_dialog(w.state.scene, w.state.view),
+        "Save scene as...",
+        lambda w: w.save_scene_as(),
         "Ctrl+Shift+S",
         (CTRL | SHIFT | int(Key.s),),
     ),
+    Action("File", "Save scene with this view", lambda w: w.save_scene_with_view()),
+    Action(
+        "File",
+        "Save view...",
+        lambda w: w.files.save_view_dialog(w.state.view),
+        "Ctrl+Alt+S",
+        (CTRL | ALT | int(Key.s),),
+        separated=True,
+    ),
+    *CAMERA_FILES,
     Action("File", "Export...", lambda w: w.shell.export_as(w), "Ctrl+E", (CTRL | int(Key.e),)),
     Action(
         "File/Picture",

@@ -29,7 +29,6 @@ from renderer.scene import (
     SCENE_ENDINGS,
     Scene,
     View,
-    save_scene,
     save_view,
 )
 from renderer.scene.cancelling import cancelled_by
@@ -191,17 +190,12 @@ class Files:
 
         self.save_as_dialog("Save the view", "view.toml", ("View files", ".toml"), store)
 
-    def save_scene_dialog(self, scene: Scene, view: View) -> None:
-        """view: what becomes the scene's own."""
-
-        def store(path: str) -> str:
-            save_scene(path, scene, view)
-            self._watch.take_present()
-            self.recent.add(str(Path(path).absolute()))
-            return one_line(f"Saved the scene as {path}.")
-
-        name = f"{file_name(scene.name)}.toml"
-        self.save_as_dialog("Save the scene", name, ("Scene files", ".toml"), store)
+    def know(self, saved: Scene) -> None:
+        """The window has written a scene's file itself: that is no change by somebody else."""
+        assert saved.origin is not None
+        self._watch.know(saved.origin.files)
+        self._watch.take_present()
+        self.recent.add(saved.origin.source)
 
     def save_picture_dialog(self, name: str, chosen: Callable[[Path], None]) -> None:
         """Asks where a picture is to go."""
@@ -271,9 +265,16 @@ class Files:
         said, self._said = self._said, []
         return said
 
-    def ask(self, text: str, answer: str, then: Callable[[], None]) -> None:
-        """Asks something that stands on one button, beside Cancel. then: does it, after a yes."""
-        self.question = WindowQuestion(text, answer, then)
+    def ask(
+        self,
+        text: str,
+        answer: str,
+        then: Callable[[], None],
+        other: tuple[str, Callable[[], None]] | None = None,
+    ) -> None:
+        """Asks something that stands on one button, beside Cancel. then: does it, after a yes.
+        other: what can be done instead, and does it."""
+        self.question = WindowQuestion(text, answer, then, other)
         self._wake()
 
     def say(self, text: str) -> None:

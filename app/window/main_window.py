@@ -39,7 +39,8 @@ from app.window.files import Files
 from app.window.instruments import make_views
 from app.window.menus import menu_bar
 from app.window.opening import Opened
-from app.window.platform import on_drop, set_title
+from app.window.platform import keep_open, on_drop, set_title
+from app.window.scene_saving import SceneSaving
 from app.window.shell import Shell
 from app.window.status import Status, is_good_news, status_line, told
 from app.window.title import title
@@ -74,7 +75,7 @@ class MainWindow:
         self.shell = Shell(list(self.views.values()), self.files, self.fonts, wake, keeper)
         self._hovered: tuple[str, Pixel] | None = None
         self._next_hovered: tuple[str, Pixel] | None = None
-        self._titled = state.scene
+        self._titled = title(state.scene)
         self._gesture = 0
         self._was_active = False
         self.asking_size: SizeEntry | None = None
@@ -85,6 +86,8 @@ class MainWindow:
         self.moves = smooth
         self._fly = Fly()
         self._over: DockedView | None = None
+        self.saving = SceneSaving(self.files, wake, self._quit)
+        self._closes = False
 
     # What actions and views ask for.
 
@@ -231,7 +234,31 @@ class MainWindow:
         self.animate()
 
     def quit(self) -> None:
+        if self.saving.closes(self.state):
+            self._quit()
+
+    def _quit(self) -> None:
+        self._closes = True
         hello_imgui.get_runner_params().app_shall_exit = True
+
+    def _follow_closing(self) -> None:
+        """The window's own button to close: asks first where something would be lost."""
+        params = hello_imgui.get_runner_params()
+        if params.app_shall_exit and not self._closes and self.moves:
+            if self.saving.closes(self.state):
+                self._closes = True
+            else:
+                params.app_shall_exit = False
+                keep_open()
+
+    def save_scene(self) -> None:
+        self.saving.save(self.state)
+
+    def save_scene_as(self) -> None:
+        self.saving.save_as(self.state)
+
+    def save_scene_with_view(self) -> None:
+        self.saving.save_with_view(self.state)
 
     # HelloImGui's callbacks.
 
@@ -252,9 +279,12 @@ class MainWindow:
             self._gesture += 1
         self._was_active = active
         self._hovered, self._next_hovered = self._next_hovered, None
-        if self.state.scene is not self._titled:  # also by undo
-            self._titled = self.state.scene
-            set_title(title(self._titled))
+        self._follow_closing()
+        self.saving.poll(self)
+        name = title(self.state.scene)
+        if name != self._titled:  # also by undo
+            self._titled = name
+            set_title(name)
         self._over = self.shell.stage.take_hovered()
         self._move_by_itself(active)
         if self.state.step is None and self.files.follow(self.state.scene):
@@ -320,11 +350,12 @@ class MainWindow:
 
     def end(self) -> None:
         """Once, before the context goes."""
-        self.shell.end(self)
+        self.shell.end(self, keeps_edits=not self.saving.discards)
         for view in self.views.values():
             view.end()
         self.renderers.end()
         self.files.close()
+        self.saving.close()
 
     def _move_by_itself(self, active: bool) -> None:
         """The camera under way, and keys that are held. A press of the mouse on anything ends the

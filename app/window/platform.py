@@ -88,6 +88,13 @@ def set_title(text: str) -> None:
         glfw.set_window_title(window, one_line(text))
 
 
+def keep_open() -> None:
+    """The window whose context is current was to close, and does not."""
+    window = glfw.get_current_context()
+    if window:
+        glfw.set_window_should_close(window, False)
+
+
 class Keys:
     """Gives the current window's keys to ImGui, each with its own modifiers.
 

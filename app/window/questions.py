@@ -1,4 +1,4 @@
-"""What the window asks before it does something: one thing, which stands on a button beside Cancel.
+"""What the window asks before it does something: what stands on a button or two beside Cancel.
 
 Knows nothing of how it is drawn.
 """
@@ -15,11 +15,12 @@ from renderer.scene.outside import LISTED
 
 @dataclass(frozen=True)
 class WindowQuestion:
-    """answer: the words on the button. then: does it."""
+    """answer: the words on the button. then: does it. other: another button, and what that does."""
 
     text: str
     answer: str
     then: Callable[[], None]
+    other: tuple[str, Callable[[], None]] | None = None
 
 
 def outside_question(name: str, files: Sequence[Path]) -> str:

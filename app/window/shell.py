@@ -213,12 +213,15 @@ class Shell:
         """Once a frame, when all is drawn, before it is shown."""
         self.captures.after_drawing(target)
 
-    def end(self, window: Window) -> None:
-        """Once, at the end."""
+    def end(self, window: Window, keeps_edits: bool = True) -> None:
+        """Once, at the end. keeps_edits: whether the session has what is not saved of the scene."""
         self.captures.close()
         self.exports.close()
         if self._keeper is not None:
-            self._keeper.close(self._session(window))
+            session = self._session(window)
+            if session is not None and not keeps_edits:
+                session = replace(session, edited=None)
+            self._keeper.close(session)
 
     def _session(self, window: Window) -> Session | None:
         """What to keep; None as long as what the window was to begin with is not there."""
@@ -235,11 +238,15 @@ class Shell:
             self._keeper.message = ""
         question = self.files.question
         if question is not None:
-            answer = message_box(Message(question.text, (question.answer, "Cancel")))
+            others = (question.other[0],) if question.other is not None else ()
+            answers = (question.answer, *others, "Cancel")
+            answer = message_box(Message(question.text, answers))
             if answer:
                 self.files.question = None
             if answer == question.answer:
                 question.then()
+            elif question.other is not None and answer == question.other[0]:
+                question.other[1]()
             return
         if self.files.message:
             if message_box(Message(self.files.message)) == "Close":

@@ -34,18 +34,21 @@ ChangeView = Callable[[View], View]
 
 @dataclass(frozen=True)
 class Later:
-    """A scene that takes long to read. view: gives the one that it is seen by."""
+    """A scene that takes long to read. view: gives the one that it is seen by. load: how, where
+    that is not load_scene(); rescued: says what became of it where it cannot be read."""
 
     source: str
     view: ChangeView
+    load: Callable[[], Scene] | None = None
+    rescued: Callable[[], str] = str
 
     def open(self) -> Opened:
         """Reads it. What goes wrong is told, and the scene that the window has begun with stays."""
         try:
-            scene = load_scene(self.source)
+            scene = load_scene(self.source) if self.load is None else self.load()
             return replace(opened_scene(self.source, scene, self.view(scene.view)), is_first=True)
         except LucidaError as error:
-            return Opened(problems=(describe(error),))
+            return Opened(problems=(describe(error) + self.rescued(),))
 
 
 @dataclass(frozen=True)
@@ -81,7 +84,8 @@ def begin_scene(
         own = view or own
         return own if change is None else change(own)
 
-    scene = load_scene(source or BUILTIN_SCENES[0]) if wait else _soon(source or BUILTIN_SCENES[0])
+    named = source or BUILTIN_SCENES[0]
+    scene = load_scene(named) if wait else _soon(lambda: load_scene(named))
     if scene is None:
         assert source is not None  # what is built in has no large models
         return Start(
@@ -105,7 +109,7 @@ def begin_session(fresh: bool = False, folder: Path | None = None) -> Start:
     if session is None:
         return replace(begin_scene(), keeper=keeper, message=found.message, fresh=fresh)
     lecture, message = _lecture(session.lecture)
-    start = _gone_on(session, lecture)
+    start = _gone_on(session, lecture, place.path.parent)
     both = "\n".join(said for said in (message, start.message) if said)
     return replace(start, keeper=keeper, lecture=lecture, message=both)
 
@@ -165,20 +169,27 @@ def _lecture(kept: KeptLecture | None) -> tuple[LectureSession | None, str]:
     return lecture, f"{lecture.lecture.source} has changed since the last session. {restore}"
 
 
-def _gone_on(session: Session, lecture: LectureSession | None) -> Start:
-    """The session's scene; instead of one that cannot be read, or not yet, a scene of its own."""
-    if lecture is not None and session.lecture is not None and session.lecture.in_step:
-        state = replace(session.state(lecture.step.scene), step=lecture.place)
-        return Start(state, session)
+def _gone_on(session: Session, lecture: LectureSession | None, folder: Path) -> Start:
+    """The session's scene; instead of one that cannot be read, or not yet, a scene of its own.
+    folder: where an edited one is put that cannot be read."""
+    step = lecture if session.lecture is not None and session.lecture.in_step else None
+    if step is not None and session.edited is None:
+        return Start(replace(session.state(step.step.scene), step=step.place), session)
+
+    def rescued() -> str:
+        path = session.edited.rescue(folder) if session.edited is not None else None
+        return f". Its unsaved changes are kept in {path}." if path is not None else ""
+
     message = ""
     try:
-        scene = _soon(session.source)
+        scene = _soon(session.load_scene)
     except LucidaError as error:
-        scene, message = None, f"The last session's scene could not be opened. {error}"
+        scene, message = None, f"The last session's scene could not be opened. {error}{rescued()}"
     if scene is not None:
-        return Start(session.state(scene), session)
+        state = session.state(scene)
+        return Start(state if step is None else replace(state, step=step.place), session)
     view = session.view
-    later = None if message else Later(session.source, lambda _: view)
+    later = None if message else Later(session.source, lambda _: view, session.load_scene, rescued)
     default = load_scene(BUILTIN_SCENES[0])  # of which the session's camera may see nothing
     state = replace(session.state(default), view=default.view)
     return Start(state, session, message=message, later=later)
@@ -188,7 +199,7 @@ class _LargeModelError(Exception):
     pass
 
 
-def _soon(source: str) -> Scene | None:
+def _soon(load: Callable[[], Scene]) -> Scene | None:
     """A scene; None where it has a large model, which takes long. Raises LucidaError."""
 
     def read(path: Path) -> ModelFile:
@@ -198,6 +209,6 @@ def _soon(source: str) -> Scene | None:
 
     try:
         with read_by(read):
-            return load_scene(source)
+            return load()
     except _LargeModelError:
         return None

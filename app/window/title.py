@@ -4,9 +4,12 @@ from __future__ import annotations
 
 from renderer.scene import Scene
 from renderer.scene.outside import outside_files
+from renderer.scene_editing.documents import is_unsaved
 
 
 def title(scene: Scene) -> str:
-    """The window's title. It tells, once, where the scene's models are, if not beside it."""
+    """The window's title. It tells, once, where the scene's models are, if not beside it; a star:
+    the scene was changed, and not saved."""
     elsewhere = " (with models from outside its folder)" if outside_files(scene) else ""
-    return f"Lucida: {scene.name}{elsewhere}" if scene.name else f"Lucida{elsewhere}"
+    star = " *" if is_unsaved(scene) else ""
+    return f"Lucida: {scene.name}{star}{elsewhere}" if scene.name else f"Lucida{star}{elsewhere}"

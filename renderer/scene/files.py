@@ -30,7 +30,7 @@ from renderer.scene.limits import (
 from renderer.scene.model import (
     Checker,
     DirectionalLight,
-    Entry,
+    FileEntry,
     Keys,
     Material,
     Mesh,
@@ -157,7 +157,7 @@ def _scene(origin: Origin, keys: Keys, name: str, saved: SavedFile) -> Scene:
 
 def _entries(
     tables: list[Any], keys: tuple[int, ...], materials: Materials, origin: Origin
-) -> tuple[Entry, ...]:
+) -> tuple[FileEntry, ...]:
     """The objects of a scene, from tables; what the origin's entries have already is taken."""
     _check_count("objects", len(tables), OBJECTS)
     folder, old = origin.folder, {entry.key: entry for entry in origin.entries}
@@ -176,7 +176,7 @@ def _entries(
     stored = 0
     models: Models = {}
     parts = _Parts(folder, origin.entries)
-    entries: list[Entry] = []
+    entries: list[FileEntry] = []
     objects = 0
     for number, entry in enumerate(fields):
         check_cancelled()
@@ -208,7 +208,7 @@ class _Parts:
     """Shapes before they are put where they are: each is built once, each model read once. entries:
     those of the scene before, which has some."""
 
-    def __init__(self, folder: Path, entries: tuple[Entry, ...]) -> None:
+    def __init__(self, folder: Path, entries: tuple[FileEntry, ...]) -> None:
         self._folder = folder
         self._models: Models = {}
         self._meshes: dict[Hashable, tuple[SceneObject, ...]] = {}
@@ -235,7 +235,7 @@ class _Parts:
         return self._meshes[shape]
 
 
-def _views(entry: Entry) -> Iterator[NamedView]:
+def _views(entry: FileEntry) -> Iterator[NamedView]:
     """A model's cameras where the model was put: they see of it what they saw."""
     table = entry.fields
     matrix = shapes.placement(table.translate, table.rotate_deg, table.scale)
@@ -260,15 +260,15 @@ def _entry(
     fields: SphereTable | MeshTable,
     material: Material | None,
     parts: _Parts,
-    old: dict[int, Entry],
-) -> Entry:
+    old: dict[int, FileEntry],
+) -> FileEntry:
     """What one table becomes: one object, or as many as a model has parts. old: the entries of the
     scene before; shapes that stay where they are, stay what they are."""
     hidden = fields.hidden
     if isinstance(fields, SphereTable):
         sphere = Sphere(fields.center, fields.radius)
         alone = SceneObject(sphere, material or Material(), fields.name, hidden)
-        return Entry(key, table, fields, material, (), (alone,))
+        return FileEntry(key, table, fields, material, (), (alone,))
     views: tuple[NamedView, ...] = ()
     if isinstance(fields, ModelTable):
         model = parts.model(fields.file)
@@ -290,7 +290,7 @@ def _entry(
             name = f"{name}/{part.name}" if name and part.name else name or part.name
         own = part.material if isinstance(fields, ModelTable) else Material()
         objects.append(SceneObject(shape, material or own, name, hidden))
-    return Entry(key, table, fields, material, made, tuple(objects), views)
+    return FileEntry(key, table, fields, material, made, tuple(objects), views)
 
 
 def _place(table: MeshTable) -> tuple[Any, ...]:

@@ -248,7 +248,7 @@ class NamedView:
 
 
 @dataclass(frozen=True, eq=False)
-class Entry:
+class FileEntry:
     """One of the [[objects]] of a scene file, and what it became; nothing of it is ever written to.
 
     key: a number that no other entry has in this process: it stays, whatever is edited. table: as
@@ -295,14 +295,14 @@ class Origin:
     tables: of its scene file, as read or edited, never written to; None for a model alone. folder:
     where its paths begin. files: all that it was read from, as they were then; none of what is
     built in. entries: one for each of the tables' objects. light_keys: one for each of their
-    lights, as Entry.key. saved: the file itself.
+    lights, as FileEntry.key. saved: the file itself.
     """
 
     source: str
     tables: dict[str, Any] | None = None
     folder: Path = Path()
     files: Noted = field(default_factory=dict)
-    entries: tuple[Entry, ...] = ()
+    entries: tuple[FileEntry, ...] = ()
     light_keys: tuple[int, ...] = ()
     saved: SavedFile = field(default_factory=SavedFile)
 

@@ -17,6 +17,7 @@ from renderer.errors import LucidaError
 from renderer.images.display import from_srgb
 from renderer.scene.model import BRIGHTEST, Material, Mesh
 from renderer.scene.normals import face_normals, merge_positions, smooth_normals
+from renderer.scene.repairs import Repair, note_repair
 
 NEEDLE = 1e-9  # height over longest side below which a triangle has no area that could be seen
 SMALLEST_AREA = 1e-18  # its square must not vanish in float32, in which the renderers compute
@@ -72,7 +73,17 @@ def build_mesh(part: Part) -> Mesh | None:
     origin = _own_origin(vertices, faces)
     with np.errstate(over="ignore", invalid="ignore"):  # of vertices that no face uses
         positions = (vertices - origin).astype(np.float32)
-    keep = _visible(positions, faces)
+    sound, repeats = _visible(positions, faces)
+    keep = sound & ~repeats
+    lost = 0 if normals is None else int(np.count_nonzero(~np.isfinite(normals).all(axis=1)))
+    note_repair(
+        Repair(
+            part.name,
+            int(np.count_nonzero(~sound)),
+            int(np.count_nonzero(sound & repeats)),
+            lost,
+        )
+    )
     faces = faces[keep]
     if not len(faces):
         return None
@@ -183,23 +194,26 @@ def _own_origin(vertices: NDArray[np.float64], faces: NDArray[np.int64]) -> NDAr
     return origin
 
 
-def _visible(positions: NDArray[np.float32], faces: NDArray[np.int64]) -> NDArray[np.bool_]:
-    """Which faces have an area and do not repeat an earlier face's positions: (m,)."""
+def _visible(
+    positions: NDArray[np.float32], faces: NDArray[np.int64]
+) -> tuple[NDArray[np.bool_], NDArray[np.bool_]]:
+    """Which faces have an area, and which repeat an earlier face's positions: (m,) each."""
     joined = merge_positions(positions)[faces]
     longest = np.zeros(len(faces))
     for corner in range(3):
         side = positions[faces[:, corner]].astype(np.float64) - positions[faces[:, corner - 1]]
         longest = np.maximum(longest, np.einsum("ij,ij->i", side, side))
     area = np.linalg.norm(face_normals(positions, faces), axis=1)
-    keep = (area > NEEDLE * longest) & (area > SMALLEST_AREA)
+    sound = (area > NEEDLE * longest) & (area > SMALLEST_AREA)
     a, b, c = np.sort(joined, axis=1).T.astype(np.uint64)
     mixed = a * np.uint64(0x9E3779B97F4A7C15) ^ b * np.uint64(0xC2B2AE3D27D4EB4F) ^ c
     mixed ^= c * np.uint64(0x165667B19E3779F9) >> np.uint64(7)
     order = np.argsort(mixed, kind="stable")
     here, before = order[1:], order[:-1]
-    repeats = (a[here] == a[before]) & (b[here] == b[before]) & (c[here] == c[before])
-    keep[here[repeats]] = False
-    return keep
+    again = (a[here] == a[before]) & (b[here] == b[before]) & (c[here] == c[before])
+    repeats = np.zeros(len(faces), bool)
+    repeats[here[again]] = True
+    return sound, repeats
 
 
 def _unit(normals: NDArray[np.float64] | None) -> NDArray[np.float32] | None:

@@ -46,7 +46,7 @@ class _UnknownFormError(Exception):
 
 
 @dataclass
-class _Block:
+class _Section:
     """A section of the text: its header with the comments above it, and its lines. before: what is
     between it and the one before it. edits: (first, last, text) in place of letters of it."""
 
@@ -93,20 +93,20 @@ class _Rewriting:
 
     # What is where.
 
-    def _split(self) -> list[_Block]:
+    def _split(self) -> list[_Section]:
         spans = list(self._places.spans.values())
         headers = self._places.headers
         firsts = [*(header.first for header in headers), len(spans)]
-        blocks: list[_Block] = []
+        blocks: list[_Section] = []
         last = self._head_end(spans[: firsts[0]], headers[0].start if headers else len(self._text))
-        blocks.append(_Block((), 0, last, last))
+        blocks.append(_Section((), 0, last, last))
         for number, header in enumerate(headers):
             own = [s for s in spans[header.first : firsts[number + 1]] if not s.is_inner]
             following = headers[number + 1].start if number + 1 < len(headers) else None
             first = self._lead(header.start, last)
             body = self._line_end(max([header.end, *(span.end for span in own)]))
             end = self._trail(body, following)
-            blocks.append(_Block(header.path, first, end, body, self._text[last:first]))
+            blocks.append(_Section(header.path, first, end, body, self._text[last:first]))
             last = end
         return blocks
 
@@ -142,10 +142,10 @@ class _Rewriting:
             end = line
         return at if following is not None and self._lead(following, at) < end else end
 
-    def _block_of(self, offset: int) -> _Block:
+    def _block_of(self, offset: int) -> _Section:
         return self._there[bisect_left(self._starts, offset + 1) - 1]
 
-    def _block_text(self, block: _Block) -> str:
+    def _block_text(self, block: _Section) -> str:
         if block.new:
             return block.new
         text, at = [], block.first
@@ -254,12 +254,12 @@ class _Rewriting:
         header = ".".join(key_text(str(name)) for name in path)
         self._insert(kin[-1] + 1, self._new(path, f"[{header}]", value))
 
-    def _new(self, path: Path, header: str, table: Tables) -> _Block:
+    def _new(self, path: Path, header: str, table: Tables) -> _Section:
         lines = [header, *entries(table)]
         text = "".join(line + self._newline for line in lines)
-        return _Block(path, -1, -1, -1, self._newline, new=text)
+        return _Section(path, -1, -1, -1, self._newline, new=text)
 
-    def _insert(self, number: int, block: _Block) -> None:
+    def _insert(self, number: int, block: _Section) -> None:
         if number == 1 and not self._block_text(self._blocks[0]):
             block.before = ""
             if len(self._blocks) > 1 and not self._blocks[1].before:
@@ -308,9 +308,9 @@ class _Rewriting:
         lines = "".join(f"{self._newline}    {value_text(table)}," for table in new)
         self._edit(span.value, span.end, f"[{lines}{self._newline}]" if new else "[]")
 
-    def _units(self, name: str, keys: tuple[int, ...]) -> dict[int, list[_Block]]:
+    def _units(self, name: str, keys: tuple[int, ...]) -> dict[int, list[_Section]]:
         """The sections of each object, [[objects]] and those inside it, which follow at once."""
-        units: dict[int, list[_Block]] = {}
+        units: dict[int, list[_Section]] = {}
         before: Path = ()
         for block in self._there:
             if block.path[:1] == (name,):
@@ -324,7 +324,7 @@ class _Rewriting:
         return units
 
     def _order(
-        self, name: str, units: dict[int, list[_Block]], was: tuple[int, ...], new: dict[int, Any]
+        self, name: str, units: dict[int, list[_Section]], was: tuple[int, ...], new: dict[int, Any]
     ) -> None:
         """Takes out what is gone, and puts each section that is new or moved after the one that it
         follows; what stays in order stays where it is."""
@@ -341,7 +341,7 @@ class _Rewriting:
                 for block in blocks:
                     block.gone = True
                 units[key] = copies
-        after: _Block | None = None
+        after: _Section | None = None
         for key in keys:
             if key not in stays:
                 blocks = units.get(key) or [self._new((name, -1), f"[[{name}]]", new[key])]
@@ -358,14 +358,14 @@ class _Rewriting:
                 units[key] = blocks
             after = units[key][-1]
 
-    def _swap_before(self, block: _Block, following: _Block) -> None:
+    def _swap_before(self, block: _Section, following: _Section) -> None:
         """What stood above the first of a list stays above the list."""
         block.before, following.before = following.before, block.before or self._newline
 
-    def _moved(self, block: _Block) -> _Block:
+    def _moved(self, block: _Section) -> _Section:
         text = self._block_text(block)
         before = self._newline if len(block.path) == 2 else block.before
-        return _Block(block.path, -1, -1, -1, before, new=text)
+        return _Section(block.path, -1, -1, -1, before, new=text)
 
     def _end_for(self, name: str) -> int:
         """Where a list begins that the file does not have: objects at the end, lights before."""

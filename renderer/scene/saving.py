@@ -55,7 +55,7 @@ def scene_text(scene: Scene, path: Path, view: View | None = None) -> str:
 
 def file_tables(scene: Scene, path: Path, view: View | None = None) -> dict[str, Any]:
     """As scene_tables(), for a file at `path`: without what it would have of itself."""
-    tables, folder = scene_tables(scene, path.parent, view), path.parent
+    tables = scene_tables(scene, path.parent, view)
     given = scene.origin.tables if scene.origin is not None else None
     if given is None:
         return tables

@@ -18,7 +18,7 @@ import numpy as np
 
 from renderer.errors import LucidaError
 from renderer.scene.files import changed_scene, new_keys
-from renderer.scene.model import Entry, Keys, Mesh, Origin, SavedFile, Scene, SceneObject
+from renderer.scene.model import FileEntry, Keys, Mesh, Origin, SavedFile, Scene, SceneObject
 from renderer.scene.noting import noting, stamp
 from renderer.scene.saving import light_table, scene_tables
 from renderer.scene.schema import AnyLight, LightTable, MeshTable, ModelTable, SphereTable
@@ -52,7 +52,7 @@ def _with_tables(scene: Scene) -> Scene:
     if origin.source:  # a model: it is not read again
         fields = ModelTable(file=tables["objects"][0]["file"])
         views = tuple(scene.views)
-        known = Entry(0, {}, fields, None, scene.objects, scene.objects, views)
+        known = FileEntry(0, {}, fields, None, scene.objects, scene.objects, views)
         origin = replace(origin, entries=(known,))
     origin = replace(origin, folder=folder, saved=SavedFile())
     return changed_scene(replace(scene, origin=origin), tables, keys)
@@ -127,7 +127,7 @@ def fields_of(scene: Scene, item: Item) -> SphereTable | MeshTable | LightTable:
     return light
 
 
-def entry_of(scene: Scene, item: Item) -> Entry:
+def entry_of(scene: Scene, item: Item) -> FileEntry:
     """An object's table and what it became. Raises LucidaError for a light."""
     kind, number = find(scene, item)
     if kind != "objects":

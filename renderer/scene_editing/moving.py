@@ -16,7 +16,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from renderer.errors import LucidaError
 from renderer.scene.boxes import extent, world_boxes
-from renderer.scene.model import Scene, Sphere
+from renderer.scene.model import Scene, Shape, Sphere
 from renderer.scene.schema import DirectionalLightTable, MeshTable, PointLightTable, SphereTable
 from renderer.scene.shapes import placement
 from renderer.scene_editing.changing import (
@@ -71,16 +71,21 @@ def bounds_of(scene: Scene, items: Sequence[Item]) -> Floats | None:
                 boxes.append((fields.position, fields.position))
             continue
         for entry in entry_of(scene, item).objects:
-            if isinstance(entry.shape, Sphere):
-                center, radius = np.asarray(entry.shape.center), entry.shape.radius
-                boxes.append((center - radius, center + radius))
-            else:
-                own = np.array(extent(entry.shape.vertices), float)
-                low, high = world_boxes(entry.shape.transform[None], own[None])
-                boxes.append((low[0], high[0]))
+            low, high = object_box(entry.shape)
+            boxes.append((low, high))
     if not boxes:
         return None
     return np.array([np.min([b[0] for b in boxes], 0), np.max([b[1] for b in boxes], 0)])
+
+
+def object_box(shape: Shape) -> Floats:
+    """The lowest and highest corner (2, 3) of a sphere, or around a mesh's box, in the world."""
+    if isinstance(shape, Sphere):
+        center = np.asarray(shape.center)
+        return np.array([center - shape.radius, center + shape.radius])
+    own = np.array(extent(shape.vertices), float)
+    low, high = world_boxes(shape.transform[None], own[None])
+    return np.array([low[0], high[0]])
 
 
 def transform(scene: Scene, items: Sequence[Item], matrix: ArrayLike) -> Scene:

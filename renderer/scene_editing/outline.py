@@ -21,7 +21,7 @@ from renderer.scene_editing.changing import (
 
 
 @dataclass(frozen=True)
-class Part:
+class ModelPart:
     """One geometry of a model. number: its id in images."""
 
     number: int
@@ -50,7 +50,7 @@ class OutlineRow:
     locked: bool
     material: str = ""
     file: str = ""
-    parts: tuple[Part, ...] = ()
+    parts: tuple[ModelPart, ...] = ()
 
 
 def outline(scene: Scene) -> tuple[OutlineRow, ...]:
@@ -67,7 +67,7 @@ def outline(scene: Scene) -> tuple[OutlineRow, ...]:
         ids = range(first, first + len(entry.objects))
         first = ids.stop
         parts = tuple(
-            Part(k, part.name, triangles_of([part]))
+            ModelPart(k, part.name, triangles_of([part]))
             for k, part in zip(ids, entry.objects, strict=True)
         )
         called = fields.name or (parts[0].name if len(parts) == 1 else "")

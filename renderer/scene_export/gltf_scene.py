@@ -42,7 +42,7 @@ def write(subject: ExportSubject) -> Exported:
     scene, left = subject.scene, LeftOut()
     camera = rigid(subject.camera, "gltf")
     made = GlbTree()
-    nodes = [_object_node(made, number, entry, left) for number, entry in enumerate(scene.objects)]
+    nodes = [_object_node(made, number, entry, left) for number, entry in scene.visible]
     strengths = light_strengths(scene, flatten(scene), left)
     lights = [_light(color) for color in strengths]
     for number, light in enumerate(scene.lights):

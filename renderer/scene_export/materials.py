@@ -73,6 +73,7 @@ def light_strengths(scene: Scene, flat: FlatScene, left: LeftOut) -> list[Color]
     middles = np.ones((len(scene.objects), 4))
     middles[:, :3] = flat.object_bounds.mean(axis=1)
     places = np.einsum("nij,nj->ni", flat.world_from_object, middles)[:, :3]
+    places = places[[not entry.hidden for entry in scene.objects]]
     strengths = []
     for number, light in enumerate(scene.lights):
         factor = math.pi
@@ -91,7 +92,7 @@ def light_strengths(scene: Scene, flat: FlatScene, left: LeftOut) -> list[Color]
 
 
 def note_highlights(scene: Scene, left: LeftOut) -> None:
-    if any(any(entry.material.specular) for entry in scene.objects):
+    if any(any(entry.material.specular) for _, entry in scene.visible):
         left.add(
             "highlights",
             "microfacets, as wide and as bright in the middle, stand for (n . h)^shininess",

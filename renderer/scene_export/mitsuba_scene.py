@@ -54,7 +54,7 @@ def write(subject: ExportSubject) -> Exported:
         '    <integrator type="path"><integer name="max_depth" value="2"/></integrator>',
         *sensor,
     ]
-    for number, entry in enumerate(scene.objects):
+    for number, entry in scene.visible:
         check_cancelled()
         body += _object(number, entry, files, left)
     for light, strength in zip(scene.lights, light_strengths(scene, flat, left), strict=True):

@@ -38,7 +38,7 @@ def write(subject: ExportSubject) -> Exported:
         body.append(_light(light, strength))
     if any(scene.ambient):
         body.append(f'LightSource "infinite" "rgb L" [ {numbers(scene.ambient)} ]')
-    for number, entry in enumerate(scene.objects):
+    for number, entry in scene.visible:
         check_cancelled()
         body += _object(number, entry, flat, files, left)
     note_surroundings(scene, left)

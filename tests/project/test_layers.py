@@ -35,6 +35,7 @@ FLOORS = (
     "renderer.scene",
     "renderer.scene_editing",
     "renderer.camera_formats",
+    "renderer.scene_checks",
     "renderer.scene_export",
     "renderer.raster",
     "renderer.trace.compile",

@@ -1,0 +1,138 @@
+"""`lucida scene FILE`: what is in a scene, and what is odd about it.
+
+Knows nothing of how a scene is drawn.
+"""
+
+from __future__ import annotations
+
+import argparse
+import json
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from renderer.scene import Scene
+    from renderer.scene.repairs import Repair
+
+NAME = "scene"
+
+DESCRIPTION = """\
+Say what is in a scene: its objects with their types, triangles, bounds and materials, its lights
+and its camera; and what is odd about it: meshes that are open or turned inside out, faces without
+an area or there twice, what was mended in a model, lights inside objects, objects far too small."""
+
+EPILOG = """\
+exit status: 0 told (also where something is odd: all of it can be drawn), 2 a mistake or a failure
+
+examples:
+  lucida scene my-scene.toml
+  lucida scene bunny.obj --json"""
+
+
+def configure(parser: argparse.ArgumentParser) -> None:
+    from app.commands.arguments import SCENE_HELP
+
+    parser.description, parser.epilog = DESCRIPTION, EPILOG
+    parser.add_argument("scene", metavar="SCENE", help=SCENE_HELP)
+    parser.add_argument("--json", action="store_true", help="print one JSON object")
+
+
+def run(arguments: argparse.Namespace) -> int:
+    from app.commands.arguments import check_is_scene
+    from renderer.scene import load_scene
+    from renderer.scene.repairs import repairs
+
+    check_is_scene(arguments.scene)
+    with repairs() as mended:
+        scene = load_scene(arguments.scene)
+    told = contents(scene, mended)
+    print(json.dumps(told, indent=2, allow_nan=False) if arguments.json else as_text(told))
+    return 0
+
+
+def contents(scene: Scene, mended: list[Repair]) -> dict[str, Any]:
+    """All of it as JSON's values. mended: what was repaired as the scene was read."""
+    from renderer.scene.flat import flatten
+    from renderer.scene.saving import light_table, material_table
+    from renderer.scene.views import view_table
+    from renderer.scene_checks import oddities
+    from renderer.scene_editing.moving import object_box
+    from renderer.scene_editing.outline import outline
+
+    rows = [row for row in outline(scene) if not row.is_light]
+    objects = []
+    for row in rows:
+        for number in row.ids:
+            entry = scene.objects[number]
+            part = next((part for part in row.parts if part.number == number), None)
+            objects.append(
+                {
+                    "id": number,
+                    "name": entry.name,
+                    "type": row.kind,
+                    "file": row.file or None,
+                    "triangles": row.triangles if part is None else part.triangles,
+                    "bounds": object_box(entry.shape).tolist(),
+                    "hidden": entry.hidden,
+                    "material_name": row.material or None,
+                    "material": material_table(entry.material),
+                }
+            )
+    flat = flatten(scene)
+    return {
+        "name": scene.name,
+        "triangles": sum(row.triangles for row in rows),
+        "bounds": flat.bounds.tolist(),
+        "objects": objects,
+        "lights": [light_table(light) for light in scene.lights],
+        "ambient": list(scene.ambient),
+        "background": list(scene.background),
+        "camera": view_table(scene.view),
+        "odd": [
+            {"kind": odd.kind, "object": odd.object, "light": odd.light, "text": odd.text}
+            for odd in oddities(scene, mended)
+        ],
+    }
+
+
+def as_text(told: dict[str, Any]) -> str:
+    """The same to read."""
+    from app.commands.arguments import counted
+    from renderer.errors import one_line
+
+    objects, lights = told["objects"], told["lights"]
+    count = counted(
+        (len(objects), "object"), (told["triangles"], "triangle"), (len(lights), "light")
+    )
+    lines = [f"{told['name']}: {count}; {_box(told['bounds'])}"]
+    for entry in objects:
+        triangles = counted((entry["triangles"], "triangle")) if entry["triangles"] else "exact"
+        hidden = ", hidden" if entry["hidden"] else ""
+        name = repr(one_line(entry["name"])) if entry["name"] else "-"
+        file = f" {one_line(entry['file'])}" if entry["file"] else ""
+        material = entry["material_name"]
+        made = f"material {one_line(material)!r}" if material else _color(entry["material"])
+        lines.append(f"  {entry['id']:<3} {entry['type']}{file} {name}: {triangles}{hidden}")
+        lines.append(f"      {_box(entry['bounds'])}; {made}")
+    for number, light in enumerate(lights):
+        place = "at" if light["type"] == "point" else "along"
+        where = light.get("position") or light.get("direction")
+        color = _vector(light["color"])
+        lines.append(f"  light {number}: {light['type']} {place} {_vector(where)}, color {color}")
+    camera = told["camera"]
+    lines.append(f"  camera: {camera['projection']} from {_vector(camera['eye'])}")
+    for odd in told["odd"]:
+        about = [f"{what} {odd[what]}" for what in ("light", "object") if odd[what] is not None]
+        lines.append("  " + one_line(f"odd: {about[0] if about else 'a model'} {odd['text']}"))
+    return "\n".join(lines)
+
+
+def _box(bounds: list[list[float]]) -> str:
+    return f"from {_vector(bounds[0])} to {_vector(bounds[1])}"
+
+
+def _color(material: dict[str, Any]) -> str:
+    return f"diffuse {_vector(material['diffuse'])}"
+
+
+def _vector(values: list[float]) -> str:
+    return "(" + ", ".join(f"{value + 0.0:.4g}" for value in values) + ")"

@@ -1,0 +1,103 @@
+"""An edited scene in a session file: what has not been saved survives the end of the window.
+
+Owns the structure, and the way back to a scene. Knows nothing of where sessions are.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from app.storage.paths import restored, stored
+from renderer.atomic import atomic_write
+from renderer.errors import LucidaError
+from renderer.scene.files import changed_scene, new_keys
+from renderer.scene.model import Keys, Origin, SavedFile, Scene, View
+from renderer.scene.noting import noting, stamp
+from renderer.scene.saving import relocated
+from renderer.scene.tables import VERSION, parse_toml
+from renderer.scene.toml_writing import toml_text
+from renderer.scene_editing.changing import as_tables, origin_of
+from renderer.scene_editing.documents import is_unsaved
+
+MOST_RESCUED = 1000
+
+
+@dataclass(frozen=True)
+class KeptScene:
+    """A scene whose tables differ from its file's. source, file, folder: as in Origin and
+    SavedFile; file is "" where it has none. text: the file's, as it was when it was last read or
+    saved. objects, lights: for each of the tables' its number in that text, -1 for a new one.
+    view: the scene's own. Paths are as paths.stored() writes them."""
+
+    source: str
+    file: str
+    folder: str
+    name: str
+    view: View
+    tables: dict[str, Any]
+    text: str = ""
+    objects: tuple[int, ...] = ()
+    lights: tuple[int, ...] = ()
+
+    def scene(self) -> Scene:
+        """As it was. Reads its models. Raises LucidaError."""
+        base = parse_toml(self.text.removeprefix("\ufeff")) if self.text else None
+        was: list[tuple[int, ...]] = []
+        now: list[tuple[int, ...]] = []
+        for kind, numbers in (("objects", self.objects), ("lights", self.lights)):
+            count = max(len((base or {}).get(kind, ())), max(numbers, default=-1) + 1)
+            keys = new_keys(count)
+            was.append(keys)
+            now.append(tuple(keys[n] if n >= 0 else new_keys(1)[0] for n in numbers))
+        file = Path(restored(self.file)) if self.file else None
+        saved = SavedFile(file, self.text, base, (was[0], was[1]))
+        with noting() as noted:
+            if file is not None:
+                noted[file] = stamp(file)
+            origin = Origin(
+                restored(self.source), None, Path(restored(self.folder)), noted, saved=saved
+            )
+            empty = Scene((), view=self.view, name=self.name, origin=origin)
+            return changed_scene(empty, self.tables, (now[0], now[1]))
+
+    def rescue(self, folder: Path) -> Path | None:
+        """Writes the scene as a file into a folder, for when it cannot be opened: nothing is lost.
+        None where that fails."""
+        tables = relocated(self.tables, Path(restored(self.folder)), None)
+        free = (folder / f"unsaved-{number}.toml" for number in range(1, MOST_RESCUED))
+        path = next((path for path in free if not path.exists()), None)
+        try:
+            if path is not None:
+                with atomic_write(path) as file:
+                    file.write(toml_text({"lucida": VERSION, **tables}).encode())
+        except (LucidaError, UnicodeEncodeError):
+            return None
+        return path
+
+
+def kept_scene(scene: Scene) -> KeptScene | None:
+    """What to keep of a scene beside its source; None where its file has all of it."""
+    if not is_unsaved(scene):
+        return None
+    origin, tables = origin_of(as_tables(scene))
+    saved = origin.saved
+    return KeptScene(
+        stored(origin.source),
+        stored(str(saved.path)) if saved.path is not None else "",
+        stored(str(origin.folder.absolute())),
+        scene.name,
+        scene.view,
+        tables,
+        saved.text,
+        *_numbers(origin.keys, saved),
+    )
+
+
+def _numbers(keys: Keys, saved: SavedFile) -> tuple[tuple[int, ...], tuple[int, ...]]:
+    found = []
+    for mine, its in zip(keys, saved.keys, strict=True):
+        number = {key: k for k, key in enumerate(its)} if saved.text else {}
+        found.append(tuple(number.get(key, -1) for key in mine))
+    return found[0], found[1]

@@ -1,0 +1,230 @@
+"""What is odd in a scene: meshes that are open or turned inside out, faces that are none, lights
+inside objects, objects too small to be seen.
+
+Owns what counts as odd. All of it is legal: the renderers draw it as it is. Takes some seconds for
+a million triangles, and loops over none of them.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from renderer.scene.flat import flatten
+from renderer.scene.model import Mesh, PointLight, Scene, Sphere
+from renderer.scene.normals import face_normals, merge_positions
+from renderer.scene.repairs import Repair
+from renderer.scene.schema import DiskTable, RectangleTable
+
+Points = NDArray[np.float64]
+
+SMALL = 1e-6  # of the scene's size
+_NO_AREA = 1e-12  # of a triangle's longest side squared
+_SURFACES = (RectangleTable, DiskTable)  # open by what they are
+_DIRECTION = np.array([0.5773, 0.5137, 0.6347])  # along no axis, and in no plane that people model
+
+
+@dataclass(frozen=True)
+class Oddity:
+    """kind: one word for programs. text: for people, without the object's name. object: its id;
+    light: its number in scene.lights; None where it is about neither."""
+
+    kind: str
+    text: str
+    object: int | None = None
+    light: int | None = None
+
+
+@dataclass(frozen=True)
+class MeshFacts:
+    """Of a mesh in its own space. open_edges: of one face only; crowded_edges: of more than two;
+    torn_edges: whose two faces are turned differently. inside_out: closed, of one turn, and its
+    volume is negative. against: vertex normals that point against their face's turn."""
+
+    open_edges: int
+    crowded_edges: int
+    torn_edges: int
+    inside_out: bool
+    repeated_faces: int
+    flat_faces: int
+    against: int
+
+    @property
+    def is_closed(self) -> bool:
+        return self.open_edges == 0
+
+
+def oddities(scene: Scene, repairs: Sequence[Repair] = ()) -> tuple[Oddity, ...]:
+    """What is odd in the scene. repairs: what was mended when its models were read."""
+    facts = _facts_of(scene)
+    found = [_repaired(repair) for repair in repairs]
+    surfaces = _surfaces(scene)
+    for number, fact in facts.items():
+        found += _told(fact, number, number in surfaces)
+    return (*found, *_small(scene), *_lights_inside(scene, facts))
+
+
+def mesh_facts(mesh: Mesh) -> MeshFacts:
+    """One look at a mesh: a few sorts of its edges."""
+    joined = merge_positions(mesh.vertices)
+    faces = joined[mesh.faces]
+    normals = face_normals(mesh.vertices, faces)
+    longest = np.zeros(len(faces))
+    for k in range(3):
+        side = mesh.vertices[faces[:, k]].astype(float) - mesh.vertices[faces[:, k - 1]]
+        longest = np.maximum(longest, np.einsum("ij,ij->i", side, side))
+    flat = np.linalg.norm(normals, axis=1) <= _NO_AREA * longest
+    a, b, c = np.sort(faces, axis=1).T
+    order = np.lexsort((c, b, a))
+    corners = np.stack([a, b, c], axis=1)[order]
+    repeated = int(np.count_nonzero((corners[1:] == corners[:-1]).all(axis=1)))
+    starts, ends = faces.reshape(-1), faces[:, [1, 2, 0]].reshape(-1)
+    real = starts != ends
+    starts, ends = starts[real], ends[real]
+    low, high = np.minimum(starts, ends), np.maximum(starts, ends)
+    keys = low * np.int64(len(mesh.vertices)) + high
+    order = np.argsort(keys)
+    keys, along = keys[order], (starts < ends)[order]
+    new = np.concatenate([[True], keys[1:] != keys[:-1]]) if len(keys) else np.zeros(0, bool)
+    first = np.flatnonzero(new)
+    count = np.diff(np.append(first, len(keys)))
+    forward = np.add.reduceat(along.astype(np.int64), first) if len(first) else count
+    torn = int(np.count_nonzero((count == 2) & (forward != 1)))
+    opened = int(np.count_nonzero(count == 1))
+    crowded = int(np.count_nonzero(count > 2))
+    volume = 0.0
+    if not opened and not torn:
+        middle = mesh.vertices.mean(axis=0, dtype=float)
+        volume = float(np.einsum("ij,ij->", mesh.vertices[faces[:, 0]] - middle, normals))
+    against = 0
+    if mesh.normals is not None:
+        summed = mesh.normals[mesh.faces].sum(axis=1)
+        against = int(np.count_nonzero(np.einsum("ij,ij->i", summed, normals) < 0))
+    return MeshFacts(opened, crowded, torn, volume < 0, repeated, int(flat.sum()), against)
+
+
+def _facts_of(scene: Scene) -> dict[int, MeshFacts]:
+    """By the objects' ids; meshes of the same arrays are looked at once."""
+    known: dict[tuple[int, int], MeshFacts] = {}
+    found = {}
+    for number, entry in enumerate(scene.objects):
+        if isinstance(mesh := entry.shape, Mesh):
+            key = id(mesh.vertices), id(mesh.faces)
+            if key not in known:
+                known[key] = mesh_facts(mesh)
+            found[number] = known[key]
+    return found
+
+
+def _surfaces(scene: Scene) -> set[int]:
+    """The ids of what has a border by its nature."""
+    found: set[int] = set()
+    number = 0
+    for entry in scene.origin.entries if scene.origin is not None else ():
+        if isinstance(entry.fields, _SURFACES):
+            found.add(number)
+        number += len(entry.objects)
+    return found
+
+
+def _told(fact: MeshFacts, number: int, is_surface: bool) -> list[Oddity]:
+    texts = []
+    if fact.inside_out:
+        texts.append(("inside-out", "is closed, and its faces are turned inwards"))
+    elif fact.torn_edges:
+        edges = _counted(fact.torn_edges, "edge joins", "edges join")
+        texts.append(("turned-differently", f"{edges} faces that are turned differently"))
+    if fact.open_edges and not is_surface:
+        edges = _counted(fact.open_edges, "edge has", "edges have")
+        texts.append(("open", f"is open: {edges} one face only"))
+    if fact.crowded_edges:
+        edges = _counted(fact.crowded_edges, "edge has", "edges have")
+        texts.append(("crowded-edges", f"{edges} more than two faces"))
+    if fact.repeated_faces:
+        faces = _counted(fact.repeated_faces, "face repeats", "faces repeat")
+        texts.append(("repeated-faces", f"{faces} another one's corners"))
+    if fact.flat_faces:
+        faces = _counted(fact.flat_faces, "face has", "faces have")
+        texts.append(("flat-faces", f"{faces} no area"))
+    if fact.against:
+        faces = _counted(fact.against, "face", "faces")
+        texts.append(("normals-against", f"vertex normals point against the turn of {faces}"))
+    return [Oddity(kind, text, number) for kind, text in texts]
+
+
+def _repaired(repair: Repair) -> Oddity:
+    parts = [
+        f"{_counted(count, 'face', 'faces')} {what}, left out"
+        for count, what in (
+            (repair.flat_faces, "without an area"),
+            (repair.repeated_faces, "with another one's corners"),
+        )
+        if count
+    ]
+    if repair.lost_normals:
+        normals = _counted(repair.lost_normals, "normal is", "normals are")
+        parts.append(f"{normals} NaN or infinite, its faces are flat there")
+    name = f"{repair.name!r}: " if repair.name else ""
+    return Oddity("repaired", f"was mended as it was read: {name}{'; '.join(parts)}")
+
+
+def _small(scene: Scene) -> list[Oddity]:
+    """Objects that no image can show beside the others."""
+    flat = flatten(scene)
+    size = float(np.linalg.norm(flat.bounds[1] - flat.bounds[0]))
+    extent = flat.object_bounds[:, 1] - flat.object_bounds[:, 0]
+    stretch = np.linalg.norm(flat.world_from_object[:, :3, :3], axis=1)
+    sizes = np.linalg.norm(extent * stretch, axis=1)
+    return [
+        Oddity("small", f"is {sizes[k]:.3g} across, in a scene of {size:.3g}", k)
+        for k, _ in scene.visible
+        if sizes[k] < SMALL * size
+    ]
+
+
+def _lights_inside(scene: Scene, facts: dict[int, MeshFacts]) -> list[Oddity]:
+    found = []
+    for number, light in enumerate(scene.lights):
+        if not isinstance(light, PointLight):
+            continue
+        point = np.asarray(light.position)
+        for k, entry in scene.visible:
+            shape = entry.shape
+            if isinstance(shape, Sphere):
+                inside = bool(np.linalg.norm(point - shape.center) < shape.radius)
+            else:
+                inside = facts[k].is_closed and _is_inside(shape, point)
+            if inside:
+                name = repr(entry.name) if entry.name else f"object {k}"
+                text = f"is inside {name}, which it lights from within only"
+                found.append(Oddity("light-inside", text, k, number))
+    return found
+
+
+def _is_inside(mesh: Mesh, point: Points) -> bool:
+    """Whether a ray from the point leaves a closed mesh once more than it enters it."""
+    inverse = np.linalg.inv(mesh.transform)
+    own = inverse[:3, :3] @ point + inverse[:3, 3]
+    low, high = mesh.vertices.min(axis=0), mesh.vertices.max(axis=0)
+    if not ((low < own) & (own < high)).all():
+        return False
+    a, b, c = (mesh.vertices[mesh.faces[:, k]].astype(float) for k in range(3))
+    # Möller and Trumbore 1997, all triangles at once.
+    first, second = b - a, c - a
+    across = np.cross(_DIRECTION, second)
+    determinant = np.einsum("ij,ij->i", first, across)
+    with np.errstate(all="ignore"):
+        offset = own - a
+        u = np.einsum("ij,ij->i", offset, across) / determinant
+        turned = np.cross(offset, first)
+        v = turned @ _DIRECTION / determinant
+        t = np.einsum("ij,ij->i", second, turned) / determinant
+        hit = (u >= 0) & (v >= 0) & (u + v <= 1) & (t > 0)
+    return bool(np.count_nonzero(hit) % 2)
+
+
+def _counted(count: int, one: str, several: str) -> str:
+    return f"{count} {one if count == 1 else several}"
