@@ -82,14 +82,13 @@ class _Rewriting:
         parts: list[str] = []
         kept = ""  # of what is gone: comments of nobody
         for block in self._blocks:
-            before = kept + block.before
+            before = kept + (block.before if block.before.strip() or not kept else "")
             kept = ""
             if block.gone:
                 kept = before if before.strip() else ""
                 continue
             parts += [before, self._block_text(block)]
-        text = "".join(parts) + kept + self._tail
-        return text
+        return "".join(parts) + kept + self._tail
 
     # What is where.
 
