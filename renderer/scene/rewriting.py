@@ -21,7 +21,6 @@ from renderer.scene.tables import VERSION, parse_toml
 from renderer.scene.toml_writing import entries, key_text, toml_text, value_text
 
 LISTS = ("objects", "lights")
-SECTIONS = ("camera", "materials")
 MARK = "\ufeff"
 Tables = dict[str, Any]
 
