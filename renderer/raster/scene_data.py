@@ -63,6 +63,7 @@ class SceneData:
         if len(flat.lights) != len(old.lights) or scene.setup.middle is not self._setup.middle:
             return False
         moved = [number for number, was in enumerate(same) if was != number]
+        moved = [number for number in moved if flat.object_faces[number, 1]]
         if flat.normals is not old.normals:
             vertices = self._tables["vertices"]
             texels = vertices.texels[: vertices.count].reshape(len(flat.vertices), 3, -1)

@@ -214,8 +214,7 @@ class _Parts:
         self._meshes: dict[Hashable, tuple[SceneObject, ...]] = {}
         for entry in entries:
             if isinstance(entry.fields, ModelTable):
-                path = self.path(entry.fields.file)
-                self._models.setdefault(path, ModelFile(entry.made, entry.views))
+                self._models.setdefault(entry.path, ModelFile(entry.made, entry.views))
             elif entry.made:
                 self._meshes.setdefault(shape_of(entry.fields), entry.made)
 
@@ -270,8 +269,9 @@ def _entry(
         alone = SceneObject(sphere, material or Material(), fields.name, hidden)
         return FileEntry(key, table, fields, material, (), (alone,))
     views: tuple[NamedView, ...] = ()
+    path = ""
     if isinstance(fields, ModelTable):
-        model = parts.model(fields.file)
+        model, path = parts.model(fields.file), parts.path(fields.file)
         made, views = model.objects, model.views
     else:
         made = parts.mesh(fields)
@@ -290,7 +290,7 @@ def _entry(
             name = f"{name}/{part.name}" if name and part.name else name or part.name
         own = part.material if isinstance(fields, ModelTable) else Material()
         objects.append(SceneObject(shape, material or own, name, hidden))
-    return FileEntry(key, table, fields, material, made, tuple(objects), views)
+    return FileEntry(key, table, fields, material, made, tuple(objects), views, path)
 
 
 def _place(table: MeshTable) -> tuple[Any, ...]:

@@ -255,7 +255,8 @@ class FileEntry:
     in the file, and fields, the same as a structure of schema.py. material: the one that it names
     or gives, None for neither. made: its shapes as they were built or read, before they were put
     where they are; none for a sphere. objects: the scene's, in their order; a model has one for
-    each of its parts. views: the model's own cameras.
+    each of its parts. views: the model's own cameras; path: its
+    file's, absolute.
     """
 
     key: int
@@ -265,6 +266,7 @@ class FileEntry:
     made: tuple[SceneObject, ...]
     objects: tuple[SceneObject, ...]
     views: tuple[NamedView, ...] = ()
+    path: str = ""
 
 
 class SavedFile:

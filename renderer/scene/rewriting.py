@@ -21,7 +21,6 @@ from renderer.scene.tables import VERSION, parse_toml
 from renderer.scene.toml_writing import entries, key_text, toml_text, value_text
 
 LISTS = ("objects", "lights")
-SECTIONS = ("camera", "materials")
 MARK = "\ufeff"
 Tables = dict[str, Any]
 
@@ -82,14 +81,13 @@ class _Rewriting:
         parts: list[str] = []
         kept = ""  # of what is gone: comments of nobody
         for block in self._blocks:
-            before = kept + block.before
+            before = kept + (block.before if block.before.strip() or not kept else "")
             kept = ""
             if block.gone:
                 kept = before if before.strip() else ""
                 continue
             parts += [before, self._block_text(block)]
-        text = "".join(parts) + kept + self._tail
-        return text
+        return "".join(parts) + kept + self._tail
 
     # What is where.
 

@@ -8,6 +8,7 @@ scenes, so that renderers see at once what has been changed.
 
 from __future__ import annotations
 
+import os
 import weakref
 from collections.abc import Iterable, Sequence
 from dataclasses import replace
@@ -51,8 +52,8 @@ def _with_tables(scene: Scene) -> Scene:
     keys = new_keys(len(tables["objects"])), new_keys(len(scene.lights))
     if origin.source:  # a model: it is not read again
         fields = ModelTable(file=tables["objects"][0]["file"])
-        views = tuple(scene.views)
-        known = FileEntry(0, {}, fields, None, scene.objects, scene.objects, views)
+        made, path = scene.objects, os.path.abspath(origin.source)
+        known = FileEntry(0, {}, fields, None, made, made, scene.views, path)
         origin = replace(origin, entries=(known,))
     origin = replace(origin, folder=folder, saved=SavedFile())
     return changed_scene(replace(scene, origin=origin), tables, keys)

@@ -61,7 +61,7 @@ def suggested_file(scene: Scene) -> Path:
 
 
 def save(
-    scene: Scene, path: Path | None = None, view: View | None = None, force: bool = False
+    scene: Scene, path: str | Path | None = None, view: View | None = None, force: bool = False
 ) -> Scene:
     """Writes the scene, whole or not at all, and gives it as that file's: the same objects.
 
@@ -71,10 +71,10 @@ def save(
     Raises LucidaError naming the file; nothing is lost then.
     """
     scene = as_tables(scene)
-    target = path or file_of(scene)
-    if target is None:
+    chosen = path or file_of(scene)
+    if chosen is None:
         raise LucidaError("", "the scene has no file yet", "choose where to save it")
-    target = target.absolute()
+    target = Path(chosen).absolute()
     origin, _ = origin_of(scene)
     saved = origin.saved
     if target == saved.path and not force:

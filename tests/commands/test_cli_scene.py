@@ -1,0 +1,107 @@
+"""`lucida scene`: what is in a scene, and what is odd about it."""
+
+from __future__ import annotations
+
+import json
+
+import numpy as np
+import pytest
+
+from app.cli import main
+from renderer.scene import (
+    DirectionalLight,
+    Mesh,
+    PointLight,
+    Scene,
+    SceneObject,
+    Sphere,
+    load_scene,
+    shapes,
+)
+from renderer.scene_checks import oddities
+
+
+def told(capsys, source) -> dict:
+    assert main(["scene", str(source), "--json"]) == 0
+    seen = capsys.readouterr()
+    assert seen.err == ""
+    return json.loads(seen.out)
+
+
+def kinds(*entries, lights=()) -> list[tuple[str, int | None]]:
+    scene = Scene(tuple(SceneObject(shape) for shape in entries), lights)
+    return [(odd.kind, odd.object) for odd in oddities(scene)]
+
+
+def test_a_scene_is_told_whole(capsys):
+    found, scene = told(capsys, "still-life"), load_scene("still-life")
+    assert [entry["name"] for entry in found["objects"]] == [e.name for e in scene.objects]
+    assert found["triangles"] == sum(entry["triangles"] for entry in found["objects"]) == 9638
+    assert found["objects"][1]["type"] == "sphere"
+    np.testing.assert_allclose(
+        found["objects"][1]["bounds"], [[-2.45, 0.02, -0.8], [-0.25, 2.22, 1.4]]
+    )
+    assert found["objects"][1]["material_name"] == "vermilion"
+    assert [light["type"] for light in found["lights"]] == ["directional", "point"]
+    assert found["camera"]["eye"] == [3.4, 3.1, 8.6] and found["odd"] == []
+    assert main(["scene", "still-life"]) == 0
+    text = capsys.readouterr().out
+    assert "still life: 11 objects, 9638 triangles, 2 lights" in text
+    assert "4   torus 'torus': 9216 triangles" in text and "odd" not in text
+
+
+@pytest.mark.parametrize(
+    ("words", "problem"), [(["no.toml"], "does not exist"), ([], "required"), (["--x"], "required")]
+)
+def test_a_mistake_is_one_line_and_status_2(words, problem, capsys):
+    assert main(["scene", *words]) == 2
+    error = capsys.readouterr().err
+    assert problem in error and error.count("\n") == 1
+
+
+def test_sound_shapes_are_not_odd():
+    sound = [shapes.box(), shapes.torus(), shapes.cylinder(), shapes.cone(smooth=False)]
+    apart = [shapes.translate(shape, (3 * k, 0, 0)) for k, shape in enumerate(sound)]
+    assert kinds(*apart, Sphere((0, 5, 0)), lights=(PointLight((0, 9, 0)),)) == []
+
+
+def test_what_is_wrong_with_a_mesh_is_found():
+    box = shapes.box()
+    inside_out = Mesh(box.vertices, box.faces[:, ::-1])
+    assert kinds(inside_out) == [("inside-out", 0)]
+    open_box = Mesh(box.vertices, box.faces[1:])
+    assert kinds(box, open_box) == [("open", 1)]
+    one_turned = box.faces.copy()
+    one_turned[0] = one_turned[0][::-1]
+    assert kinds(Mesh(box.vertices, one_turned)) == [("turned-differently", 0)]
+    twice = Mesh(box.vertices, np.concatenate([box.faces, box.faces[:1, [1, 2, 0]]]))
+    assert kinds(twice) == [("crowded-edges", 0), ("repeated-faces", 0)]
+    flat = Mesh(box.vertices, np.concatenate([box.faces, [[0, 0, 1]]]))
+    assert ("flat-faces", 0) in kinds(flat)
+    torus = shapes.torus()
+    assert kinds(Mesh(torus.vertices, torus.faces, -torus.normals)) == [("normals-against", 0)]
+
+
+def test_what_is_too_small_and_which_light_is_inside_is_found():
+    tiny = shapes.translate(shapes.scale(shapes.box(), 1e-5), (0, 3, 0))
+    assert kinds(shapes.scale(shapes.box(), 100.0), tiny) == [("small", 1)]
+    lamp, sun = PointLight((0.1, 0.2, 0.1)), DirectionalLight((0, -1, 0))
+    turned = shapes.transformed(shapes.box(), shapes.placement((0, 0, 0), (10, 20, 30)))
+    for shape in (turned, Sphere()):
+        scene = Scene((SceneObject(shape, name="crate"),), (sun, lamp, PointLight((0, 5, 0))))
+        (odd,) = oddities(scene)
+        assert (odd.kind, odd.object, odd.light) == ("light-inside", 0, 1) and "'crate'" in odd.text
+    hollow = shapes.torus(1.0, 0.3)
+    assert kinds(hollow, lights=(PointLight((0, 0, 0)),)) == []
+    assert kinds(hollow, lights=(PointLight((1, 0.1, 0)),)) == [("light-inside", 0)]
+
+
+def test_what_a_reader_has_mended_is_told(capsys, tmp_path):
+    corners = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nvn nan 0 1\nvn 0 0 1\n"
+    faces = "f 1//2 2//2 3//2\nf 2//2 3//2 1//2\nf 2//2 1//1 4//2\nf 1//2 1//2 4//2\n"
+    (tmp_path / "bad.obj").write_text(corners + faces)
+    (odd, *rest) = told(capsys, tmp_path / "bad.obj")["odd"]
+    assert odd["kind"] == "repaired" and "1 face without an area, left out" in odd["text"]
+    assert "1 face with another one's corners, left out" in odd["text"]
+    assert "1 normal is NaN or infinite" in odd["text"]
+    assert [entry["kind"] for entry in rest] == ["open"]

@@ -1,0 +1,186 @@
+"""What one change costs beside a large mesh: nothing of that is copied, built or uploaded again.
+
+Held by which arrays are the same ones, and by what is called: no clock.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from renderer import Rasterizer
+from renderer.raster import setup
+from renderer.raster.prepared import prepare
+from renderer.raster.tables import Table
+from renderer.scene import Sphere, flatten, load_scene, models
+from renderer.scene import flat as flat_module
+from renderer.scene.shapes import placement
+from renderer.scene_editing import changing, objects
+from renderer.scene_editing.moving import transform
+from renderer.scene_editing.outline import outline
+from renderer.trace.bvh import instances
+from renderer.trace.threads.thread_pool import Team
+
+SCENE = """
+[[objects]]
+type = "box"
+name = "first"
+size = 0.2
+[[objects]]
+type = "model"
+name = "large"
+file = "large.obj"
+[[objects]]
+type = "torus"
+name = "ring"
+[[objects]]
+type = "sphere"
+name = "ball"
+center = [0, 2, 0]
+"""
+
+
+@pytest.fixture
+def scene(tmp_path):
+    rng = np.random.default_rng(1)
+    points = "".join(f"v {x} {y} {z}\n" for x, y, z in rng.random((300, 3)))
+    faces = "".join(f"f {k} {k + 1} {k + 2}\n" for k in range(1, 299))
+    (tmp_path / "large.obj").write_text(points + faces)
+    (tmp_path / "scene.toml").write_text(SCENE)
+    return load_scene(tmp_path / "scene.toml")
+
+
+def item(scene, name):
+    return next(row.item for row in outline(scene) if row.name == name)
+
+
+def meshes(scene):
+    """The identities of the vertices of all meshes."""
+    return {id(e.shape.vertices) for e in scene.objects if not isinstance(e.shape, Sphere)}
+
+
+CHANGES = {
+    "move": lambda s: transform(s, [item(s, "first")], placement((0.1, 0, 0))),
+    "turn": lambda s: transform(s, [item(s, "ring")], placement((0, 0, 0), (20, 30, 0))),
+    "move a sphere": lambda s: transform(s, [item(s, "ball")], placement((0.1, 0, 0))),
+    "material": lambda s: changing.set_field(s, [item(s, "first")], "material.diffuse", "#ff0000"),
+    "light": lambda s: objects.add(s, objects.new_table(s, "point"))[0],
+    "rename": lambda s: objects.rename(s, item(s, "first"), "other"),
+    "hide": lambda s: objects.hide(s, [item(s, "first")]),
+    "delete": lambda s: objects.delete(s, [item(s, "first")]),
+    "add": lambda s: objects.add(s, objects.new_table(s, "cone"))[0],
+    "duplicate": lambda s: objects.duplicate(s, [item(s, "ring")], (0, 1, 0))[0],
+    "reorder": lambda s: objects.reorder(s, [item(s, "ball")], item(s, "first")),
+    "shape": lambda s: changing.set_field(s, [item(s, "first")], "size", 0.3),
+}
+SAME_LAYOUT = ("move", "turn", "move a sphere", "material", "light", "rename")
+
+
+@pytest.mark.parametrize("name", CHANGES)
+def test_what_does_not_change_is_the_same_objects_and_no_model_is_read_again(
+    name, scene, monkeypatch
+):
+    monkeypatch.setattr(models, "read_model", None)
+    before = {entry.name: entry for entry in scene.objects}
+    changed = CHANGES[name](scene)
+    after = {entry.name: entry for entry in changed.objects}
+    assert after["large"] is before["large"]
+    kept = sum(after.get(key) is entry for key, entry in before.items())
+    assert kept >= len(before) - 1
+    for key in before.keys() & after.keys():
+        if name != "shape" and key != "ball":
+            assert after[key].shape.vertices is before[key].shape.vertices
+
+
+@pytest.mark.parametrize("name", ["large", "first"])
+def test_a_moved_mesh_keeps_its_arrays(name, scene):
+    moved = transform(scene, [item(scene, name)], placement((1, 2, 3), (10, 20, 30), 2.0))
+    for was, now in zip(scene.objects, moved.objects, strict=True):
+        for array in ("vertices", "faces", "normals", "colors"):
+            assert getattr(now.shape, array, None) is getattr(was.shape, array, None)
+    copied = changing.set_field(moved, [item(scene, name)], "material.shininess", 3.0)
+    assert [entry.shape for entry in copied.objects] == [entry.shape for entry in moved.objects]
+
+
+@pytest.mark.parametrize("name", CHANGES)
+def test_flat_arrays_are_taken_over_where_only_places_and_materials_change(name, scene):
+    flat = flatten(scene)
+    followed = flatten(CHANGES[name](scene), (scene, flat))
+    layout = ("vertices", "colors", "faces", "face_object", "object_faces", "object_vertices")
+    for array in layout:
+        is_same = getattr(followed, array) is getattr(flat, array)
+        assert is_same == (name in SAME_LAYOUT), array
+    assert (followed.normals is flat.normals) == (name in SAME_LAYOUT and name != "turn")
+
+
+@pytest.mark.parametrize("name", CHANGES)
+def test_no_extent_and_no_normals_of_another_mesh_are_computed_again(name, scene, monkeypatch):
+    flat, changed = flatten(scene), CHANGES[name](scene)
+    known, seen = meshes(scene), []
+
+    def noted(right):
+        return lambda value: seen.append(value) or right(value)
+
+    for function in ("extent", "_world_normals"):
+        monkeypatch.setattr(flat_module, function, noted(getattr(flat_module, function)))
+    flatten(changed, (scene, flat))
+    computed = [id(getattr(value, "vertices", value)) for value in seen]
+    assert sum(vertices in known for vertices in computed) == (name == "turn")
+
+
+@pytest.mark.parametrize("name", CHANGES)
+def test_no_tree_is_built_again(name, scene, monkeypatch):
+    built = []
+    right = instances.tree_of_mesh
+
+    def noted(vertices, *rest):
+        built.append(id(vertices))
+        return right(vertices, *rest)
+
+    trees = instances.Instances(scene, flatten(scene), Team(1))
+    monkeypatch.setattr(instances, "tree_of_mesh", noted)
+    changed = CHANGES[name](scene)
+    new = meshes(changed) - meshes(scene)
+    trees.update(changed, flatten(changed))
+    assert set(built) == new
+    hidden = objects.hide(changed, [item(changed, "large")])
+    with_disk = objects.add(hidden, objects.new_table(hidden, "disk"))[0]
+    for scene_now in (hidden, with_disk, changed):
+        trees.update(scene_now, flatten(scene_now))
+    assert len(built) == len(new) + 1  # the disk's
+
+
+@pytest.mark.parametrize("name", CHANGES)
+def test_planes_of_triangles_that_stay_are_not_computed_again(name, scene, monkeypatch):
+    prepared, changed = prepare(scene), CHANGES[name](scene)
+    numbers = []
+    right = setup.object_vertices
+    monkeypatch.setattr(
+        setup, "object_vertices", lambda f, n, o: numbers.append(n) or right(f, n, o)
+    )
+    prepare(changed, (scene, prepared))
+    large = next(k for k, entry in enumerate(changed.objects) if entry.name == "large")
+    assert large not in numbers
+
+
+@pytest.mark.parametrize("name", SAME_LAYOUT)
+def test_the_rasterizer_uploads_what_has_moved(name, scene, gl_backend, monkeypatch):
+    camera, size = scene.view.for_size((32, 24)), (32, 24)
+    changed = CHANGES[name](scene)
+    with Rasterizer(scene, backend=gl_backend) as rasterizer:
+        rasterizer.render(camera, size)
+        parts, made = [], []
+        right = Table.write_part
+        monkeypatch.setattr(Table, "write_part", lambda t, *p: parts.append(p) or right(t, *p))
+        right_init = Table.__init__
+        monkeypatch.setattr(Table, "__init__", lambda t, *p: made.append(p[1]) or right_init(t, *p))
+        rasterizer.set_scene(changed)
+        rasterizer.render(camera, size)
+    if name == "light":  # whose table is longer
+        assert made
+        return
+    assert not made
+    total = len(flatten(scene).faces)
+    triangles = sum(last - first for first, last in parts)
+    assert triangles < total or name == "turn"
+    assert bool(parts) == (name in ("move", "turn"))

@@ -1,0 +1,350 @@
+"""Single edits: what they change, what they refuse, and what others see of them."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from random_edits import SCENE, TENT
+
+from renderer import Rasterizer, Tracer
+from renderer.errors import LucidaError
+from renderer.nothing_hit import why_nothing_is_hit
+from renderer.scene import flatten, load_scene
+from renderer.scene.shapes import placement
+from renderer.scene_editing import changing, clipping, materials, moving, objects
+from renderer.scene_editing.outline import outline
+
+
+@pytest.fixture
+def scene(tmp_path):
+    (tmp_path / "tent.obj").write_text(TENT)
+    (tmp_path / "scene.toml").write_text(SCENE)
+    return load_scene(tmp_path / "scene.toml")
+
+
+def item(scene, shown):
+    return next(row.item for row in outline(scene) if row.shown == shown)
+
+
+def table(scene, shown):
+    return changing.table_of(scene, item(scene, shown))
+
+
+def names(scene):
+    return [row.shown for row in outline(scene)]
+
+
+def test_the_outline_lists_objects_then_lights_with_what_they_are(scene):
+    rows = outline(scene)
+    assert [row.shown for row in rows] == [
+        "rectangle 0",
+        "ball",
+        "box",
+        "tent",
+        "directional light 0",
+        "point light 1",
+    ]
+    assert [row.kind for row in rows][2:5] == ["box", "model", "directional"]
+    assert [row.triangles for row in rows] == [2, 0, 12, 4, 0, 0]
+    assert [row.material for row in rows] == ["floor", "red", "", "", "", ""]
+    assert [list(row.ids) for row in rows] == [[0], [1], [2], [3], [], []]
+    for number, row in enumerate(rows[:4]):
+        assert changing.item_of(scene, number) == row.item
+        assert changing.ids_of(scene, row.item) == row.ids
+    assert changing.item_of(scene, -1) is None and changing.item_of(scene, 4) is None
+
+
+def test_a_model_of_several_parts_is_one_item(tmp_path):
+    obj = "v 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl a\nf 1 2 3\nusemtl b\nf 3 2 1\nf 1 3 2\n"
+    material = "newmtl a\nKd 1 0 0\nnewmtl b\nKd 0 1 0\n"
+    (tmp_path / "two.mtl").write_text(material)
+    (tmp_path / "two.obj").write_text("mtllib two.mtl\n" + obj)
+    scene = load_scene(tmp_path / "two.obj")
+    row = outline(scene)[0]
+    assert [part.name for part in row.parts] == [entry.name for entry in scene.objects]
+    assert len(row.parts) == 2 and row.ids == range(2)
+    assert changing.item_of(scene, 1) == row.item
+    hidden = objects.hide(scene, [row.item])
+    assert [entry.hidden for entry in hidden.objects] == [True, True]
+
+
+@pytest.mark.parametrize(
+    ("field", "value", "problem"),
+    [
+        ("radius", -1.0, r"objects\[1\].*radius"),
+        ("radius", "x", r"objects\[1\]\.radius: is text"),
+        ("radios", 1.0, r"objects\[1\]\.radios: is unknown; did you mean 'radius'"),
+        ("material", "gold", r"objects\[1\]\.material: 'gold' is unknown"),
+        ("material.diffuse", "red", r"objects\[1\]\.material.*diffuse"),
+        ("center", [1, 2], r"objects\[1\]\.center: has 2 entries"),
+    ],
+)
+def test_a_wrong_value_is_one_clear_line_and_the_scene_stays(scene, field, value, problem):
+    before = table(scene, "ball").copy()
+    with pytest.raises(LucidaError, match=problem):
+        changing.set_field(scene, [item(scene, "ball")], field, value)
+    assert table(scene, "ball") == before
+
+
+def test_fields_have_their_defaults_and_go_back_to_them(scene):
+    box = item(scene, "box")
+    fields = changing.fields_of(scene, box)
+    assert (fields.scale, fields.rotate_deg) == (1.0, (0, 30, 0))
+    reset = changing.set_field(scene, [box], "rotate_deg", None)
+    assert "rotate_deg" not in table(reset, "box")
+    assert changing.fields_of(reset, box).rotate_deg == (0, 0, 0)
+    light = changing.fields_of(scene, item(scene, "directional light 0"))
+    assert light.color == (1.0, 1.0, 1.0)
+
+
+# Moving.
+
+
+@pytest.mark.parametrize("seed", range(40))
+def test_a_moved_object_is_where_its_matrix_puts_it(scene, seed):
+    rng = np.random.default_rng(seed)
+    box = item(scene, "box")
+    scale = rng.uniform(0.3, 3, 3) * rng.choice([-1, 1], 3)
+    angles = rng.choice([rng.uniform(-400, 400), 90, -90, 180, 0], 3)
+    scene = changing.set_field(scene, [box], "rotate_deg", angles)
+    scene = changing.set_field(scene, [box], "scale", scale)
+    matrix = placement(rng.normal(size=3), rng.uniform(-180, 180, 3), float(rng.uniform(0.5, 2)))
+    for now in (matrix, placement(rng.normal(size=3), rng.choice([0, 90, -90], 3))):
+        moved = moving.transform(scene, [box], now)
+        np.testing.assert_allclose(
+            moving.matrix_of(moved, box), now @ moving.matrix_of(scene, box), atol=1e-9
+        )
+        np.testing.assert_allclose(
+            moved.objects[2].shape.transform, now @ scene.objects[2].shape.transform, atol=1e-9
+        )
+
+
+def test_what_a_move_leaves_alone_stays_as_it_is_written(scene):
+    box, before = item(scene, "box"), table(scene, "box")
+    moved = changing.table_of(moving.transform(scene, [box], placement((0, 0.5, 0))), box)
+    assert moved == {**before, "translate": [0.8, 0.5, 0]}
+    turned = changing.table_of(
+        moving.transform(scene, [box], placement((0, 0, 0), (0, 15, 0))), box
+    )
+    assert turned["rotate_deg"] == [0, 45, 0] and "scale" not in turned
+    mirrored = moving.place_at(
+        scene, box, moving.matrix_of(scene, box) @ placement(scale=(-1, 1, 1))
+    )
+    assert table(mirrored, "box")["scale"] == [-1.0, 1.0, 1.0]
+    assert table(mirrored, "box")["rotate_deg"] == [0, 30, 0]
+    same = moving.transform(scene, [box, item(scene, "ball")], np.eye(4))
+    assert changing.table_of(same, box) == before
+
+
+def test_what_a_file_cannot_hold_is_refused(scene):
+    stretch = placement(scale=(2, 1, 1))
+    with pytest.raises(LucidaError, match=r"objects\[2\]\.scale: would shear"):
+        moving.transform(scene, [item(scene, "box")], stretch)
+    with pytest.raises(LucidaError, match=r"objects\[1\]\.scale: would make an ellipsoid"):
+        moving.transform(scene, [item(scene, "ball")], stretch)
+    with pytest.raises(LucidaError, match="flattens"):
+        moving.transform(scene, [item(scene, "box")], np.diag([1, 0, 1, 1]))
+    with pytest.raises(LucidaError, match="finite"):
+        moving.transform(scene, [item(scene, "box")], np.full((4, 4), np.nan))
+
+
+def test_spheres_and_lights_move_by_their_own_numbers(scene):
+    ball, sun, lamp = (
+        item(scene, name) for name in ("ball", "directional light 0", "point light 1")
+    )
+    moved = moving.transform(scene, [ball, sun, lamp], placement((1, 0, 0), (0, 90, 0), 2.0))
+    assert table(moved, "ball")["radius"] == pytest.approx(1.2)
+    assert table(moved, "ball")["center"] == pytest.approx([1, 0, 1.4])
+    assert table(moved, "directional light 0")["direction"] == pytest.approx([-0.5, -1, -0.4])
+    assert table(moved, "point light 1")["position"] == pytest.approx([5, 6, -4])
+    assert scene.objects[0] is moved.objects[0]
+    bounds = moving.bounds_of(scene, [ball, lamp])
+    np.testing.assert_allclose(bounds, [[-1.3, -0.6, -0.6], [2, 3, 2]])
+    assert moving.bounds_of(scene, [sun]) is None
+    np.testing.assert_allclose(
+        moving.matrix_of(scene, sun)[:3, 2], -np.array([0.4, -1, -0.5]) / np.sqrt(1.41)
+    )
+
+
+# Coming and going.
+
+
+@pytest.mark.parametrize("kind", [*objects.SHAPES, *objects.LIGHTS])
+def test_every_kind_can_be_added_and_gets_a_name_of_its_own(scene, kind):
+    first, (one,) = objects.add(scene, objects.new_table(scene, kind, (1, 2, 3), 2.0))
+    second, (two,) = objects.add(first, objects.new_table(first, kind))
+    assert one != two and len(outline(second)) == len(outline(scene)) + 2
+    assert len(set(names(second))) == len(names(second))
+    if kind in objects.SHAPES:
+        low, high = moving.bounds_of(first, [one])
+        assert ((low >= 0) & (high <= 4)).all()
+        np.testing.assert_allclose((low + high) / 2, (1, 2, 3))
+    assert objects.delete(second, [one, two]).objects == scene.objects
+
+
+def test_a_model_is_added_and_its_file_is_watched(scene, tmp_path):
+    (tmp_path / "more").mkdir()
+    file = tmp_path / "more" / "roof.obj"
+    file.write_text(TENT)
+    found, (key,) = objects.add(scene, objects.model_table(scene, str(file), (0, 1, 0)))
+    assert changing.table_of(found, key)["name"] == "roof"
+    assert file in found.origin.files
+    with pytest.raises(LucidaError, match=r"objects\[4\].*nothing\.obj.*does not exist"):
+        objects.add(scene, objects.model_table(scene, "nothing.obj"))
+
+
+def test_reordering_changes_ids_and_nothing_else(scene):
+    floor, box = item(scene, "rectangle 0"), item(scene, "box")
+    moved = objects.reorder(scene, [floor], None)
+    assert [row.item for row in outline(moved)][:4] == [
+        *[r.item for r in outline(scene)][1:4],
+        floor,
+    ]
+    assert moved.objects == (*scene.objects[1:], scene.objects[0])
+    back = objects.reorder(moved, [floor], item(moved, "ball"))
+    assert back.objects == scene.objects
+    both = objects.reorder(scene, [box, floor], box)
+    assert both.objects == tuple(scene.objects[k] for k in (1, 0, 2, 3))
+    with pytest.raises(LucidaError, match="lists of their own"):
+        objects.reorder(scene, [floor], item(scene, "point light 1"))
+
+
+def test_a_selection_survives_what_happens_to_others(scene):
+    ball, box = item(scene, "ball"), item(scene, "box")
+    deleted = objects.delete(scene, [ball])
+    assert changing.present(deleted, [ball, box]) == (box,)
+    assert changing.present(scene, [ball, box]) == (ball, box)
+    assert changing.ids_of(deleted, box) == range(1, 2)
+    with pytest.raises(LucidaError, match="not in this scene any more"):
+        changing.set_field(deleted, [ball], "radius", 1.0)
+
+
+def test_the_default_lights_are_written_down_once_they_are_edited(tmp_path):
+    (tmp_path / "bare.toml").write_text('[[objects]]\ntype = "box"\n')
+    scene = load_scene(tmp_path / "bare.toml")
+    key, fill = (row.item for row in outline(scene) if row.is_light)
+    dim = changing.set_field(scene, [fill], "color", [0.1, 0.1, 0.1])
+    assert dim.lights[0] == scene.lights[0] and dim.lights[1].color == (0.1, 0.1, 0.1)
+    assert len(objects.delete(scene, [key]).lights) == 1
+    assert objects.delete(scene, [key, fill]).lights == ()
+
+
+# What is hidden.
+
+
+def test_what_is_hidden_is_hidden_from_both_renderers_and_ids_stay(scene, gl_backend):
+    camera, size = scene.view.for_size((48, 36)), (48, 36)
+    hidden = objects.hide(scene, [item(scene, "ball"), item(scene, "rectangle 0")])
+    with Rasterizer(scene, backend=gl_backend) as rasterizer, Tracer(scene) as tracer:
+        for renderer in (rasterizer, tracer):
+            assert set(np.unique(renderer.render(camera, size).id)) == {-1, 0, 1, 2, 3}
+            renderer.set_scene(hidden)
+            assert set(np.unique(renderer.render(camera, size).id)) == {-1, 2, 3}
+            renderer.set_scene(objects.hide(hidden, [item(scene, "ball")], False))
+            assert set(np.unique(renderer.render(camera, size).id)) == {-1, 1, 2, 3}
+    assert [number for number, _ in hidden.visible] == [2, 3]
+
+
+def test_of_what_is_hidden_nothing_is_left_in_bounds_or_reasons(scene):
+    far = moving.transform(scene, [item(scene, "box")], placement((1e6, 0, 0)))
+    assert flatten(far).bounds[1, 0] > 1e5
+    hidden = objects.hide(far, [item(scene, "box")])
+    np.testing.assert_array_equal(flatten(hidden).bounds[1, 0], 2.0)
+    everything = objects.hide(scene, [row.item for row in outline(scene)])
+    assert why_nothing_is_hit(flatten(everything), scene.view.camera) == "the scene has no objects"
+    assert everything.lights == () and not flatten(everything).bounds.any()
+
+
+# Materials.
+
+
+def test_a_shared_material_changes_for_all_or_for_one(scene):
+    ball, box = item(scene, "ball"), item(scene, "box")
+    scene = materials.use_material(scene, [box], "red")
+    assert materials.material_of(scene, ball).users == (ball, box)
+    everyone = materials.set_material(scene, [ball], "diffuse", [0, 1, 0], for_all=True)
+    assert {everyone.objects[k].material.diffuse for k in (1, 2)} == {(0, 1, 0)}
+    one = materials.set_material(scene, [ball], "diffuse", [0, 1, 0], for_all=False)
+    assert one.objects[1].material.diffuse == (0, 1, 0) and one.objects[2] is scene.objects[2]
+    assert one.objects[1].material.specular == scene.objects[1].material.specular
+    assert materials.material_of(one, ball).name == ""
+    named = materials.share_material(one, ball, "green")
+    assert materials.material_names(named) == ("red", "floor", "green")
+    assert named.objects[1].material == one.objects[1].material
+
+
+def test_of_a_model_the_material_of_its_file_is_begun_with(scene):
+    tent = item(scene, "tent")
+    use = materials.material_of(scene, tent)
+    assert use.is_models and use.name == ""
+    shiny = materials.set_material(scene, [tent], "shininess", 100.0, for_all=False)
+    assert shiny.objects[3].material.diffuse == use.material.diffuse
+    back = materials.use_material(shiny, [tent], None)
+    assert back.objects[3].material == use.material
+
+
+def test_shared_materials_are_renamed_and_deleted_with_care(scene):
+    renamed = materials.rename_material(scene, "red", "crimson")
+    assert table(renamed, "ball")["material"] == "crimson"
+    assert renamed.objects[1].material == scene.objects[1].material
+    with pytest.raises(LucidaError, match=r"materials\.red: is used by 1 object"):
+        materials.delete_material(scene, "red")
+    with pytest.raises(LucidaError, match="'floor' is taken"):
+        materials.rename_material(scene, "red", "floor")
+    with pytest.raises(LucidaError, match="has no name"):
+        materials.add_material(scene, "", {})
+    free = materials.use_material(scene, [item(scene, "ball")], None)
+    assert materials.material_names(materials.delete_material(free, "red")) == ("floor",)
+    tiled = materials.set_shared_material(scene, "floor", "checker.size", 2.0)
+    assert tiled.objects[0].material.checker.size == 2.0
+
+
+# As text.
+
+
+def test_what_is_copied_is_pasted_into_another_window(scene, tmp_path):
+    items = [item(scene, name) for name in ("ball", "tent", "point light 1")]
+    text = clipping.copy_text(scene, items)
+    assert "[materials.red]" in text and str(tmp_path / "tent.obj") in text
+    other = load_scene("still-life")
+    found, pasted = clipping.paste_text(other, text)
+    assert len(found.objects) == len(other.objects) + 2 and len(found.lights) == 3
+    assert found.objects[-2].material == scene.objects[1].material
+    assert found.objects[: len(other.objects)] == other.objects
+    assert changing.present(found, pasted) == pasted and len(pasted) == 3
+
+
+def test_a_pasted_material_of_the_same_name_gets_another_one_unless_it_is_the_same(scene):
+    text = clipping.copy_text(scene, [item(scene, "ball")])
+    again, _ = clipping.paste_text(scene, text)
+    assert materials.material_names(again) == ("red", "floor")
+    assert names(again)[4] == "ball 2"
+    changed = materials.set_shared_material(scene, "red", "diffuse", [0, 0, 1])
+    both, (key,) = clipping.paste_text(changed, text)
+    assert materials.material_names(both) == ("red", "floor", "red 2")
+    assert changing.table_of(both, key)["material"] == "red 2"
+
+
+@pytest.mark.parametrize(
+    ("text", "problem"),
+    [
+        ("hello", "line 1"),
+        ("", "no objects and no lights"),
+        ("[camera]\neye = [0, 0, 1]", "camera: cannot be pasted"),
+        ("objects = 3", "objects: is not a list"),
+        ("objects = [3]", "objects: is not a list"),
+        ("materials = 3\n[[objects]]\ntype = 'box'", "materials: is not a table"),
+        ("[[objects]]\ntype = 'point'", r"objects\[0\]\.type: 'point'"),
+        ("[[lights]]\ntype = 'box'", r"lights\[0\]\.type: 'box'"),
+        ("[[objects]]\ntype = ['box']", r"objects\[4\]"),
+        ("[[objects]]\ntype = 'box'\nname = ['a']", r"objects\[4\]\.name"),
+        ("[[objects]]\ntype = 'box'\nmaterial = ['a']", r"objects\[4\]\.material"),
+        ("[[objects]]\ntype = 'box'\nmaterial = 'gold'", "'gold' is unknown"),
+        ("[[objects]]\ntype = 'model'\nfile = 'no.obj'", "does not exist"),
+        ("[[objects]]\ntype = 'box'\n[materials]\na = 3", "materials.a"),
+    ],
+)
+def test_a_text_that_is_no_object_is_refused_in_one_line(scene, text, problem):
+    with pytest.raises(LucidaError, match=problem) as caught:
+        clipping.paste_text(scene, text)
+    assert "\n" not in str(caught.value)

@@ -1,0 +1,93 @@
+"""What was edited and not saved comes back with the session."""
+
+from __future__ import annotations
+
+import pytest
+from random_edits import SCENE, TENT
+
+from app.state.app_state import AppState
+from app.storage.session import Arrangement, from_bytes, session_of, to_bytes
+from app.storage.session_store import take_place
+from app.window import start
+from renderer.scene import load_scene
+from renderer.scene_editing import changing, documents, objects
+from renderer.scene_editing.outline import outline
+
+
+@pytest.fixture
+def edited(tmp_path):
+    (tmp_path / "tent.obj").write_text(TENT)
+    (tmp_path / "scene.toml").write_text(SCENE)
+    scene = load_scene(tmp_path / "scene.toml")
+    rows = outline(scene)
+    scene = changing.set_field(scene, [rows[1].item], "radius", 0.9)
+    scene, _ = objects.add(scene, objects.new_table(scene, "cone"))
+    return objects.reorder(objects.delete(scene, [rows[4].item]), [rows[3].item], rows[0].item)
+
+
+def restored(scene):
+    """The scene of a session's file, as a window that was killed has left it."""
+    session = from_bytes(to_bytes(session_of(AppState.for_scene(scene), Arrangement())))
+    return session.load_scene()
+
+
+def test_an_edited_scene_comes_back_unsaved_and_is_saved_as_if_nothing_had_been(edited, tmp_path):
+    found = restored(edited)
+    assert found.origin.tables == edited.origin.tables and found.lights == edited.lights
+    assert [e.name for e in found.objects] == [e.name for e in edited.objects]
+    assert (found.name, found.view) == (edited.name, edited.view)
+    assert documents.is_unsaved(found)
+    assert documents.file_of(found) == tmp_path / "scene.toml"
+    documents.save(found)
+    once = (tmp_path / "scene.toml").read_text()
+    (tmp_path / "scene.toml").write_text(SCENE)
+    documents.save(edited)
+    assert (tmp_path / "scene.toml").read_text() == once
+    assert "# --- the objects ---" in once and "# no more of the ball" in once
+
+
+def test_a_file_that_was_changed_meanwhile_is_not_written_over(edited, tmp_path):
+    found = restored(edited)
+    (tmp_path / "scene.toml").write_text(SCENE + "# theirs\n")
+    with pytest.raises(documents.ChangedOnDiskError):
+        documents.save(found)
+
+
+def test_a_saved_scene_is_read_from_its_file(edited):
+    session = session_of(AppState.for_scene(documents.save(edited)), Arrangement())
+    assert session.edited is None
+    unedited = session_of(AppState.for_scene(load_scene("spheres")), Arrangement())
+    assert unedited.edited is None
+
+
+@pytest.mark.parametrize("source", ["tent.obj", "still-life"])
+def test_edited_models_and_built_in_scenes_come_back(tmp_path, source):
+    (tmp_path / "tent.obj").write_text(TENT)
+    scene = load_scene(tmp_path / source if source.endswith("obj") else source)
+    scene, _ = objects.add(scene, objects.new_table(scene, "torus", (1, 2, 3)))
+    found = restored(scene)
+    assert found.origin.tables == scene.origin.tables
+    assert documents.suggested_file(found).name == documents.suggested_file(scene).name
+    assert documents.is_unsaved(found) and documents.file_of(found) is None
+
+
+def test_the_window_begins_with_the_edited_scene(edited, tmp_path):
+    place = take_place(tmp_path / "sessions")
+    place.save(to_bytes(session_of(AppState.for_scene(edited), Arrangement())))
+    place.release()
+    begun = start.begin_session(folder=tmp_path / "sessions")
+    begun.keeper.close(None)
+    assert begun.state.scene.origin.tables == edited.origin.tables and begun.message == ""
+
+
+def test_where_its_model_is_gone_the_edited_scene_is_kept_as_a_file(edited, tmp_path):
+    place = take_place(tmp_path / "sessions")
+    place.save(to_bytes(session_of(AppState.for_scene(edited), Arrangement())))
+    place.release()
+    (tmp_path / "tent.obj").rename(tmp_path / "away.obj")
+    begun = start.begin_session(folder=tmp_path / "sessions")
+    begun.keeper.close(None)
+    kept = tmp_path / "sessions" / "unsaved-1.toml"
+    assert str(kept) in begun.message and "does not exist" in begun.message
+    (tmp_path / "away.obj").rename(tmp_path / "tent.obj")
+    assert len(load_scene(kept).objects) == len(edited.objects)
