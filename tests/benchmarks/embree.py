@@ -19,12 +19,12 @@ import numpy as np
 from renderer.camera import Camera, Size
 from tests.benchmarks.cameras import Rays
 from tests.benchmarks.peers import Hits, Peer, processors
-from tests.benchmarks.scenes import Faces, Vertices
+from tests.benchmarks.meshes import Faces, Vertices
 
 SOURCE = Path(__file__).with_suffix(".cpp")
 FOLDER = Path(__file__).resolve().parents[2] / "build" / "bench"
 FLAGS = ("-std=c++17", "-O3", "-march=native", "-fno-math-errno", "-shared", "-fPIC", "-pthread")
-MEDIUM, HIGH = 1, 2  # RTCBuildQuality
+MEDIUM = 1  # RTCBuildQuality
 FLOATS = ctypes.POINTER(ctypes.c_float)
 
 
@@ -55,7 +55,7 @@ class NativeEmbree(Peer):
     ) -> None:
         self._library = _library()
         self._settings = (threads or processors(), quality, int(robust))
-        self._embree = None
+        self._embree: int | None = None
         self._answer: tuple[np.ndarray, ...] = ()
 
     @classmethod
