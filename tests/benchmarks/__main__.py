@@ -134,8 +134,8 @@ def _document(run: Run, machine: dict, tables: list[report.Table]) -> None:
     parts = [
         f"`make bench` on {machine['cpu']}, {machine['processors']} processors, Python "
         f"{machine['python']}, numba {machine['packages']['numba']}; beside {peers or 'no peers'}. "
-        "Each tracer in a process of its own, asked in turn after a pause of 20 ms, three calls each time; "
-        "medians in ms; in brackets how many times as long as Lucida.",
+        "Each tracer in a process of its own, asked in turn, three calls after a pause of 20 ms. "
+        "Medians in ms; in brackets how many times as long as Lucida.",
         f"![Speed, building and scaling]({picture})" if drawn else "",
         *(report.markdown(table) for table in tables if table.name in DOCUMENTED),
         "**Where a peer is faster**",

@@ -98,7 +98,7 @@ def facing(subject: Subject, camera: Camera, size: Size) -> int:
     centre = (a + b + c) / 3
     at = camera.project(centre, size)
     column, row = at.column + 0.5, at.row + 0.5
-    seen = (0 < column) & (column < size[0]) & (0 < row) & (row < size[1])
+    seen = (column > 0) & (column < size[0]) & (row > 0) & (row < size[1])
     normal = np.cross(b[seen] - a[seen], c[seen] - a[seen])
     back = np.array(camera.w) if camera.is_parallel else np.array(camera.eye) - centre[seen]
     front = int(np.count_nonzero((normal * back).sum(axis=1) > 0))

@@ -18,8 +18,8 @@ import numpy as np
 
 from renderer.camera import Camera, Size
 from tests.benchmarks.cameras import Rays
-from tests.benchmarks.peers import Hits, Peer, processors
 from tests.benchmarks.meshes import Faces, Vertices
+from tests.benchmarks.peers import Hits, Peer, processors
 
 SOURCE = Path(__file__).with_suffix(".cpp")
 FOLDER = Path(__file__).resolve().parents[2] / "build" / "bench"

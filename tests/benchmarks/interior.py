@@ -48,9 +48,7 @@ def interior(detail: float = 1.0) -> Mesh:
             x = (bay + 0.5 - BAYS / 2) * BAY
             for floor in (0.0, STOREY):
                 parts.append(_at(arch, x, floor + 2.8, side * NAVE))
-            parts += [
-                _at(baluster, x + 0.4 * k, STOREY + 0.2, side * NAVE) for k in range(-4, 5)
-            ]
+            parts += [_at(baluster, x + 0.4 * k, STOREY + 0.2, side * NAVE) for k in range(-4, 5)]
             parts.append(_box(x, STOREY + 1.05, side * NAVE, BAY - 0.7, 0.12, 0.3))
             if bay % 2:
                 parts.append(_at(cloth, x, 0.0, side * NAVE))
@@ -75,7 +73,7 @@ def _grid(points: NDArray[np.float64], around: bool = False) -> Mesh:
 
 
 def _turned(profile: list[tuple[float, float]], around: int, steps: int, flutes: float) -> Mesh:
-    """A profile of (radius, height) turned about y; flutes: their depth, as a part of the radius."""
+    """A profile of (radius, height) turned about y; flutes: their depth, a part of the radius."""
     corners = np.array(profile)
     along = np.linspace(0, len(corners) - 1, steps + 1)
     radius, height = (np.interp(along, np.arange(len(corners)), c) for c in corners.T)

@@ -13,8 +13,8 @@ from renderer.camera import Camera, Size
 from renderer.frame import Frame
 from renderer.scene import Mesh, Scene, SceneObject
 from renderer.trace import Tracer
-from tests.benchmarks.peers import Hits, Peer
 from tests.benchmarks.meshes import Faces, Vertices
+from tests.benchmarks.peers import Hits, Peer
 
 VISIBILITY = ("depth", "primitive", "normal")
 
@@ -26,10 +26,6 @@ class Lucida(Peer):
 
     def __init__(self, threads: int | None = None) -> None:
         self._threads = threads
-
-    @classmethod
-    def version(cls) -> str:
-        return __version__
 
     def prepare(self, vertices: Vertices, faces: Faces) -> None:
         self.prepare_scene(Scene((SceneObject(Mesh(vertices, faces)),)))

@@ -132,7 +132,7 @@ LOSSES_HEADER = ("where", "who is faster", "ms", "Lucida ms")
 
 
 def losses(tables: Iterable[Table]) -> list[tuple[str, ...]]:
-    """Under LOSSES_HEADER: every row of every table in which a peer was faster, and who was most."""
+    """Under LOSSES_HEADER: each row of a table in which a peer was faster, and who was fastest."""
     found = []
     for table in tables:
         for cells, numbers in zip(table.rows, table.data, strict=False):

@@ -19,8 +19,8 @@ from tests.benchmarks.cameras import look
 from tests.benchmarks.embree import NativeEmbree
 from tests.benchmarks.lucida import Lucida
 from tests.benchmarks.measure import QUICK, Plan, Stopwatch, Timing, Turn, interleaved, seconds
-from tests.benchmarks.peers import Embreex, Hits, Mitsuba, Open3D, Peer, Trimesh
 from tests.benchmarks.meshes import bumpy_sphere
+from tests.benchmarks.peers import Embreex, Hits, Mitsuba, Open3D, Peer, Trimesh
 from tests.benchmarks.processes import TracerProcess
 from tests.benchmarks.scenes import SUBJECTS, Subject, model
 

@@ -54,7 +54,9 @@ def measure(run: Run) -> list[Table]:
                 )
     for (name, peer), own_ratios in ratios.items():
         if peer in AT_LEAST:
-            table.target(f"{name} rays, against {peer}, worst", min(own_ratios), AT_LEAST[peer], "x")
+            table.target(
+                f"{name} rays, against {peer}, worst", min(own_ratios), AT_LEAST[peer], "x"
+            )
     return [table]
 
 
