@@ -1,5 +1,5 @@
-// Embree asked in C++, as fast as we know how: coherent packets of 4x4 pixels, rays made in registers,
-// all threads. tests/benchmarks/embree.py compiles this and calls it; EMBREE is 3 or 4.
+// Embree asked in C++, as fast as we know how: packets of 16 rays, of a camera's image 4x4 pixels, made
+// here; all threads. tests/benchmarks/embree.py compiles this and calls it; EMBREE is 3 or 4.
 
 #if EMBREE == 4
 #include <embree4/rtcore.h>
@@ -23,8 +23,8 @@
 
 namespace {
 
-constexpr int BLOCK = 32;      // pixels a side that a thread takes at once
-constexpr size_t CHUNK = 4096;  // single rays that a thread takes at once
+constexpr int BLOCK = 64;      // pixels a side that a thread takes at once
+constexpr size_t CHUNK = 4096;  // rays of an array that a thread takes at once
 constexpr float INF = std::numeric_limits<float>::infinity();
 
 // As tests/benchmarks/embree.py writes it: a pixel's image point is left + (column + 0.5) dx, and so on.
@@ -34,7 +34,7 @@ struct Camera {
   int width, height, parallel;
 };
 
-struct Image {  // or answers of single rays; normal: unit, three floats a ray
+struct Image {  // or the answers to rays of an array; normal: unit, three floats a ray
   float* t;
   int* primitive;
   float* normal;
@@ -124,83 +124,101 @@ struct Embree {
   }
 };
 
-#if EMBREE == 4
+// How Embree is asked, 16 rays at a time.
 struct Ask {
+#if EMBREE == 4
   RTCIntersectArguments closest;
   RTCOccludedArguments any;
+
   explicit Ask(bool coherent) {
     rtcInitIntersectArguments(&closest);
     rtcInitOccludedArguments(&any);
     closest.flags = any.flags = coherent ? RTC_RAY_QUERY_FLAG_COHERENT : RTC_RAY_QUERY_FLAG_INCOHERENT;
   }
-  void packet(const int* valid, RTCScene scene, RTCRayHit16* rays) { rtcIntersect16(valid, scene, rays, &closest); }
-  void one(RTCScene scene, RTCRayHit* ray) { rtcIntersect1(scene, ray, &closest); }
-  void shadow(RTCScene scene, RTCRay* ray) { rtcOccluded1(scene, ray, &any); }
-};
+  void trace(const int* valid, RTCScene scene, RTCRayHit16* rays) { rtcIntersect16(valid, scene, rays, &closest); }
+  void shadow(const int* valid, RTCScene scene, RTCRay16* rays) { rtcOccluded16(valid, scene, rays, &any); }
 #else
-struct Ask {
   RTCIntersectContext context;
+
   explicit Ask(bool coherent) {
     rtcInitIntersectContext(&context);
     context.flags = coherent ? RTC_INTERSECT_CONTEXT_FLAG_COHERENT : RTC_INTERSECT_CONTEXT_FLAG_INCOHERENT;
   }
-  void packet(const int* valid, RTCScene scene, RTCRayHit16* rays) { rtcIntersect16(valid, scene, &context, rays); }
-  void one(RTCScene scene, RTCRayHit* ray) { rtcIntersect1(scene, &context, ray); }
-  void shadow(RTCScene scene, RTCRay* ray) { rtcOccluded1(scene, &context, ray); }
-};
+  void trace(const int* valid, RTCScene scene, RTCRayHit16* rays) { rtcIntersect16(valid, scene, &context, rays); }
+  void shadow(const int* valid, RTCScene scene, RTCRay16* rays) { rtcOccluded16(valid, scene, &context, rays); }
 #endif
+};
 
-// One block of the image, 4x4 pixels at a time.
-void trace_block(Embree& e, const Camera& c, const Image& image, int column0, int row0) {
-  Ask ask(true);
+// 16 rays: who sets org and dir, and which of them are valid (-1, or 0), may ask for their hits.
+struct Packet {
   alignas(64) RTCRayHit16 rays;
   alignas(64) int valid[16];
-  std::memset(&rays, 0, sizeof rays);
-  std::fill_n(rays.ray.mask, 16, ~0u);
   float *org[3] = {rays.ray.org_x, rays.ray.org_y, rays.ray.org_z};
   float *dir[3] = {rays.ray.dir_x, rays.ray.dir_y, rays.ray.dir_z};
-  for (int k = 0; k < 3; ++k) {
-    std::fill_n(org[k], 16, c.eye[k]);
-    std::fill_n(dir[k], 16, c.forward[k]);
+
+  Packet() {
+    std::memset(&rays, 0, sizeof rays);
+    std::fill_n(rays.ray.mask, 16, ~0u);
   }
-  float** const varies = c.parallel ? org : dir;
+
+  void trace(Ask& ask, RTCScene scene) {
+    for (int i = 0; i < 16; ++i) {
+      rays.ray.tfar[i] = INF;
+      rays.hit.geomID[i] = rays.hit.primID[i] = RTC_INVALID_GEOMETRY_ID;
+      rays.hit.Ng_x[i] = rays.hit.Ng_y[i] = rays.hit.Ng_z[i] = 0;
+    }
+    ask.trace(valid, scene, &rays);
+    for (int i = 0; i < 16; ++i) {
+      const float x = rays.hit.Ng_x[i], y = rays.hit.Ng_y[i], z = rays.hit.Ng_z[i];
+      const float scale = 1 / std::sqrt(std::max(x * x + y * y + z * z, 1e-37f));
+      rays.hit.Ng_x[i] *= scale, rays.hit.Ng_y[i] *= scale, rays.hit.Ng_z[i] *= scale;
+    }
+  }
+
+  void store(int i, const Image& image, size_t at) const {
+    image.t[at] = rays.ray.tfar[i];
+    image.primitive[at] = int(rays.hit.primID[i]);
+    image.normal[3 * at] = rays.hit.Ng_x[i];
+    image.normal[3 * at + 1] = rays.hit.Ng_y[i];
+    image.normal[3 * at + 2] = rays.hit.Ng_z[i];
+  }
+
+  // Rays of an array from `begin`; the last one again where there are no more.
+  void load(const float* origins, const float* directions, size_t begin, size_t end) {
+    for (size_t i = 0; i < 16; ++i) {
+      valid[i] = begin + i < end ? -1 : 0;
+      const size_t at = 3 * std::min(begin + i, end - 1);
+      for (int k = 0; k < 3; ++k) {
+        org[k][i] = origins[at + k];
+        dir[k][i] = directions[at + k];
+      }
+    }
+  }
+};
+
+// One block of the image, 4x4 pixels at a time.
+void trace_block(const Embree& e, const Camera& c, const Image& image, int column0, int row0) {
+  Ask ask(true);
+  Packet packet;
+  for (int k = 0; k < 3; ++k) {
+    std::fill_n(packet.org[k], 16, c.eye[k]);
+    std::fill_n(packet.dir[k], 16, c.forward[k]);
+  }
+  float** const varies = c.parallel ? packet.org : packet.dir;
   const float* const base = c.parallel ? c.eye : c.forward;
   const int columns = std::min(c.width, column0 + BLOCK), rows = std::min(c.height, row0 + BLOCK);
   for (int row = row0; row < rows; row += 4)
     for (int column = column0; column < columns; column += 4) {
       for (int i = 0; i < 16; ++i) {
         const int down = row + i / 4, right = column + i % 4;
-        valid[i] = down < rows && right < columns ? -1 : 0;
+        packet.valid[i] = down < rows && right < columns ? -1 : 0;
         const float x = c.left + (right + 0.5f) * c.dx, y = c.top + (down + 0.5f) * c.dy;
         for (int k = 0; k < 3; ++k) varies[k][i] = base[k] + x * c.u[k] + y * c.v[k];
-        rays.ray.tfar[i] = INF;
-        rays.hit.geomID[i] = rays.hit.primID[i] = RTC_INVALID_GEOMETRY_ID;
-        rays.hit.Ng_x[i] = rays.hit.Ng_y[i] = rays.hit.Ng_z[i] = 0;
       }
-      ask.packet(valid, e.scene, &rays);
-      alignas(64) float scale[16];
-      for (int i = 0; i < 16; ++i) {
-        const float x = rays.hit.Ng_x[i], y = rays.hit.Ng_y[i], z = rays.hit.Ng_z[i];
-        scale[i] = 1 / std::sqrt(std::max(x * x + y * y + z * z, 1e-37f));
-      }
-      for (int i = 0; i < 16; ++i) {
-        if (!valid[i]) continue;
-        const size_t at = size_t(row + i / 4) * c.width + column + i % 4;
-        image.t[at] = rays.ray.tfar[i];
-        image.primitive[at] = int(rays.hit.primID[i]);
-        image.normal[3 * at] = rays.hit.Ng_x[i] * scale[i];
-        image.normal[3 * at + 1] = rays.hit.Ng_y[i] * scale[i];
-        image.normal[3 * at + 2] = rays.hit.Ng_z[i] * scale[i];
-      }
+      packet.trace(ask, e.scene);
+      for (int i = 0; i < 16; ++i)
+        if (packet.valid[i]) packet.store(i, image, size_t(row + i / 4) * c.width + column + i % 4);
     }
-}
-
-template <class Ray>
-void aim(Ray& ray, const float* origin, const float* direction) {
-  ray.org_x = origin[0], ray.org_y = origin[1], ray.org_z = origin[2];
-  ray.dir_x = direction[0], ray.dir_y = direction[1], ray.dir_z = direction[2];
-  ray.tnear = ray.time = 0, ray.tfar = INF;
-  ray.mask = ~0u, ray.id = ray.flags = 0;
 }
 
 }  // namespace
@@ -242,17 +260,11 @@ void embree_image(Embree* e, const Camera* camera, Image image) {
 void embree_closest(Embree* e, size_t count, const float* origins, const float* directions, Image answer) {
   e->share(count, CHUNK, [&](size_t begin, size_t end) {
     Ask ask(false);
-    alignas(16) RTCRayHit ray{};
-    for (size_t i = begin; i < end; ++i) {
-      aim(ray.ray, origins + 3 * i, directions + 3 * i);
-      ray.hit.geomID = ray.hit.primID = RTC_INVALID_GEOMETRY_ID;
-      ray.hit.Ng_x = ray.hit.Ng_y = ray.hit.Ng_z = 0;
-      ask.one(e->scene, &ray);
-      const float x = ray.hit.Ng_x, y = ray.hit.Ng_y, z = ray.hit.Ng_z;
-      const float scale = 1 / std::sqrt(std::max(x * x + y * y + z * z, 1e-37f));
-      answer.t[i] = ray.ray.tfar;
-      answer.primitive[i] = int(ray.hit.primID);
-      answer.normal[3 * i] = x * scale, answer.normal[3 * i + 1] = y * scale, answer.normal[3 * i + 2] = z * scale;
+    Packet packet;
+    for (size_t at = begin; at < end; at += 16) {
+      packet.load(origins, directions, at, end);
+      packet.trace(ask, e->scene);
+      for (int i = 0; i < 16 && at + i < end; ++i) packet.store(i, answer, at + i);
     }
   });
 }
@@ -260,11 +272,13 @@ void embree_closest(Embree* e, size_t count, const float* origins, const float* 
 void embree_any(Embree* e, size_t count, const float* origins, const float* directions, bool* occluded) {
   e->share(count, CHUNK, [&](size_t begin, size_t end) {
     Ask ask(false);
-    alignas(16) RTCRay ray;
-    for (size_t i = begin; i < end; ++i) {
-      aim(ray, origins + 3 * i, directions + 3 * i);
-      ask.shadow(e->scene, &ray);
-      occluded[i] = ray.tfar < 0;
+    Packet packet;
+    RTCRay16& rays = packet.rays.ray;
+    for (size_t at = begin; at < end; at += 16) {
+      packet.load(origins, directions, at, end);
+      std::fill_n(rays.tfar, 16, INF);
+      ask.shadow(packet.valid, e->scene, &rays);
+      for (int i = 0; i < 16 && at + i < end; ++i) occluded[at + i] = rays.tfar[i] < 0;
     }
   });
 }

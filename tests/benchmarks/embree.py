@@ -45,8 +45,9 @@ class ImageStruct(ctypes.Structure):
 
 
 class NativeEmbree(Peer):
-    """rtcIntersect16 on coherent packets of 4x4 pixels; rtcIntersect1 and rtcOccluded1 on single
-    rays. Not robust: Embree's faster mode, in which rays may slip between triangles."""
+    """rtcIntersect16: coherent packets of 4x4 pixels; single rays 16 at a time, as they come, which
+    is faster than rtcIntersect1. Not robust: Embree's faster mode, in which rays may slip between
+    triangles."""
 
     name = "Embree (C++)"
 
