@@ -43,7 +43,7 @@ def interior(detail: float = 1.0) -> Mesh:
             x = (bay - BAYS / 2) * BAY
             for floor in (0.0, STOREY):
                 parts.append(_at(column, x, floor, side * NAVE))
-                parts.append(_box(x, floor + 3.9, side * NAVE, 0.56, 2.2, 0.6))
+                parts.append(_box(x, floor + 3.9, side * NAVE, 0.56, 2.2, 0.56))
         for bay in range(BAYS):
             x = (bay + 0.5 - BAYS / 2) * BAY
             for floor in (0.0, STOREY):

@@ -31,6 +31,7 @@ RESTLESS = 0.05  # of a processor, while nothing is asked
 # The Debian and Ubuntu packages of the system's libraries that peers load.
 SYSTEM_PACKAGES = {
     "usb-1.0": "libusb-1.0-0",
+    "embree": "libembree-dev",
     "llvm": "libllvm15 (or any newer one)",
     "gomp": "libgomp1",
     "gl": "libgl1",
@@ -66,8 +67,8 @@ class Run:
         """Takes in the peers that work here and take no processor from the others."""
         found = []
         subject = Subject("sphere", *bumpy_sphere(100))
-        for kind in PEERS:
-            process = self.process(kind)
+        processes = {kind: self.process(kind) for kind in PEERS}  # they start at the same time
+        for kind, process in processes.items():
             try:
                 process.prepare(subject)
                 process.image(look(subject, HD), HD)

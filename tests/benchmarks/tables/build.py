@@ -37,9 +37,14 @@ def measure(run: Run) -> list[Table]:
             times={name: timing.numbers() for name, timing in timings.items()},
         )
         if subject.name == LARGEST and Open3D.name in ratios:
-            table.target("1M, against Open3D", ratios[Open3D.name], AT_LEAST_OPEN3D, "x")
+            table.target(
+                f"building {LARGEST}, against {Open3D.name}",
+                ratios[Open3D.name],
+                AT_LEAST_OPEN3D,
+                "x",
+            )
         if subject.name == SMALLEST and ratios:
             fastest = min(ratios, key=lambda name: ratios[name])
-            name = f"{SMALLEST}, against the fastest ({fastest})"
+            name = f"building {SMALLEST}, against the fastest ({fastest})"
             table.target(name, ratios[fastest], AT_LEAST_FASTEST, "x")
     return [table]

@@ -7,6 +7,7 @@ ratios can be trusted there too.
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import replace
 from functools import partial
 
 from tests.benchmarks.cameras import Rays, View, easy_views
@@ -30,13 +31,14 @@ def measure(run: Run) -> list[Table]:
     header += tuple(f"{kind.name} ms (times ours)" for kind in kinds)
     title = "Processor time of one thread: visibility at 1280x720, and single rays"
     table = Table("processor", title, header)
+    plan = replace(PLAN, rounds=2) if run.quick else PLAN
     for subject in run.subjects("small", "70k", "1M"):
         run.say(f"processor: {subject.name}")
         with run.tracers(subject, *WITHOUT, threads=1) as tracers:
             for what, set_up in _cases(subject).items():
                 for tracer in tracers:
                     set_up(tracer)
-                timings = run.time(tracers, PLAN, processor_seconds)
+                timings = run.time(tracers, plan, processor_seconds)
                 own = timings[Lucida.name]
                 cells = [subject.name, what, ms(own)]
                 for kind in kinds:

@@ -18,7 +18,9 @@ QUICK_DENSITIES = {"scan 66k": (0.1,), "scan 660k": (1.0, 3.0, 10.0, 30.0)}
 
 
 def measure(run: Run) -> list[Table]:
-    """One table: a row a scene, view and size."""
+    """One table: a row a scene, view and size; none for a model from a file."""
+    if run.file is not None:
+        return []
     kinds = tuple(kind for kind in run.kinds if kind not in WITHOUT)
     title = "Primary visibility: scans, seen whole and from within; a hall; a soup"
     table = Table("scans", title, header(kinds))
@@ -42,15 +44,12 @@ def measure(run: Run) -> list[Table]:
 
 
 def _cases(run: Run) -> list[tuple[Subject, list[View]]]:
-    if run.file is not None:
-        return []
     cases = []
     for name, densities in (QUICK_DENSITIES if run.quick else DENSITIES).items():
         subject = run.subject(name)
         views = [dense_view(subject, d, size) for size in run.sizes for d in densities]
-        if name == list(QUICK_DENSITIES if run.quick else DENSITIES)[-1]:
-            views += [within(subject, size) for size in run.sizes]
         cases.append((subject, views))
+    cases[-1][1].extend(within(subject, size) for size in run.sizes)
     cases.append((run.subject("interior"), interior_views(HD)))
     cases.append((run.subject("soup"), easy_views(run.subject("soup"), HD)[:2]))
     return cases
