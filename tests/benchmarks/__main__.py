@@ -88,6 +88,8 @@ def _measured(run: Run, names: list[str], arguments: argparse.Namespace) -> int:
     if run.kinds:
         print("Where a peer is faster\n")
         print(report.losses_text(tables) + "\n", flush=True)
+    print("Targets that fall short\n")
+    print(report.missed_text(tables) + "\n", flush=True)
     machine["load_after"] = report.load()
     settings = {"quick": run.quick, "full": run.full, "model": run.file and str(run.file)}
     text = report.as_json(tables, machine, settings, run.versions, run.left_out)

@@ -142,10 +142,22 @@ def losses(tables: Iterable[Table]) -> list[tuple[str, ...]]:
             fastest = min(all_s, key=lambda name: all_s[name])
             if all_s[fastest] < all_s[OURS]:
                 columns = next(k for k, head in enumerate(table.header) if head.startswith(OURS))
-                where = ", ".join((table.name, *cells[:columns]))
+                labels = zip(table.header[:columns], cells, strict=False)
+                where = ", ".join((table.name, *(_label(head, cell) for head, cell in labels)))
                 figures = (short(1e3 * all_s[name]) for name in (fastest, OURS))
                 found.append((where, fastest, *figures))
     return found
+
+
+def _label(head: str, cell: str) -> str:
+    """A number does not say what it is of."""
+    return f"{head} {cell}" if cell.strip("0123456789.,") == "" else cell
+
+
+def missed_text(tables: Iterable[Table]) -> str:
+    """For the terminal: the targets that fall short."""
+    rows = [target.cells() for table in tables for target in table.targets if not target.met]
+    return _aligned([TARGET_HEADER, *rows]) if rows else "  All targets are met."
 
 
 def losses_text(tables: Iterable[Table]) -> str:

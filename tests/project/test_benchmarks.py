@@ -97,16 +97,23 @@ class TestReport:
         assert report.targets_markdown([table()]).count("falls short") == 2
 
     def test_where_a_peer_is_faster(self):
-        made = report.Table("speed", "", ("scene", "view", "Lucida ms (quartiles)", "A ms", "B ms"))
-        for view, ours, a, b in (("near", 2, 3, 4), ("far", 2, 1.5, 1), ("even", 2, 2, 2)):
+        made = report.Table("speed", "", ("scene", "pixels", "Lucida ms (quartiles)", "A ms", "B"))
+        for view, ours, a, b in (("70", 2, 3, 4), ("1,280", 2, 1.5, 1), ("9.5", 2, 2, 2)):
             times = {"Lucida": ours, "A": a, "B": b}
             numbers = {name: {"median_s": ms / 1e3} for name, ms in times.items()}
             made.add("ball", view, "", "", "", times=numbers)
-        assert report.losses([table(), made]) == [("speed, ball, far", "B", "1.00", "2.00")]
-        assert "| speed, ball, far | B | 1.00 | 2.00 |" in report.losses_markdown([made])
-        assert "speed, ball, far" in report.losses_text([made])
+        assert report.losses([table(), made]) == [
+            ("speed, ball, pixels 1,280", "B", "1.00", "2.00")
+        ]
+        assert "| speed, ball, pixels 1,280 | B | 1.00 | 2.00 |" in report.losses_markdown([made])
+        assert "speed, ball, pixels 1,280" in report.losses_text([made])
         assert "No peer" in report.losses_text([table()])
         assert "No peer" in report.losses_markdown([table()])
+
+    def test_missed_targets_are_repeated(self):
+        lines = report.missed_text([table()]).splitlines()
+        assert [line.split()[0] for line in lines] == ["target", "------", "wait", "nothing"]
+        assert "All targets are met" in report.missed_text([])
 
     def test_a_row_must_fit_the_header(self):
         with pytest.raises(ValueError, match="2 cells under 3 headings"):
