@@ -112,7 +112,7 @@ class TestReport:
 
     def test_missed_targets_are_repeated(self):
         lines = report.missed_text([table()]).splitlines()
-        assert [line.split()[0] for line in lines] == ["target", "------", "wait", "nothing"]
+        assert [line.split()[0] for line in lines] == ["target", "-------", "wait", "nothing"]
         assert "All targets are met" in report.missed_text([])
 
     def test_a_row_must_fit_the_header(self):
