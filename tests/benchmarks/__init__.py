@@ -10,5 +10,5 @@
     report        tables and targets, as text, Markdown and JSON; plot: the picture of them
     tables        what is measured, a module each
 
-The tests of this package (tests/project/test_benchmarks.py) need no peers and no stopwatch.
+Its tests (tests/project/test_bench*.py) need no peers and no stopwatch.
 """
