@@ -56,8 +56,8 @@ class Timing:
 @dataclass(frozen=True)
 class Plan:
     """rounds: how often each call has its turn. pause_s: before each turn nothing is called, as
-    before a viewer's images; by then the threads of the one before sleep (Mitsuba's and trimesh's
-    wait at work for about 10 ms). repeats: calls in a turn, of which the median counts; slow_s: a
+    before a viewer's images; by then the threads of the one before sleep (Mitsuba's wait at work
+    for about 10 ms). repeats: calls in a turn, of which the median counts; slow_s: a
     call that takes longer is called once a turn. budget_s: no new round after that long, once
     there were least_rounds."""
 
