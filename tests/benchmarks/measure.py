@@ -69,7 +69,7 @@ class Plan:
     least_rounds: int = 3
 
 
-QUICK = Plan(rounds=3, budget_s=3.0, least_rounds=2)
+QUICK = Plan(rounds=3, budget_s=1.5, least_rounds=2)
 
 
 def seconds(call: Call) -> float:

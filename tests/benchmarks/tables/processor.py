@@ -35,7 +35,7 @@ def measure(run: Run) -> list[Table]:
     for subject in run.subjects("small", "70k", "1M"):
         run.say(f"processor: {subject.name}")
         with run.tracers(subject, *WITHOUT, threads=1) as tracers:
-            for what, set_up in _cases(subject).items():
+            for what, set_up in _cases(subject, 1 if run.quick else 3).items():
                 for tracer in tracers:
                     set_up(tracer)
                 timings = run.time(tracers, plan, processor_seconds)
@@ -53,10 +53,10 @@ def measure(run: Run) -> list[Table]:
     return [table]
 
 
-def _cases(subject: Subject) -> dict[str, Callable[[TracerProcess], None]]:
+def _cases(subject: Subject, views: int) -> dict[str, Callable[[TracerProcess], None]]:
     """What is measured, and what sets a tracer up for it."""
     cases: dict[str, Callable[[TracerProcess], None]] = {}
-    for view in easy_views(subject, HD):
+    for view in easy_views(subject, HD)[:views]:
         cases[view.name] = partial(_image, view)
     for what, rays in secondary_rays(subject).items():
         cases[f"{what} rays"] = partial(_batch, *rays, what == "shadow")
