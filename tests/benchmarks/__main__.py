@@ -10,12 +10,13 @@ from pathlib import Path
 from renderer.atomic import atomic_write
 from renderer.errors import LucidaError
 from tests.benchmarks import plot, report
-from tests.benchmarks.run import Run, versions
+from tests.benchmarks.run import Run
 from tests.benchmarks.tables import TABLES, measure
 
 ROOT = Path(__file__).resolve().parents[2]
 OUT = ROOT / "out" / "bench"
-DOCUMENTED = ("visibility", "processor", "build", "scaling")  # whole; of the others, the targets
+# Whole; of the others, the targets.
+DOCUMENTED = ("visibility", "scans", "pause", "processor", "secondary", "build", "scaling")
 
 
 def main(argv: list[str] | None = None) -> int:
@@ -47,6 +48,13 @@ def _run(arguments: argparse.Namespace) -> int:
     if arguments.document and arguments.only is not None:
         raise LucidaError("--document", "needs all tables", "leave out --only")
     run = Run(arguments.quick, arguments.full, arguments.model)
+    try:
+        return _measured(run, names, arguments)
+    finally:
+        run.close()
+
+
+def _measured(run: Run, names: list[str], arguments: argparse.Namespace) -> int:
     if not arguments.no_peers:
         run.say("looking for the peers")
         run.find_peers()
@@ -54,7 +62,7 @@ def _run(arguments: argparse.Namespace) -> int:
     print(f"{machine['cpu']}, {machine['processors']} processors, Python {machine['python']}")
     if (machine["load"] or 0) > 0.5 * machine["processors"]:
         print(f"the machine is busy (load {machine['load']:.1f}): the times below are unreliable")
-    for name, version in versions(run.kinds).items():
+    for name, version in run.versions.items():
         print(f"{name}: {version}")
     for name, why in run.left_out.items():
         print(f"{name} is left out: {why}")
@@ -77,9 +85,14 @@ def _run(arguments: argparse.Namespace) -> int:
     except KeyboardInterrupt:
         run.say("stopped; what was measured is written")
         stopped = True
+    if run.kinds:
+        print("Where a peer is faster\n")
+        print(report.losses_text(tables) + "\n", flush=True)
+    print("Targets that fall short\n")
+    print(report.missed_text(tables) + "\n", flush=True)
     machine["load_after"] = report.load()
     settings = {"quick": run.quick, "full": run.full, "model": run.file and str(run.file)}
-    text = report.as_json(tables, machine, settings, versions(run.kinds), run.left_out)
+    text = report.as_json(tables, machine, settings, run.versions, run.left_out)
     _write(arguments.out, tables, text)
     if arguments.document:
         if failed or stopped:
@@ -120,13 +133,16 @@ def _document(run: Run, machine: dict, tables: list[report.Table]) -> None:
     """Puts the tables between the marks of docs/speed.md, and the picture beside it."""
     picture = "bench.png"
     drawn = _draw(tables, ROOT / "docs" / picture)
-    peers = ", ".join(f"{name} {version}" for name, version in versions(run.kinds).items())
+    peers = ", ".join(f"{name} {version}" for name, version in run.versions.items())
     parts = [
         f"`make bench` on {machine['cpu']}, {machine['processors']} processors, Python "
         f"{machine['python']}, numba {machine['packages']['numba']}; beside {peers or 'no peers'}. "
-        "Medians of interleaved rounds, in ms; in brackets how many times as long as Lucida.",
+        "Each tracer in a process of its own, asked in turn, three calls after a pause of 20 ms. "
+        "Medians in ms; in brackets how many times as long as Lucida.",
         f"![Speed, building and scaling]({picture})" if drawn else "",
         *(report.markdown(table) for table in tables if table.name in DOCUMENTED),
+        "**Where a peer is faster**",
+        report.losses_markdown(tables),
         "**Targets**",
         report.targets_markdown(tables),
     ]

@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from renderer.camera import Camera, Size
+from tests.benchmarks import interior
 from tests.benchmarks.scenes import Subject
 
 FROM = np.array([0.66, 0.42, 0.62]) / np.linalg.norm([0.66, 0.42, 0.62])  # towards the eye
@@ -56,10 +57,52 @@ def hard_views(subject: Subject, size: Size) -> list[View]:
         View("5 % of the screen", look(subject, size, radii=5.0), size),
     ]
     if subject.inside is not None:
-        eye = np.array(subject.inside)
-        inside = Camera.look_at(eye, eye - FROM, fov_y_deg=90.0, aspect=size[0] / size[1])
-        views.append(View("inside", inside, size))
+        views.append(within(subject, size))
     return views
+
+
+def interior_views(size: Size) -> list[View]:
+    """From within the hall."""
+    return [
+        View(name, Camera.look_at(eye, at, fov_y_deg=fov, aspect=size[0] / size[1]), size)
+        for name, (eye, at, fov) in interior.VIEWS.items()
+    ]
+
+
+def dense_view(subject: Subject, density: float, size: Size) -> View:
+    """A sphere, whole in view, from so far that so many triangles that face the eye fall on a pixel
+    that it covers."""
+    low, high = 3.2, 1000.0  # in radii of the sphere: nearer, it would not be whole in view
+    focal = size[1] / 2 / np.tan(np.radians(FOV_Y_DEG / 2))
+    while high / low > 1.001:
+        away = (low * high) ** 0.5
+        facing = subject.triangles * (1 - 1 / away) / 2
+        covered = np.pi * focal**2 / (away**2 - 1)
+        low, high = (low, away) if facing / covered > density else (away, high)
+    radius = float(np.linalg.norm(subject.vertices - subject.centre, axis=1).mean())
+    camera = look(subject, size, radii=low * radius / subject.radius)
+    return View(f"{density:g} a pixel", camera, size)
+
+
+def within(subject: Subject, size: Size) -> View:
+    """From the subject's inside."""
+    eye = np.array(subject.inside)
+    camera = Camera.look_at(eye, eye - FROM, fov_y_deg=90.0, aspect=size[0] / size[1])
+    return View("inside", camera, size)
+
+
+def facing(subject: Subject, camera: Camera, size: Size) -> int:
+    """How many triangles face the eye, their centres within the image; hidden ones count too. From
+    within a mesh, where none faces the eye: those that are turned away."""
+    a, b, c = subject.vertices[subject.faces.T]
+    centre = (a + b + c) / 3
+    at = camera.project(centre, size)
+    column, row = at.column + 0.5, at.row + 0.5
+    seen = (column > 0) & (column < size[0]) & (row > 0) & (row < size[1])
+    normal = np.cross(b[seen] - a[seen], c[seen] - a[seen])
+    back = np.array(camera.w) if camera.is_parallel else np.array(camera.eye) - centre[seen]
+    front = int(np.count_nonzero((normal * back).sum(axis=1) > 0))
+    return front or len(normal)
 
 
 def look(subject: Subject, size: Size, radii: float = 1.6, fov_y_deg: float = FOV_Y_DEG) -> Camera:

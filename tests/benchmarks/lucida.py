@@ -13,8 +13,8 @@ from renderer.camera import Camera, Size
 from renderer.frame import Frame
 from renderer.scene import Mesh, Scene, SceneObject
 from renderer.trace import Tracer
+from tests.benchmarks.meshes import Faces, Vertices
 from tests.benchmarks.peers import Hits, Peer
-from tests.benchmarks.scenes import Faces, Vertices
 
 VISIBILITY = ("depth", "primitive", "normal")
 
@@ -22,11 +22,10 @@ VISIBILITY = ("depth", "primitive", "normal")
 class Lucida(Peer):
     """renderer.Tracer."""
 
-    name = "Lucida"
+    name, package = "Lucida", "lucida"
 
     def __init__(self, threads: int | None = None) -> None:
         self._threads = threads
-        self.has_batches = hasattr(Tracer, "closest_hits") and hasattr(Tracer, "any_hits")
 
     def prepare(self, vertices: Vertices, faces: Faces) -> None:
         self.prepare_scene(Scene((SceneObject(Mesh(vertices, faces)),)))

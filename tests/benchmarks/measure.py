@@ -1,6 +1,6 @@
 """How long calls take: taken in turns, so that whatever slows the machine slows them all alike.
 
-Owns the stopwatch. Knows nothing of what is called.
+Owns the stopwatch. Knows nothing of what is called, and in which process.
 """
 
 from __future__ import annotations
@@ -13,13 +13,17 @@ from dataclasses import dataclass
 import numpy as np
 
 Call = Callable[[], object]
+Stopwatch = Callable[[Call], float]
+Turn = Callable[[], tuple[float, ...]]  # the seconds of each of its calls
 
 
 @dataclass(frozen=True)
 class Timing:
-    """The seconds that a call took, each time."""
+    """The seconds that a call took: in each turn, the median of its calls. first_s: of each turn,
+    its first call, which comes after the pause."""
 
     samples_s: tuple[float, ...]
+    first_s: tuple[float, ...] = ()
 
     @property
     def median_s(self) -> float:
@@ -37,6 +41,7 @@ class Timing:
 
     def numbers(self) -> dict[str, float | int]:
         """For the JSON file."""
+        first = {"first_s": float(np.median(self.first_s))} if self.first_s else {}
         return {
             "median_s": self.median_s,
             "low_s": self.low_s,
@@ -44,28 +49,27 @@ class Timing:
             "min_s": min(self.samples_s),
             "max_s": max(self.samples_s),
             "samples": len(self.samples_s),
+            **first,
         }
 
 
 @dataclass(frozen=True)
 class Plan:
-    """rounds: how often each call has its turn. quiet_s: before each turn nothing is called:
-    the threads of Embree, TBB, OpenBLAS and the like wait for more work for a while, at work
-    themselves, and would keep a processor from the next (after trimesh's turn, 10 ms were too
-    few: the next took 1.7 times as long). warm_s: how long a turn is not timed at first. repeats:
-    timed calls in a turn, of fast calls; slow_s: a call that takes longer is timed once a turn.
-    budget_s: no new round after that long, once there were least_rounds."""
+    """rounds: how often each call has its turn. pause_s: before each turn nothing is called, as
+    before a viewer's images; by then the threads of the one before sleep (Mitsuba's wait at work
+    for about 10 ms). repeats: calls in a turn, of which the median counts; slow_s: a
+    call that takes longer is called once a turn. budget_s: no new round after that long, once
+    there were least_rounds."""
 
     rounds: int = 9
-    quiet_s: float = 0.08
-    warm_s: float = 0.04
-    repeats: int = 5
+    pause_s: float = 0.02
+    repeats: int = 3
     slow_s: float = 0.15
-    budget_s: float = 20.0
+    budget_s: float = 12.0
     least_rounds: int = 3
 
 
-QUICK = Plan(rounds=3, repeats=2, budget_s=4.0, least_rounds=2)
+QUICK = Plan(rounds=3, budget_s=1.5, least_rounds=2)
 
 
 def seconds(call: Call) -> float:
@@ -86,39 +90,34 @@ def processor_seconds(call: Call) -> float:
     return elapsed
 
 
-def interleaved(
-    calls: Mapping[str, Call], plan: Plan, seconds: Callable[[Call], float] = seconds
-) -> dict[str, Timing]:
-    """Times of all calls: round after round, each has one turn. seconds: the stopwatch.
-
-    A turn is a pause; untimed calls, which find the caches full of another's data and a processor
-    that has slept; and then timed ones. The first round is preceded by an untimed call of each,
-    which may compile.
-    """
-    samples: dict[str, list[float]] = {name: [] for name in calls}
-    for call in calls.values():
-        call()
-    start = time.perf_counter()
-    gc.collect()
+def turn(call: Call, plan: Plan, stopwatch: Stopwatch = seconds) -> tuple[float, ...]:
+    """One turn of a call: the pause, then the times of its calls."""
+    time.sleep(plan.pause_s)
+    collecting = gc.isenabled()
     gc.disable()
     try:
-        for done in range(plan.rounds):
-            if done >= plan.least_rounds and time.perf_counter() - start > plan.budget_s:
-                break
-            for name, call in calls.items():
-                samples[name] += _turn(call, plan, seconds)
+        times = [stopwatch(call)]
+        while len(times) < plan.repeats and times[0] <= plan.slow_s:
+            times.append(stopwatch(call))
     finally:
-        gc.enable()
-    return {name: Timing(tuple(own)) for name, own in samples.items()}
+        if collecting:
+            gc.enable()
+    return tuple(times)
 
 
-def _turn(call: Call, plan: Plan, seconds: Callable[[Call], float]) -> list[float]:
-    time.sleep(plan.quiet_s)
+def interleaved(turns: Mapping[str, Turn], plan: Plan) -> dict[str, Timing]:
+    """Times of all calls: round after round, each has one turn. The first round does not count:
+    what is called for the first time may compile."""
+    taken: dict[str, list[tuple[float, ...]]] = {name: [] for name in turns}
+    for own in turns.values():
+        own()
     start = time.perf_counter()
-    while True:
-        last_s = seconds(call)
-        if last_s > plan.slow_s:
-            return [last_s]
-        if time.perf_counter() - start > plan.warm_s:
+    for done in range(plan.rounds):
+        if done >= plan.least_rounds and time.perf_counter() - start > plan.budget_s:
             break
-    return [seconds(call) for _ in range(plan.repeats)]
+        for name, own in turns.items():
+            taken[name].append(own())
+    return {
+        name: Timing(tuple(float(np.median(times)) for times in own), tuple(t[0] for t in own))
+        for name, own in taken.items()
+    }

@@ -9,13 +9,14 @@ from __future__ import annotations
 import os
 import threading
 from abc import ABC, abstractmethod
+from importlib import metadata
 from typing import Any, NamedTuple
 
 import numpy as np
 
 from renderer.camera import Camera, Size
 from tests.benchmarks.cameras import Rays, rays
-from tests.benchmarks.scenes import Faces, Vertices
+from tests.benchmarks.meshes import Faces, Vertices
 
 
 class Hits(NamedTuple):
@@ -36,7 +37,10 @@ class Peer(ABC):
 
     name: str  # in tables
     package: str = ""  # the distribution that it comes in
-    has_batches = True  # closest_hits and any_hits work
+
+    @classmethod
+    def version(cls) -> str:
+        return metadata.version(cls.package)
 
     @abstractmethod
     def __init__(self, threads: int | None = None) -> None:
@@ -309,9 +313,6 @@ class Trimesh(Peer):
         t[ray] = offset / np.einsum("ij,ij->i", along, along)
         primitive[ray], normal[ray] = own, own_normal
         return Hits(t, primitive, normal)
-
-
-PEERS: tuple[type[Peer], ...] = (Mitsuba, Open3D, Embreex, Trimesh)
 
 
 def processors() -> int:

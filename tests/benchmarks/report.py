@@ -20,6 +20,7 @@ from renderer.errors import LucidaError
 from tests.benchmarks.measure import Timing
 
 FORMAT = 1  # of the JSON file
+OURS = "Lucida"  # under which our times stand
 BEGIN, END = "<!-- bench:begin -->", "<!-- bench:end -->"
 
 
@@ -125,6 +126,50 @@ def targets_markdown(tables: Iterable[Table]) -> str:
     """For docs/speed.md: the targets of all tables."""
     rows = [target.cells() for table in tables for target in table.targets]
     return "\n".join(_pipes(TARGET_HEADER, rows)) + "\n"
+
+
+LOSSES_HEADER = ("where", "who is faster", "ms", "Lucida ms")
+
+
+def losses(tables: Iterable[Table]) -> list[tuple[str, ...]]:
+    """Under LOSSES_HEADER: each row of a table in which a peer was faster, and who was fastest."""
+    found = []
+    for table in tables:
+        for cells, numbers in zip(table.rows, table.data, strict=False):
+            all_s = {name: own["median_s"] for name, own in numbers.get("times", {}).items()}
+            if OURS not in all_s:
+                continue
+            fastest = min(all_s, key=lambda name: all_s[name])
+            if all_s[fastest] < all_s[OURS]:
+                columns = next(k for k, head in enumerate(table.header) if head.startswith(OURS))
+                labels = zip(table.header[:columns], cells, strict=False)
+                where = ", ".join((table.name, *(_label(head, cell) for head, cell in labels)))
+                figures = (short(1e3 * all_s[name]) for name in (fastest, OURS))
+                found.append((where, fastest, *figures))
+    return found
+
+
+def _label(head: str, cell: str) -> str:
+    """A number does not say what it is of."""
+    return f"{head} {cell}" if cell.strip("0123456789.,") == "" else cell
+
+
+def missed_text(tables: Iterable[Table]) -> str:
+    """For the terminal: the targets that fall short."""
+    rows = [target.cells() for table in tables for target in table.targets if not target.met]
+    return _aligned([TARGET_HEADER, *rows]) if rows else "  All targets are met."
+
+
+def losses_text(tables: Iterable[Table]) -> str:
+    """For the terminal."""
+    rows = losses(tables)
+    return _aligned([LOSSES_HEADER, *rows]) if rows else "  No peer is faster anywhere."
+
+
+def losses_markdown(tables: Iterable[Table]) -> str:
+    """For docs/speed.md."""
+    rows = losses(tables)
+    return "\n".join(_pipes(LOSSES_HEADER, rows)) if rows else "No peer is faster anywhere."
 
 
 def _aligned(rows: list[tuple[str, ...]]) -> str:

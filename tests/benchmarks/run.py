@@ -1,31 +1,37 @@
 """One run of the benchmarks: what was asked for, and who takes part.
 
-Owns the peers that are there and the meshes in use. Knows nothing of what is measured.
+Owns the tracers' processes and the meshes in use. Knows nothing of what is measured.
 """
 
 from __future__ import annotations
 
 import re
 import sys
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from dataclasses import dataclass, field
-from importlib import metadata
 from pathlib import Path
 
 import numpy as np
 
 from renderer.camera import Size
+from tests.benchmarks.cameras import look
+from tests.benchmarks.embree import NativeEmbree
 from tests.benchmarks.lucida import Lucida
-from tests.benchmarks.measure import QUICK, Plan, Timing, interleaved
-from tests.benchmarks.peers import PEERS, Hits, Peer
-from tests.benchmarks.scenes import SUBJECTS, Subject, bumpy_sphere, model
+from tests.benchmarks.measure import QUICK, Plan, Stopwatch, Timing, Turn, interleaved, seconds
+from tests.benchmarks.meshes import bumpy_sphere
+from tests.benchmarks.peers import Embreex, Hits, Mitsuba, Open3D, Peer, Trimesh
+from tests.benchmarks.processes import TracerProcess
+from tests.benchmarks.scenes import SUBJECTS, Subject, model
 
 HD, FULL_HD = (1280, 720), (1920, 1080)
+PEERS: tuple[type[Peer], ...] = (Mitsuba, NativeEmbree, Open3D, Embreex, Trimesh)
+RESTLESS = 0.05  # of a processor, while nothing is asked
 
 # The Debian and Ubuntu packages of the system's libraries that peers load.
 SYSTEM_PACKAGES = {
     "usb-1.0": "libusb-1.0-0",
+    "embree": "libembree-dev",
     "llvm": "libllvm15 (or any newer one)",
     "gomp": "libgomp1",
     "gl": "libgl1",
@@ -37,13 +43,16 @@ SYSTEM_PACKAGES = {
 @dataclass
 class Run:
     """quick: fewer and smaller cases. full: more rays where rays are counted. file: a model that
-    takes the place of the meshes from formulas. left_out: why, for each peer that is not here."""
+    takes the place of the meshes from formulas. versions: of the peers that are here. left_out:
+    why, for each peer that is not."""
 
     quick: bool = False
     full: bool = False
     file: Path | None = None
     kinds: tuple[type[Peer], ...] = ()
+    versions: dict[str, str] = field(default_factory=dict)
     left_out: dict[str, str] = field(default_factory=dict)
+    _processes: dict[type[Peer], TracerProcess] = field(default_factory=dict)
     _subjects: dict[str, Subject] = field(default_factory=dict)
 
     @property
@@ -55,15 +64,36 @@ class Run:
         return (HD,) if self.quick else (HD, FULL_HD)
 
     def find_peers(self) -> None:
-        """Takes in the peers that work here."""
+        """Takes in the peers that work here and take no processor from the others."""
         found = []
-        for kind in PEERS:
+        subject = Subject("sphere", *bumpy_sphere(100))
+        processes = {kind: self.process(kind) for kind in PEERS}  # they start at the same time
+        for kind, process in processes.items():
             try:
-                kind().prepare(*bumpy_sphere(100))
+                process.prepare(subject)
+                process.image(look(subject, HD), HD)
+                idle = process.idle_share()
+                if idle > RESTLESS:
+                    raise RuntimeError(f"takes {100 * idle:.0f} % of a processor while it is idle")
+                self.versions[kind.name] = process.version()
+                process.release()
                 found.append(kind)
             except Exception as error:  # whatever a broken installation raises
                 self.left_out[kind.name] = reason(error)
+                self._processes.pop(kind).close()
         self.kinds = tuple(found)
+
+    def process(self, kind: type[Peer]) -> TracerProcess:
+        """The process of one kind of tracer, started once."""
+        if kind not in self._processes:
+            self._processes[kind] = TracerProcess(kind)
+        return self._processes[kind]
+
+    def close(self) -> None:
+        """Ends the processes."""
+        for process in self._processes.values():
+            process.close()
+        self._processes.clear()
 
     def subject(self, name: str) -> Subject:
         """The mesh of that name, made once."""
@@ -76,7 +106,7 @@ class Run:
         """The meshes of these names; only the model, where one was given; quick: none above 1M."""
         if self.file is not None:
             return [self.subject("model")]
-        large = ("1M", "ball 1M", "4M") if self.quick else ()
+        large = ("1M", "ball 1M", "4M", "scan 2M") if self.quick else ()
         return [self.subject(name) for name in names if name not in large]
 
     def all_kinds(self, *without: type[Peer]) -> tuple[type[Peer], ...]:
@@ -85,20 +115,28 @@ class Run:
         return tuple(kind for kind in kinds if kind not in without)
 
     @contextmanager
-    def tracers(self, subject: Subject, *without: type[Peer]) -> Iterator[list[Peer]]:
-        """Lucida and the peers, ready to trace; closed at the end."""
-        ready: list[Peer] = []
+    def tracers(
+        self, subject: Subject, *without: type[Peer], threads: int | None = None
+    ) -> Iterator[list[TracerProcess]]:
+        """Lucida and the peers, ready to trace; their scenes are freed at the end."""
+        processes = [self.process(kind) for kind in self.all_kinds(*without)]
         try:
-            for kind in self.all_kinds(*without):
-                ready.append(kind())
-                ready[-1].prepare(subject.vertices, subject.faces)
-            yield ready
+            for process in processes:
+                process.prepare(subject, threads)
+            yield processes
         finally:
-            for tracer in ready:
-                tracer.close()
+            for process in processes:
+                process.release()
 
-    def time(self, calls: Mapping[str, Callable[[], object]]) -> dict[str, Timing]:
-        return interleaved(calls, self.plan)
+    def time(
+        self, tracers: list[TracerProcess], plan: Plan | None = None, stopwatch: Stopwatch = seconds
+    ) -> dict[str, Timing]:
+        """Times what was set for each of these, by name."""
+        plan = plan or self.plan
+        return interleaved({t.name: t.turn(plan, stopwatch) for t in tracers}, plan)
+
+    def time_turns(self, turns: Mapping[str, Turn], plan: Plan | None = None) -> dict[str, Timing]:
+        return interleaved(turns, plan or self.plan)
 
     def say(self, text: str) -> None:
         """One line on standard error: what is being measured."""
@@ -114,11 +152,6 @@ def reason(error: BaseException) -> str:
         if key.startswith(start):
             return f"{text}; install the system's {package}"
     return text
-
-
-def versions(kinds: tuple[type[Peer], ...]) -> dict[str, str]:
-    """The packages' versions, for the peers."""
-    return {kind.name: metadata.version(kind.package) for kind in kinds}
 
 
 def share_that_differs(ours: Hits, theirs: Hits) -> float:

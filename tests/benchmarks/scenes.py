@@ -1,7 +1,6 @@
-"""What is traced: meshes from formulas, of about any number of triangles, and a mesh from a file.
+"""What is traced: meshes under a name, a mesh from a file, and scenes made of them.
 
-Owns the shapes and the scenes made of them. Knows nothing of cameras and of who traces.
-All meshes are closed, wound counter-clockwise as seen from outside, and about 2 to 4 units large.
+Knows nothing of cameras and of who traces.
 """
 
 from __future__ import annotations
@@ -26,9 +25,18 @@ from renderer.scene import (
     load_scene,
 )
 from renderer.scene.positions import world_vertices
-
-Vertices = NDArray[np.float32]
-Faces = NDArray[np.int32]
+from tests.benchmarks.interior import interior
+from tests.benchmarks.meshes import (
+    Faces,
+    Vertices,
+    block,
+    bumpy_sphere,
+    knot,
+    placed,
+    scanned_sphere,
+    soup,
+    table_top,
+)
 
 
 @dataclass(frozen=True, eq=False)
@@ -57,102 +65,12 @@ class Subject:
         return float(np.linalg.norm(self.vertices.max(0) - self.vertices.min(0))) / 2
 
 
-def knot(triangles: int, radius: float = 0.28) -> tuple[Vertices, Faces]:
-    """A (2, 3) torus knot with a bumpy tube of the given radius, of about that many triangles."""
-    around = max(3, round((triangles / 14) ** 0.5))
-    along = max(8, round(triangles / (2 * around)))
-    s = np.arange(along) * (2 * np.pi / along)
-    a = np.arange(around) * (2 * np.pi / around)
-
-    def centre(s: np.ndarray) -> np.ndarray:
-        r = 1 + 0.45 * np.cos(3 * s)
-        return np.stack([r * np.cos(2 * s), 0.55 * np.sin(3 * s), -r * np.sin(2 * s)], axis=-1)
-
-    tangent = centre(s + 1e-4) - centre(s - 1e-4)
-    normal = np.cross(tangent, (0.0, 1.0, 0.0))
-    normal /= np.linalg.norm(normal, axis=1, keepdims=True)
-    binormal = np.cross(tangent, normal)
-    binormal /= np.linalg.norm(binormal, axis=1, keepdims=True)
-    ring = np.cos(a)[:, None] * normal[:, None] + np.sin(a)[:, None] * binormal[:, None]
-    bumps = 0.03 * np.sin(40 * s[:, None]) * np.sin(11 * a)
-    bumps += 0.1 * np.sin(7 * s[:, None]) * np.cos(3 * a)
-    vertices = centre(s)[:, None] + (radius * (1 + bumps))[..., None] * ring
-    # Quads between a ring and the next one, in two triangles each.
-    i, j = np.arange(along)[:, None], np.arange(around)
-    here, there = i * around, (i + 1) % along * around
-    k = (j + 1) % around
-    p, q, r, t = here + j, there + j, there + k, here + k
-    faces = np.stack([p, r, q, p, t, r], axis=-1).reshape(-1, 3)
-    return vertices.reshape(-1, 3).astype(np.float32), faces.astype(np.int32)
-
-
-def bumpy_sphere(triangles: int) -> tuple[Vertices, Faces]:
-    """A dented unit sphere, a cube's grid blown up, of about that many triangles.
-
-    From its centre every ray hits: the surface is one radius for each direction.
-    """
-    n = max(1, round((triangles / 12) ** 0.5))
-    sides = []
-    for axis in range(3):
-        for side in (0, n):
-            # Points of one side, whole coordinates 0 to n; first x second = axis, turned outwards.
-            first, second = (axis + 1) % 3, (axis + 2) % 3
-            if side == 0:
-                first, second = second, first
-            points = np.empty((n + 1, n + 1, 3), np.int64)
-            points[..., axis] = side
-            points[..., first] = np.arange(n + 1)[:, None]
-            points[..., second] = np.arange(n + 1)
-            a, b, c, d = points[:-1, :-1], points[1:, :-1], points[1:, 1:], points[:-1, 1:]
-            sides.append(np.stack([a, b, c, a, c, d], axis=2).reshape(-1, 3))
-    # Whole coordinates tell which corners are the same vertex.
-    corners = np.concatenate(sides)
-    number = (corners[:, 0] * (n + 1) + corners[:, 1]) * (n + 1) + corners[:, 2]
-    _, first_use, faces = np.unique(number, return_index=True, return_inverse=True)
-    grid = np.tan((corners[first_use] / n * 2 - 1) * (np.pi / 4))  # cells of about equal area
-    v = grid / np.linalg.norm(grid, axis=1, keepdims=True)
-    bumps = 0.12 * np.sin(v @ [7, 3, 5.0]) * np.sin(v @ [-4, 9, 2.0])
-    bumps += 0.02 * np.sin(v @ [31, 17, -23.0]) + 0.006 * np.sin(v @ [97, -61, 43.0])
-    return (v * (1 + bumps)[:, None]).astype(np.float32), faces.reshape(-1, 3).astype(np.int32)
-
-
-def block(size: tuple[float, float, float]) -> tuple[Vertices, Faces]:
-    """A box of 12 triangles about the origin, its vertices shared."""
-    signs = np.array([[x, y, z] for x in (-1, 1) for y in (-1, 1) for z in (-1, 1)], float)
-    quads = [[0, 1, 3, 2], [4, 6, 7, 5], [0, 4, 5, 1], [2, 3, 7, 6], [0, 2, 6, 4], [1, 5, 7, 3]]
-    faces = np.array(quads)[:, [0, 1, 2, 0, 2, 3]].reshape(-1, 3)
-    return (signs * np.array(size) / 2).astype(np.float32), faces.astype(np.int32)
-
-
-def placed(
-    part: tuple[Vertices, Faces], scale: float, offset: tuple[float, float, float]
-) -> tuple[Vertices, Faces]:
-    """The mesh scaled, then moved."""
-    return (part[0] * scale + np.array(offset)).astype(np.float32), part[1]
-
-
-def joined(*parts: tuple[Vertices, Faces]) -> tuple[Vertices, Faces]:
-    """One mesh of several."""
-    first = np.cumsum([0, *(len(vertices) for vertices, _ in parts)])
-    vertices = np.concatenate([vertices for vertices, _ in parts])
-    faces = [faces + start for (_, faces), start in zip(parts, first, strict=False)]
-    return vertices, np.concatenate(faces).astype(np.int32)
-
-
-def table_top(triangles: int) -> tuple[Vertices, Faces]:
-    """A knot and two dented spheres on a board: small triangles and a few very large ones."""
-    share = (triangles - 12) // 3
-    ball = bumpy_sphere(share)
-    return joined(
-        placed(knot(share), 0.6, (0.0, 0.0, 0.0)),
-        placed(ball, 0.45, (1.1, 0.0, 0.9)),
-        placed(ball, 0.35, (-1.0, -0.1, 1.1)),
-        placed(block((4.0, 0.1, 4.0)), 1.0, (0.0, -0.6, 0.0)),
-    )
-
-
 def _ball(name: str, triangles: int) -> Subject:
     return Subject(name, *bumpy_sphere(triangles), inside=(0.0, 0.0, 0.0))
+
+
+def _scan(name: str, triangles: int) -> Subject:
+    return Subject(name, *scanned_sphere(triangles), inside=(0.0, 0.0, 0.0))
 
 
 SUBJECTS: dict[str, Callable[[], Subject]] = {
@@ -163,6 +81,11 @@ SUBJECTS: dict[str, Callable[[], Subject]] = {
     "ball 4k": lambda: _ball("ball 4k", 4_000),
     "ball 70k": lambda: _ball("ball 70k", 70_000),
     "ball 1M": lambda: _ball("ball 1M", 1_000_000),
+    "interior": lambda: Subject("interior", *interior()),
+    "soup": lambda: Subject("soup", *soup(200_000)),
+    "scan 66k": lambda: _scan("scan 66k", 66_000),
+    "scan 660k": lambda: _scan("scan 660k", 660_000),
+    "scan 2M": lambda: _scan("scan 2M", 2_000_000),
 }
 
 

@@ -1,4 +1,4 @@
-"""The benchmarks' parts that need no peers: meshes, cameras, tables, files. No stopwatch."""
+"""The benchmarks' tables, targets and files. No stopwatch."""
 
 from __future__ import annotations
 
@@ -6,127 +6,57 @@ import json
 import math
 from importlib import import_module
 
-import numpy as np
 import pytest
 
 from renderer.errors import LucidaError
-from renderer.scene import flatten
 from tests.benchmarks import __main__ as command
-from tests.benchmarks import cameras, measure, plot, report, run, scenes
-from tests.benchmarks.tables import TABLES, build, cancel, memory, moving, window
-
-SIZE = (32, 18)
-
-
-def small():
-    return scenes.SUBJECTS["small"]()
-
-
-class TestMeshes:
-    @pytest.mark.parametrize("make", [scenes.knot, scenes.bumpy_sphere, scenes.table_top])
-    @pytest.mark.parametrize("triangles", [600, 20_000])
-    def test_about_as_many_triangles_as_wanted(self, make, triangles):
-        _, faces = make(triangles)
-        assert len(faces) == pytest.approx(triangles, rel=0.12)
-
-    @pytest.mark.parametrize("make", [scenes.knot, scenes.bumpy_sphere, scenes.table_top])
-    def test_closed_and_turned_outwards(self, make):
-        vertices, faces = make(3000)
-        edges = faces[:, [0, 1, 1, 2, 2, 0]].reshape(-1, 2)
-        # Each edge is walked once in each direction: closed, and all faces turned alike.
-        forth, counts = np.unique(edges, axis=0, return_counts=True)
-        assert (counts == 1).all()
-        assert (forth == np.unique(edges[:, ::-1], axis=0)).all()
-        a, b, c = vertices[faces.T].astype(float)
-        assert np.einsum("ij,ij->", a, np.cross(b, c)) > 0  # 6 times the volume
-
-    def test_every_vertex_is_used(self):
-        for make in (scenes.knot, scenes.bumpy_sphere):
-            vertices, faces = make(2000)
-            assert (np.unique(faces) == np.arange(len(vertices))).all()
-
-    def test_every_direction_leaves_the_ball_once(self):
-        vertices, faces = scenes.bumpy_sphere(5000)
-        a, b, c = vertices[faces.T].astype(float)
-        # Star-shaped: seen from the centre, all faces are turned away.
-        assert (np.einsum("ij,ij->i", a, np.cross(b, c)) > 0).all()
-
-    def test_a_model_file_is_one_mesh(self, tmp_path):
-        file = tmp_path / "one.obj"
-        file.write_text("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n")
-        subject = scenes.model(file)
-        assert (subject.name, subject.triangles) == ("one.obj", 1)
-
-    def test_many_objects_share_the_triangles(self):
-        scene = scenes.many_objects(7000, 27)
-        assert len(scene.objects) == 27
-        assert len(flatten(scene).faces) == pytest.approx(7000, rel=0.15)
-
-    def test_moving_changes_one_object(self):
-        scene = scenes.many_objects(2000, 8)
-        moved = moving.moved_object(scene, 1)
-        same = [a is b for a, b in zip(scene.objects, moved.objects, strict=True)]
-        assert same.count(False) == 1
-        number = same.index(False)
-        before, after = scene.objects[number].shape, moved.objects[number].shape
-        assert (before.transform != after.transform).any()
-        # As it is for the tracer, which keeps what it built of them.
-        assert before.vertices is after.vertices
-        assert before.faces is after.faces
-
-
-class TestCameras:
-    @pytest.mark.parametrize("number", range(3))
-    def test_rays_are_the_cameras(self, number):
-        camera = cameras.easy_views(small(), SIZE)[number].camera
-        origins, directions = cameras.rays(camera, SIZE)
-        exact = camera.rays(SIZE)
-        assert origins.dtype == directions.dtype == np.float32
-        np.testing.assert_allclose(origins, exact.origin.reshape(-1, 3), atol=1e-5)
-        np.testing.assert_allclose(directions, exact.direction.reshape(-1, 3), atol=1e-6)
-
-    def test_the_skewed_view_is_skewed(self):
-        u, v, w = cameras.easy_views(small(), SIZE)[2].camera.basis.T
-        assert min(abs(u @ v), abs(v @ w), abs(w @ u)) > 0.01
-
-    @pytest.mark.parametrize("name", ["small", "ball 4k"])
-    def test_all_views_see_the_subject(self, name):
-        subject = scenes.SUBJECTS[name]()
-        for view in cameras.easy_views(subject, SIZE) + cameras.hard_views(subject, SIZE):
-            at = view.camera.project(subject.vertices, view.size)
-            inside = (at.row > 0) & (at.row < SIZE[1]) & (at.column > 0) & (at.column < SIZE[0])
-            assert inside.any(), view.name
-
-    def test_random_cameras_stay_inside(self):
-        ball = scenes.SUBJECTS["ball 4k"]()
-        rng = np.random.default_rng(1)
-        for _ in range(20):
-            camera = cameras.random_inside(ball, SIZE, rng)
-            assert np.linalg.norm(camera.eye) < 0.5 * np.linalg.norm(ball.vertices, axis=1).min()
+from tests.benchmarks import measure, plot, report, run, scenes
+from tests.benchmarks.tables import TABLES, build, cancel, memory, window
 
 
 class TestMeasure:
     def test_quartiles(self):
-        timing = measure.Timing((4.0, 1.0, 2.0, 3.0, 5.0))
+        timing = measure.Timing((4.0, 1.0, 2.0, 3.0, 5.0), (9.0, 7.0, 8.0))
         assert (timing.low_s, timing.median_s, timing.high_s) == (2.0, 3.0, 4.0)
         assert timing.numbers()["samples"] == 5
+        assert timing.numbers()["first_s"] == 8.0
 
-    def test_calls_take_turns(self):
+    def test_a_turn_is_calls_after_a_pause(self, monkeypatch):
         order: list[str] = []
-        calls = {name: lambda name=name: order.append(name) for name in "ab"}
-        plan = measure.Plan(rounds=2, warm_s=-1.0, repeats=2, slow_s=math.inf, budget_s=math.inf)
-        timings = measure.interleaved(calls, plan)
-        # One call of each first; then in each round an untimed and two timed ones.
-        assert "".join(order) == "ab" + "aaabbb" * 2
-        assert {len(timing.samples_s) for timing in timings.values()} == {4}
+        monkeypatch.setattr(measure.time, "sleep", lambda pause_s: order.append(f"{pause_s} s"))
+        times = iter((0.03, 0.01, 0.02))
 
-    def test_slow_calls_have_one_sample_a_round(self):
-        plan = measure.Plan(rounds=3, repeats=5, slow_s=-1.0, budget_s=math.inf)
-        assert len(measure.interleaved({"a": lambda: None}, plan)["a"].samples_s) == 3
+        def stopwatch(call):
+            call()
+            return next(times)
+
+        plan = measure.Plan(pause_s=0.5, repeats=3, slow_s=1.0)
+        assert measure.turn(lambda: order.append("call"), plan, stopwatch) == (0.03, 0.01, 0.02)
+        assert order == ["0.5 s", "call", "call", "call"]
+
+    def test_slow_calls_are_called_once_a_turn(self):
+        plan = measure.Plan(pause_s=0.0, repeats=5, slow_s=1.0)
+        assert measure.turn(lambda: None, plan, lambda call: 1.5) == (1.5,)
+
+    def test_turns_alternate_and_the_first_round_does_not_count(self):
+        order: list[str] = []
+
+        def own(name):
+            def turn():
+                order.append(name)
+                return (9.0,) if order.count(name) == 1 else (3.0, 1.0, 2.0)
+
+            return turn
+
+        plan = measure.Plan(rounds=2, budget_s=math.inf)
+        timings = measure.interleaved({name: own(name) for name in "ab"}, plan)
+        assert "".join(order) == "ab" * 3
+        assert timings["a"] == timings["b"] == measure.Timing((2.0, 2.0), (3.0, 3.0))
 
     def test_the_budget_ends_the_rounds(self):
-        plan = measure.Plan(rounds=9, repeats=1, slow_s=math.inf, budget_s=-1.0, least_rounds=2)
-        assert len(measure.interleaved({"a": lambda: None}, plan)["a"].samples_s) == 2
+        plan = measure.Plan(rounds=9, budget_s=-1.0, least_rounds=2)
+        timings = measure.interleaved({"a": lambda: (1.0,)}, plan)
+        assert timings["a"].samples_s == (1.0, 1.0)
 
 
 def table():
@@ -165,6 +95,25 @@ class TestReport:
         text = report.markdown(table())
         assert "| thing | ms | times |\n| --- | ---: | ---: |\n| ours |" in text
         assert report.targets_markdown([table()]).count("falls short") == 2
+
+    def test_where_a_peer_is_faster(self):
+        made = report.Table("speed", "", ("scene", "pixels", "Lucida ms (quartiles)", "A ms", "B"))
+        for view, ours, a, b in (("70", 2, 3, 4), ("1,280", 2, 1.5, 1), ("9.5", 2, 2, 2)):
+            times = {"Lucida": ours, "A": a, "B": b}
+            numbers = {name: {"median_s": ms / 1e3} for name, ms in times.items()}
+            made.add("ball", view, "", "", "", times=numbers)
+        assert report.losses([table(), made]) == [
+            ("speed, ball, pixels 1,280", "B", "1.00", "2.00")
+        ]
+        assert "| speed, ball, pixels 1,280 | B | 1.00 | 2.00 |" in report.losses_markdown([made])
+        assert "speed, ball, pixels 1,280" in report.losses_text([made])
+        assert "No peer" in report.losses_text([table()])
+        assert "No peer" in report.losses_markdown([table()])
+
+    def test_missed_targets_are_repeated(self):
+        lines = report.missed_text([table()]).splitlines()
+        assert [line.split()[0] for line in lines] == ["target", "-------", "wait", "nothing"]
+        assert "All targets are met" in report.missed_text([])
 
     def test_a_row_must_fit_the_header(self):
         with pytest.raises(ValueError, match="2 cells under 3 headings"):
@@ -245,19 +194,6 @@ class TestPeers:
     def test_other_reasons_stay_as_they_are(self):
         assert run.reason(ImportError("No module\nnamed 'x'")) == "No module named 'x'"
         assert run.reason(RuntimeError()) == "RuntimeError"
-
-    def test_a_broken_peer_is_left_out(self, monkeypatch):
-        class Broken(run.Lucida):
-            name = "Broken"
-
-            def __init__(self):
-                raise ImportError("No module named 'broken'")
-
-        monkeypatch.setattr(run, "PEERS", (Broken,))
-        session = run.Run()
-        session.find_peers()
-        assert session.kinds == ()
-        assert session.left_out == {"Broken": "No module named 'broken'"}
 
 
 class TestCommand:

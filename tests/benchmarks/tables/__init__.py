@@ -12,6 +12,8 @@ from tests.benchmarks.run import Run
 
 TABLES = (
     "visibility",
+    "scans",
+    "pause",
     "processor",
     "shading",
     "secondary",

@@ -1,29 +1,24 @@
 """Memory a triangle: what the tracers' structures take beyond the mesh itself.
 
 Lucida's arrays are counted by tracemalloc, which sees every NumPy array. Beside it, for all
-tracers, how a process grows by preparing the mesh: `python -m tests.benchmarks.tables.memory
-NAME MESH` is such a process.
+tracers, how a fresh process grows by preparing the mesh.
 """
 
 from __future__ import annotations
 
-import json
 import math
-import os
-import subprocess
-import sys
 import tracemalloc
-from pathlib import Path
 
 from renderer.scene import Mesh, Scene, SceneObject
 from tests.benchmarks.lucida import Lucida
-from tests.benchmarks.peers import PEERS, Peer, Trimesh
+from tests.benchmarks.meshes import bumpy_sphere
+from tests.benchmarks.peers import Peer, Trimesh
+from tests.benchmarks.processes import TracerProcess
 from tests.benchmarks.report import Table, short
 from tests.benchmarks.run import Run
-from tests.benchmarks.scenes import SUBJECTS, Subject, bumpy_sphere, model
+from tests.benchmarks.scenes import Subject
 
 AT_MOST_BYTES = 120
-STATM = Path("/proc/self/statm")
 
 
 def measure(run: Run) -> list[Table]:
@@ -37,8 +32,8 @@ def measure(run: Run) -> list[Table]:
     top = peak / subject.triangles
     for kind in run.all_kinds(Trimesh):
         run.say(f"memory: process of {kind.name}")
-        growth = _process_bytes(kind, str(run.file or subject.name))
-        grown = growth / subject.triangles
+        growth = _process_bytes(kind, subject)
+        grown = growth / subject.triangles if growth >= 0 else math.nan
         ours = kind is Lucida
         table.add(
             kind.name,
@@ -48,7 +43,7 @@ def measure(run: Run) -> list[Table]:
             short(grown),
             tracer=kind.name,
             triangles=subject.triangles,
-            process_bytes=growth if math.isfinite(growth) else None,
+            process_bytes=growth if growth >= 0 else None,
             **({"array_bytes": kept, "peak_bytes": peak} if ours else {}),
         )
     table.target("beyond the mesh", own, AT_MOST_BYTES, "bytes a triangle", at_least=False)
@@ -78,31 +73,11 @@ def array_bytes(subject: Subject) -> tuple[int, int]:
     return after - before, peak - before
 
 
-def _process_bytes(kind: type[Peer], wanted: str) -> float:
-    """How much a process grows by preparing that mesh; NaN where the system does not say."""
-    if not STATM.exists():
-        return float("nan")
-    command = [sys.executable, "-m", __name__, kind.name, wanted]
-    output = subprocess.run(command, check=True, capture_output=True, text=True).stdout
-    return float(json.loads(output.splitlines()[-1]))
-
-
-def _worker(tracer: str, wanted: str) -> None:
-    kinds: tuple[type[Peer], ...] = (Lucida, *PEERS)
-    kind = next(kind for kind in kinds if kind.name == tracer)
-    subject = SUBJECTS[wanted]() if wanted in SUBJECTS else model(wanted)
-    warm, measured = kind(), kind()
-    warm.prepare(*bumpy_sphere(100))
-    before = _resident_bytes()
-    measured.prepare(subject.vertices, subject.faces)
-    print(json.dumps(_resident_bytes() - before))
-    measured.close()
-    warm.close()
-
-
-def _resident_bytes() -> int:
-    return int(STATM.read_text().split()[1]) * os.sysconf("SC_PAGE_SIZE")
-
-
-if __name__ == "__main__":
-    _worker(*sys.argv[1:])
+def _process_bytes(kind: type[Peer], subject: Subject) -> int:
+    """How much a process grows by preparing that mesh; -1 where the system does not say."""
+    process = TracerProcess(kind)
+    try:
+        process.prepare(Subject("warm", *bumpy_sphere(100)), key="warm")
+        return process.prepare(subject)
+    finally:
+        process.close()

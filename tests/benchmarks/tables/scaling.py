@@ -2,15 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from functools import partial
-
 from tests.benchmarks.cameras import easy_views
-from tests.benchmarks.measure import Timing
+from tests.benchmarks.measure import Timing, Turn, seconds
+from tests.benchmarks.meshes import knot
 from tests.benchmarks.peers import Peer, Trimesh, processors
 from tests.benchmarks.report import Table, short, times
 from tests.benchmarks.run import HD, Run, size_text
-from tests.benchmarks.scenes import Subject, knot
+from tests.benchmarks.scenes import Subject
 
 SIZES = ((640, 360), (1280, 720), (2560, 1440))
 TRIANGLES = (10_000, 100_000, 1_000_000)
@@ -41,20 +39,18 @@ def _grow(
 ) -> None:
     """Measures all steps of one axis in the same rounds."""
     run.say(f"scaling: {axis}")
-    ready: list[Peer] = []
-    calls: dict[str, Callable[[], object]] = {}
+    turns: dict[str, Turn] = {}
+    processes = [run.process(kind) for kind in kinds]
     try:
         for step, subject, size, threads in steps:
-            camera = easy_views(subject, size)[0].camera
-            for kind in kinds:
-                tracer = kind(threads)
-                tracer.prepare(subject.vertices, subject.faces)
-                ready.append(tracer)
-                calls[f"{step} {kind.name}"] = partial(tracer.trace, camera, size)
-        timings = run.time(calls)
+            for process in processes:
+                process.prepare(subject, threads, key=step)
+                process.image(easy_views(subject, size)[0].camera, size, key=step)
+                turns[f"{step} {process.name}"] = process.turn(run.plan, seconds, key=step)
+        timings = run.time_turns(turns)
     finally:
-        for tracer in ready:
-            tracer.close()
+        for process in processes:
+            process.release()
     above: dict[str, Timing] = {}
     for step, subject, size, threads in steps:
         own = {kind.name: timings[f"{step} {kind.name}"] for kind in kinds}

@@ -6,18 +6,17 @@ takes, made before the watch starts.
 
 from __future__ import annotations
 
-from functools import partial
-
 import numpy as np
 
 from renderer.trace import Tracer
 from tests.benchmarks.cameras import Rays, easy_views
-from tests.benchmarks.peers import Open3D, Trimesh
+from tests.benchmarks.lucida import Lucida
+from tests.benchmarks.peers import Mitsuba, Open3D, Trimesh
 from tests.benchmarks.report import Table, ms, short, times
 from tests.benchmarks.run import Run
 from tests.benchmarks.scenes import Subject, scene_of
 
-AT_LEAST_OPEN3D = 1.5
+AT_LEAST = {Mitsuba.name: 1.5, Open3D.name: 2.0}
 SIZE = (960, 540)
 SEED = 3
 
@@ -28,30 +27,24 @@ def measure(run: Run) -> list[Table]:
     header: tuple[str, ...] = ("scene", "rays", "thousands", "Lucida ms (quartiles)", "Mrays/s")
     header += tuple(f"{kind.name} ms (times ours)" for kind in kinds)
     table = Table("secondary", "Single rays: shadows (any hit), reflections (closest hit)", header)
-    ratios: dict[str, list[float]] = {}
+    ratios: dict[tuple[str, str], list[float]] = {}
     for subject in run.subjects("small", "70k", "1M"):
         sets = secondary_rays(subject)
         with run.tracers(subject, Trimesh) as tracers:
-            if not tracers[0].has_batches:
-                table.notes = ["Lucida's Tracer takes no batches of rays yet."]
-            tracers = [tracer for tracer in tracers if tracer.has_batches]
             for name, (origins, directions) in sets.items():
                 run.say(f"secondary: {subject.name}, {name}")
-                any_hit = name.startswith("shadow")
-                calls = {}
+                any_hit = name == "shadow"
                 for tracer in tracers:
-                    trace = tracer.any_hits if any_hit else tracer.closest_hits
-                    calls[tracer.name] = partial(trace, tracer.batch(origins, directions))
-                timings = run.time(calls)
-                own = timings.get("Lucida")
+                    tracer.batch(origins, directions, any_hit)
+                timings = run.time(tracers)
+                own = timings[Lucida.name]
                 cells = [subject.name, name, short(len(origins) / 1e3)]
-                cells += [ms(own), short(len(origins) / own.median_s / 1e6)] if own else ["-", "-"]
+                cells += [ms(own), short(len(origins) / own.median_s / 1e6)]
                 for kind in kinds:
                     peer_s = timings[kind.name].median_s
-                    ratio = peer_s / own.median_s if own else float("nan")
+                    ratio = peer_s / own.median_s
                     cells.append(f"{short(1e3 * peer_s)} ({times(ratio)})")
-                    if kind is Open3D:
-                        ratios.setdefault("any hit" if any_hit else "closest hit", []).append(ratio)
+                    ratios.setdefault((name, kind.name), []).append(ratio)
                 table.add(
                     *cells,
                     scene=subject.name,
@@ -59,8 +52,11 @@ def measure(run: Run) -> list[Table]:
                     count=len(origins),
                     times={name: timing.numbers() for name, timing in timings.items()},
                 )
-    for name, own_ratios in ratios.items():
-        table.target(f"{name}, against Open3D, worst", min(own_ratios), AT_LEAST_OPEN3D, "x")
+    for (name, peer), own_ratios in ratios.items():
+        if peer in AT_LEAST:
+            table.target(
+                f"{name} rays, against {peer}, worst", min(own_ratios), AT_LEAST[peer], "x"
+            )
     return [table]
 
 

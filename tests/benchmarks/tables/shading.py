@@ -6,6 +6,7 @@ from functools import partial
 
 from renderer.trace import Tracer
 from tests.benchmarks.cameras import easy_views
+from tests.benchmarks.measure import turn
 from tests.benchmarks.report import Table, ms, times
 from tests.benchmarks.run import Run, size_text
 from tests.benchmarks.scenes import shaded_scene
@@ -28,7 +29,8 @@ def measure(run: Run) -> list[Table]:
                         "visibility": partial(tracer.render, view.camera, size, ALONE),
                         "shaded": partial(tracer.render, view.camera, size, ("color", *ALONE)),
                     }
-                    timings = run.time(calls)
+                    turns = {name: partial(turn, call, run.plan) for name, call in calls.items()}
+                    timings = run.time_turns(turns)
                     alone, shaded = timings["visibility"], timings["shaded"]
                     ratio = shaded.median_s / alone.median_s
                     worst = max(worst, ratio)

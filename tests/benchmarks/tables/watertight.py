@@ -32,13 +32,12 @@ def measure(run: Run) -> list[Table]:
                     run.say(f"watertight: {subject.name}, image {number + 1} of {images}")
                 camera = random_inside(subject, SIZE, rng)
                 for tracer in tracers:
-                    hits = tracer.read(tracer.trace(camera, SIZE))
-                    _count(seen, missed, tracer.name, hits.primitive)
-                ours = tracers[0]
-                if ours.has_batches and number % 4 == 0:
-                    batch = ours.batch(*rays(camera, SIZE))
-                    hits = ours.read(ours.closest_hits(batch))
-                    _count(seen, missed, f"{ours.name}, single rays", hits.primitive)
+                    tracer.image(camera, SIZE)
+                    _count(seen, missed, tracer.name, tracer.hits().primitive)
+                if number % 4 == 0:
+                    ours = tracers[0]
+                    ours.batch(*rays(camera, SIZE))
+                    _count(seen, missed, f"{ours.name}, single rays", ours.hits().primitive)
     for name in seen:
         table.add(
             name, f"{seen[name]:,}", str(missed[name]), tracer=name, rays=seen[name],

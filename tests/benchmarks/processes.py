@@ -1,0 +1,182 @@
+"""A tracer in a process of its own, which sleeps until it is asked: no other's threads, memory or
+garbage are in its way while it is timed.
+
+Owns these processes and what is said to them: a function of this module and its arguments, pickled.
+"""
+
+from __future__ import annotations
+
+import multiprocessing
+import os
+import signal
+import time
+import traceback
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from functools import partial
+from multiprocessing.connection import Connection
+from pathlib import Path
+from typing import Any
+
+from renderer.camera import Camera, Size
+from tests.benchmarks.cameras import Rays
+from tests.benchmarks.measure import Call, Plan, Stopwatch, Turn, turn
+from tests.benchmarks.peers import Hits, Peer
+from tests.benchmarks.scenes import Subject
+
+STATM = Path("/proc/self/statm")
+# Otherwise the threads of NumPy's OpenBLAS, which trimesh uses, wait at work for 26 ms and more.
+QUIET = {"OPENBLAS_THREAD_TIMEOUT": "4"}  # 2 to the 4th clock cycles
+IDLE_S = 0.2
+
+
+class TracerProcess:
+    """One kind of tracer, with any number of scenes, each under a key."""
+
+    def __init__(self, kind: type[Peer]) -> None:
+        self.kind, self.name = kind, kind.name
+        os.environ.update(QUIET)  # the process starts with these
+        context = multiprocessing.get_context("spawn")
+        self._connection, theirs = context.Pipe()
+        self._process = context.Process(target=_serve, args=(kind, theirs), daemon=True)
+        self._process.start()
+        theirs.close()
+
+    def version(self) -> str:
+        return str(self._ask(_version))
+
+    def prepare(self, subject: Subject, threads: int | None = None, key: str = "") -> int:
+        """Builds the scene; gives how many bytes the process has grown by it, -1 if unknown."""
+        return int(self._ask(_prepare, subject, threads, key))
+
+    def release(self) -> None:
+        """Frees all scenes."""
+        self._ask(_release)
+
+    def image(self, camera: Camera, size: Size, key: str = "") -> None:
+        """What is to be timed and read: an image."""
+        self._ask(_set_image, camera, size, key)
+
+    def batch(self, origins: Rays, directions: Rays, any_hit: bool = False) -> None:
+        """What is to be timed and read: single rays."""
+        self._ask(_set_batch, origins, directions, any_hit)
+
+    def building(self, subject: Subject) -> None:
+        """What is to be timed: the building of this scene, beside those that were prepared."""
+        self._ask(_set_building, subject)
+
+    def hits(self) -> Hits:
+        """What the image or the batch of closest hits gives."""
+        hits: Hits = self._ask(_hits)
+        return hits
+
+    def turn(self, plan: Plan, stopwatch: Stopwatch, key: str = "") -> Turn:
+        """The turn of what was set, for measure.interleaved."""
+        return partial(self._ask, _timed, plan, stopwatch, key)
+
+    def idle_share(self) -> float:
+        """How much of a processor the process takes while nothing is asked of it, 0 to 1."""
+        return float(self._ask(_idle_share))
+
+    def close(self) -> None:
+        self._connection.close()
+        self._process.join(5.0)
+        self._process.kill()
+
+    def _ask(self, function: Callable[..., Any], *arguments: Any) -> Any:
+        try:
+            self._connection.send((function, arguments))
+            answer, failure = self._connection.recv()
+        except (EOFError, OSError) as error:
+            raise RuntimeError(f"the process of {self.name} has ended") from error
+        if failure is not None:
+            text, trace = failure
+            error = RuntimeError(text)
+            error.add_note(f"In the process of {self.name}:\n{trace}")
+            raise error
+        return answer
+
+
+# In the process.
+
+
+@dataclass
+class _State:
+    kind: type[Peer]
+    tracers: dict[str, Peer] = field(default_factory=dict)
+    calls: dict[str, Call] = field(default_factory=dict)
+
+
+def _serve(kind: type[Peer], connection: Connection) -> None:
+    signal.signal(signal.SIGINT, signal.SIG_IGN)  # Ctrl-C is for whoever asks
+    state = _State(kind)
+    while True:
+        try:
+            function, arguments = connection.recv()
+        except EOFError:
+            return
+        try:
+            answer = function(state, *arguments), None
+        except Exception as error:
+            answer = None, (str(error) or type(error).__name__, traceback.format_exc())
+        connection.send(answer)
+
+
+def _version(state: _State) -> str:
+    return state.kind.version()
+
+
+def _prepare(state: _State, subject: Subject, threads: int | None, key: str) -> int:
+    before = _resident_bytes()
+    state.tracers[key] = state.kind(threads)
+    state.tracers[key].prepare(subject.vertices, subject.faces)
+    return _resident_bytes() - before if STATM.exists() else -1
+
+
+def _release(state: _State) -> None:
+    state.calls.clear()
+    for tracer in state.tracers.values():
+        tracer.close()
+    state.tracers.clear()
+
+
+def _set_image(state: _State, camera: Camera, size: Size, key: str) -> None:
+    state.calls[key] = partial(state.tracers[key].trace, camera, size)
+
+
+def _set_batch(state: _State, origins: Rays, directions: Rays, any_hit: bool) -> None:
+    tracer = state.tracers[""]
+    trace = tracer.any_hits if any_hit else tracer.closest_hits
+    state.calls[""] = partial(trace, tracer.batch(origins, directions))
+
+
+def _set_building(state: _State, subject: Subject) -> None:
+    def build() -> None:
+        tracer = state.kind()
+        tracer.prepare(subject.vertices, subject.faces)
+        tracer.close()
+
+    state.calls[""] = build
+
+
+def _hits(state: _State) -> Hits:
+    return state.tracers[""].read(state.calls[""]())
+
+
+def _timed(state: _State, plan: Plan, stopwatch: Stopwatch, key: str) -> tuple[float, ...]:
+    return turn(state.calls[key], plan, stopwatch)
+
+
+def _idle_share(state: _State) -> float:
+    for call in state.calls.values():
+        call()
+    time.sleep(0.02)
+    start = time.process_time()
+    time.sleep(IDLE_S)
+    return (time.process_time() - start) / IDLE_S
+
+
+def _resident_bytes() -> int:
+    if not STATM.exists():
+        return 0
+    return int(STATM.read_text().split()[1]) * os.sysconf("SC_PAGE_SIZE")
