@@ -23,10 +23,7 @@ from renderer.scene.parts import Part, linear_colors
 from renderer.scene.reading import read_file
 
 _SILENT = logging.NullHandler()
-_COMMENT = re.compile(r"^((?:f|v[nt]?)[ \t][^#\n]*)#[^\n]*", re.MULTILINE)
-_COMMENT_LINE = re.compile(r"^[ \t]*#[^\n]*", re.MULTILINE)
-_INDENT = re.compile(r"^[ \t]+", re.MULTILINE)
-_TAB = re.compile(r"^(f|v[nt]?|o|g|usemtl|mtllib)[ \t]*\t[ \t]*", re.MULTILINE)
+_COMMENT_LINE = re.compile(rb"^[ \t]*#[^\n]*", re.MULTILINE)
 
 
 @contextlib.contextmanager
@@ -57,13 +54,18 @@ def guarded(path: Path, kind: str) -> Iterator[None]:
 
 
 def read_text(path: Path) -> str:
-    """The tidy text of a model. Raises LucidaError, also for what is no text: noise would be
-    searched for lines, which takes long."""
+    """The tidy text of a model; what is not UTF-8 is replaced. Raises LucidaError."""
+    return read_text_bytes(path).decode("utf-8", "replace")
+
+
+def read_text_bytes(path: Path) -> bytes:
+    """The tidy text of a model, in UTF-8 or nearly so. Raises LucidaError, also for what is no
+    text: noise would be searched for lines, which takes long."""
     data = _as_utf8(read_file(path, TEXT_MODEL_BYTES))
     if b"\0" in data:
         problem, remedy = "holds zero bytes: it is no text", "export it again, as text in UTF-8"
         raise LucidaError("", problem, remedy, str(path))
-    return tidy_text(data)
+    return tidy(data)
 
 
 def _as_utf8(data: bytes) -> bytes:
@@ -74,19 +76,18 @@ def _as_utf8(data: bytes) -> bytes:
     return data
 
 
-def tidy_text(data: bytes) -> str:
-    """Text with newlines only, tidy enough for trimesh; what is not UTF-8 is replaced.
+def tidy(data: bytes) -> bytes:
+    """A text with newlines only, none of them after a backslash: what that continues is one line.
 
     It begins and ends with a newline; otherwise lines keep their number.
     """
-    text = data.decode("utf-8-sig", "replace").replace("\r\n", "\n").replace("\r", "\n")
-    text = f"\n{text}\n"
-    if "\\\n" in text:  # a backslash continues its line, unless that is a comment: # C:\models\
-        text = _COMMENT_LINE.sub(lambda line: line[0].rstrip("\\"), text).replace("\\\n", " ")
-    if "\t" in text or "\n " in text:
-        text = _TAB.sub(r"\1 ", _INDENT.sub("", text))
-    if text.count("#") > text.count("\n#"):
-        text = _COMMENT.sub(r"\1", text)
+    text = data.removeprefix(codecs.BOM_UTF8)
+    if b"\r" in text:
+        text = text.replace(b"\r\n", b"\n").replace(b"\r", b"\n")
+    text = b"\n%s\n" % text
+    if b"\\\n" in text:  # a backslash continues its line, unless that is a comment: # C:\models\
+        text = _COMMENT_LINE.sub(lambda line: line[0].rstrip(b"\\"), text)
+        text = text.replace(b"\\\n", b" ")
     return text
 
 

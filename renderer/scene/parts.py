@@ -85,7 +85,7 @@ def build_mesh(part: Part) -> Mesh | None:
     if unit is None:
         source, faces, unit = smooth_normals(positions, faces, keep_apart=vertex_colors is not None)
     else:
-        source, faces = _used(faces, len(positions))
+        source, faces = used_vertices(faces)
         unit = unit[source]
     colors = None if vertex_colors is None else vertex_colors[source]
     transform = np.eye(4)
@@ -215,9 +215,12 @@ def _unit(normals: NDArray[np.float64] | None) -> NDArray[np.float32] | None:
     return unit.astype(np.float32)
 
 
-def _used(faces: NDArray[np.int64], count: int) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
+def used_vertices(faces: NDArray[np.int64]) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
     """(source, faces): the vertices that faces use, in their order, and the faces renumbered."""
-    used = np.zeros(count, bool)
-    used[faces] = True
+    if not faces.size:
+        return np.zeros(0, np.int64), faces
+    low = int(faces.min())
+    used = np.zeros(int(faces.max()) + 1 - low, bool)
+    used[faces - low] = True
     number = np.cumsum(used) - 1
-    return np.flatnonzero(used), number[faces]
+    return np.flatnonzero(used) + low, number[faces - low]
