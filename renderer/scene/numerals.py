@@ -5,6 +5,7 @@ A text here is whole lines, and begins with a blank. Knows nothing of what the n
 
 from __future__ import annotations
 
+import re
 import warnings
 from typing import Any
 
@@ -13,6 +14,7 @@ from numpy.typing import NDArray
 
 Ints = NDArray[np.int64]
 
+_LONE_SIGN = re.compile(rb"[-+](?![0-9])")
 _EXACT = 1 << 53  # float64 holds all whole numbers up to it,
 _POWERS = 10.0 ** np.arange(23)  # and these powers of ten
 _NEWLINE, _PLUS, _MINUS, _DOT, _SLASH, _BLANK = 10, 43, 45, 46, 47, 32
@@ -37,6 +39,8 @@ def corners(text: bytes, begins: Ints) -> tuple[Ints, Ints | None, Ints | None]:
     """The text's words, such as 7, 7/8, 7//9 and 7/8/9: for each its first, second and third whole
     number, 0 for what it lacks; None where all do. Raises ValueError where a word is no such
     thing."""
+    if (b"-" in text or b"+" in text) and _LONE_SIGN.search(text):  # a 0 to fromstring()
+        raise ValueError("a number is missing")
     if b"/" not in text:
         return _parsed(text, np.int64, len(begins)), None, None
     for blank in (b" ", b"\t", b"\n"):
@@ -86,7 +90,8 @@ def _fixed_point(text: bytes, begins: Ints) -> NDArray[np.float64] | None:
     octets = np.frombuffer(text, np.uint8)
     first = octets[begins]
     negative = first == _MINUS
-    if text.count(b"-") + text.count(b"+") != negative.sum() + (first == _PLUS).sum():
+    signed = negative | (first == _PLUS)
+    if text.count(b"-") + text.count(b"+") != signed.sum():
         return None
     blank = octets <= _BLANK
     ends = np.flatnonzero(blank[1:] > blank[:-1]) + 1
@@ -98,6 +103,10 @@ def _fixed_point(text: bytes, begins: Ints) -> NDArray[np.float64] | None:
         return None
     places = np.zeros(len(begins), np.int64)
     places[word] = ends[word] - dots - 1
+    digits = ends - begins - signed
+    digits[word] -= 1
+    if digits.min() < 1:
+        return None
     whole = _parsed(text.replace(b".", b""), np.int64, len(begins))
     if not (-_EXACT <= whole.min() and whole.max() <= _EXACT and places.max() < len(_POWERS)):
         return None
