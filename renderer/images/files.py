@@ -11,9 +11,10 @@ PFM, EXR and NPY hold the numbers, unexposed: linear light, ray parameters, worl
 from __future__ import annotations
 
 import io
+import zlib
 from collections.abc import Callable, Collection
 from pathlib import Path
-from typing import BinaryIO
+from typing import Any, BinaryIO
 
 import numpy as np
 from numpy.typing import NDArray
@@ -102,25 +103,33 @@ def encode_array(array: NDArray, ending: str) -> bytes:
 
 
 def _write_png(file: BinaryIO, shown: Bytes) -> None:
-    _write_by_pillow(file, shown, "PNG")
+    # Runs of equal bytes alone are looked for: a third of the time, a file some 15 % larger.
+    _write_by_pillow(file, shown, ".png", compress_type=zlib.Z_RLE)
 
 
 def _write_netpbm(file: BinaryIO, shown: Bytes) -> None:
     """P6 for colours (height, width, 3), P5 for gray (height, width)."""
-    _write_by_pillow(file, shown, "PPM")
+    _write_by_pillow(file, shown, ".ppm")
 
 
 def _write_pbm(file: BinaryIO, gray: Bytes) -> None:
     """P4: one bit a pixel, black where the gray is below half."""
-    _write_by_pillow(file, gray if gray.dtype == np.bool_ else gray >= HALF, "PPM")
+    _write_by_pillow(file, gray if gray.dtype == np.bool_ else gray >= HALF, ".ppm")
 
 
-def _write_by_pillow(file: BinaryIO, array: NDArray, name: str) -> None:
+class _Content(io.BytesIO):
+    """In memory, with a name: Pillow then loads the one format that its ending tells."""
+
+    name = ""
+
+
+def _write_by_pillow(file: BinaryIO, array: NDArray, ending: str, **options: Any) -> None:
     from PIL import Image
 
     # Not into the file itself: Pillow then overlooks that a full disk took only a part.
-    content = io.BytesIO()
-    Image.fromarray(array).save(content, format=name)
+    content = _Content()
+    content.name = ending.replace(".", "image.")
+    Image.fromarray(array).save(content, **options)
     file.write(content.getbuffer())
 
 

@@ -108,7 +108,7 @@ def _fixed_point(text: bytes, begins: Ints) -> NDArray[np.float64] | None:
     if digits.min() < 1:
         return None
     whole = _parsed(text.replace(b".", b""), np.int64, len(begins))
-    if not (-_EXACT <= whole.min() and whole.max() <= _EXACT and places.max() < len(_POWERS)):
+    if not (whole.min() >= -_EXACT and whole.max() <= _EXACT and places.max() < len(_POWERS)):
         return None
     values = whole / _POWERS[places]
     values[negative & (whole == 0)] = -0.0

@@ -17,13 +17,13 @@ from numpy.typing import NDArray
 
 from renderer.errors import LucidaError
 from renderer.scene import numerals
-from renderer.scene.guard import read_text_bytes
 from renderer.scene.limits import OBJECTS
 from renderer.scene.model import Material
 from renderer.scene.mtl import read_mtl
 from renderer.scene.numerals import Ints
 from renderer.scene.obj_lines import Lines
 from renderer.scene.parts import Part, linear_colors, used_vertices
+from renderer.scene.texts import read_text_bytes
 
 _END_LETTERS = 4096  # a last line that is longer is not looked at
 _WHOLE = re.compile(r"[-+]?\d{1,18}")
@@ -118,13 +118,11 @@ def _from_zero(column: Ints, counts: Ints, line: Ints, named: Ints) -> Ints:
 
 
 def _are_within(indices: Ints, count: int) -> bool:
-    return 0 <= indices.min(initial=0) and indices.max(initial=-1) < count
+    return indices.min(initial=0) >= 0 and indices.max(initial=-1) < count
 
 
-def _merged(
-    triangles: _Triangles, normals: NDArray[np.float64]
-) -> tuple[Ints, Ints, Ints | None]:
-    """(source, faces, normal): for each new vertex its vertex and its normal, and the faces. Corners
+def _merged(triangles: _Triangles, normals: NDArray[np.float64]) -> tuple[Ints, Ints, Ints | None]:
+    """(source, faces, normal): of each new vertex the vertex and the normal; and the faces. Corners
     are one vertex where they agree in both. Normals are None unless all corners have one."""
     key = triangles.vertices.reshape(-1)
     normal = None if triangles.normals is None else triangles.normals.reshape(-1)
@@ -249,7 +247,11 @@ def _blame_line(path: Path, lines: Lines, reason: str) -> NoReturn:
 def _face_problem(corners: list[str], above: int, count: int) -> str:
     for corner in corners:
         first, *others = corner.split("/")
-        if len(others) > 2 or not _WHOLE.fullmatch(first) or not all(_WHOLE.fullmatch(x) for x in others if x):
+        if (
+            len(others) > 2
+            or not _WHOLE.fullmatch(first)
+            or not all(_WHOLE.fullmatch(x) for x in others if x)
+        ):
             return "is not a face"
         index = int(first)
         if index == 0 or not -above <= index <= count:

@@ -20,7 +20,7 @@ _INITIALS = np.frombuffer(b"oum", np.uint8)
 
 
 class Lines:
-    """The lines of a tidy text (guard.tidy), numbered as it is: its empty first line is 0."""
+    """The lines of a tidy text (texts.tidy), numbered as it is: its empty first line is 0."""
 
     def __init__(self, text: bytes) -> None:
         octets, begins = _begins(text)
@@ -56,8 +56,10 @@ class Lines:
         gaps = np.flatnonzero(np.diff(numbers) != 1)
         from_ = self._begins[numbers[np.concatenate([[0], gaps + 1])]]
         to = self._begins[numbers[np.concatenate([gaps, [len(numbers) - 1]])] + 1]
-        view = memoryview(self._octets)
-        text = b"".join(view[a:b] for a, b in zip(from_.tolist(), to.tolist(), strict=True))
+        pieces = (
+            self._octets[a:b].tobytes() for a, b in zip(from_.tolist(), to.tolist(), strict=True)
+        )
+        text = b"".join(pieces)
         return _COMMENT.sub(b"", text) if b"#" in text else text
 
     def statements(self) -> list[tuple[int, str, str]]:

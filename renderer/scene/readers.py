@@ -12,7 +12,7 @@ import re
 from pathlib import Path
 
 from renderer.errors import LucidaError
-from renderer.scene.guard import damaged, geometries, guarded, read_text, tidy, to_part
+from renderer.scene.guard import damaged, geometries, guarded, to_part
 from renderer.scene.limits import (
     BINARY_MODEL_BYTES,
     OBJECTS,
@@ -21,6 +21,7 @@ from renderer.scene.limits import (
 )
 from renderer.scene.parts import Part
 from renderer.scene.reading import check_bytes, read_file, size_texts
+from renderer.scene.texts import read_text, tidy
 
 _SOLID = re.compile(r"^[ \t]*solid\b([^\n]*)", re.MULTILINE | re.IGNORECASE)
 

@@ -13,10 +13,10 @@ import trimesh
 
 from renderer.errors import LucidaError
 from renderer.scene import Mesh, SceneObject, framing, load_scene, shapes
-from renderer.scene.guard import tidy
 from renderer.scene.models import load_model
 from renderer.scene.normals import merge_positions
 from renderer.scene.parts import Part, build_mesh, linear_colors
+from renderer.scene.texts import tidy
 
 TRIANGLE = "v 0 0 0\nv 1 0 0\nv 0 1 0\n"
 OBJ_TRIANGLE = f"{TRIANGLE}f 1 2 3\n"

@@ -1,4 +1,4 @@
-"""The .obj reader against a plain one, line by line, and against trimesh's; its numbers are exact."""
+"""The .obj reader against a plain one, line by line, and trimesh's; its numbers are exact."""
 
 from __future__ import annotations
 
@@ -100,9 +100,7 @@ def plainly_read(text: str) -> dict[tuple[str | None, str | None], Triangles]:
         mine = [triangle for other, triangle in faces if other == key]
         bare = any(corner[2] < 0 for triangle in mine for corner in triangle)
         parts[key] = [
-            tuple(
-                (*rows["v"][v][:3], *([] if bare else rows["vn"][vn])) for v, _, vn in triangle
-            )
+            tuple((*rows["v"][v][:3], *([] if bare else rows["vn"][vn])) for v, _, vn in triangle)
             for triangle in mine
         ]
     return parts
