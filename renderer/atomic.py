@@ -7,7 +7,6 @@ from __future__ import annotations
 
 import contextlib
 import os
-import secrets
 import stat
 import sys
 from collections.abc import Iterator
@@ -88,7 +87,7 @@ def atomic_write(path: str | Path) -> Iterator[BinaryIO]:
 
 def _new_name(folder: Path) -> Path:
     """For an unfinished file. Not made of the target's, which may be as long as names can be."""
-    return folder / f"{_PREFIX}{secrets.token_hex(8)}{_SUFFIX}"
+    return folder / f"{_PREFIX}{os.urandom(8).hex()}{_SUFFIX}"
 
 
 def _move(part: Path, target: Path) -> None:

@@ -15,7 +15,6 @@ from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike
-from pyrr import matrix44
 
 from renderer.camera_checks import (
     SMALLEST,
@@ -301,6 +300,8 @@ class Camera:
 
         near, far: distances along -w in units of w; 0 < near < far in perspective.
         """
+        from pyrr import matrix44  # here: the tracer has no use for it
+
         # pyrr multiplies row vectors from the left: transposed here, at the border.
         if self.is_parallel:
             return matrix44.create_orthogonal_projection(*self.viewport, near, far).T

@@ -10,6 +10,7 @@ import contextlib
 import math
 import re
 import sys
+import time
 from collections.abc import Callable, Iterator
 from typing import TYPE_CHECKING, NoReturn
 
@@ -19,12 +20,15 @@ from renderer.errors import LucidaError, one_line
 from renderer.pixels import Indexing
 
 if TYPE_CHECKING:
+    from tqdm import tqdm
+
     from renderer.camera import Camera
     from renderer.camera_formats import PosedCamera
     from renderer.scene.model import Scene
 
 DEFAULT_SIZE = (1280, 720)
 BACKENDS = ("auto", "egl", "osmesa")
+BAR_DELAY_S = 1.0
 SAMPLES = tuple(k * k for k in range(1, 9))
 TRACEBACK_VARIABLE = "LUCIDA_TRACEBACK"
 
@@ -177,25 +181,34 @@ def say_nothing_is_hit(scene: Scene, camera: Camera) -> None:
 def progress_bar(label: str) -> Iterator[Callable[[float], None]]:
     """A function that takes fractions 0 to 1 and draws a bar on a terminal, from 1 s on. On a
     terminal or not, a line says once that the ray tracer must be compiled, if it must."""
-    from tqdm import tqdm
-
     from renderer import compile_note
 
-    layout = "{desc} {percentage:3.0f} % |{bar}| {elapsed}, {remaining} left"
-    hidden = not sys.stderr.isatty()
-    with tqdm(
-        total=1.0, desc=label, bar_format=layout, delay=1, leave=False, disable=hidden
-    ) as bar:
-        told = compile_note.note()  # of what was compiled before
+    start = time.monotonic()
+    told = compile_note.note()  # of what was compiled before
+    with contextlib.ExitStack() as shown:
+        bar: tqdm[NoReturn] | None = None
 
         def report(fraction: float) -> None:
-            nonlocal told
+            nonlocal bar, told
+            if bar is None and sys.stderr.isatty() and time.monotonic() - start >= BAR_DELAY_S:
+                bar = shown.enter_context(_bar(label, start))
             if compile_note.note() != told:
                 told = compile_note.note()
-                tqdm.write(f"lucida: {told}", file=sys.stderr)
-            bar.update(fraction - bar.n)
+                (bar.write if bar is not None else print)(f"lucida: {told}", file=sys.stderr)
+            if bar is not None:
+                bar.update(fraction - bar.n)
 
         yield report
+
+
+def _bar(label: str, start: float) -> tqdm[NoReturn]:
+    """A bar that has stood since then."""
+    from tqdm import tqdm  # here: most images are done before
+
+    layout = "{desc} {percentage:3.0f} % |{bar}| {elapsed}, {remaining} left"
+    bar: tqdm[NoReturn] = tqdm(total=1.0, desc=label, bar_format=layout, leave=False)
+    vars(bar)["start_t"] -= time.monotonic() - start
+    return bar
 
 
 def counted(*counts: tuple[int, str]) -> str:

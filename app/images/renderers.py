@@ -231,10 +231,15 @@ class Renderers:
         """Whether coming frames have something to do that no thread will call for."""
         return self._to_compare(state) or (self.textures is not None and self.textures.unfinished)
 
+    @property
+    def busy(self) -> bool:
+        """Whether the ray image is being traced, or both are being compared, on other threads."""
+        return self.live.busy or self.agreement.busy
+
     def settled(self, state: AppState) -> bool:
         """Whether the images that are to be seen are complete, and compared if both are: nothing
         will change by itself."""
-        if self.live.busy or self.agreement.busy or self.unfinished(state):
+        if self.busy or self.unfinished(state):
             return False
         return not self._tracing or (self._has_full(state) and self.verdict(state) is not None)
 

@@ -7,13 +7,16 @@ filter). Pure; knows nothing of what is drawn.
 from __future__ import annotations
 
 import math
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
-from PIL import Image, ImageDraw, ImageFont
 
 from app.outside.svg import DASHES
 from app.outside.vector import Arc, Area, Color, Drawing, Letters, Spot, VectorLine
+
+if TYPE_CHECKING:
+    from PIL import ImageDraw
 
 SAMPLES = 4
 
@@ -23,6 +26,8 @@ Spots = list[tuple[float, float]]
 def bitmap(drawing: Drawing, size: tuple[int, int]) -> NDArray[np.uint8]:
     """The drawing at (width, height) pixels: (height, width, 3), as shown. The drawing's own width
     over its height should be the same."""
+    from PIL import Image, ImageDraw  # here: the window opens without
+
     scale = SAMPLES * size[0] / drawing.size[0]
     picture = Image.new("RGB", (SAMPLES * size[0], SAMPLES * size[1]), _ink(drawing.background)[:3])
     draw = ImageDraw.Draw(picture, "RGBA")
@@ -98,6 +103,8 @@ def _line(
 def _letters(
     draw: ImageDraw.ImageDraw, part: Letters, scale: float, rim: tuple[int, int, int, int]
 ) -> None:
+    from PIL import ImageFont
+
     font = ImageFont.load_default(size=part.size * scale)
     bold = 0.04 * part.size * scale if part.strong else 0.0
     x, y = scale * part.center[0], scale * part.center[1]

@@ -16,7 +16,6 @@ from xml.sax.saxutils import escape, quoteattr
 
 import numpy as np
 from numpy.typing import NDArray
-from PIL import Image
 
 from app.outside.image_bitmap import Standing
 from app.outside.vector import Arc, Area, Color, Drawing, Letters, Part, Spot, VectorLine
@@ -72,6 +71,8 @@ def _live_image(standing: Standing) -> list[str]:
     """The image once, and its cells as uses of it, cut out by paths. Its pixels stay squares:
     optimizeSpeed is SVG 1.1's word for that, pixelated is CSS's, which browsers go by."""
     height, width = standing.rgba.shape[:2]
+    from PIL import Image  # here: the window opens without
+
     file = io.BytesIO()
     Image.fromarray(standing.rgba).save(file, "PNG")
     content = base64.b64encode(file.getvalue()).decode()

@@ -47,12 +47,14 @@ from app.window.title import title
 from renderer import compile_note
 from renderer.atomic import atomic_write, check_writable
 from renderer.errors import LucidaError
+from renderer.images.png import write_png
 from renderer.scene import BUILTIN_SCENES
 from renderer.scene import View as SceneView
 
 DEFAULT_SIZE = (1280, 720)
 DEFAULT_PICTURE = Path("lucida.png")
 SCREENSHOT_LIMIT_S = 300.0  # the first image of an installation compiles the tracer
+PICTURE_WAIT_S = 0.03  # between frames that wait for the ray image, or for the comparison
 NULL_FPS = 60.0
 IDLE_FPS = 0.5  # ends notifications, saves the session; anything else that changes asks for frames
 SWITCH_INTERVAL_S = 0.001  # a busy Python thread (a compilation) delays a frame by this, not 5 ms
@@ -342,6 +344,8 @@ class WindowRun:
                 f"the images were not complete after {SCREENSHOT_LIMIT_S:g} s",
                 "try a smaller model or --size",
             )
+        elif self.window.renderers.busy:
+            time.sleep(PICTURE_WAIT_S)  # frames that nobody sees take time from what they wait for
 
 
 def _configure() -> None:
@@ -352,10 +356,8 @@ def _configure() -> None:
 
 def save_png(path: Path, pixels: np.ndarray) -> None:
     """Writes uint8 (height, width, 3), row 0 at the top; whole or not at all."""
-    from PIL import Image
-
     with atomic_write(path) as file:
-        Image.fromarray(pixels).save(file, format="PNG")
+        write_png(file, pixels)
 
 
 def _folder() -> Path | None:

@@ -22,6 +22,7 @@ from renderer.atomic import atomic_write, check_writable
 from renderer.errors import LucidaError
 from renderer.frame import Frame
 from renderer.images.display import Bytes, gray_of, gray_picture, picture
+from renderer.images.png import write_png
 
 # EXR's names of channels, by the convention of layers: "N.X" is the X of layer N.
 EXR_CHANNELS = {
@@ -101,27 +102,18 @@ def encode_array(array: NDArray, ending: str) -> bytes:
     return content.getvalue()
 
 
-def _write_png(file: BinaryIO, shown: Bytes) -> None:
-    _write_by_pillow(file, shown, "PNG")
-
-
 def _write_netpbm(file: BinaryIO, shown: Bytes) -> None:
     """P6 for colours (height, width, 3), P5 for gray (height, width)."""
-    _write_by_pillow(file, shown, "PPM")
+    kind = b"P6" if shown.ndim == 3 else b"P5"
+    file.write(b"%s\n%d %d\n255\n" % (kind, shown.shape[1], shown.shape[0]))
+    file.write(np.ascontiguousarray(shown).data)
 
 
 def _write_pbm(file: BinaryIO, gray: Bytes) -> None:
-    """P4: one bit a pixel, black where the gray is below half."""
-    _write_by_pillow(file, gray if gray.dtype == np.bool_ else gray >= HALF, "PPM")
-
-
-def _write_by_pillow(file: BinaryIO, array: NDArray, name: str) -> None:
-    from PIL import Image
-
-    # Not into the file itself: Pillow then overlooks that a full disk took only a part.
-    content = io.BytesIO()
-    Image.fromarray(array).save(content, format=name)
-    file.write(content.getbuffer())
+    """P4: one bit a pixel, black, which is 1, where the gray is below half."""
+    white = gray if gray.dtype == np.bool_ else gray >= HALF
+    file.write(b"P4\n%d %d\n" % (white.shape[1], white.shape[0]))
+    file.write(np.packbits(~white, axis=1).data)
 
 
 def _write_pfm(file: BinaryIO, data: NDArray, channel: str) -> None:
@@ -149,7 +141,7 @@ def _write_npy(file: BinaryIO, data: NDArray, channel: str) -> None:
 
 GRAYS = (".pgm", ".pbm")
 PICTURES: dict[str, Callable[[BinaryIO, NDArray], None]] = {
-    ".png": _write_png,
+    ".png": write_png,
     ".ppm": _write_netpbm,
     ".pgm": _write_netpbm,
     ".pbm": _write_pbm,

@@ -17,7 +17,7 @@ import moderngl
 
 from renderer.errors import LucidaError
 from renderer.forked import check_not_forked
-from renderer.raster.current import load_egl, load_osmesa, nothing_current
+from renderer.raster.current import found_library, load_egl, load_osmesa, nothing_current
 from renderer.raster.packages import remedy
 
 BACKENDS = ("auto", "egl", "osmesa")
@@ -52,7 +52,10 @@ class Standalone:
 
     def __init__(self, name: str) -> None:
         self.name = name
-        settings: dict[str, Any] = {"backend": "egl"} if name == "egl" else {}
+        settings: dict[str, Any] = {}
+        if name == "egl":  # which it would look for again
+            libraries = {"libgl": found_library("GL"), "libegl": found_library("EGL")}
+            settings = {"backend": "egl", **libraries}
         with nothing_current():
             self.context = moderngl.create_context(standalone=True, require=330, **settings)
             self.context.__exit__(None, None, None)

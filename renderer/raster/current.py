@@ -5,12 +5,12 @@ Owns what EGL, GLX and OSMesa say of their current contexts. Knows nothing of wh
 
 from __future__ import annotations
 
+import contextlib
 import ctypes
 import os
 import sys
 from collections.abc import Iterator
 from contextlib import contextmanager
-from ctypes.util import find_library
 from functools import cache
 from typing import Any
 
@@ -151,9 +151,22 @@ def load_osmesa() -> Any:
 def found_library(name: str) -> str | None:
     """What the system finds, unless that is in the current folder: where libraries have folders, as
     on macOS and Windows, a path without is from there."""
+    is_linux = sys.platform.startswith("linux")
+    if is_linux and (usual := _loaded(f"lib{name}.so.1")) is not None:
+        return usual  # the name that Linux has settled on: to ask for it starts programs
+
+    from ctypes.util import find_library
+
     found = find_library(name)
-    is_safe = found is not None and (sys.platform.startswith("linux") or os.path.isabs(found))
-    return found if is_safe else None
+    return found if found is not None and (is_linux or os.path.isabs(found)) else None
+
+
+def _loaded(name: str) -> str | None:
+    """The name, if a library of it can be loaded."""
+    with contextlib.suppress(OSError):
+        ctypes.CDLL(name)
+        return name
+    return None
 
 
 def _linux_library(name: str) -> Any:

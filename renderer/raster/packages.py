@@ -5,7 +5,6 @@ Owns the names of system packages. Knows nothing of how they are looked for.
 
 from __future__ import annotations
 
-import platform
 import sys
 
 SYSTEMS = ("debian", "fedora", "arch", "macos", "windows", "other")
@@ -55,6 +54,8 @@ def this_system() -> str:
     """One of SYSTEMS; Ubuntu, Mint and others count as what they are derived from."""
     if sys.platform in ("darwin", "win32"):
         return {"darwin": "macos", "win32": "windows"}[sys.platform]
+    import platform
+
     try:
         release = platform.freedesktop_os_release()
     except OSError:

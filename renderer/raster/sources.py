@@ -6,9 +6,9 @@ from a driver's message to file and line. Knows nothing of what the shaders comp
 
 from __future__ import annotations
 
+import pkgutil
 import re
 from collections.abc import Callable, Mapping
-from importlib.resources import files
 from typing import Any
 
 import moderngl
@@ -28,9 +28,12 @@ Constant = bool | int | float | Vec3 | tuple[Vec3, ...]
 def read_shader(name: str) -> str:
     """The text of shaders/`name`, from the checkout or from the installed package."""
     try:
-        return files("shaders").joinpath(*name.split("/")).read_text(encoding="utf-8")
+        data = pkgutil.get_data("shaders", name)
     except (OSError, ModuleNotFoundError):
-        raise LucidaError(f"shaders/{name}", "does not exist", "install lucida again") from None
+        data = None
+    if data is None:
+        raise LucidaError(f"shaders/{name}", "does not exist", "install lucida again")
+    return data.decode()
 
 
 class ShaderSource:

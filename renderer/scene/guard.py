@@ -1,14 +1,12 @@
-"""The border to trimesh: texts go in tidied, geometries come out as parts, exceptions as one line.
+"""The border to trimesh: geometries come out as parts, exceptions as one line.
 
 Knows nothing of what a format means.
 """
 
 from __future__ import annotations
 
-import codecs
 import contextlib
 import logging
-import re
 import warnings
 from collections.abc import Iterator
 from pathlib import Path
@@ -17,16 +15,10 @@ from typing import Any
 import numpy as np
 
 from renderer.errors import LucidaError
-from renderer.scene.limits import TEXT_MODEL_BYTES
 from renderer.scene.model import Material
 from renderer.scene.parts import Part, linear_colors
-from renderer.scene.reading import read_file
 
 _SILENT = logging.NullHandler()
-_COMMENT = re.compile(r"^((?:f|v[nt]?)[ \t][^#\n]*)#[^\n]*", re.MULTILINE)
-_COMMENT_LINE = re.compile(r"^[ \t]*#[^\n]*", re.MULTILINE)
-_INDENT = re.compile(r"^[ \t]+", re.MULTILINE)
-_TAB = re.compile(r"^(f|v[nt]?|o|g|usemtl|mtllib)[ \t]*\t[ \t]*", re.MULTILINE)
 
 
 @contextlib.contextmanager
@@ -54,40 +46,6 @@ def guarded(path: Path, kind: str) -> Iterator[None]:
             "it is damaged or of another kind; export it again, as triangles",
             str(path),
         ) from None
-
-
-def read_text(path: Path) -> str:
-    """The tidy text of a model. Raises LucidaError, also for what is no text: noise would be
-    searched for lines, which takes long."""
-    data = _as_utf8(read_file(path, TEXT_MODEL_BYTES))
-    if b"\0" in data:
-        problem, remedy = "holds zero bytes: it is no text", "export it again, as text in UTF-8"
-        raise LucidaError("", problem, remedy, str(path))
-    return tidy_text(data)
-
-
-def _as_utf8(data: bytes) -> bytes:
-    """A text in UTF-16, which its first two bytes tell, as one in UTF-8; others as they are."""
-    for mark, encoding in ((codecs.BOM_UTF16_LE, "utf-16-le"), (codecs.BOM_UTF16_BE, "utf-16-be")):
-        if data.startswith(mark):
-            return data[2:].decode(encoding, "replace").encode()
-    return data
-
-
-def tidy_text(data: bytes) -> str:
-    """Text with newlines only, tidy enough for trimesh; what is not UTF-8 is replaced.
-
-    It begins and ends with a newline; otherwise lines keep their number.
-    """
-    text = data.decode("utf-8-sig", "replace").replace("\r\n", "\n").replace("\r", "\n")
-    text = f"\n{text}\n"
-    if "\\\n" in text:  # a backslash continues its line, unless that is a comment: # C:\models\
-        text = _COMMENT_LINE.sub(lambda line: line[0].rstrip("\\"), text).replace("\\\n", " ")
-    if "\t" in text or "\n " in text:
-        text = _TAB.sub(r"\1 ", _INDENT.sub("", text))
-    if text.count("#") > text.count("\n#"):
-        text = _COMMENT.sub(r"\1", text)
-    return text
 
 
 def geometries(found: dict[str, Any], name: str) -> list[tuple[str, dict[str, Any]]]:

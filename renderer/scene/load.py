@@ -5,16 +5,14 @@ Owns the choice between them, by name and by ending. Knows nothing of what is in
 
 from __future__ import annotations
 
-import difflib
 from dataclasses import replace
 from pathlib import Path
 
 from renderer.errors import LucidaError
-from renderer.scene.files import read_scene_file
 from renderer.scene.model import Origin, Scene
 from renderer.scene.models import MODEL_ENDINGS, model_scene
 from renderer.scene.noting import Noted, noting
-from renderer.scene.reading import absence, path_of, suggestion
+from renderer.scene.reading import absence, close_matches, path_of, suggestion
 
 BUILTIN_SCENES = (
     "still-life",
@@ -37,13 +35,13 @@ def load_scene(source: str | Path) -> Scene:
     """
     path = path_of(source, "scene")
     if source in BUILTIN_SCENES:
-        return _from(str(source), read_scene_file(_BUILTIN_FOLDER / f"{source}.toml"), {})
+        return _from(str(source), _scene_file(_BUILTIN_FOLDER / f"{source}.toml"), {})
     if not str(source):
         raise LucidaError("scene", "'' is empty", suggestion("", BUILTIN_SCENES))
     ending = path.suffix.lower()
     if ending in SCENE_ENDINGS:
         with noting() as noted:
-            scene = read_scene_file(path) if ending == ".toml" else model_scene(path)
+            scene = _scene_file(path) if ending == ".toml" else model_scene(path)
         return _from(str(path.absolute()), scene, noted)
     endings = f"files ending in {' '.join(SCENE_ENDINGS)}"
     if _exists(path):
@@ -53,7 +51,7 @@ def load_scene(source: str | Path) -> Scene:
     if ending or path.parent != Path():
         problem, remedy = absence(path)
         raise LucidaError("", problem, f"{remedy}; scenes are {endings}", str(path))
-    close = difflib.get_close_matches(str(source)[:100], BUILTIN_SCENES, 1)
+    close = close_matches(str(source)[:100], BUILTIN_SCENES)
     guess = f"did you mean {close[0]!r}? " if close else ""
     raise LucidaError(
         "scene",
@@ -61,6 +59,12 @@ def load_scene(source: str | Path) -> Scene:
         f"{guess}built-in scenes are {', '.join(BUILTIN_SCENES)}; files end in "
         + " ".join(SCENE_ENDINGS),
     )
+
+
+def _scene_file(path: Path) -> Scene:
+    from renderer.scene.files import read_scene_file  # here: model files need none of it
+
+    return read_scene_file(path)
 
 
 def _from(source: str, scene: Scene, files: Noted) -> Scene:

@@ -110,15 +110,15 @@ def model_scene(path: str | Path) -> Scene:
 
 def _objects(path: Path, ending: str) -> list[SceneObject]:
     # Imported here: scenes without models need none of it.
-    from renderer.scene import obj, readers
+    if ending == ".obj":
+        from renderer.scene.obj import read_obj
 
-    read = {
-        ".obj": obj.read_obj,
-        ".ply": readers.read_ply,
-        ".stl": readers.read_stl,
-        ".off": readers.read_off,
-    }[ending]
-    parts = read(path)
+        parts = read_obj(path)
+    else:
+        from renderer.scene import readers
+
+        read = {".ply": readers.read_ply, ".stl": readers.read_stl, ".off": readers.read_off}
+        parts = read[ending](path)
     objects = []
     for part in parts:
         check_cancelled()

@@ -1,176 +1,266 @@
-"""Wavefront .obj files through trimesh's reader.
+"""Wavefront .obj files.
 
-Owns what trimesh does not take as the format means it: relative indices, index 0, dialects, and
-which line is at fault. Knows nothing of meshes' repair.
+Owns what the lines mean: vertices, polygons, objects and materials, and which line is at fault.
+Knows nothing of meshes' repair.
 """
 
 from __future__ import annotations
 
-import io
+import contextlib
 import re
-from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
+from typing import NoReturn
 
 import numpy as np
+from numpy.typing import NDArray
 
 from renderer.errors import LucidaError
-from renderer.scene.guard import geometries, guarded, read_text, to_part
-from renderer.scene.limits import MATERIAL_BYTES, OBJECTS
+from renderer.scene import numerals
+from renderer.scene.limits import OBJECTS
 from renderer.scene.model import Material
-from renderer.scene.parts import Part
-from renderer.scene.reading import read_file
+from renderer.scene.mtl import read_mtl
+from renderer.scene.numerals import Ints
+from renderer.scene.obj_lines import Lines
+from renderer.scene.parts import Part, linear_colors, used_vertices
+from renderer.scene.texts import read_text_bytes
 
-SPLIT_WORK = 1 << 31  # parts times vertices up to which a file is split into parts
 _END_LETTERS = 4096  # a last line that is longer is not looked at
+_WHOLE = re.compile(r"[-+]?\d{1,18}")
+_VALUES = {"v": "a vertex", "vn": "a normal"}
 
-# What a face line must not hold for trimesh: indices counted from the end, or 0.
-_RELATIVE = re.compile(r"^f[^\n]*[ \t/](?:-\d|0+(?![0-9.]))", re.MULTILINE)
-_DIVISION = re.compile(r"^(?:o|g|usemtl|mtllib)\b[^\n]*\n", re.MULTILINE)
+
+@dataclass(frozen=True, eq=False)
+class _Triangles:
+    """Indices from 0, (m, 3), into vertices, texture coordinates and normals; -1 where a corner
+    has none, None where no corner has any. line: of the file, (m,)."""
+
+    vertices: Ints
+    uvs: Ints | None
+    normals: Ints | None
+    line: Ints
+
+    def chosen(self, which: NDArray) -> _Triangles:
+        uvs, normals = (None if a is None else a[which] for a in (self.uvs, self.normals))
+        return _Triangles(self.vertices[which], uvs, normals, self.line[which])
 
 
 def read_obj(path: Path) -> list[Part]:
     """The parts of an .obj file: one for each object and material, in the file's order."""
-    original = text = read_text(path)
-    if "\nf " not in text:
+    lines = Lines(read_text_bytes(path))
+    if not len(lines.numbers("f")):
         return []
-    _check_end(path, text)
-    vertices = text.count("\nv ")
-    divisions = text.count("\no ") + text.count("\nusemtl ") + 1
-    if divisions > OBJECTS or divisions * vertices > SPLIT_WORK:
-        text = _DIVISION.sub("", text)
-    faces = text[text.find("\nf ") :]
-    if any(sign in faces for sign in ("-", " 0", "/0")) and _RELATIVE.search(faces):
-        text = _absolute_indices(text)
+    _check_end(path, lines)
     try:
-        with guarded(path, "OBJ"):
-            from trimesh.exchange.obj import load_obj
-
-            found = load_obj(
-                io.StringIO(text), _BesideIt(path.parent), split_objects=True, group_material=True
-            )
-    except LucidaError:
-        _blame_line(path, original)
-        raise
+        vertices, normals = _rows(lines, "v"), _rows(lines, "vn")
+        triangles = _triangles(lines)
+        if vertices.shape[1] < 3 or not _are_within(triangles.vertices, len(vertices)):
+            raise ValueError("vertices are missing")
+    except ValueError as error:
+        _blame_line(path, lines, str(error))
+    named = _named_parts(path, lines, triangles)
     parts = []
-    for name, fields in reversed(geometries(found, path.stem)):
-        material = _obj_material(fields.get("visual"))
-        parts.append(to_part(name, fields, material))
+    for name, which, material in named:
+        mine = triangles if len(named) == 1 else triangles.chosen(which)
+        source, faces, normal = _merged(mine, normals)
+        part_normals = None if normal is None else normals[normal]
+        colors = linear_colors(vertices[source, 3:6]) if vertices.shape[1] >= 6 else None
+        part = Part(name, vertices[source, :3], faces, part_normals, colors, material=material)
+        parts.append(part)
     return parts
 
 
-class _BesideIt(Mapping[str, bytes]):
-    """What an .obj may read: its .mtl file, in its own folder. Images are not read."""
-
-    def __init__(self, folder: Path) -> None:
-        self.folder = folder.resolve()
-
-    def __getitem__(self, name: str) -> bytes:
-        path = (self.folder / name).resolve()
-        if not path.is_relative_to(self.folder):
-            raise KeyError(name)
-        return read_file(path, MATERIAL_BYTES)
-
-    def get(self, name: str, default: Any = None) -> Any:
-        raise KeyError(name)  # trimesh asks for images in this way
-
-    def __iter__(self) -> Iterator[str]:
-        return iter(())
-
-    def __len__(self) -> int:
-        return 0
+def _rows(lines: Lines, kind: str) -> NDArray[np.float64]:
+    """The numbers of all lines of a kind: as many of each as its shortest line has."""
+    text = lines.of(kind)
+    begins, counts = numerals.words(text)
+    values = numerals.floats(text, begins)
+    if not len(counts):
+        return np.zeros((0, 0))
+    width = int(counts.min())
+    if width == counts.max():
+        return values.reshape(-1, width)
+    return values[(np.cumsum(counts) - counts)[:, None] + np.arange(width)]
 
 
-def _check_end(path: Path, text: str) -> None:
-    """Raises LucidaError for a file that ends within a face, which trimesh would pass over."""
-    line = text[-_END_LETTERS:].rstrip().rpartition("\n")[2]
-    keyword, *corners = line.split() or [""]
+def _triangles(lines: Lines) -> _Triangles:
+    """The polygons as fans of triangles: corners 0, k, k + 1."""
+    text = lines.of("f")
+    line = lines.numbers("f")
+    begins, counts = numerals.words(text)
+    columns = [
+        None if column is None else _from_zero(column, counts, line, lines.numbers(kind))
+        for kind, column in zip(("v", "vt", "vn"), numerals.corners(text, begins), strict=True)
+    ]
+    if (counts == 3).all():
+        corners = np.arange(3 * len(counts)).reshape(-1, 3)
+    else:
+        fan = np.maximum(counts - 2, 0)
+        first = np.repeat(np.cumsum(counts) - counts, fan)
+        k = np.arange(len(first)) - np.repeat(np.cumsum(fan) - fan, fan)
+        corners = np.stack([first, first + k + 1, first + k + 2], axis=1)
+        line = np.repeat(line, fan)
+    vertices, uvs, normals = (None if c is None else c[corners] for c in columns)
+    assert vertices is not None  # a word has a first number
+    return _Triangles(vertices, uvs, normals, line)
+
+
+def _from_zero(column: Ints, counts: Ints, line: Ints, named: Ints) -> Ints:
+    """Indices as arrays have them, from 0: -1 for none, less for what cannot be. Those below 0 are
+    counted from the end of what stands above their line.
+
+    column: of the lines `line`, so many of each as counts says. named: the lines of what they name.
+    """
+    if column.min(initial=0) >= 0:
+        return column - 1
+    back = np.repeat(np.searchsorted(named, line), counts) + column
+    return np.where(column < 0, np.where(back < 0, -2, back), column - 1)
+
+
+def _are_within(indices: Ints, count: int) -> bool:
+    return indices.min(initial=0) >= 0 and indices.max(initial=-1) < count
+
+
+def _merged(triangles: _Triangles, normals: NDArray[np.float64]) -> tuple[Ints, Ints, Ints | None]:
+    """(source, faces, normal): of each new vertex the vertex and the normal; and the faces. Corners
+    are one vertex where they agree in both. Normals are None unless all corners have one."""
+    key = triangles.vertices.reshape(-1)
+    normal = None if triangles.normals is None else triangles.normals.reshape(-1)
+    if normals.shape[1] != 3 or normal is None or not _are_within(normal, len(normals)):
+        normal = None
+    elif not np.array_equal(key, normal):
+        key = key * len(normals) + normal
+        _, first, inverse = np.unique(key, return_index=True, return_inverse=True)
+        return triangles.vertices.reshape(-1)[first], inverse.reshape(-1, 3), normal[first]
+    source, faces = used_vertices(triangles.vertices)
+    return source, faces, None if normal is None else source
+
+
+def _named_parts(
+    path: Path, lines: Lines, triangles: _Triangles
+) -> list[tuple[str, NDArray, Material | None]]:
+    """For each object and material: a name, its triangles, and the material if the file has it."""
+    materials: dict[str, Material | None] = {}
+    keys: dict[tuple[str | None, str | None], int] = {(None, None): 0}
+    at, states = [-1], [0]
+    found: str | None = None
+    used: str | None = None
+    library: str | None = None
+    for number, keyword, rest in lines.statements():
+        if keyword == "mtllib":
+            library = rest if library is None else library
+            continue
+        found, used = (rest, used) if keyword == "o" else (found, " ".join(rest.split()))
+        at.append(number)
+        states.append(keys.setdefault((found, used), len(keys)))
+    if len(keys) == 1 or not len(triangles.line):
+        return [(path.stem, np.arange(0), None)]
+    part = np.array(states)[np.searchsorted(np.array(at), triangles.line) - 1]
+    order = np.argsort(part, kind="stable")
+    groups = np.split(order, np.flatnonzero(np.diff(part[order])) + 1)
+    if len(groups) > OBJECTS:
+        return [(path.stem, order, None)]
+    groups.sort(key=lambda group: int(group[0]))
+    if library:
+        materials = _materials(path.parent, library)
+    all_keys = list(keys)
+    named = []
+    for group in groups:
+        found, used = all_keys[part[group[0]]]
+        words = [word for word in (found, used if len(materials) > 1 else None) if word is not None]
+        name = "_".join(words) if words else "geometry"
+        named.append((name, group, materials.get(used or "")))
+    return _told_apart(named)
+
+
+def _told_apart(
+    named: list[tuple[str, NDArray, Material | None]],
+) -> list[tuple[str, NDArray, Material | None]]:
+    """The last of a name keeps it; those before it are counted: x_2, x_1, x."""
+    taken: set[str] = set()
+    counts: dict[str, int] = {}
+    apart = []
+    for name, group, material in reversed(named):
+        unique = name
+        base, _, number = name.rpartition("_")
+        if not (base and number.isdecimal() and len(number) < 10):
+            base, number = name or "geometry", "0"
+        counted = counts.get(base, int(number))
+        while not unique or unique in taken:
+            counted += 1
+            unique = f"{base}_{counted}"
+            counts[base] = counted
+        taken.add(unique)
+        apart.append((unique, group, material))
+    return apart[::-1]
+
+
+def _materials(folder: Path, name: str) -> dict[str, Material | None]:
+    """The materials of an .mtl file in the .obj file's own folder; none where that cannot be."""
+    with contextlib.suppress(LucidaError, OSError, ValueError):
+        path = (folder / name).resolve()
+        if path.is_relative_to(folder.resolve()):
+            return read_mtl(path)
+    return {}
+
+
+def _check_end(path: Path, lines: Lines) -> None:
+    """Raises LucidaError for a file that ends within a face."""
+    text = lines.text[-_END_LETTERS:].rstrip()
+    line = text.rpartition(b"\n")[2].decode("utf-8", "replace")
+    keyword, *corners = line.partition("#")[0].split() or [""]
     slashes = {corner.count("/") for corner in corners}
     if keyword == "f" and (len(corners) < 3 or len(slashes) > 1):
         raise LucidaError(
-            f"line {text.rstrip().count(chr(10))}",
+            f"line {lines.text.rstrip().count(10)}",
             f"{line[:60]!r}, the last one, is not a whole face",
             "the file is cut off; export it again",
             str(path),
         )
 
 
-def _blame_line(path: Path, text: str) -> None:
-    """Raises LucidaError for the first line that trimesh may have stumbled over, if there is one.
-
-    text: as tidy_text() gives it, with an empty line before the first.
-    """
-    vertices = text.count("\nv ")
+def _blame_line(path: Path, lines: Lines, reason: str) -> NoReturn:
+    """Raises LucidaError for the first line that is at fault, as it can be told."""
+    count = len(lines.numbers("v"))
     above = 0
-    for number, line in enumerate(text.split("\n")):
-        keyword, _, rest = line.partition(" ")
-        where = f"line {number}"
-        if keyword == "v":
-            above += 1
-            try:
-                if len([float(word) for word in rest.split()[:3]]) < 3:
-                    raise ValueError
-            except ValueError:
-                raise LucidaError(
-                    where, f"{line[:60]!r} is not a vertex", "repair the line", str(path)
-                ) from None
+    for number, line in enumerate(lines.text.decode("utf-8", "replace").split("\n")):
+        keyword, *words = line.partition("#")[0].split() or [""]
+        problem = ""
+        if keyword in _VALUES:
+            above += keyword == "v"
+            if (keyword == "v" and len(words) < 3) or not all(map(_is_number, words)):
+                problem = f"is not {_VALUES[keyword]}"
         elif keyword == "f":
-            for corner in rest.split():
-                index = corner.split("/")[0]
-                if not re.fullmatch(r"[-+]?\d{1,18}", index):
-                    raise LucidaError(
-                        where, f"{line[:60]!r} is not a face", "repair the line", str(path)
-                    )
-                if int(index) == 0 or not -above <= int(index) <= vertices:
-                    raise LucidaError(
-                        where,
-                        f"{line[:60]!r} uses vertex {int(index)} of {vertices}",
-                        "repair the line",
-                        str(path),
-                    )
+            problem = _face_problem(words, above, count)
+        if problem:
+            raise LucidaError(
+                f"line {number}", f"{line[:60]!r} {problem}", "repair the line", str(path)
+            )
+    raise LucidaError(
+        "",
+        f"cannot be read as OBJ: {reason}",
+        "it is damaged or of another kind; export it again, as triangles",
+        str(path),
+    )
 
 
-def _absolute_indices(text: str) -> str:
-    """Face lines with indices counted from the end replaced by ones from the beginning.
-
-    They count from the vertices above their line. Index 0, or one before the first vertex, does
-    not exist: it becomes one that cannot either.
-    """
-    counts = {"v": 0, "vt": 0, "vn": 0}
-    kinds = ("v", "vt", "vn")
-    lines = text.split("\n")
-    for number, line in enumerate(lines):
-        keyword, _, rest = line.partition(" ")
-        if keyword in counts:
-            counts[keyword] += 1
-        elif keyword == "f":
-            corners = []
-            for corner in rest.split():
-                indices = corner.split("/")
-                for k, index in enumerate(indices[:3]):
-                    if re.fullmatch(r"-\d{1,18}|0+", index):
-                        back = int(index[:19])
-                        absolute = counts[kinds[k]] + 1 + back
-                        indices[k] = str(absolute if back and absolute > 0 else 1 << 40)
-                corners.append("/".join(indices))
-            lines[number] = "f " + " ".join(corners)
-    return "\n".join(lines)
+def _face_problem(corners: list[str], above: int, count: int) -> str:
+    for corner in corners:
+        first, *others = corner.split("/")
+        if (
+            len(others) > 2
+            or not _WHOLE.fullmatch(first)
+            or not all(_WHOLE.fullmatch(x) for x in others if x)
+        ):
+            return "is not a face"
+        index = int(first)
+        if index == 0 or not -above <= index <= count:
+            return f"uses vertex {index} of {count}"
+    return ""
 
 
-def _obj_material(visual: Any) -> Material | None:
-    """Kd, Ks and Ns of an .mtl file as they stand, clamped to what a Material may have."""
-    fields = getattr(getattr(visual, "material", None), "kwargs", None) or {}
-    if not any(key in fields for key in ("kd", "ks", "ns")):
-        return None
-
-    def rgb(key: str, default: float) -> tuple[float, float, float]:
-        try:
-            red, green, blue = np.clip(np.asarray(fields.get(key, [default] * 3), float), 0, 1)
-        except (TypeError, ValueError):
-            return (default,) * 3
-        usable = np.isfinite([red, green, blue]).all()
-        return (float(red), float(green), float(blue)) if usable else (default,) * 3
-
-    shininess = fields.get("ns", 50.0)
-    shininess = shininess if isinstance(shininess, float) and shininess == shininess else 50.0
-    return Material(rgb("kd", 0.7), rgb("ks", 0.0), min(max(shininess, 1.0), 1000.0))
+def _is_number(word: str) -> bool:
+    with contextlib.suppress(ValueError):
+        float(word)
+        return True
+    return False

@@ -16,7 +16,7 @@ from renderer.camera_checks import LARGEST
 from renderer.errors import LucidaError
 from renderer.images.display import from_srgb
 from renderer.scene.model import BRIGHTEST, Material, Mesh
-from renderer.scene.normals import face_normals, merge_positions, smooth_normals
+from renderer.scene.normals import merge_positions, smooth_normals
 from renderer.scene.repairs import Repair, note_repair
 
 NEEDLE = 1e-9  # height over longest side below which a triangle has no area that could be seen
@@ -73,7 +73,8 @@ def build_mesh(part: Part) -> Mesh | None:
     origin = _own_origin(vertices, faces)
     with np.errstate(over="ignore", invalid="ignore"):  # of vertices that no face uses
         positions = (vertices - origin).astype(np.float32)
-    sound, repeats = _visible(positions, faces)
+    merged: NDArray[np.int64] | None = merge_positions(positions)
+    sound, repeats = _visible(positions, faces, merged)
     keep = sound & ~repeats
     lost = 0 if normals is None else int(np.count_nonzero(~np.isfinite(normals).all(axis=1)))
     note_repair(
@@ -92,11 +93,13 @@ def build_mesh(part: Part) -> Mesh | None:
         normals = None if normals is None else normals[faces.reshape(-1)]
         positions = positions[faces.reshape(-1)]
         faces = np.arange(len(positions)).reshape(-1, 3)
+        merged = None
     unit = _unit(normals)
     if unit is None:
-        source, faces, unit = smooth_normals(positions, faces, keep_apart=vertex_colors is not None)
+        keep_apart = vertex_colors is not None
+        source, faces, unit = smooth_normals(positions, faces, merged, keep_apart=keep_apart)
     else:
-        source, faces = _used(faces, len(positions))
+        source, faces = used_vertices(faces)
         unit = unit[source]
     colors = None if vertex_colors is None else vertex_colors[source]
     transform = np.eye(4)
@@ -195,22 +198,22 @@ def _own_origin(vertices: NDArray[np.float64], faces: NDArray[np.int64]) -> NDAr
 
 
 def _visible(
-    positions: NDArray[np.float32], faces: NDArray[np.int64]
+    positions: NDArray[np.float32], faces: NDArray[np.int64], merged: NDArray[np.int64]
 ) -> tuple[NDArray[np.bool_], NDArray[np.bool_]]:
-    """Which faces have an area, and which repeat an earlier face's positions: (m,) each."""
-    joined = merge_positions(positions)[faces]
-    longest = np.zeros(len(faces))
-    for corner in range(3):
-        side = positions[faces[:, corner]].astype(np.float64) - positions[faces[:, corner - 1]]
-        longest = np.maximum(longest, np.einsum("ij,ij->i", side, side))
-    area = np.linalg.norm(face_normals(positions, faces), axis=1)
+    """Which faces have an area, and which repeat an earlier face's positions: (m,) each. merged: as
+    merge_positions() gives it."""
+    joined = merged[faces]
+    a, b, c = (positions[faces[:, corner]].astype(np.float64) for corner in range(3))
+    sides = b - a, c - b, a - c
+    longest = np.max([np.einsum("ij,ij->i", side, side) for side in sides], axis=0)
+    area = np.linalg.norm(np.cross(sides[0], sides[2]), axis=1)
     sound = (area > NEEDLE * longest) & (area > SMALLEST_AREA)
-    a, b, c = np.sort(joined, axis=1).T.astype(np.uint64)
-    mixed = a * np.uint64(0x9E3779B97F4A7C15) ^ b * np.uint64(0xC2B2AE3D27D4EB4F) ^ c
-    mixed ^= c * np.uint64(0x165667B19E3779F9) >> np.uint64(7)
+    i, j, k = np.sort(joined, axis=1).T.astype(np.uint64)
+    mixed = i * np.uint64(0x9E3779B97F4A7C15) ^ j * np.uint64(0xC2B2AE3D27D4EB4F) ^ k
+    mixed ^= k * np.uint64(0x165667B19E3779F9) >> np.uint64(7)
     order = np.argsort(mixed, kind="stable")
     here, before = order[1:], order[:-1]
-    again = (a[here] == a[before]) & (b[here] == b[before]) & (c[here] == c[before])
+    again = (i[here] == i[before]) & (j[here] == j[before]) & (k[here] == k[before])
     repeats = np.zeros(len(faces), bool)
     repeats[here[again]] = True
     return sound, repeats
@@ -229,9 +232,12 @@ def _unit(normals: NDArray[np.float64] | None) -> NDArray[np.float32] | None:
     return unit.astype(np.float32)
 
 
-def _used(faces: NDArray[np.int64], count: int) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
+def used_vertices(faces: NDArray[np.int64]) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
     """(source, faces): the vertices that faces use, in their order, and the faces renumbered."""
-    used = np.zeros(count, bool)
-    used[faces] = True
+    if not faces.size:
+        return np.zeros(0, np.int64), faces
+    low = int(faces.min())
+    used = np.zeros(int(faces.max()) + 1 - low, bool)
+    used[faces - low] = True
     number = np.cumsum(used) - 1
-    return np.flatnonzero(used), number[faces]
+    return np.flatnonzero(used) + low, number[faces - low]

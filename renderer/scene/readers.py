@@ -12,7 +12,7 @@ import re
 from pathlib import Path
 
 from renderer.errors import LucidaError
-from renderer.scene.guard import damaged, geometries, guarded, read_text, tidy_text, to_part
+from renderer.scene.guard import damaged, geometries, guarded, to_part
 from renderer.scene.limits import (
     BINARY_MODEL_BYTES,
     OBJECTS,
@@ -21,8 +21,9 @@ from renderer.scene.limits import (
 )
 from renderer.scene.parts import Part
 from renderer.scene.reading import check_bytes, read_file, size_texts
+from renderer.scene.texts import read_text, tidy
 
-_SOLID = re.compile(r"^solid\b([^\n]*)", re.MULTILINE | re.IGNORECASE)
+_SOLID = re.compile(r"^[ \t]*solid\b([^\n]*)", re.MULTILINE | re.IGNORECASE)
 
 
 def read_ply(path: Path) -> list[Part]:
@@ -60,7 +61,7 @@ def read_stl(path: Path) -> list[Part]:
             declared, there = size_texts(84 + 50 * triangles, len(data))
             raise damaged(path, f"declares {triangles} triangles, {declared}, and has {there}")
         check_bytes(len(data), TEXT_MODEL_BYTES, str(path))
-        text = tidy_text(data)
+        text = tidy(data).decode("utf-8", "replace")
         solids = text.lower().count("endsolid")
         if not solids:
             raise damaged(path, "has no 'endsolid'")

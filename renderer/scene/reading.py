@@ -6,7 +6,6 @@ Knows nothing of what is in the file.
 from __future__ import annotations
 
 import contextlib
-import difflib
 import os
 import stat
 from collections.abc import Iterable
@@ -80,8 +79,15 @@ def decode_text(data: bytes, source: str) -> str:
 def suggestion(given: str, known: Iterable[str]) -> str:
     """`did you mean 'x'?` where a known name is close to the given one, else a list of all."""
     known = list(known)
-    close = difflib.get_close_matches(given[:100], known, 1)
+    close = close_matches(given[:100], known)
     return f"did you mean {close[0]!r}?" if close else f"give one of {', '.join(known)}"
+
+
+def close_matches(given: str, known: Iterable[str], least: float = 0.6) -> list[str]:
+    """The known name that is most alike, if one is so to this degree, of 1."""
+    import difflib  # here: nobody needs it who makes no mistake
+
+    return difflib.get_close_matches(given, list(known), 1, least)
 
 
 def absence(path: Path) -> tuple[str, str]:
@@ -99,7 +105,7 @@ def _neighbours(path: Path) -> str:
             names = [entry.name for entry, _ in zip(entries, range(10_000), strict=False)]
     except (OSError, ValueError):
         return "check its name and folder"
-    close = difflib.get_close_matches(path.name[:255], names, 1, 0.75)
+    close = close_matches(path.name[:255], names, 0.75)
     return f"did you mean {str(path.with_name(close[0]))!r}?" if close else "check its name"
 
 

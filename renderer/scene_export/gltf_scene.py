@@ -11,11 +11,11 @@ from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
-from PIL import Image
 
 from renderer.camera_formats.gltf import camera_table, node_matrix
 from renderer.camera_formats.rigid import rigid
 from renderer.images.display import to_srgb8
+from renderer.images.png import write_png
 from renderer.scene.cancelling import check_cancelled
 from renderer.scene.flat import flatten
 from renderer.scene.model import Color, DirectionalLight, Material, Mesh, PointLight, Sphere
@@ -152,7 +152,7 @@ def _checker(made: GlbTree, material: Material, name: str, left: LeftOut) -> dic
     brightest = np.max(colors, axis=0)
     first, other = np.array(colors) / np.where(brightest > 0, brightest, 1)
     file = io.BytesIO()
-    Image.fromarray(to_srgb8([[first, other], [other, first]])).save(file, format="PNG")
+    write_png(file, to_srgb8([[first, other], [other, first]]))
     return {
         "baseColorFactor": [*brightest.tolist(), 1.0],
         "baseColorTexture": {"index": made.texture(file.getvalue())},

@@ -241,3 +241,16 @@ class TestOnATerminal:
             except OSError:  # Linux's way to tell that the other side is closed
                 break
         return seen
+
+
+def test_a_model_is_drawn_without_what_only_other_files_need(tmp_path):
+    """Importing these would take longer than drawing."""
+    (tmp_path / "x.obj").write_text("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n")
+    code = (
+        "import sys; from app.cli import main; status = main(sys.argv[1:]);"
+        "names = 'trimesh PIL tqdm msgspec tomllib difflib numba scipy multiprocessing'.split();"
+        "sys.exit(status or str([name for name in names if name in sys.modules]))"
+    )
+    command = [sys.executable, "-c", code, "render", "x.obj", "-o", "x.png", "--size", "8x8"]
+    done = subprocess.run(command, cwd=tmp_path, capture_output=True, text=True)
+    assert done.stderr.strip() == "[]"

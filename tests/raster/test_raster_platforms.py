@@ -185,7 +185,7 @@ def test_no_platform_at_all_is_one_line_that_names_each(monkeypatch):
 
 def test_a_missing_osmesa_says_so(monkeypatch):
     monkeypatch.setattr(current, "OSMESA_NAMES", ("libOSMesaThatIsNot.so",))
-    monkeypatch.setattr(current, "find_library", lambda name: None)
+    monkeypatch.setattr("ctypes.util.find_library", lambda name: None)
     current.load_osmesa.cache_clear()
     with pytest.raises(LucidaError, match="libOSMesa is not installed") as caught:
         Rasterizer(painted(1), backend="osmesa")
@@ -280,7 +280,7 @@ def test_systems_without_egl(monkeypatch, name, system):
     ],
 )
 def test_no_library_is_taken_from_the_current_folder(monkeypatch, system, found, asked):
-    monkeypatch.setattr(current, "find_library", lambda name: found)
+    monkeypatch.setattr("ctypes.util.find_library", lambda name: found)
     monkeypatch.setattr(current.sys, "platform", system)
     assert current.found_library("OSMesa") == asked
     assert all("/" in name for name in current.OSMESA_NAMES if name.endswith("dylib"))

@@ -13,10 +13,10 @@ import trimesh
 
 from renderer.errors import LucidaError
 from renderer.scene import Mesh, SceneObject, framing, load_scene, shapes
-from renderer.scene.guard import tidy_text
 from renderer.scene.models import load_model
 from renderer.scene.normals import merge_positions
 from renderer.scene.parts import Part, build_mesh, linear_colors
+from renderer.scene.texts import tidy
 
 TRIANGLE = "v 0 0 0\nv 1 0 0\nv 0 1 0\n"
 OBJ_TRIANGLE = f"{TRIANGLE}f 1 2 3\n"
@@ -268,7 +268,7 @@ def test_a_comment_that_ends_in_a_backslash_takes_no_line_away(tmp_path: Path) -
 
 def test_a_comment_of_many_backslashes_is_read_in_linear_time() -> None:
     text = b"#" + b"\\" * 1_000_000 + b"x\nf 1 2 \\\n3\n"  # in quadratic time: an hour
-    assert tidy_text(text).endswith("x\nf 1 2  3\n\n")
+    assert tidy(text).endswith(b"x\nf 1 2  3\n\n")
 
 
 # Numbers that are none.

@@ -1,0 +1,40 @@
+"""PNG files of pictures.
+
+Of Pillow's size, in a third of its time, and without Pillow, which takes longer to import than most
+pictures take to draw. Knows nothing of what is in a picture.
+"""
+
+from __future__ import annotations
+
+import struct
+import zlib
+from typing import BinaryIO
+
+import numpy as np
+from numpy.typing import NDArray
+
+LEVEL = 4  # zlib's: what smooth images gain by more takes three times as long
+_UP = 2  # PNG's filter: each byte less the one above it
+_GRAY, _RGB = 0, 2
+
+
+def write_png(file: BinaryIO, picture: NDArray[np.uint8] | NDArray[np.bool_]) -> None:
+    """A picture (height, width), of 8 bits or one, or (height, width, 3), as a PNG file."""
+    height, width = picture.shape[:2]
+    bits = 1 if picture.dtype == np.bool_ else 8
+    rows = np.packbits(picture, axis=1) if bits == 1 else picture.reshape(height, -1)
+    filtered: NDArray[np.uint8] = np.empty((height, 1 + rows.shape[1]), np.uint8)
+    filtered[:, 0] = _UP
+    filtered[0, 1:] = rows[0]
+    np.subtract(rows[1:], rows[:-1], out=filtered[1:, 1:])
+    kind = _RGB if picture.ndim == 3 else _GRAY
+    file.write(b"\x89PNG\r\n\x1a\n")
+    _write_chunk(file, b"IHDR", struct.pack(">IIBBBBB", width, height, bits, kind, 0, 0, 0))
+    _write_chunk(file, b"IDAT", zlib.compress(filtered.data, LEVEL))
+    _write_chunk(file, b"IEND", b"")
+
+
+def _write_chunk(file: BinaryIO, name: bytes, data: bytes) -> None:
+    file.write(struct.pack(">I4s", len(data), name))
+    file.write(data)
+    file.write(struct.pack(">I", zlib.crc32(data, zlib.crc32(name))))

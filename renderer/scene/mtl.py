@@ -1,0 +1,52 @@
+"""Wavefront .mtl files: the materials of an .obj file.
+
+Knows nothing of the .obj file. Images are not read.
+"""
+
+from __future__ import annotations
+
+import math
+from pathlib import Path
+
+from renderer.scene.limits import MATERIAL_BYTES
+from renderer.scene.model import Material
+from renderer.scene.reading import read_file
+
+
+def read_mtl(path: Path) -> dict[str, Material | None]:
+    """A file's materials by name: Kd, Ks and Ns as they stand, clamped to what a Material may
+    have; None for one that has none of these. Raises LucidaError where it cannot be read."""
+    text = read_file(path, MATERIAL_BYTES).decode("utf-8-sig", "replace")
+    found: dict[str, dict[str, list[float]]] = {}
+    fields: dict[str, list[float]] = {}
+    for line in text.splitlines():
+        keyword, *words = line.split() or [""]
+        if keyword.lower() == "newmtl" and words:
+            fields = found[" ".join(words)] = {}
+        elif keyword.lower() in ("kd", "ks", "ns") and words:
+            try:
+                fields[keyword.lower()] = [float(word) for word in words]
+            except ValueError:
+                continue  # a spectrum in a file of its own
+    return {name: _material(fields) for name, fields in found.items()}
+
+
+def _material(fields: dict[str, list[float]]) -> Material | None:
+    if not fields:
+        return None
+    shininess = fields.get("ns", [])
+    usable = len(shininess) == 1 and not math.isnan(shininess[0])
+    return Material(
+        _rgb(fields.get("kd", []), 0.7),
+        _rgb(fields.get("ks", []), 0.0),
+        min(max(shininess[0], 1.0), 1000.0) if usable else 50.0,
+    )
+
+
+def _rgb(values: list[float], default: float) -> tuple[float, float, float]:
+    if len(values) == 1:  # a gray
+        values = values * 3
+    if len(values) != 3 or any(map(math.isnan, values)):
+        return (default,) * 3
+    red, green, blue = (min(max(value, 0.0), 1.0) for value in values)
+    return red, green, blue

@@ -1,0 +1,115 @@
+"""Numbers written as text, many at once: exactly those that float() and int() make of each word.
+
+A text here is whole lines, and begins with a blank. Knows nothing of what the numbers mean.
+"""
+
+from __future__ import annotations
+
+import re
+import warnings
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+Ints = NDArray[np.int64]
+
+_LONE_SIGN = re.compile(rb"[-+](?![0-9])")
+_EXACT = 1 << 53  # float64 holds all whole numbers up to it,
+_POWERS = 10.0 ** np.arange(23)  # and these powers of ten
+_NEWLINE, _PLUS, _MINUS, _DOT, _SLASH, _BLANK = 10, 43, 45, 46, 47, 32
+
+
+def words(text: bytes) -> tuple[Ints, Ints]:
+    """Where each word begins, and how many words each line has."""
+    octets = np.frombuffer(text, np.uint8)
+    blank = octets <= _BLANK
+    begins = np.flatnonzero(blank[:-1] > blank[1:]) + 1
+    ends = np.flatnonzero(octets == _NEWLINE)
+    return begins, np.diff(np.searchsorted(begins, ends), prepend=0)
+
+
+def floats(text: bytes, begins: Ints) -> NDArray[np.float64]:
+    """The text's words, which begin there, as numbers. Raises ValueError where one is none."""
+    fixed = _fixed_point(text, begins)
+    return _parsed(text, np.float64, len(begins)) if fixed is None else fixed
+
+
+def corners(text: bytes, begins: Ints) -> tuple[Ints, Ints | None, Ints | None]:
+    """The text's words, such as 7, 7/8, 7//9 and 7/8/9: for each its first, second and third whole
+    number, 0 for what it lacks; None where all do. Raises ValueError where a word is no such
+    thing."""
+    if (b"-" in text or b"+" in text) and _LONE_SIGN.search(text):  # a 0 to fromstring()
+        raise ValueError("a number is missing")
+    if b"/" not in text:
+        return _parsed(text, np.int64, len(begins)), None, None
+    for blank in (b" ", b"\t", b"\n"):
+        if blank + b"/" in text:
+            raise ValueError("a number is missing")
+        text = text.replace(b"/" + blank, b"/0" + blank)
+    text = text.replace(b"//", b"/0/")
+    octets = np.frombuffer(text, np.uint8)
+    apart = (octets <= _BLANK) | (octets == _SLASH)
+    begins = np.flatnonzero(apart[:-1] > apart[1:]) + 1
+    numbers = _parsed(text.replace(b"/", b" "), np.int64, len(begins))
+    if len(begins) - text.count(b"/") != (octets[begins - 1] != _SLASH).sum():
+        raise ValueError("a number is missing")
+    first = np.flatnonzero(octets[begins - 1] != _SLASH)
+    count = np.diff(first, append=len(begins))
+    found: list[Ints | None] = [numbers[first]]
+    for k in (1, 2):
+        has = count > k
+        if has.all():
+            found.append(numbers[first + k])
+        elif has.any():
+            column = np.zeros(len(first), np.int64)
+            column[has] = numbers[first[has] + k]
+            found.append(column)
+        else:
+            found.append(None)
+    return found[0], found[1], found[2]  # type: ignore[return-value]
+
+
+def _parsed(text: bytes, kind: Any, count: int) -> NDArray[Any]:
+    """The text's numbers, if they are so many and nothing stands between them."""
+    if not count:
+        return np.zeros(0, kind)
+    with warnings.catch_warnings():  # before NumPy 2.4 it only warned of what is no number
+        warnings.simplefilter("ignore", DeprecationWarning)
+        numbers = np.fromstring(text, kind, sep=" ")
+    if len(numbers) != count:
+        raise ValueError("not only numbers")
+    return numbers
+
+
+def _fixed_point(text: bytes, begins: Ints) -> NDArray[np.float64] | None:
+    """Words such as -12.345, three times as fast: a whole number and a power of ten that float64
+    both holds, so that their quotient is rounded rightly. None where a word is of another kind."""
+    if not len(begins) or text.translate(None, b"0123456789.+- \t\n"):
+        return None
+    octets = np.frombuffer(text, np.uint8)
+    first = octets[begins]
+    negative = first == _MINUS
+    signed = negative | (first == _PLUS)
+    if text.count(b"-") + text.count(b"+") != signed.sum():
+        return None
+    blank = octets <= _BLANK
+    ends = np.flatnonzero(blank[1:] > blank[:-1]) + 1
+    dots = np.flatnonzero(octets == _DOT)
+    word = np.arange(len(begins))
+    if len(dots) != len(begins) or (dots < begins).any() or (dots >= ends).any():
+        word = np.searchsorted(begins, dots, side="right") - 1
+    if (word[1:] == word[:-1]).any():  # two dots in a word
+        return None
+    places = np.zeros(len(begins), np.int64)
+    places[word] = ends[word] - dots - 1
+    digits = ends - begins - signed
+    digits[word] -= 1
+    if digits.min() < 1:
+        return None
+    whole = _parsed(text.replace(b".", b""), np.int64, len(begins))
+    if not (whole.min() >= -_EXACT and whole.max() <= _EXACT and places.max() < len(_POWERS)):
+        return None
+    values = whole / _POWERS[places]
+    values[negative & (whole == 0)] = -0.0
+    return values
