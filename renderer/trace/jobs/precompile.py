@@ -3,24 +3,24 @@
 Owns these processes: what they compile, and their end. numba compiles one function at a time, and
 holds Python's lock meanwhile; processes compile at once, and a window's loop goes on.
 
-Nothing depends on it: what is not in the cache afterwards is compiled here, at its first call.
+Needs no numba, whose import takes as long as theirs: they begin before. Nothing depends on it: what is not in the cache afterwards is compiled here, at its first call.
 """
 
 from __future__ import annotations
 
 import contextlib
 import hashlib
+import os
 import subprocess
 import time
 from collections.abc import Callable
 from pathlib import Path
 
 import llvmlite.binding as llvm
-from numba import config
 
 from renderer import compile_note
 from renderer.child import end_child, interpreter, start_child
-from renderer.trace.compile.compiled import cache_folder
+from renderer.trace.compile.cache_folder import cache_folder
 from renderer.trace.jobs.compile_child import is_copied
 from renderer.trace.threads.thread_pool import default_threads
 
@@ -87,5 +87,6 @@ def _processor() -> str:
         features = llvm.get_host_cpu_features().flatten()
     except RuntimeError:
         features = ""
-    text = repr((llvm.get_host_cpu_name(), features, config.CPU_NAME, config.CPU_FEATURES))
+    chosen = [os.environ.get(f"NUMBA_CPU_{name}") for name in ("NAME", "FEATURES")]
+    text = repr((llvm.get_host_cpu_name(), features, chosen))
     return hashlib.sha256(text.encode()).hexdigest()[:12]
