@@ -119,7 +119,9 @@ def test_a_cache_that_others_can_write_into_is_passed_over_and_told_once(
     (mine / "shared").mkdir()
     (mine / "shared").chmod(0o777)
     monkeypatch.setenv("NUMBA_CACHE_DIR", str(mine / "shared"))
-    monkeypatch.setattr(cache_folder.platformdirs, "user_cache_dir", lambda *_, **__: str(mine / "own"))
+    monkeypatch.setattr(
+        cache_folder.platformdirs, "user_cache_dir", lambda *_, **__: str(mine / "own")
+    )
     for _ in range(2):
         folder = cache_folder.cache_folder()
         assert folder is not None
@@ -179,7 +181,9 @@ def test_a_file_in_the_current_folder_does_not_choose_the_cache(
     monkeypatch.delenv("NUMBA_CACHE_DIR", raising=False)
     monkeypatch.setattr(config, "CACHE_DIR", str(mine / "theirs"))
     monkeypatch.setattr(config, "CACHE_LOCATOR_CLASSES", "InTreeCacheLocator")
-    monkeypatch.setattr(cache_folder.platformdirs, "user_cache_dir", lambda *_, **__: str(mine / "own"))
+    monkeypatch.setattr(
+        cache_folder.platformdirs, "user_cache_dir", lambda *_, **__: str(mine / "own")
+    )
     kernel = compiled.kernel(rights)  # any function in a file: nothing is compiled
     # numba's own word on where it keeps this kernel; it has no public one.
     assert Path(kernel._cache.cache_path).is_relative_to(mine / "own")

@@ -49,12 +49,14 @@ def take_shortcuts() -> None:
     BaseFunction.get_call_type = _remembering(BaseFunction.get_call_type)  # type: ignore[method-assign]
     for context in (BaseContext, TypingContext):
         context.refresh = _refreshing(context.refresh)
-    for module in (errors, lowering, typeinfer):
-        module.new_error_context = _no_context
-    for module in (analysis, lowering):
-        module.compute_use_defs = _uses_and_definitions
+    modules: tuple[Any, ...] = (errors, lowering, typeinfer)
+    for module in modules:
+        module.new_error_context = functools.wraps(module.new_error_context)(_no_context)
+    modules = analysis, lowering
+    for module in modules:
+        module.compute_use_defs = functools.wraps(module.compute_use_defs)(_uses_and_definitions)
     if not PassManager._ENFORCING:
-        PassManager._runPass = _run_pass
+        PassManager._runPass = functools.wraps(PassManager._runPass)(_run_pass)
 
 
 class _NoContext:
@@ -102,7 +104,9 @@ def _uses_and_definitions(blocks: dict) -> Any:
     used: dict[int, set[str]] = {}
     defined: dict[int, set[str]] = {}
     for number, block in blocks.items():
-        uses, defines = used[number], defined[number] = set(), set()
+        uses: set[str] = set()
+        defines: set[str] = set()
+        used[number], defined[number] = uses, defines
         for statement in block.body:
             if type(statement) in analysis.ir_extension_usedefs:
                 analysis.ir_extension_usedefs[type(statement)](statement, uses, defines)

@@ -3,7 +3,8 @@
 Owns these processes: what they compile, and their end. numba compiles one function at a time, and
 holds Python's lock meanwhile; processes compile at once, and a window's loop goes on.
 
-Needs no numba, whose import takes as long as theirs: they begin before. Nothing depends on it: what is not in the cache afterwards is compiled here, at its first call.
+Needs no numba, whose import takes as long as theirs: they begin before. Nothing depends on them:
+what is not in the cache afterwards is compiled here, at its first call.
 """
 
 from __future__ import annotations
