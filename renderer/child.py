@@ -18,7 +18,7 @@ _NICENESS = 2  # a window comes first
 _START = "import sys, json; sys.path[:] = json.loads(sys.argv[1]); "
 _START += "from importlib import import_module; import_module(sys.argv[2]).main(*sys.argv[3:])"
 
-_watches = False
+_watching = 0  # the process that watches its parent: this one, or the one that it is a copy of
 
 
 def interpreter() -> str | None:
@@ -104,12 +104,12 @@ def end_with_parent() -> None:
     """What a child calls as soon as its libraries are loaded: it gives way to its parent, and ends
     when its input does. Only Windows has to wait for that: loading a library there waits for a
     thread that reads input. Elsewhere it was done at the start."""
-    global _watches
-    if _watches:
+    global _watching
+    if _watching == os.getpid():
         return
-    _watches = True
+    is_copy, _watching = bool(_watching), os.getpid()
     threading.Thread(target=_watch_parent, daemon=True).start()
-    if hasattr(os, "nice"):
+    if hasattr(os, "nice") and not is_copy:
         os.nice(_NICENESS)
 
 

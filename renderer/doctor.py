@@ -135,7 +135,7 @@ def _shows() -> str:
 def _compiles() -> str:
     import numba
 
-    from renderer.trace.compile.compiled import cache_folder, cache_problem
+    from renderer.trace.compile.cache_folder import cache_folder, cache_problem
     from renderer.trace.compile.numba_inside import missing
 
     affinity = getattr(os, "sched_getaffinity", None)

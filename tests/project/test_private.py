@@ -15,7 +15,7 @@ from numba.core import config
 
 from renderer.errors import LucidaError
 from renderer.private import private_folder
-from renderer.trace.compile import compiled
+from renderer.trace.compile import cache_folder, compiled
 
 ROOT = Path(__file__).parents[2]
 pytestmark = pytest.mark.skipif(not hasattr(os, "geteuid"), reason="POSIX's owners and rights")
@@ -108,9 +108,9 @@ def test_where_users_have_no_numbers_it_is_only_made(
 @pytest.fixture
 def fresh() -> Iterator[None]:
     """The place of the cache is looked for again."""
-    compiled.find_cache_folder.cache_clear()
+    cache_folder.find_cache_folder.cache_clear()
     yield
-    compiled.find_cache_folder.cache_clear()
+    cache_folder.find_cache_folder.cache_clear()
 
 
 def test_a_cache_that_others_can_write_into_is_passed_over_and_told_once(
@@ -119,9 +119,11 @@ def test_a_cache_that_others_can_write_into_is_passed_over_and_told_once(
     (mine / "shared").mkdir()
     (mine / "shared").chmod(0o777)
     monkeypatch.setenv("NUMBA_CACHE_DIR", str(mine / "shared"))
-    monkeypatch.setattr(compiled.platformdirs, "user_cache_dir", lambda *_, **__: str(mine / "own"))
+    monkeypatch.setattr(
+        cache_folder.platformdirs, "user_cache_dir", lambda *_, **__: str(mine / "own")
+    )
     for _ in range(2):
-        folder = compiled.cache_folder()
+        folder = cache_folder.cache_folder()
         assert folder is not None
         assert folder.is_relative_to(mine / "own")
         assert rights(folder) == 0o700
@@ -130,7 +132,7 @@ def test_a_cache_that_others_can_write_into_is_passed_over_and_told_once(
     assert "\n" not in told
     assert told.startswith(f"lucida: compiled kernels are not kept in {mine / 'shared'}")
     assert f"chmod go-w '{mine / 'shared'}'" in told
-    assert compiled.cache_problem() in told
+    assert cache_folder.cache_problem() in told
     assert list((mine / "shared").iterdir()) == []
 
 
@@ -138,11 +140,11 @@ def test_a_good_cache_is_used_and_nothing_is_said(
     mine: Path, fresh: None, monkeypatch: pytest.MonkeyPatch, caplog: pytest.LogCaptureFixture
 ) -> None:
     monkeypatch.setenv("NUMBA_CACHE_DIR", str(mine / "new"))
-    folder = compiled.cache_folder()
+    folder = cache_folder.cache_folder()
     assert folder is not None
     assert folder.is_relative_to(mine / "new")
     assert rights(mine / "new") == rights(folder) == 0o700
-    assert compiled.cache_problem() == ""
+    assert cache_folder.cache_problem() == ""
     assert not caplog.records
 
 
@@ -151,8 +153,8 @@ def test_a_relative_folder_which_may_have_come_with_the_users_files_is_passed_ov
 ) -> None:
     monkeypatch.chdir(mine)
     monkeypatch.setenv("NUMBA_CACHE_DIR", "theirs")
-    monkeypatch.setattr(compiled.platformdirs, "user_cache_dir", lambda *_, **__: "also-theirs")
-    folder = compiled.cache_folder()
+    monkeypatch.setattr(cache_folder.platformdirs, "user_cache_dir", lambda *_, **__: "also-theirs")
+    folder = cache_folder.cache_folder()
     assert folder is None or not folder.is_relative_to(mine)
     assert list(mine.iterdir()) == []
 
@@ -163,13 +165,13 @@ def test_the_folder_beside_the_package_is_judged_too(
     (mine / "trace").mkdir()
     (mine / "trace").chmod(0o777)
     monkeypatch.delenv("NUMBA_CACHE_DIR", raising=False)
-    monkeypatch.setattr(compiled, "TRACE_FOLDER", mine / "trace")
+    monkeypatch.setattr(cache_folder, "TRACE_FOLDER", mine / "trace")
     (mine / "file").write_text("")
     monkeypatch.setattr(
-        compiled.platformdirs, "user_cache_dir", lambda *_, **__: str(mine / "file" / "below")
+        cache_folder.platformdirs, "user_cache_dir", lambda *_, **__: str(mine / "file" / "below")
     )
-    assert compiled.cache_folder() is None
-    assert "trace" in compiled.cache_problem()
+    assert cache_folder.cache_folder() is None
+    assert "trace" in cache_folder.cache_problem()
 
 
 def test_a_file_in_the_current_folder_does_not_choose_the_cache(
@@ -179,7 +181,9 @@ def test_a_file_in_the_current_folder_does_not_choose_the_cache(
     monkeypatch.delenv("NUMBA_CACHE_DIR", raising=False)
     monkeypatch.setattr(config, "CACHE_DIR", str(mine / "theirs"))
     monkeypatch.setattr(config, "CACHE_LOCATOR_CLASSES", "InTreeCacheLocator")
-    monkeypatch.setattr(compiled.platformdirs, "user_cache_dir", lambda *_, **__: str(mine / "own"))
+    monkeypatch.setattr(
+        cache_folder.platformdirs, "user_cache_dir", lambda *_, **__: str(mine / "own")
+    )
     kernel = compiled.kernel(rights)  # any function in a file: nothing is compiled
     # numba's own word on where it keeps this kernel; it has no public one.
     assert Path(kernel._cache.cache_path).is_relative_to(mine / "own")

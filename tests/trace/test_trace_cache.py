@@ -16,8 +16,11 @@ from numba.core import caching
 import renderer
 from renderer import compile_note
 from renderer.trace.compile import compiled
+from renderer.trace.compile.cache_folder import prune
+from renderer.trace.jobs.compile_child import is_copied
 
 HANG_S = 280
+PROCESSES = 1 if is_copied() else 3  # that a Tracer starts to compile its parts
 SCRIPT = """
 from renderer.camera import Camera
 from renderer.scene.model import Scene, SceneObject, Sphere
@@ -25,9 +28,9 @@ from renderer.trace import Tracer
 tracer = Tracer(Scene((SceneObject(Sphere((0, 0, -3))),)), method="reference")  # the small kernel
 frame = tracer.render(Camera(), (5, 5), ("depth",))
 assert frame.depth[2, 2] == 2, frame.depth
-from renderer.trace.compile import compiled
+from renderer.trace.compile import cache_folder
 from renderer.trace.scalar.kernel import trace_image as kernel
-print(compiled.cache_folder(), sum(kernel.stats.cache_hits.values()))
+print(cache_folder.cache_folder(), sum(kernel.stats.cache_hits.values()))
 """
 
 
@@ -77,7 +80,7 @@ def test_a_read_only_installation_caches_for_the_user(installation: Path, tmp_pa
     assert finish(start(installation, cache)) == f"{folder} 1"
 
     # An edit of any file that kernels consist of leads to another folder.
-    shown = "from renderer.trace.compile import compiled; print(compiled.cache_folder())"
+    shown = "from renderer.trace.compile import cache_folder; print(cache_folder.cache_folder())"
     folders = {folder, finish(start(installation, cache, shown))}
     assert len(folders) == 1
     edits = "trace/scalar/intersect.py", "trace/scalar/vectors.py", "scene/flat.py"
@@ -148,7 +151,7 @@ def test_old_folders_are_pruned(tmp_path: Path) -> None:
         os.utime(folder, (stamp, stamp))
     for name in ("young", "used"):
         (tmp_path / name).mkdir()
-    compiled.prune(tmp_path, tmp_path / "used")
+    prune(tmp_path, tmp_path / "used")
     left = {path.name for path in tmp_path.iterdir()}
     assert left == {"used", "young", "old0", "old1", "old2"}
 
@@ -177,7 +180,8 @@ def test_kernels_are_compiled_in_processes_of_their_own(installation: Path, tmp_
         "from renderer.trace.packets.kernel import trace_packets as kernel\n"
         "print([p.poll() for p in started], sum(kernel.stats.cache_misses.values()))"
     )
-    assert finish(start(installation, tmp_path / "cache", script)) == "[0, 0, 0] 0"
+    ended = f"{[0] * PROCESSES} 0"
+    assert finish(start(installation, tmp_path / "cache", script)) == ended
     assert finish(start(installation, tmp_path / "cache", script)) == "[] 0"  # all is there
 
 
@@ -196,12 +200,47 @@ def test_without_an_interpreter_kernels_are_compiled_here(
 def test_closing_a_tracer_ends_the_compiling_processes(installation: Path, tmp_path: Path) -> None:
     script = COUNTED + (
         "job = tracer.start(Camera(), (5, 5))\n"
-        "while len(started) < 3: time.sleep(0.01)\n"
+        f"while len(started) < {PROCESSES}: time.sleep(0.01)\n"
         "tracer.close()\n"
         "assert not job.result().complete\n"
-        "print(all(p.returncode for p in started))"
+        "print(all(p.returncode for p in started), started[0].pid)"
     )
-    assert finish(start(installation, tmp_path / "cache", script)) == "True"
+    ended, group = finish(start(installation, tmp_path / "cache", script)).split()
+    assert ended == "True"
+    if is_copied():
+        assert_ends(int(group))
+
+
+COPIED = """
+import os, time
+from renderer.child import interpreter, start_child
+child = start_child(interpreter(), "renderer.trace.jobs.compile_child", "walk", "trees", "write")
+def copies():
+    with open(f"/proc/{child.pid}/task/{child.pid}/children") as file:
+        return len(file.read().split())
+while copies() < 3: time.sleep(0.01)
+print(child.pid)
+"""
+
+
+@pytest.mark.skipif(not is_copied(), reason="each part has a process of its own")
+def test_copies_of_a_compiling_process_end_with_its_parent(
+    installation: Path, tmp_path: Path
+) -> None:
+    """Which is killed, or just ends, while all of them are at work."""
+    assert_ends(int(finish(start(installation, tmp_path / "cache", COPIED))))
+
+
+def assert_ends(group: int) -> None:
+    """That all processes of a group do."""
+    end_s = time.monotonic() + HANG_S
+    while time.monotonic() < end_s:
+        try:
+            os.killpg(group, 0)
+        except ProcessLookupError:
+            return
+        time.sleep(0.02)
+    raise AssertionError("some are still there")
 
 
 SHORTCUTS = """
@@ -230,7 +269,7 @@ def test_shortcuts_change_no_machine_code(installation: Path, tmp_path: Path) ->
 def test_compiling_processes_end_with_a_killed_parent(installation: Path, tmp_path: Path) -> None:
     script = COUNTED + (
         "job = tracer.start(Camera(), (5, 5))\n"
-        "while len(started) < 3: time.sleep(0.01)\n"
+        f"while len(started) < {PROCESSES}: time.sleep(0.01)\n"
         "print(*(p.pid for p in started), flush=True)\n"
         "job.wait()"
     )
@@ -239,7 +278,7 @@ def test_compiling_processes_end_with_a_killed_parent(installation: Path, tmp_pa
     children = [int(text) for text in process.stdout.readline().split()]
     process.kill()
     process.communicate(timeout=HANG_S)
-    assert len(children) == 3
+    assert len(children) == PROCESSES
     end_s = time.monotonic() + HANG_S
     while any(map(is_running, children)):
         assert time.monotonic() < end_s

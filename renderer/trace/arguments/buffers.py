@@ -45,10 +45,10 @@ class Buffers:
         lease = _Lease(self._block(begins[-1] + _LINE_BYTES), self.idle)
         # Every view of `whole`, and every view of these, keeps it alive, and it the lease.
         whole = np.asarray(lease)
-        first = -whole.ctypes.data % _LINE_BYTES
+        first = -lease.address % _LINE_BYTES
         return [
-            whole[first + begin : first + begin + size].view(dtype).reshape(shape)
-            for begin, size, (shape, dtype) in zip(begins[:-1], sizes, parts, strict=True)
+            np.ndarray(shape, dtype, whole, first + begin)
+            for begin, (shape, dtype) in zip(begins[:-1], parts, strict=True)
         ]
 
     def _block(self, size: int) -> Block:
@@ -69,10 +69,11 @@ class _Lease:
 
     def __init__(self, block: Block, idle: deque[Block]) -> None:
         self._block, self._idle = block, idle
+        self.__array_interface__: dict[str, Any] = block.__array_interface__
 
     @property
-    def __array_interface__(self) -> dict[str, Any]:
-        return self._block.__array_interface__
+    def address(self) -> int:
+        return int(self.__array_interface__["data"][0])
 
     def __del__(self) -> None:
         if self._block.nbytes <= LARGEST_KEPT_BYTES:

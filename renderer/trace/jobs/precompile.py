@@ -3,24 +3,26 @@
 Owns these processes: what they compile, and their end. numba compiles one function at a time, and
 holds Python's lock meanwhile; processes compile at once, and a window's loop goes on.
 
-Nothing depends on it: what is not in the cache afterwards is compiled here, at its first call.
+Needs no numba, whose import takes as long as theirs: they begin before. Nothing depends on them:
+what is not in the cache afterwards is compiled here, at its first call.
 """
 
 from __future__ import annotations
 
 import contextlib
 import hashlib
+import os
 import subprocess
 import time
 from collections.abc import Callable
 from pathlib import Path
 
 import llvmlite.binding as llvm
-from numba import config
 
 from renderer import compile_note
 from renderer.child import end_child, interpreter, start_child
-from renderer.trace.compile.compiled import cache_folder
+from renderer.trace.compile.cache_folder import cache_folder
+from renderer.trace.jobs.compile_child import is_copied
 from renderer.trace.threads.thread_pool import default_threads
 
 LIMIT_S = 120.0  # a process that takes longer is given up
@@ -37,7 +39,8 @@ def parts_of(method: str, shadows: bool, mirror_depth: int) -> tuple[str, ...]:
 
 
 class Precompilation:
-    """Processes that compile parts, as many as are not known to be in the cache.
+    """Processes that compile the parts that are not known to be in the cache: one for all, where
+    it can copy itself, or one for each.
 
     There are none where they would be of no use, or cannot be: no place for a cache, a single
     processor, a program that is not Python's interpreter.
@@ -45,28 +48,30 @@ class Precompilation:
 
     def __init__(self, parts: tuple[str, ...]) -> None:
         folder, python = cache_folder(), interpreter()
-        self._processes: dict[Path, subprocess.Popen[bytes]] = {}
+        self._processes: dict[tuple[Path, ...], subprocess.Popen[bytes]] = {}
         if folder is None or python is None or default_threads() == 1:
             return
-        for part in parts:
-            mark = folder / f"{part}-{_processor()}.done"
-            if not mark.exists():
-                with contextlib.suppress(OSError):
-                    self._processes[mark] = start_child(python, _CHILD, part)
-                    compile_note.begin(kept=True)
+        marks = {part: folder / f"{part}-{_processor()}.done" for part in parts}
+        wanted = tuple(part for part in parts if not marks[part].exists())
+        for group in [wanted] if wanted and is_copied() else [(part,) for part in wanted]:
+            with contextlib.suppress(OSError):
+                process = start_child(python, _CHILD, *group)
+                self._processes[tuple(marks[part] for part in group)] = process
+                compile_note.begin(kept=True)
 
     def wait(self, is_closed: Callable[[], bool]) -> None:
         """Returns when all are done, or is_closed() says that nobody waits: that kills them."""
         end_s = time.monotonic() + LIMIT_S
         try:
-            for mark, process in self._processes.items():
+            for marks, process in self._processes.items():
                 while process.poll() is None:
                     if is_closed() or time.monotonic() > end_s:
                         return
                     time.sleep(_POLL_S)
                 if process.returncode == 0:
                     with contextlib.suppress(OSError):
-                        mark.touch()
+                        for mark in marks:
+                            mark.touch()
         finally:
             self.end()
 
@@ -83,5 +88,6 @@ def _processor() -> str:
         features = llvm.get_host_cpu_features().flatten()
     except RuntimeError:
         features = ""
-    text = repr((llvm.get_host_cpu_name(), features, config.CPU_NAME, config.CPU_FEATURES))
+    chosen = [os.environ.get(f"NUMBA_CPU_{name}") for name in ("NAME", "FEATURES")]
+    text = repr((llvm.get_host_cpu_name(), features, chosen))
     return hashlib.sha256(text.encode()).hexdigest()[:12]

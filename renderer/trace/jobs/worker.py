@@ -133,11 +133,11 @@ class Worker:
 
     def _new_engine(self, scene: Scene, team: Team) -> Any:
         """The engine (engine.py) for a scene; None if this is closed while kernels are compiled."""
-        # These import numba.
-        from renderer.trace.jobs.precompile import Precompilation, parts_of
+        from renderer.trace.jobs.precompile import Precompilation, parts_of  # imports LLVM
 
         compilation = Precompilation(parts_of(self._method, *self._effects))
         try:
+            # This imports numba.
             from renderer.trace.jobs.engine import new_engine
 
             compilation.wait(lambda: self._closed)

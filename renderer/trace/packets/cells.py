@@ -53,6 +53,8 @@ def are_blurred(
     to_t: t of a point relative to the eye. back: what one t is in parallel projection; None in
     perspective, where that is the ray's own direction.
     """
+    if not len(cells.steepest):
+        return False
     from_eye = cells.middle - eye
     if back is None:
         reach = np.linalg.norm(from_eye, axis=1) + np.linalg.norm(cells.half, axis=1)

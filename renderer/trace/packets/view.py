@@ -118,8 +118,8 @@ def packet_view(
     middle = (view.left + view.right) / 2, (view.bottom + view.top) / 2
 
     # Rows of (x, y, t) for points relative to the eye, in units of u and v.
-    to_x, to_y, to_t = np.linalg.inv(np.column_stack([u, v, -back]))
-    linear = np.stack([to_x / per_px[0], to_y / per_px[1], to_t])
+    to_x, to_y, to_t = np.linalg.inv(np.array([u, v, -back]).T)
+    linear = np.array([to_x / per_px[0], to_y / per_px[1], to_t])
     shift = np.array([-middle[0] / per_px[0], -middle[1] / per_px[1], 0.0])
     if not view.parallel:
         linear[:2] += shift[:2, None] * to_t

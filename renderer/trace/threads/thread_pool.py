@@ -6,15 +6,19 @@ worth it if it releases the GIL and shares its work by a control array (control.
 
 from __future__ import annotations
 
+import math
 import os
 import queue
 import threading
+import time
 from collections.abc import Callable
 from typing import Any
 
 from renderer.errors import LucidaError
+from renderer.trace.threads.processors import Processors, confine, others_than_here
 
 MOST_THREADS = 1024
+REST_S = 5e-4  # after so long without work, threads are kept apart when they are woken
 
 
 def default_threads() -> int:
@@ -52,9 +56,10 @@ class Team:
         self.size = size
         self.is_over: Callable[[], bool] | None = None
         self._helpers: list[threading.Thread] = []
-        self._calls: queue.SimpleQueue[tuple[Callable[..., Any], tuple] | None] = (
-            queue.SimpleQueue()
-        )
+        self._calls: queue.SimpleQueue[
+            tuple[Callable[..., Any], tuple, Processors | None] | None
+        ] = queue.SimpleQueue()
+        self._rests_s = -math.inf  # since when
         self._outcomes: queue.SimpleQueue[BaseException | None] = queue.SimpleQueue()
 
     def run(self, kernel: Callable[..., Any], *args: Any, size: int | None = None) -> None:
@@ -70,10 +75,12 @@ class Team:
             helper = threading.Thread(target=self._help, name=name, daemon=True)
             helper.start()
             self._helpers.append(helper)
+        allowed = self._keep_apart() if helpers else None
         for _ in range(helpers):
-            self._calls.put((kernel, args))
+            self._calls.put((kernel, args, allowed))
         errors = [_outcome(kernel, args)]
         errors += [self._outcomes.get() for _ in range(helpers)]
+        self._rests_s = time.monotonic()
         for error in errors:
             if error is not None:
                 raise error
@@ -86,10 +93,25 @@ class Team:
             helper.join()
         self._helpers.clear()
 
+    def _keep_apart(self) -> Processors | None:
+        """After a rest, lets helpers be woken on other processors than the caller's; gives those
+        that each may use once it is awake."""
+        if time.monotonic() - self._rests_s < REST_S:
+            return None
+        processors = others_than_here()
+        if processors is None:
+            return None
+        others, allowed = processors
+        confine([helper.native_id for helper in self._helpers if helper.native_id], others)
+        return allowed
+
     def _help(self) -> None:
         while (call := self._calls.get()) is not None:
-            self._outcomes.put(_outcome(*call))
-            del call  # the arrays in it, while waiting for the next
+            kernel, args, allowed = call
+            if allowed is not None:
+                confine([0], allowed)
+            self._outcomes.put(_outcome(kernel, args))
+            del call, kernel, args  # the arrays in it, while waiting for the next
 
 
 def _outcome(kernel: Callable[..., Any], args: tuple) -> BaseException | None:
