@@ -34,8 +34,8 @@ from renderer.trace.simd.lanes import (
 )
 from renderer.trace.simd.memory import load, store
 
-_ROUNDING = np.float32(5e-7)  # relative: more than the roundings of a box test add up to
-_STEEP = np.float32(1e-9)  # a direction's component counts as at least this part of the largest
+ROUNDING = np.float32(5e-7)  # relative: more than the roundings of a box test add up to
+STEEP = np.float32(1e-9)  # a direction's component counts as at least this part of the largest
 _DEPTHS, _WAITING_DEPTHS = 0, LANES  # float32 scratch: children's depths, depths of waiting nodes
 
 
@@ -72,15 +72,15 @@ def space_ray(origin, direction):
     dx, dy, dz = np.float32(direction[0]), np.float32(direction[1]), np.float32(direction[2])
     ax, ay, az = abs(dx), abs(dy), abs(dz)
     # Boxes: no division by 0, and no infinity times 0.
-    least = max(ax, ay, az) * _STEEP
+    least = max(ax, ay, az) * STEEP
     one = np.float32(1)
     ix, iy, iz = one / _steep(dx, least), one / _steep(dy, least), one / _steep(dz, least)
-    smaller, larger = one - _ROUNDING, one + _ROUNDING
+    smaller, larger = one - ROUNDING, one + ROUNDING
     enter, leave = (
         (ix * smaller, iy * smaller, iz * smaller),
         (ix * larger, iy * larger, iz * larger),
     )
-    sx, sy, sz = abs(ox * ix) * _ROUNDING, abs(oy * iy) * _ROUNDING, abs(oz * iz) * _ROUNDING
+    sx, sy, sz = abs(ox * ix) * ROUNDING, abs(oy * iy) * ROUNDING, abs(oz * iz) * ROUNDING
     near = (
         (0 if ix >= 0 else 3) * WIDTH,
         (1 if iy >= 0 else 4) * WIDTH,
@@ -145,18 +145,31 @@ def triangles_on_ray(corner, leaf, ray, t_min, t_max):
     there is no fma() in the edge functions.
     """
     at = leaf * CORNERS
-    ax, ay, az = _sheared(corner, at, ray)
-    bx, by, bz = _sheared(corner, at + 3 * WIDTH, ray)
-    cx, cy, cz = _sheared(corner, at + 6 * WIDTH, ray)
+    a = _sheared(corner, at, ray)
+    b = _sheared(corner, at + 3 * WIDTH, ray)
+    c = _sheared(corner, at + 6 * WIDTH, ray)
+    inside, t = met(a, b, c, ray.shear[2], t_min, t_max)
+    return bits(inside), select(inside, t, np.float32(np.inf))
+
+
+@inlined
+def met(a, b, c, scale, t_min, t_max):
+    """(mask, t): where the z axis meets sheared triangles within (t_min, t_max).
+
+    a, b, c: their corners; scale: takes z to t.
+    """
+    ax, ay, az = a
+    bx, by, bz = b
+    cx, cy, cz = c
     e0, e1, e2 = cx * by - cy * bx, ax * cy - ay * cx, bx * ay - by * ax
     zero = np.float32(0)
     inside = (vmin(vmin(e0, e1), e2) >= zero) | (vmax(vmax(e0, e1), e2) <= zero)
     # t is a mean of the corners', weighted by the edge functions: never outside them. Computed also
     # where no triangle is met: whether one is cannot be foreseen, and a wrong guess costs more.
     area = e0 + e1 + e2
-    t = (e0 * az + e1 * bz + e2 * cz) * ray.shear[2] / area
+    t = (e0 * az + e1 * bz + e2 * cz) * scale / area
     inside = inside & (area != zero) & (t > t_min) & (t < t_max)
-    return bits(inside), select(inside, t, np.float32(np.inf))
+    return inside, t
 
 
 @inlined

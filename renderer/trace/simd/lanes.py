@@ -179,7 +179,18 @@ def _conversion(source: VectorType, target: VectorType, instruction: str) -> Cal
     return build
 
 
-to_f64 = intrinsic(_conversion(F32, F64, "fpext"))
+@intrinsic
+def to_f64(typing, x):
+    """An F32 as an F64; an F64 as it is."""
+    if x not in (F32, F64):
+        raise TypingError(f"{F32} or {F64} is needed, not {x}")
+
+    def codegen(context, builder, sig, args):
+        return builder.fpext(args[0], llvm_vector("f64")) if sig.args[0] == F32 else args[0]
+
+    return F64(x), codegen
+
+
 to_f32 = intrinsic(_conversion(F64, F32, "fptrunc"))
 i32_of = intrinsic(_conversion(F32, I32, "fptosi"))  # towards 0; the value must fit
 f32_of = intrinsic(_conversion(I32, F32, "sitofp"))
@@ -256,6 +267,17 @@ def lowest_bit(typing, number):
         value = context.cast(builder, args[0], sig.args[0], types.int32)
         index = call_llvm(builder, "llvm.cttz.i32", INT32, [value, ir.Constant(I1, 1)])
         return builder.zext(index, INT64)
+
+    return types.int64(number), codegen
+
+
+@intrinsic
+def count_bits(typing, number):
+    """How many of an integer's low 32 bits are set, int64."""
+
+    def codegen(context, builder, sig, args):
+        value = context.cast(builder, args[0], sig.args[0], types.int32)
+        return builder.zext(call_llvm(builder, "llvm.ctpop.i32", INT32, [value]), INT64)
 
     return types.int64(number), codegen
 
