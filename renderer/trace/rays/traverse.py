@@ -32,7 +32,7 @@ from renderer.trace.simd.lanes import (
     vmax,
     vmin,
 )
-from renderer.trace.simd.memory import load, store
+from renderer.trace.simd.memory import as_int32, load, store
 
 ROUNDING = np.float32(5e-7)  # relative: more than the roundings of a box test add up to
 STEEP = np.float32(1e-9)  # a direction's component counts as at least this part of the largest
@@ -238,31 +238,58 @@ def sphere_on_ray(world, sphere, origin, direction, t_min, t_max):
 def _nearest_child(found, depth, child, node, top, floats, ints):
     """(the nearest of the children in `found`, the stack's height with the others on it).
 
-    On the stack, nearer ones are above farther ones.
+    On the stack, nearer ones are above farther ones. Up to three are sorted without branches, which
+    no processor could foresee: by whole numbers, a depth's bits above a child's. Of depths below 0,
+    which only a negative t_min brings, the order is another, and costs no more than time.
     """
     lane = lowest_bit(found)
     found &= found - 1
-    nearest = child[node * WIDTH + lane]
+    first = node * WIDTH
     if found == 0:
-        return np.int64(nearest), top
+        return np.int64(child[first + lane]), top
     store(floats, _DEPTHS, depth)
-    least, base = floats[_DEPTHS + lane], top
+    depths = as_int32(floats)
+    a = _depth_and_child(depths, child, first, lane)
+    lane = lowest_bit(found)
+    found &= found - 1
+    b = _depth_and_child(depths, child, first, lane)
+    a, b = min(a, b), max(a, b)
+    if found == 0:
+        return np.int64(np.int32(a)), _pushed(b, top, depths, ints)
+    lane = lowest_bit(found)
+    found &= found - 1
+    c = _depth_and_child(depths, child, first, lane)
+    a, c = min(a, c), max(a, c)
+    b, c = min(b, c), max(b, c)
+    base = top
+    top = _pushed(b, _pushed(c, top, depths, ints), depths, ints)
     while found != 0:
         lane = lowest_bit(found)
         found &= found - 1
-        t, other = floats[_DEPTHS + lane], child[node * WIDTH + lane]
-        if t < least:
-            t, least = least, t
-            other, nearest = nearest, other
+        b = _depth_and_child(depths, child, first, lane)
+        a, b = min(a, b), max(a, b)
         # By insertion: there are few.
-        i = top
-        while i > base and floats[_WAITING_DEPTHS + i - 1] < t:
-            floats[_WAITING_DEPTHS + i] = floats[_WAITING_DEPTHS + i - 1]
+        t, i = np.int32(b >> 32), top
+        while i > base and depths[_WAITING_DEPTHS + i - 1] < t:
+            depths[_WAITING_DEPTHS + i] = depths[_WAITING_DEPTHS + i - 1]
             ints[i] = ints[i - 1]
             i -= 1
-        floats[_WAITING_DEPTHS + i], ints[i] = t, other
+        depths[_WAITING_DEPTHS + i], ints[i] = t, np.int32(b)
         top += 1
-    return np.int64(nearest), top
+    return np.int64(np.int32(a)), top
+
+
+@inlined
+def _depth_and_child(depths, child, first, lane):
+    return (np.int64(depths[_DEPTHS + lane]) << 32) | np.int64(np.uint32(child[first + lane]))
+
+
+@inlined
+def _pushed(depth_and_child, top, depths, ints):
+    """The stack's height, with one more on it."""
+    depths[_WAITING_DEPTHS + top] = np.int32(depth_and_child >> 32)
+    ints[top] = np.int32(depth_and_child)
+    return top + 1
 
 
 @inlined

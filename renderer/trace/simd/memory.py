@@ -63,6 +63,18 @@ def shifted(typing, array, index):
 
 
 @intrinsic
+def as_int32(typing, array):
+    """The pointer to the same memory as int32, of a pointer to float32."""
+    if array != CPointer(types.float32):
+        raise TypingError(f"a pointer to float32 is needed, not {array}")
+
+    def codegen(context, builder, sig, args):
+        return builder.bitcast(args[0], INT32.as_pointer())
+
+    return CPointer(types.int32)(array), codegen
+
+
+@intrinsic
 def load(typing, array, index):
     """array[index : index + 16]."""
     kind = array_kind(array)
