@@ -132,7 +132,7 @@ def _read_only(tree: Any) -> Any:
 
 def _share(team: Team, count: int, fill: Any, *arrays: np.ndarray) -> None:
     """Runs a kernel that takes chunks of `count` primitives."""
-    team.run(fill, *arrays, new_control(), size=-(-count // CHUNK))
+    team.run(fill, *arrays, new_control(), size=count // CHUNK)  # of few, none is worth a thread
 
 
 # Columns of a job: the records and the node to build from, at which level, the first node number

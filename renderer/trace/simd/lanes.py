@@ -18,7 +18,7 @@ from collections.abc import Callable
 from typing import Any
 
 from llvmlite import ir
-from numba.core import types
+from numba.core import cgutils, types
 from numba.core.errors import TypingError
 from numba.extending import intrinsic
 
@@ -149,6 +149,23 @@ def _extreme(sign: str) -> Callable:
 
 vmin = intrinsic(_extreme("<"))
 vmax = intrinsic(_extreme(">"))
+
+
+@intrinsic
+def larger(typing, x, y):
+    """vmax() of two F32 without NaN. LLVM makes vmax() of what is loaded, and stored where it was, a
+    store of single lanes: slow to load again."""
+    if x != F32 or y != F32:
+        raise TypingError(f"two {F32} are needed, not {x} and {y}")
+
+    def codegen(context, builder, sig, args):
+        name, vector = f"llvm.maxnum.v{LANES}f32", llvm_vector("f32")
+        function = cgutils.get_or_insert_function(
+            builder.module, ir.FunctionType(vector, [vector, vector]), name
+        )
+        return builder.call(function, args, fastmath=("nnan", "nsz"))
+
+    return F32(x, y), codegen
 
 
 @intrinsic
