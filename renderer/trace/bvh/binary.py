@@ -178,23 +178,27 @@ def _fill_records(vertices, faces, spheres, records, numbers, control):
         start = take_next(control) * CHUNK
         if start >= count:
             return
+        # Pointers: their indices are not looked at for being negative.
+        corners, points, boxes = pointer(faces), pointer(vertices), pointer(records)
         for i in range(start, min(start + CHUNK, count)):
+            at = RECORD * i
             numbers[i, NUMBER] = i
-            records[i, HIGH + 3] = 0
+            boxes[at + HIGH + 3] = 0
+            if i < triangles:
+                first, second = 3 * np.int64(corners[3 * i]), 3 * np.int64(corners[3 * i + 1])
+                third = 3 * np.int64(corners[3 * i + 2])
+                for axis in range(3):
+                    a, b, c = points[first + axis], points[second + axis], points[third + axis]
+                    boxes[at + axis] = -min(min(a, b), c)
+                    boxes[at + HIGH + axis] = max(max(a, b), c)
+                continue
+            s = i - triangles
             for axis in range(3):
-                if i < triangles:
-                    a = vertices[faces[i, 0], axis]
-                    b = vertices[faces[i, 1], axis]
-                    c = vertices[faces[i, 2], axis]
-                    records[i, axis] = -min(min(a, b), c)
-                    records[i, HIGH + axis] = max(max(a, b), c)
-                else:
-                    s = i - triangles
-                    low = spheres[s, axis] - spheres[s, 3]
-                    high = spheres[s, axis] + spheres[s, 3]
-                    # Outwards, by more than the rounding of the line above.
-                    records[i, axis] = abs(low) * np.float32(1.2e-7) - low
-                    records[i, HIGH + axis] = high + abs(high) * np.float32(1.2e-7)
+                low = spheres[s, axis] - spheres[s, 3]
+                high = spheres[s, axis] + spheres[s, 3]
+                # Outwards, by more than the rounding of the line above.
+                boxes[at + axis] = abs(low) * np.float32(1.2e-7) - low
+                boxes[at + HIGH + axis] = high + abs(high) * np.float32(1.2e-7)
 
 
 @kernel
@@ -225,7 +229,7 @@ def _grow_pieces(records, bounds, links, levels, jobs, largest, leaf_size, contr
     """Takes jobs and builds each one's subtree, down to nodes of `largest` primitives."""
     # The smaller half is built first, so each node that waits is less than half of the one before.
     waiting, waiting_bounds = np.empty((72, 4), np.int64), np.empty(72 * LANES, np.float32)
-    bins, counts = np.empty((3 * BINS + 2) * LANES, np.float32), np.empty(3 * BINS, np.int64)
+    bins, counts = np.empty((3 * BINS + 3) * LANES, np.float32), np.empty(4 * BINS, np.int32)
     # Vectors within cache lines: what is stored there can be loaded again at once.
     aligned = -(bins.ctypes.data // 4) % LANES
     while True:

@@ -19,15 +19,22 @@ import numpy as np
 from renderer.trace.compile.compiled import inlined
 from renderer.trace.simd.lanes import (
     LANES,
+    bits,
+    f64_of,
     i32_of,
     lane_of,
     larger,
     lower_half_twice,
+    lower_halves,
+    lowest_bit,
     mask_of,
     next_of_three,
     quarters_swapped,
     select,
+    smallest,
     splat,
+    to_f32,
+    vfloor,
     vmax,
     vmin,
 )
@@ -78,11 +85,23 @@ def _bin_scale(bounds):
 
 
 @inlined
-def _half_area(bounds):
-    """Half of the surface of bounds' box."""
-    extent = bounds + quarters_swapped(bounds)
+def _half_areas(left, right):
+    """Half of the surfaces of two bounds' boxes, in the first lane of each half."""
+    both = lower_halves(left, right)
+    extent = both + quarters_swapped(both)
     side = extent * next_of_three(extent)
-    return lane_of(side, 0) + lane_of(side, 1) + lane_of(side, 2)
+    # The sums side 0 + side 1 + side 2.
+    one_on = next_of_three(side)
+    return side + one_on + next_of_three(one_on)
+
+
+@inlined
+def _units(count, per_primitive):
+    """How many units primitives take, one of which may not be full; count: I32, of at least 1.
+
+    per_primitive: 1 by a unit's primitives. Dividing by these would take longer than all the rest.
+    """
+    return to_f32(vfloor((f64_of(count) - 0.5) * per_primitive) + 1.0)
 
 
 @inlined
@@ -97,18 +116,11 @@ def _count_record(records, i, origin, scale, bins, counts):
 
 
 @inlined
-def _units(n, per_primitive):
-    """How many units n primitives take, one of which may not be full; per_primitive: float64, one
-    by a unit's primitives. Dividing by these would take longer than all the rest of a split."""
-    return np.float32(np.int64((n - 0.5) * per_primitive) + 1)
-
-
-@inlined
 def best_split(records, start, end, bounds, leaf_size, scratch):
     """(axis, bin, middle) after which to split records[start:end] at the least cost.
 
     middle: where the second half will start. axis -1: nowhere. leaf_size: how many primitives a
-    leaf holds. scratch: a thread's bins, float32, 3 BINS + 1 vectors, and counts, int64, 3 BINS.
+    leaf holds. scratch: a thread's bins, float32, 3 BINS + 2 vectors, and counts, int32, 4 BINS.
     """
     bins, counts = scratch
     for b in range(3 * BINS):
@@ -130,24 +142,30 @@ def best_split(records, start, end, bounds, leaf_size, scratch):
     # many, in whole wide nodes: those that are half empty take as long as full ones.
     is_small = end - start <= _NODE_LEAVES * leaf_size
     unit = 1.0 / (leaf_size if is_small else _NODE_LEAVES * leaf_size)
-    best, best_axis, best_bin, middle = FAR, -1, -1, start
-    right = 3 * BINS * LANES
+    best, best_axis, best_bin, middle = FAR, -1, np.int64(-1), start
+    total = np.int32(end - start)
+    lefts, rights, below = 3 * BINS * LANES, (3 * BINS + 1) * LANES, 3 * BINS
     for axis in range(3):
-        # Sweep from the right for each right side, then from the left for the sum.
+        # Sweep from both ends; then the costs of all splits are a vector.
         first = axis * BINS
-        side, n = splat(-FAR), 0
-        for b in range(BINS - 1, 0, -1):
+        left, right, n = splat(-FAR), splat(-FAR), np.int32(0)
+        for b in range(BINS):
+            left = larger(left, load(bins, LANES * (first + b)))
+            right = larger(right, load(bins, LANES * (first + BINS - 1 - b)))
+            areas = _half_areas(left, right)
+            bins[lefts + b] = lane_of(areas, 0)
+            bins[rights + BINS - 2 - b] = lane_of(areas, LANES // 2)
             n += counts[first + b]
-            side = larger(side, load(bins, LANES * (first + b)))
-            bins[right + b] = _half_area(side) * _units(n, unit)
-        side, n = splat(-FAR), 0
-        for b in range(BINS - 1):
-            n += counts[first + b]
-            side = larger(side, load(bins, LANES * (first + b)))
-            if 0 < n < end - start:
-                cost = _half_area(side) * _units(n, unit) + bins[right + b + 1]
-                if cost < best:
-                    best, best_axis, best_bin, middle = cost, axis, b, start + n
+            counts[below + b] = n
+        n_left = load(counts, below)
+        n_right = total - n_left
+        is_split = (n_left > np.int32(0)) & (n_right > np.int32(0))
+        cost = load(bins, lefts) * _units(n_left, unit) + load(bins, rights) * _units(n_right, unit)
+        cost = select(is_split, cost, FAR)
+        least = smallest(cost)
+        if least < best:
+            best, best_axis, best_bin = least, axis, lowest_bit(bits(cost == least))
+            middle = start + counts[below + best_bin]
     return best_axis, best_bin, middle
 
 

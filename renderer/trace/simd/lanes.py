@@ -211,6 +211,7 @@ def to_f64(typing, x):
 to_f32 = intrinsic(_conversion(F64, F32, "fptrunc"))
 i32_of = intrinsic(_conversion(F32, I32, "fptosi"))  # towards 0; the value must fit
 f32_of = intrinsic(_conversion(I32, F32, "sitofp"))
+f64_of = intrinsic(_conversion(I32, F64, "sitofp"))
 bits_of_f32 = intrinsic(_conversion(F32, I32, "bitcast"))
 f32_of_bits = intrinsic(_conversion(I32, F32, "bitcast"))
 
@@ -255,7 +256,20 @@ def _permutation(lanes: list[int]) -> Callable:
 # each quarter.
 lower_half_twice = intrinsic(_permutation([lane % 8 for lane in range(LANES)]))
 quarters_swapped = intrinsic(_permutation([lane ^ 4 for lane in range(LANES)]))
-next_of_three = intrinsic(_permutation([[1, 2, 0, 3][lane % 4] for lane in range(LANES)]))
+next_of_three = intrinsic(_permutation([lane + (1, 1, -2, 0)[lane % 4] for lane in range(LANES)]))
+
+
+@intrinsic
+def lower_halves(typing, x, y):
+    """Lanes 0 to 7 of x, then lanes 0 to 7 of y."""
+    if x != y:
+        raise TypingError(f"two vectors of one kind are needed, not {x} and {y}")
+
+    def codegen(context, builder, sig, args):
+        lanes = [lane + (LANES // 2) * (lane >= LANES // 2) for lane in range(LANES)]
+        return shuffled(builder, args[0], args[1], lanes)
+
+    return x(x, y), codegen
 
 
 @intrinsic
