@@ -22,6 +22,7 @@ from renderer.trace.bvh.sah_split import (
     bounds_of_bins,
     bounds_of_records,
     partition,
+    steps_of,
 )
 from renderer.trace.compile.compiled import inlined, kernel
 from renderer.trace.scalar.traverse import Tree
@@ -63,8 +64,8 @@ def build(vertices: F32, faces: I32, spheres: F32, team: Team, leaf_size: int = 
 
     vertices (n, 3), faces (m, 3), spheres (k, 4; centre, radius): read-only, in one space.
 
-    The threads split the top of the tree, each time to pieces of half the size, until the pieces
-    are small enough to go round; then they take the pieces.
+    The threads split the top of the tree, each time to pieces of half the size, until each has
+    some; then to pieces small enough to go round, and then they take these.
     """
     count = len(faces) + len(spheres)
     # A tree of n leaves has 2 n - 1 nodes; the pages of those that stay unused cost nothing.
@@ -79,7 +80,7 @@ def build(vertices: F32, faces: I32, spheres: F32, team: Team, leaf_size: int = 
 
     levels[0], links[0] = 1, (0, count)
     used, piece = 1, max(PIECE, count // (16 * team.size))
-    for largest in (*_halves(count, piece), leaf_size):
+    for largest in (*_sizes(count, piece, team.size), leaf_size):
         jobs = _jobs(links, levels, used, largest)
         team.run(
             _grow_pieces, records, bounds, links, levels, jobs, largest, leaf_size, new_control(),
@@ -140,9 +141,12 @@ def _share(team: Team, count: int, fill: Any, *arrays: np.ndarray) -> None:
 _NODE, _START, _END, _LEVEL, _FREE, _USED = range(6)
 
 
-def _halves(count: int, piece: int) -> list[int]:
-    """count / 2, count / 4, ..., as long as they are at least `piece`."""
-    return [count >> k for k in range(1, count.bit_length()) if count >> k >= piece]
+def _sizes(count: int, piece: int, threads: int) -> list[int]:
+    """How large the pieces are to be after each time: half, until each thread has two, and then
+    `piece`: each time, bounds are found anew."""
+    halves = (2 * threads - 1).bit_length() if threads > 1 else 0
+    sizes = [count >> k for k in range(1, halves + 1)]
+    return [size for size in sizes if size > piece] + [piece] * (threads > 1 and count > piece)
 
 
 def _jobs(links: np.ndarray, levels: np.ndarray, used: int, leaf_size: int) -> np.ndarray:
@@ -269,14 +273,17 @@ def _grow(
 
         # Split by the least cost; by count where no cost says how.
         axis = -1
+        middle = start
         if level < MAX_DEPTH:
-            axis, last_bin, middle = best_split(records, start, end, own, leaf_size, scratch)
-        if axis >= 0:
-            partition(records, start, end, own, axis, last_bin)
+            axis, last_bin = best_split(records, start, end, own, leaf_size, scratch)
+            if axis >= 0:
+                middle = partition(records, start, end, own, axis, last_bin)
+        if (middle == start) | (middle == end):
+            axis, middle = -1, (start + end) // 2
+        if (axis >= 0) & (steps_of(start, end) == 1):
             left = bounds_of_bins(scratch[0], axis, 0, last_bin + 1)
             right = bounds_of_bins(scratch[0], axis, last_bin + 1, BINS)
         else:
-            middle = (start + end) // 2
             left = bounds_of_records(records, start, middle)
             right = bounds_of_records(records, middle, end)
 

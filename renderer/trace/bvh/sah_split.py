@@ -41,6 +41,7 @@ from renderer.trace.simd.lanes import (
 from renderer.trace.simd.memory import load, store
 
 BINS = 16
+SAMPLE = 16384  # so many records, of many more, tell where to split them
 RECORD = 8
 NUMBER = 3  # the column of a record, seen as int32, with the primitive's number
 HIGH = 4  # its column with the high x
@@ -69,7 +70,7 @@ def bounds_of_records(records, start, end):
 
 @inlined
 def bounds_of_bins(bins, axis, first, end):
-    """The bounds of the records in bins[first:end] of an axis, after best_split()."""
+    """The bounds of the records in bins[first:end] of an axis, after best_split() looked at all."""
     bounds = splat(-FAR)
     for b in range(first, end):
         bounds = larger(bounds, load(bins, LANES * (axis * BINS + b)))
@@ -117,9 +118,9 @@ def _count_record(records, i, origin, scale, bins, counts):
 
 @inlined
 def best_split(records, start, end, bounds, leaf_size, scratch):
-    """(axis, bin, middle) after which to split records[start:end] at the least cost.
+    """(axis, bin) after which to split records[start:end] at the least cost.
 
-    middle: where the second half will start. axis -1: nowhere. leaf_size: how many primitives a
+    axis -1: nowhere. leaf_size: how many primitives a
     leaf holds. scratch: a thread's bins, float32, 3 BINS + 2 vectors, and counts, int32, 4 BINS.
     """
     bins, counts = scratch
@@ -131,19 +132,22 @@ def best_split(records, start, end, bounds, leaf_size, scratch):
     # Neighbours often go into one bin, and each would wait for the one before: so four at once,
     # from places far apart.
     scale, origin = _bin_scale(bounds), quarters_swapped(bounds)
-    quarter = (end - start) // 4
-    for i in range(start, start + quarter):
+    step, quarter = steps_of(start, end), (end - start) // 4
+    for i in range(start, start + quarter, step):
         for k in range(4):
             _count_record(records, i + k * quarter, origin, scale, bins, counts)
-    for i in range(start + 4 * quarter, end):
-        _count_record(records, i, origin, scale, bins, counts)
+    if step == 1:
+        for i in range(start + 4 * quarter, end):
+            _count_record(records, i, origin, scale, bins, counts)
 
     # The cost of a split: for each side, its area times its primitives, in whole leaves or, of
     # many, in whole wide nodes: those that are half empty take as long as full ones.
     is_small = end - start <= _NODE_LEAVES * leaf_size
     unit = 1.0 / (leaf_size if is_small else _NODE_LEAVES * leaf_size)
-    best, best_axis, best_bin, middle = FAR, -1, np.int64(-1), start
-    total = np.int32(end - start)
+    best, best_axis, best_bin = FAR, -1, np.int64(-1)
+    total = np.int32(0)
+    for b in range(BINS):
+        total += counts[b]
     lefts, rights, below = 3 * BINS * LANES, (3 * BINS + 1) * LANES, 3 * BINS
     for axis in range(3):
         # Sweep from both ends; then the costs of all splits are a vector.
@@ -165,13 +169,18 @@ def best_split(records, start, end, bounds, leaf_size, scratch):
         least = smallest(cost)
         if least < best:
             best, best_axis, best_bin = least, axis, lowest_bit(bits(cost == least))
-            middle = start + counts[below + best_bin]
-    return best_axis, best_bin, middle
+    return best_axis, best_bin
+
+
+@inlined
+def steps_of(start, end):
+    """Every how many of records[start:end] best_split() looks at: of many, at some."""
+    return 1 if end - start <= 2 * SAMPLE else (end - start) // SAMPLE
 
 
 @inlined
 def partition(records, start, end, bounds, axis, last_bin):
-    """Moves the records in bins up to last_bin to the front."""
+    """Moves the records in bins up to last_bin to the front; gives where the others start."""
     scale = lane_of(_bin_scale(bounds), _HIGH_CENTRE + axis)
     origin = lane_of(bounds, _LOW_CENTRE + axis)
     i, j = start, end - 1
@@ -181,7 +190,7 @@ def partition(records, start, end, bounds, axis, last_bin):
         while i <= j and _bin_of(records, j, axis, origin, scale) > last_bin:
             j -= 1
         if i >= j:
-            return
+            return i
         for k in range(RECORD):
             a, b = RECORD * i + k, RECORD * j + k
             records[a], records[b] = records[b], records[a]
