@@ -64,8 +64,8 @@ def build(vertices: F32, faces: I32, spheres: F32, team: Team, leaf_size: int = 
 
     vertices (n, 3), faces (m, 3), spheres (k, 4; centre, radius): read-only, in one space.
 
-    The threads split the top of the tree, each time to pieces of half the size, until each has
-    some; then to pieces small enough to go round, and then they take these.
+    The threads split the top of the tree, each time to pieces of half the size, until there are
+    some for each; then to pieces small enough to go round, and then they take these.
     """
     count = len(faces) + len(spheres)
     # A tree of n leaves has 2 n - 1 nodes; the pages of those that stay unused cost nothing.
@@ -80,7 +80,7 @@ def build(vertices: F32, faces: I32, spheres: F32, team: Team, leaf_size: int = 
 
     levels[0], links[0] = 1, (0, count)
     used, piece = 1, max(PIECE, count // (16 * team.size))
-    for largest in (*_sizes(count, piece, team.size), leaf_size):
+    for largest in (*_sizes(count, piece), leaf_size):
         jobs = _jobs(links, levels, used, largest)
         team.run(
             _grow_pieces, records, bounds, links, levels, jobs, largest, leaf_size, new_control(),
@@ -141,12 +141,11 @@ def _share(team: Team, count: int, fill: Any, *arrays: np.ndarray) -> None:
 _NODE, _START, _END, _LEVEL, _FREE, _USED = range(6)
 
 
-def _sizes(count: int, piece: int, threads: int) -> list[int]:
-    """How large the pieces are to be after each time: half, until each thread has two, and then
-    `piece`: each time, bounds are found anew."""
-    halves = (2 * threads - 1).bit_length() if threads > 1 else 0
-    sizes = [count >> k for k in range(1, halves + 1)]
-    return [size for size in sizes if size > piece] + [piece] * (threads > 1 and count > piece)
+def _sizes(count: int, piece: int) -> list[int]:
+    """How large nodes may be after each round: three halvings, and then `piece`: each round finds
+    the bounds of its records anew."""
+    sizes = [size for size in (count >> 1, count >> 2, count >> 3) if size > piece]
+    return sizes + [piece] * (count > piece)
 
 
 def _jobs(links: np.ndarray, levels: np.ndarray, used: int, leaf_size: int) -> np.ndarray:
