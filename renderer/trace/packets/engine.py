@@ -28,7 +28,9 @@ from renderer.trace.threads.thread_pool import Team
 Points = NDArray[np.floating]  # float32 or float64
 Directions = NDArray[np.float32]
 KERNELS = "walk", "write"  # each compiled on its own; trees have others
-_compiled: set[tuple[tuple[str, ...], bool]] = set()  # in this process; the types are always the same
+_compiled: set[tuple[tuple[str, ...], bool]] = (
+    set()
+)  # in this process; the types are always the same
 
 
 class PacketEngine:

@@ -14,21 +14,19 @@ Sources: Wald, Slusallek, Benthin and Wagner, "Interactive Rendering with Cohere
 
 from __future__ import annotations
 
-
 from typing import NamedTuple
 
 import numpy as np
 
 from renderer.trace.bvh.bvh16 import BOX, CORNERS, WIDTH
 from renderer.trace.compile.compiled import inlined
-from renderer.trace.rays.traverse import SpaceRay, ROUNDING, STEEP, met
+from renderer.trace.rays.traverse import ROUNDING, STEEP, SpaceRay, met
 from renderer.trace.simd.lanes import (
     LANES,
     bits,
     bits_of_f32,
     f32_of_bits,
     fma,
-    mask_of,
     select,
     smallest,
     splat,
@@ -38,7 +36,6 @@ from renderer.trace.simd.lanes import (
 )
 from renderer.trace.simd.memory import load, store
 
-TURNS = 24  # see turns_of()
 COLUMNS = 18  # vectors of a bundle in memory, for ray_of_lane()
 _WIDER = np.float32(1e-6)  # relative: more than the roundings of a test against a spread
 _FAR = np.float32(3e38)
@@ -64,7 +61,11 @@ def rays_in_lanes(origin, direction, turns):
     ax, ay, az = vabs(dx), vabs(dy), vabs(dz)
     least = vmax(vmax(ax, ay), az) * STEEP
     one = np.float32(1)
-    ix, iy, iz = one / _steep(dx, ax, least), one / _steep(dy, ay, least), one / _steep(dz, az, least)
+    ix, iy, iz = (
+        one / _steep(dx, ax, least),
+        one / _steep(dy, ay, least),
+        one / _steep(dz, az, least),
+    )
     smaller, larger = one - ROUNDING, one + ROUNDING
     enter = (ix * smaller, iy * smaller, iz * smaller)
     leave = (ix * larger, iy * larger, iz * larger)
@@ -238,7 +239,7 @@ def boxes_in_spread(near, far, ray, spread, t_min, t_max):
 
 @inlined
 def _slab(near, far, spread, axis, rises):
-    # The ray that comes first starts nearest to the near plane; the last one, farthest from the far.
+    # The first ray to enter starts nearest to the near plane; the last to leave, farthest from far.
     first = spread.origin_high[axis] if rises else spread.origin_low[axis]
     last = spread.origin_low[axis] if rises else spread.origin_high[axis]
     least, most = spread.least[axis], spread.most[axis]

@@ -148,9 +148,7 @@ def _closest(world, origins, directions, limits, t, primitive, stack_size, contr
                 if space >= 0:
                     primitive[i] = world.face[slot] + world.first_primitive[space]
                 else:
-                    primitive[i] = (
-                        world.triangles + FIRST_LEAF - slot if slot <= FIRST_LEAF else -1
-                    )
+                    primitive[i] = world.triangles + FIRST_LEAF - slot if slot <= FIRST_LEAF else -1
             continue
         for start in range(first, end, LANES):
             count = min(LANES, end - start)
@@ -165,7 +163,9 @@ def _closest(world, origins, directions, limits, t, primitive, stack_size, contr
                 slot = scratch.slots[lane]
                 found = slot >= 0
                 t[start + lane] = scratch.closest[lane] if found else np.float32(np.inf)
-                primitive[start + lane] = world.face[slot] + world.first_primitive[0] if found else -1
+                primitive[start + lane] = (
+                    world.face[slot] + world.first_primitive[0] if found else -1
+                )
 
 
 @kernel

@@ -32,7 +32,16 @@ from renderer.trace.rays.bundle import (
     turns_of,
 )
 from renderer.trace.rays.traverse import any_in_instance, closest_in_instance
-from renderer.trace.simd.lanes import LANES, bits, count_bits, lane_of, lowest_bit, mask_of, select, splat
+from renderer.trace.simd.lanes import (
+    LANES,
+    bits,
+    count_bits,
+    lane_of,
+    lowest_bit,
+    mask_of,
+    select,
+    splat,
+)
 from renderer.trace.simd.memory import load, store
 
 ALONE = 4  # so many rays, or fewer, go on one after another
@@ -68,9 +77,7 @@ def _bundle(origin, direction, rays, t_max, scratch):
     ray = space_ray_of(np.int64(turn), parts)
     mask = mask_of(rays) & (turns == turn) & regular(ray)
     bundle = bits(mask)
-    if count_bits(bundle) < MOST:
-        bundle = np.int64(0)
-    elif not are_coherent(ray, mask):
+    if count_bits(bundle) < MOST or not are_coherent(ray, mask):
         bundle = np.int64(0)
     return ray, spread_of(origin, ray, mask), bundle
 

@@ -20,9 +20,9 @@ import numpy as np
 from renderer.trace.bvh.bvh16 import BOX, CORNERS, FIRST_LEAF, WIDTH
 from renderer.trace.bvh.instances import IS_UNMOVED
 from renderer.trace.compile.compiled import inlined
+from renderer.trace.rays.waiting import WAITING_DEPTHS, nearest_child, without_farther
 from renderer.trace.scalar.vectors import minus
 from renderer.trace.simd.lanes import (
-    LANES,
     bits,
     fma,
     lowest_bit,
@@ -32,11 +32,10 @@ from renderer.trace.simd.lanes import (
     vmax,
     vmin,
 )
-from renderer.trace.simd.memory import as_int32, load, store
+from renderer.trace.simd.memory import load
 
 ROUNDING = np.float32(5e-7)  # relative: more than the roundings of a box test add up to
 STEEP = np.float32(1e-9)  # a direction's component counts as at least this part of the largest
-_DEPTHS, _WAITING_DEPTHS = 0, LANES  # float32 scratch: children's depths, depths of waiting nodes
 
 
 class SpaceRay(NamedTuple):
@@ -235,72 +234,6 @@ def sphere_on_ray(world, sphere, origin, direction, t_min, t_max):
 
 
 @inlined
-def _nearest_child(found, depth, child, node, top, floats, ints):
-    """(the nearest of the children in `found`, the stack's height with the others on it).
-
-    On the stack, nearer ones are above farther ones. Up to three are sorted without branches, which
-    no processor could foresee: by whole numbers, a depth's bits above a child's. Of depths below 0,
-    which only a negative t_min brings, the order is another, and costs no more than time.
-    """
-    lane = lowest_bit(found)
-    found &= found - 1
-    first = node * WIDTH
-    if found == 0:
-        return np.int64(child[first + lane]), top
-    store(floats, _DEPTHS, depth)
-    depths = as_int32(floats)
-    a = _depth_and_child(depths, child, first, lane)
-    lane = lowest_bit(found)
-    found &= found - 1
-    b = _depth_and_child(depths, child, first, lane)
-    a, b = min(a, b), max(a, b)
-    if found == 0:
-        return np.int64(np.int32(a)), _pushed(b, top, depths, ints)
-    lane = lowest_bit(found)
-    found &= found - 1
-    c = _depth_and_child(depths, child, first, lane)
-    a, c = min(a, c), max(a, c)
-    b, c = min(b, c), max(b, c)
-    base = top
-    top = _pushed(b, _pushed(c, top, depths, ints), depths, ints)
-    while found != 0:
-        lane = lowest_bit(found)
-        found &= found - 1
-        b = _depth_and_child(depths, child, first, lane)
-        a, b = min(a, b), max(a, b)
-        # By insertion: there are few.
-        t, i = np.int32(b >> 32), top
-        while i > base and depths[_WAITING_DEPTHS + i - 1] < t:
-            depths[_WAITING_DEPTHS + i] = depths[_WAITING_DEPTHS + i - 1]
-            ints[i] = ints[i - 1]
-            i -= 1
-        depths[_WAITING_DEPTHS + i], ints[i] = t, np.int32(b)
-        top += 1
-    return np.int64(np.int32(a)), top
-
-
-@inlined
-def _depth_and_child(depths, child, first, lane):
-    return (np.int64(depths[_DEPTHS + lane]) << 32) | np.int64(np.uint32(child[first + lane]))
-
-
-@inlined
-def _pushed(depth_and_child, top, depths, ints):
-    """The stack's height, with one more on it."""
-    depths[_WAITING_DEPTHS + top] = np.int32(depth_and_child >> 32)
-    ints[top] = np.int32(depth_and_child)
-    return top + 1
-
-
-@inlined
-def _without_farther(top, base, closest, floats):
-    """The stack's height without the nodes on top that begin behind `closest`."""
-    while top > base and floats[_WAITING_DEPTHS + top - 1] >= closest:
-        top -= 1
-    return top
-
-
-@inlined
 def closest_in_instance(world, ray, root, base, t_min, t_max, floats, ints):
     """(t, slot) of the closest triangle of an instance; (t_max, -1): none."""
     closest, slot = t_max, np.int64(-1)
@@ -310,7 +243,7 @@ def closest_in_instance(world, ray, root, base, t_min, t_max, floats, ints):
             inside, depth = children_on_ray(world.box, node, ray, t_min, closest)
             found = bits(inside)
             if found != 0:
-                node, top = _nearest_child(found, depth, world.child, node, top, floats, ints)
+                node, top = nearest_child(found, depth, world.child, node, top, floats, ints)
                 continue
         else:
             leaf = FIRST_LEAF - node
@@ -318,7 +251,7 @@ def closest_in_instance(world, ray, root, base, t_min, t_max, floats, ints):
             if found != 0:
                 closest = smallest(t)
                 slot = leaf * WIDTH + lowest_bit(bits(t == closest))
-        top = _without_farther(top, base, closest, floats)
+        top = without_farther(top, base, closest, floats)
         if top == base:
             return closest, slot
         top -= 1
@@ -336,19 +269,19 @@ def closest_hit(world, origin, direction, t_min, t_max, floats, ints):
     if world.is_empty:
         return np.float32(np.inf), slot, in_space
     ray = top_ray(world, origin, direction)
-    floats[_WAITING_DEPTHS], ints[0] = np.float32(-np.inf), world.top
+    floats[WAITING_DEPTHS], ints[0] = np.float32(-np.inf), world.top
     top = 1
     while top > 0:
         top -= 1
-        if floats[_WAITING_DEPTHS + top] >= closest:
+        if floats[WAITING_DEPTHS + top] >= closest:
             continue
         node = np.int64(ints[top])
         if node >= 0:
             inside, depth = children_on_ray(world.top_box, node, ray, t_min, closest)
             found = bits(inside)
             if found != 0:
-                node, top = _nearest_child(found, depth, world.top_child, node, top, floats, ints)
-                floats[_WAITING_DEPTHS + top], ints[top] = np.float32(-np.inf), node
+                node, top = nearest_child(found, depth, world.top_child, node, top, floats, ints)
+                floats[WAITING_DEPTHS + top], ints[top] = np.float32(-np.inf), node
                 top += 1
             continue
         item = FIRST_LEAF - node
@@ -365,15 +298,6 @@ def closest_hit(world, origin, direction, t_min, t_max, floats, ints):
         if found_slot >= 0:
             closest, slot, in_space = t, found_slot, item
     return (closest if slot != -1 else np.float32(np.inf)), slot, in_space
-
-
-@inlined
-def closest_hit_of_one(world, origin, direction, t_min, t_max, floats, ints):
-    """closest_hit() for a world of one instance and nothing else: there is no upper tree."""
-    ray = instance_ray(world, 0, origin, direction)
-    t, slot = closest_in_instance(world, ray, world.root[0], 0, t_min, t_max, floats, ints)
-    found = slot >= 0
-    return (t if found else np.float32(np.inf)), slot, np.int64(found) - 1
 
 
 @inlined
@@ -426,10 +350,3 @@ def any_hit(world, origin, direction, t_min, t_max, ints):
         if any_in_instance(world, inner, world.root[item], top, t_min, t_max, ints):
             return True
     return False
-
-
-@inlined
-def any_hit_of_one(world, origin, direction, t_min, t_max, ints):
-    """any_hit() for a world of one instance and nothing else."""
-    ray = instance_ray(world, 0, origin, direction)
-    return any_in_instance(world, ray, world.root[0], 0, t_min, t_max, ints)

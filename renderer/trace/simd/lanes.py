@@ -153,8 +153,11 @@ vmax = intrinsic(_extreme(">"))
 
 @intrinsic
 def larger(typing, x, y):
-    """vmax() of two F32 without NaN. LLVM makes vmax() of what is loaded, and stored where it was, a
-    store of single lanes: slow to load again."""
+    """vmax() of two F32 without NaN.
+
+    Of a vmax() with what is in memory, stored there again, LLVM makes a store of single lanes,
+    which is slow to load again; of this it does not.
+    """
     if x != F32 or y != F32:
         raise TypingError(f"two {F32} are needed, not {x} and {y}")
 

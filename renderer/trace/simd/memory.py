@@ -106,7 +106,8 @@ def load_interleaved(typing, array, index):
         ]
         return context.make_tuple(builder, sig.return_type, parts)
 
-    return types.UniTuple(VECTOR[kind], 3)(array, index), codegen
+    three = types.UniTuple(VECTOR[kind], 3)  # type: ignore[attr-defined]
+    return three(array, index), codegen
 
 
 @intrinsic
