@@ -22,6 +22,7 @@ from renderer.trace.bvh.sah_split import (
     bounds_of_bins,
     bounds_of_records,
     partition,
+    steps_of,
 )
 from renderer.trace.compile.compiled import inlined, kernel
 from renderer.trace.scalar.traverse import Tree
@@ -63,8 +64,8 @@ def build(vertices: F32, faces: I32, spheres: F32, team: Team, leaf_size: int = 
 
     vertices (n, 3), faces (m, 3), spheres (k, 4; centre, radius): read-only, in one space.
 
-    The threads split the top of the tree, each time to pieces of half the size, until the pieces
-    are small enough to go round; then they take the pieces.
+    The threads split the top of the tree, each time to pieces of half the size, until there are
+    some for each; then to pieces small enough to go round, and then they take these.
     """
     count = len(faces) + len(spheres)
     # A tree of n leaves has 2 n - 1 nodes; the pages of those that stay unused cost nothing.
@@ -79,7 +80,7 @@ def build(vertices: F32, faces: I32, spheres: F32, team: Team, leaf_size: int = 
 
     levels[0], links[0] = 1, (0, count)
     used, piece = 1, max(PIECE, count // (16 * team.size))
-    for largest in (*_halves(count, piece), leaf_size):
+    for largest in (*_sizes(count, piece), leaf_size):
         jobs = _jobs(links, levels, used, largest)
         team.run(
             _grow_pieces, records, bounds, links, levels, jobs, largest, leaf_size, new_control(),
@@ -132,7 +133,7 @@ def _read_only(tree: Any) -> Any:
 
 def _share(team: Team, count: int, fill: Any, *arrays: np.ndarray) -> None:
     """Runs a kernel that takes chunks of `count` primitives."""
-    team.run(fill, *arrays, new_control(), size=-(-count // CHUNK))
+    team.run(fill, *arrays, new_control(), size=count // CHUNK)  # of few, none is worth a thread
 
 
 # Columns of a job: the records and the node to build from, at which level, the first node number
@@ -140,9 +141,11 @@ def _share(team: Team, count: int, fill: Any, *arrays: np.ndarray) -> None:
 _NODE, _START, _END, _LEVEL, _FREE, _USED = range(6)
 
 
-def _halves(count: int, piece: int) -> list[int]:
-    """count / 2, count / 4, ..., as long as they are at least `piece`."""
-    return [count >> k for k in range(1, count.bit_length()) if count >> k >= piece]
+def _sizes(count: int, piece: int) -> list[int]:
+    """How large nodes may be after each round: three halvings, and then `piece`: each round finds
+    the bounds of its records anew."""
+    sizes = [size for size in (count >> 1, count >> 2, count >> 3) if size > piece]
+    return sizes + [piece] * (count > piece)
 
 
 def _jobs(links: np.ndarray, levels: np.ndarray, used: int, leaf_size: int) -> np.ndarray:
@@ -178,23 +181,27 @@ def _fill_records(vertices, faces, spheres, records, numbers, control):
         start = take_next(control) * CHUNK
         if start >= count:
             return
+        # Pointers: their indices are not looked at for being negative.
+        corners, points, boxes = pointer(faces), pointer(vertices), pointer(records)
         for i in range(start, min(start + CHUNK, count)):
+            at = RECORD * i
             numbers[i, NUMBER] = i
-            records[i, HIGH + 3] = 0
+            boxes[at + HIGH + 3] = 0
+            if i < triangles:
+                first, second = 3 * np.int64(corners[3 * i]), 3 * np.int64(corners[3 * i + 1])
+                third = 3 * np.int64(corners[3 * i + 2])
+                for axis in range(3):
+                    a, b, c = points[first + axis], points[second + axis], points[third + axis]
+                    boxes[at + axis] = -min(min(a, b), c)
+                    boxes[at + HIGH + axis] = max(max(a, b), c)
+                continue
+            s = i - triangles
             for axis in range(3):
-                if i < triangles:
-                    a = vertices[faces[i, 0], axis]
-                    b = vertices[faces[i, 1], axis]
-                    c = vertices[faces[i, 2], axis]
-                    records[i, axis] = -min(min(a, b), c)
-                    records[i, HIGH + axis] = max(max(a, b), c)
-                else:
-                    s = i - triangles
-                    low = spheres[s, axis] - spheres[s, 3]
-                    high = spheres[s, axis] + spheres[s, 3]
-                    # Outwards, by more than the rounding of the line above.
-                    records[i, axis] = abs(low) * np.float32(1.2e-7) - low
-                    records[i, HIGH + axis] = high + abs(high) * np.float32(1.2e-7)
+                low = spheres[s, axis] - spheres[s, 3]
+                high = spheres[s, axis] + spheres[s, 3]
+                # Outwards, by more than the rounding of the line above.
+                boxes[at + axis] = abs(low) * np.float32(1.2e-7) - low
+                boxes[at + HIGH + axis] = high + abs(high) * np.float32(1.2e-7)
 
 
 @kernel
@@ -225,7 +232,7 @@ def _grow_pieces(records, bounds, links, levels, jobs, largest, leaf_size, contr
     """Takes jobs and builds each one's subtree, down to nodes of `largest` primitives."""
     # The smaller half is built first, so each node that waits is less than half of the one before.
     waiting, waiting_bounds = np.empty((72, 4), np.int64), np.empty(72 * LANES, np.float32)
-    bins, counts = np.empty((3 * BINS + 2) * LANES, np.float32), np.empty(3 * BINS, np.int64)
+    bins, counts = np.empty((3 * BINS + 3) * LANES, np.float32), np.empty(4 * BINS, np.int32)
     # Vectors within cache lines: what is stored there can be loaded again at once.
     aligned = -(bins.ctypes.data // 4) % LANES
     while True:
@@ -265,14 +272,17 @@ def _grow(
 
         # Split by the least cost; by count where no cost says how.
         axis = -1
+        middle = start
         if level < MAX_DEPTH:
-            axis, last_bin, middle = best_split(records, start, end, own, leaf_size, scratch)
-        if axis >= 0:
-            partition(records, start, end, own, axis, last_bin)
+            axis, last_bin = best_split(records, start, end, own, leaf_size, scratch)
+            if axis >= 0:
+                middle = partition(records, start, end, own, axis, last_bin)
+        if (middle == start) | (middle == end):
+            axis, middle = -1, (start + end) // 2
+        if (axis >= 0) & (steps_of(start, end) == 1):
             left = bounds_of_bins(scratch[0], axis, 0, last_bin + 1)
             right = bounds_of_bins(scratch[0], axis, last_bin + 1, BINS)
         else:
-            middle = (start + end) // 2
             left = bounds_of_records(records, start, middle)
             right = bounds_of_records(records, middle, end)
 

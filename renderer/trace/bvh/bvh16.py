@@ -14,8 +14,19 @@ import numpy as np
 from numpy.typing import NDArray
 
 from renderer.trace.bvh.binary import MAX_DEPTH, Bvh, build
-from renderer.trace.compile.compiled import kernel
-from renderer.trace.simd.lanes import LANES
+from renderer.trace.compile.compiled import inlined, kernel
+from renderer.trace.simd.lanes import (
+    LANES,
+    i32_of,
+    lane_column,
+    lane_row,
+    mask_of,
+    select,
+    to_f32,
+    to_f64,
+    vsqrt,
+)
+from renderer.trace.simd.memory import gather, pointer, store
 from renderer.trace.threads.atomic import take_next
 from renderer.trace.threads.control import new_control
 from renderer.trace.threads.thread_pool import Team
@@ -75,7 +86,7 @@ def tree_of_mesh(vertices: NDArray[np.float32], faces: NDArray[np.int32], team: 
     corner = aligned(len(leaves) * CORNERS, np.float32)
     face = np.empty(len(leaves) * WIDTH, np.int32)
     normal = aligned(len(leaves) * 3 * WIDTH, np.float32)
-    chunks = -(-len(leaves) // _CHUNK)
+    chunks = len(leaves) // _CHUNK  # of few, none is worth another thread
     team.run(
         _fill_leaves, vertices, faces, binary.order, leaves, corner, face, normal, new_control(),
         size=chunks,
@@ -180,33 +191,51 @@ def _collapse(bounds, links, box, child, leaves):
 
 @kernel
 def _fill_leaves(vertices, faces, order, leaves, corner, face, normal, control):
-    """Corners, numbers and normals of the leaves' triangles; threads share the leaves."""
+    """Corners, numbers and normals of the leaves' triangles, in lanes; threads share the leaves."""
+    lane = i32_of(lane_row() * np.float32(4) + lane_column())
     while True:
         first = take_next(control) * _CHUNK
         if first >= len(leaves):
             return
         for k in range(first, min(first + _CHUNK, len(leaves))):
-            start, count = leaves[k, 0], leaves[k, 1]
-            for i in range(WIDTH):
-                f = order[start + min(i, count - 1)]
-                face[k * WIDTH + i] = f if i < count else -1
-                a, b, c = np.int64(faces[f, 0]), np.int64(faces[f, 1]), np.int64(faces[f, 2])
-                at = k * CORNERS + i
-                for axis in range(3):
-                    corner[at + axis * WIDTH] = vertices[a, axis] if i < count else _NO_CORNER
-                    corner[at + (3 + axis) * WIDTH] = vertices[b, axis] if i < count else _NO_CORNER
-                    corner[at + (6 + axis) * WIDTH] = vertices[c, axis] if i < count else _NO_CORNER
-                # The normal, in float64: small triangles far from the origin keep theirs.
-                ux = np.float64(vertices[b, 0]) - np.float64(vertices[a, 0])
-                uy = np.float64(vertices[b, 1]) - np.float64(vertices[a, 1])
-                uz = np.float64(vertices[b, 2]) - np.float64(vertices[a, 2])
-                vx = np.float64(vertices[c, 0]) - np.float64(vertices[a, 0])
-                vy = np.float64(vertices[c, 1]) - np.float64(vertices[a, 1])
-                vz = np.float64(vertices[c, 2]) - np.float64(vertices[a, 2])
-                nx, ny, nz = uy * vz - uz * vy, uz * vx - ux * vz, ux * vy - uy * vx
-                length = np.sqrt(nx * nx + ny * ny + nz * nz)
-                scale = 1.0 / length if length > 0.0 else 0.0
-                at = k * 3 * WIDTH + i
-                normal[at] = nx * scale
-                normal[at + WIDTH] = ny * scale
-                normal[at + 2 * WIDTH] = nz * scale
+            here = mask_of((np.int64(1) << leaves[k, 1]) - 1)
+            f = gather(pointer(order), lane + np.int32(leaves[k, 0]), here)
+            store(pointer(face), k * WIDTH, select(here, f, np.int32(-1)))
+            a = _corner(pointer(vertices), pointer(faces), f * np.int32(3), here)
+            b = _corner(pointer(vertices), pointer(faces), f * np.int32(3) + np.int32(1), here)
+            c = _corner(pointer(vertices), pointer(faces), f * np.int32(3) + np.int32(2), here)
+            _store_corner(pointer(corner), k * CORNERS, a, here)
+            _store_corner(pointer(corner), k * CORNERS + 3 * WIDTH, b, here)
+            _store_corner(pointer(corner), k * CORNERS + 6 * WIDTH, c, here)
+            # The normal, in float64: small triangles far from the origin keep theirs.
+            ux, uy, uz = _minus(b, a)
+            vx, vy, vz = _minus(c, a)
+            nx, ny, nz = uy * vz - uz * vy, uz * vx - ux * vz, ux * vy - uy * vx
+            length = vsqrt(nx * nx + ny * ny + nz * nz)
+            scale = select(length > 0.0, 1.0 / length, 0.0)
+            store(pointer(normal), 3 * k * WIDTH, to_f32(nx * scale))
+            store(pointer(normal), (3 * k + 1) * WIDTH, to_f32(ny * scale))
+            store(pointer(normal), (3 * k + 2) * WIDTH, to_f32(nz * scale))
+
+
+@inlined
+def _corner(vertices, faces, corner, here):
+    """x, y, z of 16 triangles' corners; 0 where not here."""
+    at = gather(faces, corner, here) * np.int32(3)
+    return (
+        gather(vertices, at, here),
+        gather(vertices, at + np.int32(1), here),
+        gather(vertices, at + np.int32(2), here),
+    )
+
+
+@inlined
+def _store_corner(array, at, point, here):
+    store(array, at, select(here, point[0], _NO_CORNER))
+    store(array, at + WIDTH, select(here, point[1], _NO_CORNER))
+    store(array, at + 2 * WIDTH, select(here, point[2], _NO_CORNER))
+
+
+@inlined
+def _minus(a, b):
+    return to_f64(a[0]) - to_f64(b[0]), to_f64(a[1]) - to_f64(b[1]), to_f64(a[2]) - to_f64(b[2])

@@ -204,7 +204,7 @@ class Instances:
         self.world_from_space = np.concatenate([matrix, of_top[None]])
         self.bounds = np.concatenate([bounds, whole[None]])
         top_box, top_child, self._top_levels = np.empty(0, np.float32), np.empty(0, np.int32), 1
-        if len(low):
+        if len(low) > 1:
             top_box, top_child, self._top_levels = tree_of_boxes(
                 low.astype(np.float32), high.astype(np.float32), self._team
             )

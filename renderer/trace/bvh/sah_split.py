@@ -19,20 +19,29 @@ import numpy as np
 from renderer.trace.compile.compiled import inlined
 from renderer.trace.simd.lanes import (
     LANES,
+    bits,
+    f64_of,
     i32_of,
     lane_of,
+    larger,
     lower_half_twice,
+    lower_halves,
+    lowest_bit,
     mask_of,
     next_of_three,
     quarters_swapped,
     select,
+    smallest,
     splat,
+    to_f32,
+    vfloor,
     vmax,
     vmin,
 )
 from renderer.trace.simd.memory import load, store
 
 BINS = 16
+SAMPLE = 16384  # so many records, of many more, tell where to split them
 RECORD = 8
 NUMBER = 3  # the column of a record, seen as int32, with the primitive's number
 HIGH = 4  # its column with the high x
@@ -55,16 +64,16 @@ def bounds_of_records(records, start, end):
     """The bounds of records[start:end]; of none: -FAR."""
     bounds = splat(-FAR)
     for i in range(start, end):
-        bounds = vmax(bounds, _bounds(records, i))
+        bounds = larger(bounds, _bounds(records, i))
     return bounds
 
 
 @inlined
 def bounds_of_bins(bins, axis, first, end):
-    """The bounds of the records in bins[first:end] of an axis, after best_split()."""
+    """The bounds of the records in bins[first:end] of an axis, after best_split() looked at all."""
     bounds = splat(-FAR)
     for b in range(first, end):
-        bounds = vmax(bounds, load(bins, LANES * (axis * BINS + b)))
+        bounds = larger(bounds, load(bins, LANES * (axis * BINS + b)))
     return bounds
 
 
@@ -77,25 +86,42 @@ def _bin_scale(bounds):
 
 
 @inlined
-def _half_area(bounds):
-    """Half of the surface of bounds' box."""
-    extent = bounds + quarters_swapped(bounds)
+def _half_areas(left, right):
+    """Half of the surfaces of two bounds' boxes, in the first lane of each half."""
+    both = lower_halves(left, right)
+    extent = both + quarters_swapped(both)
     side = extent * next_of_three(extent)
-    return lane_of(side, 0) + lane_of(side, 1) + lane_of(side, 2)
+    # The sums side 0 + side 1 + side 2.
+    one_on = next_of_three(side)
+    return side + one_on + next_of_three(one_on)
 
 
 @inlined
-def _units(n, unit):
-    """How many units n primitives take, one of which may not be full."""
-    return np.float32((n + unit - 1) // unit)
+def _units(count, per_primitive):
+    """How many units primitives take, one of which may not be full; count: I32, of at least 1.
+
+    per_primitive: 1 by a unit's primitives. Dividing by these would take longer than all the rest.
+    """
+    return to_f32(vfloor((f64_of(count) - 0.5) * per_primitive) + 1.0)
+
+
+@inlined
+def _count_record(records, i, origin, scale, bins, counts):
+    """Puts record i into its bins, one an axis."""
+    own = _bounds(records, i)
+    number = i32_of(vmin(vmax((own + origin) * scale, np.float32(0)), np.float32(BINS - 1)))
+    for axis in range(3):
+        into = axis * BINS + np.int64(lane_of(number, _HIGH_CENTRE + axis))
+        counts[into] += 1
+        store(bins, LANES * into, larger(load(bins, LANES * into), own))
 
 
 @inlined
 def best_split(records, start, end, bounds, leaf_size, scratch):
-    """(axis, bin, middle) after which to split records[start:end] at the least cost.
+    """(axis, bin) after which to split records[start:end] at the least cost.
 
-    middle: where the second half will start. axis -1: nowhere. leaf_size: how many primitives a
-    leaf holds. scratch: a thread's bins, float32, 3 BINS + 1 vectors, and counts, int64, 3 BINS.
+    axis -1: nowhere. leaf_size: how many primitives a
+    leaf holds. scratch: a thread's bins, float32, 3 BINS + 2 vectors, and counts, int32, 4 BINS.
     """
     bins, counts = scratch
     for b in range(3 * BINS):
@@ -103,42 +129,58 @@ def best_split(records, start, end, bounds, leaf_size, scratch):
         store(bins, LANES * b, splat(-FAR))
 
     # Sort the centres into bins along each axis.
+    # Neighbours often go into one bin, and each would wait for the one before: so four at once,
+    # from places far apart.
     scale, origin = _bin_scale(bounds), quarters_swapped(bounds)
-    for i in range(start, end):
-        own = _bounds(records, i)
-        number = i32_of(vmin(vmax((own + origin) * scale, np.float32(0)), np.float32(BINS - 1)))
-        for axis in range(3):
-            into = axis * BINS + np.int64(lane_of(number, _HIGH_CENTRE + axis))
-            counts[into] += 1
-            store(bins, LANES * into, vmax(load(bins, LANES * into), own))
+    step, quarter = steps_of(start, end), (end - start) // 4
+    for i in range(start, start + quarter, step):
+        for k in range(4):
+            _count_record(records, i + k * quarter, origin, scale, bins, counts)
+    if step == 1:
+        for i in range(start + 4 * quarter, end):
+            _count_record(records, i, origin, scale, bins, counts)
 
     # The cost of a split: for each side, its area times its primitives, in whole leaves or, of
     # many, in whole wide nodes: those that are half empty take as long as full ones.
-    unit = leaf_size if end - start <= _NODE_LEAVES * leaf_size else _NODE_LEAVES * leaf_size
-    best, best_axis, best_bin, middle = FAR, -1, -1, start
-    right = 3 * BINS * LANES
+    is_small = end - start <= _NODE_LEAVES * leaf_size
+    unit = 1.0 / (leaf_size if is_small else _NODE_LEAVES * leaf_size)
+    best, best_axis, best_bin = FAR, -1, np.int64(-1)
+    total = np.int32(0)
+    for b in range(BINS):
+        total += counts[b]
+    lefts, rights, below = 3 * BINS * LANES, (3 * BINS + 1) * LANES, 3 * BINS
     for axis in range(3):
-        # Sweep from the right for each right side, then from the left for the sum.
+        # Sweep from both ends; then the costs of all splits are a vector.
         first = axis * BINS
-        side, n = splat(-FAR), 0
-        for b in range(BINS - 1, 0, -1):
+        left, right, n = splat(-FAR), splat(-FAR), np.int32(0)
+        for b in range(BINS):
+            left = larger(left, load(bins, LANES * (first + b)))
+            right = larger(right, load(bins, LANES * (first + BINS - 1 - b)))
+            areas = _half_areas(left, right)
+            bins[lefts + b] = lane_of(areas, 0)
+            bins[rights + BINS - 2 - b] = lane_of(areas, LANES // 2)
             n += counts[first + b]
-            side = vmax(side, load(bins, LANES * (first + b)))
-            bins[right + b] = _half_area(side) * _units(n, unit)
-        side, n = splat(-FAR), 0
-        for b in range(BINS - 1):
-            n += counts[first + b]
-            side = vmax(side, load(bins, LANES * (first + b)))
-            if 0 < n < end - start:
-                cost = _half_area(side) * _units(n, unit) + bins[right + b + 1]
-                if cost < best:
-                    best, best_axis, best_bin, middle = cost, axis, b, start + n
-    return best_axis, best_bin, middle
+            counts[below + b] = n
+        n_left = load(counts, below)
+        n_right = total - n_left
+        is_split = (n_left > np.int32(0)) & (n_right > np.int32(0))
+        cost = load(bins, lefts) * _units(n_left, unit) + load(bins, rights) * _units(n_right, unit)
+        cost = select(is_split, cost, FAR)
+        least = smallest(cost)
+        if least < best:
+            best, best_axis, best_bin = least, axis, lowest_bit(bits(cost == least))
+    return best_axis, best_bin
+
+
+@inlined
+def steps_of(start, end):
+    """Every how many of records[start:end] best_split() looks at: of many, at some."""
+    return 1 if end - start <= 2 * SAMPLE else (end - start) // SAMPLE
 
 
 @inlined
 def partition(records, start, end, bounds, axis, last_bin):
-    """Moves the records in bins up to last_bin to the front."""
+    """Moves the records in bins up to last_bin to the front; gives where the others start."""
     scale = lane_of(_bin_scale(bounds), _HIGH_CENTRE + axis)
     origin = lane_of(bounds, _LOW_CENTRE + axis)
     i, j = start, end - 1
@@ -148,7 +190,7 @@ def partition(records, start, end, bounds, axis, last_bin):
         while i <= j and _bin_of(records, j, axis, origin, scale) > last_bin:
             j -= 1
         if i >= j:
-            return
+            return i
         for k in range(RECORD):
             a, b = RECORD * i + k, RECORD * j + k
             records[a], records[b] = records[b], records[a]

@@ -15,6 +15,7 @@ import os
 import subprocess
 import time
 from collections.abc import Callable
+from functools import cache
 from pathlib import Path
 
 import llvmlite.binding as llvm
@@ -82,6 +83,7 @@ class Precompilation:
         self._processes.clear()
 
 
+@cache
 def _processor() -> str:
     """Names the processor that is compiled for: a folder may be shared by several."""
     try:

@@ -28,6 +28,9 @@ from renderer.trace.threads.thread_pool import Team
 Points = NDArray[np.floating]  # float32 or float64
 Directions = NDArray[np.float32]
 KERNELS = "walk", "write"  # each compiled on its own; trees have others
+_compiled: set[tuple[tuple[str, ...], bool]] = (
+    set()
+)  # in this process; the types are always the same
 
 
 class PacketEngine:
@@ -55,6 +58,9 @@ class PacketEngine:
 
     def _compile(self, kernels: tuple[str, ...]) -> None:
         """Compiles kernels, or finds them in the cache, by an image that is over at once."""
+        what = kernels, any(self._effects)
+        if what in _compiled:
+            return
         view, image, over = KernelView.of(Camera.canonical()), new_image((1, 1), ()), new_control()
         cancel(over)
         of_image, near = self._seen_from(view, (1, 1))
@@ -62,6 +68,7 @@ class PacketEngine:
             self._writing(view, of_image, near, image)
         if "walk" in kernels:
             self._walk(of_image, StagedCode(0, new_room()), image, over)
+        _compiled.add(what)
 
     def set_scene(self, scene: Scene) -> None:
         """Follows a changed scene; unchanged meshes (the same arrays) keep their trees."""

@@ -20,9 +20,9 @@ import numpy as np
 from renderer.trace.bvh.bvh16 import BOX, CORNERS, FIRST_LEAF, WIDTH
 from renderer.trace.bvh.instances import IS_UNMOVED
 from renderer.trace.compile.compiled import inlined
+from renderer.trace.rays.waiting import WAITING_DEPTHS, nearest_child, without_farther
 from renderer.trace.scalar.vectors import minus
 from renderer.trace.simd.lanes import (
-    LANES,
     bits,
     fma,
     lowest_bit,
@@ -32,11 +32,10 @@ from renderer.trace.simd.lanes import (
     vmax,
     vmin,
 )
-from renderer.trace.simd.memory import load, store
+from renderer.trace.simd.memory import load
 
-_ROUNDING = np.float32(5e-7)  # relative: more than the roundings of a box test add up to
-_STEEP = np.float32(1e-9)  # a direction's component counts as at least this part of the largest
-_DEPTHS, _WAITING_DEPTHS = 0, LANES  # float32 scratch: children's depths, depths of waiting nodes
+ROUNDING = np.float32(5e-7)  # relative: more than the roundings of a box test add up to
+STEEP = np.float32(1e-9)  # a direction's component counts as at least this part of the largest
 
 
 class SpaceRay(NamedTuple):
@@ -72,15 +71,15 @@ def space_ray(origin, direction):
     dx, dy, dz = np.float32(direction[0]), np.float32(direction[1]), np.float32(direction[2])
     ax, ay, az = abs(dx), abs(dy), abs(dz)
     # Boxes: no division by 0, and no infinity times 0.
-    least = max(ax, ay, az) * _STEEP
+    least = max(ax, ay, az) * STEEP
     one = np.float32(1)
     ix, iy, iz = one / _steep(dx, least), one / _steep(dy, least), one / _steep(dz, least)
-    smaller, larger = one - _ROUNDING, one + _ROUNDING
+    smaller, larger = one - ROUNDING, one + ROUNDING
     enter, leave = (
         (ix * smaller, iy * smaller, iz * smaller),
         (ix * larger, iy * larger, iz * larger),
     )
-    sx, sy, sz = abs(ox * ix) * _ROUNDING, abs(oy * iy) * _ROUNDING, abs(oz * iz) * _ROUNDING
+    sx, sy, sz = abs(ox * ix) * ROUNDING, abs(oy * iy) * ROUNDING, abs(oz * iz) * ROUNDING
     near = (
         (0 if ix >= 0 else 3) * WIDTH,
         (1 if iy >= 0 else 4) * WIDTH,
@@ -145,18 +144,31 @@ def triangles_on_ray(corner, leaf, ray, t_min, t_max):
     there is no fma() in the edge functions.
     """
     at = leaf * CORNERS
-    ax, ay, az = _sheared(corner, at, ray)
-    bx, by, bz = _sheared(corner, at + 3 * WIDTH, ray)
-    cx, cy, cz = _sheared(corner, at + 6 * WIDTH, ray)
+    a = _sheared(corner, at, ray)
+    b = _sheared(corner, at + 3 * WIDTH, ray)
+    c = _sheared(corner, at + 6 * WIDTH, ray)
+    inside, t = met(a, b, c, ray.shear[2], t_min, t_max)
+    return bits(inside), select(inside, t, np.float32(np.inf))
+
+
+@inlined
+def met(a, b, c, scale, t_min, t_max):
+    """(mask, t): where the z axis meets sheared triangles within (t_min, t_max).
+
+    a, b, c: their corners; scale: takes z to t.
+    """
+    ax, ay, az = a
+    bx, by, bz = b
+    cx, cy, cz = c
     e0, e1, e2 = cx * by - cy * bx, ax * cy - ay * cx, bx * ay - by * ax
     zero = np.float32(0)
     inside = (vmin(vmin(e0, e1), e2) >= zero) | (vmax(vmax(e0, e1), e2) <= zero)
     # t is a mean of the corners', weighted by the edge functions: never outside them. Computed also
     # where no triangle is met: whether one is cannot be foreseen, and a wrong guess costs more.
     area = e0 + e1 + e2
-    t = (e0 * az + e1 * bz + e2 * cz) * ray.shear[2] / area
+    t = (e0 * az + e1 * bz + e2 * cz) * scale / area
     inside = inside & (area != zero) & (t > t_min) & (t < t_max)
-    return bits(inside), select(inside, t, np.float32(np.inf))
+    return inside, t
 
 
 @inlined
@@ -222,45 +234,6 @@ def sphere_on_ray(world, sphere, origin, direction, t_min, t_max):
 
 
 @inlined
-def _nearest_child(found, depth, child, node, top, floats, ints):
-    """(the nearest of the children in `found`, the stack's height with the others on it).
-
-    On the stack, nearer ones are above farther ones.
-    """
-    lane = lowest_bit(found)
-    found &= found - 1
-    nearest = child[node * WIDTH + lane]
-    if found == 0:
-        return np.int64(nearest), top
-    store(floats, _DEPTHS, depth)
-    least, base = floats[_DEPTHS + lane], top
-    while found != 0:
-        lane = lowest_bit(found)
-        found &= found - 1
-        t, other = floats[_DEPTHS + lane], child[node * WIDTH + lane]
-        if t < least:
-            t, least = least, t
-            other, nearest = nearest, other
-        # By insertion: there are few.
-        i = top
-        while i > base and floats[_WAITING_DEPTHS + i - 1] < t:
-            floats[_WAITING_DEPTHS + i] = floats[_WAITING_DEPTHS + i - 1]
-            ints[i] = ints[i - 1]
-            i -= 1
-        floats[_WAITING_DEPTHS + i], ints[i] = t, other
-        top += 1
-    return np.int64(nearest), top
-
-
-@inlined
-def _without_farther(top, base, closest, floats):
-    """The stack's height without the nodes on top that begin behind `closest`."""
-    while top > base and floats[_WAITING_DEPTHS + top - 1] >= closest:
-        top -= 1
-    return top
-
-
-@inlined
 def closest_in_instance(world, ray, root, base, t_min, t_max, floats, ints):
     """(t, slot) of the closest triangle of an instance; (t_max, -1): none."""
     closest, slot = t_max, np.int64(-1)
@@ -270,7 +243,7 @@ def closest_in_instance(world, ray, root, base, t_min, t_max, floats, ints):
             inside, depth = children_on_ray(world.box, node, ray, t_min, closest)
             found = bits(inside)
             if found != 0:
-                node, top = _nearest_child(found, depth, world.child, node, top, floats, ints)
+                node, top = nearest_child(found, depth, world.child, node, top, floats, ints)
                 continue
         else:
             leaf = FIRST_LEAF - node
@@ -278,7 +251,7 @@ def closest_in_instance(world, ray, root, base, t_min, t_max, floats, ints):
             if found != 0:
                 closest = smallest(t)
                 slot = leaf * WIDTH + lowest_bit(bits(t == closest))
-        top = _without_farther(top, base, closest, floats)
+        top = without_farther(top, base, closest, floats)
         if top == base:
             return closest, slot
         top -= 1
@@ -296,19 +269,19 @@ def closest_hit(world, origin, direction, t_min, t_max, floats, ints):
     if world.is_empty:
         return np.float32(np.inf), slot, in_space
     ray = top_ray(world, origin, direction)
-    floats[_WAITING_DEPTHS], ints[0] = np.float32(-np.inf), world.top
+    floats[WAITING_DEPTHS], ints[0] = np.float32(-np.inf), world.top
     top = 1
     while top > 0:
         top -= 1
-        if floats[_WAITING_DEPTHS + top] >= closest:
+        if floats[WAITING_DEPTHS + top] >= closest:
             continue
         node = np.int64(ints[top])
         if node >= 0:
             inside, depth = children_on_ray(world.top_box, node, ray, t_min, closest)
             found = bits(inside)
             if found != 0:
-                node, top = _nearest_child(found, depth, world.top_child, node, top, floats, ints)
-                floats[_WAITING_DEPTHS + top], ints[top] = np.float32(-np.inf), node
+                node, top = nearest_child(found, depth, world.top_child, node, top, floats, ints)
+                floats[WAITING_DEPTHS + top], ints[top] = np.float32(-np.inf), node
                 top += 1
             continue
         item = FIRST_LEAF - node
@@ -325,15 +298,6 @@ def closest_hit(world, origin, direction, t_min, t_max, floats, ints):
         if found_slot >= 0:
             closest, slot, in_space = t, found_slot, item
     return (closest if slot != -1 else np.float32(np.inf)), slot, in_space
-
-
-@inlined
-def closest_hit_of_one(world, origin, direction, t_min, t_max, floats, ints):
-    """closest_hit() for a world of one instance and nothing else: there is no upper tree."""
-    ray = instance_ray(world, 0, origin, direction)
-    t, slot = closest_in_instance(world, ray, world.root[0], 0, t_min, t_max, floats, ints)
-    found = slot >= 0
-    return (t if found else np.float32(np.inf)), slot, np.int64(found) - 1
 
 
 @inlined
@@ -386,10 +350,3 @@ def any_hit(world, origin, direction, t_min, t_max, ints):
         if any_in_instance(world, inner, world.root[item], top, t_min, t_max, ints):
             return True
     return False
-
-
-@inlined
-def any_hit_of_one(world, origin, direction, t_min, t_max, ints):
-    """any_hit() for a world of one instance and nothing else."""
-    ray = instance_ray(world, 0, origin, direction)
-    return any_in_instance(world, ray, world.root[0], 0, t_min, t_max, ints)

@@ -18,7 +18,7 @@ from collections.abc import Callable
 from typing import Any
 
 from llvmlite import ir
-from numba.core import types
+from numba.core import cgutils, types
 from numba.core.errors import TypingError
 from numba.extending import intrinsic
 
@@ -152,6 +152,26 @@ vmax = intrinsic(_extreme(">"))
 
 
 @intrinsic
+def larger(typing, x, y):
+    """vmax() of two F32 without NaN.
+
+    Of a vmax() with what is in memory, stored there again, LLVM makes a store of single lanes,
+    which is slow to load again; of this it does not.
+    """
+    if x != F32 or y != F32:
+        raise TypingError(f"two {F32} are needed, not {x} and {y}")
+
+    def codegen(context, builder, sig, args):
+        name, vector = f"llvm.maxnum.v{LANES}f32", llvm_vector("f32")
+        function = cgutils.get_or_insert_function(
+            builder.module, ir.FunctionType(vector, [vector, vector]), name
+        )
+        return builder.call(function, args, fastmath=("nnan", "nsz"))
+
+    return F32(x, y), codegen
+
+
+@intrinsic
 def select(typing, mask, x, y):
     """x in the lanes of the mask, y in the others."""
     kind = common_kind(x, y)
@@ -179,10 +199,22 @@ def _conversion(source: VectorType, target: VectorType, instruction: str) -> Cal
     return build
 
 
-to_f64 = intrinsic(_conversion(F32, F64, "fpext"))
+@intrinsic
+def to_f64(typing, x):
+    """An F32 as an F64; an F64 as it is."""
+    if x not in (F32, F64):
+        raise TypingError(f"{F32} or {F64} is needed, not {x}")
+
+    def codegen(context, builder, sig, args):
+        return builder.fpext(args[0], llvm_vector("f64")) if sig.args[0] == F32 else args[0]
+
+    return F64(x), codegen
+
+
 to_f32 = intrinsic(_conversion(F64, F32, "fptrunc"))
 i32_of = intrinsic(_conversion(F32, I32, "fptosi"))  # towards 0; the value must fit
 f32_of = intrinsic(_conversion(I32, F32, "sitofp"))
+f64_of = intrinsic(_conversion(I32, F64, "sitofp"))
 bits_of_f32 = intrinsic(_conversion(F32, I32, "bitcast"))
 f32_of_bits = intrinsic(_conversion(I32, F32, "bitcast"))
 
@@ -227,7 +259,20 @@ def _permutation(lanes: list[int]) -> Callable:
 # each quarter.
 lower_half_twice = intrinsic(_permutation([lane % 8 for lane in range(LANES)]))
 quarters_swapped = intrinsic(_permutation([lane ^ 4 for lane in range(LANES)]))
-next_of_three = intrinsic(_permutation([[1, 2, 0, 3][lane % 4] for lane in range(LANES)]))
+next_of_three = intrinsic(_permutation([lane + (1, 1, -2, 0)[lane % 4] for lane in range(LANES)]))
+
+
+@intrinsic
+def lower_halves(typing, x, y):
+    """Lanes 0 to 7 of x, then lanes 0 to 7 of y."""
+    if x != y:
+        raise TypingError(f"two vectors of one kind are needed, not {x} and {y}")
+
+    def codegen(context, builder, sig, args):
+        lanes = [lane + (LANES // 2) * (lane >= LANES // 2) for lane in range(LANES)]
+        return shuffled(builder, args[0], args[1], lanes)
+
+    return x(x, y), codegen
 
 
 @intrinsic
@@ -256,6 +301,17 @@ def lowest_bit(typing, number):
         value = context.cast(builder, args[0], sig.args[0], types.int32)
         index = call_llvm(builder, "llvm.cttz.i32", INT32, [value, ir.Constant(I1, 1)])
         return builder.zext(index, INT64)
+
+    return types.int64(number), codegen
+
+
+@intrinsic
+def count_bits(typing, number):
+    """How many of an integer's low 32 bits are set, int64."""
+
+    def codegen(context, builder, sig, args):
+        value = context.cast(builder, args[0], sig.args[0], types.int32)
+        return builder.zext(call_llvm(builder, "llvm.ctpop.i32", INT32, [value]), INT64)
 
     return types.int64(number), codegen
 

@@ -63,6 +63,18 @@ def shifted(typing, array, index):
 
 
 @intrinsic
+def as_int32(typing, array):
+    """The pointer to the same memory as int32, of a pointer to float32."""
+    if array != CPointer(types.float32):
+        raise TypingError(f"a pointer to float32 is needed, not {array}")
+
+    def codegen(context, builder, sig, args):
+        return builder.bitcast(args[0], INT32.as_pointer())
+
+    return CPointer(types.int32)(array), codegen
+
+
+@intrinsic
 def load(typing, array, index):
     """array[index : index + 16]."""
     kind = array_kind(array)
@@ -75,6 +87,27 @@ def load(typing, array, index):
         return value
 
     return VECTOR[kind](array, index), codegen
+
+
+@intrinsic
+def load_interleaved(typing, array, index):
+    """Three vectors x, y, z of array[index : index + 48], which is x, y, z, x, y, z, ..."""
+    kind = array_kind(array)
+
+    def codegen(context, builder, sig, args):
+        at = element_address(context, builder, sig, args)
+        whole = llvm_vector(kind, 3 * LANES)
+        value = builder.load(builder.bitcast(at, whole.as_pointer()), typ=whole)
+        value.align = 4
+        nothing = undefined(whole)
+        parts = [
+            shuffled(builder, value, nothing, [3 * lane + k for lane in range(LANES)])
+            for k in range(3)
+        ]
+        return context.make_tuple(builder, sig.return_type, parts)
+
+    three = types.UniTuple(VECTOR[kind], 3)  # type: ignore[attr-defined]
+    return three(array, index), codegen
 
 
 @intrinsic
