@@ -244,7 +244,9 @@ def _largest(f, x_low, x_high, y_low, y_high):
 
 
 @inlined
-def rasterize_leaf(view, corner, leaf, space, tile, least, floats, ints):
+def rasterize_leaf(
+    view, corner, leaf, space, tile, footprint, squares_open, depth, least, floats, ints
+):
     """Lets the tile's pixels see a leaf's triangles; gives the tile's new least key.
 
     least: the smallest of the pixels' best keys: what is not nearer cannot be seen by any.
@@ -295,7 +297,7 @@ def rasterize_leaf(view, corner, leaf, space, tile, least, floats, ints):
         may = may & (_bound(floats, lane, _E1) >= np.float32(0))
         may = may & (_bound(floats, lane, _E2) >= np.float32(0))
         may = may & (_bound(floats, lane, _KEY) > nearest)
-        squares = bits(may)
+        squares = bits(may) & squares_open
         ints[COVERED + lane] = squares
         covered |= squares
     if covered == 0:
