@@ -38,6 +38,7 @@ MARGIN_PX = np.float32(1 / 64)
 # Relative: what is as near as this may be nearer, but for rounding.
 _ROUNDING = np.float32(1 + 1e-6)
 _LAST = np.float32(TILE - 1)
+_SMALL_PX = np.float32(8)
 
 
 @inlined
@@ -119,10 +120,16 @@ def children_in_tile(view, box, node, z_far, floats, ints):
     right = largest_of_plane(box, at, RIGHT, floats, ints)
     top = largest_of_plane(box, at, TOP, floats, ints)
     bottom = largest_of_plane(box, at, BOTTOM, floats, ints)
-    footprint, inside = footprints(view, depth, left, right, top, bottom)
-    inside = inside & (depth < z_far) & (vmin(vmin(left, right), vmin(top, bottom)) >= np.float32(0))
+    inside = (depth < z_far) & (vmin(vmin(left, right), vmin(top, bottom)) >= np.float32(0))
     if view.parallel or view.z_near > np.float32(0):
         # In perspective, the sides leave nothing behind the eye.
         ahead = largest_of_plane(box, at, AHEAD, floats, ints)
         inside = inside & (ahead >= view.z_near)
-    return inside, depth, footprint
+    h = splat(np.float32(1)) if view.parallel else depth
+    wide = h * (_LAST + _SMALL_PX)
+    is_small = inside & (left + right <= wide) & (top + bottom <= wide)
+    footprint = splat(WHOLE_TILE)
+    if bits(is_small) != 0:
+        footprint, holds = footprints(view, depth, left, right, top, bottom)
+        inside = inside & holds
+    return inside, depth, footprint, bits(is_small) != 0

@@ -24,6 +24,8 @@ import numpy as np
 
 from renderer.trace.bvh.bvh16 import CORNERS, WIDTH
 from renderer.trace.compile.compiled import inlined
+from renderer.trace.packets.footprint import pixels_of
+from renderer.trace.packets.sample import FEW_PIXELS, cover_pixels, sample_pixels
 from renderer.trace.packets.tile import (
     BEST,
     BOUNDS,
@@ -133,14 +135,14 @@ def camera_corners(view, corner, leaf, space):
 
 
 @inlined
-def edge_function(p, q, sign):
-    """Coefficients of x, y and 1 of the edge p to q, times sign; p, q: (X, Y, H).
+def edge_function(p, q):
+    """Coefficients of x, y and 1 of the edge p to q; p, q: (X, Y, H).
 
     (p + q) x (q - p) is twice p x q. The sum does not know the order of p and q, and the difference
     changes its sign with it: exactly opposite results for the two triangles at the edge.
     """
     dx, dy, dh = q[0] - p[0], q[1] - p[1], q[2] - p[2]
-    sx, sy, sh = (p[0] + q[0]) * sign, (p[1] + q[1]) * sign, (p[2] + q[2]) * sign
+    sx, sy, sh = p[0] + q[0], p[1] + q[1], p[2] + q[2]
     return fma(sy, dh, -(sh * dy)), fma(sh, dx, -(sx * dh)), fma(sx, dy, -(sy * dx))
 
 
@@ -219,13 +221,20 @@ def _differ(p, q):
 
 
 @inlined
-def triangle_keys(view, corner, leaf, space, a, b, c, ha, hb, hc):
-    """(coefficients of x, y and 1 of the triangles' keys, signs of their volumes)."""
+def triangle_keys(view, corner, leaf, space, a, b, c, ha, hb, hc, wanted):
+    """(coefficients of x, y and 1 of the triangles' keys, signs of their volumes), where wanted."""
     key, volume, terms = key_function(view, a, b, c, ha, hb, hc)
-    if bits(vabs(volume) * DOUBTFUL <= terms) != 0:
-        pa, pb, pc = (a[0], a[1], ha), (b[0], b[1], hb), (c[0], c[1], hc)
-        return key_function_exact(view, corner, leaf, space, pa, pb, pc)
-    return key, select(volume >= np.float32(0), splat(np.float32(1)), np.float32(-1))
+    sign = select(volume >= np.float32(0), splat(np.float32(1)), np.float32(-1))
+    doubtful = wanted & (vabs(volume) * DOUBTFUL <= terms)
+    if bits(doubtful) == 0:
+        return key, sign
+    pa, pb, pc = (a[0], a[1], ha), (b[0], b[1], hb), (c[0], c[1], hc)
+    exact, exact_sign = key_function_exact(view, corner, leaf, space, pa, pb, pc)
+    return (
+        select(doubtful, exact[0], key[0]),
+        select(doubtful, exact[1], key[1]),
+        select(doubtful, exact[2], key[2]),
+    ), select(doubtful, exact_sign, sign)
 
 
 @inlined
@@ -244,6 +253,21 @@ def _largest(f, x_low, x_high, y_low, y_high):
 
 
 @inlined
+def _range(f, x_low, x_high, y_low, y_high):
+    """The least and the largest value of an affine function over a rectangle."""
+    left, right, top, bottom = f[0] * x_low, f[0] * x_high, f[1] * y_low, f[1] * y_high
+    return (
+        vmin(left, right) + vmin(top, bottom) + f[2],
+        vmax(left, right) + vmax(top, bottom) + f[2],
+    )
+
+
+@inlined
+def _signed(f, sign):
+    return f[0] * sign, f[1] * sign, f[2] * sign
+
+
+@inlined
 def rasterize_leaf(
     view, corner, leaf, space, tile, footprint, squares_open, depth, least, floats, ints
 ):
@@ -251,22 +275,39 @@ def rasterize_leaf(
 
     least: the smallest of the pixels' best keys: what is not nearer cannot be seen by any.
     """
-    # Set up the four functions of 16 triangles.
+    # Set up the edges' functions of 16 triangles.
     a, b, c = camera_corners(view, corner, leaf, space)
     ha, hb, hc = homogeneous(view, a, b, c)
-    key, sign = triangle_keys(view, corner, leaf, space, a, b, c, ha, hb, hc)
     pa, pb, pc = (a[0], a[1], ha), (b[0], b[1], hb), (c[0], c[1], hc)
-    e0, e1, e2 = (
-        edge_function(pa, pb, sign),
-        edge_function(pb, pc, sign),
-        edge_function(pc, pa, sign),
-    )
+    edges = edge_function(pa, pb), edge_function(pb, pc), edge_function(pc, pa)
+
+    # Which may cover a pixel, if their volume is positive, or if it is negative?
+    is_small = pixels_of(footprint) <= FEW_PIXELS
+    x_low, x_high, y_low, y_high = tile.x_low, tile.x_high, tile.y_low, tile.y_high
+    if is_small:
+        front, back, count = cover_pixels(
+            view, edges, tile, footprint, squares_open, depth, floats, ints
+        )
+    else:
+        count = 0
+        low0, high0 = _range(edges[0], x_low, x_high, y_low, y_high)
+        low1, high1 = _range(edges[1], x_low, x_high, y_low, y_high)
+        low2, high2 = _range(edges[2], x_low, x_high, y_low, y_high)
+        front = vmin(vmin(high0, high1), high2) >= np.float32(0)
+        back = vmax(vmax(low0, low1), low2) <= np.float32(0)
+    may = front | back
+    if bits(may) == 0:
+        return least
+    key, sign = triangle_keys(view, corner, leaf, space, a, b, c, ha, hb, hc, may)
+    e0, e1, e2 = _signed(edges[0], sign), _signed(edges[1], sign), _signed(edges[2], sign)
+    if is_small:
+        return sample_pixels(
+            view, e0, e1, e2, key, leaf, space, tile, count, least, floats, ints
+        )
 
     # Keep those that may cover a pixel of the tile, nearer than what it sees.
-    x_low, x_high, y_low, y_high = tile.x_low, tile.x_high, tile.y_low, tile.y_high
-    may = _largest(e0, x_low, x_high, y_low, y_high) >= np.float32(0)
-    may = may & (_largest(e1, x_low, x_high, y_low, y_high) >= np.float32(0))
-    may = may & (_largest(e2, x_low, x_high, y_low, y_high) >= np.float32(0))
+    is_front = sign > np.float32(0)
+    may = (front & is_front) | (back & ~is_front)
     may = may & (_largest(key, x_low, x_high, y_low, y_high) > least)
     kept = bits(may)
     if kept == 0:

@@ -43,19 +43,22 @@ def _push(top, depth, node, footprint, floats, ints):
 @inlined
 def push_children(view, children, child, node, top, floats, ints):
     """Puts a node's children on the stack, the nearest on top; gives the stack's new height."""
-    inside, depth, footprint = children
+    inside, depth, footprint, is_small = children
     found = bits(inside)
     if found == 0:
         return top
     store(floats, DEPTHS, depth)
-    store(ints, FOOTPRINTS, footprint)
+    if is_small:
+        store(ints, FOOTPRINTS, footprint)
     base = top
     while found != 0:
         lane = lowest_bit(found)
         found &= found - 1
-        z, squares = floats[DEPTHS + lane], ints[FOOTPRINTS + lane]
-        if open_squares(view, squares, z, floats) == 0:
-            continue
+        z, squares = floats[DEPTHS + lane], WHOLE_TILE
+        if is_small:
+            squares = ints[FOOTPRINTS + lane]
+            if open_squares(view, squares, z, floats) == 0:
+                continue
         # By insertion: there are few.
         i = top
         while i > base and floats[WAITING_DEPTHS + i - 1] < z:
