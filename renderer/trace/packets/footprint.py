@@ -38,7 +38,7 @@ MARGIN_PX = np.float32(1 / 64)
 # Relative: what is as near as this may be nearer, but for rounding.
 _ROUNDING = np.float32(1 + 1e-6)
 _LAST = np.float32(TILE - 1)
-_SMALL_PX = np.float32(8)
+_SMALL_PX = np.float32(20)
 
 
 @inlined

@@ -67,6 +67,8 @@ EDGE_ON = np.float64(1e-13)
 # An edge function of corners that are `x` pixels from the image's middle is that much of x wrong.
 SPECK_PX, SPECK_ROUNDING = np.float64(1 / 64), np.float64(2.0**-21)
 
+SOME_PIXELS = 200
+
 _E0, _E1, _E2, _KEY = np.arange(4)  # a triangle's functions, in the order of their coefficients
 
 
@@ -282,7 +284,8 @@ def rasterize_leaf(
     edges = edge_function(pa, pb), edge_function(pb, pc), edge_function(pc, pa)
 
     # Which may cover a pixel, if their volume is positive, or if it is negative?
-    is_small = pixels_of(footprint) <= FEW_PIXELS
+    pixels = pixels_of(footprint)
+    is_small = pixels <= FEW_PIXELS
     x_low, x_high, y_low, y_high = tile.x_low, tile.x_high, tile.y_low, tile.y_high
     if is_small:
         front, back, count = cover_pixels(
@@ -321,12 +324,47 @@ def rasterize_leaf(
     # The largest values in the tile's first square.
     x_high -= np.float32(TILE - SQUARE)
     y_high -= np.float32(TILE - SQUARE)
-    store(floats, BOUNDS, _largest(e0, x_low, x_high, y_low, y_high))
-    store(floats, BOUNDS + LANES, _largest(e1, x_low, x_high, y_low, y_high))
-    store(floats, BOUNDS + 2 * LANES, _largest(e2, x_low, x_high, y_low, y_high))
-    store(floats, BOUNDS + 3 * LANES, _largest(key, x_low, x_high, y_low, y_high))
+    bound0 = _largest(e0, x_low, x_high, y_low, y_high)
+    bound1 = _largest(e1, x_low, x_high, y_low, y_high)
+    bound2 = _largest(e2, x_low, x_high, y_low, y_high)
+    bound3 = _largest(key, x_low, x_high, y_low, y_high)
 
-    # The same question for each square: squares in lanes, one triangle after the other.
+    # The same question for each square. Of many: squares in lanes, one triangle after the other.
+    by_square = pixels <= SOME_PIXELS
+    covered = squares_open
+    if not by_square:
+        store(floats, BOUNDS, bound0)
+        store(floats, BOUNDS + LANES, bound1)
+        store(floats, BOUNDS + 2 * LANES, bound2)
+        store(floats, BOUNDS + 3 * LANES, bound3)
+        covered = _covered_squares(kept, floats, ints) & squares_open
+        if covered == 0:
+            return least
+
+    # Triangles in lanes again: those of each square.
+    squares_of = load(ints, COVERED)
+    while covered != 0:
+        square = lowest_bit(covered)
+        covered &= covered - 1
+        if by_square:
+            dx, dy = np.float32((square & 3) * SQUARE), np.float32((square >> 2) * SQUARE)
+            inside = may & (fma(e0[0], dx, fma(e0[1], dy, bound0)) >= np.float32(0))
+            inside = inside & (fma(e1[0], dx, fma(e1[1], dy, bound1)) >= np.float32(0))
+            inside = inside & (fma(e2[0], dx, fma(e2[1], dy, bound2)) >= np.float32(0))
+            inside = inside & (fma(key[0], dx, fma(key[1], dy, bound3)) > floats[LEAST + square])
+            found = bits(inside)
+            if found == 0:
+                continue
+        else:
+            found = bits((squares_of & np.int32(1 << square)) != np.int32(0))
+        x, y = first_point(tile, square)
+        rasterize_triangles(view, found, leaf, space, x, y, square, floats, ints)
+    return smallest(load(floats, LEAST))
+
+
+@inlined
+def _covered_squares(kept, floats, ints):
+    """Writes COVERED, the squares of each kept triangle; gives those of any."""
     nearest = load(floats, LEAST)
     store(ints, COVERED, splat(np.int32(0)))
     covered = 0
@@ -338,21 +376,10 @@ def rasterize_leaf(
         may = may & (_bound(floats, lane, _E1) >= np.float32(0))
         may = may & (_bound(floats, lane, _E2) >= np.float32(0))
         may = may & (_bound(floats, lane, _KEY) > nearest)
-        squares = bits(may) & squares_open
+        squares = bits(may)
         ints[COVERED + lane] = squares
         covered |= squares
-    if covered == 0:
-        return least
-
-    # Triangles in lanes again: those of each square.
-    squares_of = load(ints, COVERED)
-    while covered != 0:
-        square = lowest_bit(covered)
-        covered &= covered - 1
-        found = bits((squares_of & np.int32(1 << square)) != np.int32(0))
-        x, y = first_point(tile, square)
-        rasterize_triangles(view, found, leaf, space, x, y, square, floats, ints)
-    return smallest(load(floats, LEAST))
+    return covered
 
 
 @inlined
@@ -381,7 +408,7 @@ def rasterize_triangles(view, found, leaf, space, x_first, y_first, square, floa
             _at(floats, i + 6 * LANES, x, y),
         )
         k = _at(floats, i + 9 * LANES, x, y)
-        hit = (inside >= np.float32(0)) & (k > best) & (k < view.key_near)
+        hit = (inside >= np.float32(0)) & (k < view.key_near) & (k > best)  # best: last, it waits
         best = select(hit, k, best)
         slot = select(hit, splat(np.int32(leaf * WIDTH + lane)), slot)
     store(floats, BEST + LANES * square, best)

@@ -29,7 +29,7 @@ from renderer.trace.simd.lanes import (
 )
 from renderer.trace.simd.memory import load
 
-FEW_PIXELS = 16
+FEW_PIXELS = 8
 
 
 @inlined
