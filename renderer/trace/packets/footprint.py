@@ -1,19 +1,29 @@
-"""Where a node's children lie in a tile: rectangles of pixels, and the squares that they touch.
+"""Where a node's children are in a tile: the pixels' centres, and the squares, in their boxes.
 
-Owns footprints: one int32 for each child, and what is asked of them. Knows nothing of triangles.
+Owns the test of a node's children against a tile, and footprints: one int32 for each child, by
+which it is dropped later, once all pixels of its squares see something nearer. Knows nothing of
+triangles.
 
-A tile's side planes are functions of a point that grow by its homogeneous coordinate H from one
-pixel to the next. So their largest values in a box, which tell whether the box reaches into the
-tile, tell also how far: divided by the box's least H, they are its distance in pixels, at most, from
-the tile's sides. Pixels are points: a box between the centres of all pixels is seen by none.
+A tile's side planes are functions that grow, from one pixel to the next, by a point's homogeneous
+coordinate H. So their largest values in a box, which tell whether it reaches into the tile, tell
+also how far: over the box's least H, they are pixels from the tile's sides, at most. Pixels are
+points: what lies between the centres is seen by none.
+
+The depth that a large packet of rays has in common is no bound as soon as one of its rays sees the
+background: a box is compared with what is seen where it is itself, as Greene's hierarchical depth
+buffer does.
+
+Sources: Greene, Kass and Miller, "Hierarchical Z-buffer visibility", 1993; Fuetterling, Lojewski,
+Pfreundt and Ebert, "Efficient Ray Tracing Kernels for Modern CPU Architectures", JCGT 4(4), 2015
+(large packets, of which nodes further down concern only a part).
 """
 
 from __future__ import annotations
 
 import numpy as np
 
-from renderer.trace.compile.compiled import inlined
 from renderer.trace.bvh.bvh16 import WIDTH
+from renderer.trace.compile.compiled import inlined
 from renderer.trace.packets.tile import (
     AHEAD,
     BEHIND,
@@ -33,11 +43,13 @@ from renderer.trace.simd.memory import load
 # the last column, the first and the last row of the tile's pixels that it holds.
 WHOLE_TILE = np.int32(0xF0F0FFFF - (1 << 32))
 ANY_DEPTH = np.float32(-3e38)  # nearer than everything; finite, for products with it
-# Pixels: around what a box holds, for triangles whose edges are rounded outwards.
-MARGIN_PX = np.float32(1 / 64)
-# Relative: what is as near as this may be nearer, but for rounding.
-_ROUNDING = np.float32(1 + 1e-6)
+# Pixels: around a box, as the edges of the triangles in it are rounded (to 1/300 at most, view.py).
+_MARGIN_PX = np.float32(1 / 64)
+# Relative: what is this much behind may be nearer, but for rounding: that of keys, which are wrong
+# by some of float32's last places (triangle.py, DOUBTFUL).
+_ROUNDING = np.float32(1 + 2.0**-17)
 _LAST = np.float32(TILE - 1)
+# Pixels: a child that is larger takes most of the tile, and its footprint would tell little.
 _SMALL_PX = np.float32(20)
 
 
@@ -70,7 +82,7 @@ def footprints(view, depth, left, right, top, bottom):
 @inlined
 def _pixels(reach, per_h):
     """How many pixels' centres after a side's first one; at most a tile's."""
-    return i32_of(vmax(vmin(fma(reach, per_h, MARGIN_PX), _LAST), np.float32(0)))
+    return i32_of(vmax(vmin(fma(reach, per_h, _MARGIN_PX), _LAST), np.float32(0)))
 
 
 @inlined
@@ -110,9 +122,10 @@ def _is_open(view, key, depth):
 
 @inlined
 def children_in_tile(view, box, node, z_far, floats, ints):
-    """(mask, depths, footprints): children of a node that hold a pixel's centre, nearer than z_far.
+    """(mask, depths, footprints, flag): children of a node that may be seen, nearer than z_far.
 
-    A depth is the least Z in the child's box, or a little less.
+    A depth is the least Z in the child's box, or a little less. The flag says whether there are
+    footprints: where all children are large, nothing is gained, and they are the whole tile.
     """
     at = node * (6 * WIDTH)
     depth = -largest_of_plane(box, at, BEHIND, floats, ints)
@@ -129,7 +142,8 @@ def children_in_tile(view, box, node, z_far, floats, ints):
     wide = h * (_LAST + _SMALL_PX)
     is_small = inside & (left + right <= wide) & (top + bottom <= wide)
     footprint = splat(WHOLE_TILE)
-    if bits(is_small) != 0:
+    has_small = bits(is_small) != 0
+    if has_small:
         footprint, holds = footprints(view, depth, left, right, top, bottom)
         inside = inside & holds
-    return inside, depth, footprint, bits(is_small) != 0
+    return inside, depth, footprint, has_small

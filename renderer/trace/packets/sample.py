@@ -1,10 +1,12 @@
-"""A leaf's 16 triangles against single pixels, for leaves that hold few pixels' centres.
+"""A leaf's 16 triangles against single pixels, for leaves whose boxes hold few pixels' centres.
 
 Owns the loop over such pixels, with triangles in lanes. Knows nothing of how functions are set up.
 
 Where triangles are smaller than pixels, nearly all of a leaf's cover none: it takes far less to ask
-for the leaf's few pixels which triangle covers each, than for each triangle which pixels it covers.
-The functions are evaluated by the same operations as in leaf.py, to the same last bit.
+of a few pixels which triangle covers each, than of each triangle which pixels it covers. At some
+thirty triangles a pixel, two leaves in three end here, before their keys are set up. The functions
+are evaluated by the same operations as in leaf.py, to the same last bit: a pixel's answer does not
+depend on who asks.
 """
 
 from __future__ import annotations
@@ -23,13 +25,10 @@ from renderer.trace.simd.lanes import (
     mask_of,
     select,
     smallest,
-    splat,
-    vmax,
-    vmin,
 )
 from renderer.trace.simd.memory import load
 
-FEW_PIXELS = 8
+FEW_PIXELS = 8  # more go by squares
 
 
 @inlined
@@ -48,7 +47,9 @@ def _point(tile, square, lane):
 @inlined
 def cover_pixels(view, edges, tile, footprint, squares, depth, floats, ints):
     """(mask, mask, count): triangles that cover a pixel of the footprint if their volume is
-    positive, and if it is negative. The pixels that any covers are noted, so many at PIXELS.
+    positive, and if it is negative; and how many pixels are covered by any, noted at PIXELS.
+
+    squares, depth: as for rasterize_leaf(). Pixels that see something nearer are left out.
     """
     zero = np.float32(0)
     front = back = mask_of(0)
@@ -62,8 +63,8 @@ def cover_pixels(view, edges, tile, footprint, squares, depth, floats, ints):
             pixels &= pixels - 1
             x, y = _point(tile, square, lane)
             f0, f1, f2 = _value(edges[0], x, y), _value(edges[1], x, y), _value(edges[2], x, y)
-            in_front = vmin(vmin(f0, f1), f2) >= zero
-            in_back = vmax(vmax(f0, f1), f2) <= zero
+            in_front = (f0 >= zero) & (f1 >= zero) & (f2 >= zero)
+            in_back = (f0 <= zero) & (f1 <= zero) & (f2 <= zero)
             if bits(in_front | in_back) == 0:
                 continue
             front, back = front | in_front, back | in_back
@@ -75,14 +76,16 @@ def cover_pixels(view, edges, tile, footprint, squares, depth, floats, ints):
 @inlined
 def sample_pixels(view, e0, e1, e2, key, leaf, space, tile, count, least, floats, ints):
     """Lets the noted pixels see a leaf's triangles; gives the tile's new least key."""
+    zero = np.float32(0)
     changed = 0
     for k in range(count):
         pixel = np.int64(ints[PIXELS + k])
         square, lane = pixel >> 4, pixel & 15
         x, y = _point(tile, square, lane)
-        inside = vmin(vmin(_value(e0, x, y), _value(e1, x, y)), _value(e2, x, y))
+        inside = (_value(e0, x, y) >= zero) & (_value(e1, x, y) >= zero)
+        inside = inside & (_value(e2, x, y) >= zero)
         own = _value(key, x, y)
-        hit = (inside >= np.float32(0)) & (own > floats[BEST + pixel]) & (own < view.key_near)
+        hit = inside & (own > floats[BEST + pixel]) & (own < view.key_near)
         if bits(hit) == 0:
             continue
         own = select(hit, own, np.float32(-np.inf))

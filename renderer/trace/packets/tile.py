@@ -1,7 +1,7 @@
 """A tile: a square of 16 x 16 pixels, whose rays are traced as one packet.
 
-Owns a tile's scratch memory, its side planes in the space of an instance, and the test of a
-node's children against them. Knows nothing of triangles.
+Owns a tile's scratch memory, its side planes in the space of an instance, and their values in a
+node's boxes. Knows nothing of triangles.
 
 A packet visits a node of the tree once for all of its 256 rays. Its rays fill a pyramid
 (perspective) or a prism (parallel) with four sides; a box entirely outside of one side is missed by
@@ -46,15 +46,16 @@ PICTURE = EXACT_POINT + 3 * LANES
 WAITING_DEPTHS = PICTURE + 7 * TILE * TILE
 # And int32: what each pixel sees, a slot, or FIRST_SPHERE - k for sphere k, or nothing; of which
 # instance; where each plane finds the coordinates that it needs of a box; the squares that each of
-# a leaf's triangles may cover; the footprints of a node's children; the picture's numbers; the
-# nodes that wait, each with its footprint (to the end).
+# a leaf's triangles may cover; the footprints of a node's children; the few pixels that a leaf
+# covers (sample.py); the picture's numbers; the nodes that wait, each with its footprint (to the
+# end).
 SEEN = 0
 OWNER = SEEN + SQUARES * LANES
 FARTHEST = OWNER + SQUARES * LANES
 COVERED = FARTHEST + 32
 FOOTPRINTS = COVERED + LANES
 PIXELS = FOOTPRINTS + LANES
-NUMBERS = PIXELS + 4 * LANES
+NUMBERS = PIXELS + LANES
 WAITING_NODES = NUMBERS + 2 * TILE * TILE
 NOTHING, FIRST_SPHERE = np.int32(-1), np.int32(-2)
 

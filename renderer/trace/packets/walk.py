@@ -35,6 +35,7 @@ def farthest_seen(view, least):
 
 @inlined
 def _push(top, depth, node, footprint, floats, ints):
+    """Writes one entry of the stack."""
     floats[WAITING_DEPTHS + top] = depth
     ints[WAITING_NODES + 2 * top] = node
     ints[WAITING_NODES + 2 * top + 1] = footprint
@@ -42,20 +43,23 @@ def _push(top, depth, node, footprint, floats, ints):
 
 @inlined
 def push_children(view, children, child, node, top, floats, ints):
-    """Puts a node's children on the stack, the nearest on top; gives the stack's new height."""
-    inside, depth, footprint, is_small = children
+    """Puts a node's children on the stack, the nearest on top; gives the stack's new height.
+
+    children: of children_in_tile().
+    """
+    inside, depth, footprint, has_small = children
     found = bits(inside)
     if found == 0:
         return top
     store(floats, DEPTHS, depth)
-    if is_small:
+    if has_small:
         store(ints, FOOTPRINTS, footprint)
     base = top
     while found != 0:
         lane = lowest_bit(found)
         found &= found - 1
         z, squares = floats[DEPTHS + lane], WHOLE_TILE
-        if is_small:
+        if has_small:
             squares = ints[FOOTPRINTS + lane]
             if open_squares(view, squares, z, floats) == 0:
                 continue
