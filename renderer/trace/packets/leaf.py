@@ -53,7 +53,7 @@ from renderer.trace.simd.lanes import (
 from renderer.trace.simd.memory import load, store
 
 # A leaf on so few pixels (of a footprint) is on few squares.
-SOME_PIXELS = 200
+SOME_PIXELS = 100
 
 _E0, _E1, _E2, _KEY = np.arange(4)  # a triangle's functions, in the order of their coefficients
 
