@@ -77,7 +77,7 @@ def cover_pixels(view, edges, tile, footprint, squares, depth, floats, ints):
 def sample_pixels(view, e0, e1, e2, key, leaf, space, tile, count, least, floats, ints):
     """Lets the noted pixels see a leaf's triangles; gives the tile's new least key."""
     zero = np.float32(0)
-    changed = 0
+    changed = np.int64(0)
     for k in range(count):
         pixel = np.int64(ints[PIXELS + k])
         square, lane = pixel >> 4, pixel & 15
