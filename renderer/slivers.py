@@ -3,8 +3,8 @@
 Owns these bounds, for renderer/edges.py. Knows nothing of scenes.
 
 An edge is where (p + q) x (q - p) . (x, y, 1) is 0, of its ends' places in the image
-(packet_leaf.edge_function). Where both are seen nearly in one direction, or in opposite ones, from
-the eye, that is a small difference of large products, and turns about them.
+(packets/triangle.py, edge_function). Where both are seen nearly in one direction, or in opposite
+ones, from the eye, that is a small difference of large products, and turns about them.
 """
 
 from __future__ import annotations

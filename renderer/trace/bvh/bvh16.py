@@ -38,7 +38,7 @@ BOX = 6 * WIDTH  # floats of a node's boxes
 CORNERS = 9 * WIDTH  # floats of a leaf's corners
 _FAR = np.float32(3.4e38)
 # Where a leaf has no triangle: every comparison is false. Corners that coincide would look like a
-# triangle that needs float64 (packets/leaf.py), and more than half of all leaves are not full.
+# triangle that needs float64 (packets/triangle.py), and more than half of all leaves are not full.
 _NO_CORNER = np.float32(np.nan)
 _NO_SPHERES = np.zeros((0, 4), np.float32)
 _NO_SPHERES.setflags(write=False)

@@ -39,7 +39,7 @@ def trace_packets(view, world, writing, finished, stack_size, control):
     """
     rows, columns = finished.shape
     floats = np.empty(WAITING_DEPTHS + stack_size + 2 * LANES, np.float32)
-    ints = np.empty(WAITING_NODES + stack_size + 2 * LANES, np.int32)
+    ints = np.empty(WAITING_NODES + 2 * stack_size + 2 * LANES, np.int32)
     # Vectors within cache lines: what is stored there can be loaded again at once.
     first_float, first_int = -(floats.ctypes.data // 4) % LANES, -(ints.ctypes.data // 4) % LANES
     view, world = view_pointers(view), world_pointers(world)

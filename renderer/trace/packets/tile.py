@@ -1,7 +1,7 @@
 """A tile: a square of 16 x 16 pixels, whose rays are traced as one packet.
 
-Owns a tile's scratch memory, its side planes in the space of an instance, and the test of a
-node's children against them. Knows nothing of triangles.
+Owns a tile's scratch memory, its side planes in the space of an instance, and their values in a
+node's boxes. Knows nothing of triangles.
 
 A packet visits a node of the tree once for all of its 256 rays. Its rays fill a pyramid
 (perspective) or a prism (parallel) with four sides; a box entirely outside of one side is missed by
@@ -46,12 +46,16 @@ PICTURE = EXACT_POINT + 3 * LANES
 WAITING_DEPTHS = PICTURE + 7 * TILE * TILE
 # And int32: what each pixel sees, a slot, or FIRST_SPHERE - k for sphere k, or nothing; of which
 # instance; where each plane finds the coordinates that it needs of a box; the squares that each of
-# a leaf's triangles may cover; the picture's numbers; the nodes that wait (to the end).
+# a leaf's triangles may cover; the footprints of a node's children; the few pixels that a leaf
+# covers (sample.py); the picture's numbers; the nodes that wait, each with its footprint (to the
+# end).
 SEEN = 0
 OWNER = SEEN + SQUARES * LANES
 FARTHEST = OWNER + SQUARES * LANES
 COVERED = FARTHEST + 32
-NUMBERS = COVERED + LANES
+FOOTPRINTS = COVERED + LANES
+PIXELS = FOOTPRINTS + LANES
+NUMBERS = PIXELS + LANES
 WAITING_NODES = NUMBERS + 2 * TILE * TILE
 NOTHING, FIRST_SPHERE = np.int32(-1), np.int32(-2)
 
@@ -155,23 +159,3 @@ def largest_of_plane(box, at, plane, floats, ints):
     value = fma(load(box, at + ints[corner + 2]), floats[n + 2], splat(floats[n + 3]))
     value = fma(load(box, at + ints[corner + 1]), floats[n + 1], value)
     return fma(load(box, at + ints[corner]), floats[n], value)
-
-
-@inlined
-def children_in_tile(view, box, node, z_far, floats, ints):
-    """(mask, depths): children of a node that reach into the tile, nearer than z_far.
-
-    A depth is the least Z in the child's box, or a little less.
-    """
-    at = node * (6 * WIDTH)
-    depth = -largest_of_plane(box, at, BEHIND, floats, ints)
-    inside = depth < z_far
-    inside = inside & (largest_of_plane(box, at, LEFT, floats, ints) >= np.float32(0))
-    inside = inside & (largest_of_plane(box, at, RIGHT, floats, ints) >= np.float32(0))
-    inside = inside & (largest_of_plane(box, at, TOP, floats, ints) >= np.float32(0))
-    inside = inside & (largest_of_plane(box, at, BOTTOM, floats, ints) >= np.float32(0))
-    if view.parallel or view.z_near > np.float32(0):
-        # In perspective, the sides leave nothing behind the eye.
-        ahead = largest_of_plane(box, at, AHEAD, floats, ints)
-        inside = inside & (ahead >= view.z_near)
-    return inside, depth

@@ -1,0 +1,149 @@
+"""Where a node's children are in a tile: the pixels' centres, and the squares, in their boxes.
+
+Owns the test of a node's children against a tile, and footprints: one int32 for each child, by
+which it is dropped later, once all pixels of its squares see something nearer. Knows nothing of
+triangles.
+
+A tile's side planes are functions that grow, from one pixel to the next, by a point's homogeneous
+coordinate H. So their largest values in a box, which tell whether it reaches into the tile, tell
+also how far: over the box's least H, they are pixels from the tile's sides, at most. Pixels are
+points: what lies between the centres is seen by none.
+
+The depth that a large packet of rays has in common is no bound as soon as one of its rays sees the
+background: a box is compared with what is seen where it is itself, as Greene's hierarchical depth
+buffer does.
+
+Sources: Greene, Kass and Miller, "Hierarchical Z-buffer visibility", 1993; Fuetterling, Lojewski,
+Pfreundt and Ebert, "Efficient Ray Tracing Kernels for Modern CPU Architectures", JCGT 4(4), 2015
+(large packets, of which nodes further down concern only a part).
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from renderer.trace.bvh.bvh16 import WIDTH
+from renderer.trace.compile.compiled import inlined
+from renderer.trace.packets.tile import (
+    AHEAD,
+    BEHIND,
+    BEST,
+    BOTTOM,
+    LEAST,
+    LEFT,
+    RIGHT,
+    TILE,
+    TOP,
+    largest_of_plane,
+)
+from renderer.trace.simd.lanes import LANES, bits, fma, i32_of, splat, vmax, vmin
+from renderer.trace.simd.memory import load
+
+# A footprint: bits 0 to 15 are the tile's squares; then come, with four bits each, the first and
+# the last column, the first and the last row of the tile's pixels that it holds.
+WHOLE_TILE = np.int32(0xF0F0FFFF - (1 << 32))
+ANY_DEPTH = np.float32(-3e38)  # nearer than everything; finite, for products with it
+# Pixels: around a box, as the edges of the triangles in it are rounded (to 1/300 at most, view.py).
+_MARGIN_PX = np.float32(1 / 64)
+# Relative: what is this much behind may be nearer, but for rounding: that of keys, which are wrong
+# by some of float32's last places (triangle.py, DOUBTFUL).
+_ROUNDING = np.float32(1 + 2.0**-17)
+_LAST = np.float32(TILE - 1)
+# Pixels: a child that is larger takes most of the tile, and its footprint would tell little.
+_SMALL_PX = np.float32(20)
+
+
+@inlined
+def footprints(view, depth, left, right, top, bottom):
+    """(footprints I32, mask: which hold a pixel's centre) of a node's children.
+
+    depth: the least Z in each box, or less. left ...: the largest values of the tile's planes.
+    """
+    if view.parallel:
+        per_h = splat(np.float32(1))
+    else:
+        # Behind the eye or around it: anywhere.
+        per_h = splat(np.float32(1)) / vmax(depth, np.float32(1e-30))
+    first_column = np.int32(TILE - 1) - _pixels(right, per_h)
+    last_column = _pixels(left, per_h)
+    first_row = np.int32(TILE - 1) - _pixels(bottom, per_h)
+    last_row = _pixels(top, per_h)
+    holds = (first_column <= last_column) & (first_row <= last_row)
+    # Bits first to last, as 2^(last + 1) - 2^first; a bit for each row, times a row's bits.
+    four, two = np.int32(4), np.int32(2)
+    columns = (splat(two) << (last_column >> two)) - (splat(np.int32(1)) << (first_column >> two))
+    low, high = first_row & np.int32(12), last_row & np.int32(12)
+    rows = ((splat(np.int32(16)) << high) - (splat(np.int32(1)) << low)) & np.int32(0x1111)
+    pixels = first_column | (last_column << four)
+    pixels = pixels | (first_row << (two * four)) | (last_row << np.int32(12))
+    return (rows * columns) | (pixels << np.int32(16)), holds
+
+
+@inlined
+def _pixels(reach, per_h):
+    """How many pixels' centres after a side's first one; at most a tile's."""
+    return i32_of(vmax(vmin(fma(reach, per_h, _MARGIN_PX), _LAST), np.float32(0)))
+
+
+@inlined
+def open_squares(view, footprint, depth, floats):
+    """The squares of a footprint, bits, in which some pixel sees nothing nearer than depth."""
+    return np.int64(footprint) & bits(_is_open(view, load(floats, LEAST), depth))
+
+
+@inlined
+def open_pixels(view, footprint, square, depth, floats):
+    """The pixels of a footprint's square, bits, that see nothing nearer than depth."""
+    pixels = np.int64(footprint) >> np.int64(16)
+    x, y = (square & 3) * 4, (square >> 2) * 4
+    first_column, last_column = max((pixels & 15) - x, 0), min((pixels >> 4 & 15) - x, 3)
+    first_row, last_row = max((pixels >> 8 & 15) - y, 0), min((pixels >> 12 & 15) - y, 3)
+    columns = (2 << last_column) - (1 << first_column)
+    rows = ((16 << 4 * last_row) - (1 << 4 * first_row)) & 0x1111
+    best = load(floats, BEST + LANES * square)
+    return rows * columns & bits(_is_open(view, best, depth))
+
+
+@inlined
+def pixels_of(footprint):
+    """How many pixels a footprint holds."""
+    pixels = np.int64(footprint) >> np.int64(16)
+    across = (pixels >> 4 & 15) - (pixels & 15) + 1
+    return across * ((pixels >> 12 & 15) - (pixels >> 8 & 15) + 1)
+
+
+@inlined
+def _is_open(view, key, depth):
+    """Whether what is at `depth` may be nearer than what has the key."""
+    if view.parallel:
+        return key <= -depth
+    return key * depth < _ROUNDING
+
+
+@inlined
+def children_in_tile(view, box, node, z_far, floats, ints):
+    """(mask, depths, footprints, flag): children of a node that may be seen, nearer than z_far.
+
+    A depth is the least Z in the child's box, or a little less. The flag says whether there are
+    footprints: where all children are large, nothing is gained, and they are the whole tile.
+    """
+    at = node * (6 * WIDTH)
+    depth = -largest_of_plane(box, at, BEHIND, floats, ints)
+    left = largest_of_plane(box, at, LEFT, floats, ints)
+    right = largest_of_plane(box, at, RIGHT, floats, ints)
+    top = largest_of_plane(box, at, TOP, floats, ints)
+    bottom = largest_of_plane(box, at, BOTTOM, floats, ints)
+    inside = (depth < z_far) & (vmin(vmin(left, right), vmin(top, bottom)) >= np.float32(0))
+    if view.parallel or view.z_near > np.float32(0):
+        # In perspective, the sides leave nothing behind the eye.
+        ahead = largest_of_plane(box, at, AHEAD, floats, ints)
+        inside = inside & (ahead >= view.z_near)
+    h = splat(np.float32(1)) if view.parallel else depth
+    wide = h * (_LAST + _SMALL_PX)
+    is_small = inside & (left + right <= wide) & (top + bottom <= wide)
+    footprint = splat(WHOLE_TILE)
+    has_small = bits(is_small) != 0
+    if has_small:
+        footprint, holds = footprints(view, depth, left, right, top, bottom)
+        inside = inside & holds
+    return inside, depth, footprint, has_small

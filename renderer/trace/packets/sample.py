@@ -1,0 +1,103 @@
+"""A leaf's 16 triangles against single pixels, for leaves whose boxes hold few pixels' centres.
+
+Owns the loop over such pixels, with triangles in lanes. Knows nothing of how functions are set up.
+
+Where triangles are smaller than pixels, nearly all of a leaf's cover none: it takes far less to ask
+of a few pixels which triangle covers each, than of each triangle which pixels it covers. At some
+thirty triangles a pixel, two leaves in three end here, before their keys are set up. The functions
+are evaluated by the same operations as in leaf.py, to the same last bit: a pixel's answer does not
+depend on who asks.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from renderer.trace.bvh.bvh16 import WIDTH
+from renderer.trace.compile.compiled import inlined
+from renderer.trace.packets.footprint import open_pixels
+from renderer.trace.packets.tile import BEST, LEAST, OWNER, PIXELS, SEEN, SQUARE, first_point
+from renderer.trace.simd.lanes import (
+    LANES,
+    bits,
+    fma,
+    lowest_bit,
+    mask_of,
+    select,
+    smallest,
+)
+from renderer.trace.simd.memory import load
+
+FEW_PIXELS = 8  # more go by squares
+
+
+@inlined
+def _value(f, x, y):
+    """An affine function of 16 triangles at a pixel."""
+    return fma(f[0], x, fma(f[1], y, f[2]))
+
+
+@inlined
+def _point(tile, square, lane):
+    """The image point of a pixel."""
+    x, y = first_point(tile, square)
+    return x + np.float32(lane & (SQUARE - 1)), y + np.float32(lane >> 2)
+
+
+@inlined
+def cover_pixels(view, edges, tile, footprint, squares, depth, floats, ints):
+    """(mask, mask, count): triangles that cover a pixel of the footprint if their volume is
+    positive, and if it is negative; and how many pixels are covered by any, noted at PIXELS.
+
+    squares, depth: as for rasterize_leaf(). Pixels that see something nearer are left out.
+    """
+    zero = np.float32(0)
+    front = back = mask_of(0)
+    count = 0
+    while squares != 0:
+        square = lowest_bit(squares)
+        squares &= squares - 1
+        pixels = open_pixels(view, footprint, square, depth, floats)
+        while pixels != 0:
+            lane = lowest_bit(pixels)
+            pixels &= pixels - 1
+            x, y = _point(tile, square, lane)
+            f0, f1, f2 = _value(edges[0], x, y), _value(edges[1], x, y), _value(edges[2], x, y)
+            in_front = (f0 >= zero) & (f1 >= zero) & (f2 >= zero)
+            in_back = (f0 <= zero) & (f1 <= zero) & (f2 <= zero)
+            if bits(in_front | in_back) == 0:
+                continue
+            front, back = front | in_front, back | in_back
+            ints[PIXELS + count] = np.int32(LANES * square + lane)
+            count += 1
+    return front, back, count
+
+
+@inlined
+def sample_pixels(view, e0, e1, e2, key, leaf, space, tile, count, least, floats, ints):
+    """Lets the noted pixels see a leaf's triangles; gives the tile's new least key."""
+    zero = np.float32(0)
+    changed = np.int64(0)
+    for k in range(count):
+        pixel = np.int64(ints[PIXELS + k])
+        square, lane = pixel >> 4, pixel & 15
+        x, y = _point(tile, square, lane)
+        inside = (_value(e0, x, y) >= zero) & (_value(e1, x, y) >= zero)
+        inside = inside & (_value(e2, x, y) >= zero)
+        own = _value(key, x, y)
+        hit = inside & (own > floats[BEST + pixel]) & (own < view.key_near)
+        if bits(hit) == 0:
+            continue
+        own = select(hit, own, np.float32(-np.inf))
+        largest = -smallest(-own)
+        floats[BEST + pixel] = largest
+        ints[SEEN + pixel] = np.int32(leaf * WIDTH + lowest_bit(bits(own == largest)))
+        ints[OWNER + pixel] = np.int32(space)
+        changed |= 1 << square
+    if changed == 0:
+        return least
+    while changed != 0:
+        square = lowest_bit(changed)
+        changed &= changed - 1
+        floats[LEAST + square] = smallest(load(floats, BEST + LANES * square))
+    return smallest(load(floats, LEAST))
