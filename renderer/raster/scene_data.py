@@ -15,6 +15,7 @@ from renderer.raster.programs import Programs, set_uniform
 from renderer.raster.resources import Owner, check
 from renderer.raster.setup import (
     CAMERA_BLOCK,
+    ImageSpace,
     camera_block,
     image_space,
     light_rows,
@@ -22,7 +23,7 @@ from renderer.raster.setup import (
     sphere_rows,
     triangle_rows,
 )
-from renderer.raster.tables import Table
+from renderer.raster.tables import TABLE_WIDTH, Table
 from renderer.shared_numbers import OBJECT_TEXELS, SPHERE_TEXELS
 
 BOX_VERTICES = 36
@@ -38,6 +39,8 @@ class SceneData:
         self._context = context
         self._flat, self._setup = scene
         self._last: tuple[Camera, tuple[int, int]] | None = None
+        self._space: ImageSpace | None = None  # of that camera
+        self._rows = 0  # of the table of triangles that are this camera's
         self._owner = Owner()
         try:
             self._build_tables()
@@ -108,7 +111,8 @@ class SceneData:
         return width, height
 
     def set_camera(self, camera: Camera, size: tuple[int, int]) -> None:
-        """Fills the tables that depend on the camera, unless they are this camera's already."""
+        """Fills the tables that depend on the camera, unless they are this camera's already; but
+        the triangles' as far as they are drawn: a million take as long as a frame."""
         if self._last == (camera, size):
             return
         self._last = None
@@ -118,13 +122,9 @@ class SceneData:
         self._block.write(camera_block(camera, size, self.margin(size), space, flat))
         tables["objects"].write(objects)
         tables["lights"].write(light_rows(flat, space))
-        if len(flat.faces):
-            rows = tables["triangle_rows"].texels[: len(flat.faces), :3]
-            triangle_rows(self._setup, space, camera.is_parallel, rows)
-            tables["triangle_rows"].write()
         if len(flat.spheres):
             tables["spheres"].write(sphere_rows(flat, space, objects))
-        self._last = camera, size
+        self._last, self._space, self._rows = (camera, size), space, 0
 
     def see(self, first: int = 0, count: int | None = None) -> bool:
         """First pass: the nearest primitive of each pixel, into the bound framebuffer.
@@ -141,6 +141,7 @@ class SceneData:
         context.depth_func = "<"
         total = len(self._flat.faces)
         last = total if count is None else min(first + count, total)
+        self._fill_triangles(last)
         if self._triangles is not None and first < last:
             self._prepare(self._triangles.program)
             set_uniform(self._triangles.program, "first_triangle", first)
@@ -160,6 +161,7 @@ class SceneData:
     def shade(self, primitives: moderngl.Texture) -> None:
         """Second pass: hit and colour of each pixel, into the bound framebuffer, by its depth:
         where the first pass has left nothing, no hit is looked for."""
+        self._fill_triangles(len(self._flat.faces))  # another camera may have been here since
         self._context.enable_only(moderngl.DEPTH_TEST)
         primitives.use(self._units["primitives"])
         self._cover(self._background, "==", FARTHEST)
@@ -171,6 +173,19 @@ class SceneData:
         self._block.bind_to_uniform_block(0)
         for name, table in self._tables.items():
             table.texture.use(self._units[name])
+
+    def _fill_triangles(self, last: int) -> None:
+        """The table of triangles, up to a number, as this camera has them."""
+        wanted = -(-last // TABLE_WIDTH)
+        if wanted <= self._rows:
+            return
+        assert self._last is not None
+        assert self._space is not None
+        table, first = self._tables["triangle_rows"], self._rows * TABLE_WIDTH
+        rows = table.texels[first : min(wanted * TABLE_WIDTH, len(self._flat.faces)), :3]
+        triangle_rows(self._setup, self._space, self._last[0].is_parallel, rows, first)
+        table.write_rows(self._rows, wanted)
+        self._rows = wanted
 
     def _cover(self, array: moderngl.VertexArray, depth_func: str, window_depth: float) -> None:
         self._context.depth_func = depth_func
