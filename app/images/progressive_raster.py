@@ -94,8 +94,7 @@ class ProgressiveRaster:
             self._is_seen = self._rasterizer.see(*what, self._first, count)
             self._pace.measured(count, time.thread_time() - start_s)
             self._first += count
-            if not self._is_seen or self._rows < height:
-                return None
+            return None  # triangles have taken this frame's time
         rows = self._first_row, min(self._first_row + self._rows, height)
         shaded = self._rasterizer.shade(*what, rows)
         self._first_row = rows[1]

@@ -94,7 +94,7 @@ DRAW = {
     "photograph": "layer laying",
     "pair": "go_to_pixel image_mouse marks overlay pane pixelgrid resolution rulers toolbar",
     "compare": "against_photograph composed differences",
-    "outside": "cloud_layer gizmo ground looking mouse paint tint tools "
+    "outside": "cloud_layer gizmo ground handles looking mouse paint ray_ends tint tools "
     "vector_painting vector_view",
     "probe": "histogram",
     "stepper": "listing numbers plan",
