@@ -27,25 +27,46 @@ Size = tuple[int, int]
 
 NOTHING = np.zeros((0, 3))
 LETTER_PX = 26.0  # round what is framed, for letters
+STILL_S = 0.25  # without a change of the other camera, before a slow view follows it
 ROOMY_PX = 330.0  # a smaller view has smaller symbols
 
 
 class Scopes:
-    """The view as it was last asked for: a frame asks twice, before and after the mouse."""
+    """The view as it was last asked for: a frame asks twice, before and after the mouse. waits:
+    whether the camera that looks does not see everything of now yet."""
 
     def __init__(self) -> None:
-        self._key: tuple[object, ...] | None = None
+        self._fixed: tuple[object, ...] | None = None
+        self._inner: Camera | None = None  # of the scope
+        self._seen: Camera | None = None  # in the frame before
+        self._changed_s = 0.0
         self._scope: Scope | None = None
+        self.waits = False
 
-    def of(self, host: Host, size: Size, origin: ImVec2, extent: ImVec2, more: Floats) -> Scope:
-        """As scope_of()."""
+    def of(
+        self,
+        host: Host,
+        size: Size,
+        origin: ImVec2,
+        extent: ImVec2,
+        more: Floats,
+        slow: bool,
+        now_s: float,
+    ) -> Scope:
+        """As scope_of(); but where pictures of the scene are slow, the camera that looks stays
+        while the other one moves, if it is not the user's own, and follows when that rests."""
         both, state = host.renderers, host.state
         place = (origin.x, origin.y, extent.x, extent.y, theme.px(LETTER_PX))
         looking, inner = state.of(OutsideOptions).camera, both.camera(state)
-        key = (Same(state.scene), Same(more), looking, inner, both.size, size, place)
-        if self._scope is None or key != self._key:
+        fixed = (Same(state.scene), Same(more), looking, both.size, size, place)
+        if inner != self._seen:
+            self._seen, self._changed_s = inner, now_s
+        moves = slow and looking is None and now_s - self._changed_s < STILL_S
+        is_same = self._scope is not None and fixed == self._fixed
+        self.waits = is_same and moves and inner != self._inner
+        if self._scope is None or not is_same or not (self.waits or inner == self._inner):
             self._scope = scope_of(host, size, origin, extent, more)
-            self._key = key
+            self._fixed, self._inner = fixed, inner
         return self._scope
 
 

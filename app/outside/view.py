@@ -114,7 +114,8 @@ class OutsideView(DockedView):
     @property
     def settled(self) -> bool:
         still = self.ground is None or self.ground.settled
-        still = still and (self.layer is None or self.layer.settled) and not self._portions.behind
+        still = still and not (self._portions.behind or self._scopes.waits)
+        still = still and (self.layer is None or self.layer.settled)
         return still and (self._hits is None or not self._hits.busy)
 
     @property
@@ -267,7 +268,9 @@ class OutsideView(DockedView):
         return self._scope(host, size, origin, extent)
 
     def _scope(self, host: Host, size: Size, origin: ImVec2, extent: ImVec2) -> Scope:
-        self.scope = self._scopes.of(host, size, origin, extent, self.more)
+        is_slow = self.ground is not None and self.ground.is_slow(host.state.scene)
+        now_s = time.monotonic()
+        self.scope = self._scopes.of(host, size, origin, extent, self.more, is_slow, now_s)
         return self.scope
 
     def _pixel_under(self, host: Host, scope: Scope) -> Pixel | None:
@@ -328,7 +331,7 @@ class OutsideView(DockedView):
             self._error = describe(error)
             return None
         still = self.ground.settled and self.layer.settled
-        if self._portions.behind or not still:
+        if self._portions.behind or self._scopes.waits or not still:
             host.animate()
         assert self._made is not None
         return self._made.texture
