@@ -7,7 +7,7 @@ from contextlib import contextmanager
 from typing import Any
 
 import numpy as np
-from imgui_bundle import hello_imgui
+from imgui_bundle import hello_imgui, imgui
 from window_driver import Driver
 
 from app.cameras.navigation import moved
@@ -17,6 +17,7 @@ from app.images.coarseness import Coarseness
 from app.images.live_raster import LiveRaster
 from app.images.textures import PANE
 from app.pair.view import RASTER, RAY
+from app.widgets import theme
 from app.widgets.surface import Target
 from renderer.frame import CHANNELS
 
@@ -182,6 +183,32 @@ def drive_a_floating_image_is_drawn_over_what_is_under_it(d: Driver) -> None:
     hello_imgui.get_runner_params().docking_params.layout_reset = True
     d.ctx.yield_(5)
     d.until(lambda: len(underlay._placed) == 2)
+    d.agreeing_images()
+
+
+def drive_a_docked_panels_ground_stands_under_it_and_a_floating_ones_does_not(d: Driver) -> None:
+    underlay, panel = d.window.renderers.underlay, "Camera"
+    d.settle()
+
+    def ground() -> tuple[int, int, int]:
+        """Beside the panel's first line."""
+        window = imgui.internal.find_window_by_name(d.window.views[panel].label)
+        at = window.inner_clip_rect.max
+        picture = d.picture()
+        red, green, blue = picture[round(at.y) - 6, round(at.x) - 8, :3].tolist()
+        return red, green, blue
+
+    color = theme.PANEL
+    wanted = tuple(round(255 * part) for part in (color.x, color.y, color.z))
+    docked = len(underlay._grounds)
+    assert docked > 0 and ground() == wanted
+    d.ctx.undock_window(f"//###{panel}")
+    d.ctx.yield_(5)
+    assert len(underlay._grounds) == docked - 1 and ground() == wanted
+    hello_imgui.get_runner_params().docking_params.layout_reset = True
+    d.ctx.yield_(5)
+    d.until(lambda: len(underlay._grounds) == docked)
+    assert ground() == wanted
     d.agreeing_images()
 
 
