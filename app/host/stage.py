@@ -281,6 +281,7 @@ class Stage:
         if plain:
             corner, size = imgui.get_window_pos(), imgui.get_window_size()
             far = ImVec2(corner.x + size.x, corner.y + size.y)
+            corner.y += imgui.internal.get_current_window().title_bar_height
             color = imgui.get_style_color_vec4(imgui.Col_.window_bg)
             if under:
                 box = window_px(corner, far)
