@@ -11,10 +11,11 @@ import traceback
 from collections.abc import Callable
 
 import moderngl
-from imgui_bundle import imgui
+from imgui_bundle import ImVec2, imgui
 
 from app.host import layout
 from app.host.view import DockedView, Host
+from app.images.screen import is_at_the_bottom, window_px
 from app.images.textures import FAILURES
 from app.state.options import Preferences
 from app.storage.session import Arrangement
@@ -39,6 +40,7 @@ class Stage:
         self.focused = ""
         self.rects: dict[str, Rect] = {}
         self.failures: dict[str, Exception] = {}
+        self._grounded: set[str] = set()  # views whose windows have nothing under them
         self._to_begin: dict[str, Callable[[], None]] = {}  # of those that could not
         self._next_focus = ""
         self._next_shown = "", ""  # a view, and the layout that it is to be shown in
@@ -247,7 +249,11 @@ class Stage:
         padding = view.padding
         if padding is not None:
             imgui.push_style_var(imgui.StyleVar_.window_padding, padding)
-        opened, visible = imgui.begin(view.label, True, view.flags)
+        without = imgui.WindowFlags_.no_background
+        plain = view.name in self._grounded and not view.flags & without
+        opened, visible = imgui.begin(view.label, True, view.flags | (int(without) if plain else 0))
+        if not view.flags & without:
+            self._lay_ground(view, host, opened, plain)
         if not visible:  # closed; whoever hides it meanwhile is not overruled
             window.is_visible = False
         if padding is not None:
@@ -264,6 +270,28 @@ class Stage:
             imgui.end()
         if large:
             self._draw_large(view, host)
+
+    def _lay_ground(self, view: DockedView, host: Host, opened: bool, plain: bool) -> None:
+        """Notes whether a view's window has nothing under it: then, from the next frame on, its
+        ground is the underlay's. plain: ImGui has been told so in this frame."""
+        if not opened:
+            self._grounded.discard(view.name)
+            return
+        under = is_at_the_bottom()
+        if plain:
+            corner, size = imgui.get_window_pos(), imgui.get_window_size()
+            far = ImVec2(corner.x + size.x, corner.y + size.y)
+            corner.y += imgui.internal.get_current_window().title_bar_height
+            color = imgui.get_style_color_vec4(imgui.Col_.window_bg)
+            if under:
+                box = window_px(corner, far)
+                host.renderers.underlay.fill(box, (color.x, color.y, color.z))
+            else:  # it has just been lifted
+                draw = imgui.get_window_draw_list()
+                draw.push_clip_rect(corner, far)
+                draw.add_rect_filled(corner, far, imgui.get_color_u32(color))
+                draw.pop_clip_rect()
+        (self._grounded.add if under else self._grounded.discard)(view.name)
 
     def _draw_large(self, view: DockedView, host: Host) -> None:
         """The view over all the others; with another id, so that its dock stays as it is."""

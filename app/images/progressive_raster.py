@@ -75,7 +75,7 @@ class ProgressiveRaster:
         self._is_whole = at_once or is_quick
         self.place = places[0] if self._is_whole or places[0] != shown else places[1]
         self._first = self._first_row = 0
-        self._is_prepared = self._is_seen = False
+        self._is_seen = False
 
     @property
     def _triangles(self) -> int:
@@ -90,21 +90,12 @@ class ProgressiveRaster:
             self._pace.measured(self._triangles, time.thread_time() - start_s)
             return drawn
         if not self._is_seen:
-            count = self._next()
+            count = min(self._pace.part_of(self._triangles), self._triangles - self._first)
             self._is_seen = self._rasterizer.see(*what, self._first, count)
             self._pace.measured(count, time.thread_time() - start_s)
             self._first += count
-            if not self._is_seen or self._rows < height:
-                return None
+            return None  # triangles have taken this frame's time
         rows = self._first_row, min(self._first_row + self._rows, height)
         shaded = self._rasterizer.shade(*what, rows)
         self._first_row = rows[1]
         return shaded if rows[1] == height else None
-
-    def _next(self) -> int:
-        """How many triangles are next."""
-        count = self._pace.part_of(self._triangles)
-        if count < self._triangles and not self._is_prepared:
-            count = 0  # tables of all triangles are made for the camera: enough for one frame
-        self._is_prepared = True
-        return min(count, self._triangles - self._first)

@@ -160,13 +160,23 @@ class Renderers:
         if self._raster_failed and not failed:  # it works again: what it broke is done again
             self.agreement.error, self._compared = None, None
         self._raster_failed = failed
-        image = self.live.poll()
-        if image is not None:
-            self.textures.take_ray(image)
-            self.ray_image, self._arrived_s = image, time.monotonic()
-        elif self._to_compare(state) and not (moving and time.monotonic() < self._still_s):
-            self._compare(state)  # not in the frame of its arrival, which shows it first
+        if self._tracing and (request := self.request(state)) is not None:
+            self.live.request(request)  # while other things are drawn, it may be there in time
+        waits = moving and time.monotonic() < self._still_s
+        # Not in the frame of an image's arrival, which shows it first.
+        if not self._take_ray() and self._to_compare(state) and not waits:
+            self._compare(state)
         self.agreement.poll()
+
+    def _take_ray(self) -> bool:
+        """Takes the newest traced image; whether there was one."""
+        image = self.live.poll()
+        if image is None:
+            return False
+        assert self.textures is not None
+        self.textures.take_ray(image)
+        self.ray_image, self._arrived_s = image, time.monotonic()
+        return True
 
     def _follow_resolution(self, state: AppState) -> None:
         """The chosen one holds where no image is to be seen too, and is forgotten with the choice.
@@ -201,6 +211,7 @@ class Renderers:
     ) -> Picture | None:
         """Likewise of the newest ray image that has arrived; None before the first."""
         assert self.textures is not None
+        self._take_ray()
         return self.textures.ray_in(placement, look_of(state.images), name, under)
 
     def depths(self) -> tuple[float, float] | None:

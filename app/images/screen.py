@@ -32,6 +32,13 @@ def is_at_the_bottom() -> bool:
     return imgui.is_window_docked() and root.name.startswith(MAIN_DOCK)
 
 
+def window_px(low: ImVec2, high: ImVec2) -> tuple[int, int, int, int]:
+    """Left, top, right, bottom of a part of the screen in framebuffer pixels of the main window."""
+    at, scale = imgui.get_main_viewport().pos, framebuffer_scale()
+    left, top = round((low.x - at.x) * scale), round((low.y - at.y) * scale)
+    return left, top, round((high.x - at.x) * scale), round((high.y - at.y) * scale)
+
+
 @dataclass(frozen=True)
 class Screen:
     """An image's place on the screen. corner: of its window's content, on a whole pixel.

@@ -1,11 +1,11 @@
-"""Pictures that stand under ImGui's windows: copied into the window's framebuffer before ImGui
-draws over it.
+"""What stands under ImGui's windows: pictures, copied into the window's framebuffer before ImGui
+draws over it, and plain grounds.
 
-Owns the list of one frame's pictures. Knows nothing of what they show, and of windows.
+Owns the lists of one frame. Knows nothing of what pictures show, and of windows.
 
-ImGui draws a picture as a textured, blended rectangle. Where OpenGL runs on the CPU, that takes
-longer than everything else that it draws; a copy takes next to nothing. It can be had for whatever
-has nothing but the background under it.
+ImGui draws a picture, and a ground too, as a textured, blended rectangle. Where OpenGL runs on the
+CPU, that takes longer than everything else that it draws; a copy takes next to nothing, and so does
+clearing a part. Both can be had for whatever has nothing but the background under it.
 """
 
 from __future__ import annotations
@@ -16,6 +16,7 @@ from app.images.shown import Picture
 from app.widgets.surface import Target, copy_pixels
 
 Box = tuple[int, int, int, int]  # left, top, right, bottom: framebuffer pixels, row 0 at the top
+Rgb = tuple[float, float, float]
 
 
 @dataclass(frozen=True, eq=False)
@@ -29,10 +30,16 @@ class Underlay:
 
     def __init__(self) -> None:
         self._placed: list[_Placed] = []
+        self._grounds: list[tuple[Box, Rgb]] = []
 
     def begin_frame(self) -> None:
         """Once a frame, before anything is put into it."""
         self._placed.clear()
+        self._grounds.clear()
+
+    def fill(self, box: Box, color: Rgb) -> None:
+        """A window's ground, under all pictures."""
+        self._grounds.append((box, color))
 
     def put(self, picture: Picture, box: Box) -> None:
         """A picture made for this (see ShownImage.picture), enlarged to the nearest pixel."""
@@ -40,7 +47,13 @@ class Underlay:
 
     def paint(self, target: Target) -> None:
         """Copies what was put into it since the frame's beginning; leaves the target bound."""
-        height = target.size[1]
+        width, height = target.size
+        for (left, top, right, bottom), color in self._grounds:
+            left, top = max(left, 0), max(top, 0)
+            right, bottom = min(right, width), min(bottom, height)
+            if left < right and top < bottom:
+                part = left, height - bottom, right - left, bottom - top
+                target.framebuffer.clear(*color, 1.0, viewport=part)
         for placed in self._placed:
             left, top, right, bottom = placed.box
             size = placed.picture.texture.size

@@ -27,6 +27,8 @@ COARSEST = 4
 # A scene that keeps this thread busy for longer with one more picture keeps its edges as they are.
 # Counted in the thread's own time: what else the machine does must not decide how a picture looks.
 SLOW_S = 0.06
+# A view of a scene that takes this thread longer does not follow another camera while that moves.
+FOLLOWS_S = 0.02
 # Parts of a pixel by which the pictures of a mean are shifted: no two in a row or column. The last
 # is not, so that what lies behind is decided at the pixels' centres.
 SHIFTS = ((-0.125, -0.375), (0.375, -0.125), (0.125, 0.375), (-0.375, 0.125), (0.0, 0.0))
@@ -55,7 +57,7 @@ class Ground:
     """One for the view, in its context. It stays while only the other camera moves.
 
     shown: the newest picture. coarseness: by what others took. slow: a scene that has proved to be
-    too slow for smooth edges.
+    too slow for smooth edges. took: a scene, and what its last two pictures took of this thread.
     """
 
     def __init__(self, context: moderngl.Context) -> None:
@@ -67,6 +69,7 @@ class Ground:
         self._timed: tuple[int, int] | None = None
         self.coarseness = Coarseness(FRAME_S, FRAME_S, COARSEST)
         self.slow: Scene | None = None
+        self.took: tuple[Scene | None, tuple[float, ...]] = None, ()
 
     @property
     def settled(self) -> bool:
@@ -78,6 +81,12 @@ class Ground:
     def factor(self) -> int:
         """How coarse the last picture is; 1: it is full."""
         return self.shown.factor if self.shown is not None else 1
+
+    def is_slow(self, scene: Scene) -> bool:
+        """Whether pictures of a scene have proved to take long: not only the first one, for which
+        the driver may have compiled."""
+        of, times_s = self.took
+        return of is scene and len(times_s) > 1 and min(times_s) > FOLLOWS_S
 
     def forget(self) -> None:
         self.shown = None
@@ -139,10 +148,13 @@ class Ground:
     def _beside(
         self, request: ImageRequest, rasterizer: WindowRasterizer, factor: int = 1
     ) -> Textures:
-        size = reduced(request.size, factor)
+        size, scene = reduced(request.size, factor), request.scene
+        start_s = time.thread_time()
         with self._timer:
             textures = rasterizer.draw(replace(request, size=size), COARSE if factor > 1 else PLACE)
         self._timed = factor, size[0] * size[1]
+        before = self.took[1][-1:] if self.took[0] is scene else ()
+        self.took = scene, (*before, time.thread_time() - start_s)
         return textures
 
     def _read_time(self) -> None:

@@ -12,6 +12,7 @@ from imgui_bundle import ImVec2
 from numpy.typing import NDArray
 
 from app.host.view import Host
+from app.images.passes import Same
 from app.outside.extent import around, framed, outside_camera, way_of
 from app.outside.mouse import Scope
 from app.outside.options import OutsideOptions
@@ -26,7 +27,47 @@ Size = tuple[int, int]
 
 NOTHING = np.zeros((0, 3))
 LETTER_PX = 26.0  # round what is framed, for letters
+STILL_S = 0.25  # without a change of the other camera, before a slow view follows it
 ROOMY_PX = 330.0  # a smaller view has smaller symbols
+
+
+class Scopes:
+    """The view as it was last asked for: a frame asks twice, before and after the mouse. waits:
+    whether the camera that looks does not see everything of now yet."""
+
+    def __init__(self) -> None:
+        self._fixed: tuple[object, ...] | None = None
+        self._inner: Camera | None = None  # of the scope
+        self._seen: Camera | None = None  # in the frame before
+        self._changed_s = 0.0
+        self._scope: Scope | None = None
+        self.waits = False
+
+    def of(
+        self,
+        host: Host,
+        size: Size,
+        origin: ImVec2,
+        extent: ImVec2,
+        more: Floats,
+        slow: bool,
+        now_s: float,
+    ) -> Scope:
+        """As scope_of(); but where pictures of the scene are slow, the camera that looks stays
+        while the other one moves, if it is not the user's own, and follows when that rests."""
+        both, state = host.renderers, host.state
+        place = (origin.x, origin.y, extent.x, extent.y, theme.px(LETTER_PX))
+        looking, inner = state.of(OutsideOptions).camera, both.camera(state)
+        fixed = (Same(state.scene), Same(more), looking, both.size, size, place)
+        if inner != self._seen:
+            self._seen, self._changed_s = inner, now_s
+        moves = slow and looking is None and now_s - self._changed_s < STILL_S
+        is_same = self._scope is not None and fixed == self._fixed
+        self.waits = is_same and moves and inner != self._inner
+        if self._scope is None or not is_same or not (self.waits or inner == self._inner):
+            self._scope = scope_of(host, size, origin, extent, more)
+            self._fixed, self._inner = fixed, inner
+        return self._scope
 
 
 def scope_of(
@@ -37,7 +78,7 @@ def scope_of(
     points = _points(host, more)
     center = (points.min(axis=0) + points.max(axis=0)) / 2
     reach = float(np.linalg.norm(points.max(axis=0) - points.min(axis=0))) / 2
-    camera = host.state.of(OutsideOptions).camera or camera_for_all(host, size, extent, more)
+    camera = host.state.of(OutsideOptions).camera or _for_all(points, host, size, extent)
     x, y, z = center.tolist()
     middle, reach = (x, y, z), max(reach, 1e-9)
     return Scope(camera, camera.fitted(size), origin, extent, middle, reach)
@@ -45,9 +86,13 @@ def scope_of(
 
 def camera_for_all(host: Host, size: Size, extent: ImVec2, more: Floats = NOTHING) -> Camera:
     """The one that sees everything."""
+    return _for_all(_points(host, more), host, size, extent)
+
+
+def _for_all(points: Floats, host: Host, size: Size, extent: ImVec2) -> Camera:
     home, room = host.state.scene.view.camera, theme.px(LETTER_PX)
     margin = margin_for(extent.x, room), margin_for(extent.y, room)
-    return outside_camera([_points(host, more)], home, size[0] / size[1], margin)
+    return outside_camera([points], home, size[0] / size[1], margin)
 
 
 def camera_along(host: Host, scope: Scope, axis: str, more: Floats = NOTHING) -> Camera:

@@ -7,7 +7,8 @@ handles and the legend have modules beside this one.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+import time
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from functools import partial
 from typing import Any
@@ -29,24 +30,26 @@ from app.outside.cloud import Cloud
 from app.outside.cloud_layer import CloudLayer
 from app.outside.diagram import Item, RayEnd, diagram
 from app.outside.extent import end_parameter
-from app.outside.frustum import bundle_pixels, pixel_seen, plane_corners
+from app.outside.frustum import pixel_seen, plane_corners
 from app.outside.gizmo import Gizmo
 from app.outside.ground import Ground
-from app.outside.hits import RayHits, RayQuery
+from app.outside.handles import handles
+from app.outside.hits import RayHits
 from app.outside.looking import (
     NOTHING,
+    Scopes,
     camera_along,
     camera_for_all,
     nearest,
-    ray_pixel,
-    scope_of,
     units_px,
     widest_px,
 )
 from app.outside.mouse import Mouse, Scope
 from app.outside.options import OutsideOptions
 from app.outside.paint import CASING, ground_of, layers
+from app.outside.portions import Portions
 from app.outside.projected import Primitive, project
+from app.outside.ray_ends import ray_ends
 from app.outside.screen import OutsideScreen
 from app.outside.sketch import OPACITY
 from app.outside.tools import labels, legend, triad
@@ -106,12 +109,15 @@ class OutsideView(DockedView):
         self.ground: Ground | None = None
         self._error = ""
         self._made: _MadePicture | None = None
+        self._portions = Portions(time.perf_counter)
+        self._scopes = Scopes()
         self._extra: dict[str, tuple[Item, ...]] = {}
         self.scope: Scope | None = None  # the view as it was last drawn
 
     @property
     def settled(self) -> bool:
         still = self.ground is None or self.ground.settled
+        still = still and not (self._portions.behind or self._scopes.waits)
         still = still and (self.layer is None or self.layer.settled)
         return still and (self._hits is None or not self._hits.busy)
 
@@ -137,8 +143,7 @@ class OutsideView(DockedView):
         return self._made.texture.size if self._made is not None else None
 
     def show(self, source: str, items: Sequence[Item]) -> None:
-        """Adds lines, arrows, labels, ... of another instrument; the last ones of each source
-        stay until it gives others, or none."""
+        """Adds what another instrument shows; the last of each source stays until the next."""
         if items:
             self._extra[source] = tuple(items)
         else:
@@ -161,10 +166,15 @@ class OutsideView(DockedView):
         self._gizmo.cancel()
 
     def unseen(self, host: Host) -> None:
-        self._made = None
-        if self.ground is not None and self.layer is not None:
-            self.ground.forget()
+        self._lose()
+        if self.layer is not None:
             self.layer.forget()
+
+    def _lose(self) -> None:
+        self._made = None
+        self._portions.forget()
+        if self.ground is not None:
+            self.ground.forget()
 
     def flown(self, host: Host) -> Camera | None:
         return self.scope.camera if self.scope is not None else None
@@ -220,7 +230,7 @@ class OutsideView(DockedView):
         assert self._made is not None
         presented, ground = host.state.preferences.presentation, _ground(host.state)
         labels(self._made.primitives, origin, scale, host.fonts, ground, presented)
-        self._handles(host, scope)
+        handles(self._gizmo, host, scope, ground)
         self._tools(host, scope)
         for lines in list(self.guests.values()):
             lines(host, scope, self._over)
@@ -284,7 +294,9 @@ class OutsideView(DockedView):
         return True
 
     def _scope(self, host: Host, size: Size, origin: ImVec2, extent: ImVec2) -> Scope:
-        self.scope = scope_of(host, size, origin, extent, self.more)
+        is_slow = self.ground is not None and self.ground.is_slow(host.state.scene)
+        now_s = time.monotonic()
+        self.scope = self._scopes.of(host, size, origin, extent, self.more, is_slow, now_s)
         return self.scope
 
     def _pixel_under(self, host: Host, scope: Scope) -> Pixel | None:
@@ -298,21 +310,6 @@ class OutsideView(DockedView):
         if ground is not None and overlay is not None:
             hidden_at = partial(ground.t_at, place, overlay)
         return pixel_seen(camera, host.renderers.size, *scope.ray(mouse), hidden_at)
-
-    def _handles(self, host: Host, scope: Scope) -> None:
-        kind = host.state.of(OutsideOptions).gizmo
-        if kind == "none":
-            self._gizmo.over = False
-            self._gizmo.cancel()
-            return
-        state = host.state
-        camera = self._gizmo.draw(
-            scope, state.camera, kind, state.keep_orthonormal, _ground(state), host.fonts
-        )
-        if camera != state.camera:
-            host.apply(state.with_camera(camera), self._gizmo.gesture)
-        if self._gizmo.dragging:
-            host.animate()
 
     def _tools(self, host: Host, scope: Scope) -> None:
         state = host.state
@@ -334,86 +331,87 @@ class OutsideView(DockedView):
     def _texture(
         self, host: Host, camera: Camera, size: Size, scope: Scope, is_under: bool
     ) -> moderngl.Texture | None:
-        """The view's picture, made anew if anything of it has changed; None where that failed.
-        is_under: it is for the underlay."""
+        """The view's picture, made anew if anything of it has changed, over several frames where
+        that is slow; None where that failed. is_under: it is for the underlay."""
+        both, state = host.renderers, host.state
+        assert both.textures is not None
+        assert self.ground is not None and self.layer is not None
+        options = state.of(OutsideOptions)  # with the camera that looks, where the user moves it
+        fixed = (
+            state.scene, size, both.size, options, state.images, units_px(scope.extent), is_under,
+            theme.used(),
+        )  # fmt: skip
+        try:
+            if options.image:
+                request = both.request(state)
+                assert request is not None
+                both.textures.raster.follow(request)
+            self._portions.go_on(
+                fixed,
+                (camera, both.camera(state)),
+                lambda: self._steps(host, camera, size, scope, is_under),
+                at_once=self._gizmo.dragging,
+            )
+        except (LucidaError, moderngl.Error) as error:
+            self._lose()
+            self._error = describe(error)
+            return None
+        still = self.ground.settled and self.layer.settled
+        if self._portions.behind or self._scopes.waits or not still:
+            host.animate()
+        assert self._made is not None
+        return self._made.texture
+
+    def _steps(
+        self, host: Host, camera: Camera, size: Size, scope: Scope, is_under: bool
+    ) -> Iterator[None]:
+        """What is drawn for a picture of now; nothing where it is there already."""
         both, state = host.renderers, host.state
         assert self._overlay is not None
         assert self.ground is not None and self.layer is not None
         assert both.textures is not None
-        inner, image_size = both.camera(state), both.size
+        inner, image_size, raster = both.camera(state), both.size, both.textures.raster
         options = state.of(OutsideOptions)
         marked, hits = self.rays(host, inner, image_size)
-        try:
-            picture, drawn = None, 0
-            if options.image:
-                request = both.request(state)
-                assert request is not None
-                drawn = both.textures.raster.follow(request).number
-                picture = both.textures.whole_raster(request, look_of(state.images))
-            seen = ImageRequest(state.scene, camera, size)
-            ground = self.ground.picture(seen, both.textures.rasterizer, self._overlay)
-            unit_px, symbol_px = units_px(scope.extent)
-            screen = OutsideScreen(camera, size, nearest(camera, scope), unit_px, symbol_px)
-            cloud = self.layer.picture(self.cloud, screen, _ground(state))
-            if not self.ground.settled or not self.layer.settled:
-                host.animate()
-            key = (
-                state.scene, camera, size, inner, image_size, replace(options, camera=None),
-                marked, tuple(hits), drawn, state.images, unit_px, symbol_px, ground.number,
-                ground.smooth, is_under, theme.used(), tuple(self._extra.items()),
-                cloud is None or self.layer.number,
-            )  # fmt: skip
-            if self._made is not None and self._made.key == key:
-                return self._made.texture
-            end = end_parameter(inner, host.focus.framed)
-            parts = int(widest_px(screen, plane_corners(inner)) / (GRID_PX * unit_px))
-            items = diagram(inner, image_size, options, end, hits, marked, parts)
-            for extra in self._extra.values():
-                items += extra
-            primitives = project(items, screen)
-            corners = plane_corners(inner)[[0, 1, 3]]
-            behind = corners[0] + np.asarray(inner.w)  # the side of the image plane to look from
-            plane = plane_on_screen(camera, size, corners, behind)
-            texture = self._overlay.draw(
-                ground.textures,
-                camera,
-                size,
-                layers(primitives, _ground(state)),
-                plane,
-                picture,
-                state.images.exposure_ev,
-                opacity=OPACITY,
-                unit_px=unit_px,
-                casing=CASING,
-                number=(ground.number, ground.parts),
-                mean=ground.mean if ground.smooth else None,
-                upside_down=is_under,
-                cloud=cloud,
-            )
-        except (LucidaError, moderngl.Error) as error:
-            self._made = None
-            self.ground.forget()
-            self._error = describe(error)
-            return None
+        seen = ImageRequest(state.scene, camera, size)
+        ground = self.ground.picture(seen, both.textures.rasterizer, self._overlay)
+        unit_px, symbol_px = units_px(scope.extent)
+        screen = OutsideScreen(camera, size, nearest(camera, scope), unit_px, symbol_px)
+        cloud = self.layer.picture(self.cloud, screen, _ground(state))
+        image, framed = raster.image if options.image else None, host.focus.framed
+        extra = [item for items in self._extra.values() for item in items]
+        key = (
+            state.scene, camera, size, inner, image_size, replace(options, camera=None),
+            marked, tuple(hits), image and image.number, state.images, unit_px, symbol_px,
+            ground.number, ground.smooth, is_under, theme.used(), tuple(self._extra.items()),
+            cloud is None or self.layer.number,
+        )  # fmt: skip
+        if self._made is not None and self._made.key == key:
+            return
+        yield
+        end = end_parameter(inner, framed)
+        parts = int(widest_px(screen, plane_corners(inner)) / (GRID_PX * unit_px))
+        items = diagram(inner, image_size, options, end, hits, marked, parts)
+        primitives = project([*items, *extra], screen)
+        corners = plane_corners(inner)[[0, 1, 3]]
+        behind = corners[0] + np.asarray(inner.w)  # the side of the image plane to look from
+        plane = plane_on_screen(camera, size, corners, behind)
+        lines = layers(primitives, _ground(state))
+        yield
+        request, picture = both.request(host.state), None  # the newest that there is
+        if options.image and request is not None:
+            picture = both.textures.whole_raster(request, look_of(state.images))
+        texture = self._overlay.draw(
+            ground.textures, camera, size, lines, plane, picture, state.images.exposure_ev,
+            opacity=OPACITY, unit_px=unit_px, casing=CASING, number=(ground.number, ground.parts),
+            mean=ground.mean if ground.smooth else None, upside_down=is_under, cloud=cloud,
+        )  # fmt: skip
         self._made = _MadePicture(key, texture, primitives)
-        return texture
 
     def rays(self, host: Host, camera: Camera, size: Size) -> tuple[RayEnd | None, list[RayEnd]]:
         """The marked pixel's ray and the bundle's, as far as their ends are known."""
-        both, state = host.renderers, host.state
         assert self._hits is not None
-        options = state.of(OutsideOptions)
-        pixel = ray_pixel(host) if options.ray else None
-        pixels = [(int(i), int(j)) for i, j in bundle_pixels(size, options.bundle)]
-        asked = pixels + ([pixel] if pixel is not None else [])
-        question = RayQuery(state.scene, camera, size, tuple(asked))
-        tracer = both.live.tracer_of(state.scene) if asked else None
-        known = self._hits.ask(question, tracer)
-        hits = [RayEnd(entry, known[entry]) for entry in pixels]
-        if pixel is None:
-            return None, hits
-        seen = both.depth_at(state, pixel)
-        return RayEnd(pixel, known[pixel] if seen is None else seen), hits
+        return ray_ends(self._hits, host, camera, size)
 
 
 def _shown(scope: Scope) -> Shown:

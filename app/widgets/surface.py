@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import ctypes
 from dataclasses import dataclass
+from functools import cache
+from typing import Any
 
 import imgui_bundle  # noqa: F401  # before glfw, so that both use the same GLFW library
 
@@ -45,8 +47,21 @@ _COLOR_BUFFER_BIT, _NEAREST = 0x4000, 0x2600
 
 def _gl(name: str, *numbers: int) -> None:
     """Calls a function of OpenGL that moderngl does not offer."""
+    address = _address_in(ctypes.cast(glfw.get_current_context(), ctypes.c_void_p).value or 0, name)
+    _callable_at(address, len(numbers))(*numbers)
+
+
+@cache
+def _address_in(context: int, name: str) -> int:
+    """Where a function is, in a context, which must be current: asking takes longer than many
+    functions do."""
     address = glfw.get_proc_address(name)
     if not address:
         raise LucidaError("OpenGL", f"{name} is missing", "update the graphics driver")
-    kind = ctypes.CFUNCTYPE(None, *(ctypes.c_int for _ in numbers))
-    kind(ctypes.cast(address, ctypes.c_void_p).value or 0)(*numbers)
+    return ctypes.cast(address, ctypes.c_void_p).value or 0
+
+
+@cache
+def _callable_at(address: int, numbers: int) -> Any:
+    """The function there, which takes so many numbers."""
+    return ctypes.CFUNCTYPE(None, *(ctypes.c_int for _ in range(numbers)))(address)

@@ -25,7 +25,7 @@ from renderer.raster.setup import (
     sphere_rows,
     triangle_rows,
 )
-from renderer.raster.tables import Table
+from renderer.raster.tables import TABLE_WIDTH, Table
 from renderer.shared_numbers import OBJECT_TEXELS, SPHERE_TEXELS
 
 BOX_VERTICES = 36
@@ -41,9 +41,11 @@ class SceneData:
         self._context = context
         self._flat, self._setup = scene
         self._last: tuple[Camera, tuple[int, int]] | None = None
-        # Whose rows the triangles have, but for those that moved.
+        self._space: ImageSpace | None = None  # of that camera
+        # Whose triangles are in the table, in how many of its rows, but for those that moved.
         self._camera: tuple[Camera, tuple[int, int]] | None = None
-        self._moved: list[tuple[int, int]] = []  # triangles that have no rows for that camera yet
+        self._rows = 0
+        self._moved: list[tuple[int, int]] = []
         self._owner = Owner()
         try:
             self._build_tables()
@@ -70,7 +72,8 @@ class SceneData:
             for number in moved:
                 first, count = flat.object_vertices[number]
                 texels[first : first + count, 1] = flat.normals[first : first + count]
-                vertices.write_part(3 * first, 3 * (first + count))
+                low, high = 3 * first // TABLE_WIDTH, -(-3 * (first + count) // TABLE_WIDTH)
+                vertices.write_rows(low, high)
         for number in moved:
             first, count = map(int, flat.object_faces[number])
             self._moved.append((first, first + count))
@@ -154,7 +157,8 @@ class SceneData:
         return width, height
 
     def set_camera(self, camera: Camera, size: tuple[int, int]) -> None:
-        """Fills the tables that depend on the camera, unless they are this camera's already."""
+        """Fills the tables that depend on the camera, unless they are this camera's already; but
+        the triangles' as far as they are drawn: a million take as long as a frame."""
         if self._last == (camera, size):
             return
         self._last, before = None, self._camera
@@ -164,21 +168,14 @@ class SceneData:
         self._block.write(camera_block(camera, size, self.margin(size), space, flat))
         tables["objects"].write(objects)
         tables["lights"].write(light_rows(flat, space))
-        if len(flat.faces):
-            self._write_rows(camera, space, all_of_them=before != (camera, size))
         if len(flat.spheres):
             tables["spheres"].write(sphere_rows(flat, space, objects))
-        self._last = self._camera = camera, size
-
-    def _write_rows(self, camera: Camera, space: ImageSpace, all_of_them: bool) -> None:
-        """The triangles' rows: those that have moved, or all for another camera."""
-        table, total = self._tables["triangle_rows"], len(self._flat.faces)
-        parts = [(0, total)] if all_of_them else self._moved
-        for first, last in parts:
-            rows = table.texels[:total, :3]
-            triangle_rows(self._setup, space, camera.is_parallel, rows, first, last)
-            table.write_part(first, last)
-        self._moved = []
+        self._last, self._space = (camera, size), space
+        filled, self._rows = self._rows if before == self._last else 0, 0
+        for first, last in self._moved if filled else ():
+            low, high = first // TABLE_WIDTH, min(-(-last // TABLE_WIDTH), filled)
+            self._write_triangles(low, high)
+        self._camera, self._rows, self._moved = self._last, filled, []
 
     def see(self, first: int = 0, count: int | None = None) -> bool:
         """First pass: the nearest primitive of each pixel, into the bound framebuffer.
@@ -195,6 +192,7 @@ class SceneData:
         context.depth_func = "<"
         total = len(self._flat.faces)
         last = total if count is None else min(first + count, total)
+        self._fill_triangles(last)
         if self._triangles is not None and first < last:
             self._prepare(self._triangles.program)
             set_uniform(self._triangles.program, "first_triangle", first)
@@ -214,6 +212,7 @@ class SceneData:
     def shade(self, primitives: moderngl.Texture) -> None:
         """Second pass: hit and colour of each pixel, into the bound framebuffer, by its depth:
         where the first pass has left nothing, no hit is looked for."""
+        self._fill_triangles(len(self._flat.faces))  # another camera may have been here since
         self._context.enable_only(moderngl.DEPTH_TEST)
         primitives.use(self._units["primitives"])
         self._cover(self._background, "==", FARTHEST)
@@ -225,6 +224,25 @@ class SceneData:
         self._block.bind_to_uniform_block(0)
         for name, table in self._tables.items():
             table.texture.use(self._units[name])
+
+    def _fill_triangles(self, last: int) -> None:
+        """The table of triangles, up to a number, as this camera has them."""
+        wanted = -(-last // TABLE_WIDTH)
+        if wanted <= self._rows:
+            return
+        self._write_triangles(self._rows, wanted)
+        self._rows = wanted
+
+    def _write_triangles(self, low: int, high: int) -> None:
+        """The rows of that table from low up to high."""
+        if low >= high:
+            return
+        assert self._last is not None
+        assert self._space is not None
+        table, first = self._tables["triangle_rows"], low * TABLE_WIDTH
+        rows = table.texels[first : min(high * TABLE_WIDTH, len(self._flat.faces)), :3]
+        triangle_rows(self._setup, self._space, self._last[0].is_parallel, rows, first)
+        table.write_rows(low, high)
 
     def _cover(self, array: moderngl.VertexArray, depth_func: str, window_depth: float) -> None:
         self._context.depth_func = depth_func

@@ -211,10 +211,10 @@ def camera_block(
 
 
 def triangle_rows(
-    setup: SceneSetup, space: ImageSpace, is_parallel: bool, out: NDArray, first: int, last: int
+    setup: SceneSetup, space: ImageSpace, is_parallel: bool, out: NDArray, first: int = 0
 ) -> None:
-    """Coefficients (c0, c1, c2) of the triangles from first up to last, into their rows of out,
-    float32 (m, 3).
+    """Coefficients (c0, c1, c2) of each triangle from the number `first` on, as many as there is
+    room for in out, float32 (m, 3).
 
     t (parallel) or 1/t (perspective) of the ray of pixel (x, y) is c0 * x + c1 * y + c2. A triangle
     that is seen edge on, or is none, gets (0, 0, -1): it lies behind the eye.
@@ -223,10 +223,10 @@ def triangle_rows(
     basis[:3, 0], basis[:3, 1], basis[:3, 2] = space.step_x, space.step_y, space.direction
     basis[:, 3] = *(space.eye - setup.middle + space.across), 1.0
     columns, divisor = ((0, 1, 3), 2) if is_parallel else ((0, 1, 2), 3)
-    for start in range(first, last, BLOCK):
-        end = min(start + BLOCK, last)
-        products = setup.planes[start:end] @ basis
-        rows = out[start:end]
+    planes = setup.planes[first : first + len(out)]
+    for start in range(0, len(planes), BLOCK):
+        products = planes[start : start + BLOCK] @ basis
+        rows = out[start : start + BLOCK]
         with np.errstate(all="ignore"):
             scale = -products[:, divisor]
             for k, column in enumerate(columns):

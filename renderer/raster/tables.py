@@ -42,18 +42,15 @@ class Table:
         self.texture = new_texture(context, (TABLE_WIDTH, rows), components, array.dtype)
         self.write(array)
 
-    def write_part(self, first: int, last: int) -> None:
-        """Uploads what the caller has put into some of `texels`."""
-        low, high = first // TABLE_WIDTH, -(-last // TABLE_WIDTH)
-        if low < high:
-            rows = self.texels[low * TABLE_WIDTH : high * TABLE_WIDTH]
-            self.texture.write(rows, viewport=(0, low, TABLE_WIDTH, high - low))
-
-    def write(self, array: NDArray[Any] | None = None) -> None:
-        """Uploads the array; None: what the caller has put into `texels`."""
-        if array is not None:
-            self.texels[: self.count] = array.reshape(self.texels[: self.count].shape)
+    def write(self, array: NDArray[Any]) -> None:
+        """Uploads the array."""
+        self.texels[: self.count] = array.reshape(self.texels[: self.count].shape)
         self.texture.write(self.texels)
+
+    def write_rows(self, first: int, last: int) -> None:
+        """Uploads the texture's rows from the first on, up to the last, of `texels`."""
+        part = self.texels[first * TABLE_WIDTH : last * TABLE_WIDTH]
+        self.texture.write(part, viewport=(0, first, TABLE_WIDTH, last - first))
 
     def release(self) -> None:
         self.texture.release()

@@ -10,7 +10,8 @@ from raster_scenes import CAMERAS, SIZE, WIDE, agrees, square, still_life
 from renderer.camera import Camera
 from renderer.compare import CHANNELS
 from renderer.errors import LucidaError
-from renderer.raster import prepare
+from renderer.raster import prepare, scene_data
+from renderer.raster.tables import TABLE_WIDTH
 from renderer.scene.model import (
     Mesh,
     Scene,
@@ -35,6 +36,33 @@ class TestParts:
         for row in range(0, SIZE[1], 7):
             rasterizer.shade(WIDE, SIZE, "parts", (row, min(row + 7, SIZE[1])))
             rasterizer.draw(other, SIZE, "another camera's, in between")
+        for channel, values in rasterizer.read(CHANNELS, place="parts").items():
+            np.testing.assert_array_equal(values, expected.channel(channel))
+
+    def test_a_part_prepares_no_more_triangles_than_it_draws(self, rasterizer, monkeypatch):
+        """A million of them for a new camera take as long as a frame."""
+        heights = np.random.default_rng(5).uniform(-0.3, 0.3, (101, 101))
+        rows, columns = np.indices(heights.shape)
+        places = np.stack([columns / 25 - 2, rows / 25 - 2, heights], axis=-1).reshape(-1, 3)
+        corner = (101 * rows + columns)[:-1, :-1].ravel()
+        faces = [corner, corner + 1, corner + 102, corner, corner + 102, corner + 101]
+        rasterizer.set_scene(Scene((SceneObject(Mesh(places, np.stack(faces, 1).reshape(-1, 3))),)))
+        expected = rasterizer.render(WIDE, SIZE, CHANNELS)
+        rasterizer.draw(Camera(eye=(1.0, 2.0, 9.0)), SIZE, "another camera's")
+        prepared, fill = [], scene_data.triangle_rows
+
+        def counted(setup, space, is_parallel, out, first=0):
+            prepared.append((first, len(out)))
+            fill(setup, space, is_parallel, out, first)
+
+        monkeypatch.setattr(scene_data, "triangle_rows", counted)
+        count = TABLE_WIDTH + 100
+        for first in range(0, rasterizer.triangles, count):
+            rasterizer.see(WIDE, SIZE, "parts", first, count)
+            assert sum(each for _, each in prepared) < first + count + TABLE_WIDTH
+        rasterizer.shade(WIDE, SIZE, "parts", (0, SIZE[1]))
+        assert len(prepared) > 2
+        assert sum(each for _, each in prepared) == rasterizer.triangles == 20_000  # each once
         for channel, values in rasterizer.read(CHANNELS, place="parts").items():
             np.testing.assert_array_equal(values, expected.channel(channel))
 

@@ -7,16 +7,19 @@ from contextlib import contextmanager
 from typing import Any
 
 import numpy as np
-from imgui_bundle import hello_imgui
+from imgui_bundle import hello_imgui, imgui
 from window_driver import Driver
 
 from app.cameras.navigation import moved
 from app.compare.view import CompareView
+from app.host.view import DockedView
 from app.images import live_raster as module
 from app.images.coarseness import Coarseness
 from app.images.live_raster import LiveRaster
+from app.images.request import ImageRequest
 from app.images.textures import PANE
 from app.pair.view import RASTER, RAY
+from app.widgets import theme
 from app.widgets.surface import Target
 from renderer.frame import CHANNELS
 
@@ -168,6 +171,34 @@ def shown(d: Driver) -> tuple[np.ndarray, np.ndarray]:
     return found[0]
 
 
+def drive_a_change_before_the_views_is_traced_while_they_are_drawn(d: Driver) -> None:
+    d.settle()
+    events: list[str] = []
+    live, views = d.window.renderers.live, d.window.views.values()
+    request, drawn = live.request, d.window.draw_view
+    wanted = moved(d.window.state.camera, (0.05, 0.0, 0.0))
+
+    def asked(what: ImageRequest) -> None:
+        if what.camera == d.window.renderers.camera(d.window.state):
+            events.append("request")
+        request(what)
+
+    def drawing(view: DockedView) -> None:
+        events.append(view.name)
+        drawn(view)
+
+    live.request, d.window.draw_view = asked, drawing  # type: ignore[method-assign]
+    try:
+        d.window.change(d.window.state.with_camera(wanted))
+        events.clear()
+        d.ctx.yield_(2)
+    finally:
+        del live.request, d.window.draw_view
+    first = events.index("request")
+    assert not {view.name for view in views} & set(events[:first])
+    d.agreeing_images()
+
+
 def drive_a_floating_image_is_drawn_over_what_is_under_it(d: Driver) -> None:
     underlay = d.window.renderers.underlay
     docked, made = shown(d)
@@ -182,6 +213,32 @@ def drive_a_floating_image_is_drawn_over_what_is_under_it(d: Driver) -> None:
     hello_imgui.get_runner_params().docking_params.layout_reset = True
     d.ctx.yield_(5)
     d.until(lambda: len(underlay._placed) == 2)
+    d.agreeing_images()
+
+
+def drive_a_docked_panels_ground_stands_under_it_and_a_floating_ones_does_not(d: Driver) -> None:
+    underlay, panel = d.window.renderers.underlay, "Camera"
+    d.settle()
+
+    def ground() -> tuple[int, int, int]:
+        """Beside the panel's first line."""
+        window = imgui.internal.find_window_by_name(d.window.views[panel].label)
+        at, picture = window.inner_rect.min, d.picture()
+        red, green, blue = picture[round(at.y) + 4, round(at.x) + 4, :3].tolist()
+        return red, green, blue
+
+    color = theme.PANEL
+    wanted = tuple(round(255 * part) for part in (color.x, color.y, color.z))
+    docked = len(underlay._grounds)
+    assert docked > 0 and ground() == wanted
+    d.ctx.undock_window(f"//###{panel}")
+    d.ctx.yield_(5)
+    assert len(underlay._grounds) == docked - 1
+    assert ground() == wanted
+    hello_imgui.get_runner_params().docking_params.layout_reset = True
+    d.ctx.yield_(5)
+    d.until(lambda: len(underlay._grounds) == docked)
+    assert ground() == wanted
     d.agreeing_images()
 
 
