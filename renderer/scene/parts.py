@@ -73,7 +73,7 @@ def build_mesh(part: Part) -> Mesh | None:
     origin = _own_origin(vertices, faces)
     with np.errstate(over="ignore", invalid="ignore"):  # of vertices that no face uses
         positions = (vertices - origin).astype(np.float32)
-    merged: NDArray[np.int64] | None = merge_positions(positions)
+    merged = merge_positions(positions)
     sound, repeats = _visible(positions, faces, merged)
     keep = sound & ~repeats
     lost = 0 if normals is None else int(np.count_nonzero(~np.isfinite(normals).all(axis=1)))
@@ -93,11 +93,11 @@ def build_mesh(part: Part) -> Mesh | None:
         normals = None if normals is None else normals[faces.reshape(-1)]
         positions = positions[faces.reshape(-1)]
         faces = np.arange(len(positions)).reshape(-1, 3)
-        merged = None
     unit = _unit(normals)
     if unit is None:
+        known = None if face_colors is not None else merged
         keep_apart = vertex_colors is not None
-        source, faces, unit = smooth_normals(positions, faces, merged, keep_apart=keep_apart)
+        source, faces, unit = smooth_normals(positions, faces, known, keep_apart=keep_apart)
     else:
         source, faces = used_vertices(faces)
         unit = unit[source]

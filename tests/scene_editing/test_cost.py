@@ -11,7 +11,7 @@ import pytest
 from renderer import Rasterizer
 from renderer.raster import setup
 from renderer.raster.prepared import prepare
-from renderer.raster.tables import Table
+from renderer.raster.tables import TABLE_WIDTH, Table
 from renderer.scene import Sphere, flatten, load_scene, models
 from renderer.scene import flat as flat_module
 from renderer.scene.shapes import placement
@@ -170,8 +170,8 @@ def test_the_rasterizer_uploads_what_has_moved(name, scene, gl_backend, monkeypa
     with Rasterizer(scene, backend=gl_backend) as rasterizer:
         rasterizer.render(camera, size)
         parts, made = [], []
-        right = Table.write_part
-        monkeypatch.setattr(Table, "write_part", lambda t, *p: parts.append(p) or right(t, *p))
+        right = Table.write_rows
+        monkeypatch.setattr(Table, "write_rows", lambda t, *p: parts.append(p) or right(t, *p))
         right_init = Table.__init__
         monkeypatch.setattr(Table, "__init__", lambda t, *p: made.append(p[1]) or right_init(t, *p))
         rasterizer.set_scene(changed)
@@ -180,7 +180,7 @@ def test_the_rasterizer_uploads_what_has_moved(name, scene, gl_backend, monkeypa
         assert made
         return
     assert not made
-    total = len(flatten(scene).faces)
-    triangles = sum(last - first for first, last in parts)
-    assert triangles < total or name == "turn"
+    total = -(-len(flatten(scene).faces) // TABLE_WIDTH)
+    rows = sum(last - first for first, last in parts)
+    assert rows < total or name == "turn"
     assert bool(parts) == (name in ("move", "turn"))
