@@ -24,7 +24,7 @@ from numpy.typing import NDArray
 from renderer.camera import NEAREST, Camera, Floats
 from renderer.scene.flat import SPECULAR_CHECKERED, FlatScene
 from renderer.scene.positions import world_corners
-from renderer.shared_numbers import CELL_NUDGE
+from renderer.shared_numbers import CELL_NUDGE, CHECKERED
 from renderer.slivers import seen_corners, unknown_edge_px
 
 Ints = NDArray[np.integer]
@@ -104,7 +104,7 @@ class Discontinuities:
             return distance
         owners = np.concatenate([self.flat.face_object, self.flat.sphere_object])
         owner = owners[primitive]  # anybody's where nothing is hit
-        checkered = hit & (self.flat.materials[owner, SPECULAR_CHECKERED, 3] != 0)
+        checkered = hit & (self.flat.materials[owner, SPECULAR_CHECKERED, 3] == CHECKERED)
         rows = self.flat.cells[owner]
 
         def cell(axis: int, i: Numbers, j: Numbers) -> Floats:

@@ -60,6 +60,12 @@ class SceneData:
             "faces": np.concatenate([flat.faces, flat.face_object[:, None]], axis=1),
             "vertices": np.stack([flat.vertices, flat.normals, flat.colors], axis=1),
         }
+        if len(flat.texels):
+            fixed |= {
+                "texels": flat.texels[:, None],
+                "textures": flat.textures,
+                "uv": flat.uv,
+            }
         self._tables = {
             name: self._owner.own(Table(self._context, name, array))
             for name, array in (changing | fixed).items()

@@ -23,6 +23,7 @@ from numpy.typing import NDArray
 
 from renderer.errors import LucidaError
 from renderer.scene.boxes import extent, world_boxes
+from renderer.scene.flat_textures import TextureArrays, texture_arrays
 from renderer.scene.model import (
     Checker,
     Mesh,
@@ -31,6 +32,7 @@ from renderer.scene.model import (
     Shape,
     Sphere,
 )
+from renderer.shared_numbers import CHECKERED, PLAIN, TEXTURED
 
 F32 = NDArray[np.float32]
 F64 = NDArray[np.float64]
@@ -52,11 +54,17 @@ class FlatScene(NamedTuple):
     object_sphere (objects,): int32, its sphere, or -1
     object_bounds (objects, 2, 3): float64, lowest and highest corner in its own space
     world_from_object (objects, 4, 4): float64; a sphere's own space begins at its centre
-    materials (objects, 3, 4): float32, diffuse rgb, shininess | specular rgb, 1 if checkered |
-        the other cells' diffuse rgb, 0
+    materials (objects, 3, 4): float32, diffuse rgb, shininess | specular rgb, the pattern: PLAIN,
+        CHECKERED or TEXTURED | of a checker the other cells' diffuse rgb, 0; of a texture a, b, c,
+        d, by which (u, v) are the texel coordinates (a u + b, c v + d)
     cells (objects, 3, 4): float64, cell_from_world, an affine map of world points to checker cells:
         the cell of point p is floor(cell_from_world p), and a cell whose three numbers have an odd
         sum takes the other diffuse
+    uv (n, 2): float32, vertices' texel coordinates, column and row from the upper left corner of
+        their object's image; 0 where it has none. (0, 2) where no object of the scene has
+    textures (objects, 4): int32, first texel, width, height and wraps (shared_numbers) of each
+        object's image; 0 where it has none
+    texels (k,): int32, packed_texels() of all images, one after another
     lights (l, 2, 4): float64 (float32 from lights_from()), x, y, z, 1 if a point, 0 if a unit
         direction towards the light | rgb, 0
     ambient (3,), background (3,): float32
@@ -78,6 +86,9 @@ class FlatScene(NamedTuple):
     world_from_object: F64
     materials: F32
     cells: F64
+    uv: F32
+    textures: I32
+    texels: I32
     lights: F64 | F32
     ambient: F32
     background: F32
@@ -97,6 +108,8 @@ def flatten(scene: Scene, known: tuple[Scene, FlatScene] | None = None) -> FlatS
     object_bounds = _object_bounds(scene, known, kept)
     low, high = _checked_boxes(scene, world_from_object, object_bounds)
     spheres = [(*s.center, s.radius) for s in _shapes(scene) if isinstance(s, Sphere)]
+    old = known and (known[0], TextureArrays(known[1].uv, known[1].textures, known[1].texels))
+    textured = texture_arrays(scene, layout.object_vertices, old)
     flat = FlatScene(
         **layout._asdict(),
         normals=_normals(scene, known, kept),
@@ -105,6 +118,7 @@ def flatten(scene: Scene, known: tuple[Scene, FlatScene] | None = None) -> FlatS
         world_from_object=world_from_object,
         materials=_material_rows(scene),
         cells=_cell_rows(scene, world_from_object),
+        **textured._asdict(),
         lights=_light_rows(scene),
         ambient=np.array(scene.ambient, np.float32),
         background=np.array(scene.background, np.float32),
@@ -260,8 +274,12 @@ def _material_rows(scene: Scene) -> F32:
     for row, entry in zip(rows, scene.objects, strict=True):
         material = entry.material
         row[DIFFUSE_SHININESS] = *material.diffuse, material.shininess
-        row[SPECULAR_CHECKERED] = *material.specular, material.checker is not None
-        row[CHECKER_DIFFUSE, :3] = (material.checker or Checker()).diffuse
+        pattern = CHECKERED if material.checker else TEXTURED if material.texture else PLAIN
+        row[SPECULAR_CHECKERED] = *material.specular, pattern
+        if material.texture is not None:
+            row[CHECKER_DIFFUSE] = material.texture.in_texels()
+        else:
+            row[CHECKER_DIFFUSE, :3] = (material.checker or Checker()).diffuse
     return rows
 
 

@@ -41,7 +41,10 @@ def pointer(typing, array):
     Inside kernels, arrays are handed on as pointers: an array is seven numbers and a count of
     references, which a function per stage makes slow to compile and to run. An array that the
     kernel made is freed after the last use of its name: take its pointer in the loop that uses it.
+    None stays None.
     """
+    if array == types.none:
+        return array(array), lambda context, builder, sig, args: context.get_dummy_value()
     if not isinstance(array, types.Array) or array.layout != "C":
         raise TypingError(f"a contiguous array is needed, not {array}")
 

@@ -1,0 +1,96 @@
+"""The textures of a scene as flat arrays: one array of all texels, and where in it each vertex is.
+
+Owns their layout, and what of them is kept while a scene changes. Knows nothing of who samples.
+"""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from renderer.errors import LucidaError
+from renderer.scene.limits import TEXELS
+from renderer.scene.model import Mesh, Scene
+from renderer.scene.texture import Texture, packed_texels
+from renderer.shared_numbers import FARTHEST_TEXEL, WRAP_BITS, WRAPS
+
+F32 = NDArray[np.float32]
+I32 = NDArray[np.int32]
+
+
+class TextureArrays(NamedTuple):
+    """As FlatScene has them."""
+
+    uv: F32
+    textures: I32
+    texels: I32
+
+
+def texture_arrays(
+    scene: Scene, object_vertices: I32, known: tuple[Scene, TextureArrays] | None
+) -> TextureArrays:
+    """The arrays of a scene whose objects have such vertices (FlatScene). known: another scene's,
+    which are taken where it has the same textures on the same vertices.
+
+    Raises LucidaError where the images have too many texels for one scene.
+    """
+    if known is not None and _key(scene) == _key(known[0]):
+        return known[1]
+    textures = np.zeros((len(scene.objects), 4), np.int32)
+    places: dict[int, int] = {}  # the first texel of each image that is there
+    parts: list[I32] = []
+    total = 0
+    for row, entry in zip(textures, scene.objects, strict=True):
+        texture = entry.material.texture
+        if texture is None:
+            continue
+        pixels = texture.texels
+        if id(pixels) not in places:
+            places[id(pixels)] = total
+            total += pixels.shape[0] * pixels.shape[1]
+            if total > TEXELS:
+                raise LucidaError(
+                    "textures",
+                    f"the scene's images have more than {TEXELS >> 20} million pixels together",
+                    "use smaller or fewer images",
+                )
+            parts.append(packed_texels(pixels))
+        wraps = WRAPS.index(texture.wrap[0]) | WRAPS.index(texture.wrap[1]) << WRAP_BITS
+        row[:] = places[id(pixels)], *texture.size, wraps
+    texels = np.concatenate(parts) if parts else np.zeros(0, np.int32)
+    vertices = int(object_vertices[:, 1].sum()) if parts else 0
+    uv = np.zeros((vertices, 2), np.float32)
+    for (first, count), entry in zip(object_vertices, scene.objects, strict=True):
+        texture, shape = entry.material.texture, entry.shape
+        if texture is not None and isinstance(shape, Mesh) and shape.uv is not None:
+            uv[first : first + count] = _in_texels(shape.uv, texture)
+    return TextureArrays(uv, textures, texels)
+
+
+def _key(scene: Scene) -> list[tuple[int, int, int]]:
+    """What the arrays depend on, while the scene lives; nothing where none is textured."""
+    entries = [(e.shape, e.material.texture) for e in scene.objects]
+    if all(texture is None for _, texture in entries):
+        return [(len(entries), 0, 0)]
+    return [
+        (id(s.vertices), id(s.uv) if texture else 0, id(texture))
+        if isinstance(s, Mesh)
+        else (0, 0, id(texture))
+        for s, texture in entries
+    ]
+
+
+def _in_texels(uv: F32, texture: Texture) -> F32:
+    """Vertices' coordinates (n, 2) in texels, near 0 where the image repeats."""
+    a, b, c, d = texture.in_texels()
+    places = uv.astype(np.float64) * (a, c) + (b, d)
+    for axis in range(2):
+        if texture.wrap[axis] != "clamp":
+            # Twice the image, as every other one may be mirrored.
+            period = 2.0 * texture.size[axis]
+            middle = (places[:, axis].min() + places[:, axis].max()) / 2
+            places[:, axis] -= period * np.floor(middle / period)
+    kept: F32 = np.clip(places, -FARTHEST_TEXEL, FARTHEST_TEXEL).astype(np.float32)
+    return kept

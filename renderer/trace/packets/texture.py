@@ -1,0 +1,177 @@
+"""Textures on a square's 16 pixels, in float32 lanes.
+
+Owns the lookup: texel coordinates between a triangle's vertices or on a sphere, wrapped, and the
+light of four texels. Scenes without textures are compiled without any of it. The formulas are
+scalar/texture.py's.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from renderer.scene.flat import CHECKER_DIFFUSE, FlatScene
+from renderer.shared_numbers import CLAMP, MIRROR, TEXEL_BITS, WRAP_BITS
+from renderer.trace.compile.compiled import inlined
+from renderer.trace.simd.lanes import (
+    LANES,
+    f32_of,
+    fma,
+    i32_of,
+    mask_of,
+    select,
+    splat,
+    vfloor,
+    vmax,
+    vmin,
+    vsqrt,
+)
+from renderer.trace.simd.math import atan2_lanes
+from renderer.trace.simd.memory import gather, pointer
+
+_MOST = np.int32((1 << TEXEL_BITS) - 1)
+_PER_MOST = np.float32(1.0 / ((1 << TEXEL_BITS) - 1))
+_GREEN, _BLUE = np.int32(TEXEL_BITS), np.int32(2 * TEXEL_BITS)
+_U_WRAP = (1 << WRAP_BITS) - 1
+_PER_TURN, _PER_HALF_TURN = np.float32(0.5 / math.pi), np.float32(1 / math.pi)
+_HALF, _ONE, _ZERO = np.float32(0.5), np.float32(1), np.float32(0)
+
+
+class PacketTextures(NamedTuple):
+    """A FlatScene's arrays; None each where nothing of it is textured. A function whose argument
+    is one of these is compiled for None without what is behind its first line."""
+
+    uv: NDArray[np.float32] | None
+    textures: NDArray[np.int32] | None
+    texels: NDArray[np.int32] | None
+
+
+def textures_of(flat: FlatScene) -> PacketTextures:
+    if not len(flat.texels):
+        return PacketTextures(None, None, None)
+    return PacketTextures(flat.uv, flat.textures, flat.texels)
+
+
+@inlined
+def texture_pointers(textures):
+    return PacketTextures(
+        pointer(textures.uv), pointer(textures.textures), pointer(textures.texels)
+    )
+
+
+@inlined
+def nowhere():
+    """Texel coordinates that are yet to be found."""
+    return splat(_ZERO), splat(_ZERO)
+
+
+@inlined
+def between_vertices(textures, mask, vertices, weights, places):
+    """The places, with those of one triangle's points in the lanes of the mask."""
+    a, b, c = vertices.a // 3 * 2, vertices.b // 3 * 2, vertices.c // 3 * 2
+    return (
+        _between(textures.uv, mask, a, b, c, weights, places[0]),
+        _between(textures.uv, mask, a + 1, b + 1, c + 1, weights, places[1]),
+    )
+
+
+@inlined
+def _between(uv, mask, a, b, c, weights, place):
+    if uv is None:
+        return place
+    start = uv[a]
+    own = fma(weights[1], uv[b] - start, fma(weights[2], uv[c] - start, splat(start)))
+    return select(mask, own, place)
+
+
+@inlined
+def on_sphere(textures, materials, number, n):
+    """Where of its texture a sphere's pixels with outward unit normals n are."""
+    return _on_sphere(textures.textures, materials, number, n)
+
+
+@inlined
+def _on_sphere(images, materials, number, n):
+    if images is None:
+        return nowhere()
+    place = 12 * np.int64(number) + 4 * CHECKER_DIFFUSE
+    u = fma(atan2_lanes(n[0], n[2]), _PER_TURN, splat(_HALF))
+    across = vsqrt(fma(n[0], n[0], n[2] * n[2]))
+    v = fma(atan2_lanes(n[1], across), _PER_HALF_TURN, splat(_HALF))
+    return (
+        fma(u, materials[place], splat(materials[place + 1])),
+        fma(v, materials[place + 2], splat(materials[place + 3])),
+    )
+
+
+@inlined
+def textured(textures, number, places, tint):
+    """The tint of an object's pixels, times its texture's light at their places, if it has one."""
+    return _textured(textures.texels, textures.textures, 4 * np.int64(number), places, tint)
+
+
+@inlined
+def _textured(texels, images, at, places, tint):
+    if texels is None:
+        return tint
+    if images[at + 1] == 0:
+        return tint
+    first, width, height, wraps = images[at], images[at + 1], images[at + 2], images[at + 3]
+    x, y = places[0] - _HALF, places[1] - _HALF
+    column, row = vfloor(x), vfloor(y)
+    right, down = x - column, y - row
+    c0, c1 = _pair(column, np.float32(width), wraps & _U_WRAP)
+    r0, r1 = _pair(row, np.float32(height), wraps >> WRAP_BITS)
+    r0 = r0 * np.int32(width) + np.int32(first)
+    r1 = r1 * np.int32(width) + np.int32(first)
+    everywhere = mask_of(np.int32((1 << LANES) - 1))
+    a, b = gather(texels, r0 + c0, everywhere), gather(texels, r0 + c1, everywhere)
+    c, d = gather(texels, r1 + c0, everywhere), gather(texels, r1 + c1, everywhere)
+    left, up = _ONE - right, _ONE - down
+    # The weights, with what makes the squared numbers light.
+    scale = _PER_MOST * _PER_MOST
+    left, right = left * scale, right * scale
+    weights = left * up, right * up, left * down, right * down
+    return (
+        tint[0] * _light(a, b, c, d, np.int32(0), weights),
+        tint[1] * _light(a, b, c, d, _GREEN, weights),
+        tint[2] * _light(a, b, c, d, _BLUE, weights),
+    )
+
+
+@inlined
+def _light(a, b, c, d, shift, weights):
+    p, q, r, s = _root(a, shift), _root(b, shift), _root(c, shift), _root(d, shift)
+    upper = fma(p * p, weights[0], q * q * weights[1])
+    return fma(r * r, weights[2], fma(s * s, weights[3], upper))
+
+
+@inlined
+def _root(texel, shift):
+    return f32_of((texel >> shift) & _MOST)
+
+
+@inlined
+def _pair(index, size, wrap):
+    """The numbers, I32, of two texels that are side by side in one direction, of which the first
+    may lie beyond the image's `size` texels."""
+    last = size - _ONE
+    if wrap == CLAMP:
+        return _inside(index, last), _inside(index + _ONE, last)
+    period = size * np.float32(2) if wrap == MIRROR else size
+    first = index - period * vfloor(index / period)
+    second = first + _ONE
+    second = select(second >= period, second - period, second)
+    if wrap == MIRROR:
+        whole = period - _ONE
+        first = select(first > last, whole - first, first)
+        second = select(second > last, whole - second, second)
+    return _inside(first, last), _inside(second, last)
+
+
+@inlined
+def _inside(index, last):
+    return i32_of(vmin(vmax(index, _ZERO), splat(last)))
