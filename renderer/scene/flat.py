@@ -64,7 +64,8 @@ class FlatScene(NamedTuple):
         their object's image; 0 where it has none. (0, 2) where no object of the scene has
     textures (objects, 4): int32, first texel, width, height and wraps (shared_numbers) of each
         object's image; 0 where it has none
-    texels (k,): int32, packed_texels() of all images, one after another
+    texels (k,): int32, packed_texels() of all images, one after another; each row of an image is
+        one texel longer, and each image one row, than it is wide and high: with what follows there
     lights (l, 2, 4): float64 (float32 from lights_from()), x, y, z, 1 if a point, 0 if a unit
         direction towards the light | rgb, 0
     ambient (3,), background (3,): float32

@@ -39,26 +39,27 @@ def texture_arrays(
     if known is not None and _key(scene) == _key(known[0]):
         return known[1]
     textures = np.zeros((len(scene.objects), 4), np.int32)
-    places: dict[int, int] = {}  # the first texel of each image that is there
+    places: dict[tuple[int, int], int] = {}  # the first texel of each image that is there
     parts: list[I32] = []
     total = 0
     for row, entry in zip(textures, scene.objects, strict=True):
         texture = entry.material.texture
         if texture is None:
             continue
-        pixels = texture.texels
-        if id(pixels) not in places:
-            places[id(pixels)] = total
-            total += pixels.shape[0] * pixels.shape[1]
+        width, height = texture.size
+        wraps = WRAPS.index(texture.wrap[0]) | WRAPS.index(texture.wrap[1]) << WRAP_BITS
+        key = id(texture.texels), wraps
+        if key not in places:
+            places[key] = total
+            total += (width + 1) * (height + 1)
             if total > TEXELS:
                 raise LucidaError(
                     "textures",
                     f"the scene's images have more than {TEXELS >> 20} million pixels together",
                     "use smaller or fewer images",
                 )
-            parts.append(packed_texels(pixels))
-        wraps = WRAPS.index(texture.wrap[0]) | WRAPS.index(texture.wrap[1]) << WRAP_BITS
-        row[:] = places[id(pixels)], *texture.size, wraps
+            parts.append(_with_border(packed_texels(texture.texels), texture.wrap))
+        row[:] = places[key], width, height, wraps
     texels = np.concatenate(parts) if parts else np.zeros(0, np.int32)
     vertices = int(object_vertices[:, 1].sum()) if parts else 0
     uv = np.zeros((vertices, 2), np.float32)
@@ -67,6 +68,17 @@ def texture_arrays(
         if texture is not None and isinstance(shape, Mesh) and shape.uv is not None:
             uv[first : first + count] = _in_texels(shape.uv, texture)
     return TextureArrays(uv, textures, texels)
+
+
+def _with_border(texels: I32, wrap: tuple[str, str]) -> I32:
+    """Texels (height, width) as they lie in FlatScene: with what follows behind the last column and
+    the last row, so that four neighbours are two and two in memory."""
+    height, width = texels.shape
+    around = np.empty((height + 1, width + 1), np.int32)
+    around[:-1, :-1] = texels
+    around[:-1, -1] = texels[:, 0 if wrap[0] == "repeat" else -1]
+    around[-1] = around[0 if wrap[1] == "repeat" else -2]
+    return around.reshape(-1)
 
 
 def _key(scene: Scene) -> list[tuple[int, int, int]]:

@@ -15,7 +15,7 @@ MATERIAL_BYTES = 4 << 20  # of the .mtl file of an .obj file
 
 IMAGE_BYTES = 64 << 20  # of the file of a texture
 TEXTURE_SIDE = 8192  # texels
-TEXELS = 1 << 26  # of a scene's textures together, and of each
+TEXELS = (1 << 26) + (1 << 20)  # of a scene's textures together
 TEXTURES = 256  # of a model or a scene file
 JPEG_SCANS = 200  # of a progressive JPEG, which each takes as long as all of the image
 

@@ -42,7 +42,7 @@ def sampled(flat: FlatScene, objects: Ints, places: F64) -> F64:
     column, row = begin.astype(np.int64).T
     wrap_u, wrap_v = wraps & ((1 << WRAP_BITS) - 1), wraps >> WRAP_BITS
     columns = [_wrapped(column + k, width, wrap_u) for k in (0, 1)]
-    rows = [first + width * _wrapped(row + k, height, wrap_v) for k in (0, 1)]
+    rows = [first + (width + 1) * _wrapped(row + k, height, wrap_v) for k in (0, 1)]
     upper, lower = (
         (1 - right) * _light(flat, at + columns[0]) + right * _light(flat, at + columns[1])
         for at in rows

@@ -74,8 +74,8 @@ class Texture:
 
 
 def packed_texels(texels: NDArray[np.uint8]) -> NDArray[np.int32]:
-    """Texels as renderers take them, one number each, row by row: red in the lowest TEXEL_BITS,
-    then green and blue, each the square root of linear light.
+    """Texels as renderers take them, one number each, (height, width): red in the lowest
+    TEXEL_BITS, then green and blue, each the square root of linear light.
 
     A root is nearly what sRGB's curve is, and squaring undoes it in one instruction: 10 bits of it
     are off by less than a fifth of an 8-bit step of sRGB.
@@ -83,10 +83,10 @@ def packed_texels(texels: NDArray[np.uint8]) -> NDArray[np.int32]:
     most = (1 << TEXEL_BITS) - 1
     shown = np.arange(256, dtype=np.float32) / np.float32(255)
     roots = np.rint(np.sqrt(from_srgb(shown).astype(np.float64)) * most).astype(np.int32)
-    packed = roots[texels[..., 0]]
+    packed: NDArray[np.int32] = roots[texels[..., 0]]
     packed |= roots[texels[..., 1]] << TEXEL_BITS
     packed |= roots[texels[..., 2]] << 2 * TEXEL_BITS
-    return packed.reshape(-1)
+    return packed
 
 
 def _pair(name: str, value: Iterable[float]) -> tuple[float, float]:

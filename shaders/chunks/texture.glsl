@@ -71,8 +71,8 @@ vec3 texture_light(int object, vec2 place) {
     ivec2 wraps = ivec2(image.w & ((1 << WRAP_BITS) - 1), image.w >> WRAP_BITS);
     int left = wrapped(corner.x, image.y, wraps.x);
     int right = wrapped(corner.x + 1.0, image.y, wraps.x);
-    int upper = image.x + image.y * wrapped(corner.y, image.z, wraps.y);
-    int lower = image.x + image.y * wrapped(corner.y + 1.0, image.z, wraps.y);
+    int upper = image.x + (image.y + 1) * wrapped(corner.y, image.z, wraps.y);
+    int lower = image.x + (image.y + 1) * wrapped(corner.y + 1.0, image.z, wraps.y);
     return mix(
         mix(texel_light(upper + left), texel_light(upper + right), part.x),
         mix(texel_light(lower + left), texel_light(lower + right), part.x), part.y);

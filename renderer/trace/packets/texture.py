@@ -14,27 +14,16 @@ import numpy as np
 from numpy.typing import NDArray
 
 from renderer.scene.flat import CHECKER_DIFFUSE, FlatScene
-from renderer.shared_numbers import CLAMP, MIRROR, TEXEL_BITS, WRAP_BITS
+from renderer.shared_numbers import MIRROR, REPEAT, TEXEL_BITS, WRAP_BITS
 from renderer.trace.compile.compiled import inlined
-from renderer.trace.simd.lanes import (
-    LANES,
-    f32_of,
-    fma,
-    i32_of,
-    mask_of,
-    select,
-    splat,
-    vfloor,
-    vmax,
-    vmin,
-    vsqrt,
-)
+from renderer.trace.simd.lanes import f32_of, fma, i32_of, select, splat, vfloor, vmax, vmin, vsqrt
 from renderer.trace.simd.math import atan2_lanes
-from renderer.trace.simd.memory import gather, pointer
+from renderer.trace.simd.memory import gather_pairs, pointer
 
-_MOST = np.int32((1 << TEXEL_BITS) - 1)
-_PER_MOST = np.float32(1.0 / ((1 << TEXEL_BITS) - 1))
-_GREEN, _BLUE = np.int32(TEXEL_BITS), np.int32(2 * TEXEL_BITS)
+_MOST = (1 << TEXEL_BITS) - 1
+# The bits of a texel's colours, where they are; and what makes their squares light.
+_RED, _GREEN, _BLUE = (np.int32(_MOST << shift) for shift in (0, TEXEL_BITS, 2 * TEXEL_BITS))
+_PER_RED, _PER_GREEN, _PER_BLUE = (np.float32(float(bits) ** -2) for bits in (_RED, _GREEN, _BLUE))
 _U_WRAP = (1 << WRAP_BITS) - 1
 _PER_TURN, _PER_HALF_TURN = np.float32(0.5 / math.pi), np.float32(1 / math.pi)
 _HALF, _ONE, _ZERO = np.float32(0.5), np.float32(1), np.float32(0)
@@ -120,58 +109,44 @@ def _textured(texels, images, at, places, tint):
     if images[at + 1] == 0:
         return tint
     first, width, height, wraps = images[at], images[at + 1], images[at + 2], images[at + 3]
-    x, y = places[0] - _HALF, places[1] - _HALF
-    column, row = vfloor(x), vfloor(y)
-    right, down = x - column, y - row
-    c0, c1 = _pair(column, np.float32(width), wraps & _U_WRAP)
-    r0, r1 = _pair(row, np.float32(height), wraps >> WRAP_BITS)
-    r0 = r0 * np.int32(width) + np.int32(first)
-    r1 = r1 * np.int32(width) + np.int32(first)
-    everywhere = mask_of(np.int32((1 << LANES) - 1))
-    a, b = gather(texels, r0 + c0, everywhere), gather(texels, r0 + c1, everywhere)
-    c, d = gather(texels, r1 + c0, everywhere), gather(texels, r1 + c1, everywhere)
+    column, right = _texel(places[0], np.float32(width), wraps & _U_WRAP)
+    row, down = _texel(places[1], np.float32(height), wraps >> WRAP_BITS)
+    stride = np.int32(width) + np.int32(1)  # beyond its last texel, a row goes on with what follows
+    upper = row * stride + column + np.int32(first)
+    a, b = gather_pairs(texels, upper)
+    c, d = gather_pairs(texels, upper + stride)
     left, up = _ONE - right, _ONE - down
-    # The weights, with what makes the squared numbers light.
-    scale = _PER_MOST * _PER_MOST
-    left, right = left * scale, right * scale
     weights = left * up, right * up, left * down, right * down
     return (
-        tint[0] * _light(a, b, c, d, np.int32(0), weights),
-        tint[1] * _light(a, b, c, d, _GREEN, weights),
-        tint[2] * _light(a, b, c, d, _BLUE, weights),
+        tint[0] * _light(a, b, c, d, _RED, _PER_RED, weights),
+        tint[1] * _light(a, b, c, d, _GREEN, _PER_GREEN, weights),
+        tint[2] * _light(a, b, c, d, _BLUE, _PER_BLUE, weights),
     )
 
 
 @inlined
-def _light(a, b, c, d, shift, weights):
-    p, q, r, s = _root(a, shift), _root(b, shift), _root(c, shift), _root(d, shift)
+def _light(a, b, c, d, bits, scale, weights):
+    p, q, r, s = f32_of(a & bits), f32_of(b & bits), f32_of(c & bits), f32_of(d & bits)
     upper = fma(p * p, weights[0], q * q * weights[1])
-    return fma(r * r, weights[2], fma(s * s, weights[3], upper))
+    return fma(r * r, weights[2], fma(s * s, weights[3], upper)) * scale
 
 
 @inlined
-def _root(texel, shift):
-    return f32_of((texel >> shift) & _MOST)
-
-
-@inlined
-def _pair(index, size, wrap):
-    """The numbers, I32, of two texels that are side by side in one direction, of which the first
-    may lie beyond the image's `size` texels."""
+def _texel(place, size, wrap):
+    """The number of the texel before a place in one direction, I32, and how far behind its middle
+    that is, F32: the next one follows in memory."""
     last = size - _ONE
-    if wrap == CLAMP:
-        return _inside(index, last), _inside(index + _ONE, last)
-    period = size * np.float32(2) if wrap == MIRROR else size
-    first = index - period * vfloor(index / period)
-    second = first + _ONE
-    second = select(second >= period, second - period, second)
-    if wrap == MIRROR:
-        whole = period - _ONE
-        first = select(first > last, whole - first, first)
-        second = select(second > last, whole - second, second)
-    return _inside(first, last), _inside(second, last)
-
-
-@inlined
-def _inside(index, last):
-    return i32_of(vmin(vmax(index, _ZERO), splat(last)))
+    if wrap != REPEAT:
+        if wrap == MIRROR:
+            there_and_back = size * np.float32(2)
+            place = place - there_and_back * vfloor(place * (_ONE / there_and_back))
+            place = select(place > size, there_and_back - place, place)
+        place = vmin(vmax(place - _HALF, _ZERO), splat(last))
+        index = vfloor(place)
+        return i32_of(index), place - index
+    place = place - _HALF
+    index = vfloor(place)
+    part = place - index
+    # In the middle of a texel, rounding the quotient does no harm.
+    index = index - size * vfloor((index + _HALF) * (_ONE / size))
+    return i32_of(vmin(vmax(index, _ZERO), splat(last))), part

@@ -61,8 +61,9 @@ def _sampled(texels, image, x, y):
     column, row = math.floor(x - 0.5), math.floor(y - 0.5)
     right, down = x - 0.5 - column, y - 0.5 - row
     c0, c1 = _wrapped(column, width, wrap_u), _wrapped(column + 1.0, width, wrap_u)
-    r0 = image[0] + width * _wrapped(row, height, wrap_v)
-    r1 = image[0] + width * _wrapped(row + 1.0, height, wrap_v)
+    stride = width + 1
+    r0 = image[0] + stride * _wrapped(row, height, wrap_v)
+    r1 = image[0] + stride * _wrapped(row + 1.0, height, wrap_v)
     upper = _mean(_light(texels[r0 + c0]), _light(texels[r0 + c1]), right)
     lower = _mean(_light(texels[r1 + c0]), _light(texels[r1 + c1]), right)
     return _mean(upper, lower, down)

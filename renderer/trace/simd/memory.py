@@ -146,6 +146,29 @@ def gather(typing, array, index, mask):
 
 
 @intrinsic
+def gather_pairs(typing, array, index):
+    """array[index[lane]] and array[index[lane] + 1] of an int32 array, in all lanes: two I32."""
+    if array_kind(array) != "i32" or index != I32:
+        raise TypingError("gather_pairs takes an int32 array and an I32")
+
+    def codegen(context, builder, sig, args):
+        wide, pointers = ir.VectorType(INT64, LANES), ir.VectorType(ir.PointerType(), LANES)
+        data = address_of(context, builder, sig.args[0], args[0])
+        first = repeated(builder, builder.ptrtoint(data, INT64))
+        offset = builder.shl(builder.sext(args[1], wide), ir.Constant(wide, [2] * LANES))
+        address = builder.inttoptr(builder.add(first, offset), pointers)
+        everywhere = ir.Constant(llvm_vector("mask"), [1] * LANES)
+        name, zero = f"llvm.masked.gather.v{LANES}i64.v{LANES}p0", ir.Constant(wide, [0] * LANES)
+        both = [address, ir.Constant(INT32, 4), everywhere, zero]
+        pair = call_llvm(builder, name, wide, both)
+        upper = builder.lshr(pair, ir.Constant(wide, [32] * LANES))
+        halves = [builder.trunc(half, llvm_vector("i32")) for half in (pair, upper)]
+        return context.make_tuple(builder, sig.return_type, halves)
+
+    return types.UniTuple(I32, 2)(array, index), codegen
+
+
+@intrinsic
 def prefetch(typing, array, index):
     """Asks for the cache line of array[index], which will be read soon; any index is allowed."""
 
