@@ -13,7 +13,7 @@ from pathlib import Path
 from typing import Any
 
 from renderer.errors import LucidaError
-from renderer.scene import framing, shapes
+from renderer.scene import framing, shape_coordinates, shapes
 from renderer.scene.cancelling import check_cancelled
 from renderer.scene.colors import parse_color
 from renderer.scene.limits import (
@@ -57,6 +57,7 @@ from renderer.scene.schema import (
     SphereTable,
     TorusTable,
 )
+from renderer.scene.scene_images import SceneImages
 from renderer.scene.tables import parse_toml, to_struct
 from renderer.scene.views import transformed_view, view_from_table
 
@@ -88,10 +89,12 @@ def scene_from_tables(tables: dict[str, Any], folder: Path, name: str = "") -> S
 
 
 def _scene(tables: SceneFile, folder: Path, name: str) -> Scene:
+    images = SceneImages(folder)
     materials = {
-        key: _material(table, f"materials.{key}") for key, table in tables.materials.items()
+        key: _material(table, f"materials.{key}", images) for key, table in tables.materials.items()
     }
-    objects, views = _objects(tables.objects, materials, folder)
+    models: Models = {}
+    objects, views = _objects(tables.objects, materials, folder, models, images)
     lights: tuple[PointLight | DirectionalLight, ...] = framing.LIGHTS
     if tables.lights is not None:
         _check_count("lights", len(tables.lights), LIGHTS)
@@ -108,18 +111,24 @@ def _scene(tables: SceneFile, folder: Path, name: str) -> Scene:
     else:
         view = view_from_table(tables.camera)
     return Scene(
-        tuple(objects), lights, ambient, background, view, tables.name or name, views=tuple(views)
+        tuple(objects),
+        lights,
+        ambient,
+        background,
+        view,
+        tables.name or name,
+        views=tuple(views),
+        notes=tuple(note for model in models.values() for note in model.notes),
     )
 
 
 def _objects(
-    tables: list[Any], materials: Materials, folder: Path
+    tables: list[Any], materials: Materials, folder: Path, models: Models, images: SceneImages
 ) -> tuple[list[SceneObject], list[NamedView]]:
     """The scene's objects, and the views of its models' own cameras."""
     _check_count("objects", len(tables), OBJECTS)
     objects: list[SceneObject] = []
     views: list[NamedView] = []
-    models: Models = {}
     entries: list[SphereTable | MeshTable] = [
         to_struct(table, AnyObject, f"objects[{number}]") for number, table in enumerate(tables)
     ]
@@ -139,7 +148,7 @@ def _objects(
         _check_made(made)
         _check_count("objects", stored + made, TRIANGLES, "triangles")
         with _under(f"objects[{number}]"):
-            objects += _parts(entry, materials, folder, models)
+            objects += _parts(entry, materials, folder, models, images)
         _check_count("objects", len(objects), OBJECTS)
         if isinstance(entry, ModelTable):
             views += _views(entry, models[folder / entry.file].views)
@@ -188,20 +197,33 @@ def _check_made(triangles: int) -> None:
 
 
 def _parts(
-    table: SphereTable | MeshTable, materials: Materials, folder: Path, models: Models
+    table: SphereTable | MeshTable,
+    materials: Materials,
+    folder: Path,
+    models: Models,
+    images: SceneImages,
 ) -> list[SceneObject]:
     """The scene's objects for one table: one, or as many as a model has parts."""
-    material = _material_of(table.material, materials)
+    material = _material_of(table.material, materials, images)
     if isinstance(table, SphereTable):
         return [SceneObject(Sphere(table.center, table.radius), material or Material(), table.name)]
     matrix = shapes.placement(table.translate, table.rotate_deg, table.scale)
     if not isinstance(table, ModelTable):
-        mesh = shapes.transformed(_mesh(table), matrix)
+        mesh = _mesh(table)
+        if material is not None and material.texture is not None:
+            mesh = _with_coordinates(mesh, table)
+        mesh = shapes.transformed(mesh, matrix)
         return [SceneObject(mesh, material or Material(), table.name)]
     parts = []
     for part in _model(table.file, folder, models).objects:
         assert isinstance(part.shape, Mesh)
         name = f"{table.name}/{part.name}" if table.name and part.name else table.name or part.name
+        if material is not None and material.texture is not None and part.shape.uv is None:
+            raise LucidaError(
+                "material",
+                f"has a texture, and {name or table.file!r} in {table.file!r} no texture of its own",
+                "texture it in the model's own file, or give a material without texture",
+            )
         mesh = shapes.transformed(part.shape, matrix)
         parts.append(SceneObject(mesh, material or part.material, name))
     if table.name and len(parts) == 1:
@@ -228,6 +250,17 @@ def _mesh(table: MeshTable) -> Mesh:
     raise AssertionError(f"no mesh for {table!r}")
 
 
+def _with_coordinates(mesh: Mesh, table: MeshTable) -> Mesh:
+    match table:
+        case BoxTable():
+            return shape_coordinates.on_box(mesh)
+        case CylinderTable() | ConeTable():
+            return shape_coordinates.on_cylinder(mesh)
+        case TorusTable():
+            return shape_coordinates.on_torus(mesh, table.radius)
+    return shape_coordinates.on_plane(mesh)
+
+
 def _model(file: str, folder: Path, models: Models) -> ModelFile:
     """A model's parts and views; each file is read once a scene."""
     path = folder / file
@@ -240,34 +273,39 @@ def _model(file: str, folder: Path, models: Models) -> ModelFile:
     return models[path]
 
 
-def _material_of(value: str | MaterialTable | None, materials: Materials) -> Material | None:
+def _material_of(
+    value: str | MaterialTable | None, materials: Materials, images: SceneImages
+) -> Material | None:
     if value is None:
         return None
     if isinstance(value, MaterialTable):
         with _under("material"):
-            return _built_material(value)
+            return _built_material(value, images)
     if value not in materials:
         remedy = suggestion(value, materials) if materials else "define it under [materials]"
         raise LucidaError("material", f"{value[:40]!r} is unknown", remedy)
     return materials[value]
 
 
-def _material(table: Any, field: str) -> Material:
+def _material(table: Any, field: str, images: SceneImages) -> Material:
     fields = to_struct(table, MaterialTable, field)
     with _under(field):
-        return _built_material(fields)
+        return _built_material(fields, images)
 
 
-def _built_material(table: MaterialTable) -> Material:
+def _built_material(table: MaterialTable, images: SceneImages) -> Material:
     checker = None
     if (given := table.checker) is not None:
         with _under("checker"):
             checker = Checker(parse_color("diffuse", given.diffuse), given.size)
+    texture = None if table.texture is None else images.texture(table.texture)
+    default = (1.0, 1.0, 1.0) if texture else Material().diffuse
     return Material(
-        parse_color("diffuse", table.diffuse),
+        default if table.diffuse is None else parse_color("diffuse", table.diffuse),
         parse_color("specular", table.specular),
         table.shininess,
         checker,
+        texture,
     )
 
 

@@ -109,8 +109,7 @@ def flatten(scene: Scene, known: tuple[Scene, FlatScene] | None = None) -> FlatS
     object_bounds = _object_bounds(scene, known, kept)
     low, high = _checked_boxes(scene, world_from_object, object_bounds)
     spheres = [(*s.center, s.radius) for s in _shapes(scene) if isinstance(s, Sphere)]
-    old = known and (known[0], TextureArrays(known[1].uv, known[1].textures, known[1].texels))
-    textured = texture_arrays(scene, layout.object_vertices, old)
+    textured = texture_arrays(scene, layout.object_vertices, known and _known_textures(*known))
     flat = FlatScene(
         **layout._asdict(),
         normals=_normals(scene, known, kept),
@@ -128,6 +127,11 @@ def flatten(scene: Scene, known: tuple[Scene, FlatScene] | None = None) -> FlatS
     for array in flat:
         array.setflags(write=False)
     return flat
+
+
+def _known_textures(scene: Scene, flat: FlatScene) -> tuple[Scene, I32, TextureArrays]:
+    arrays = TextureArrays(flat.uv, flat.textures, flat.texels)
+    return scene, flat.object_vertices, arrays
 
 
 class _Layout(NamedTuple):

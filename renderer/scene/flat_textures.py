@@ -29,15 +29,15 @@ class TextureArrays(NamedTuple):
 
 
 def texture_arrays(
-    scene: Scene, object_vertices: I32, known: tuple[Scene, TextureArrays] | None
+    scene: Scene, object_vertices: I32, known: tuple[Scene, I32, TextureArrays] | None
 ) -> TextureArrays:
-    """The arrays of a scene whose objects have such vertices (FlatScene). known: another scene's,
-    which are taken where it has the same textures on the same vertices.
+    """The arrays of a scene whose objects have such vertices (FlatScene). known: another scene,
+    its object_vertices and arrays, which are taken where the same textures are on the same vertices.
 
     Raises LucidaError where the images have too many texels for one scene.
     """
-    if known is not None and _key(scene) == _key(known[0]):
-        return known[1]
+    if known is not None and _key(scene, object_vertices) == _key(known[0], known[1]):
+        return known[2]
     textures = np.zeros((len(scene.objects), 4), np.int32)
     places: dict[tuple[int, int], int] = {}  # the first texel of each image that is there
     parts: list[I32] = []
@@ -65,7 +65,7 @@ def texture_arrays(
     uv = np.zeros((vertices, 2), np.float32)
     for (first, count), entry in zip(object_vertices, scene.objects, strict=True):
         texture, shape = entry.material.texture, entry.shape
-        if texture is not None and isinstance(shape, Mesh) and shape.uv is not None:
+        if texture is not None and count and isinstance(shape, Mesh) and shape.uv is not None:
             uv[first : first + count] = _in_texels(shape.uv, texture)
     return TextureArrays(uv, textures, texels)
 
@@ -81,16 +81,13 @@ def _with_border(texels: I32, wrap: tuple[str, str]) -> I32:
     return around.reshape(-1)
 
 
-def _key(scene: Scene) -> list[tuple[int, int, int]]:
-    """What the arrays depend on, while the scene lives; nothing where none is textured."""
-    entries = [(e.shape, e.material.texture) for e in scene.objects]
-    if all(texture is None for _, texture in entries):
-        return [(len(entries), 0, 0)]
+def _key(scene: Scene, object_vertices: I32) -> list[tuple[int, ...]]:
+    """What the arrays depend on, while the scene lives."""
+    if all(entry.material.texture is None for entry in scene.objects):
+        return [(len(scene.objects),)]
     return [
-        (id(s.vertices), id(s.uv) if texture else 0, id(texture))
-        if isinstance(s, Mesh)
-        else (0, 0, id(texture))
-        for s, texture in entries
+        (int(first), int(count), id(e.material.texture), id(getattr(e.shape, "uv", None)))
+        for e, (first, count) in zip(scene.objects, object_vertices, strict=True)
     ]
 
 

@@ -9,6 +9,7 @@ from __future__ import annotations
 import io
 import re
 from collections.abc import Iterator, Mapping
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -16,8 +17,10 @@ import numpy as np
 
 from renderer.errors import LucidaError
 from renderer.scene.guard import geometries, guarded, read_text, to_part
+from renderer.scene.images import ModelImages
 from renderer.scene.limits import MATERIAL_BYTES, OBJECTS
 from renderer.scene.model import Material
+from renderer.scene.mtl_maps import ImageMap, mapped_material, read_maps
 from renderer.scene.parts import Part
 from renderer.scene.reading import read_file
 
@@ -29,8 +32,9 @@ _RELATIVE = re.compile(r"^f[^\n]*[ \t/](?:-\d|0+(?![0-9.]))", re.MULTILINE)
 _DIVISION = re.compile(r"^(?:o|g|usemtl|mtllib)\b[^\n]*\n", re.MULTILINE)
 
 
-def read_obj(path: Path) -> list[Part]:
-    """The parts of an .obj file: one for each object and material, in the file's order."""
+def read_obj(path: Path, images: ModelImages) -> list[Part]:
+    """The parts of an .obj file: one for each object and material, in the file's order. images:
+    for the textures of its materials."""
     original = text = read_text(path)
     if "\nf " not in text:
         return []
@@ -42,34 +46,44 @@ def read_obj(path: Path) -> list[Part]:
     faces = text[text.find("\nf ") :]
     if any(sign in faces for sign in ("-", " 0", "/0")) and _RELATIVE.search(faces):
         text = _absolute_indices(text)
+    beside = _BesideIt(path.parent)
     try:
         with guarded(path, "OBJ"):
             from trimesh.exchange.obj import load_obj
 
             found = load_obj(
-                io.StringIO(text), _BesideIt(path.parent), split_objects=True, group_material=True
+                io.StringIO(text), beside, split_objects=True, group_material=True
             )
     except LucidaError:
         _blame_line(path, original)
         raise
     parts = []
     for name, fields in reversed(geometries(found, path.stem)):
-        material = _obj_material(fields.get("visual"))
-        parts.append(to_part(name, fields, material))
+        visual = fields.get("visual")
+        part = to_part(name, fields, _obj_material(visual))
+        image_map = beside.maps.get(_material_name(visual))
+        if image_map is not None:
+            material = mapped_material(part.material, image_map, beside.library, images)
+            part = replace(part, material=material, uv=getattr(visual, "uv", None))
+        parts.append(part)
     return parts
 
 
 class _BesideIt(Mapping[str, bytes]):
-    """What an .obj may read: its .mtl file, in its own folder. Images are not read."""
+    """What an .obj may read: its .mtl file, in its own folder. Images are read elsewhere."""
 
     def __init__(self, folder: Path) -> None:
         self.folder = folder.resolve()
+        self.library = folder  # of the .mtl file, once it is read
+        self.maps: dict[str, ImageMap] = {}
 
     def __getitem__(self, name: str) -> bytes:
         path = (self.folder / name).resolve()
         if not path.is_relative_to(self.folder):
             raise KeyError(name)
-        return read_file(path, MATERIAL_BYTES)
+        data = read_file(path, MATERIAL_BYTES)
+        self.library, self.maps = path.parent, read_maps(data.decode("utf-8-sig", "replace"))
+        return data
 
     def get(self, name: str, default: Any = None) -> Any:
         raise KeyError(name)  # trimesh asks for images in this way
@@ -155,6 +169,10 @@ def _absolute_indices(text: str) -> str:
                 corners.append("/".join(indices))
             lines[number] = "f " + " ".join(corners)
     return "\n".join(lines)
+
+
+def _material_name(visual: Any) -> str:
+    return str(getattr(getattr(visual, "material", None), "name", ""))
 
 
 def _obj_material(visual: Any) -> Material | None:
