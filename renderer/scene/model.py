@@ -288,6 +288,11 @@ class Scene:
             object.__setattr__(self, name, color(name, getattr(self, name)))
 
 
+def has_textures(scene: Scene) -> bool:
+    """Whether any object of the scene has a texture."""
+    return any(entry.material.texture is not None for entry in scene.objects)
+
+
 def check_scene(scene: object) -> Scene:
     """The scene; raises LucidaError for anything else, such as a file's name."""
     if isinstance(scene, Scene):

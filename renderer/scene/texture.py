@@ -13,7 +13,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
 
 import numpy as np
@@ -35,7 +35,7 @@ class Texture:
     offset. file: where it was read from; None for one that was made, or is inside another file.
     """
 
-    texels: NDArray[np.uint8]
+    texels: NDArray[np.uint8] = field(repr=False)
     wrap: tuple[str, str] = ("repeat", "repeat")
     scale: tuple[float, float] = (1.0, 1.0)
     offset: tuple[float, float] = (0.0, 0.0)
